@@ -1,0 +1,3 @@
+//! The hertzlamb command.
+
+fn main() {}

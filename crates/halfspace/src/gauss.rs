@@ -1,0 +1,96 @@
+//! Gauss-Legendre rules on [-1, 1].
+
+use std::sync::LazyLock;
+
+/// Largest number of nodes kept in the table of rules.
+pub(crate) const MAX_NODES: usize = 40;
+
+/// Nodes and weights of one Gauss-Legendre rule on [-1, 1], nodes ascending.
+#[derive(Debug, Clone)]
+pub(crate) struct Rule {
+    pub(crate) nodes: Vec<f64>,
+    pub(crate) weights: Vec<f64>,
+}
+
+impl Rule {
+    /// Node and weight pairs carried over to the interval [a, b].
+    pub(crate) fn on(&self, a: f64, b: f64) -> impl Iterator<Item = (f64, f64)> + '_ {
+        let (mid, half) = (0.5 * (a + b), 0.5 * (b - a));
+        self.nodes
+            .iter()
+            .zip(&self.weights)
+            .map(move |(&x, &w)| (mid + half * x, half * w))
+    }
+}
+
+/// The rule with `n` nodes, 1 <= n <= [`MAX_NODES`]; exact for polynomials of degree 2n - 1.
+pub(crate) fn rule(n: usize) -> &'static Rule {
+    static RULES: LazyLock<Vec<Rule>> = LazyLock::new(|| (1..=MAX_NODES).map(compute).collect());
+    &RULES[n - 1]
+}
+
+/// Newton iteration on the Legendre polynomial from Tricomi's initial guess.
+fn compute(n: usize) -> Rule {
+    let mut nodes = vec![0.0; n];
+    let mut weights = vec![0.0; n];
+    for i in 0..n.div_ceil(2) {
+        let mut x = (std::f64::consts::PI * (i as f64 + 0.75) / (n as f64 + 0.5)).cos();
+        let mut slope = 0.0;
+        for _ in 0..100 {
+            let (value, derivative) = legendre(n, x);
+            slope = derivative;
+            let step = value / derivative;
+            x -= step;
+            if step.abs() < 1e-16 {
+                break;
+            }
+        }
+        let weight = 2.0 / ((1.0 - x * x) * slope * slope);
+        (nodes[i], weights[i]) = (-x, weight);
+        (nodes[n - 1 - i], weights[n - 1 - i]) = (x, weight);
+    }
+    if n % 2 == 1 {
+        nodes[n / 2] = 0.0;
+    }
+    Rule { nodes, weights }
+}
+
+/// Legendre polynomial of degree n >= 1 and its derivative at |x| < 1.
+fn legendre(n: usize, x: f64) -> (f64, f64) {
+    let (mut previous, mut current) = (1.0, x);
+    for k in 2..=n {
+        let k = k as f64;
+        (previous, current) = (
+            current,
+            ((2.0 * k - 1.0) * x * current - (k - 1.0) * previous) / k,
+        );
+    }
+    let slope = n as f64 * (x * current - previous) / (x * x - 1.0);
+    (current, slope)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_rule_is_exact_up_to_its_degree() {
+        for n in 1..=MAX_NODES {
+            for degree in 0..2 * n {
+                let sum: f64 = rule(n)
+                    .on(-1.0, 1.0)
+                    .map(|(x, w)| w * x.powi(degree as i32))
+                    .sum();
+                let exact = if degree % 2 == 0 {
+                    2.0 / (degree as f64 + 1.0)
+                } else {
+                    0.0
+                };
+                assert!(
+                    (sum - exact).abs() < 4e-15,
+                    "n = {n}, degree = {degree}: {sum} against {exact}"
+                );
+            }
+        }
+    }
+}

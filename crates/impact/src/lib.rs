@@ -1,0 +1,1 @@
+//! Impact of a body on an elastic half-space.

@@ -1,0 +1,1 @@
+//! Kernel tables of the elastic half-space: format, loading, interpolation.

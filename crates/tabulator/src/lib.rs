@@ -1,0 +1,1 @@
+//! Fills kernel tables of the elastic half-space.
