@@ -5,12 +5,25 @@
 //! modulus). The only material parameter left is Poisson's ratio.
 //! z points into the half-space; compression is negative stress.
 
+mod arrivals;
+mod compact;
 mod error;
+mod field;
 mod gauss;
 pub mod kausel;
+mod kernel;
 mod medium;
+mod panels;
+mod potential;
+mod profile;
+mod spectrum;
+mod statics;
 mod surface;
 
+pub use arrivals::Arrivals;
 pub use error::DomainError;
+pub use field::{Estimate, FIELDS, Field, Six};
+pub use kernel::Kernel;
 pub use medium::Medium;
+pub use profile::Profile;
 pub use surface::{Deflection, SurfaceResponse};

@@ -1,0 +1,207 @@
+//! The potentials on the imaginary axis, xi = i eta: the parts that obey causality.
+//!
+//! For slownesses below one the kernels use only the real part of A_3(i eta) and B_2(i eta) and the
+//! imaginary part of A_2(i eta) and B_3(i eta). These vanish for |eta| > radius + r: nothing is felt
+//! before the front from the nearest edge of the disc nor after the one from the farthest.
+//!
+//! ```text
+//! a3 = Re A_3   b3 = Im B_3   a2 = Im A_2 = a3'   b2 = Re B_2 = -b3'   a4' = a3   b4' = b3   (' = d/d eta)
+//! ```
+//!
+//! Each is an integral over the part of the chord that a circle of radius r covers; with s = eta - sigma,
+//! phi = asin(s/r) and q = sqrt(r^2 - s^2), both held at their value on the circle outside it,
+//!
+//! ```text
+//! a3 = [ (1 - eta^2) phi - 2 eta q - (r^2 phi - s q)/2 ] 3/(8 pi)   between s = eta - 1 and eta + 1
+//! ```
+//!
+//! and so on. a4 is measured from eta = -inf less its total, so that it vanishes before the arrival.
+
+use crate::potential::Potentials;
+use crate::profile::Profile;
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// Radius below which a point is on the axis as far as rounding goes.
+const AXIS: f64 = 1e-13;
+
+/// The compact parts at eta: (a3, a2, b3/r, b2/r) for `ORDER` 0, (a4, a3, b4/r, b3/r) for 1.
+#[inline]
+pub(crate) fn compact<const ORDER: i32>(profile: Profile, eta: f64, r: f64) -> Potentials<f64> {
+    match profile {
+        Profile::Hertz if r < AXIS => hertz_on_axis::<ORDER>(eta),
+        Profile::Hertz => hertz::<ORDER>(eta, r),
+        Profile::Punch => punch::<ORDER>(eta, r),
+        Profile::Point => point::<ORDER>(eta, r),
+    }
+}
+
+/// phi and q at one end of the chord.
+#[inline]
+fn circle(s: f64, r: f64) -> (f64, f64) {
+    if s >= r {
+        (FRAC_PI_2, 0.0)
+    } else if s <= -r {
+        (-FRAC_PI_2, 0.0)
+    } else {
+        ((s / r).asin(), ((r - s) * (r + s)).sqrt())
+    }
+}
+
+#[inline]
+fn hertz<const ORDER: i32>(eta: f64, r: f64) -> Potentials<f64> {
+    let (s1, s2) = (eta - 1.0, eta + 1.0);
+    let ((phi1, q1), (phi2, q2)) = (circle(s1, r), circle(s2, r));
+    let r2 = r * r;
+    let scale = 0.375 / PI;
+    let ring = scale / r2;
+    // int ds {1, s, s^2, s^3}/q
+    let m0 = phi2 - phi1;
+    let m1 = q1 - q2;
+    let sq = s2 * q2 - s1 * q1;
+    let m2 = 0.5 * (r2 * m0 - sq);
+    let inside = (1.0 - eta) * (1.0 + eta);
+    let a3 = scale * (inside * m0 + 2.0 * eta * m1 - m2);
+    let cubes = (q2 * q2 * q2 - q1 * q1 * q1) / 3.0;
+    let m3 = r2 * m1 + cubes;
+    let b3 = -ring * (inside * m1 + 2.0 * eta * m2 - m3);
+    if ORDER == 0 {
+        return Potentials {
+            a_upper: a3,
+            a_lower: 2.0 * scale * (m1 - eta * m0),
+            g_upper: b3,
+            g_lower: 2.0 * ring * (eta * m1 - m2) * -1.0,
+        };
+    }
+    // int ds {1, s, s^2} phi, and int ds {1, s, s^2} q
+    let p0 = s2 * phi2 - s1 * phi1 - m1;
+    let p1 = 0.5 * (s2 * s2 * phi2 - s1 * s1 * phi1 - m2);
+    let p2 = (s2 * s2 * s2 * phi2 - s1 * s1 * s1 * phi1 - m3) / 3.0;
+    let c0 = 0.5 * (sq + r2 * m0);
+    let c1 = -cubes;
+    let c2 = 0.25 * (r2 * c0 - (s2 * q2 * q2 * q2 - s1 * q1 * q1 * q1));
+    Potentials {
+        a_upper: scale * (inside * p0 + 2.0 * eta * p1 - p2) - 0.25,
+        a_lower: a3,
+        g_upper: ring * (inside * c0 + 2.0 * eta * c1 - c2),
+        g_lower: b3,
+    }
+}
+
+/// The limit r = 0, where the circle shrinks to a point of the chord.
+#[inline]
+fn hertz_on_axis<const ORDER: i32>(eta: f64) -> Potentials<f64> {
+    if eta.abs() >= 1.0 {
+        return Potentials {
+            a_upper: if ORDER == 1 && eta < 0.0 { -0.5 } else { 0.0 },
+            ..Potentials::default()
+        };
+    }
+    let inside = (1.0 - eta) * (1.0 + eta);
+    let a3 = 0.375 * inside;
+    let b3 = -0.375 * eta;
+    if ORDER == 0 {
+        Potentials {
+            a_upper: a3,
+            a_lower: -0.75 * eta,
+            g_upper: b3,
+            g_lower: 0.375,
+        }
+    } else {
+        Potentials {
+            a_upper: 0.375 * (eta - eta * eta * eta / 3.0) - 0.25,
+            a_lower: a3,
+            g_upper: 0.1875 * inside,
+            g_lower: b3,
+        }
+    }
+}
+
+#[inline]
+fn punch<const ORDER: i32>(eta: f64, r: f64) -> Potentials<f64> {
+    let (s1, s2) = (eta - 1.0, eta + 1.0);
+    let ((phi1, q1), (phi2, q2)) = (circle(s1, r), circle(s2, r));
+    let scale = 0.25 / PI;
+    let ring = scale / (r * r);
+    let a3 = scale * (phi2 - phi1);
+    let b3 = ring * (q2 - q1);
+    if ORDER == 0 {
+        let inverse = |q: f64| if q > 0.0 { 1.0 / q } else { 0.0 };
+        let (v1, v2) = (inverse(q1), inverse(q2));
+        Potentials {
+            a_upper: a3,
+            a_lower: scale * (v2 - v1),
+            g_upper: b3,
+            g_lower: ring * (s2 * v2 - s1 * v1),
+        }
+    } else {
+        let sq = s2 * q2 - s1 * q1;
+        Potentials {
+            a_upper: scale * (s2 * phi2 - s1 * phi1 + q2 - q1) - 0.25,
+            a_lower: a3,
+            g_upper: ring * 0.5 * (sq + r * r * (phi2 - phi1)),
+            g_lower: b3,
+        }
+    }
+}
+
+#[inline]
+fn point<const ORDER: i32>(eta: f64, r: f64) -> Potentials<f64> {
+    let (phi, q) = circle(eta, r);
+    let scale = 0.5 / PI;
+    let ring = scale / (r * r);
+    let inverse = if q > 0.0 { 1.0 / q } else { 0.0 };
+    let a3 = scale * inverse;
+    let b3 = -ring * eta * inverse;
+    if ORDER == 0 {
+        let cube = inverse * inverse * inverse;
+        Potentials {
+            a_upper: a3,
+            a_lower: scale * eta * cube,
+            g_upper: b3,
+            g_lower: ring * r * r * cube,
+        }
+    } else {
+        Potentials {
+            a_upper: scale * phi - 0.25,
+            a_lower: a3,
+            g_upper: ring * q,
+            g_lower: b3,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::potential::potentials;
+    use num_complex::Complex64;
+
+    /// The parts named in the module text, taken from the complex potentials.
+    #[test]
+    fn agrees_with_the_complex_potentials() {
+        for profile in [Profile::Hertz, Profile::Punch] {
+            for r in [1e-6, 0.2, 0.9, 1.001, 1.7, 4.0] {
+                for i in -60..=60 {
+                    let eta = 0.097 * f64::from(i);
+                    let xi = Complex64::new(0.0, eta);
+                    let (full0, full1) = (potentials::<0>(profile, xi, r), potentials::<1>(profile, xi, r));
+                    let (c0, c1) = (compact::<0>(profile, eta, r), compact::<1>(profile, eta, r));
+                    let pairs = [
+                        (c0.a_upper, full0.a_upper.re),
+                        (c0.a_lower, full0.a_lower.im),
+                        (c0.g_upper, full0.g_upper.im),
+                        (c0.g_lower, full0.g_lower.re),
+                        (c1.a_upper + 0.25, -full1.a_upper.im),
+                        (c1.a_lower, full1.a_lower.re),
+                        (c1.g_upper, full1.g_upper.re),
+                        (c1.g_lower, full1.g_lower.im),
+                    ];
+                    for (j, (a, b)) in pairs.into_iter().enumerate() {
+                        let noise = 1e-13 * (1.0 + 1e-2 / r + b.abs());
+                        assert!((a - b).abs() < noise, "{profile:?} r {r} eta {eta} #{j}: {a} {b}");
+                    }
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,54 @@
+//! The six fields of an axisymmetric half-space and the values that carry them.
+
+/// One displacement or stress component in cylindrical coordinates (r, theta, z), z into the body.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Field {
+    /// u, radial displacement, in P/(mu r0), positive outward.
+    DisplacementR,
+    /// w, axial displacement, in P/(mu r0), positive into the body.
+    DisplacementZ,
+    /// sigma_rr in P/r0^2, tension positive.
+    StressRr,
+    /// sigma_theta-theta in P/r0^2, tension positive.
+    StressTt,
+    /// sigma_zz in P/r0^2, tension positive.
+    StressZz,
+    /// sigma_rz in P/r0^2.
+    StressRz,
+}
+
+/// The fields in the order in which every [`Six`] holds them.
+pub const FIELDS: [Field; 6] = [
+    Field::DisplacementR,
+    Field::DisplacementZ,
+    Field::StressRr,
+    Field::StressTt,
+    Field::StressZz,
+    Field::StressRz,
+];
+
+impl Field {
+    /// Position in a [`Six`].
+    #[must_use]
+    pub const fn index(self) -> usize {
+        self as usize
+    }
+
+    /// Whether the field is odd in r (it vanishes on the axis); the others are even.
+    #[must_use]
+    pub const fn is_odd_in_r(self) -> bool {
+        matches!(self, Self::DisplacementR | Self::StressRz)
+    }
+}
+
+/// One number for each field, in the order of [`FIELDS`].
+pub type Six = [f64; 6];
+
+/// Values with an estimate of their own numerical error.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Estimate {
+    /// The values.
+    pub value: Six,
+    /// Estimated absolute error of each value.
+    pub error: Six,
+}

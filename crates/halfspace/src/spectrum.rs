@@ -1,0 +1,157 @@
+//! What the surface load puts into each wave: the amplitudes of the single integral.
+//!
+//! With slowness x = 1/w, p = sqrt(1 - x^2), y = sqrt(K - x^2), K = 1/kappa^2 and the Rayleigh function
+//! R = (2 x^2 - K)^2 + 4 x^2 p y, the integrand N dw/(i w D) of a wave is amplitude times potential, dx.
+//! Below x = 1 every amplitude is real or imaginary; above it p = -i sqrt(x^2 - 1) and all are complex.
+
+use crate::medium::Medium;
+use num_complex::Complex64;
+
+/// The two body waves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Wave {
+    /// Longitudinal, speed 1.
+    P,
+    /// Shear, speed kappa.
+    S,
+}
+
+/// Amplitudes of one wave at one slowness.
+///
+/// ```text
+/// w = w A3     u = u B3     szz = zz A2     srz = rz B2     srr = rr A2 - 2 u B3/r     stt = tt A2 + 2 u B3/r
+/// ```
+///
+/// For real slowness below one, `w` and `rz` are real and the others are -i times the number held.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Amplitudes<T> {
+    pub(crate) w: T,
+    pub(crate) u: T,
+    pub(crate) zz: T,
+    pub(crate) rz: T,
+    pub(crate) rr: T,
+    pub(crate) tt: T,
+}
+
+/// Amplitudes at slowness x = sin(theta) < 1, p = cos(theta).
+#[inline]
+pub(crate) fn fast(wave: Wave, k: f64, x: f64, p: f64) -> Amplitudes<f64> {
+    let x2 = x * x;
+    let y = (k - x2).sqrt();
+    let g = 2.0 * x2 - k;
+    let both = 4.0 * x2 * p * y;
+    let inverse = 1.0 / (g * g + both);
+    match wave {
+        Wave::P => {
+            let over_x = g * inverse / x;
+            Amplitudes {
+                w: p * g * inverse,
+                u: x2 * over_x,
+                zz: -g * over_x,
+                rz: -2.0 * p * g * inverse,
+                rr: (2.0 * x2 + k - 2.0) * over_x,
+                tt: (k - 2.0) * over_x,
+            }
+        }
+        Wave::S => {
+            let cross = 4.0 * x * p * y * inverse;
+            Amplitudes {
+                w: -2.0 * p * x2 * inverse,
+                u: 0.5 * cross,
+                zz: -cross,
+                rz: 2.0 * p * g * inverse,
+                rr: cross,
+                tt: 0.0,
+            }
+        }
+    }
+}
+
+/// Amplitudes at slowness 1 < x < 1/kappa, p = -i `p_abs`.
+#[inline]
+pub(crate) fn slow(wave: Wave, k: f64, x: f64, p_abs: f64, y: f64) -> Amplitudes<Complex64> {
+    let x2 = x * x;
+    let g = 2.0 * x2 - k;
+    let both = 4.0 * x2 * p_abs * y;
+    let square = g * g;
+    // 1/R with R = g^2 - i both
+    let inverse = Complex64::new(square, both) / (square * square + both * both);
+    let p = Complex64::new(0.0, -p_abs);
+    let minus_i = Complex64::new(0.0, -1.0);
+    match wave {
+        Wave::P => {
+            let over_x = minus_i * inverse * (g / x);
+            Amplitudes {
+                w: p * inverse * g,
+                u: over_x * x2,
+                zz: -over_x * g,
+                rz: -2.0 * p * inverse * g,
+                rr: over_x * (2.0 * x2 + k - 2.0),
+                tt: over_x * (k - 2.0),
+            }
+        }
+        Wave::S => {
+            let cross = minus_i * p * inverse * (4.0 * x * y);
+            Amplitudes {
+                w: -2.0 * p * inverse * x2,
+                u: 0.5 * cross,
+                zz: -cross,
+                rz: 2.0 * p * inverse * g,
+                rr: cross,
+                tt: Complex64::default(),
+            }
+        }
+    }
+}
+
+/// Residue of the Rayleigh pole: 2 N/(c D'(c)), real, with the decay a or b of the wave into depth.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Pole {
+    pub(crate) decay: f64,
+    pub(crate) amplitudes: Amplitudes<f64>,
+}
+
+/// The Rayleigh pole of one wave.
+pub(crate) fn pole(wave: Wave, medium: &Medium) -> Pole {
+    let c2 = medium.rayleigh_speed().powi(2);
+    let k = medium.shear_slowness_squared();
+    let (a, b) = ((1.0 - c2).sqrt(), (1.0 - c2 * k).sqrt());
+    let g = 2.0 - c2 * k;
+    let scale = 2.0 / (medium.rayleigh_speed() * medium.rayleigh_slope());
+    let (decay, amplitudes) = match wave {
+        Wave::P => (
+            a,
+            Amplitudes {
+                w: a * g,
+                u: g,
+                zz: -g * g,
+                rz: -2.0 * a * g,
+                rr: g * (2.0 + (k - 2.0) * c2),
+                tt: g * (k - 2.0) * c2,
+            },
+        ),
+        Wave::S => (
+            b,
+            Amplitudes {
+                w: -2.0 * a,
+                u: -2.0 * a * b,
+                zz: 4.0 * a * b,
+                rz: 2.0 * a * g,
+                rr: -4.0 * a * b,
+                tt: 0.0,
+            },
+        ),
+    };
+    let Amplitudes { w, u, zz, rz, rr, tt } = amplitudes;
+    Pole {
+        decay,
+        amplitudes: Amplitudes {
+            w: scale * w,
+            u: scale * u,
+            zz: scale * zz,
+            rz: scale * rz,
+            rr: scale * rr,
+            tt: scale * tt,
+        },
+    }
+}

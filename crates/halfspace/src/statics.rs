@@ -1,0 +1,47 @@
+//! The static field under a unit force, in closed form.
+//!
+//! ```text
+//! w = (1 - nu) A3 + z A2/2         u = [-(1 - 2 nu) B3 + z B2]/2      szz = -(A2 + z A1)     srz = -z B1
+//! srr = -A2 + z A1 - 2 u/r         stt = -2 nu A2 + 2 u/r             potentials at xi = z
+//! ```
+//!
+//! For the Hertz profile this is Huber's solution (1904).
+
+use crate::field::Six;
+use crate::medium::Medium;
+use crate::potential::potentials;
+use crate::profile::Profile;
+use num_complex::Complex64;
+
+/// Static fields at (r, z), r, z >= 0.
+pub(crate) fn static_field(medium: &Medium, profile: Profile, r: f64, z: f64) -> Six {
+    let nu = medium.poisson_ratio();
+    let xi = Complex64::new(z, 0.0);
+    let here = potentials::<0>(profile, xi, r);
+    let (a3, a2, g3) = (here.a_upper.re, here.a_lower.re, here.g_upper.re);
+    // z times the lower orders vanishes on the surface, though they are singular at the edge there
+    let (z_a1, z_g2, z_g1) = if z > 0.0 {
+        let below = potentials::<-1>(profile, xi, r);
+        (
+            z * below.a_lower.re,
+            z * here.g_lower.re,
+            z * below.g_lower.re,
+        )
+    } else {
+        (0.0, 0.0, 0.0)
+    };
+    let u_over_r = 0.5 * (z_g2 - (1.0 - 2.0 * nu) * g3);
+    let szz = if z > 0.0 {
+        -(a2 + z_a1)
+    } else {
+        -profile.pressure(r)
+    };
+    [
+        u_over_r * r,
+        (1.0 - nu) * a3 + 0.5 * z * a2,
+        -a2 + z_a1 - 2.0 * u_over_r,
+        -2.0 * nu * a2 + 2.0 * u_over_r,
+        szz,
+        -z_g1 * r,
+    ]
+}
