@@ -184,7 +184,10 @@ mod tests {
                 for i in -60..=60 {
                     let eta = 0.097 * f64::from(i);
                     let xi = Complex64::new(0.0, eta);
-                    let (full0, full1) = (potentials::<0>(profile, xi, r), potentials::<1>(profile, xi, r));
+                    let (full0, full1) = (
+                        potentials::<0>(profile, xi, r),
+                        potentials::<1>(profile, xi, r),
+                    );
                     let (c0, c1) = (compact::<0>(profile, eta, r), compact::<1>(profile, eta, r));
                     let pairs = [
                         (c0.a_upper, full0.a_upper.re),
@@ -198,7 +201,10 @@ mod tests {
                     ];
                     for (j, (a, b)) in pairs.into_iter().enumerate() {
                         let noise = 1e-13 * (1.0 + 1e-2 / r + b.abs());
-                        assert!((a - b).abs() < noise, "{profile:?} r {r} eta {eta} #{j}: {a} {b}");
+                        assert!(
+                            (a - b).abs() < noise,
+                            "{profile:?} r {r} eta {eta} #{j}: {a} {b}"
+                        );
                     }
                 }
             }

@@ -8,7 +8,9 @@
 mod arrivals;
 mod compact;
 mod error;
+mod fast;
 mod field;
+mod fronts;
 mod gauss;
 pub mod kausel;
 mod kernel;
@@ -16,6 +18,7 @@ mod medium;
 mod panels;
 mod potential;
 mod profile;
+mod slow;
 mod spectrum;
 mod statics;
 mod surface;

@@ -1,137 +1,181 @@
 //! Quadrature of a function whose singularities are all known.
 //!
-//! The interval is cut at the singularities that lie on it; toward a cut the variable is squared, which
-//! turns square roots into smooth functions. A panel is accepted when every singularity lies outside a
-//! Bernstein ellipse large enough for a Gauss rule to reach the accuracy asked for, else it is halved.
+//! The interval [0, 1] is cut at the singularities that lie on it; toward a cut the variable is squared,
+//! which turns square roots into smooth functions. A panel is accepted when every singularity lies outside
+//! a Bernstein ellipse large enough for a Gauss rule to reach the accuracy asked for, else it is halved.
 //! So the number of nodes follows from the geometry, and nothing is evaluated twice.
 
 use crate::gauss;
 use num_complex::Complex64;
 
 /// Panels are halved rather than given more nodes than this.
-const MOST_NODES: usize = 20;
+const MOST_NODES: f64 = 20.0;
 
 /// A panel narrower than this share of its piece is taken as it is.
 const NARROWEST: f64 = 1e-9;
 
-/// An interval of a smooth variable with everything that is not smooth near it.
-#[derive(Debug, Default)]
+/// Most cuts or singularities that an integrand of this crate has.
+const CAPACITY: usize = 48;
+
+/// The interval [0, 1] of a smooth variable with everything that is not smooth near it.
+#[derive(Debug, Clone, Copy)]
 pub(crate) struct Landscape {
-    /// Points of the interval at which it is cut: square-root or logarithmic singularities.
-    pub(crate) cuts: Vec<f64>,
-    /// All other singularities, complex or outside the interval.
-    pub(crate) singularities: Vec<Complex64>,
+    cuts: List<f64>,
+    singularities: List<Complex64>,
+}
+
+/// A short list on the stack.
+#[derive(Debug, Clone, Copy)]
+struct List<T> {
+    items: [T; CAPACITY],
+    length: usize,
+}
+
+impl<T: Copy + Default> List<T> {
+    fn new() -> Self {
+        Self {
+            items: [T::default(); CAPACITY],
+            length: 0,
+        }
+    }
+
+    fn push(&mut self, item: T) {
+        self.items[self.length] = item;
+        self.length += 1;
+    }
+
+    fn as_slice(&self) -> &[T] {
+        &self.items[..self.length]
+    }
 }
 
 impl Landscape {
-    /// Adds a singularity: a cut if it lies on (from, to), a nearby point otherwise.
-    pub(crate) fn add(&mut self, point: Complex64, from: f64, to: f64) {
+    /// An interval with nothing but the given singularities, none of them on it.
+    pub(crate) fn new(fixed: &[Complex64]) -> Self {
+        let mut landscape = Self {
+            cuts: List::new(),
+            singularities: List::new(),
+        };
+        for &point in fixed {
+            landscape.add(point);
+        }
+        landscape
+    }
+
+    /// Adds a singularity: a cut if it lies on the interval, a point to keep away from otherwise.
+    ///
+    /// Of a conjugate pair one is enough.
+    pub(crate) fn add(&mut self, point: Complex64) {
         /// A singularity this close to the interval is worth a cut: the squared variable resolves it sooner.
         const CLOSE: f64 = 0.02;
-        let inside = point.re > from && point.re < to;
+        /// Beyond this distance a singularity costs no node.
+        const FAR: f64 = 3.0;
+        if !(point.re.abs() < FAR && point.im.abs() < FAR) {
+            return;
+        }
+        let inside = point.re > 0.0 && point.re < 1.0;
         if inside && point.im.abs() < CLOSE {
             self.cuts.push(point.re);
         }
-        let distance = (from - point.re).max(point.re - to).max(0.0);
-        if (!inside || point.im != 0.0) && distance < 2.0 && point.im.abs() < 2.0 {
-            self.singularities.push(point);
+        if !inside || point.im != 0.0 {
+            self.singularities
+                .push(Complex64::new(point.re, point.im.abs()));
         }
     }
 
-    /// Sorts the cuts, with the ends of the interval, and merges equal ones.
-    pub(crate) fn ends(&mut self, from: f64, to: f64) -> Vec<f64> {
-        self.cuts.sort_by(f64::total_cmp);
-        self.cuts.dedup_by(|b, a| *b - *a < 1e-15);
-        let mut ends = vec![from];
-        ends.extend(self.cuts.iter().copied().filter(|&c| c > from && c < to));
-        ends.push(to);
-        ends
-    }
-}
-
-/// A squared or plain variable on a piece of the interval: v = origin + scale s or origin + scale s^2.
-#[derive(Debug, Clone, Copy)]
-enum Map {
-    Plain { origin: f64, scale: f64 },
-    Squared { origin: f64, scale: f64 },
-}
-
-/// Visits nodes (v, weight) of a rule on [from, to] accurate to exp(-`digits`) of the size of the integrand.
-///
-/// `cut_from` and `cut_to` tell which ends are cuts.
-pub(crate) fn visit(
-    (from, to): (f64, f64),
-    landscape: &Landscape,
-    digits: f64,
-    f: &mut impl FnMut(f64, f64),
-) {
-    let is_cut = |end: f64| landscape.cuts.contains(&end);
-    match (is_cut(from), is_cut(to)) {
-        (false, false) => {
-            let map = Map::Plain {
-                origin: from,
-                scale: to - from,
-            };
-            map.visit(landscape, digits, f);
+    /// The cuts in order, between the ends of the interval.
+    pub(crate) fn intervals(&mut self) -> impl Iterator<Item = (f64, f64)> + use<> {
+        let cuts = &mut self.cuts.items[..self.cuts.length];
+        cuts.sort_unstable_by(f64::total_cmp);
+        let mut ends = [0.0; CAPACITY + 2];
+        let mut last = 0;
+        for &cut in cuts.iter() {
+            if cut - ends[last] > 1e-15 {
+                last += 1;
+                ends[last] = cut;
+            }
         }
-        (true, false) => Map::squared(from, to).visit(landscape, digits, f),
-        (false, true) => Map::squared(to, from).visit(landscape, digits, f),
-        (true, true) => {
-            let middle = 0.5 * (from + to);
-            Map::squared(from, middle).visit(landscape, digits, f);
-            Map::squared(to, middle).visit(landscape, digits, f);
+        if 1.0 - ends[last] > 1e-15 {
+            last += 1;
         }
-    }
-}
-
-impl Map {
-    fn squared(origin: f64, end: f64) -> Self {
-        Self::Squared {
-            origin,
-            scale: end - origin,
-        }
+        ends[last] = 1.0;
+        (0..last).map(move |i| (ends[i], ends[i + 1]))
     }
 
-    fn visit(self, landscape: &Landscape, digits: f64, f: &mut impl FnMut(f64, f64)) {
-        let images = self.images(landscape);
-        let mut stack = vec![(0.0, 1.0)];
-        while let Some((s0, s1)) = stack.pop() {
-            let ellipse = smallest_ellipse(&images, s0, s1);
-            let nodes = (digits / (2.0 * ellipse.ln())).ceil() + 1.0;
-            let n = if nodes <= MOST_NODES as f64 {
-                (nodes as usize).max(3)
-            } else if s1 - s0 > NARROWEST {
-                let middle = 0.5 * (s0 + s1);
-                stack.push((middle, s1));
-                stack.push((s0, middle));
-                continue;
-            } else {
-                MOST_NODES
-            };
-            for (s, weight) in gauss::rule(n).on(s0, s1) {
-                match self {
-                    Self::Plain { origin, scale } => f(origin + scale * s, weight * scale.abs()),
-                    Self::Squared { origin, scale } => {
-                        f(origin + scale * s * s, 2.0 * weight * s * scale.abs());
-                    }
-                }
+    /// Visits nodes (v, weight) of a rule on one interval, accurate to exp(-`digits`) of the size of the integrand.
+    pub(crate) fn visit(&self, (from, to): (f64, f64), digits: f64, f: &mut impl FnMut(f64, f64)) {
+        let is_cut = |end: f64| self.cuts.as_slice().contains(&end);
+        match (is_cut(from), is_cut(to)) {
+            (false, false) => {
+                let images = self.images(|v| (v - from) / (to - from));
+                panels(&images, digits, &mut |s, weight| {
+                    f(from + (to - from) * s, weight * (to - from));
+                });
+            }
+            (true, false) => self.visit_squared(from, to, digits, f),
+            (false, true) => self.visit_squared(to, from, digits, f),
+            (true, true) => {
+                let middle = 0.5 * (from + to);
+                self.visit_squared(from, middle, digits, f);
+                self.visit_squared(to, middle, digits, f);
             }
         }
     }
 
-    /// Singularities in the variable s.
-    fn images(self, landscape: &Landscape) -> Vec<Complex64> {
-        let cuts = landscape.cuts.iter().map(|&c| Complex64::new(c, 0.0));
-        let all = cuts.chain(landscape.singularities.iter().copied());
-        match self {
-            Self::Plain { origin, scale } => all.map(|v| (v - origin) / scale).collect(),
-            Self::Squared { origin, scale } => all
-                .filter(|v| (v - origin).norm() > 1e-15)
-                .flat_map(|v| {
-                    let s = ((v - origin) / scale).sqrt();
-                    [s, -s]
-                })
-                .collect(),
+    /// v = cut + (end - cut) s^2.
+    fn visit_squared(&self, cut: f64, end: f64, digits: f64, f: &mut impl FnMut(f64, f64)) {
+        let scale = end - cut;
+        let images = self.images(|v| root((v - cut) / scale));
+        panels(&images, digits, &mut |s, weight| {
+            f(cut + scale * s * s, 2.0 * weight * s * scale.abs());
+        });
+    }
+
+    /// Singularities in another variable; the cut from which a squared variable starts drops out.
+    fn images(&self, to_variable: impl Fn(Complex64) -> Complex64) -> List<Complex64> {
+        let mut images = List::new();
+        let cuts = self.cuts.as_slice().iter().map(|&c| Complex64::new(c, 0.0));
+        let others = self.singularities.as_slice().iter().copied();
+        for point in cuts.chain(others) {
+            let image = to_variable(point);
+            if image.norm_sqr() > 1e-15 && images.length < CAPACITY {
+                images.push(image);
+            }
+        }
+        images
+    }
+}
+
+/// Principal square root.
+pub(crate) fn root(v: Complex64) -> Complex64 {
+    let modulus = v.norm_sqr().sqrt();
+    if v.re >= 0.0 {
+        let a = (0.5 * (modulus + v.re)).sqrt();
+        Complex64::new(a, if a > 0.0 { 0.5 * v.im / a } else { 0.0 })
+    } else {
+        let b = (0.5 * (modulus - v.re)).sqrt();
+        Complex64::new(0.5 * v.im.abs() / b, b.copysign(v.im))
+    }
+}
+
+/// Visits Gauss nodes on panels of [0, 1] that keep clear of the singularities.
+fn panels(images: &List<Complex64>, digits: f64, f: &mut impl FnMut(f64, f64)) {
+    let mut stack = [(0.0, 1.0); 64];
+    let mut depth = 1;
+    while depth > 0 {
+        depth -= 1;
+        let (s0, s1) = stack[depth];
+        let ellipse = smallest_ellipse(images.as_slice(), s0, s1);
+        let nodes = (digits / (2.0 * ellipse.ln())).ceil() + 1.0;
+        if nodes > MOST_NODES && s1 - s0 > NARROWEST {
+            let middle = 0.5 * (s0 + s1);
+            stack[depth] = (middle, s1);
+            stack[depth + 1] = (s0, middle);
+            depth += 2;
+            continue;
+        }
+        for (s, weight) in gauss::rule(nodes.clamp(3.0, MOST_NODES) as usize).on(s0, s1) {
+            f(s, weight);
         }
     }
 }
@@ -141,8 +185,9 @@ fn smallest_ellipse(images: &[Complex64], s0: f64, s1: f64) -> f64 {
     let (middle, inverse) = (0.5 * (s0 + s1), 2.0 / (s1 - s0));
     let mut least = 40.0_f64;
     for image in images {
-        let (x, y2) = ((image.re - middle) * inverse, (image.im * inverse).powi(2));
-        let sum = ((x - 1.0).powi(2) + y2).sqrt() + ((x + 1.0).powi(2) + y2).sqrt();
+        let (x, y) = ((image.re - middle) * inverse, image.im * inverse);
+        let (square, twice) = (x * x + y * y + 1.0, 2.0 * x);
+        let sum = (square - twice).max(0.0).sqrt() + (square + twice).max(0.0).sqrt();
         least = least.min(sum);
     }
     let half = 0.5 * least.max(2.0);
@@ -153,11 +198,11 @@ fn smallest_ellipse(images: &[Complex64], s0: f64, s1: f64) -> f64 {
 mod tests {
     use super::*;
 
-    fn integral(landscape: &mut Landscape, f: impl Fn(f64) -> f64) -> (f64, usize) {
+    fn integral(singularity: Complex64, f: impl Fn(f64) -> f64) -> (f64, usize) {
+        let mut landscape = Landscape::new(&[singularity]);
         let (mut sum, mut count) = (0.0, 0);
-        let ends = landscape.ends(0.0, 1.0);
-        for pair in ends.windows(2) {
-            visit((pair[0], pair[1]), landscape, 28.0, &mut |v, w| {
+        for interval in landscape.intervals() {
+            landscape.visit(interval, 28.0, &mut |v, w| {
                 sum += w * f(v);
                 count += 1;
             });
@@ -167,9 +212,7 @@ mod tests {
 
     #[test]
     fn square_roots_at_cuts_are_integrated() {
-        let mut landscape = Landscape::default();
-        landscape.add(Complex64::new(0.3, 0.0), 0.0, 1.0);
-        let (sum, count) = integral(&mut landscape, |v| (v - 0.3).abs().sqrt());
+        let (sum, count) = integral(0.3.into(), |v| (v - 0.3).abs().sqrt());
         let exact = (0.3_f64.powf(1.5) + 0.7_f64.powf(1.5)) / 1.5;
         assert!((sum - exact).abs() < 1e-14, "{sum} {exact}");
         assert!(count < 12, "{count} nodes");
@@ -178,9 +221,8 @@ mod tests {
     #[test]
     fn a_near_pole_is_resolved() {
         for gap in [0.3, 1e-2, 1e-4, 1e-7] {
-            let mut landscape = Landscape::default();
-            landscape.add(Complex64::new(0.4, gap), 0.0, 1.0);
-            let (sum, count) = integral(&mut landscape, |v| gap / ((v - 0.4).powi(2) + gap * gap));
+            let pole = Complex64::new(0.4, gap);
+            let (sum, count) = integral(pole, |v| gap / ((v - 0.4).powi(2) + gap * gap));
             let exact = (0.6 / gap).atan() + (0.4 / gap).atan();
             // the distance to the pole carries the rounding error of its place
             let noise = 1e-13 + 1e-16 / gap;

@@ -11,9 +11,10 @@
 //! B_n is carried as B_n/r, which is smooth at r = 0.
 
 use crate::gauss;
+use crate::panels;
 use crate::profile::Profile;
 use num_complex::Complex64;
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Potentials of two neighbouring orders; `ORDER` 0 is the step response, 1 its time integral.
 #[derive(Debug, Clone, Copy, Default)]
@@ -26,6 +27,19 @@ pub(crate) struct Potentials<T> {
     pub(crate) g_upper: T,
     /// B_{2 + ORDER}/r, carries the shear stress.
     pub(crate) g_lower: T,
+}
+
+impl<T> Potentials<T> {
+    /// The same with every potential replaced.
+    #[inline]
+    pub(crate) fn map<U>(self, f: impl Fn(T) -> U) -> Potentials<U> {
+        Potentials {
+            a_upper: f(self.a_upper),
+            a_lower: f(self.a_lower),
+            g_upper: f(self.g_upper),
+            g_lower: f(self.g_lower),
+        }
+    }
 }
 
 /// The potentials at xi (Re xi >= 0) and radius r.
@@ -60,7 +74,7 @@ fn chord_nodes(xi: Complex64, r: f64) -> Option<usize> {
         ((x - 1.0).powi(2) + y * y).sqrt() + ((x + 1.0).powi(2) + y * y).sqrt()
     };
     let sum = singular(r).min(singular(-r));
-    [(60.0, 4), (16.0, 6), (8.0, 8)]
+    [(150.0, 3), (60.0, 4), (28.0, 5), (14.0, 6)]
         .into_iter()
         .find_map(|(least, n)| (sum >= least).then_some(n))
 }
@@ -79,7 +93,12 @@ fn by_chord<const ORDER: i32>(
                 Profile::Hertz => 0.375 / PI * (1.0 - sigma * sigma),
                 Profile::Punch | Profile::Point => 0.25 / PI,
             };
-        let end = End::new(Complex64::new(xi.re, xi.im - sigma), r);
+        let zeta = Complex64::new(xi.re, xi.im - sigma);
+        let end = if ORDER > 0 {
+            End::new(zeta, r)
+        } else {
+            End::without_log(zeta, r)
+        };
         sum.a_upper += h * end.e(ORDER);
         sum.a_lower += h * end.e(ORDER - 1);
         sum.g_upper += h * end.f(ORDER);
@@ -136,13 +155,30 @@ impl End {
     /// Re zeta >= 0; on the imaginary axis the limit from the right is taken.
     #[inline]
     pub(crate) fn new(zeta: Complex64, r: f64) -> Self {
-        let rho = root(zeta, r);
-        let sum = zeta + rho;
-        let modulus = sum.norm_sqr().max(f64::MIN_POSITIVE);
+        let mut end = Self::without_log(zeta, r);
+        let Self { rho, .. } = end;
+        end.log = if zeta.re == 0.0 && rho.re != 0.0 {
+            Complex64::new(r.ln(), (zeta.im / r).clamp(-1.0, 1.0).asin())
+        } else {
+            let sum = zeta + rho;
+            let modulus = sum.norm_sqr().max(f64::MIN_POSITIVE);
+            let angle = if sum.re == 0.0 {
+                FRAC_PI_2.copysign(sum.im)
+            } else {
+                sum.im.atan2(sum.re)
+            };
+            Complex64::new(0.5 * modulus.ln(), angle)
+        };
+        end
+    }
+
+    /// An end of which only orders up to zero are used, which need no logarithm.
+    #[inline]
+    fn without_log(zeta: Complex64, r: f64) -> Self {
         Self {
             zeta,
-            rho,
-            log: Complex64::new(0.5 * modulus.ln(), sum.im.atan2(sum.re)),
+            rho: root(zeta, r),
+            log: Complex64::default(),
             r,
         }
     }
@@ -192,16 +228,16 @@ impl End {
 #[inline]
 fn root(zeta: Complex64, r: f64) -> Complex64 {
     let (d, s) = (zeta.re, zeta.im);
-    let re = d * d - (s - r) * (s + r);
-    let im = 2.0 * d * s;
-    let modulus = (re * re + im * im).sqrt();
-    if re >= 0.0 {
-        let a = (0.5 * (modulus + re)).sqrt();
-        Complex64::new(a, if a > 0.0 { 0.5 * im / a } else { 0.0 })
-    } else {
-        let b = (0.5 * (modulus - re)).sqrt();
-        Complex64::new(0.5 * im.abs() / b, b.copysign(s))
+    let inside = (r - s) * (r + s);
+    if d == 0.0 {
+        return if inside >= 0.0 {
+            Complex64::new(inside.sqrt(), 0.0)
+        } else {
+            Complex64::new(0.0, (-inside).sqrt().copysign(s))
+        };
     }
+    let square = Complex64::new(d * d + inside, 2.0 * d * s);
+    panels::root(square)
 }
 
 #[cfg(test)]
@@ -214,7 +250,13 @@ mod tests {
         let h = 1e-4;
         for profile in [Profile::Hertz, Profile::Punch, Profile::Point] {
             for r in [0.0, 1e-7, 0.3, 1.0, 2.5, 17.0] {
-                for (x, y) in [(0.7, 0.2), (0.05, 3.3), (2.0, -1.5), (9.0, 40.0), (0.3, -70.0)] {
+                for (x, y) in [
+                    (0.7, 0.2),
+                    (0.05, 3.3),
+                    (2.0, -1.5),
+                    (9.0, 40.0),
+                    (0.3, -70.0),
+                ] {
                     let xi = Complex64::new(x, y);
                     let here = potentials::<0>(profile, xi, r);
                     let ahead = potentials::<1>(profile, xi + h, r);
@@ -222,7 +264,10 @@ mod tests {
                     let check = |a: Complex64, b: Complex64, value: Complex64| {
                         let slope = -(a - b) / (2.0 * h);
                         let tolerance = 1e-4 * value.norm() + 1e-10;
-                        assert!((slope - value).norm() < tolerance, "{profile:?} {r} {xi}: {slope} {value}");
+                        assert!(
+                            (slope - value).norm() < tolerance,
+                            "{profile:?} {r} {xi}: {slope} {value}"
+                        );
                     };
                     check(ahead.a_upper, behind.a_upper, here.a_upper);
                     check(ahead.a_lower, behind.a_lower, here.a_lower);

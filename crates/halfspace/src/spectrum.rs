@@ -142,7 +142,14 @@ pub(crate) fn pole(wave: Wave, medium: &Medium) -> Pole {
             },
         ),
     };
-    let Amplitudes { w, u, zz, rz, rr, tt } = amplitudes;
+    let Amplitudes {
+        w,
+        u,
+        zz,
+        rz,
+        rr,
+        tt,
+    } = amplitudes;
     Pole {
         decay,
         amplitudes: Amplitudes {

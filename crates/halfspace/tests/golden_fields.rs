@@ -56,7 +56,13 @@ fn gauss(n: usize) -> Vec<(f64, f64)> {
 /// P static + int P'(t - s) R(s) ds, split at the arrivals, with both ends of each part smoothed.
 fn response(kernel: &Kernel, row: &Row, nodes: &[(f64, f64)]) -> Six {
     let (r, z, t, pulse) = (row.r, row.z, row.t, row.pulse);
-    let force = |s: f64| if (0.0..pulse).contains(&s) { (PI * s / pulse).sin().powi(4) } else { 0.0 };
+    let force = |s: f64| {
+        if (0.0..pulse).contains(&s) {
+            (PI * s / pulse).sin().powi(4)
+        } else {
+            0.0
+        }
+    };
     let rate = |s: f64| {
         let (sin, cos) = (PI * s / pulse).sin_cos();
         4.0 * PI / pulse * sin.powi(3) * cos
@@ -64,8 +70,13 @@ fn response(kernel: &Kernel, row: &Row, nodes: &[(f64, f64)]) -> Six {
     let rest = kernel.static_field(r, z).unwrap();
     let mut value = rest.map(|s| force(t) * s);
     let start = (t - pulse).max(0.0);
-    let arrivals = Arrivals::new(kernel.medium(), Profile::Hertz, r, z).unwrap().sorted();
-    let mut ends: Vec<f64> = arrivals.into_iter().filter(|a| *a > start && *a < t).collect();
+    let arrivals = Arrivals::new(kernel.medium(), Profile::Hertz, r, z)
+        .unwrap()
+        .sorted();
+    let mut ends: Vec<f64> = arrivals
+        .into_iter()
+        .filter(|a| *a > start && *a < t)
+        .collect();
     ends.insert(0, start);
     ends.push(t);
     for pair in ends.windows(2) {

@@ -1,0 +1,127 @@
+//! Slownesses below one: waves that travel as plane fronts, felt only while they pass.
+
+use crate::compact::compact;
+use crate::fronts::{self, Point, Sense};
+use crate::kernel::{Kernel, Sum, fields};
+use crate::panels::Landscape;
+use crate::potential::Potentials;
+use crate::spectrum::{self, Wave};
+
+impl Kernel {
+    /// Adds one wave in one sense over 0 < x < 1.
+    pub(crate) fn fast<const ORDER: i32>(
+        &self,
+        at: Point,
+        wave: Wave,
+        sense: Sense,
+        sum: &mut Sum,
+    ) {
+        let limit = at.r + self.profile().radius();
+        match sense {
+            Sense::Outgoing if at.t >= self.last_fast(at, wave, limit) => {
+                if ORDER == 1 {
+                    sum.add(1.0, [0.0, self.passed[wave as usize], 0.0, 0.0, 0.0, 0.0]);
+                }
+                return;
+            }
+            Sense::Image if at.t + at.z * self.vertical_at_one(wave) >= limit => return,
+            Sense::Outgoing | Sense::Image => {}
+        }
+        let mut landscape = Landscape::new(&self.fixed.fast_with_origin);
+        fronts::add_fast(
+            &mut landscape,
+            at,
+            self.profile().radius(),
+            self.k,
+            wave,
+            sense,
+        );
+        for interval in landscape.intervals() {
+            let (x, p, _) = half_angle(0.5 * (interval.0 + interval.1));
+            let eta = self.eta(at, wave, sense, x, p);
+            if eta.abs() < limit {
+                landscape.visit(interval, self.digits(), &mut |u, weight| {
+                    let (x, p, jacobian) = half_angle(u);
+                    let eta = self.eta(at, wave, sense, x, p);
+                    let mut psi = compact::<ORDER>(self.profile(), eta, at.r);
+                    if ORDER == 1 {
+                        // int dt = -+x int d eta; the order below b3 is -b2
+                        let step = sense.sign() * x;
+                        psi = Potentials {
+                            a_upper: step * psi.a_upper,
+                            a_lower: step * psi.a_lower,
+                            g_upper: step * psi.g_upper,
+                            g_lower: -step * psi.g_lower,
+                        };
+                    }
+                    let amplitudes = spectrum::fast(wave, self.k, x, p);
+                    sum.add(weight * jacobian, fields(&amplitudes, &psi, at.r));
+                });
+            } else if ORDER == 1 && eta < 0.0 {
+                let passed = self.passed_part(wave, interval);
+                sum.add(1.0, [0.0, passed, 0.0, 0.0, 0.0, 0.0]);
+            }
+        }
+    }
+
+    /// int of the amplitude of w times x/2 dx over the whole fast interval.
+    pub(crate) fn passed_whole(&self, wave: Wave) -> f64 {
+        self.passed_part(wave, (0.0, 1.0))
+    }
+
+    fn passed_part(&self, wave: Wave, interval: (f64, f64)) -> f64 {
+        let mut sum = 0.0;
+        let landscape = Landscape::new(&self.fixed.fast);
+        landscape.visit(interval, self.digits(), &mut |u, weight| {
+            let (x, p, jacobian) = half_angle(u);
+            sum += weight * jacobian * 0.5 * x * spectrum::fast(wave, self.k, x, p).w;
+        });
+        sum
+    }
+
+    /// Time after which the outgoing wave has passed at every slowness below one.
+    fn last_fast(&self, at: Point, wave: Wave, limit: f64) -> f64 {
+        let slowness = self.slowness(wave);
+        let reach = at.z.hypot(limit);
+        if limit * slowness <= reach {
+            slowness * reach
+        } else {
+            at.z * self.vertical_at_one(wave) + limit
+        }
+    }
+
+    /// 1 for P, sqrt(K) for S.
+    fn slowness(&self, wave: Wave) -> f64 {
+        match wave {
+            Wave::P => 1.0,
+            Wave::S => self.k.sqrt(),
+        }
+    }
+
+    /// gamma^ at x = 1.
+    fn vertical_at_one(&self, wave: Wave) -> f64 {
+        match wave {
+            Wave::P => 0.0,
+            Wave::S => (self.k - 1.0).sqrt(),
+        }
+    }
+
+    /// eta = (z gamma^ -+ t)/x, accurate where the difference is small and x too.
+    #[inline]
+    fn eta(&self, at: Point, wave: Wave, sense: Sense, x: f64, p: f64) -> f64 {
+        let (vertical, root) = match wave {
+            Wave::P => (1.0, p),
+            Wave::S => (self.k.sqrt(), (self.k - x * x).sqrt()),
+        };
+        // gamma^ = vertical - x^2/(vertical + gamma^)
+        (at.z * vertical + sense.sign() * at.t) / x - at.z * x / (vertical + root)
+    }
+}
+
+/// x, p and dx/du at the half-angle u.
+#[inline]
+fn half_angle(u: f64) -> (f64, f64, f64) {
+    let inverse = 1.0 / (1.0 + u * u);
+    let p = (1.0 - u) * (1.0 + u) * inverse;
+    (2.0 * u * inverse, p, 2.0 * p * inverse)
+}

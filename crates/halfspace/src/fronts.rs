@@ -1,0 +1,212 @@
+//! Where the integrands of the kernels are singular, in closed form.
+//!
+//! A wave is felt at slowness x when its plane front from an edge of the disc passes:
+//!
+//! ```text
+//! z gamma^ + sense t = e x,     e = +-1 +- r
+//! ```
+//!
+//! With x = 2u/(1 + u^2) and gamma^ = (1 - u^2)/(1 + u^2), scaled by the slowness of the wave, this is a
+//! quadratic in u. The integrals run over such half-angle variables, in which every square root of the
+//! problem is rational or analytic:
+//!
+//! ```text
+//! fast  0 < x < 1           x = 2u/(1 + u^2)      p = (1 - u^2)/(1 + u^2)
+//! slow  1 < x < sqrt(K)     sqrt(x^2 - 1) = sqrt(K - 1) 2q/(1 + q^2)     y = sqrt(K - 1) (1 - q^2)/(1 + q^2)
+//! ```
+//!
+//! Other singularities are fixed: zeros of the Rayleigh function on neighbouring sheets and branch points.
+
+use crate::medium::Medium;
+use crate::panels::{Landscape, root};
+use crate::spectrum::Wave;
+use num_complex::Complex64;
+
+/// One evaluation point.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Point {
+    pub(crate) r: f64,
+    pub(crate) z: f64,
+    pub(crate) t: f64,
+}
+
+/// Direction of travel of a wave past the observer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Sense {
+    /// xi- = i (z gamma^ - t)/x: the wave that comes down from the load.
+    Outgoing,
+    /// xi+ = i (z gamma^ + t)/x: its image in time, which makes the sum causal.
+    Image,
+}
+
+impl Sense {
+    pub(crate) fn sign(self) -> f64 {
+        match self {
+            Self::Outgoing => -1.0,
+            Self::Image => 1.0,
+        }
+    }
+}
+
+/// Singularities of the amplitudes, fixed for a medium.
+#[derive(Debug, Clone)]
+pub(crate) struct FixedSingularities {
+    /// In u, of the amplitudes alone.
+    pub(crate) fast: Vec<Complex64>,
+    /// In u, with slowness zero, where the argument of the potentials is infinite.
+    pub(crate) fast_with_origin: Vec<Complex64>,
+    /// In q.
+    pub(crate) slow: Vec<Complex64>,
+}
+
+impl FixedSingularities {
+    pub(crate) fn new(medium: &Medium) -> Self {
+        /// A zero this close to slowness one has a residue as small and is removable in the limit (nu = 0).
+        const REMOVABLE: f64 = 1e-9;
+        let k = medium.shear_slowness_squared();
+        let span = k - 1.0;
+        let i = Complex64::i();
+        let both = |v: Complex64| [v, -v];
+        // x is infinite at u = i, p and y vanish together with a square root at the branch points
+        let mut fast = vec![i];
+        for p in both(i * span.sqrt()) {
+            fast.push(k.sqrt() / (1.0 + p));
+        }
+        let mut slow = vec![i];
+        for s in both(i / span.sqrt()) {
+            for c in both(root(1.0 - s * s)) {
+                slow.push(s / (1.0 + c));
+            }
+        }
+        for zero in medium.rayleigh_cubic_roots() {
+            let x2 = zero * k;
+            let square = (2.0 * x2 - k) * (2.0 * x2 - k);
+            let is_zero = |rest: Complex64| (square + rest).norm() < 1e-6 * k * k;
+            for x in both(root(x2)) {
+                for p in both(root(1.0 - x2)) {
+                    let u = x / (1.0 + p);
+                    if is_zero(4.0 * x2 * p * root(k - x2)) && (u - 1.0).norm() > REMOVABLE {
+                        fast.push(u);
+                    }
+                }
+            }
+            for p_abs in both(root(x2 - 1.0)) {
+                for y in both(root(k - x2)) {
+                    let q = p_abs / (span.sqrt() + y);
+                    if is_zero(-4.0 * i * x2 * p_abs * y) && q.norm() > REMOVABLE {
+                        slow.push(q);
+                    }
+                }
+            }
+        }
+        let mut fast_with_origin = fast.clone();
+        fast_with_origin.push(Complex64::default());
+        Self {
+            fast,
+            fast_with_origin,
+            slow,
+        }
+    }
+}
+
+/// Adds the fronts of one wave in one sense to a landscape of the fast interval.
+pub(crate) fn add_fast(
+    landscape: &mut Landscape,
+    at: Point,
+    radius: f64,
+    k: f64,
+    wave: Wave,
+    sense: Sense,
+) {
+    for_each_front(at, radius, k, wave, sense, |v| match wave {
+        Wave::P => landscape.add(v),
+        Wave::S => {
+            let (x, y) = (k.sqrt() * sine(v), cosine(v));
+            if y.re > 0.0 {
+                let p = root(1.0 - x * x);
+                landscape.add(x / (1.0 + p));
+                landscape.add(x / (1.0 - p));
+            }
+        }
+    });
+}
+
+/// Adds the fronts of one wave in both senses to a landscape of the slow interval.
+pub(crate) fn add_slow(landscape: &mut Landscape, at: Point, radius: f64, k: f64, wave: Wave) {
+    let span = (k - 1.0).sqrt();
+    for sense in [Sense::Outgoing, Sense::Image] {
+        for_each_front(at, radius, k, wave, sense, |v| match wave {
+            Wave::P => {
+                let s = Complex64::i() * cosine(v) / span;
+                let c = root(1.0 - s * s);
+                landscape.add(s / (1.0 + c));
+                landscape.add(s / (1.0 - c));
+            }
+            Wave::S => {
+                let c = cosine(v) * (k.sqrt() / span);
+                let q = root(1.0 - c * c) / (1.0 + c);
+                landscape.add(q);
+                landscape.add(-q);
+            }
+        });
+    }
+    if at.z == 0.0 && wave == Wave::P {
+        // On the surface the longitudinal fronts x = t/|e| are singular at any slowness.
+        for e in edges(at.r, radius) {
+            let s2 = ((at.t / e).powi(2) - 1.0) / (k - 1.0);
+            if s2 > 0.0 && s2 < 1.0 {
+                landscape.add((s2.sqrt() / (1.0 + (1.0 - s2).sqrt())).into());
+            }
+        }
+    }
+}
+
+fn sine(u: Complex64) -> Complex64 {
+    2.0 * u / (1.0 + u * u)
+}
+
+fn cosine(u: Complex64) -> Complex64 {
+    let square = u * u;
+    (1.0 - square) / (1.0 + square)
+}
+
+/// The two distances |e| of the front equation.
+fn edges(r: f64, radius: f64) -> [f64; 2] {
+    [radius + r, (radius - r).abs()]
+}
+
+/// Roots u of (sense t - z) u^2 - 2 e u + (z + sense t) = 0, t in units of the slowness of the wave.
+fn for_each_front(
+    at: Point,
+    radius: f64,
+    k: f64,
+    wave: Wave,
+    sense: Sense,
+    mut f: impl FnMut(Complex64),
+) {
+    let slowness = match wave {
+        Wave::P => 1.0,
+        Wave::S => k.sqrt(),
+    };
+    let (z, t) = (at.z, sense.sign() * at.t / slowness);
+    let mut emit = |u: Complex64| {
+        if u.is_finite() {
+            f(u);
+        }
+    };
+    for distance in edges(at.r, radius) {
+        let reach = z.hypot(distance);
+        let discriminant = (reach - t) * (reach + t);
+        for e in [distance, -distance] {
+            if discriminant >= 0.0 {
+                let w = e + discriminant.sqrt().copysign(e);
+                emit((w / (t - z)).into());
+                emit(((z + t) / w).into());
+            } else {
+                let pair = Complex64::new(e, (-discriminant).sqrt()) / (t - z);
+                emit(pair);
+                emit(pair.conj());
+            }
+        }
+    }
+}
