@@ -19,7 +19,9 @@
 
 use crate::potential::Potentials;
 use crate::profile::Profile;
+use num_complex::Complex64;
 use std::f64::consts::{FRAC_PI_2, PI};
+use std::ops::{Add, Mul, Sub};
 
 /// Radius below which a point is on the axis as far as rounding goes.
 const AXIS: f64 = 1e-13;
@@ -49,43 +51,81 @@ fn circle(s: f64, r: f64) -> (f64, f64) {
 
 #[inline]
 fn hertz<const ORDER: i32>(eta: f64, r: f64) -> Potentials<f64> {
-    let (s1, s2) = (eta - 1.0, eta + 1.0);
-    let ((phi1, q1), (phi2, q2)) = (circle(s1, r), circle(s2, r));
+    let ((phi1, q1), (phi2, q2)) = (circle(eta - 1.0, r), circle(eta + 1.0, r));
+    let mut psi = chord_primitives::<ORDER, f64>(eta, r, [phi1, phi2], [q1, q2]);
+    if ORDER == 1 {
+        psi.a_upper -= 0.25;
+    }
+    psi
+}
+
+/// The chord integrals of a Hertz disc between s = eta - 1 and eta + 1, from phi and q at both ends.
+///
+/// Any pair of functions with phi' = 1/q, q' = -s/q, q^2 = r^2 - s^2 may stand for phi and q: the result is
+/// linear in them. With real eta and the held values it is the compact part, with complex eta,
+/// phi = -i log(zeta + rho) and q = rho it is the whole potential up to a polynomial.
+#[inline]
+pub(crate) fn chord_primitives<const ORDER: i32, T: Scalar>(
+    eta: T,
+    r: f64,
+    phi: [T; 2],
+    q: [T; 2],
+) -> Potentials<T> {
     let r2 = r * r;
     let scale = 0.375 / PI;
     let ring = scale / r2;
+    let one = T::from(1.0);
+    let s = [eta - one, eta + one];
+    let inside = (one - eta) * (one + eta);
+    let sq = [s[0] * q[0], s[1] * q[1]];
     // int ds {1, s, s^2, s^3}/q
-    let m0 = phi2 - phi1;
-    let m1 = q1 - q2;
-    let sq = s2 * q2 - s1 * q1;
-    let m2 = 0.5 * (r2 * m0 - sq);
-    let inside = (1.0 - eta) * (1.0 + eta);
-    let a3 = scale * (inside * m0 + 2.0 * eta * m1 - m2);
-    let cubes = (q2 * q2 * q2 - q1 * q1 * q1) / 3.0;
-    let m3 = r2 * m1 + cubes;
-    let b3 = -ring * (inside * m1 + 2.0 * eta * m2 - m3);
+    let m0 = phi[1] - phi[0];
+    let m1 = q[0] - q[1];
+    let m2 = (m0 * r2 - sq[1] + sq[0]) * 0.5;
+    // q^3 = q (r^2 - s^2)
+    let cube = [q[0] * r2 - s[0] * sq[0], q[1] * r2 - s[1] * sq[1]];
+    let cubes = (cube[1] - cube[0]) * (1.0 / 3.0);
+    let m3 = m1 * r2 + cubes;
+    let twice = eta + eta;
+    let a3 = (inside * m0 + twice * m1 - m2) * scale;
+    let b3 = (m3 - inside * m1 - twice * m2) * ring;
     if ORDER == 0 {
         return Potentials {
             a_upper: a3,
-            a_lower: 2.0 * scale * (m1 - eta * m0),
+            a_lower: (m1 - eta * m0) * (2.0 * scale),
             g_upper: b3,
-            g_lower: 2.0 * ring * (eta * m1 - m2) * -1.0,
+            g_lower: (m2 - eta * m1) * (2.0 * ring),
         };
     }
     // int ds {1, s, s^2} phi, and int ds {1, s, s^2} q
-    let p0 = s2 * phi2 - s1 * phi1 - m1;
-    let p1 = 0.5 * (s2 * s2 * phi2 - s1 * s1 * phi1 - m2);
-    let p2 = (s2 * s2 * s2 * phi2 - s1 * s1 * s1 * phi1 - m3) / 3.0;
-    let c0 = 0.5 * (sq + r2 * m0);
-    let c1 = -cubes;
-    let c2 = 0.25 * (r2 * c0 - (s2 * q2 * q2 * q2 - s1 * q1 * q1 * q1));
+    let sphi = [s[0] * phi[0], s[1] * phi[1]];
+    let ssphi = [s[0] * sphi[0], s[1] * sphi[1]];
+    let p0 = sphi[1] - sphi[0] - m1;
+    let p1 = (ssphi[1] - ssphi[0] - m2) * 0.5;
+    let p2 = (s[1] * ssphi[1] - s[0] * ssphi[0] - m3) * (1.0 / 3.0);
+    let c0 = (sq[1] - sq[0] + m0 * r2) * 0.5;
+    let c2 = (c0 * r2 - s[1] * cube[1] + s[0] * cube[0]) * 0.25;
     Potentials {
-        a_upper: scale * (inside * p0 + 2.0 * eta * p1 - p2) - 0.25,
+        a_upper: (inside * p0 + twice * p1 - p2) * scale,
         a_lower: a3,
-        g_upper: ring * (inside * c0 + 2.0 * eta * c1 - c2),
+        g_upper: (inside * c0 - twice * cubes - c2) * ring,
         g_lower: b3,
     }
 }
+
+/// Real or complex numbers.
+pub(crate) trait Scalar:
+    Copy
+    + From<f64>
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Mul<f64, Output = Self>
+{
+}
+
+impl Scalar for f64 {}
+impl Scalar for Complex64 {}
 
 /// The limit r = 0, where the circle shrinks to a point of the chord.
 #[inline]
@@ -174,7 +214,6 @@ fn point<const ORDER: i32>(eta: f64, r: f64) -> Potentials<f64> {
 mod tests {
     use super::*;
     use crate::potential::potentials;
-    use num_complex::Complex64;
 
     /// The parts named in the module text, taken from the complex potentials.
     #[test]

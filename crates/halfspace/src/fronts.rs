@@ -119,37 +119,38 @@ pub(crate) fn add_fast(
     sense: Sense,
 ) {
     for_each_front(at, radius, k, wave, sense, |v| match wave {
-        Wave::P => landscape.add(v),
+        Wave::P => add_with_mirror(landscape, v),
         Wave::S => {
             let (x, y) = (k.sqrt() * sine(v), cosine(v));
             if y.re > 0.0 {
-                let p = root(1.0 - x * x);
-                landscape.add(x / (1.0 + p));
-                landscape.add(x / (1.0 - p));
+                let u = x / (1.0 + root(1.0 - x * x));
+                add_with_mirror(landscape, u);
+                add_reciprocal(landscape, u);
             }
         }
     });
 }
 
 /// Adds the fronts of one wave in both senses to a landscape of the slow interval.
+///
+/// Reversing time turns q into its reciprocal, and the other sheet of the root that a wave does not
+/// contain turns it into its negative.
 pub(crate) fn add_slow(landscape: &mut Landscape, at: Point, radius: f64, k: f64, wave: Wave) {
     let span = (k - 1.0).sqrt();
-    for sense in [Sense::Outgoing, Sense::Image] {
-        for_each_front(at, radius, k, wave, sense, |v| match wave {
+    for_each_front(at, radius, k, wave, Sense::Outgoing, |v| {
+        let q = match wave {
             Wave::P => {
                 let s = Complex64::i() * cosine(v) / span;
-                let c = root(1.0 - s * s);
-                landscape.add(s / (1.0 + c));
-                landscape.add(s / (1.0 - c));
+                s / (1.0 + root(1.0 - s * s))
             }
             Wave::S => {
                 let c = cosine(v) * (k.sqrt() / span);
-                let q = root(1.0 - c * c) / (1.0 + c);
-                landscape.add(q);
-                landscape.add(-q);
+                root(1.0 - c * c) / (1.0 + c)
             }
-        });
-    }
+        };
+        add_with_mirror(landscape, q);
+        add_reciprocal(landscape, q);
+    });
     if at.z == 0.0 && wave == Wave::P {
         // On the surface the longitudinal fronts x = t/|e| are singular at any slowness.
         for e in edges(at.r, radius) {
@@ -158,6 +159,29 @@ pub(crate) fn add_slow(landscape: &mut Landscape, at: Point, radius: f64, k: f64
                 landscape.add((s2.sqrt() / (1.0 + (1.0 - s2).sqrt())).into());
             }
         }
+    }
+}
+
+/// Adds a point and its negative: the one on the right, and the other where it is near enough to matter.
+fn add_with_mirror(landscape: &mut Landscape, point: Complex64) {
+    const NEAR_ZERO: f64 = 0.3;
+    let right = if point.re < 0.0 { -point } else { point };
+    landscape.add(right);
+    if right.norm_sqr() < NEAR_ZERO * NEAR_ZERO {
+        landscape.add(-right);
+    }
+}
+
+/// Adds the reciprocal of a point, or its negative, where it is near enough to matter.
+fn add_reciprocal(landscape: &mut Landscape, point: Complex64) {
+    const NEAR_ONE: f64 = 0.4;
+    if point.norm_sqr() > NEAR_ONE * NEAR_ONE {
+        let reciprocal = 1.0 / point;
+        landscape.add(if reciprocal.re < 0.0 {
+            -reciprocal
+        } else {
+            reciprocal
+        });
     }
 }
 
@@ -175,7 +199,8 @@ fn edges(r: f64, radius: f64) -> [f64; 2] {
     [radius + r, (radius - r).abs()]
 }
 
-/// Roots u of (sense t - z) u^2 - 2 e u + (z + sense t) = 0, t in units of the slowness of the wave.
+/// Roots u of (sense t - z) u^2 - 2 e u + (z + sense t) = 0, t in units of the slowness of the wave, for
+/// both e > 0; those for -e are their negatives. Of a conjugate pair one is given.
 fn for_each_front(
     at: Point,
     radius: f64,
@@ -194,19 +219,15 @@ fn for_each_front(
             f(u);
         }
     };
-    for distance in edges(at.r, radius) {
-        let reach = z.hypot(distance);
+    for e in edges(at.r, radius) {
+        let reach = z.hypot(e);
         let discriminant = (reach - t) * (reach + t);
-        for e in [distance, -distance] {
-            if discriminant >= 0.0 {
-                let w = e + discriminant.sqrt().copysign(e);
-                emit((w / (t - z)).into());
-                emit(((z + t) / w).into());
-            } else {
-                let pair = Complex64::new(e, (-discriminant).sqrt()) / (t - z);
-                emit(pair);
-                emit(pair.conj());
-            }
+        if discriminant >= 0.0 {
+            let w = e + discriminant.sqrt();
+            emit((w / (t - z)).into());
+            emit(((z + t) / w).into());
+        } else {
+            emit(Complex64::new(e, (-discriminant).sqrt()) / (t - z));
         }
     }
 }

@@ -10,6 +10,7 @@
 //! and by a short Gauss rule when it is far, where the closed form is a difference of large numbers.
 //! B_n is carried as B_n/r, which is smooth at r = 0.
 
+use crate::compact::chord_primitives;
 use crate::gauss;
 use crate::panels;
 use crate::profile::Profile;
@@ -50,17 +51,85 @@ pub(crate) fn potentials<const ORDER: i32>(
     r: f64,
 ) -> Potentials<Complex64> {
     if profile == Profile::Point {
-        let end = End::new(xi, r);
-        return Potentials {
-            a_upper: end.e(ORDER) / (2.0 * PI),
-            a_lower: end.e(ORDER - 1) / (2.0 * PI),
-            g_upper: end.f(ORDER) / (2.0 * PI),
-            g_lower: end.f(ORDER - 1) / (2.0 * PI),
-        };
+        return end_orders::<ORDER>(xi, r).map(|v| v / (2.0 * PI));
     }
+    /// Below this radius the primitives, which are divided by r^2, lose digits.
+    const SMALL_RADIUS: f64 = 0.05;
     match chord_nodes(xi, r) {
         Some(n) => by_chord::<ORDER>(profile, n, xi, r),
+        None if ORDER >= 0 && profile == Profile::Hertz && r > SMALL_RADIUS => {
+            if xi.re == 0.0 {
+                on_imaginary_axis::<ORDER>(xi.im, r)
+            } else {
+                by_primitives::<ORDER>(xi, r)
+            }
+        }
         None => by_parts::<ORDER>(profile, xi, r),
+    }
+}
+
+/// The Hertz disc from the chord primitives, phi = -i L and q = rho in the variable eta = -i xi.
+fn by_primitives<const ORDER: i32>(xi: Complex64, r: f64) -> Potentials<Complex64> {
+    let ends = [1.0, -1.0].map(|sigma| End::new(Complex64::new(xi.re, xi.im - sigma), r));
+    let phi = [0, 1].map(|i| Complex64::new(ends[i].log.im, -ends[i].log.re));
+    let eta = Complex64::new(xi.im, -xi.re);
+    let psi = chord_primitives::<ORDER, Complex64>(eta, r, phi, [ends[0].rho, ends[1].rho]);
+    from_primitives::<ORDER>(psi, eta, r)
+}
+
+/// The same on the imaginary axis, where real and imaginary part separate into real functions.
+fn on_imaginary_axis<const ORDER: i32>(eta: f64, r: f64) -> Potentials<Complex64> {
+    let log_r = r.ln();
+    // (phi, -log|zeta + rho|) and (Re rho, Im rho)
+    let end = |s: f64| {
+        let inside = (r - s) * (r + s);
+        if inside >= 0.0 {
+            let q = inside.sqrt();
+            ([(s / r).clamp(-1.0, 1.0).asin(), -log_r], [q, 0.0])
+        } else {
+            let w = (-inside).sqrt();
+            let log = (s.abs() + w).ln();
+            ([FRAC_PI_2.copysign(s), -log], [0.0, w.copysign(s)])
+        }
+    };
+    let ((phi1, q1), (phi2, q2)) = (end(eta - 1.0), end(eta + 1.0));
+    let part =
+        |i: usize| chord_primitives::<ORDER, f64>(eta, r, [phi1[i], phi2[i]], [q1[i], q2[i]]);
+    let (re, im) = (part(0), part(1));
+    let join = Complex64::new;
+    let psi = Potentials {
+        a_upper: join(re.a_upper, im.a_upper),
+        a_lower: join(re.a_lower, im.a_lower),
+        g_upper: join(re.g_upper, im.g_upper),
+        g_lower: join(re.g_lower, im.g_lower),
+    };
+    from_primitives::<ORDER>(psi, eta.into(), r)
+}
+
+/// Potentials from chord primitives: powers of i from the change of variable, and the part of
+/// F_0 = (1 - zeta/rho)/r and F_1 = (rho - zeta)/r that is free of roots.
+#[inline]
+fn from_primitives<const ORDER: i32>(
+    psi: Potentials<Complex64>,
+    eta: Complex64,
+    r: f64,
+) -> Potentials<Complex64> {
+    let force = 0.5 / (PI * r * r);
+    let times_i = |v: Complex64| Complex64::new(-v.im, v.re);
+    if ORDER == 0 {
+        Potentials {
+            a_upper: psi.a_upper,
+            a_lower: times_i(psi.a_lower),
+            g_upper: times_i(psi.g_upper) + force,
+            g_lower: psi.g_lower,
+        }
+    } else {
+        Potentials {
+            a_upper: -times_i(psi.a_upper),
+            a_lower: psi.a_lower,
+            g_upper: psi.g_upper - times_i(eta) * force,
+            g_lower: times_i(psi.g_lower) + force,
+        }
     }
 }
 
@@ -68,17 +137,24 @@ pub(crate) fn potentials<const ORDER: i32>(
 ///
 /// The integrand is singular at sigma = -i xi +- r; the sum of distances from the ends of the chord
 /// gives the Bernstein ellipse.
+#[inline]
 fn chord_nodes(xi: Complex64, r: f64) -> Option<usize> {
+    const NEAREST: f64 = 14.0;
+    let gap = (xi.im.abs() - r).abs();
+    if 2.0 * (gap + xi.re + 1.0) < NEAREST {
+        return None;
+    }
     let singular = |shift: f64| {
         let (x, y) = (xi.im + shift, xi.re);
         ((x - 1.0).powi(2) + y * y).sqrt() + ((x + 1.0).powi(2) + y * y).sqrt()
     };
     let sum = singular(r).min(singular(-r));
-    [(150.0, 3), (60.0, 4), (28.0, 5), (14.0, 6)]
+    [(150.0, 3), (60.0, 4), (28.0, 5), (NEAREST, 6)]
         .into_iter()
         .find_map(|(least, n)| (sum >= least).then_some(n))
 }
 
+/// The integral over the chord by Gauss's rule with `n` nodes.
 fn by_chord<const ORDER: i32>(
     profile: Profile,
     n: usize,
@@ -87,24 +163,92 @@ fn by_chord<const ORDER: i32>(
 ) -> Potentials<Complex64> {
     let rule = gauss::rule(n);
     let mut sum = Potentials::<Complex64>::default();
+    // On the imaginary axis outside the circle everything is real or imaginary.
+    let axis = xi.re == 0.0 && xi.im.abs() > r + 1.0;
     for (&sigma, &weight) in rule.nodes.iter().zip(&rule.weights) {
         let h = weight
             * match profile {
                 Profile::Hertz => 0.375 / PI * (1.0 - sigma * sigma),
                 Profile::Punch | Profile::Point => 0.25 / PI,
             };
-        let zeta = Complex64::new(xi.re, xi.im - sigma);
-        let end = if ORDER > 0 {
-            End::new(zeta, r)
+        let s = xi.im - sigma;
+        let psi = if axis {
+            end_on_axis::<ORDER>(s, r)
         } else {
-            End::without_log(zeta, r)
+            end_orders::<ORDER>(Complex64::new(xi.re, s), r)
         };
-        sum.a_upper += h * end.e(ORDER);
-        sum.a_lower += h * end.e(ORDER - 1);
-        sum.g_upper += h * end.f(ORDER);
-        sum.g_lower += h * end.f(ORDER - 1);
+        sum.a_upper += h * psi.a_upper;
+        sum.a_lower += h * psi.a_lower;
+        sum.g_upper += h * psi.g_upper;
+        sum.g_lower += h * psi.g_lower;
     }
     sum
+}
+
+/// E and F/r of orders `ORDER` and `ORDER` - 1.
+#[inline]
+fn end_orders<const ORDER: i32>(zeta: Complex64, r: f64) -> Potentials<Complex64> {
+    if ORDER < 0 {
+        let end = End::without_log(zeta, r);
+        return Potentials {
+            a_upper: end.e(ORDER),
+            a_lower: end.e(ORDER - 1),
+            g_upper: end.f(ORDER),
+            g_lower: end.f(ORDER - 1),
+        };
+    }
+    let rho = root(zeta, r);
+    let inverse = reciprocal(rho);
+    let sum = reciprocal(rho + zeta);
+    if ORDER == 0 {
+        let cube = inverse * inverse * inverse;
+        Potentials {
+            a_upper: inverse,
+            a_lower: zeta * cube,
+            g_upper: inverse * sum,
+            g_lower: cube,
+        }
+    } else {
+        Potentials {
+            a_upper: -logarithm(rho + zeta),
+            a_lower: inverse,
+            g_upper: sum,
+            g_lower: inverse * sum,
+        }
+    }
+}
+
+/// The same at zeta = i s with |s| > r.
+#[inline]
+fn end_on_axis<const ORDER: i32>(s: f64, r: f64) -> Potentials<Complex64> {
+    let far = s.abs();
+    let w = ((far - r) * (far + r)).sqrt();
+    let inverse = 1.0 / w;
+    let sum = 1.0 / (w + far);
+    let imaginary = |v: f64| Complex64::new(0.0, v * 1.0_f64.copysign(s));
+    let real = |v: f64| Complex64::new(v, 0.0);
+    if ORDER == 0 {
+        let cube = inverse * inverse * inverse;
+        Potentials {
+            a_upper: imaginary(-inverse),
+            a_lower: real(-far * cube),
+            g_upper: real(-inverse * sum),
+            g_lower: imaginary(cube),
+        }
+    } else {
+        Potentials {
+            a_upper: Complex64::new(-(w + far).ln(), -FRAC_PI_2.copysign(s)),
+            a_lower: imaginary(-inverse),
+            g_upper: imaginary(-sum),
+            g_lower: real(-inverse * sum),
+        }
+    }
+}
+
+#[inline]
+fn reciprocal(v: Complex64) -> Complex64 {
+    let scale = 1.0 / v.norm_sqr();
+    Complex64::new(v.re * scale, -v.im * scale)
 }
 
 fn by_parts<const ORDER: i32>(profile: Profile, xi: Complex64, r: f64) -> Potentials<Complex64> {
@@ -160,14 +304,7 @@ impl End {
         end.log = if zeta.re == 0.0 && rho.re != 0.0 {
             Complex64::new(r.ln(), (zeta.im / r).clamp(-1.0, 1.0).asin())
         } else {
-            let sum = zeta + rho;
-            let modulus = sum.norm_sqr().max(f64::MIN_POSITIVE);
-            let angle = if sum.re == 0.0 {
-                FRAC_PI_2.copysign(sum.im)
-            } else {
-                sum.im.atan2(sum.re)
-            };
-            Complex64::new(0.5 * modulus.ln(), angle)
+            logarithm(zeta + rho)
         };
         end
     }
@@ -224,6 +361,18 @@ impl End {
     }
 }
 
+/// Principal logarithm; of zero it is finite.
+#[inline]
+fn logarithm(v: Complex64) -> Complex64 {
+    let modulus = v.norm_sqr().max(f64::MIN_POSITIVE);
+    let angle = if v.re == 0.0 {
+        FRAC_PI_2.copysign(v.im)
+    } else {
+        v.im.atan2(v.re)
+    };
+    Complex64::new(0.5 * modulus.ln(), angle)
+}
+
 /// sqrt(zeta + ir) sqrt(zeta - ir), the branch that is zeta at r = 0, for Re zeta >= 0.
 #[inline]
 fn root(zeta: Complex64, r: f64) -> Complex64 {
@@ -273,6 +422,46 @@ mod tests {
                     check(ahead.a_lower, behind.a_lower, here.a_lower);
                     check(ahead.g_upper, behind.g_upper, here.g_upper);
                     check(ahead.g_lower, behind.g_lower, here.g_lower);
+                }
+            }
+        }
+    }
+
+    /// The three closed forms agree where they overlap.
+    #[test]
+    fn primitives_agree_with_integration_by_parts() {
+        for r in [0.06, 0.4, 1.0, 3.0] {
+            for (x, y) in [
+                (0.0, 0.4),
+                (0.0, -2.5),
+                (0.0, 3.9),
+                (0.7, 0.2),
+                (2.5, 3.0),
+                (0.3, -3.0),
+            ] {
+                let xi = Complex64::new(x, y);
+                let pairs = [
+                    (
+                        potentials::<0>(Profile::Hertz, xi, r),
+                        by_parts::<0>(Profile::Hertz, xi, r),
+                    ),
+                    (
+                        potentials::<1>(Profile::Hertz, xi, r),
+                        by_parts::<1>(Profile::Hertz, xi, r),
+                    ),
+                ];
+                for (a, b) in pairs {
+                    let gap = [
+                        a.a_upper - b.a_upper,
+                        a.a_lower - b.a_lower,
+                        a.g_upper - b.g_upper,
+                        a.g_lower - b.g_lower,
+                    ];
+                    assert!(
+                        gap.iter()
+                            .all(|g| g.norm() < 1e-15 * (20.0 + 10.0 / (r * r))),
+                        "{r} {xi}: {gap:?}"
+                    );
                 }
             }
         }
