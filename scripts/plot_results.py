@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Draws a results file of `hertzlamb impact`: the impact above, the probes' displacements and stresses below.
 
-    .venv/bin/python scripts/plot_results.py impact.h5 impact.png
+.venv/bin/python scripts/plot_results.py impact.h5 impact.png
 """
 
 import sys
@@ -10,7 +10,7 @@ import h5py
 import matplotlib
 
 matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
+import matplotlib.pyplot as plt
 
 DISPLACEMENTS = {"displacement_z": "$w$, µm", "displacement_r": "$u$, µm"}
 STRESSES = {"stress_zz": r"$\sigma_{zz}$, MPa", "stress_rr": r"$\sigma_{rr}$, MPa"}

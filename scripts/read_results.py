@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Prints what a results file of `hertzlamb impact` holds.
 
-    .venv/bin/python scripts/read_results.py impact.h5
+.venv/bin/python scripts/read_results.py impact.h5
 """
 
 import sys
