@@ -69,9 +69,7 @@ impl FixedSingularities {
         let both = |v: Complex64| [v, -v];
         // x is infinite at u = i, p and y vanish together with a square root at the branch points
         let mut fast = vec![i];
-        for p in both(i * span.sqrt()) {
-            fast.push(k.sqrt() / (1.0 + p));
-        }
+        fast.push(k.sqrt() / (1.0 - i * span.sqrt()));
         let mut slow = vec![i];
         for s in both(i / span.sqrt()) {
             for c in both(root(1.0 - s * s)) {
@@ -98,6 +96,13 @@ impl FixedSingularities {
                     }
                 }
             }
+        }
+        // Far ones cost no node, and only the distance from the real axis counts.
+        for points in [&mut fast, &mut slow] {
+            points.retain(|v| v.re > -1.0 && v.norm() < 2.5);
+            points.iter_mut().for_each(|v| v.im = v.im.abs());
+            points.sort_by(|a, b| a.re.total_cmp(&b.re));
+            points.dedup_by(|b, a| (*b - *a).norm() < 1e-9);
         }
         let mut fast_with_origin = fast.clone();
         fast_with_origin.push(Complex64::default());

@@ -261,18 +261,3 @@ pub(crate) fn fields(m: &Amplitudes<f64>, psi: &Potentials<f64>, r: f64) -> Six 
         m.rz * psi.g_lower * r,
     ]
 }
-
-/// The real parts of the six fields from complex amplitudes and potentials.
-#[inline]
-pub(crate) fn real_fields(m: &Amplitudes<Complex64>, psi: &Potentials<Complex64>, r: f64) -> Six {
-    let re = |a: Complex64, b: Complex64| a.re * b.re - a.im * b.im;
-    let hoop = 2.0 * re(m.u, psi.g_upper);
-    [
-        0.5 * hoop * r,
-        re(m.w, psi.a_upper),
-        re(m.rr, psi.a_lower) - hoop,
-        re(m.tt, psi.a_lower) + hoop,
-        re(m.zz, psi.a_lower),
-        re(m.rz, psi.g_lower) * r,
-    ]
-}

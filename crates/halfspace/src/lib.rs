@@ -15,6 +15,7 @@ mod gauss;
 pub mod kausel;
 mod kernel;
 mod medium;
+mod multipole;
 mod panels;
 mod potential;
 mod profile;

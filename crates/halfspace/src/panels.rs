@@ -15,7 +15,7 @@ const MOST_NODES: f64 = 20.0;
 const NARROWEST: f64 = 1e-9;
 
 /// Most cuts or singularities that an integrand of this crate has.
-const CAPACITY: usize = 48;
+const CAPACITY: usize = 40;
 
 /// The interval [0, 1] of a smooth variable with everything that is not smooth near it.
 #[derive(Debug, Clone, Copy)]

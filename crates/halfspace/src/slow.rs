@@ -1,18 +1,20 @@
 //! Slownesses between one and 1/kappa: longitudinal waves bound to the surface, shear waves that travel.
 
 use crate::fronts::{self, Point};
-use crate::kernel::{Kernel, Sum, real_fields};
+use crate::kernel::{Kernel, Sum, fields};
 use crate::panels::Landscape;
 use crate::potential::{Potentials, potentials};
 use crate::spectrum::{self, Wave};
 use num_complex::Complex64;
 
-/// One slowness with the vertical slownesses that belong to it.
+/// One slowness with the vertical slownesses that belong to it and 1/R = re + i im.
 #[derive(Debug, Clone, Copy)]
 struct Slowness {
     x: f64,
     p_abs: f64,
     y: f64,
+    re: f64,
+    im: f64,
 }
 
 impl Kernel {
@@ -27,49 +29,65 @@ impl Kernel {
                 let p_abs = span * 2.0 * q * inverse;
                 let y = span * (1.0 - q) * (1.0 + q) * inverse;
                 let x = (1.0 + p_abs * p_abs).sqrt();
-                let psi = self.both_senses::<ORDER>(at, wave, Slowness { x, p_abs, y });
+                let (re, im) = spectrum::inverse_rayleigh(self.k, x, p_abs, y);
+                let slowness = Slowness {
+                    x,
+                    p_abs,
+                    y,
+                    re,
+                    im,
+                };
+                let psi = match wave {
+                    Wave::P => self.longitudinal::<ORDER>(at, slowness),
+                    Wave::S => self.shear::<ORDER>(at, slowness),
+                };
                 let amplitudes = spectrum::slow(wave, self.k, x, p_abs, y);
                 // dx = p^ dp^/x, dp^ = 2 y/(1 + q^2) dq
                 let jacobian = p_abs * 2.0 * y * inverse / x;
-                sum.add(weight * jacobian, real_fields(&amplitudes, &psi, at.r));
+                sum.add(weight * jacobian, fields(&amplitudes, &psi, at.r));
             });
         }
     }
 
-    /// Psi(xi-) + Psi(xi+), or i x times their difference for the time integral.
+    /// Re of -i/R times the sum of both senses, or times i x their difference for the time integral.
+    ///
+    /// xi+ is the conjugate of xi-, so the potentials combine to real numbers.
     #[inline]
-    fn both_senses<const ORDER: i32>(
-        &self,
-        at: Point,
-        wave: Wave,
-        Slowness { x, p_abs, y }: Slowness,
-    ) -> Potentials<Complex64> {
-        match wave {
-            Wave::P => {
-                // xi+ is the conjugate of xi-, and so are the potentials
-                let xi = Complex64::new(at.z * p_abs / x, -at.t / x);
-                let psi = potentials::<ORDER>(self.profile(), xi, at.r);
-                psi.map(|v| (2.0 * if ORDER == 0 { v.re } else { x * v.im }).into())
+    fn longitudinal<const ORDER: i32>(&self, at: Point, n: Slowness) -> Potentials<f64> {
+        let inverse = 1.0 / n.x;
+        let xi = Complex64::new(at.z * n.p_abs * inverse, -at.t * inverse);
+        let factor = 2.0 * n.im;
+        potentials::<ORDER>(self.profile(), xi, at.r).map(|v| {
+            if ORDER == 0 {
+                factor * v.re
+            } else {
+                factor * n.x * v.im
             }
-            Wave::S => {
-                let outgoing = Complex64::new(0.0, (at.z * y - at.t) / x);
-                let image = Complex64::new(0.0, (at.z * y + at.t) / x);
-                let minus = potentials::<ORDER>(self.profile(), outgoing, at.r);
-                let plus = potentials::<ORDER>(self.profile(), image, at.r);
-                let fold = |m: Complex64, p: Complex64| {
-                    if ORDER == 0 {
-                        m + p
-                    } else {
-                        Complex64::new(x * (m.im - p.im), x * (p.re - m.re))
-                    }
-                };
-                Potentials {
-                    a_upper: fold(minus.a_upper, plus.a_upper),
-                    a_lower: fold(minus.a_lower, plus.a_lower),
-                    g_upper: fold(minus.g_upper, plus.g_upper),
-                    g_lower: fold(minus.g_lower, plus.g_lower),
-                }
+        })
+    }
+
+    /// The same for the shear wave, whose arguments are imaginary; u and the normal stresses take 1/R.
+    #[inline]
+    fn shear<const ORDER: i32>(&self, at: Point, n: Slowness) -> Potentials<f64> {
+        let inverse = 1.0 / n.x;
+        let argument = |t: f64| Complex64::new(0.0, (at.z * n.y + t) * inverse);
+        let minus = potentials::<ORDER>(self.profile(), argument(-at.t), at.r);
+        let plus = potentials::<ORDER>(self.profile(), argument(at.t), at.r);
+        let both = |m: Complex64, p: Complex64| {
+            if ORDER == 0 {
+                m + p
+            } else {
+                Complex64::new(n.x * (m.im - p.im), n.x * (p.re - m.re))
             }
+        };
+        // Re[(re + i im) v] and Re[-i (re + i im) v]
+        let over_r = |v: Complex64| n.re * v.re - n.im * v.im;
+        let over_ir = |v: Complex64| n.im * v.re + n.re * v.im;
+        Potentials {
+            a_upper: over_ir(both(minus.a_upper, plus.a_upper)),
+            a_lower: over_r(both(minus.a_lower, plus.a_lower)),
+            g_upper: over_r(both(minus.g_upper, plus.g_upper)),
+            g_lower: over_ir(both(minus.g_lower, plus.g_lower)),
         }
     }
 }

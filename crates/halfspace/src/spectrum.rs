@@ -2,10 +2,10 @@
 //!
 //! With slowness x = 1/w, p = sqrt(1 - x^2), y = sqrt(K - x^2), K = 1/kappa^2 and the Rayleigh function
 //! R = (2 x^2 - K)^2 + 4 x^2 p y, the integrand N dw/(i w D) of a wave is amplitude times potential, dx.
-//! Below x = 1 every amplitude is real or imaginary; above it p = -i sqrt(x^2 - 1) and all are complex.
+//! Below x = 1 every amplitude is real or imaginary; above it p = -i sqrt(x^2 - 1), R is complex, and every
+//! amplitude is a real number over R or over i R.
 
 use crate::medium::Medium;
-use num_complex::Complex64;
 
 /// The two body waves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -67,38 +67,44 @@ pub(crate) fn fast(wave: Wave, k: f64, x: f64, p: f64) -> Amplitudes<f64> {
     }
 }
 
-/// Amplitudes at slowness 1 < x < 1/kappa, p = -i `p_abs`.
+/// 1/R = re + i im at slowness 1 < x < 1/kappa, where p = -i `p_abs`.
 #[inline]
-pub(crate) fn slow(wave: Wave, k: f64, x: f64, p_abs: f64, y: f64) -> Amplitudes<Complex64> {
+pub(crate) fn inverse_rayleigh(k: f64, x: f64, p_abs: f64, y: f64) -> (f64, f64) {
+    let x2 = x * x;
+    let square = (2.0 * x2 - k) * (2.0 * x2 - k);
+    let both = 4.0 * x2 * p_abs * y;
+    let scale = 1.0 / (square * square + both * both);
+    (square * scale, both * scale)
+}
+
+/// Amplitudes at slowness 1 < x < 1/kappa over 1/R or -i/R: every one is real up to that factor.
+///
+/// For P the factor is -i/R throughout; for S it is -i/R of `w` and `rz` and 1/R of the others.
+#[inline]
+pub(crate) fn slow(wave: Wave, k: f64, x: f64, p_abs: f64, y: f64) -> Amplitudes<f64> {
     let x2 = x * x;
     let g = 2.0 * x2 - k;
-    let both = 4.0 * x2 * p_abs * y;
-    let square = g * g;
-    // 1/R with R = g^2 - i both
-    let inverse = Complex64::new(square, both) / (square * square + both * both);
-    let p = Complex64::new(0.0, -p_abs);
-    let minus_i = Complex64::new(0.0, -1.0);
     match wave {
         Wave::P => {
-            let over_x = minus_i * inverse * (g / x);
+            let over_x = g / x;
             Amplitudes {
-                w: p * inverse * g,
+                w: p_abs * g,
                 u: over_x * x2,
                 zz: -over_x * g,
-                rz: -2.0 * p * inverse * g,
+                rz: -2.0 * p_abs * g,
                 rr: over_x * (2.0 * x2 + k - 2.0),
                 tt: over_x * (k - 2.0),
             }
         }
         Wave::S => {
-            let cross = minus_i * p * inverse * (4.0 * x * y);
+            let cross = -4.0 * x * p_abs * y;
             Amplitudes {
-                w: -2.0 * p * inverse * x2,
+                w: -2.0 * p_abs * x2,
                 u: 0.5 * cross,
                 zz: -cross,
-                rz: 2.0 * p * inverse * g,
+                rz: 2.0 * p_abs * g,
                 rr: cross,
-                tt: Complex64::default(),
+                tt: 0.0,
             }
         }
     }
