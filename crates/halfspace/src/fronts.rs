@@ -18,7 +18,8 @@
 //! Other singularities are fixed: zeros of the Rayleigh function on neighbouring sheets and branch points.
 
 use crate::medium::Medium;
-use crate::panels::{Landscape, root};
+use crate::panels::{Landscape, root, smallest_ellipse};
+use crate::potential::logarithm;
 use crate::spectrum::Wave;
 use num_complex::Complex64;
 
@@ -55,8 +56,70 @@ pub(crate) struct FixedSingularities {
     pub(crate) fast: Vec<Complex64>,
     /// In u, with slowness zero, where the argument of the potentials is infinite.
     pub(crate) fast_with_origin: Vec<Complex64>,
-    /// In q.
+    /// In the stretched variable of the slow interval.
     pub(crate) slow: Vec<Complex64>,
+    pub(crate) stretch: Stretch,
+}
+
+/// A stretched variable s of the slow interval, q = centre + width sinh(rate s - shift), 0 <= s <= 1.
+///
+/// A zero of the Rayleigh function on the neighbouring sheet lies near the slow interval; the stretch
+/// moves it away as far as the Rayleigh pole beyond the other end allows.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Stretch {
+    centre: f64,
+    width: f64,
+    rate: f64,
+    shift: f64,
+}
+
+impl Stretch {
+    fn new(centre: f64, width: f64) -> Self {
+        let shift = (centre / width).asinh();
+        Self {
+            centre,
+            width,
+            rate: ((1.0 - centre) / width).asinh() + shift,
+            shift,
+        }
+    }
+
+    /// The stretch that keeps the given points farthest from the interval.
+    fn farthest(points: &[Complex64]) -> Self {
+        let nearest = points
+            .iter()
+            .filter(|v| v.re < 0.5)
+            .min_by(|a, b| a.norm_sqr().total_cmp(&b.norm_sqr()));
+        let centre = nearest.map_or(0.0, |v| v.re.clamp(0.0, 0.5));
+        let ellipse = |stretch: &Self| {
+            let images: Vec<Complex64> = points.iter().map(|&q| stretch.variable(q)).collect();
+            smallest_ellipse(&images, 0.0, 1.0)
+        };
+        (-14..=4)
+            .map(|i| Self::new(centre, 2.0_f64.powf(0.5 * f64::from(i))))
+            .max_by(|a, b| ellipse(a).total_cmp(&ellipse(b)))
+            .unwrap_or(Self::new(0.0, 1.0))
+    }
+
+    /// q and dq/ds at s.
+    #[inline]
+    pub(crate) fn half_angle(&self, s: f64) -> (f64, f64) {
+        let e = (self.rate * s - self.shift).exp();
+        let half = 0.5 * self.width;
+        let inverse = 1.0 / e;
+        (
+            self.centre + half * (e - inverse),
+            half * self.rate * (e + inverse),
+        )
+    }
+
+    /// s of a real or complex q.
+    fn variable(&self, q: Complex64) -> Complex64 {
+        let w = (q - self.centre) / self.width;
+        let (right, sign) = if w.re < 0.0 { (-w, -1.0) } else { (w, 1.0) };
+        let sinh = logarithm(right + root(right * right + 1.0));
+        (sign * sinh + self.shift) / self.rate
+    }
 }
 
 impl FixedSingularities {
@@ -106,10 +169,12 @@ impl FixedSingularities {
         }
         let mut fast_with_origin = fast.clone();
         fast_with_origin.push(Complex64::default());
+        let stretch = Stretch::farthest(&slow);
         Self {
             fast,
             fast_with_origin,
-            slow,
+            slow: slow.into_iter().map(|q| stretch.variable(q)).collect(),
+            stretch,
         }
     }
 }
@@ -124,13 +189,13 @@ pub(crate) fn add_fast(
     sense: Sense,
 ) {
     for_each_front(at, radius, k, wave, sense, |v| match wave {
-        Wave::P => add_with_mirror(landscape, v),
+        Wave::P => with_mirror(v, |u| landscape.add(u)),
         Wave::S => {
             let (x, y) = (k.sqrt() * sine(v), cosine(v));
             if y.re > 0.0 {
                 let u = x / (1.0 + root(1.0 - x * x));
-                add_with_mirror(landscape, u);
-                add_reciprocal(landscape, u);
+                with_mirror(u, |u| landscape.add(u));
+                with_reciprocal(u, |u| landscape.add(u));
             }
         }
     });
@@ -140,49 +205,61 @@ pub(crate) fn add_fast(
 ///
 /// Reversing time turns q into its reciprocal, and the other sheet of the root that a wave does not
 /// contain turns it into its negative.
-pub(crate) fn add_slow(landscape: &mut Landscape, at: Point, radius: f64, k: f64, wave: Wave) {
+pub(crate) fn add_slow(
+    landscape: &mut Landscape,
+    at: Point,
+    radius: f64,
+    k: f64,
+    stretch: &Stretch,
+    wave: Wave,
+) {
     let span = (k - 1.0).sqrt();
-    for_each_front(at, radius, k, wave, Sense::Outgoing, |v| {
-        let q = match wave {
-            Wave::P => {
-                let s = Complex64::i() * cosine(v) / span;
-                s / (1.0 + root(1.0 - s * s))
-            }
-            Wave::S => {
-                let c = cosine(v) * (k.sqrt() / span);
-                root(1.0 - c * c) / (1.0 + c)
-            }
-        };
-        add_with_mirror(landscape, q);
-        add_reciprocal(landscape, q);
+    let mut add = |q: Complex64| {
+        with_mirror(q, |q| landscape.add(stretch.variable(q)));
+        with_reciprocal(q, |q| landscape.add(stretch.variable(q)));
+    };
+    for_each_front(at, radius, k, wave, Sense::Outgoing, |v| match wave {
+        Wave::P => {
+            let s = Complex64::i() * cosine(v) / span;
+            add(s / (1.0 + root(1.0 - s * s)));
+        }
+        Wave::S => {
+            let c = cosine(v) * (k.sqrt() / span);
+            add(root(1.0 - c * c) / (1.0 + c));
+        }
     });
     if at.z == 0.0 && wave == Wave::P {
         // On the surface the longitudinal fronts x = t/|e| are singular at any slowness.
         for e in edges(at.r, radius) {
             let s2 = ((at.t / e).powi(2) - 1.0) / (k - 1.0);
             if s2 > 0.0 && s2 < 1.0 {
-                landscape.add((s2.sqrt() / (1.0 + (1.0 - s2).sqrt())).into());
+                add((s2.sqrt() / (1.0 + (1.0 - s2).sqrt())).into());
             }
         }
     }
 }
 
-/// Adds a point and its negative: the one on the right, and the other where it is near enough to matter.
-fn add_with_mirror(landscape: &mut Landscape, point: Complex64) {
+/// Passes on a point and its negative: the one on the right, and the other where it is near enough to matter.
+fn with_mirror(point: Complex64, mut add: impl FnMut(Complex64)) {
     const NEAR_ZERO: f64 = 0.3;
+    /// Beyond this a half-angle costs no node.
+    const FAR: f64 = 2.5;
     let right = if point.re < 0.0 { -point } else { point };
-    landscape.add(right);
+    if right.norm_sqr() > FAR * FAR {
+        return;
+    }
+    add(right);
     if right.norm_sqr() < NEAR_ZERO * NEAR_ZERO {
-        landscape.add(-right);
+        add(-right);
     }
 }
 
-/// Adds the reciprocal of a point, or its negative, where it is near enough to matter.
-fn add_reciprocal(landscape: &mut Landscape, point: Complex64) {
+/// Passes on the reciprocal of a point, or its negative, where it is near enough to matter.
+fn with_reciprocal(point: Complex64, mut add: impl FnMut(Complex64)) {
     const NEAR_ONE: f64 = 0.4;
     if point.norm_sqr() > NEAR_ONE * NEAR_ONE {
         let reciprocal = 1.0 / point;
-        landscape.add(if reciprocal.re < 0.0 {
+        add(if reciprocal.re < 0.0 {
             -reciprocal
         } else {
             reciprocal

@@ -17,9 +17,9 @@ use num_complex::Complex64;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Most terms of the series.
-const MOST_TERMS: usize = 9;
+const MOST_TERMS: usize = 8;
 
-/// Number of terms that reach rounding level, or nothing when xi is too near.
+/// Number of terms that reach 1e-13 of the first, or nothing when xi is too near.
 ///
 /// The distance is half the sum of the distances of the singularities sigma = -i xi +- r from the ends of
 /// the chord.

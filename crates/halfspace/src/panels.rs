@@ -9,7 +9,7 @@ use crate::gauss;
 use num_complex::Complex64;
 
 /// Panels are halved rather than given more nodes than this.
-const MOST_NODES: f64 = 20.0;
+const MOST_NODES: f64 = 24.0;
 
 /// A panel narrower than this share of its piece is taken as it is.
 const NARROWEST: f64 = 1e-9;
@@ -182,7 +182,7 @@ fn panels(images: &List<Complex64>, digits: f64, f: &mut impl FnMut(f64, f64)) {
 }
 
 /// Sum of half axes of the smallest ellipse with foci s0, s1 through a singularity, focal distance 2.
-fn smallest_ellipse(images: &[Complex64], s0: f64, s1: f64) -> f64 {
+pub(crate) fn smallest_ellipse(images: &[Complex64], s0: f64, s1: f64) -> f64 {
     let (middle, inverse) = (0.5 * (s0 + s1), 2.0 / (s1 - s0));
     // what was left out as too far to matter
     let mut least = 7.0_f64;

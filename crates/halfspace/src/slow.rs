@@ -22,9 +22,18 @@ impl Kernel {
     pub(crate) fn slow<const ORDER: i32>(&self, at: Point, wave: Wave, sum: &mut Sum) {
         let span = (self.k - 1.0).sqrt();
         let mut landscape = Landscape::new(&self.fixed.slow);
-        fronts::add_slow(&mut landscape, at, self.profile().radius(), self.k, wave);
+        let stretch = &self.fixed.stretch;
+        fronts::add_slow(
+            &mut landscape,
+            at,
+            self.profile().radius(),
+            self.k,
+            stretch,
+            wave,
+        );
         for interval in landscape.intervals() {
-            landscape.visit(interval, self.digits(), &mut |q, weight| {
+            landscape.visit(interval, self.digits(), &mut |s, weight| {
+                let (q, dq) = stretch.half_angle(s);
                 let inverse = 1.0 / (1.0 + q * q);
                 let p_abs = span * 2.0 * q * inverse;
                 let y = span * (1.0 - q) * (1.0 + q) * inverse;
@@ -43,7 +52,7 @@ impl Kernel {
                 };
                 let amplitudes = spectrum::slow(wave, self.k, x, p_abs, y);
                 // dx = p^ dp^/x, dp^ = 2 y/(1 + q^2) dq
-                let jacobian = p_abs * 2.0 * y * inverse / x;
+                let jacobian = p_abs * 2.0 * y * inverse / x * dq;
                 sum.add(weight * jacobian, fields(&amplitudes, &psi, at.r));
             });
         }
