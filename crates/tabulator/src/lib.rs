@@ -1,1 +1,22 @@
-//! Fills kernel tables of the elastic half-space.
+//! Fills kernel tables of the elastic half-space: grid, exact values, verification, one complete file.
+//!
+//! A table is built from blocks, each one row of points of one slice; a block depends on the settings
+//! alone, so the bytes of the table do not depend on threads, interruptions or the order of work.
+
+mod axis;
+mod blocks;
+mod build;
+mod error;
+mod grid;
+mod point;
+mod progress;
+mod tail_fit;
+mod verify;
+
+pub use axis::Axis;
+pub use build::{Existing, Summary, build, build_over};
+pub use error::BuildError;
+pub use grid::Grid;
+pub use point::{PointKernels, PointPlan};
+pub use progress::{Progress, Silent};
+pub use verify::{PULSE_LENGTHS, quantile};

@@ -1,0 +1,75 @@
+//! Identity of the settings and checksum of the content.
+
+use crate::content::Content;
+use crate::schema;
+use sha2::{Digest, Sha256};
+use std::fmt::Write;
+
+/// Identity of a table: the first 16 hexadecimal digits of SHA-256 over the format version and the resolved grid.
+///
+/// Two tables with the same id were made with the same settings, whatever the machine or the date.
+#[must_use]
+pub fn settings_id(grid: &str) -> String {
+    let mut hash = Sha256::new();
+    hash.update(schema::FORMAT_VERSION_VALUE.as_bytes());
+    hash.update([0]);
+    hash.update(grid.as_bytes());
+    let mut id = hex(&hash.finalize());
+    id.truncate(16);
+    id
+}
+
+/// SHA-256 over everything in a table except the creation time, the software version and the revision.
+///
+/// Numbers enter as little-endian bytes, lengths and texts before them, in the order of [`Content`].
+#[must_use]
+pub fn content_hash(content: &Content) -> String {
+    let mut hash = Sha256::new();
+    hash.update(content.origin.grid.as_bytes());
+    hash.update(content.origin.accuracy_asked.to_le_bytes());
+    hash.update(content.cell_width.to_le_bytes());
+    hash.update((content.stencil_points as u64).to_le_bytes());
+    for axis in [
+        &content.origin.accuracy_reached,
+        &content.r,
+        &content.z,
+        &content.pulse_lengths,
+    ] {
+        hash.update((axis.len() as u64).to_le_bytes());
+        for value in axis {
+            hash.update(value.to_le_bytes());
+        }
+    }
+    for slice in &content.slices {
+        hash.update(slice.poisson_ratio.to_le_bytes());
+        hash.update((slice.cells as u64).to_le_bytes());
+        let probes = &slice.verification;
+        for array in [
+            &slice.remainder,
+            &slice.moment,
+            &slice.tail,
+            &probes.direct,
+            &probes.looked_up,
+            &probes.error,
+        ] {
+            hash.update((array.len() as u64).to_le_bytes());
+            let mut bytes = Vec::with_capacity(1 << 16);
+            for chunk in array.chunks(1 << 14) {
+                bytes.clear();
+                bytes.extend(chunk.iter().flat_map(|value| value.to_le_bytes()));
+                hash.update(&bytes);
+            }
+        }
+    }
+    hex(&hash.finalize())
+}
+
+fn hex(bytes: &[u8]) -> String {
+    bytes
+        .iter()
+        .fold(String::with_capacity(2 * bytes.len()), |mut text, byte| {
+            // Writing to a String cannot fail.
+            let _ = write!(text, "{byte:02x}");
+            text
+        })
+}

@@ -1,0 +1,42 @@
+//! Dimension scales: the one piece of the HDF5 interface that no Rust crate offers.
+
+use hdf5::Dataset;
+use hdf5_sys::h5i::hid_t;
+use std::ffi::{CString, c_char, c_int, c_uint};
+
+/// Makes `scale` a dimension scale called `name`.
+pub(crate) fn set_scale(scale: &Dataset, name: &str) -> Result<(), hdf5::Error> {
+    let name = CString::new(name).map_err(|_| hdf5::Error::from("a scale's name holds a NUL"))?;
+    // SAFETY: both arguments outlive the call, the dataset is open, and the lock of the library is held.
+    #[allow(unsafe_code)]
+    let status = hdf5::sync::sync(|| unsafe { H5DSset_scale(scale.id(), name.as_ptr()) });
+    done(status, "H5DSset_scale failed")
+}
+
+/// Attaches `scale` to dimension `index` of `data`.
+pub(crate) fn attach_scale(
+    data: &Dataset,
+    scale: &Dataset,
+    index: usize,
+) -> Result<(), hdf5::Error> {
+    // SAFETY: both datasets are open and the lock of the library is held.
+    #[allow(unsafe_code)]
+    let status =
+        hdf5::sync::sync(|| unsafe { H5DSattach_scale(data.id(), scale.id(), index as c_uint) });
+    done(status, "H5DSattach_scale failed")
+}
+
+fn done(status: c_int, message: &str) -> Result<(), hdf5::Error> {
+    if status < 0 {
+        Err(hdf5::Error::from(message))
+    } else {
+        Ok(())
+    }
+}
+
+// SAFETY: the signatures of hdf5_hl.h, version 1.8 and later.
+#[allow(unsafe_code, non_snake_case)]
+unsafe extern "C" {
+    fn H5DSset_scale(dataset: hid_t, name: *const c_char) -> c_int;
+    fn H5DSattach_scale(dataset: hid_t, scale: hid_t, index: c_uint) -> c_int;
+}

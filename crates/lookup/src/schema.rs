@@ -1,0 +1,120 @@
+//! Every name of the kernel-table format, in one place.
+//!
+//! `data-schema/kernel-table.md` describes what they hold; a test compares the two.
+
+/// Value of [`FILE_TYPE`] in every kernel table.
+pub const FILE_TYPE_VALUE: &str = "hertzlamb kernel table";
+/// Version of the format that this program writes: major.minor.
+pub const FORMAT_VERSION_VALUE: &str = "1.0";
+/// Major versions that this program reads.
+pub const MAJOR_READ: u32 = 1;
+
+/// Root attribute: what kind of file this is.
+pub const FILE_TYPE: &str = "file_type";
+/// Root attribute: format version, `major.minor`.
+pub const FORMAT_VERSION: &str = "format_version";
+/// Root attribute: version of the program that wrote the file.
+pub const SOFTWARE_VERSION: &str = "software_version";
+/// Root attribute: git revision of that program, or `unknown`.
+pub const GIT_REVISION: &str = "git_revision";
+/// Root attribute: creation time, seconds since 1970 (UTC). Not part of the content hash.
+pub const CREATED: &str = "created_unix_s";
+/// Root attribute: identity of the settings, 16 hexadecimal digits.
+pub const ID: &str = "id";
+/// Root attribute: the resolved grid as TOML.
+pub const GRID: &str = "grid";
+/// Root attribute: SHA-256 of the content, 64 hexadecimal digits.
+pub const CONTENT_SHA256: &str = "content_sha256";
+/// Root attribute: width of a time cell in r0/c1.
+pub const CELL_WIDTH: &str = "cell_width";
+/// Root attribute: interpolation points along each axis.
+pub const STENCIL_POINTS: &str = "stencil_points";
+/// Root attribute: tolerance asked of the exact kernels.
+pub const ACCURACY_ASKED: &str = "accuracy_asked";
+/// Root attribute: p99 over all probes of the error relative to the field's peak, per pulse length.
+pub const ACCURACY_REACHED: &str = "accuracy_reached";
+
+/// Dataset and scale: radial nodes.
+pub const R: &str = "r";
+/// Dataset and scale: depth nodes.
+pub const Z: &str = "z";
+/// Dataset and scale: names of the fields.
+pub const FIELD: &str = "field";
+/// Dataset and scale: radii of the verification probes.
+pub const PROBE_R: &str = "probe_r";
+/// Dataset and scale: depths of the verification probes.
+pub const PROBE_Z: &str = "probe_z";
+/// Dataset and scale: lengths of the verification pulses.
+pub const PULSE_LENGTH: &str = "pulse_length";
+/// Group: one subgroup for each Poisson ratio.
+pub const SLICES: &str = "slices";
+
+/// Slice attribute: Poisson's ratio.
+pub const POISSON_RATIO: &str = "poisson_ratio";
+/// Slice attribute: end of the last time cell.
+pub const TIME_END: &str = "time_end";
+/// Slice dataset and scale: start of each time cell.
+pub const TIME: &str = "time";
+/// Slice dataset: cell averages of the remainder.
+pub const REMAINDER: &str = "remainder";
+/// Slice dataset: first moments of the remainder in each cell.
+pub const MOMENT: &str = "moment";
+/// Slice dataset: Chebyshev coefficients of the decay after the last cell.
+pub const TAIL: &str = "tail";
+/// Slice dataset: peak of the exact response at each probe.
+pub const PROBE_DIRECT: &str = "probe_direct";
+/// Slice dataset: looked-up response at the instant of that peak.
+pub const PROBE_LOOKED_UP: &str = "probe_looked_up";
+/// Slice dataset: largest difference in time between the two responses.
+pub const PROBE_ERROR: &str = "probe_error";
+
+/// Attribute of every dataset: its unit.
+pub const UNITS: &str = "units";
+/// Attribute of every dataset: what it is.
+pub const LONG_NAME: &str = "long_name";
+
+/// Names of the six fields in the order of [`halfspace::FIELDS`].
+pub const FIELD_NAMES: [&str; 6] = [
+    "displacement_r",
+    "displacement_z",
+    "stress_rr",
+    "stress_tt",
+    "stress_zz",
+    "stress_rz",
+];
+
+/// Root attributes.
+pub const ROOT_ATTRIBUTES: [&str; 12] = [
+    FILE_TYPE,
+    FORMAT_VERSION,
+    SOFTWARE_VERSION,
+    GIT_REVISION,
+    CREATED,
+    ID,
+    GRID,
+    CONTENT_SHA256,
+    CELL_WIDTH,
+    STENCIL_POINTS,
+    ACCURACY_ASKED,
+    ACCURACY_REACHED,
+];
+/// Datasets at the root.
+pub const ROOT_DATASETS: [&str; 6] = [R, Z, FIELD, PROBE_R, PROBE_Z, PULSE_LENGTH];
+/// Attributes of a slice.
+pub const SLICE_ATTRIBUTES: [&str; 2] = [POISSON_RATIO, TIME_END];
+/// Datasets of a slice.
+pub const SLICE_DATASETS: [&str; 7] = [
+    TIME,
+    REMAINDER,
+    MOMENT,
+    TAIL,
+    PROBE_DIRECT,
+    PROBE_LOOKED_UP,
+    PROBE_ERROR,
+];
+
+/// Name of the group of one slice: `nu_` and the shortest decimal form of Poisson's ratio.
+#[must_use]
+pub fn slice_name(poisson_ratio: f64) -> String {
+    format!("nu_{poisson_ratio}")
+}

@@ -1,0 +1,200 @@
+//! Lagrange interpolation on one axis, with the mirror image across r = 0.
+
+/// Largest number of points of a stencil.
+pub(crate) const MAX_POINTS: usize = 8;
+
+/// Index of the interval [nodes\[i\], nodes\[i+1\]] that holds `x`; the last interval is closed.
+///
+/// `nodes` ascend strictly and have at least two entries. Returns `None` outside, and for NaN.
+#[must_use]
+pub fn locate(nodes: &[f64], x: f64) -> Option<usize> {
+    let last = *nodes.last()?;
+    if !(x >= nodes[0] && x <= last) {
+        return None;
+    }
+    Some(
+        nodes
+            .partition_point(|&node| node <= x)
+            .clamp(1, nodes.len() - 1)
+            - 1,
+    )
+}
+
+/// The nodes that take part in an interpolation and their weights.
+///
+/// At a node the weights are exactly one and zeros, so that a table returns its own values there.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stencil {
+    points: usize,
+    node: [usize; MAX_POINTS],
+    even: [f64; MAX_POINTS],
+    odd: [f64; MAX_POINTS],
+}
+
+impl Stencil {
+    /// Stencil of `points` (at most 8, at most the number of nodes) around `x`, one-sided at both ends.
+    #[must_use]
+    pub fn one_sided(nodes: &[f64], x: f64, points: usize) -> Option<Self> {
+        let interval = locate(nodes, x)?;
+        let points = points.min(nodes.len()).min(MAX_POINTS);
+        let first = (interval + 1)
+            .saturating_sub(points / 2)
+            .min(nodes.len() - points);
+        let mut stencil = Self {
+            points,
+            node: [0; MAX_POINTS],
+            even: [0.0; MAX_POINTS],
+            odd: [0.0; MAX_POINTS],
+        };
+        for k in 0..points {
+            let weight = weight(|j| nodes[first + j], points, k, x);
+            (stencil.node[k], stencil.even[k], stencil.odd[k]) = (first + k, weight, weight);
+        }
+        Some(stencil)
+    }
+
+    /// Stencil around `x` on an axis that starts at r = 0, continued to negative r by its mirror image.
+    ///
+    /// A mirrored node -nodes\[i\] adds its weight to node i: with its sign for even fields
+    /// ([`Self::even`]) and against it for odd ones ([`Self::odd`]).
+    #[must_use]
+    pub fn mirrored(nodes: &[f64], x: f64, points: usize) -> Option<Self> {
+        let interval = locate(nodes, x)?;
+        let points = points.min(nodes.len()).min(MAX_POINTS);
+        let first =
+            (interval as isize + 1 - (points / 2) as isize).min((nodes.len() - points) as isize);
+        let position = |j: usize| {
+            let i = first + j as isize;
+            if i < 0 {
+                -nodes[i.unsigned_abs()]
+            } else {
+                nodes[i.unsigned_abs()]
+            }
+        };
+        let base = first.max(0) as usize;
+        let mut stencil = Self {
+            points: 0,
+            node: [0; MAX_POINTS],
+            even: [0.0; MAX_POINTS],
+            odd: [0.0; MAX_POINTS],
+        };
+        for k in 0..points {
+            let index = first + k as isize;
+            let weight = weight(position, points, k, x);
+            let slot = index.unsigned_abs() - base;
+            stencil.node[slot] = index.unsigned_abs();
+            stencil.even[slot] += weight;
+            stencil.odd[slot] += if index < 0 { -weight } else { weight };
+            stencil.points = stencil.points.max(slot + 1);
+        }
+        Some(stencil)
+    }
+
+    /// Indices of the nodes, ascending.
+    #[must_use]
+    pub fn nodes(&self) -> &[usize] {
+        &self.node[..self.points]
+    }
+
+    /// Weights of a field that is even across r = 0.
+    #[must_use]
+    pub fn even(&self) -> &[f64] {
+        &self.even[..self.points]
+    }
+
+    /// Weights of a field that is odd across r = 0.
+    #[must_use]
+    pub fn odd(&self) -> &[f64] {
+        &self.odd[..self.points]
+    }
+}
+
+/// Lagrange's basis polynomial of point `k` at `x`.
+fn weight(position: impl Fn(usize) -> f64, points: usize, k: usize, x: f64) -> f64 {
+    let own = position(k);
+    (0..points)
+        .filter(|&j| j != k)
+        .map(|j| (x - position(j)) / (own - position(j)))
+        .product()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn axis() -> Vec<f64> {
+        (0..13)
+            .map(|i| 0.125 * i as f64 + 0.01 * (i * i) as f64)
+            .collect()
+    }
+
+    fn sum(weights: &[f64], nodes: &[usize], f: impl Fn(usize) -> f64) -> f64 {
+        weights.iter().zip(nodes).map(|(w, &i)| w * f(i)).sum()
+    }
+
+    #[test]
+    fn polynomials_of_the_stencils_degree_are_exact() {
+        let axis = axis();
+        for points in [2, 4, 6, 8] {
+            for step in 0..=300 {
+                let x = axis[12] * f64::from(step) / 300.0;
+                let one_sided = Stencil::one_sided(&axis, x, points).unwrap();
+                let mirrored = Stencil::mirrored(&axis, x, points).unwrap();
+                for degree in 0..points as i32 {
+                    let f = |i: usize| axis[i].powi(degree);
+                    let exact = x.powi(degree);
+                    let scale = 1e-11 * axis[12].powi(degree);
+                    assert!((sum(one_sided.even(), one_sided.nodes(), f) - exact).abs() < scale);
+                    let weights = if degree % 2 == 0 {
+                        mirrored.even()
+                    } else {
+                        mirrored.odd()
+                    };
+                    assert!((sum(weights, mirrored.nodes(), f) - exact).abs() < scale);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn nodes_are_returned_exactly() {
+        let axis = axis();
+        for (i, &x) in axis.iter().enumerate() {
+            for stencil in [
+                Stencil::one_sided(&axis, x, 6),
+                Stencil::mirrored(&axis, x, 6),
+            ] {
+                let stencil = stencil.unwrap();
+                for ((&node, &even), &odd) in stencil
+                    .nodes()
+                    .iter()
+                    .zip(stencil.even())
+                    .zip(stencil.odd())
+                {
+                    let expected = if node == i { 1.0 } else { 0.0 };
+                    assert_eq!(even, expected);
+                    assert_eq!(odd, expected);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_range_is_closed_and_one_ulp_beyond_is_outside() {
+        let axis = axis();
+        let last = axis[12];
+        assert_eq!(locate(&axis, 0.0), Some(0));
+        assert_eq!(locate(&axis, -0.0), Some(0));
+        assert_eq!(locate(&axis, last), Some(11));
+        assert_eq!(locate(&axis, last.next_down()), Some(11));
+        for x in [
+            last.next_up(),
+            (0.0_f64).next_down(),
+            f64::NAN,
+            f64::INFINITY,
+            -1.0,
+        ] {
+            assert_eq!(locate(&axis, x), None);
+        }
+    }
+}

@@ -1,0 +1,323 @@
+//! The remainder at any point of a table: interpolated cells, tail, exact static part.
+
+use crate::content::{FIELDS, Slice};
+use crate::error::LookupError;
+use crate::stencil::Stencil;
+use crate::table::Table;
+use crate::tail::Tail;
+use halfspace::{Field, Kernel, Medium, Profile, Six};
+
+/// Largest coarsening: a cell of 2^20 table cells.
+const MAX_COARSENING: u32 = 20;
+
+/// What comes with the cells of a trace.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TraceInfo {
+    /// Static field under a unit force, closed form.
+    pub static_part: Six,
+    /// Width of the cells filled, in r0/c1.
+    pub cell_width: f64,
+    /// Estimated absolute error of the response to a unit-peak pulse ten cells long; longer pulses
+    /// have less, see [`Table::error`].
+    pub error: Six,
+}
+
+/// What is assumed of the force between samples one cell apart.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Smoothness {
+    /// Linear between samples: the cells are plain averages and the sum is exact.
+    Linear,
+    /// A smooth function of time: the first moments of the cells correct for its curvature.
+    ///
+    /// ```text
+    /// cell_j = Rbar_j - (M_{j+1} - M_{j-1})/2,   cell_0 = Rbar_0 - M_0 - M_1/2,   cell_1 = Rbar_1 + M_0 - M_2/2
+    /// ```
+    ///
+    /// Used in the same sum, they leave an error of third order in the cell width where linear
+    /// samples leave second order, also where a front crosses a cell.
+    Smooth,
+}
+
+impl Table {
+    /// Fills `cells[j]` with the average of R over [j w, (j + 1) w], w = 2^`coarsening` table cells.
+    ///
+    /// Any number of cells may be asked for: beyond the tabulated ones the tail continues them.
+    /// Cells that end before the first arrival are exactly minus the static part.
+    ///
+    /// # Errors
+    /// [`LookupError`] when a coordinate, Poisson's ratio or the coarsening is outside the table.
+    pub fn trace(
+        &self,
+        poisson_ratio: f64,
+        r: f64,
+        z: f64,
+        coarsening: u32,
+        cells: &mut [Six],
+    ) -> Result<TraceInfo, LookupError> {
+        self.trace_for(Smoothness::Linear, poisson_ratio, r, z, coarsening, cells)
+    }
+
+    /// [`Self::trace`] with the cells that suit what is known of the force.
+    ///
+    /// # Errors
+    /// As [`Self::trace`].
+    pub fn trace_for(
+        &self,
+        smoothness: Smoothness,
+        poisson_ratio: f64,
+        r: f64,
+        z: f64,
+        coarsening: u32,
+        cells: &mut [Six],
+    ) -> Result<TraceInfo, LookupError> {
+        if coarsening > MAX_COARSENING {
+            return Err(LookupError::Coarsening {
+                value: coarsening,
+                max: MAX_COARSENING,
+            });
+        }
+        let points = self.content().stencil_points;
+        let across = Stencil::mirrored(&self.content().r, r, points);
+        let down = Stencil::one_sided(&self.content().z, z, points);
+        let (across, down) = across.zip(down).ok_or_else(|| self.outside(r, z))?;
+        let weights = self.slice_weights(poisson_ratio)?;
+        let static_part = match weights.as_slice() {
+            [(index, _)] => self.kernel(*index).static_field(r, z)?,
+            _ => Kernel::new(&Medium::new(poisson_ratio)?, Profile::Hertz, 1e-6)?
+                .static_field(r, z)?,
+        };
+        let cell_width = self.cell_width() * f64::from(1_u32 << coarsening);
+        let error = self.error(poisson_ratio, r, z, 10.0 * cell_width)?;
+
+        let quiet = Quiet {
+            value: static_part.map(|s| -s),
+            until: first_arrival(r, z),
+        };
+        cells.fill([0.0; FIELDS]);
+        // The correction of the last cell needs the moment of the cell after it.
+        let mut moments = match smoothness {
+            Smoothness::Linear => Vec::new(),
+            Smoothness::Smooth => vec![[0.0; FIELDS]; cells.len() + 1],
+        };
+        for (index, weight) in weights {
+            let slice = &self.content().slices[index];
+            let job = Job {
+                table: self,
+                slice,
+                across: &across,
+                down: &down,
+                quiet: &quiet,
+            };
+            job.add(weight, coarsening, cells, &mut moments);
+        }
+        if smoothness == Smoothness::Smooth {
+            correct_for_curvature(cells, &moments);
+        }
+        Ok(TraceInfo {
+            static_part,
+            cell_width,
+            error,
+        })
+    }
+
+    /// Slices that serve a Poisson ratio, with their weights.
+    pub(crate) fn slice_weights(
+        &self,
+        poisson_ratio: f64,
+    ) -> Result<Vec<(usize, f64)>, LookupError> {
+        let ratios = self.poisson_ratios();
+        if let Some(index) = ratios
+            .iter()
+            .position(|nu| (nu - poisson_ratio).abs() < 1e-12)
+        {
+            return Ok(vec![(index, 1.0)]);
+        }
+        let outside = || LookupError::Outside {
+            axis: "poisson_ratio",
+            value: poisson_ratio,
+            min: ratios[0],
+            max: ratios[ratios.len() - 1],
+        };
+        if ratios.len() < 2 {
+            return Err(outside());
+        }
+        let stencil = Stencil::one_sided(ratios, poisson_ratio, 6).ok_or_else(outside)?;
+        Ok(stencil
+            .nodes()
+            .iter()
+            .copied()
+            .zip(stencil.even().iter().copied())
+            .collect())
+    }
+}
+
+/// The exact value of R before anything has arrived.
+struct Quiet {
+    value: Six,
+    until: f64,
+}
+
+/// First arrival: the P wave from the nearest point of the loaded disc, c1 = 1.
+fn first_arrival(r: f64, z: f64) -> f64 {
+    (r - 1.0).max(0.0).hypot(z)
+}
+
+/// One point of one slice.
+struct Job<'a> {
+    table: &'a Table,
+    slice: &'a Slice,
+    across: &'a Stencil,
+    down: &'a Stencil,
+    quiet: &'a Quiet,
+}
+
+impl Job<'_> {
+    /// Adds `weight` times this slice's cells, and moments if `moments` is not empty.
+    fn add(&self, weight: f64, coarsening: u32, cells: &mut [Six], moments: &mut [Six]) {
+        let fine = 1_usize << coarsening;
+        let width = self.table.cell_width();
+        let wanted = cells.len().max(moments.len());
+        let stored = wanted.saturating_mul(fine).min(self.slice.cells);
+        let mut averages = self.interpolate(&self.slice.remainder, self.slice.cells, stored);
+        let mut first_moments = if moments.is_empty() {
+            Vec::new()
+        } else {
+            self.interpolate(&self.slice.moment, self.slice.cells, stored)
+        };
+        let quiet = ((self.quiet.until / width) as usize).min(stored);
+        let terms = self
+            .slice
+            .tail_terms(self.table.content().r.len() * self.table.content().z.len());
+        let coefficients = self.interpolate(&self.slice.tail, terms, terms);
+        let time_end = self.slice.time_end(width);
+        for field in 0..FIELDS {
+            let row = field * stored..(field + 1) * stored;
+            let tail = Tail::new(time_end, &coefficients[field * terms..(field + 1) * terms]);
+            averages[row.clone()][..quiet].fill(self.quiet.value[field]);
+            let average = &averages[row.clone()];
+            for (j, cell) in cells.iter_mut().enumerate() {
+                cell[field] += weight * coarse_average(average, &tail, j, fine, width, time_end);
+            }
+            if !moments.is_empty() {
+                first_moments[row.clone()][..quiet].fill(0.0);
+                let moment = &first_moments[row];
+                for (j, cell) in moments.iter_mut().enumerate() {
+                    cell[field] +=
+                        weight * coarse_moment(average, moment, &tail, j, fine, width, time_end);
+                }
+            }
+        }
+    }
+
+    /// Weighted sum over the stencil of the first `used` of `length` values, for each field in turn.
+    fn interpolate(&self, values: &[f32], length: usize, used: usize) -> Vec<f64> {
+        let mut sums = vec![0.0; FIELDS * used];
+        if used == 0 {
+            return sums;
+        }
+        let depth = self.table.content().z.len();
+        for (field, sum) in sums.chunks_exact_mut(used).enumerate() {
+            let across = if halfspace::FIELDS[field].is_odd_in_r() {
+                self.across.odd()
+            } else {
+                self.across.even()
+            };
+            for (&i, &wr) in self.across.nodes().iter().zip(across) {
+                for (&k, &wz) in self.down.nodes().iter().zip(self.down.even()) {
+                    let weight = wr * wz;
+                    let start = ((i * depth + k) * FIELDS + field) * length;
+                    for (s, &v) in sum.iter_mut().zip(&values[start..start + used]) {
+                        *s += weight * f64::from(v);
+                    }
+                }
+            }
+        }
+        sums
+    }
+}
+
+/// Average over coarse cell `j` of `fine` cells, of which the stored ones come first.
+fn coarse_average(
+    stored: &[f64],
+    tail: &Tail,
+    j: usize,
+    fine: usize,
+    width: f64,
+    time_end: f64,
+) -> f64 {
+    let (from, to) = (j * fine, (j + 1) * fine);
+    let inside = from.min(stored.len())..to.min(stored.len());
+    let sum = pairwise(&stored[inside.clone()]);
+    if inside.len() == fine {
+        return sum / fine as f64;
+    }
+    let start = (from as f64 * width).max(time_end);
+    let end = to as f64 * width;
+    (sum * width + tail.average(start, end) * (end - start)) / (fine as f64 * width)
+}
+
+/// Sum by halves: a coarse cell is then exactly the mean of its two halves.
+fn pairwise(values: &[f64]) -> f64 {
+    match values {
+        [] => 0.0,
+        [one] => *one,
+        _ => {
+            let (left, right) = values.split_at(values.len().next_power_of_two() / 2);
+            pairwise(left) + pairwise(right)
+        }
+    }
+}
+
+/// First moment over coarse cell `j` from the averages and moments of its parts.
+fn coarse_moment(
+    averages: &[f64],
+    moments: &[f64],
+    tail: &Tail,
+    j: usize,
+    fine: usize,
+    width: f64,
+    time_end: f64,
+) -> f64 {
+    let (from, to) = (j * fine, (j + 1) * fine);
+    let coarse = fine as f64 * width;
+    let centre = (from + to) as f64 * 0.5 * width;
+    let mut sum = 0.0;
+    for k in from.min(averages.len())..to.min(averages.len()) {
+        sum +=
+            width * width * moments[k] + width * averages[k] * ((k as f64 + 0.5) * width - centre);
+    }
+    let (start, end) = ((from as f64 * width).max(time_end), to as f64 * width);
+    if end > time_end && to > averages.len() {
+        // After the last arrival R is smooth: a sixth of the step between the halves.
+        let (middle, part) = (0.5 * (start + end), end - start);
+        let (left, right) = (tail.average(start, middle), tail.average(middle, end));
+        sum += part * part * (right - left) / 6.0 + part * 0.5 * (left + right) * (middle - centre);
+    }
+    sum / (coarse * coarse)
+}
+
+/// See [`Smoothness::Smooth`].
+fn correct_for_curvature(cells: &mut [Six], moments: &[Six]) {
+    for field in [
+        Field::DisplacementR,
+        Field::DisplacementZ,
+        Field::StressRr,
+        Field::StressTt,
+        Field::StressZz,
+        Field::StressRz,
+    ] {
+        let f = field.index();
+        for (j, cell) in cells.iter_mut().enumerate() {
+            let before = if j == 0 {
+                2.0 * moments[0][f]
+            } else {
+                moments[j - 1][f]
+            };
+            let sign = if j == 0 { -1.0 } else { 1.0 };
+            cell[f] -= 0.5 * (moments[j + 1][f] - sign * before);
+            if j == 1 {
+                cell[f] += 0.5 * moments[0][f];
+            }
+        }
+    }
+}

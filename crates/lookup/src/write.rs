@@ -1,0 +1,200 @@
+//! Content to file.
+
+use crate::content::{Content, FIELDS, Slice, centres};
+use crate::error::TableError;
+use crate::file::{self, Described};
+use crate::hash::{content_hash, settings_id};
+use crate::scales::{attach_scale, set_scale};
+use crate::schema;
+use hdf5::types::{FixedAscii, VarLenUnicode};
+use hdf5::{Dataset, File, Group, H5Type, Location};
+use std::path::Path;
+
+/// Compression level: higher ones gain a few per cent and cost several times the time.
+const DEFLATE: u8 = 2;
+/// Nodes in r and in z that share a chunk, all their times and fields with them.
+const PATCH: usize = 8;
+
+/// Writes `content` to `path`, replacing what is there.
+///
+/// The bytes depend on the content and the creation time alone.
+///
+/// # Errors
+/// [`TableError::Unwritable`] with what the HDF5 library says.
+pub fn write(path: &Path, content: &Content) -> Result<(), TableError> {
+    write_file(path, content).map_err(|error| TableError::Unwritable {
+        path: path.to_owned(),
+        detail: error
+            .to_string()
+            .lines()
+            .next()
+            .unwrap_or_default()
+            .to_owned(),
+    })
+}
+
+fn write_file(path: &Path, content: &Content) -> Result<(), hdf5::Error> {
+    let file = File::create(path)?;
+    write_attributes(&file, content)?;
+    let scale = |described: &Described, values: &[f64]| make_scale(&file, described, values);
+    let probe_r = scale(&file::PROBE_R, &centres(&content.r))?;
+    let probe_z = scale(&file::PROBE_Z, &centres(&content.z))?;
+    let pulse = scale(&file::PULSE_LENGTH, &content.pulse_lengths)?;
+    let names =
+        schema::FIELD_NAMES.map(|name| FixedAscii::<16>::from_ascii(name).unwrap_or_default());
+    let field = make_scale(&file, &file::FIELD, &names)?;
+    let r = scale(&file::R, &content.r)?;
+    let z = scale(&file::Z, &content.z)?;
+
+    let slices = file.create_group(schema::SLICES)?;
+    for slice in &content.slices {
+        let group = slices.create_group(&schema::slice_name(slice.poisson_ratio))?;
+        let end = slice.time_end(content.cell_width);
+        group
+            .new_attr::<f64>()
+            .create(schema::POISSON_RATIO)?
+            .write_scalar(&slice.poisson_ratio)?;
+        group
+            .new_attr::<f64>()
+            .create(schema::TIME_END)?
+            .write_scalar(&end)?;
+        let starts: Vec<f64> = (0..slice.cells)
+            .map(|j| j as f64 * content.cell_width)
+            .collect();
+        let time = make_scale(&group, &file::TIME, &starts)?;
+        let (rows, columns) = (content.r.len(), content.z.len());
+        let shape = [rows, columns, FIELDS, slice.cells];
+        make_data(
+            &group,
+            &file::REMAINDER,
+            &shape,
+            &slice.remainder,
+            &[&r, &z, &field, &time],
+        )?;
+        make_data(
+            &group,
+            &file::MOMENT,
+            &shape,
+            &slice.moment,
+            &[&r, &z, &field, &time],
+        )?;
+        let shape = [rows, columns, FIELDS, slice.tail_terms(rows * columns)];
+        make_data(&group, &file::TAIL, &shape, &slice.tail, &[&r, &z, &field])?;
+        write_verification(
+            &group,
+            content,
+            slice,
+            &[&probe_r, &probe_z, &pulse, &field],
+        )?;
+    }
+    file.flush()?;
+    file.close()
+}
+
+fn write_verification(
+    group: &Group,
+    content: &Content,
+    slice: &Slice,
+    scales: &[&Dataset],
+) -> Result<(), hdf5::Error> {
+    let probes = &slice.verification;
+    let shape = [
+        content.r.len() - 1,
+        content.z.len() - 1,
+        content.pulse_lengths.len(),
+        FIELDS,
+    ];
+    make_data(group, &file::PROBE_DIRECT, &shape, &probes.direct, scales)?;
+    make_data(
+        group,
+        &file::PROBE_LOOKED_UP,
+        &shape,
+        &probes.looked_up,
+        scales,
+    )?;
+    make_data(group, &file::PROBE_ERROR, &shape, &probes.error, scales)
+}
+
+fn write_attributes(file: &File, content: &Content) -> Result<(), hdf5::Error> {
+    let origin = &content.origin;
+    text(file, schema::FILE_TYPE, schema::FILE_TYPE_VALUE)?;
+    text(file, schema::FORMAT_VERSION, schema::FORMAT_VERSION_VALUE)?;
+    text(file, schema::SOFTWARE_VERSION, &origin.software_version)?;
+    text(file, schema::GIT_REVISION, &origin.git_revision)?;
+    file.new_attr::<u64>()
+        .create(schema::CREATED)?
+        .write_scalar(&origin.created_unix_s)?;
+    text(file, schema::ID, &settings_id(&origin.grid))?;
+    text(file, schema::GRID, &origin.grid)?;
+    text(file, schema::CONTENT_SHA256, &content_hash(content))?;
+    file.new_attr::<f64>()
+        .create(schema::CELL_WIDTH)?
+        .write_scalar(&content.cell_width)?;
+    file.new_attr::<u64>()
+        .create(schema::STENCIL_POINTS)?
+        .write_scalar(&(content.stencil_points as u64))?;
+    file.new_attr::<f64>()
+        .create(schema::ACCURACY_ASKED)?
+        .write_scalar(&origin.accuracy_asked)?;
+    let reached = &origin.accuracy_reached;
+    file.new_attr::<f64>()
+        .shape([reached.len()])
+        .create(schema::ACCURACY_REACHED)?
+        .write(reached)
+}
+
+fn text(place: &Location, name: &str, value: &str) -> Result<(), hdf5::Error> {
+    let value: VarLenUnicode = value
+        .parse()
+        .map_err(|_| hdf5::Error::from("a text holds a NUL"))?;
+    place
+        .new_attr::<VarLenUnicode>()
+        .create(name)?
+        .write_scalar(&value)
+}
+
+fn make_scale<T: H5Type>(
+    group: &Group,
+    described: &Described,
+    values: &[T],
+) -> Result<Dataset, hdf5::Error> {
+    let dataset = group
+        .new_dataset::<T>()
+        .shape([values.len()])
+        .obj_track_times(false)
+        .create(described.name)?;
+    dataset.write_raw(values)?;
+    set_scale(&dataset, described.name)?;
+    describe(&dataset, described)?;
+    Ok(dataset)
+}
+
+fn make_data(
+    group: &Group,
+    described: &Described,
+    shape: &[usize; 4],
+    values: &[f32],
+    scales: &[&Dataset],
+) -> Result<(), hdf5::Error> {
+    let [rows, columns, third, fourth] = *shape;
+    let dataset = group
+        .new_dataset::<f32>()
+        .shape(shape)
+        .chunk((rows.min(PATCH), columns.min(PATCH), third, fourth))
+        .shuffle()
+        .deflate(DEFLATE)
+        .fletcher32()
+        .obj_track_times(false)
+        .create(described.name)?;
+    let view = ndarray::ArrayView4::from_shape(*shape, values)?;
+    dataset.write(view)?;
+    for (index, scale) in scales.iter().enumerate() {
+        attach_scale(&dataset, scale, index)?;
+    }
+    describe(&dataset, described)
+}
+
+fn describe(dataset: &Dataset, described: &Described) -> Result<(), hdf5::Error> {
+    text(dataset, schema::UNITS, described.units)?;
+    text(dataset, schema::LONG_NAME, described.long_name)
+}

@@ -1,0 +1,157 @@
+//! Nodes of one axis, uniform or graded toward a place where the fields are rough.
+
+use serde::{Deserialize, Serialize};
+
+/// An axis from 0 to `max` whose spacing grows linearly with the distance from `focus`.
+///
+/// ```text
+/// spacing(x) = min(spacing, focus_spacing + growth |x - focus|)
+/// ```
+///
+/// Without `focus_spacing` the axis is uniform. All lengths are in r0.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Axis {
+    /// Last node.
+    pub max: f64,
+    /// Largest spacing.
+    pub spacing: f64,
+    /// Where the nodes are densest.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub focus: Option<f64>,
+    /// Spacing at the focus.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub focus_spacing: Option<f64>,
+    /// Growth of the spacing with distance from the focus.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub growth: Option<f64>,
+}
+
+impl Axis {
+    /// A uniform axis.
+    #[must_use]
+    pub fn uniform(max: f64, spacing: f64) -> Self {
+        Self {
+            max,
+            spacing,
+            focus: None,
+            focus_spacing: None,
+            growth: None,
+        }
+    }
+
+    /// An axis graded toward `focus`.
+    #[must_use]
+    pub fn graded(max: f64, spacing: f64, focus: f64, focus_spacing: f64, growth: f64) -> Self {
+        Self {
+            max,
+            spacing,
+            focus: Some(focus),
+            focus_spacing: Some(focus_spacing),
+            growth: Some(growth),
+        }
+    }
+
+    /// The nodes, ascending from 0 to `max`, the focus among them, rounded to multiples of 2^-16.
+    #[must_use]
+    pub fn nodes(&self) -> Vec<f64> {
+        let focus = self.focus.unwrap_or(0.0).clamp(0.0, self.max);
+        let mut nodes = Vec::new();
+        if focus > 0.0 {
+            let mut inner = self.one_side(focus);
+            inner.reverse();
+            nodes.extend(inner.iter().map(|distance| focus - distance));
+            nodes.pop();
+        }
+        nodes.extend(
+            self.one_side(self.max - focus)
+                .iter()
+                .map(|distance| focus + distance),
+        );
+        for node in &mut nodes {
+            *node = (*node * 65536.0).round() / 65536.0;
+        }
+        nodes
+    }
+
+    /// Distances 0 ..= `length` from the focus, equally spaced in int dx/spacing(x).
+    fn one_side(&self, length: f64) -> Vec<f64> {
+        let steps = self.measure(length);
+        let count = (steps - 1e-9).ceil().max(1.0);
+        (0..=count as usize)
+            .map(|i| {
+                if i == 0 {
+                    0.0
+                } else {
+                    self.distance(steps * i as f64 / count).min(length)
+                }
+            })
+            .collect()
+    }
+
+    /// Number of steps from the focus to a distance.
+    fn measure(&self, distance: f64) -> f64 {
+        match self.grading() {
+            Some((start, growth, knee)) => {
+                let graded = distance.min(knee);
+                (growth * graded / start).ln_1p() / growth + (distance - graded) / self.spacing
+            }
+            None => distance / self.spacing,
+        }
+    }
+
+    /// Inverse of [`Self::measure`].
+    fn distance(&self, steps: f64) -> f64 {
+        match self.grading() {
+            Some((start, growth, knee)) => {
+                let graded = (growth * knee / start).ln_1p() / growth;
+                if steps <= graded {
+                    start * (growth * steps).exp_m1() / growth
+                } else {
+                    knee + (steps - graded) * self.spacing
+                }
+            }
+            None => steps * self.spacing,
+        }
+    }
+
+    /// Spacing at the focus, growth, and the distance where the largest spacing is reached.
+    fn grading(&self) -> Option<(f64, f64, f64)> {
+        let start = self.focus_spacing?;
+        let growth = self.growth.filter(|growth| *growth > 0.0)?;
+        (start < self.spacing).then(|| (start, growth, (self.spacing - start) / growth))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_uniform_axis_has_its_spacing() {
+        let nodes = Axis::uniform(6.0, 0.125).nodes();
+        assert_eq!(nodes.len(), 49);
+        assert!(
+            nodes
+                .iter()
+                .enumerate()
+                .all(|(i, &x)| x == 0.125 * i as f64)
+        );
+    }
+
+    #[test]
+    fn a_graded_axis_ascends_and_keeps_its_ends_and_focus() {
+        let axis = Axis::graded(6.0, 0.125, 1.0, 0.02, 0.2);
+        let nodes = axis.nodes();
+        assert_eq!((nodes[0], nodes[nodes.len() - 1]), (0.0, 6.0));
+        assert!(nodes.contains(&1.0));
+        for pair in nodes.windows(2) {
+            let (step, middle) = (pair[1] - pair[0], 0.5 * (pair[0] + pair[1]));
+            let asked = (0.02 + 0.2 * (middle - 1.0_f64).abs()).min(0.125);
+            assert!(
+                step > 0.5 * asked && step < 1.1 * asked,
+                "{middle}: {step} against {asked}"
+            );
+        }
+    }
+}

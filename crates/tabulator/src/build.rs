@@ -1,0 +1,235 @@
+//! From a grid to a complete, verified file.
+
+use crate::blocks::{self, Block, Kind, Row};
+use crate::error::BuildError;
+use crate::grid::Grid;
+use crate::point::PointPlan;
+use crate::progress::Progress;
+use crate::verify;
+use lookup::{Content, Origin, Slice, Table, Verification};
+use rayon::prelude::*;
+use std::path::{Path, PathBuf};
+use std::time::{Instant, SystemTime, UNIX_EPOCH};
+
+/// What a build did.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Summary {
+    /// Identity of the settings.
+    pub id: String,
+    /// SHA-256 of the content.
+    pub content_sha256: String,
+    /// Points of the grid over all slices.
+    pub points: usize,
+    /// Size of the file.
+    pub bytes: u64,
+    /// Time taken.
+    pub wall_s: f64,
+    /// Lengths of the verification pulses in r0/c1.
+    pub pulse_lengths: Vec<f64>,
+    /// p99 over all probes and fields of error over peak, for each pulse length.
+    pub p99_error: Vec<f64>,
+}
+
+/// What to do when the output exists already.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Existing {
+    /// Leave it and report [`BuildError::Exists`].
+    Keep,
+    /// Replace it when the new table is complete and verified.
+    Replace,
+}
+
+/// Builds the table of `grid` at `path`, which must not exist.
+///
+/// # Errors
+/// [`BuildError`]: a setting outside its range, a file in the way, a value that cannot be computed, a full disk.
+pub fn build(grid: &Grid, path: &Path, progress: &dyn Progress) -> Result<Summary, BuildError> {
+    build_over(grid, path, Existing::Keep, progress)
+}
+
+/// [`build`] with a choice of what happens to a file that is there already.
+///
+/// # Errors
+/// As [`build`].
+pub fn build_over(
+    grid: &Grid,
+    path: &Path,
+    existing: Existing,
+    progress: &dyn Progress,
+) -> Result<Summary, BuildError> {
+    let started = Instant::now();
+    grid.validate()?;
+    if existing == Existing::Keep && path.exists() {
+        return Err(BuildError::Exists {
+            path: path.to_owned(),
+        });
+    }
+    let work = blocks::all(grid);
+    let rows = compute(grid, &work, progress)?;
+    let content = assemble(grid, &work, rows, progress)?;
+    let bytes = finish(&content, path)?;
+    Ok(Summary {
+        id: lookup::settings_id(&content.origin.grid),
+        content_sha256: lookup::content_hash(&content),
+        points: content.r.len() * content.z.len() * content.slices.len(),
+        bytes,
+        wall_s: started.elapsed().as_secs_f64(),
+        pulse_lengths: content.pulse_lengths.clone(),
+        p99_error: content.origin.accuracy_reached,
+    })
+}
+
+fn compute(grid: &Grid, work: &[Block], progress: &dyn Progress) -> Result<Vec<Row>, BuildError> {
+    let plans = plans(grid)?;
+    let (r, z) = (grid.r.nodes(), grid.z.nodes());
+    progress.total("kernels", work.len() as u64);
+    work.par_iter()
+        .map(|block| {
+            let radius = blocks::positions(block.kind, &r)[block.row];
+            let row = blocks::compute(
+                &plans[block.slice],
+                radius,
+                &blocks::positions(block.kind, &z),
+            )?;
+            progress.advance(1);
+            Ok(row)
+        })
+        .collect()
+}
+
+fn plans(grid: &Grid) -> Result<Vec<PointPlan>, BuildError> {
+    grid.poisson_ratios
+        .iter()
+        .map(|&nu| {
+            PointPlan::new(
+                nu,
+                grid.tolerance,
+                grid.cell_width,
+                grid.cells(nu)?,
+                grid.tail_terms,
+            )
+        })
+        .collect()
+}
+
+/// Puts the rows in their places and measures the errors off the grid.
+fn assemble(
+    grid: &Grid,
+    work: &[Block],
+    rows: Vec<Row>,
+    progress: &dyn Progress,
+) -> Result<Content, BuildError> {
+    let (r, z) = (grid.r.nodes(), grid.z.nodes());
+    let pulse_lengths = verify::PULSE_LENGTHS.to_vec();
+    let probes = (r.len() - 1) * (z.len() - 1) * pulse_lengths.len() * 6;
+    let blank = || Verification {
+        direct: vec![0.0; probes],
+        looked_up: vec![0.0; probes],
+        error: vec![0.0; probes],
+    };
+    let mut slices = Vec::new();
+    for &poisson_ratio in &grid.poisson_ratios {
+        let cells = grid.cells(poisson_ratio)?;
+        let (remainder, moment, tail) = (Vec::new(), Vec::new(), Vec::new());
+        slices.push(Slice {
+            poisson_ratio,
+            cells,
+            remainder,
+            moment,
+            tail,
+            verification: blank(),
+        });
+    }
+    let mut exact: Vec<Vec<Row>> = vec![Vec::new(); slices.len()];
+    for (block, row) in work.iter().zip(rows) {
+        match block.kind {
+            Kind::Nodes => {
+                let slice = &mut slices[block.slice];
+                slice.remainder.extend(row.remainder);
+                slice.moment.extend(row.moment);
+                slice.tail.extend(row.tail);
+            }
+            Kind::Probes => exact[block.slice].push(row),
+        }
+    }
+    let table = Table::new(Content {
+        origin: Origin {
+            grid: grid.to_toml()?,
+            software_version: env!("CARGO_PKG_VERSION").to_owned(),
+            git_revision: option_env!("HERTZLAMB_GIT_REVISION")
+                .unwrap_or("unknown")
+                .to_owned(),
+            created_unix_s: creation_time(),
+            accuracy_asked: grid.tolerance,
+            accuracy_reached: Vec::new(),
+        },
+        r,
+        z,
+        cell_width: grid.cell_width,
+        stencil_points: grid.stencil_points,
+        pulse_lengths,
+        slices,
+    })?;
+    progress.total("verification", exact.len() as u64);
+    let mut measured = Vec::new();
+    for (slice, rows) in exact.iter().enumerate() {
+        measured.push(verify::verify(&table, slice, rows)?);
+        progress.advance(1);
+    }
+    let mut content = table.into_content();
+    for (slice, verification) in content.slices.iter_mut().zip(measured) {
+        slice.verification = verification;
+    }
+    content.origin.accuracy_reached = (0..content.pulse_lengths.len())
+        .map(|pulse| {
+            let mut all: Vec<f64> = (0..6)
+                .flat_map(|field| verify::relative_errors(&content, pulse, field, 1e-3))
+                .collect();
+            all.sort_by(f64::total_cmp);
+            verify::quantile(&all, 0.99)
+        })
+        .collect();
+    Ok(content)
+}
+
+/// Writes under `NAME.part`, reads back, compares, renames. Returns the size of the file.
+fn finish(content: &Content, path: &Path) -> Result<u64, BuildError> {
+    let part = beside(path, ".part");
+    let failed = |action, path: &Path| {
+        let path = path.to_owned();
+        move |source| BuildError::File {
+            action,
+            path,
+            source,
+        }
+    };
+    lookup::write(&part, content)?;
+    let back = lookup::read(&part)?;
+    lookup::check_hash(&part, &back)?;
+    let file = std::fs::File::open(&part).map_err(failed("open", &part))?;
+    file.sync_all().map_err(failed("flush", &part))?;
+    std::fs::rename(&part, path).map_err(failed("rename the finished table to", path))?;
+    let data = std::fs::metadata(path).map_err(failed("look at", path))?;
+    Ok(data.len())
+}
+
+/// `path` with `suffix` appended to its name.
+pub(crate) fn beside(path: &Path, suffix: &str) -> PathBuf {
+    let mut name = path.as_os_str().to_owned();
+    name.push(suffix);
+    PathBuf::from(name)
+}
+
+/// `SOURCE_DATE_EPOCH` if it is set, so that a build can be repeated byte by byte, else now.
+fn creation_time() -> u64 {
+    std::env::var("SOURCE_DATE_EPOCH")
+        .ok()
+        .and_then(|text| text.parse().ok())
+        .or_else(|| {
+            SystemTime::now()
+                .duration_since(UNIX_EPOCH)
+                .ok()
+                .map(|time| time.as_secs())
+        })
+        .unwrap_or(0)
+}

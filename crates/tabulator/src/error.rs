@@ -1,0 +1,73 @@
+//! What can stop a build.
+
+use halfspace::DomainError;
+use lookup::TableError;
+use std::path::PathBuf;
+use thiserror::Error;
+
+/// A table could not be built.
+#[derive(Debug, Error)]
+pub enum BuildError {
+    /// A setting of the grid is outside its range.
+    #[error("grid: {key} = {value} is outside {range}")]
+    Setting {
+        /// Key in the grid file.
+        key: String,
+        /// The value given.
+        value: f64,
+        /// The allowed range.
+        range: &'static str,
+    },
+    /// The grid file is not what it should be.
+    #[error("grid file {}: {detail}", path.display())]
+    GridFile {
+        /// File given.
+        path: PathBuf,
+        /// What is wrong with it, and where.
+        detail: String,
+    },
+    /// The settings cannot be written as TOML.
+    #[error("grid: {0}")]
+    Unwritable(#[from] toml::ser::Error),
+    /// There is a file in the way.
+    #[error("{} exists; --force replaces it", path.display())]
+    Exists {
+        /// File in the way.
+        path: PathBuf,
+    },
+    /// A file operation failed.
+    #[error("cannot {action} {}: {source}", path.display())]
+    File {
+        /// What was to be done.
+        action: &'static str,
+        /// With which file.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// A kernel value is missing or not finite.
+    #[error(
+        "no finite kernel value at poisson_ratio = {poisson_ratio}, r/r0 = {r}, z/r0 = {z}: {quantity} of field {field}"
+    )]
+    NotFinite {
+        /// Slice.
+        poisson_ratio: f64,
+        /// Radius of the point.
+        r: f64,
+        /// Depth of the point.
+        z: f64,
+        /// Which number.
+        quantity: &'static str,
+        /// Which field.
+        field: &'static str,
+    },
+    /// The exact kernels refuse a point.
+    #[error(transparent)]
+    Domain(#[from] DomainError),
+    /// The table cannot be written, read back or accepted.
+    #[error(transparent)]
+    Table(#[from] TableError),
+    /// A probe cannot be looked up.
+    #[error("verification: {0}")]
+    Lookup(#[from] lookup::LookupError),
+}

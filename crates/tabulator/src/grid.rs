@@ -1,0 +1,193 @@
+//! The settings that a table's numbers depend on.
+
+use crate::axis::Axis;
+use crate::error::BuildError;
+use halfspace::Medium;
+use serde::{Deserialize, Serialize};
+use std::path::Path;
+
+/// A grid: which Poisson ratios, which points, which times, how exact.
+///
+/// Its TOML form is stored in the table and decides the table's id.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Grid {
+    /// Poisson ratios, one slice each, ascending, in (-1, 0.5).
+    pub poisson_ratios: Vec<f64>,
+    /// Width of a time cell in r0/c1.
+    #[serde(default = "defaults::cell_width")]
+    pub cell_width: f64,
+    /// The cells end at this multiple of the last arrival at the farthest point; then the tail takes over.
+    #[serde(default = "defaults::time_factor")]
+    pub time_factor: f64,
+    /// Coefficients of a tail.
+    #[serde(default = "defaults::tail_terms")]
+    pub tail_terms: usize,
+    /// Interpolation points along each axis: 2, 4, 6 or 8.
+    #[serde(default = "defaults::stencil_points")]
+    pub stencil_points: usize,
+    /// Tolerance of the exact kernels.
+    #[serde(default = "defaults::tolerance")]
+    pub tolerance: f64,
+    /// Radial nodes.
+    pub r: Axis,
+    /// Depth nodes.
+    pub z: Axis,
+}
+
+mod defaults {
+    pub(super) fn cell_width() -> f64 {
+        0.1
+    }
+    pub(super) fn time_factor() -> f64 {
+        1.5
+    }
+    pub(super) fn tail_terms() -> usize {
+        12
+    }
+    pub(super) fn stencil_points() -> usize {
+        6
+    }
+    pub(super) fn tolerance() -> f64 {
+        1e-9
+    }
+}
+
+impl Grid {
+    /// One slice at nu = 0.30, r and z to 6 r0: built in seconds.
+    #[must_use]
+    pub fn demo() -> Self {
+        Self {
+            poisson_ratios: vec![0.3],
+            cell_width: defaults::cell_width(),
+            time_factor: defaults::time_factor(),
+            tail_terms: defaults::tail_terms(),
+            stencil_points: defaults::stencil_points(),
+            tolerance: defaults::tolerance(),
+            r: Axis::uniform(6.0, 0.125),
+            z: Axis::uniform(6.0, 0.125),
+        }
+    }
+
+    /// The preset called `name`.
+    #[must_use]
+    pub fn preset(name: &str) -> Option<Self> {
+        match name {
+            "demo" => Some(Self::demo()),
+            _ => None,
+        }
+    }
+
+    /// Reads a grid from a TOML file.
+    ///
+    /// # Errors
+    /// [`BuildError`] when the file cannot be read, has unknown keys or values outside their ranges.
+    pub fn from_file(path: &Path) -> Result<Self, BuildError> {
+        let text = std::fs::read_to_string(path).map_err(|source| BuildError::File {
+            action: "read",
+            path: path.to_owned(),
+            source,
+        })?;
+        let grid: Self = toml::from_str(&text).map_err(|error| BuildError::GridFile {
+            path: path.to_owned(),
+            detail: error.to_string(),
+        })?;
+        grid.validate()?;
+        Ok(grid)
+    }
+
+    /// The resolved settings as TOML.
+    ///
+    /// # Errors
+    /// [`BuildError::Unwritable`], which no grid causes.
+    pub fn to_toml(&self) -> Result<String, BuildError> {
+        Ok(toml::to_string(self)?)
+    }
+
+    /// Number of time cells of a slice.
+    ///
+    /// # Errors
+    /// [`BuildError::Domain`] for a Poisson ratio outside (-1, 0.5).
+    pub fn cells(&self, poisson_ratio: f64) -> Result<usize, BuildError> {
+        let farthest = self.r.max.hypot(self.z.max) + 1.0;
+        let end = self.time_factor * farthest / Medium::new(poisson_ratio)?.rayleigh_speed();
+        Ok((end / self.cell_width).ceil() as usize)
+    }
+
+    /// Checks every setting.
+    ///
+    /// # Errors
+    /// [`BuildError::Setting`] naming the first key outside its range.
+    pub fn validate(&self) -> Result<(), BuildError> {
+        let setting = |key: &str, value: f64, good: bool, range| {
+            if good {
+                Ok(())
+            } else {
+                Err(BuildError::Setting {
+                    key: key.to_owned(),
+                    value,
+                    range,
+                })
+            }
+        };
+        let within = |key: &str, x: f64, low: f64, high: f64, range| {
+            setting(key, x, x >= low && x <= high, range)
+        };
+        within("cell_width", self.cell_width, 0.005, 1.0, "[0.005, 1]")?;
+        within("time_factor", self.time_factor, 1.1, 10.0, "[1.1, 10]")?;
+        within("tail_terms", self.tail_terms as f64, 2.0, 20.0, "[2, 20]")?;
+        within("tolerance", self.tolerance, 1e-12, 1e-3, "[1e-12, 1e-3]")?;
+        let even = self.stencil_points % 2 == 0 && (2..=8).contains(&self.stencil_points);
+        setting(
+            "stencil_points",
+            self.stencil_points as f64,
+            even,
+            "{2, 4, 6, 8}",
+        )?;
+        let first = self.poisson_ratios.first().copied().unwrap_or(f64::NAN);
+        setting(
+            "poisson_ratios",
+            first,
+            !self.poisson_ratios.is_empty(),
+            "a list of at least one",
+        )?;
+        for (i, &nu) in self.poisson_ratios.iter().enumerate() {
+            within("poisson_ratios", nu, -0.95, 0.495, "[-0.95, 0.495]")?;
+            let ascends = i == 0 || nu > self.poisson_ratios[i - 1];
+            setting("poisson_ratios", nu, ascends, "strictly ascending values")?;
+        }
+        for (name, axis) in [("r", &self.r), ("z", &self.z)] {
+            within(&format!("{name}.max"), axis.max, 0.25, 100.0, "[0.25, 100]")?;
+            within(
+                &format!("{name}.spacing"),
+                axis.spacing,
+                0.005,
+                1.0,
+                "[0.005, 1]",
+            )?;
+            for (key, value, low, high, range) in [
+                ("focus", axis.focus, 0.0, axis.max, "[0, max]"),
+                (
+                    "focus_spacing",
+                    axis.focus_spacing,
+                    0.001,
+                    axis.spacing,
+                    "[0.001, spacing]",
+                ),
+                ("growth", axis.growth, 0.01, 1.0, "[0.01, 1]"),
+            ] {
+                if let Some(value) = value {
+                    within(&format!("{name}.{key}"), value, low, high, range)?;
+                }
+            }
+            let nodes = axis.nodes().len();
+            setting(
+                &format!("{name}: number of nodes"),
+                nodes as f64,
+                nodes >= 8 && nodes <= 2000,
+                "[8, 2000]",
+            )?;
+        }
+        Ok(())
+    }
+}
