@@ -17,6 +17,15 @@ const NARROWEST: f64 = 1e-9;
 /// Most cuts or singularities that an integrand of this crate has.
 const CAPACITY: usize = 40;
 
+/// Power of the variable toward a cut of a single singularity.
+const SQUARE: i32 = 2;
+
+/// Power toward a cut where singularities meet.
+const HIGH: i32 = 6;
+
+/// Cuts closer than this are one.
+const SAME: f64 = 1e-14;
+
 /// The interval [0, 1] of a smooth variable with everything that is not smooth near it.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Landscape {
@@ -91,12 +100,12 @@ impl Landscape {
         let mut ends = [0.0; CAPACITY + 2];
         let mut last = 0;
         for &cut in cuts.iter() {
-            if cut - ends[last] > 1e-15 {
+            if cut - ends[last] > SAME {
                 last += 1;
                 ends[last] = cut;
             }
         }
-        if 1.0 - ends[last] > 1e-15 {
+        if 1.0 - ends[last] > SAME {
             last += 1;
         }
         ends[last] = 1.0;
@@ -105,30 +114,61 @@ impl Landscape {
 
     /// Visits nodes (v, weight) of a rule on one interval, accurate to exp(-`digits`) of the size of the integrand.
     pub(crate) fn visit(&self, (from, to): (f64, f64), digits: f64, f: &mut impl FnMut(f64, f64)) {
-        let is_cut = |end: f64| self.cuts.as_slice().contains(&end);
-        match (is_cut(from), is_cut(to)) {
-            (false, false) => {
+        match (self.power(from), self.power(to)) {
+            (None, None) => {
                 let images = self.images(|v| (v - from) / (to - from));
-                panels(&images, digits, &mut |s, weight| {
+                panels(&images, digits, 3.0, &mut |s, weight| {
                     f(from + (to - from) * s, weight * (to - from));
                 });
             }
-            (true, false) => self.visit_squared(from, to, digits, f),
-            (false, true) => self.visit_squared(to, from, digits, f),
-            (true, true) => {
+            (Some(power), None) => self.visit_power(from, to, power, digits, f),
+            (None, Some(power)) => self.visit_power(to, from, power, digits, f),
+            (Some(lower), Some(upper)) => {
                 let middle = 0.5 * (from + to);
-                self.visit_squared(from, middle, digits, f);
-                self.visit_squared(to, middle, digits, f);
+                self.visit_power(from, middle, lower, digits, f);
+                self.visit_power(to, middle, upper, digits, f);
             }
         }
     }
 
-    /// v = cut + (end - cut) s^2.
-    fn visit_squared(&self, cut: f64, end: f64, digits: f64, f: &mut impl FnMut(f64, f64)) {
+    /// The power of the variable that smooths the end of an interval, if it is a cut.
+    fn power(&self, end: f64) -> Option<i32> {
+        let cuts = self.cuts.as_slice().iter();
+        match cuts.filter(|&&cut| (cut - end).abs() <= SAME).count() {
+            0 => None,
+            1 => Some(SQUARE),
+            _ => Some(HIGH),
+        }
+    }
+
+    /// v = cut + (end - cut) s^power.
+    fn visit_power(
+        &self,
+        cut: f64,
+        end: f64,
+        power: i32,
+        digits: f64,
+        f: &mut impl FnMut(f64, f64),
+    ) {
         let scale = end - cut;
-        let images = self.images(|v| root((v - cut) / scale));
-        panels(&images, digits, &mut |s, weight| {
-            f(cut + scale * s * s, 2.0 * weight * s * scale.abs());
+        let images = self.images(|v| {
+            let distance = (v - cut) / scale;
+            if power == SQUARE {
+                root(distance)
+            } else {
+                distance.powf(1.0 / f64::from(power))
+            }
+        });
+        // A power of a logarithm is left at s = 0: Gauss's rule gains 2 power digits a doubling there.
+        let least = if power == SQUARE { 3.0 } else { 0.7 * digits };
+        panels(&images, digits, least, &mut |s, weight| {
+            let v = cut + scale * s.powi(power);
+            if v != cut {
+                f(
+                    v,
+                    weight * scale.abs() * f64::from(power) * s.powi(power - 1),
+                );
+            }
         });
     }
 
@@ -139,7 +179,7 @@ impl Landscape {
         let others = self.singularities.as_slice().iter().copied();
         for point in cuts.chain(others) {
             let image = to_variable(point);
-            if image.norm_sqr() > 1e-15 && images.length < CAPACITY {
+            if image.norm_sqr() > SAME && images.length < CAPACITY {
                 images.push(image);
             }
         }
@@ -159,8 +199,8 @@ pub(crate) fn root(v: Complex64) -> Complex64 {
     }
 }
 
-/// Visits Gauss nodes on panels of [0, 1] that keep clear of the singularities.
-fn panels(images: &List<Complex64>, digits: f64, f: &mut impl FnMut(f64, f64)) {
+/// Visits Gauss nodes, at least so many a panel, on panels of [0, 1] that keep clear of the singularities.
+fn panels(images: &List<Complex64>, digits: f64, least: f64, f: &mut impl FnMut(f64, f64)) {
     let mut stack = [(0.0, 1.0); 64];
     let mut depth = 1;
     while depth > 0 {
@@ -175,7 +215,7 @@ fn panels(images: &List<Complex64>, digits: f64, f: &mut impl FnMut(f64, f64)) {
             depth += 2;
             continue;
         }
-        for (s, weight) in gauss::rule(nodes.clamp(3.0, MOST_NODES) as usize).on(s0, s1) {
+        for (s, weight) in gauss::rule(nodes.max(least).min(MOST_NODES) as usize).on(s0, s1) {
             f(s, weight);
         }
     }
@@ -218,6 +258,17 @@ mod tests {
         let exact = (0.3_f64.powf(1.5) + 0.7_f64.powf(1.5)) / 1.5;
         assert!((sum - exact).abs() < 1e-14, "{sum} {exact}");
         assert!(count < 20, "{count} nodes");
+    }
+
+    #[test]
+    fn logarithms_at_double_cuts_are_integrated() {
+        let mut landscape = Landscape::new(&[0.3.into(), 0.3.into()]);
+        let mut sum = 0.0;
+        for interval in landscape.intervals() {
+            landscape.visit(interval, 28.0, &mut |v, w| sum += w * (v - 0.3).abs().ln());
+        }
+        let exact = 0.3 * 0.3_f64.ln() + 0.7 * 0.7_f64.ln() - 1.0;
+        assert!((sum - exact).abs() < 1e-12, "{sum} {exact}");
     }
 
     #[test]

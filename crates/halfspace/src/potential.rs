@@ -280,7 +280,11 @@ impl End {
     #[inline]
     pub(crate) fn f(&self, n: i32) -> Complex64 {
         let Self { zeta, rho, log, r } = *self;
-        let sum = rho + zeta;
+        let mut sum = rho + zeta;
+        if sum.norm_sqr() == 0.0 {
+            // the very singularity on the axis: any finite value will do
+            sum.re = 1e-100;
+        }
         match n {
             -2 => 3.0 * zeta / (rho * rho * rho * rho * rho),
             -1 => 1.0 / (rho * rho * rho),

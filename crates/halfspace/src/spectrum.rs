@@ -33,6 +33,9 @@ pub(crate) struct Amplitudes<T> {
     pub(crate) tt: T,
 }
 
+/// Floor of the Rayleigh function, which vanishes with the numerators at slowness one when nu = 0.
+const SMALLEST: f64 = 1e-280;
+
 /// Amplitudes at slowness x = sin(theta) < 1, p = cos(theta).
 #[inline]
 pub(crate) fn fast(wave: Wave, k: f64, x: f64, p: f64) -> Amplitudes<f64> {
@@ -40,7 +43,7 @@ pub(crate) fn fast(wave: Wave, k: f64, x: f64, p: f64) -> Amplitudes<f64> {
     let y = (k - x2).sqrt();
     let g = 2.0 * x2 - k;
     let both = 4.0 * x2 * p * y;
-    let inverse = 1.0 / (g * g + both);
+    let inverse = 1.0 / (g * g + both).max(SMALLEST);
     match wave {
         Wave::P => {
             let over_x = g * inverse / x;
@@ -73,7 +76,7 @@ pub(crate) fn inverse_rayleigh(k: f64, x: f64, p_abs: f64, y: f64) -> (f64, f64)
     let x2 = x * x;
     let square = (2.0 * x2 - k) * (2.0 * x2 - k);
     let both = 4.0 * x2 * p_abs * y;
-    let scale = 1.0 / (square * square + both * both);
+    let scale = 1.0 / (square * square + both * both).max(SMALLEST);
     (square * scale, both * scale)
 }
 
