@@ -111,7 +111,7 @@ impl Kernel {
     /// [`DomainError`] for r, z or t negative or not finite.
     pub fn remainder(&self, r: f64, z: f64, t: f64) -> Result<Estimate, DomainError> {
         check_place(r, z)?;
-        DomainError::unless(t >= 0.0 && t.is_finite(), "t", t, "[0, inf)")?;
+        check_time(t)?;
         let rest = statics::static_field(&self.medium, self.profile, r, z);
         if t <= self.first_arrival(r, z) {
             return Ok(Estimate {
@@ -124,73 +124,13 @@ impl Kernel {
         Ok(estimate)
     }
 
-    /// int R dt up to t, with a constant of integration that is the same for all t at one (r, z).
-    ///
-    /// # Errors
-    /// [`DomainError`] for r, z or t negative or not finite.
-    pub fn step_integral(&self, r: f64, z: f64, t: f64) -> Result<Estimate, DomainError> {
-        check_place(r, z)?;
-        DomainError::unless(t >= 0.0 && t.is_finite(), "t", t, "[0, inf)")?;
-        let arrival = self.first_arrival(r, z);
-        let mut estimate = self.integrate::<1>(Point {
-            r,
-            z,
-            t: t.max(arrival),
-        });
-        self.impose_surface(z, &mut estimate);
-        if t < arrival {
-            let rest = statics::static_field(&self.medium, self.profile, r, z);
-            for (value, s) in estimate.value.iter_mut().zip(rest) {
-                *value += s * (arrival - t);
-            }
-        }
-        Ok(estimate)
-    }
-
-    /// Fills `cells[j]` with the average of R over [j width, (j + 1) width]; returns an error per field.
-    ///
-    /// # Errors
-    /// [`DomainError`] for r or z negative or not finite, or a width that is not positive and finite.
-    pub fn cell_averages(
-        &self,
-        r: f64,
-        z: f64,
-        width: f64,
-        cells: &mut [Six],
-    ) -> Result<Six, DomainError> {
-        check_place(r, z)?;
-        DomainError::unless(width > 0.0 && width.is_finite(), "width", width, "(0, inf)")?;
-        let rest = statics::static_field(&self.medium, self.profile, r, z);
-        let arrival = self.first_arrival(r, z);
-        let mut error = rest.map(|s| f64::EPSILON * s.abs());
-        let mut before: Option<Estimate> = None;
-        for (j, cell) in cells.iter_mut().enumerate() {
-            let (from, to) = (j as f64 * width, (j + 1) as f64 * width);
-            if to <= arrival {
-                *cell = rest.map(|s| -s);
-                continue;
-            }
-            let start = match before {
-                Some(start) => start,
-                None => self.step_integral(r, z, from)?,
-            };
-            let end = self.step_integral(r, z, to)?;
-            for f in 0..6 {
-                cell[f] = (end.value[f] - start.value[f]) / width;
-                error[f] = error[f].max((end.error[f] + start.error[f]) / width);
-            }
-            before = Some(end);
-        }
-        Ok(error)
-    }
-
     /// Time of the first arrival at (r, z): the distance to the nearest point of the disc.
-    fn first_arrival(&self, r: f64, z: f64) -> f64 {
+    pub(crate) fn first_arrival(&self, r: f64, z: f64) -> f64 {
         (r - self.profile.radius()).max(0.0).hypot(z)
     }
 
     /// On the surface sigma_zz is the load and sigma_rz is zero from the start.
-    fn impose_surface(&self, z: f64, estimate: &mut Estimate) {
+    pub(crate) fn impose_surface(&self, z: f64, estimate: &mut Estimate) {
         if z == 0.0 {
             for field in [Field::StressZz, Field::StressRz] {
                 estimate.value[field.index()] = 0.0;
@@ -199,7 +139,7 @@ impl Kernel {
         }
     }
 
-    fn integrate<const ORDER: i32>(&self, at: Point) -> Estimate {
+    pub(crate) fn integrate<const ORDER: i32>(&self, at: Point) -> Estimate {
         let mut total = self.pole_terms::<ORDER>(at);
         let mut spectrum = Sum::default();
         for wave in [Wave::P, Wave::S] {
@@ -248,6 +188,11 @@ impl Kernel {
 pub(crate) fn check_place(r: f64, z: f64) -> Result<(), DomainError> {
     DomainError::unless(r >= 0.0 && r.is_finite(), "r", r, "[0, inf)")?;
     DomainError::unless(z >= 0.0 && z.is_finite(), "z", z, "[0, inf)")?;
+    Ok(())
+}
+
+pub(crate) fn check_time(t: f64) -> Result<(), DomainError> {
+    DomainError::unless(t >= 0.0 && t.is_finite(), "t", t, "[0, inf)")?;
     Ok(())
 }
 

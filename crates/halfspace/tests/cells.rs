@@ -1,0 +1,100 @@
+//! Cell averages against quadrature of the remainder, and the tail against direct evaluation.
+
+use halfspace::{Arrivals, Kernel, Medium, Profile, Six};
+
+#[test]
+fn averages_are_averages_of_the_remainder() {
+    // Gauss-Legendre with 5 nodes on cells that hold no arrival
+    let nodes = [
+        (0.0, 0.568_888_888_888_888_9),
+        (0.538_469_310_105_683, 0.478_628_670_499_366_5),
+        (-0.538_469_310_105_683, 0.478_628_670_499_366_5),
+        (0.906_179_845_938_664, 0.236_926_885_056_189_1),
+        (-0.906_179_845_938_664, 0.236_926_885_056_189_1),
+    ];
+    for (nu, r, z) in [
+        (0.3, 0.4, 0.6),
+        (0.25, 1.0, 0.3),
+        (0.1, 2.3, 1.1),
+        (0.45, 0.0, 2.0),
+        (0.3, 3.0, 0.0),
+    ] {
+        let medium = Medium::new(nu).unwrap();
+        let kernel = Kernel::new(&medium, Profile::Hertz, 1e-11).unwrap();
+        let arrivals = Arrivals::new(&medium, Profile::Hertz, r, z)
+            .unwrap()
+            .sorted();
+        let width = 0.05;
+        let mut cells = vec![Six::default(); 400];
+        kernel.cell_averages(r, z, width, &mut cells).unwrap();
+        let mut checked = 0;
+        for (j, cell) in cells.iter().enumerate() {
+            let (from, to) = (j as f64 * width, (j + 1) as f64 * width);
+            if arrivals
+                .iter()
+                .any(|a| *a > from - 4.0 * width && *a < to + 4.0 * width)
+            {
+                continue;
+            }
+            checked += 1;
+            let mut mean = Six::default();
+            for (x, w) in nodes {
+                let value = kernel
+                    .remainder(r, z, from + 0.5 * width * (1.0 + x))
+                    .unwrap()
+                    .value;
+                for f in 0..6 {
+                    mean[f] += 0.5 * w * value[f];
+                }
+            }
+            for f in 0..6 {
+                let gap = (cell[f] - mean[f]).abs();
+                assert!(
+                    gap < 2e-9,
+                    "nu {nu} r {r} z {z} cell {j} field {f}: {} {}",
+                    cell[f],
+                    mean[f]
+                );
+            }
+        }
+        assert!(checked > 100, "only {checked} cells clear of arrivals");
+    }
+}
+
+#[test]
+fn the_tail_is_the_direct_value() {
+    for nu in [-0.3, 0.0, 0.25, 0.3, 0.45] {
+        let medium = Medium::new(nu).unwrap();
+        let kernel = Kernel::new(&medium, Profile::Hertz, 1e-11).unwrap();
+        for (r, z) in [
+            (0.0, 0.3),
+            (0.7, 0.0),
+            (1.0, 1.5),
+            (4.0, 0.2),
+            (3.0, 5.0),
+            (0.2, 6.0),
+        ] {
+            for (width, count) in [(0.1, 600), (2.0, 300)] {
+                let mut cells = vec![Six::default(); count];
+                let error = kernel.cell_averages(r, z, width, &mut cells).unwrap();
+                for j in [count / 3, count / 2, count - 1] {
+                    let at = |j: usize| kernel.step_integral(r, z, j as f64 * width).unwrap().value;
+                    let (from, to) = (at(j), at(j + 1));
+                    for f in 0..6 {
+                        let direct = (to[f] - from[f]) / width;
+                        let gap = (cells[j][f] - direct).abs();
+                        assert!(
+                            gap <= error[f] + 1e-12,
+                            "nu {nu} r {r} z {z} cell {j} field {f}: {gap:e} {:e}",
+                            error[f]
+                        );
+                        assert!(
+                            gap < 1e-9,
+                            "nu {nu} r {r} z {z} cell {j} field {f}: {gap:e}"
+                        );
+                    }
+                }
+            }
+        }
+    }
+}
