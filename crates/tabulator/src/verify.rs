@@ -2,8 +2,7 @@
 
 use crate::blocks::Row;
 use crate::error::BuildError;
-use halfspace::Six;
-use lookup::{Content, PulseSum, Table, Tail, Verification};
+use lookup::{Content, PulseSum, Series, Smoothness, Table, Verification};
 use rayon::prelude::*;
 
 /// Lengths of the verification pulses in r0/c1.
@@ -26,7 +25,7 @@ pub(crate) fn verify(
             for k in 0..content.z.len() - 1 {
                 let r = 0.5 * (content.r[i] + content.r[i + 1]);
                 let z = 0.5 * (content.z[k] + content.z[k + 1]);
-                let exact = Exact::new(content, slice, row, k);
+                let exact = exact(content, slice, row, k);
                 for &length in &content.pulse_lengths {
                     probe(table, slice, [r, z], length, &exact, &mut part)?;
                 }
@@ -80,60 +79,25 @@ pub fn quantile(sorted: &[f64], share: f64) -> f64 {
         .unwrap_or(0.0)
 }
 
-/// Exact cells of one probe.
-struct Exact<'a> {
-    row: &'a Row,
-    first: usize,
-    cells: usize,
-    tails: Vec<Tail>,
-    width: f64,
-}
-
-impl<'a> Exact<'a> {
-    fn new(content: &Content, slice: usize, row: &'a Row, k: usize) -> Self {
-        let slice = &content.slices[slice];
-        let terms = slice.tail_terms(content.r.len() * content.z.len());
-        let end = slice.time_end(content.cell_width);
-        let tails = (0..6)
-            .map(|f| {
-                let start = (k * 6 + f) * terms;
-                let coefficients: Vec<f64> = row.tail[start..start + terms]
-                    .iter()
-                    .map(|&c| f64::from(c))
-                    .collect();
-                Tail::new(end, &coefficients)
-            })
-            .collect();
-        Self {
-            row,
-            first: k * 6 * slice.cells,
-            cells: slice.cells,
-            tails,
-            width: content.cell_width,
-        }
-    }
-
-    fn cell(&self, field: usize, j: usize) -> f64 {
-        if j < self.cells {
-            f64::from(self.row.remainder[self.first + field * self.cells + j])
-        } else {
-            self.tails[field].average(j as f64 * self.width, (j + 1) as f64 * self.width)
-        }
-    }
-
-    fn coarse(&self, coarsening: u32, count: usize) -> Vec<Six> {
-        let fine = 1_usize << coarsening;
-        (0..count)
-            .map(|j| {
-                std::array::from_fn(|f| {
-                    (j * fine..(j + 1) * fine)
-                        .map(|i| self.cell(f, i))
-                        .sum::<f64>()
-                        / fine as f64
-                })
-            })
+/// Exact series of depth `k` of a row of probes.
+fn exact(content: &Content, slice: usize, row: &Row, k: usize) -> Series {
+    let slice = &content.slices[slice];
+    let terms = slice.tail_terms(content.r.len() * content.z.len());
+    let part = |values: &[f32], length: usize| -> Vec<f64> {
+        values[k * 6 * length..(k + 1) * 6 * length]
+            .iter()
+            .map(|&x| f64::from(x))
             .collect()
-    }
+    };
+    let averages = part(&row.remainder, slice.cells);
+    let moments = part(&row.moment, slice.cells);
+    Series::new(
+        content.cell_width,
+        slice.cells,
+        averages,
+        moments,
+        &part(&row.tail, terms),
+    )
 }
 
 fn probe(
@@ -141,18 +105,21 @@ fn probe(
     slice: usize,
     [r, z]: [f64; 2],
     length: f64,
-    exact: &Exact<'_>,
+    exact: &Series,
     out: &mut Verification,
 ) -> Result<(), BuildError> {
-    let samples = length / exact.width;
+    let content = table.content();
+    let samples = length / content.cell_width;
     let coarsening = (samples / SAMPLES).log2().max(0.0) as u32;
-    let width = exact.width * f64::from(1_u32 << coarsening);
+    let width = content.cell_width * f64::from(1_u32 << coarsening);
     // Until the pulse has passed the last arrival at the farthest point, and the smooth rest is small.
-    let count = (((exact.cells as f64 * exact.width) / 1.5 + length) / width).ceil() as usize;
+    let arrived = content.slices[slice].time_end(content.cell_width) / 1.5;
+    let count = ((arrived + length) / width).ceil() as usize;
     let mut looked_up = vec![[0.0; 6]; count];
     let nu = table.poisson_ratios()[slice];
-    let info = table.trace(nu, r, z, coarsening, &mut looked_up)?;
-    let direct = exact.coarse(coarsening, count);
+    let info = table.trace_for(Smoothness::Smooth, nu, r, z, coarsening, &mut looked_up)?;
+    let mut direct = vec![[0.0; 6]; count];
+    exact.fill(Smoothness::Smooth, coarsening, &mut direct);
     for (a, b) in looked_up.iter_mut().zip(&direct) {
         for f in 0..6 {
             a[f] -= b[f];
