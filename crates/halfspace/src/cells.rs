@@ -10,7 +10,7 @@ use crate::arrivals::Arrivals;
 use crate::error::DomainError;
 use crate::field::{Estimate, Six};
 use crate::fronts::Point;
-use crate::kernel::{Kernel, check_place, check_time};
+use crate::kernel::{Kernel, check_time};
 use std::f64::consts::PI;
 
 impl Kernel {
@@ -19,10 +19,10 @@ impl Kernel {
     /// # Errors
     /// [`DomainError`] for r, z or t negative or not finite.
     pub fn step_integral(&self, r: f64, z: f64, t: f64) -> Result<Estimate, DomainError> {
-        check_place(r, z)?;
+        self.check_place(r, z)?;
         check_time(t)?;
         let arrival = self.first_arrival(r, z);
-        let mut estimate = self.integrate::<1>(Point {
+        let mut estimate = self.evaluate::<1>(Point {
             r,
             z,
             t: t.max(arrival),
@@ -51,7 +51,7 @@ impl Kernel {
         width: f64,
         cells: &mut [Six],
     ) -> Result<Six, DomainError> {
-        check_place(r, z)?;
+        self.check_place(r, z)?;
         DomainError::unless(width > 0.0 && width.is_finite(), "width", width, "(0, inf)")?;
         let end = cells.len() as f64 * width;
         check_time(end)?;

@@ -3,7 +3,7 @@
 use crate::compact::compact;
 use crate::fronts::{self, Point, Sense};
 use crate::kernel::{Kernel, Sum, fields};
-use crate::panels::Landscape;
+use crate::panels::{Landscape, Strength};
 use crate::potential::Potentials;
 use crate::spectrum::{self, Wave};
 
@@ -27,7 +27,7 @@ impl Kernel {
             Sense::Image if at.t + at.z * self.vertical_at_one(wave) >= limit => return,
             Sense::Outgoing | Sense::Image => {}
         }
-        let mut landscape = Landscape::new(&self.fixed.fast_with_origin);
+        let mut landscape = Landscape::new(&self.fixed.fast_with_origin, self.strength::<ORDER>());
         fronts::add_fast(
             &mut landscape,
             at,
@@ -71,7 +71,7 @@ impl Kernel {
 
     fn passed_part(&self, wave: Wave, interval: (f64, f64)) -> f64 {
         let mut sum = 0.0;
-        let landscape = Landscape::new(&self.fixed.fast);
+        let landscape = Landscape::new(&self.fixed.fast, Strength::Integrable);
         landscape.visit(interval, self.digits(), &mut |u, weight| {
             let (x, p, jacobian) = half_angle(u);
             sum += weight * jacobian * 0.5 * x * spectrum::fast(wave, self.k, x, p).w;

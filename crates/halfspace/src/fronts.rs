@@ -218,7 +218,10 @@ pub(crate) fn add_slow(
         with_mirror(q, |q| landscape.add(stretch.variable(q)));
         with_reciprocal(q, |q| landscape.add(stretch.variable(q)));
     };
+    // On the surface the roots of a pair are reciprocal and stand for the same two fronts.
+    let twin = |v: Complex64| at.z == 0.0 && v.norm_sqr() > 1.0 && v.im == 0.0;
     for_each_front(at, radius, k, wave, Sense::Outgoing, |v| match wave {
+        Wave::P | Wave::S if twin(v) => {}
         Wave::P => {
             let s = Complex64::i() * cosine(v) / span;
             add(s / (1.0 + root(1.0 - s * s)));
@@ -228,15 +231,6 @@ pub(crate) fn add_slow(
             add(root(1.0 - c * c) / (1.0 + c));
         }
     });
-    if at.z == 0.0 && wave == Wave::P {
-        // On the surface the longitudinal fronts x = t/|e| are singular at any slowness.
-        for e in edges(at.r, radius) {
-            let s2 = ((at.t / e).powi(2) - 1.0) / (k - 1.0);
-            if s2 > 0.0 && s2 < 1.0 {
-                add((s2.sqrt() / (1.0 + (1.0 - s2).sqrt())).into());
-            }
-        }
-    }
 }
 
 /// Passes on a point and its negative: the one on the right, and the other where it is near enough to matter.
@@ -276,9 +270,10 @@ fn cosine(u: Complex64) -> Complex64 {
     (1.0 - square) / (1.0 + square)
 }
 
-/// The two distances |e| of the front equation.
-fn edges(r: f64, radius: f64) -> [f64; 2] {
-    [radius + r, (radius - r).abs()]
+/// The distances |e| of the front equation: two, or one for a point force.
+fn edges(r: f64, radius: f64) -> impl Iterator<Item = f64> {
+    let nearest = (radius > 0.0).then_some((radius - r).abs());
+    [radius + r].into_iter().chain(nearest)
 }
 
 /// Roots u of (sense t - z) u^2 - 2 e u + (z + sense t) = 0, t in units of the slowness of the wave, for

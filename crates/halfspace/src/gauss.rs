@@ -29,6 +29,40 @@ pub(crate) fn rule(n: usize) -> &'static Rule {
     &RULES[n - 1]
 }
 
+/// The rule with `n` nodes on [0, 1] for integrands g(s)/s^2, g smooth with g'(0) = 0, in Hadamard's sense.
+///
+/// ```text
+/// f.p. int_0^1 g(s)/s^2 ds = int_0^1 (g(s) - g(0) - g'(0) s)/s^2 ds - g(0)
+/// ```
+///
+/// The weights multiply g(s)/s^2; g(0) and g'(0) are those of the polynomial through the nodes.
+pub(crate) fn finite_part_rule(n: usize) -> &'static Rule {
+    static RULES: LazyLock<Vec<Rule>> =
+        LazyLock::new(|| (1..=MAX_NODES).map(finite_part).collect());
+    &RULES[n - 1]
+}
+
+fn finite_part(n: usize) -> Rule {
+    let (nodes, plain): (Vec<f64>, Vec<f64>) = rule(n).on(0.0, 1.0).unzip();
+    let moment = |power: i32| -> f64 {
+        nodes
+            .iter()
+            .zip(&plain)
+            .map(|(s, w)| w * s.powi(power))
+            .sum()
+    };
+    let (value_cost, slope_cost) = (moment(-2) + 1.0, moment(-1));
+    let weights = (0..n)
+        .map(|i| {
+            let others = || (0..n).filter(|&j| j != i);
+            let value: f64 = others().map(|j| nodes[j] / (nodes[j] - nodes[i])).product();
+            let slope = -value * others().map(|j| 1.0 / nodes[j]).sum::<f64>();
+            plain[i] - nodes[i] * nodes[i] * (value * value_cost + slope * slope_cost)
+        })
+        .collect();
+    Rule { nodes, weights }
+}
+
 /// Newton iteration on the Legendre polynomial from Tricomi's initial guess.
 fn compute(n: usize) -> Rule {
     let mut nodes = vec![0.0; n];
@@ -72,6 +106,19 @@ fn legendre(n: usize, x: f64) -> (f64, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn finite_parts_of_powers_are_exact() {
+        for n in 3..=20 {
+            let rule = finite_part_rule(n);
+            for power in (0..n as i32).filter(|&k| k != 1).map(|k| k - 2) {
+                let terms = rule.nodes.iter().zip(&rule.weights);
+                let sum: f64 = terms.map(|(s, w)| w * s.powi(power)).sum();
+                let exact = 1.0 / (f64::from(power) + 1.0);
+                assert!((sum - exact).abs() < 1e-10, "n = {n}, s^{power}: {sum}");
+            }
+        }
+    }
 
     #[test]
     fn every_rule_is_exact_up_to_its_degree() {

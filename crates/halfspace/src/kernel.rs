@@ -10,10 +10,12 @@
 //! the potentials enter, so each wave and each direction of travel has an interval of its own; above it the
 //! potentials are taken whole.
 
+use crate::axis;
 use crate::error::DomainError;
 use crate::field::{Estimate, Field, Six};
 use crate::fronts::{FixedSingularities, Point, Sense};
 use crate::medium::Medium;
+use crate::panels::Strength;
 use crate::potential::{Potentials, potentials};
 use crate::profile::Profile;
 use crate::spectrum::{self, Amplitudes, Pole, Wave};
@@ -101,7 +103,7 @@ impl Kernel {
     /// # Errors
     /// [`DomainError`] for r or z negative or not finite.
     pub fn static_field(&self, r: f64, z: f64) -> Result<Six, DomainError> {
-        check_place(r, z)?;
+        self.check_place(r, z)?;
         Ok(statics::static_field(&self.medium, self.profile, r, z))
     }
 
@@ -110,7 +112,7 @@ impl Kernel {
     /// # Errors
     /// [`DomainError`] for r, z or t negative or not finite.
     pub fn remainder(&self, r: f64, z: f64, t: f64) -> Result<Estimate, DomainError> {
-        check_place(r, z)?;
+        self.check_place(r, z)?;
         check_time(t)?;
         let rest = statics::static_field(&self.medium, self.profile, r, z);
         if t <= self.first_arrival(r, z) {
@@ -119,9 +121,34 @@ impl Kernel {
                 error: rest.map(|s| f64::EPSILON * s.abs()),
             });
         }
-        let mut estimate = self.integrate::<0>(Point { r, z, t });
+        let mut estimate = self.evaluate::<0>(Point { r, z, t });
         self.impose_surface(z, &mut estimate);
         Ok(estimate)
+    }
+
+    /// The integral, continued to the axis where the fronts of a point force or a punch meet there.
+    pub(crate) fn evaluate<const ORDER: i32>(&self, at: Point) -> Estimate {
+        if axis::is_near(self.profile, at) {
+            axis::continued(self, at, |at| self.integrate::<ORDER>(at))
+        } else {
+            self.integrate::<ORDER>(at)
+        }
+    }
+
+    /// r and z finite and not negative, and the fields finite there.
+    pub(crate) fn check_place(&self, r: f64, z: f64) -> Result<(), DomainError> {
+        check_place(r, z)?;
+        let singular = match self.profile {
+            Profile::Hertz => false,
+            Profile::Punch => z == 0.0 && r == 1.0,
+            Profile::Point => z == 0.0 && r == 0.0,
+        };
+        let range = match self.profile {
+            Profile::Point => "(0, inf) where z = 0, for a point force",
+            Profile::Hertz | Profile::Punch => "[0, 1) or (1, inf) where z = 0, for a punch",
+        };
+        DomainError::unless(!singular, "r", r, range)?;
+        Ok(())
     }
 
     /// Time of the first arrival at (r, z): the distance to the nearest point of the disc.
@@ -139,7 +166,7 @@ impl Kernel {
         }
     }
 
-    pub(crate) fn integrate<const ORDER: i32>(&self, at: Point) -> Estimate {
+    fn integrate<const ORDER: i32>(&self, at: Point) -> Estimate {
         let mut total = self.pole_terms::<ORDER>(at);
         let mut spectrum = Sum::default();
         for wave in [Wave::P, Wave::S] {
@@ -174,6 +201,14 @@ impl Kernel {
             sum.add(1.0, fields(&pole.amplitudes, &psi.map(|v| v.re), at.r));
         }
         sum
+    }
+
+    /// The step response of stress to a point force has fronts of power -3/2.
+    pub(crate) fn strength<const ORDER: i32>(&self) -> Strength {
+        match self.profile {
+            Profile::Point if ORDER == 0 => Strength::FinitePart,
+            Profile::Hertz | Profile::Punch | Profile::Point => Strength::Integrable,
+        }
     }
 
     /// Accuracy asked of each rule, as minus its natural logarithm.

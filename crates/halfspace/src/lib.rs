@@ -6,6 +6,7 @@
 //! z points into the half-space; compression is negative stress.
 
 mod arrivals;
+mod axis;
 mod cells;
 mod compact;
 mod error;

@@ -31,6 +31,16 @@ const SAME: f64 = 1e-14;
 pub(crate) struct Landscape {
     cuts: List<f64>,
     singularities: List<Complex64>,
+    strength: Strength,
+}
+
+/// How strong the singularities at the cuts are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Strength {
+    /// Integrable: down to the inverse square root.
+    Integrable,
+    /// The power -3/2, taken as Hadamard's finite part.
+    FinitePart,
 }
 
 /// A short list on the stack.
@@ -60,10 +70,11 @@ impl<T: Copy + Default> List<T> {
 
 impl Landscape {
     /// An interval with nothing but the given singularities, none of them on it.
-    pub(crate) fn new(fixed: &[Complex64]) -> Self {
+    pub(crate) fn new(fixed: &[Complex64], strength: Strength) -> Self {
         let mut landscape = Self {
             cuts: List::new(),
             singularities: List::new(),
+            strength,
         };
         for &point in fixed {
             landscape.add(point);
@@ -117,9 +128,15 @@ impl Landscape {
         match (self.power(from), self.power(to)) {
             (None, None) => {
                 let images = self.images(|v| (v - from) / (to - from));
-                panels(&images, digits, 3.0, &mut |s, weight| {
-                    f(from + (to - from) * s, weight * (to - from));
-                });
+                panels(
+                    &images,
+                    digits,
+                    3.0,
+                    Strength::Integrable,
+                    &mut |s, weight| {
+                        f(from + (to - from) * s, weight * (to - from));
+                    },
+                );
             }
             (Some(power), None) => self.visit_power(from, to, power, digits, f),
             (None, Some(power)) => self.visit_power(to, from, power, digits, f),
@@ -161,7 +178,7 @@ impl Landscape {
         });
         // A power of a logarithm is left at s = 0: Gauss's rule gains 2 power digits a doubling there.
         let least = if power == SQUARE { 3.0 } else { 0.7 * digits };
-        panels(&images, digits, least, &mut |s, weight| {
+        panels(&images, digits, least, self.strength, &mut |s, weight| {
             let v = cut + scale * s.powi(power);
             if v != cut {
                 f(
@@ -200,14 +217,23 @@ pub(crate) fn root(v: Complex64) -> Complex64 {
 }
 
 /// Visits Gauss nodes, at least so many a panel, on panels of [0, 1] that keep clear of the singularities.
-fn panels(images: &List<Complex64>, digits: f64, least: f64, f: &mut impl FnMut(f64, f64)) {
+fn panels(
+    images: &List<Complex64>,
+    digits: f64,
+    least: f64,
+    strength: Strength,
+    f: &mut impl FnMut(f64, f64),
+) {
     let mut stack = [(0.0, 1.0); 64];
     let mut depth = 1;
     while depth > 0 {
         depth -= 1;
         let (s0, s1) = stack[depth];
         let ellipse = smallest_ellipse(images.as_slice(), s0, s1);
-        let nodes = (digits / (2.0 * ellipse.ln())).ceil() + 1.0;
+        let at_cut = s0 == 0.0 && strength == Strength::FinitePart;
+        // Gauss's rule has twice the degree of one that only interpolates.
+        let degree = if at_cut { 1.0 } else { 2.0 };
+        let nodes = (digits / (degree * ellipse.ln())).ceil() + 1.0;
         if nodes > MOST_NODES && s1 - s0 > NARROWEST {
             let middle = 0.5 * (s0 + s1);
             stack[depth] = (middle, s1);
@@ -215,8 +241,16 @@ fn panels(images: &List<Complex64>, digits: f64, least: f64, f: &mut impl FnMut(
             depth += 2;
             continue;
         }
-        for (s, weight) in gauss::rule(nodes.max(least).min(MOST_NODES) as usize).on(s0, s1) {
-            f(s, weight);
+        let n = nodes.max(least).min(MOST_NODES) as usize;
+        if at_cut {
+            let rule = gauss::finite_part_rule(n);
+            for (s, weight) in rule.nodes.iter().zip(&rule.weights) {
+                f(s1 * s, s1 * weight);
+            }
+        } else {
+            for (s, weight) in gauss::rule(n).on(s0, s1) {
+                f(s, weight);
+            }
         }
     }
 }
@@ -241,7 +275,7 @@ mod tests {
     use super::*;
 
     fn integral(singularity: Complex64, f: impl Fn(f64) -> f64) -> (f64, usize) {
-        let mut landscape = Landscape::new(&[singularity]);
+        let mut landscape = Landscape::new(&[singularity], Strength::Integrable);
         let (mut sum, mut count) = (0.0, 0);
         for interval in landscape.intervals() {
             landscape.visit(interval, 28.0, &mut |v, w| {
@@ -262,7 +296,7 @@ mod tests {
 
     #[test]
     fn logarithms_at_double_cuts_are_integrated() {
-        let mut landscape = Landscape::new(&[0.3.into(), 0.3.into()]);
+        let mut landscape = Landscape::new(&[0.3.into(), 0.3.into()], Strength::Integrable);
         let mut sum = 0.0;
         for interval in landscape.intervals() {
             landscape.visit(interval, 28.0, &mut |v, w| sum += w * (v - 0.3).abs().ln());

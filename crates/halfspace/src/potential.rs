@@ -248,9 +248,14 @@ impl End {
     /// An end of which only orders up to zero are used, which need no logarithm.
     #[inline]
     fn without_log(zeta: Complex64, r: f64) -> Self {
+        let mut rho = root_with_circle(zeta, r);
+        if rho.norm_sqr() == 0.0 {
+            // a node that rounds to the very front: as near as rounding lets it be
+            rho.re = f64::EPSILON.sqrt() * r;
+        }
         Self {
             zeta,
-            rho: root_with_circle(zeta, r),
+            rho,
             log: Complex64::default(),
             r,
         }

@@ -21,7 +21,7 @@ impl Kernel {
     /// Adds both senses of one wave over 1 < x < 1/kappa.
     pub(crate) fn slow<const ORDER: i32>(&self, at: Point, wave: Wave, sum: &mut Sum) {
         let span = (self.k - 1.0).sqrt();
-        let mut landscape = Landscape::new(&self.fixed.slow);
+        let mut landscape = Landscape::new(&self.fixed.slow, self.strength::<ORDER>());
         let stretch = &self.fixed.stretch;
         fronts::add_slow(
             &mut landscape,

@@ -1,0 +1,81 @@
+//! The axis under a point force or a punch.
+//!
+//! There the fronts of opposite edges meet and the compact potentials become delta functions. Off the axis
+//! nothing is special: each field is r to its parity times a smooth function of r^2 between fronts, so its
+//! values at a few small radii continue it to the axis.
+
+use crate::arrivals::Arrivals;
+use crate::field::{Estimate, FIELDS, Six};
+use crate::fronts::Point;
+use crate::kernel::Kernel;
+use crate::profile::Profile;
+
+/// Radii below this share of the distance from the edge of the disc are continued.
+const NEAR: f64 = 0.03;
+
+/// Number of radii used.
+const NODES: usize = 6;
+
+/// Whether the fields at a point are continued from larger radii.
+pub(crate) fn is_near(profile: Profile, at: Point) -> bool {
+    match profile {
+        Profile::Hertz => false,
+        Profile::Punch | Profile::Point => at.r < NEAR * at.z.hypot(profile.radius()),
+    }
+}
+
+/// The value at `at` from `evaluate` at radii h, 2h, ..., by interpolation in r^2.
+pub(crate) fn continued(
+    kernel: &Kernel,
+    at: Point,
+    evaluate: impl Fn(Point) -> Estimate,
+) -> Estimate {
+    let step = step(kernel, at);
+    let radii: [f64; NODES] = std::array::from_fn(|i| step * (i + 1) as f64);
+    let values = radii.map(|r| evaluate(Point { r, ..at }));
+    let (value, error) = combine(at.r, &radii, &values);
+    let (coarse, _) = combine(at.r, &radii[..NODES - 1], &values[..NODES - 1]);
+    Estimate {
+        value,
+        error: std::array::from_fn(|f| error[f] + (value[f] - coarse[f]).abs()),
+    }
+}
+
+/// A spacing that keeps all radii on one side of every front.
+///
+/// Off the axis a front from the edge of a disc arrives earlier or later by at most r, one from a point by r^2/(2 z).
+fn step(kernel: &Kernel, at: Point) -> f64 {
+    const SHARE: f64 = 0.05;
+    let radius = kernel.profile().radius();
+    let distance = at.z.hypot(radius);
+    let arrivals = Arrivals::new(kernel.medium(), kernel.profile(), 0.0, at.z);
+    let times = arrivals.map_or(vec![], |arrivals| arrivals.sorted());
+    let gap = times.iter().map(|a| (at.t - a).abs()).fold(at.t, f64::min);
+    let widest = if radius > 0.0 {
+        kernel.medium().kappa() * gap
+    } else {
+        (gap * at.z).sqrt()
+    };
+    (widest / (NODES + 1) as f64).clamp(1e-4 * distance, SHARE * distance)
+}
+
+/// Lagrange interpolation of the fields, divided by r where odd, in r^2.
+fn combine(r: f64, radii: &[f64], values: &[Estimate]) -> (Six, Six) {
+    let (mut sum, mut error) = (Six::default(), Six::default());
+    for (i, estimate) in values.iter().enumerate() {
+        let others = radii.iter().enumerate().filter(|&(j, _)| j != i);
+        let weight: f64 = others
+            .map(|(_, other)| (r * r - other * other) / (radii[i] * radii[i] - other * other))
+            .product();
+        for (f, field) in FIELDS.into_iter().enumerate() {
+            let parity = if field.is_odd_in_r() {
+                r / radii[i]
+            } else {
+                1.0
+            };
+            sum[f] += weight * parity * estimate.value[f];
+            error[f] += (weight * parity).abs() * estimate.error[f];
+        }
+    }
+    (sum, error)
+}
