@@ -1,0 +1,132 @@
+//! Weights of the half-space's memory on a uniform step.
+//!
+//! The deflection under a force sampled a step h apart is
+//!
+//! ```text
+//! w(t_n)/S = p_n - sum_j g_j (p_{n-j} - p_{n-j-1}),      S the static compliance
+//! ```
+//!
+//! with g_j = 1 - (1/h) int_{jh}^{(j+1)h} W dt for a force that is linear in each cell, and a
+//! correction for its curvature, taken from neighbouring cells, with the first moments of W.
+//! g_j = 0 for cells older than the memory, so the sum is short.
+
+use crate::quadrature::GAUSS_4;
+use halfspace::SurfaceResponse;
+
+/// The weights g_j of one step, and the memory they span.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Weights {
+    pub(crate) lag: Vec<f64>,
+}
+
+impl Weights {
+    /// For `step` and `unit` = r0/c1, both in the same unit of time.
+    pub(crate) fn new(response: &SurfaceResponse, step: f64, unit: f64) -> Self {
+        let h = step / unit;
+        let memory = response.memory();
+        let cells = (memory / h).ceil() as usize;
+        let mut lag = vec![0.0; cells + 2];
+        let mut before = 0.0;
+        for j in 0..cells {
+            let (from, to) = (j as f64 * h, (j + 1) as f64 * h);
+            let after = response.step_integral(to);
+            lag[j] += 1.0 - (after - before) / h;
+            let curvature = first_moment(response, from, to, before, after) / (h * h);
+            if j == 0 {
+                // the cell that ends now: its curvature continues the two before it
+                lag[0] += 1.5 * curvature;
+                lag[1] -= 2.0 * curvature;
+                lag[2] += 0.5 * curvature;
+            } else {
+                lag[j - 1] += 0.5 * curvature;
+                lag[j + 1] -= 0.5 * curvature;
+            }
+            before = after;
+        }
+        Self { lag }
+    }
+
+    /// sum over all j of g_j (p_{n-j} - p_{n-j-1}); `force` holds p_0 .. p_n.
+    pub(crate) fn lagging(&self, force: &[f64]) -> f64 {
+        let (newest, past) = match force {
+            [past @ .., newest] => (*newest, past),
+            [] => return 0.0,
+        };
+        let before = past.last().copied().unwrap_or(0.0);
+        self.lag[0] * (newest - before) + self.past(past)
+    }
+
+    /// sum over j >= 1 of g_j (p_{n-j} - p_{n-j-1}), the part of the past; `past` holds p_0 .. p_{n-1}.
+    pub(crate) fn past(&self, past: &[f64]) -> f64 {
+        let n = past.len();
+        let mut sum = 0.0;
+        for (j, g) in self.lag.iter().enumerate().skip(1) {
+            if j > n {
+                break;
+            }
+            let newer = past[n - j];
+            let older = if j < n { past[n - j - 1] } else { 0.0 };
+            sum += g * (newer - older);
+        }
+        sum
+    }
+}
+
+/// int W(x) (x - mid) dx over a cell, from the ends of int W and Gauss points inside.
+fn first_moment(response: &SurfaceResponse, from: f64, to: f64, before: f64, after: f64) -> f64 {
+    let memory = response.memory();
+    let width = to - from;
+    // Beyond the memory int W = t - relaxation, whose integral is elementary.
+    let live = memory.clamp(from, to);
+    let mut area = GAUSS_4
+        .iter()
+        .map(|&(x, weight)| weight * response.step_integral(from + x * (live - from)))
+        .sum::<f64>()
+        * (live - from);
+    area += (to - live) * (0.5 * (to + live) - response.relaxation_time());
+    0.5 * width * (before + after) - area
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use halfspace::{Deflection, Medium};
+
+    fn response() -> SurfaceResponse {
+        SurfaceResponse::new(&Medium::new(0.3).unwrap(), Deflection::Centre)
+    }
+
+    #[test]
+    fn a_parabola_is_convolved_exactly() {
+        // p = t^2: w/S = 2 int W(t - s) s ds = 2 int_0^t (int W)
+        let response = response();
+        for h in [0.03, 0.3, 3.0] {
+            let weights = Weights::new(&response, h, 1.0);
+            let n = 60_usize;
+            let p = |i: f64| (i * h).powi(2);
+            let mut sum = (n as f64 * h).powi(2);
+            for (j, g) in weights.lag.iter().enumerate() {
+                let i = n as f64 - j as f64;
+                if i > 0.0 {
+                    sum -= g * (p(i) - p(i - 1.0));
+                }
+            }
+            let (t, m) = (n as f64 * h, response.memory());
+            let mut exact = 0.0;
+            let panels = 400;
+            for panel in 0..panels {
+                for (x, w) in GAUSS_4 {
+                    let s = m.min(t) * (f64::from(panel) + x) / f64::from(panels);
+                    exact += 2.0 * w * m.min(t) / f64::from(panels) * response.step_integral(s);
+                }
+            }
+            if t > m {
+                exact += (t - m) * (t + m - 2.0 * response.relaxation_time());
+            }
+            assert!(
+                (sum / exact - 1.0).abs() < 1e-4 * h.min(1.0),
+                "h = {h}: {sum} {exact}"
+            );
+        }
+    }
+}
