@@ -58,8 +58,9 @@ def test_histories(impact):
     with h5py.File(impact.path, "r") as file:
         time = file["time"]
         assert units(time) == "s"
-        assert time.shape == (impact.summary["steps"] + 1,)
         assert np.all(np.diff(time[()]) > 0) and time[0] == 0.0
+        assert time[-1] > impact.summary["contact_time_s"]
+        assert time.is_scale
         for name, unit in HISTORIES.items():
             assert file[name].shape == time.shape, name
             assert units(file[name]) == unit, name
@@ -91,7 +92,10 @@ def test_probes(impact):
             assert probes[name].shape == (count, samples), name
             assert units(probes[name]) == unit, name
             assert np.all(np.isfinite(probes[name][()])), name
-            assert scales(probes[name])[1] == "/time", name
+            assert probes[name].dims[1][0].name == "/time", name
+            errors = probes[name + "_error"]
+            assert errors.shape == (count,) and units(errors) == unit, name
+            assert np.all(errors[()] >= 0.0) and np.all(np.isfinite(errors[()])), name
 
 
 def test_probes_rest_until_the_first_wave(impact):
@@ -152,6 +156,13 @@ def test_results_name_where_they_come_from(impact):
         text = " ".join(f"{name}={value}" for name, value in file.attrs.items())
     for part in ("wave", "implicit", "youngs_modulus_pa"):
         assert part in text
+
+
+def test_results_name_the_table(impact, table):
+    with h5py.File(impact.path, "r") as results, h5py.File(table, "r") as kernels:
+        assert results.attrs["kernel"] == "table"
+        assert results.attrs["table_id"] == kernels.attrs["id"]
+        assert results.attrs["table_format_version"] == kernels.attrs["format_version"]
 
 
 def test_same_input_same_numbers(tmp_path, impact, paper_scene, table):
