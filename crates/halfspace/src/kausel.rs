@@ -30,7 +30,7 @@ pub fn centre_step(medium: &Medium, t: f64) -> f64 {
     let kappa = medium.kappa();
     let roots = medium.rayleigh_cubic_roots();
     let x3 = roots[2].re;
-    if !(t > 0.0) {
+    if t.is_nan() || t <= 0.0 {
         return 0.0;
     }
     if t >= x3.sqrt() {

@@ -176,11 +176,10 @@ impl Kernel {
             self.slow::<ORDER>(at, wave, &mut spectrum);
         }
         total.add(1.0 / PI, spectrum.value);
-        let mut error = Six::default();
-        for f in 0..6 {
-            error[f] = self.tolerance * spectrum.size[f] / PI
-                + 4.0 * f64::EPSILON * (total.size[f] + spectrum.size[f]);
-        }
+        let error = std::array::from_fn(|f| {
+            self.tolerance * spectrum.size[f] / PI
+                + 4.0 * f64::EPSILON * (total.size[f] + spectrum.size[f])
+        });
         Estimate {
             value: total.value,
             error,

@@ -1,5 +1,7 @@
 //! Cell averages against quadrature of the remainder, and the tail against direct evaluation.
 
+#![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
+
 use halfspace::{Arrivals, Kernel, Medium, Profile, Six};
 
 #[test]

@@ -1,5 +1,7 @@
 //! The kernels against responses to sin^4 pulses from an independent Laplace-Hankel inversion.
 
+#![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
+
 use halfspace::{Arrivals, FIELDS, Kernel, Medium, Profile, Six};
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
@@ -80,7 +82,9 @@ fn response(kernel: &Kernel, row: &Row, nodes: &[(f64, f64)]) -> Six {
     ends.insert(0, start);
     ends.push(t);
     for pair in ends.windows(2) {
-        let pieces = ((pair[1] - pair[0]) / (0.25 * pulse)).ceil().max(1.0) as usize;
+        let pieces = ((pair[1] - pair[0]) / (0.25 * pulse).min(1.0))
+            .ceil()
+            .max(1.0) as usize;
         for piece in 0..pieces {
             let a = pair[0] + (pair[1] - pair[0]) * piece as f64 / pieces as f64;
             let b = pair[0] + (pair[1] - pair[0]) * (piece + 1) as f64 / pieces as f64;
@@ -105,8 +109,8 @@ fn sine_pulses_agree_with_an_independent_inversion() {
     let key = |row: &Row| format!("{} {} {} {}", row.medium, row.r, row.z, row.pulse);
     for row in rows() {
         let peak = peaks.entry(key(&row)).or_insert([0.0; 6]);
-        for f in 0..6 {
-            peak[f] = peak[f].max(row.fields[f].abs());
+        for (largest, value) in peak.iter_mut().zip(row.fields) {
+            *largest = largest.max(value.abs());
         }
     }
     let mut worst: BTreeMap<String, Six> = BTreeMap::new();
@@ -126,10 +130,19 @@ fn sine_pulses_agree_with_an_independent_inversion() {
         println!("{key}: {}", show(errors));
     }
     for (key, errors) in &worst {
-        // the reference itself is good to 1e-10 absolute below the surface, 1e-7 on it
-        let surface = key.split(' ').nth(2) == Some("0");
-        let bound = if surface { 2e-5 } else { 3e-8 };
-        assert!(errors.iter().all(|e| *e < bound), "{key}: {}", show(errors));
+        // relative to the peak, or the accuracy of the reference: 1e-10 below the surface, 1e-7 on it
+        let floor = if key.split(' ').nth(2) == Some("0") {
+            1e-7
+        } else {
+            1e-10
+        };
+        for (error, peak) in errors.iter().zip(peaks[key]) {
+            assert!(
+                error * peak < floor.max(1e-9 * peak),
+                "{key}: {}",
+                show(errors)
+            );
+        }
     }
 }
 

@@ -1,5 +1,7 @@
 //! The surface response against the closed form of Kausel (2012) and the numbers of the physics notes.
 
+#![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
+
 use halfspace::{Deflection, Medium, SurfaceResponse, kausel};
 
 const RATIOS: [f64; 12] = [
