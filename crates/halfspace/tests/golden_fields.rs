@@ -131,7 +131,7 @@ fn sine_pulses_agree_with_an_independent_inversion() {
     }
     for (key, errors) in &worst {
         // relative to the peak, or the accuracy of the reference: 1e-10 below the surface, 1e-7 on it
-        let floor = if key.split(' ').nth(2) == Some("0") {
+        let floor: f64 = if key.split(' ').nth(2) == Some("0") {
             1e-7
         } else {
             1e-10
