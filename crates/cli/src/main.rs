@@ -1,3 +1,54 @@
-//! The hertzlamb command.
+//! The `hertzlamb` command: one file per subcommand.
 
-fn main() {}
+mod comparison;
+mod completions;
+mod demo;
+mod failure;
+mod impact_command;
+mod materials;
+mod picture;
+mod report;
+mod table;
+mod tabulate;
+
+use clap::{Parser, Subcommand};
+use std::process::ExitCode;
+
+/// Impact of a body on an elastic half-space: contact force, rebound and waves.
+#[derive(Debug, Parser)]
+#[command(name = "hertzlamb", version, propagate_version = true)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Runs a scene: contact force, rebound, fields at probes.
+    Impact(impact_command::Arguments),
+    /// Runs the paper's case and sets its numbers beside those of this program.
+    Demo(demo::Arguments),
+    /// Builds a kernel table: once, for every material pair.
+    Tabulate(tabulate::Arguments),
+    /// Looks at finished tables: info, verify, diff.
+    Table(table::Arguments),
+    /// Lists and searches the materials library.
+    Materials(materials::Arguments),
+    /// Writes a completion script for a shell to standard output.
+    Completions(completions::Arguments),
+}
+
+fn main() -> ExitCode {
+    let done = match Cli::parse().command {
+        Command::Impact(arguments) => impact_command::run(&arguments),
+        Command::Demo(arguments) => demo::run(&arguments),
+        Command::Tabulate(arguments) => tabulate::run(&arguments),
+        Command::Table(arguments) => table::run(&arguments),
+        Command::Materials(arguments) => materials::run(&arguments),
+        Command::Completions(arguments) => completions::run(&arguments),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => failure.report(),
+    }
+}

@@ -1,0 +1,131 @@
+//! `hertzlamb demo`: the paper's case from kernels to picture.
+
+use crate::comparison::Comparison;
+use crate::failure::{Failure, print};
+use crate::impact_command::open_table;
+use crate::picture::draw;
+use clap::Args;
+use impact::output::{Existing, write, write_whole};
+use impact::{KernelChoice, Outcome, Scene, simulate};
+use indicatif::{ProgressBar, ProgressStyle};
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+use tabulator::{Grid, Progress, build};
+
+/// The paper's scene, the same file as in scenes/.
+const SCENE: &str = include_str!("../../../scenes/copper-on-steel.toml");
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Example:\n  hertzlamb demo -o demo-out\n\nThe kernel table is made when it is missing; results and picture of an earlier demo are replaced."
+)]
+pub(crate) struct Arguments {
+    /// Folder for the table, the results file and the picture.
+    #[arg(short, long, value_name = "DIR", default_value = "demo-out")]
+    output: PathBuf,
+}
+
+pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let folder = &arguments.output;
+    std::fs::create_dir_all(folder).map_err(|error| {
+        Failure::input(format!(
+            "cannot make the folder {}: {error}",
+            folder.display()
+        ))
+    })?;
+    let table_path = folder.join("kernels.h5");
+    make_table(&table_path)?;
+    let table = open_table(&table_path)?;
+    let scene = |edit: &dyn Fn(&str) -> String| {
+        Scene::from_toml(&edit(SCENE), Path::new(".")).map_err(Failure::work)
+    };
+    let force_only = |text: &str| text.split("[[probe]]").next().unwrap_or(text).to_owned();
+    let stiffer = |text: &str| force_only(text).replace("123e9", "129e9");
+    let explicit = |text: &str| {
+        stiffer(text)
+            .replace("\"implicit\"", "\"explicit\"")
+            .replace("tolerance = 1e-4", "step_s = 1.35e-7")
+    };
+    let hertz = |text: &str| text.replace("\"wave\"", "\"hertz\"");
+    let run =
+        |scene: &Scene| -> Result<Outcome, Failure> { Ok(simulate(scene, &KernelChoice::Direct)?) };
+    let start = Instant::now();
+    let main = simulate(&scene(&str::to_owned)?, &KernelChoice::Table(table))?;
+    let wall_s = start.elapsed().as_secs_f64();
+    let comparison = Comparison {
+        table_1: scene(&str::to_owned)?,
+        coupled: main,
+        coupled_129: run(&scene(&stiffer)?)?,
+        explicit_129: run(&scene(&explicit)?)?,
+        hertz: run(&scene(&|text| hertz(&force_only(text)))?)?,
+        hertz_129: run(&scene(&|text| hertz(&stiffer(text)))?)?,
+    };
+    print(comparison.text()?)?;
+
+    let results = folder.join("copper-on-steel.h5");
+    write(&results, &comparison.coupled, Existing::Replace)?;
+    let picture = folder.join("copper-on-steel.svg");
+    write_whole(&picture, Existing::Replace, |part| {
+        draw(part, &comparison.coupled)
+    })?;
+    for warning in &comparison.coupled.warnings {
+        eprintln!("warning: {warning}");
+    }
+    eprintln!(
+        "the coupled impact with its {} probes took {:.1} ms",
+        comparison
+            .coupled
+            .fields
+            .as_ref()
+            .map_or(0, |f| f.r_m.len()),
+        1e3 * wall_s
+    );
+    print(format!(
+        "\ntable    {}\nresults  {}\npicture  {}",
+        table_path.display(),
+        results.display(),
+        picture.display()
+    ))
+}
+
+fn make_table(path: &Path) -> Result<(), Failure> {
+    if path.exists() {
+        return Ok(());
+    }
+    eprintln!("making the demo kernel table {} (once)", path.display());
+    let bar = Bar::new();
+    let summary = build(&Grid::demo(), path, &bar).map_err(Failure::work)?;
+    bar.0.finish_and_clear();
+    eprintln!(
+        "{} points in {:.1} s, {} bytes",
+        summary.points, summary.wall_s, summary.bytes
+    );
+    Ok(())
+}
+
+/// A progress bar on standard error; silent when that is not a terminal.
+#[derive(Debug)]
+struct Bar(ProgressBar);
+
+impl Bar {
+    fn new() -> Self {
+        let bar = ProgressBar::new(0);
+        if let Ok(style) = ProgressStyle::with_template("{msg:<14} [{wide_bar}] {pos}/{len} {eta}")
+        {
+            bar.set_style(style);
+        }
+        Self(bar)
+    }
+}
+
+impl Progress for Bar {
+    fn total(&self, stage: &str, total: u64) {
+        self.0.set_message(stage.to_owned());
+        self.0.set_length(total);
+        self.0.set_position(0);
+    }
+
+    fn advance(&self, done: u64) {
+        self.0.inc(done);
+    }
+}

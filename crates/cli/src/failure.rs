@@ -1,0 +1,71 @@
+//! How a command fails: exit code 2 for bad input, 1 when the work itself failed.
+
+use std::fmt::Display;
+use std::process::ExitCode;
+
+/// A failure with its sentence for the user.
+#[derive(Debug)]
+pub(crate) enum Failure {
+    /// The user can mend it: a scene, a file, an argument.
+    Input(String),
+    /// The work could not be done.
+    Work(String),
+}
+
+impl Failure {
+    pub(crate) fn input(error: impl Display) -> Self {
+        Self::Input(error.to_string())
+    }
+
+    pub(crate) fn work(error: impl Display) -> Self {
+        Self::Work(error.to_string())
+    }
+
+    /// Prints the sentence on standard error and gives the exit code.
+    pub(crate) fn report(&self) -> ExitCode {
+        let (message, code) = match self {
+            Self::Input(message) => (message, 2),
+            Self::Work(message) => (message, 1),
+        };
+        eprintln!("error: {message}");
+        ExitCode::from(code)
+    }
+}
+
+impl From<impact::output::OutputError> for Failure {
+    fn from(error: impact::output::OutputError) -> Self {
+        Self::input(error)
+    }
+}
+
+impl From<impact::ImpactError> for Failure {
+    fn from(error: impact::ImpactError) -> Self {
+        use impact::ImpactError as E;
+        use impact::march::MarchError as M;
+        match error {
+            E::Field(_)
+            | E::Domain(_)
+            | E::LossTooLarge { .. }
+            | E::TooManySamples { .. }
+            | E::March(M::StepTooLong { .. }) => Self::input(error),
+            E::March(
+                M::NoSolution { .. }
+                | M::TooLong { .. }
+                | M::NotConverged { .. }
+                | M::Unstable { .. },
+            ) => Self::work(error),
+        }
+    }
+}
+
+/// Writes a line on standard output; a closed pipe ends the program quietly.
+pub(crate) fn print(text: impl Display) -> Result<(), Failure> {
+    use std::io::{ErrorKind, Write};
+    match writeln!(std::io::stdout(), "{text}") {
+        Ok(()) => Ok(()),
+        Err(error) if error.kind() == ErrorKind::BrokenPipe => std::process::exit(0),
+        Err(error) => Err(Failure::work(format!(
+            "cannot write to standard output: {error}"
+        ))),
+    }
+}

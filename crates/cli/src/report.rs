@@ -1,0 +1,127 @@
+//! The results of an impact for people and for machines.
+
+use impact::Outcome;
+use serde::Serialize;
+
+/// The JSON object of `impact --json`.
+#[derive(Debug, Serialize)]
+pub(crate) struct Report<'a> {
+    model: &'a str,
+    scheme: &'a str,
+    static_share: &'a str,
+    deflection: &'a str,
+    reason: &'a str,
+    kernel: &'a str,
+    table_id: Option<&'a str>,
+    steps: usize,
+    step_s: f64,
+    march_steps: usize,
+    march_step_s: f64,
+    peak_force_n: f64,
+    peak_force_time_s: f64,
+    contact_time_s: f64,
+    contacts: usize,
+    rebound_velocity_m_s: f64,
+    restitution: f64,
+    peak_displacement_m: f64,
+    peak_deflection_m: f64,
+    impulse_n_s: f64,
+    initial_energy_j: f64,
+    radiated_energy_j: f64,
+    energy_residual: f64,
+    disc_radius_m: f64,
+    relative_error_estimate: f64,
+    probes: usize,
+    wall_s: f64,
+    warnings: &'a [String],
+}
+
+impl<'a> Report<'a> {
+    pub(crate) fn new(outcome: &'a Outcome, wall_s: f64) -> Self {
+        let (choices, r) = (&outcome.choices, &outcome.results);
+        let time = &outcome.series.time_s;
+        Self {
+            model: choices.model,
+            scheme: choices.scheme,
+            static_share: choices.static_share,
+            deflection: choices.deflection,
+            reason: &choices.reason,
+            kernel: outcome.kernel,
+            table_id: outcome.table.as_ref().map(|(id, _)| id.as_str()),
+            steps: time.len().saturating_sub(1),
+            step_s: time.get(1).copied().unwrap_or(0.0),
+            march_steps: outcome.march_steps,
+            march_step_s: outcome.march_step_s,
+            peak_force_n: r.peak_force_n,
+            peak_force_time_s: r.peak_force_time_s,
+            contact_time_s: r.contact_time_s,
+            contacts: r.contacts,
+            rebound_velocity_m_s: r.rebound_velocity_m_s,
+            restitution: r.restitution,
+            peak_displacement_m: r.peak_displacement_m,
+            peak_deflection_m: r.peak_deflection_m,
+            impulse_n_s: r.impulse_n_s,
+            initial_energy_j: r.initial_energy_j,
+            radiated_energy_j: r.radiated_energy_j,
+            energy_residual: r.energy_residual,
+            disc_radius_m: outcome.disc_radius_m,
+            relative_error_estimate: outcome.relative_error_estimate,
+            probes: outcome.fields.as_ref().map_or(0, |f| f.r_m.len()),
+            wall_s,
+            warnings: &outcome.warnings,
+        }
+    }
+
+    /// The same as text.
+    pub(crate) fn text(&self) -> String {
+        let mut lines = vec![format!("model          {} ({})", self.model, self.reason)];
+        if self.model != "prescribed" {
+            lines.push(format!(
+                "scheme         {}, {} share, {} deflection",
+                self.scheme, self.static_share, self.deflection
+            ));
+        }
+        lines.push(format!(
+            "peak force     {:.6} kN at {:.4} us",
+            self.peak_force_n / 1e3,
+            self.peak_force_time_s * 1e6
+        ));
+        if self.model == "prescribed" {
+            lines.push(format!(
+                "pulse          {:.4} us, {:.6} N s",
+                self.contact_time_s * 1e6,
+                self.impulse_n_s
+            ));
+        } else {
+            lines.push(format!(
+                "contact time   {:.5} us",
+                self.contact_time_s * 1e6
+            ));
+            lines.push(format!(
+                "rebound        {:.5} m/s, restitution {:.6}",
+                self.rebound_velocity_m_s, self.restitution
+            ));
+            lines.push(format!(
+                "displacement   {:.4} um",
+                self.peak_displacement_m * 1e6
+            ));
+        }
+        lines.push(format!(
+            "deflection     {:.4} um",
+            self.peak_deflection_m * 1e6
+        ));
+        lines.push(format!(
+            "radiated       {:.4e} J of {:.4e} J, ledger residual {:.1e}",
+            self.radiated_energy_j, self.initial_energy_j, self.energy_residual
+        ));
+        lines.push(format!(
+            "error estimate {:.1e} relative",
+            self.relative_error_estimate
+        ));
+        lines.push(format!(
+            "output         {} steps of {:.4e} s, {} probes, kernel {}",
+            self.steps, self.step_s, self.probes, self.kernel
+        ));
+        lines.join("\n")
+    }
+}

@@ -1,0 +1,262 @@
+//! `hertzlamb table`: looks at finished tables.
+
+use crate::failure::{Failure, print};
+use crate::tabulate;
+use clap::{Args, Subcommand};
+use lookup::{Content, TableError};
+use serde::Serialize;
+use std::path::{Path, PathBuf};
+use tabulator::{CheckReport, Difference, check_table, differences};
+
+const EXAMPLES: &str = "Examples:
+  hertzlamb table info kernels.h5
+  hertzlamb table verify kernels.h5 --sample 200
+  hertzlamb table diff old.h5 new.h5";
+
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Arguments {
+    #[command(subcommand)]
+    action: Action,
+    /// Print one JSON object instead of text.
+    #[arg(long, global = true)]
+    json: bool,
+}
+
+#[derive(Debug, Subcommand)]
+enum Action {
+    /// Says what a table covers, how it was made and how exact it is.
+    Info {
+        /// Kernel table.
+        table: PathBuf,
+    },
+    /// Checks checksums, completeness and finiteness, and computes a sample of nodes again.
+    Verify {
+        /// Kernel table.
+        table: PathBuf,
+        /// Nodes to compute again.
+        #[arg(long, default_value_t = 50)]
+        sample: usize,
+        /// Picks the nodes.
+        #[arg(long, default_value_t = 1)]
+        seed: u64,
+    },
+    /// Compares two tables, apart from their creation time; exit code 1 if they differ.
+    Diff {
+        /// Kernel table.
+        first: PathBuf,
+        /// Kernel table.
+        second: PathBuf,
+    },
+}
+
+pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    match &arguments.action {
+        Action::Info { table } => info(table, arguments.json),
+        Action::Verify {
+            table,
+            sample,
+            seed,
+        } => verify(table, *sample, *seed, arguments.json),
+        Action::Diff { first, second } => diff(first, second, arguments.json),
+    }
+}
+
+#[derive(Debug, Serialize)]
+struct Info<'a> {
+    file: String,
+    bytes: u64,
+    id: String,
+    format_version: &'a str,
+    software_version: &'a str,
+    git_revision: &'a str,
+    created_unix_s: u64,
+    content_sha256: String,
+    poisson_ratios: Vec<f64>,
+    r_nodes: usize,
+    z_nodes: usize,
+    r_max: f64,
+    z_max: f64,
+    cell_width: f64,
+    cells: Vec<usize>,
+    stencil_points: usize,
+    accuracy_asked: f64,
+    pulse_lengths: &'a [f64],
+    p99_relative_error: &'a [f64],
+    grid: &'a str,
+}
+
+fn info(path: &Path, json: bool) -> Result<(), Failure> {
+    let content = read(path)?;
+    let table = lookup::Table::new(content.clone()).map_err(Failure::input)?;
+    let origin = &content.origin;
+    let info = Info {
+        file: path.display().to_string(),
+        bytes: std::fs::metadata(path).map_or(0, |data| data.len()),
+        id: table.id().to_owned(),
+        format_version: table.format_version(),
+        software_version: &origin.software_version,
+        git_revision: &origin.git_revision,
+        created_unix_s: origin.created_unix_s,
+        content_sha256: lookup::content_hash(&content),
+        poisson_ratios: table.poisson_ratios().to_vec(),
+        r_nodes: content.r.len(),
+        z_nodes: content.z.len(),
+        r_max: table.r_max(),
+        z_max: table.z_max(),
+        cell_width: table.cell_width(),
+        cells: content.slices.iter().map(|slice| slice.cells).collect(),
+        stencil_points: content.stencil_points,
+        accuracy_asked: origin.accuracy_asked,
+        pulse_lengths: &content.pulse_lengths,
+        p99_relative_error: &origin.accuracy_reached,
+        grid: &origin.grid,
+    };
+    if json {
+        return print(serde_json::to_string(&info).map_err(Failure::work)?);
+    }
+    print(format!(
+        "file            {} ({:.1} MB)",
+        info.file,
+        info.bytes as f64 / 1e6
+    ))?;
+    print(format!(
+        "id              {}, format {}, written by {}",
+        info.id, info.format_version, info.software_version
+    ))?;
+    print(format!("content         sha256 {}", info.content_sha256))?;
+    print(format!("Poisson ratios  {:?}", info.poisson_ratios))?;
+    print(format!(
+        "r               0 .. {} r0, {} nodes",
+        info.r_max, info.r_nodes
+    ))?;
+    print(format!(
+        "z               0 .. {} r0, {} nodes",
+        info.z_max, info.z_nodes
+    ))?;
+    print(format!(
+        "time            cells of {} r0/c1, {:?} of them, then a tail",
+        info.cell_width, info.cells
+    ))?;
+    print(format!("interpolation   {} points", info.stencil_points))?;
+    print("measured off the grid, 99 % of all points and fields, error over the peak in time:")?;
+    for (length, error) in info.pulse_lengths.iter().zip(info.p99_relative_error) {
+        print(format!("  pulses of {length:>5} r0/c1  {error:.0e}"))?;
+    }
+    Ok(())
+}
+
+#[derive(Debug, Serialize)]
+struct Verified {
+    file: String,
+    nodes_checked: usize,
+    largest_relative_difference: f64,
+    bad_nodes: Vec<String>,
+}
+
+fn verify(path: &Path, sample: usize, seed: u64, json: bool) -> Result<(), Failure> {
+    let report: CheckReport = check_table(path, sample, seed).map_err(|error| match error {
+        tabulator::BuildError::Table(error @ TableError::Checksum { .. }) => Failure::work(error),
+        tabulator::BuildError::Table(error) => Failure::input(named(path, &error)),
+        other => tabulate::failure(other),
+    })?;
+    let bad_nodes: Vec<String> = report
+        .bad
+        .iter()
+        .map(|bad| {
+            format!(
+                "nu = {}, r/r0 = {}, z/r0 = {}: {} differs by {:.1e}",
+                bad.poisson_ratio, bad.r, bad.z, bad.field, bad.relative_difference
+            )
+        })
+        .collect();
+    let verified = Verified {
+        file: path.display().to_string(),
+        nodes_checked: report.nodes_checked,
+        largest_relative_difference: report.largest_difference,
+        bad_nodes,
+    };
+    if json {
+        print(serde_json::to_string(&verified).map_err(Failure::work)?)?;
+    } else {
+        print(format!(
+            "{}: complete, checksum right, {} nodes computed again, largest difference {:.1e}",
+            verified.file, verified.nodes_checked, verified.largest_relative_difference
+        ))?;
+    }
+    if verified.bad_nodes.is_empty() {
+        return Ok(());
+    }
+    let count = verified.bad_nodes.len();
+    let shown = verified.bad_nodes[..count.min(5)].join("; ");
+    Err(Failure::work(format!(
+        "{}: {count} wrong values: {shown}",
+        verified.file
+    )))
+}
+
+fn diff(first: &Path, second: &Path, json: bool) -> Result<(), Failure> {
+    let found: Vec<String> = differences(&read(first)?, &read(second)?)
+        .iter()
+        .map(describe)
+        .collect();
+    if json {
+        let object = serde_json::json!({ "same": found.is_empty(), "differences": found });
+        print(object)?;
+    } else if found.is_empty() {
+        print("the tables hold the same")?;
+    } else {
+        found.iter().try_for_each(print)?;
+    }
+    if found.is_empty() {
+        Ok(())
+    } else {
+        Err(Failure::work(format!(
+            "{} and {} differ",
+            first.display(),
+            second.display()
+        )))
+    }
+}
+
+fn describe(difference: &Difference) -> String {
+    match difference {
+        Difference::Setting { name } => format!("{name} differs"),
+        Difference::Slice {
+            poisson_ratio,
+            in_first: true,
+        } => {
+            format!("nu = {poisson_ratio} is in the first table only")
+        }
+        Difference::Slice {
+            poisson_ratio,
+            in_first: false,
+        } => {
+            format!("nu = {poisson_ratio} is in the second table only")
+        }
+        Difference::Values {
+            poisson_ratio,
+            dataset,
+            count,
+            largest,
+        } => {
+            format!(
+                "nu = {poisson_ratio}: {count} values of {dataset} differ, by up to {largest:.1e}"
+            )
+        }
+    }
+}
+
+fn read(path: &Path) -> Result<Content, Failure> {
+    lookup::read(path).map_err(|error| Failure::input(named(path, &error)))
+}
+
+/// The error with the name of the file in it.
+fn named(path: &Path, error: &TableError) -> String {
+    let (text, name) = (error.to_string(), path.display().to_string());
+    if text.contains(&name) {
+        text
+    } else {
+        format!("{name}: {text}")
+    }
+}

@@ -1,0 +1,199 @@
+//! `hertzlamb tabulate`: builds a kernel table.
+
+use crate::failure::{Failure, print};
+use clap::Args;
+use indicatif::{ProgressBar, ProgressStyle};
+use serde::Serialize;
+use std::io::IsTerminal;
+use std::path::PathBuf;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicU64, Ordering};
+use tabulator::{BuildError, Existing, Grid, Progress, Summary, build_over};
+
+const EXAMPLES: &str = "Examples:
+  hertzlamb tabulate --grid demo -o kernels.h5
+  hertzlamb tabulate --grid demo --nu 0.25,0.3 -o two.h5
+  hertzlamb tabulate --grid my-grid.toml -o mine.h5 --json
+
+An interrupted build goes on where it stopped when the same command is given again.";
+
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Arguments {
+    /// A preset (demo, standard, wide) or a grid file (TOML, see data-schema/kernel-table.md).
+    #[arg(long, value_name = "PRESET|FILE.toml", default_value = "demo")]
+    grid: String,
+    /// Poisson ratios instead of those of the grid, comma-separated.
+    #[arg(long, value_name = "LIST", value_delimiter = ',')]
+    nu: Option<Vec<f64>>,
+    /// The table to write.
+    #[arg(short, long, value_name = "OUT.h5")]
+    output: PathBuf,
+    /// Replace an existing table, when the new one is complete.
+    #[arg(long)]
+    force: bool,
+    /// Print one JSON object instead of text.
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Debug, Serialize)]
+struct Report<'a> {
+    file: String,
+    id: &'a str,
+    content_sha256: &'a str,
+    format_version: &'a str,
+    poisson_ratios: &'a [f64],
+    points: usize,
+    bytes: u64,
+    wall_s: f64,
+    resumed_blocks: usize,
+    pulse_lengths: &'a [f64],
+    p99_relative_error: &'a [f64],
+}
+
+pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let mut grid = resolve(&arguments.grid)?;
+    if let Some(ratios) = &arguments.nu {
+        grid.poisson_ratios.clone_from(ratios);
+        grid.poisson_ratios.sort_by(f64::total_cmp);
+        grid.poisson_ratios.dedup();
+    }
+    let existing = if arguments.force {
+        Existing::Replace
+    } else {
+        Existing::Keep
+    };
+    let progress = Bar::new();
+    let summary = build_over(&grid, &arguments.output, existing, &progress).map_err(failure)?;
+    progress.finish();
+    let report = report(&grid, arguments, &summary);
+    if arguments.json {
+        return print(serde_json::to_string(&report).map_err(Failure::work)?);
+    }
+    print(format!(
+        "{}: {} points, {:.1} MB, {:.1} s, id {}",
+        report.file,
+        report.points,
+        report.bytes as f64 / 1e6,
+        report.wall_s,
+        report.id
+    ))?;
+    print("measured off the grid, 99 % of all points and fields, error over the peak in time:")?;
+    for (length, error) in summary.pulse_lengths.iter().zip(&summary.p99_error) {
+        print(format!("  pulses of {length:>5} r0/c1  {error:.0e}"))?;
+    }
+    Ok(())
+}
+
+fn report<'a>(grid: &'a Grid, arguments: &Arguments, summary: &'a Summary) -> Report<'a> {
+    Report {
+        file: arguments.output.display().to_string(),
+        id: &summary.id,
+        content_sha256: &summary.content_sha256,
+        format_version: lookup::schema::FORMAT_VERSION_VALUE,
+        poisson_ratios: &grid.poisson_ratios,
+        points: summary.points,
+        bytes: summary.bytes,
+        wall_s: summary.wall_s,
+        resumed_blocks: summary.resumed_blocks,
+        pulse_lengths: &summary.pulse_lengths,
+        p99_relative_error: &summary.p99_error,
+    }
+}
+
+/// The grid of a preset or a file.
+fn resolve(name: &str) -> Result<Grid, Failure> {
+    if let Some(grid) = Grid::preset(name) {
+        return Ok(grid);
+    }
+    if !name.ends_with(".toml") {
+        return Err(Failure::input(format!(
+            "--grid {name}: neither a preset ({}) nor a .toml file",
+            tabulator::PRESETS.join(", ")
+        )));
+    }
+    Grid::from_file(name.as_ref()).map_err(failure)
+}
+
+/// Bad settings and files in the way are the user's, the rest is work that failed.
+pub(crate) fn failure(error: BuildError) -> Failure {
+    match error {
+        BuildError::Setting { .. }
+        | BuildError::GridFile { .. }
+        | BuildError::Exists { .. }
+        | BuildError::Busy { .. }
+        | BuildError::OtherSettings { .. }
+        | BuildError::File { .. } => Failure::input(error),
+        BuildError::Unwritable(_)
+        | BuildError::NotFinite { .. }
+        | BuildError::Domain(_)
+        | BuildError::Table(_)
+        | BuildError::Lookup(_) => Failure::work(error),
+    }
+}
+
+/// A bar on a terminal, a line for each tenth elsewhere.
+pub(crate) struct Bar {
+    bar: Option<ProgressBar>,
+    stage: Mutex<String>,
+    total: AtomicU64,
+    done: AtomicU64,
+}
+
+impl Bar {
+    pub(crate) fn new() -> Self {
+        let bar = std::io::stderr().is_terminal().then(|| {
+            let style = "{msg:12} [{bar:40}] {percent:>3} %  {per_sec}  {eta} left";
+            let style = ProgressStyle::with_template(style)
+                .unwrap_or_else(|_| ProgressStyle::default_bar());
+            ProgressBar::new(0).with_style(style.progress_chars("=> "))
+        });
+        Self {
+            bar,
+            stage: Mutex::new(String::new()),
+            total: AtomicU64::new(0),
+            done: AtomicU64::new(0),
+        }
+    }
+
+    pub(crate) fn finish(&self) {
+        if let Some(bar) = &self.bar {
+            bar.finish_and_clear();
+        }
+    }
+}
+
+impl Progress for Bar {
+    fn total(&self, stage: &str, total: u64) {
+        self.total.store(total, Ordering::Relaxed);
+        self.done.store(0, Ordering::Relaxed);
+        if let Ok(mut name) = self.stage.lock() {
+            stage.clone_into(&mut name);
+        }
+        if let Some(bar) = &self.bar {
+            bar.set_message(stage.to_owned());
+            bar.set_length(total);
+            bar.set_position(0);
+            bar.reset_eta();
+        }
+    }
+
+    fn advance(&self, done: u64) {
+        let now = self.done.fetch_add(done, Ordering::Relaxed) + done;
+        if let Some(bar) = &self.bar {
+            bar.inc(done);
+            return;
+        }
+        let total = self.total.load(Ordering::Relaxed).max(1);
+        let tenth = |n: u64| 10 * n / total;
+        if tenth(now) > tenth(now - done) {
+            let stage = self
+                .stage
+                .lock()
+                .map(|name| name.clone())
+                .unwrap_or_default();
+            eprintln!("{stage} {} %", 10 * tenth(now));
+        }
+    }
+}
