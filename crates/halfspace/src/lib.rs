@@ -1,9 +1,56 @@
-//! Elastodynamic kernels of a half-space, exact, in reduced units.
+//! Elastodynamic kernels of a half-space under a disc load, exact, in reduced units.
 //!
-//! Length is reduced by the radius r0 of the loaded disc, speed by the longitudinal wave speed c1,
-//! time by r0/c1, displacement by P/(mu r0) and stress by P/r0^2 (P the total force, mu the shear
-//! modulus). The only material parameter left is Poisson's ratio.
-//! z points into the half-space; compression is negative stress.
+//! A force is applied suddenly to a disc on the surface of an elastic half-space.
+//! This crate gives the six displacement and stress fields at any point and time, each from one integral of
+//! elementary functions over slowness, to an accuracy that the caller chooses, with an estimate of the error.
+//!
+//! # Units and signs
+//!
+//! | quantity | reduced by |
+//! |---|---|
+//! | length | r0, the radius of the disc |
+//! | speed | c1, the longitudinal wave speed |
+//! | time | r0/c1 |
+//! | displacement | P/(mu r0), P the force, mu the shear modulus |
+//! | stress | P/r0^2 |
+//!
+//! The only material parameter left is Poisson's ratio, so one kernel serves every material that shares it.
+//! z points into the half-space, the load presses on z = 0, and compression is negative stress.
+//!
+//! # What is here
+//!
+//! - [`Medium`]: wave speeds and the Rayleigh function of a Poisson ratio.
+//! - [`Kernel`]: static field, step-response remainder, its time integral and its averages over time cells.
+//! - [`SurfaceResponse`]: the deflection under the load itself, with finite memory, in nanoseconds.
+//! - [`Arrivals`]: when each wave front comes.
+//! - [`kausel`]: the surface-centre response in closed form, for comparison.
+//!
+//! # Example
+//!
+//! The response to any force history P(t) follows from the static part and the remainder:
+//! u(t) = P(t) static + int P'(t') R(t - t') dt'.
+//!
+//! ```
+//! use halfspace::{Field, Kernel, Medium, Profile};
+//!
+//! let steel = Medium::new(0.3)?;
+//! let kernel = Kernel::new(&steel, Profile::Hertz, 1e-10)?;
+//! // step response two radii below the centre, long after the waves have passed: the static field
+//! let rest = kernel.static_field(0.0, 2.0)?;
+//! let late = kernel.remainder(0.0, 2.0, 200.0)?;
+//! let szz = Field::StressZz.index();
+//! assert!(late.value[szz].abs() < 1e-4 * rest[szz].abs());
+//! // before the first arrival nothing has moved: remainder and static part cancel
+//! let early = kernel.remainder(0.0, 2.0, 1.9)?;
+//! assert_eq!(early.value[szz], -rest[szz]);
+//! # Ok::<(), halfspace::DomainError>(())
+//! ```
+//!
+//! # Sources
+//!
+//! The Laplace-Hankel solution is that of the paper on the impact of a rod on an anvil (its equations (22) to
+//! (29), with the coefficient of (24) corrected to 4); the static field is Huber's (1904); the surface-centre
+//! response agrees with the closed form of Kausel (2012).
 
 mod arrivals;
 mod axis;

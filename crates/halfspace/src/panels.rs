@@ -59,6 +59,10 @@ impl<T: Copy + Default> List<T> {
     }
 
     fn push(&mut self, item: T) {
+        debug_assert!(
+            self.length < CAPACITY,
+            "a landscape holds at most {CAPACITY} points"
+        );
         self.items[self.length] = item;
         self.length += 1;
     }
@@ -127,7 +131,7 @@ impl Landscape {
     pub(crate) fn visit(&self, (from, to): (f64, f64), digits: f64, f: &mut impl FnMut(f64, f64)) {
         match (self.power(from), self.power(to)) {
             (None, None) => {
-                let images = self.images(|v| (v - from) / (to - from));
+                let images = self.images(|_| false, |v| (v - from) / (to - from));
                 panels(
                     &images,
                     digits,
@@ -168,7 +172,9 @@ impl Landscape {
         f: &mut impl FnMut(f64, f64),
     ) {
         let scale = end - cut;
-        let images = self.images(|v| {
+        // the singularity of the cut itself is what the power is for
+        let own = |v: Complex64| (v - cut).norm() <= SAME * scale.abs();
+        let images = self.images(own, |v| {
             let distance = (v - cut) / scale;
             if power == SQUARE {
                 root(distance)
@@ -189,15 +195,18 @@ impl Landscape {
         });
     }
 
-    /// Singularities in another variable; the cut from which a squared variable starts drops out.
-    fn images(&self, to_variable: impl Fn(Complex64) -> Complex64) -> List<Complex64> {
+    /// Singularities in another variable, but for those that `drop` names.
+    fn images(
+        &self,
+        drop: impl Fn(Complex64) -> bool,
+        to_variable: impl Fn(Complex64) -> Complex64,
+    ) -> List<Complex64> {
         let mut images = List::new();
         let cuts = self.cuts.as_slice().iter().map(|&c| Complex64::new(c, 0.0));
         let others = self.singularities.as_slice().iter().copied();
         for point in cuts.chain(others) {
-            let image = to_variable(point);
-            if image.norm_sqr() > SAME && images.length < CAPACITY {
-                images.push(image);
+            if !drop(point) {
+                images.push(to_variable(point));
             }
         }
         images

@@ -89,9 +89,11 @@ fn response(kernel: &Kernel, row: &Row, nodes: &[(f64, f64)]) -> Six {
             let a = pair[0] + (pair[1] - pair[0]) * piece as f64 / pieces as f64;
             let b = pair[0] + (pair[1] - pair[0]) * (piece + 1) as f64 / pieces as f64;
             for &(x, w) in nodes {
-                // cubic smoothing of both ends
-                let s = 0.5 * (a + b) + 0.25 * (b - a) * x * (3.0 - x * x);
-                let weight = w * 0.75 * (b - a) * (1.0 - x * x);
+                // a map flat at both ends, where fronts leave roots and logarithms
+                let q = x * x;
+                let map = x * (35.0 - q * (35.0 - q * (21.0 - 5.0 * q))) / 16.0;
+                let s = 0.5 * (a + b) + 0.5 * (b - a) * map;
+                let weight = w * 0.5 * (b - a) * 35.0 / 16.0 * (1.0 - q).powi(3);
                 let remainder = kernel.remainder(r, z, s).unwrap().value;
                 for f in 0..6 {
                     value[f] += weight * rate(t - s) * remainder[f];

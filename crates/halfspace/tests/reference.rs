@@ -1,0 +1,172 @@
+//! Every row of `tests/reference/step_response.csv`, values of the Hertz step response at 30 digits and more.
+//!
+//! `cargo test -p hertzlamb-halfspace --test reference -- --nocapture` prints the tables of errors.
+//!
+//! An error is relative to the peak over time of the same field's step response at the same point.
+//! The promise is 1e-10 of that peak, 1e-9 within 1e-6 of an arrival. It holds with two exceptions, which
+//! the bounds below state:
+//!
+//! - sigma_zz and sigma_rz just below the surface (z to 1e-9) outside the disc: the field itself is of order
+//!   z, a difference of terms of order one, and the error is their rounding, some 1e-16 of P/r0^2;
+//! - the edge of the disc (r = 1, z to 0), where the largest error is 6e-10.
+
+#![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
+
+mod support;
+
+use halfspace::{Kernel, Medium, Profile};
+use std::collections::BTreeMap;
+use support::{NAMES, heading, line, peaks, read_csv};
+
+struct Sample {
+    kind: String,
+    label: String,
+    field: usize,
+    /// Absolute error, the kernel's own estimate of it, and the peak of the field.
+    error: f64,
+    estimate: f64,
+    peak: f64,
+}
+
+impl Sample {
+    fn relative(&self) -> f64 {
+        self.error / self.peak.max(f64::MIN_POSITIVE)
+    }
+
+    /// Relative error beyond what rounding of terms of order one leaves.
+    fn beyond_rounding(&self) -> f64 {
+        const ROUNDING: f64 = 4.0 * f64::EPSILON;
+        (self.error - ROUNDING).max(0.0) / self.peak.max(f64::MIN_POSITIVE)
+    }
+}
+
+fn samples(tolerance: f64) -> Vec<Sample> {
+    let (header, rows) = read_csv("step_response.csv");
+    assert_eq!(header[4..10], NAMES);
+    let mut kernels: BTreeMap<String, [Kernel; 2]> = BTreeMap::new();
+    let mut samples = vec![];
+    for row in &rows {
+        let [fast, kernel] = kernels.entry(row[0].clone()).or_insert_with(|| {
+            let medium = Medium::new(row[0].parse().unwrap()).unwrap();
+            [1e-6, tolerance].map(|tol| Kernel::new(&medium, Profile::Hertz, tol).unwrap())
+        });
+        let v: Vec<f64> = row[1..10].iter().map(|x| x.parse().unwrap()).collect();
+        let (r, z, t) = (v[0], v[1], v[2]);
+        let peak = peaks(fast, r, z, &[t]);
+        let rest = kernel.static_field(r, z).unwrap();
+        let found = kernel.remainder(r, z, t).unwrap();
+        for f in 0..6 {
+            samples.push(Sample {
+                kind: row[10].clone(),
+                label: format!(
+                    "nu {} r {r} z {z} t {t} {}: {:e} for {:e}",
+                    row[0],
+                    NAMES[f],
+                    rest[f] + found.value[f],
+                    v[3 + f]
+                ),
+                field: f,
+                error: (rest[f] + found.value[f] - v[3 + f]).abs(),
+                estimate: found.error[f],
+                peak: peak[f],
+            });
+        }
+    }
+    samples
+}
+
+/// Bounds on the 99th percentile and the largest relative error beyond rounding, each a little above what
+/// is measured; the promise where that is 1e-10.
+fn bounds(kind: &str) -> (f64, f64) {
+    match kind {
+        "random" | "axis" | "far" | "surface" | "nu_special" => (1e-10, 1e-10),
+        // rows 1e-6 and 1e-3 from a front
+        "arrival" => (3e-10, 1e-9),
+        // here the shortfall is
+        "edge" | "shallow" => (1e-9, 1e-9),
+        kind => panic!("no bound for rows of kind {kind}"),
+    }
+}
+
+#[test]
+fn every_row_is_within_the_promised_accuracy() {
+    let samples = samples(1e-10);
+    assert!(samples.len() >= 6 * 300, "{} values", samples.len());
+    let mut by_kind: BTreeMap<&str, Vec<&Sample>> = BTreeMap::new();
+    for sample in &samples {
+        by_kind.entry(&sample.kind).or_default().push(sample);
+    }
+    let mut failures = vec![];
+    heading("error relative to the peak, by kind");
+    for (kind, all) in &by_kind {
+        line(kind, &all.iter().map(|s| s.relative()).collect::<Vec<_>>());
+    }
+    heading("the same beyond rounding (4 ulp of one)");
+    for (kind, all) in &by_kind {
+        let found = line(
+            kind,
+            &all.iter().map(|s| s.beyond_rounding()).collect::<Vec<_>>(),
+        );
+        let (p99, max) = bounds(kind);
+        if found.p99 > p99 || found.max > max {
+            failures.push(format!("{kind}: p99 {:e} max {:e}", found.p99, found.max));
+        }
+    }
+    heading("error relative to the peak, by field");
+    for (f, name) in NAMES.iter().enumerate() {
+        let of = |s: &&Sample| s.field == f;
+        line(
+            name,
+            &samples
+                .iter()
+                .filter(of)
+                .map(Sample::relative)
+                .collect::<Vec<_>>(),
+        );
+    }
+    println!("\nlargest:");
+    let mut worst: Vec<&Sample> = samples.iter().collect();
+    worst.sort_by(|a, b| b.beyond_rounding().total_cmp(&a.beyond_rounding()));
+    for s in worst.iter().take(12) {
+        println!(
+            "{:10} {:.1e} (absolute {:.1e}, estimate {:.1e}, peak {:.1e}) {}",
+            s.kind,
+            s.beyond_rounding(),
+            s.error,
+            s.estimate,
+            s.peak,
+            s.label
+        );
+    }
+    assert!(failures.is_empty(), "{failures:?}");
+}
+
+#[test]
+fn the_reported_error_bounds_the_observed_error() {
+    for tolerance in [1e-10, 1e-8, 1e-6, 1e-4] {
+        let samples = samples(tolerance);
+        // the reference is given to 20 digits, its parse to a double is exact to half an ulp
+        let covered = |s: &&Sample| s.error <= s.estimate + 4.0 * f64::EPSILON;
+        let share = samples.iter().filter(covered).count() as f64 / samples.len() as f64;
+        let caution: Vec<f64> = samples
+            .iter()
+            .filter(|s| s.error > 0.0)
+            .map(|s| s.estimate / s.error)
+            .collect();
+        heading(&format!(
+            "tolerance {tolerance:e}: {:.2} % of the errors within the estimate",
+            100.0 * share
+        ));
+        let caution = line("estimate / error", &caution);
+        let relative: Vec<f64> = samples.iter().map(Sample::relative).collect();
+        line("error / peak", &relative);
+        for s in samples.iter().filter(|s| !covered(s)).take(12) {
+            println!(
+                "  not bounded: {:.1e} > {:.1e} {} {}",
+                s.error, s.estimate, s.kind, s.label
+            );
+        }
+        assert!(share >= 0.99, "tolerance {tolerance:e}: {share}");
+        println!("median caution {:.0}", caution.p50);
+    }
+}
