@@ -3,12 +3,15 @@
 use crate::blocks::{self, Block, Kind, Row};
 use crate::error::BuildError;
 use crate::grid::Grid;
+use crate::journal::Journal;
 use crate::point::PointPlan;
 use crate::progress::Progress;
 use crate::verify;
 use lookup::{Content, Origin, Slice, Table, Verification};
 use rayon::prelude::*;
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 use std::time::{Instant, SystemTime, UNIX_EPOCH};
 
 /// What a build did.
@@ -24,6 +27,8 @@ pub struct Summary {
     pub bytes: u64,
     /// Time taken.
     pub wall_s: f64,
+    /// Blocks that an interrupted run had computed already.
+    pub resumed_blocks: usize,
     /// Lengths of the verification pulses in r0/c1.
     pub pulse_lengths: Vec<f64>,
     /// p99 over all probes and fields of error over peak, for each pulse length.
@@ -65,11 +70,20 @@ pub fn build_over(
         });
     }
     let work = blocks::all(grid);
-    let rows = compute(grid, &work, progress)?;
+    let id = lookup::settings_id(&grid.to_toml()?);
+    let (journal, finished) = Journal::open(&beside(path, ".journal"), &id)?;
+    let resumed_blocks = finished.len();
+    let journal = Mutex::new(journal);
+    let rows = compute(grid, &work, finished, &journal, progress)?;
     let content = assemble(grid, &work, rows, progress)?;
     let bytes = finish(&content, path)?;
+    journal
+        .into_inner()
+        .unwrap_or_else(PoisonError::into_inner)
+        .remove()?;
     Ok(Summary {
-        id: lookup::settings_id(&content.origin.grid),
+        id,
+        resumed_blocks,
         content_sha256: lookup::content_hash(&content),
         points: content.r.len() * content.z.len() * content.slices.len(),
         bytes,
@@ -79,37 +93,64 @@ pub fn build_over(
     })
 }
 
-fn compute(grid: &Grid, work: &[Block], progress: &dyn Progress) -> Result<Vec<Row>, BuildError> {
+/// All rows in the order of `work`: those finished before, and the others computed and recorded now.
+fn compute(
+    grid: &Grid,
+    work: &[Block],
+    mut finished: HashMap<Block, Row>,
+    journal: &Mutex<Journal>,
+    progress: &dyn Progress,
+) -> Result<Vec<Row>, BuildError> {
     let plans = plans(grid)?;
     let (r, z) = (grid.r.nodes(), grid.z.nodes());
-    progress.total("kernels", work.len() as u64);
-    work.par_iter()
-        .map(|block| {
+    let missing: Vec<Block> = work
+        .iter()
+        .filter(|block| !finished.contains_key(block))
+        .copied()
+        .collect();
+    progress.total("kernels", missing.len() as u64);
+    let computed: Vec<(Block, Row)> = missing
+        .par_iter()
+        .with_max_len(1)
+        .map(|&block| {
             let radius = blocks::positions(block.kind, &r)[block.row];
             let row = blocks::compute(
                 &plans[block.slice],
                 radius,
                 &blocks::positions(block.kind, &z),
             )?;
+            journal
+                .lock()
+                .unwrap_or_else(PoisonError::into_inner)
+                .record(block, &row)?;
             progress.advance(1);
-            Ok(row)
+            Ok((block, row))
         })
-        .collect()
+        .collect::<Result<_, BuildError>>()?;
+    finished.extend(computed);
+    Ok(work
+        .iter()
+        .filter_map(|block| finished.remove(block))
+        .collect())
 }
 
 fn plans(grid: &Grid) -> Result<Vec<PointPlan>, BuildError> {
     grid.poisson_ratios
         .iter()
-        .map(|&nu| {
-            PointPlan::new(
-                nu,
-                grid.tolerance,
-                grid.cell_width,
-                grid.cells(nu)?,
-                grid.tail_terms,
-            )
-        })
+        .map(|&nu| plan(grid, nu))
         .collect()
+}
+
+/// What is computed at every point of one slice.
+pub(crate) fn plan(grid: &Grid, poisson_ratio: f64) -> Result<PointPlan, BuildError> {
+    let cells = grid.cells(poisson_ratio)?;
+    PointPlan::new(
+        poisson_ratio,
+        grid.tolerance,
+        grid.cell_width,
+        cells,
+        grid.tail_terms,
+    )
 }
 
 /// Puts the rows in their places and measures the errors off the grid.

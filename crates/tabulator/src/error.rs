@@ -35,6 +35,18 @@ pub enum BuildError {
         /// File in the way.
         path: PathBuf,
     },
+    /// Another run is building the same table.
+    #[error("another run is writing {}", path.display())]
+    Busy {
+        /// Its journal.
+        path: PathBuf,
+    },
+    /// An unfinished build with other settings is in the way.
+    #[error("{} belongs to an unfinished build with other settings; finish that one or remove the file", path.display())]
+    OtherSettings {
+        /// Its journal.
+        path: PathBuf,
+    },
     /// A file operation failed.
     #[error("cannot {action} {}: {source}", path.display())]
     File {

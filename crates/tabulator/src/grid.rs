@@ -35,6 +35,9 @@ pub struct Grid {
     pub z: Axis,
 }
 
+/// Names that [`Grid::preset`] knows.
+pub const PRESETS: [&str; 1] = ["demo"];
+
 mod defaults {
     pub(super) fn cell_width() -> f64 {
         0.1
@@ -137,7 +140,7 @@ impl Grid {
         within("time_factor", self.time_factor, 1.1, 10.0, "[1.1, 10]")?;
         within("tail_terms", self.tail_terms as f64, 2.0, 20.0, "[2, 20]")?;
         within("tolerance", self.tolerance, 1e-12, 1e-3, "[1e-12, 1e-3]")?;
-        let even = self.stencil_points % 2 == 0 && (2..=8).contains(&self.stencil_points);
+        let even = self.stencil_points.is_multiple_of(2) && (2..=8).contains(&self.stencil_points);
         setting(
             "stencil_points",
             self.stencil_points as f64,
@@ -184,7 +187,7 @@ impl Grid {
             setting(
                 &format!("{name}: number of nodes"),
                 nodes as f64,
-                nodes >= 8 && nodes <= 2000,
+                (8..=2000).contains(&nodes),
                 "[8, 2000]",
             )?;
         }

@@ -6,8 +6,11 @@
 mod axis;
 mod blocks;
 mod build;
+mod check;
+mod difference;
 mod error;
 mod grid;
+mod journal;
 mod point;
 mod progress;
 mod tail_fit;
@@ -15,8 +18,10 @@ mod verify;
 
 pub use axis::Axis;
 pub use build::{Existing, Summary, build, build_over};
+pub use check::{BadNode, CheckReport, check_table};
+pub use difference::{Difference, differences};
 pub use error::BuildError;
-pub use grid::Grid;
+pub use grid::{Grid, PRESETS};
 pub use point::{PointKernels, PointPlan};
 pub use progress::{Progress, Silent};
 pub use verify::{PULSE_LENGTHS, quantile};

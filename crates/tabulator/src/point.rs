@@ -67,23 +67,17 @@ impl PointPlan {
             moments: vec![[0.0; 6]; self.cells],
             tail: Vec::new(),
         };
+        self.kernel
+            .cell_averages(r, z, self.width, &mut point.averages)?;
         let rest = self.kernel.static_field(r, z)?;
         let arrival = (r - 1.0).max(0.0).hypot(z);
         let quiet = ((arrival / self.width) as usize).min(self.cells);
-        point.averages[..quiet].fill(rest.map(|s| -s));
-
-        let mut integrals = Vec::with_capacity(self.cells + 1 - quiet);
-        for j in quiet..=self.cells {
-            integrals.push(self.integral(r, z, j as f64 * self.width)?);
-        }
-        for (j, pair) in integrals.windows(2).enumerate() {
-            point.averages[quiet + j] =
-                std::array::from_fn(|f| (pair[1][f] - pair[0][f]) / self.width);
-        }
         let quantum = quantum(&rest);
         for j in quiet..self.cells {
-            let (from, to) = (integrals[j - quiet], integrals[j - quiet + 1]);
-            let moment = self.moment(&point.averages, j, r, z, from, to, &quantum)?;
+            let moment = match smooth_moment(&point.averages, j, &quantum) {
+                Some(moment) => moment,
+                None => self.moment(r, z, j, &quantum)?,
+            };
             point.moments[j] =
                 std::array::from_fn(|f| (moment[f] / quantum[f]).round() * quantum[f]);
         }
@@ -96,35 +90,13 @@ impl PointPlan {
         Ok(self.kernel.step_integral(r, z, t)?.value)
     }
 
-    /// First moment of cell `j`, (1/width^2) int R (t - t_mid) dt.
-    ///
-    /// Where R is smooth over five cells their averages give it to fourth order; elsewhere it follows
-    /// from the integral S of R: width (S_0 + S_1)/2 - int S dt, by halving until a front is pinned down.
-    #[allow(clippy::too_many_arguments)]
-    fn moment(
-        &self,
-        averages: &[Six],
-        j: usize,
-        r: f64,
-        z: f64,
-        from: Six,
-        to: Six,
-        quantum: &Six,
-    ) -> Result<Six, BuildError> {
-        if j >= 2 && j + 2 < averages.len() {
-            let (mut fourth, mut agree) = ([0.0; 6], true);
-            for f in 0..6 {
-                let near = averages[j + 1][f] - averages[j - 1][f];
-                let far = averages[j + 2][f] - averages[j - 2][f];
-                fourth[f] = near * 41.0 / 720.0 - far * 11.0 / 1440.0;
-                agree &= (fourth[f] - near / 24.0).abs() < 4.0 * quantum[f];
-            }
-            if agree {
-                return Ok(fourth);
-            }
-        }
+    /// First moment of cell `j` from the integral S of R, also where a front crosses it:
+    /// width (S_0 + S_1)/2 - int S dt, over width^2.
+    fn moment(&self, r: f64, z: f64, j: usize, quantum: &Six) -> Result<Six, BuildError> {
         let (start, end) = (j as f64 * self.width, (j + 1) as f64 * self.width);
+        let from = self.integral(r, z, start)?;
         let middle = self.integral(r, z, 0.5 * (start + end))?;
+        let to = self.integral(r, z, end)?;
         let area = self.area(r, z, [start, end], [from, middle, to], quantum, DEEPEST)?;
         Ok(std::array::from_fn(|f| {
             // Relative to S at the start, which may hold a large constant.
@@ -203,6 +175,23 @@ impl PointPlan {
         }
         Ok(())
     }
+}
+
+/// First moment of cell `j` to fourth order from the averages around it, where R is smooth over five cells.
+fn smooth_moment(averages: &[Six], j: usize, quantum: &Six) -> Option<Six> {
+    if j < 2 || j + 2 >= averages.len() {
+        return None;
+    }
+    let mut moment = [0.0; 6];
+    for f in 0..6 {
+        let near = averages[j + 1][f] - averages[j - 1][f];
+        let far = averages[j + 2][f] - averages[j - 2][f];
+        moment[f] = near * 41.0 / 720.0 - far * 11.0 / 1440.0;
+        if (moment[f] - near / 24.0).abs() > 4.0 * quantum[f] {
+            return None;
+        }
+    }
+    Some(moment)
 }
 
 /// Step to which moments are rounded: a power of two near [`MOMENT_SHARE`] of the local scale.

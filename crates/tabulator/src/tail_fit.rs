@@ -73,10 +73,10 @@ fn pseudo_inverse(columns: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
     // Back substitution of the triangular factor on the transposed basis.
     let mut rows = basis;
     for k in (0..terms).rev() {
-        for j in k + 1..terms {
-            let (head, tail) = rows.split_at_mut(j);
-            for (x, y) in head[k].iter_mut().zip(&tail[0]) {
-                *x -= upper[k][j] * y;
+        let (done, later) = rows.split_at_mut(k + 1);
+        for (row, factor) in later.iter().zip(&upper[k][k + 1..]) {
+            for (x, y) in done[k].iter_mut().zip(row) {
+                *x -= factor * y;
             }
         }
         for x in &mut rows[k] {

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 /// Lengths of the verification pulses in r0/c1.
 pub const PULSE_LENGTHS: [f64; 6] = [1.0, 3.0, 10.0, 25.0, 50.0, 100.0];
 /// A pulse is sampled by at least this many cells where the table has them.
-const SAMPLES: f64 = 100.0;
+const SAMPLES: f64 = 500.0;
 
 /// Measures the errors of one slice: `rows[i]` holds the exact numbers of the probes between nodes i and i + 1.
 pub(crate) fn verify(

@@ -1,0 +1,234 @@
+//! The blocks computed so far, kept in a file that survives an interruption at any moment.
+//!
+//! `NAME.journal` starts with a line that names the settings; then follow records that are only ever
+//! appended: a header (slice, kind, row, three lengths), the numbers, and a SHA-256 of both. A record that
+//! was cut short is dropped on reading and computed again. The finished table is made from the records in
+//! the order of the grid, so its bytes do not depend on the order in which they were written.
+
+use crate::blocks::{Block, Kind, Row};
+use crate::error::BuildError;
+use sha2::{Digest, Sha256};
+use std::collections::HashMap;
+use std::fs::{File, OpenOptions};
+use std::io::{Read, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+
+/// Bytes before the numbers of a record: six integers.
+const HEADER: usize = 6 * 8;
+/// Bytes after them.
+const SUM: usize = 32;
+
+/// An open journal, locked against other runs.
+#[derive(Debug)]
+pub(crate) struct Journal {
+    path: PathBuf,
+    file: File,
+}
+
+impl Journal {
+    /// Opens the journal at `path` for the settings `id`, or starts one, and returns the finished blocks.
+    pub(crate) fn open(path: &Path, id: &str) -> Result<(Self, HashMap<Block, Row>), BuildError> {
+        let failed = |action| file_error(action, path);
+        let mut file = OpenOptions::new()
+            .read(true)
+            .append(true)
+            .create(true)
+            .open(path)
+            .map_err(failed("write"))?;
+        match file.try_lock() {
+            Ok(()) => {}
+            Err(std::fs::TryLockError::WouldBlock) => {
+                return Err(BuildError::Busy {
+                    path: path.to_owned(),
+                });
+            }
+            Err(std::fs::TryLockError::Error(source)) => return Err(failed("lock")(source)),
+        }
+        let mut bytes = Vec::new();
+        file.seek(SeekFrom::Start(0)).map_err(failed("read"))?;
+        file.read_to_end(&mut bytes).map_err(failed("read"))?;
+        let title = title(id);
+        let mut journal = Self {
+            path: path.to_owned(),
+            file,
+        };
+        if bytes.len() < title.len() && title.as_bytes().starts_with(&bytes) {
+            // New, or cut short in its first line.
+            journal.cut(0)?;
+            journal.append(title.as_bytes())?;
+            return Ok((journal, HashMap::new()));
+        }
+        if !bytes.starts_with(title.as_bytes()) {
+            return Err(BuildError::OtherSettings {
+                path: path.to_owned(),
+            });
+        }
+        let (rows, good) = records(&bytes, title.len());
+        if good < bytes.len() {
+            journal.cut(good as u64)?;
+        }
+        Ok((journal, rows))
+    }
+
+    /// Appends a finished block.
+    pub(crate) fn record(&mut self, block: Block, row: &Row) -> Result<(), BuildError> {
+        let mut bytes = Vec::with_capacity(
+            HEADER + SUM + 4 * (row.remainder.len() + row.moment.len() + row.tail.len()),
+        );
+        let kind = match block.kind {
+            Kind::Nodes => 0,
+            Kind::Probes => 1,
+        };
+        let lengths = [row.remainder.len(), row.moment.len(), row.tail.len()];
+        for number in [block.slice, kind, block.row].into_iter().chain(lengths) {
+            bytes.extend((number as u64).to_le_bytes());
+        }
+        for value in row.remainder.iter().chain(&row.moment).chain(&row.tail) {
+            bytes.extend(value.to_le_bytes());
+        }
+        let sum = Sha256::digest(&bytes);
+        bytes.extend(sum);
+        self.append(&bytes)
+    }
+
+    /// Deletes the journal: the table is complete under its own name.
+    pub(crate) fn remove(self) -> Result<(), BuildError> {
+        std::fs::remove_file(&self.path).map_err(file_error("remove", &self.path))
+    }
+
+    fn append(&mut self, bytes: &[u8]) -> Result<(), BuildError> {
+        self.file
+            .write_all(bytes)
+            .and_then(|()| self.file.sync_data())
+            .map_err(file_error("write", &self.path))
+    }
+
+    fn cut(&mut self, length: u64) -> Result<(), BuildError> {
+        self.file
+            .set_len(length)
+            .map_err(file_error("shorten", &self.path))
+    }
+}
+
+fn title(id: &str) -> String {
+    format!("hertzlamb kernel blocks 1, settings {id}\n")
+}
+
+fn file_error(action: &'static str, path: &Path) -> impl FnOnce(std::io::Error) -> BuildError {
+    let path = path.to_owned();
+    move |source| BuildError::File {
+        action,
+        path,
+        source,
+    }
+}
+
+/// All whole records from `start`, and where the last of them ends.
+fn records(bytes: &[u8], start: usize) -> (HashMap<Block, Row>, usize) {
+    let (mut rows, mut place) = (HashMap::new(), start);
+    while let Some((block, row, length)) = record(&bytes[place..]) {
+        rows.insert(block, row);
+        place += length;
+    }
+    (rows, place)
+}
+
+fn record(bytes: &[u8]) -> Option<(Block, Row, usize)> {
+    let header = bytes.get(..HEADER)?;
+    let mut numbers = header.chunks_exact(8).map(|b| {
+        let mut word = [0; 8];
+        word.copy_from_slice(b);
+        usize::try_from(u64::from_le_bytes(word)).ok()
+    });
+    let mut next = || numbers.next().flatten();
+    let slice = next()?;
+    let kind = match next()? {
+        0 => Kind::Nodes,
+        1 => Kind::Probes,
+        2.. => return None,
+    };
+    let block = Block {
+        slice,
+        kind,
+        row: next()?,
+    };
+    let lengths = [next()?, next()?, next()?];
+    let count = lengths[0]
+        .checked_add(lengths[1])?
+        .checked_add(lengths[2])?;
+    let body = HEADER.checked_add(count.checked_mul(4)?)?;
+    let stated = bytes.get(body..body.checked_add(SUM)?)?;
+    if Sha256::digest(&bytes[..body]).as_slice() != stated {
+        return None;
+    }
+    let mut values = bytes[HEADER..body].chunks_exact(4).map(|b| {
+        let mut word = [0; 4];
+        word.copy_from_slice(b);
+        f32::from_le_bytes(word)
+    });
+    let mut take = |n: usize| values.by_ref().take(n).collect();
+    let row = Row {
+        remainder: take(lengths[0]),
+        moment: take(lengths[1]),
+        tail: take(lengths[2]),
+    };
+    Some((block, row, body + SUM))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn row(seed: f32) -> Row {
+        Row {
+            remainder: vec![seed; 7],
+            moment: vec![2.0 * seed; 7],
+            tail: vec![seed, -seed],
+        }
+    }
+
+    fn block(row: usize) -> Block {
+        Block {
+            slice: 0,
+            kind: Kind::Probes,
+            row,
+        }
+    }
+
+    #[test]
+    fn a_journal_cut_anywhere_gives_back_its_whole_records() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("t.journal");
+        let (mut journal, found) = Journal::open(&path, "abc").unwrap();
+        assert!(found.is_empty());
+        for i in 0..3 {
+            journal.record(block(i), &row(i as f32)).unwrap();
+        }
+        drop(journal);
+        let whole = std::fs::read(&path).unwrap();
+        let size = (whole.len() - title("abc").len()) / 3;
+        for length in 0..=whole.len() {
+            std::fs::write(&path, &whole[..length]).unwrap();
+            let (_, found) = Journal::open(&path, "abc").unwrap();
+            let expected = length.saturating_sub(title("abc").len()) / size;
+            assert_eq!(found.len(), expected, "cut at {length}");
+            assert!(found.iter().all(|(b, r)| *r == row(b.row as f32)));
+        }
+    }
+
+    #[test]
+    fn other_settings_and_a_second_run_are_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("t.journal");
+        let (first, _) = Journal::open(&path, "abc").unwrap();
+        assert!(matches!(
+            Journal::open(&path, "abc"),
+            Err(BuildError::Busy { .. })
+        ));
+        drop(first);
+        assert!(matches!(
+            Journal::open(&path, "xyz"),
+            Err(BuildError::OtherSettings { .. })
+        ));
+    }
+}
