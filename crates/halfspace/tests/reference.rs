@@ -3,12 +3,11 @@
 //! `cargo test -p hertzlamb-halfspace --test reference -- --nocapture` prints the tables of errors.
 //!
 //! An error is relative to the peak over time of the same field's step response at the same point.
-//! The promise is 1e-10 of that peak, 1e-9 within 1e-6 of an arrival. It holds with two exceptions, which
-//! the bounds below state:
+//! The promise is 1e-10 of that peak. It holds for every row but these, which the bounds below state:
 //!
-//! - sigma_zz and sigma_rz just below the surface (z to 1e-9) outside the disc: the field itself is of order
-//!   z, a difference of terms of order one, and the error is their rounding, some 1e-16 of P/r0^2;
-//! - the edge of the disc (r = 1, z to 0), where the largest error is 6e-10.
+//! - within 2e-6 of an arrival the largest error is 3e-9, of sigma_zz at a depth of 1e-5: the field itself is
+//!   of order z there, a small difference of larger terms that are accurate to 1e-10 each;
+//! - around the edge of the disc (r = 1, z to 0), where the largest error is 4e-10.
 
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
@@ -28,15 +27,17 @@ struct Sample {
     peak: f64,
 }
 
-impl Sample {
-    fn relative(&self) -> f64 {
-        self.error / self.peak.max(f64::MIN_POSITIVE)
-    }
+/// What is left of terms of order one when they cancel, in P/(mu r0) and P/r0^2.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
-    /// Relative error beyond what rounding of terms of order one leaves.
-    fn beyond_rounding(&self) -> f64 {
-        const ROUNDING: f64 = 4.0 * f64::EPSILON;
-        (self.error - ROUNDING).max(0.0) / self.peak.max(f64::MIN_POSITIVE)
+impl Sample {
+    /// Error over peak; where a field vanishes at all times rounding counts as none.
+    fn relative(&self) -> f64 {
+        if self.peak == 0.0 && self.error < ROUNDING {
+            0.0
+        } else {
+            self.error / self.peak
+        }
     }
 }
 
@@ -75,15 +76,13 @@ fn samples(tolerance: f64) -> Vec<Sample> {
     samples
 }
 
-/// Bounds on the 99th percentile and the largest relative error beyond rounding, each a little above what
-/// is measured; the promise where that is 1e-10.
+/// Bounds on the 99th percentile and on the largest relative error: the promise, or a little above what is
+/// measured where that is more.
 fn bounds(kind: &str) -> (f64, f64) {
     match kind {
-        "random" | "axis" | "far" | "surface" | "nu_special" => (1e-10, 1e-10),
-        // rows 1e-6 and 1e-3 from a front
-        "arrival" => (3e-10, 1e-9),
-        // here the shortfall is
-        "edge" | "shallow" => (1e-9, 1e-9),
+        "random" | "axis" | "far" | "surface" | "nu_special" | "shallow" => (1e-10, 1e-10),
+        "arrival" => (1e-10, 4e-9),
+        "edge" => (4e-10, 4e-10),
         kind => panic!("no bound for rows of kind {kind}"),
     }
 }
@@ -99,14 +98,7 @@ fn every_row_is_within_the_promised_accuracy() {
     let mut failures = vec![];
     heading("error relative to the peak, by kind");
     for (kind, all) in &by_kind {
-        line(kind, &all.iter().map(|s| s.relative()).collect::<Vec<_>>());
-    }
-    heading("the same beyond rounding (4 ulp of one)");
-    for (kind, all) in &by_kind {
-        let found = line(
-            kind,
-            &all.iter().map(|s| s.beyond_rounding()).collect::<Vec<_>>(),
-        );
+        let found = line(kind, &all.iter().map(|s| s.relative()).collect::<Vec<_>>());
         let (p99, max) = bounds(kind);
         if found.p99 > p99 || found.max > max {
             failures.push(format!("{kind}: p99 {:e} max {:e}", found.p99, found.max));
@@ -126,12 +118,12 @@ fn every_row_is_within_the_promised_accuracy() {
     }
     println!("\nlargest:");
     let mut worst: Vec<&Sample> = samples.iter().collect();
-    worst.sort_by(|a, b| b.beyond_rounding().total_cmp(&a.beyond_rounding()));
+    worst.sort_by(|a, b| b.relative().total_cmp(&a.relative()));
     for s in worst.iter().take(12) {
         println!(
             "{:10} {:.1e} (absolute {:.1e}, estimate {:.1e}, peak {:.1e}) {}",
             s.kind,
-            s.beyond_rounding(),
+            s.relative(),
             s.error,
             s.estimate,
             s.peak,
@@ -145,8 +137,8 @@ fn every_row_is_within_the_promised_accuracy() {
 fn the_reported_error_bounds_the_observed_error() {
     for tolerance in [1e-10, 1e-8, 1e-6, 1e-4] {
         let samples = samples(tolerance);
-        // the reference is given to 20 digits, its parse to a double is exact to half an ulp
-        let covered = |s: &&Sample| s.error <= s.estimate + 4.0 * f64::EPSILON;
+        // the estimate is that of the remainder; the static part adds its own rounding
+        let covered = |s: &&Sample| s.error <= s.estimate + ROUNDING;
         let share = samples.iter().filter(covered).count() as f64 / samples.len() as f64;
         let caution: Vec<f64> = samples
             .iter()
@@ -167,6 +159,10 @@ fn the_reported_error_bounds_the_observed_error() {
             );
         }
         assert!(share >= 0.99, "tolerance {tolerance:e}: {share}");
-        println!("median caution {:.0}", caution.p50);
+        assert!(
+            caution.p50 < 1e3,
+            "tolerance {tolerance:e}: {}",
+            caution.p50
+        );
     }
 }
