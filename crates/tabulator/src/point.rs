@@ -26,7 +26,7 @@ pub struct PointKernels {
 
 /// Moments are computed and stored to this share of the largest static displacement or stress there:
 /// they enter with the second difference of the force, far below one.
-const MOMENT_SHARE: f64 = 1e-6;
+const MOMENT_SHARE: f64 = 1e-5;
 /// Halvings of a cell that a front crosses.
 const DEEPEST: u32 = 6;
 
@@ -187,7 +187,7 @@ fn smooth_moment(averages: &[Six], j: usize, quantum: &Six) -> Option<Six> {
         let near = averages[j + 1][f] - averages[j - 1][f];
         let far = averages[j + 2][f] - averages[j - 2][f];
         moment[f] = near * 41.0 / 720.0 - far * 11.0 / 1440.0;
-        if (moment[f] - near / 24.0).abs() > 4.0 * quantum[f] {
+        if (moment[f] - near / 24.0).abs() > 8.0 * quantum[f] {
             return None;
         }
     }

@@ -1,0 +1,191 @@
+//! Building: bytes, interruptions, files in the way, bad settings.
+
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use tabulator::{
+    Axis, BuildError, Existing, Grid, Progress, Silent, build, build_over, check_table, differences,
+};
+
+/// Two slices of 8 by 8 nodes.
+fn small() -> Grid {
+    Grid {
+        poisson_ratios: vec![0.25, 0.3],
+        cell_width: 0.25,
+        r: Axis::uniform(0.875, 0.125),
+        z: Axis::uniform(0.875, 0.125),
+        tail_terms: 8,
+        tolerance: 1e-7,
+        ..Grid::demo()
+    }
+}
+
+fn journal(path: &Path) -> PathBuf {
+    PathBuf::from(format!("{}.journal", path.display()))
+}
+
+/// Panics after some blocks, as a killed process would end.
+struct Interrupt(Mutex<u64>);
+
+impl Progress for Interrupt {
+    fn total(&self, _stage: &str, _total: u64) {}
+    fn advance(&self, done: u64) {
+        let mut left = self.0.lock().unwrap();
+        *left = left.saturating_sub(done);
+        assert!(*left > 0, "interrupted on purpose");
+    }
+}
+
+#[test]
+fn an_interrupted_build_goes_on_and_gives_the_same_content() {
+    let folder = tempfile::tempdir().unwrap();
+    let (straight, broken) = (
+        folder.path().join("straight.h5"),
+        folder.path().join("broken.h5"),
+    );
+    let summary = build(&small(), &straight, &Silent).unwrap();
+    assert_eq!(summary.resumed_blocks, 0);
+    assert!(!journal(&straight).exists());
+
+    let interrupt = Interrupt(Mutex::new(9));
+    let crash = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| {
+        build(&small(), &broken, &interrupt)
+    }));
+    assert!(crash.is_err());
+    assert!(!broken.exists());
+    // The last record was cut short by the power failure.
+    let bytes = std::fs::read(journal(&broken)).unwrap();
+    std::fs::write(journal(&broken), &bytes[..bytes.len() - 5]).unwrap();
+
+    let resumed = build(&small(), &broken, &Silent).unwrap();
+    assert!(
+        resumed.resumed_blocks >= 7,
+        "{} blocks kept",
+        resumed.resumed_blocks
+    );
+    assert_eq!(resumed.content_sha256, summary.content_sha256);
+    let (a, b) = (
+        lookup::read(&straight).unwrap(),
+        lookup::read(&broken).unwrap(),
+    );
+    assert!(differences(&a, &b).is_empty());
+    assert!(!journal(&broken).exists());
+}
+
+#[test]
+fn the_number_of_threads_does_not_change_the_content() {
+    let folder = tempfile::tempdir().unwrap();
+    let with = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .unwrap();
+        let path = folder.path().join(format!("{threads}.h5"));
+        pool.install(|| build(&small(), &path, &Silent))
+            .unwrap()
+            .content_sha256
+    };
+    assert_eq!(with(1), with(3));
+}
+
+#[test]
+fn a_finished_table_passes_its_check_and_a_wrong_one_is_found() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("t.h5");
+    build(&small(), &path, &Silent).unwrap();
+    let report = check_table(&path, 12, 3).unwrap();
+    assert_eq!(report.nodes_checked, 12);
+    assert!(report.bad.is_empty(), "{:?}", report.bad);
+
+    let mut content = lookup::read(&path).unwrap();
+    let cells = content.slices[1].cells;
+    // Node r[2], z[3], field stress_zz, cell 4.
+    content.slices[1].remainder[((2 * 8 + 3) * 6 + 4) * cells + 4] += 1e-3;
+    lookup::write(&path, &content).unwrap();
+    let report = check_table(&path, usize::MAX, 3).unwrap();
+    let bad: Vec<_> = report
+        .bad
+        .iter()
+        .map(|bad| (bad.poisson_ratio, bad.r, bad.z, bad.field))
+        .collect();
+    assert_eq!(bad, [(0.3, 0.25, 0.375, "stress_zz")]);
+}
+
+#[test]
+fn files_in_the_way_are_kept_unless_replaced() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("t.h5");
+    std::fs::write(&path, "precious").unwrap();
+    assert!(matches!(
+        build(&small(), &path, &Silent),
+        Err(BuildError::Exists { .. })
+    ));
+    assert_eq!(std::fs::read(&path).unwrap(), b"precious");
+    build_over(&small(), &path, Existing::Replace, &Silent).unwrap();
+    lookup::Table::open(&path).unwrap();
+
+    // The journal of other settings is not touched.
+    let other = folder.path().join("other.h5");
+    std::fs::write(
+        journal(&other),
+        "hertzlamb kernel blocks 1, settings 0123456789abcdef\n",
+    )
+    .unwrap();
+    assert!(matches!(
+        build(&small(), &other, &Silent),
+        Err(BuildError::OtherSettings { .. })
+    ));
+
+    let nowhere = folder.path().join("no/such/folder/t.h5");
+    let message = build(&small(), &nowhere, &Silent).unwrap_err().to_string();
+    assert!(
+        message.starts_with("cannot write ") && message.contains("no/such/folder"),
+        "{message}"
+    );
+}
+
+#[test]
+fn settings_outside_their_range_are_named() {
+    let message = |change: fn(&mut Grid)| {
+        let mut grid = small();
+        change(&mut grid);
+        grid.validate().unwrap_err().to_string()
+    };
+    assert_eq!(
+        message(|g| g.cell_width = 0.0),
+        "grid: cell_width = 0 is outside [0.005, 1]"
+    );
+    assert_eq!(
+        message(|g| g.poisson_ratios = vec![0.5]),
+        "grid: poisson_ratios = 0.5 is outside [-0.95, 0.495]"
+    );
+    assert_eq!(
+        message(|g| g.poisson_ratios.clear()),
+        "grid: poisson_ratios = NaN is outside a list of at least one"
+    );
+    assert_eq!(
+        message(|g| g.r.max = f64::NAN),
+        "grid: r.max = NaN is outside [0.25, 100]"
+    );
+    assert_eq!(
+        message(|g| g.stencil_points = 5),
+        "grid: stencil_points = 5 is outside {2, 4, 6, 8}"
+    );
+    assert_eq!(
+        message(|g| g.z.spacing = 0.5),
+        "grid: z: number of nodes = 3 is outside [8, 2000]"
+    );
+}
+
+#[test]
+fn a_grid_file_is_read_back_and_unknown_keys_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("grid.toml");
+    std::fs::write(&path, small().to_toml().unwrap()).unwrap();
+    assert_eq!(Grid::from_file(&path).unwrap(), small());
+    std::fs::write(&path, "poisson_ratios = [0.3]\nspacng = 1\n").unwrap();
+    let message = Grid::from_file(&path).unwrap_err().to_string();
+    assert!(
+        message.contains("grid.toml") && message.contains("spacng"),
+        "{message}"
+    );
+}
