@@ -1,4 +1,4 @@
-//! The axis under a point force or a punch.
+//! The axis under a point force or a punch, and under the impulse of any load.
 //!
 //! There the fronts of opposite edges meet and the compact potentials become delta functions. Off the axis
 //! nothing is special: each field is r to its parity times a smooth function of r^2 between fronts, so its
@@ -17,10 +17,12 @@ const NEAR: f64 = 0.03;
 const NODES: usize = 6;
 
 /// Whether the fields at a point are continued from larger radii.
-pub(crate) fn is_near(profile: Profile, at: Point) -> bool {
+pub(crate) fn is_near<const ORDER: i32>(profile: Profile, at: Point) -> bool {
     match profile {
-        Profile::Hertz => false,
-        Profile::Punch | Profile::Point => at.r < NEAR * at.z.hypot(profile.radius()),
+        Profile::Hertz if ORDER >= 0 => false,
+        Profile::Hertz | Profile::Punch | Profile::Point => {
+            at.r < NEAR * at.z.hypot(profile.radius())
+        }
     }
 }
 

@@ -26,11 +26,12 @@ use std::ops::{Add, Mul, Sub};
 /// Radius below which a point is on the axis as far as rounding goes.
 const AXIS: f64 = 1e-13;
 
-/// The compact parts at eta: (a3, a2, b3/r, b2/r) for `ORDER` 0, (a4, a3, b4/r, b3/r) for 1.
+/// The compact parts at eta: (a3, a2, b3/r, b2/r) for `ORDER` 0, (a4, a3, b4/r, b3/r) for 1, and for -1, of
+/// the Hertz profile only, the derivatives of those for 0.
 #[inline]
 pub(crate) fn compact<const ORDER: i32>(profile: Profile, eta: f64, r: f64) -> Potentials<f64> {
     match profile {
-        Profile::Hertz if r < AXIS => hertz_on_axis::<ORDER>(eta),
+        Profile::Hertz if r < AXIS && ORDER >= 0 => hertz_on_axis::<ORDER>(eta),
         Profile::Hertz => hertz::<ORDER>(eta, r),
         Profile::Punch => punch::<ORDER>(eta, r),
         Profile::Point => point::<ORDER>(eta, r),
@@ -52,11 +53,30 @@ fn circle(s: f64, r: f64) -> (f64, f64) {
 #[inline]
 fn hertz<const ORDER: i32>(eta: f64, r: f64) -> Potentials<f64> {
     let ((phi1, q1), (phi2, q2)) = (circle(eta - 1.0, r), circle(eta + 1.0, r));
+    if ORDER < 0 {
+        return hertz_slopes(eta, r, [phi1, phi2], [q1, q2]);
+    }
     let mut psi = chord_primitives::<ORDER, f64>(eta, r, [phi1, phi2], [q1, q2]);
     if ORDER == 1 {
         psi.a_upper -= 0.25;
     }
     psi
+}
+
+/// d/d eta of (a3, a2, b3/r, b2/r); the inverse roots are those of the fronts.
+#[inline]
+fn hertz_slopes(eta: f64, r: f64, phi: [f64; 2], q: [f64; 2]) -> Potentials<f64> {
+    let scale = 0.75 / PI;
+    let ring = scale / (r * r);
+    let inverse = q.map(|q| if q > 0.0 { 1.0 / q } else { 0.0 });
+    let (m0, m1) = (phi[1] - phi[0], q[0] - q[1]);
+    let m2 = 0.5 * (r * r * m0 - (eta + 1.0) * q[1] + (eta - 1.0) * q[0]);
+    Potentials {
+        a_upper: scale * (m1 - eta * m0),
+        a_lower: scale * (inverse[0] + inverse[1] - m0),
+        g_upper: ring * (eta * m1 - m2),
+        g_lower: ring * ((eta + 1.0) * inverse[1] + (eta - 1.0) * inverse[0] - m1),
+    }
 }
 
 /// The chord integrals of a Hertz disc between s = eta - 1 and eta + 1, from phi and q at both ends.

@@ -4,7 +4,6 @@ use crate::compact::compact;
 use crate::fronts::{self, Point, Sense};
 use crate::kernel::{Kernel, Sum, fields};
 use crate::panels::{Landscape, Strength};
-use crate::potential::Potentials;
 use crate::spectrum::{self, Wave};
 
 impl Kernel {
@@ -47,12 +46,10 @@ impl Kernel {
                     if ORDER == 1 {
                         // int dt = -+x int d eta; the order below b3 is -b2
                         let step = sense.sign() * x;
-                        psi = Potentials {
-                            a_upper: step * psi.a_upper,
-                            a_lower: step * psi.a_lower,
-                            g_upper: step * psi.g_upper,
-                            g_lower: -step * psi.g_lower,
-                        };
+                        psi = psi.map(|v| step * v);
+                        psi.g_lower = -psi.g_lower;
+                    } else if ORDER < 0 {
+                        psi = psi.map(|v| sense.sign() / x * v);
                     }
                     let amplitudes = spectrum::fast(wave, self.k, x, p);
                     sum.add(weight * jacobian, fields(&amplitudes, &psi, at.r));

@@ -126,9 +126,43 @@ impl Kernel {
         Ok(estimate)
     }
 
+    /// The impulse response dH/dt, the fields after a unit impulse, of the Hertz profile.
+    ///
+    /// Units: c1/(mu r0^2) for displacement, c1/r0^3 for stress.
+    /// Between fronts it is a smooth function; at the fronts stress has roots in the denominator, and the
+    /// plane front under the disc, (33) of the paper, is a delta function that no value shows.
+    ///
+    /// # Errors
+    /// [`DomainError`] for r, z or t negative or not finite, and for a profile other than Hertz: the
+    /// impulse stresses of the others are not functions.
+    pub fn impulse(&self, r: f64, z: f64, t: f64) -> Result<Estimate, DomainError> {
+        self.check_place(r, z)?;
+        check_time(t)?;
+        let power = match self.profile {
+            Profile::Hertz => -0.5,
+            Profile::Punch => -1.5,
+            Profile::Point => -2.5,
+        };
+        DomainError::unless(
+            power > -1.0,
+            "power of the stress fronts",
+            power,
+            "(-1, inf): only the Hertz profile has an impulse response",
+        )?;
+        if t <= self.first_arrival(r, z) {
+            return Ok(Estimate {
+                value: [0.0; 6],
+                error: [0.0; 6],
+            });
+        }
+        let mut estimate = self.evaluate::<-1>(Point { r, z, t });
+        self.impose_surface(z, &mut estimate);
+        Ok(estimate)
+    }
+
     /// The integral, continued to the axis where the fronts of a point force or a punch meet there.
     pub(crate) fn evaluate<const ORDER: i32>(&self, at: Point) -> Estimate {
-        if axis::is_near(self.profile, at) {
+        if axis::is_near::<ORDER>(self.profile, at) {
             axis::continued(self, at, |at| self.integrate::<ORDER>(at))
         } else {
             self.integrate::<ORDER>(at)
@@ -193,9 +227,11 @@ impl Kernel {
         for pole in &self.poles {
             let xi = Complex64::new(pole.decay * at.z, -c * at.t);
             let mut psi = potentials::<ORDER>(self.profile, xi, at.r);
+            // d/dt of order n + 1 is i c times order n
             if ORDER == 1 {
-                // d/dt of order n + 1 is i c times order n
                 psi = psi.map(|v| v * Complex64::new(0.0, -1.0 / c));
+            } else if ORDER < 0 {
+                psi = psi.map(|v| v * Complex64::new(0.0, c));
             }
             sum.add(1.0, fields(&pole.amplitudes, &psi.map(|v| v.re), at.r));
         }

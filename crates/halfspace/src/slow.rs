@@ -69,8 +69,10 @@ impl Kernel {
         potentials::<ORDER>(self.profile(), xi, at.r).map(|v| {
             if ORDER == 0 {
                 factor * v.re
-            } else {
+            } else if ORDER == 1 {
                 factor * n.x * v.im
+            } else {
+                -factor * inverse * v.im
             }
         })
     }
@@ -83,10 +85,13 @@ impl Kernel {
         let minus = potentials::<ORDER>(self.profile(), argument(-at.t), at.r);
         let plus = potentials::<ORDER>(self.profile(), argument(at.t), at.r);
         let both = |m: Complex64, p: Complex64| {
+            // the factors +-i/x of d/dt and -+i x of int dt for the two senses
             if ORDER == 0 {
                 m + p
-            } else {
+            } else if ORDER == 1 {
                 Complex64::new(n.x * (m.im - p.im), n.x * (p.re - m.re))
+            } else {
+                Complex64::new(inverse * (p.im - m.im), inverse * (m.re - p.re))
             }
         };
         // Re[(re + i im) v] and Re[-i (re + i im) v]

@@ -1,0 +1,57 @@
+//! The impulse response is the slope of the step response between fronts.
+
+#![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
+
+use halfspace::{Arrivals, Kernel, Medium, Profile};
+
+#[test]
+fn the_impulse_is_the_slope_of_the_step_response() {
+    let h = 1e-4;
+    for nu in [-0.3, 0.0, 0.25, 0.3, 0.45] {
+        let medium = Medium::new(nu).unwrap();
+        let kernel = Kernel::new(&medium, Profile::Hertz, 1e-12).unwrap();
+        for (r, z) in [
+            (0.0, 0.8),
+            (0.01, 0.8),
+            (0.5, 0.3),
+            (1.0, 0.7),
+            (1.7, 0.0),
+            (2.4, 1.9),
+            (0.4, 5.0),
+        ] {
+            let arrivals = Arrivals::new(&medium, Profile::Hertz, r, z).unwrap();
+            let mut checked = 0;
+            for i in 1..80 {
+                let t = 0.193 * f64::from(i);
+                if arrivals.sorted().iter().any(|a| (a - t).abs() < 0.05) {
+                    continue;
+                }
+                checked += 1;
+                let at = |t: f64| kernel.remainder(r, z, t).unwrap().value;
+                let (far, near) = ([at(t - 2.0 * h), at(t + 2.0 * h)], [at(t - h), at(t + h)]);
+                let impulse = kernel.impulse(r, z, t).unwrap();
+                for f in 0..6 {
+                    let slope =
+                        (8.0 * (near[1][f] - near[0][f]) - far[1][f] + far[0][f]) / (12.0 * h);
+                    let gap = (slope - impulse.value[f]).abs();
+                    assert!(
+                        gap < 2e-6,
+                        "nu {nu} r {r} z {z} t {t} field {f}: {slope} {}",
+                        impulse.value[f]
+                    );
+                }
+            }
+            assert!(checked > 40, "only {checked} times clear of fronts");
+        }
+    }
+}
+
+#[test]
+fn other_profiles_are_refused() {
+    let medium = Medium::new(0.3).unwrap();
+    for profile in [Profile::Punch, Profile::Point] {
+        let kernel = Kernel::new(&medium, profile, 1e-8).unwrap();
+        let message = kernel.impulse(0.5, 0.5, 2.0).unwrap_err().to_string();
+        assert!(message.contains("only the Hertz profile"), "{message}");
+    }
+}
