@@ -135,7 +135,14 @@ fn every_row_is_within_the_promised_accuracy() {
 
 #[test]
 fn the_reported_error_bounds_the_observed_error() {
-    for tolerance in [1e-10, 1e-8, 1e-6, 1e-4] {
+    // at 1e-11 rounding, which the estimate counts only roughly, takes over
+    for (tolerance, covers) in [
+        (1e-11, 0.98),
+        (1e-10, 0.99),
+        (1e-8, 0.99),
+        (1e-6, 0.99),
+        (1e-4, 0.99),
+    ] {
         let samples = samples(tolerance);
         // the estimate is that of the remainder; the static part adds its own rounding
         let covered = |s: &&Sample| s.error <= s.estimate + ROUNDING;
@@ -151,14 +158,18 @@ fn the_reported_error_bounds_the_observed_error() {
         ));
         let caution = line("estimate / error", &caution);
         let relative: Vec<f64> = samples.iter().map(Sample::relative).collect();
-        line("error / peak", &relative);
+        let relative = line("error / peak", &relative);
+        if tolerance == 1e-11 {
+            // one digit more than the promise, and it holds for every row
+            assert!(relative.max < 1.2e-10, "{relative}");
+        }
         for s in samples.iter().filter(|s| !covered(s)).take(12) {
             println!(
                 "  not bounded: {:.1e} > {:.1e} {} {}",
                 s.error, s.estimate, s.kind, s.label
             );
         }
-        assert!(share >= 0.99, "tolerance {tolerance:e}: {share}");
+        assert!(share >= covers, "tolerance {tolerance:e}: {share}");
         assert!(
             caution.p50 < 1e3,
             "tolerance {tolerance:e}: {}",
