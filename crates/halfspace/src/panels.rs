@@ -24,7 +24,7 @@ const SQUARE: i32 = 2;
 const HIGH: i32 = 6;
 
 /// Cuts closer than this are one.
-const SAME: f64 = 1e-14;
+const SAME: f64 = 1e-13;
 
 /// The interval [0, 1] of a smooth variable with everything that is not smooth near it.
 #[derive(Debug, Clone, Copy)]

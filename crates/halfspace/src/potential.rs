@@ -160,7 +160,7 @@ fn end_orders<const ORDER: i32>(zeta: Complex64, r: f64) -> Potentials<Complex64
             g_lower: end.f(ORDER - 1),
         };
     }
-    let rho = root_with_circle(zeta, r);
+    let rho = End::without_log(zeta, r).rho;
     let inverse = reciprocal(rho);
     let sum = reciprocal(rho + zeta);
     if ORDER == 0 {
