@@ -25,12 +25,38 @@ struct Panel<'a> {
     curves: Vec<Curve<'a>>,
 }
 
+/// The backend draws on whole units; finer ones than pixels keep the curves smooth.
+const FINE: u32 = 5;
+
+/// Size of the picture in pixels.
+const SIZE: (u32, u32) = (860, 960);
+
 /// Draws the picture as SVG.
 pub(crate) fn draw(path: &Path, outcome: &Outcome) -> Result<(), String> {
-    draw_panels(path, outcome).map_err(|error| error.to_string())
+    let mut picture = String::new();
+    draw_panels(&mut picture, outcome).map_err(|error| error.to_string())?;
+    let (width, height) = SIZE;
+    let fine = format!("width=\"{}\" height=\"{}\"", width * FINE, height * FINE);
+    let shown = format!("width=\"{width}\" height=\"{height}\"");
+    std::fs::write(path, picture.replacen(&fine, &shown, 1)).map_err(|error| error.to_string())
 }
 
-fn draw_panels(path: &Path, outcome: &Outcome) -> Result<(), Box<dyn Error>> {
+/// A length in pixels.
+fn px(pixels: u32) -> u32 {
+    pixels * FINE
+}
+
+/// A text of a height in pixels.
+fn font(pixels: u32) -> (&'static str, u32) {
+    ("sans-serif", px(pixels))
+}
+
+/// A place in pixels.
+fn at(x: u32, y: u32) -> (i32, i32) {
+    (px(x).cast_signed(), px(y).cast_signed())
+}
+
+fn draw_panels(picture: &mut String, outcome: &Outcome) -> Result<(), Box<dyn Error>> {
     let series = &outcome.series;
     let end_us = 1.12e6 * outcome.results.contact_time_s;
     let panels = [
@@ -70,12 +96,12 @@ fn draw_panels(path: &Path, outcome: &Outcome) -> Result<(), Box<dyn Error>> {
             }],
         },
     ];
-    let root = SVGBackend::new(path, (860, 960)).into_drawing_area();
+    let root = SVGBackend::with_string(picture, (px(SIZE.0), px(SIZE.1))).into_drawing_area();
     root.fill(&WHITE)?;
-    let (head, body) = root.split_vertically(58);
-    let title = TextStyle::from(("sans-serif", 21).into_font());
-    let small = TextStyle::from(("sans-serif", 14).into_font());
-    head.draw_text("Copper rod on a steel block, 100 m/s", &title, (24, 12))?;
+    let (head, body) = root.split_vertically(px(58));
+    let title = TextStyle::from(font(21).into_font());
+    let small = TextStyle::from(font(14).into_font());
+    head.draw_text("Copper rod on a steel block, 100 m/s", &title, at(24, 12))?;
     head.draw_text(
         &format!(
             "peak force {:.1} kN, contact {:.2} \u{b5}s, restitution {:.4} (model {}, {})",
@@ -86,25 +112,29 @@ fn draw_panels(path: &Path, outcome: &Outcome) -> Result<(), Box<dyn Error>> {
             outcome.choices.scheme
         ),
         &small,
-        (24, 38),
+        at(24, 38),
     )?;
     for (area, panel) in body.split_evenly((3, 1)).iter().zip(&panels) {
         let (low, high) = range(panel, &series.time_s, end_us);
         let mut chart = ChartBuilder::on(area)
-            .margin_top(12)
-            .margin_right(28)
-            .margin_left(12)
-            .x_label_area_size(46)
-            .y_label_area_size(66)
+            .margin_top(px(12))
+            .margin_right(px(28))
+            .margin_left(px(12))
+            .x_label_area_size(px(46))
+            .y_label_area_size(px(66))
             .build_cartesian_2d(0.0..end_us, low..high)?;
         chart
             .configure_mesh()
             .x_desc("time [\u{b5}s]")
             .y_desc(panel.label)
             .light_line_style(WHITE)
-            .bold_line_style(BLACK.mix(0.12))
-            .label_style(("sans-serif", 14))
-            .axis_desc_style(("sans-serif", 15))
+            .bold_line_style(BLACK.mix(0.12).stroke_width(FINE))
+            .label_style(font(14))
+            .axis_desc_style(font(15))
+            .x_label_formatter(&|x| format!("{x:.0}"))
+            .y_label_formatter(&|y| format!("{y:.0}"))
+            .axis_style(BLACK.stroke_width(FINE))
+            .set_all_tick_mark_size(px(4))
             .y_labels(6)
             .x_labels(8)
             .draw()?;
@@ -117,20 +147,23 @@ fn draw_panels(path: &Path, outcome: &Outcome) -> Result<(), Box<dyn Error>> {
                 .take_while(|(t, _)| *t <= end_us);
             let colour = curve.colour;
             chart
-                .draw_series(LineSeries::new(points, colour.stroke_width(2)))?
+                .draw_series(LineSeries::new(points, colour.stroke_width(px(2))))?
                 .label(curve.name)
                 .legend(move |(x, y)| {
-                    PathElement::new(vec![(x, y), (x + 22, y)], colour.stroke_width(2))
+                    PathElement::new(
+                        vec![(x, y), (x + px(22).cast_signed(), y)],
+                        colour.stroke_width(px(2)),
+                    )
                 });
         }
         chart
             .configure_series_labels()
             .position(SeriesLabelPosition::UpperRight)
-            .margin(10)
-            .legend_area_size(30)
-            .label_font(("sans-serif", 14))
+            .margin(px(10))
+            .legend_area_size(px(30))
+            .label_font(font(14))
             .background_style(WHITE.mix(0.85))
-            .border_style(BLACK.mix(0.15))
+            .border_style(BLACK.mix(0.15).stroke_width(FINE))
             .draw()?;
     }
     root.present()?;

@@ -7,8 +7,8 @@ use crate::contact::{Collision, hertz};
 use crate::convolve::{FieldError, KernelSource, Place, convolve};
 use crate::energy::{Ledger, radiated, work};
 use crate::march::{
-    FixedDisc, History, MarchError, StaticShare, Summary, march_explicit, march_growing,
-    march_implicit, refine,
+    FixedDisc, History, MarchError, PunchResponse, StaticShare, Summary, march_explicit,
+    march_growing, march_implicit, refine,
 };
 use crate::resample::Resampler;
 use crate::scene::{
@@ -329,7 +329,9 @@ fn contact_run(
         Model::Hertz => hertz_run(contact.tolerance),
         Model::Radiation => radiation_run(lag, contact.tolerance)?,
         Model::Growing => {
-            let impact = collision.growing_disc(response);
+            let centre = SurfaceResponse::new(medium, Deflection::Centre);
+            let punch = PunchResponse::new(&centre);
+            let impact = collision.growing_disc(&punch);
             let march = |step| march_growing(&impact, step);
             let mut run = marched(scene, collision, hertz::CONTACT_TIME, march)?;
             run.radiated = work(&run.history.force, &run.history.deflection);
@@ -391,8 +393,7 @@ fn automatic(scene: &Scene, collision: &Collision, response: &SurfaceResponse) -
             "the explicit scheme marches a fixed disc, of the tip's radius".to_owned(),
         ),
         (None, _, Scheme::Implicit) => {
-            let impact = collision.growing_disc(response);
-            let memory = impact.wave_time * response.memory();
+            let memory = 2.0 * collision.contact_wave_time() * response.memory();
             let lag = collision.lag(response);
             rung(
                 choose(lag, memory, contact.tolerance, asked),

@@ -1,50 +1,149 @@
-//! Converged impacts of an independent program.
+//! Converged impacts of an independent program (`tests/golden/impacts.csv`), and the order of convergence.
+
 use halfspace::{Deflection, Medium, SurfaceResponse};
-use impact::march::*;
+use impact::march::{FixedDisc, StaticShare, Summary, march_explicit, march_implicit};
 use impact::units::CollisionUnits;
+use impact::{KernelChoice, Scene, simulate};
+use std::path::Path;
+
+struct Row {
+    scene: String,
+    share: &'static str,
+    peak_force_n: f64,
+    contact_time_s: f64,
+    restitution: f64,
+    peak_displacement_m: f64,
+    peak_deflection_m: f64,
+}
+
+/// The rows as scenes with one more line for [contact].
+fn rows(more: &str) -> Vec<Row> {
+    let text = include_str!("../../../tests/golden/impacts.csv");
+    text.lines()
+        .skip(1)
+        .map(|line| {
+            // the name of the case may hold a comma: count from the end
+            let columns: Vec<&str> = line.rsplit(',').collect();
+            let number = |from_end: usize| columns[from_end].parse::<f64>().unwrap();
+            let share = if columns[6] == "full" { "full" } else { "dynamic" };
+            Row {
+                scene: format!(
+                    "[target]\nyoungs_modulus_pa = {:e}\npoisson_ratio = {}\ndensity_kg_m3 = {}\n\
+                     [striker]\nyoungs_modulus_pa = {:e}\npoisson_ratio = {}\nmass_kg = {:e}\n\
+                     tip_radius_m = {}\nvelocity_m_s = {}\n\
+                     [contact]\nmodel = \"wave\"\ndisc_radius_m = {}\nstatic_share = \"{share}\"\n{more}\n",
+                    number(9), number(8), number(7), number(11), number(10), number(14), number(12),
+                    number(15), number(13),
+                ),
+                share,
+                peak_force_n: number(5),
+                contact_time_s: number(4),
+                restitution: number(3),
+                peak_displacement_m: number(2),
+                peak_deflection_m: number(1),
+            }
+        })
+        .collect()
+}
+
+fn worst(row: &Row) -> f64 {
+    let scene = Scene::from_toml(&row.scene, Path::new(".")).unwrap();
+    let found = simulate(&scene, &KernelChoice::Direct).unwrap().results;
+    [
+        found.peak_force_n / row.peak_force_n,
+        found.contact_time_s / row.contact_time_s,
+        found.restitution / row.restitution,
+        found.peak_displacement_m / row.peak_displacement_m,
+        found.peak_deflection_m / row.peak_deflection_m,
+    ]
+    .into_iter()
+    .map(|ratio| (ratio - 1.0).abs())
+    .fold(0.0, f64::max)
+}
 
 #[test]
-fn explore() {
-    let text = include_str!("../../../tests/golden/impacts.csv");
-    for line in text.lines().skip(1) {
-        let f: Vec<&str> = line.rsplit(',').collect();
-        let x = |i: usize| f[f.len() - 1 - 0 - i].trim_matches('"').to_string();
-        let _ = x;
-        let cols: Vec<&str> = f.into_iter().rev().collect();
-        let off = cols.len() - 16;
-        let g = |i: usize| cols[i + off - 0].parse::<f64>().unwrap();
-        // case,V0,m,r0,R,E1,nu1,E,nu,rho,share,peak_force,contact_time,restitution,peak_h,peak_w,rel_change
-        let (v0, m, r0, r, e1, nu1, e, nu, rho) = (g(0), g(1), g(2), g(3), g(4), g(5), g(6), g(7), g(8));
-        let share = if cols[off + 9] == "full" { StaticShare::Full } else { StaticShare::Dynamic };
-        let es = 1.0 / ((1.0 - nu1 * nu1) / e1 + (1.0 - nu * nu) / e);
-        let k = 4.0 / 3.0 * es * r.sqrt();
-        let u = CollisionUnits::new(k, m, v0);
-        let mu = e / 2.0 / (1.0 + nu);
-        let c1 = ((2.0 - 2.0 * nu) / (1.0 - 2.0 * nu) * mu / rho).sqrt();
-        let resp = SurfaceResponse::new(&Medium::new(nu).unwrap(), Deflection::Centre);
-        let d = FixedDisc {
-            response: &resp,
-            coupling: resp.static_compliance() * u.force_n / (mu * r0 * u.length_m),
-            wave_time: r0 / c1 / u.time_s,
-            share,
-        };
-        println!("{line}\n σ={:.4} mem={:.4}", d.coupling, d.memory());
-        for n in [25, 50, 100, 200, 400, 800, 1600] {
-            let h = 3.0 / n as f64;
-            let t0 = std::time::Instant::now();
-            let hist = march_implicit(&d, h).unwrap();
-            let s = Summary::new(&hist).unwrap();
-            let el = t0.elapsed().as_secs_f64() * 1e6;
-            println!(
-                "  {n:5} F {:+.2e} t {:+.2e} e {:+.2e} h {:+.2e} w {:+.2e}  {el:.1} us",
-                s.peak_force * u.force_n / g(10) - 1.0,
-                s.contact_time * u.time_s / g(11) - 1.0,
-                s.restitution / g(12) - 1.0,
-                s.peak_displacement * u.length_m / g(13) - 1.0,
-                s.peak_deflection * u.length_m / g(14) - 1.0
-            );
-        }
-        let (_, s) = march_explicit(&d, 0.135e-6 / u.time_s).unwrap();
-        println!("explicit {} {} {}", s.peak_force * u.force_n, s.restitution, s.contact_time * u.time_s);
+fn every_row_at_the_default_tolerance() {
+    for row in rows("") {
+        let error = worst(&row);
+        println!("{} {error:.1e}", row.share);
+        assert!(error < 1e-4, "{}\n{error}", row.scene);
     }
+}
+
+#[test]
+fn every_row_to_1e_6_at_tolerance_1e_7() {
+    for row in rows("tolerance = 1e-7") {
+        let error = worst(&row);
+        println!("{} {error:.1e}", row.share);
+        assert!(error < 1e-6, "{}\n{error}", row.scene);
+    }
+}
+
+/// The paper's case with copper at 129 GPa.
+fn paper(response: &SurfaceResponse, share: StaticShare) -> (FixedDisc<'_>, CollisionUnits) {
+    let e_star = 1.0 / ((1.0 - 0.34_f64.powi(2)) / 129e9 + (1.0 - 0.09) / 209e9);
+    let units = CollisionUnits::new(4.0 / 3.0 * e_star * 0.004_f64.sqrt(), 0.0122, 100.0);
+    let mu = 209e9 / 2.6;
+    let c1 = (mu * 3.5 / 7830.0_f64).sqrt();
+    let impact = FixedDisc {
+        response,
+        coupling: response.static_compliance() * units.force_n / (mu * 0.004 * units.length_m),
+        wave_time: 0.004 / c1 / units.time_s,
+        share,
+    };
+    (impact, units)
+}
+
+#[test]
+fn the_explicit_scheme_reproduces_the_papers_time_step_error() {
+    let response = SurfaceResponse::new(&Medium::new(0.3).unwrap(), Deflection::Centre);
+    let (impact, units) = paper(&response, StaticShare::Full);
+    let (_, found) = march_explicit(&impact, 0.135e-6 / units.time_s).unwrap();
+    assert!(
+        (100.0 * found.restitution / 99.2 - 1.0).abs() < 3e-3,
+        "{found:?}"
+    );
+    assert!(
+        (found.peak_force * units.force_n / 162_300.0 - 1.0).abs() < 3e-3,
+        "{found:?}"
+    );
+}
+
+#[test]
+fn the_implicit_scheme_is_of_second_order_or_better() {
+    for deflection in [Deflection::Centre, Deflection::Mean] {
+        let response = SurfaceResponse::new(&Medium::new(0.3).unwrap(), deflection);
+        for share in [StaticShare::Full, StaticShare::Dynamic] {
+            let (impact, _) = paper(&response, share);
+            let run = |n: f64| Summary::new(&march_implicit(&impact, 3.0 / n).unwrap()).unwrap();
+            let exact = run(3200.0);
+            let errors: Vec<f64> = [25.0, 50.0, 100.0, 200.0, 400.0]
+                .map(|n| {
+                    let found = run(n);
+                    ((found.peak_force / exact.peak_force - 1.0).abs())
+                        .max((found.restitution - exact.restitution).abs())
+                        .max((found.peak_displacement / exact.peak_displacement - 1.0).abs())
+                })
+                .to_vec();
+            let order = (errors[0] / errors[4]).log2() / 4.0;
+            println!("{deflection:?} {share:?}: {errors:?}, order {order:.2}");
+            assert!(order > 2.0, "{errors:?}");
+            for pair in errors.windows(2) {
+                assert!(pair[1] < 0.35 * pair[0], "{errors:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_explicit_scheme_is_of_first_order() {
+    let response = SurfaceResponse::new(&Medium::new(0.3).unwrap(), Deflection::Centre);
+    let (impact, _) = paper(&response, StaticShare::Full);
+    let exact = Summary::new(&march_implicit(&impact, 1e-3).unwrap()).unwrap();
+    let errors = [200.0, 400.0, 800.0, 1600.0].map(|n| {
+        (march_explicit(&impact, 3.0 / n).unwrap().1.restitution - exact.restitution).abs()
+    });
+    let order = (errors[0] / errors[3]).log2() / 3.0;
+    println!("explicit: {errors:?}, order {order:.2}");
+    assert!((0.8..1.3).contains(&order), "{errors:?}");
 }

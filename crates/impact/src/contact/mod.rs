@@ -4,7 +4,7 @@ pub mod hertz;
 pub mod quasi_static;
 pub mod radiation;
 
-use crate::march::{FixedDisc, GrowingDisc, StaticShare};
+use crate::march::{FixedDisc, GrowingDisc, PunchResponse, StaticShare};
 use crate::scene::{Scene, Striker};
 use crate::units::{CollisionUnits, KernelUnits};
 use halfspace::SurfaceResponse;
@@ -26,6 +26,8 @@ pub struct Collision {
     pub target_shear_modulus_pa: f64,
     /// Longitudinal wave speed of the half-space in m/s.
     pub target_longitudinal_speed_m_s: f64,
+    /// Poisson's ratio of the half-space.
+    pub target_poisson_ratio: f64,
 }
 
 impl Collision {
@@ -44,6 +46,7 @@ impl Collision {
             target_plane_modulus_pa: two.plane_modulus_pa(),
             target_shear_modulus_pa: two.shear_modulus_pa(),
             target_longitudinal_speed_m_s: (modulus / scene.target_density_kg_m3).sqrt(),
+            target_poisson_ratio: nu,
         }
     }
 
@@ -108,21 +111,29 @@ impl Collision {
 
     /// The groups of an impact whose contact radius follows the load.
     #[must_use]
-    pub fn growing_disc<'a>(&self, response: &'a SurfaceResponse) -> GrowingDisc<'a> {
+    pub fn growing_disc<'a>(&self, punch: &'a PunchResponse) -> GrowingDisc<'a> {
+        GrowingDisc {
+            punch,
+            target_share: self.target_share(),
+            wave_time: self.contact_wave_time(),
+        }
+    }
+
+    /// a/c1 in collision times, a = sqrt(R alpha) the contact radius at Hertz's largest approach.
+    #[must_use]
+    pub fn contact_wave_time(&self) -> f64 {
         let units = self.units();
         let radius = (self.tip_radius_m * units.length_m).sqrt();
-        GrowingDisc {
-            response,
-            target_share: self.target_share(),
-            wave_time: radius / self.target_longitudinal_speed_m_s / units.time_s,
-        }
+        radius / self.target_longitudinal_speed_m_s / units.time_s
     }
 
     /// c of the radiation model in collision units: w = -c p' to first order, for any load.
     #[must_use]
     pub fn lag(&self, response: &SurfaceResponse) -> f64 {
         // phi (2/3) a J_p with the punch's J, which is the same for any disc
-        let growing = self.growing_disc(response);
-        growing.target_share * growing.wave_time * response.relaxation_time()
+        // (the Hertz disc's mean deflection has another static part and another relaxation, the same product)
+        let centre = response.static_compliance() * response.relaxation_time()
+            / (0.375 * (1.0 - self.target_poisson_ratio));
+        self.target_share() * self.contact_wave_time() * centre
     }
 }

@@ -6,6 +6,7 @@ mod explicit;
 mod flight;
 mod growing;
 mod implicit;
+mod punch;
 mod refine;
 mod summary;
 mod weights;
@@ -13,6 +14,7 @@ mod weights;
 pub use explicit::march_explicit;
 pub use growing::{GrowingDisc, march_growing};
 pub use implicit::{FixedDisc, march_implicit};
+pub use punch::PunchResponse;
 pub use refine::{Refined, refine};
 pub use summary::Summary;
 
