@@ -98,15 +98,21 @@ def test_probes(impact):
             assert np.all(errors[()] >= 0.0) and np.all(np.isfinite(errors[()])), name
 
 
-def test_probes_rest_until_the_first_wave(impact):
-    with h5py.File(impact.path, "r") as file:
+@pytest.mark.parametrize("kernel", ["table", "direct"])
+def test_probes_rest_until_the_first_wave(tmp_path, paper_scene, table, kernel):
+    out = tmp_path / "out.h5"
+    kernels = ("--table", table) if kernel == "table" else ("--kernel", "direct")
+    run_well("impact", paper_scene, *kernels, "-o", out)
+    with h5py.File(out, "r") as file:
         time, probes = file["time"][()], file["probes"]
         for i, (r, z) in enumerate(zip(probes["r"], probes["z"])):
             arrival = np.hypot(max(r - DISC_RADIUS_M, 0.0), z) / C1_M_S
-            before = time < 0.98 * arrival
+            assert probes["arrival"][i, 0] == pytest.approx(arrival, rel=1e-9)
             for name in PROBE_FIELDS:
                 history = np.abs(probes[name][i])
-                assert history[before].max(initial=0.0) <= 1e-5 * history.max(), (name, r, z)
+                # A table reaches over the front by half its stencil: there the file's own estimate is the promise.
+                allowed = 1e-7 * history.max() if kernel == "direct" else probes[name + "_error"][i]
+                assert history[time < arrival].max(initial=0.0) <= allowed, (name, r, z)
 
 
 def test_probe_under_the_disc_carries_the_pressure(tmp_path, paper_scene, table):
@@ -125,13 +131,15 @@ def test_probe_under_the_disc_carries_the_pressure(tmp_path, paper_scene, table)
 
 def test_surface_centre_moves_as_the_march_says(tmp_path, paper_scene, table):
     # The probe comes from the kernels of the fields, the deflection from the closed form.
+    # Both files carry their errors: the two histories may differ by no more.
     scene = tmp_path / "centre.toml"
     scene.write_text(without_probes(paper_scene) + "\n[[probe]]\nr_m = 0.0\nz_m = 0.0\n")
     out = tmp_path / "centre.h5"
     summary = run_well("impact", scene, "--table", table, "-o", out)
     with h5py.File(out, "r") as file:
         gap = np.abs(file["probes/displacement_z"][0] - file["deflection"][()]).max()
-    assert gap <= 2e-4 * summary["peak_deflection_m"]
+        stated = file["probes/displacement_z_error"][0]
+    assert gap <= stated + summary["relative_error_estimate"] * summary["peak_deflection_m"]
 
 
 def without_probes(scene):
@@ -142,13 +150,18 @@ def without_probes(scene):
 
 
 def test_direct_kernels_give_the_same_probes(tmp_path, impact, paper_scene):
+    # The two have their own output steps; they are compared at the instants that both have.
     out = tmp_path / "direct.h5"
     run_well("impact", paper_scene, "--kernel", "direct", "-o", out)
     with h5py.File(out, "r") as direct, h5py.File(impact.path, "r") as looked_up:
-        np.testing.assert_array_equal(direct["force"], looked_up["force"])
+        picoseconds = [np.rint(file["time"][()] * 1e12).astype(int) for file in (direct, looked_up)]
+        common, mine, theirs = np.intersect1d(*picoseconds, return_indices=True)
+        assert len(common) > 20
+        np.testing.assert_allclose(direct["force"][mine], looked_up["force"][theirs], rtol=1e-9, atol=1e-3)
         for name in PROBE_FIELDS:
-            a, b = direct["probes"][name][()], looked_up["probes"][name][()]
-            assert np.abs(a - b).max() <= 1e-4 * np.abs(a).max(), name
+            gap = np.abs(direct["probes"][name][:, mine] - looked_up["probes"][name][:, theirs]).max(axis=1)
+            stated = direct["probes"][name + "_error"][()] + looked_up["probes"][name + "_error"][()]
+            assert np.all(gap <= stated), name
 
 
 def test_results_name_where_they_come_from(impact):
