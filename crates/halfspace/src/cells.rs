@@ -37,6 +37,33 @@ impl Kernel {
         Ok(estimate)
     }
 
+    /// int dt of [`Self::step_integral`] up to t: differences of it give first moments over time cells.
+    ///
+    /// # Errors
+    /// [`DomainError`] for r, z or t negative or not finite, and for a profile other than Hertz.
+    pub fn second_integral(&self, r: f64, z: f64, t: f64) -> Result<Estimate, DomainError> {
+        self.check_place(r, z)?;
+        check_time(t)?;
+        self.check_hertz()?;
+        let arrival = self.first_arrival(r, z);
+        let mut estimate = self.evaluate::<2>(Point {
+            r,
+            z,
+            t: t.max(arrival),
+        });
+        self.impose_surface(z, &mut estimate);
+        if t < arrival {
+            let gap = arrival - t;
+            let rest = self.static_field(r, z)?;
+            let slope = self.step_integral(r, z, arrival)?;
+            for f in 0..6 {
+                estimate.value[f] -= gap * (slope.value[f] + 0.5 * gap * rest[f]);
+                estimate.error[f] += gap * slope.error[f];
+            }
+        }
+        Ok(estimate)
+    }
+
     /// Fills `cells[j]` with the average of R over [j width, (j + 1) width]; returns an error per field.
     ///
     /// The error grows as 1/width, since averages are differences over the width: at a width of 0.1 it is

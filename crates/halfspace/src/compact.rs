@@ -15,7 +15,7 @@
 //! a3 = [ (1 - eta^2) phi - 2 eta q - (r^2 phi - s q)/2 ] 3/(8 pi)   between s = eta - 1 and eta + 1
 //! ```
 //!
-//! and so on. a4 is measured from eta = -inf less its total, so that it vanishes before the arrival.
+//! and so on. The antiderivatives a4, a5 and b5 are measured so that they vanish before the arrival.
 
 use crate::potential::Potentials;
 use crate::profile::Profile;
@@ -26,8 +26,9 @@ use std::ops::{Add, Mul, Sub};
 /// Radius below which a point is on the axis as far as rounding goes.
 const AXIS: f64 = 1e-13;
 
-/// The compact parts at eta: (a3, a2, b3/r, b2/r) for `ORDER` 0, (a4, a3, b4/r, b3/r) for 1, and for -1, of
-/// the Hertz profile only, the derivatives of those for 0.
+/// The compact parts at eta: (a3, a2, b3/r, b2/r) for `ORDER` 0, (a4, a3, b4/r, b3/r) for 1.
+///
+/// Of the Hertz profile also (a5, a4, b5/r, b4/r) for 2, and for -1 the derivatives of those for 0.
 #[inline]
 pub(crate) fn compact<const ORDER: i32>(profile: Profile, eta: f64, r: f64) -> Potentials<f64> {
     match profile {
@@ -57,10 +58,33 @@ fn hertz<const ORDER: i32>(eta: f64, r: f64) -> Potentials<f64> {
         return hertz_slopes(eta, r, [phi1, phi2], [q1, q2]);
     }
     let mut psi = chord_primitives::<ORDER, f64>(eta, r, [phi1, phi2], [q1, q2]);
+    // measured from their values before the arrival
     if ORDER == 1 {
         psi.a_upper -= 0.25;
+    } else if ORDER == 2 {
+        psi.a_upper -= 0.25 * eta;
+        psi.a_lower -= 0.25;
+        psi.g_upper -= 0.125;
     }
     psi
+}
+
+/// The compact parts after the wave has passed, eta below minus the reach of the disc.
+#[inline]
+pub(crate) fn passed<const ORDER: i32>(eta: f64) -> Potentials<f64> {
+    match ORDER {
+        1 => Potentials {
+            a_upper: -0.5,
+            ..Potentials::default()
+        },
+        2 => Potentials {
+            a_upper: -0.5 * eta,
+            a_lower: -0.5,
+            g_upper: -0.25,
+            g_lower: 0.0,
+        },
+        _ => Potentials::default(),
+    }
 }
 
 /// d/d eta of (a3, a2, b3/r, b2/r); the inverse roots are those of the fronts.
@@ -122,14 +146,35 @@ pub(crate) fn chord_primitives<const ORDER: i32, T: Scalar>(
     let ssphi = [s[0] * sphi[0], s[1] * sphi[1]];
     let p0 = sphi[1] - sphi[0] - m1;
     let p1 = (ssphi[1] - ssphi[0] - m2) * 0.5;
-    let p2 = (s[1] * ssphi[1] - s[0] * ssphi[0] - m3) * (1.0 / 3.0);
+    let cubic_phi = [s[0] * ssphi[0], s[1] * ssphi[1]];
+    let p2 = (cubic_phi[1] - cubic_phi[0] - m3) * (1.0 / 3.0);
     let c0 = (sq[1] - sq[0] + m0 * r2) * 0.5;
-    let c2 = (c0 * r2 - s[1] * cube[1] + s[0] * cube[0]) * 0.25;
+    let scube = [s[0] * cube[0], s[1] * cube[1]];
+    let c2 = (c0 * r2 - scube[1] + scube[0]) * 0.25;
+    let a4 = (inside * p0 + twice * p1 - p2) * scale;
+    let b4 = (inside * c0 - twice * cubes - c2) * ring;
+    if ORDER == 1 {
+        return Potentials {
+            a_upper: a4,
+            a_lower: a3,
+            g_upper: b4,
+            g_lower: b3,
+        };
+    }
+    // int phi = s phi + q and int q = (s q + r^2 phi)/2, once more
+    let s2q = [s[0] * sq[0], s[1] * sq[1]];
+    let m4 = (m2 * (3.0 * r2) - s[1] * s2q[1] + s[0] * s2q[0]) * 0.25;
+    let p3 = (s[1] * cubic_phi[1] - s[0] * cubic_phi[0] - m4) * 0.25;
+    let c1 = (cube[0] - cube[1]) * (1.0 / 3.0);
+    // q^5 = q^3 (r^2 - s^2)
+    let fifth = [0, 1].map(|i| cube[i] * r2 - s[i] * scube[i]);
+    let c3 = ((fifth[0] - fifth[1]) * 0.4 - s[1] * scube[1] + s[0] * scube[0]) * (1.0 / 3.0);
+    let (d0, d1, d2) = (c1 + p0 * r2, c2 + p1 * r2, c3 + p2 * r2);
     Potentials {
-        a_upper: (inside * p0 + twice * p1 - p2) * scale,
-        a_lower: a3,
-        g_upper: (inside * c0 - twice * cubes - c2) * ring,
-        g_lower: b3,
+        a_upper: (inside * (p1 + c0) + twice * (p2 + c1) - (p3 + c2)) * scale,
+        a_lower: a4,
+        g_upper: (inside * d0 + twice * d1 - d2) * (0.5 * ring),
+        g_lower: b4,
     }
 }
 
@@ -150,29 +195,37 @@ impl Scalar for Complex64 {}
 /// The limit r = 0, where the circle shrinks to a point of the chord.
 #[inline]
 fn hertz_on_axis<const ORDER: i32>(eta: f64) -> Potentials<f64> {
-    if eta.abs() >= 1.0 {
-        return Potentials {
-            a_upper: if ORDER == 1 && eta < 0.0 { -0.5 } else { 0.0 },
-            ..Potentials::default()
-        };
+    if eta >= 1.0 {
+        return Potentials::default();
     }
-    let inside = (1.0 - eta) * (1.0 + eta);
+    if eta <= -1.0 {
+        return passed::<ORDER>(eta);
+    }
+    let square = eta * eta;
+    let inside = 1.0 - square;
     let a3 = 0.375 * inside;
     let b3 = -0.375 * eta;
-    if ORDER == 0 {
-        Potentials {
+    let a4 = 0.375 * eta * (1.0 - square / 3.0) - 0.25;
+    let b4 = 0.1875 * inside;
+    match ORDER {
+        0 => Potentials {
             a_upper: a3,
             a_lower: -0.75 * eta,
             g_upper: b3,
             g_lower: 0.375,
-        }
-    } else {
-        Potentials {
-            a_upper: 0.375 * (eta - eta * eta * eta / 3.0) - 0.25,
+        },
+        1 => Potentials {
+            a_upper: a4,
             a_lower: a3,
-            g_upper: 0.1875 * inside,
+            g_upper: b4,
             g_lower: b3,
-        }
+        },
+        _ => Potentials {
+            a_upper: 0.1875 * square * (1.0 - square / 6.0) - 0.25 * eta + 0.09375,
+            a_lower: a4,
+            g_upper: 0.1875 * eta * (1.0 - square / 3.0) - 0.125,
+            g_lower: b4,
+        },
     }
 }
 

@@ -1,6 +1,7 @@
 //! Slownesses below one: waves that travel as plane fronts, felt only while they pass.
 
-use crate::compact::compact;
+use crate::compact::{compact, passed};
+use crate::field::Field;
 use crate::fronts::{self, Point, Sense};
 use crate::kernel::{Kernel, Sum, fields};
 use crate::panels::{Landscape, Strength};
@@ -20,6 +21,8 @@ impl Kernel {
             Sense::Outgoing if at.t >= self.last_fast(at, wave, limit) => {
                 if ORDER == 1 {
                     sum.add(1.0, [0.0, self.passed[wave as usize], 0.0, 0.0, 0.0, 0.0]);
+                } else if ORDER == 2 {
+                    self.add_passed::<ORDER>(at, wave, (0.0, 1.0), sum);
                 }
                 return;
             }
@@ -48,32 +51,51 @@ impl Kernel {
                         let step = sense.sign() * x;
                         psi = psi.map(|v| step * v);
                         psi.g_lower = -psi.g_lower;
+                    } else if ORDER == 2 {
+                        psi = psi.map(|v| x * x * v);
+                        psi.g_lower = -psi.g_lower;
                     } else if ORDER < 0 {
                         psi = psi.map(|v| sense.sign() / x * v);
                     }
                     let amplitudes = spectrum::fast(wave, self.k, x, p);
                     sum.add(weight * jacobian, fields(&amplitudes, &psi, at.r));
                 });
-            } else if ORDER == 1 && eta < 0.0 {
-                let passed = self.passed_part(wave, interval);
-                sum.add(1.0, [0.0, passed, 0.0, 0.0, 0.0, 0.0]);
+            } else if ORDER >= 1 && eta < 0.0 {
+                self.add_passed::<ORDER>(at, wave, interval, sum);
             }
         }
     }
 
-    /// int of the amplitude of w times x/2 dx over the whole fast interval.
+    /// int of the amplitude of w times x/2 dx over the whole fast interval: the time integral of a wave
+    /// that has passed.
     pub(crate) fn passed_whole(&self, wave: Wave) -> f64 {
-        self.passed_part(wave, (0.0, 1.0))
+        let mut sum = Sum::default();
+        let anywhere = Point {
+            r: 1.0,
+            z: 0.0,
+            t: 0.0,
+        };
+        self.add_passed::<1>(anywhere, wave, (0.0, 1.0), &mut sum);
+        sum.value[Field::DisplacementZ.index()]
     }
 
-    fn passed_part(&self, wave: Wave, interval: (f64, f64)) -> f64 {
-        let mut sum = 0.0;
+    /// Adds an outgoing wave that has passed on an interval.
+    fn add_passed<const ORDER: i32>(
+        &self,
+        at: Point,
+        wave: Wave,
+        interval: (f64, f64),
+        sum: &mut Sum,
+    ) {
         let landscape = Landscape::new(&self.fixed.fast, Strength::Integrable);
         landscape.visit(interval, self.digits(), &mut |u, weight| {
             let (x, p, jacobian) = half_angle(u);
-            sum += weight * jacobian * 0.5 * x * spectrum::fast(wave, self.k, x, p).w;
+            let eta = self.eta(at, wave, Sense::Outgoing, x, p);
+            let step = if ORDER == 1 { -x } else { x * x };
+            let psi = passed::<ORDER>(eta).map(|v| step * v);
+            let amplitudes = spectrum::fast(wave, self.k, x, p);
+            sum.add(weight * jacobian, fields(&amplitudes, &psi, at.r));
         });
-        sum
     }
 
     /// Time after which the outgoing wave has passed at every slowness below one.

@@ -138,17 +138,7 @@ impl Kernel {
     pub fn impulse(&self, r: f64, z: f64, t: f64) -> Result<Estimate, DomainError> {
         self.check_place(r, z)?;
         check_time(t)?;
-        let power = match self.profile {
-            Profile::Hertz => -0.5,
-            Profile::Punch => -1.5,
-            Profile::Point => -2.5,
-        };
-        DomainError::unless(
-            power > -1.0,
-            "power of the stress fronts",
-            power,
-            "(-1, inf): only the Hertz profile has an impulse response",
-        )?;
+        self.check_hertz()?;
         if t <= self.first_arrival(r, z) {
             return Ok(Estimate {
                 value: [0.0; 6],
@@ -182,6 +172,22 @@ impl Kernel {
             Profile::Hertz | Profile::Punch => "[0, 1) or (1, inf) where z = 0, for a punch",
         };
         DomainError::unless(!singular, "r", r, range)?;
+        Ok(())
+    }
+
+    /// What only the Hertz profile has: an impulse response that is a function, and moments.
+    pub(crate) fn check_hertz(&self) -> Result<(), DomainError> {
+        let power = match self.profile {
+            Profile::Hertz => -0.5,
+            Profile::Punch => -1.5,
+            Profile::Point => -2.5,
+        };
+        DomainError::unless(
+            power > -1.0,
+            "power of the impulse at the fronts",
+            power,
+            "(-1, inf), which only the Hertz profile has",
+        )?;
         Ok(())
     }
 
@@ -230,6 +236,8 @@ impl Kernel {
             // d/dt of order n + 1 is i c times order n
             if ORDER == 1 {
                 psi = psi.map(|v| v * Complex64::new(0.0, -1.0 / c));
+            } else if ORDER == 2 {
+                psi = psi.map(|v| v * (-1.0 / (c * c)));
             } else if ORDER < 0 {
                 psi = psi.map(|v| v * Complex64::new(0.0, c));
             }

@@ -77,6 +77,8 @@ fn sums<const ORDER: i32, T: Scalar>(
     // Q_{2j-1}, Q_{2j}, V_{2j-1}, V_{2j}
     let (mut q_odd, mut q_even) = (zero, q0);
     let (mut v_odd, mut v_even) = (zero, zero);
+    // Q_{2j-2}, V_{2j-2}
+    let (mut q_before, mut v_before) = (zero, zero);
     let mut sign = 1.0;
     for j in 0..terms {
         let k = 2.0 * j as f64;
@@ -93,6 +95,16 @@ fn sums<const ORDER: i32, T: Scalar>(
         } else if ORDER < 0 {
             sum.a_upper = sum.a_upper + q_next * (m * (k + 1.0));
             sum.g_upper = sum.g_upper + v_next * m;
+        } else if ORDER == 2 {
+            if j > 0 {
+                let pair = k * (k - 1.0);
+                sum.a_upper = sum.a_upper + q_before * (m / pair);
+                sum.a_lower = sum.a_lower + q_odd * (m / k);
+                sum.g_lower = sum.g_lower + v_odd * (m / pair);
+            }
+            if j > 1 {
+                sum.g_upper = sum.g_upper + v_before * (m / (k * (k - 1.0) * (k - 2.0)));
+            }
         } else {
             sum.a_lower = sum.a_lower + q_even * m;
             if j > 0 {
@@ -101,6 +113,7 @@ fn sums<const ORDER: i32, T: Scalar>(
                 sum.g_lower = sum.g_lower + v_even * (m / k);
             }
         }
+        (q_before, v_before) = (q_even, v_even);
         q_even =
             (over * q_next * (2.0 * k + 3.0) - inverse2 * q_even * (k + 1.0)) * (1.0 / (k + 2.0));
         q_odd = q_next;
@@ -115,7 +128,7 @@ fn sums<const ORDER: i32, T: Scalar>(
     sum
 }
 
-/// The potentials by `terms` terms of the series, `ORDER` -1 to 1.
+/// The potentials by `terms` terms of the series, `ORDER` -1 to 2.
 pub(crate) fn multipole<const ORDER: i32>(
     profile: Profile,
     terms: usize,
@@ -133,6 +146,13 @@ pub(crate) fn multipole<const ORDER: i32>(
     let mut psi = sums::<ORDER, Complex64>(profile, terms, -1.0, xi * square, square, inverse);
     if ORDER == 0 {
         psi.g_upper += mass * inverse * sum;
+    } else if ORDER == 2 {
+        let log = logarithm(rho + xi);
+        psi.a_upper += mass * (xi * log - rho);
+        psi.a_lower -= mass * log;
+        // F_2/r and, from the second moment, F_0/r
+        psi.g_upper -= 0.5 * (mass * (xi * sum + log) + moment(profile, 1) * inverse * sum);
+        psi.g_lower += mass * sum;
     } else if ORDER > 0 {
         psi.a_upper -= mass * logarithm(rho + xi);
         psi.g_upper += mass * sum;
@@ -163,6 +183,21 @@ fn on_imaginary_axis<const ORDER: i32>(
             a_lower: real(-psi.a_lower),
             g_upper: real(-psi.g_upper - mass * inverse * sum),
             g_lower: imaginary(psi.g_lower),
+        }
+    } else if ORDER == 2 {
+        let (log, angle) = (-sum.ln(), side * FRAC_PI_2);
+        let spread = 0.5 * moment(profile, 1) * inverse * sum;
+        Potentials {
+            a_upper: Complex64::new(
+                -mass * s * angle,
+                psi.a_upper + mass * (s * log - side * w2 * inverse),
+            ),
+            a_lower: Complex64::new(psi.a_lower - mass * log, -mass * angle),
+            g_upper: Complex64::new(
+                psi.g_upper + spread - 0.5 * mass * (far * sum + log),
+                -0.5 * mass * angle,
+            ),
+            g_lower: imaginary(-psi.g_lower - mass * side * sum),
         }
     } else {
         Potentials {

@@ -17,7 +17,7 @@ use crate::profile::Profile;
 use num_complex::Complex64;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Potentials of two neighbouring orders; `ORDER` 0 is the step response, 1 its time integral.
+/// Potentials of two neighbouring orders; `ORDER` 0 is the step response, 1 and 2 its time integrals, -1 its derivative.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Potentials<T> {
     /// A_{3 + ORDER}, carries w.
@@ -131,19 +131,28 @@ fn from_primitives<const ORDER: i32>(
 ) -> Potentials<Complex64> {
     let force = 0.5 / (PI * r * r);
     let times_i = |v: Complex64| Complex64::new(-v.im, v.re);
-    if ORDER == 0 {
-        Potentials {
+    match ORDER {
+        0 => Potentials {
             a_upper: psi.a_upper,
             a_lower: times_i(psi.a_lower),
             g_upper: times_i(psi.g_upper) + force,
             g_lower: psi.g_lower,
-        }
-    } else {
-        Potentials {
+        },
+        1 => Potentials {
             a_upper: -times_i(psi.a_upper),
             a_lower: psi.a_lower,
             g_upper: psi.g_upper - times_i(eta) * force,
             g_lower: times_i(psi.g_lower) + force,
+        },
+        _ => {
+            // the second moment of the chord function over its integral
+            const SPREAD: f64 = 0.2;
+            Potentials {
+                a_upper: -psi.a_upper,
+                a_lower: -times_i(psi.a_lower),
+                g_upper: -times_i(psi.g_upper) - (eta * eta + SPREAD) * (0.5 * force),
+                g_lower: psi.g_lower - times_i(eta) * force,
+            }
         }
     }
 }
@@ -261,7 +270,7 @@ impl End {
         }
     }
 
-    /// E_n(zeta), -2 <= n <= 4.
+    /// E_n(zeta), -2 <= n <= 5.
     #[inline]
     pub(crate) fn e(&self, n: i32) -> Complex64 {
         let Self { zeta, rho, log, r } = *self;
@@ -277,11 +286,16 @@ impl End {
                 let z2 = zeta * zeta;
                 zeta * (z2 / 6.0 - 0.25 * r2) * log + (r2 / 9.0 - 11.0 / 36.0 * z2) * rho
             }
-            _ => unreachable!("potentials use orders -2 to 4"),
+            5 => {
+                let z2 = zeta * zeta;
+                (z2 * (0.125 * r2 - z2 / 24.0) - r2 * r2 / 64.0) * log
+                    + zeta * (25.0 / 288.0 * z2 - 55.0 / 576.0 * r2) * rho
+            }
+            _ => unreachable!("potentials use orders -2 to 5"),
         }
     }
 
-    /// F_n(zeta)/r with F_n = int k^{-n} J1(kr) e^{-k zeta} dk, -2 <= n <= 4; smooth at r = 0.
+    /// F_n(zeta)/r with F_n = int k^{-n} J1(kr) e^{-k zeta} dk, -2 <= n <= 5; smooth at r = 0.
     #[inline]
     pub(crate) fn f(&self, n: i32) -> Complex64 {
         let Self { zeta, rho, log, r } = *self;
@@ -301,7 +315,14 @@ impl End {
                 let cubic = zeta * (rho * sum + zeta * zeta) / (12.0 * sum);
                 0.5 * (0.625 * zeta * rho - cubic + (0.125 * r * r - 0.5 * zeta * zeta) * log)
             }
-            _ => unreachable!("potentials use orders -2 to 4"),
+            5 => {
+                let (z2, rho2, r2) = (zeta * zeta, rho * rho, r * r);
+                // (rho^5 - zeta^5)/r^2
+                let fifth = (rho2 * rho2 + rho * zeta * (rho2 + rho * zeta + z2) + z2 * z2) / sum;
+                let cubic = (5.0 / 24.0 + 1.0 / 18.0) * rho2 * rho - zeta * z2 * log / 6.0;
+                -0.5 * (cubic - fifth / 60.0 + 0.125 * r2 * (zeta * log - rho) - r2 * rho / 6.0)
+            }
+            _ => unreachable!("potentials use orders -2 to 5"),
         }
     }
 }
@@ -367,6 +388,15 @@ mod tests {
                     check(ahead.a_lower, behind.a_lower, here.a_lower);
                     check(ahead.g_upper, behind.g_upper, here.g_upper);
                     check(ahead.g_lower, behind.g_lower, here.g_lower);
+                    if profile == Profile::Hertz {
+                        let here = potentials::<1>(profile, xi, r);
+                        let ahead = potentials::<2>(profile, xi + h, r);
+                        let behind = potentials::<2>(profile, xi - h, r);
+                        check(ahead.a_upper, behind.a_upper, here.a_upper);
+                        check(ahead.a_lower, behind.a_lower, here.a_lower);
+                        check(ahead.g_upper, behind.g_upper, here.g_upper);
+                        check(ahead.g_lower, behind.g_lower, here.g_lower);
+                    }
                 }
             }
         }
@@ -393,6 +423,10 @@ mod tests {
                     (
                         potentials::<1>(Profile::Hertz, xi, r),
                         by_parts::<1>(Profile::Hertz, xi, r),
+                    ),
+                    (
+                        potentials::<2>(Profile::Hertz, xi, r),
+                        by_parts::<2>(Profile::Hertz, xi, r),
                     ),
                 ];
                 for (a, b) in pairs {
@@ -431,6 +465,10 @@ mod tests {
                         (
                             by_parts::<-1>(profile, xi, r),
                             multipole::multipole::<-1>(profile, 9, xi, r),
+                        ),
+                        (
+                            by_parts::<2>(Profile::Hertz, xi, r),
+                            multipole::multipole::<2>(Profile::Hertz, 9, xi, r),
                         ),
                     ];
                     for (order, (closed, series)) in pairs.into_iter().enumerate() {

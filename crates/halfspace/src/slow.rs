@@ -71,6 +71,8 @@ impl Kernel {
                 factor * v.re
             } else if ORDER == 1 {
                 factor * n.x * v.im
+            } else if ORDER == 2 {
+                -factor * n.x * n.x * v.re
             } else {
                 -factor * inverse * v.im
             }
@@ -90,6 +92,8 @@ impl Kernel {
                 m + p
             } else if ORDER == 1 {
                 Complex64::new(n.x * (m.im - p.im), n.x * (p.re - m.re))
+            } else if ORDER == 2 {
+                -n.x * n.x * (m + p)
             } else {
                 Complex64::new(inverse * (p.im - m.im), inverse * (m.re - p.re))
             }
