@@ -63,7 +63,6 @@ pub fn march_implicit(impact: &FixedDisc<'_>, step: f64) -> Result<History, Marc
         let guess = 2.0 * root - root_before;
         let solved = solve(compliance, known, guess).ok_or(MarchError::NoSolution {
             time: n as f64 * step,
-            force: newest,
             coupling: impact.coupling,
         })?;
         (root_before, root) = (root, solved);

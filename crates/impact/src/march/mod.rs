@@ -57,13 +57,11 @@ pub enum MarchError {
     },
     /// The contact law has no solution at this instant.
     #[error(
-        "the contact law has no solution after {time:.4} collision times: the model has no answer where the coupling {coupling:.4} times the cube root of the force {force:.4} exceeds 2/3; use static_share \"full\" or model \"growing\""
+        "the dynamic static share has no solution after {time:.4} collision times: it exists only while the coupling of the disc, {coupling:.4}, times the cube root of the force over Hertz's stays below 2/3; use static_share \"full\", a larger disc_radius_m or model \"growing\""
     )]
     NoSolution {
         /// Time in collision units.
         time: f64,
-        /// Force just before, in collision units.
-        force: f64,
         /// Static compliance of the half-space over Hertz's, see [`FixedDisc::coupling`].
         coupling: f64,
     },

@@ -1,0 +1,92 @@
+//! The results file against its description in `data-schema/results.md`.
+
+use impact::output::{Existing, OutputError, schema, write};
+use impact::{KernelChoice, Outcome, Scene, simulate};
+use std::collections::BTreeSet;
+use std::path::Path;
+
+const DOCUMENT: &str = include_str!("../../../data-schema/results.md");
+
+fn outcome() -> Outcome {
+    let text = include_str!("../../../scenes/copper-on-steel.toml");
+    let scene = Scene::from_toml(text, Path::new(".")).unwrap();
+    simulate(&scene, &KernelChoice::Direct).unwrap()
+}
+
+/// First cells of the tables of a part of the document, without their back quotes.
+fn listed(from: &str, to: &str) -> BTreeSet<String> {
+    let part = DOCUMENT.split(from).nth(1).unwrap();
+    let part = if to.is_empty() {
+        part
+    } else {
+        part.split(to).next().unwrap()
+    };
+    part.lines()
+        .filter_map(|line| line.strip_prefix("| `"))
+        .map(|line| line.split('`').next().unwrap().to_owned())
+        .collect()
+}
+
+#[test]
+fn every_dataset_is_described_and_every_description_is_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("out.h5");
+    write(&path, &outcome(), Existing::Keep).unwrap();
+    let file = hdf5::File::open(&path).unwrap();
+    let mut written = BTreeSet::new();
+    let mut groups = vec![(String::new(), file.as_group().unwrap())];
+    while let Some((name, group)) = groups.pop() {
+        for dataset in group.datasets().unwrap() {
+            written.insert(dataset.name());
+            for attribute in ["units", "long_name"] {
+                assert!(
+                    dataset.attr(attribute).is_ok(),
+                    "{} has no {attribute}",
+                    dataset.name()
+                );
+            }
+            let expected = DOCUMENT
+                .lines()
+                .find(|line| line.contains(&format!("| `{}` |", dataset.name())));
+            let unit: hdf5::types::VarLenUnicode =
+                dataset.attr("units").unwrap().read_scalar().unwrap();
+            assert!(
+                expected.is_some_and(|line| line.contains(&format!("| {unit} |"))),
+                "{}",
+                dataset.name()
+            );
+        }
+        for inner in group.groups().unwrap() {
+            groups.push((format!("{name}/{}", inner.name()), inner));
+        }
+    }
+    assert_eq!(written, listed("## Datasets", "## Attributes"));
+    let attributes: BTreeSet<String> = file.attr_names().unwrap().into_iter().collect();
+    assert_eq!(attributes, listed("## Attributes", ""));
+    assert!(DOCUMENT.contains(&format!("Version {}.\n", schema::FORMAT_VERSION)));
+}
+
+#[test]
+fn a_file_in_the_way_is_kept() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("out.h5");
+    std::fs::write(&path, "precious").unwrap();
+    let outcome = outcome();
+    let refused = write(&path, &outcome, Existing::Keep);
+    assert!(matches!(refused, Err(OutputError::Exists { .. })));
+    assert_eq!(std::fs::read(&path).unwrap(), b"precious");
+    write(&path, &outcome, Existing::Replace).unwrap();
+    assert!(hdf5::File::open(&path).is_ok());
+    let nowhere = folder.path().join("none").join("out.h5");
+    assert!(write(&nowhere, &outcome, Existing::Keep).is_err());
+    // nothing but the one file is left
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+}
+
+#[test]
+fn the_resolved_scene_gives_the_same_numbers() {
+    let first = outcome();
+    let scene = Scene::from_toml(&first.resolved_scene, Path::new(".")).unwrap();
+    let second = simulate(&scene, &KernelChoice::Direct).unwrap();
+    assert_eq!(first, second);
+}
