@@ -27,8 +27,6 @@ pub struct PointKernels {
 /// Moments are computed and stored to this share of the largest static displacement or stress there:
 /// they enter with the second difference of the force, far below one.
 const MOMENT_SHARE: f64 = 1e-5;
-/// Halvings of a cell that a front crosses.
-const DEEPEST: u32 = 6;
 
 impl PointPlan {
     /// Plan for `cells` cells of `width` at one Poisson ratio.
@@ -76,7 +74,7 @@ impl PointPlan {
         for j in quiet..self.cells {
             let moment = match smooth_moment(&point.averages, j, &quantum) {
                 Some(moment) => moment,
-                None => self.moment(r, z, j, &quantum)?,
+                None => self.moment(r, z, j)?,
             };
             point.moments[j] =
                 std::array::from_fn(|f| (moment[f] / quantum[f]).round() * quantum[f]);
@@ -86,53 +84,20 @@ impl PointPlan {
         Ok(point)
     }
 
-    fn integral(&self, r: f64, z: f64, t: f64) -> Result<Six, BuildError> {
-        Ok(self.kernel.step_integral(r, z, t)?.value)
-    }
-
-    /// First moment of cell `j` from the integral S of R, also where a front crosses it:
-    /// width (S_0 + S_1)/2 - int S dt, over width^2.
-    fn moment(&self, r: f64, z: f64, j: usize, quantum: &Six) -> Result<Six, BuildError> {
+    /// First moment of cell `j` from the integral S of R and the integral of S, also where a front crosses
+    /// it: width (S_0 + S_1)/2 - int S dt, over width^2.
+    fn moment(&self, r: f64, z: f64, j: usize) -> Result<Six, BuildError> {
         let (start, end) = (j as f64 * self.width, (j + 1) as f64 * self.width);
-        let from = self.integral(r, z, start)?;
-        let middle = self.integral(r, z, 0.5 * (start + end))?;
-        let to = self.integral(r, z, end)?;
-        let area = self.area(r, z, [start, end], [from, middle, to], quantum, DEEPEST)?;
+        let first = [start, end].map(|t| self.kernel.step_integral(r, z, t));
+        let second = [start, end].map(|t| self.kernel.second_integral(r, z, t));
+        let ([from, to], [below, above]) = (first, second);
+        let (from, to, below, above) = (from?.value, to?.value, below?.value, above?.value);
         Ok(std::array::from_fn(|f| {
-            // Relative to S at the start, which may hold a large constant.
+            // relative to S at the start, which may hold a large constant
             let trapezoid = 0.5 * self.width * (to[f] - from[f]);
-            (trapezoid - (area[f] - self.width * from[f])) / (self.width * self.width)
+            let area = above[f] - below[f] - self.width * from[f];
+            (trapezoid - area) / (self.width * self.width)
         }))
-    }
-
-    /// int S dt over [a, b] by adaptive Simpson.
-    fn area(
-        &self,
-        r: f64,
-        z: f64,
-        [a, b]: [f64; 2],
-        [first, middle, last]: [Six; 3],
-        quantum: &Six,
-        depth: u32,
-    ) -> Result<Six, BuildError> {
-        let quarter = 0.25 * (b - a);
-        let left = self.integral(r, z, a + quarter)?;
-        let right = self.integral(r, z, b - quarter)?;
-        let (mut sum, mut agree) = ([0.0; 6], true);
-        for f in 0..6 {
-            let coarse = (b - a) / 6.0 * (first[f] + 4.0 * middle[f] + last[f]);
-            let fine = (b - a) / 12.0
-                * (first[f] + 4.0 * left[f] + 2.0 * middle[f] + 4.0 * right[f] + last[f]);
-            sum[f] = fine + (fine - coarse) / 15.0;
-            agree &= (fine - coarse).abs() < quantum[f] * self.width * self.width;
-        }
-        if agree || depth == 0 {
-            return Ok(sum);
-        }
-        let half = a + 2.0 * quarter;
-        let lower = self.area(r, z, [a, half], [first, left, middle], quantum, depth - 1)?;
-        let upper = self.area(r, z, [half, b], [middle, right, last], quantum, depth - 1)?;
-        Ok(std::array::from_fn(|f| lower[f] + upper[f]))
     }
 
     fn tail(&self, r: f64, z: f64, point: &mut PointKernels) -> Result<(), BuildError> {
