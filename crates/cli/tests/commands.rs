@@ -1,0 +1,194 @@
+//! The program from outside: exit codes, one sentence a refusal, nothing written over.
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+const SCENE: &str = "\
+[target]
+material = \"steel\"
+[striker]
+material = \"copper\"
+mass_kg = 0.0122
+tip_radius_m = 0.004
+velocity_m_s = 100.0
+[contact]
+disc_radius_m = 0.004
+model = \"wave\"
+";
+
+fn hertzlamb(folder: &Path, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_hertzlamb"))
+        .current_dir(folder)
+        .args(arguments)
+        .output()
+        .unwrap()
+}
+
+fn folder_with(scene: &str) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("scene.toml"), scene).unwrap();
+    folder
+}
+
+fn refused(folder: &Path, arguments: &[&str], code: i32, parts: &[&str]) {
+    let done = hertzlamb(folder, arguments);
+    let message = String::from_utf8(done.stderr).unwrap();
+    assert_eq!(done.status.code(), Some(code), "{arguments:?}: {message}");
+    assert!(done.stdout.is_empty(), "{arguments:?}");
+    assert_eq!(message.trim().lines().count(), 1, "{message}");
+    for part in parts {
+        assert!(message.contains(part), "{arguments:?}: {message}");
+    }
+}
+
+#[test]
+fn an_impact_prints_one_json_object() {
+    let folder = folder_with(SCENE);
+    let done = hertzlamb(
+        folder.path(),
+        &["impact", "scene.toml", "--json", "-o", "out.h5"],
+    );
+    assert_eq!(done.status.code(), Some(0));
+    let text = String::from_utf8(done.stdout).unwrap();
+    assert_eq!(text.trim().lines().count(), 1);
+    let object: serde_json::Value = serde_json::from_str(&text).unwrap();
+    for key in "model scheme static_share deflection kernel steps step_s peak_force_n peak_force_time_s contact_time_s \
+        rebound_velocity_m_s restitution peak_displacement_m peak_deflection_m impulse_n_s radiated_energy_j \
+        energy_residual relative_error_estimate wall_s warnings"
+        .split_whitespace()
+    {
+        assert!(!object[key].is_null(), "{key}");
+    }
+    // golden/impacts.csv, copper rod on steel, table values, full
+    let peak = object["peak_force_n"].as_f64().unwrap();
+    assert!((peak / 159_053.22 - 1.0).abs() < 1e-4, "{peak}");
+    assert!(folder.path().join("out.h5").exists());
+}
+
+#[test]
+fn refusals_have_exit_code_2() {
+    let folder = folder_with(SCENE);
+    let here = folder.path();
+    let write = |name: &str, text: &str| std::fs::write(here.join(name), text).unwrap();
+    write("mass.toml", &SCENE.replace("0.0122", "-1"));
+    write(
+        "step.toml",
+        &SCENE.replace("model = \"wave\"", "model = \"wave\"\nstep_s = 1.0"),
+    );
+    write("broken.toml", "[target");
+    write("broken.h5", "not a table");
+    write("precious.h5", "precious");
+    let cases: [(&[&str], &[&str]); 9] = [
+        (&["impact", "none.toml"], &["none.toml"]),
+        (&["impact", "broken.toml"], &["broken.toml", "line 1"]),
+        (
+            &["impact", "mass.toml", "-o", "out.h5"],
+            &["striker.mass_kg = -1", "(0, inf)"],
+        ),
+        (&["impact", "step.toml", "-o", "out.h5"], &["step_s"]),
+        (&["impact", "scene.toml", "--kernel", "table"], &["--table"]),
+        (
+            &["impact", "scene.toml", "--table", "none.h5"],
+            &["none.h5"],
+        ),
+        (
+            &["impact", "scene.toml", "--table", "broken.h5"],
+            &["broken.h5"],
+        ),
+        (
+            &["impact", "scene.toml", "-o", "precious.h5"],
+            &["precious.h5", "--force"],
+        ),
+        (&["impact", "scene.toml", "-o", "none/out.h5"], &["none"]),
+    ];
+    for (arguments, parts) in cases {
+        refused(here, arguments, 2, parts);
+    }
+    assert_eq!(
+        std::fs::read(here.join("precious.h5")).unwrap(),
+        b"precious"
+    );
+    assert!(!here.join("out.h5").exists());
+    refused(here, &["materials", "unobtainium"], 2, &["unobtainium"]);
+    let usage = hertzlamb(here, &["impact", "scene.toml", "--nosuch"]);
+    assert_eq!(usage.status.code(), Some(2));
+}
+
+#[test]
+fn force_replaces_an_existing_file() {
+    let folder = folder_with(SCENE);
+    let out = folder.path().join("out.h5");
+    std::fs::write(&out, "precious").unwrap();
+    let done = hertzlamb(
+        folder.path(),
+        &["impact", "scene.toml", "-o", "out.h5", "--force"],
+    );
+    assert_eq!(done.status.code(), Some(0));
+    assert_eq!(&std::fs::read(&out).unwrap()[..4], b"\x89HDF");
+}
+
+#[test]
+fn work_that_fails_has_exit_code_1() {
+    // a soft target under the dynamic share: no solution exists
+    let soft = SCENE
+        .replace(
+            "material = \"steel\"",
+            "youngs_modulus_pa = 1e6\npoisson_ratio = 0.45\ndensity_kg_m3 = 1500",
+        )
+        .replace(
+            "model = \"wave\"",
+            "model = \"wave\"\nstatic_share = \"dynamic\"",
+        );
+    let folder = folder_with(&soft);
+    refused(
+        folder.path(),
+        &["impact", "scene.toml", "-o", "out.h5"],
+        1,
+        &["dynamic static share"],
+    );
+    assert!(!folder.path().join("out.h5").exists());
+}
+
+#[test]
+fn every_command_has_help_with_an_example() {
+    let folder = folder_with(SCENE);
+    for command in ["impact", "demo", "materials", "completions"] {
+        let done = hertzlamb(folder.path(), &[command, "--help"]);
+        let text = String::from_utf8(done.stdout).unwrap();
+        assert_eq!(done.status.code(), Some(0), "{command}");
+        assert!(
+            text.contains("Example") && text.contains(&format!("hertzlamb {command}")),
+            "{text}"
+        );
+    }
+}
+
+#[test]
+fn the_library_is_listed_and_searched() {
+    let folder = folder_with(SCENE);
+    let done = hertzlamb(folder.path(), &["materials", "--json"]);
+    let rows: serde_json::Value = serde_json::from_slice(&done.stdout).unwrap();
+    assert!(rows.as_array().unwrap().len() >= 40);
+    let done = hertzlamb(folder.path(), &["materials", "granite"]);
+    assert!(String::from_utf8(done.stdout).unwrap().contains("2650"));
+    let done = hertzlamb(folder.path(), &["completions", "bash"]);
+    assert!(
+        String::from_utf8(done.stdout)
+            .unwrap()
+            .contains("hertzlamb")
+    );
+}
+
+#[test]
+fn the_scenes_of_the_project_run() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
+    for name in ["copper-on-steel", "ball-drop", "prescribed-force"] {
+        let done = hertzlamb(&root, &["impact", &format!("{name}.toml"), "--json"]);
+        assert_eq!(
+            done.status.code(),
+            Some(0),
+            "{name}: {}",
+            String::from_utf8_lossy(&done.stderr)
+        );
+    }
+}
