@@ -34,7 +34,7 @@ impl Arrivals {
     /// ```
     ///
     /// # Errors
-    /// [`DomainError`] for r or z negative or not finite.
+    /// [`DomainError`] for r or z outside [0, 1e20].
     pub fn new(medium: &Medium, profile: Profile, r: f64, z: f64) -> Result<Self, DomainError> {
         check_place(r, z)?;
         let radius = profile.radius();

@@ -10,14 +10,14 @@ use crate::arrivals::Arrivals;
 use crate::error::DomainError;
 use crate::field::{Estimate, Six};
 use crate::fronts::Point;
-use crate::kernel::{Kernel, check_time};
+use crate::kernel::{FARTHEST, Kernel, NEAREST, check_time};
 use std::f64::consts::PI;
 
 impl Kernel {
     /// int R dt up to t, with a constant of integration that is the same for all t at one (r, z).
     ///
     /// # Errors
-    /// [`DomainError`] for r, z or t negative or not finite.
+    /// [`DomainError`] for r, z or t outside [0, 1e20].
     pub fn step_integral(&self, r: f64, z: f64, t: f64) -> Result<Estimate, DomainError> {
         self.check_place(r, z)?;
         check_time(t)?;
@@ -40,7 +40,7 @@ impl Kernel {
     /// int dt of [`Self::step_integral`] up to t: differences of it give first moments over time cells.
     ///
     /// # Errors
-    /// [`DomainError`] for r, z or t negative or not finite, and for a profile other than Hertz.
+    /// [`DomainError`] for r, z or t outside [0, 1e20], and for a profile other than Hertz.
     pub fn second_integral(&self, r: f64, z: f64, t: f64) -> Result<Estimate, DomainError> {
         self.check_place(r, z)?;
         check_time(t)?;
@@ -70,7 +70,7 @@ impl Kernel {
     /// about ten times the tolerance.
     ///
     /// # Errors
-    /// [`DomainError`] for r or z negative or not finite, or a width that is not positive and finite.
+    /// [`DomainError`] for r, z or the end of the last cell outside [0, 1e20], or a width outside [1e-20, 1e20].
     pub fn cell_averages(
         &self,
         r: f64,
@@ -79,7 +79,8 @@ impl Kernel {
         cells: &mut [Six],
     ) -> Result<Six, DomainError> {
         self.check_place(r, z)?;
-        DomainError::unless(width > 0.0 && width.is_finite(), "width", width, "(0, inf)")?;
+        let range = NEAREST..=FARTHEST;
+        DomainError::unless(range.contains(&width), "width", width, "[1e-20, 1e20]")?;
         let end = cells.len() as f64 * width;
         check_time(end)?;
         let rest = self.static_field(r, z)?;

@@ -101,7 +101,7 @@ impl Kernel {
     /// The static fields under a unit force (Huber's solution for the Hertz profile), closed form.
     ///
     /// # Errors
-    /// [`DomainError`] for r or z negative or not finite.
+    /// [`DomainError`] for r or z outside [0, 1e20].
     pub fn static_field(&self, r: f64, z: f64) -> Result<Six, DomainError> {
         self.check_place(r, z)?;
         Ok(statics::static_field(&self.medium, self.profile, r, z))
@@ -110,7 +110,7 @@ impl Kernel {
     /// R(r,z,t): step response less its static part; minus the static part before the first arrival.
     ///
     /// # Errors
-    /// [`DomainError`] for r, z or t negative or not finite.
+    /// [`DomainError`] for r, z or t outside [0, 1e20].
     pub fn remainder(&self, r: f64, z: f64, t: f64) -> Result<Estimate, DomainError> {
         self.check_place(r, z)?;
         check_time(t)?;
@@ -133,7 +133,7 @@ impl Kernel {
     /// plane front under the disc, (33) of the paper, is a delta function that no value shows.
     ///
     /// # Errors
-    /// [`DomainError`] for r, z or t negative or not finite, and for a profile other than Hertz: the
+    /// [`DomainError`] for r, z or t outside [0, 1e20], and for a profile other than Hertz: the
     /// impulse stresses of the others are not functions.
     pub fn impulse(&self, r: f64, z: f64, t: f64) -> Result<Estimate, DomainError> {
         self.check_place(r, z)?;
@@ -159,17 +159,17 @@ impl Kernel {
         }
     }
 
-    /// r and z finite and not negative, and the fields finite there.
+    /// r and z in range, and the fields finite there.
     pub(crate) fn check_place(&self, r: f64, z: f64) -> Result<(), DomainError> {
         check_place(r, z)?;
         let singular = match self.profile {
             Profile::Hertz => false,
             Profile::Punch => z == 0.0 && r == 1.0,
-            Profile::Point => z == 0.0 && r == 0.0,
+            Profile::Point => z < NEAREST && r < NEAREST,
         };
         let range = match self.profile {
-            Profile::Point => "(0, inf) where z = 0, for a point force",
-            Profile::Hertz | Profile::Punch => "[0, 1) or (1, inf) where z = 0, for a punch",
+            Profile::Point => "[1e-20, 1e20] where z < 1e-20, for a point force",
+            Profile::Hertz | Profile::Punch => "[0, 1) or (1, 1e20] where z = 0, for a punch",
         };
         DomainError::unless(!singular, "r", r, range)?;
         Ok(())
@@ -263,14 +263,20 @@ impl Kernel {
     }
 }
 
+/// Lengths and times up to here: their powers stay in the range of a double.
+pub(crate) const FARTHEST: f64 = 1e20;
+
+/// Least distance from a point force and least width of a cell, for the same reason.
+pub(crate) const NEAREST: f64 = 1e-20;
+
 pub(crate) fn check_place(r: f64, z: f64) -> Result<(), DomainError> {
-    DomainError::unless(r >= 0.0 && r.is_finite(), "r", r, "[0, inf)")?;
-    DomainError::unless(z >= 0.0 && z.is_finite(), "z", z, "[0, inf)")?;
+    DomainError::unless((0.0..=FARTHEST).contains(&r), "r", r, "[0, 1e20]")?;
+    DomainError::unless((0.0..=FARTHEST).contains(&z), "z", z, "[0, 1e20]")?;
     Ok(())
 }
 
 pub(crate) fn check_time(t: f64) -> Result<(), DomainError> {
-    DomainError::unless(t >= 0.0 && t.is_finite(), "t", t, "[0, inf)")?;
+    DomainError::unless((0.0..=FARTHEST).contains(&t), "t", t, "[0, 1e20]")?;
     Ok(())
 }
 

@@ -1,0 +1,255 @@
+//! Any number into any public function: a typed error that names argument, value and range, or finite values.
+
+#![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
+
+use halfspace::{
+    Arrivals, Deflection, DomainError, Estimate, Kernel, Medium, Profile, Six, SurfaceResponse,
+    kausel,
+};
+use proptest::prelude::*;
+use std::time::{Duration, Instant};
+
+const PROFILES: [Profile; 3] = [Profile::Hertz, Profile::Punch, Profile::Point];
+
+/// Numbers that break code.
+const NASTY: [f64; 24] = [
+    f64::NAN,
+    f64::INFINITY,
+    f64::NEG_INFINITY,
+    0.0,
+    -0.0,
+    f64::MIN_POSITIVE,
+    5e-324,
+    -5e-324,
+    1e-200,
+    1e-16,
+    f64::EPSILON,
+    0.5,
+    1.0 - f64::EPSILON / 2.0,
+    1.0,
+    1.0 + f64::EPSILON,
+    -1.0,
+    2.0,
+    1e6,
+    1e12,
+    1e100,
+    1e160,
+    f64::MAX,
+    f64::MIN,
+    -1e-9,
+];
+
+fn any_number() -> impl Strategy<Value = f64> {
+    prop_oneof![
+        prop::sample::select(NASTY.to_vec()),
+        any::<f64>(),
+        0.0..20.0_f64,
+        (-300.0..300.0_f64).prop_map(|e| 10.0_f64.powf(e)),
+    ]
+}
+
+fn any_medium() -> impl Strategy<Value = Medium> {
+    prop::sample::select(vec![
+        -0.999,
+        -0.5,
+        0.0,
+        0.25,
+        0.263_082_06,
+        0.3,
+        1.0 / 3.0,
+        0.4999,
+        0.499_999_9,
+    ])
+    .prop_map(|nu| Medium::new(nu).unwrap())
+}
+
+fn any_profile() -> impl Strategy<Value = Profile> {
+    prop::sample::select(PROFILES.to_vec())
+}
+
+/// The error names one of `arguments`, carries its value bit by bit, and states a range.
+fn names(error: &DomainError, arguments: &[(&str, f64)]) -> bool {
+    let text = error.to_string();
+    let (_, value) = arguments
+        .iter()
+        .find(|(name, _)| *name == error.argument)
+        .unwrap();
+    value.to_bits() == error.value.to_bits()
+        && text.contains(error.argument)
+        && text.contains(error.range)
+}
+
+/// Finite values, and errors that are finite and not negative.
+fn sound(estimate: &Estimate) -> bool {
+    estimate.value.iter().all(|v| v.is_finite())
+        && estimate.error.iter().all(|e| e.is_finite() && *e >= 0.0)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 2000, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn a_medium_is_one_or_an_error(nu in any_number()) {
+        match Medium::new(nu) {
+            Ok(medium) => {
+                let numbers = [medium.kappa(), medium.lambda_over_mu(), medium.rayleigh_speed(), medium.rayleigh_slope()];
+                prop_assert!(numbers.iter().all(|v| v.is_finite()), "{nu:e} {numbers:?}");
+                prop_assert!(medium.rayleigh_speed() < medium.kappa());
+                prop_assert!(medium.rayleigh_function(0.5 * medium.kappa()).is_finite());
+            }
+            Err(error) => prop_assert!(names(&error, &[("poisson_ratio", nu)])),
+        }
+    }
+
+    #[test]
+    fn a_kernel_is_one_or_an_error(tolerance in any_number(), profile in any_profile()) {
+        let made = Kernel::new(&Medium::new(0.3).unwrap(), profile, tolerance);
+        match made {
+            Ok(_) => prop_assert!((1e-14..=0.1).contains(&tolerance)),
+            Err(error) => prop_assert!(names(&error, &[("tolerance", tolerance)])),
+        }
+    }
+
+    #[test]
+    fn fields_are_finite_or_an_error(
+        medium in any_medium(), profile in any_profile(),
+        r in any_number(), z in any_number(), t in any_number(), tolerance in prop::sample::select(vec![1e-4, 1e-10]),
+    ) {
+        let kernel = Kernel::new(&medium, profile, tolerance).unwrap();
+        let place = [("r", r), ("z", z)];
+        let all = [("r", r), ("z", z), ("t", t)];
+        let clock = Instant::now();
+        match kernel.static_field(r, z) {
+            Ok(fields) => prop_assert!(fields.iter().all(|v| v.is_finite()), "static {all:?} {fields:?}"),
+            Err(error) => prop_assert!(names(&error, &place)),
+        }
+        match kernel.remainder(r, z, t) {
+            Ok(found) => prop_assert!(sound(&found), "remainder {all:?} {found:?}"),
+            Err(error) => prop_assert!(names(&error, &all)),
+        }
+        match kernel.step_integral(r, z, t) {
+            Ok(found) => prop_assert!(sound(&found), "integral {all:?} {found:?}"),
+            Err(error) => prop_assert!(names(&error, &all)),
+        }
+        match Arrivals::new(&medium, profile, r, z) {
+            Ok(found) => prop_assert!(found.sorted().iter().all(|a| a.is_finite())),
+            Err(error) => prop_assert!(names(&error, &place)),
+        }
+        prop_assert!(clock.elapsed() < Duration::from_secs(1), "{all:?} took {:?}", clock.elapsed());
+    }
+
+    #[test]
+    fn cells_are_finite_or_an_error(
+        medium in any_medium(), profile in any_profile(),
+        r in any_number(), z in any_number(), width in any_number(), count in 0..80_usize,
+    ) {
+        let kernel = Kernel::new(&medium, profile, 1e-8).unwrap();
+        let mut cells = vec![Six::default(); count];
+        let clock = Instant::now();
+        // what is reported as t is the end of the last cell
+        let all = [("r", r), ("z", z), ("width", width), ("t", count as f64 * width)];
+        match kernel.cell_averages(r, z, width, &mut cells) {
+            Ok(error) => {
+                let finite = cells.iter().flatten().chain(&error).all(|v| v.is_finite());
+                prop_assert!(finite, "{all:?} {error:?}");
+            }
+            Err(error) => prop_assert!(names(&error, &all)),
+        }
+        prop_assert!(clock.elapsed() < Duration::from_secs(1), "{all:?} took {:?}", clock.elapsed());
+    }
+
+}
+
+proptest! {
+    // a response takes a millisecond to prepare
+    #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn surface_responses_are_finite(t in any_number(), nu in prop::sample::select(vec![-0.9, 0.0, 0.3, 0.4999])) {
+        let medium = Medium::new(nu).unwrap();
+        for deflection in [Deflection::Centre, Deflection::Mean] {
+            let response = SurfaceResponse::new(&medium, deflection);
+            prop_assert!((-1e-12..=1.0 + 1e-12).contains(&response.step(t)), "step {t:e}");
+            prop_assert!(response.impulse(t).is_finite(), "impulse {t:e}");
+            prop_assert!(response.step_integral(t).is_finite() || t.is_infinite(), "integral {t:e}");
+        }
+        prop_assert!(kausel::centre_step(&medium, t).is_finite(), "centre {t:e}");
+    }
+}
+
+/// The exact coincidences of decimal fractions: fronts, edges and their sums meet to the last bit.
+#[test]
+fn round_numbers_give_finite_fields() {
+    let mut count = 0;
+    for profile in PROFILES {
+        for nu in [0.0, 0.25, 0.3, 1.0 / 3.0] {
+            let medium = Medium::new(nu).unwrap();
+            let kernel = Kernel::new(&medium, profile, 1e-10).unwrap();
+            for i in 0..=16 {
+                for z in [0.0, 0.25, 0.5, 1.0, 2.0, 3.75] {
+                    let r = 0.25 * f64::from(i);
+                    if kernel.static_field(r, z).is_err() {
+                        continue;
+                    }
+                    let arrivals = Arrivals::new(&medium, profile, r, z).unwrap().sorted();
+                    let neighbours = arrivals
+                        .iter()
+                        .flat_map(|a| [a.next_down(), *a, a.next_up()]);
+                    let grid = (0..60).map(|j| 0.125 * f64::from(j));
+                    for t in neighbours.chain(grid).filter(|t| *t >= 0.0) {
+                        count += 1;
+                        let found = [
+                            kernel.remainder(r, z, t).unwrap(),
+                            kernel.step_integral(r, z, t).unwrap(),
+                        ];
+                        assert!(
+                            found.iter().all(sound),
+                            "{profile:?} nu {nu} r {r} z {z} t {t}: {found:?}"
+                        );
+                    }
+                }
+            }
+        }
+    }
+    println!("{count} points");
+}
+
+/// Huge but legal arguments: finite, quick, and tending to the static field or to nothing.
+#[test]
+fn huge_arguments_are_answered() {
+    for profile in PROFILES {
+        let kernel = Kernel::new(&Medium::new(0.3).unwrap(), profile, 1e-10).unwrap();
+        for large in [1e6, 1e12] {
+            for (r, z, t) in [
+                (large, 0.5, 1.0),
+                (0.5, large, 1.0),
+                (0.5, 0.5, large),
+                (large, large, large),
+                (large, 0.5, 1.3 * large),
+                (0.5, large, 1.3 * large),
+                (large, large, 1.3 * large),
+                (large, large, 2.0 * large),
+                (large, large, 9.0 * large),
+            ] {
+                let clock = Instant::now();
+                let rest = kernel.static_field(r, z).unwrap();
+                let found = kernel.remainder(r, z, t).unwrap();
+                assert!(sound(&found), "{profile:?} {r:e} {z:e} {t:e}: {found:?}");
+                assert!(
+                    clock.elapsed() < Duration::from_millis(100),
+                    "{r:e} {z:e} {t:e}: {:?}",
+                    clock.elapsed()
+                );
+                if t < kernel_first(profile, r, z) {
+                    assert_eq!(found.value, rest.map(|s| -s));
+                }
+            }
+        }
+    }
+}
+
+fn kernel_first(profile: Profile, r: f64, z: f64) -> f64 {
+    Arrivals::new(&Medium::new(0.3).unwrap(), profile, r, z)
+        .unwrap()
+        .first()
+}
