@@ -6,12 +6,13 @@ use clap::{Args, Subcommand};
 use lookup::{Content, TableError};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
-use tabulator::{CheckReport, Difference, check_table, differences};
+use tabulator::{CheckReport, Difference, Existing, check_table, differences, merge};
 
 const EXAMPLES: &str = "Examples:
   hertzlamb table info kernels.h5
   hertzlamb table verify kernels.h5 --sample 200
-  hertzlamb table diff old.h5 new.h5";
+  hertzlamb table diff old.h5 new.h5
+  hertzlamb table merge 1.shard 2.shard -o kernels.h5";
 
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
@@ -48,6 +49,18 @@ enum Action {
         /// Kernel table.
         second: PathBuf,
     },
+    /// Joins the shards of one table.
+    Merge {
+        /// Files made with `hertzlamb tabulate --shard`.
+        #[arg(required = true)]
+        shards: Vec<PathBuf>,
+        /// The table to write.
+        #[arg(short, long, value_name = "OUT.h5")]
+        output: PathBuf,
+        /// Replace an existing table, when the new one is complete.
+        #[arg(long)]
+        force: bool,
+    },
 }
 
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
@@ -59,6 +72,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
             seed,
         } => verify(table, *sample, *seed, arguments.json),
         Action::Diff { first, second } => diff(first, second, arguments.json),
+        Action::Merge {
+            shards,
+            output,
+            force,
+        } => join(shards, output, *force, arguments.json),
     }
 }
 
@@ -217,6 +235,33 @@ fn diff(first: &Path, second: &Path, json: bool) -> Result<(), Failure> {
             second.display()
         )))
     }
+}
+
+fn join(shards: &[PathBuf], output: &Path, force: bool, json: bool) -> Result<(), Failure> {
+    let existing = if force {
+        Existing::Replace
+    } else {
+        Existing::Keep
+    };
+    let progress = tabulate::Bar::new();
+    let summary = merge(shards, output, existing, &progress).map_err(tabulate::failure)?;
+    progress.finish();
+    let file = output.display().to_string();
+    if json {
+        return print(serde_json::json!({
+            "file": file,
+            "id": summary.id,
+            "content_sha256": summary.content_sha256,
+            "points": summary.points,
+            "bytes": summary.bytes,
+        }));
+    }
+    print(format!(
+        "{file}: {} points, {:.1} MB, id {}",
+        summary.points,
+        summary.bytes as f64 / 1e6,
+        summary.id
+    ))
 }
 
 fn describe(difference: &Difference) -> String {

@@ -8,12 +8,13 @@ use std::io::IsTerminal;
 use std::path::PathBuf;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
-use tabulator::{BuildError, Existing, Grid, Progress, Summary, build_over};
+use tabulator::{BuildError, Existing, Grid, Progress, Summary, build_over, build_shard};
 
 const EXAMPLES: &str = "Examples:
   hertzlamb tabulate --grid demo -o kernels.h5
   hertzlamb tabulate --grid demo --nu 0.25,0.3 -o two.h5
   hertzlamb tabulate --grid my-grid.toml -o mine.h5 --json
+  hertzlamb tabulate --grid standard --shard 2/4 -o 2.shard
 
 An interrupted build goes on where it stopped when the same command is given again.";
 
@@ -32,6 +33,9 @@ pub(crate) struct Arguments {
     /// Replace an existing table, when the new one is complete.
     #[arg(long)]
     force: bool,
+    /// Compute part I of N into the output, which is then a shard for `hertzlamb table merge`.
+    #[arg(long, value_name = "I/N", conflicts_with = "force")]
+    shard: Option<String>,
     /// Print one JSON object instead of text.
     #[arg(long)]
     json: bool,
@@ -65,6 +69,13 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         Existing::Keep
     };
     let progress = Bar::new();
+    if let Some(shard) = &arguments.shard {
+        let (index, count) = parse_shard(shard)?;
+        let blocks =
+            build_shard(&grid, index, count, &arguments.output, &progress).map_err(failure)?;
+        progress.finish();
+        return shard_report(arguments, blocks);
+    }
     let summary = build_over(&grid, &arguments.output, existing, &progress).map_err(failure)?;
     progress.finish();
     let report = report(&grid, arguments, &summary);
@@ -86,6 +97,26 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     Ok(())
 }
 
+fn parse_shard(text: &str) -> Result<(usize, usize), Failure> {
+    text.split_once('/')
+        .and_then(|(index, count)| Some((index.parse().ok()?, count.parse().ok()?)))
+        .ok_or_else(|| {
+            Failure::input(format!(
+                "--shard {text}: give I/N with whole numbers, as in 2/4"
+            ))
+        })
+}
+
+fn shard_report(arguments: &Arguments, blocks: usize) -> Result<(), Failure> {
+    let file = arguments.output.display().to_string();
+    if arguments.json {
+        return print(serde_json::json!({ "file": file, "blocks": blocks }));
+    }
+    print(format!(
+        "{file}: {blocks} blocks; join all shards with hertzlamb table merge"
+    ))
+}
+
 fn report<'a>(grid: &'a Grid, arguments: &Arguments, summary: &'a Summary) -> Report<'a> {
     Report {
         file: arguments.output.display().to_string(),
@@ -104,7 +135,7 @@ fn report<'a>(grid: &'a Grid, arguments: &Arguments, summary: &'a Summary) -> Re
 
 /// The grid of a preset or a file.
 fn resolve(name: &str) -> Result<Grid, Failure> {
-    if let Some(grid) = Grid::preset(name) {
+    if let Some(grid) = Grid::preset(name).map_err(failure)? {
         return Ok(grid);
     }
     if !name.ends_with(".toml") {
@@ -124,6 +155,9 @@ pub(crate) fn failure(error: BuildError) -> Failure {
         | BuildError::Exists { .. }
         | BuildError::Busy { .. }
         | BuildError::OtherSettings { .. }
+        | BuildError::NotBlocks { .. }
+        | BuildError::Mixed { .. }
+        | BuildError::Incomplete { .. }
         | BuildError::File { .. } => Failure::input(error),
         BuildError::Unwritable(_)
         | BuildError::NotFinite { .. }

@@ -8,9 +8,9 @@ use halfspace::Six;
 
 /// Factor from the error measured at the centre of a mesh to the estimate for every point of it.
 ///
-/// The Lagrange error is largest near the centre, but not exactly there, and near the disc edge it
-/// varies within a mesh.
-pub const SAFETY: f64 = 3.0;
+/// The Lagrange error is largest near the centre, but not exactly there, and near the disc edge and where
+/// sharp fronts pass it varies within a mesh.
+pub const SAFETY: f64 = 3.5;
 
 /// Estimates never go below this share of the peak of a field: the rounding of stored values.
 const ROUNDING: f64 = 6e-8;
@@ -18,8 +18,8 @@ const ROUNDING: f64 = 6e-8;
 impl Table {
     /// Estimated absolute error of each field, for a force of unit peak and length `pulse_length`.
     ///
-    /// The measured errors at the centre of the mesh that holds the point, times [`SAFETY`],
-    /// interpolated in the length of the pulse; pulses longer or shorter than any measured take the
+    /// The largest of the errors measured at the centres of the mesh that holds the point and of its
+    /// neighbours, times [`SAFETY`], interpolated in the length of the pulse; pulses longer or shorter than any measured take the
     /// value of the nearest one. Units as the fields.
     ///
     /// # Errors
@@ -43,16 +43,24 @@ impl Table {
         let mut error = [0.0; FIELDS];
         for (index, weight) in self.slice_weights(poisson_ratio)? {
             let probes = &content.slices[index].verification;
-            let at = |pulse: usize, field: usize| {
-                let meshes = i * (content.z.len() - 1) + j;
-                (meshes * content.pulse_lengths.len() + pulse) * FIELDS + field
+            let (across, down) = (
+                around(i, content.r.len() - 1),
+                around(j, content.z.len() - 1),
+            );
+            let at = |i: usize, j: usize, pulse: usize, field: usize| {
+                ((i * (content.z.len() - 1) + j) * content.pulse_lengths.len() + pulse) * FIELDS
+                    + field
             };
             for (field, sum) in error.iter_mut().enumerate() {
                 let measured = |pulse: usize| {
-                    let floor = ROUNDING * f64::from(probes.direct[at(pulse, field)]).abs();
-                    (SAFETY * f64::from(probes.error[at(pulse, field)]))
-                        .max(floor)
-                        .max(1e-12)
+                    let mut most = 0.0_f64;
+                    for k in across.clone() {
+                        for l in down.clone() {
+                            most = most.max(f64::from(probes.error[at(k, l, pulse, field)]));
+                        }
+                    }
+                    let floor = ROUNDING * f64::from(probes.direct[at(i, j, pulse, field)]).abs();
+                    (SAFETY * most).max(floor).max(1e-12)
                 };
                 let (short, long) = (
                     measured(lower),
@@ -63,6 +71,11 @@ impl Table {
         }
         Ok(error)
     }
+}
+
+/// A mesh and its neighbours, of `count` meshes.
+fn around(index: usize, count: usize) -> std::ops::Range<usize> {
+    index.saturating_sub(1)..(index + 2).min(count)
 }
 
 /// Position of `length` among the measured lengths: index below and share of the one above, in logarithms.

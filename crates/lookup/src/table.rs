@@ -2,6 +2,7 @@
 
 use crate::content::{Content, FIELDS, Slice, centres};
 use crate::error::{LookupError, TableError};
+use crate::ratio::ratio_coordinate;
 use crate::{hash, schema};
 use halfspace::{Kernel, Medium, Profile};
 use std::path::Path;
@@ -14,6 +15,7 @@ pub struct Table {
     content: Content,
     id: String,
     poisson_ratios: Vec<f64>,
+    ratio_coordinates: Vec<f64>,
     kernels: Vec<Kernel>,
 }
 
@@ -41,6 +43,11 @@ impl Table {
             .iter()
             .map(|slice| Kernel::new(&Medium::new(slice.poisson_ratio)?, Profile::Hertz, 1e-6))
             .collect::<Result<_, _>>()?;
+        let ratio_coordinates = content
+            .slices
+            .iter()
+            .map(|slice| ratio_coordinate(slice.poisson_ratio))
+            .collect::<Result<_, _>>()?;
         Ok(Self {
             id: hash::settings_id(&content.origin.grid),
             poisson_ratios: content
@@ -48,6 +55,7 @@ impl Table {
                 .iter()
                 .map(|slice| slice.poisson_ratio)
                 .collect(),
+            ratio_coordinates,
             kernels,
             content,
         })
@@ -99,6 +107,11 @@ impl Table {
     #[must_use]
     pub fn into_content(self) -> Content {
         self.content
+    }
+
+    /// [`ratio_coordinate`] of each slice.
+    pub(crate) fn ratio_coordinates(&self) -> &[f64] {
+        &self.ratio_coordinates
     }
 
     /// The exact kernels of slice `index`.

@@ -118,36 +118,6 @@ impl Table {
             error,
         })
     }
-
-    /// Slices that serve a Poisson ratio, with their weights.
-    pub(crate) fn slice_weights(
-        &self,
-        poisson_ratio: f64,
-    ) -> Result<Vec<(usize, f64)>, LookupError> {
-        let ratios = self.poisson_ratios();
-        if let Some(index) = ratios
-            .iter()
-            .position(|nu| (nu - poisson_ratio).abs() < 1e-12)
-        {
-            return Ok(vec![(index, 1.0)]);
-        }
-        let outside = || LookupError::Outside {
-            axis: "poisson_ratio",
-            value: poisson_ratio,
-            min: ratios[0],
-            max: ratios[ratios.len() - 1],
-        };
-        if ratios.len() < 2 {
-            return Err(outside());
-        }
-        let stencil = Stencil::one_sided(ratios, poisson_ratio, 6).ok_or_else(outside)?;
-        Ok(stencil
-            .nodes()
-            .iter()
-            .copied()
-            .zip(stencil.even().iter().copied())
-            .collect())
-    }
 }
 
 /// The remainder at one point in all its fields: table cells, their first moments, tails.

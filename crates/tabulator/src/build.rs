@@ -3,7 +3,7 @@
 use crate::blocks::{self, Block, Kind, Row};
 use crate::error::BuildError;
 use crate::grid::Grid;
-use crate::journal::Journal;
+use crate::journal::{self, Journal};
 use crate::point::PointPlan;
 use crate::progress::Progress;
 use crate::verify;
@@ -64,30 +64,135 @@ pub fn build_over(
 ) -> Result<Summary, BuildError> {
     let started = Instant::now();
     grid.validate()?;
-    if existing == Existing::Keep && path.exists() {
-        return Err(BuildError::Exists {
-            path: path.to_owned(),
-        });
-    }
+    refuse(path, existing)?;
     let work = blocks::all(grid);
-    let id = lookup::settings_id(&grid.to_toml()?);
-    let (journal, finished) = Journal::open(&beside(path, ".journal"), &id)?;
+    let (journal, finished) = Journal::open(&beside(path, ".journal"), &grid.to_toml()?)?;
     let resumed_blocks = finished.len();
     let journal = Mutex::new(journal);
     let rows = compute(grid, &work, finished, &journal, progress)?;
-    let content = assemble(grid, &work, rows, progress)?;
-    let bytes = finish(&content, path)?;
+    let summary = complete(grid, rows, path, progress)?;
     journal
         .into_inner()
         .unwrap_or_else(PoisonError::into_inner)
         .remove()?;
     Ok(Summary {
-        id,
         resumed_blocks,
+        wall_s: started.elapsed().as_secs_f64(),
+        ..summary
+    })
+}
+
+/// Computes part `index` of `count` (from 1) of the blocks of `grid` into the file `path`, to be joined by [`merge`].
+///
+/// Given again, it goes on where it stopped; when all blocks of the part are there it does nothing.
+///
+/// # Errors
+/// As [`build`]; [`BuildError::Setting`] when `index` is not in 1 ..= `count`.
+pub fn build_shard(
+    grid: &Grid,
+    index: usize,
+    count: usize,
+    path: &Path,
+    progress: &dyn Progress,
+) -> Result<usize, BuildError> {
+    grid.validate()?;
+    if index < 1 || index > count {
+        let key = "shard".to_owned();
+        return Err(BuildError::Setting {
+            key,
+            value: index as f64,
+            range: "1 .. the number of shards",
+        });
+    }
+    let work: Vec<Block> = blocks::all(grid)
+        .into_iter()
+        .skip(index - 1)
+        .step_by(count)
+        .collect();
+    let (journal, finished) = Journal::open(path, &grid.to_toml()?)?;
+    compute(grid, &work, finished, &Mutex::new(journal), progress)?;
+    Ok(work.len())
+}
+
+/// Joins the shards at `parts` into a table at `path`.
+///
+/// # Errors
+/// [`BuildError`]: a file that is no shard, shards of different settings, blocks that are missing, or as [`build`].
+pub fn merge(
+    parts: &[PathBuf],
+    path: &Path,
+    existing: Existing,
+    progress: &dyn Progress,
+) -> Result<Summary, BuildError> {
+    let started = Instant::now();
+    refuse(path, existing)?;
+    let mut settings: Option<String> = None;
+    let mut finished = HashMap::new();
+    for part in parts {
+        let (grid, rows) = journal::read(part)?;
+        if settings.as_ref().is_some_and(|first| *first != grid) {
+            return Err(BuildError::Mixed {
+                first: parts[0].clone(),
+                second: part.clone(),
+            });
+        }
+        settings = Some(grid);
+        finished.extend(rows);
+    }
+    let text = settings.unwrap_or_default();
+    let grid: Grid = toml::from_str(&text).map_err(|error| BuildError::GridFile {
+        path: parts.first().cloned().unwrap_or_default(),
+        detail: error.to_string(),
+    })?;
+    let work = blocks::all(&grid);
+    let missing: Vec<&Block> = work
+        .iter()
+        .filter(|block| !finished.contains_key(block))
+        .collect();
+    if let Some(first) = missing.first() {
+        return Err(BuildError::Incomplete {
+            missing: missing.len(),
+            total: work.len(),
+            poisson_ratio: grid.poisson_ratios[first.slice],
+            row: first.row,
+        });
+    }
+    let rows = work
+        .iter()
+        .filter_map(|block| finished.remove(block))
+        .collect();
+    let summary = complete(&grid, rows, path, progress)?;
+    Ok(Summary {
+        wall_s: started.elapsed().as_secs_f64(),
+        ..summary
+    })
+}
+
+fn refuse(path: &Path, existing: Existing) -> Result<(), BuildError> {
+    match existing {
+        Existing::Keep if path.exists() => Err(BuildError::Exists {
+            path: path.to_owned(),
+        }),
+        Existing::Keep | Existing::Replace => Ok(()),
+    }
+}
+
+/// From all rows to the file under its name.
+fn complete(
+    grid: &Grid,
+    rows: Vec<Row>,
+    path: &Path,
+    progress: &dyn Progress,
+) -> Result<Summary, BuildError> {
+    let content = assemble(grid, &blocks::all(grid), rows, progress)?;
+    let bytes = finish(&content, path)?;
+    Ok(Summary {
+        id: lookup::settings_id(&content.origin.grid),
         content_sha256: lookup::content_hash(&content),
         points: content.r.len() * content.z.len() * content.slices.len(),
         bytes,
-        wall_s: started.elapsed().as_secs_f64(),
+        wall_s: 0.0,
+        resumed_blocks: 0,
         pulse_lengths: content.pulse_lengths.clone(),
         p99_error: content.origin.accuracy_reached,
     })

@@ -47,6 +47,34 @@ pub enum BuildError {
         /// Its journal.
         path: PathBuf,
     },
+    /// A file that should hold blocks of a table does not.
+    #[error("{} is not a shard of a kernel table", path.display())]
+    NotBlocks {
+        /// File given.
+        path: PathBuf,
+    },
+    /// Shards of different tables.
+    #[error("{} was made with other settings than {}: shards of one table have the same grid", second.display(), first.display())]
+    Mixed {
+        /// The first shard.
+        first: PathBuf,
+        /// The one that does not fit.
+        second: PathBuf,
+    },
+    /// Shards that do not make up a table.
+    #[error(
+        "{missing} of {total} blocks are missing, the first for poisson_ratio = {poisson_ratio}, row {row}: give all shards, each finished"
+    )]
+    Incomplete {
+        /// Blocks missing.
+        missing: usize,
+        /// Blocks of the table.
+        total: usize,
+        /// Slice of the first missing block.
+        poisson_ratio: f64,
+        /// Its row.
+        row: usize,
+    },
     /// A file operation failed.
     #[error("cannot {action} {}: {source}", path.display())]
     File {

@@ -36,7 +36,30 @@ pub struct Grid {
 }
 
 /// Names that [`Grid::preset`] knows.
-pub const PRESETS: [&str; 1] = ["demo"];
+pub const PRESETS: [&str; 3] = ["demo", "standard", "wide"];
+
+/// `count` ratios from `first` to `last` at equal steps of [`lookup::ratio_coordinate`], to three decimals.
+fn ratios(first: f64, last: f64, count: usize) -> Result<Vec<f64>, BuildError> {
+    let (start, end) = (
+        lookup::ratio_coordinate(first)?,
+        lookup::ratio_coordinate(last)?,
+    );
+    (0..count)
+        .map(|i| {
+            let wanted = start + (end - start) * i as f64 / (count - 1) as f64;
+            let (mut low, mut high) = (first, last);
+            for _ in 0..40 {
+                let middle = 0.5 * (low + high);
+                if lookup::ratio_coordinate(middle)? < wanted {
+                    low = middle;
+                } else {
+                    high = middle;
+                }
+            }
+            Ok((1000.0 * high).round() / 1000.0)
+        })
+        .collect()
+}
 
 mod defaults {
     pub(super) fn cell_width() -> f64 {
@@ -72,13 +95,41 @@ impl Grid {
         }
     }
 
+    /// Every Poisson ratio from 0 to 0.45, r and z to 6 r0: minutes.
+    ///
+    /// # Errors
+    /// [`BuildError::Domain`], which no ratio of the preset causes.
+    pub fn standard() -> Result<Self, BuildError> {
+        Ok(Self {
+            poisson_ratios: ratios(0.0, 0.45, 15)?,
+            ..Self::demo()
+        })
+    }
+
+    /// [`Self::standard`] to 12 r0, coarser where nothing is near.
+    ///
+    /// # Errors
+    /// As [`Self::standard`].
+    pub fn wide() -> Result<Self, BuildError> {
+        Ok(Self {
+            r: Axis::uniform(12.0, 0.15),
+            z: Axis::uniform(12.0, 0.15),
+            ..Self::standard()?
+        })
+    }
+
     /// The preset called `name`.
     #[must_use]
-    pub fn preset(name: &str) -> Option<Self> {
-        match name {
+    ///
+    /// # Errors
+    /// As [`Self::standard`].
+    pub fn preset(name: &str) -> Result<Option<Self>, BuildError> {
+        Ok(match name {
             "demo" => Some(Self::demo()),
+            "standard" => Some(Self::standard()?),
+            "wide" => Some(Self::wide()?),
             _ => None,
-        }
+        })
     }
 
     /// Reads a grid from a TOML file.

@@ -1,7 +1,7 @@
 //! The blocks computed so far, kept in a file that survives an interruption at any moment.
 //!
-//! `NAME.journal` starts with a line that names the settings; then follow records that are only ever
-//! appended: a header (slice, kind, row, three lengths), the numbers, and a SHA-256 of both. A record that
+//! `NAME.journal`, or a shard, starts with a line that names the settings and with the settings themselves;
+//! then follow records that are only ever appended: a header (slice, kind, row, three lengths), the numbers, and a SHA-256 of both. A record that
 //! was cut short is dropped on reading and computed again. The finished table is made from the records in
 //! the order of the grid, so its bytes do not depend on the order in which they were written.
 
@@ -13,6 +13,8 @@ use std::fs::{File, OpenOptions};
 use std::io::{Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
+/// How every journal starts.
+const KIND: &str = "hertzlamb kernel blocks 1, settings ";
 /// Bytes before the numbers of a record: six integers.
 const HEADER: usize = 6 * 8;
 /// Bytes after them.
@@ -26,8 +28,8 @@ pub(crate) struct Journal {
 }
 
 impl Journal {
-    /// Opens the journal at `path` for the settings `id`, or starts one, and returns the finished blocks.
-    pub(crate) fn open(path: &Path, id: &str) -> Result<(Self, HashMap<Block, Row>), BuildError> {
+    /// Opens the journal at `path` for the settings `grid`, or starts one, and returns the finished blocks.
+    pub(crate) fn open(path: &Path, grid: &str) -> Result<(Self, HashMap<Block, Row>), BuildError> {
         let failed = |action| file_error(action, path);
         let mut file = OpenOptions::new()
             .read(true)
@@ -47,7 +49,7 @@ impl Journal {
         let mut bytes = Vec::new();
         file.seek(SeekFrom::Start(0)).map_err(failed("read"))?;
         file.read_to_end(&mut bytes).map_err(failed("read"))?;
-        let title = title(id);
+        let title = title(grid);
         let mut journal = Self {
             path: path.to_owned(),
             file,
@@ -110,8 +112,36 @@ impl Journal {
     }
 }
 
-fn title(id: &str) -> String {
-    format!("hertzlamb kernel blocks 1, settings {id}\n")
+fn title(grid: &str) -> String {
+    format!("{KIND}{} {}\n{grid}", lookup::settings_id(grid), grid.len())
+}
+
+/// Reads a journal or a shard without changing it: its settings and its whole records.
+pub(crate) fn read(path: &Path) -> Result<(String, HashMap<Block, Row>), BuildError> {
+    let bytes = std::fs::read(path).map_err(file_error("read", path))?;
+    let foreign = || BuildError::NotBlocks {
+        path: path.to_owned(),
+    };
+    let end = bytes
+        .iter()
+        .position(|&byte| byte == b'\n')
+        .ok_or_else(foreign)?;
+    let line = std::str::from_utf8(&bytes[..end])
+        .ok()
+        .and_then(|line| line.strip_prefix(KIND));
+    let length: usize = line
+        .and_then(|line| line.split_once(' ')?.1.parse().ok())
+        .ok_or_else(foreign)?;
+    let text = bytes
+        .get(end + 1..)
+        .and_then(|rest| rest.get(..length))
+        .ok_or_else(foreign)?;
+    let grid = std::str::from_utf8(text).map_err(|_| foreign())?;
+    if !bytes.starts_with(title(grid).as_bytes()) {
+        return Err(foreign());
+    }
+    let (rows, _) = records(&bytes, end + 1 + length);
+    Ok((grid.to_owned(), rows))
 }
 
 fn file_error(action: &'static str, path: &Path) -> impl FnOnce(std::io::Error) -> BuildError {

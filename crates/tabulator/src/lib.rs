@@ -17,7 +17,7 @@ mod tail_fit;
 mod verify;
 
 pub use axis::Axis;
-pub use build::{Existing, Summary, build, build_over};
+pub use build::{Existing, Summary, build, build_over, build_shard, merge};
 pub use check::{BadNode, CheckReport, check_table};
 pub use difference::{Difference, differences};
 pub use error::BuildError;

@@ -2,9 +2,8 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
-use tabulator::{
-    Axis, BuildError, Existing, Grid, Progress, Silent, build, build_over, check_table, differences,
-};
+use tabulator::{Axis, BuildError, Existing, Grid, Progress, Silent};
+use tabulator::{build, build_over, build_shard, check_table, differences, merge};
 
 /// Two slices of 8 by 8 nodes.
 fn small() -> Grid {
@@ -188,4 +187,47 @@ fn a_grid_file_is_read_back_and_unknown_keys_are_refused() {
         message.contains("grid.toml") && message.contains("spacng"),
         "{message}"
     );
+}
+
+#[test]
+fn shards_make_the_same_table_and_gaps_are_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let (whole, joined) = (
+        folder.path().join("whole.h5"),
+        folder.path().join("joined.h5"),
+    );
+    let summary = build(&small(), &whole, &Silent).unwrap();
+    let shards: Vec<PathBuf> = (1..=3)
+        .map(|i| folder.path().join(format!("{i}.shard")))
+        .collect();
+    for (i, path) in shards.iter().enumerate() {
+        build_shard(&small(), i + 1, 3, path, &Silent).unwrap();
+    }
+    let message = merge(&shards[1..], &joined, Existing::Keep, &Silent)
+        .unwrap_err()
+        .to_string();
+    assert!(
+        message
+            .starts_with("10 of 30 blocks are missing, the first for poisson_ratio = 0.25, row 0"),
+        "{message}"
+    );
+    assert!(!joined.exists());
+    let merged = merge(&shards, &joined, Existing::Keep, &Silent).unwrap();
+    assert_eq!(merged.content_sha256, summary.content_sha256);
+
+    let other = Grid {
+        tail_terms: 9,
+        ..small()
+    };
+    let stranger = folder.path().join("stranger.shard");
+    build_shard(&other, 1, 30, &stranger, &Silent).unwrap();
+    let mixed = [shards[0].clone(), stranger];
+    assert!(matches!(
+        merge(&mixed, &joined, Existing::Replace, &Silent),
+        Err(BuildError::Mixed { .. })
+    ));
+    assert!(matches!(
+        merge(&[whole], &joined, Existing::Replace, &Silent),
+        Err(BuildError::NotBlocks { .. })
+    ));
 }
