@@ -164,12 +164,12 @@ impl Kernel {
         check_place(r, z)?;
         let singular = match self.profile {
             Profile::Hertz => false,
-            Profile::Punch => z == 0.0 && r == 1.0,
+            Profile::Punch => z < NEAREST && r == 1.0,
             Profile::Point => z < NEAREST && r < NEAREST,
         };
         let range = match self.profile {
             Profile::Point => "[1e-20, 1e20] where z < 1e-20, for a point force",
-            Profile::Hertz | Profile::Punch => "[0, 1) or (1, 1e20] where z = 0, for a punch",
+            Profile::Hertz | Profile::Punch => "[0, 1) or (1, 1e20] where z < 1e-20, for a punch",
         };
         DomainError::unless(!singular, "r", r, range)?;
         Ok(())

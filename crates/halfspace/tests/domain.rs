@@ -131,6 +131,15 @@ proptest! {
             Ok(found) => prop_assert!(sound(&found), "integral {all:?} {found:?}"),
             Err(error) => prop_assert!(names(&error, &all)),
         }
+        // the others are not functions: the error names the profile
+        if profile == Profile::Hertz {
+            for found in [kernel.impulse(r, z, t), kernel.second_integral(r, z, t)] {
+                match found {
+                    Ok(found) => prop_assert!(sound(&found), "{all:?} {found:?}"),
+                    Err(error) => prop_assert!(names(&error, &all)),
+                }
+            }
+        }
         match Arrivals::new(&medium, profile, r, z) {
             Ok(found) => prop_assert!(found.sorted().iter().all(|a| a.is_finite())),
             Err(error) => prop_assert!(names(&error, &place)),
