@@ -56,8 +56,8 @@ impl Kernel {
             let gap = arrival - t;
             let rest = self.static_field(r, z)?;
             let slope = self.step_integral(r, z, arrival)?;
-            for f in 0..6 {
-                estimate.value[f] -= gap * (slope.value[f] + 0.5 * gap * rest[f]);
+            for (f, rest) in rest.iter().enumerate() {
+                estimate.value[f] -= gap * (slope.value[f] + 0.5 * gap * rest);
                 estimate.error[f] += gap * slope.error[f];
             }
         }

@@ -170,21 +170,20 @@ fn the_remainder_decays() {
             let at = |factor: f64| kernel.remainder(r, z, factor * last).unwrap();
             let [a, b, c, d] = [32.0, 64.0, 128.0, 256.0].map(at);
             let mut text = String::new();
-            for f in 0..6 {
+            for (f, name) in NAMES.iter().enumerate() {
                 // a power of 1/t is seen where there is more than rounding
                 if a.value[f].abs() < 1e-12 || d.value[f].abs() < 1e-13 {
-                    text += &format!(" {}: {:.0e} ", NAMES[f], d.value[f]);
+                    text += &format!(" {}: {:.0e} ", name, d.value[f]);
                     continue;
                 }
                 let early = (a.value[f] / b.value[f]).abs().log2();
                 let late = (c.value[f] / d.value[f]).abs().log2();
-                text += &format!(" {}: {early:.3} {late:.3}", NAMES[f]);
+                text += &format!(" {name}: {early:.3} {late:.3}");
                 // sigma_zz and sigma_rz lose the first term of the series
                 let order = if f < 4 { 2.0 } else { 4.0 };
                 assert!(
                     (late - order).abs() < 0.05,
-                    "{profile:?} nu {nu} r {r} z {z} {}",
-                    NAMES[f]
+                    "{profile:?} nu {nu} r {r} z {z} {name}"
                 );
             }
             println!("{profile:?} nu {nu} r {r} z {z}: {text}");

@@ -62,11 +62,17 @@ impl<'a> Resampler<'a> {
         } else {
             0.0
         };
+        let displacement = read(&self.history.displacement);
         Instant {
             force,
-            displacement: read(&self.history.displacement),
+            displacement,
             velocity: read(&self.velocity),
-            deflection: read(&self.history.deflection),
+            // in contact by the law itself, which needs no smoothness of the deflection
+            deflection: if force > 0.0 {
+                displacement - force.cbrt().powi(2)
+            } else {
+                read(&self.history.deflection)
+            },
         }
     }
 }

@@ -254,6 +254,11 @@ fn strike(
             .push(now.velocity * units.velocity_m_s());
         series.deflection_m.push(now.deflection * units.length_m);
     }
+    if run.model == Model::Wave && contact.scheme == Scheme::Implicit {
+        // Anew on the output's step: the march's own step may be coarser than the disc's memory.
+        series.deflection_m =
+            surface_deflection(scene, &response, &kernel_units, &grid, &series.force_n);
+    }
     let fields = match &source {
         Some(source) => Some(fields(
             scene,
@@ -693,7 +698,8 @@ fn prescribed(
     let grid = Grid::new(scene, source.as_ref(), &units, &medium, end_s, pulse_s)?;
     let time_s: Vec<f64> = (0..grid.count).map(|i| i as f64 * grid.step_s).collect();
     let force_n: Vec<f64> = time_s.iter().map(|&t| force.at(t)).collect();
-    let deflection_m = surface_deflection(scene, &medium, &units, &grid, &force_n);
+    let response = SurfaceResponse::new(&medium, scene.contact.deflection);
+    let deflection_m = surface_deflection(scene, &response, &units, &grid, &force_n);
     let fields = match &source {
         Some(source) => Some(fields(
             scene, source, &units, &medium, &grid, &force_n, 0.0,
@@ -772,18 +778,18 @@ fn joules(force_n: &[f64], deflection_m: &[f64]) -> f64 {
     work(force_n, deflection_m) / 2.5
 }
 
-/// Deflection of the disc under a given force.
+/// Deflection of the disc under a sampled force, with the share that the scene asks for.
 fn surface_deflection(
     scene: &Scene,
-    medium: &Medium,
+    response: &SurfaceResponse,
     units: &KernelUnits,
     grid: &Grid,
     force_n: &[f64],
 ) -> Vec<f64> {
-    let response = SurfaceResponse::new(medium, scene.contact.deflection);
-    let weights = crate::march::Weights::new(&response, grid.step_s, units.time_s());
+    let weights = crate::march::Weights::new(response, grid.step_s, units.time_s());
     let static_m_per_n = response.static_compliance() * units.displacement_m_per_n();
+    let share = scene.contact.static_share.factor();
     (0..force_n.len())
-        .map(|n| static_m_per_n * (force_n[n] - weights.lagging(&force_n[..=n])))
+        .map(|n| static_m_per_n * (share * force_n[n] - weights.lagging(&force_n[..=n])))
         .collect()
 }

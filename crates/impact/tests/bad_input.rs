@@ -1,5 +1,7 @@
 //! Scenes that are refused: the message names key, value and what is allowed, in one line.
 
+#![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
+
 use impact::Scene;
 use impact::material::Library;
 use std::path::Path;

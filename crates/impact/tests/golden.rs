@@ -1,5 +1,7 @@
 //! Converged impacts of an independent program (`tests/golden/impacts.csv`), and the order of convergence.
 
+#![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
+
 use halfspace::{Deflection, Medium, SurfaceResponse};
 use impact::march::{FixedDisc, StaticShare, Summary, march_explicit, march_implicit};
 use impact::units::CollisionUnits;

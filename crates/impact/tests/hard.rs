@@ -1,5 +1,7 @@
 //! Scenes that break naive schemes: a right answer or a clear error, never NaN or an endless loop.
 
+#![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
+
 use impact::{KernelChoice, Scene, simulate};
 use std::path::Path;
 use std::time::Instant;

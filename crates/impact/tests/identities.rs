@@ -1,5 +1,7 @@
 //! What must hold for every impact: momentum, energy, scaling, limits.
 
+#![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
+
 use halfspace::{Deflection, Medium, SurfaceResponse};
 use impact::contact::radiation::{self, radiation};
 use impact::march::{GrowingDisc, PunchResponse, Summary, march_growing};

@@ -1,5 +1,7 @@
 //! The results file against its description in `data-schema/results.md`.
 
+#![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
+
 use impact::output::{Existing, OutputError, schema, write};
 use impact::{KernelChoice, Outcome, Scene, simulate};
 use std::collections::BTreeSet;

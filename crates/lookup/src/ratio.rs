@@ -51,7 +51,7 @@ impl Table {
         let place =
             ratio_coordinate(poisson_ratio)?.clamp(coordinates[0], coordinates[ratios.len() - 1]);
         let stencil =
-            Stencil::one_sided(coordinates, place, POINTS).ok_or_else(|| LookupError::Outside {
+            Stencil::one_sided(coordinates, place, POINTS).ok_or(LookupError::Outside {
                 axis: "poisson_ratio",
                 value: poisson_ratio,
                 min,

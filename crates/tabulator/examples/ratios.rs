@@ -27,9 +27,9 @@ fn ratios() -> Result<Vec<f64>, halfspace::DomainError> {
             for _ in 0..50 {
                 let middle = 0.5 * (low + high);
                 if slowness(middle)? < wanted {
-                    low = middle
+                    low = middle;
                 } else {
-                    high = middle
+                    high = middle;
                 }
             }
             Ok(0.5 * (low + high))

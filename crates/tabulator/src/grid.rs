@@ -119,7 +119,6 @@ impl Grid {
     }
 
     /// The preset called `name`.
-    #[must_use]
     ///
     /// # Errors
     /// As [`Self::standard`].

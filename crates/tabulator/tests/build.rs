@@ -1,5 +1,7 @@
 //! Building: bytes, interruptions, files in the way, bad settings.
 
+#![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
+
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use tabulator::{Axis, BuildError, Existing, Grid, Progress, Silent};

@@ -1,5 +1,7 @@
 //! Looked-up fields against an independent Laplace-Hankel inversion (tests/golden/fields.csv).
 
+#![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
+
 use halfspace::FIELDS;
 use lookup::{Smoothness, Table};
 use tabulator::{Axis, Grid, Silent, build};

@@ -116,7 +116,7 @@ fn set_text(file: &hdf5::File, name: &str, value: &str) {
 fn versions_kinds_and_gaps_are_named() {
     let folder = tempfile::tempdir().unwrap();
     let error = changed(&folder, |file| {
-        set_text(file, schema::FORMAT_VERSION, "2.0")
+        set_text(file, schema::FORMAT_VERSION, "2.0");
     });
     assert!(
         error
@@ -124,7 +124,7 @@ fn versions_kinds_and_gaps_are_named() {
             .ends_with("has kernel-table format version \"2.0\"; this program reads version 1.x")
     );
     let error = changed(&folder, |file| {
-        set_text(file, schema::FILE_TYPE, "hertzlamb impact results")
+        set_text(file, schema::FILE_TYPE, "hertzlamb impact results");
     });
     assert!(
         matches!(error, TableError::Foreign { found, .. } if found == "hertzlamb impact results")
@@ -145,7 +145,7 @@ fn versions_kinds_and_gaps_are_named() {
         file.dataset("r")
             .unwrap()
             .write_slice(&[9.0], 3..4)
-            .unwrap()
+            .unwrap();
     });
     assert!(error.to_string().starts_with("kernel table: r[4] = "));
     // A later minor version is read.
