@@ -64,6 +64,7 @@ mod gauss;
 pub mod kausel;
 mod kernel;
 mod medium;
+mod moments;
 mod multipole;
 mod panels;
 mod potential;

@@ -135,3 +135,49 @@ fn the_second_integral_is_the_integral_of_the_first() {
         }
     }
 }
+
+/// Moments against int R dt sampled finely across the fronts: width^2 M = width (S_0 + S_1)/2 - int S dt.
+#[test]
+fn first_moments_of_cells() {
+    let width = 0.1;
+    for (nu, r, z) in [
+        (0.3, 0.4, 0.7),
+        (0.0, 2.0, 0.0),
+        (0.45, 3.0, 1.5),
+        (0.25, 0.0, 2.0),
+    ] {
+        let kernel = Kernel::new(&Medium::new(nu).unwrap(), Profile::Hertz, 1e-11).unwrap();
+        let mut averages = vec![Six::default(); 120];
+        let mut moments = averages.clone();
+        kernel.cell_averages(r, z, width, &mut averages).unwrap();
+        let floor = [1e-8; 6];
+        kernel
+            .cell_moments(r, z, width, &averages, &floor, &mut moments)
+            .unwrap();
+        let integral = |t: f64| kernel.step_integral(r, z, t).unwrap().value;
+        let mut most = 0.0_f64;
+        for (j, moment) in moments.iter().enumerate() {
+            const PARTS: usize = 200;
+            let at = |i: usize| integral((j as f64 + i as f64 / PARTS as f64) * width);
+            let (start, end) = (at(0), at(PARTS));
+            let mut area = Six::default();
+            for i in 0..=PARTS {
+                let weight = if i == 0 || i == PARTS { 0.5 } else { 1.0 } / PARTS as f64;
+                for (a, s) in area.iter_mut().zip(at(i)) {
+                    *a += weight * s;
+                }
+            }
+            for f in 0..6 {
+                let fine = (0.5 * (start[f] + end[f]) - area[f]) / width;
+                let gap = (moment[f] - fine).abs();
+                assert!(
+                    gap < 5e-7,
+                    "nu {nu} r {r} z {z} cell {j} field {f}: {} {fine}",
+                    moment[f]
+                );
+                most = most.max(fine.abs());
+            }
+        }
+        assert!(most > 1e-4, "nothing was tested: {most}");
+    }
+}

@@ -5,10 +5,11 @@
 //! ```
 //!
 //! Exact for a force that is linear between samples; Rbar_j is the average of the remainder R over
-//! the j-th cell. Everything is in kernel units except the force, whose unit is free.
+//! the j-th cell. For a smooth force the cells are corrected by the first moments of R, see [`Smoothness`].
+//! Everything is in kernel units except the force, whose unit is free.
 
 use halfspace::{DomainError, Kernel, Medium, Profile, Six};
-use lookup::{LookupError, Table};
+use lookup::{LookupError, Smoothness, Table, correct_for_curvature};
 use realfft::RealFftPlanner;
 use std::sync::Arc;
 use thiserror::Error;
@@ -51,7 +52,7 @@ pub enum FieldError {
     },
 }
 
-/// Cell averages at one point with what goes with them.
+/// Cells at one point with what goes with them.
 #[derive(Debug, Clone)]
 pub(crate) struct Cells {
     pub(crate) static_part: Six,
@@ -59,6 +60,46 @@ pub(crate) struct Cells {
     /// Error of the response to a force of unit peak.
     pub(crate) error: Six,
 }
+
+impl Cells {
+    /// Total variation of the step response: the largest response to a force that is nowhere above one.
+    pub(crate) fn variation(&self) -> Six {
+        std::array::from_fn(|f| {
+            let first = self.averages.first().map_or(0.0, |cell| cell[f]);
+            let steps = self.averages.windows(2).map(|c| (c[1][f] - c[0][f]).abs());
+            (self.static_part[f] + first).abs() + steps.sum::<f64>()
+        })
+    }
+}
+
+/// How the force is taken between its samples, and the largest error of that in the force's unit.
+///
+/// A force whose third differences are below half of its second differences is smooth on this step; one
+/// with jumps or corners is not, and is linear between samples.
+pub(crate) fn between_samples(force: &[f64]) -> (Smoothness, f64) {
+    let difference = |order: usize| {
+        let mut samples = vec![0.0; order];
+        samples.extend_from_slice(force);
+        for _ in 0..order {
+            for i in (1..samples.len()).rev() {
+                samples[i] -= samples[i - 1];
+            }
+        }
+        samples[order..]
+            .iter()
+            .fold(0.0, |most: f64, d| most.max(d.abs()))
+    };
+    let [second, third, fourth] = [2, 3, 4].map(difference);
+    if third < 0.5 * second {
+        // the cubic within a cell, and its curvature taken from the cell's ends
+        (Smoothness::Smooth, 0.008 * third + 0.026 * fourth)
+    } else {
+        (Smoothness::Linear, second / 8.0)
+    }
+}
+
+/// First moments of direct kernels are computed to this share of the static field.
+const MOMENT_SHARE: f64 = 1e-7;
 
 /// Samples beyond which the transform is faster than the sum.
 const DIRECT_PRODUCTS: usize = 60_000;
@@ -90,26 +131,45 @@ impl KernelSource {
         }
     }
 
-    /// Fills `count` cells of `step` at (r, z).
+    /// The cells at (r, z).
     pub(crate) fn cells(
         &self,
         poisson_ratio: f64,
         place: Place,
-        step: f64,
-        coarsening: u32,
-        count: usize,
-        pulse_length: f64,
+        wanted: CellPlan,
     ) -> Result<Cells, FieldError> {
+        let CellPlan {
+            step,
+            coarsening,
+            count,
+            smoothness,
+            pulse_length,
+        } = wanted;
         let mut averages = vec![[0.0; 6]; count];
         let Place { r, z, .. } = place;
         match self {
             Self::Direct(kernel) => {
                 let domain = |source| place.domain(source);
+                // one more cell than asked for: the correction looks one ahead
+                averages.push([0.0; 6]);
                 let error = kernel
                     .cell_averages(r, z, step, &mut averages)
                     .map_err(domain)?;
+                let static_part = kernel.static_field(r, z).map_err(domain)?;
+                match smoothness {
+                    Smoothness::Linear => averages.truncate(count),
+                    Smoothness::Smooth => {
+                        let floor = static_part.map(|s| MOMENT_SHARE * s.abs());
+                        let mut moments = averages.clone();
+                        kernel
+                            .cell_moments(r, z, step, &averages, &floor, &mut moments)
+                            .map_err(domain)?;
+                        averages.truncate(count);
+                        correct_for_curvature(&mut averages, &moments);
+                    }
+                }
                 Ok(Cells {
-                    static_part: kernel.static_field(r, z).map_err(domain)?,
+                    static_part,
                     averages,
                     // the force rises and falls once
                     error: error.map(|e| 2.0 * e),
@@ -118,7 +178,7 @@ impl KernelSource {
             Self::Table(table) => {
                 let outside = |source| place.outside(source);
                 let info = table
-                    .trace(poisson_ratio, r, z, coarsening, &mut averages)
+                    .trace_for(smoothness, poisson_ratio, r, z, coarsening, &mut averages)
                     .map_err(outside)?;
                 let error = table
                     .error(poisson_ratio, r, z, pulse_length)
@@ -131,6 +191,18 @@ impl KernelSource {
             }
         }
     }
+}
+
+/// Which cells a convolution needs; lengths of time in r0/c1.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct CellPlan {
+    pub(crate) step: f64,
+    /// The step is 2^coarsening cells of the table.
+    pub(crate) coarsening: u32,
+    pub(crate) count: usize,
+    pub(crate) smoothness: Smoothness,
+    /// Of the force, for the table's error.
+    pub(crate) pulse_length: f64,
 }
 
 /// A point in kernel units, with its unit for messages.

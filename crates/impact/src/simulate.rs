@@ -4,7 +4,7 @@ use crate::choose::{Choice, Rung, choose};
 use crate::contact::quasi_static::quasi_static;
 use crate::contact::radiation::{LARGEST_LAG, march_radiation, radiation};
 use crate::contact::{Collision, hertz};
-use crate::convolve::{FieldError, KernelSource, Place, convolve};
+use crate::convolve::{CellPlan, FieldError, KernelSource, Place, between_samples, convolve};
 use crate::energy::{Ledger, radiated, work};
 use crate::march::{
     FixedDisc, History, MarchError, PunchResponse, StaticShare, Summary, march_explicit,
@@ -17,7 +17,7 @@ use crate::scene::{
 };
 use crate::units::{CollisionUnits, KernelUnits};
 use crate::validity::{Reached, warnings};
-use halfspace::{Arrivals, Deflection, DomainError, Medium, Profile, SurfaceResponse};
+use halfspace::{Arrivals, Deflection, DomainError, Medium, Profile, Six, SurfaceResponse};
 use lookup::Table;
 use rayon::prelude::*;
 use std::sync::Arc;
@@ -613,14 +613,15 @@ fn fields(
     force_error: f64,
 ) -> Result<Fields, ImpactError> {
     let radius = units.disc_radius_m;
-    let step = grid.step_s / units.time_s();
     let peak = force_n.iter().fold(0.0_f64, |m, p| m.max(p.abs()));
-    // largest distance of a parabola from its chord
-    let bend = force_n
-        .windows(3)
-        .map(|p| (p[0] - 2.0 * p[1] + p[2]).abs() / 8.0)
-        .fold(0.0, f64::max);
-    let relative = force_error + if peak > 0.0 { bend / peak } else { 0.0 };
+    let (smoothness, sampling) = between_samples(force_n);
+    let plan = CellPlan {
+        step: grid.step_s / units.time_s(),
+        coarsening: grid.coarsening,
+        count: grid.count,
+        smoothness,
+        pulse_length: grid.pulse_s / units.time_s(),
+    };
     let rows: Vec<_> = scene
         .probes
         .par_iter()
@@ -630,19 +631,15 @@ fn fields(
                 z: probe.z_m / radius,
                 disc_radius_m: radius,
             };
-            let cells = source.cells(
-                medium.poisson_ratio(),
-                place,
-                step,
-                grid.coarsening,
-                grid.count,
-                grid.pulse_s / units.time_s(),
-            )?;
+            let cells = source.cells(medium.poisson_ratio(), place, plan)?;
             let arrivals = Arrivals::new(medium, Profile::Hertz, place.r, place.z)?;
             let direct = arrivals.above.unwrap_or([arrivals.p[0], arrivals.s[0]]);
             let first = [direct[0], direct[1], arrivals.rayleigh[0]];
             let values = convolve(&cells, force_n);
-            Ok((cells.error, first.map(|t| t * units.time_s()), values))
+            let variation = cells.variation();
+            let error: Six =
+                std::array::from_fn(|f| cells.error[f] * peak + variation[f] * sampling);
+            Ok((error, first.map(|t| t * units.time_s()), values))
         })
         .collect::<Result<_, _>>()?;
     let mut fields = Fields {
@@ -665,7 +662,7 @@ fn fields(
                 *value *= unit;
                 largest = largest.max(value.abs());
             }
-            fields.errors[f].push(error[f] * peak * unit + relative * largest);
+            fields.errors[f].push(error[f] * unit + force_error * largest);
             fields.values[f].push(samples);
         }
     }

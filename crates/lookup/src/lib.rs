@@ -39,5 +39,5 @@ pub use read::{check_hash, read};
 pub use stencil::{Stencil, locate};
 pub use table::Table;
 pub use tail::{Tail, chebyshev};
-pub use trace::{Series, Smoothness, TraceInfo};
+pub use trace::{Series, Smoothness, TraceInfo, correct_for_curvature};
 pub use write::write;

@@ -300,8 +300,8 @@ fn coarse_moment(
     sum / (coarse * coarse)
 }
 
-/// See [`Smoothness::Smooth`].
-fn correct_for_curvature(cells: &mut [Six], moments: &[Six]) {
+/// Turns averages into the cells of [`Smoothness::Smooth`]; `moments` has one more entry than `cells`.
+pub fn correct_for_curvature(cells: &mut [Six], moments: &[Six]) {
     for f in 0..FIELDS {
         for (j, cell) in cells.iter_mut().enumerate() {
             let before = if j == 0 {

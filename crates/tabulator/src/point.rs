@@ -68,36 +68,20 @@ impl PointPlan {
         self.kernel
             .cell_averages(r, z, self.width, &mut point.averages)?;
         let rest = self.kernel.static_field(r, z)?;
-        let arrival = (r - 1.0).max(0.0).hypot(z);
-        let quiet = ((arrival / self.width) as usize).min(self.cells);
         let quantum = quantum(&rest);
-        for j in quiet..self.cells {
-            let moment = match smooth_moment(&point.averages, j, &quantum) {
-                Some(moment) => moment,
-                None => self.moment(r, z, j)?,
-            };
-            point.moments[j] =
-                std::array::from_fn(|f| (moment[f] / quantum[f]).round() * quantum[f]);
+        let PointKernels {
+            averages, moments, ..
+        } = &mut point;
+        self.kernel
+            .cell_moments(r, z, self.width, averages, &quantum, moments)?;
+        for moment in moments {
+            for (m, q) in moment.iter_mut().zip(quantum) {
+                *m = (*m / q).round() * q;
+            }
         }
         self.tail(r, z, &mut point)?;
         self.check(r, z, &point)?;
         Ok(point)
-    }
-
-    /// First moment of cell `j` from the integral S of R and the integral of S, also where a front crosses
-    /// it: width (S_0 + S_1)/2 - int S dt, over width^2.
-    fn moment(&self, r: f64, z: f64, j: usize) -> Result<Six, BuildError> {
-        let (start, end) = (j as f64 * self.width, (j + 1) as f64 * self.width);
-        let first = [start, end].map(|t| self.kernel.step_integral(r, z, t));
-        let second = [start, end].map(|t| self.kernel.second_integral(r, z, t));
-        let ([from, to], [below, above]) = (first, second);
-        let (from, to, below, above) = (from?.value, to?.value, below?.value, above?.value);
-        Ok(std::array::from_fn(|f| {
-            // relative to S at the start, which may hold a large constant
-            let trapezoid = 0.5 * self.width * (to[f] - from[f]);
-            let area = above[f] - below[f] - self.width * from[f];
-            (trapezoid - area) / (self.width * self.width)
-        }))
     }
 
     fn tail(&self, r: f64, z: f64, point: &mut PointKernels) -> Result<(), BuildError> {
@@ -140,23 +124,6 @@ impl PointPlan {
         }
         Ok(())
     }
-}
-
-/// First moment of cell `j` to fourth order from the averages around it, where R is smooth over five cells.
-fn smooth_moment(averages: &[Six], j: usize, quantum: &Six) -> Option<Six> {
-    if j < 2 || j + 2 >= averages.len() {
-        return None;
-    }
-    let mut moment = [0.0; 6];
-    for f in 0..6 {
-        let near = averages[j + 1][f] - averages[j - 1][f];
-        let far = averages[j + 2][f] - averages[j - 2][f];
-        moment[f] = near * 41.0 / 720.0 - far * 11.0 / 1440.0;
-        if (moment[f] - near / 24.0).abs() > 8.0 * quantum[f] {
-            return None;
-        }
-    }
-    Some(moment)
 }
 
 /// Step to which moments are rounded: a power of two near [`MOMENT_SHARE`] of the local scale.
