@@ -41,10 +41,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     };
     let force_only = |text: &str| text.split("[[probe]]").next().unwrap_or(text).to_owned();
     let stiffer = |text: &str| force_only(text).replace("123e9", "129e9");
-    let explicit = |text: &str| {
+    let explicit = |text: &str, step: &str| {
         stiffer(text)
             .replace("\"implicit\"", "\"explicit\"")
-            .replace("tolerance = 1e-4", "step_s = 1.35e-7")
+            .replace("tolerance = 1e-4", step)
     };
     let hertz = |text: &str| text.replace("\"wave\"", "\"hertz\"");
     let run =
@@ -56,7 +56,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         table_1: scene(&str::to_owned)?,
         coupled: main,
         coupled_129: run(&scene(&stiffer)?)?,
-        explicit_129: run(&scene(&explicit)?)?,
+        explicit_129: run(&scene(&|text| explicit(text, "step_s = 1.35e-7"))?)?,
+        explicit_coarse: run(&scene(&|text| explicit(text, "step_s = 5e-7"))?)?,
         hertz: run(&scene(&|text| hertz(&force_only(text)))?)?,
         hertz_129: run(&scene(&|text| hertz(&stiffer(text)))?)?,
     };

@@ -82,46 +82,82 @@ impl<'a> Report<'a> {
             ));
         }
         lines.push(format!(
-            "peak force     {:.6} kN at {:.4} us",
-            self.peak_force_n / 1e3,
-            self.peak_force_time_s * 1e6
+            "peak force     {} at {}",
+            si(self.peak_force_n, "N"),
+            si(self.peak_force_time_s, "s")
         ));
         if self.model == "prescribed" {
             lines.push(format!(
-                "pulse          {:.4} us, {:.6} N s",
-                self.contact_time_s * 1e6,
-                self.impulse_n_s
+                "pulse          {}, {}",
+                si(self.contact_time_s, "s"),
+                si(self.impulse_n_s, "N s")
             ));
         } else {
+            lines.push(format!("contact time   {}", si(self.contact_time_s, "s")));
             lines.push(format!(
-                "contact time   {:.5} us",
-                self.contact_time_s * 1e6
+                "rebound        {}, restitution {:.6}",
+                si(self.rebound_velocity_m_s, "m/s"),
+                self.restitution
             ));
             lines.push(format!(
-                "rebound        {:.5} m/s, restitution {:.6}",
-                self.rebound_velocity_m_s, self.restitution
-            ));
-            lines.push(format!(
-                "displacement   {:.4} um",
-                self.peak_displacement_m * 1e6
+                "displacement   {}",
+                si(self.peak_displacement_m, "m")
             ));
         }
         lines.push(format!(
-            "deflection     {:.4} um",
-            self.peak_deflection_m * 1e6
+            "deflection     {}",
+            si(self.peak_deflection_m, "m")
         ));
+        if self.model == "prescribed" {
+            lines.push(format!(
+                "radiated       {}",
+                si(self.radiated_energy_j, "J")
+            ));
+        } else {
+            lines.push(format!(
+                "radiated       {} of {}, ledger residual {:.1e}",
+                si(self.radiated_energy_j, "J"),
+                si(self.initial_energy_j, "J"),
+                self.energy_residual
+            ));
+            lines.push(format!(
+                "error estimate {:.1e} relative",
+                self.relative_error_estimate
+            ));
+        }
         lines.push(format!(
-            "radiated       {:.4e} J of {:.4e} J, ledger residual {:.1e}",
-            self.radiated_energy_j, self.initial_energy_j, self.energy_residual
-        ));
-        lines.push(format!(
-            "error estimate {:.1e} relative",
-            self.relative_error_estimate
-        ));
-        lines.push(format!(
-            "output         {} steps of {:.4e} s, {} probes, kernel {}",
-            self.steps, self.step_s, self.probes, self.kernel
+            "output         {} steps of {}, {} probe{}, kernel {}",
+            self.steps,
+            si(self.step_s, "s"),
+            self.probes,
+            if self.probes == 1 { "" } else { "s" },
+            self.kernel
         ));
         lines.join("\n")
+    }
+}
+
+/// A number with seven digits and an SI prefix.
+fn si(value: f64, unit: &str) -> String {
+    const PREFIXES: [(f64, &str); 7] = [
+        (1e9, "G"),
+        (1e6, "M"),
+        (1e3, "k"),
+        (1.0, ""),
+        (1e-3, "m"),
+        (1e-6, "u"),
+        (1e-9, "n"),
+    ];
+    let size = value.abs();
+    if size == 0.0 {
+        return format!("0 {unit}");
+    }
+    match PREFIXES.iter().find(|(scale, _)| size >= *scale) {
+        Some((scale, prefix)) if size < 1e12 => {
+            let scaled = value / scale;
+            let decimals = 6 - (scaled.abs().log10() as usize).min(2);
+            format!("{scaled:.decimals$} {prefix}{unit}")
+        }
+        Some(_) | None => format!("{value:.6e} {unit}"),
     }
 }
