@@ -4,10 +4,8 @@
 //! renamed when it is complete.
 
 use crate::simulate::{Fields, Outcome};
-use hdf5::types::VarLenUnicode;
-use hdf5::{Dataset, File, Group, Location};
-use hdf5_sys::h5i::hid_t;
-use std::ffi::{CString, c_char, c_int, c_uint};
+use hdf5::{Dataset, File, Group};
+use lookup::labels::{attach_scale, set_scale, text};
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
@@ -318,17 +316,6 @@ fn write_attributes(file: &File, outcome: &Outcome) -> Result<(), hdf5::Error> {
     Ok(())
 }
 
-fn text(place: &Location, name: &str, value: &str) -> Result<(), hdf5::Error> {
-    let value: VarLenUnicode = value
-        .replace('\0', " ")
-        .parse()
-        .map_err(|_| hdf5::Error::from("a text holds a NUL"))?;
-    place
-        .new_attr::<VarLenUnicode>()
-        .create(name)?
-        .write_scalar(&value)
-}
-
 fn vector(
     group: &Group,
     described: &(&str, &str, &str),
@@ -363,36 +350,4 @@ fn matrix(
 fn describe(dataset: &Dataset, described: &(&str, &str, &str)) -> Result<(), hdf5::Error> {
     text(dataset, "units", described.1)?;
     text(dataset, "long_name", described.2)
-}
-
-/// Makes a dataset a dimension scale.
-fn set_scale(scale: &Dataset, name: &str) -> Result<(), hdf5::Error> {
-    let name = CString::new(name).map_err(|_| hdf5::Error::from("a scale's name holds a NUL"))?;
-    // SAFETY: both arguments outlive the call, the dataset is open, and the lock of the library is held.
-    #[allow(unsafe_code)]
-    let status = hdf5::sync::sync(|| unsafe { H5DSset_scale(scale.id(), name.as_ptr()) });
-    done(status, "H5DSset_scale failed")
-}
-
-/// Attaches a scale to a dimension of a dataset.
-fn attach_scale(data: &Dataset, scale: &Dataset, index: c_uint) -> Result<(), hdf5::Error> {
-    // SAFETY: both datasets are open and the lock of the library is held.
-    #[allow(unsafe_code)]
-    let status = hdf5::sync::sync(|| unsafe { H5DSattach_scale(data.id(), scale.id(), index) });
-    done(status, "H5DSattach_scale failed")
-}
-
-fn done(status: c_int, message: &str) -> Result<(), hdf5::Error> {
-    if status < 0 {
-        Err(hdf5::Error::from(message))
-    } else {
-        Ok(())
-    }
-}
-
-// SAFETY: the signatures of hdf5_hl.h, version 1.8 and later.
-#[allow(unsafe_code, non_snake_case)]
-unsafe extern "C" {
-    fn H5DSset_scale(dataset: hid_t, name: *const c_char) -> c_int;
-    fn H5DSattach_scale(dataset: hid_t, scale: hid_t, index: c_uint) -> c_int;
 }

@@ -4,10 +4,10 @@ use crate::content::{Content, FIELDS, Slice, centres};
 use crate::error::TableError;
 use crate::file::{self, Described};
 use crate::hash::{content_hash, settings_id};
-use crate::scales::{attach_scale, set_scale};
+use crate::labels::{attach_scale, set_scale, text};
 use crate::schema;
-use hdf5::types::{FixedAscii, VarLenUnicode};
-use hdf5::{Dataset, File, Group, H5Type, Location};
+use hdf5::types::FixedAscii;
+use hdf5::{Dataset, File, Group, H5Type};
 use std::path::Path;
 
 /// Compression level: higher ones gain a few per cent and cost several times the time.
@@ -141,16 +141,6 @@ fn write_attributes(file: &File, content: &Content) -> Result<(), hdf5::Error> {
         .shape([reached.len()])
         .create(schema::ACCURACY_REACHED)?
         .write(reached)
-}
-
-fn text(place: &Location, name: &str, value: &str) -> Result<(), hdf5::Error> {
-    let value: VarLenUnicode = value
-        .parse()
-        .map_err(|_| hdf5::Error::from("a text holds a NUL"))?;
-    place
-        .new_attr::<VarLenUnicode>()
-        .create(name)?
-        .write_scalar(&value)
 }
 
 fn make_scale<T: H5Type>(

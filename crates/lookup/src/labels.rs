@@ -1,11 +1,32 @@
-//! Dimension scales: the one piece of the HDF5 interface that no Rust crate offers.
+//! What labels HDF5 objects in every file of the workspace: text attributes and dimension scales.
+//!
+//! Dimension scales are the one piece of the HDF5 interface that no Rust crate offers.
 
-use hdf5::Dataset;
+use hdf5::types::VarLenUnicode;
+use hdf5::{Dataset, Location};
 use hdf5_sys::h5i::hid_t;
 use std::ffi::{CString, c_char, c_int, c_uint};
 
+/// Gives an object a text attribute; a NUL, which a file cannot hold, becomes a blank.
+///
+/// # Errors
+/// What the library says.
+pub fn text(place: &Location, name: &str, value: &str) -> Result<(), hdf5::Error> {
+    let value: VarLenUnicode = value
+        .replace('\0', " ")
+        .parse()
+        .map_err(|_| hdf5::Error::from("a text holds a NUL"))?;
+    place
+        .new_attr::<VarLenUnicode>()
+        .create(name)?
+        .write_scalar(&value)
+}
+
 /// Makes `scale` a dimension scale called `name`.
-pub(crate) fn set_scale(scale: &Dataset, name: &str) -> Result<(), hdf5::Error> {
+///
+/// # Errors
+/// What the library says, or a name that holds a NUL.
+pub fn set_scale(scale: &Dataset, name: &str) -> Result<(), hdf5::Error> {
     let name = CString::new(name).map_err(|_| hdf5::Error::from("a scale's name holds a NUL"))?;
     // SAFETY: both arguments outlive the call, the dataset is open, and the lock of the library is held.
     #[allow(unsafe_code)]
@@ -14,11 +35,10 @@ pub(crate) fn set_scale(scale: &Dataset, name: &str) -> Result<(), hdf5::Error> 
 }
 
 /// Attaches `scale` to dimension `index` of `data`.
-pub(crate) fn attach_scale(
-    data: &Dataset,
-    scale: &Dataset,
-    index: usize,
-) -> Result<(), hdf5::Error> {
+///
+/// # Errors
+/// What the library says.
+pub fn attach_scale(data: &Dataset, scale: &Dataset, index: usize) -> Result<(), hdf5::Error> {
     // SAFETY: both datasets are open and the lock of the library is held.
     #[allow(unsafe_code)]
     let status =
