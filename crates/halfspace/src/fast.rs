@@ -4,8 +4,12 @@ use crate::compact::{compact, passed};
 use crate::field::Field;
 use crate::fronts::{self, Point, Sense};
 use crate::kernel::{Kernel, Sum, fields};
-use crate::panels::{Landscape, Strength};
+use crate::panels::{Landscape, ROUNDING, Strength};
 use crate::spectrum::{self, Wave};
+use num_complex::Complex64;
+
+/// Slowness zero, where the argument of the potentials is infinite.
+const ORIGIN: Complex64 = Complex64::new(0.0, 0.0);
 
 impl Kernel {
     /// Adds one wave in one sense over 0 < x < 1.
@@ -20,7 +24,11 @@ impl Kernel {
         match sense {
             Sense::Outgoing if at.t >= self.last_fast(at, wave, limit) => {
                 if ORDER == 1 {
-                    sum.add(1.0, [0.0, self.passed[wave as usize], 0.0, 0.0, 0.0, 0.0]);
+                    sum.add(
+                        1.0,
+                        ROUNDING,
+                        [0.0, self.passed[wave as usize], 0.0, 0.0, 0.0, 0.0],
+                    );
                 } else if ORDER == 2 {
                     self.add_passed::<ORDER>(at, wave, (0.0, 1.0), sum);
                 }
@@ -29,7 +37,7 @@ impl Kernel {
             Sense::Image if at.t + at.z * self.vertical_at_one(wave) >= limit => return,
             Sense::Outgoing | Sense::Image => {}
         }
-        let mut landscape = Landscape::new(&self.fixed.fast_with_origin, self.strength::<ORDER>());
+        let mut landscape = Landscape::new(&self.fixed.fast, ORIGIN, self.strength::<ORDER>());
         fronts::add_fast(
             &mut landscape,
             at,
@@ -42,7 +50,7 @@ impl Kernel {
             let (x, p, _) = half_angle(0.5 * (interval.0 + interval.1));
             let eta = self.eta(at, wave, sense, x, p);
             if eta.abs() < limit {
-                landscape.visit(interval, self.digits(), &mut |u, weight| {
+                landscape.visit(interval, self.digits(), &mut |u, weight, share| {
                     let (x, p, jacobian) = half_angle(u);
                     let eta = self.eta(at, wave, sense, x, p);
                     let mut psi = compact::<ORDER>(self.profile(), eta, at.r);
@@ -58,7 +66,7 @@ impl Kernel {
                         psi = psi.map(|v| sense.sign() / x * v);
                     }
                     let amplitudes = spectrum::fast(wave, self.k, x, p);
-                    sum.add(weight * jacobian, fields(&amplitudes, &psi, at.r));
+                    sum.add(weight * jacobian, share, fields(&amplitudes, &psi, at.r));
                 });
             } else if ORDER >= 1 && eta < 0.0 {
                 self.add_passed::<ORDER>(at, wave, interval, sum);
@@ -87,14 +95,14 @@ impl Kernel {
         interval: (f64, f64),
         sum: &mut Sum,
     ) {
-        let landscape = Landscape::new(&self.fixed.fast, Strength::Integrable);
-        landscape.visit(interval, self.digits(), &mut |u, weight| {
+        let landscape = Landscape::new(&self.fixed.fast, Complex64::i(), Strength::Bounded);
+        landscape.visit(interval, self.digits(), &mut |u, weight, share| {
             let (x, p, jacobian) = half_angle(u);
             let eta = self.eta(at, wave, Sense::Outgoing, x, p);
             let step = if ORDER == 1 { -x } else { x * x };
             let psi = passed::<ORDER>(eta).map(|v| step * v);
             let amplitudes = spectrum::fast(wave, self.k, x, p);
-            sum.add(weight * jacobian, fields(&amplitudes, &psi, at.r));
+            sum.add(weight * jacobian, share, fields(&amplitudes, &psi, at.r));
         });
     }
 

@@ -54,10 +54,10 @@ impl Sense {
 pub(crate) struct FixedSingularities {
     /// In u, of the amplitudes alone.
     pub(crate) fast: Vec<Complex64>,
-    /// In u, with slowness zero, where the argument of the potentials is infinite.
-    pub(crate) fast_with_origin: Vec<Complex64>,
     /// In the stretched variable of the slow interval.
     pub(crate) slow: Vec<Complex64>,
+    /// In the same variable, infinite slowness.
+    pub(crate) slow_pole: Complex64,
     pub(crate) stretch: Stretch,
 }
 
@@ -167,12 +167,10 @@ impl FixedSingularities {
             points.sort_by(|a, b| a.re.total_cmp(&b.re));
             points.dedup_by(|b, a| (*b - *a).norm() < 1e-9);
         }
-        let mut fast_with_origin = fast.clone();
-        fast_with_origin.push(Complex64::default());
         let stretch = Stretch::farthest(&slow);
         Self {
             fast,
-            fast_with_origin,
+            slow_pole: stretch.variable(i),
             slow: slow.into_iter().map(|q| stretch.variable(q)).collect(),
             stretch,
         }

@@ -15,7 +15,7 @@ use crate::error::DomainError;
 use crate::field::{Estimate, Field, Six};
 use crate::fronts::{FixedSingularities, Point, Sense};
 use crate::medium::Medium;
-use crate::panels::Strength;
+use crate::panels::{ROUNDING, Strength};
 use crate::potential::{Potentials, potentials};
 use crate::profile::Profile;
 use crate::spectrum::{self, Amplitudes, Pole, Wave};
@@ -39,20 +39,21 @@ pub struct Kernel {
     pub(crate) passed: [f64; 2],
 }
 
-/// Running sum of six fields and of their absolute contributions.
+/// Running sum of six fields and of their likely errors.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Sum {
     pub(crate) value: Six,
-    pub(crate) size: Six,
+    pub(crate) error: Six,
 }
 
 impl Sum {
+    /// Adds a term whose error is a share of its size.
     #[inline]
-    pub(crate) fn add(&mut self, weight: f64, term: Six) {
-        for ((value, size), t) in self.value.iter_mut().zip(&mut self.size).zip(term) {
+    pub(crate) fn add(&mut self, weight: f64, share: f64, term: Six) {
+        for ((value, error), t) in self.value.iter_mut().zip(&mut self.error).zip(term) {
             let x = weight * t;
             *value += x;
-            *size += x.abs();
+            *error += share * x.abs();
         }
     }
 }
@@ -114,8 +115,8 @@ impl Kernel {
     pub fn remainder(&self, r: f64, z: f64, t: f64) -> Result<Estimate, DomainError> {
         self.check_place(r, z)?;
         check_time(t)?;
-        let rest = statics::static_field(&self.medium, self.profile, r, z);
         if t <= self.first_arrival(r, z) {
+            let rest = statics::static_field(&self.medium, self.profile, r, z);
             return Ok(Estimate {
                 value: rest.map(|s| -s),
                 error: rest.map(|s| f64::EPSILON * s.abs()),
@@ -215,14 +216,11 @@ impl Kernel {
             }
             self.slow::<ORDER>(at, wave, &mut spectrum);
         }
-        total.add(1.0 / PI, spectrum.value);
-        let error = std::array::from_fn(|f| {
-            self.tolerance * spectrum.size[f] / PI
-                + 4.0 * f64::EPSILON * (total.size[f] + spectrum.size[f])
-        });
+        total.add(1.0 / PI, 0.0, spectrum.value);
+        let floor = rounding_floor(at.r);
         Estimate {
             value: total.value,
-            error,
+            error: std::array::from_fn(|f| total.error[f] + spectrum.error[f] / PI + floor[f]),
         }
     }
 
@@ -241,16 +239,23 @@ impl Kernel {
             } else if ORDER < 0 {
                 psi = psi.map(|v| v * Complex64::new(0.0, c));
             }
-            sum.add(1.0, fields(&pole.amplitudes, &psi.map(|v| v.re), at.r));
+            sum.add(
+                1.0,
+                ROUNDING,
+                fields(&pole.amplitudes, &psi.map(|v| v.re), at.r),
+            );
         }
         sum
     }
 
-    /// The step response of stress to a point force has fronts of power -3/2.
+    /// The step response of stress to a point force has fronts of power -3/2, to a punch of power -1/2, and each
+    /// derivative takes one off.
     pub(crate) fn strength<const ORDER: i32>(&self) -> Strength {
         match self.profile {
-            Profile::Point if ORDER == 0 => Strength::FinitePart,
-            Profile::Hertz | Profile::Punch | Profile::Point => Strength::Integrable,
+            Profile::Point if ORDER <= 0 => Strength::FinitePart,
+            Profile::Hertz if ORDER >= 0 => Strength::Bounded,
+            Profile::Punch if ORDER >= 1 => Strength::Bounded,
+            Profile::Hertz | Profile::Punch | Profile::Point => Strength::InverseRoot,
         }
     }
 
@@ -261,6 +266,13 @@ impl Kernel {
         const MARGIN: f64 = 0.1;
         -(MARGIN * self.tolerance).ln()
     }
+}
+
+/// Rounding errors of what cancels within the potentials, whose terms grow with the radius.
+fn rounding_floor(r: f64) -> Six {
+    let displacement = 0.25 * f64::EPSILON * (8.0 + r * r);
+    let stress = 0.25 * f64::EPSILON * (8.0 + r);
+    [displacement, displacement, stress, stress, stress, stress]
 }
 
 /// Lengths and times up to here: their powers stay in the range of a double.

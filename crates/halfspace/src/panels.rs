@@ -23,6 +23,15 @@ const SQUARE: i32 = 2;
 /// Power toward a cut where singularities meet.
 const HIGH: i32 = 6;
 
+/// The error of a rule over what the nearest singularity alone would leave, rho^(-2n): many meet near a front.
+const CAUTION: f64 = 130.0;
+
+/// The same of a pole of third order over a simple one.
+const POLE: f64 = 30.0;
+
+/// Rounding error of a term as a share of it.
+pub(crate) const ROUNDING: f64 = 4.0 * f64::EPSILON;
+
 /// Cuts closer than this are one.
 const SAME: f64 = 1e-13;
 
@@ -31,14 +40,24 @@ const SAME: f64 = 1e-13;
 pub(crate) struct Landscape {
     cuts: List<f64>,
     singularities: List<Complex64>,
+    /// Where the integrand grows as a pole of high order.
+    pole: Complex64,
     strength: Strength,
+}
+
+/// What a rule has to keep away from, in its own variable.
+struct Images {
+    all: List<Complex64>,
+    pole: Complex64,
 }
 
 /// How strong the singularities at the cuts are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Strength {
-    /// Integrable: down to the inverse square root.
-    Integrable,
+    /// The integrand stays finite.
+    Bounded,
+    /// The inverse square root.
+    InverseRoot,
     /// The power -3/2, taken as Hadamard's finite part.
     FinitePart,
 }
@@ -73,11 +92,12 @@ impl<T: Copy + Default> List<T> {
 }
 
 impl Landscape {
-    /// An interval with nothing but the given singularities, none of them on it.
-    pub(crate) fn new(fixed: &[Complex64], strength: Strength) -> Self {
+    /// An interval with nothing but a pole and the given singularities, none of them on it.
+    pub(crate) fn new(fixed: &[Complex64], pole: Complex64, strength: Strength) -> Self {
         let mut landscape = Self {
             cuts: List::new(),
             singularities: List::new(),
+            pole,
             strength,
         };
         for &point in fixed {
@@ -127,8 +147,14 @@ impl Landscape {
         (0..last).map(move |i| (ends[i], ends[i + 1]))
     }
 
-    /// Visits nodes (v, weight) of a rule on one interval, accurate to exp(-`digits`) of the size of the integrand.
-    pub(crate) fn visit(&self, (from, to): (f64, f64), digits: f64, f: &mut impl FnMut(f64, f64)) {
+    /// Visits nodes (v, weight, share) of a rule on one interval, accurate to exp(-`digits`) of the size of
+    /// the integrand; the share of its size is the likely error of a term.
+    pub(crate) fn visit(
+        &self,
+        (from, to): (f64, f64),
+        digits: f64,
+        f: &mut impl FnMut(f64, f64, f64),
+    ) {
         match (self.power(from), self.power(to)) {
             (None, None) => {
                 let images = self.images(|_| false, |v| (v - from) / (to - from));
@@ -136,9 +162,9 @@ impl Landscape {
                     &images,
                     digits,
                     3.0,
-                    Strength::Integrable,
-                    &mut |s, weight| {
-                        f(from + (to - from) * s, weight * (to - from));
+                    Strength::Bounded,
+                    &mut |s, weight, share| {
+                        f(from + (to - from) * s, weight * (to - from), share);
                     },
                 );
             }
@@ -169,11 +195,12 @@ impl Landscape {
         end: f64,
         power: i32,
         digits: f64,
-        f: &mut impl FnMut(f64, f64),
+        f: &mut impl FnMut(f64, f64, f64),
     ) {
         let scale = end - cut;
         // the singularity of the cut itself is what the power is for
-        let own = |v: Complex64| (v - cut).norm() <= SAME * scale.abs();
+        let reach = (SAME * scale).powi(2);
+        let own = |v: Complex64| (v - cut).norm_sqr() <= reach;
         let images = self.images(own, |v| {
             let distance = (v - cut) / scale;
             if power == SQUARE {
@@ -184,15 +211,22 @@ impl Landscape {
         });
         // A power of a logarithm is left at s = 0: Gauss's rule gains 2 power digits a doubling there.
         let least = if power == SQUARE { 3.0 } else { 0.7 * digits };
-        panels(&images, digits, least, self.strength, &mut |s, weight| {
-            let v = cut + scale * s.powi(power);
-            if v != cut {
-                f(
-                    v,
-                    weight * scale.abs() * f64::from(power) * s.powi(power - 1),
-                );
-            }
-        });
+        panels(
+            &images,
+            digits,
+            least,
+            self.strength,
+            &mut |s, weight, share| {
+                let v = cut + scale * s.powi(power);
+                if v != cut {
+                    f(
+                        v,
+                        weight * scale.abs() * f64::from(power) * s.powi(power - 1),
+                        share,
+                    );
+                }
+            },
+        );
     }
 
     /// Singularities in another variable, but for those that `drop` names.
@@ -200,16 +234,19 @@ impl Landscape {
         &self,
         drop: impl Fn(Complex64) -> bool,
         to_variable: impl Fn(Complex64) -> Complex64,
-    ) -> List<Complex64> {
-        let mut images = List::new();
+    ) -> Images {
+        let mut all = List::new();
         let cuts = self.cuts.as_slice().iter().map(|&c| Complex64::new(c, 0.0));
         let others = self.singularities.as_slice().iter().copied();
         for point in cuts.chain(others) {
             if !drop(point) {
-                images.push(to_variable(point));
+                all.push(to_variable(point));
             }
         }
-        images
+        Images {
+            all,
+            pole: to_variable(self.pole),
+        }
     }
 }
 
@@ -227,22 +264,24 @@ pub(crate) fn root(v: Complex64) -> Complex64 {
 
 /// Visits Gauss nodes, at least so many a panel, on panels of [0, 1] that keep clear of the singularities.
 fn panels(
-    images: &List<Complex64>,
+    images: &Images,
     digits: f64,
     least: f64,
     strength: Strength,
-    f: &mut impl FnMut(f64, f64),
+    f: &mut impl FnMut(f64, f64, f64),
 ) {
     let mut stack = [(0.0, 1.0); 64];
     let mut depth = 1;
     while depth > 0 {
         depth -= 1;
         let (s0, s1) = stack[depth];
-        let ellipse = smallest_ellipse(images.as_slice(), s0, s1);
+        let rate = smallest_ellipse(images.all.as_slice(), s0, s1).ln();
+        let pole_rate = half_axes(axis(images.pole, s0, s1)).ln();
         let at_cut = s0 == 0.0 && strength == Strength::FinitePart;
         // Gauss's rule has twice the degree of one that only interpolates.
         let degree = if at_cut { 1.0 } else { 2.0 };
-        let nodes = (digits / (degree * ellipse.ln())).ceil() + 1.0;
+        let least_nodes = (digits / rate).max((digits + POLE.ln()) / pole_rate);
+        let nodes = (least_nodes / degree).ceil() + 1.0;
         if nodes > MOST_NODES && s1 - s0 > NARROWEST {
             let middle = 0.5 * (s0 + s1);
             stack[depth] = (middle, s1);
@@ -250,15 +289,18 @@ fn panels(
             depth += 2;
             continue;
         }
-        let n = nodes.max(least).min(MOST_NODES) as usize;
+        let n = nodes.max(least).min(MOST_NODES);
+        let left = |rate: f64| (-degree * n * rate).exp();
+        let share = CAUTION * (left(rate) + POLE * left(pole_rate)) + ROUNDING;
+        let n = n as usize;
         if at_cut {
             let rule = gauss::finite_part_rule(n);
             for (s, weight) in rule.nodes.iter().zip(&rule.weights) {
-                f(s1 * s, s1 * weight);
+                f(s1 * s, s1 * weight, share);
             }
         } else {
             for (s, weight) in gauss::rule(n).on(s0, s1) {
-                f(s, weight);
+                f(s, weight, share);
             }
         }
     }
@@ -266,16 +308,24 @@ fn panels(
 
 /// Sum of half axes of the smallest ellipse with foci s0, s1 through a singularity, focal distance 2.
 pub(crate) fn smallest_ellipse(images: &[Complex64], s0: f64, s1: f64) -> f64 {
-    let (middle, inverse) = (0.5 * (s0 + s1), 2.0 / (s1 - s0));
     // what was left out as too far to matter
-    let mut least = 7.0_f64;
-    for image in images {
-        let (x, y) = ((image.re - middle) * inverse, image.im * inverse);
-        let (square, twice) = (x * x + y * y + 1.0, 2.0 * x);
-        let sum = (square - twice).max(0.0).sqrt() + (square + twice).max(0.0).sqrt();
-        least = least.min(sum);
-    }
-    let half = 0.5 * least.max(2.0);
+    const FARTHEST: f64 = 7.0;
+    let axes = images.iter().map(|&image| axis(image, s0, s1));
+    half_axes(axes.fold(FARTHEST, f64::min))
+}
+
+/// Major axis of the ellipse with foci s0, s1 through a point, focal distance 2.
+#[inline]
+fn axis(point: Complex64, s0: f64, s1: f64) -> f64 {
+    let (middle, inverse) = (0.5 * (s0 + s1), 2.0 / (s1 - s0));
+    let (x, y) = ((point.re - middle) * inverse, point.im * inverse);
+    let (square, twice) = (x * x + y * y + 1.0, 2.0 * x);
+    (square - twice).max(0.0).sqrt() + (square + twice).max(0.0).sqrt()
+}
+
+/// Sum of half axes from the major axis.
+fn half_axes(axis: f64) -> f64 {
+    let half = 0.5 * axis.max(2.0);
     half + (half * half - 1.0).sqrt().max(1e-9)
 }
 
@@ -283,11 +333,13 @@ pub(crate) fn smallest_ellipse(images: &[Complex64], s0: f64, s1: f64) -> f64 {
 mod tests {
     use super::*;
 
+    const NOWHERE: Complex64 = Complex64::new(1e99, 0.0);
+
     fn integral(singularity: Complex64, f: impl Fn(f64) -> f64) -> (f64, usize) {
-        let mut landscape = Landscape::new(&[singularity], Strength::Integrable);
+        let mut landscape = Landscape::new(&[singularity], NOWHERE, Strength::Bounded);
         let (mut sum, mut count) = (0.0, 0);
         for interval in landscape.intervals() {
-            landscape.visit(interval, 28.0, &mut |v, w| {
+            landscape.visit(interval, 28.0, &mut |v, w, _| {
                 sum += w * f(v);
                 count += 1;
             });
@@ -305,10 +357,12 @@ mod tests {
 
     #[test]
     fn logarithms_at_double_cuts_are_integrated() {
-        let mut landscape = Landscape::new(&[0.3.into(), 0.3.into()], Strength::Integrable);
+        let mut landscape = Landscape::new(&[0.3.into(), 0.3.into()], NOWHERE, Strength::Bounded);
         let mut sum = 0.0;
         for interval in landscape.intervals() {
-            landscape.visit(interval, 28.0, &mut |v, w| sum += w * (v - 0.3).abs().ln());
+            landscape.visit(interval, 28.0, &mut |v, w, _| {
+                sum += w * (v - 0.3).abs().ln()
+            });
         }
         let exact = 0.3 * 0.3_f64.ln() + 0.7 * 0.7_f64.ln() - 1.0;
         assert!((sum - exact).abs() < 1e-12, "{sum} {exact}");

@@ -54,7 +54,7 @@ pub(crate) fn potentials<const ORDER: i32>(
         return end_orders::<ORDER>(xi, r).map(|v| v / (2.0 * PI));
     }
     /// Below this radius the primitives, which are divided by r^2, lose digits.
-    const SMALL_RADIUS: f64 = 0.05;
+    const SMALL_RADIUS: f64 = 0.15;
     // Farther out the closed forms lose digits, those of the time integral sooner.
     let nearest = if ORDER == 0 && r > 0.3 { 10.0 } else { 7.0 };
     match multipole::terms(xi, r, nearest) {

@@ -21,7 +21,11 @@ impl Kernel {
     /// Adds both senses of one wave over 1 < x < 1/kappa.
     pub(crate) fn slow<const ORDER: i32>(&self, at: Point, wave: Wave, sum: &mut Sum) {
         let span = (self.k - 1.0).sqrt();
-        let mut landscape = Landscape::new(&self.fixed.slow, self.strength::<ORDER>());
+        let mut landscape = Landscape::new(
+            &self.fixed.slow,
+            self.fixed.slow_pole,
+            self.strength::<ORDER>(),
+        );
         let stretch = &self.fixed.stretch;
         fronts::add_slow(
             &mut landscape,
@@ -32,7 +36,7 @@ impl Kernel {
             wave,
         );
         for interval in landscape.intervals() {
-            landscape.visit(interval, self.digits(), &mut |s, weight| {
+            landscape.visit(interval, self.digits(), &mut |s, weight, share| {
                 let (q, dq) = stretch.half_angle(s);
                 let inverse = 1.0 / (1.0 + q * q);
                 let p_abs = span * 2.0 * q * inverse;
@@ -53,7 +57,7 @@ impl Kernel {
                 let amplitudes = spectrum::slow(wave, self.k, x, p_abs, y);
                 // dx = p^ dp^/x, dp^ = 2 y/(1 + q^2) dq
                 let jacobian = p_abs * 2.0 * y * inverse / x * dq;
-                sum.add(weight * jacobian, fields(&amplitudes, &psi, at.r));
+                sum.add(weight * jacobian, share, fields(&amplitudes, &psi, at.r));
             });
         }
     }
