@@ -361,7 +361,7 @@ mod tests {
         let mut sum = 0.0;
         for interval in landscape.intervals() {
             landscape.visit(interval, 28.0, &mut |v, w, _| {
-                sum += w * (v - 0.3).abs().ln()
+                sum += w * (v - 0.3).abs().ln();
             });
         }
         let exact = 0.3 * 0.3_f64.ln() + 0.7 * 0.7_f64.ln() - 1.0;
