@@ -118,11 +118,10 @@ impl Landscape {
         if !(clear < FAR && point.im.abs() < FAR) {
             return;
         }
-        let inside = point.re > 0.0 && point.re < 1.0;
-        if inside && point.im.abs() < CLOSE {
-            self.cuts.push(point.re);
+        if clear < CLOSE && point.im.abs() < CLOSE {
+            self.cuts.push(point.re.clamp(0.0, 1.0));
         }
-        if !inside || point.im != 0.0 {
+        if clear > SAME || point.im != 0.0 {
             self.singularities
                 .push(Complex64::new(point.re, point.im.abs()));
         }
