@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""Write tests/reference/point_load.csv: the step response of a half-space to a point force, by the package pygrt-kit.
+"""Write point_load.csv: the step response of a half-space to a point force, by the package pygrt-kit.
 
-    python scripts/compare_point_load.py            print the rows
-    python scripts/compare_point_load.py --write    write the file
+    python point_load.py            print the rows
+    python point_load.py --write    write the file
 
-Needs pygrt-kit and NumPy: `pip install pygrt-kit==0.18.0 numpy`.
+Needs what scripts/requirements/compare-kernels.txt lists.
 The package evaluates the generalised closed form of Zhang and Feng; lamb1 has source and receiver on the surface,
 lamb2 has the receiver below it.
-Units and signs are those of tests/reference/point_load.md.
+Units and signs are those of point_load.md.
 """
 
 import argparse
@@ -17,7 +17,7 @@ from pathlib import Path
 import numpy as np
 from pygrt.utils import lamb1, lamb2
 
-CSV = Path(__file__).resolve().parent.parent / "tests" / "reference" / "point_load.csv"
+CSV = Path(__file__).with_name("point_load.csv")
 HEADER = "nu,r,z,t,u,w,srr,stt,szz,srz,function"
 RATIOS = [0.05, 0.15, 0.2, 0.25, 0.3, 1 / 3, 0.4, 0.45]
 STEP = 1e-3  # of c2 t/distance: the package takes its slopes by differences in time, of second order
