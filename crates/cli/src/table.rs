@@ -122,7 +122,7 @@ fn info(path: &Path, json: bool) -> Result<(), Failure> {
         z_nodes: content.z.len(),
         r_max: table.r_max(),
         z_max: table.z_max(),
-        cell_width: table.cell_width(),
+        cell_width: content.cell_width,
         cells: content.slices.iter().map(|slice| slice.cells).collect(),
         stencil_points: content.stencil_points,
         accuracy_asked: origin.accuracy_asked,

@@ -152,6 +152,7 @@ pub(crate) fn failure(error: BuildError) -> Failure {
     match error {
         BuildError::Setting { .. }
         | BuildError::GridFile { .. }
+        | BuildError::Settings { .. }
         | BuildError::Exists { .. }
         | BuildError::Busy { .. }
         | BuildError::OtherSettings { .. }

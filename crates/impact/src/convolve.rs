@@ -120,11 +120,12 @@ impl KernelSource {
     /// Step in r0/c1 not longer than `wanted`, unless the table has none so short; and its coarsening.
     ///
     /// Powers of two also without a table, so that both sources give the same samples.
-    pub(crate) fn step(&self, wanted: f64) -> (f64, u32) {
+    pub(crate) fn step(&self, poisson_ratio: f64, wanted: f64) -> (f64, u32) {
         match self {
             Self::Direct(_) => (wanted.log2().floor().exp2(), 0),
             Self::Table(table) => {
-                let cell = table.cell_width();
+                // A medium was made of this ratio, so that the width exists.
+                let cell = table.cell_width(poisson_ratio).unwrap_or(wanted);
                 let coarsening = (wanted / cell).log2().floor().clamp(0.0, 20.0) as u32;
                 (cell * f64::from(1_u32 << coarsening), coarsening)
             }

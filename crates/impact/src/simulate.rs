@@ -539,7 +539,8 @@ impl Grid {
         let wanted_s = scene.contact.step_s.unwrap_or(pulse_s / samples);
         let (step_s, coarsening) = match source {
             Some(source) => {
-                let (step, coarsening) = source.step(wanted_s / units.time_s());
+                let (step, coarsening) =
+                    source.step(medium.poisson_ratio(), wanted_s / units.time_s());
                 (step * units.time_s(), coarsening)
             }
             None => (wanted_s, 0),

@@ -1,26 +1,60 @@
 //! The error estimate of a looked-up response, from errors measured off the grid.
 
-use crate::content::FIELDS;
+use crate::content::{Content, FIELDS, Role, Verification};
 use crate::error::LookupError;
-use crate::stencil::locate;
+use crate::ratio::ratio_coordinate;
 use crate::table::Table;
 use halfspace::Six;
+use std::ops::Range;
 
 /// Factor from the error measured at the centre of a mesh to the estimate for every point of it.
 ///
 /// The Lagrange error is largest near the centre, but not exactly there, and near the disc edge and where
 /// sharp fronts pass it varies within a mesh.
-pub const SAFETY: f64 = 3.5;
+pub const SAFETY: f64 = 2.3;
+
+/// Factor from the error measured in the middle between two slices, at places farther apart than the nodes.
+pub const SAFETY_BETWEEN: f64 = 2.3;
 
 /// Estimates never go below this share of the peak of a field: the rounding of stored values.
 const ROUNDING: f64 = 6e-8;
+
+/// Where errors were measured: a grid of places for one set of numbers.
+struct Measured<'a> {
+    content: &'a Content,
+    probes: &'a Verification,
+    depths: usize,
+}
+
+impl Measured<'_> {
+    /// The largest error of a field among the places `across` by `down`, for the pulse of index `pulse`.
+    fn most(&self, across: &Range<usize>, down: &Range<usize>, pulse: usize, field: usize) -> f64 {
+        let mut most = 0.0_f64;
+        for i in across.clone() {
+            for k in down.clone() {
+                most = most.max(f64::from(self.probes.error[self.at(i, k, pulse, field)]));
+            }
+        }
+        most
+    }
+
+    fn peak(&self, i: usize, k: usize, pulse: usize, field: usize) -> f64 {
+        f64::from(self.probes.direct[self.at(i, k, pulse, field)]).abs()
+    }
+
+    fn at(&self, i: usize, k: usize, pulse: usize, field: usize) -> usize {
+        ((i * self.depths + k) * self.content.pulse_lengths.len() + pulse) * FIELDS + field
+    }
+}
 
 impl Table {
     /// Estimated absolute error of each field, for a force of unit peak and length `pulse_length`.
     ///
     /// The largest of the errors measured at the centres of the mesh that holds the point and of its
-    /// neighbours, times [`SAFETY`], interpolated in the length of the pulse; pulses longer or shorter than any measured take the
-    /// value of the nearest one. Units as the fields.
+    /// neighbours, times [`SAFETY`]; between slices the larger of the two beside and, times
+    /// [`SAFETY_BETWEEN`], what was measured in the middle between them, in proportion to the node
+    /// polynomial. Interpolated in the length of the pulse; pulses longer or shorter than any measured take
+    /// the value of the nearest one. Units as the fields.
     ///
     /// # Errors
     /// [`LookupError`] outside the table or for a length that is not positive.
@@ -37,45 +71,110 @@ impl Table {
             });
         }
         let content = self.content();
-        let mesh = locate(&content.r, r).zip(locate(&content.z, z));
-        let (i, j) = mesh.ok_or_else(|| self.outside(r, z))?;
+        let mesh = self.mesh(r, z)?;
+        let slices = self.slice_weights(poisson_ratio)?;
         let (lower, share) = bracket(&content.pulse_lengths, pulse_length);
-        let mut error = [0.0; FIELDS];
-        for (index, weight) in self.slice_weights(poisson_ratio)? {
-            let probes = &content.slices[index].verification;
-            let (across, down) = (
-                around(i, content.r.len() - 1),
-                around(j, content.z.len() - 1),
-            );
-            let at = |i: usize, j: usize, pulse: usize, field: usize| {
-                ((i * (content.z.len() - 1) + j) * content.pulse_lengths.len() + pulse) * FIELDS
-                    + field
+        let upper = (lower + 1).min(content.pulse_lengths.len() - 1);
+        let (short, long) = (
+            self.measured(poisson_ratio, [r, z], mesh, &slices, lower)?,
+            self.measured(poisson_ratio, [r, z], mesh, &slices, upper)?,
+        );
+        Ok(std::array::from_fn(|f| {
+            short[f].powf(1.0 - share) * long[f].powf(share)
+        }))
+    }
+
+    /// The estimate for one of the pulses that were measured.
+    fn measured(
+        &self,
+        poisson_ratio: f64,
+        point: [f64; 2],
+        mesh: (usize, usize),
+        slices: &[(usize, f64)],
+        pulse: usize,
+    ) -> Result<Six, LookupError> {
+        let content = self.content();
+        let mut error = [1e-12_f64; FIELDS];
+        let [columns, rows] = self.meshes();
+        let (across, down) = (around(mesh.0, columns), around(mesh.1, rows));
+        for index in beside(content, poisson_ratio, slices) {
+            let measured = Measured {
+                content,
+                probes: &content.slices[index].verification,
+                depths: rows,
             };
-            for (field, sum) in error.iter_mut().enumerate() {
-                let measured = |pulse: usize| {
-                    let mut most = 0.0_f64;
-                    for k in across.clone() {
-                        for l in down.clone() {
-                            most = most.max(f64::from(probes.error[at(k, l, pulse, field)]));
-                        }
-                    }
-                    let floor = ROUNDING * f64::from(probes.direct[at(i, j, pulse, field)]).abs();
-                    (SAFETY * most).max(floor).max(1e-12)
-                };
-                let (short, long) = (
-                    measured(lower),
-                    measured((lower + 1).min(content.pulse_lengths.len() - 1)),
-                );
-                *sum += weight.abs() * short.powf(1.0 - share) * long.powf(share);
+            for (field, value) in error.iter_mut().enumerate() {
+                let most = SAFETY * measured.most(&across, &down, pulse, field);
+                let rounding = ROUNDING * measured.peak(mesh.0, mesh.1, pulse, field);
+                *value = value.max(most).max(rounding);
             }
+        }
+        if slices.len() > 1 {
+            self.add_between(poisson_ratio, point, slices, pulse, &mut error)?;
         }
         Ok(error)
     }
+
+    fn add_between(
+        &self,
+        poisson_ratio: f64,
+        [r, z]: [f64; 2],
+        slices: &[(usize, f64)],
+        pulse: usize,
+        error: &mut Six,
+    ) -> Result<(), LookupError> {
+        let content = self.content();
+        let Some(between) = self.between(poisson_ratio) else {
+            // Nothing was measured here, so nothing is known.
+            *error = [f64::INFINITY; FIELDS];
+            return Ok(());
+        };
+        let polynomial = |ratio: f64| -> Result<f64, LookupError> {
+            let place = ratio_coordinate(ratio)?;
+            let mut product = 1.0;
+            for &(index, _) in slices {
+                product *= place - ratio_coordinate(content.slices[index].poisson_ratio)?;
+            }
+            Ok(product.abs())
+        };
+        let share = polynomial(poisson_ratio)? / polynomial(between.poisson_ratio)?;
+        let measured = Measured {
+            content,
+            probes: &between.verification,
+            depths: content.between_z.len(),
+        };
+        let (across, down) = (
+            corners(&content.between_r, r),
+            corners(&content.between_z, z),
+        );
+        for (field, value) in error.iter_mut().enumerate() {
+            *value += SAFETY_BETWEEN * share * measured.most(&across, &down, pulse, field);
+        }
+        Ok(())
+    }
+}
+
+/// The tabulated slice itself, or the two of the grid beside a ratio.
+fn beside(content: &Content, poisson_ratio: f64, slices: &[(usize, f64)]) -> Vec<usize> {
+    if let [(index, _)] = slices {
+        return vec![*index];
+    }
+    let grid = |index: &usize| content.slices[*index].role == Role::Grid;
+    let above = |index: &usize| content.slices[*index].poisson_ratio > poisson_ratio;
+    let all = || (0..content.slices.len()).filter(grid);
+    let low = all().rfind(|index| !above(index));
+    low.into_iter().chain(all().find(above)).collect()
 }
 
 /// A mesh and its neighbours, of `count` meshes.
-fn around(index: usize, count: usize) -> std::ops::Range<usize> {
+fn around(index: usize, count: usize) -> Range<usize> {
     index.saturating_sub(1)..(index + 2).min(count)
+}
+
+/// The places on both sides of `x`; the nearest one beyond the first or last.
+fn corners(places: &[f64], x: f64) -> Range<usize> {
+    let above = places.partition_point(|&place| place < x);
+    above.saturating_sub(1)..(above + 1).min(places.len())
 }
 
 /// Position of `length` among the measured lengths: index below and share of the one above, in logarithms.

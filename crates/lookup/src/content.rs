@@ -8,11 +8,16 @@ pub(crate) const FIELDS: usize = 6;
 pub struct Content {
     /// Where the numbers come from.
     pub origin: Origin,
-    /// Radial nodes from 0, ascending, in r0.
+    /// Radial nodes from 0, ascending, in r0, a few of them beyond `r_max` for the stencils there.
     pub r: Vec<f64>,
-    /// Depth nodes from 0, ascending, in r0.
+    /// Depth nodes from 0, ascending, in r0, a few of them beyond `z_max`.
     pub z: Vec<f64>,
-    /// Width of a time cell in r0/c1.
+    /// Largest radius served, a node.
+    pub r_max: f64,
+    /// Largest depth served, a node.
+    pub z_max: f64,
+    /// Width of a time cell in r0/c1 at nu = 0.3; that of a slice is in proportion to its Rayleigh slowness,
+    /// see [`crate::cell_scale`].
     pub cell_width: f64,
     /// Interpolation points along each axis.
     pub stencil_points: usize,
@@ -20,6 +25,12 @@ pub struct Content {
     pub pulse_lengths: Vec<f64>,
     /// One entry for each Poisson ratio, ascending.
     pub slices: Vec<Slice>,
+    /// Radii of the probes between slices in r0.
+    pub between_r: Vec<f64>,
+    /// Depths of the probes between slices in r0.
+    pub between_z: Vec<f64>,
+    /// One entry for each interval between adjacent slices, ascending; may be empty.
+    pub between: Vec<Between>,
 }
 
 /// Who made a table, with which settings.
@@ -39,24 +50,65 @@ pub struct Origin {
     pub accuracy_reached: Vec<f64>,
 }
 
+/// Whom a slice serves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Role {
+    /// Its own ratio and, with its neighbours, those between them.
+    Grid,
+    /// Its own ratio alone.
+    Exact,
+}
+
+impl Role {
+    /// The name in the file.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Grid => "grid",
+            Self::Exact => "exact",
+        }
+    }
+
+    pub(crate) fn from_name(name: &str) -> Option<Self> {
+        [Self::Grid, Self::Exact]
+            .into_iter()
+            .find(|role| role.name() == name)
+    }
+}
+
 /// The kernels of one Poisson ratio.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Slice {
     /// Poisson's ratio.
     pub poisson_ratio: f64,
+    /// Whom the slice serves.
+    pub role: Role,
     /// Number of time cells; the first starts at 0.
     pub cells: usize,
     /// Averages of R over the cells, shape (r, z, field, time).
     pub remainder: Vec<f32>,
     /// First moments (1/width^2) int R (t - t_mid) dt of the cells, shape (r, z, field, time).
     pub moment: Vec<f32>,
+    /// Second moments (1/width^3) int R ((t - t_mid)^2 - width^2/12) dt of the cells, shape (r, z, field, time).
+    pub curvature: Vec<f32>,
     /// Coefficients of the tail, shape (r, z, field, term); see [`crate::Tail`].
     pub tail: Vec<f32>,
     /// What was measured off the grid.
     pub verification: Verification,
 }
 
-/// Exact and looked-up responses at the centres of the grid's meshes, shape (r - 1, z - 1, pulse, field).
+/// What was measured in the middle between two slices.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Between {
+    /// Poisson's ratio of the probes.
+    pub poisson_ratio: f64,
+    /// Measured at [`Content::between_r`] and [`Content::between_z`], shape (r, z, pulse, field).
+    pub verification: Verification,
+}
+
+/// Exact and looked-up responses at probes, shape (r, z, pulse, field).
+///
+/// The probes of a slice are the centres of the grid's meshes.
 ///
 /// The force is sin^4(pi t/T) on [0, T] with unit peak.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -70,12 +122,6 @@ pub struct Verification {
 }
 
 impl Slice {
-    /// End of the last cell.
-    #[must_use]
-    pub fn time_end(&self, cell_width: f64) -> f64 {
-        self.cells as f64 * cell_width
-    }
-
     /// Number of coefficients of a tail, given the number of nodes of the grid.
     #[must_use]
     pub fn tail_terms(&self, nodes: usize) -> usize {
@@ -83,10 +129,20 @@ impl Slice {
     }
 }
 
-/// Centres of the intervals of an axis: where the verification probes lie.
-pub(crate) fn centres(nodes: &[f64]) -> Vec<f64> {
+impl Content {
+    /// Radii and depths of the probes of a slice: centres of the meshes that are served.
+    #[must_use]
+    pub fn probes(&self) -> [Vec<f64>; 2] {
+        [centres(&self.r, self.r_max), centres(&self.z, self.z_max)]
+    }
+}
+
+/// Centres of the intervals between `nodes` up to `max`.
+#[must_use]
+pub fn centres(nodes: &[f64], max: f64) -> Vec<f64> {
     nodes
         .windows(2)
+        .filter(|pair| pair[1] <= max)
         .map(|pair| 0.5 * (pair[0] + pair[1]))
         .collect()
 }

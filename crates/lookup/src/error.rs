@@ -115,6 +115,18 @@ pub enum LookupError {
         /// Largest value allowed.
         max: u32,
     },
+    /// The slices for the results of a batch do not fit the points.
+    #[error(
+        "{points} points with memory for {infos} results and {cells} cells: needed as many results as points and a multiple of cells"
+    )]
+    Lengths {
+        /// Points asked for.
+        points: usize,
+        /// Places for their results.
+        infos: usize,
+        /// Places for all their cells.
+        cells: usize,
+    },
     /// The pulse of an error estimate has no length.
     #[error("pulse_length = {value} is outside (0, inf)")]
     PulseLength {

@@ -48,6 +48,18 @@ pub(crate) const FIELD: Described = Described {
     units: "1",
     long_name: "name of the field",
 };
+/// Root scales.
+pub(crate) const BETWEEN_R: Described = Described {
+    name: schema::BETWEEN_R,
+    units: "r0",
+    long_name: "distance of the probes between slices from the axis",
+};
+/// Root scales.
+pub(crate) const BETWEEN_Z: Described = Described {
+    name: schema::BETWEEN_Z,
+    units: "r0",
+    long_name: "depth of the probes between slices",
+};
 /// Slice scale.
 pub(crate) const TIME: Described = Described {
     name: schema::TIME,
@@ -65,6 +77,12 @@ pub(crate) const MOMENT: Described = Described {
     name: schema::MOMENT,
     units: FIELD_UNITS,
     long_name: "first moment of the remainder about the centre of the time cell, divided by the squared cell width",
+};
+/// Slice data.
+pub(crate) const CURVATURE: Described = Described {
+    name: schema::CURVATURE,
+    units: FIELD_UNITS,
+    long_name: "second moment of the remainder about the centre of the time cell less 1/12 of the average, divided by the cubed cell width",
 };
 /// Slice data.
 pub(crate) const TAIL: Described = Described {

@@ -1,6 +1,6 @@
 //! Identity of the settings and checksum of the content.
 
-use crate::content::Content;
+use crate::content::{Content, Verification};
 use crate::schema;
 use sha2::{Digest, Sha256};
 use std::fmt::Write;
@@ -28,12 +28,16 @@ pub fn content_hash(content: &Content) -> String {
     hash.update(content.origin.grid.as_bytes());
     hash.update(content.origin.accuracy_asked.to_le_bytes());
     hash.update(content.cell_width.to_le_bytes());
+    hash.update(content.r_max.to_le_bytes());
+    hash.update(content.z_max.to_le_bytes());
     hash.update((content.stencil_points as u64).to_le_bytes());
     for axis in [
         &content.origin.accuracy_reached,
         &content.r,
         &content.z,
         &content.pulse_lengths,
+        &content.between_r,
+        &content.between_z,
     ] {
         hash.update((axis.len() as u64).to_le_bytes());
         for value in axis {
@@ -42,26 +46,39 @@ pub fn content_hash(content: &Content) -> String {
     }
     for slice in &content.slices {
         hash.update(slice.poisson_ratio.to_le_bytes());
+        hash.update(slice.role.name().as_bytes());
         hash.update((slice.cells as u64).to_le_bytes());
-        let probes = &slice.verification;
         for array in [
             &slice.remainder,
             &slice.moment,
+            &slice.curvature,
             &slice.tail,
-            &probes.direct,
-            &probes.looked_up,
-            &probes.error,
         ] {
-            hash.update((array.len() as u64).to_le_bytes());
-            let mut bytes = Vec::with_capacity(1 << 16);
-            for chunk in array.chunks(1 << 14) {
-                bytes.clear();
-                bytes.extend(chunk.iter().flat_map(|value| value.to_le_bytes()));
-                hash.update(&bytes);
-            }
+            add_array(&mut hash, array);
         }
+        add_verification(&mut hash, &slice.verification);
+    }
+    for between in &content.between {
+        hash.update(between.poisson_ratio.to_le_bytes());
+        add_verification(&mut hash, &between.verification);
     }
     hex(&hash.finalize())
+}
+
+fn add_verification(hash: &mut Sha256, probes: &Verification) {
+    for array in [&probes.direct, &probes.looked_up, &probes.error] {
+        add_array(hash, array);
+    }
+}
+
+fn add_array(hash: &mut Sha256, array: &[f32]) {
+    hash.update((array.len() as u64).to_le_bytes());
+    let mut bytes = Vec::with_capacity(1 << 16);
+    for chunk in array.chunks(1 << 14) {
+        bytes.clear();
+        bytes.extend(chunk.iter().flat_map(|value| value.to_le_bytes()));
+        hash.update(&bytes);
+    }
 }
 
 fn hex(bytes: &[u8]) -> String {

@@ -1,6 +1,6 @@
 //! File to content.
 
-use crate::content::{Content, FIELDS, Origin, Slice, Verification};
+use crate::content::{Between, Content, FIELDS, Origin, Role, Slice, Verification};
 use crate::error::TableError;
 use crate::hash::content_hash;
 use crate::schema;
@@ -19,6 +19,14 @@ struct Source<'a> {
 /// # Errors
 /// [`TableError`] when the file is absent, of another kind or version, incomplete or damaged.
 pub fn read(path: &Path) -> Result<Content, TableError> {
+    read_chosen(path, |slices| (0..slices.len()).collect())
+}
+
+/// [`read`] of those slices that `choose` names by their place in the list, which ascends.
+pub(crate) fn read_chosen(
+    path: &Path,
+    choose: impl FnOnce(&[(f64, Role)]) -> Vec<usize>,
+) -> Result<Content, TableError> {
     let source = open(path)?;
     let root: &Group = &source.file;
     let slices = source.group(root, schema::SLICES)?;
@@ -33,22 +41,44 @@ pub fn read(path: &Path) -> Result<Content, TableError> {
         },
         r: source.array(root, schema::R)?.0,
         z: source.array(root, schema::Z)?.0,
+        r_max: source.number(root, schema::R_MAX)?,
+        z_max: source.number(root, schema::Z_MAX)?,
         cell_width: source.number(root, schema::CELL_WIDTH)?,
         stencil_points: source.number::<u64>(root, schema::STENCIL_POINTS)? as usize,
         pulse_lengths: source.array(root, schema::PULSE_LENGTH)?.0,
         slices: Vec::new(),
+        between_r: source.array(root, schema::BETWEEN_R)?.0,
+        between_z: source.array(root, schema::BETWEEN_Z)?.0,
+        between: Vec::new(),
     };
     let names = slices
         .member_names()
         .map_err(|error| source.item(schema::SLICES, &error))?;
+    let mut groups = Vec::new();
     for name in names {
         let group = source.group(&slices, &name)?;
-        content
-            .slices
-            .push(source.slice(&group, content.r.len(), content.z.len())?);
+        let ratio: f64 = source.number(&group, schema::POISSON_RATIO)?;
+        groups.push((ratio, source.role(&group)?, group));
+    }
+    groups.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let list: Vec<(f64, Role)> = groups.iter().map(|group| (group.0, group.1)).collect();
+    for index in choose(&list) {
+        let slice = source.slice(&groups[index].2, content.r.len(), content.z.len())?;
+        content.slices.push(slice);
+    }
+    let between = source.group(root, schema::BETWEEN)?;
+    let names = between
+        .member_names()
+        .map_err(|error| source.item(schema::BETWEEN, &error))?;
+    for name in names {
+        let group = source.group(&between, &name)?;
+        content.between.push(Between {
+            poisson_ratio: source.number(&group, schema::POISSON_RATIO)?,
+            verification: source.verification(&group)?,
+        });
     }
     content
-        .slices
+        .between
         .sort_by(|a, b| a.poisson_ratio.total_cmp(&b.poisson_ratio));
     Ok(content)
 }
@@ -129,15 +159,30 @@ impl Source<'_> {
         self.expect(group, schema::TAIL, &shape, &[rows, columns, FIELDS, terms])?;
         Ok(Slice {
             poisson_ratio: self.number(group, schema::POISSON_RATIO)?,
+            role: self.role(group)?,
             cells,
             remainder,
             moment: self.array(group, schema::MOMENT)?.0,
+            curvature: self.array(group, schema::CURVATURE)?.0,
             tail,
-            verification: Verification {
-                direct: self.array(group, schema::PROBE_DIRECT)?.0,
-                looked_up: self.array(group, schema::PROBE_LOOKED_UP)?.0,
-                error: self.array(group, schema::PROBE_ERROR)?.0,
-            },
+            verification: self.verification(group)?,
+        })
+    }
+
+    fn role(&self, group: &Group) -> Result<Role, TableError> {
+        let role = self.text(group, schema::ROLE)?;
+        Role::from_name(&role).ok_or_else(|| TableError::Item {
+            path: self.path.to_owned(),
+            item: format!("{}/{}", group.name(), schema::ROLE),
+            detail: format!("{role:?} is neither grid nor exact"),
+        })
+    }
+
+    fn verification(&self, group: &Group) -> Result<Verification, TableError> {
+        Ok(Verification {
+            direct: self.array(group, schema::PROBE_DIRECT)?.0,
+            looked_up: self.array(group, schema::PROBE_LOOKED_UP)?.0,
+            error: self.array(group, schema::PROBE_ERROR)?.0,
         })
     }
 

@@ -5,9 +5,9 @@
 /// Value of [`FILE_TYPE`] in every kernel table.
 pub const FILE_TYPE_VALUE: &str = "hertzlamb kernel table";
 /// Version of the format that this program writes: major.minor.
-pub const FORMAT_VERSION_VALUE: &str = "1.0";
+pub const FORMAT_VERSION_VALUE: &str = "2.0";
 /// Major versions that this program reads.
-pub const MAJOR_READ: u32 = 1;
+pub const MAJOR_READ: u32 = 2;
 
 /// Root attribute: what kind of file this is.
 pub const FILE_TYPE: &str = "file_type";
@@ -25,7 +25,7 @@ pub const ID: &str = "id";
 pub const GRID: &str = "grid";
 /// Root attribute: SHA-256 of the content, 64 hexadecimal digits.
 pub const CONTENT_SHA256: &str = "content_sha256";
-/// Root attribute: width of a time cell in r0/c1.
+/// Root attribute: width of a time cell in r0/c1 at nu = 0.3. Slice attribute: its width there.
 pub const CELL_WIDTH: &str = "cell_width";
 /// Root attribute: interpolation points along each axis.
 pub const STENCIL_POINTS: &str = "stencil_points";
@@ -33,6 +33,11 @@ pub const STENCIL_POINTS: &str = "stencil_points";
 pub const ACCURACY_ASKED: &str = "accuracy_asked";
 /// Root attribute: p99 over all probes of the error relative to the field's peak, per pulse length.
 pub const ACCURACY_REACHED: &str = "accuracy_reached";
+
+/// Root attribute: largest radius served in r0.
+pub const R_MAX: &str = "r_max";
+/// Root attribute: largest depth served in r0.
+pub const Z_MAX: &str = "z_max";
 
 /// Dataset and scale: radial nodes.
 pub const R: &str = "r";
@@ -46,11 +51,19 @@ pub const PROBE_R: &str = "probe_r";
 pub const PROBE_Z: &str = "probe_z";
 /// Dataset and scale: lengths of the verification pulses.
 pub const PULSE_LENGTH: &str = "pulse_length";
+/// Dataset and scale: radii of the probes between slices.
+pub const BETWEEN_R: &str = "between_r";
+/// Dataset and scale: depths of the probes between slices.
+pub const BETWEEN_Z: &str = "between_z";
+/// Group: one subgroup for each interval between slices.
+pub const BETWEEN: &str = "between";
 /// Group: one subgroup for each Poisson ratio.
 pub const SLICES: &str = "slices";
 
 /// Slice attribute: Poisson's ratio.
 pub const POISSON_RATIO: &str = "poisson_ratio";
+/// Slice attribute: whether the slice takes part in interpolation between ratios.
+pub const ROLE: &str = "role";
 /// Slice attribute: end of the last time cell.
 pub const TIME_END: &str = "time_end";
 /// Slice dataset and scale: start of each time cell.
@@ -59,6 +72,8 @@ pub const TIME: &str = "time";
 pub const REMAINDER: &str = "remainder";
 /// Slice dataset: first moments of the remainder in each cell.
 pub const MOMENT: &str = "moment";
+/// Slice dataset: second moments of the remainder in each cell.
+pub const CURVATURE: &str = "curvature";
 /// Slice dataset: Chebyshev coefficients of the decay after the last cell.
 pub const TAIL: &str = "tail";
 /// Slice dataset: peak of the exact response at each probe.
@@ -84,7 +99,7 @@ pub const FIELD_NAMES: [&str; 6] = [
 ];
 
 /// Root attributes.
-pub const ROOT_ATTRIBUTES: [&str; 12] = [
+pub const ROOT_ATTRIBUTES: [&str; 14] = [
     FILE_TYPE,
     FORMAT_VERSION,
     SOFTWARE_VERSION,
@@ -94,24 +109,39 @@ pub const ROOT_ATTRIBUTES: [&str; 12] = [
     GRID,
     CONTENT_SHA256,
     CELL_WIDTH,
+    R_MAX,
+    Z_MAX,
     STENCIL_POINTS,
     ACCURACY_ASKED,
     ACCURACY_REACHED,
 ];
 /// Datasets at the root.
-pub const ROOT_DATASETS: [&str; 6] = [R, Z, FIELD, PROBE_R, PROBE_Z, PULSE_LENGTH];
+pub const ROOT_DATASETS: [&str; 8] = [
+    R,
+    Z,
+    FIELD,
+    PROBE_R,
+    PROBE_Z,
+    PULSE_LENGTH,
+    BETWEEN_R,
+    BETWEEN_Z,
+];
 /// Attributes of a slice.
-pub const SLICE_ATTRIBUTES: [&str; 2] = [POISSON_RATIO, TIME_END];
+pub const SLICE_ATTRIBUTES: [&str; 4] = [POISSON_RATIO, ROLE, CELL_WIDTH, TIME_END];
 /// Datasets of a slice.
-pub const SLICE_DATASETS: [&str; 7] = [
+pub const SLICE_DATASETS: [&str; 8] = [
     TIME,
     REMAINDER,
     MOMENT,
+    CURVATURE,
     TAIL,
     PROBE_DIRECT,
     PROBE_LOOKED_UP,
     PROBE_ERROR,
 ];
+
+/// Datasets of an interval between slices; its only attribute is [`POISSON_RATIO`].
+pub const BETWEEN_DATASETS: [&str; 3] = [PROBE_DIRECT, PROBE_LOOKED_UP, PROBE_ERROR];
 
 /// Name of the group of one slice: `nu_` and the shortest decimal form of Poisson's ratio.
 #[must_use]

@@ -32,10 +32,9 @@ pub struct Stencil {
 }
 
 impl Stencil {
-    /// Stencil of `points` (at most 8, at most the number of nodes) around `x`, one-sided at both ends.
+    /// Stencil of `points` (at most 8, at most the number of nodes) around `x` in `interval`, one-sided at both ends.
     #[must_use]
-    pub fn one_sided(nodes: &[f64], x: f64, points: usize) -> Option<Self> {
-        let interval = locate(nodes, x)?;
+    pub fn one_sided(nodes: &[f64], interval: usize, x: f64, points: usize) -> Self {
         let points = points.min(nodes.len()).min(MAX_POINTS);
         let first = (interval + 1)
             .saturating_sub(points / 2)
@@ -50,16 +49,15 @@ impl Stencil {
             let weight = weight(|j| nodes[first + j], points, k, x);
             (stencil.node[k], stencil.even[k], stencil.odd[k]) = (first + k, weight, weight);
         }
-        Some(stencil)
+        stencil
     }
 
-    /// Stencil around `x` on an axis that starts at r = 0, continued to negative r by its mirror image.
+    /// Stencil around `x` in `interval` on an axis that starts at r = 0, continued to negative r by its mirror image.
     ///
     /// A mirrored node -nodes\[i\] adds its weight to node i: with its sign for even fields
     /// ([`Self::even`]) and against it for odd ones ([`Self::odd`]).
     #[must_use]
-    pub fn mirrored(nodes: &[f64], x: f64, points: usize) -> Option<Self> {
-        let interval = locate(nodes, x)?;
+    pub fn mirrored(nodes: &[f64], interval: usize, x: f64, points: usize) -> Self {
         let points = points.min(nodes.len()).min(MAX_POINTS);
         let first =
             (interval as isize + 1 - (points / 2) as isize).min((nodes.len() - points) as isize);
@@ -87,7 +85,7 @@ impl Stencil {
             stencil.odd[slot] += if index < 0 { -weight } else { weight };
             stencil.points = stencil.points.max(slot + 1);
         }
-        Some(stencil)
+        stencil
     }
 
     /// Indices of the nodes, ascending.
@@ -138,8 +136,9 @@ mod tests {
         for points in [2, 4, 6, 8] {
             for step in 0..=300 {
                 let x = axis[12] * f64::from(step) / 300.0;
-                let one_sided = Stencil::one_sided(&axis, x, points).unwrap();
-                let mirrored = Stencil::mirrored(&axis, x, points).unwrap();
+                let interval = locate(&axis, x).unwrap();
+                let one_sided = Stencil::one_sided(&axis, interval, x, points);
+                let mirrored = Stencil::mirrored(&axis, interval, x, points);
                 for degree in 0..points as i32 {
                     let f = |i: usize| axis[i].powi(degree);
                     let exact = x.powi(degree);
@@ -160,11 +159,11 @@ mod tests {
     fn nodes_are_returned_exactly() {
         let axis = axis();
         for (i, &x) in axis.iter().enumerate() {
+            let interval = locate(&axis, x).unwrap();
             for stencil in [
-                Stencil::one_sided(&axis, x, 6),
-                Stencil::mirrored(&axis, x, 6),
+                Stencil::one_sided(&axis, interval, x, 6),
+                Stencil::mirrored(&axis, interval, x, 6),
             ] {
-                let stencil = stencil.unwrap();
                 for ((&node, &even), &odd) in stencil
                     .nodes()
                     .iter()

@@ -1,8 +1,9 @@
 //! A kernel table in memory: validated once, immutable, shared by any number of threads.
 
-use crate::content::{Content, FIELDS, Slice, centres};
+use crate::content::{Between, Content, FIELDS, Role, Slice, Verification, centres};
 use crate::error::{LookupError, TableError};
-use crate::ratio::ratio_coordinate;
+use crate::ratio::{self, cell_scale};
+use crate::stencil::locate;
 use crate::{hash, schema};
 use halfspace::{Kernel, Medium, Profile};
 use std::path::Path;
@@ -15,8 +16,9 @@ pub struct Table {
     content: Content,
     id: String,
     poisson_ratios: Vec<f64>,
-    ratio_coordinates: Vec<f64>,
+    roles: Vec<(f64, Role)>,
     kernels: Vec<Kernel>,
+    meshes: [usize; 2],
 }
 
 impl Table {
@@ -32,6 +34,26 @@ impl Table {
         Self::new(crate::read(path)?)
     }
 
+    /// [`Self::open`] of the slices alone that serve `poisson_ratios`; for other ratios the table answers
+    /// as one that was made without the rest.
+    ///
+    /// # Errors
+    /// As [`Self::open`].
+    pub fn open_for(path: &Path, poisson_ratios: &[f64]) -> Result<Self, TableError> {
+        let content = crate::read::read_chosen(path, |slices| {
+            let mut chosen = std::collections::BTreeSet::new();
+            for &nu in poisson_ratios {
+                match ratio::weights(slices, nu) {
+                    Ok(Some(weights)) => chosen.extend(weights.iter().map(|(index, _)| *index)),
+                    // Not served: the answers need all slices to say what range is.
+                    Ok(None) | Err(_) => chosen.extend(0..slices.len()),
+                }
+            }
+            chosen.into_iter().collect()
+        })?;
+        Self::new(content)
+    }
+
     /// Accepts `content` as a table.
     ///
     /// # Errors
@@ -43,19 +65,21 @@ impl Table {
             .iter()
             .map(|slice| Kernel::new(&Medium::new(slice.poisson_ratio)?, Profile::Hertz, 1e-6))
             .collect::<Result<_, _>>()?;
-        let ratio_coordinates = content
+        let roles = content
             .slices
             .iter()
-            .map(|slice| ratio_coordinate(slice.poisson_ratio))
-            .collect::<Result<_, _>>()?;
+            .map(|slice| (slice.poisson_ratio, slice.role))
+            .collect();
+        let meshes = content.probes().map(|places| places.len());
         Ok(Self {
+            meshes,
             id: hash::settings_id(&content.origin.grid),
             poisson_ratios: content
                 .slices
                 .iter()
                 .map(|slice| slice.poisson_ratio)
                 .collect(),
-            ratio_coordinates,
+            roles,
             kernels,
             content,
         })
@@ -79,22 +103,24 @@ impl Table {
         &self.poisson_ratios
     }
 
-    /// Width of a time cell in r0/c1.
-    #[must_use]
-    pub fn cell_width(&self) -> f64 {
-        self.content.cell_width
+    /// Width of a time cell in r0/c1 at a Poisson ratio, see [`cell_scale`].
+    ///
+    /// # Errors
+    /// [`LookupError::Domain`] for a ratio outside (-1, 0.5).
+    pub fn cell_width(&self, poisson_ratio: f64) -> Result<f64, LookupError> {
+        Ok(self.content.cell_width * cell_scale(poisson_ratio)?)
     }
 
     /// Largest radius in r0; the smallest is 0.
     #[must_use]
     pub fn r_max(&self) -> f64 {
-        self.content.r[self.content.r.len() - 1]
+        self.content.r_max
     }
 
     /// Largest depth in r0; the smallest is 0.
     #[must_use]
     pub fn z_max(&self) -> f64 {
-        self.content.z[self.content.z.len() - 1]
+        self.content.z_max
     }
 
     /// Everything that the table holds.
@@ -109,9 +135,31 @@ impl Table {
         self.content
     }
 
-    /// [`ratio_coordinate`] of each slice.
-    pub(crate) fn ratio_coordinates(&self) -> &[f64] {
-        &self.ratio_coordinates
+    /// Slices that serve a Poisson ratio, with their weights.
+    pub(crate) fn slice_weights(
+        &self,
+        poisson_ratio: f64,
+    ) -> Result<Vec<(usize, f64)>, LookupError> {
+        ratio::weights(&self.roles, poisson_ratio)?.ok_or_else(|| {
+            let grid = self.roles.iter().filter(|(_, role)| *role == Role::Grid);
+            let (min, max) = grid.fold((f64::NAN, f64::NAN), |(min, max), (nu, _)| {
+                (nu.min(min), nu.max(max))
+            });
+            LookupError::Outside {
+                axis: "poisson_ratio",
+                value: poisson_ratio,
+                min,
+                max,
+            }
+        })
+    }
+
+    /// What was measured between the slices around a ratio.
+    pub(crate) fn between(&self, poisson_ratio: f64) -> Option<&Between> {
+        let (low, high) = ratio::neighbours(&self.roles, poisson_ratio);
+        let inside =
+            |between: &&Between| between.poisson_ratio > low && between.poisson_ratio < high;
+        self.content.between.iter().find(inside)
     }
 
     /// The exact kernels of slice `index`.
@@ -119,8 +167,24 @@ impl Table {
         &self.kernels[index]
     }
 
+    /// Numbers of meshes served in r and z.
+    pub(crate) fn meshes(&self) -> [usize; 2] {
+        self.meshes
+    }
+
+    /// The mesh that holds a point.
+    ///
+    /// # Errors
+    /// [`LookupError::Outside`].
+    pub(crate) fn mesh(&self, r: f64, z: f64) -> Result<(usize, usize), LookupError> {
+        let [columns, rows] = self.meshes;
+        let i = locate(&self.content.r[..=columns], r);
+        let k = locate(&self.content.z[..=rows], z);
+        i.zip(k).ok_or_else(|| self.outside(r, z))
+    }
+
     /// The error of a point outside: axis, value and range.
-    pub(crate) fn outside(&self, r: f64, z: f64) -> LookupError {
+    fn outside(&self, r: f64, z: f64) -> LookupError {
         let (axis, value, max) = if r >= 0.0 && r <= self.r_max() {
             ("z/r0", z, self.z_max())
         } else {
@@ -138,6 +202,14 @@ impl Table {
 fn validate(content: &Content) -> Result<(), TableError> {
     axis("r", &content.r)?;
     axis("z", &content.z)?;
+    for (name, nodes, max) in [
+        ("r", &content.r, content.r_max),
+        ("z", &content.z, content.z_max),
+    ] {
+        if !nodes.contains(&max) || centres(nodes, max).is_empty() {
+            return Err(value(format!("{name}_max"), max, "one of the nodes but 0"));
+        }
+    }
     positive("cell_width", content.cell_width)?;
     ascending("pulse_length", &content.pulse_lengths)?;
     if content.pulse_lengths.is_empty() {
@@ -166,54 +238,73 @@ fn validate(content: &Content) -> Result<(), TableError> {
         .map(|slice| slice.poisson_ratio)
         .collect();
     ascending("poisson_ratio", &ratios)?;
-    content
-        .slices
-        .iter()
-        .try_for_each(|slice| validate_slice(content, slice))
+    for slice in &content.slices {
+        validate_slice(content, slice)?;
+        // Slices are interpolated cell by cell.
+        let (cells, first) = (slice.cells, content.slices[0].cells);
+        if cells != first {
+            let group = schema::slice_name(slice.poisson_ratio);
+            return Err(shape(format!("slices/{group}/time"), first, cells));
+        }
+    }
+    let places = content.between_r.len() * content.between_z.len();
+    if places > 0 {
+        ascending("between_r", &content.between_r)?;
+        ascending("between_z", &content.between_z)?;
+    }
+    content.between.iter().try_for_each(|between| {
+        let group = format!("between/{}", schema::slice_name(between.poisson_ratio));
+        validate_probes(content, &group, &between.verification, places.max(1))
+    })
 }
 
 fn validate_slice(content: &Content, slice: &Slice) -> Result<(), TableError> {
     let nodes = content.r.len() * content.z.len();
-    let probes = centres(&content.r).len()
-        * centres(&content.z).len()
-        * content.pulse_lengths.len()
-        * FIELDS;
-    let name = |dataset| {
-        format!(
-            "slices/{}/{dataset}",
-            schema::slice_name(slice.poisson_ratio)
-        )
-    };
+    let group = format!("slices/{}", schema::slice_name(slice.poisson_ratio));
+    let stored = nodes * FIELDS * slice.cells.max(1);
     let terms = slice.tail_terms(nodes);
     for (dataset, array, needed) in [
-        (
-            schema::REMAINDER,
-            &slice.remainder,
-            nodes * FIELDS * slice.cells.max(1),
-        ),
-        (
-            schema::MOMENT,
-            &slice.moment,
-            nodes * FIELDS * slice.cells.max(1),
-        ),
+        (schema::REMAINDER, &slice.remainder, stored),
+        (schema::MOMENT, &slice.moment, stored),
+        (schema::CURVATURE, &slice.curvature, stored),
         (schema::TAIL, &slice.tail, nodes * FIELDS * terms.max(1)),
-        (schema::PROBE_DIRECT, &slice.verification.direct, probes),
-        (
-            schema::PROBE_LOOKED_UP,
-            &slice.verification.looked_up,
-            probes,
-        ),
-        (schema::PROBE_ERROR, &slice.verification.error, probes),
     ] {
-        if array.len() != needed {
-            return Err(shape(name(dataset), needed, array.len()));
-        }
-        if let Some(index) = array.iter().position(|x| !x.is_finite()) {
-            let item = format!("{}[{index}]", name(dataset));
-            return Err(value(item, f64::from(array[index]), "finite numbers"));
-        }
+        numbers(&group, dataset, array, needed)?;
+    }
+    let probes = content.probes().map(|places| places.len()).iter().product();
+    validate_probes(content, &group, &slice.verification, probes)
+}
+
+fn validate_probes(
+    content: &Content,
+    group: &str,
+    probes: &Verification,
+    places: usize,
+) -> Result<(), TableError> {
+    let needed = places * content.pulse_lengths.len() * FIELDS;
+    for (dataset, array) in [
+        (schema::PROBE_DIRECT, &probes.direct),
+        (schema::PROBE_LOOKED_UP, &probes.looked_up),
+        (schema::PROBE_ERROR, &probes.error),
+    ] {
+        numbers(group, dataset, array, needed)?;
     }
     Ok(())
+}
+
+/// So many numbers, all finite.
+fn numbers(group: &str, dataset: &str, array: &[f32], needed: usize) -> Result<(), TableError> {
+    let name = || format!("{group}/{dataset}");
+    if array.len() != needed {
+        return Err(shape(name(), needed, array.len()));
+    }
+    match array.iter().position(|x| !x.is_finite()) {
+        Some(index) => {
+            let item = format!("{}[{index}]", name());
+            Err(value(item, f64::from(array[index]), "finite numbers"))
+        }
+        None => Ok(()),
+    }
 }
 
 fn axis(name: &'static str, nodes: &[f64]) -> Result<(), TableError> {

@@ -1,10 +1,12 @@
-//! The remainder at any point of a table: interpolated cells, tail, exact static part.
+//! The remainder at any point of a table: interpolated cells, tail, exact static part, error estimate.
 
 use crate::content::{FIELDS, Slice};
 use crate::error::LookupError;
+use crate::gather::{Node, gather, nodes};
+use crate::series::{Numbers, Series, Smoothness};
+use crate::smooth;
 use crate::stencil::Stencil;
 use crate::table::Table;
-use crate::tail::Tail;
 use halfspace::{Kernel, Medium, Profile, Six};
 
 /// Largest coarsening: a cell of 2^20 table cells.
@@ -20,22 +22,6 @@ pub struct TraceInfo {
     /// Estimated absolute error of the response to a unit-peak pulse ten cells long; longer pulses
     /// have less, see [`Table::error`].
     pub error: Six,
-}
-
-/// What is assumed of the force between samples one cell apart.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Smoothness {
-    /// Linear between samples: the cells are plain averages and the sum is exact.
-    Linear,
-    /// A smooth function of time: the first moments of the cells correct for its curvature.
-    ///
-    /// ```text
-    /// cell_j = Rbar_j - (M_{j+1} - M_{j-1})/2,   cell_0 = Rbar_0 - M_0 - M_1/2,   cell_1 = Rbar_1 + M_0 - M_2/2
-    /// ```
-    ///
-    /// Used in the same sum, they leave an error of third order in the cell width where linear
-    /// samples leave second order, also where a front crosses a cell.
-    Smooth,
 }
 
 impl Table {
@@ -74,246 +60,164 @@ impl Table {
         coarsening: u32,
         cells: &mut [Six],
     ) -> Result<TraceInfo, LookupError> {
+        self.plan(smoothness, poisson_ratio, coarsening)?
+            .trace([r, z], cells)
+    }
+
+    /// [`Self::trace_for`] at many points (r, z): `cells` and `infos` hold the traces one after the other.
+    ///
+    /// What depends on Poisson's ratio alone is done once; several threads may each fill a part of the
+    /// points. `cells` is divided evenly among the points.
+    ///
+    /// # Errors
+    /// As [`Self::trace`], and [`LookupError::Lengths`] when `infos` or `cells` do not fit the points.
+    /// Traces before the failing point are filled.
+    pub fn traces(
+        &self,
+        smoothness: Smoothness,
+        poisson_ratio: f64,
+        points: &[[f64; 2]],
+        coarsening: u32,
+        cells: &mut [Six],
+        infos: &mut [TraceInfo],
+    ) -> Result<(), LookupError> {
+        let count = cells.len() / points.len().max(1);
+        if infos.len() != points.len() || cells.len() != count * points.len() {
+            return Err(LookupError::Lengths {
+                points: points.len(),
+                infos: infos.len(),
+                cells: cells.len(),
+            });
+        }
+        if count == 0 {
+            return Ok(());
+        }
+        let plan = self.plan(smoothness, poisson_ratio, coarsening)?;
+        let traces = cells.chunks_exact_mut(count).zip(infos);
+        for (&point, (cells, info)) in points.iter().zip(traces) {
+            *info = plan.trace(point, cells)?;
+        }
+        Ok(())
+    }
+
+    /// The interpolated remainder at a point as a whole, from which cells of any width can be filled.
+    ///
+    /// # Errors
+    /// As [`Self::trace`].
+    pub fn series(&self, poisson_ratio: f64, r: f64, z: f64) -> Result<Series, LookupError> {
+        let plan = self.plan(Smoothness::Smooth, poisson_ratio, 0)?;
+        let (across, down) = plan.stencils([r, z])?;
+        Ok(plan.series(&across, &down, usize::MAX))
+    }
+
+    fn plan(
+        &self,
+        smoothness: Smoothness,
+        poisson_ratio: f64,
+        coarsening: u32,
+    ) -> Result<Plan<'_>, LookupError> {
         if coarsening > MAX_COARSENING {
             return Err(LookupError::Coarsening {
                 value: coarsening,
                 max: MAX_COARSENING,
             });
         }
-        let points = self.content().stencil_points;
-        let across = Stencil::mirrored(&self.content().r, r, points);
-        let down = Stencil::one_sided(&self.content().z, z, points);
-        let (across, down) = across.zip(down).ok_or_else(|| self.outside(r, z))?;
-        let weights = self.slice_weights(poisson_ratio)?;
-        let static_part = match weights.as_slice() {
-            [(index, _)] => self.kernel(*index).static_field(r, z)?,
-            _ => Kernel::new(&Medium::new(poisson_ratio)?, Profile::Hertz, 1e-6)?
-                .static_field(r, z)?,
+        let slices = self.slice_weights(poisson_ratio)?;
+        let kernel = match slices.as_slice() {
+            [(index, _)] => self.kernel(*index).clone(),
+            // Only its static field is used, which is closed form.
+            _ => Kernel::new(&Medium::new(poisson_ratio)?, Profile::Hertz, 1e-2)?,
         };
-        let cell_width = self.cell_width() * f64::from(1_u32 << coarsening);
-        let error = self.error(poisson_ratio, r, z, 10.0 * cell_width)?;
+        Ok(Plan {
+            table: self,
+            smoothness,
+            poisson_ratio,
+            coarsening,
+            slices,
+            kernel,
+            width: self.cell_width(poisson_ratio)?,
+        })
+    }
+}
 
-        cells.fill([0.0; FIELDS]);
-        let mut moments = vec![[0.0; FIELDS]; moment_count(smoothness, cells.len())];
-        let wanted = cells
-            .len()
-            .max(moments.len())
-            .saturating_mul(1 << coarsening);
-        for (index, weight) in weights {
-            let slice = &self.content().slices[index];
-            let place = Place {
-                table: self,
-                slice,
-                across: &across,
-                down: &down,
-            };
-            place
-                .series(wanted, smoothness)
-                .add(weight, coarsening, cells, &mut moments);
-        }
-        finish(smoothness, cells, &moments);
+/// Everything of a trace that does not depend on the point.
+struct Plan<'a> {
+    table: &'a Table,
+    smoothness: Smoothness,
+    poisson_ratio: f64,
+    coarsening: u32,
+    slices: Vec<(usize, f64)>,
+    kernel: Kernel,
+    width: f64,
+}
+
+impl Plan<'_> {
+    fn trace(&self, [r, z]: [f64; 2], cells: &mut [Six]) -> Result<TraceInfo, LookupError> {
+        let (across, down) = self.stencils([r, z])?;
+        let static_part = self.kernel.static_field(r, z)?;
+        let cell_width = self.width * f64::from(1_u32 << self.coarsening);
+        let error = self
+            .table
+            .error(self.poisson_ratio, r, z, 10.0 * cell_width)?;
+        self.series(&across, &down, cells.len())
+            .fill(self.smoothness, self.coarsening, cells);
         Ok(TraceInfo {
             static_part,
             cell_width,
             error,
         })
     }
-}
 
-/// The remainder at one point in all its fields: table cells, their first moments, tails.
-#[derive(Debug, Clone)]
-pub struct Series {
-    width: f64,
-    stored: usize,
-    averages: Vec<f64>,
-    moments: Vec<f64>,
-    tails: Vec<Tail>,
-}
-
-impl Series {
-    /// A series from its numbers, each of shape (field, time) or (field, term); `width` is that of a cell.
-    #[must_use]
-    pub fn new(
-        width: f64,
-        cells: usize,
-        averages: Vec<f64>,
-        moments: Vec<f64>,
-        tail: &[f64],
-    ) -> Self {
-        let terms = (tail.len() / FIELDS).max(1);
-        let end = cells as f64 * width;
-        let tails = tail
-            .chunks_exact(terms)
-            .map(|c| Tail::new(end, c))
-            .collect();
-        let stored = averages.len() / FIELDS;
-        Self {
-            width,
-            stored,
-            averages,
-            moments,
-            tails,
-        }
+    fn stencils(&self, [r, z]: [f64; 2]) -> Result<(Stencil, Stencil), LookupError> {
+        let content = self.table.content();
+        let points = content.stencil_points;
+        let mesh = self.table.mesh(r, z)?;
+        Ok((
+            Stencil::mirrored(&content.r, mesh.0, r, points),
+            Stencil::one_sided(&content.z, mesh.1, z, points),
+        ))
     }
 
-    /// Fills `cells` with averages over 2^`coarsening` table cells, corrected as `smoothness` says.
-    pub fn fill(&self, smoothness: Smoothness, coarsening: u32, cells: &mut [Six]) {
-        cells.fill([0.0; FIELDS]);
-        let mut moments = vec![[0.0; FIELDS]; moment_count(smoothness, cells.len())];
-        self.add(1.0, coarsening, cells, &mut moments);
-        finish(smoothness, cells, &moments);
-    }
-
-    /// Adds `weight` times the cells, and moments if `moments` is not empty.
-    fn add(&self, weight: f64, coarsening: u32, cells: &mut [Six], moments: &mut [Six]) {
-        let fine = 1_usize << coarsening;
-        for (field, tail) in self.tails.iter().enumerate() {
-            let row = field * self.stored..(field + 1) * self.stored;
-            let average = &self.averages[row.clone()];
-            for (j, cell) in cells.iter_mut().enumerate() {
-                cell[field] += weight * coarse_average(average, tail, j, fine, self.width);
-            }
-            for (j, cell) in moments.iter_mut().enumerate() {
-                let moment = &self.moments[row.clone()];
-                cell[field] += weight * coarse_moment(average, moment, tail, j, fine, self.width);
-            }
-        }
-    }
-}
-
-/// Moments needed for the correction of `cells` cells: one more than the cells.
-fn moment_count(smoothness: Smoothness, cells: usize) -> usize {
-    match smoothness {
-        Smoothness::Linear => 0,
-        Smoothness::Smooth => cells + 1,
-    }
-}
-
-fn finish(smoothness: Smoothness, cells: &mut [Six], moments: &[Six]) {
-    match smoothness {
-        Smoothness::Linear => {}
-        Smoothness::Smooth => correct_for_curvature(cells, moments),
-    }
-}
-
-/// One point of one slice.
-struct Place<'a> {
-    table: &'a Table,
-    slice: &'a Slice,
-    across: &'a Stencil,
-    down: &'a Stencil,
-}
-
-impl Place<'_> {
-    /// The interpolated series, as much of it as `wanted` cells need.
-    fn series(&self, wanted: usize, smoothness: Smoothness) -> Series {
-        let cells = self.slice.cells;
-        let stored = wanted.min(cells);
-        let moments = match smoothness {
-            Smoothness::Linear => Vec::new(),
-            Smoothness::Smooth => self.interpolate(&self.slice.moment, cells, stored),
+    /// The interpolated series, as much of it as `count` cells need.
+    fn series(&self, across: &Stencil, down: &Stencil, count: usize) -> Series {
+        let content = self.table.content();
+        let cells = content.slices[self.slices[0].0].cells;
+        let beyond = match self.smoothness {
+            Smoothness::Linear => 0,
+            Smoothness::Smooth => smooth::BEYOND,
         };
-        let averages = self.interpolate(&self.slice.remainder, cells, stored);
-        let terms = self
-            .slice
-            .tail_terms(self.table.content().r.len() * self.table.content().z.len());
-        let tail = self.interpolate(&self.slice.tail, terms, terms);
-        Series::new(self.table.cell_width(), cells, averages, moments, &tail)
-    }
-
-    /// Weighted sum over the stencil of the first `used` of `length` values, for each field in turn.
-    fn interpolate(&self, values: &[f32], length: usize, used: usize) -> Vec<f64> {
-        let mut sums = vec![0.0; FIELDS * used];
-        if used == 0 {
-            return sums;
-        }
-        let depth = self.table.content().z.len();
-        for (field, sum) in sums.chunks_exact_mut(used).enumerate() {
-            let across = if halfspace::FIELDS[field].is_odd_in_r() {
-                self.across.odd()
-            } else {
-                self.across.even()
-            };
-            for (&i, &wr) in self.across.nodes().iter().zip(across) {
-                for (&k, &wz) in self.down.nodes().iter().zip(self.down.even()) {
-                    let weight = wr * wz;
-                    let start = ((i * depth + k) * FIELDS + field) * length;
-                    for (s, &v) in sum.iter_mut().zip(&values[start..start + used]) {
-                        *s += weight * f64::from(v);
-                    }
-                }
+        let wanted = count
+            .saturating_add(beyond)
+            .saturating_mul(1 << self.coarsening);
+        let stored = wanted.min(cells);
+        let terms = content.slices[self.slices[0].0].tail_terms(content.r.len() * content.z.len());
+        let sum = |values: fn(&Slice) -> &[f32], length: usize, used: usize| {
+            let mut sums = vec![0.0; FIELDS * used];
+            for &(index, weight) in &self.slices {
+                let nodes: Vec<Node> = nodes(across, down, content.z.len(), weight).collect();
+                gather(
+                    values(&content.slices[index]),
+                    length,
+                    &nodes,
+                    used,
+                    &mut sums,
+                );
             }
-        }
-        sums
-    }
-}
-
-/// Average over coarse cell `j` of `fine` cells, of which the stored ones come first.
-fn coarse_average(stored: &[f64], tail: &Tail, j: usize, fine: usize, width: f64) -> f64 {
-    let (from, to) = (j * fine, (j + 1) * fine);
-    let inside = from.min(stored.len())..to.min(stored.len());
-    let sum = pairwise(&stored[inside.clone()]);
-    if inside.len() == fine {
-        return sum / fine as f64;
-    }
-    let start = from.max(stored.len()) as f64 * width;
-    let end = to as f64 * width;
-    (sum * width + tail.average(start, end) * (end - start)) / (fine as f64 * width)
-}
-
-/// Sum by halves: a coarse cell is then exactly the mean of its two halves.
-fn pairwise(values: &[f64]) -> f64 {
-    match values {
-        [] => 0.0,
-        [one] => *one,
-        _ => {
-            let (left, right) = values.split_at(values.len().next_power_of_two() / 2);
-            pairwise(left) + pairwise(right)
-        }
-    }
-}
-
-/// First moment over coarse cell `j` from the averages and moments of its parts.
-fn coarse_moment(
-    averages: &[f64],
-    moments: &[f64],
-    tail: &Tail,
-    j: usize,
-    fine: usize,
-    width: f64,
-) -> f64 {
-    let (from, to) = (j * fine, (j + 1) * fine);
-    let coarse = fine as f64 * width;
-    let centre = (from + to) as f64 * 0.5 * width;
-    let mut sum = 0.0;
-    for k in from.min(averages.len())..to.min(averages.len()) {
-        sum +=
-            width * width * moments[k] + width * averages[k] * ((k as f64 + 0.5) * width - centre);
-    }
-    if to > averages.len() {
-        // After the last arrival R is smooth: a sixth of the step between the halves.
-        let (start, end) = (from.max(averages.len()) as f64 * width, to as f64 * width);
-        let (middle, part) = (0.5 * (start + end), end - start);
-        let (left, right) = (tail.average(start, middle), tail.average(middle, end));
-        sum += part * part * (right - left) / 6.0 + part * 0.5 * (left + right) * (middle - centre);
-    }
-    sum / (coarse * coarse)
-}
-
-/// Turns averages into the cells of [`Smoothness::Smooth`]; `moments` has one more entry than `cells`.
-pub fn correct_for_curvature(cells: &mut [Six], moments: &[Six]) {
-    for f in 0..FIELDS {
-        for (j, cell) in cells.iter_mut().enumerate() {
-            let before = if j == 0 {
-                2.0 * moments[0][f]
-            } else {
-                moments[j - 1][f]
-            };
-            let sign = if j == 0 { -1.0 } else { 1.0 };
-            cell[f] -= 0.5 * (moments[j + 1][f] - sign * before);
-            if j == 1 {
-                cell[f] += 0.5 * moments[0][f];
-            }
-        }
+            sums
+        };
+        let (moments, curvatures) = match self.smoothness {
+            Smoothness::Linear => (Vec::new(), Vec::new()),
+            Smoothness::Smooth => (
+                sum(|slice| &slice.moment, cells, stored),
+                sum(|slice| &slice.curvature, cells, stored),
+            ),
+        };
+        let numbers = Numbers {
+            averages: sum(|slice| &slice.remainder, cells, stored),
+            moments,
+            curvatures,
+            tail: sum(|slice| &slice.tail, terms, terms),
+        };
+        Series::new(self.width, cells, numbers)
     }
 }

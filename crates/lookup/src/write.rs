@@ -1,10 +1,11 @@
 //! Content to file.
 
-use crate::content::{Content, FIELDS, Slice, centres};
+use crate::content::{Content, FIELDS, Verification};
 use crate::error::TableError;
 use crate::file::{self, Described};
 use crate::hash::{content_hash, settings_id};
 use crate::labels::{attach_scale, set_scale, text};
+use crate::ratio::cell_scale;
 use crate::schema;
 use hdf5::types::FixedAscii;
 use hdf5::{Dataset, File, Group, H5Type};
@@ -37,8 +38,9 @@ fn write_file(path: &Path, content: &Content) -> Result<(), hdf5::Error> {
     let file = File::create(path)?;
     write_attributes(&file, content)?;
     let scale = |described: &Described, values: &[f64]| make_scale(&file, described, values);
-    let probe_r = scale(&file::PROBE_R, &centres(&content.r))?;
-    let probe_z = scale(&file::PROBE_Z, &centres(&content.z))?;
+    let [probe_r, probe_z] = content.probes();
+    let probe_r = scale(&file::PROBE_R, &probe_r)?;
+    let probe_z = scale(&file::PROBE_Z, &probe_z)?;
     let pulse = scale(&file::PULSE_LENGTH, &content.pulse_lengths)?;
     let names =
         schema::FIELD_NAMES.map(|name| FixedAscii::<16>::from_ascii(name).unwrap_or_default());
@@ -49,43 +51,50 @@ fn write_file(path: &Path, content: &Content) -> Result<(), hdf5::Error> {
     let slices = file.create_group(schema::SLICES)?;
     for slice in &content.slices {
         let group = slices.create_group(&schema::slice_name(slice.poisson_ratio))?;
-        let end = slice.time_end(content.cell_width);
+        // The ratio of a slice was accepted by the physics.
+        let width = content.cell_width
+            * cell_scale(slice.poisson_ratio).map_err(|error| error.to_string())?;
+        let end = slice.cells as f64 * width;
         group
             .new_attr::<f64>()
             .create(schema::POISSON_RATIO)?
             .write_scalar(&slice.poisson_ratio)?;
+        text(&group, schema::ROLE, slice.role.name())?;
+        group
+            .new_attr::<f64>()
+            .create(schema::CELL_WIDTH)?
+            .write_scalar(&width)?;
         group
             .new_attr::<f64>()
             .create(schema::TIME_END)?
             .write_scalar(&end)?;
-        let starts: Vec<f64> = (0..slice.cells)
-            .map(|j| j as f64 * content.cell_width)
-            .collect();
+        let starts: Vec<f64> = (0..slice.cells).map(|j| j as f64 * width).collect();
         let time = make_scale(&group, &file::TIME, &starts)?;
         let (rows, columns) = (content.r.len(), content.z.len());
         let shape = [rows, columns, FIELDS, slice.cells];
-        make_data(
-            &group,
-            &file::REMAINDER,
-            &shape,
-            &slice.remainder,
-            &[&r, &z, &field, &time],
-        )?;
-        make_data(
-            &group,
-            &file::MOMENT,
-            &shape,
-            &slice.moment,
-            &[&r, &z, &field, &time],
-        )?;
+        for (described, values) in [
+            (&file::REMAINDER, &slice.remainder),
+            (&file::MOMENT, &slice.moment),
+            (&file::CURVATURE, &slice.curvature),
+        ] {
+            make_data(&group, described, &shape, values, &[&r, &z, &field, &time])?;
+        }
         let shape = [rows, columns, FIELDS, slice.tail_terms(rows * columns)];
         make_data(&group, &file::TAIL, &shape, &slice.tail, &[&r, &z, &field])?;
-        write_verification(
-            &group,
-            content,
-            slice,
-            &[&probe_r, &probe_z, &pulse, &field],
-        )?;
+        let scales = [&probe_r, &probe_z, &pulse, &field];
+        write_verification(&group, &slice.verification, &scales)?;
+    }
+    let between_r = scale(&file::BETWEEN_R, &content.between_r)?;
+    let between_z = scale(&file::BETWEEN_Z, &content.between_z)?;
+    let between = file.create_group(schema::BETWEEN)?;
+    for place in &content.between {
+        let group = between.create_group(&schema::slice_name(place.poisson_ratio))?;
+        group
+            .new_attr::<f64>()
+            .create(schema::POISSON_RATIO)?
+            .write_scalar(&place.poisson_ratio)?;
+        let scales = [&between_r, &between_z, &pulse, &field];
+        write_verification(&group, &place.verification, &scales)?;
     }
     file.flush()?;
     file.close()
@@ -93,26 +102,18 @@ fn write_file(path: &Path, content: &Content) -> Result<(), hdf5::Error> {
 
 fn write_verification(
     group: &Group,
-    content: &Content,
-    slice: &Slice,
-    scales: &[&Dataset],
+    probes: &Verification,
+    scales: &[&Dataset; 4],
 ) -> Result<(), hdf5::Error> {
-    let probes = &slice.verification;
-    let shape = [
-        content.r.len() - 1,
-        content.z.len() - 1,
-        content.pulse_lengths.len(),
-        FIELDS,
-    ];
-    make_data(group, &file::PROBE_DIRECT, &shape, &probes.direct, scales)?;
-    make_data(
-        group,
-        &file::PROBE_LOOKED_UP,
-        &shape,
-        &probes.looked_up,
-        scales,
-    )?;
-    make_data(group, &file::PROBE_ERROR, &shape, &probes.error, scales)
+    let shape = scales.map(|scale| scale.size());
+    for (described, values) in [
+        (&file::PROBE_DIRECT, &probes.direct),
+        (&file::PROBE_LOOKED_UP, &probes.looked_up),
+        (&file::PROBE_ERROR, &probes.error),
+    ] {
+        make_data(group, described, &shape, values, scales)?;
+    }
+    Ok(())
 }
 
 fn write_attributes(file: &File, content: &Content) -> Result<(), hdf5::Error> {
@@ -127,9 +128,13 @@ fn write_attributes(file: &File, content: &Content) -> Result<(), hdf5::Error> {
     text(file, schema::ID, &settings_id(&origin.grid))?;
     text(file, schema::GRID, &origin.grid)?;
     text(file, schema::CONTENT_SHA256, &content_hash(content))?;
-    file.new_attr::<f64>()
-        .create(schema::CELL_WIDTH)?
-        .write_scalar(&content.cell_width)?;
+    for (name, value) in [
+        (schema::CELL_WIDTH, content.cell_width),
+        (schema::R_MAX, content.r_max),
+        (schema::Z_MAX, content.z_max),
+    ] {
+        file.new_attr::<f64>().create(name)?.write_scalar(&value)?;
+    }
     file.new_attr::<u64>()
         .create(schema::STENCIL_POINTS)?
         .write_scalar(&(content.stencil_points as u64))?;

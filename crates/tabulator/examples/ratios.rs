@@ -1,32 +1,62 @@
-//! Error of interpolating across Poisson's ratio, for several sets of slices and stencils.
+//! Error of interpolating across Poisson's ratio, for several sets of slices, stencils and units of time.
 //!
 //! `cargo run --release -p hertzlamb-tabulator --example ratios`
 
 use halfspace::{Medium, Six};
-use lookup::{PulseSum, Series, Smoothness, Stencil};
+use lookup::{Numbers, PulseSum, Series, Smoothness, Stencil};
+use rayon::prelude::*;
 use tabulator::{PointPlan, quantile};
 
-const LENGTHS: [f64; 4] = [3.0, 10.0, 40.0, 100.0];
-const WIDTH: f64 = 0.1;
-/// Number of steps of the fine set of ratios, equal in Rayleigh slowness.
-const STEPS: usize = 48;
-/// The slowness is almost constant near nu = 0; a share of the ratio keeps the coordinate regular there.
-const WEIGHT: f64 = 1.0;
+type Failure = Box<dyn std::error::Error + Send + Sync>;
 
-fn slowness(nu: f64) -> Result<f64, halfspace::DomainError> {
-    Ok(1.0 / Medium::new(nu)?.rayleigh_speed() + WEIGHT * nu)
+/// In r0/c1.
+const LENGTHS: [f64; 4] = [3.0, 10.0, 40.0, 100.0];
+/// Width of a cell at nu = 0.3, in r0/c1.
+const WIDTH: f64 = 0.1;
+/// Number of steps of the fine set of ratios.
+const STEPS: usize = 48;
+const LAST: f64 = 0.45;
+
+/// Unit of time that is kept the same in all slices.
+#[derive(Clone, Copy)]
+enum Clock {
+    Longitudinal,
+    Shear,
+    Rayleigh,
 }
 
-/// Ratios from 0 to 0.45 at equal steps of the Rayleigh slowness, by bisection.
-fn ratios() -> Result<Vec<f64>, halfspace::DomainError> {
-    let (first, last) = (slowness(0.0)?, slowness(0.45)?);
+impl Clock {
+    fn unit(self, nu: f64) -> Result<f64, Failure> {
+        let medium = Medium::new(nu)?;
+        Ok(match self {
+            Self::Longitudinal => 1.0,
+            Self::Shear => 1.0 / medium.kappa(),
+            Self::Rayleigh => 1.0 / medium.rayleigh_speed(),
+        })
+    }
+
+    fn width(self, nu: f64) -> Result<f64, Failure> {
+        Ok(WIDTH * self.unit(nu)? / self.unit(0.3)?)
+    }
+}
+
+fn slowness(nu: f64, weight: f64) -> Result<f64, Failure> {
+    Ok(1.0 / Medium::new(nu)?.rayleigh_speed() + weight * nu)
+}
+
+fn speed(nu: f64, weight: f64) -> Result<f64, Failure> {
+    Ok(-Medium::new(nu)?.rayleigh_speed() + weight * nu)
+}
+
+fn ratios(coordinate: impl Fn(f64) -> Result<f64, Failure>) -> Result<Vec<f64>, Failure> {
+    let (first, last) = (coordinate(0.0)?, coordinate(LAST)?);
     (0..=STEPS)
         .map(|i| {
             let wanted = first + (last - first) * i as f64 / STEPS as f64;
-            let (mut low, mut high) = (0.0, 0.45);
+            let (mut low, mut high) = (0.0, LAST);
             for _ in 0..50 {
                 let middle = 0.5 * (low + high);
-                if slowness(middle)? < wanted {
+                if coordinate(middle)? < wanted {
                     low = middle;
                 } else {
                     high = middle;
@@ -37,47 +67,30 @@ fn ratios() -> Result<Vec<f64>, halfspace::DomainError> {
         .collect()
 }
 
-/// Responses of the remainder alone and of the whole, at one ratio, for each pulse.
-fn responses(nu: f64, r: f64, z: f64) -> Result<Vec<[Vec<Six>; 2]>, Box<dyn std::error::Error>> {
-    let end = 1.5 * (6.0_f64.hypot(6.0) + 1.0) / Medium::new(nu)?.rayleigh_speed();
-    let cells = (end / WIDTH).ceil() as usize;
-    let plan = PointPlan::new(nu, 1e-8, WIDTH, cells, 12)?;
+/// Cells of the remainder at one ratio, and the static part.
+fn series(nu: f64, width: f64, r: f64, z: f64, count: usize) -> Result<(Vec<Six>, Six), Failure> {
+    let end = 1.2 * (6.0_f64.hypot(6.0) + 1.0) / Medium::new(nu)?.rayleigh_speed();
+    let cells = (end / width).ceil() as usize;
+    let plan = PointPlan::new(nu, 1e-8, width, cells, 12)?;
     let point = plan.compute(r, z)?;
     let flat = |values: &[Six]| {
         (0..6)
             .flat_map(|f| values.iter().map(move |six| six[f]))
             .collect::<Vec<f64>>()
     };
-    let series = Series::new(
-        WIDTH,
-        cells,
-        flat(&point.averages),
-        flat(&point.moments),
-        &flat(&point.tail),
-    );
-    let rest = plan.kernel().static_field(r, z)?;
-    Ok(LENGTHS
-        .iter()
-        .map(|&length| {
-            let coarsening = 0;
-            let width = WIDTH * f64::from(1_u32 << coarsening);
-            let mut cells = vec![[0.0; 6]; ((length + 40.0) / width) as usize];
-            series.fill(Smoothness::Smooth, coarsening, &mut cells);
-            let pulse = PulseSum::new(length, width);
-            [
-                pulse.response(&[0.0; 6], &cells),
-                pulse.response(&rest, &cells),
-            ]
-        })
-        .collect())
+    let numbers = Numbers {
+        averages: flat(&point.averages),
+        moments: flat(&point.moments),
+        curvatures: flat(&point.curvatures),
+        tail: flat(&point.tail),
+    };
+    let series = Series::new(width, cells, numbers);
+    let mut out = vec![[0.0; 6]; count];
+    series.fill(Smoothness::Smooth, 0, &mut out);
+    Ok((out, plan.kernel().static_field(r, z)?))
 }
 
-fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let fine = ratios()?;
-    let coordinate = fine
-        .iter()
-        .map(|&nu| slowness(nu))
-        .collect::<Result<Vec<_>, _>>()?;
+fn main() -> Result<(), Failure> {
     let points = [
         (0.1, 0.3),
         (0.5, 0.6),
@@ -90,61 +103,88 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         (0.4, 5.6),
         (5.5, 5.5),
     ];
-    let mut all = Vec::new();
-    for (r, z) in points {
-        all.push(
-            fine.iter()
-                .map(|&nu| responses(nu, r, z))
-                .collect::<Result<Vec<_>, _>>()?,
-        );
-    }
-    let every = |step: usize| (0..=STEPS).step_by(step).collect::<Vec<usize>>();
-    let sets = [
-        ("9 slices", every(6)),
-        ("13 slices", every(4)),
-        ("17 slices", every(3)),
-        ("25 slices", every(2)),
-    ];
-    for (name, set) in sets {
-        let nodes: Vec<f64> = set.iter().map(|&i| coordinate[i]).collect();
-        for points in [4, 6, 8] {
-            print!("{name:>10}, {points} points:");
-            for (p, length) in LENGTHS.iter().enumerate() {
-                let mut ratios = Vec::new();
-                for place in &all {
-                    for (i, &x) in coordinate
-                        .iter()
-                        .enumerate()
-                        .filter(|(i, _)| !set.contains(i))
-                    {
-                        let stencil = Stencil::one_sided(&nodes, x, points).ok_or("outside")?;
-                        for f in 0..6 {
-                            let exact = &place[i][p];
-                            let peak = exact[1]
-                                .iter()
-                                .fold(0.0_f64, |most, six| most.max(six[f].abs()));
-                            let error = (0..exact[0].len()).fold(0.0_f64, |most, n| {
-                                let sum: f64 = stencil
-                                    .nodes()
-                                    .iter()
-                                    .zip(stencil.even())
-                                    .map(|(&k, w)| w * place[set[k]][p][0][n][f])
-                                    .sum();
-                                most.max((sum - exact[0][n][f]).abs())
-                            });
-                            ratios.push(error / peak);
-                        }
-                    }
-                }
-                ratios.sort_by(f64::total_cmp);
-                print!(
-                    "  T={length} p50 {:.0e} p99 {:.0e} max {:.0e};",
-                    quantile(&ratios, 0.5),
-                    quantile(&ratios, 0.99),
-                    quantile(&ratios, 1.0)
-                );
+    for (clock, clock_name) in [
+        (Clock::Longitudinal, "c1"),
+        (Clock::Shear, "c2"),
+        (Clock::Rayleigh, "cR"),
+    ] {
+        for (kind, kind_name) in [(0, "slowness + nu"), (1, "-speed"), (2, "nu")] {
+            let coordinate = |nu: f64| match kind {
+                0 => slowness(nu, 1.0),
+                1 => speed(nu, 0.2),
+                _ => Ok(nu),
+            };
+            if matches!(clock, Clock::Longitudinal) && kind != 0 {
+                continue;
             }
-            println!();
+            let fine = ratios(coordinate)?;
+            let places: Vec<(f64, f64)> = fine
+                .iter()
+                .map(|&nu| Ok((coordinate(nu)?, clock.width(nu)?)))
+                .collect::<Result<_, Failure>>()?;
+            let count = ((100.0 + 40.0) / places[0].1) as usize;
+            let all: Vec<Vec<(Vec<Six>, Six)>> = points
+                .par_iter()
+                .map(|&(r, z)| {
+                    fine.iter()
+                        .zip(&places)
+                        .map(|(&nu, &(_, width))| series(nu, width, r, z, count))
+                        .collect::<Result<_, _>>()
+                })
+                .collect::<Result<_, _>>()?;
+            for step in [8, 6, 4, 3] {
+                let set: Vec<usize> = (0..=STEPS).step_by(step).collect();
+                let nodes: Vec<f64> = set.iter().map(|&i| places[i].0).collect();
+                for stencil_points in [6, 8] {
+                    print!(
+                        "{clock_name} {kind_name:>14} {:>2} slices, {stencil_points} points:",
+                        set.len()
+                    );
+                    for length in LENGTHS {
+                        let mut errors = Vec::new();
+                        for place in &all {
+                            for i in (0..=STEPS).filter(|i| i % step == step / 2) {
+                                let (x, width) = places[i];
+                                let interval = lookup::locate(&nodes, x).ok_or("outside")?;
+                                let stencil =
+                                    Stencil::one_sided(&nodes, interval, x, stencil_points);
+                                let samples = (((length + 40.0) / width) as usize).min(count);
+                                let exact = &place[i];
+                                let difference: Vec<Six> = (0..samples)
+                                    .map(|n| {
+                                        std::array::from_fn(|f| {
+                                            stencil
+                                                .nodes()
+                                                .iter()
+                                                .zip(stencil.even())
+                                                .map(|(&k, w)| w * place[set[k]].0[n][f])
+                                                .sum::<f64>()
+                                                - exact.0[n][f]
+                                        })
+                                    })
+                                    .collect();
+                                let pulse = PulseSum::new(length, width);
+                                let whole = pulse.response(&exact.1, &exact.0[..samples]);
+                                let wrong = pulse.response(&[0.0; 6], &difference);
+                                let most = |list: &[Six], f: usize| {
+                                    list.iter().fold(0.0_f64, |m, six| m.max(six[f].abs()))
+                                };
+                                for f in 0..6 {
+                                    errors.push(most(&wrong, f) / most(&whole, f));
+                                }
+                            }
+                        }
+                        errors.sort_by(f64::total_cmp);
+                        print!(
+                            "  T={length} {:.0e} {:.0e} {:.0e};",
+                            quantile(&errors, 0.5),
+                            quantile(&errors, 0.99),
+                            quantile(&errors, 1.0)
+                        );
+                    }
+                    println!();
+                }
+            }
         }
     }
     Ok(())

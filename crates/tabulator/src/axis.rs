@@ -71,6 +71,19 @@ impl Axis {
         for node in &mut nodes {
             *node = (*node * 65536.0).round() / 65536.0;
         }
+        if let Some(last) = nodes.last_mut() {
+            *last = self.max;
+        }
+        nodes
+    }
+
+    /// [`Self::nodes`] and `count` more beyond `max`, at the last spacing.
+    #[must_use]
+    pub fn padded(&self, count: usize) -> Vec<f64> {
+        let mut nodes = self.nodes();
+        let last = nodes.len() - 1;
+        let step = nodes[last] - nodes[last - 1];
+        nodes.extend((1..=count).map(|i| self.max + step * i as f64));
         nodes
     }
 

@@ -3,6 +3,7 @@
 use crate::error::BuildError;
 use crate::grid::Grid;
 use crate::point::PointPlan;
+use halfspace::Six;
 
 /// Which points a block holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -11,12 +12,14 @@ pub(crate) enum Kind {
     Nodes,
     /// Centres of its meshes, for the verification.
     Probes,
+    /// Places in the middle between two slices, for the verification across Poisson's ratio.
+    Between,
 }
 
 /// One row: all depths at one radius.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(crate) struct Block {
-    /// Index of the slice.
+    /// Index of the slice, or of the interval between slices.
     pub(crate) slice: usize,
     /// Nodes or probes.
     pub(crate) kind: Kind,
@@ -29,29 +32,46 @@ pub(crate) struct Block {
 pub(crate) struct Row {
     pub(crate) remainder: Vec<f32>,
     pub(crate) moment: Vec<f32>,
+    pub(crate) curvature: Vec<f32>,
     pub(crate) tail: Vec<f32>,
+}
+
+impl Row {
+    /// All arrays, in the order in which they are recorded.
+    pub(crate) fn arrays(&self) -> [&[f32]; 4] {
+        [&self.remainder, &self.moment, &self.curvature, &self.tail]
+    }
 }
 
 /// All blocks of a grid, in the order in which they are stored.
 pub(crate) fn all(grid: &Grid) -> Vec<Block> {
-    let rows = grid.r.nodes().len();
+    let rows = |kind| positions(kind, grid)[0].len();
     let mut blocks = Vec::new();
-    for slice in 0..grid.poisson_ratios.len() {
-        for (kind, rows) in [(Kind::Nodes, rows), (Kind::Probes, rows - 1)] {
-            blocks.extend((0..rows).map(|row| Block { slice, kind, row }));
+    for slice in 0..grid.slices().len() {
+        for kind in [Kind::Nodes, Kind::Probes] {
+            blocks.extend((0..rows(kind)).map(|row| Block { slice, kind, row }));
         }
+    }
+    for slice in 0..grid.poisson_ratios.len() - 1 {
+        let kind = Kind::Between;
+        blocks.extend((0..rows(kind)).map(|row| Block { slice, kind, row }));
     }
     blocks
 }
 
-/// Positions of the points of an axis: its nodes or the centres between them.
-pub(crate) fn positions(kind: Kind, nodes: &[f64]) -> Vec<f64> {
+/// Radii and depths of the points of a kind: nodes, centres of meshes, or some of these.
+pub(crate) fn positions(kind: Kind, grid: &Grid) -> [Vec<f64>; 2] {
+    /// Places between slices along an axis, at most.
+    const PLACES: usize = 14;
     match kind {
-        Kind::Nodes => nodes.to_vec(),
-        Kind::Probes => nodes
-            .windows(2)
-            .map(|pair| 0.5 * (pair[0] + pair[1]))
-            .collect(),
+        Kind::Nodes => grid.nodes(),
+        Kind::Probes => [&grid.r, &grid.z].map(|axis| lookup::centres(&axis.nodes(), axis.max)),
+        Kind::Between => positions(Kind::Probes, grid).map(|centres| {
+            let count = centres.len().min(PLACES);
+            (0..count)
+                .map(|i| centres[i * (centres.len() - 1) / (count - 1).max(1)])
+                .collect()
+        }),
     }
 }
 
@@ -61,13 +81,28 @@ pub(crate) fn compute(plan: &PointPlan, r: f64, depths: &[f64]) -> Result<Row, B
     for &z in depths {
         let point = plan.compute(r, z)?;
         for field in 0..6 {
-            row.remainder
-                .extend(point.averages.iter().map(|six| six[field] as f32));
+            let quantum = quantum(&point.averages, field);
+            let stored = |six: &Six| ((six[field] / quantum).round() * quantum) as f32;
+            row.remainder.extend(point.averages.iter().map(stored));
             row.moment
                 .extend(point.moments.iter().map(|six| six[field] as f32));
+            row.curvature
+                .extend(point.curvatures.iter().map(|six| six[field] as f32));
             row.tail
                 .extend(point.tail.iter().map(|six| six[field] as f32));
         }
     }
     Ok(row)
+}
+
+/// Step to which averages are stored: that of single precision at the largest of the field in time.
+///
+/// Smaller ones are as exact as that one, which is what a response is measured by, and take less room.
+fn quantum(averages: &[Six], field: usize) -> f64 {
+    /// Bits after the leading one.
+    const BITS: i32 = 24;
+    let most = averages
+        .iter()
+        .fold(0.0_f64, |most, six| most.max(six[field].abs()));
+    most.max(f64::from(f32::MIN_POSITIVE)).log2().floor().exp2() * 0.5_f64.powi(BITS)
 }

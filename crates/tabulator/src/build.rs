@@ -7,7 +7,7 @@ use crate::journal::{self, Journal};
 use crate::point::PointPlan;
 use crate::progress::Progress;
 use crate::verify;
-use lookup::{Content, Origin, Slice, Table, Verification};
+use lookup::{Between, Content, Origin, Slice, Table, Verification};
 use rayon::prelude::*;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -153,7 +153,7 @@ pub fn merge(
         return Err(BuildError::Incomplete {
             missing: missing.len(),
             total: work.len(),
-            poisson_ratio: grid.poisson_ratios[first.slice],
+            poisson_ratio: grid.slices()[first.slice].0,
             row: first.row,
         });
     }
@@ -206,8 +206,9 @@ fn compute(
     journal: &Mutex<Journal>,
     progress: &dyn Progress,
 ) -> Result<Vec<Row>, BuildError> {
-    let plans = plans(grid)?;
-    let (r, z) = (grid.r.nodes(), grid.z.nodes());
+    let plans = Plans::new(grid)?;
+    let positions =
+        [Kind::Nodes, Kind::Probes, Kind::Between].map(|kind| blocks::positions(kind, grid));
     let missing: Vec<Block> = work
         .iter()
         .filter(|block| !finished.contains_key(block))
@@ -218,12 +219,8 @@ fn compute(
         .par_iter()
         .with_max_len(1)
         .map(|&block| {
-            let radius = blocks::positions(block.kind, &r)[block.row];
-            let row = blocks::compute(
-                &plans[block.slice],
-                radius,
-                &blocks::positions(block.kind, &z),
-            )?;
+            let [r, z] = &positions[block.kind as usize];
+            let row = blocks::compute(plans.of(block), r[block.row], z)?;
             journal
                 .lock()
                 .unwrap_or_else(PoisonError::into_inner)
@@ -239,21 +236,42 @@ fn compute(
         .collect())
 }
 
-fn plans(grid: &Grid) -> Result<Vec<PointPlan>, BuildError> {
-    grid.poisson_ratios
-        .iter()
-        .map(|&nu| plan(grid, nu))
-        .collect()
+/// What is computed in each slice and between them.
+struct Plans {
+    slices: Vec<PointPlan>,
+    between: Vec<PointPlan>,
+}
+
+impl Plans {
+    fn new(grid: &Grid) -> Result<Self, BuildError> {
+        let slices = grid.slices();
+        Ok(Self {
+            slices: slices
+                .iter()
+                .map(|&(nu, _)| plan(grid, nu))
+                .collect::<Result<_, _>>()?,
+            between: (0..grid.poisson_ratios.len() - 1)
+                .map(|interval| plan(grid, grid.between(interval)?))
+                .collect::<Result<_, _>>()?,
+        })
+    }
+
+    fn of(&self, block: Block) -> &PointPlan {
+        match block.kind {
+            Kind::Nodes | Kind::Probes => &self.slices[block.slice],
+            Kind::Between => &self.between[block.slice],
+        }
+    }
 }
 
 /// What is computed at every point of one slice.
 pub(crate) fn plan(grid: &Grid, poisson_ratio: f64) -> Result<PointPlan, BuildError> {
-    let cells = grid.cells(poisson_ratio)?;
+    let width = grid.cell_width * lookup::cell_scale(poisson_ratio)?;
     PointPlan::new(
         poisson_ratio,
         grid.tolerance,
-        grid.cell_width,
-        cells,
+        width,
+        grid.cells()?,
         grid.tail_terms,
     )
 }
@@ -265,39 +283,53 @@ fn assemble(
     rows: Vec<Row>,
     progress: &dyn Progress,
 ) -> Result<Content, BuildError> {
-    let (r, z) = (grid.r.nodes(), grid.z.nodes());
+    let [r, z] = grid.nodes();
+    let [probe_r, probe_z] = blocks::positions(Kind::Probes, grid);
     let pulse_lengths = verify::PULSE_LENGTHS.to_vec();
-    let probes = (r.len() - 1) * (z.len() - 1) * pulse_lengths.len() * 6;
-    let blank = || Verification {
-        direct: vec![0.0; probes],
-        looked_up: vec![0.0; probes],
-        error: vec![0.0; probes],
+    let blank = |places: usize| {
+        let zeros = vec![0.0; places * pulse_lengths.len() * 6];
+        Verification {
+            direct: zeros.clone(),
+            looked_up: zeros.clone(),
+            error: zeros,
+        }
     };
-    let mut slices = Vec::new();
-    for &poisson_ratio in &grid.poisson_ratios {
-        let cells = grid.cells(poisson_ratio)?;
-        let (remainder, moment, tail) = (Vec::new(), Vec::new(), Vec::new());
-        slices.push(Slice {
+    let cells = grid.cells()?;
+    let mut slices: Vec<Slice> = grid
+        .slices()
+        .into_iter()
+        .map(|(poisson_ratio, role)| Slice {
             poisson_ratio,
+            role,
             cells,
-            remainder,
-            moment,
-            tail,
-            verification: blank(),
-        });
-    }
+            remainder: Vec::new(),
+            moment: Vec::new(),
+            curvature: Vec::new(),
+            tail: Vec::new(),
+            verification: blank(probe_r.len() * probe_z.len()),
+        })
+        .collect();
+    let intervals = grid.poisson_ratios.len() - 1;
     let mut exact: Vec<Vec<Row>> = vec![Vec::new(); slices.len()];
+    let mut exact_between: Vec<Vec<Row>> = vec![Vec::new(); intervals];
     for (block, row) in work.iter().zip(rows) {
         match block.kind {
             Kind::Nodes => {
                 let slice = &mut slices[block.slice];
                 slice.remainder.extend(row.remainder);
                 slice.moment.extend(row.moment);
+                slice.curvature.extend(row.curvature);
                 slice.tail.extend(row.tail);
             }
             Kind::Probes => exact[block.slice].push(row),
+            Kind::Between => exact_between[block.slice].push(row),
         }
     }
+    let [between_r, between_z] = if intervals > 0 {
+        blocks::positions(Kind::Between, grid)
+    } else {
+        Default::default()
+    };
     let table = Table::new(Content {
         origin: Origin {
             grid: grid.to_toml()?,
@@ -311,25 +343,42 @@ fn assemble(
         },
         r,
         z,
+        r_max: grid.r.max,
+        z_max: grid.z.max,
         cell_width: grid.cell_width,
         stencil_points: grid.stencil_points,
         pulse_lengths,
         slices,
+        between_r: between_r.clone(),
+        between_z: between_z.clone(),
+        between: Vec::new(),
     })?;
-    progress.total("verification", exact.len() as u64);
+    progress.total("verification", (exact.len() + intervals) as u64);
     let mut measured = Vec::new();
-    for (slice, rows) in exact.iter().enumerate() {
-        measured.push(verify::verify(&table, slice, rows)?);
+    for (&nu, rows) in table.poisson_ratios().iter().zip(&exact) {
+        measured.push(verify::verify(&table, nu, [&probe_r, &probe_z], rows)?);
+        progress.advance(1);
+    }
+    let mut between = Vec::new();
+    for (interval, rows) in exact_between.iter().enumerate() {
+        let poisson_ratio = grid.between(interval)?;
+        let places = [between_r.as_slice(), between_z.as_slice()];
+        between.push(Between {
+            poisson_ratio,
+            verification: verify::verify(&table, poisson_ratio, places, rows)?,
+        });
         progress.advance(1);
     }
     let mut content = table.into_content();
+    content.between = between;
     for (slice, verification) in content.slices.iter_mut().zip(measured) {
         slice.verification = verification;
     }
+    let all: Vec<&Verification> = content.slices.iter().map(|s| &s.verification).collect();
     content.origin.accuracy_reached = (0..content.pulse_lengths.len())
         .map(|pulse| {
             let mut all: Vec<f64> = (0..6)
-                .flat_map(|field| verify::relative_errors(&content, pulse, field, 1e-3))
+                .flat_map(|field| verify::relative_errors(&content, &all, pulse, field, 1e-3))
                 .collect();
             all.sort_by(f64::total_cmp);
             verify::quantile(&all, 0.99)

@@ -50,11 +50,7 @@ pub fn check_table(path: &Path, sample: usize, seed: u64) -> Result<CheckReport,
     lookup::check_hash(path, &content)?;
     let table = Table::new(content)?;
     let content = table.content();
-    let grid: Grid =
-        toml::from_str(&content.origin.grid).map_err(|error| BuildError::GridFile {
-            path: path.to_owned(),
-            detail: error.to_string(),
-        })?;
+    let grid = Grid::of(content)?;
     same_axes(&grid, content)?;
     let nodes = content.r.len() * content.z.len();
     let total = nodes * content.slices.len();
@@ -134,15 +130,15 @@ fn same_axes(grid: &Grid, content: &Content) -> Result<(), BuildError> {
         found,
     };
     for (item, needed, found) in [
-        ("r", grid.r.nodes(), &content.r),
-        ("z", grid.z.nodes(), &content.z),
+        ("r", &grid.nodes()[0], &content.r),
+        ("z", &grid.nodes()[1], &content.z),
     ] {
         if needed.len() != found.len() {
             return Err(shape(item, needed.len(), found.len()).into());
         }
     }
     for slice in &content.slices {
-        let needed = grid.cells(slice.poisson_ratio)?;
+        let needed = grid.cells()?;
         if needed != slice.cells {
             return Err(shape("time", needed, slice.cells).into());
         }

@@ -43,6 +43,7 @@ pub fn differences(first: &Content, second: &Content) -> Vec<Difference> {
             "stencil_points",
             first.stencil_points == second.stencil_points,
         ),
+        ("between", first.between == second.between),
         ("pulse_length", first.pulse_lengths == second.pulse_lengths),
     ] {
         if !same {
@@ -85,6 +86,7 @@ fn values(a: &Slice, b: &Slice, found: &mut Vec<Difference>) {
     for (dataset, first, second) in [
         (lookup::schema::REMAINDER, &a.remainder, &b.remainder),
         (lookup::schema::MOMENT, &a.moment, &b.moment),
+        (lookup::schema::CURVATURE, &a.curvature, &b.curvature),
         (lookup::schema::TAIL, &a.tail, &b.tail),
         (
             lookup::schema::PROBE_DIRECT,

@@ -26,6 +26,12 @@ pub enum BuildError {
         /// What is wrong with it, and where.
         detail: String,
     },
+    /// The settings that a table carries are not a grid.
+    #[error("the settings in the table are not a grid: {detail}")]
+    Settings {
+        /// What is wrong with them.
+        detail: String,
+    },
     /// The settings cannot be written as TOML.
     #[error("grid: {0}")]
     Unwritable(#[from] toml::ser::Error),

@@ -3,6 +3,7 @@
 use crate::axis::Axis;
 use crate::error::BuildError;
 use halfspace::Medium;
+use lookup::{Content, Role};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
@@ -14,7 +15,10 @@ use std::path::Path;
 pub struct Grid {
     /// Poisson ratios, one slice each, ascending, in (-1, 0.5).
     pub poisson_ratios: Vec<f64>,
-    /// Width of a time cell in r0/c1.
+    /// Poisson ratios that have a slice of their own and take no part in interpolation, ascending.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub exact_ratios: Vec<f64>,
+    /// Width of a time cell in r0/c1 at nu = 0.3; in proportion to the Rayleigh slowness elsewhere.
     #[serde(default = "defaults::cell_width")]
     pub cell_width: f64,
     /// The cells end at this multiple of the last arrival at the farthest point; then the tail takes over.
@@ -47,18 +51,22 @@ fn ratios(first: f64, last: f64, count: usize) -> Result<Vec<f64>, BuildError> {
     (0..count)
         .map(|i| {
             let wanted = start + (end - start) * i as f64 / (count - 1) as f64;
-            let (mut low, mut high) = (first, last);
-            for _ in 0..40 {
-                let middle = 0.5 * (low + high);
-                if lookup::ratio_coordinate(middle)? < wanted {
-                    low = middle;
-                } else {
-                    high = middle;
-                }
-            }
-            Ok((1000.0 * high).round() / 1000.0)
+            Ok((1000.0 * bisect(first, last, wanted)?).round() / 1000.0)
         })
         .collect()
+}
+
+/// The ratio in [`low`, `high`] whose coordinate is `wanted`.
+fn bisect(mut low: f64, mut high: f64, wanted: f64) -> Result<f64, BuildError> {
+    for _ in 0..50 {
+        let middle = 0.5 * (low + high);
+        if lookup::ratio_coordinate(middle)? < wanted {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    Ok(high)
 }
 
 mod defaults {
@@ -72,10 +80,10 @@ mod defaults {
         12
     }
     pub(super) fn stencil_points() -> usize {
-        6
+        8
     }
     pub(super) fn tolerance() -> f64 {
-        1e-9
+        1e-8
     }
 }
 
@@ -85,13 +93,14 @@ impl Grid {
     pub fn demo() -> Self {
         Self {
             poisson_ratios: vec![0.3],
+            exact_ratios: Vec::new(),
             cell_width: defaults::cell_width(),
             time_factor: defaults::time_factor(),
             tail_terms: defaults::tail_terms(),
             stencil_points: defaults::stencil_points(),
             tolerance: defaults::tolerance(),
-            r: Axis::uniform(6.0, 0.125),
-            z: Axis::uniform(6.0, 0.125),
+            r: Axis::graded(6.0, 0.15, 1.0, 0.04, 0.15),
+            z: Axis::graded(6.0, 0.15, 0.0, 0.04, 0.15),
         }
     }
 
@@ -101,19 +110,22 @@ impl Grid {
     /// [`BuildError::Domain`], which no ratio of the preset causes.
     pub fn standard() -> Result<Self, BuildError> {
         Ok(Self {
-            poisson_ratios: ratios(0.0, 0.45, 15)?,
+            poisson_ratios: ratios(0.0, 0.45, 11)?,
+            cell_width: 0.125,
+            r: Axis::graded(6.0, 0.1, 1.0, 0.025, 0.12),
+            z: Axis::graded(6.0, 0.1, 0.0, 0.02, 0.12),
             ..Self::demo()
         })
     }
 
-    /// [`Self::standard`] to 12 r0, coarser where nothing is near.
+    /// [`Self::standard`] to 12 r0, with fewer nodes to a length.
     ///
     /// # Errors
     /// As [`Self::standard`].
     pub fn wide() -> Result<Self, BuildError> {
         Ok(Self {
-            r: Axis::uniform(12.0, 0.15),
-            z: Axis::uniform(12.0, 0.15),
+            r: Axis::graded(12.0, 0.15, 1.0, 0.04, 0.12),
+            z: Axis::graded(12.0, 0.15, 0.0, 0.03, 0.12),
             ..Self::standard()?
         })
     }
@@ -149,6 +161,16 @@ impl Grid {
         Ok(grid)
     }
 
+    /// The grid that a table was made with.
+    ///
+    /// # Errors
+    /// [`BuildError::Settings`] when the table's text is not a grid.
+    pub fn of(content: &Content) -> Result<Self, BuildError> {
+        toml::from_str(&content.origin.grid).map_err(|error| BuildError::Settings {
+            detail: error.message().to_owned(),
+        })
+    }
+
     /// The resolved settings as TOML.
     ///
     /// # Errors
@@ -157,14 +179,44 @@ impl Grid {
         Ok(toml::to_string(self)?)
     }
 
-    /// Number of time cells of a slice.
+    /// Nodes in r and z, with those beyond the largest values served that the stencils there need.
+    #[must_use]
+    pub fn nodes(&self) -> [Vec<f64>; 2] {
+        let beyond = self.stencil_points / 2 - 1;
+        [self.r.padded(beyond), self.z.padded(beyond)]
+    }
+
+    /// Number of time cells, the same in every slice.
     ///
     /// # Errors
-    /// [`BuildError::Domain`] for a Poisson ratio outside (-1, 0.5).
-    pub fn cells(&self, poisson_ratio: f64) -> Result<usize, BuildError> {
+    /// [`BuildError::Domain`], which no grid causes.
+    pub fn cells(&self) -> Result<usize, BuildError> {
         let farthest = self.r.max.hypot(self.z.max) + 1.0;
-        let end = self.time_factor * farthest / Medium::new(poisson_ratio)?.rayleigh_speed();
+        let end = self.time_factor * farthest / Medium::new(0.3)?.rayleigh_speed();
         Ok((end / self.cell_width).ceil() as usize)
+    }
+
+    /// Poisson ratios of all slices, ascending, with their roles.
+    #[must_use]
+    pub fn slices(&self) -> Vec<(f64, Role)> {
+        let grid = self.poisson_ratios.iter().map(|&nu| (nu, Role::Grid));
+        let exact = self.exact_ratios.iter().map(|&nu| (nu, Role::Exact));
+        let mut slices: Vec<(f64, Role)> = grid.chain(exact).collect();
+        slices.sort_by(|a, b| a.0.total_cmp(&b.0));
+        slices
+    }
+
+    /// The Poisson ratio in the middle between slices `interval` and the next of [`Self::poisson_ratios`].
+    ///
+    /// # Errors
+    /// [`BuildError::Domain`] for a ratio outside (-1, 0.5).
+    pub fn between(&self, interval: usize) -> Result<f64, BuildError> {
+        let [low, high] = [
+            self.poisson_ratios[interval],
+            self.poisson_ratios[interval + 1],
+        ];
+        let middle = 0.5 * (lookup::ratio_coordinate(low)? + lookup::ratio_coordinate(high)?);
+        bisect(low, high, middle)
     }
 
     /// Checks every setting.
@@ -208,6 +260,13 @@ impl Grid {
             within("poisson_ratios", nu, -0.95, 0.495, "[-0.95, 0.495]")?;
             let ascends = i == 0 || nu > self.poisson_ratios[i - 1];
             setting("poisson_ratios", nu, ascends, "strictly ascending values")?;
+        }
+        for (i, &nu) in self.exact_ratios.iter().enumerate() {
+            within("exact_ratios", nu, -0.95, 0.495, "[-0.95, 0.495]")?;
+            let ascends = i == 0 || nu > self.exact_ratios[i - 1];
+            setting("exact_ratios", nu, ascends, "strictly ascending values")?;
+            let new = !self.poisson_ratios.contains(&nu);
+            setting("exact_ratios", nu, new, "ratios that poisson_ratios lacks")?;
         }
         for (name, axis) in [("r", &self.r), ("z", &self.z)] {
             within(&format!("{name}.max"), axis.max, 0.25, 100.0, "[0.25, 100]")?;

@@ -1,7 +1,7 @@
 //! The blocks computed so far, kept in a file that survives an interruption at any moment.
 //!
 //! `NAME.journal`, or a shard, starts with a line that names the settings and with the settings themselves;
-//! then follow records that are only ever appended: a header (slice, kind, row, three lengths), the numbers, and a SHA-256 of both. A record that
+//! then follow records that are only ever appended: a header (slice, kind, row, four lengths), the numbers, and a SHA-256 of both. A record that
 //! was cut short is dropped on reading and computed again. The finished table is made from the records in
 //! the order of the grid, so its bytes do not depend on the order in which they were written.
 
@@ -14,9 +14,9 @@ use std::io::{Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 /// How every journal starts.
-const KIND: &str = "hertzlamb kernel blocks 1, settings ";
-/// Bytes before the numbers of a record: six integers.
-const HEADER: usize = 6 * 8;
+const KIND: &str = "hertzlamb kernel blocks 2, settings ";
+/// Bytes before the numbers of a record: seven integers.
+const HEADER: usize = 7 * 8;
 /// Bytes after them.
 const SUM: usize = 32;
 
@@ -74,18 +74,19 @@ impl Journal {
 
     /// Appends a finished block.
     pub(crate) fn record(&mut self, block: Block, row: &Row) -> Result<(), BuildError> {
-        let mut bytes = Vec::with_capacity(
-            HEADER + SUM + 4 * (row.remainder.len() + row.moment.len() + row.tail.len()),
-        );
+        let arrays = row.arrays();
+        let count: usize = arrays.iter().map(|array| array.len()).sum();
+        let mut bytes = Vec::with_capacity(HEADER + SUM + 4 * count);
         let kind = match block.kind {
             Kind::Nodes => 0,
             Kind::Probes => 1,
+            Kind::Between => 2,
         };
-        let lengths = [row.remainder.len(), row.moment.len(), row.tail.len()];
+        let lengths = arrays.map(<[f32]>::len);
         for number in [block.slice, kind, block.row].into_iter().chain(lengths) {
             bytes.extend((number as u64).to_le_bytes());
         }
-        for value in row.remainder.iter().chain(&row.moment).chain(&row.tail) {
+        for value in arrays.into_iter().flatten() {
             bytes.extend(value.to_le_bytes());
         }
         let sum = Sha256::digest(&bytes);
@@ -175,17 +176,18 @@ fn record(bytes: &[u8]) -> Option<(Block, Row, usize)> {
     let kind = match next()? {
         0 => Kind::Nodes,
         1 => Kind::Probes,
-        2.. => return None,
+        2 => Kind::Between,
+        3.. => return None,
     };
     let block = Block {
         slice,
         kind,
         row: next()?,
     };
-    let lengths = [next()?, next()?, next()?];
-    let count = lengths[0]
-        .checked_add(lengths[1])?
-        .checked_add(lengths[2])?;
+    let lengths = [next()?, next()?, next()?, next()?];
+    let count = lengths
+        .iter()
+        .try_fold(0_usize, |sum, &length| sum.checked_add(length))?;
     let body = HEADER.checked_add(count.checked_mul(4)?)?;
     let stated = bytes.get(body..body.checked_add(SUM)?)?;
     if Sha256::digest(&bytes[..body]).as_slice() != stated {
@@ -200,7 +202,8 @@ fn record(bytes: &[u8]) -> Option<(Block, Row, usize)> {
     let row = Row {
         remainder: take(lengths[0]),
         moment: take(lengths[1]),
-        tail: take(lengths[2]),
+        curvature: take(lengths[2]),
+        tail: take(lengths[3]),
     };
     Some((block, row, body + SUM))
 }
@@ -213,6 +216,7 @@ mod tests {
         Row {
             remainder: vec![seed; 7],
             moment: vec![2.0 * seed; 7],
+            curvature: vec![3.0 * seed; 7],
             tail: vec![seed, -seed],
         }
     }

@@ -11,9 +11,12 @@ mod difference;
 mod error;
 mod grid;
 mod journal;
+mod late;
+mod moments;
+mod observe;
 mod point;
 mod progress;
-mod tail_fit;
+
 mod verify;
 
 pub use axis::Axis;
@@ -22,6 +25,7 @@ pub use check::{BadNode, CheckReport, check_table};
 pub use difference::{Difference, differences};
 pub use error::BuildError;
 pub use grid::{Grid, PRESETS};
+pub use observe::{Observation, observe};
 pub use point::{PointKernels, PointPlan};
 pub use progress::{Progress, Silent};
 pub use verify::{PULSE_LENGTHS, quantile};

@@ -2,32 +2,38 @@
 
 use crate::blocks::Row;
 use crate::error::BuildError;
-use lookup::{Content, PulseSum, Series, Smoothness, Table, Verification};
+use halfspace::{Kernel, Medium, Profile, Six};
+use lookup::{Content, Numbers, PulseSum, Series, Smoothness, Table, Verification};
 use rayon::prelude::*;
 
 /// Lengths of the verification pulses in r0/c1.
-pub const PULSE_LENGTHS: [f64; 6] = [1.0, 3.0, 10.0, 25.0, 50.0, 100.0];
+pub const PULSE_LENGTHS: [f64; 6] = [1.0, 3.0, 10.0, 20.0, 40.0, 100.0];
 /// A pulse is sampled by at least this many cells where the table has them.
-const SAMPLES: f64 = 500.0;
+const SAMPLES: f64 = 250.0;
 
-/// Measures the errors of one slice: `rows[i]` holds the exact numbers of the probes between nodes i and i + 1.
+/// Measures errors at one Poisson ratio: `rows[i]` holds the exact numbers at radius `r[i]` and all depths `z`.
 pub(crate) fn verify(
     table: &Table,
-    slice: usize,
+    poisson_ratio: f64,
+    [r, z]: [&[f64]; 2],
     rows: &[Row],
 ) -> Result<Verification, BuildError> {
-    let content = table.content();
+    let width = table.cell_width(poisson_ratio)?;
+    // Until a pulse has passed the last arrival at the farthest point, and the smooth rest is small.
+    let arrived = table.content().slices[0].cells as f64 * width / 1.5;
+    // Only its static field is used, which is closed form.
+    let kernel = Kernel::new(&Medium::new(poisson_ratio)?, Profile::Hertz, 1e-2)?;
     let parts: Vec<Verification> = rows
         .par_iter()
-        .enumerate()
-        .map(|(i, row)| {
+        .zip(r)
+        .map(|(row, &r)| {
             let mut part = Verification::default();
-            for k in 0..content.z.len() - 1 {
-                let r = 0.5 * (content.r[i] + content.r[i + 1]);
-                let z = 0.5 * (content.z[k] + content.z[k + 1]);
-                let exact = exact(content, slice, row, k);
-                for &length in &content.pulse_lengths {
-                    probe(table, slice, [r, z], length, &exact, &mut part)?;
+            for (k, &z) in z.iter().enumerate() {
+                let exact = exact(table.content(), width, row, k);
+                let found = table.series(poisson_ratio, r, z)?;
+                let rest = kernel.static_field(r, z)?;
+                for &length in &table.content().pulse_lengths {
+                    probe(&exact, &found, &rest, length, arrived, &mut part);
                 }
             }
             Ok(part)
@@ -46,13 +52,13 @@ pub(crate) fn verify(
 /// stays below `least` of its largest peak over all probes are left out.
 pub(crate) fn relative_errors(
     content: &Content,
+    measured: &[&Verification],
     pulse: usize,
     field: usize,
     least: f64,
 ) -> Vec<f64> {
     let mut ratios = Vec::new();
-    for slice in &content.slices {
-        let probes = &slice.verification;
+    for probes in measured {
         let picked =
             (pulse * 6 + field..probes.direct.len()).step_by(6 * content.pulse_lengths.len());
         let largest = picked
@@ -80,45 +86,40 @@ pub fn quantile(sorted: &[f64], share: f64) -> f64 {
 }
 
 /// Exact series of depth `k` of a row of probes.
-fn exact(content: &Content, slice: usize, row: &Row, k: usize) -> Series {
-    let slice = &content.slices[slice];
-    let terms = slice.tail_terms(content.r.len() * content.z.len());
+fn exact(content: &Content, width: f64, row: &Row, k: usize) -> Series {
+    let (cells, terms) = (
+        content.slices[0].cells,
+        content.slices[0].tail_terms(content.r.len() * content.z.len()),
+    );
     let part = |values: &[f32], length: usize| -> Vec<f64> {
         values[k * 6 * length..(k + 1) * 6 * length]
             .iter()
             .map(|&x| f64::from(x))
             .collect()
     };
-    let averages = part(&row.remainder, slice.cells);
-    let moments = part(&row.moment, slice.cells);
-    Series::new(
-        content.cell_width,
-        slice.cells,
-        averages,
-        moments,
-        &part(&row.tail, terms),
-    )
+    let numbers = Numbers {
+        averages: part(&row.remainder, cells),
+        moments: part(&row.moment, cells),
+        curvatures: part(&row.curvature, cells),
+        tail: part(&row.tail, terms),
+    };
+    Series::new(width, cells, numbers)
 }
 
 fn probe(
-    table: &Table,
-    slice: usize,
-    [r, z]: [f64; 2],
-    length: f64,
     exact: &Series,
+    found: &Series,
+    rest: &Six,
+    length: f64,
+    arrived: f64,
     out: &mut Verification,
-) -> Result<(), BuildError> {
-    let content = table.content();
-    let samples = length / content.cell_width;
-    let coarsening = (samples / SAMPLES).log2().max(0.0) as u32;
-    let width = content.cell_width * f64::from(1_u32 << coarsening);
-    // Until the pulse has passed the last arrival at the farthest point, and the smooth rest is small.
-    let arrived = content.slices[slice].time_end(content.cell_width) / 1.5;
+) {
+    let fine = exact.width();
+    let coarsening = (length / fine / SAMPLES).log2().max(0.0) as u32;
+    let width = fine * f64::from(1_u32 << coarsening);
     let count = ((arrived + length) / width).ceil() as usize;
-    let mut looked_up = vec![[0.0; 6]; count];
-    let nu = table.poisson_ratios()[slice];
-    let info = table.trace_for(Smoothness::Smooth, nu, r, z, coarsening, &mut looked_up)?;
-    let mut direct = vec![[0.0; 6]; count];
+    let (mut looked_up, mut direct) = (vec![[0.0; 6]; count], vec![[0.0; 6]; count]);
+    found.fill(Smoothness::Smooth, coarsening, &mut looked_up);
     exact.fill(Smoothness::Smooth, coarsening, &mut direct);
     for (a, b) in looked_up.iter_mut().zip(&direct) {
         for f in 0..6 {
@@ -126,7 +127,7 @@ fn probe(
         }
     }
     let pulse = PulseSum::new(length, width);
-    let response = pulse.response(&info.static_part, &direct);
+    let response = pulse.response(rest, &direct);
     let difference = pulse.response(&[0.0; 6], &looked_up);
     for f in 0..6 {
         let peak = (0..count)
@@ -140,5 +141,4 @@ fn probe(
             .push((response[peak][f] + difference[peak][f]) as f32);
         out.error.push(error as f32);
     }
-    Ok(())
 }

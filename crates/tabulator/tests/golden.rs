@@ -41,7 +41,7 @@ fn golden() -> Vec<Golden> {
 
 /// Response at time t to sin^4(pi t/T), sampled backwards from t.
 fn response(table: &Table, row: &Golden) -> [f64; 6] {
-    let width = table.cell_width();
+    let width = table.cell_width(0.3).unwrap();
     let count = (row.t / width).ceil() as usize + 1;
     let mut cells = vec![[0.0; 6]; count];
     let info = table

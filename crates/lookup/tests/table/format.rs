@@ -19,7 +19,7 @@ fn what_is_written_is_read() {
     check_hash(&path, &back).unwrap();
     let table = Table::open(&path).unwrap();
     assert_eq!(table.id().len(), 16);
-    assert_eq!(table.format_version(), "1.0");
+    assert_eq!(table.format_version(), "2.0");
 }
 
 #[test]
@@ -116,12 +116,12 @@ fn set_text(file: &hdf5::File, name: &str, value: &str) {
 fn versions_kinds_and_gaps_are_named() {
     let folder = tempfile::tempdir().unwrap();
     let error = changed(&folder, |file| {
-        set_text(file, schema::FORMAT_VERSION, "2.0");
+        set_text(file, schema::FORMAT_VERSION, "1.0");
     });
     assert!(
         error
             .to_string()
-            .ends_with("has kernel-table format version \"2.0\"; this program reads version 1.x")
+            .ends_with("has kernel-table format version \"1.0\"; this program reads version 2.x")
     );
     let error = changed(&folder, |file| {
         set_text(file, schema::FILE_TYPE, "hertzlamb impact results");
@@ -151,7 +151,7 @@ fn versions_kinds_and_gaps_are_named() {
     // A later minor version is read.
     let path = written(&folder);
     let file = hdf5::File::open_rw(&path).unwrap();
-    set_text(&file, schema::FORMAT_VERSION, "1.7");
+    set_text(&file, schema::FORMAT_VERSION, "2.7");
     file.close().unwrap();
     Table::open(&path).unwrap();
 }

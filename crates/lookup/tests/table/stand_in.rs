@@ -1,7 +1,7 @@
 //! A small table filled from a smooth analytic stand-in for the kernels.
 
 use halfspace::{FIELDS, Six};
-use lookup::{Content, Origin, Slice, Table, Verification};
+use lookup::{Content, Origin, Role, Slice, Table, Verification};
 
 /// Width of a cell.
 pub(crate) const WIDTH: f64 = 0.25;
@@ -26,7 +26,8 @@ pub(crate) fn content() -> Content {
     let z: Vec<f64> = (0..12)
         .map(|i| 0.1 * f64::from(i) + 0.005 * f64::from(i * i))
         .collect();
-    let (mut remainder, mut moment, mut tail) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut remainder, mut moment) = (Vec::new(), Vec::new());
+    let (mut curvature, mut tail) = (Vec::new(), Vec::new());
     for &r in &r {
         for &z in &z {
             for field in 0..6 {
@@ -37,6 +38,11 @@ pub(crate) fn content() -> Content {
                         average(r, z, field, middle, to) - average(r, z, field, from, middle);
                     remainder.push(average(r, z, field, from, to) as f32);
                     moment.push((halves / 6.0) as f32);
+                    let third = |i: f64| {
+                        let edge = |k: f64| from + (to - from) * k / 3.0;
+                        average(r, z, field, edge(i), edge(i + 1.0))
+                    };
+                    curvature.push(((third(0.0) - 2.0 * third(1.0) + third(2.0)) / 40.0) as f32);
                 }
                 // With t_end = 10: R = u^2/(1 + u)^2, g = 1/(1 + u)^2, fitted at Chebyshev points.
                 tail.extend(chebyshev_fit(|u| shape(r, z, field) / (1.0 + u).powi(2)));
@@ -46,9 +52,11 @@ pub(crate) fn content() -> Content {
     let probes = (r.len() - 1) * (z.len() - 1) * 6;
     let slice = Slice {
         poisson_ratio: 0.3,
+        role: Role::Grid,
         cells: CELLS,
         remainder,
         moment,
+        curvature,
         tail,
         verification: Verification {
             direct: vec![1.0; probes],
@@ -65,12 +73,17 @@ pub(crate) fn content() -> Content {
             accuracy_asked: 1e-9,
             accuracy_reached: vec![1e-5],
         },
+        r_max: r[r.len() - 1],
+        z_max: z[z.len() - 1],
         r,
         z,
         cell_width: WIDTH,
         stencil_points: 6,
         pulse_lengths: vec![10.0],
         slices: vec![slice],
+        between_r: Vec::new(),
+        between_z: Vec::new(),
+        between: Vec::new(),
     }
 }
 

@@ -1,0 +1,215 @@
+//! The remainder at one point in time: table cells with their moments, wider cells, the tail.
+
+use crate::content::FIELDS;
+use crate::smooth;
+use crate::tail::Tail;
+use halfspace::Six;
+
+/// What is assumed of the force between samples one cell apart.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Smoothness {
+    /// Linear between samples: the cells are plain averages and the sum is exact.
+    Linear,
+    /// A smooth function of time: first and second moments of the cells account for its slope and curvature
+    /// within a cell.
+    ///
+    /// Used in the same sum, the cells leave an error of fourth order in the cell width where linear
+    /// samples leave second order, also where a front crosses a cell.
+    Smooth,
+}
+
+/// The remainder at one point in all its fields: averages, moments and curvatures of the table's cells, tails.
+#[derive(Debug, Clone)]
+pub struct Series {
+    width: f64,
+    stored: usize,
+    averages: Vec<f64>,
+    moments: Vec<f64>,
+    curvatures: Vec<f64>,
+    tails: Vec<Tail>,
+}
+
+/// The numbers of a [`Series`], each of shape (field, time) or (field, term).
+///
+/// Moments and curvatures may be left empty where only [`Smoothness::Linear`] is asked for.
+#[derive(Debug, Clone, Default)]
+pub struct Numbers {
+    /// Averages over the cells.
+    pub averages: Vec<f64>,
+    /// First moments of the cells.
+    pub moments: Vec<f64>,
+    /// Second moments of the cells.
+    pub curvatures: Vec<f64>,
+    /// Coefficients of the tail.
+    pub tail: Vec<f64>,
+}
+
+impl Series {
+    /// A series from its numbers; `width` is that of a cell, and the tail follows after `cells` of them.
+    #[must_use]
+    pub fn new(width: f64, cells: usize, numbers: Numbers) -> Self {
+        let terms = (numbers.tail.len() / FIELDS).max(1);
+        let end = cells as f64 * width;
+        Self {
+            width,
+            stored: numbers.averages.len() / FIELDS,
+            tails: numbers
+                .tail
+                .chunks_exact(terms)
+                .map(|c| Tail::new(end, c))
+                .collect(),
+            averages: numbers.averages,
+            moments: numbers.moments,
+            curvatures: numbers.curvatures,
+        }
+    }
+
+    /// Width of a table cell in r0/c1.
+    #[must_use]
+    pub fn width(&self) -> f64 {
+        self.width
+    }
+
+    /// Fills `cells` with averages over 2^`coarsening` table cells, corrected as `smoothness` says.
+    pub fn fill(&self, smoothness: Smoothness, coarsening: u32, cells: &mut [Six]) {
+        let fine = 1_usize << coarsening;
+        for (field, tail) in self.tails.iter().enumerate() {
+            let averages = self.row(&self.averages, field);
+            for (j, cell) in cells.iter_mut().enumerate() {
+                cell[field] = self.average(averages, tail, j, fine);
+            }
+        }
+        match smoothness {
+            Smoothness::Linear => {}
+            Smoothness::Smooth => self.correct(fine, cells),
+        }
+    }
+
+    fn correct(&self, fine: usize, cells: &mut [Six]) {
+        let count = cells.len() + smooth::BEYOND;
+        let (mut moments, mut curvatures) =
+            (vec![[0.0; FIELDS]; count], vec![[0.0; FIELDS]; count]);
+        for (field, tail) in self.tails.iter().enumerate() {
+            for (j, (moment, curvature)) in moments.iter_mut().zip(&mut curvatures).enumerate() {
+                [moment[field], curvature[field]] = self.moments_of(field, tail, j, fine);
+            }
+        }
+        smooth::correct(cells, &moments, &curvatures);
+    }
+
+    fn row<'a>(&self, values: &'a [f64], field: usize) -> &'a [f64] {
+        &values[field * self.stored..(field + 1) * self.stored]
+    }
+
+    /// Average over coarse cell `j` of `fine` cells, of which the stored ones come first.
+    fn average(&self, stored: &[f64], tail: &Tail, j: usize, fine: usize) -> f64 {
+        let (from, to) = (j * fine, (j + 1) * fine);
+        if to <= stored.len() {
+            return if fine == 1 {
+                stored[j]
+            } else {
+                pairwise(&stored[from..to]) / fine as f64
+            };
+        }
+        let sum = pairwise(&stored[from.min(stored.len())..]);
+        let start = from.max(stored.len()) as f64 * self.width;
+        let end = to as f64 * self.width;
+        (sum * self.width + tail.average(start, end) * (end - start)) / (fine as f64 * self.width)
+    }
+
+    /// First and second moment over coarse cell `j` from its parts.
+    ///
+    /// With s = (x + y)/F, x the centre of a part and y within it, both in table cells.
+    fn moments_of(&self, field: usize, tail: &Tail, j: usize, fine: usize) -> [f64; 2] {
+        let (from, to) = (j * fine, (j + 1) * fine);
+        let averages = self.row(&self.averages, field);
+        let (moments, curvatures) = (
+            self.row(&self.moments, field),
+            self.row(&self.curvatures, field),
+        );
+        let inside = from.min(self.stored)..to.min(self.stored);
+        let width = fine as f64;
+        if fine == 1 && inside.len() == 1 {
+            return [moments[j], curvatures[j]];
+        }
+        let (mut first, mut second) = (0.0, 0.0);
+        let mut add = |x: f64, part: f64, average: f64, moment: f64, curvature: f64| {
+            // int R s ds and int R (s^2 - 1/12) ds over a part that is `part` table cells wide
+            first += part * (x * average + part * moment) / width;
+            let square = x * x * average
+                + 2.0 * x * part * moment
+                + part * part * (curvature + average / 12.0);
+            second += part * (square / (width * width) - average / 12.0);
+        };
+        let centre = 0.5 * (from + to) as f64;
+        for k in inside {
+            add(
+                k as f64 + 0.5 - centre,
+                1.0,
+                averages[k],
+                moments[k],
+                curvatures[k],
+            );
+        }
+        if to > self.stored {
+            // After the last arrival R is smooth: differences of thirds.
+            let start = from.max(self.stored) as f64;
+            let part = to as f64 - start;
+            let edge = |i: f64| (start + part * i / 3.0) * self.width;
+            let [a, b, c] = [0.0, 1.0, 2.0].map(|i| tail.average(edge(i), edge(i + 1.0)));
+            let (average, moment, curvature) =
+                ((a + b + c) / 3.0, (c - a) / 8.0, (a - 2.0 * b + c) / 40.0);
+            add(
+                start + 0.5 * part - centre,
+                part,
+                average,
+                moment,
+                curvature,
+            );
+        }
+        [first / width, second / width]
+    }
+}
+
+/// Sum by halves: a coarse cell is then exactly the mean of its two halves.
+fn pairwise(values: &[f64]) -> f64 {
+    match values {
+        [] => 0.0,
+        [one] => *one,
+        _ => {
+            let (left, right) = values.split_at(values.len().next_power_of_two() / 2);
+            pairwise(left) + pairwise(right)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// R = t^2 in cells of width 1, no tail: moments of wide cells against the integrals.
+    #[test]
+    fn moments_of_wide_cells_are_those_of_the_function() {
+        let per_field = |f: fn(f64) -> f64| -> Vec<f64> {
+            (0..FIELDS)
+                .flat_map(|_| (0..16).map(move |j| f(f64::from(j) + 0.5)))
+                .collect()
+        };
+        let numbers = Numbers {
+            averages: per_field(|t| t * t + 1.0 / 12.0),
+            moments: per_field(|t| t / 6.0),
+            curvatures: per_field(|_| 1.0 / 180.0),
+            tail: vec![0.0; FIELDS],
+        };
+        let series = Series::new(1.0, 16, numbers);
+        for fine in [1, 2, 4, 8] {
+            for j in 0..16 / fine {
+                let width = fine as f64;
+                let centre = (j as f64 + 0.5) * width;
+                let [first, second] = series.moments_of(2, &series.tails[2], j, fine);
+                assert!((first - centre * width / 6.0).abs() < 1e-11);
+                assert!((second - width * width / 180.0).abs() < 1e-11);
+            }
+        }
+    }
+}

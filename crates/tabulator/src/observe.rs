@@ -1,0 +1,116 @@
+//! Whether the error estimate of a table is true: random places and pulses against the exact kernels.
+
+use crate::build::plan;
+use crate::error::BuildError;
+use crate::grid::Grid;
+use lookup::{Numbers, PulseSum, Series, Smoothness, Table};
+use rayon::prelude::*;
+
+/// Error and estimate at one place for one pulse, field by field, in the units of the field.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Observation {
+    /// Poisson's ratio.
+    pub poisson_ratio: f64,
+    /// Radius in r0.
+    pub r: f64,
+    /// Depth in r0.
+    pub z: f64,
+    /// Length of the pulse in r0/c1.
+    pub pulse_length: f64,
+    /// Largest magnitude in time of the exact response to a pulse of unit peak.
+    pub peak: [f64; 6],
+    /// Largest difference in time between looked-up and exact response.
+    pub error: [f64; 6],
+    /// What [`Table::error`] says.
+    pub estimate: [f64; 6],
+}
+
+/// Observes `places` random places of `table`, each with `pulses` random pulses of 1 to 100 r0/c1.
+///
+/// Poisson's ratio is uniform over the table's range, r and z over theirs, the pulse length in its logarithm.
+/// The same `seed` gives the same places.
+///
+/// # Errors
+/// [`BuildError`] when the table's settings cannot be read or the exact kernels fail.
+pub fn observe(
+    table: &Table,
+    places: usize,
+    pulses: usize,
+    seed: u64,
+) -> Result<Vec<Observation>, BuildError> {
+    let grid = Grid::of(table.content())?;
+    let ratios = table.poisson_ratios();
+    let (low, high) = (ratios[0], ratios[ratios.len() - 1]);
+    let found: Vec<Vec<Observation>> = (0..places as u64)
+        .into_par_iter()
+        .map(|i| {
+            let draw = |k: u64| uniform(seed, i * (3 + pulses as u64) + k);
+            let nu = low + (high - low) * draw(0);
+            let (r, z) = (draw(1) * table.r_max(), draw(2) * table.z_max());
+            let exact = exact(table, &grid, nu, r, z)?;
+            (0..pulses as u64)
+                .map(|k| compare(table, &exact, [nu, r, z], 100.0_f64.powf(draw(3 + k))))
+                .collect()
+        })
+        .collect::<Result<_, BuildError>>()?;
+    Ok(found.into_iter().flatten().collect())
+}
+
+fn exact(table: &Table, grid: &Grid, nu: f64, r: f64, z: f64) -> Result<Series, BuildError> {
+    let point = plan(grid, nu)?.compute(r, z)?;
+    let flat = |values: &[[f64; 6]]| {
+        (0..6)
+            .flat_map(|f| values.iter().map(move |six| six[f]))
+            .collect::<Vec<f64>>()
+    };
+    let numbers = Numbers {
+        averages: flat(&point.averages),
+        moments: flat(&point.moments),
+        curvatures: flat(&point.curvatures),
+        tail: flat(&point.tail),
+    };
+    Ok(Series::new(table.cell_width(nu)?, grid.cells()?, numbers))
+}
+
+fn compare(
+    table: &Table,
+    exact: &Series,
+    [nu, r, z]: [f64; 3],
+    pulse_length: f64,
+) -> Result<Observation, BuildError> {
+    let width = table.cell_width(nu)?;
+    let count = table.content().slices[0].cells * 2 / 3 + (pulse_length / width) as usize + 1;
+    let (mut direct, mut found) = (vec![[0.0; 6]; count], vec![[0.0; 6]; count]);
+    exact.fill(Smoothness::Smooth, 0, &mut direct);
+    let info = table.trace_for(Smoothness::Smooth, nu, r, z, 0, &mut found)?;
+    for (a, b) in found.iter_mut().zip(&direct) {
+        for f in 0..6 {
+            a[f] -= b[f];
+        }
+    }
+    let pulse = PulseSum::new(pulse_length, width);
+    let most = |responses: &[[f64; 6]]| {
+        responses.iter().fold([0.0_f64; 6], |most, six| {
+            std::array::from_fn(|f| most[f].max(six[f].abs()))
+        })
+    };
+    Ok(Observation {
+        poisson_ratio: nu,
+        r,
+        z,
+        pulse_length,
+        peak: most(&pulse.response(&info.static_part, &direct)),
+        error: most(&pulse.response(&[0.0; 6], &found)),
+        estimate: table.error(nu, r, z, pulse_length)?,
+    })
+}
+
+/// Number `index` of the sequence `seed` in [0, 1) (SplitMix64: Steele, Lea and Flood 2014).
+fn uniform(seed: u64, index: u64) -> f64 {
+    let mut x = seed
+        .wrapping_mul(0xd1b5_4a32_d192_ed03)
+        .wrapping_add((index + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15));
+    x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    ((x ^ (x >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+}

@@ -1,0 +1,38 @@
+//! The error estimate is a promise: at most 1 in 1000 errors exceeds it, and its median is within 10 times the error.
+
+#![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
+
+use lookup::Table;
+use tabulator::{Axis, Grid, Silent, build, observe, quantile};
+
+/// 10,000 random (Poisson ratio, r, z, pulse length) on a table of seven slices about the disc.
+/// `scripts/measure-tables` does the same with `standard`.
+#[test]
+fn the_error_estimate_is_true() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("t.h5");
+    let grid = Grid {
+        poisson_ratios: vec![0.2, 0.23, 0.26, 0.29, 0.32, 0.35, 0.38],
+        cell_width: 0.125,
+        r: Axis::graded(1.75, 0.15, 1.0, 0.06, 0.2),
+        z: Axis::graded(1.25, 0.15, 0.0, 0.05, 0.2),
+        ..Grid::demo()
+    };
+    build(&grid, &path, &Silent).unwrap();
+    let table = Table::open(&path).unwrap();
+    let found = observe(&table, 400, 25, 7).unwrap();
+    let mut ratios: Vec<f64> = found
+        .iter()
+        .flat_map(|o| (0..6).map(|f| o.estimate[f] / o.error[f]))
+        .collect();
+    assert_eq!(ratios.len(), 60_000);
+    ratios.sort_by(f64::total_cmp);
+    let above = ratios.iter().filter(|ratio| **ratio < 1.0).count();
+    let median = quantile(&ratios, 0.5);
+    println!("{above} of 60000 above the estimate, median estimate/error {median:.2}");
+    assert!(above <= 60, "{above} of 60000 errors above their estimate");
+    assert!(
+        median > 1.0 && median < 10.0,
+        "median estimate/error {median}"
+    );
+}
