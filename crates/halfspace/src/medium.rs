@@ -75,12 +75,23 @@ impl Medium {
         (2.0 - 2.0 * self.poisson_ratio) / (1.0 - 2.0 * self.poisson_ratio)
     }
 
-    /// Rayleigh function D(iw) = (2 - w^2/kappa^2)^2 - 4 sqrt(1 - w^2) sqrt(1 - w^2/kappa^2) of a
-    /// speed w in [0, kappa]; its zeros are w = 0 and the Rayleigh speed.
-    #[must_use]
-    pub fn rayleigh_function(&self, speed: f64) -> f64 {
+    /// Rayleigh function of a speed w in [0, kappa], whose zeros are w = 0 and the Rayleigh speed:
+    ///
+    /// ```text
+    /// D(iw) = (2 - w^2/kappa^2)^2 - 4 sqrt(1 - w^2) sqrt(1 - w^2/kappa^2)
+    /// ```
+    ///
+    /// # Errors
+    /// [`DomainError`] for a speed outside [0, kappa].
+    pub fn rayleigh_function(&self, speed: f64) -> Result<f64, DomainError> {
+        DomainError::unless(
+            (0.0..=self.kappa).contains(&speed),
+            "speed",
+            speed,
+            "[0, kappa]",
+        )?;
         let v = speed * speed * self.shear_slowness_squared();
-        (2.0 - v) * (2.0 - v) - 4.0 * ((1.0 - speed * speed) * (1.0 - v)).max(0.0).sqrt()
+        Ok((2.0 - v) * (2.0 - v) - 4.0 * ((1.0 - speed * speed) * (1.0 - v)).max(0.0).sqrt())
     }
 
     /// Derivative of [`Self::rayleigh_function`] at the Rayleigh speed: D'(c) in the pole term.
@@ -147,10 +158,10 @@ mod tests {
                 assert!(value.norm() < 1e-13, "nu = {nu}: {value}");
             }
             let c = medium.rayleigh_speed();
-            assert!(medium.rayleigh_function(c).abs() < 1e-13, "nu = {nu}");
+            let function = |speed: f64| medium.rayleigh_function(speed).unwrap();
+            assert!(function(c).abs() < 1e-13, "nu = {nu}");
             let h = 1e-6 * c;
-            let slope =
-                (medium.rayleigh_function(c + h) - medium.rayleigh_function(c - h)) / (2.0 * h);
+            let slope = (function(c + h) - function(c - h)) / (2.0 * h);
             assert!((slope / medium.rayleigh_slope() - 1.0).abs() < 1e-6);
         }
     }

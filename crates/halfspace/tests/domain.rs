@@ -42,14 +42,16 @@ const NASTY: [f64; 24] = [
 fn any_number() -> impl Strategy<Value = f64> {
     prop_oneof![
         prop::sample::select(NASTY.to_vec()),
+        any::<u64>().prop_map(f64::from_bits),
         any::<f64>(),
         0.0..20.0_f64,
         (-300.0..300.0_f64).prop_map(|e| 10.0_f64.powf(e)),
     ]
 }
 
+/// Special ratios, any, and those next to the ends of the interval.
 fn any_medium() -> impl Strategy<Value = Medium> {
-    prop::sample::select(vec![
+    let special = prop::sample::select(vec![
         -0.999,
         -0.5,
         0.0,
@@ -59,7 +61,14 @@ fn any_medium() -> impl Strategy<Value = Medium> {
         1.0 / 3.0,
         0.4999,
         0.499_999_9,
-    ])
+    ]);
+    let near = (1.0..15.0_f64).prop_map(|e| 10.0_f64.powf(-e));
+    prop_oneof![
+        3 => special,
+        2 => -0.999_999..0.499_999_f64,
+        1 => near.clone().prop_map(|gap| 0.5 - gap),
+        1 => near.prop_map(|gap| gap - 1.0),
+    ]
     .prop_map(|nu| Medium::new(nu).unwrap())
 }
 
@@ -89,16 +98,24 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 2000, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn a_medium_is_one_or_an_error(nu in any_number()) {
+    fn a_medium_is_one_or_an_error(nu in any_number(), speed in any_number()) {
         match Medium::new(nu) {
             Ok(medium) => {
                 let numbers = [medium.kappa(), medium.lambda_over_mu(), medium.rayleigh_speed(), medium.rayleigh_slope()];
                 prop_assert!(numbers.iter().all(|v| v.is_finite()), "{nu:e} {numbers:?}");
                 prop_assert!(medium.rayleigh_speed() < medium.kappa());
-                prop_assert!(medium.rayleigh_function(0.5 * medium.kappa()).is_finite());
+                match medium.rayleigh_function(speed) {
+                    Ok(value) => prop_assert!(value.is_finite()),
+                    Err(error) => prop_assert!(names(&error, &[("speed", speed)])),
+                }
             }
             Err(error) => prop_assert!(names(&error, &[("poisson_ratio", nu)])),
         }
+    }
+
+    #[test]
+    fn a_pressure_is_a_number(profile in any_profile(), r in any_number()) {
+        prop_assert!(profile.pressure(r) >= 0.0, "{profile:?} {r:e}");
     }
 
     #[test]
@@ -174,8 +191,7 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn surface_responses_are_finite(t in any_number(), nu in prop::sample::select(vec![-0.9, 0.0, 0.3, 0.4999])) {
-        let medium = Medium::new(nu).unwrap();
+    fn surface_responses_are_finite(t in any_number(), medium in any_medium()) {
         for deflection in [Deflection::Centre, Deflection::Mean] {
             let response = SurfaceResponse::new(&medium, deflection);
             prop_assert!((-1e-12..=1.0 + 1e-12).contains(&response.step(t)), "step {t:e}");

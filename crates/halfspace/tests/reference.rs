@@ -1,17 +1,21 @@
 //! Every row of `tests/reference/step_response.csv`, values of the Hertz step response at 30 digits and more.
 //!
 //! `cargo test -p hertzlamb-halfspace --test reference -- --nocapture` prints the tables of errors.
+//! With `REFERENCE_ROWS=file` in the environment it is the rows of that file, as `tests/reference/attack.py` writes them.
 //!
 //! An error is relative to the peak over time of the same field's step response at the same point.
-//! The promise is 1e-10 of that peak, and 1e-9 within 2e-6 of an arrival.
+//! The promise is 1e-10 of that peak, and 1e-9 within 2e-6 of an arrival, or an absolute error of 1e-15:
+//! just below the surface, at a depth z, sigma_zz and sigma_rz are of order sqrt(z) at their peaks, a difference of
+//! terms of order one that each carry rounding errors.
 
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
 mod support;
 
-use halfspace::{Kernel, Medium, Profile};
+use halfspace::{Kernel, Medium, Profile, Six};
 use std::collections::BTreeMap;
-use support::{NAMES, heading, line, peaks, read_csv};
+use std::sync::LazyLock;
+use support::{NAMES, heading, line, peaks, read_csv, read_csv_at};
 
 struct Sample {
     kind: String,
@@ -24,7 +28,7 @@ struct Sample {
 }
 
 /// What is left of terms of order one when they cancel, in P/(mu r0) and P/r0^2.
-const ROUNDING: f64 = 4.0 * f64::EPSILON;
+const ROUNDING: f64 = 1e-15;
 
 impl Sample {
     /// Error over peak; where a field vanishes at all times rounding counts as none.
@@ -35,21 +39,38 @@ impl Sample {
             self.error / self.peak
         }
     }
+
+    fn within(&self, bound: f64) -> bool {
+        self.error <= (bound * self.peak).max(ROUNDING)
+    }
 }
 
-fn samples(tolerance: f64) -> Vec<Sample> {
-    let (header, rows) = read_csv("step_response.csv");
+/// The rows as text, each with the peaks of its fields.
+static ROWS: LazyLock<Vec<(Vec<String>, Six)>> = LazyLock::new(|| {
+    let (header, rows) = match std::env::var("REFERENCE_ROWS") {
+        Ok(path) => read_csv_at(&path),
+        Err(_) => read_csv("step_response.csv"),
+    };
     assert_eq!(header[4..10], NAMES);
-    let mut kernels: BTreeMap<String, [Kernel; 2]> = BTreeMap::new();
+    let with_peaks = rows.into_iter().map(|row| {
+        let v: Vec<f64> = row[..4].iter().map(|x| x.parse().unwrap()).collect();
+        let rough = Kernel::new(&Medium::new(v[0]).unwrap(), Profile::Hertz, 1e-6).unwrap();
+        let peak = peaks(&rough, v[1], v[2], &[v[3]]);
+        (row, peak)
+    });
+    with_peaks.collect()
+});
+
+fn samples(tolerance: f64) -> Vec<Sample> {
+    let mut kernels: BTreeMap<&String, Kernel> = BTreeMap::new();
     let mut samples = vec![];
-    for row in &rows {
-        let [fast, kernel] = kernels.entry(row[0].clone()).or_insert_with(|| {
+    for (row, peak) in ROWS.iter() {
+        let kernel = kernels.entry(&row[0]).or_insert_with(|| {
             let medium = Medium::new(row[0].parse().unwrap()).unwrap();
-            [1e-6, tolerance].map(|tol| Kernel::new(&medium, Profile::Hertz, tol).unwrap())
+            Kernel::new(&medium, Profile::Hertz, tolerance).unwrap()
         });
         let v: Vec<f64> = row[1..10].iter().map(|x| x.parse().unwrap()).collect();
         let (r, z, t) = (v[0], v[1], v[2]);
-        let peak = peaks(fast, r, z, &[t]);
         let rest = kernel.static_field(r, z).unwrap();
         let found = kernel.remainder(r, z, t).unwrap();
         for f in 0..6 {
@@ -72,11 +93,13 @@ fn samples(tolerance: f64) -> Vec<Sample> {
     samples
 }
 
-/// Bounds on the 99th percentile and on the largest relative error: the promise.
-fn bounds(kind: &str) -> (f64, f64) {
+/// The promise.
+fn bound(kind: &str) -> f64 {
     match kind {
-        "random" | "axis" | "far" | "surface" | "nu_special" | "shallow" | "edge" => (1e-10, 1e-10),
-        "arrival" => (1e-10, 1e-9),
+        "random" | "axis" | "far" | "surface" | "nu_special" | "shallow" | "edge" | "meets" => {
+            1e-10
+        }
+        "arrival" => 1e-9,
         kind => panic!("no bound for rows of kind {kind}"),
     }
 }
@@ -84,7 +107,11 @@ fn bounds(kind: &str) -> (f64, f64) {
 #[test]
 fn every_row_is_within_the_promised_accuracy() {
     let samples = samples(1e-10);
-    assert!(samples.len() >= 6 * 300, "{} values", samples.len());
+    assert!(
+        std::env::var("REFERENCE_ROWS").is_ok() || samples.len() >= 6 * 300,
+        "{} values",
+        samples.len()
+    );
     let mut by_kind: BTreeMap<&str, Vec<&Sample>> = BTreeMap::new();
     for sample in &samples {
         by_kind.entry(&sample.kind).or_default().push(sample);
@@ -92,11 +119,9 @@ fn every_row_is_within_the_promised_accuracy() {
     let mut failures = vec![];
     heading("error relative to the peak, by kind");
     for (kind, all) in &by_kind {
-        let found = line(kind, &all.iter().map(|s| s.relative()).collect::<Vec<_>>());
-        let (p99, max) = bounds(kind);
-        if found.p99 > p99 || found.max > max {
-            failures.push(format!("{kind}: p99 {:e} max {:e}", found.p99, found.max));
-        }
+        line(kind, &all.iter().map(|s| s.relative()).collect::<Vec<_>>());
+        let missing = all.iter().filter(|s| !s.within(bound(kind)));
+        failures.extend(missing.map(|s| format!("{kind} {:e}: {}", s.relative(), s.label)));
     }
     heading("error relative to the peak, by field");
     for (f, name) in NAMES.iter().enumerate() {

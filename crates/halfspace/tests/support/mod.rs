@@ -10,13 +10,17 @@ use halfspace::{Arrivals, FIELDS, Kernel, Six};
 /// Names of the fields in the order of [`FIELDS`], as in the headers of the reference files.
 pub(crate) const NAMES: [&str; 6] = ["u", "w", "srr", "stt", "szz", "srz"];
 
-/// Rows of a reference file: the numbers of the named columns and the rest of the line as it is.
+/// Header and rows of a reference file.
 pub(crate) fn read_csv(name: &str) -> (Vec<String>, Vec<Vec<String>>) {
-    let path = format!(
+    read_csv_at(&format!(
         "{}/../../tests/reference/{name}",
         env!("CARGO_MANIFEST_DIR")
-    );
-    let text = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{path}: {e}"));
+    ))
+}
+
+/// The same of a file anywhere.
+pub(crate) fn read_csv_at(path: &str) -> (Vec<String>, Vec<Vec<String>>) {
+    let text = std::fs::read_to_string(path).unwrap_or_else(|e| panic!("{path}: {e}"));
     let mut lines = text.lines().filter(|line| !line.starts_with('#'));
     let split = |line: &str| line.split(',').map(str::to_owned).collect::<Vec<_>>();
     let header = split(lines.next().unwrap());

@@ -1,0 +1,129 @@
+//! The measure over slowness, with its moments.
+
+use super::chord::{Moments, POWERS};
+use super::zone::{Zone, panel_ends};
+use crate::gauss;
+use crate::medium::Medium;
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// The measure mu with its moments summed panel by panel from the slow end.
+pub(super) struct Measure {
+    pub(super) k: f64,
+    pub(super) scale: f64,
+    pub(super) rayleigh_slowness: f64,
+    pub(super) rayleigh_mass: f64,
+    pub(super) ends: [Vec<f64>; 2],
+    /// Moments above the upper end of each panel.
+    pub(super) beyond: [Vec<Moments>; 2],
+}
+
+impl Measure {
+    pub(super) fn new(medium: &Medium) -> Self {
+        let k = medium.shear_slowness_squared();
+        let c = medium.rayleigh_speed();
+        let share = k / (1.0 - medium.poisson_ratio());
+        let mut measure = Self {
+            k,
+            scale: 2.0 / PI * share,
+            rayleigh_slowness: 1.0 / c,
+            rayleigh_mass: 2.0 * (1.0 - c * c).sqrt() * c * share / medium.rayleigh_slope(),
+            ends: [panel_ends(Zone::Fast), panel_ends(Zone::Slow)],
+            beyond: [vec![], vec![]],
+        };
+        let mut sum = POWERS.map(|power| measure.rayleigh_mass * c.powi(power));
+        for zone in [Zone::Slow, Zone::Fast] {
+            let ends = measure.ends[zone as usize].clone();
+            let mut beyond = vec![];
+            for pair in ends.windows(2).rev() {
+                beyond.push(sum);
+                // The first panel reaches slowness zero, where only the moments up to the mass exist.
+                measure.add(zone, pair[0], pair[1], &mut sum);
+            }
+            beyond.reverse();
+            measure.beyond[zone as usize] = beyond;
+        }
+        measure
+    }
+
+    /// Moments above slowness zero; only the first two exist there.
+    pub(super) fn total(&self) -> Moments {
+        let mut sum = self.beyond[0][0];
+        self.add(Zone::Fast, 0.0, self.ends[0][1], &mut sum);
+        sum
+    }
+
+    /// Moments above an angle within a panel.
+    pub(super) fn above(&self, zone: Zone, panel: usize, angle: f64) -> Moments {
+        let mut sum = self.beyond[zone as usize][panel];
+        let (mut from, end) = (angle, self.ends[zone as usize][panel + 1]);
+        while 2.0 * from < end {
+            self.add(zone, from, 2.0 * from, &mut sum);
+            from *= 2.0;
+        }
+        self.add(zone, from, end, &mut sum);
+        sum
+    }
+
+    /// Adds the moments between two angles of a zone.
+    pub(super) fn add(&self, zone: Zone, from: f64, to: f64, sum: &mut Moments) {
+        for (angle, weight) in gauss::rule(16).on(from, to) {
+            let mass = weight * self.density(zone, angle);
+            let inverse = 1.0 / zone.slowness(self.k, angle);
+            for (moment, power) in sum.iter_mut().zip(POWERS) {
+                *moment += mass * inverse.powi(power);
+            }
+        }
+    }
+
+    /// Density in the angle of a zone.
+    pub(super) fn density(&self, zone: Zone, angle: f64) -> f64 {
+        let k = self.k;
+        let s = angle.sin();
+        // cos from the distance to pi/2, which the panels near slowness one resolve
+        let c = (FRAC_PI_2 - angle).sin();
+        self.scale
+            * match zone {
+                Zone::Fast => {
+                    let g = 2.0 * s * s - k;
+                    let y = (k - s * s).sqrt();
+                    c * c / (g * g + 4.0 * s * s * c * y)
+                }
+                Zone::Slow => {
+                    // p = -i p^, so Re[p/R] = 4 x^2 p^2 y/((2 x^2 - K)^4 + 16 x^4 p^2 y^2)
+                    let p2 = (k - 1.0) * s * s;
+                    let x2 = 1.0 + p2;
+                    let g = 2.0 * x2 - k;
+                    let y2 = (k - 1.0) * c * c;
+                    let density =
+                        4.0 * x2 * p2 * y2.sqrt() / (g.powi(4) + 16.0 * x2 * x2 * p2 * y2);
+                    density * (k - 1.0) * s * c / x2.sqrt()
+                }
+            }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_measure_has_mass_one() {
+        for nu in [
+            -0.9,
+            -0.5,
+            0.0,
+            0.01,
+            0.25,
+            0.263_082_06,
+            0.3,
+            0.4,
+            0.45,
+            0.49,
+            0.499,
+            0.4999,
+        ] {
+            let mass = Measure::new(&Medium::new(nu).unwrap()).total()[1];
+            assert!((mass - 1.0).abs() < 1e-13, "nu = {nu}: {mass}");
+        }
+    }
+}
