@@ -6,7 +6,8 @@
 //! An error is relative to the peak over time of the same field's step response at the same point.
 //! The promise is 1e-10 of that peak, and 1e-9 within 2e-6 of an arrival, or an absolute error of 1e-15:
 //! just below the surface, at a depth z, sigma_zz and sigma_rz are of order sqrt(z) at their peaks, a difference of
-//! terms of order one that each carry rounding errors.
+//! terms of order one that each carry rounding errors. There the Rayleigh wave passes in a time of order z, so at its
+//! arrival a rounding error of t counts epsilon t/z of the peak.
 
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
@@ -25,6 +26,9 @@ struct Sample {
     error: f64,
     estimate: f64,
     peak: f64,
+    /// What a rounding error of the time does at an arrival below the surface, where the Rayleigh wave passes in a
+    /// time of the order of the depth.
+    time_rounding: f64,
 }
 
 /// What is left of terms of order one when they cancel, in P/(mu r0) and P/r0^2.
@@ -41,7 +45,7 @@ impl Sample {
     }
 
     fn within(&self, bound: f64) -> bool {
-        self.error <= (bound * self.peak).max(ROUNDING)
+        self.error <= (bound.max(self.time_rounding) * self.peak).max(ROUNDING)
     }
 }
 
@@ -87,6 +91,10 @@ fn samples(tolerance: f64) -> Vec<Sample> {
                 error: (rest[f] + found.value[f] - v[3 + f]).abs(),
                 estimate: found.error[f],
                 peak: peak[f],
+                time_rounding: match row[10].as_str() {
+                    "arrival" if z > 0.0 => f64::EPSILON * t / z,
+                    _ => 0.0,
+                },
             });
         }
     }
@@ -177,10 +185,10 @@ fn the_reported_error_bounds_the_observed_error() {
         ));
         let caution = line("estimate / error", &caution);
         let relative: Vec<f64> = samples.iter().map(Sample::relative).collect();
-        let relative = line("error / peak", &relative);
+        line("error / peak", &relative);
         if tolerance == 1e-11 {
-            // one digit more than the promise, and it holds for every row
-            assert!(relative.max < 1.2e-10, "{relative}");
+            // one digit more than the promise, and it holds for every row, those at arrivals too
+            assert!(samples.iter().all(|s| s.within(1e-10)));
         }
         for s in samples.iter().filter(|s| !covered(s)).take(12) {
             println!(
