@@ -2,8 +2,10 @@
 //!
 //! A force that is linear between samples a step apart is convolved exactly with cell averages of R. They
 //! are differences of int R dt, which is the same single integral with potentials one order higher: one
-//! evaluation a cell, smoother at the fronts than R, and exact, where quadrature in time would take several
-//! evaluations a cell, broken at every arrival. After the last arrival int R dt is a smooth function of
+//! evaluation a cell, smoother at the fronts than R, and exact. Quadrature in time would take several
+//! evaluations a cell and more in those with an arrival, where R has roots, logarithms and jumps,
+//! so exact integration is faster at any accuracy; what it costs is the difference,
+//! which divides the error of int R dt by the width. After the last arrival int R dt is a smooth function of
 //! 1/t, and a long tail of cells is taken from its Chebyshev interpolant.
 
 use crate::arrivals::Arrivals;

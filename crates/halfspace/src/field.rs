@@ -45,10 +45,16 @@ impl Field {
 pub type Six = [f64; 6];
 
 /// Values with an estimate of their own numerical error.
+///
+/// The estimate is the sum, over the panels of the quadrature, of what the nearest singularity lets a Gauss rule
+/// leave, rho^(-2n) times a factor calibrated on random points, and of rounding. For the Hertz profile at tolerances of
+/// 1e-4 to 1e-10 less than one error in a thousand exceeds it, and the median estimate is 110 to 150 times the error:
+/// `cargo test -p hertzlamb-halfspace --test estimate -- --nocapture` prints both.
+/// It is not calibrated close to the fronts of a punch or a point force, whose stresses are infinite there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Estimate {
     /// The values.
     pub value: Six,
-    /// Estimated absolute error of each value.
+    /// Likely bounds on the absolute error of each value.
     pub error: Six,
 }

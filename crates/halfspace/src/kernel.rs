@@ -25,7 +25,37 @@ use std::f64::consts::PI;
 
 /// The exact kernels of one half-space under one load profile.
 ///
-/// Reduced units: length r0, time r0/c1, displacement P/(mu r0), stress P/r0^2.
+/// Reduced units: length r0, time r0/c1, displacement P/(mu r0), stress P/r0^2; z into the half-space,
+/// tension positive. r, z and t may be any numbers from 0 to 1e20.
+///
+/// # Accuracy
+///
+/// For nu in [-0.5, 0.4999], r and z to 20, t to 200 and the Hertz profile at tolerance 1e-10, against values of
+/// 20 digits: 1e-10 of the peak over time of the same field's step response at the same point, on the axis, on the
+/// surface, at the edge of the disc, 1e-9 and more below the surface and at arrivals to the last bit.
+///
+/// - Rounding leaves 1e-15 P/r0^2 in the stresses: just below the surface, where sigma_zz and sigma_rz are small
+///   differences of terms of order one, that is the error, not a share of the field.
+/// - There the Rayleigh wave passes in a time of order z, so at its arrival the rounding error of t itself counts
+///   epsilon t/z of the peak.
+/// - At tolerances of 1e-4, 1e-6 and 1e-8 the largest errors at random points are below the tolerance, the 99th
+///   percentiles a hundred times below it.
+/// - Punch: displacements as above; stresses are infinite at fronts and lose digits toward them.
+/// - Point: displacements 1e-11 of the static field in the median, 1e-6 at worst; stresses 3e-10 in the median and
+///   1e-5 at the 99th percentile for z > r/10, and none to be relied on for 0 < z < r/100, where fronts of both
+///   senses of travel all but coincide.
+///
+/// # Singular places
+///
+/// - The edge of the disc on the surface, r = 1, z = 0: the static normal stresses of the Hertz load have a square root
+///   there and are continuous; sigma_zz is the load, 0. A punch has an infinite pressure there: an error.
+/// - The plane P front under the disc, t = z, r < 1: stress jumps to sigma_zz = -Z(r). The value at t = z is the one
+///   before the front, zero; one unit in the last place later it is the whole jump.
+/// - Displacements are continuous everywhere for the Hertz and punch profiles.
+///
+/// # Sources
+///
+/// (22) to (29) of the paper, integrated over wave number in closed form; the coefficient of (24) is 4.
 #[derive(Debug, Clone)]
 pub struct Kernel {
     medium: Medium,
@@ -59,7 +89,9 @@ impl Sum {
 }
 
 impl Kernel {
-    /// Kernels of `medium` under `profile`, to a relative error of about `tolerance` in [1e-14, 0.1].
+    /// Kernels of `medium` under `profile`, to about `tolerance` in [1e-14, 0.1] of each field's peak over time.
+    ///
+    /// From 1e-12 down rounding decides. Preparation takes some microseconds.
     ///
     /// # Errors
     /// [`DomainError`] when the tolerance is outside its range.
@@ -99,19 +131,31 @@ impl Kernel {
         self.profile
     }
 
-    /// The static fields under a unit force (Huber's solution for the Hertz profile), closed form.
+    /// The static fields under a unit force, in the order of [`FIELDS`](crate::FIELDS), in closed form.
+    ///
+    /// ```text
+    /// w = (1 - nu) A3 + z A2/2         u = [-(1 - 2 nu) B3 + z B2]/2      szz = -(A2 + z A1)     srz = -z B1
+    /// srr = -A2 + z A1 - 2 u/r         stt = -2 nu A2 + 2 u/r             potentials at xi = z
+    /// ```
+    ///
+    /// For the Hertz profile this is Huber's solution (1904): w = 3 (1 - nu)/8 at the origin. On the surface szz is
+    /// exactly minus the pressure and srz zero. Accuracy 1e-14 of the largest field.
     ///
     /// # Errors
-    /// [`DomainError`] for r or z outside [0, 1e20].
+    /// [`DomainError`] for r or z outside [0, 1e20], at a point force itself and at the edge of a punch.
     pub fn static_field(&self, r: f64, z: f64) -> Result<Six, DomainError> {
         self.check_place(r, z)?;
         Ok(statics::static_field(&self.medium, self.profile, r, z))
     }
 
-    /// R(r,z,t): step response less its static part; minus the static part before the first arrival.
+    /// R(r,z,t): the step response less the static field.
+    ///
+    /// Minus the static field exactly up to the first arrival (on the surface szz and srz: 0); on the surface
+    /// w is 0 to rounding after the last Rayleigh wave, everything else dies as t^-2, szz and srz as t^-4.
+    /// [`Estimate::error`] says what the quadrature and rounding may have left. Accuracy: see [`Kernel`].
     ///
     /// # Errors
-    /// [`DomainError`] for r, z or t outside [0, 1e20].
+    /// [`DomainError`] for r, z or t outside [0, 1e20], at a point force itself and at the edge of a punch.
     pub fn remainder(&self, r: f64, z: f64, t: f64) -> Result<Estimate, DomainError> {
         self.check_place(r, z)?;
         check_time(t)?;

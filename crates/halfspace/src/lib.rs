@@ -81,3 +81,8 @@ pub use kernel::Kernel;
 pub use medium::Medium;
 pub use profile::Profile;
 pub use surface::{Deflection, SurfaceResponse};
+
+/// The example of the README is compiled and run.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

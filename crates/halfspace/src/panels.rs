@@ -32,8 +32,16 @@ const POLE: f64 = 30.0;
 /// Rounding error of a term as a share of it.
 pub(crate) const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
-/// Cuts closer than this are one.
+/// Cuts closer than this share of their size are one.
 const SAME: f64 = 1e-13;
+
+/// Smaller places are as good as zero once multiplied by [`SAME`].
+const SMALLEST: f64 = 1e-6;
+
+/// Whether two places in [0, 1] are one: just after a plane front cuts of 1e-16 are distinct from zero.
+fn same(a: f64, b: f64) -> bool {
+    (a - b).abs() <= SAME * a.max(b).max(SMALLEST)
+}
 
 /// The interval [0, 1] of a smooth variable with everything that is not smooth near it.
 #[derive(Debug, Clone, Copy)]
@@ -121,7 +129,7 @@ impl Landscape {
         if clear < CLOSE && point.im.abs() < CLOSE {
             self.cuts.push(point.re.clamp(0.0, 1.0));
         }
-        if clear > SAME || point.im != 0.0 {
+        if clear > 0.0 || point.im != 0.0 {
             self.singularities
                 .push(Complex64::new(point.re, point.im.abs()));
         }
@@ -134,12 +142,12 @@ impl Landscape {
         let mut ends = [0.0; CAPACITY + 2];
         let mut last = 0;
         for &cut in cuts.iter() {
-            if cut - ends[last] > SAME {
+            if !same(cut, ends[last]) {
                 last += 1;
                 ends[last] = cut;
             }
         }
-        if 1.0 - ends[last] > SAME {
+        if !same(ends[last], 1.0) {
             last += 1;
         }
         ends[last] = 1.0;
@@ -180,7 +188,7 @@ impl Landscape {
     /// The power of the variable that smooths the end of an interval, if it is a cut.
     fn power(&self, end: f64) -> Option<i32> {
         let cuts = self.cuts.as_slice().iter();
-        match cuts.filter(|&&cut| (cut - end).abs() <= SAME).count() {
+        match cuts.filter(|&&cut| same(cut, end)).count() {
             0 => None,
             1 => Some(SQUARE),
             _ => Some(HIGH),

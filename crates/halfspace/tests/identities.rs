@@ -279,3 +279,30 @@ fn accuracy_follows_the_tolerance() {
         }
     }
 }
+
+/// Under the disc the plane longitudinal front arrives as the jump sigma_zz = -Z(r), sigma_rr = nu/(1 - nu) sigma_zz,
+/// to the last bit of the time: nothing at t = z, the whole of it one unit in the last place later.
+#[test]
+fn the_plane_front_is_a_sharp_jump() {
+    let mut random = Stream::new(17);
+    for _ in 0..300 {
+        let nu = random.within(-0.5, 0.499);
+        let kernel = kernel(nu, Profile::Hertz, 1e-10);
+        let (r, z) = (random.within(0.0, 0.95), random.within(0.05, 20.0));
+        assert_eq!(step(&kernel, r, z, z), Six::default());
+        let jump = -Profile::Hertz.pressure(r);
+        let lateral = nu / (1.0 - nu) * jump;
+        for t in [z.next_up(), z.next_up().next_up(), z * (1.0 + 1e-14)] {
+            let found = step(&kernel, r, z, t);
+            let expected = [0.0, 0.0, lateral, lateral, jump, 0.0];
+            for f in 0..6 {
+                let gap = (found[f] - expected[f]).abs();
+                assert!(
+                    gap < 1e-10,
+                    "nu {nu} r {r} z {z} t {t} {}: {gap:e}",
+                    NAMES[f]
+                );
+            }
+        }
+    }
+}
