@@ -3,16 +3,20 @@
 use crate::failure::{Failure, print};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
+use lookup::TableError;
 use serde::Serialize;
 use std::io::IsTerminal;
 use std::path::PathBuf;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
-use tabulator::{BuildError, Existing, Grid, Progress, Summary, build_over, build_shard};
+use tabulator::{BuildError, Existing, Extension, Grid, Progress, Summary};
+use tabulator::{build_over, build_shard, extend, refine};
 
 const EXAMPLES: &str = "Examples:
   hertzlamb tabulate --grid demo -o kernels.h5
   hertzlamb tabulate --grid demo --nu 0.25,0.3 -o two.h5
+  hertzlamb tabulate --tol 1e-5 --pulse 10 -o fine.h5
+  hertzlamb tabulate --nu 0.2917 --r-max 8 -o kernels.h5      (adds to that table)
   hertzlamb tabulate --grid my-grid.toml -o mine.h5 --json
   hertzlamb tabulate --grid standard --shard 2/4 -o 2.shard
 
@@ -21,12 +25,27 @@ An interrupted build goes on where it stopped when the same command is given aga
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Arguments {
-    /// A preset (demo, standard, wide) or a grid file (TOML, see data-schema/kernel-table.md).
-    #[arg(long, value_name = "PRESET|FILE.toml", default_value = "demo")]
-    grid: String,
-    /// Poisson ratios instead of those of the grid, comma-separated.
+    /// A preset (demo, standard, wide) or a grid file (TOML, see data-schema/kernel-table.md); demo if the output is new.
+    #[arg(long, value_name = "PRESET|FILE.toml")]
+    grid: Option<String>,
+    /// Poisson ratios, comma-separated: instead of those of the grid, or, without --grid, slices to add to the output if it exists.
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     nu: Option<Vec<f64>>,
+    /// Serve radii up to this, in r0; extends the output if it exists.
+    #[arg(long, value_name = "R0")]
+    r_max: Option<f64>,
+    /// Serve depths up to this, in r0; extends the output if it exists.
+    #[arg(long, value_name = "R0")]
+    z_max: Option<f64>,
+    /// End the time cells at this multiple of the last arrival; extends the output if it exists.
+    #[arg(long, value_name = "FACTOR")]
+    time_factor: Option<f64>,
+    /// Choose the spacing so that off-grid errors over the peak in time stay below this.
+    #[arg(long, value_name = "ERROR", requires = "pulse")]
+    tol: Option<f64>,
+    /// Length of the pulses that --tol is meant for, in r0/c1.
+    #[arg(long, value_name = "LENGTH", requires = "tol")]
+    pulse: Option<f64>,
     /// The table to write.
     #[arg(short, long, value_name = "OUT.h5")]
     output: PathBuf,
@@ -47,7 +66,7 @@ struct Report<'a> {
     id: &'a str,
     content_sha256: &'a str,
     format_version: &'a str,
-    poisson_ratios: &'a [f64],
+    poisson_ratios: Vec<f64>,
     points: usize,
     bytes: u64,
     wall_s: f64,
@@ -57,12 +76,14 @@ struct Report<'a> {
 }
 
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let mut grid = resolve(&arguments.grid)?;
-    if let Some(ratios) = &arguments.nu {
-        grid.poisson_ratios.clone_from(ratios);
-        grid.poisson_ratios.sort_by(f64::total_cmp);
-        grid.poisson_ratios.dedup();
+    if let Some(extension) = extension(arguments) {
+        let progress = Bar::new();
+        let summary = extend(&arguments.output, &extension, &progress).map_err(failure)?;
+        progress.finish();
+        let content = lookup::read(&arguments.output).map_err(Failure::work)?;
+        return tell(&Grid::of(&content).map_err(failure)?, arguments, &summary);
     }
+    let grid = grid(arguments)?;
     let existing = if arguments.force {
         Existing::Replace
     } else {
@@ -78,7 +99,58 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     let summary = build_over(&grid, &arguments.output, existing, &progress).map_err(failure)?;
     progress.finish();
-    let report = report(&grid, arguments, &summary);
+    tell(&grid, arguments, &summary)
+}
+
+/// What to add to the output, if it exists and no new table was asked for.
+fn extension(arguments: &Arguments) -> Option<Extension> {
+    let more = arguments.nu.is_some()
+        || arguments.r_max.is_some()
+        || arguments.z_max.is_some()
+        || arguments.time_factor.is_some();
+    let new = arguments.grid.is_some()
+        || arguments.force
+        || arguments.shard.is_some()
+        || arguments.tol.is_some();
+    (more && !new && arguments.output.exists()).then(|| Extension {
+        exact_ratios: arguments.nu.clone().unwrap_or_default(),
+        r_max: arguments.r_max,
+        z_max: arguments.z_max,
+        time_factor: arguments.time_factor,
+    })
+}
+
+/// The settings of a new table.
+fn grid(arguments: &Arguments) -> Result<Grid, Failure> {
+    let mut grid = resolve(arguments.grid.as_deref().unwrap_or("demo"))?;
+    if let Some(ratios) = &arguments.nu {
+        grid.poisson_ratios.clone_from(ratios);
+        grid.poisson_ratios.sort_by(f64::total_cmp);
+        grid.poisson_ratios.dedup();
+        grid.exact_ratios.clear();
+    }
+    for (axis, max) in [
+        (&mut grid.r, arguments.r_max),
+        (&mut grid.z, arguments.z_max),
+    ] {
+        axis.max = max.unwrap_or(axis.max);
+    }
+    grid.time_factor = arguments.time_factor.unwrap_or(grid.time_factor);
+    let (Some(tolerance), Some(pulse)) = (arguments.tol, arguments.pulse) else {
+        return Ok(grid);
+    };
+    let (grid, trials) = refine(&grid, tolerance, pulse).map_err(failure)?;
+    for trial in trials {
+        eprintln!(
+            "spacing {:.4} r0: {} nodes a slice, error {:.1e} for pulses of {pulse} r0/c1",
+            trial.spacing, trial.nodes, trial.error
+        );
+    }
+    Ok(grid)
+}
+
+fn tell(grid: &Grid, arguments: &Arguments, summary: &Summary) -> Result<(), Failure> {
+    let report = report(grid, arguments, summary);
     if arguments.json {
         return print(serde_json::to_string(&report).map_err(Failure::work)?);
     }
@@ -123,7 +195,7 @@ fn report<'a>(grid: &'a Grid, arguments: &Arguments, summary: &'a Summary) -> Re
         id: &summary.id,
         content_sha256: &summary.content_sha256,
         format_version: lookup::schema::FORMAT_VERSION_VALUE,
-        poisson_ratios: &grid.poisson_ratios,
+        poisson_ratios: grid.slices().iter().map(|slice| slice.0).collect(),
         points: summary.points,
         bytes: summary.bytes,
         wall_s: summary.wall_s,
@@ -152,6 +224,8 @@ pub(crate) fn failure(error: BuildError) -> Failure {
     match error {
         BuildError::Setting { .. }
         | BuildError::GridFile { .. }
+        | BuildError::Shrinks { .. }
+        | BuildError::TooFine { .. }
         | BuildError::Settings { .. }
         | BuildError::Exists { .. }
         | BuildError::Busy { .. }
@@ -159,7 +233,13 @@ pub(crate) fn failure(error: BuildError) -> Failure {
         | BuildError::NotBlocks { .. }
         | BuildError::Mixed { .. }
         | BuildError::Incomplete { .. }
-        | BuildError::File { .. } => Failure::input(error),
+        | BuildError::File { .. }
+        | BuildError::Table(
+            TableError::Unreadable { .. }
+            | TableError::NotHdf5 { .. }
+            | TableError::Foreign { .. }
+            | TableError::Version { .. },
+        ) => Failure::input(error),
         BuildError::Unwritable(_)
         | BuildError::NotFinite { .. }
         | BuildError::Domain(_)

@@ -25,6 +25,9 @@ pub struct Axis {
     /// Growth of the spacing with distance from the focus.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub growth: Option<f64>,
+    /// Equal steps of the last spacing follow `max` until they reach this far.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub extended_to: Option<f64>,
 }
 
 impl Axis {
@@ -37,6 +40,7 @@ impl Axis {
             focus: None,
             focus_spacing: None,
             growth: None,
+            extended_to: None,
         }
     }
 
@@ -49,10 +53,11 @@ impl Axis {
             focus: Some(focus),
             focus_spacing: Some(focus_spacing),
             growth: Some(growth),
+            extended_to: None,
         }
     }
 
-    /// The nodes, ascending from 0 to `max`, the focus among them, rounded to multiples of 2^-16.
+    /// The nodes, ascending from 0 to `max`, the focus among them, rounded to multiples of 2^-16; then the extension.
     #[must_use]
     pub fn nodes(&self) -> Vec<f64> {
         let focus = self.focus.unwrap_or(0.0).clamp(0.0, self.max);
@@ -74,6 +79,11 @@ impl Axis {
         if let Some(last) = nodes.last_mut() {
             *last = self.max;
         }
+        let step = self.last_step(&nodes);
+        let steps = (self.extended_to.unwrap_or(0.0) - self.max) / step;
+        nodes.extend(
+            (1..=(steps - 1e-9).ceil().max(0.0) as usize).map(|i| self.max + step * i as f64),
+        );
         nodes
     }
 
@@ -81,10 +91,22 @@ impl Axis {
     #[must_use]
     pub fn padded(&self, count: usize) -> Vec<f64> {
         let mut nodes = self.nodes();
-        let last = nodes.len() - 1;
-        let step = nodes[last] - nodes[last - 1];
-        nodes.extend((1..=count).map(|i| self.max + step * i as f64));
+        let step = self.last_step(&nodes);
+        let within = nodes.iter().filter(|&&node| node > self.max).count();
+        nodes.extend((1..=count).map(|i| self.max + step * (within + i) as f64));
         nodes
+    }
+
+    /// The last node served.
+    #[must_use]
+    pub fn end(&self) -> f64 {
+        self.nodes().last().copied().unwrap_or(self.max)
+    }
+
+    /// The step before `max`.
+    fn last_step(&self, nodes: &[f64]) -> f64 {
+        let last = nodes.iter().filter(|&&node| node <= self.max).count() - 1;
+        nodes[last] - nodes[last - 1]
     }
 
     /// Distances 0 ..= `length` from the focus, equally spaced in int dx/spacing(x).

@@ -2,6 +2,7 @@
 
 use crate::error::BuildError;
 use crate::grid::Grid;
+use crate::known::Known;
 use crate::point::PointPlan;
 use halfspace::Six;
 
@@ -65,7 +66,7 @@ pub(crate) fn positions(kind: Kind, grid: &Grid) -> [Vec<f64>; 2] {
     const PLACES: usize = 14;
     match kind {
         Kind::Nodes => grid.nodes(),
-        Kind::Probes => [&grid.r, &grid.z].map(|axis| lookup::centres(&axis.nodes(), axis.max)),
+        Kind::Probes => [&grid.r, &grid.z].map(|axis| lookup::centres(&axis.nodes(), axis.end())),
         Kind::Between => positions(Kind::Probes, grid).map(|centres| {
             let count = centres.len().min(PLACES);
             (0..count)
@@ -75,11 +76,28 @@ pub(crate) fn positions(kind: Kind, grid: &Grid) -> [Vec<f64>; 2] {
     }
 }
 
-/// Computes one row of points (`r`, `depths`).
-pub(crate) fn compute(plan: &PointPlan, r: f64, depths: &[f64]) -> Result<Row, BuildError> {
+/// Computes one row of points (`r`, `depths`), going on from what is known of them.
+///
+/// Probes whose errors are known are left as zeros.
+pub(crate) fn compute(
+    plan: &PointPlan,
+    kind: Kind,
+    r: f64,
+    depths: &[f64],
+    known: Option<&Known>,
+) -> Result<Row, BuildError> {
+    let nu = plan.kernel().medium().poisson_ratio();
     let mut row = Row::default();
     for &z in depths {
-        let point = plan.compute(r, z)?;
+        let point = match (kind, known) {
+            (Kind::Probes | Kind::Between, Some(known))
+                if known.measured(kind, nu, [r, z], None) =>
+            {
+                plan.blank()
+            }
+            (Kind::Nodes, Some(known)) => plan.go_on(r, z, known.point(nu, r, z).as_ref())?,
+            (Kind::Nodes | Kind::Probes | Kind::Between, _) => plan.compute(r, z)?,
+        };
         for field in 0..6 {
             let quantum = quantum(&point.averages, field);
             let stored = |six: &Six| ((six[field] / quantum).round() * quantum) as f32;

@@ -4,6 +4,7 @@ use crate::blocks::{self, Block, Kind, Row};
 use crate::error::BuildError;
 use crate::grid::Grid;
 use crate::journal::{self, Journal};
+use crate::known::Known;
 use crate::point::PointPlan;
 use crate::progress::Progress;
 use crate::verify;
@@ -69,8 +70,8 @@ pub fn build_over(
     let (journal, finished) = Journal::open(&beside(path, ".journal"), &grid.to_toml()?)?;
     let resumed_blocks = finished.len();
     let journal = Mutex::new(journal);
-    let rows = compute(grid, &work, finished, &journal, progress)?;
-    let summary = complete(grid, rows, path, progress)?;
+    let rows = compute(grid, &work, finished, &journal, None, progress)?;
+    let summary = complete(grid, rows, path, None, progress)?;
     journal
         .into_inner()
         .unwrap_or_else(PoisonError::into_inner)
@@ -110,7 +111,7 @@ pub fn build_shard(
         .step_by(count)
         .collect();
     let (journal, finished) = Journal::open(path, &grid.to_toml()?)?;
-    compute(grid, &work, finished, &Mutex::new(journal), progress)?;
+    compute(grid, &work, finished, &Mutex::new(journal), None, progress)?;
     Ok(work.len())
 }
 
@@ -161,7 +162,7 @@ pub fn merge(
         .iter()
         .filter_map(|block| finished.remove(block))
         .collect();
-    let summary = complete(&grid, rows, path, progress)?;
+    let summary = complete(&grid, rows, path, None, progress)?;
     Ok(Summary {
         wall_s: started.elapsed().as_secs_f64(),
         ..summary
@@ -178,13 +179,14 @@ fn refuse(path: &Path, existing: Existing) -> Result<(), BuildError> {
 }
 
 /// From all rows to the file under its name.
-fn complete(
+pub(crate) fn complete(
     grid: &Grid,
     rows: Vec<Row>,
     path: &Path,
+    known: Option<&Known>,
     progress: &dyn Progress,
 ) -> Result<Summary, BuildError> {
-    let content = assemble(grid, &blocks::all(grid), rows, progress)?;
+    let content = assemble(grid, &blocks::all(grid), rows, known, progress)?;
     let bytes = finish(&content, path)?;
     Ok(Summary {
         id: lookup::settings_id(&content.origin.grid),
@@ -199,11 +201,12 @@ fn complete(
 }
 
 /// All rows in the order of `work`: those finished before, and the others computed and recorded now.
-fn compute(
+pub(crate) fn compute(
     grid: &Grid,
     work: &[Block],
     mut finished: HashMap<Block, Row>,
     journal: &Mutex<Journal>,
+    known: Option<&Known>,
     progress: &dyn Progress,
 ) -> Result<Vec<Row>, BuildError> {
     let plans = Plans::new(grid)?;
@@ -220,7 +223,7 @@ fn compute(
         .with_max_len(1)
         .map(|&block| {
             let [r, z] = &positions[block.kind as usize];
-            let row = blocks::compute(plans.of(block), r[block.row], z)?;
+            let row = blocks::compute(plans.of(block), block.kind, r[block.row], z, known)?;
             journal
                 .lock()
                 .unwrap_or_else(PoisonError::into_inner)
@@ -281,6 +284,7 @@ fn assemble(
     grid: &Grid,
     work: &[Block],
     rows: Vec<Row>,
+    known: Option<&Known>,
     progress: &dyn Progress,
 ) -> Result<Content, BuildError> {
     let [r, z] = grid.nodes();
@@ -334,17 +338,15 @@ fn assemble(
         origin: Origin {
             grid: grid.to_toml()?,
             software_version: env!("CARGO_PKG_VERSION").to_owned(),
-            git_revision: option_env!("HERTZLAMB_GIT_REVISION")
-                .unwrap_or("unknown")
-                .to_owned(),
+            git_revision: env!("HERTZLAMB_GIT_REVISION").to_owned(),
             created_unix_s: creation_time(),
             accuracy_asked: grid.tolerance,
             accuracy_reached: Vec::new(),
         },
         r,
         z,
-        r_max: grid.r.max,
-        z_max: grid.z.max,
+        r_max: grid.r.end(),
+        z_max: grid.z.end(),
         cell_width: grid.cell_width,
         stencil_points: grid.stencil_points,
         pulse_lengths,
@@ -356,7 +358,14 @@ fn assemble(
     progress.total("verification", (exact.len() + intervals) as u64);
     let mut measured = Vec::new();
     for (&nu, rows) in table.poisson_ratios().iter().zip(&exact) {
-        measured.push(verify::verify(&table, nu, [&probe_r, &probe_z], rows)?);
+        measured.push(verify::verify(
+            &table,
+            nu,
+            Kind::Probes,
+            [&probe_r, &probe_z],
+            rows,
+            known,
+        )?);
         progress.advance(1);
     }
     let mut between = Vec::new();
@@ -365,7 +374,14 @@ fn assemble(
         let places = [between_r.as_slice(), between_z.as_slice()];
         between.push(Between {
             poisson_ratio,
-            verification: verify::verify(&table, poisson_ratio, places, rows)?,
+            verification: verify::verify(
+                &table,
+                poisson_ratio,
+                Kind::Between,
+                places,
+                rows,
+                known,
+            )?,
         });
         progress.advance(1);
     }

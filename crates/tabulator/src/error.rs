@@ -35,6 +35,28 @@ pub enum BuildError {
     /// The settings cannot be written as TOML.
     #[error("grid: {0}")]
     Unwritable(#[from] toml::ser::Error),
+    /// No spacing allowed is fine enough.
+    #[error(
+        "--tol {tolerance} for pulses of {pulse_length} r0/c1 is not reached: {best:.1e} at the finest spacing tried; a smaller cell_width or a longer pulse is needed"
+    )]
+    TooFine {
+        /// The error asked for.
+        tolerance: f64,
+        /// The length of the pulse.
+        pulse_length: f64,
+        /// The least error found.
+        best: f64,
+    },
+    /// A table is to be made smaller.
+    #[error("{key} = {value} is less than the {present} that the table has: tables only grow")]
+    Shrinks {
+        /// What is to be changed.
+        key: &'static str,
+        /// The value given.
+        value: f64,
+        /// The value of the table.
+        present: f64,
+    },
     /// There is a file in the way.
     #[error("{} exists; --force replaces it", path.display())]
     Exists {

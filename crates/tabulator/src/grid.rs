@@ -191,7 +191,7 @@ impl Grid {
     /// # Errors
     /// [`BuildError::Domain`], which no grid causes.
     pub fn cells(&self) -> Result<usize, BuildError> {
-        let farthest = self.r.max.hypot(self.z.max) + 1.0;
+        let farthest = self.r.end().hypot(self.z.end()) + 1.0;
         let end = self.time_factor * farthest / Medium::new(0.3)?.rayleigh_speed();
         Ok((end / self.cell_width).ceil() as usize)
     }
@@ -287,6 +287,13 @@ impl Grid {
                     "[0.001, spacing]",
                 ),
                 ("growth", axis.growth, 0.01, 1.0, "[0.01, 1]"),
+                (
+                    "extended_to",
+                    axis.extended_to,
+                    axis.max,
+                    100.0,
+                    "[max, 100]",
+                ),
             ] {
                 if let Some(value) = value {
                     within(&format!("{name}.{key}"), value, low, high, range)?;

@@ -9,13 +9,16 @@ mod build;
 mod check;
 mod difference;
 mod error;
+mod extend;
 mod grid;
 mod journal;
+mod known;
 mod late;
 mod moments;
 mod observe;
 mod point;
 mod progress;
+mod refine;
 
 mod verify;
 
@@ -24,8 +27,10 @@ pub use build::{Existing, Summary, build, build_over, build_shard, merge};
 pub use check::{BadNode, CheckReport, check_table};
 pub use difference::{Difference, differences};
 pub use error::BuildError;
+pub use extend::{Extension, extend};
 pub use grid::{Grid, PRESETS};
 pub use observe::{Observation, observe};
 pub use point::{PointKernels, PointPlan};
 pub use progress::{Progress, Silent};
+pub use refine::{Trial, refine};
 pub use verify::{PULSE_LENGTHS, quantile};

@@ -106,7 +106,7 @@ fn compare(
 }
 
 /// Number `index` of the sequence `seed` in [0, 1) (SplitMix64: Steele, Lea and Flood 2014).
-fn uniform(seed: u64, index: u64) -> f64 {
+pub(crate) fn uniform(seed: u64, index: u64) -> f64 {
     let mut x = seed
         .wrapping_mul(0xd1b5_4a32_d192_ed03)
         .wrapping_add((index + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15));

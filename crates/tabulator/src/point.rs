@@ -1,6 +1,7 @@
 //! All numbers of one point: cell averages, first moments and tail.
 
 use crate::error::BuildError;
+use crate::known::KnownPoint;
 use crate::late::Late;
 use crate::moments::Cells;
 use halfspace::{Arrivals, Kernel, Medium, Profile, Six};
@@ -65,12 +66,34 @@ impl PointPlan {
     /// # Errors
     /// [`BuildError`] when the exact kernels refuse the point or a value is not finite.
     pub fn compute(&self, r: f64, z: f64) -> Result<PointKernels, BuildError> {
+        self.go_on(r, z, None)
+    }
+
+    /// Zeros in place of a point.
+    pub(crate) fn blank(&self) -> PointKernels {
+        let zeros = vec![[0.0; 6]; self.cells];
+        PointKernels {
+            averages: zeros.clone(),
+            moments: zeros.clone(),
+            curvatures: zeros,
+            tail: vec![[0.0; 6]; self.tail_terms],
+        }
+    }
+
+    /// [`Self::compute`] of the cells after those that are known.
+    pub(crate) fn go_on(
+        &self,
+        r: f64,
+        z: f64,
+        known: Option<&KnownPoint>,
+    ) -> Result<PointKernels, BuildError> {
         let end = self.cells as f64 * self.width;
         let last = Arrivals::new(self.kernel.medium(), Profile::Hertz, r, z)?.last();
         let from = (Late::START * last).clamp(self.width, end);
         let late = Late::new(&self.kernel, r, z, from)?;
         let rest = self.kernel.static_field(r, z)?;
-        let quiet = self.quiet(r, z);
+        let done = known.map_or(0, |known| known.averages.len().min(self.cells));
+        let quiet = self.quiet(r, z).max(done);
         let mut integrals = Vec::with_capacity(self.cells + 1 - quiet);
         for j in quiet..=self.cells {
             let t = j as f64 * self.width;
@@ -81,6 +104,9 @@ impl PointPlan {
             });
         }
         let mut averages = vec![rest.map(|s| -s); self.cells];
+        if let Some(known) = known {
+            averages[..done].copy_from_slice(&known.averages[..done]);
+        }
         for (average, pair) in averages[quiet..].iter_mut().zip(integrals.windows(2)) {
             *average = std::array::from_fn(|f| (pair[1][f] - pair[0][f]) / self.width);
         }
@@ -92,7 +118,11 @@ impl PointPlan {
             averages: &averages,
             integrals: &integrals,
         };
-        let (moments, curvatures) = cells.moments(&quantum(&averages, &rest))?;
+        let (mut moments, mut curvatures) = cells.moments(&quantum(&averages, &rest))?;
+        if let Some(known) = known {
+            moments[..done].copy_from_slice(&known.moments[..done]);
+            curvatures[..done].copy_from_slice(&known.curvatures[..done]);
+        }
         let point = PointKernels {
             averages,
             moments,

@@ -1,0 +1,105 @@
+//! Adds slices, places and times to a finished table, computing only what it lacks.
+
+use crate::blocks;
+use crate::build::{Summary, beside, complete, compute};
+use crate::error::BuildError;
+use crate::grid::Grid;
+use crate::journal::Journal;
+use crate::known::Known;
+use crate::progress::Progress;
+use std::path::Path;
+use std::sync::{Mutex, PoisonError};
+use std::time::Instant;
+
+/// What a table is to have in addition.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Extension {
+    /// Poisson ratios with a slice of their own; those that are there already are left.
+    pub exact_ratios: Vec<f64>,
+    /// Radius to be served, in r0.
+    pub r_max: Option<f64>,
+    /// Depth to be served, in r0.
+    pub z_max: Option<f64>,
+    /// Multiple of the last arrival at which the time cells end.
+    pub time_factor: Option<f64>,
+}
+
+/// Extends the table at `path`; it is replaced when the larger one is complete and verified.
+///
+/// An interrupted run goes on where it stopped. Nodes keep their numbers: an extended axis goes on from its
+/// last node at its last spacing.
+///
+/// # Errors
+/// [`BuildError`]: a table that cannot be read or is not what its settings say, a value outside its range or
+/// less than what the table has, or as [`crate::build`].
+pub fn extend(
+    path: &Path,
+    extension: &Extension,
+    progress: &dyn Progress,
+) -> Result<Summary, BuildError> {
+    let started = Instant::now();
+    let content = lookup::read(path)?;
+    lookup::check_hash(path, &content)?;
+    let mut grid = Grid::of(&content)?;
+    let known = Known::new(content);
+    apply(&mut grid, &known, extension)?;
+    grid.validate()?;
+    let work = blocks::all(&grid);
+    let (journal, mut finished) = Journal::open(&beside(path, ".journal"), &grid.to_toml()?)?;
+    let resumed_blocks = finished.len();
+    let cells = grid.cells()?;
+    for &block in &work {
+        if let Some(row) = known.row(&grid, cells, block) {
+            finished.insert(block, row);
+        }
+    }
+    let journal = Mutex::new(journal);
+    let rows = compute(&grid, &work, finished, &journal, Some(&known), progress)?;
+    let summary = complete(&grid, rows, path, Some(&known), progress)?;
+    journal
+        .into_inner()
+        .unwrap_or_else(PoisonError::into_inner)
+        .remove()?;
+    Ok(Summary {
+        resumed_blocks,
+        wall_s: started.elapsed().as_secs_f64(),
+        ..summary
+    })
+}
+
+fn apply(grid: &mut Grid, known: &Known, extension: &Extension) -> Result<(), BuildError> {
+    for &nu in &extension.exact_ratios {
+        if known.role(nu).is_none() && !grid.exact_ratios.contains(&nu) {
+            grid.exact_ratios.push(nu);
+        }
+    }
+    grid.exact_ratios.sort_by(f64::total_cmp);
+    for (key, axis, wanted) in [
+        ("r_max", &mut grid.r, extension.r_max),
+        ("z_max", &mut grid.z, extension.z_max),
+    ] {
+        if let Some(wanted) = wanted {
+            grows(key, wanted, axis.end())?;
+            if wanted > axis.end() {
+                axis.extended_to = Some(wanted);
+            }
+        }
+    }
+    if let Some(wanted) = extension.time_factor {
+        grows("time_factor", wanted, grid.time_factor)?;
+        grid.time_factor = wanted;
+    }
+    Ok(())
+}
+
+fn grows(key: &'static str, value: f64, present: f64) -> Result<(), BuildError> {
+    if value >= present {
+        Ok(())
+    } else {
+        Err(BuildError::Shrinks {
+            key,
+            value,
+            present,
+        })
+    }
+}
