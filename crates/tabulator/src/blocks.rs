@@ -3,7 +3,7 @@
 use crate::error::BuildError;
 use crate::grid::Grid;
 use crate::known::Known;
-use crate::point::PointPlan;
+use crate::point::{PointKernels, PointPlan};
 use halfspace::Six;
 
 /// Which points a block holds.
@@ -98,19 +98,40 @@ pub(crate) fn compute(
             (Kind::Nodes, Some(known)) => plan.go_on(r, z, known.point(nu, r, z).as_ref())?,
             (Kind::Nodes | Kind::Probes | Kind::Between, _) => plan.compute(r, z)?,
         };
+        let mut point = point;
+        round(&mut point);
         for field in 0..6 {
-            let quantum = quantum(&point.averages, field);
-            let stored = |six: &Six| ((six[field] / quantum).round() * quantum) as f32;
-            row.remainder.extend(point.averages.iter().map(stored));
-            row.moment
-                .extend(point.moments.iter().map(|six| six[field] as f32));
-            row.curvature
-                .extend(point.curvatures.iter().map(|six| six[field] as f32));
-            row.tail
-                .extend(point.tail.iter().map(|six| six[field] as f32));
+            for (list, values) in [
+                (&mut row.remainder, &point.averages),
+                (&mut row.moment, &point.moments),
+                (&mut row.curvature, &point.curvatures),
+                (&mut row.tail, &point.tail),
+            ] {
+                list.extend(values.iter().map(|six| six[field] as f32));
+            }
         }
     }
     Ok(row)
+}
+
+/// Rounds the numbers of a point to what a table holds.
+pub(crate) fn round(point: &mut PointKernels) {
+    for field in 0..6 {
+        let quantum = quantum(&point.averages, field);
+        for six in &mut point.averages {
+            six[field] = (six[field] / quantum).round() * quantum;
+        }
+    }
+    for values in [
+        &mut point.averages,
+        &mut point.moments,
+        &mut point.curvatures,
+        &mut point.tail,
+    ] {
+        for value in values.iter_mut().flatten() {
+            *value = f64::from(*value as f32);
+        }
+    }
 }
 
 /// Step to which averages are stored: that of single precision at the largest of the field in time.

@@ -38,18 +38,50 @@ pub fn observe(
     pulses: usize,
     seed: u64,
 ) -> Result<Vec<Observation>, BuildError> {
+    let lengths = |draws: &dyn Fn(u64) -> f64| -> Vec<f64> {
+        (0..pulses as u64)
+            .map(|k| 100.0_f64.powf(draws(k)))
+            .collect()
+    };
+    at(table, places, 3 + pulses as u64, seed, &lengths)
+}
+
+/// [`observe`] with pulses of given lengths in r0/c1.
+///
+/// # Errors
+/// As [`observe`].
+pub fn observe_lengths(
+    table: &Table,
+    places: usize,
+    lengths: &[f64],
+    seed: u64,
+) -> Result<Vec<Observation>, BuildError> {
+    at(table, places, 3, seed, &|_| lengths.to_vec())
+}
+
+/// A list of pulse lengths from a source of random numbers.
+type Lengths<'a> = &'a (dyn Fn(&dyn Fn(u64) -> f64) -> Vec<f64> + Sync);
+
+fn at(
+    table: &Table,
+    places: usize,
+    stride: u64,
+    seed: u64,
+    lengths: Lengths<'_>,
+) -> Result<Vec<Observation>, BuildError> {
     let grid = Grid::of(table.content())?;
     let ratios = table.poisson_ratios();
     let (low, high) = (ratios[0], ratios[ratios.len() - 1]);
     let found: Vec<Vec<Observation>> = (0..places as u64)
         .into_par_iter()
         .map(|i| {
-            let draw = |k: u64| uniform(seed, i * (3 + pulses as u64) + k);
+            let draw = |k: u64| uniform(seed, i * stride + k);
             let nu = low + (high - low) * draw(0);
             let (r, z) = (draw(1) * table.r_max(), draw(2) * table.z_max());
             let exact = exact(table, &grid, nu, r, z)?;
-            (0..pulses as u64)
-                .map(|k| compare(table, &exact, [nu, r, z], 100.0_f64.powf(draw(3 + k))))
+            lengths(&|k| draw(3 + k))
+                .into_iter()
+                .map(|length| compare(table, &exact, [nu, r, z], length))
                 .collect()
         })
         .collect::<Result<_, BuildError>>()?;

@@ -1,10 +1,11 @@
 //! Chooses the spacing of a grid so that errors off it stay below a tolerance.
 
+use crate::blocks;
 use crate::build::plan;
 use crate::error::BuildError;
 use crate::grid::Grid;
 use crate::observe::uniform;
-use crate::point::PointPlan;
+use crate::point::{PointKernels, PointPlan};
 use crate::verify::quantile;
 use halfspace::FIELDS;
 use lookup::{Numbers, PulseSum, Series, Smoothness, Stencil, locate};
@@ -49,7 +50,10 @@ pub fn refine(
         if scaled.validate().is_err() {
             break;
         }
-        let error = measure(&scaled, pulse_length)?;
+        let error = quantile(
+            &sample_errors(&scaled, pulse_length, Storage::Single)?,
+            0.99,
+        );
         let [r, z] = scaled.nodes();
         trials.push(Trial {
             spacing: scaled.r.spacing.max(scaled.z.spacing),
@@ -93,8 +97,24 @@ fn scale(grid: &Grid, factor: f64) -> Grid {
     scaled
 }
 
-/// The 99 % quantile of error over peak.
-fn measure(grid: &Grid, pulse_length: f64) -> Result<f64, BuildError> {
+/// How the numbers of a node are stored.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Storage {
+    /// In 32 bits, rounded as in a table.
+    Single,
+    /// In 64 bits, not rounded.
+    Double,
+}
+
+/// Errors over peaks in time at sampled meshes of the slice with the largest Poisson ratio, sorted.
+///
+/// # Errors
+/// What the exact kernels say.
+pub fn sample_errors(
+    grid: &Grid,
+    pulse_length: f64,
+    storage: Storage,
+) -> Result<Vec<f64>, BuildError> {
     let nu = grid.poisson_ratios[grid.poisson_ratios.len() - 1];
     let plan = plan(grid, nu)?;
     let errors: Vec<Vec<f64>> = (0..PLACES)
@@ -108,12 +128,12 @@ fn measure(grid: &Grid, pulse_length: f64) -> Result<f64, BuildError> {
                 draw(0) * grid.r.max
             };
             let z = draw(1) * if near { 0.3 } else { 1.0 } * grid.z.max;
-            errors_at(grid, &plan, [r, z], pulse_length)
+            errors_at(grid, &plan, [r, z], pulse_length, storage)
         })
         .collect::<Result<_, BuildError>>()?;
     let mut all: Vec<f64> = errors.into_iter().flatten().collect();
     all.sort_by(f64::total_cmp);
-    Ok(quantile(&all, 0.99))
+    Ok(all)
 }
 
 /// Errors over peaks at the centre of the mesh around a place.
@@ -122,6 +142,7 @@ fn errors_at(
     plan: &PointPlan,
     place: [f64; 2],
     pulse_length: f64,
+    storage: Storage,
 ) -> Result<Vec<f64>, BuildError> {
     let [r_nodes, z_nodes] = grid.nodes();
     let mesh = |nodes: &[f64], x: f64| {
@@ -131,16 +152,17 @@ fn errors_at(
     let ((i, r), (k, z)) = (mesh(&r_nodes, place[0]), mesh(&z_nodes, place[1]));
     let across = Stencil::mirrored(&r_nodes, i, r, grid.stencil_points);
     let down = Stencil::one_sided(&z_nodes, k, z, grid.stencil_points);
-    let exact = Sum::zero(grid)?.added(plan, [r, z], [1.0, 1.0])?;
+    let exact = Sum::zero(grid)?.added(&plan.compute(r, z)?, [1.0, 1.0]);
     let mut found = Sum::zero(grid)?;
     let columns = across.nodes().iter().zip(across.even()).zip(across.odd());
     for ((&i, &even), &odd) in columns {
         for (&k, &weight) in down.nodes().iter().zip(down.even()) {
-            found = found.added(
-                plan,
-                [r_nodes[i], z_nodes[k]],
-                [even * weight, odd * weight],
-            )?;
+            let mut node = plan.compute(r_nodes[i], z_nodes[k])?;
+            match storage {
+                Storage::Single => blocks::round(&mut node),
+                Storage::Double => {}
+            }
+            found = found.added(&node, [even * weight, odd * weight]);
         }
     }
     let width = grid.cell_width * lookup::cell_scale(plan.kernel().medium().poisson_ratio())?;
@@ -187,13 +209,7 @@ impl Sum {
         })
     }
 
-    fn added(
-        mut self,
-        plan: &PointPlan,
-        [r, z]: [f64; 2],
-        [even, odd]: [f64; 2],
-    ) -> Result<Self, BuildError> {
-        let point = plan.compute(r, z)?;
+    fn added(mut self, point: &PointKernels, [even, odd]: [f64; 2]) -> Self {
         for (sum, values) in [
             (&mut self.numbers.averages, &point.averages),
             (&mut self.numbers.moments, &point.moments),
@@ -208,6 +224,6 @@ impl Sum {
                 }
             }
         }
-        Ok(self)
+        self
     }
 }
