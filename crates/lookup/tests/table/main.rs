@@ -4,4 +4,5 @@
 
 mod format;
 mod interpolation;
+mod slices;
 mod stand_in;
