@@ -10,7 +10,8 @@
 
 use halfspace::{DomainError, Kernel, Medium, Profile, Six};
 use lookup::{LookupError, Smoothness, Table, correct_for_curvature};
-use realfft::RealFftPlanner;
+use num_complex::Complex;
+use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 use std::sync::Arc;
 use thiserror::Error;
 
@@ -100,9 +101,6 @@ pub(crate) fn between_samples(force: &[f64]) -> (Smoothness, f64) {
 
 /// First moments of direct kernels are computed to this share of the static field.
 const MOMENT_SHARE: f64 = 1e-7;
-
-/// Samples beyond which the transform is faster than the sum.
-const DIRECT_PRODUCTS: usize = 60_000;
 
 impl KernelSource {
     /// Kernels of a half-space computed to a relative tolerance in [1e-14, 0.1].
@@ -233,21 +231,125 @@ impl Place {
     }
 }
 
-/// The six fields at the times of the force samples.
-pub(crate) fn convolve(cells: &Cells, force: &[f64]) -> [Vec<f64>; 6] {
-    let rise = increments(force);
-    let live = rise.iter().rposition(|&d| d != 0.0).map_or(0, |i| i + 1);
-    let mut out: [Vec<f64>; 6] = if live * force.len() <= DIRECT_PRODUCTS {
-        direct_sum(&cells.averages, &rise[..live], force.len())
-    } else {
-        transformed(&cells.averages, &rise, force.len())
-    };
-    for (field, samples) in out.iter_mut().enumerate() {
-        for (value, p) in samples.iter_mut().zip(force) {
-            *value += p * cells.static_part[field];
+/// A sampled force, ready to be convolved with the cells of any number of points.
+pub(crate) struct Convolver {
+    force: Vec<f64>,
+    rise: Vec<f64>,
+    /// Samples until the force has come to rest.
+    live: usize,
+    /// Samples at which the fields are wanted, ascending.
+    wanted: Vec<usize>,
+    transform: Option<Transform>,
+}
+
+/// The force's increments in the frequency domain with the plans that brought them there.
+struct Transform {
+    size: usize,
+    forward: Arc<dyn RealToComplex<f64>>,
+    backward: Arc<dyn ComplexToReal<f64>>,
+    load: Vec<Complex<f64>>,
+}
+
+/// Nanoseconds of a product of the direct sum for six fields, and of a point and stage of the twelve transforms.
+///
+/// Measured by the bench `fields`; only their ratio matters.
+const PRODUCT_NS: f64 = 2.5;
+const STAGE_NS: f64 = 9.0;
+
+impl Convolver {
+    /// Fields are wanted at all samples.
+    pub(crate) fn new(force: &[f64]) -> Self {
+        Self::at(force, (0..force.len()).collect())
+    }
+
+    /// Fields are wanted at some samples, ascending.
+    pub(crate) fn at(force: &[f64], wanted: Vec<usize>) -> Self {
+        let rise = increments(force);
+        let live = rise.iter().rposition(|&d| d != 0.0).map_or(0, |i| i + 1);
+        let size = (2 * force.len()).next_power_of_two();
+        let direct = PRODUCT_NS * wanted.len() as f64 * live as f64;
+        let stages = STAGE_NS * size as f64 * f64::from(size.trailing_zeros());
+        let transform = (stages < direct).then(|| Transform::new(&rise, size));
+        Self {
+            force: force.to_vec(),
+            rise,
+            live,
+            wanted,
+            transform,
         }
     }
-    out
+
+    /// How the sum is done, for reports.
+    pub(crate) fn method(&self) -> &'static str {
+        match self.transform {
+            Some(_) => "fast Fourier transform",
+            None => "direct sum",
+        }
+    }
+
+    /// The six fields at the samples wanted.
+    pub(crate) fn fields(&self, cells: &Cells) -> [Vec<f64>; 6] {
+        let mut out = match &self.transform {
+            Some(transform) => transform.convolve(&cells.averages, self.force.len(), &self.wanted),
+            None => self.direct_sum(&cells.averages),
+        };
+        for (field, samples) in out.iter_mut().enumerate() {
+            for (value, &n) in samples.iter_mut().zip(&self.wanted) {
+                *value += self.force[n] * cells.static_part[field];
+            }
+        }
+        out
+    }
+
+    fn direct_sum(&self, averages: &[Six]) -> [Vec<f64>; 6] {
+        let mut out: [Vec<f64>; 6] = std::array::from_fn(|_| Vec::with_capacity(self.wanted.len()));
+        for &n in &self.wanted {
+            let mut sum = [0.0; 6];
+            let past = self.rise[..self.live.min(n + 1)].iter();
+            for (d, cell) in past.zip(averages[..=n].iter().rev()) {
+                for (s, c) in sum.iter_mut().zip(cell) {
+                    *s += d * c;
+                }
+            }
+            for (samples, s) in out.iter_mut().zip(sum) {
+                samples.push(s);
+            }
+        }
+        out
+    }
+}
+
+/// How a convolution is done.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Method {
+    /// Sum over the increments of the force.
+    Direct,
+    /// Fast Fourier transform.
+    Transform,
+    /// The one that is estimated to be faster.
+    Chosen,
+}
+
+/// One convolution of made-up cells, for the bench that the estimate rests on.
+#[must_use]
+pub fn bench_convolution(force: &[f64], method: Method) -> impl Fn() -> [Vec<f64>; 6] + use<> {
+    let mut convolver = Convolver::new(force);
+    match method {
+        Method::Direct => convolver.transform = None,
+        Method::Transform => {
+            let size = (2 * force.len()).next_power_of_two();
+            convolver.transform = Some(Transform::new(&convolver.rise, size));
+        }
+        Method::Chosen => {}
+    }
+    let cells = Cells {
+        static_part: [1.0; 6],
+        averages: (0..force.len())
+            .map(|j| std::array::from_fn(|f| 1.0 / (1.0 + (j * (f + 1)) as f64)))
+            .collect(),
+        error: [0.0; 6],
+    };
+    move || convolver.fields(&cells)
 }
 
 /// P_m - P_{m-1}, with nothing before the first sample.
@@ -263,51 +365,43 @@ fn increments(force: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-fn direct_sum(averages: &[Six], rise: &[f64], count: usize) -> [Vec<f64>; 6] {
-    let mut sums = vec![[0.0; 6]; count];
-    for (m, &d) in rise.iter().enumerate() {
-        for (sum, cell) in sums[m..].iter_mut().zip(averages) {
-            for (s, c) in sum.iter_mut().zip(cell) {
-                *s += d * c;
-            }
-        }
+impl Transform {
+    fn new(rise: &[f64], size: usize) -> Self {
+        let mut planner = RealFftPlanner::<f64>::new();
+        let mut transform = Self {
+            size,
+            forward: planner.plan_fft_forward(size),
+            backward: planner.plan_fft_inverse(size),
+            load: Vec::new(),
+        };
+        transform.load = transform.spectrum(rise.iter().copied());
+        transform
     }
-    std::array::from_fn(|field| sums.iter().map(|s| s[field]).collect())
-}
 
-fn transformed(averages: &[Six], rise: &[f64], count: usize) -> [Vec<f64>; 6] {
-    let size = (2 * count).next_power_of_two();
-    let mut planner = RealFftPlanner::<f64>::new();
-    let (forward, backward) = (
-        planner.plan_fft_forward(size),
-        planner.plan_fft_inverse(size),
-    );
-    let spectrum = |samples: &mut dyn Iterator<Item = f64>| {
-        let mut time = forward.make_input_vec();
+    fn spectrum(&self, samples: impl Iterator<Item = f64>) -> Vec<Complex<f64>> {
+        let mut time = self.forward.make_input_vec();
         for (slot, value) in time.iter_mut().zip(samples) {
             *slot = value;
         }
-        let mut frequency = forward.make_output_vec();
+        let mut frequency = self.forward.make_output_vec();
         // The lengths are those of the plan, the only thing that can be wrong.
-        let done = forward.process(&mut time, &mut frequency);
+        let done = self.forward.process(&mut time, &mut frequency);
         debug_assert!(done.is_ok());
         frequency
-    };
-    let load = spectrum(&mut rise.iter().copied());
-    std::array::from_fn(|field| {
-        let mut product = spectrum(&mut averages.iter().take(count).map(|cell| cell[field]));
-        for (a, b) in product.iter_mut().zip(&load) {
-            *a *= b;
-        }
-        let mut time = backward.make_output_vec();
-        let done = backward.process(&mut product, &mut time);
-        debug_assert!(done.is_ok());
-        time.truncate(count);
-        for value in &mut time {
-            *value /= size as f64;
-        }
-        time
-    })
+    }
+
+    fn convolve(&self, averages: &[Six], count: usize, wanted: &[usize]) -> [Vec<f64>; 6] {
+        std::array::from_fn(|field| {
+            let mut product = self.spectrum(averages.iter().take(count).map(|cell| cell[field]));
+            for (a, b) in product.iter_mut().zip(&self.load) {
+                *a *= b;
+            }
+            let mut time = self.backward.make_output_vec();
+            let done = self.backward.process(&mut product, &mut time);
+            debug_assert!(done.is_ok());
+            wanted.iter().map(|&n| time[n] / self.size as f64).collect()
+        })
+    }
 }
 
 #[cfg(test)]
@@ -324,14 +418,21 @@ mod tests {
         let force: Vec<f64> = (0..300)
             .map(|i| (f64::from(i) * 0.02).sin().max(0.0))
             .collect();
-        let rise = increments(&force);
-        let (a, b) = (
-            direct_sum(&averages, &rise, 300),
-            transformed(&averages, &rise, 300),
-        );
-        for field in 0..6 {
-            for (x, y) in a[field].iter().zip(&b[field]) {
-                assert!((x - y).abs() < 1e-13);
+        for wanted in [(0..300).collect::<Vec<_>>(), vec![0, 7, 150, 299]] {
+            let mut convolver = Convolver::at(&force, wanted);
+            convolver.transform = Some(Transform::new(&convolver.rise, 1024));
+            let cells = Cells {
+                static_part: [1.0; 6],
+                averages: averages.clone(),
+                error: [0.0; 6],
+            };
+            let b = convolver.fields(&cells);
+            convolver.transform = None;
+            let a = convolver.fields(&cells);
+            for field in 0..6 {
+                for (x, y) in a[field].iter().zip(&b[field]) {
+                    assert!((x - y).abs() < 1e-13);
+                }
             }
         }
     }

@@ -16,10 +16,11 @@ mod quadrature;
 mod resample;
 pub mod scene;
 mod simulate;
+pub mod sweep;
 pub mod units;
 pub mod validity;
 
 pub use scene::{Scene, SceneError};
 pub use simulate::{
-    Choices, Fields, ImpactError, KernelChoice, Outcome, Results, Series, simulate,
+    Choices, Fields, ImpactError, KernelChoice, MapFields, Outcome, Results, Series, simulate,
 };

@@ -49,13 +49,20 @@ impl<const N: usize> Local<N> {
     }
 
     pub(crate) fn value_and_slope(&self, x: f64) -> (f64, f64) {
-        let (mut value, mut slope) = (self.differences[N - 1], 0.0);
+        let [value, slope, _] = self.jet(x);
+        (value, slope)
+    }
+
+    /// Value, slope and half the curvature.
+    fn jet(&self, x: f64) -> [f64; 3] {
+        let mut jet = [self.differences[N - 1], 0.0, 0.0];
         for k in (0..N - 1).rev() {
             let factor = x - k as f64;
-            slope = slope * factor + value;
-            value = value * factor + self.differences[k];
+            jet[2] = jet[2] * factor + jet[1];
+            jet[1] = jet[1] * factor + jet[0];
+            jet[0] = jet[0] * factor + self.differences[k];
         }
-        (value, slope)
+        jet
     }
 
     /// The zero of the polynomial in [from, to], by bisection-guarded Newton; the ends must differ in sign.
@@ -65,18 +72,12 @@ impl<const N: usize> Local<N> {
 
     /// Place and value of the extremum in [from, to] where the slope changes sign, else the larger end.
     pub(crate) fn maximum(&self, from: f64, to: f64) -> (f64, f64) {
-        let slope = |x: f64| self.value_and_slope(x).1;
-        let (mut low, mut high) = (from, to);
-        if slope(low) > 0.0 && slope(high) < 0.0 {
-            for _ in 0..60 {
-                let mid = 0.5 * (low + high);
-                if slope(mid) > 0.0 {
-                    low = mid;
-                } else {
-                    high = mid;
-                }
-            }
-            let x = 0.5 * (low + high);
+        let slope = |x: f64| {
+            let [_, slope, half_curvature] = self.jet(x);
+            (slope, 2.0 * half_curvature)
+        };
+        if slope(from).0 > 0.0 && slope(to).0 < 0.0 {
+            let x = find_root(slope, from, to);
             return (x, self.value(x));
         }
         let (left, right) = (self.value(from), self.value(to));

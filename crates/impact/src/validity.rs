@@ -63,7 +63,7 @@ pub(crate) fn warnings(
         ] {
             if let Some(strength) = strength.filter(|&s| stress > s) {
                 found.push(format!(
-                    "the mean contact stress {:.4e} Pa is {:.2} times the {name} {strength:.4e} Pa of the {body}: the impact is not elastic unless the dynamic strength is that high",
+                    "the mean contact stress {:.4e} Pa is {:.2} times the {name} {strength:.4e} Pa of the {body} (the ratio Kmax): the impact is not elastic unless the dynamic strength is that high",
                     stress,
                     stress / strength
                 ));

@@ -4,10 +4,54 @@ pub mod hertz;
 pub mod quasi_static;
 pub mod radiation;
 
-use crate::march::{FixedDisc, GrowingDisc, PunchResponse, StaticShare};
+use crate::march::{FixedDisc, GrowingDisc, PunchResponse, ResponseTable, StaticShare};
 use crate::scene::{Scene, Striker};
 use crate::units::{CollisionUnits, KernelUnits};
-use halfspace::SurfaceResponse;
+use halfspace::{Deflection, SurfaceResponse};
+
+/// What the groups of an impact need of a surface response: three numbers in 1/(mu r0) and r0/c1.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Surface {
+    /// Static deflection under unit force.
+    pub static_compliance: f64,
+    /// int (1 - W) dt.
+    pub relaxation_time: f64,
+    /// Time after which the response is static.
+    pub memory: f64,
+    deflection: Deflection,
+}
+
+impl Surface {
+    /// Memory of a flat punch in a/c1: the slowest wave across its diameter.
+    pub(crate) fn punch_memory(&self) -> f64 {
+        match self.deflection {
+            Deflection::Centre => 2.0 * self.memory,
+            Deflection::Mean => self.memory,
+        }
+    }
+}
+
+impl From<&SurfaceResponse> for Surface {
+    fn from(response: &SurfaceResponse) -> Self {
+        Self {
+            static_compliance: response.static_compliance(),
+            relaxation_time: response.relaxation_time(),
+            memory: response.memory(),
+            deflection: response.deflection(),
+        }
+    }
+}
+
+impl From<&ResponseTable> for Surface {
+    fn from(table: &ResponseTable) -> Self {
+        Self {
+            static_compliance: table.static_compliance(),
+            relaxation_time: table.relaxation_time(),
+            memory: table.memory(),
+            deflection: table.deflection(),
+        }
+    }
+}
 
 /// A striker with a spherical tip that meets an elastic half-space, in SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -98,15 +142,24 @@ impl Collision {
         disc_radius_m: f64,
         share: StaticShare,
     ) -> FixedDisc<'a> {
-        let units = self.units();
-        let kernel = self.kernel_units(disc_radius_m);
+        let (coupling, wave_time) = self.disc_groups(response.static_compliance(), disc_radius_m);
         FixedDisc {
             response,
-            coupling: response.static_compliance() * kernel.displacement_m_per_n() * units.force_n
-                / units.length_m,
-            wave_time: kernel.time_s() / units.time_s,
+            coupling,
+            wave_time,
             share,
         }
+    }
+
+    /// Static compliance of a disc over Hertz's, and r0/c1, in collision units.
+    #[must_use]
+    pub fn disc_groups(&self, static_compliance: f64, disc_radius_m: f64) -> (f64, f64) {
+        let units = self.units();
+        let kernel = self.kernel_units(disc_radius_m);
+        (
+            static_compliance * kernel.displacement_m_per_n() * units.force_n / units.length_m,
+            kernel.time_s() / units.time_s,
+        )
     }
 
     /// The groups of an impact whose contact radius follows the load.
@@ -130,9 +183,15 @@ impl Collision {
     /// c of the radiation model in collision units: w = -c p' to first order, for any load.
     #[must_use]
     pub fn lag(&self, response: &SurfaceResponse) -> f64 {
+        self.lag_of(&Surface::from(response))
+    }
+
+    /// The same from the numbers of a response.
+    #[must_use]
+    pub fn lag_of(&self, surface: &Surface) -> f64 {
         // phi (2/3) a J_p with the punch's J, which is the same for any disc
         // (the Hertz disc's mean deflection has another static part and another relaxation, the same product)
-        let centre = response.static_compliance() * response.relaxation_time()
+        let centre = surface.static_compliance * surface.relaxation_time
             / (0.375 * (1.0 - self.target_poisson_ratio));
         self.target_share() * self.contact_wave_time() * centre
     }

@@ -12,7 +12,8 @@
 //! The peaks and the duration are the first-order solution of that equation.
 
 use super::hertz;
-use crate::march::{History, Summary};
+use super::quasi_static::expected_contact_time;
+use crate::march::{EndOfContact, History, Summary, solve};
 use crate::units::INVERSE_MASS;
 
 /// int p'^2 dt of Hertz's pulse in collision units times 5/2: 1 - e^2 over c.
@@ -45,23 +46,29 @@ pub fn radiation(lag: f64) -> Summary {
         peak_deflection: lag * STEEPEST,
         impulse: (1.0 + restitution) / INVERSE_MASS,
         contacts: 1,
+        end: EndOfContact::Smooth,
     }
 }
 
 /// max (3/2) sqrt(d (1 - d^(5/2))), at d^(5/2) = 2/7.
 const STEEPEST: f64 = 0.986_81;
 
-/// Samples of d'' = -(5/4) p, p = max(0, d^(3/2) + (9/4) c d d'), by the classical Runge-Kutta rule.
+/// Samples of d'' = -(5/4) p, p = max(0, F + c F'^2 d'), by the classical Runge-Kutta rule.
+///
+/// F is the force of Hertz's spring in series with a linear one of compliance `coupling`; without it
+/// this is p = d^(3/2) + (9/4) c d d'.
 #[must_use]
-pub fn march_radiation(lag: f64, step: f64) -> History {
+pub fn march_radiation(coupling: f64, lag: f64, step: f64) -> History {
     let force = |d: f64, v: f64| {
-        let d = d.max(0.0);
-        (d * d.sqrt() + 2.25 * lag * d * v).max(0.0)
+        let y = solve(coupling, d, 0.0).unwrap_or(0.0);
+        let stiffness = 3.0 * y / (2.0 + 3.0 * coupling * y);
+        (y * y * y + lag * stiffness * stiffness * v).max(0.0)
     };
+    let longest = 2.0 * expected_contact_time(coupling);
     let mut history = History::at_touch(step, 256);
     let (mut d, mut v) = (0.0, 1.0);
-    // Twice Hertz's contact time at most: the lag prolongs the contact by a fraction of itself.
-    while d >= 0.0 && history.force.len() as f64 * step < 2.0 * hertz::CONTACT_TIME {
+    // Twice the contact time at most: the lag prolongs the contact by a fraction of itself.
+    while d >= 0.0 && history.force.len() as f64 * step < longest {
         let (d1, v1) = (v, -INVERSE_MASS * force(d, v));
         let half = |a: f64, b: f64| (d + 0.5 * step * a, v + 0.5 * step * b);
         let (x, y) = half(d1, v1);
@@ -86,11 +93,26 @@ mod tests {
     fn the_closed_form_is_the_limit_of_the_damped_contact() {
         for lag in [1e-3, 3e-3] {
             let law = radiation(lag);
-            let history = march_radiation(lag, 1e-3);
+            let history = march_radiation(0.0, lag, 1e-3);
             let (place, peak) = crate::quadrature::peak(&history.force);
             assert!((peak - law.peak_force).abs() < 7.0 * lag * lag);
             assert!((place * 1e-3 - law.peak_force_time).abs() < 7.0 * lag * lag);
             assert!((-history.last_velocity() - law.restitution).abs() < 7.0 * lag * lag);
+        }
+    }
+
+    #[test]
+    fn the_first_order_law_of_two_springs_is_the_limit_of_the_damped_contact() {
+        use super::super::quasi_static::quasi_static_radiation;
+        for coupling in [0.1, 1.0, 4.0] {
+            for lag in [1e-3, 3e-3] {
+                let law = quasi_static_radiation(coupling, lag);
+                let history = march_radiation(coupling, lag, 1e-3);
+                let (place, peak) = crate::quadrature::peak(&history.force);
+                assert!((peak - law.peak_force).abs() < 7.0 * lag * lag);
+                assert!((place * 1e-3 - law.peak_force_time).abs() < 7.0 * lag * lag);
+                assert!((-history.last_velocity() - law.restitution).abs() < 7.0 * lag * lag);
+            }
         }
     }
 

@@ -10,7 +10,7 @@
 
 use super::implicit::FixedDisc;
 use super::summary::linear_crossing;
-use super::{Budget, History, MarchError, Summary};
+use super::{Budget, EndOfContact, History, MarchError, Summary};
 use crate::quadrature::peak;
 use crate::units::INVERSE_MASS;
 
@@ -87,5 +87,6 @@ fn summarise(history: &History) -> Result<Summary, MarchError> {
         peak_deflection: peak(&history.deflection).1,
         impulse: (1.0 - velocity) / INVERSE_MASS,
         contacts: 1,
+        end: EndOfContact::Smooth,
     })
 }

@@ -38,34 +38,51 @@ impl FixedDisc<'_> {
 /// [`MarchError::NoSolution`] where the `dynamic` share is not well posed,
 /// [`MarchError::TooLong`] when the work is out of bounds.
 pub fn march_implicit(impact: &FixedDisc<'_>, step: f64) -> Result<History, MarchError> {
-    let memory_cells = impact.memory() / step;
-    let budget = Budget::new(memory_cells.min(1e9) as usize, impact.memory());
     // before the weights, which need one evaluation a cell
-    budget.check(memory_cells.min(1e9) as usize)?;
+    let budget = Budget::of_memory(impact.memory(), step)?;
     let weights = Weights::new(impact.response, step, impact.wave_time);
+    let mut history = History::at_touch(step, 256);
+    advance(
+        impact.coupling,
+        impact.share,
+        &weights,
+        &budget,
+        &mut history,
+    )?;
+    Ok(history)
+}
+
+/// Marches a history that holds the touch until the striker has left for good.
+pub(crate) fn advance(
+    coupling: f64,
+    share: StaticShare,
+    weights: &Weights,
+    budget: &Budget,
+    history: &mut History,
+) -> Result<(), MarchError> {
+    let step = history.step;
     let newest_lag = weights.lag[0];
-    let share = impact.share.factor();
     let mut flight = Flight::new(step);
     let inertia = flight.newest_weight();
-    let elastic = impact.coupling * (share - newest_lag);
+    let elastic = coupling * (share.factor() - newest_lag);
     let compliance = inertia + elastic;
-    let mut history = History::at_touch(step, 256);
     history.compliance = compliance;
-    let (mut root, mut root_before) = (0.0_f64, 0.0_f64);
+    // the last three roots, newest first: the guess is the parabola through them
+    let mut roots = [0.0_f64; 3];
     let mut free_since = 0;
     loop {
         let n = history.force.len();
         let newest = history.force[n - 1];
         let past = weights.past(&history.force);
-        let known_deflection = impact.coupling * (newest_lag * newest - past);
+        let known_deflection = coupling * (newest_lag * newest - past);
         let free = flight.free_displacement();
         let known = free - known_deflection;
-        let guess = 2.0 * root - root_before;
+        let guess = 3.0 * (roots[0] - roots[1]) + roots[2];
         let solved = solve(compliance, known, guess).ok_or(MarchError::NoSolution {
             time: n as f64 * step,
-            coupling: impact.coupling,
+            coupling,
         })?;
-        (root_before, root) = (root, solved);
+        roots = [solved, roots[0], roots[1]];
         let force = solved * solved * solved;
         history.push(
             force,
@@ -78,7 +95,7 @@ pub fn march_implicit(impact: &FixedDisc<'_>, step: f64) -> Result<History, Marc
         } else {
             free_since += 1;
             if free_since >= weights.lag.len() && history.last_velocity() <= 0.0 {
-                return Ok(history);
+                return Ok(());
             }
         }
         if n.is_multiple_of(1024) {
@@ -94,6 +111,17 @@ pub(crate) fn solve(a: f64, b: f64, guess: f64) -> Option<f64> {
     }
     if b <= 0.0 {
         return Some(0.0);
+    }
+    // For a >= 0 the left side is convex and rises, so that Newton finds its root from any y > 0.
+    if a >= 0.0 && guess > 0.0 {
+        let mut y = guess;
+        for _ in 0..8 {
+            let next = y - ((a * y + 1.0) * y * y - b) / ((3.0 * a * y + 2.0) * y);
+            if (next - y).abs() <= 1e-8 * y {
+                return Some(next);
+            }
+            y = next;
+        }
     }
     // The root lies below sqrt(b) for a > 0, and below the fold 2/(3 |a|) for a < 0.
     let (mut low, mut high) = if a >= 0.0 {
@@ -123,7 +151,8 @@ pub(crate) fn solve(a: f64, b: f64, guess: f64) -> Option<f64> {
         } else {
             0.5 * (low + high)
         };
-        if (next - y).abs() <= 1e-15 * y {
+        // Newton's error is squared each time: the next one would be below the last digit
+        if (next - y).abs() <= 1e-8 * y {
             return Some(next);
         }
         y = next;

@@ -7,16 +7,20 @@ mod flight;
 mod growing;
 mod implicit;
 mod punch;
+mod quick;
 mod refine;
 mod summary;
+mod tabulated;
 mod weights;
 
 pub use explicit::march_explicit;
 pub use growing::{GrowingDisc, march_growing};
 pub use implicit::{FixedDisc, march_implicit};
 pub use punch::PunchResponse;
-pub use refine::{Refined, refine};
-pub use summary::Summary;
+pub use quick::{Found, TabulatedDisc, Workspace};
+pub use refine::{Accuracy, Refined, refine};
+pub use summary::{EndOfContact, Summary};
+pub use tabulated::ResponseTable;
 
 pub(crate) use flight::velocities;
 pub(crate) use implicit::solve;
@@ -118,6 +122,19 @@ pub struct History {
     pub(crate) velocity: Vec<f64>,
     /// Compliance of the newest sample: d - w + compliance * p is smooth through the end of contact.
     pub(crate) compliance: f64,
+    /// Layer at the end of a contact that shrinks.
+    pub(crate) end_layer: EndLayer,
+}
+
+/// The last instants of a contact whose radius goes to zero, too short for the step.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(crate) struct EndLayer {
+    /// Whether the contact's radius goes to zero at all.
+    pub(crate) shrinks: bool,
+    /// Displacement of the striker at the end of contact over the square of its velocity there.
+    pub(crate) depth: f64,
+    /// Duration of the layer over the velocity; zero where there is none.
+    pub(crate) width: f64,
 }
 
 impl History {
@@ -134,6 +151,21 @@ impl History {
             deflection: start(),
             velocity: Vec::new(),
             compliance: 0.0,
+            end_layer: EndLayer::default(),
+        }
+    }
+
+    /// Forgets everything but the room that it takes.
+    pub(crate) fn restart(&mut self, step: f64) {
+        self.step = step;
+        self.velocity.clear();
+        for samples in [
+            &mut self.force,
+            &mut self.displacement,
+            &mut self.deflection,
+        ] {
+            samples.clear();
+            samples.push(0.0);
         }
     }
 
@@ -175,6 +207,14 @@ impl Budget {
 
     pub(crate) fn new(cells: usize, ratio: f64) -> Self {
         Self { cells, ratio }
+    }
+
+    /// For a memory and a step; refuses one that is out of bounds by itself.
+    pub(crate) fn of_memory(memory: f64, step: f64) -> Result<Self, MarchError> {
+        let cells = (memory / step).min(1e9) as usize;
+        let budget = Self::new(cells, memory);
+        budget.check(cells)?;
+        Ok(budget)
     }
 
     pub(crate) fn check(&self, steps: usize) -> Result<(), MarchError> {

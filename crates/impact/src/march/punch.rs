@@ -19,6 +19,8 @@ use halfspace::{Deflection, SurfaceResponse};
 #[derive(Debug, Clone)]
 pub struct PunchResponse {
     memory: f64,
+    /// int t V_p dt.
+    first_moment: f64,
     /// int V_p and V_p at the nodes memory (i/N)^2.
     nodes: Vec<[f64; 2]>,
 }
@@ -68,13 +70,44 @@ impl PunchResponse {
             node[0] *= scale;
             node[1] *= scale;
         }
-        Self { memory, nodes }
+        // int t V_p = int (all - int_0^t V_p)
+        let first_moment = (1..=INTERVALS)
+            .map(|i| {
+                let width = place(i) - place(i - 1);
+                let left = |i: usize| nodes[INTERVALS][0] - nodes[i][0];
+                0.5 * width * (left(i) + left(i - 1))
+            })
+            .sum();
+        Self {
+            memory,
+            first_moment,
+            nodes,
+        }
+    }
+
+    /// The response of a Poisson's ratio between those of two others, linear in all its numbers.
+    #[must_use]
+    pub fn between(near: &Self, far: &Self, share: f64) -> Self {
+        let mix = |a: f64, b: f64| a + share * (b - a);
+        let nodes = near.nodes.iter().zip(&far.nodes);
+        Self {
+            memory: mix(near.memory, far.memory),
+            first_moment: mix(near.first_moment, far.first_moment),
+            nodes: nodes
+                .map(|(a, b)| [mix(a[0], b[0]), mix(a[1], b[1])])
+                .collect(),
+        }
     }
 
     /// Time after which the response is static.
     #[must_use]
     pub fn memory(&self) -> f64 {
         self.memory
+    }
+
+    /// int t V_p dt, to 1e-5 of itself.
+    pub(crate) fn first_moment(&self) -> f64 {
+        self.first_moment
     }
 
     /// int_0^t V_p; constant from [`Self::memory`] on.

@@ -9,6 +9,7 @@
 use super::flight::impulse_until;
 use super::implicit::solve;
 use super::{History, MarchError};
+use crate::energy::work;
 use crate::quadrature::{GAUSS_8, Local, find_root, peak};
 use crate::units::INVERSE_MASS;
 
@@ -33,6 +34,33 @@ pub struct Summary {
     pub impulse: f64,
     /// Number of contacts: 1 unless the surface strikes again.
     pub contacts: usize,
+    /// How well the end of contact is known.
+    pub end: EndOfContact,
+}
+
+/// How the end of the first contact was found, and so what the contact time's error does with the step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum EndOfContact {
+    /// By extrapolation of what is smooth there.
+    Smooth,
+    /// In a contact whose radius goes to zero, its last instants resolved: of first order.
+    Singular,
+    /// In such a contact with its last instants in closed form, of this relative uncertainty.
+    Layer(f64),
+}
+
+impl EndOfContact {
+    /// Share of the change over a halving of the step that is left, and what stays at any step.
+    ///
+    /// The force goes to zero with the power 3/2, which product integration sees with parabolas:
+    /// the last part of the contact time's error goes with the root of the step only.
+    pub(crate) fn rest(self) -> (f64, f64) {
+        match self {
+            Self::Smooth => (2.4, 0.0),
+            Self::Singular => (1.5, 0.0),
+            Self::Layer(uncertainty) => (1.0 / 3.0, uncertainty),
+        }
+    }
 }
 
 /// Samples in contact that the interpolation needs.
@@ -53,7 +81,15 @@ impl Summary {
                 needed: NEEDED,
             });
         }
-        let (contact_time, impulse) = end_of_contact(history, end);
+        let (mut contact_time, impulse) = end_of_contact(history, end);
+        let mut how = EndOfContact::Smooth;
+        if history.end_layer.shrinks {
+            how = EndOfContact::Singular;
+            if let Some((time, uncertainty)) = end_of_layer(history, end) {
+                contact_time = time;
+                how = EndOfContact::Layer(uncertainty / time);
+            }
+        }
         let (place, peak_force) = peak(force);
         let contacts = count_contacts(force, peak_force);
         let velocity = if contacts == 1 {
@@ -61,39 +97,75 @@ impl Summary {
         } else {
             history.last_velocity()
         };
+        let (velocity, loss) = departure(velocity, work(&history.force, &history.deflection));
         Ok(Self {
             peak_force,
             peak_force_time: place * step,
             contact_time,
             restitution: -velocity,
-            loss: (1.0 - velocity) * (1.0 + velocity),
+            loss,
             peak_displacement: peak(&history.displacement).1,
             peak_deflection: peak(&history.deflection).1,
             impulse: (1.0 - velocity) / INVERSE_MASS,
             contacts,
+            end: how,
         })
     }
 
-    /// The largest difference from another summary, relative (restitution: of the velocity of approach).
+    /// The largest difference of what a tolerance is asked on, relative (restitution: of the velocity
+    /// of approach): peak force, contact time, restitution, largest displacement.
     #[must_use]
     pub fn distance(&self, other: &Self) -> f64 {
-        let relative = |a: f64, b: f64| {
-            let size = a.abs().max(b.abs());
-            if size > 0.0 {
-                (a - b).abs() / size
-            } else {
-                0.0
-            }
-        };
         [
             relative(self.peak_force, other.peak_force),
             relative(self.contact_time, other.contact_time),
             (self.restitution - other.restitution).abs(),
             relative(self.peak_displacement, other.peak_displacement),
-            relative(self.peak_deflection, other.peak_deflection),
         ]
         .into_iter()
         .fold(0.0, f64::max)
+    }
+
+    /// The relative difference of the contact time.
+    pub(crate) fn contact_time_distance(&self, other: &Self) -> f64 {
+        relative(self.contact_time, other.contact_time)
+    }
+
+    /// The relative difference of the loss.
+    #[must_use]
+    pub fn loss_distance(&self, other: &Self) -> f64 {
+        relative(self.loss, other.loss)
+    }
+
+    /// The relative difference of the largest deflection.
+    #[must_use]
+    pub fn deflection_distance(&self, other: &Self) -> f64 {
+        relative(self.peak_deflection, other.peak_deflection)
+    }
+}
+
+fn relative(a: f64, b: f64) -> f64 {
+    let size = a.abs().max(b.abs());
+    if size > 0.0 {
+        (a - b).abs() / size
+    } else {
+        0.0
+    }
+}
+
+/// Loss below which it is taken from the work on the half-space, not from the momentum.
+const SMALL_LOSS: f64 = 0.03;
+
+/// Velocity of departure and loss.
+///
+/// Hertz's spring gives back what it takes, so the loss is the work int p dw: an error of this sum
+/// is relative to the loss however small it is, that of the momentum is relative to all energy.
+fn departure(velocity: f64, work: f64) -> (f64, f64) {
+    let loss = (1.0 - velocity) * (1.0 + velocity);
+    if work < SMALL_LOSS && loss < 2.0 * SMALL_LOSS && velocity < 0.0 {
+        (-(1.0 - work).sqrt(), work)
+    } else {
+        (velocity, loss)
     }
 }
 
@@ -116,6 +188,32 @@ fn count_contacts(force: &[f64], peak_force: f64) -> usize {
         }
     }
     contacts
+}
+
+/// Uncertainty of the time spent in the end layer.
+const LAYER_UNCERTAINTY: f64 = 0.05;
+
+/// End of a contact with a layer that the step does not resolve, and its uncertainty.
+///
+/// The displacement is smooth there, so the place where it reaches the layer's depth is known well.
+fn end_of_layer(history: &History, end: usize) -> Option<(f64, f64)> {
+    let (step, d) = (history.step, &history.displacement);
+    let layer = history.end_layer;
+    let from = end.checked_sub(3)?;
+    if layer.width == 0.0 || end + 1 >= d.len() {
+        return None;
+    }
+    let velocity = (d[end - 1] - d[end]) / step;
+    if velocity <= 0.0 || 4.0 * step < layer.width * velocity {
+        return None;
+    }
+    let depth = layer.depth * velocity * velocity;
+    let local = Local::<5>::new(std::array::from_fn(|i| d[from + i] - depth));
+    if local.value(0.0) <= 0.0 || local.value(4.0) >= 0.0 {
+        return None;
+    }
+    let time = (from as f64 + local.root(0.0, 4.0)) * step;
+    Some((time, LAYER_UNCERTAINTY * depth / velocity))
 }
 
 /// End of the first contact and the impulse until then; `end` is the first free sample.

@@ -10,11 +10,12 @@
 //! correction for its curvature, taken from neighbouring cells, with the first moments of W.
 //! g_j = 0 for cells older than the memory, so the sum is short.
 
+use super::tabulated::ResponseTable;
 use crate::quadrature::GAUSS_4;
 use halfspace::SurfaceResponse;
 
 /// The weights g_j of one step, and the memory they span.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct Weights {
     pub(crate) lag: Vec<f64>,
 }
@@ -23,15 +24,41 @@ impl Weights {
     /// For `step` and `unit` = r0/c1, both in the same unit of time.
     pub(crate) fn new(response: &SurfaceResponse, step: f64, unit: f64) -> Self {
         let h = step / unit;
-        let memory = response.memory();
-        let cells = (memory / h).ceil() as usize;
-        let mut lag = vec![0.0; cells + 2];
+        let mut weights = Self::default();
         let mut before = 0.0;
-        for j in 0..cells {
-            let (from, to) = (j as f64 * h, (j + 1) as f64 * h);
+        weights.fill(response.memory(), h, |from, to| {
             let after = response.step_integral(to);
-            lag[j] += 1.0 - (after - before) / h;
-            let curvature = first_moment(response, from, to, before, after) / (h * h);
+            let moment = first_moment(response, from, to, before, after);
+            let rise = after - before;
+            before = after;
+            (rise, moment)
+        });
+        weights
+    }
+
+    /// The same from a table, in the place of whatever weights were held before.
+    pub(crate) fn read(&mut self, table: &ResponseTable, step: f64, unit: f64) {
+        let h = step / unit;
+        let mut before = [0.0; 2];
+        self.fill(table.memory(), h, |_, to| {
+            let after = table.integrals(to);
+            let moment = 0.5 * h * (before[0] + after[0]) - (after[1] - before[1]);
+            let rise = after[0] - before[0];
+            before = after;
+            (rise, moment)
+        });
+    }
+
+    /// `cell` gives int W and int W (x - mid) over each cell in turn.
+    fn fill(&mut self, memory: f64, h: f64, mut cell: impl FnMut(f64, f64) -> (f64, f64)) {
+        let cells = (memory / h).ceil() as usize;
+        let lag = &mut self.lag;
+        lag.clear();
+        lag.resize(cells + 2, 0.0);
+        for j in 0..cells {
+            let (rise, moment) = cell(j as f64 * h, (j + 1) as f64 * h);
+            lag[j] += 1.0 - rise / h;
+            let curvature = moment / (h * h);
             if j == 0 {
                 // the cell that ends now: its curvature continues the two before it
                 lag[0] += 1.5 * curvature;
@@ -41,12 +68,10 @@ impl Weights {
                 lag[j - 1] += 0.5 * curvature;
                 lag[j + 1] -= 0.5 * curvature;
             }
-            before = after;
         }
-        Self { lag }
     }
 
-    /// sum over all j of g_j (p_{n-j} - p_{n-j-1}); `force` holds p_0 .. p_n.
+    /// sum over all j of g_j (p_{n-j} - p_{n-j-1}); `force` holds p_0 = 0 .. p_n.
     pub(crate) fn lagging(&self, force: &[f64]) -> f64 {
         let (newest, past) = match force {
             [past @ .., newest] => (*newest, past),
@@ -58,17 +83,17 @@ impl Weights {
 
     /// sum over j >= 1 of g_j (p_{n-j} - p_{n-j-1}), the part of the past; `past` holds p_0 .. p_{n-1}.
     pub(crate) fn past(&self, past: &[f64]) -> f64 {
-        let n = past.len();
-        let mut sum = 0.0;
-        for (j, g) in self.lag.iter().enumerate().skip(1) {
-            if j > n {
-                break;
-            }
-            let newer = past[n - j];
-            let older = if j < n { past[n - j - 1] } else { 0.0 };
-            sum += g * (newer - older);
-        }
-        sum
+        let start = match (self.lag.get(past.len()), past.first()) {
+            (Some(weight), Some(first)) => weight * first,
+            (Some(_) | None, _) => 0.0,
+        };
+        let rises = past.windows(2).rev().map(|p| p[1] - p[0]);
+        start
+            + self.lag[1..]
+                .iter()
+                .zip(rises)
+                .map(|(g, rise)| g * rise)
+                .sum::<f64>()
     }
 }
 

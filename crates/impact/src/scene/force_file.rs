@@ -1,6 +1,7 @@
-//! A prescribed force history from a CSV file, linear between its samples.
+//! A prescribed force history from a file, linear between its samples.
 
 use super::error::SceneError;
+use super::force_hdf::{from_hdf5, is_hdf5};
 use super::read_text;
 use std::path::{Path, PathBuf};
 
@@ -19,11 +20,15 @@ pub struct PrescribedForce {
 const HEADER: &str = "time_s,force_n";
 
 impl PrescribedForce {
-    /// Reads a file with the header `time_s,force_n`; lines that begin with # are comments.
+    /// Reads a CSV file with the header `time_s,force_n`, lines that begin with # are comments; or an
+    /// HDF5 file with the datasets `/time` and `/force`, which a results file has.
     ///
     /// # Errors
-    /// [`SceneError::ForceFile`] with the line at fault.
+    /// [`SceneError::ForceFile`] with the line at fault, [`SceneError::Unreadable`].
     pub fn from_file(path: &Path) -> Result<Self, SceneError> {
+        if is_hdf5(path) {
+            return from_hdf5(path);
+        }
         Self::from_csv(&read_text(path)?, path)
     }
 

@@ -4,6 +4,7 @@
 
 mod error;
 pub(crate) mod force_file;
+mod force_hdf;
 pub(crate) mod reader;
 
 pub use error::SceneError;
@@ -25,6 +26,10 @@ pub enum Model {
     Hertz,
     /// First-order radiated loss.
     Radiation,
+    /// Hertz's spring in series with the disc's static one, no waves.
+    QuasiStatic,
+    /// The same with the first-order radiated loss.
+    QuasiStaticRadiation,
     /// Full retarded deflection of a disc of fixed radius: the paper.
     Wave,
     /// Contact radius that follows the load.
@@ -43,9 +48,11 @@ pub enum Scheme {
 }
 
 /// Names of the models in scenes and results.
-pub const MODELS: [(&str, Model); 5] = [
+pub const MODELS: [(&str, Model); 7] = [
     ("hertz", Model::Hertz),
     ("radiation", Model::Radiation),
+    ("quasi_static", Model::QuasiStatic),
+    ("quasi_static_radiation", Model::QuasiStaticRadiation),
     ("wave", Model::Wave),
     ("growing", Model::Growing),
     ("auto", Model::Auto),
@@ -434,7 +441,7 @@ fn read_load(
         (None, Some(force)) => {
             force.allow(&["file"])?;
             let file = force.text("file")?.ok_or_else(|| {
-                force.missing("file", "name a CSV file with columns time_s,force_n")
+                force.missing("file", "name a CSV file with columns time_s,force_n or an HDF5 file with /time and /force")
             })?;
             if contact.disc_radius_m.is_none() {
                 return Err(SceneError::Missing {

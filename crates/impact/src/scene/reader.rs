@@ -1,6 +1,7 @@
 //! Typed reading of a TOML table: every error names the full key and the value found.
 
 use super::error::{SceneError, nearest};
+use crate::sweep::Values;
 use toml::{Table, Value};
 
 /// A range of numbers.
@@ -14,6 +15,10 @@ pub(crate) struct Range {
 pub(crate) const POSITIVE: Range = Range {
     name: "(0, inf)",
     holds: |x| x > 0.0 && x < f64::INFINITY,
+};
+pub(crate) const FINITE: Range = Range {
+    name: "(-inf, inf)",
+    holds: f64::is_finite,
 };
 pub(crate) const NOT_NEGATIVE: Range = Range {
     name: "[0, inf)",
@@ -93,6 +98,57 @@ impl<'a> Section<'a> {
                 other => Err(self.wrong_kind(key, other, "a list of sections [[..]]")),
             })
             .collect()
+    }
+
+    /// Names of all keys.
+    pub(crate) fn names(&self) -> impl Iterator<Item = &'a str> {
+        self.table.keys().map(String::as_str)
+    }
+
+    /// The table of a key that holds one.
+    pub(crate) fn inner(&self, key: &'a str) -> Option<Section<'a>> {
+        match self.table.get(key) {
+            Some(Value::Table(table)) => Some(Section { name: key, table }),
+            Some(_) | None => None,
+        }
+    }
+
+    /// All subsections but for the keys `other`, by name.
+    pub(crate) fn subsections(
+        &self,
+        other: &[&str],
+    ) -> Result<Vec<(String, Section<'a>)>, SceneError> {
+        let names = self.names().filter(|name| !other.contains(name));
+        names
+            .map(|name| match self.table.get(name) {
+                Some(Value::Table(table)) => Ok((name.to_owned(), Section { name, table })),
+                Some(value) => Err(self.wrong_kind(name, value, "a section of scene keys")),
+                None => Err(self.missing(name, "a section of scene keys")),
+            })
+            .collect()
+    }
+
+    /// A list of numbers or of words.
+    pub(crate) fn values(&self, key: &str) -> Result<Values, SceneError> {
+        let Some(value) = self.table.get(key) else {
+            return Err(self.missing(key, "a list of values"));
+        };
+        let wrong = || self.wrong_kind(key, value, "a list of numbers or of words");
+        let items = match value {
+            Value::Array(items) if !items.is_empty() => items,
+            _ => return Err(wrong()),
+        };
+        if items.iter().all(Value::is_str) {
+            let words = items.iter().filter_map(Value::as_str).map(str::to_owned);
+            return Ok(Values::Texts(words.collect()));
+        }
+        let number = |item: &Value| match item {
+            Value::Float(x) => Some(*x),
+            Value::Integer(i) => Some(*i as f64),
+            _ => None,
+        };
+        let numbers: Option<Vec<f64>> = items.iter().map(number).collect();
+        numbers.map(Values::Numbers).ok_or_else(wrong)
     }
 
     pub(crate) fn of(name: &'a str, table: &'a Table) -> Self {

@@ -1,0 +1,116 @@
+//! Many impacts on a fixed disc: the implicit scheme on tabulated responses, without its history.
+//!
+//! Nothing is allocated once the workspace is warm, the weights are read from a
+//! [`ResponseTable`], and the step is halved until the results meet the accuracy asked for: what is
+//! returned has the same verified error as a march with [`refine`](super::refine).
+
+use super::implicit::advance;
+use super::refine::{HALVINGS, may_pass};
+use super::tabulated::ResponseTable;
+use super::weights::Weights;
+use super::{Accuracy, Budget, History, MarchError, StaticShare, Summary};
+
+/// An impact on a disc of fixed radius in dimensionless groups, with a tabulated response.
+#[derive(Debug, Clone, Copy)]
+pub struct TabulatedDisc<'a> {
+    /// Response of the disc.
+    pub table: &'a ResponseTable,
+    /// Static deflection of the disc under Hertz's largest force over Hertz's largest approach.
+    pub coupling: f64,
+    /// r0/c1 in collision times.
+    pub wave_time: f64,
+    /// Which part of the deflection enters.
+    pub share: StaticShare,
+}
+
+/// Results with their step and estimated error.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Found {
+    /// Results in collision units.
+    pub summary: Summary,
+    /// Estimated relative error of peak force, contact time, restitution and displacement.
+    pub error: f64,
+    /// Step of the finest march in collision units.
+    pub step: f64,
+}
+
+/// Room for the marches of one thread.
+#[derive(Debug, Clone)]
+pub struct Workspace {
+    weights: Weights,
+    history: History,
+}
+
+impl Default for Workspace {
+    fn default() -> Self {
+        Self {
+            weights: Weights::default(),
+            history: History::at_touch(1.0, 512),
+        }
+    }
+}
+
+impl Workspace {
+    /// Marches with `step`, halved until the results meet `accuracy`.
+    ///
+    /// # Errors
+    /// Those of [`march_implicit`](super::march_implicit) and of [`refine`](super::refine).
+    pub fn solve(
+        &mut self,
+        impact: &TabulatedDisc<'_>,
+        step: f64,
+        accuracy: &Accuracy,
+    ) -> Result<Found, MarchError> {
+        let mut step = step;
+        let mut before = None;
+        let mut coarse: Option<Summary> = None;
+        let mut error = f64::INFINITY;
+        for attempt in 0..HALVINGS {
+            let summary = match self.march(impact, step) {
+                Ok(()) => Summary::new(&self.history),
+                Err(other) => Err(other),
+            };
+            let summary = match summary {
+                Ok(summary) => summary,
+                Err(error) if may_pass(&error, attempt) => {
+                    step *= 0.5;
+                    continue;
+                }
+                Err(other) => return Err(other),
+            };
+            if let Some(coarse) = &coarse {
+                let judged = accuracy.judge(coarse, &summary, before);
+                error = judged.error;
+                before = Some(judged.time_change);
+                if judged.ratio <= 1.0 {
+                    return Ok(Found {
+                        summary: Accuracy::extrapolated(coarse, &summary),
+                        error,
+                        step,
+                    });
+                }
+            }
+            coarse = Some(summary);
+            step *= 0.5;
+        }
+        Err(MarchError::NotConverged {
+            tolerance: accuracy.tolerance,
+            change: error,
+        })
+    }
+
+    /// One march with a fixed step (collision units) into the workspace's history.
+    fn march(&mut self, impact: &TabulatedDisc<'_>, step: f64) -> Result<(), MarchError> {
+        let memory = impact.table.memory() * impact.wave_time;
+        let budget = Budget::of_memory(memory, step)?;
+        self.weights.read(impact.table, step, impact.wave_time);
+        self.history.restart(step);
+        advance(
+            impact.coupling,
+            impact.share,
+            &self.weights,
+            &budget,
+            &mut self.history,
+        )
+    }
+}
