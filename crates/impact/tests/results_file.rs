@@ -11,7 +11,8 @@ const DOCUMENT: &str = include_str!("../../../data-schema/results.md");
 
 fn outcome() -> Outcome {
     let text = include_str!("../../../scenes/copper-on-steel.toml");
-    let scene = Scene::from_toml(text, Path::new(".")).unwrap();
+    let section = "[map]\nr_max_m = 0.004\nz_max_m = 0.002\npoints = [4, 3]\nframes = 5\n";
+    let scene = Scene::from_toml(&format!("{text}\n{section}"), Path::new(".")).unwrap();
     simulate(&scene, &KernelChoice::Direct).unwrap()
 }
 
@@ -66,6 +67,46 @@ fn every_dataset_is_described_and_every_description_is_written() {
     let attributes: BTreeSet<String> = file.attr_names().unwrap().into_iter().collect();
     assert_eq!(attributes, listed("## Attributes", ""));
     assert!(DOCUMENT.contains(&format!("Version {}.\n", schema::FORMAT_VERSION)));
+}
+
+#[test]
+fn the_section_is_what_probes_at_its_points_see() {
+    let text = include_str!("../../../scenes/copper-on-steel.toml");
+    let start = text.find("[[probe]]").unwrap();
+    let text = format!(
+        "{}[[probe]]\nr_m = 0.004\nz_m = 0.001\n[map]\nr_max_m = 0.008\nz_max_m = 0.002\npoints = [3, 3]\nframes = 7\n",
+        &text[..start]
+    );
+    let scene = Scene::from_toml(&text, Path::new(".")).unwrap();
+    let outcome = simulate(&scene, &KernelChoice::Direct).unwrap();
+    let (map, probe) = (outcome.map.unwrap(), outcome.fields.unwrap());
+    assert_eq!((map.r_m[1], map.z_m[1]), (0.004, 0.001));
+    assert_eq!((map.z_m[0], map.z_m[2]), (0.002, 0.0));
+    for (frame, time_s) in map.time_s.iter().enumerate() {
+        let sample = outcome
+            .series
+            .time_s
+            .iter()
+            .position(|t| (t / time_s - 1.0).abs() < 1e-12 || t == time_s);
+        let sample = sample.unwrap();
+        for field in 0..6 {
+            let (a, b) = (
+                map.values[field][frame * 9 + 4],
+                probe.values[field][0][sample],
+            );
+            let peak = probe.values[field][0]
+                .iter()
+                .fold(0.0_f64, |m, x| m.max(x.abs()));
+            assert!(
+                (f64::from(a) - b).abs() < 1e-6 * peak,
+                "{field} {frame}: {a} {b}"
+            );
+        }
+    }
+    assert_eq!(
+        [map.arrival_s[0][4], map.arrival_s[2][4]],
+        [probe.arrival_s[0][0], probe.arrival_s[0][2]]
+    );
 }
 
 #[test]
