@@ -17,7 +17,7 @@ pub(crate) enum Kernel {
     Direct,
     /// Looked up in the table given with --table.
     Table,
-    /// The table if one is given and covers the scene, else direct.
+    /// The table or computed, by the estimated cost and error of both.
     Auto,
 }
 
@@ -107,12 +107,6 @@ pub(crate) fn compute(
         )),
         (Kernel::Direct, _) | (Kernel::Auto, None) => Ok(simulate(scene, &KernelChoice::Direct)?),
         (Kernel::Table, Some(table)) => Ok(simulate(scene, &KernelChoice::Table(table))?),
-        (Kernel::Auto, Some(table)) => match simulate(scene, &KernelChoice::Table(table)) {
-            Err(impact::ImpactError::Field(outside)) => {
-                eprintln!("note: {outside}; computing the fields directly");
-                Ok(simulate(scene, &KernelChoice::Direct)?)
-            }
-            done => Ok(done?),
-        },
+        (Kernel::Auto, Some(table)) => Ok(simulate(scene, &KernelChoice::Auto(table))?),
     }
 }

@@ -8,6 +8,7 @@ mod impact_command;
 mod materials;
 mod picture;
 mod report;
+mod sweep;
 mod table;
 mod tabulate;
 
@@ -26,6 +27,8 @@ struct Cli {
 enum Command {
     /// Runs a scene: contact force, rebound, fields at probes.
     Impact(impact_command::Arguments),
+    /// Runs many scenes that differ in some keys and writes them as one table.
+    Sweep(sweep::Arguments),
     /// Runs the paper's case and sets its numbers beside those of this program.
     Demo(demo::Arguments),
     /// Builds a kernel table: once, for every material pair.
@@ -41,6 +44,7 @@ enum Command {
 fn main() -> ExitCode {
     let done = match Cli::parse().command {
         Command::Impact(arguments) => impact_command::run(&arguments),
+        Command::Sweep(arguments) => sweep::run(&arguments),
         Command::Demo(arguments) => demo::run(&arguments),
         Command::Tabulate(arguments) => tabulate::run(&arguments),
         Command::Table(arguments) => table::run(&arguments),

@@ -12,6 +12,8 @@ pub(crate) struct Report<'a> {
     deflection: &'a str,
     reason: &'a str,
     kernel: &'a str,
+    kernel_reason: &'a str,
+    convolution: &'a str,
     table_id: Option<&'a str>,
     steps: usize,
     step_s: f64,
@@ -32,6 +34,7 @@ pub(crate) struct Report<'a> {
     disc_radius_m: f64,
     relative_error_estimate: f64,
     probes: usize,
+    map: Option<[usize; 3]>,
     wall_s: f64,
     warnings: &'a [String],
 }
@@ -47,6 +50,8 @@ impl<'a> Report<'a> {
             deflection: choices.deflection,
             reason: &choices.reason,
             kernel: outcome.kernel,
+            kernel_reason: &outcome.kernel_reason,
+            convolution: outcome.convolution,
             table_id: outcome.table.as_ref().map(|(id, _)| id.as_str()),
             steps: time.len().saturating_sub(1),
             step_s: time.get(1).copied().unwrap_or(0.0),
@@ -67,6 +72,10 @@ impl<'a> Report<'a> {
             disc_radius_m: outcome.disc_radius_m,
             relative_error_estimate: outcome.relative_error_estimate,
             probes: outcome.fields.as_ref().map_or(0, |f| f.r_m.len()),
+            map: outcome
+                .map
+                .as_ref()
+                .map(|m| [m.time_s.len(), m.z_m.len(), m.r_m.len()]),
             wall_s,
             warnings: &outcome.warnings,
         }
@@ -133,6 +142,17 @@ impl<'a> Report<'a> {
             if self.probes == 1 { "" } else { "s" },
             self.kernel
         ));
+        if let Some([frames, deep, wide]) = self.map {
+            lines.push(format!(
+                "section        {wide} x {deep} points, {frames} frames"
+            ));
+        }
+        if self.kernel != "none" {
+            lines.push(format!(
+                "fields         {} ({}), {}",
+                self.kernel, self.kernel_reason, self.convolution
+            ));
+        }
         lines.join("\n")
     }
 }

@@ -154,7 +154,7 @@ fn work_that_fails_has_exit_code_1() {
 #[test]
 fn every_command_has_help_with_an_example() {
     let folder = folder_with(SCENE);
-    for command in ["impact", "demo", "materials", "completions"] {
+    for command in ["impact", "sweep", "demo", "materials", "completions"] {
         let done = hertzlamb(folder.path(), &[command, "--help"]);
         let text = String::from_utf8(done.stdout).unwrap();
         assert_eq!(done.status.code(), Some(0), "{command}");
@@ -193,4 +193,64 @@ fn the_scenes_of_the_project_run() {
             String::from_utf8_lossy(&done.stderr)
         );
     }
+}
+
+#[test]
+fn a_sweep_writes_its_rows_and_refuses_what_is_wrong() {
+    let folder = folder_with(&SCENE.replace("model = \"wave\"", "model = \"auto\""));
+    let here = folder.path();
+    let write = |name: &str, text: &str| std::fs::write(here.join(name), text).unwrap();
+    write(
+        "sweep.toml",
+        "scene = \"scene.toml\"\n[product.striker]\nvelocity_m_s = [1.0, 10.0, -1.0]\nmass_kg = [0.01, 0.02]\n",
+    );
+    let done = hertzlamb(
+        here,
+        &[
+            "sweep",
+            "sweep.toml",
+            "-o",
+            "out.h5",
+            "--csv",
+            "out.csv",
+            "--json",
+        ],
+    );
+    let said = String::from_utf8(done.stderr).unwrap();
+    assert_eq!(done.status.code(), Some(0), "{said}");
+    assert!(
+        said.contains("2 of 6 scenes failed") && said.contains("velocity_m_s = -1"),
+        "{said}"
+    );
+    let object: serde_json::Value = serde_json::from_slice(&done.stdout).unwrap();
+    assert_eq!(
+        (object["rows"].as_u64(), object["failed"].as_u64()),
+        (Some(6), Some(2))
+    );
+    let lines = std::fs::read_to_string(here.join("out.csv")).unwrap();
+    assert_eq!(lines.lines().count(), 7);
+    assert!(!here.join("out.h5.part").exists());
+    write(
+        "typo.toml",
+        "scene = \"scene.toml\"\n[product.striker]\nvelocity = [1.0]\n",
+    );
+    refused(
+        here,
+        &["sweep", "typo.toml", "-o", "new.h5"],
+        2,
+        &["typo.toml", "striker.velocity"],
+    );
+    refused(
+        here,
+        &["sweep", "sweep.toml", "-o", "out.h5"],
+        2,
+        &["out.h5", "--force"],
+    );
+    refused(
+        here,
+        &["sweep", "none.toml", "-o", "new.h5"],
+        2,
+        &["none.toml"],
+    );
+    assert!(!here.join("new.h5").exists());
 }
