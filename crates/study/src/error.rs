@@ -1,0 +1,47 @@
+//! Why a chart could not be made.
+
+use std::path::PathBuf;
+use thiserror::Error;
+
+/// Why a chart could not be made.
+#[derive(Debug, Error)]
+pub enum StudyError {
+    /// A number outside the physics.
+    #[error(transparent)]
+    Domain(#[from] halfspace::DomainError),
+    /// A march failed where it must not.
+    #[error(transparent)]
+    March(#[from] impact::march::MarchError),
+    /// A scene was not accepted.
+    #[error(transparent)]
+    Scene(#[from] impact::SceneError),
+    /// A scene without a striker.
+    #[error("the scene has a prescribed force: nothing strikes")]
+    NoStriker,
+    /// A local table could not be built.
+    #[error(transparent)]
+    Build(#[from] tabulator::BuildError),
+    /// A local table could not be read.
+    #[error(transparent)]
+    Table(#[from] lookup::TableError),
+    /// A lookup failed where it must not.
+    #[error(transparent)]
+    Lookup(#[from] lookup::LookupError),
+    /// A temporary file.
+    #[error("a temporary folder cannot be made: {0}")]
+    Temporary(#[from] std::io::Error),
+    /// The folder holds something already.
+    #[error("{} exists already; give --force to replace it", path.display())]
+    Exists {
+        /// The file in the way.
+        path: PathBuf,
+    },
+    /// A file could not be written.
+    #[error("cannot write {}: {reason}", path.display())]
+    Unwritable {
+        /// The file.
+        path: PathBuf,
+        /// The reason of the system or a library.
+        reason: String,
+    },
+}

@@ -1,0 +1,176 @@
+//! Implicit marches of known order for the impact on a disc, to be compared with the program's.
+//!
+//! ```text
+//! d'' = -(5/4) p,   p^(2/3) = d - w,   w_n = sigma [p_n - sum_j g_j (p_{n-j} - p_{n-j-1})]
+//! order 1   force constant in a cell:  g_j = 1 - W((j + 1) h)
+//! order 2   force linear in a cell:    g_j = 1 - (1/h) int W over the cell
+//! ```
+//!
+//! Product integration after Linz (1985); collision units as in [`impact::units::CollisionUnits`].
+
+use impact::march::FixedDisc;
+
+/// Shape of the force within a step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Order {
+    First,
+    Second,
+}
+
+/// Scalar results of an impact in collision units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Results {
+    pub(crate) peak_force: f64,
+    pub(crate) contact_time: f64,
+    pub(crate) restitution: f64,
+    pub(crate) peak_displacement: f64,
+    pub(crate) peak_deflection: f64,
+}
+
+impl Results {
+    /// Differences from a reference: relative, the restitution's absolute.
+    pub(crate) fn errors(&self, exact: &Self) -> [f64; 5] {
+        let relative = |a: f64, b: f64| if a == b { 0.0 } else { (a - b) / b };
+        [
+            relative(self.peak_force, exact.peak_force),
+            relative(self.contact_time, exact.contact_time),
+            self.restitution - exact.restitution,
+            relative(self.peak_displacement, exact.peak_displacement),
+            relative(self.peak_deflection, exact.peak_deflection),
+        ]
+    }
+}
+
+impl From<&impact::march::Summary> for Results {
+    fn from(summary: &impact::march::Summary) -> Self {
+        Self {
+            peak_force: summary.peak_force,
+            contact_time: summary.contact_time,
+            restitution: summary.restitution,
+            peak_displacement: summary.peak_displacement,
+            peak_deflection: summary.peak_deflection,
+        }
+    }
+}
+
+/// Marches until the first separation; the results and the work, steps times cells of memory.
+pub(crate) fn march(impact: &FixedDisc<'_>, step: f64, order: Order) -> (Results, u64) {
+    const MOST_STEPS: usize = 1_000_000;
+    let cell = step / impact.wave_time;
+    let cells = (impact.response.memory() / cell).ceil() as usize + 1;
+    let lag: Vec<f64> = (0..cells)
+        .map(|j| {
+            let (from, to) = (j as f64 * cell, (j + 1) as f64 * cell);
+            let response = impact.response;
+            match order {
+                Order::First => 1.0 - response.step(to),
+                Order::Second => {
+                    1.0 - (response.step_integral(to) - response.step_integral(from)) / cell
+                }
+            }
+        })
+        .collect();
+    // what the newest force does to v h, and to d
+    let (swing, push) = match order {
+        Order::First => ([0.0, 1.0], [0.0, 0.5]),
+        Order::Second => ([0.5, 0.5], [1.0 / 3.0, 1.0 / 6.0]),
+    };
+    let inertia = 1.25 * step * step;
+    let compliance = inertia * push[1] + impact.coupling * (1.0 - lag[0]);
+    let (mut d, mut v) = (0.0, 1.0);
+    let mut force = vec![0.0_f64];
+    let (mut displacement, mut deflection) = (vec![0.0], vec![0.0]);
+    let mut work = 0;
+    loop {
+        let n = force.len();
+        let before = force[n - 1];
+        let past: f64 = (1..cells.min(n))
+            .map(|j| lag[j] * (force[n - j] - force[n - j - 1]))
+            .sum();
+        work += cells.min(n) as u64;
+        let free = d + step * v - inertia * push[0] * before;
+        let known = impact.coupling * (lag[0] * before - past);
+        let p = solve(compliance, free - known);
+        if p <= 0.0 || n > MOST_STEPS {
+            // the gap closes linearly over the last step
+            let (inside, outside) = (before.cbrt().powi(2), known - free);
+            let share = inside / (inside + outside.max(f64::MIN_POSITIVE));
+            let velocity = v - 1.25 * step * share * swing[0] * before;
+            let results = Results {
+                peak_force: peak(&force),
+                contact_time: (n as f64 - 1.0 + share) * step,
+                restitution: -velocity,
+                peak_displacement: peak(&displacement),
+                peak_deflection: peak(&deflection),
+            };
+            return (results, work);
+        }
+        d = free - inertia * push[1] * p;
+        v -= 1.25 * step * (swing[0] * before + swing[1] * p);
+        force.push(p);
+        displacement.push(d);
+        deflection.push(d - p.cbrt().powi(2));
+    }
+}
+
+/// p of a p + p^(2/3) = b, a >= 0; zero for b <= 0.
+fn solve(a: f64, b: f64) -> f64 {
+    if b <= 0.0 {
+        return 0.0;
+    }
+    let mut y = b.sqrt();
+    for _ in 0..60 {
+        let next = y - ((a * y + 1.0) * y * y - b) / ((3.0 * a * y + 2.0) * y);
+        if (next - y).abs() <= 1e-15 * y {
+            return next.powi(3);
+        }
+        y = next;
+    }
+    y.powi(3)
+}
+
+/// Largest value of the parabola through the largest sample and its neighbours.
+fn peak(samples: &[f64]) -> f64 {
+    let top = (0..samples.len())
+        .max_by(|&a, &b| samples[a].total_cmp(&samples[b]))
+        .unwrap_or(0);
+    if top == 0 || top + 1 >= samples.len() {
+        return samples.get(top).copied().unwrap_or(0.0);
+    }
+    let [a, b, c] = [samples[top - 1], samples[top], samples[top + 1]];
+    let bend = a - 2.0 * b + c;
+    if bend < 0.0 { b - (c - a).powi(2) / (8.0 * bend) } else { b }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use halfspace::{Deflection, Medium, SurfaceResponse};
+    use impact::march::{StaticShare, Summary, march_implicit, refine};
+
+    #[test]
+    fn each_march_converges_with_its_order() {
+        let response = SurfaceResponse::new(&Medium::new(0.3).unwrap(), Deflection::Centre);
+        let impact = FixedDisc {
+            response: &response,
+            coupling: 0.14,
+            wave_time: 0.08,
+            share: StaticShare::Full,
+        };
+        let exact = refine(|step| march_implicit(&impact, step), 0.02, 1e-9).unwrap();
+        let exact = Results::from(&exact.summary);
+        assert!((Summary::new(&march_implicit(&impact, 0.01).unwrap()).unwrap().peak_force
+            / exact.peak_force - 1.0).abs() < 1e-5);
+        for (order, least) in [(Order::First, 0.9), (Order::Second, 1.7)] {
+            let error = |step: f64| {
+                let (found, _) = march(&impact, step, order);
+                let errors = found.errors(&exact);
+                errors.iter().fold(0.0_f64, |a, e| a.max(e.abs()))
+            };
+            for step in [0.02, 0.01, 0.005] {
+                let observed = (error(step) / error(0.5 * step)).log2();
+                assert!(observed > least, "{order:?} at {step}: {observed}");
+            }
+        }
+    }
+}

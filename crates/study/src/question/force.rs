@@ -1,0 +1,215 @@
+//! Question 2: how to compute an impact.
+//!
+//! One value is one impact; its error is the largest over peak force, contact time, restitution, peak
+//! displacement and peak deflection against the converged march of the fullest model of its family.
+
+use crate::StudyError;
+use crate::effort::Effort;
+use crate::marching::{Order, Results, march};
+use crate::record::{Error, Question, Record};
+use crate::scenes::{PAPER, ball, read};
+use halfspace::{Deflection, Medium, SurfaceResponse};
+use impact::contact::hertz::CONTACT_TIME;
+use impact::contact::quasi_static::quasi_static;
+use impact::contact::radiation::radiation;
+use impact::march::{
+    FixedDisc, GrowingDisc, History, MarchError, PunchResponse, StaticShare, Summary,
+    march_explicit, march_growing, march_implicit, refine,
+};
+use std::hint::black_box;
+
+/// The paper's fixed disc.
+pub(crate) const DISC: &str = "copper rod on steel, fixed disc";
+
+/// A ball whose contact follows the load.
+pub(crate) const BALL: &str = "steel ball on steel at 1 m/s, growing contact";
+
+type Outcome = Result<(Results, u64), MarchError>;
+
+struct Candidate<'a> {
+    method: &'static str,
+    setting: String,
+    default_path: bool,
+    run: Box<dyn Fn() -> Outcome + 'a>,
+}
+
+/// Measures every method in both scenes.
+pub(crate) fn measure(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Record>, StudyError> {
+    let mut records = Vec::new();
+    let (_, striker, collision) = read(PAPER)?;
+    let medium = Medium::new(collision.target_poisson_ratio)?;
+    let response = SurfaceResponse::new(&medium, Deflection::Centre);
+    let disc = collision.fixed_disc(&response, striker.tip_radius_m, StaticShare::Full);
+    let reference = refine(|step| march_implicit(&disc, step), 0.02, 2e-11)?;
+    for candidate in on_disc(&disc, effort) {
+        records.push(take(effort, DISC, &(&reference.summary).into(), &candidate));
+    }
+    advance();
+
+    let (_, _, collision) = read(&ball("steel", 1.0, ""))?;
+    let medium = Medium::new(collision.target_poisson_ratio)?;
+    let response = SurfaceResponse::new(&medium, Deflection::Centre);
+    let punch = PunchResponse::new(&response);
+    let growing = collision.growing_disc(&punch);
+    let reference = refine(|step| march_growing(&growing, step), 0.02, 1e-9)?;
+    let lag = collision.lag(&response);
+    for candidate in growing_contact(&growing, lag, effort) {
+        records.push(take(effort, BALL, &(&reference.summary).into(), &candidate));
+    }
+    advance();
+    Ok(records)
+}
+
+fn take(
+    effort: Effort,
+    scene: &'static str,
+    exact: &Results,
+    candidate: &Candidate<'_>,
+) -> Record {
+    let outcome = (candidate.run)();
+    let cost = effort.clock().time(1, || {
+        let _ = black_box((candidate.run)());
+    });
+    let (error, work, refusal) = match outcome {
+        Ok((found, work)) => (Error::of(&found.errors(exact)), Some(work as f64), None),
+        Err(error) => (Error::of(&[f64::NAN]), None, Some(error.to_string())),
+    };
+    Record {
+        question: Question::Force,
+        scene,
+        method: candidate.method,
+        setting: candidate.setting.clone(),
+        default_path: candidate.default_path,
+        cost,
+        error,
+        work,
+        refusal,
+    }
+}
+
+/// Steps of a march times the cells of its memory.
+fn work(history: &History, memory: f64) -> u64 {
+    let steps = history.force.len() as u64;
+    steps * steps.min((memory / history.step).ceil() as u64 + 1)
+}
+
+fn on_disc<'a>(disc: &'a FixedDisc<'a>, effort: Effort) -> Vec<Candidate<'a>> {
+    let duration = quasi_static(disc.coupling).contact_time;
+    let memory = disc.memory();
+    let steps = move |n: usize| duration / n as f64;
+    let mut list = Vec::new();
+    for n in effort.pick(vec![16, 64, 256], vec![12, 16, 24, 32, 64, 128, 256, 512, 1024, 2048]) {
+        list.push(Candidate {
+            method: "wave implicit",
+            setting: format!("{n} steps"),
+            default_path: true,
+            run: Box::new(move || {
+                let history = march_implicit(disc, steps(n))?;
+                let summary = Summary::new(&history)?;
+                Ok(((&summary).into(), work(&history, memory)))
+            }),
+        });
+    }
+    for digits in 3..=effort.pick(5, 9) {
+        let tolerance = 10.0_f64.powi(-digits);
+        list.push(Candidate {
+            method: "wave implicit, step halved to tolerance",
+            setting: format!("tolerance {tolerance:.0e}"),
+            default_path: false,
+            run: Box::new(move || {
+                let total = std::cell::Cell::new(0);
+                let found = refine(
+                    |step| {
+                        let history = march_implicit(disc, step)?;
+                        total.set(total.get() + work(&history, memory));
+                        Ok(history)
+                    },
+                    steps(16),
+                    tolerance,
+                )?;
+                Ok(((&found.summary).into(), total.get()))
+            }),
+        });
+    }
+    for (order, method) in [
+        (Order::First, "implicit of order 1"),
+        (Order::Second, "implicit of order 2"),
+    ] {
+        for n in effort.pick(vec![32, 256], vec![16, 64, 256, 1024, 4096]) {
+            list.push(Candidate {
+                method,
+                setting: format!("{n} steps"),
+                default_path: false,
+                run: Box::new(move || Ok(march(disc, steps(n), order))),
+            });
+        }
+    }
+    for n in effort.pick(vec![54, 200, 800], vec![20, 54, 100, 200, 400, 800, 1600, 3200, 6400]) {
+        list.push(Candidate {
+            method: "wave explicit (the paper's)",
+            setting: format!("{n} steps"),
+            default_path: false,
+            run: Box::new(move || {
+                let (history, summary) = march_explicit(disc, steps(n))?;
+                Ok(((&summary).into(), work(&history, memory)))
+            }),
+        });
+    }
+    list.push(hertz());
+    list.push(Candidate {
+        method: "two springs, no waves",
+        setting: "closed form".to_owned(),
+        default_path: false,
+        run: Box::new(move || {
+            let found = quasi_static(disc.coupling);
+            let results = Results {
+                peak_force: found.peak_force,
+                contact_time: found.contact_time,
+                restitution: 1.0,
+                peak_displacement: found.peak_displacement,
+                peak_deflection: disc.coupling * found.peak_force,
+            };
+            Ok((results, 1))
+        }),
+    });
+    list
+}
+
+fn hertz<'a>() -> Candidate<'a> {
+    Candidate {
+        method: "hertz",
+        setting: "closed form".to_owned(),
+        default_path: false,
+        run: Box::new(|| Ok(((&radiation(black_box(0.0))).into(), 1))),
+    }
+}
+
+fn growing_contact<'a>(
+    growing: &'a GrowingDisc<'a>,
+    lag: f64,
+    effort: Effort,
+) -> Vec<Candidate<'a>> {
+    let memory = growing.punch.memory() * growing.wave_time;
+    let mut list = vec![
+        hertz(),
+        Candidate {
+            method: "radiation",
+            setting: "first order".to_owned(),
+            default_path: true,
+            run: Box::new(move || Ok(((&radiation(black_box(lag))).into(), 1))),
+        },
+    ];
+    for n in effort.pick(vec![16, 64], vec![12, 16, 24, 32, 64, 128, 256, 512]) {
+        list.push(Candidate {
+            method: "growing",
+            setting: format!("{n} steps"),
+            default_path: true,
+            run: Box::new(move || {
+                let history = march_growing(growing, CONTACT_TIME / n as f64)?;
+                let summary = Summary::new(&history)?;
+                Ok(((&summary).into(), work(&history, memory)))
+            }),
+        });
+    }
+    list
+}

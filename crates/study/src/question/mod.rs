@@ -1,0 +1,6 @@
+//! The three questions: methods, settings and scenes, and what each costs.
+
+pub(crate) mod fields;
+pub(crate) mod force;
+pub(crate) mod inversions;
+pub(crate) mod kernels;
