@@ -1,7 +1,7 @@
 //! Question 2: how to compute an impact.
 //!
-//! One value is one impact; its error is the largest over peak force, contact time, restitution, peak
-//! displacement and peak deflection against the converged march of the fullest model of its family.
+//! One value is one impact; its error is the largest over peak force, contact time, restitution and
+//! peak displacement against the converged march of the fullest model of its family.
 
 use crate::StudyError;
 use crate::effort::Effort;
@@ -51,7 +51,7 @@ pub(crate) fn measure(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Record>,
     let response = SurfaceResponse::new(&medium, Deflection::Centre);
     let punch = PunchResponse::new(&response);
     let growing = collision.growing_disc(&punch);
-    let reference = refine(|step| march_growing(&growing, step), 0.02, 1e-9)?;
+    let reference = refine(|step| march_growing(&growing, step), 0.02, effort.pick(1e-5, 1e-6))?;
     let lag = collision.lag(&response);
     for candidate in growing_contact(&growing, lag, effort) {
         records.push(take(effort, BALL, &(&reference.summary).into(), &candidate));
@@ -167,7 +167,6 @@ fn on_disc<'a>(disc: &'a FixedDisc<'a>, effort: Effort) -> Vec<Candidate<'a>> {
                 contact_time: found.contact_time,
                 restitution: 1.0,
                 peak_displacement: found.peak_displacement,
-                peak_deflection: disc.coupling * found.peak_force,
             };
             Ok((results, 1))
         }),
