@@ -5,9 +5,11 @@ mod convolution;
 mod effort;
 mod error;
 mod extended;
+pub mod figure;
 mod gauss;
 mod hankel;
 pub mod inversion;
+pub mod map;
 mod marching;
 mod measure;
 mod pulse_reference;
@@ -28,10 +30,19 @@ pub use measure::Timing;
 pub use record::{Error, FAILED, Question, Record, pareto_front};
 
 #[test]
-fn show_fields() {
-    let d: Vec<_> = [0.25, 0.125].iter().map(|&s| tables::Density::build(0.3, s).unwrap()).collect();
-    let records = question::fields::measure(Effort::Full, &d, &|| ()).unwrap();
-    for r in &records {
-        println!("{:28} {:28} {:28} {:>12.0} +-{:<8.0} max {:.1e} rms {:.1e} work {:?} {:?}", r.scene, r.method, r.setting, r.cost.median_ns, r.cost.spread_ns, r.error.max, r.error.rms, r.work, r.refusal);
+fn show_maps() {
+    let start = std::time::Instant::now();
+    let d: Vec<_> = [0.125].iter().map(|&s| tables::Density::build(0.3, s).unwrap()).collect();
+    println!("tables {:?}", start.elapsed());
+    for (n, f) in [("marches", map::marches::figures(Effort::Quick, &|| ()).unwrap()),
+      ("kernels", map::kernels::figures(Effort::Quick, &|| ()).unwrap()),
+      ("lookups", map::lookups::figures(&d, Effort::Quick).unwrap()),
+      ("models", map::models::figures(Effort::Quick, &|| ()).unwrap()),
+      ("inv", map::inversions::figures(Effort::Quick, &|| ()).unwrap())] {
+        println!("{n} {:?}", start.elapsed());
+        for f in f { println!("  {} {:?}", f.name, f.caption);
+          if let Some(c) = &f.cells { for row in c.class.chunks(c.shape[0]).rev() { println!("    {}", row.iter().map(|c| c.to_string()).collect::<String>()); } }
+          for c in &f.curves { if !f.name.starts_with("inv") { println!("   {}: {:?}", c.name, c.points.iter().step_by(5).map(|(x,y)| format!("{x:.1e},{y:.1e}")).collect::<Vec<_>>()); } }
+        }
     }
 }

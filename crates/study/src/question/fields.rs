@@ -255,7 +255,8 @@ fn interpolations(
     let [r, z] = scene.reference.place;
     let width = 0.1;
     let count = sample_count(scene, width);
-    let kernel = Kernel::new(medium, Profile::Hertz, 1e-9)?;
+    let plan = PointPlan::new(medium.poisson_ratio(), 1e-9, width, count + 2, 2)?;
+    let kernel = plan.kernel();
     let rest = kernel.static_field(r, z)?;
     let pulse = PulseSum::new(scene.reference.length, width);
     for spacing in effort.pick(vec![0.125], vec![0.25, 0.125, 0.0625]) {
@@ -267,8 +268,7 @@ fn interpolations(
             let mut corners = Vec::new();
             for (a, &i) in across.nodes().iter().enumerate() {
                 for (d, &k) in down.nodes().iter().enumerate() {
-                    let mut cells = vec![[0.0; 6]; count];
-                    kernel.cell_averages(nodes[i], nodes[k], width, &mut cells)?;
+                    let cells = series(&plan.compute(nodes[i], nodes[k])?, width, count);
                     let weight: Six = std::array::from_fn(|f| {
                         let radial = if FIELDS[f].is_odd_in_r() {
                             across.odd()[a]

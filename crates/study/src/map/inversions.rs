@@ -1,0 +1,93 @@
+//! Error of every inversion over time, from before the first arrival to long after the last.
+
+use crate::StudyError;
+use crate::effort::Effort;
+use crate::figure::{Axis, Figure, Style};
+use crate::question::inversions::Inversion;
+use crate::question::kernels::{KernelScene, POISSON_RATIO};
+use halfspace::{Kernel, Medium, Profile, Six};
+
+/// One picture for the surface centre and one for the interior.
+pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Figure>, StudyError> {
+    let medium = Medium::new(POISSON_RATIO)?;
+    let count = effort.pick(40, 160);
+    let mut figures = Vec::new();
+    for (name, title, scene) in [
+        (
+            "inversions-surface",
+            "Inversions over time: deflection of the surface's centre",
+            KernelScene::surface(&medium, count)?,
+        ),
+        (
+            "inversions-interior",
+            "Inversions over time: six fields at (0.55, 0.65) r0",
+            KernelScene::interior(&medium, count)?,
+        ),
+    ] {
+        let last = scene.times[count - 1];
+        let mut figure = Figure::new(
+            name,
+            title,
+            Axis::logarithmic("time [r0/c1]", scene.times[0], last),
+            Axis::logarithmic("largest error over the largest value", 1e-16, 10.0),
+        );
+        let methods: &[Inversion] = match effort {
+            Effort::Quick => &[
+                Inversion::Talbot(16),
+                Inversion::Stehfest(14),
+                Inversion::Euler(10),
+                Inversion::Cme(20),
+                Inversion::Durbin(200),
+                Inversion::Crump(41),
+                Inversion::DeHoog(81),
+            ],
+            Effort::Full => &Inversion::best(),
+        };
+        for method in methods {
+            let (values, _) =
+                method.prepare().run(&medium, scene.place, method.digits(), &scene.times);
+            figure.curve(
+                &format!("{}, {}", method.name(), method.setting()),
+                Style::Plain,
+                over_time(&scene, &values),
+            );
+            advance();
+        }
+        let kernel = single(&medium, &scene)?;
+        figure.curve("single integral, 1e-10", Style::Heavy, over_time(&scene, &kernel));
+        figure.marks = [
+            (scene.arrivals.first(), "first front"),
+            (scene.arrivals.last(), "last front"),
+        ]
+        .into_iter()
+        .filter_map(|(t, label)| Some((*t?, label.to_owned())))
+        .collect();
+        figure.caption = "Fixed Talbot, which is the best of all after the last front, leaves the numbers before it \
+            (errors up to 1e60, cut off at the top): the transform of a wave that is still to come grows as e^{-s t} on \
+            its contour. The Fourier-series methods lose their digits at every front; the single integral knows where \
+            the fronts are and does not notice them."
+            .to_owned();
+        figures.push(figure);
+    }
+    Ok(figures)
+}
+
+fn over_time(scene: &KernelScene, values: &[Six]) -> Vec<(f64, f64)> {
+    let errors = scene.errors_over_time(values);
+    let clamp = |e: f64| e.clamp(1e-16, 10.0);
+    scene.times.iter().copied().zip(errors.into_iter().map(clamp)).collect()
+}
+
+/// The program's kernel at the times of a scene.
+fn single(medium: &Medium, scene: &KernelScene) -> Result<Vec<Six>, StudyError> {
+    let [r, z] = scene.place;
+    let kernel = Kernel::new(medium, Profile::Hertz, 1e-10)?;
+    let rest = kernel.static_field(r, z)?;
+    let unit = if z > 0.0 { 1.0 } else { 1.0 / (0.375 * (1.0 - medium.poisson_ratio())) };
+    let mut values = Vec::new();
+    for &t in &scene.times {
+        let value = kernel.remainder(r, z, t)?.value;
+        values.push(std::array::from_fn(|f| (value[f] + rest[f]) * unit));
+    }
+    Ok(values)
+}

@@ -1,0 +1,204 @@
+//! Where the kernels' formulas lose digits: potentials far away, coalescing roots, incompressible solids.
+
+use crate::StudyError;
+use crate::effort::Effort;
+use crate::figure::{Axis, Figure, Style};
+use crate::gauss::Rule;
+use crate::single_integral::closed_potentials;
+use halfspace::{Deflection, Kernel, Medium, Profile, SurfaceResponse, kausel};
+use num_complex::Complex64;
+use std::f64::consts::PI;
+
+/// Poisson's ratio where two roots of the Rayleigh cubic meet.
+pub const DOUBLE_ROOT: f64 = 0.263_082_06;
+
+/// A_3 and A_2 of Hertz's pressure without cancellation: a Gauss rule over the chord function.
+///
+/// A_n = (3/(8 pi)) int_{-1}^1 (1 - x^2) E_{n-3}(xi - i x) dx, E_0 = 1/rho, E_{-1} = zeta/rho^3; for |xi| > 1 + r.
+#[must_use]
+pub fn chord_potentials(xi: Complex64, r: f64) -> [Complex64; 2] {
+    let rule = Rule::new(64);
+    let mut sum = [Complex64::default(); 2];
+    for (x, weight) in rule.on(-1.0, 1.0) {
+        let i = Complex64::i();
+        let zeta = xi - i * x;
+        let rho = (zeta + i * r).sqrt() * (zeta - i * r).sqrt();
+        let weight = weight * 0.375 / PI * (1.0 - x * x);
+        sum[0] += weight / rho;
+        sum[1] += weight * zeta / (rho * rho * rho);
+    }
+    sum
+}
+
+/// Relative error of A_3 in closed form at |xi| in a direction (0 the real axis, pi/2 the imaginary one).
+#[must_use]
+pub fn closed_form_error(size: f64, direction: f64, r: f64) -> f64 {
+    let xi = Complex64::from_polar(size, direction);
+    let xi = Complex64::new(xi.re.max(0.0), xi.im);
+    let exact = chord_potentials(xi, r)[0];
+    (closed_potentials(xi, r)[0] - exact).norm() / exact.norm()
+}
+
+/// Relative error of the program's static w at a depth, where it uses the multipole series.
+///
+/// # Errors
+/// None for depths in the domain of the kernels.
+pub fn deep_static_error(medium: &Medium, r: f64, z: f64) -> Result<f64, StudyError> {
+    let kernel = Kernel::new(medium, Profile::Hertz, 1e-10)?;
+    let [a3, a2] = chord_potentials(z.into(), r);
+    let exact = (1.0 - medium.poisson_ratio()) * a3.re + 0.5 * z * a2.re;
+    Ok((kernel.static_field(r, z)?[1] / exact - 1.0).abs())
+}
+
+/// Largest difference between the closed form of W and the program's, near the double root.
+///
+/// # Errors
+/// When the ratio is outside (-1, 0.5).
+pub fn double_root_error(distance: f64) -> Result<f64, StudyError> {
+    let medium = Medium::new(DOUBLE_ROOT + distance)?;
+    let response = SurfaceResponse::new(&medium, Deflection::Centre);
+    let worst = (1..40).map(|i| {
+        let t = f64::from(i) * 0.025;
+        (kausel::centre_step(&medium, t) - response.step(t / medium.kappa())).abs()
+    });
+    Ok(worst.fold(0.0, f64::max))
+}
+
+/// Difference of the kernels at tolerances 1e-8 and 1e-13 over the largest field, at a distance from nu = 1/2.
+///
+/// The times are those of the shear waves, which stay where they are while c1 goes to infinity.
+///
+/// # Errors
+/// When the ratio is outside (-1, 0.5).
+pub fn incompressible_error(distance: f64) -> Result<f64, StudyError> {
+    let medium = Medium::new(0.5 - distance)?;
+    let (coarse, fine) = (
+        Kernel::new(&medium, Profile::Hertz, 1e-8)?,
+        Kernel::new(&medium, Profile::Hertz, 1e-13)?,
+    );
+    let (r, z) = (0.5, 0.6);
+    let rest = fine.static_field(r, z)?;
+    let (mut scale, mut errors) = (rest.map(f64::abs), [0.0_f64; 6]);
+    for shear_time in [0.3, 0.7, 1.0, 1.6, 2.5, 6.0] {
+        let t = shear_time / medium.kappa();
+        let (a, b) = (coarse.remainder(r, z, t)?.value, fine.remainder(r, z, t)?.value);
+        for f in 0..6 {
+            scale[f] = scale[f].max((b[f] + rest[f]).abs());
+            errors[f] = errors[f].max((a[f] - b[f]).abs());
+        }
+    }
+    Ok((0..6).fold(0.0, |most, f| most.max(errors[f] / scale[f])))
+}
+
+/// W at T = 0.7 for a ratio, from the program and from the closed form.
+///
+/// # Errors
+/// When the ratio is outside (-1, 0.5).
+pub fn incompressible_surface(distance: f64) -> Result<[f64; 2], StudyError> {
+    let medium = Medium::new(0.5 - distance)?;
+    let response = SurfaceResponse::new(&medium, Deflection::Centre);
+    Ok([
+        response.step(0.7 / medium.kappa()),
+        kausel::centre_step(&medium, 0.7),
+    ])
+}
+
+/// All three pictures.
+pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Figure>, StudyError> {
+    let done = vec![potentials(effort)?, double_root(effort)?, incompressible(effort)?];
+    advance();
+    Ok(done)
+}
+
+fn potentials(effort: Effort) -> Result<Figure, StudyError> {
+    let x = Axis::logarithmic("|xi| [r0]", 3.0, 1e6);
+    let sizes = x.cells(effort.pick(40, 120));
+    let mut figure = Figure::new(
+        "potentials",
+        "Potentials in closed form, without the multipole series",
+        x,
+        Axis::logarithmic("relative error of A3", 1e-17, 10.0),
+    );
+    for (name, direction) in [
+        ("closed form, static (xi real)", 0.0),
+        ("closed form, waves (xi imaginary)", 0.5 * PI),
+        ("closed form, between", 0.25 * PI),
+    ] {
+        let error = |&s: &f64| (s, closed_form_error(s, direction, 0.5).clamp(1e-17, 10.0));
+        figure.curve(name, Style::Plain, sizes.iter().map(error).collect());
+    }
+    let medium = Medium::new(0.3)?;
+    let mut own = Vec::new();
+    for &s in &sizes {
+        own.push((s, deep_static_error(&medium, 0.5, s)?.max(1e-17)));
+    }
+    figure.curve("the program (static w at depth)", Style::Points, own);
+    let theory = |&s: &f64| (s, (f64::EPSILON * s.powi(3) * s.ln()).min(10.0));
+    figure.curve(
+        "theory: machine epsilon |xi|^3 ln|xi|",
+        Style::HeavyDashed,
+        sizes.iter().map(theory).collect(),
+    );
+    figure.caption = "The closed forms are differences of terms of size |xi|^2 ln|xi| with a result of size 1/|xi|: \
+        their relative error grows as the third power of the distance and reaches one at about 1e5 r0. The program \
+        changes to the multipole series at 7 to 10 r0 and keeps its digits."
+        .to_owned();
+    Ok(figure)
+}
+
+fn double_root(effort: Effort) -> Result<Figure, StudyError> {
+    let x = Axis::logarithmic("distance of Poisson's ratio from 0.26308206", 1e-12, 0.1);
+    let mut figure = Figure::new(
+        "double-root",
+        "Closed form of W where two roots meet",
+        x.clone(),
+        Axis::logarithmic("largest error of W", 1e-17, 1e-4),
+    );
+    for (name, sign) in [("closed form, above", 1.0), ("closed form, below", -1.0)] {
+        let mut points = Vec::new();
+        for distance in x.cells(effort.pick(12, 45)) {
+            points.push((distance, double_root_error(sign * distance)?.max(1e-17)));
+        }
+        figure.curve(name, Style::Marked, points);
+    }
+    let theory = |d: f64| (d, f64::EPSILON / d.sqrt());
+    figure.curve(
+        "theory: machine epsilon over root distance",
+        Style::HeavyDashed,
+        x.cells(40).into_iter().map(theory).collect(),
+    );
+    figure.caption = "The two complex roots of the Rayleigh cubic part as the square root of the distance, and the \
+        closed form divides by their difference. The program's surface response has no such difference and is used \
+        everywhere; the closed form only checks it."
+        .to_owned();
+    Ok(figure)
+}
+
+fn incompressible(effort: Effort) -> Result<Figure, StudyError> {
+    let x = Axis::logarithmic("1/2 - nu", 1e-9, 0.5);
+    let distances = x.cells(effort.pick(12, 40));
+    let mut figure = Figure::new(
+        "incompressible",
+        "Kernels as Poisson's ratio goes to 1/2",
+        x,
+        Axis::logarithmic("relative error; c2/c1", 1e-17, 10.0),
+    );
+    let (mut kernels, mut surface) = (Vec::new(), Vec::new());
+    for &d in &distances {
+        kernels.push((d, incompressible_error(d)?.max(1e-17)));
+        let [own, closed] = incompressible_surface(d)?;
+        surface.push((d, (own - closed).abs().max(1e-17)));
+    }
+    figure.curve("kernels asked for 1e-8 at (0.5, 0.6) r0", Style::Marked, kernels);
+    figure.curve("surface response against closed form", Style::Marked, surface);
+    let ratio = |&d: &f64| (d, (d / (0.5 + d)).sqrt());
+    figure.curve(
+        "theory: c2/c1 = sqrt(d/(1/2 + d))",
+        Style::HeavyDashed,
+        distances.iter().map(ratio).collect(),
+    );
+    figure.caption = "c1/c2 goes to infinity as the root of 1/(1/2 - nu): a table's time axis in r0/c1 grows with \
+        it, which is why tables end at nu = 0.495. The kernels and the surface response themselves keep their accuracy."
+        .to_owned();
+    Ok(figure)
+}

@@ -1,0 +1,290 @@
+//! Which model a scene needs: the plane of the two dimensionless groups.
+//!
+//! Static deflection over indentation is the half-space's part phi of the contact's compliance for a contact
+//! that follows the load, and the coupling of a fixed disc; memory is the time that the waves need across the
+//! contact, over Hertz's contact time.
+
+use crate::StudyError;
+use crate::effort::Effort;
+use crate::figure::{Axis, Figure, Style};
+use crate::marching::Results;
+use crate::record::Error;
+use crate::scenes::{PAPER, ball, read};
+use halfspace::{Deflection, Medium, SurfaceResponse};
+use impact::choose::{Rung, choose};
+use impact::contact::hertz::CONTACT_TIME;
+use impact::contact::quasi_static::quasi_static;
+use impact::contact::radiation::{LARGEST_LAG, radiation};
+use impact::march::{
+    FixedDisc, GrowingDisc, MarchError, PunchResponse, StaticShare, Summary, march_growing,
+    march_implicit,
+};
+use impact::material::Library;
+
+/// Tolerances of the three pictures.
+pub const TOLERANCES: [f64; 3] = [1e-2, 1e-3, 1e-4];
+
+/// Speeds of the built-in materials' points in m/s.
+pub const SPEEDS_M_S: [f64; 3] = [1.0, 10.0, 100.0];
+
+/// The plane of contacts that follow the load, at one Poisson ratio.
+#[derive(Debug)]
+pub struct Plane {
+    centre: SurfaceResponse,
+    punch: PunchResponse,
+}
+
+/// Errors of the cheaper models at one place of the plane, largest over peak force, contact time, restitution
+/// and peak displacement.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ModelErrors {
+    /// No waves.
+    pub hertz: f64,
+    /// First-order radiated loss.
+    pub radiation: f64,
+}
+
+impl Plane {
+    /// The plane at a Poisson ratio.
+    ///
+    /// # Errors
+    /// When the ratio is outside (-1, 0.5).
+    pub fn new(poisson_ratio: f64) -> Result<Self, StudyError> {
+        let centre = SurfaceResponse::new(&Medium::new(poisson_ratio)?, Deflection::Centre);
+        let punch = PunchResponse::new(&centre);
+        Ok(Self { centre, punch })
+    }
+
+    /// a/c1 in collision times for a memory over contact time.
+    fn wave_time(&self, memory: f64) -> f64 {
+        memory * CONTACT_TIME / self.punch.memory()
+    }
+
+    /// The lag of the radiation model and the memory in collision times, as `auto` forms them.
+    fn groups(&self, share: f64, memory: f64) -> (f64, f64) {
+        let lag = share * self.wave_time(memory) * self.centre.relaxation_time();
+        (lag, memory * CONTACT_TIME)
+    }
+
+    /// What `auto` chooses there.
+    #[must_use]
+    pub fn chosen(&self, share: f64, memory: f64, tolerance: f64) -> Rung {
+        let (lag, memory) = self.groups(share, memory);
+        choose(lag, memory, tolerance, None).rung
+    }
+
+    /// Errors of the cheaper models against the growing contact with `steps` steps over Hertz's contact time.
+    ///
+    /// # Errors
+    /// Those of the march.
+    pub fn errors(&self, share: f64, memory: f64, steps: usize) -> Result<ModelErrors, MarchError> {
+        let growing = GrowingDisc {
+            punch: &self.punch,
+            target_share: share,
+            wave_time: self.wave_time(memory),
+        };
+        let history = march_growing(&growing, CONTACT_TIME / steps as f64)?;
+        let exact = Results::from(&Summary::new(&history)?);
+        let of = |lag: f64| Error::of(&Results::from(&radiation(lag)).errors(&exact)).max;
+        let (lag, _) = self.groups(share, memory);
+        Ok(ModelErrors {
+            hertz: of(0.0),
+            // beyond it the program refuses the first-order law
+            radiation: if lag <= LARGEST_LAG { of(lag) } else { f64::INFINITY },
+        })
+    }
+
+    /// Memory at which `auto` leaves a rung for the next, at a share.
+    fn boundary(&self, share: f64, tolerance: f64, leaves: Rung) -> f64 {
+        let cheap = |memory: f64| match (self.chosen(share, memory, tolerance), leaves) {
+            (Rung::QuasiStatic, _) => true,
+            (Rung::Radiation, Rung::Radiation | Rung::FullMemory) => true,
+            (Rung::Radiation, Rung::QuasiStatic) | (Rung::FullMemory, _) => false,
+        };
+        let (mut low, mut high) = (1e-9_f64, 1e3_f64);
+        for _ in 0..60 {
+            let middle = (low * high).sqrt();
+            if cheap(middle) {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        low
+    }
+}
+
+/// Where a steel ball on a material of the library lies in the plane.
+///
+/// # Errors
+/// When the library's material makes no scene.
+pub fn place_of(target: &str, velocity_m_s: f64) -> Result<(f64, f64), StudyError> {
+    let (_, _, collision) = read(&ball(target, velocity_m_s, ""))?;
+    let centre = SurfaceResponse::new(
+        &Medium::new(collision.target_poisson_ratio)?,
+        Deflection::Centre,
+    );
+    let memory = 2.0 * centre.memory() * collision.contact_wave_time();
+    Ok((collision.target_share(), memory / CONTACT_TIME))
+}
+
+/// Names of the built-in materials that can be a target: those with a density.
+#[must_use]
+pub fn targets() -> Vec<String> {
+    Library::built_in()
+        .iter()
+        .filter(|material| material.density_kg_m3.is_some())
+        .map(|material| material.name.clone())
+        .collect()
+}
+
+/// A picture a tolerance for contacts that follow the load, and one for the paper's disc.
+pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Figure>, StudyError> {
+    let plane = Plane::new(0.3)?;
+    let x = Axis::logarithmic("static deflection of the half-space over indentation", 0.01, 1.0);
+    let y = Axis::logarithmic("memory over contact time", 1e-4, 1.0);
+    let shape = effort.pick([12, 14], [32, 40]);
+    let steps = effort.pick(128, 192);
+    let mut errors = Vec::new();
+    for &memory in &y.cells(shape[1]) {
+        for &share in &x.cells(shape[0]) {
+            errors.push(plane.errors(share, memory, steps)?);
+        }
+        advance();
+    }
+    let mut points = [Vec::new(), Vec::new(), Vec::new()];
+    for target in targets() {
+        for (list, speed) in points.iter_mut().zip(SPEEDS_M_S) {
+            list.push(place_of(&target, speed)?);
+        }
+    }
+    let mut figures = Vec::new();
+    for (name, tolerance) in ["models-1e-2", "models-1e-3", "models-1e-4"].into_iter().zip(TOLERANCES) {
+        let mut figure = Figure::new(
+            name,
+            &format!("Cheapest model that meets {tolerance:.0e}"),
+            x.clone(),
+            y.clone(),
+        );
+        let mut cells = errors.iter();
+        figure.map(shape, &["hertz", "radiation", "growing"], |_, _| match cells.next() {
+            Some(e) if e.hertz <= tolerance => 0,
+            Some(e) if e.radiation <= tolerance => 1,
+            Some(_) | None => 2,
+        });
+        for (label, rung, style) in [
+            ("auto leaves hertz", Rung::QuasiStatic, Style::Heavy),
+            ("auto leaves radiation", Rung::Radiation, Style::HeavyDashed),
+        ] {
+            let line = x
+                .cells(40)
+                .into_iter()
+                .map(|share| (share, plane.boundary(share, tolerance, rung)));
+            figure.curve(label, style, line.collect());
+        }
+        for (list, speed) in points.iter().zip(SPEEDS_M_S) {
+            figure.curve(
+                &format!("steel ball on each material, {speed} m/s"),
+                Style::Points,
+                list.clone(),
+            );
+        }
+        figure.caption = format!(
+            "Regions are computed: each model against the converged growing contact, largest error of peak force, \
+             contact time, restitution and peak displacement. The lines are where `auto` changes model at a tolerance \
+             of {tolerance:.0e}: it never takes a model that misses, and its estimate for hertz is {} times the error \
+             found in the middle of the plane.",
+            ratio(&plane, &errors, shape, &x, &y)
+        );
+        figures.push(figure);
+    }
+    figures.push(disc(effort)?);
+    advance();
+    Ok(figures)
+}
+
+/// `auto`'s estimate of what hertz leaves out over the error found, in the middle of the plane.
+fn ratio(plane: &Plane, errors: &[ModelErrors], shape: [usize; 2], x: &Axis, y: &Axis) -> String {
+    let (i, k) = (shape[0] / 2, shape[1] / 2);
+    let (lag, memory) = plane.groups(x.cells(shape[0])[i], y.cells(shape[1])[k]);
+    let estimate = choose(lag, memory, f64::INFINITY, None).error;
+    format!("{:.1}", estimate / errors[k * shape[0] + i].hertz)
+}
+
+/// The paper's family: a fixed disc whose whole deflection is added to Hertz's indentation.
+fn disc(effort: Effort) -> Result<Figure, StudyError> {
+    let (_, striker, collision) = read(PAPER)?;
+    let response = SurfaceResponse::new(&Medium::new(0.3)?, Deflection::Centre);
+    let paper = collision.fixed_disc(&response, striker.tip_radius_m, StaticShare::Full);
+    let mut figure = Figure::new(
+        "models-disc",
+        "Fixed disc, full static share: error of the models without waves",
+        Axis::logarithmic("static deflection over indentation (coupling)", 1e-4, 10.0),
+        Axis::logarithmic("memory over contact time", 1e-3, 1.0),
+    );
+    let mut failure = None;
+    let classes = [
+        "hertz within 1e-3",
+        "two springs within 1e-3",
+        "hertz within 1e-2",
+        "two springs within 1e-2",
+        "waves needed for 1e-2",
+    ];
+    figure.map(effort.pick([14, 12], [40, 32]), &classes, |coupling, memory| {
+        let disc = FixedDisc {
+            coupling,
+            wave_time: memory * CONTACT_TIME / response.memory(),
+            ..paper.clone()
+        };
+        match disc_errors(&disc) {
+            Ok([hertz, springs]) => {
+                let classes = [(hertz, 1e-3), (springs, 1e-3), (hertz, 1e-2), (springs, 1e-2)];
+                classes.iter().position(|(error, least)| error <= least).unwrap_or(4)
+            }
+            Err(error) => {
+                failure = Some(error);
+                4
+            }
+        }
+    });
+    if let Some(error) = failure {
+        return Err(error.into());
+    }
+    figure.labelled = vec![(paper.coupling, paper.memory() / CONTACT_TIME, "paper's case".to_owned())];
+    // two springs leave the radiated loss out: (5/2) lag int p'^2, half of it in the restitution
+    let lag_limit = 2.0 * 1e-2 / impact::contact::radiation::LOSS;
+    let line = figure
+        .x
+        .cells(40)
+        .into_iter()
+        .map(|coupling| {
+            let wave_time = lag_limit / (coupling * response.relaxation_time());
+            (coupling, wave_time * response.memory() / CONTACT_TIME)
+        })
+        .filter(|(_, memory)| (1e-3..=1.0).contains(memory));
+    let line = line.collect();
+    figure.curve("theory: first-order loss of 2e-2", Style::HeavyDashed, line);
+    figure.caption = "With the full share the half-space is a second spring: hertz alone is right only for a coupling \
+        below the tolerance, two springs in series carry the rest until the radiated loss is seen. The paper's case \
+        needs its waves."
+        .to_owned();
+    Ok(figure)
+}
+
+/// Errors of hertz and of two springs in series against the implicit march.
+///
+/// # Errors
+/// Those of the march.
+pub fn disc_errors(disc: &FixedDisc<'_>) -> Result<[f64; 2], MarchError> {
+    let springs = quasi_static(disc.coupling);
+    let history = march_implicit(disc, springs.contact_time / 200.0)?;
+    let exact = Results::from(&Summary::new(&history)?);
+    let static_only = Results {
+        peak_force: springs.peak_force,
+        contact_time: springs.contact_time,
+        restitution: 1.0,
+        peak_displacement: springs.peak_displacement,
+    };
+    let error = |found: Results| Error::of(&found.errors(&exact)).max;
+    Ok([error(Results::from(&radiation(0.0))), error(static_only)])
+}
