@@ -1,5 +1,6 @@
 //! The `hertzlamb` command: one file per subcommand.
 
+mod chart;
 mod comparison;
 mod completions;
 mod demo;
@@ -35,6 +36,8 @@ enum Command {
     Tabulate(tabulate::Arguments),
     /// Looks at finished tables: info, verify, diff.
     Table(table::Arguments),
+    /// Charts speed against accuracy of all methods, and where they fail.
+    Chart(chart::Arguments),
     /// Lists and searches the materials library.
     Materials(materials::Arguments),
     /// Writes a completion script for a shell to standard output.
@@ -48,6 +51,7 @@ fn main() -> ExitCode {
         Command::Demo(arguments) => demo::run(&arguments),
         Command::Tabulate(arguments) => tabulate::run(&arguments),
         Command::Table(arguments) => table::run(&arguments),
+        Command::Chart(arguments) => chart::run(&arguments),
         Command::Materials(arguments) => materials::run(&arguments),
         Command::Completions(arguments) => completions::run(&arguments),
     };

@@ -138,12 +138,21 @@ pub fn targets() -> Vec<String> {
         .collect()
 }
 
+fn shape(effort: Effort) -> [usize; 2] {
+    effort.pick([12, 14], [32, 40])
+}
+
+/// Rows of the plane, for the progress bar.
+pub(crate) fn rows(effort: Effort) -> u64 {
+    shape(effort)[1] as u64
+}
+
 /// A picture a tolerance for contacts that follow the load, and one for the paper's disc.
 pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Figure>, StudyError> {
     let plane = Plane::new(0.3)?;
     let x = Axis::logarithmic("static deflection of the half-space over indentation", 0.01, 1.0);
     let y = Axis::logarithmic("memory over contact time", 1e-4, 1.0);
-    let shape = effort.pick([12, 14], [32, 40]);
+    let shape = shape(effort);
     let steps = effort.pick(128, 192);
     let mut errors = Vec::new();
     for &memory in &y.cells(shape[1]) {

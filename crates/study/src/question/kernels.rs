@@ -13,6 +13,7 @@ use crate::single_integral::remainder;
 use crate::tables::{DEFAULT_POINTS, DEFAULT_SPACING, Density};
 use halfspace::{Arrivals, Deflection, Kernel, Medium, Profile, Six, SurfaceResponse, kausel};
 use std::hint::black_box;
+use tabulator::Progress;
 
 /// A point, its times and the exact step responses there.
 #[derive(Debug)]
@@ -149,7 +150,7 @@ struct Candidate<'a> {
 pub(crate) fn measure(
     effort: Effort,
     densities: &[Density],
-    advance: &dyn Fn(),
+    progress: &dyn Progress,
 ) -> Result<Vec<Record>, StudyError> {
     let medium = Medium::new(POISSON_RATIO)?;
     let count = effort.pick(10, 40);
@@ -160,6 +161,7 @@ pub(crate) fn measure(
         KernelScene::axis(&medium, count)?,
         KernelScene::surface(&medium, count)?,
     ];
+    let mut work = Vec::new();
     for scene in &scenes {
         let mut candidates = single_integrals(&medium, scene, effort)?;
         candidates.extend(inversions(&medium, scene, effort));
@@ -169,13 +171,15 @@ pub(crate) fn measure(
         if scene.place == AXIS {
             candidates.extend(extended(&medium, scene, effort));
         }
-        for candidate in candidates {
-            records.push(take(effort, scene, &candidate));
-            advance();
-        }
+        work.extend(candidates.into_iter().map(|candidate| (scene, candidate)));
+    }
+    progress.total("kernels", work.len() as u64 + 1);
+    for (scene, candidate) in &work {
+        records.push(take(effort, scene, candidate));
+        progress.advance(1);
     }
     records.extend(tables(&medium, &scenes[0], densities, effort)?);
-    advance();
+    progress.advance(1);
     Ok(records)
 }
 

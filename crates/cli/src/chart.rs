@@ -1,0 +1,69 @@
+//! `hertzlamb chart`: speed against accuracy, and where methods fail.
+
+use crate::failure::{Failure, print};
+use crate::tabulate::Bar;
+use clap::Args;
+use impact::output::Existing;
+use std::path::PathBuf;
+use study::{Chart, Effort, StudyError, prepare_folder};
+
+const EXAMPLES: &str = "Examples:
+  hertzlamb chart --quick -o chart-quick
+  hertzlamb chart -o chart-full --force
+
+The folder gets chart.csv, chart.h5, report.md and the pictures as SVG and PNG.
+Times are those of this machine; run it on an idle one.";
+
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Arguments {
+    /// Few settings and coarse maps: under a minute instead of many.
+    #[arg(long)]
+    quick: bool,
+    /// Folder for the chart.
+    #[arg(short, long, value_name = "DIR")]
+    output: PathBuf,
+    /// Replace the files of an earlier chart.
+    #[arg(long)]
+    force: bool,
+}
+
+pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let existing = if arguments.force {
+        Existing::Replace
+    } else {
+        Existing::Keep
+    };
+    let effort = if arguments.quick {
+        Effort::Quick
+    } else {
+        Effort::Full
+    };
+    prepare_folder(&arguments.output, existing).map_err(failure)?;
+    let progress = Bar::new();
+    let chart = Chart::run(effort, &progress).map_err(failure)?;
+    progress.finish();
+    chart.write(&arguments.output).map_err(failure)?;
+    print(format!(
+        "{}: {} rows, {} pictures, {:.0} s",
+        arguments.output.join("report.md").display(),
+        chart.records.len(),
+        chart.diagrams.len() + chart.maps.len(),
+        chart.wall_s
+    ))
+}
+
+/// A folder that cannot be written to is the user's, the rest is work that failed.
+fn failure(error: StudyError) -> Failure {
+    match error {
+        StudyError::Exists { .. } | StudyError::Unwritable { .. } => Failure::input(error),
+        StudyError::Domain(_)
+        | StudyError::March(_)
+        | StudyError::Scene(_)
+        | StudyError::NoStriker
+        | StudyError::Build(_)
+        | StudyError::Table(_)
+        | StudyError::Lookup(_)
+        | StudyError::Temporary(_) => Failure::work(error),
+    }
+}

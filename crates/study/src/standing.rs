@@ -1,0 +1,82 @@
+//! Where the default path stands: the cheapest method for each accuracy, and the default beside it.
+
+use crate::record::{Question, Record};
+use crate::work_precision::distinct;
+
+/// Accuracies at which the default path is to be on the Pareto front.
+pub const LEVELS: [f64; 6] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8];
+
+/// What a cost is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Measure {
+    /// Nanoseconds.
+    Time,
+    /// Work count.
+    Work,
+}
+
+impl Measure {
+    fn of(self, record: &Record) -> Option<f64> {
+        match self {
+            Self::Time => Some(record.cost.median_ns),
+            Self::Work => record.work,
+        }
+    }
+}
+
+/// The cheapest records of a scene that reach an accuracy.
+#[derive(Debug, Clone, Copy)]
+pub struct Standing<'a> {
+    /// Question.
+    pub question: Question,
+    /// Scene.
+    pub scene: &'a str,
+    /// Accuracy.
+    pub level: f64,
+    /// Cheapest of all methods, with its cost.
+    pub best: Option<(&'a Record, f64)>,
+    /// Cheapest of the default path.
+    pub own: Option<(&'a Record, f64)>,
+}
+
+impl Standing<'_> {
+    /// Whether nothing is cheaper than the default path at this accuracy, up to `slack` (1: not at all).
+    #[must_use]
+    pub fn on_front(&self, slack: f64) -> bool {
+        match (self.best, self.own) {
+            (Some((_, best)), Some((_, own))) => own <= slack * best,
+            (None, None) => true,
+            (Some(_), None) | (None, Some(_)) => false,
+        }
+    }
+}
+
+/// Of every scene at every accuracy.
+#[must_use]
+pub fn standings(records: &[Record], measure: Measure) -> Vec<Standing<'_>> {
+    let mut found = Vec::new();
+    for question in Question::ALL {
+        let scenes = distinct(records.iter().filter(|r| r.question == question).map(|r| r.scene));
+        for scene in scenes {
+            for level in LEVELS {
+                let cheapest = |default: bool| {
+                    records
+                        .iter()
+                        .filter(|r| r.question == question && r.scene == scene)
+                        .filter(|r| !r.failed() && r.error.max <= level)
+                        .filter(|r| r.default_path || !default)
+                        .filter_map(|r| Some((r, measure.of(r)?)))
+                        .min_by(|a, b| a.1.total_cmp(&b.1))
+                };
+                found.push(Standing {
+                    question,
+                    scene,
+                    level,
+                    best: cheapest(false),
+                    own: cheapest(true),
+                });
+            }
+        }
+    }
+    found
+}

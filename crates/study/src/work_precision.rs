@@ -1,0 +1,101 @@
+//! Work-precision diagrams: error against cost, one curve a method, the Pareto front drawn.
+
+use crate::figure::{Axis, Figure, Style};
+use crate::record::{Question, Record, pareto_front};
+
+/// File names of the diagrams, in the order in which the scenes appear.
+const NAMES: [(Question, &[&str]); 3] = [
+    (
+        Question::Kernels,
+        &["kernels-interior", "kernels-late", "kernels-axis", "kernels-surface"],
+    ),
+    (Question::Force, &["force-disc", "force-growing"]),
+    (
+        Question::Fields,
+        &["fields-pulse-10", "fields-pulse-40", "fields-edge"],
+    ),
+];
+
+/// One diagram a scene.
+pub(crate) fn figures(records: &[Record]) -> Vec<Figure> {
+    let mut figures = Vec::new();
+    for (question, names) in NAMES {
+        let mine: Vec<&Record> = records.iter().filter(|r| r.question == question).collect();
+        let scenes = distinct(mine.iter().map(|r| r.scene));
+        for (scene, name) in scenes.into_iter().zip(names) {
+            let rows: Vec<&Record> = mine.iter().filter(|r| r.scene == scene).copied().collect();
+            figures.push(diagram(question, scene, name, &rows));
+        }
+    }
+    figures
+}
+
+/// Errors smaller than this are drawn here.
+const FLOOR: f64 = 1e-16;
+
+fn diagram(question: Question, scene: &str, name: &'static str, rows: &[&Record]) -> Figure {
+    let costs = rows.iter().map(|r| r.cost.median_ns);
+    let low = costs.clone().fold(f64::INFINITY, f64::min);
+    let high = costs.fold(0.0, f64::max);
+    let lowest = rows
+        .iter()
+        .map(|r| r.error.max.max(FLOOR))
+        .fold(1.0, f64::min);
+    let down = 10.0_f64.powf(lowest.log10().floor());
+    let decade = |x: f64, up: f64| 10.0_f64.powf((x.log10() + up).floor());
+    let mut figure = Figure::new(
+        name,
+        &format!("{}: {scene}", question.name()),
+        Axis::logarithmic(
+            &format!("cost [ns per value: {}]", question.value()),
+            decade(low, 0.0),
+            decade(high, 1.0),
+        ),
+        Axis::logarithmic("largest error over the largest value", down, 2.0),
+    );
+    for method in distinct(rows.iter().map(|r| r.method)) {
+        let own: Vec<&&Record> = rows.iter().filter(|r| r.method == method).collect();
+        let failed = own.iter().filter(|r| r.failed()).count();
+        let points: Vec<(f64, f64)> = own
+            .iter()
+            .filter(|r| r.error.max < 2.0)
+            .map(|r| (r.cost.median_ns, r.error.max.max(FLOOR)))
+            .collect();
+        let default = if own.iter().any(|r| r.default_path) { " [default]" } else { "" };
+        let failures = match failed {
+            0 => String::new(),
+            n if n == own.len() => " (fails)".to_owned(),
+            n => format!(" ({n} of {} fail)", own.len()),
+        };
+        figure.curve(&format!("{method}{default}{failures}"), Style::Marked, points);
+    }
+    let front = pareto_front(rows, |r| Some(r.cost.median_ns));
+    figure.curve("Pareto front", Style::HeavyDashed, staircase(rows, &front));
+    figure
+}
+
+/// The border of what the front dominates.
+fn staircase(rows: &[&Record], front: &[usize]) -> Vec<(f64, f64)> {
+    let mut points = Vec::new();
+    let mut before: Option<f64> = None;
+    for &i in front {
+        let (cost, error) = (rows[i].cost.median_ns, rows[i].error.max.max(FLOOR));
+        if let Some(error) = before {
+            points.push((cost, error));
+        }
+        points.push((cost, error));
+        before = Some(error);
+    }
+    points
+}
+
+/// The different items in the order of their first appearance.
+pub(crate) fn distinct<'a>(items: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
+    let mut seen = Vec::new();
+    for item in items {
+        if !seen.contains(&item) {
+            seen.push(item);
+        }
+    }
+    seen
+}
