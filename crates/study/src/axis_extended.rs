@@ -109,7 +109,10 @@ fn rule(points: usize) -> Vec<(TwoFloat, TwoFloat)> {
         let (mut before, mut value) = (TwoFloat::from(0.0), TwoFloat::from(1.0));
         for j in 1..=points {
             let j = j as f64;
-            (before, value) = (value, (x * value * (2.0 * j - 1.0) - before * (j - 1.0)) / j);
+            (before, value) = (
+                value,
+                (x * value * (2.0 * j - 1.0) - before * (j - 1.0)) / j,
+            );
         }
         let slope = divide((x * value - before) * points as f64, x * x - 1.0);
         (value, slope)

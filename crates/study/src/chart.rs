@@ -81,7 +81,9 @@ impl Chart {
         for figure in self.diagrams.iter().chain(&self.maps) {
             let svg = to_svg(figure);
             let path = folder.join(format!("{}.svg", figure.name));
-            whole(&path, |part| std::fs::write(part, &svg).map_err(|e| e.to_string()))?;
+            whole(&path, |part| {
+                std::fs::write(part, &svg).map_err(|e| e.to_string())
+            })?;
             let path = folder.join(format!("{}.png", figure.name));
             whole(&path, |part| {
                 std::fs::write(part, to_png(&svg)?).map_err(|e| e.to_string())

@@ -75,6 +75,10 @@ pub enum Style {
     Heavy,
     /// Heavy black dashed line.
     HeavyDashed,
+    /// Black dotted line.
+    Dotted,
+    /// Small black dots: a region given by theory.
+    Dots,
 }
 
 /// One curve.

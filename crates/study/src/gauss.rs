@@ -49,7 +49,10 @@ fn legendre(n: usize, x: f64) -> (f64, f64) {
     let (mut before, mut value) = (0.0, 1.0);
     for j in 1..=n {
         let j = j as f64;
-        (before, value) = (value, ((2.0 * j - 1.0) * x * value - (j - 1.0) * before) / j);
+        (before, value) = (
+            value,
+            ((2.0 * j - 1.0) * x * value - (j - 1.0) * before) / j,
+        );
     }
     (value, n as f64 * (x * value - before) / (x * x - 1.0))
 }
@@ -63,7 +66,10 @@ mod tests {
         for n in [2, 5, 16, 24, 48] {
             let rule = Rule::new(n);
             for power in [0, 2, 2 * n - 2] {
-                let sum: f64 = rule.on(0.0, 2.0).map(|(x, w)| w * x.powi(power as i32)).sum();
+                let sum: f64 = rule
+                    .on(0.0, 2.0)
+                    .map(|(x, w)| w * x.powi(power as i32))
+                    .sum();
                 let exact = 2.0_f64.powi(power as i32 + 1) / (power as f64 + 1.0);
                 assert!((sum / exact - 1.0).abs() < 1e-12, "n = {n}, x^{power}");
             }

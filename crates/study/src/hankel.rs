@@ -71,7 +71,9 @@ impl Hankel {
                 let j1 = libm::j1(x);
                 let ratio = if x < 1e-6 { 0.5 } else { j1 / x };
                 nodes.k.push(k);
-                nodes.bessel.push([scale * libm::j0(x), scale * j1, scale * ratio]);
+                nodes
+                    .bessel
+                    .push([scale * libm::j0(x), scale * j1, scale * ratio]);
             }
             from = to;
         }

@@ -67,9 +67,8 @@ fn write_file(path: &Path, chart: &Chart) -> Result<(), hdf5::Error> {
 fn rows(file: &File, records: &[Record]) -> Result<(), hdf5::Error> {
     let strings = |f: &dyn Fn(&Record) -> String| records.iter().map(f).collect::<Vec<_>>();
     let numbers = |f: &dyn Fn(&Record) -> f64| records.iter().map(f).collect::<Vec<_>>();
-    let flags = |f: &dyn Fn(&Record) -> bool| {
-        records.iter().map(|r| u8::from(f(r))).collect::<Vec<_>>()
-    };
+    let flags =
+        |f: &dyn Fn(&Record) -> bool| records.iter().map(|r| u8::from(f(r))).collect::<Vec<_>>();
     let [
         question,
         scene,
@@ -88,7 +87,11 @@ fn rows(file: &File, records: &[Record]) -> Result<(), hdf5::Error> {
     list(file, scene, &strings(&|r| r.scene.to_owned()))?;
     list(file, method, &strings(&|r| r.method.to_owned()))?;
     list(file, setting, &strings(&|r| r.setting.clone()))?;
-    list(file, refusal, &strings(&|r| r.refusal.clone().unwrap_or_default()))?;
+    list(
+        file,
+        refusal,
+        &strings(&|r| r.refusal.clone().unwrap_or_default()),
+    )?;
     vector(file, cost, &numbers(&|r| r.cost.median_ns), "ns")?;
     vector(file, spread, &numbers(&|r| r.cost.spread_ns), "ns")?;
     vector(file, max, &numbers(&|r| r.error.max), "1")?;
@@ -98,7 +101,10 @@ fn rows(file: &File, records: &[Record]) -> Result<(), hdf5::Error> {
         (default_path, flags(&|r| r.default_path)),
         (failed, flags(&Record::failed)),
     ] {
-        let data = file.new_dataset::<u8>().shape([values.len()]).create(name)?;
+        let data = file
+            .new_dataset::<u8>()
+            .shape([values.len()])
+            .create(name)?;
         data.write_raw(&values)?;
     }
     Ok(())
@@ -113,7 +119,10 @@ fn picture(group: &Group, figure: &Figure) -> Result<(), hdf5::Error> {
     if let Some(cells) = &figure.cells {
         let classes: Vec<u8> = cells.class.iter().map(|&c| c as u8).collect();
         let [columns, rows] = cells.shape;
-        let data = group.new_dataset::<u8>().shape([rows, columns]).create("class")?;
+        let data = group
+            .new_dataset::<u8>()
+            .shape([rows, columns])
+            .create("class")?;
         data.write_raw(&classes)?;
         text(&data, "names", &cells.names.join("\n"))?;
     }
@@ -135,7 +144,11 @@ fn axis_attributes(group: &Group, name: &str, axis: &Axis) -> Result<(), hdf5::E
     text(group, &format!("{name}_label"), &axis.label)?;
     number(group, &format!("{name}_low"), axis.range.0)?;
     number(group, &format!("{name}_high"), axis.range.1)?;
-    let scale = if axis.logarithmic { "logarithmic" } else { "linear" };
+    let scale = if axis.logarithmic {
+        "logarithmic"
+    } else {
+        "linear"
+    };
     text(group, &format!("{name}_scale"), scale)
 }
 
@@ -159,7 +172,10 @@ fn number(place: &Location, name: &str, value: f64) -> Result<(), hdf5::Error> {
 }
 
 fn list(group: &Group, name: &str, values: &[String]) -> Result<(), hdf5::Error> {
-    let values: Vec<VarLenUnicode> = values.iter().map(|v| unicode(v)).collect::<Result<_, _>>()?;
+    let values: Vec<VarLenUnicode> = values
+        .iter()
+        .map(|v| unicode(v))
+        .collect::<Result<_, _>>()?;
     let data = group
         .new_dataset::<VarLenUnicode>()
         .shape([values.len()])
@@ -168,7 +184,10 @@ fn list(group: &Group, name: &str, values: &[String]) -> Result<(), hdf5::Error>
 }
 
 fn vector(group: &Group, name: &str, values: &[f64], units: &str) -> Result<(), hdf5::Error> {
-    let data = group.new_dataset::<f64>().shape([values.len()]).create(name)?;
+    let data = group
+        .new_dataset::<f64>()
+        .shape([values.len()])
+        .create(name)?;
     data.write_raw(values)?;
     text(&data, "units", units)
 }

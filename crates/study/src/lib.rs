@@ -35,6 +35,8 @@ mod route_tests;
 mod scenes;
 pub mod single_integral;
 mod standing;
+#[cfg(test)]
+mod standing_tests;
 mod surface;
 mod tables;
 mod transform;

@@ -134,7 +134,11 @@ fn peak(samples: &[f64]) -> f64 {
     }
     let [a, b, c] = [samples[top - 1], samples[top], samples[top + 1]];
     let bend = a - 2.0 * b + c;
-    if bend < 0.0 { b - (c - a).powi(2) / (8.0 * bend) } else { b }
+    if bend < 0.0 {
+        b - (c - a).powi(2) / (8.0 * bend)
+    } else {
+        b
+    }
 }
 
 #[cfg(test)]
@@ -154,8 +158,15 @@ mod tests {
         };
         let exact = refine(|step| march_implicit(&impact, step), 0.02, 1e-9).unwrap();
         let exact = Results::from(&exact.summary);
-        assert!((Summary::new(&march_implicit(&impact, 0.01).unwrap()).unwrap().peak_force
-            / exact.peak_force - 1.0).abs() < 1e-5);
+        assert!(
+            (Summary::new(&march_implicit(&impact, 0.01).unwrap())
+                .unwrap()
+                .peak_force
+                / exact.peak_force
+                - 1.0)
+                .abs()
+                < 1e-5
+        );
         for (order, least) in [(Order::First, 0.9), (Order::Second, 1.7)] {
             let error = |step: f64| {
                 let (found, _) = march(&impact, step, order);

@@ -34,7 +34,9 @@ impl Clock {
         let begun = Instant::now();
         work();
         let once = begun.elapsed().max(Duration::from_nanos(20));
-        let repeats = (self.shortest.as_secs_f64() / once.as_secs_f64()).ceil().max(1.0);
+        let repeats = (self.shortest.as_secs_f64() / once.as_secs_f64())
+            .ceil()
+            .max(1.0);
         let mut samples = Vec::with_capacity(self.runs);
         for run in 0..self.runs {
             if run >= 3 && begun.elapsed() > self.longest {

@@ -40,7 +40,11 @@ impl PulseReference {
         let mut cuts = arrivals.sorted();
         cuts.extend([0.0, end]);
         // panels no longer than a sixteenth of the pulse
-        cuts.extend((1..).map(|i| f64::from(i) * length / 16.0).take_while(|&x| x < end));
+        cuts.extend(
+            (1..)
+                .map(|i| f64::from(i) * length / 16.0)
+                .take_while(|&x| x < end),
+        );
         cuts.sort_by(f64::total_cmp);
         cuts.dedup_by(|a, b| (*a - *b).abs() < 1e-9);
         cuts.retain(|&x| x <= end);
@@ -118,23 +122,23 @@ mod tests {
         let mut seen = 0;
         for line in golden.lines().skip(1) {
             let row: Vec<f64> = line.split(',').filter_map(|x| x.parse().ok()).collect();
-            let [nu, r, z, length, t] = row[..5] else { continue };
+            let [nu, r, z, length, t] = row[..5] else {
+                continue;
+            };
             if z < 0.2 || length > 20.0 || seen >= 12 {
                 continue;
             }
+            // the first of many times is the row's own
+            let found =
+                PulseReference::new(&Medium::new(nu).unwrap(), [r, z], length, t, 100).unwrap();
+            assert_eq!(found.times[0], t);
             seen += 1;
-            let medium = Medium::new(nu).unwrap();
-            let found = PulseReference::new(&medium, [r, z], length, t, 1).unwrap();
-            let n = (found.times[0] / t).round();
-            if n != 1.0 {
-                continue;
-            }
             // w, u, szz, srz, srr, stt there
             for (column, field) in [(5, 1), (6, 0), (7, 4), (8, 5), (9, 2), (10, 3)] {
                 let error = (found.exact[0][field] - row[column]).abs();
-                assert!(error < 1e-9, "{line}: {} off by {error:e}", field);
+                assert!(error < 1e-9, "{line}: {field} off by {error:e}");
             }
         }
-        assert!(seen > 4);
+        assert_eq!(seen, 12);
     }
 }

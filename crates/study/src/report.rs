@@ -25,14 +25,21 @@ fn write_report(out: &mut String, chart: &Chart) -> std::fmt::Result {
         Effort::Quick => "hertzlamb chart --quick",
         Effort::Full => "hertzlamb chart",
     };
-    writeln!(out, "Made by `{command}`, version {}.", env!("CARGO_PKG_VERSION"))?;
+    writeln!(
+        out,
+        "Made by `{command}`, version {}.",
+        env!("CARGO_PKG_VERSION")
+    )?;
     writeln!(out, "Machine: {}.", chart.machine.line())?;
     writeln!(out, "Time taken: {:.0} s.", chart.wall_s)?;
     writeln!(
         out,
         "Costs are nanoseconds per value on one core, the median of repeated runs; `chart.csv` has their spread, the work counts and the errors of every row."
     )?;
-    writeln!(out, "Setting up (weights, nodes, a table) is not part of a cost; everything that a new point, time or impact needs is.\n")?;
+    writeln!(
+        out,
+        "Setting up (weights, nodes, a table) is not part of a cost; everything that a new point, time or impact needs is.\n"
+    )?;
     let all = standings(&chart.records, Measure::Time);
     for (question, title) in [
         (Question::Kernels, "How to compute a kernel"),
@@ -78,7 +85,9 @@ fn answer(chart: &Chart, question: Question, standings: &[&Standing<'_>]) -> [St
         scenes
             .iter()
             .filter_map(|scene| {
-                let found = standings.iter().find(|s| s.scene == *scene && s.level == level)?;
+                let found = standings
+                    .iter()
+                    .find(|s| s.scene == *scene && s.level == level)?;
                 let (record, cost) = found.best?;
                 Some(format!("{} ({}) in \"{scene}\"", record.method, time(cost)))
             })
@@ -101,7 +110,10 @@ fn answer(chart: &Chart, question: Question, standings: &[&Standing<'_>]) -> [St
         .map(|s| match (s.own, s.best) {
             (Some((_, own)), Some((best, cost))) => format!(
                 "{:.0e} in \"{}\" ({} is {:.1} times cheaper)",
-                s.level, s.scene, best.method, own / cost
+                s.level,
+                s.scene,
+                best.method,
+                own / cost
             ),
             (_, Some((best, _))) => format!(
                 "{:.0e} in \"{}\" (only {} reaches it)",
@@ -111,7 +123,9 @@ fn answer(chart: &Chart, question: Question, standings: &[&Standing<'_>]) -> [St
         })
         .collect();
     let second = if off.is_empty() {
-        format!("The default path is on the front by time at all {on} accuracies from 1e-3 to 1e-8 that anything reaches.")
+        format!(
+            "The default path is on the front by time at all {on} accuracies from 1e-3 to 1e-8 that anything reaches."
+        )
     } else {
         format!(
             "The default path is on the front by time at {on} of {} accuracies from 1e-3 to 1e-8 that anything reaches, and not at {}.",
@@ -119,7 +133,11 @@ fn answer(chart: &Chart, question: Question, standings: &[&Standing<'_>]) -> [St
             off.join(", ")
         )
     };
-    let rows: Vec<&Record> = chart.records.iter().filter(|r| r.question == question).collect();
+    let rows: Vec<&Record> = chart
+        .records
+        .iter()
+        .filter(|r| r.question == question)
+        .collect();
     let failed: Vec<&str> = distinct(rows.iter().filter(|r| r.failed()).map(|r| r.method));
     let third = if failed.is_empty() {
         "No method failed in any scene.".to_owned()
@@ -133,7 +151,10 @@ fn answer(chart: &Chart, question: Question, standings: &[&Standing<'_>]) -> [St
 }
 
 fn table(out: &mut String, standings: &[&Standing<'_>]) -> std::fmt::Result {
-    writeln!(out, "| scene | error | cheapest of all | cost | default path | cost |")?;
+    writeln!(
+        out,
+        "| scene | error | cheapest of all | cost | default path | cost |"
+    )?;
     writeln!(out, "|---|---|---|---|---|---|")?;
     let cell = |found: Option<(&Record, f64)>| match found {
         Some((r, cost)) => format!("{}, {} | {}", r.method, r.setting, time(cost)),
@@ -156,7 +177,10 @@ fn table(out: &mut String, standings: &[&Standing<'_>]) -> std::fmt::Result {
 /// Methods that failed, with their largest errors.
 fn failures(out: &mut String, records: &[Record]) -> std::fmt::Result {
     writeln!(out, "## Failures in the rows\n")?;
-    writeln!(out, "| question | scene | method | setting | largest error | says |")?;
+    writeln!(
+        out,
+        "| question | scene | method | setting | largest error | says |"
+    )?;
     writeln!(out, "|---|---|---|---|---|---|")?;
     for r in records.iter().filter(|r| r.failed()) {
         writeln!(

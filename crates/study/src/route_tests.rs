@@ -8,14 +8,22 @@ use halfspace::{Kernel, Medium, Profile, Six, kausel};
 use num_complex::Complex64;
 
 fn distance(a: &Six, b: &Six) -> f64 {
-    a.iter().zip(b).fold(0.0, |most, (x, y)| most.max((x - y).abs()))
+    a.iter()
+        .zip(b)
+        .fold(0.0, |most, (x, y)| most.max((x - y).abs()))
 }
 
 #[test]
 fn the_surface_centre_by_inversion_is_the_closed_form() {
     let medium = Medium::new(0.3).unwrap();
     let transform = SurfaceTransform::new(&medium, 13.0);
-    for (t, promised) in [(0.5, 1e-9), (1.0, 1e-4), (2.5, 5e-3), (4.0, 1e-4), (8.0, 1e-6)] {
+    for (t, promised) in [
+        (0.5, 1e-9),
+        (1.0, 1e-4),
+        (2.5, 5e-3),
+        (4.0, 1e-4),
+        (8.0, 1e-6),
+    ] {
         let exact = kausel::centre_step(&medium, medium.kappa() * t);
         let euler = euler(16).invert(t, |s| [transform.step(s)])[0];
         assert!((euler - exact).abs() < promised, "t = {t}: {euler} {exact}");

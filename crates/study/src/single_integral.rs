@@ -35,7 +35,15 @@ pub fn remainder(medium: &Medium, [r, z, t]: [f64; 3], points: usize) -> (Six, u
         let scale = (q * d).inv();
         for wave in [Wave::P, Wave::S] {
             for time in [t, -t] {
-                add(&mut total, weight / PI, medium, wave, q, scale, [r, z, time]);
+                add(
+                    &mut total,
+                    weight / PI,
+                    medium,
+                    wave,
+                    q,
+                    scale,
+                    [r, z, time],
+                );
             }
         }
         count += 4;

@@ -56,7 +56,12 @@ impl Standing<'_> {
 pub fn standings(records: &[Record], measure: Measure) -> Vec<Standing<'_>> {
     let mut found = Vec::new();
     for question in Question::ALL {
-        let scenes = distinct(records.iter().filter(|r| r.question == question).map(|r| r.scene));
+        let scenes = distinct(
+            records
+                .iter()
+                .filter(|r| r.question == question)
+                .map(|r| r.scene),
+        );
         for scene in scenes {
             for level in LEVELS {
                 let cheapest = |default: bool| {

@@ -69,9 +69,7 @@ impl SurfaceTransform {
         let depth = self.digits * std::f64::consts::LN_10 + 2.0;
         for sign in [1.0, -1.0] {
             let i = Complex64::new(0.0, sign);
-            let half = |k: Complex64| {
-                0.75 / PI * (i * k).exp() * (-i - k) / (k * k) * far(k)
-            };
+            let half = |k: Complex64| 0.75 / PI * (i * k).exp() * (-i - k) / (k * k) * far(k);
             leg(start, start + i * depth, &half);
         }
         self.evaluations.set(self.evaluations.get() + count);

@@ -7,7 +7,12 @@ use crate::record::{Question, Record, pareto_front};
 const NAMES: [(Question, &[&str]); 3] = [
     (
         Question::Kernels,
-        &["kernels-interior", "kernels-late", "kernels-axis", "kernels-surface"],
+        &[
+            "kernels-interior",
+            "kernels-late",
+            "kernels-axis",
+            "kernels-surface",
+        ],
     ),
     (Question::Force, &["force-disc", "force-growing"]),
     (
@@ -61,13 +66,21 @@ fn diagram(question: Question, scene: &str, name: &'static str, rows: &[&Record]
             .filter(|r| r.error.max < 2.0)
             .map(|r| (r.cost.median_ns, r.error.max.max(FLOOR)))
             .collect();
-        let default = if own.iter().any(|r| r.default_path) { " [default]" } else { "" };
+        let default = if own.iter().any(|r| r.default_path) {
+            " [default]"
+        } else {
+            ""
+        };
         let failures = match failed {
             0 => String::new(),
             n if n == own.len() => " (fails)".to_owned(),
             n => format!(" ({n} of {} fail)", own.len()),
         };
-        figure.curve(&format!("{method}{default}{failures}"), Style::Marked, points);
+        figure.curve(
+            &format!("{method}{default}{failures}"),
+            Style::Marked,
+            points,
+        );
     }
     let front = pareto_front(rows, |r| Some(r.cost.median_ns));
     figure.curve("Pareto front", Style::HeavyDashed, staircase(rows, &front));

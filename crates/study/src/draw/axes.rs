@@ -24,16 +24,26 @@ pub(super) fn draw_axes(mut group: Group, figure: &Figure) -> Group {
         }
         group = group
             .add(line([x, bottom, x, bottom + 5.0], BLACK))
-            .add(text(&name(&figure.x, value), x, bottom + 20.0, 12.0, "middle"));
+            .add(text(
+                &name(&figure.x, value),
+                x,
+                bottom + 20.0,
+                12.0,
+                "middle",
+            ));
     }
     for value in ticks(&figure.y) {
         let y = place(figure, figure.x.range.0, value).1;
         if grid {
             group = group.add(line([left, y, right, y], "#e3e3e3"));
         }
-        group = group
-            .add(line([left - 5.0, y, left, y], BLACK))
-            .add(text(&name(&figure.y, value), left - 9.0, y + 4.0, 12.0, "end"));
+        group = group.add(line([left - 5.0, y, left, y], BLACK)).add(text(
+            &name(&figure.y, value),
+            left - 9.0,
+            y + 4.0,
+            12.0,
+            "end",
+        ));
     }
     let middle = 0.5 * (top + bottom);
     group
@@ -47,7 +57,13 @@ pub(super) fn draw_axes(mut group: Group, figure: &Figure) -> Group {
                 .set("stroke", BLACK)
                 .set("stroke-width", 1.0),
         )
-        .add(text(&figure.x.label, 0.5 * (left + right), bottom + 48.0, 14.0, "middle"))
+        .add(text(
+            &figure.x.label,
+            0.5 * (left + right),
+            bottom + 48.0,
+            14.0,
+            "middle",
+        ))
         .add(
             text(&figure.y.label, 24.0, middle, 14.0, "middle")
                 .set("transform", format!("rotate(-90 24 {middle})")),
@@ -68,7 +84,10 @@ fn line([x1, y1, x2, y2]: [f64; 4], colour: &str) -> Line {
 fn ticks(axis: &Axis) -> Vec<f64> {
     let (low, high) = axis.range;
     if axis.logarithmic {
-        let (first, last) = ((low.log10() - 1e-9).ceil() as i32, (high.log10() + 1e-9).floor() as i32);
+        let (first, last) = (
+            (low.log10() - 1e-9).ceil() as i32,
+            (high.log10() + 1e-9).floor() as i32,
+        );
         if last - first < 2 {
             let decades = first - 1..=last;
             return decades
@@ -113,11 +132,21 @@ mod tests {
 
     #[test]
     fn ticks_are_round_and_inside() {
-        for (low, high) in [(1e-16, 10.0), (1.0, 100.0), (3.0, 1e6), (0.4, 30.0), (1e-3, 0.2)] {
+        for (low, high) in [
+            (1e-16, 10.0),
+            (1.0, 100.0),
+            (3.0, 1e6),
+            (0.4, 30.0),
+            (1e-3, 0.2),
+        ] {
             let axis = Axis::logarithmic("", low, high);
             let found = ticks(&axis);
             assert!((2..=10).contains(&found.len()), "{low} {high}: {found:?}");
-            assert!(found.iter().all(|v| (-1e-6..=1.0 + 1e-6).contains(&axis.share(*v))));
+            assert!(
+                found
+                    .iter()
+                    .all(|v| (-1e-6..=1.0 + 1e-6).contains(&axis.share(*v)))
+            );
         }
         let found = ticks(&Axis::linear("", 0.0, 2.0));
         assert_eq!(found.len(), 5);

@@ -1,6 +1,6 @@
 //! The legend, beside the plot.
 
-use super::{AREA, Look, SIZE, marker, text};
+use super::{AREA, DOT, Look, SIZE, marker, text};
 use svg::node::element::{Group, Line, Rectangle};
 
 /// One line of the legend.
@@ -51,7 +51,9 @@ pub(super) fn draw(entries: &[Entry]) -> Group {
                 }
                 if let Some(index) = look.marker {
                     let x = left + 0.5 * (SWATCH - 4.0);
-                    group = marker::draw(group, index, x, middle, 4.2, look.colour, "#ffffff");
+                    let size = if index == DOT { 1.6 } else { 4.2 };
+                    group =
+                        marker::draw(group, index % DOT, x, middle, size, look.colour, "#ffffff");
                 }
                 (name, wrap(name))
             }

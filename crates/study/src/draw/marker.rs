@@ -14,12 +14,20 @@ pub(super) fn draw(
 ) -> Group {
     let s = size;
     // every other round of shapes is filled
-    let fill = if (index / 7).is_multiple_of(2) { fill } else { stroke };
+    let fill = if (index / 7).is_multiple_of(2) {
+        fill
+    } else {
+        stroke
+    };
     let polygon = |corners: &[(f64, f64)]| {
         let mut data = Data::new();
         for (i, (dx, dy)) in corners.iter().enumerate() {
             let at = (x + dx * s, y + dy * s);
-            data = if i == 0 { data.move_to(at) } else { data.line_to(at) };
+            data = if i == 0 {
+                data.move_to(at)
+            } else {
+                data.line_to(at)
+            };
         }
         data.close()
     };

@@ -23,11 +23,14 @@ pub(crate) const AREA: [f64; 4] = [86.0, 52.0, 700.0, 530.0];
 
 /// Colours of curves, of different lightness.
 const COLOURS: [&str; 10] = [
-    "#0b5394", "#c1272d", "#e69f00", "#1b7f5c", "#7a3b9a", "#56b4e9", "#8c564b", "#7f7f7f", "#d55e8e",
-    "#3b3b00",
+    "#0b5394", "#c1272d", "#e69f00", "#1b7f5c", "#7a3b9a", "#56b4e9", "#8c564b", "#7f7f7f",
+    "#d55e8e", "#3b3b00",
 ];
 
 const DASHES: [&str; 5] = ["none", "8 3", "2 3", "10 3 2 3", "5 2"];
+
+/// Number of a plain dot among the markers: beyond those of curves.
+const DOT: usize = 700;
 
 const BLACK: &str = "#111111";
 
@@ -84,6 +87,20 @@ fn look(index: usize, style: Style) -> Look {
             marker: None,
             line: true,
         },
+        Style::Dotted => Look {
+            colour: BLACK,
+            dash: "2 4",
+            width: 2.2,
+            marker: None,
+            line: true,
+        },
+        Style::Dots => Look {
+            colour: BLACK,
+            dash: "none",
+            width: 1.0,
+            marker: Some(DOT),
+            line: false,
+        },
     }
 }
 
@@ -126,7 +143,8 @@ pub fn to_svg(figure: &Figure) -> String {
     let mut index = 0;
     for curve in &figure.curves {
         let look = look(index, curve.style);
-        if !matches!(curve.style, Style::Heavy | Style::HeavyDashed) {
+        let coloured = matches!(curve.style, Style::Marked | Style::Plain | Style::Points);
+        if coloured {
             index += 1;
         }
         inside = inside.add(draw_curve(figure, curve, look));
@@ -138,7 +156,11 @@ pub fn to_svg(figure: &Figure) -> String {
         labels = marker::draw(labels, 6, at_x, at_y, 7.0, BLACK, "#ffffff");
         // alternate sides, so that labels of neighbours stay apart
         let to_left = figure.x.share(*x) > 0.6;
-        let (shift, anchor) = if to_left { (-11.0, "end") } else { (11.0, "start") };
+        let (shift, anchor) = if to_left {
+            (-11.0, "end")
+        } else {
+            (11.0, "start")
+        };
         let rise = if i.is_multiple_of(2) { 4.0 } else { 6.0 };
         labels = labels.add(
             text(label, at_x + shift, at_y + rise, 12.0, anchor)
@@ -182,7 +204,10 @@ fn text(content: &str, x: f64, y: f64, size: f64, anchor: &str) -> Text {
 fn map(cells: &Cells) -> Group {
     let [left, top, right, bottom] = AREA;
     let [columns, rows] = cells.shape;
-    let (width, height) = ((right - left) / columns as f64, (bottom - top) / rows as f64);
+    let (width, height) = (
+        (right - left) / columns as f64,
+        (bottom - top) / rows as f64,
+    );
     let fills = FILLS[cells.names.len().clamp(1, 5) - 1];
     let mut group = Group::new().set("shape-rendering", "crispEdges");
     for (row, classes) in cells.class.chunks(columns).enumerate() {
@@ -215,7 +240,10 @@ fn draw_curve(figure: &Figure, curve: &Curve, look: Look) -> Group {
         .collect();
     let mut group = Group::new();
     if look.line {
-        let points: Vec<String> = shown.iter().map(|(x, y)| format!("{x:.2},{y:.2}")).collect();
+        let points: Vec<String> = shown
+            .iter()
+            .map(|(x, y)| format!("{x:.2},{y:.2}"))
+            .collect();
         group = group.add(
             Polyline::new()
                 .set("points", points.join(" "))
@@ -227,7 +255,8 @@ fn draw_curve(figure: &Figure, curve: &Curve, look: Look) -> Group {
     }
     if let Some(index) = look.marker {
         for (x, y) in shown {
-            group = marker::draw(group, index, x, y, 4.2, look.colour, "#ffffff");
+            let size = if index == DOT { 1.6 } else { 4.2 };
+            group = marker::draw(group, index % DOT, x, y, size, look.colour, "#ffffff");
         }
     }
     group
@@ -244,7 +273,11 @@ mod tests {
             Axis::logarithmic("cost", 1.0, 1e6),
             Axis::logarithmic("error", 1e-9, 1.0),
         );
-        figure.curve("falling", Style::Marked, vec![(1.0, 1.0), (1e6, 1e-9), (f64::NAN, 1.0), (2.0, 0.0)]);
+        figure.curve(
+            "falling",
+            Style::Marked,
+            vec![(1.0, 1.0), (1e6, 1e-9), (f64::NAN, 1.0), (2.0, 0.0)],
+        );
         figure.map([4, 2], &["good", "bad"], |x, _| usize::from(x > 1e3));
         figure.labelled.push((1e5, 1e-2, "here".to_owned()));
         figure

@@ -13,7 +13,9 @@ const SCALE: f32 = 1.5;
 pub fn to_png(svg: &str) -> Result<Vec<u8>, String> {
     let mut fonts = usvg::fontdb::Database::new();
     fonts.load_font_data(epaint_default_fonts::UBUNTU_LIGHT.to_vec());
-    let family = fonts.faces().find_map(|face| Some(face.families.first()?.0.clone()));
+    let family = fonts
+        .faces()
+        .find_map(|face| Some(face.families.first()?.0.clone()));
     if let Some(family) = family {
         fonts.set_sans_serif_family(family);
     }

@@ -56,7 +56,11 @@ fn coefficients(order: usize, [_, peak, width]: [f64; 3]) -> Vec<Complex64> {
     let count = 2 * order + 1;
     let zeros: Vec<f64> = (0..order)
         .map(|i| {
-            let share = if order > 1 { i as f64 / (order - 1) as f64 } else { 0.5 };
+            let share = if order > 1 {
+                i as f64 / (order - 1) as f64
+            } else {
+                0.5
+            };
             peak + 0.5 * width + (TAU - width) * share
         })
         .collect();
@@ -100,7 +104,11 @@ fn variation(order: usize, place: [f64; 3]) -> f64 {
     }
     let [m0, m1, m2] = moments(&coefficients(order, place), place[0]);
     let value = m0 * m2 / (m1 * m1) - 1.0;
-    if value > 0.0 && m0 > 0.0 { value } else { f64::INFINITY }
+    if value > 0.0 && m0 > 0.0 {
+        value
+    } else {
+        f64::INFINITY
+    }
 }
 
 /// Minimum of a function of three variables: Nelder and Mead (1965).
@@ -126,7 +134,11 @@ fn nelder_mead(start: [f64; 3], f: impl Fn([f64; 3]) -> f64) -> [f64; 3] {
         let reflected = along(-1.0);
         simplex[3] = if reflected.1 < simplex[0].1 {
             let expanded = along(-2.0);
-            if expanded.1 < reflected.1 { expanded } else { reflected }
+            if expanded.1 < reflected.1 {
+                expanded
+            } else {
+                reflected
+            }
         } else if reflected.1 < simplex[2].1 {
             reflected
         } else {

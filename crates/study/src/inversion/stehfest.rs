@@ -20,7 +20,11 @@ pub fn stehfest(terms: usize) -> Framework {
                         * factorial(2 * j - k))
             })
             .sum();
-        if (k + half).is_multiple_of(2) { sum } else { -sum }
+        if (k + half).is_multiple_of(2) {
+            sum
+        } else {
+            -sum
+        }
     };
     Framework {
         nodes: (1..=terms).map(|k| (k as f64 * LN_2).into()).collect(),

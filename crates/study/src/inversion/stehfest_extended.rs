@@ -33,7 +33,11 @@ impl ExtendedWeights {
                         * factorial(2 * j - k);
                     sum + divide(power(j) * factorial(2 * j), below)
                 });
-                let sign = if (k + half).is_multiple_of(2) { 1.0 } else { -1.0 };
+                let sign = if (k + half).is_multiple_of(2) {
+                    1.0
+                } else {
+                    -1.0
+                };
                 sum * sign * twofloat::consts::LN_2
             })
             .collect();

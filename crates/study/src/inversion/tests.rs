@@ -49,7 +49,9 @@ fn more_terms_are_better() {
 #[test]
 fn series_share_their_samples() {
     let window = Window::new(5.0, 1e-10, 81);
-    let samples: Vec<Complex64> = (0..window.samples).map(|k| smooth(window.node(k))).collect();
+    let samples: Vec<Complex64> = (0..window.samples)
+        .map(|k| smooth(window.node(k)))
+        .collect();
     let long = Window::new(5.0, 1e-6, 4001);
     let many: Vec<Complex64> = (0..long.samples).map(|k| smooth(long.node(k))).collect();
     for t in TIMES {
@@ -79,7 +81,8 @@ fn the_cme_kernel_has_unit_mass_and_mean_and_never_overshoots() {
 #[test]
 fn doubles_end_at_eighteen_terms_and_double_doubles_do_not() {
     use twofloat::TwoFloat;
-    let transform = |s: TwoFloat| crate::extended::divide(TwoFloat::from(1.0), (s + 1.0) * (s + 1.0));
+    let transform =
+        |s: TwoFloat| crate::extended::divide(TwoFloat::from(1.0), (s + 1.0) * (s + 1.0));
     let f = |t: f64| t * (-t).exp();
     let error = |terms: usize| {
         let weights = ExtendedWeights::new(terms);

@@ -45,7 +45,9 @@ pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Figure>,
         };
         for method in methods {
             let (values, _) =
-                method.prepare().run(&medium, scene.place, method.digits(), &scene.times);
+                method
+                    .prepare()
+                    .run(&medium, scene.place, method.digits(), &scene.times);
             figure.curve(
                 &format!("{}, {}", method.name(), method.setting()),
                 Style::Plain,
@@ -54,7 +56,11 @@ pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Figure>,
             advance();
         }
         let kernel = single(&medium, &scene)?;
-        figure.curve("single integral, 1e-10", Style::Heavy, over_time(&scene, &kernel));
+        figure.curve(
+            "single integral, 1e-10",
+            Style::Heavy,
+            over_time(&scene, &kernel),
+        );
         figure.marks = [
             (scene.arrivals.first(), "first front"),
             (scene.arrivals.last(), "last front"),
@@ -75,7 +81,12 @@ pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Figure>,
 fn over_time(scene: &KernelScene, values: &[Six]) -> Vec<(f64, f64)> {
     let errors = scene.errors_over_time(values);
     let clamp = |e: f64| e.clamp(1e-16, 10.0);
-    scene.times.iter().copied().zip(errors.into_iter().map(clamp)).collect()
+    scene
+        .times
+        .iter()
+        .copied()
+        .zip(errors.into_iter().map(clamp))
+        .collect()
 }
 
 /// The program's kernel at the times of a scene.
@@ -83,7 +94,11 @@ fn single(medium: &Medium, scene: &KernelScene) -> Result<Vec<Six>, StudyError> 
     let [r, z] = scene.place;
     let kernel = Kernel::new(medium, Profile::Hertz, 1e-10)?;
     let rest = kernel.static_field(r, z)?;
-    let unit = if z > 0.0 { 1.0 } else { 1.0 / (0.375 * (1.0 - medium.poisson_ratio())) };
+    let unit = if z > 0.0 {
+        1.0
+    } else {
+        1.0 / (0.375 * (1.0 - medium.poisson_ratio()))
+    };
     let mut values = Vec::new();
     for &t in &scene.times {
         let value = kernel.remainder(r, z, t)?.value;

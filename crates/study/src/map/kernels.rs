@@ -81,7 +81,10 @@ pub fn incompressible_error(distance: f64) -> Result<f64, StudyError> {
     let (mut scale, mut errors) = (rest.map(f64::abs), [0.0_f64; 6]);
     for shear_time in [0.3, 0.7, 1.0, 1.6, 2.5, 6.0] {
         let t = shear_time / medium.kappa();
-        let (a, b) = (coarse.remainder(r, z, t)?.value, fine.remainder(r, z, t)?.value);
+        let (a, b) = (
+            coarse.remainder(r, z, t)?.value,
+            fine.remainder(r, z, t)?.value,
+        );
         for f in 0..6 {
             scale[f] = scale[f].max((b[f] + rest[f]).abs());
             errors[f] = errors[f].max((a[f] - b[f]).abs());
@@ -105,7 +108,11 @@ pub fn incompressible_surface(distance: f64) -> Result<[f64; 2], StudyError> {
 
 /// All three pictures.
 pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Figure>, StudyError> {
-    let done = vec![potentials(effort)?, double_root(effort)?, incompressible(effort)?];
+    let done = vec![
+        potentials(effort)?,
+        double_root(effort)?,
+        incompressible(effort)?,
+    ];
     advance();
     Ok(done)
 }
@@ -189,8 +196,16 @@ fn incompressible(effort: Effort) -> Result<Figure, StudyError> {
         let [own, closed] = incompressible_surface(d)?;
         surface.push((d, (own - closed).abs().max(1e-17)));
     }
-    figure.curve("kernels asked for 1e-8 at (0.5, 0.6) r0", Style::Marked, kernels);
-    figure.curve("surface response against closed form", Style::Marked, surface);
+    figure.curve(
+        "kernels asked for 1e-8 at (0.5, 0.6) r0",
+        Style::Marked,
+        kernels,
+    );
+    figure.curve(
+        "surface response against closed form",
+        Style::Marked,
+        surface,
+    );
     let ratio = |&d: &f64| (d, (d / (0.5 + d)).sqrt());
     figure.curve(
         "theory: c2/c1 = sqrt(d/(1/2 + d))",

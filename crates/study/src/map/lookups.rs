@@ -26,9 +26,8 @@ fn error_at(table: &Table, i: usize, k: usize, pulse: usize) -> f64 {
     let content = table.content();
     let probes = &content.slices[0].verification;
     let pulses = content.pulse_lengths.len();
-    let at = |i: usize, k: usize, f: usize| {
-        ((i * (content.z.len() - 1) + k) * pulses + pulse) * 6 + f
-    };
+    let at =
+        |i: usize, k: usize, f: usize| ((i * (content.z.len() - 1) + k) * pulses + pulse) * 6 + f;
     (0..6).fold(0.0, |most, f| {
         let largest = (f + 6 * pulse..probes.direct.len())
             .step_by(6 * pulses)
@@ -62,15 +61,20 @@ pub(crate) fn figures(densities: &[Density], effort: Effort) -> Result<Vec<Figur
             Axis::linear("distance from the axis [r0]", 0.0, table.r_max()),
             Axis::logarithmic("length of the pulse [r0/c1]", lengths[0], lengths[last]),
         );
-        figure.map([content.r.len() - 1, effort.pick(20, 40)], &CLASSES, |r, length| {
-            let i = lookup::locate(&content.r, r).unwrap_or(0);
-            // between the measured lengths, in logarithms
-            let upper = lengths.partition_point(|&x| x < length).clamp(1, last);
-            let share = (length / lengths[upper - 1]).ln() / (lengths[upper] / lengths[upper - 1]).ln();
-            let [a, b] = [upper - 1, upper].map(|p| error_at(&table, i, k, p).max(1e-12));
-            let error = a.powf(1.0 - share) * b.powf(share);
-            ((error.log10() + 7.0).ceil().clamp(1.0, 5.0) - 1.0) as usize
-        });
+        figure.map(
+            [content.r.len() - 1, effort.pick(20, 40)],
+            &CLASSES,
+            |r, length| {
+                let i = lookup::locate(&content.r, r).unwrap_or(0);
+                // between the measured lengths, in logarithms
+                let upper = lengths.partition_point(|&x| x < length).clamp(1, last);
+                let share =
+                    (length / lengths[upper - 1]).ln() / (lengths[upper] / lengths[upper - 1]).ln();
+                let [a, b] = [upper - 1, upper].map(|p| error_at(&table, i, k, p).max(1e-12));
+                let error = a.powf(1.0 - share) * b.powf(share);
+                ((error.log10() + 7.0).ceil().clamp(1.0, 5.0) - 1.0) as usize
+            },
+        );
         let resolved = 8.0 * DEFAULT_SPACING / kappa;
         figure.curve(
             "theory: shortest shear wave spans four nodes",

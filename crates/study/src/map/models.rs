@@ -90,16 +90,20 @@ impl Plane {
         Ok(ModelErrors {
             hertz: of(0.0),
             // beyond it the program refuses the first-order law
-            radiation: if lag <= LARGEST_LAG { of(lag) } else { f64::INFINITY },
+            radiation: if lag <= LARGEST_LAG {
+                of(lag)
+            } else {
+                f64::INFINITY
+            },
         })
     }
 
     /// Memory at which `auto` leaves a rung for the next, at a share.
     fn boundary(&self, share: f64, tolerance: f64, leaves: Rung) -> f64 {
-        let cheap = |memory: f64| match (self.chosen(share, memory, tolerance), leaves) {
-            (Rung::QuasiStatic, _) => true,
-            (Rung::Radiation, Rung::Radiation | Rung::FullMemory) => true,
-            (Rung::Radiation, Rung::QuasiStatic) | (Rung::FullMemory, _) => false,
+        let cheap = |memory: f64| match self.chosen(share, memory, tolerance) {
+            Rung::QuasiStatic => true,
+            Rung::Radiation => leaves != Rung::QuasiStatic,
+            Rung::FullMemory => false,
         };
         let (mut low, mut high) = (1e-9_f64, 1e3_f64);
         for _ in 0..60 {
@@ -128,6 +132,13 @@ pub fn place_of(target: &str, velocity_m_s: f64) -> Result<(f64, f64), StudyErro
     Ok((collision.target_share(), memory / CONTACT_TIME))
 }
 
+/// The scene of such a point with model `auto` at a tolerance.
+#[must_use]
+pub fn ball_scene(target: &str, velocity_m_s: f64, tolerance: f64) -> String {
+    let contact = format!("[contact]\nmodel = \"auto\"\ntolerance = {tolerance:?}\n");
+    ball(target, velocity_m_s, &contact)
+}
+
 /// Names of the built-in materials that can be a target: those with a density.
 #[must_use]
 pub fn targets() -> Vec<String> {
@@ -150,14 +161,19 @@ pub(crate) fn rows(effort: Effort) -> u64 {
 /// A picture a tolerance for contacts that follow the load, and one for the paper's disc.
 pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Figure>, StudyError> {
     let plane = Plane::new(0.3)?;
-    let x = Axis::logarithmic("static deflection of the half-space over indentation", 0.01, 1.0);
-    let y = Axis::logarithmic("memory over contact time", 1e-4, 1.0);
+    let x = Axis::logarithmic(
+        "static deflection of the half-space over indentation",
+        0.01,
+        1.15,
+    );
+    let y = Axis::logarithmic("memory over contact time", 1e-4, 3.0);
     let shape = shape(effort);
     let steps = effort.pick(128, 192);
     let mut errors = Vec::new();
     for &memory in &y.cells(shape[1]) {
         for &share in &x.cells(shape[0]) {
-            errors.push(plane.errors(share, memory, steps)?);
+            // the half-space has all of the compliance at most
+            errors.push(plane.errors(share.min(1.0), memory, steps)?);
         }
         advance();
     }
@@ -168,7 +184,10 @@ pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Figure>,
         }
     }
     let mut figures = Vec::new();
-    for (name, tolerance) in ["models-1e-2", "models-1e-3", "models-1e-4"].into_iter().zip(TOLERANCES) {
+    for (name, tolerance) in ["models-1e-2", "models-1e-3", "models-1e-4"]
+        .into_iter()
+        .zip(TOLERANCES)
+    {
         let mut figure = Figure::new(
             name,
             &format!("Cheapest model that meets {tolerance:.0e}"),
@@ -176,11 +195,15 @@ pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Figure>,
             y.clone(),
         );
         let mut cells = errors.iter();
-        figure.map(shape, &["hertz", "radiation", "growing"], |_, _| match cells.next() {
-            Some(e) if e.hertz <= tolerance => 0,
-            Some(e) if e.radiation <= tolerance => 1,
-            Some(_) | None => 2,
-        });
+        figure.map(
+            shape,
+            &["hertz", "radiation", "growing"],
+            |_, _| match cells.next() {
+                Some(e) if e.hertz <= tolerance => 0,
+                Some(e) if e.radiation <= tolerance => 1,
+                Some(_) | None => 2,
+            },
+        );
         for (label, rung, style) in [
             ("auto leaves hertz", Rung::QuasiStatic, Style::Heavy),
             ("auto leaves radiation", Rung::Radiation, Style::HeavyDashed),
@@ -239,27 +262,43 @@ fn disc(effort: Effort) -> Result<Figure, StudyError> {
         "two springs within 1e-2",
         "waves needed for 1e-2",
     ];
-    figure.map(effort.pick([14, 12], [40, 32]), &classes, |coupling, memory| {
-        let disc = FixedDisc {
-            coupling,
-            wave_time: memory * CONTACT_TIME / response.memory(),
-            ..paper.clone()
-        };
-        match disc_errors(&disc) {
-            Ok([hertz, springs]) => {
-                let classes = [(hertz, 1e-3), (springs, 1e-3), (hertz, 1e-2), (springs, 1e-2)];
-                classes.iter().position(|(error, least)| error <= least).unwrap_or(4)
+    figure.map(
+        effort.pick([14, 12], [40, 32]),
+        &classes,
+        |coupling, memory| {
+            let disc = FixedDisc {
+                coupling,
+                wave_time: memory * CONTACT_TIME / response.memory(),
+                ..paper.clone()
+            };
+            match disc_errors(&disc) {
+                Ok([hertz, springs]) => {
+                    let classes = [
+                        (hertz, 1e-3),
+                        (springs, 1e-3),
+                        (hertz, 1e-2),
+                        (springs, 1e-2),
+                    ];
+                    classes
+                        .iter()
+                        .position(|(error, least)| error <= least)
+                        .unwrap_or(4)
+                }
+                Err(error) => {
+                    failure = Some(error);
+                    4
+                }
             }
-            Err(error) => {
-                failure = Some(error);
-                4
-            }
-        }
-    });
+        },
+    );
     if let Some(error) = failure {
         return Err(error.into());
     }
-    figure.labelled = vec![(paper.coupling, paper.memory() / CONTACT_TIME, "paper's case".to_owned())];
+    figure.labelled = vec![(
+        paper.coupling,
+        paper.memory() / CONTACT_TIME,
+        "paper's case".to_owned(),
+    )];
     // two springs leave the radiated loss out: (5/2) lag int p'^2, half of it in the restitution
     let lag_limit = 2.0 * 1e-2 / impact::contact::radiation::LOSS;
     let line = figure

@@ -39,10 +39,22 @@ pub(crate) fn measure(
         let reference = PulseReference::new(&medium, place, length, EVERY, count)?;
         Ok(Scene { name, reference })
     };
-    let mut scenes = vec![scene("under the disc, pulse of 10 r0/c1", [0.55, 0.65], 10.0)?];
+    let mut scenes = vec![scene(
+        "under the disc, pulse of 10 r0/c1",
+        [0.55, 0.65],
+        10.0,
+    )?];
     if effort == Effort::Full {
-        scenes.push(scene("under the disc, pulse of 40 r0/c1", [0.55, 0.65], 40.0)?);
-        scenes.push(scene("near the edge, pulse of 40 r0/c1", [1.03, 0.45], 40.0)?);
+        scenes.push(scene(
+            "under the disc, pulse of 40 r0/c1",
+            [0.55, 0.65],
+            40.0,
+        )?);
+        scenes.push(scene(
+            "near the edge, pulse of 40 r0/c1",
+            [1.03, 0.45],
+            40.0,
+        )?);
     }
     let mut records = Vec::new();
     for scene in &scenes {
@@ -114,7 +126,11 @@ fn exact_cells(
                 debug_assert!(done.is_ok());
                 (pulse.response(&rest, &cells), count as u64)
             };
-            let label = ("direct", format!("step {width}, kernel {tolerance:.0e}"), true);
+            let label = (
+                "direct",
+                format!("step {width}, kernel {tolerance:.0e}"),
+                true,
+            );
             add(records, effort, scene, label, width, &mut run);
         }
     }
@@ -147,7 +163,9 @@ fn exact_cells(
 /// Cells corrected for the force's curvature from the numbers of one point.
 fn series(point: &tabulator::PointKernels, width: f64, count: usize) -> Vec<Six> {
     let by_field = |values: &[Six]| -> Vec<f64> {
-        (0..6).flat_map(|f| values.iter().map(move |v| v[f])).collect()
+        (0..6)
+            .flat_map(|f| values.iter().map(move |v| v[f]))
+            .collect()
     };
     let whole = lookup::Series::new(
         width,
@@ -184,7 +202,8 @@ fn looked_up(
                         "step {width}, spacing {} r0, {points} points",
                         density.spacing
                     );
-                    let mut run = || lookup_run(scene, &table, smoothness, coarsening, Sum::Running);
+                    let mut run =
+                        || lookup_run(scene, &table, smoothness, coarsening, Sum::Running);
                     let label = (method, setting, default_path);
                     add(records, effort, scene, label, width, &mut run);
                 }
@@ -262,9 +281,11 @@ fn interpolations(
     for spacing in effort.pick(vec![0.125], vec![0.25, 0.125, 0.0625]) {
         let nodes = Axis::uniform(3.0, spacing).nodes();
         for points in effort.pick(vec![6], vec![4, 6, 8]) {
-            let stencils = Stencil::mirrored(&nodes, r, points)
-                .zip(Stencil::one_sided(&nodes, z, points));
-            let Some((across, down)) = stencils else { continue };
+            let stencils =
+                Stencil::mirrored(&nodes, r, points).zip(Stencil::one_sided(&nodes, z, points));
+            let Some((across, down)) = stencils else {
+                continue;
+            };
             let mut corners = Vec::new();
             for (a, &i) in across.nodes().iter().enumerate() {
                 for (d, &k) in down.nodes().iter().enumerate() {
@@ -304,7 +325,14 @@ fn interpolations(
                     (pulse.response(&own, &sum), 0)
                 };
                 let setting = format!("spacing {spacing} r0, {points} points, step {width}");
-                add(records, effort, scene, (method, setting, false), width, &mut run);
+                add(
+                    records,
+                    effort,
+                    scene,
+                    (method, setting, false),
+                    width,
+                    &mut run,
+                );
             }
         }
     }

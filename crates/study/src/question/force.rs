@@ -51,7 +51,11 @@ pub(crate) fn measure(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Record>,
     let response = SurfaceResponse::new(&medium, Deflection::Centre);
     let punch = PunchResponse::new(&response);
     let growing = collision.growing_disc(&punch);
-    let reference = refine(|step| march_growing(&growing, step), 0.02, effort.pick(1e-5, 1e-6))?;
+    let reference = refine(
+        |step| march_growing(&growing, step),
+        0.02,
+        effort.pick(1e-5, 1e-6),
+    )?;
     let lag = collision.lag(&response);
     for candidate in growing_contact(&growing, lag, effort) {
         records.push(take(effort, BALL, &(&reference.summary).into(), &candidate));
@@ -60,12 +64,7 @@ pub(crate) fn measure(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Record>,
     Ok(records)
 }
 
-fn take(
-    effort: Effort,
-    scene: &'static str,
-    exact: &Results,
-    candidate: &Candidate<'_>,
-) -> Record {
+fn take(effort: Effort, scene: &'static str, exact: &Results, candidate: &Candidate<'_>) -> Record {
     let outcome = (candidate.run)();
     let cost = effort.clock().time(1, || {
         let _ = black_box((candidate.run)());
@@ -98,7 +97,10 @@ fn on_disc<'a>(disc: &'a FixedDisc<'a>, effort: Effort) -> Vec<Candidate<'a>> {
     let memory = disc.memory();
     let steps = move |n: usize| duration / n as f64;
     let mut list = Vec::new();
-    for n in effort.pick(vec![16, 64, 256], vec![12, 16, 24, 32, 64, 128, 256, 512, 1024, 2048]) {
+    for n in effort.pick(
+        vec![16, 64, 256],
+        vec![12, 16, 24, 32, 64, 128, 256, 512, 1024, 2048],
+    ) {
         list.push(Candidate {
             method: "wave implicit",
             setting: format!("{n} steps"),
@@ -115,7 +117,7 @@ fn on_disc<'a>(disc: &'a FixedDisc<'a>, effort: Effort) -> Vec<Candidate<'a>> {
         list.push(Candidate {
             method: "wave implicit, step halved to tolerance",
             setting: format!("tolerance {tolerance:.0e}"),
-            default_path: false,
+            default_path: true,
             run: Box::new(move || {
                 let total = std::cell::Cell::new(0);
                 let found = refine(
@@ -144,7 +146,10 @@ fn on_disc<'a>(disc: &'a FixedDisc<'a>, effort: Effort) -> Vec<Candidate<'a>> {
             });
         }
     }
-    for n in effort.pick(vec![54, 200, 800], vec![20, 54, 100, 200, 400, 800, 1600, 3200, 6400]) {
+    for n in effort.pick(
+        vec![54, 200, 800],
+        vec![20, 54, 100, 200, 400, 800, 1600, 3200, 6400],
+    ) {
         list.push(Candidate {
             method: "wave explicit (the paper's)",
             setting: format!("{n} steps"),

@@ -1,11 +1,10 @@
 //! The inversions with the settings that the chart gives them.
 
 use crate::effort::Effort;
-use crate::inversion::{
-    Framework, Window, cme, crump, de_hoog, durbin, euler, stehfest, talbot,
-};
+use crate::inversion::{Framework, Window, cme, crump, de_hoog, durbin, euler, stehfest, talbot};
 use crate::route::{Path, Route};
 use halfspace::{Medium, Six};
+use num_complex::Complex64;
 
 /// A numerical inversion of the Laplace transform at one setting.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -18,6 +17,9 @@ pub(crate) enum Inversion {
     Crump(usize),
     DeHoog(usize),
 }
+
+/// The sum of a series method at one time.
+type Sum = fn(&Window, &[Complex64], f64) -> f64;
 
 /// An inversion ready to run.
 #[derive(Debug)]
@@ -127,7 +129,7 @@ impl Prepared {
                 .collect(),
             Self::Series(method, aliasing) => {
                 let longest = times.last().copied().unwrap_or(1.0);
-                let (samples, sum): (usize, fn(&Window, &[_], f64) -> f64) = match *method {
+                let (samples, sum): (usize, Sum) = match *method {
                     Inversion::Durbin(n) => (n, durbin),
                     Inversion::Crump(n) => (n, crump),
                     Inversion::DeHoog(n)

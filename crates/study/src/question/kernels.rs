@@ -42,12 +42,24 @@ const ALL: [usize; 6] = [0, 1, 2, 3, 4, 5];
 impl KernelScene {
     /// Six fields at a point inside, from before the first arrival to long after the last.
     pub(crate) fn interior(medium: &Medium, count: usize) -> Result<Self, StudyError> {
-        Self::new("interior point, across the fronts", medium, INTERIOR, count, &ALL)
+        Self::new(
+            "interior point, across the fronts",
+            medium,
+            INTERIOR,
+            count,
+            &ALL,
+        )
     }
 
     /// The same point where all fields are smooth: inversions at their best.
     fn late(medium: &Medium, count: usize) -> Result<Self, StudyError> {
-        let mut scene = Self::new("interior point, after the last front", medium, INTERIOR, 3 * count, &ALL)?;
+        let mut scene = Self::new(
+            "interior point, after the last front",
+            medium,
+            INTERIOR,
+            3 * count,
+            &ALL,
+        )?;
         let last = scene.arrivals.last().copied().unwrap_or(0.0);
         let first = scene.times.partition_point(|&t| t < 1.05 * last);
         scene.times.drain(..first);
@@ -305,11 +317,7 @@ fn closed_forms<'a>(medium: &'a Medium, scene: &'a KernelScene) -> Vec<Candidate
     ]
 }
 
-fn extended<'a>(
-    medium: &'a Medium,
-    scene: &'a KernelScene,
-    effort: Effort,
-) -> Vec<Candidate<'a>> {
+fn extended<'a>(medium: &'a Medium, scene: &'a KernelScene, effort: Effort) -> Vec<Candidate<'a>> {
     effort
         .pick(vec![26], vec![18, 22, 26, 30])
         .into_iter()

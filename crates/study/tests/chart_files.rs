@@ -1,0 +1,40 @@
+//! The files of a chart against their description in `data-schema/chart.md`, and the folder that takes them.
+
+#![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
+
+use impact::output::Existing;
+use study::hdf_file::{ATTRIBUTES, FIGURES, FILE_TYPE, FORMAT_VERSION};
+use study::{StudyError, csv_file::COLUMNS, prepare_folder};
+
+const DOCUMENT: &str = include_str!("../../../data-schema/chart.md");
+
+#[test]
+fn every_name_is_described() {
+    for name in COLUMNS.iter().chain(&ATTRIBUTES) {
+        assert!(DOCUMENT.contains(&format!("`{name}`")), "{name}");
+    }
+    assert!(DOCUMENT.contains(&format!("`/{FIGURES}`")));
+    assert!(DOCUMENT.contains(&format!("`{FILE_TYPE}`")));
+    assert!(DOCUMENT.contains(&format!("Version {FORMAT_VERSION}.")));
+}
+
+#[test]
+fn a_folder_that_holds_anything_is_kept() {
+    let folder = tempfile::tempdir().unwrap();
+    let inside = folder.path().join("chart");
+    prepare_folder(&inside, Existing::Keep).unwrap();
+    std::fs::write(inside.join("chart.csv"), "precious").unwrap();
+    let refused = prepare_folder(&inside, Existing::Keep).unwrap_err();
+    assert!(matches!(refused, StudyError::Exists { .. }));
+    assert!(refused.to_string().contains("--force"));
+    prepare_folder(&inside, Existing::Replace).unwrap();
+    // nothing is touched before there is something to put in its place
+    assert_eq!(
+        std::fs::read_to_string(inside.join("chart.csv")).unwrap(),
+        "precious"
+    );
+    let file = folder.path().join("file");
+    std::fs::write(&file, "").unwrap();
+    let refused = prepare_folder(&file, Existing::Replace).unwrap_err();
+    assert!(refused.to_string().contains("not a folder"));
+}
