@@ -8,7 +8,7 @@ use crate::machine::Machine;
 use crate::map::{inversions, kernels, lookups, marches, models};
 use crate::question;
 use crate::record::Record;
-use crate::tables::Density;
+use crate::tables::{Density, Spacing};
 use crate::{csv_file, hdf_file, report, work_precision};
 use impact::output::{Existing, OutputError, write_whole};
 use std::path::{Path, PathBuf};
@@ -39,7 +39,9 @@ impl Chart {
     /// [`StudyError`] where a part that must work does not; failures of the methods compared are results.
     pub fn run(effort: Effort, progress: &dyn Progress) -> Result<Self, StudyError> {
         let started = Instant::now();
-        let spacings = effort.pick(vec![0.125], vec![0.25, 0.125, 0.0625]);
+        let uniform = effort.pick(vec![], vec![0.25, 0.125, 0.0625]);
+        let mut spacings = vec![Spacing::Own];
+        spacings.extend(uniform.into_iter().map(Spacing::Uniform));
         progress.total("tables", spacings.len() as u64);
         let mut densities = Vec::new();
         for spacing in spacings {

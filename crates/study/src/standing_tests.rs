@@ -4,7 +4,7 @@ use crate::effort::Effort;
 use crate::question;
 use crate::record::{Question, Record};
 use crate::standing::{LEVELS, Measure, standings};
-use crate::tables::Density;
+use crate::tables::{Density, Spacing};
 use std::sync::OnceLock;
 use tabulator::Silent;
 
@@ -94,7 +94,7 @@ fn the_implicit_march_is_on_the_front_by_work() {
 
 #[test]
 fn smooth_cells_beat_linear_ones_and_the_remainder_the_whole_response() {
-    let density = Density::build(0.3, 0.125).unwrap();
+    let density = Density::build(0.3, Spacing::Own).unwrap();
     let records = question::fields::measure(Effort::Quick, &[density], &|| ()).unwrap();
     let errors = |method: &str, part: &str| -> f64 {
         records

@@ -7,36 +7,64 @@ use tabulator::{Axis, Grid, Silent};
 /// Extent of the tables in r0.
 const EXTENT: f64 = 2.0;
 
-/// A table of one density.
-#[derive(Debug)]
-pub(crate) struct Density {
-    /// Distance between nodes in r0.
-    pub(crate) spacing: f64,
-    content: Content,
-}
-
 /// Stencil of the program's own tables.
 pub(crate) const DEFAULT_POINTS: usize = 6;
 
-/// Node distance of the program's own tables.
-pub(crate) const DEFAULT_SPACING: f64 = 0.125;
+/// How the nodes of a table lie.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Spacing {
+    /// As in the demo table, which is graded toward the disc's edge and the surface.
+    Own,
+    /// At equal distances, in r0.
+    Uniform(f64),
+}
+
+impl Spacing {
+    /// In words.
+    pub(crate) fn label(self) -> String {
+        match self {
+            Self::Own => "graded".to_owned(),
+            Self::Uniform(spacing) => format!("spacing {spacing} r0"),
+        }
+    }
+}
+
+/// A table of one density.
+#[derive(Debug)]
+pub(crate) struct Density {
+    pub(crate) spacing: Spacing,
+    content: Content,
+}
 
 impl Density {
-    /// Builds the table of `spacing` at one Poisson ratio.
-    pub(crate) fn build(poisson_ratio: f64, spacing: f64) -> Result<Self, StudyError> {
+    /// Builds the table at one Poisson ratio.
+    pub(crate) fn build(poisson_ratio: f64, spacing: Spacing) -> Result<Self, StudyError> {
         let folder = tempfile::tempdir()?;
         let path = folder.path().join("table.h5");
+        let demo = Grid::demo();
+        let axis = |own: &Axis| match spacing {
+            Spacing::Own => Axis {
+                max: EXTENT,
+                ..own.clone()
+            },
+            Spacing::Uniform(spacing) => Axis::uniform(EXTENT, spacing),
+        };
         let grid = Grid {
             poisson_ratios: vec![poisson_ratio],
-            r: Axis::uniform(EXTENT, spacing),
-            z: Axis::uniform(EXTENT, spacing),
-            ..Grid::demo()
+            r: axis(&demo.r),
+            z: axis(&demo.z),
+            ..demo
         };
         tabulator::build(&grid, &path, &Silent)?;
         Ok(Self {
             spacing,
             content: lookup::read(&path)?,
         })
+    }
+
+    /// Whether the program's own tables are like this one when read with `points` nodes along each axis.
+    pub(crate) fn is_default(&self, points: usize) -> bool {
+        self.spacing == Spacing::Own && points == DEFAULT_POINTS
     }
 
     /// The table read with `points` nodes along each axis.

@@ -7,7 +7,7 @@ use crate::StudyError;
 use crate::effort::Effort;
 use crate::figure::{Axis, Figure, Style};
 use crate::question::kernels::POISSON_RATIO;
-use crate::tables::{DEFAULT_POINTS, DEFAULT_SPACING, Density};
+use crate::tables::{DEFAULT_POINTS, Density, Spacing};
 use halfspace::Medium;
 use lookup::Table;
 
@@ -26,8 +26,8 @@ fn error_at(table: &Table, i: usize, k: usize, pulse: usize) -> f64 {
     let content = table.content();
     let probes = &content.slices[0].verification;
     let pulses = content.pulse_lengths.len();
-    let at =
-        |i: usize, k: usize, f: usize| ((i * (content.z.len() - 1) + k) * pulses + pulse) * 6 + f;
+    let depths = content.probes()[1].len();
+    let at = |i: usize, k: usize, f: usize| ((i * depths + k) * pulses + pulse) * 6 + f;
     (0..6).fold(0.0, |most, f| {
         let largest = (f + 6 * pulse..probes.direct.len())
             .step_by(6 * pulses)
@@ -43,12 +43,13 @@ fn error_at(table: &Table, i: usize, k: usize, pulse: usize) -> f64 {
 
 /// One picture for the first mesh below the surface and one for half a radius down.
 pub(crate) fn figures(densities: &[Density], effort: Effort) -> Result<Vec<Figure>, StudyError> {
-    let Some(density) = densities.iter().find(|d| d.spacing == DEFAULT_SPACING) else {
+    let Some(density) = densities.iter().find(|d| d.spacing == Spacing::Own) else {
         return Ok(Vec::new());
     };
     let table = density.with_stencil(DEFAULT_POINTS)?;
     let content = table.content();
     let kappa = Medium::new(POISSON_RATIO)?.kappa();
+    let radii = content.probes()[0].len();
     let mut figures = Vec::new();
     for (name, depth) in [("lookups-surface", 0.05), ("lookups-depth", 0.55)] {
         let k = lookup::locate(&content.z, depth).unwrap_or(0);
@@ -62,10 +63,10 @@ pub(crate) fn figures(densities: &[Density], effort: Effort) -> Result<Vec<Figur
             Axis::logarithmic("length of the pulse [r0/c1]", lengths[0], lengths[last]),
         );
         figure.map(
-            [content.r.len() - 1, effort.pick(20, 40)],
+            [effort.pick(40, 100), effort.pick(20, 40)],
             &CLASSES,
             |r, length| {
-                let i = lookup::locate(&content.r, r).unwrap_or(0);
+                let i = lookup::locate(&content.r, r).unwrap_or(0).min(radii - 1);
                 // between the measured lengths, in logarithms
                 let upper = lengths.partition_point(|&x| x < length).clamp(1, last);
                 let share =
@@ -75,7 +76,12 @@ pub(crate) fn figures(densities: &[Density], effort: Effort) -> Result<Vec<Figur
                 ((error.log10() + 7.0).ceil().clamp(1.0, 5.0) - 1.0) as usize
             },
         );
-        let resolved = 8.0 * DEFAULT_SPACING / kappa;
+        let widest = content
+            .r
+            .windows(2)
+            .map(|p| p[1] - p[0])
+            .fold(0.0, f64::max);
+        let resolved = 8.0 * widest / kappa;
         figure.curve(
             "theory: shortest shear wave spans four nodes",
             Style::HeavyDashed,

@@ -9,7 +9,7 @@ use crate::convolution::{direct, transformed};
 use crate::effort::Effort;
 use crate::pulse_reference::PulseReference;
 use crate::record::{Error, Question, Record};
-use crate::tables::{DEFAULT_POINTS, DEFAULT_SPACING, Density};
+use crate::tables::{DEFAULT_POINTS, Density};
 use halfspace::{FIELDS, Kernel, Medium, Profile, Six};
 use lookup::{PulseSum, Smoothness, Stencil, Table};
 use std::hint::black_box;
@@ -137,7 +137,7 @@ fn exact_cells(
     for halvings in effort.pick(vec![2], vec![0, 1, 2, 3, 4]) {
         let width = EVERY * 0.5_f64.powi(halvings);
         let count = sample_count(scene, width);
-        let plan = PointPlan::new(medium.poisson_ratio(), 1e-9, width, count + 2, 2)?;
+        let plan = PointPlan::new(medium.poisson_ratio(), 1e-9, width, count + 4, 4)?;
         let rest = plan.kernel().static_field(r, z)?;
         let pulse = PulseSum::new(scene.reference.length, width);
         let mut failure = None;
@@ -167,13 +167,13 @@ fn series(point: &tabulator::PointKernels, width: f64, count: usize) -> Vec<Six>
             .flat_map(|f| values.iter().map(move |v| v[f]))
             .collect()
     };
-    let whole = lookup::Series::new(
-        width,
-        point.averages.len(),
-        by_field(&point.averages),
-        by_field(&point.moments),
-        &by_field(&point.tail),
-    );
+    let numbers = lookup::Numbers {
+        averages: by_field(&point.averages),
+        moments: by_field(&point.moments),
+        curvatures: by_field(&point.curvatures),
+        tail: by_field(&point.tail),
+    };
+    let whole = lookup::Series::new(width, point.averages.len(), numbers);
     let mut cells = vec![[0.0; 6]; count];
     whole.fill(Smoothness::Smooth, 0, &mut cells);
     cells
@@ -189,7 +189,8 @@ fn looked_up(
     for density in densities {
         for points in effort.pick(vec![DEFAULT_POINTS], vec![4, DEFAULT_POINTS, 8]) {
             let table = density.with_stencil(points)?;
-            let own = density.spacing == DEFAULT_SPACING && points == DEFAULT_POINTS;
+            let own = density.is_default(points);
+            let cell = table.cell_width(POISSON_RATIO)?;
             let ways = [
                 ("table", Smoothness::Linear, own),
                 ("table, smooth cells", Smoothness::Smooth, false),
@@ -197,11 +198,9 @@ fn looked_up(
             let coarsest = if points == DEFAULT_POINTS { 4 } else { 0 };
             for coarsening in (0..=coarsest).step_by(effort.pick(2, 1)) {
                 for (method, smoothness, default_path) in ways {
-                    let width = table.cell_width() * f64::from(1_u32 << coarsening);
-                    let setting = format!(
-                        "step {width}, spacing {} r0, {points} points",
-                        density.spacing
-                    );
+                    let width = cell * f64::from(1_u32 << coarsening);
+                    let setting =
+                        format!("step {width}, {}, {points} points", density.spacing.label());
                     let mut run =
                         || lookup_run(scene, &table, smoothness, coarsening, Sum::Running);
                     let label = (method, setting, default_path);
@@ -213,7 +212,7 @@ fn looked_up(
                     ("table, direct sums", Sum::Direct),
                     ("table, FFT", Sum::Transform),
                 ] {
-                    let width = table.cell_width();
+                    let width = cell;
                     let mut run = || lookup_run(scene, &table, Smoothness::Linear, 0, sum);
                     let label = (method, format!("step {width}"), true);
                     add(records, effort, scene, label, width, &mut run);
@@ -241,7 +240,10 @@ fn lookup_run(
     sum: Sum,
 ) -> Samples {
     let [r, z] = scene.reference.place;
-    let width = table.cell_width() * f64::from(1_u32 << coarsening);
+    let Ok(cell) = table.cell_width(POISSON_RATIO) else {
+        return (Vec::new(), 0);
+    };
+    let width = cell * f64::from(1_u32 << coarsening);
     let count = sample_count(scene, width);
     let mut cells = vec![[0.0; 6]; count];
     let Ok(info) = table.trace_for(smoothness, POISSON_RATIO, r, z, coarsening, &mut cells) else {
@@ -274,18 +276,19 @@ fn interpolations(
     let [r, z] = scene.reference.place;
     let width = 0.1;
     let count = sample_count(scene, width);
-    let plan = PointPlan::new(medium.poisson_ratio(), 1e-9, width, count + 2, 2)?;
+    let plan = PointPlan::new(medium.poisson_ratio(), 1e-9, width, count + 4, 4)?;
     let kernel = plan.kernel();
     let rest = kernel.static_field(r, z)?;
     let pulse = PulseSum::new(scene.reference.length, width);
     for spacing in effort.pick(vec![0.125], vec![0.25, 0.125, 0.0625]) {
         let nodes = Axis::uniform(3.0, spacing).nodes();
         for points in effort.pick(vec![6], vec![4, 6, 8]) {
-            let stencils =
-                Stencil::mirrored(&nodes, r, points).zip(Stencil::one_sided(&nodes, z, points));
-            let Some((across, down)) = stencils else {
+            let mesh = lookup::locate(&nodes, r).zip(lookup::locate(&nodes, z));
+            let Some((i, k)) = mesh else {
                 continue;
             };
+            let across = Stencil::mirrored(&nodes, i, r, points);
+            let down = Stencil::one_sided(&nodes, k, z, points);
             let mut corners = Vec::new();
             for (a, &i) in across.nodes().iter().enumerate() {
                 for (d, &k) in down.nodes().iter().enumerate() {

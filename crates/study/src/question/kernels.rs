@@ -10,7 +10,7 @@ use crate::effort::Effort;
 use crate::inversion::{ExtendedWeights, stehfest_extended};
 use crate::record::{Error, Question, Record};
 use crate::single_integral::remainder;
-use crate::tables::{DEFAULT_POINTS, DEFAULT_SPACING, Density};
+use crate::tables::Density;
 use halfspace::{Arrivals, Deflection, Kernel, Medium, Profile, Six, SurfaceResponse, kausel};
 use std::hint::black_box;
 use tabulator::Progress;
@@ -361,9 +361,10 @@ fn tables(
     for density in densities {
         for points in effort.pick(vec![4, 6], vec![2, 4, 6, 8]) {
             let table = density.with_stencil(points)?;
-            let count = (last / table.cell_width()) as usize;
+            let width = table.cell_width(medium.poisson_ratio())?;
+            let count = (last / width) as usize;
             let mut exact = vec![[0.0; 6]; count];
-            exact_kernel.cell_averages(r, z, table.cell_width(), &mut exact)?;
+            exact_kernel.cell_averages(r, z, width, &mut exact)?;
             let mut cells = vec![[0.0; 6]; count];
             table.trace(medium.poisson_ratio(), r, z, 0, &mut cells)?;
             let mut errors = Vec::new();
@@ -377,8 +378,8 @@ fn tables(
                 question: Question::Kernels,
                 scene: scene.name,
                 method: "table",
-                setting: format!("spacing {} r0, {points} points", density.spacing),
-                default_path: density.spacing == DEFAULT_SPACING && points == DEFAULT_POINTS,
+                setting: format!("{}, {points} points", density.spacing.label()),
+                default_path: density.is_default(points),
                 cost,
                 error: Error::of(&errors),
                 work: Some(0.0),
