@@ -51,7 +51,7 @@ impl Standing<'_> {
     }
 }
 
-/// Of every scene at every accuracy.
+/// Of every scene with a default path at every accuracy.
 #[must_use]
 pub fn standings(records: &[Record], measure: Measure) -> Vec<Standing<'_>> {
     let mut found = Vec::new();
@@ -63,6 +63,11 @@ pub fn standings(records: &[Record], measure: Measure) -> Vec<Standing<'_>> {
                 .map(|r| r.scene),
         );
         for scene in scenes {
+            // a scene that only compares other ways has no default path to judge
+            let mut rows = records.iter().filter(|r| r.scene == scene);
+            if !rows.any(|r| r.default_path) {
+                continue;
+            }
             for level in LEVELS {
                 let cheapest = |default: bool| {
                     records

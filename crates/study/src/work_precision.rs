@@ -17,7 +17,14 @@ const NAMES: [(Question, &[&str]); 3] = [
     (Question::Force, &["force-disc", "force-growing"]),
     (
         Question::Fields,
-        &["fields-pulse-10", "fields-pulse-40", "fields-edge"],
+        &[
+            "fields-pulse-10",
+            "fields-interpolation-10",
+            "fields-pulse-40",
+            "fields-interpolation-40",
+            "fields-edge",
+            "fields-interpolation-edge",
+        ],
     ),
 ];
 
@@ -58,6 +65,11 @@ fn diagram(question: Question, scene: &str, name: &'static str, rows: &[&Record]
         ),
         Axis::logarithmic("largest error over the largest value", down, 2.0),
     );
+    // settings of fields vary in several ways at once: no line orders them
+    let style = match question {
+        Question::Kernels | Question::Force => Style::Marked,
+        Question::Fields => Style::Points,
+    };
     for method in distinct(rows.iter().map(|r| r.method)) {
         let own: Vec<&&Record> = rows.iter().filter(|r| r.method == method).collect();
         let failed = own.iter().filter(|r| r.failed()).count();
@@ -76,11 +88,7 @@ fn diagram(question: Question, scene: &str, name: &'static str, rows: &[&Record]
             n if n == own.len() => " (fails)".to_owned(),
             n => format!(" ({n} of {} fail)", own.len()),
         };
-        figure.curve(
-            &format!("{method}{default}{failures}"),
-            Style::Marked,
-            points,
-        );
+        figure.curve(&format!("{method}{default}{failures}"), style, points);
     }
     let front = pareto_front(rows, |r| Some(r.cost.median_ns));
     figure.curve("Pareto front", Style::HeavyDashed, staircase(rows, &front));

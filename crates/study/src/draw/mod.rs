@@ -126,7 +126,8 @@ pub fn to_svg(figure: &Figure) -> String {
     }
     let mut frame = Group::new();
     frame = draw_axes(frame, figure);
-    for (x, label) in &figure.marks {
+    let inside_range = |x: f64| (0.0..=1.0).contains(&figure.x.share(x));
+    for (x, label) in figure.marks.iter().filter(|(x, _)| inside_range(*x)) {
         let at = place(figure, *x, figure.y.range.0).0;
         inside = inside.add(
             Line::new()

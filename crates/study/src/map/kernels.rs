@@ -170,7 +170,7 @@ fn double_root(effort: Effort) -> Result<Figure, StudyError> {
     }
     let theory = |d: f64| (d, f64::EPSILON / d.sqrt());
     figure.curve(
-        "theory: machine epsilon over root distance",
+        "theory, at most: machine epsilon over root distance",
         Style::HeavyDashed,
         x.cells(40).into_iter().map(theory).collect(),
     );

@@ -88,11 +88,11 @@ pub(crate) fn figures(densities: &[Density], effort: Effort) -> Result<Vec<Figur
             vec![(0.0, resolved), (table.r_max(), resolved)],
         );
         figure.marks = vec![(1.0, "edge of the disc".to_owned())];
-        figure.caption = "The remainder is smooth behind its fronts and for slow pulses the fronts cancel, so long \
-            pulses are looked up to 1e-6 and better. The edge of the disc stays the worst place at every length: the \
-            static part is exact there, the first waves from the edge are not smooth across a mesh. For pulses shorter \
-            than a few r0/c1 the fronts themselves are narrower than a mesh; the certificate says so, and direct \
-            evaluation is the way."
+        figure.caption = "The remainder is smooth behind its fronts, and for slow pulses the fronts cancel: errors fall \
+            with the length of the pulse everywhere. Just outside the edge of the disc they are largest at every length, \
+            because the first waves from the edge are not smooth across a mesh; the static part, which is steep there, is \
+            exact. For pulses shorter than a few r0/c1 the fronts themselves are narrower than a mesh: the certificate \
+            says so, and direct evaluation is the way."
             .to_owned();
         figures.push(figure);
     }

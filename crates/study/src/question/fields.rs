@@ -18,6 +18,8 @@ use tabulator::{Axis, PointPlan};
 /// A pulse at a point.
 struct Scene {
     name: &'static str,
+    /// Its name where two ways to interpolate are compared.
+    interpolation: &'static str,
     reference: PulseReference,
 }
 
@@ -35,23 +37,30 @@ pub(crate) fn measure(
 ) -> Result<Vec<Record>, StudyError> {
     let medium = Medium::new(POISSON_RATIO)?;
     let count = effort.pick(8, 16);
-    let scene = |name, place, length| -> Result<Scene, StudyError> {
+    let scene = |name, interpolation, place, length| -> Result<Scene, StudyError> {
         let reference = PulseReference::new(&medium, place, length, EVERY, count)?;
-        Ok(Scene { name, reference })
+        Ok(Scene {
+            name,
+            interpolation,
+            reference,
+        })
     };
     let mut scenes = vec![scene(
         "under the disc, pulse of 10 r0/c1",
+        "whole response against remainder, pulse of 10 r0/c1",
         [0.55, 0.65],
         10.0,
     )?];
     if effort == Effort::Full {
         scenes.push(scene(
             "under the disc, pulse of 40 r0/c1",
+            "whole response against remainder, pulse of 40 r0/c1",
             [0.55, 0.65],
             40.0,
         )?);
         scenes.push(scene(
             "near the edge, pulse of 40 r0/c1",
+            "whole response against remainder, near the edge",
             [1.03, 0.45],
             40.0,
         )?);
@@ -87,7 +96,11 @@ fn add(
     });
     records.push(Record {
         question: Question::Fields,
-        scene: scene.name,
+        scene: if method.starts_with("interpolated") {
+            scene.interpolation
+        } else {
+            scene.name
+        },
         method,
         setting,
         default_path,
