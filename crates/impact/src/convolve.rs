@@ -331,7 +331,6 @@ pub enum Method {
 }
 
 /// One convolution of made-up cells, for the bench that the estimate rests on.
-#[must_use]
 pub fn bench_convolution(force: &[f64], method: Method) -> impl Fn() -> [Vec<f64>; 6] + use<> {
     let mut convolver = Convolver::new(force);
     match method {

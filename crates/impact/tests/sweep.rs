@@ -32,7 +32,7 @@ fn all(spec: &Spec) -> Vec<Block> {
 #[test]
 fn each_row_is_what_its_scene_gives_alone() {
     let spec = spec(
-        "[scene.contact]\ntolerance = 1e-6\n[product.striker]\nvelocity_m_s = [0.3, 30.0]\n\
+        "[scene.contact]\ntolerance = 1e-4\n[product.striker]\nvelocity_m_s = [0.3, 30.0]\n\
          [product.target]\nmaterial = [\"granite\", \"pmma\"]\n\
          [product.contact]\nmodel = [\"hertz\", \"radiation\", \"wave\", \"growing\"]\n",
     );
@@ -48,13 +48,13 @@ fn each_row_is_what_its_scene_gives_alone() {
                     .replace("scene.", "")
                     .replace("\"steel\"", &format!("\"{target}\""))
                     .replace("velocity_m_s = 1.0", &format!("velocity_m_s = {velocity}"));
-                let text = format!("{text}[contact]\ntolerance = 1e-6\nmodel = \"{model}\"\n");
+                let text = format!("{text}[contact]\ntolerance = 1e-4\nmodel = \"{model}\"\n");
                 let scene = Scene::from_toml(&text, Path::new(".")).unwrap();
                 let alone = simulate(&scene, &KernelChoice::Direct).unwrap().results;
                 let close = |k: usize, value: f64| {
                     let found = rows[row][k];
                     assert!(
-                        (found / value - 1.0).abs() < 1e-5,
+                        (found / value - 1.0).abs() < 2e-4,
                         "{model} {velocity} {target}, {}: {found} {value}",
                         schema::NUMBERS[k].0
                     );

@@ -38,6 +38,9 @@ pub(crate) struct Judged {
 /// Least decrease of the error when the step is halved: observed orders lie between 2 and 4.
 const DECREASE: f64 = 4.0;
 
+/// Share of the contact time's last change that is taken as its error at least, however fast it falls.
+const LEAST_REST: f64 = 1.0;
+
 /// Share of the last change that is added to the loss: an order of 2.6.
 const EXTRAPOLATION: f64 = 0.2;
 
@@ -65,7 +68,7 @@ impl Accuracy {
         let (most, stays) = fine.end.rest();
         let share = match before {
             Some(before) if before > time_change => {
-                (time_change / (before - time_change)).clamp(rest, most)
+                (time_change / (before - time_change)).clamp(LEAST_REST, most)
             }
             Some(_) | None => most,
         };

@@ -144,10 +144,11 @@ impl<'a> Collider<'a> {
         ratio: f64,
         deflection: Deflection,
     ) -> Result<Arc<ResponseTable>, ImpactError> {
-        if let Some((bits, table)) = &self.table {
-            if *bits == ratio.to_bits() && table.deflection() == deflection {
-                return Ok(Arc::clone(table));
-            }
+        if let Some((bits, table)) = &self.table
+            && *bits == ratio.to_bits()
+            && table.deflection() == deflection
+        {
+            return Ok(Arc::clone(table));
         }
         let table = self.responses.table(ratio, deflection)?;
         self.table = Some((ratio.to_bits(), Arc::clone(&table)));
@@ -155,10 +156,10 @@ impl<'a> Collider<'a> {
     }
 
     fn punch(&mut self, ratio: f64) -> Result<Arc<PunchResponse>, ImpactError> {
-        if let Some((bits, punch)) = &self.punch {
-            if *bits == ratio.to_bits() {
-                return Ok(Arc::clone(punch));
-            }
+        if let Some((bits, punch)) = &self.punch
+            && *bits == ratio.to_bits()
+        {
+            return Ok(Arc::clone(punch));
         }
         let punch = self.responses.punch(ratio)?;
         self.punch = Some((ratio.to_bits(), Arc::clone(&punch)));
