@@ -53,6 +53,7 @@ fn each_row_is_what_its_scene_gives_alone() {
                 let alone = simulate(&scene, &KernelChoice::Direct).unwrap().results;
                 let close = |k: usize, value: f64| {
                     let found = rows[row][k];
+                    // both are within the tolerance
                     assert!(
                         (found / value - 1.0).abs() < 2e-4,
                         "{model} {velocity} {target}, {}: {found} {value}",

@@ -68,7 +68,7 @@ impl Accuracy {
         let (most, stays) = fine.end.rest();
         let share = match before {
             Some(before) if before > time_change => {
-                (time_change / (before - time_change)).clamp(LEAST_REST, most)
+                (time_change / (before - time_change)).clamp(LEAST_REST.min(most), most)
             }
             Some(_) | None => most,
         };
