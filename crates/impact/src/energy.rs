@@ -39,7 +39,7 @@ impl Ledger {
 #[must_use]
 pub fn radiated(impact: &FixedDisc<'_>, mean: &SurfaceResponse, history: &History) -> f64 {
     debug_assert_eq!(mean.deflection(), Deflection::Mean);
-    let weights = Weights::new(mean, history.step, impact.wave_time);
+    let weights = Weights::of(impact, mean, history.step);
     let coupling = impact.coupling * mean.static_compliance() / impact.response.static_compliance();
     let force = &history.force;
     let deflection: Vec<f64> = (0..force.len())

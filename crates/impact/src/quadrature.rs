@@ -120,14 +120,14 @@ pub(crate) fn find_root(f: impl Fn(f64) -> (f64, f64), from: f64, to: f64) -> f6
 
 /// Place (in steps) and value of the largest of equidistant samples, interpolated through five of them.
 pub(crate) fn peak(samples: &[f64]) -> (f64, f64) {
-    let mut best = 0;
+    let (mut best, mut largest) = (0, samples.first().copied().unwrap_or(0.0));
     for (i, &value) in samples.iter().enumerate() {
-        if value > samples[best] {
-            best = i;
+        if value > largest {
+            (best, largest) = (i, value);
         }
     }
     if samples.len() < 5 {
-        return (best as f64, samples.get(best).copied().unwrap_or(0.0));
+        return (best as f64, largest);
     }
     let from = best.saturating_sub(2).min(samples.len() - 5);
     let centre = (best - from) as f64;

@@ -12,7 +12,13 @@ pub(crate) struct Reached {
     /// Radius of a fixed disc; none for a contact that follows the load.
     pub(crate) disc_radius_m: Option<f64>,
     pub(crate) contacts: usize,
+    /// Coupling of a march with the deflection of the centre and its full static share; zero otherwise.
+    pub(crate) centre_coupling: f64,
 }
+
+/// Coupling up to which the deflection of the centre takes more energy than it gives, for any Poisson's ratio
+/// between 0 and 0.45: its compliance at some frequencies is real and down to -0.14 of the static one.
+const CENTRE_COUPLING: f64 = 5.0;
 
 /// alpha_A = sqrt(pi rho r^3/m) (V0/c1)^(3/2): the weight of the super-seismic stage.
 #[must_use]
@@ -91,6 +97,12 @@ pub(crate) fn warnings(
                 reached.contact_time_s
             ));
         }
+    }
+    if reached.centre_coupling > CENTRE_COUPLING {
+        found.push(format!(
+            "the disc gives way {:.1} times as much as the contact, more than {CENTRE_COUPLING}: the deflection of its centre is not conjugate to the pressure and may feed energy back; set deflection = \"mean\"",
+            reached.centre_coupling
+        ));
     }
     if reached.contacts > 1 {
         found.push(format!(

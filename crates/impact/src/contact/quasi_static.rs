@@ -154,8 +154,9 @@ impl Springs {
     }
 }
 
-/// A first guess of how long a contact with this coupling lasts.
-pub(crate) fn expected_contact_time(coupling: f64) -> f64 {
+/// How long a quasi-static contact with this coupling lasts, in collision units; any coupling >= 0.
+#[must_use]
+pub fn expected_contact_time(coupling: f64) -> f64 {
     if coupling > 0.0 {
         quasi_static(coupling).contact_time
     } else {

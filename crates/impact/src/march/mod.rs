@@ -9,6 +9,7 @@ mod implicit;
 mod punch;
 mod quick;
 mod refine;
+mod separation;
 mod summary;
 mod tabulated;
 mod weights;
@@ -22,8 +23,8 @@ pub use refine::{Accuracy, Refined, refine};
 pub use summary::{EndOfContact, Summary};
 pub use tabulated::ResponseTable;
 
-pub(crate) use flight::velocities;
 pub(crate) use implicit::solve;
+pub(crate) use separation::Separation;
 pub(crate) use weights::Weights;
 
 use thiserror::Error;
@@ -71,7 +72,7 @@ pub enum MarchError {
     },
     /// The march would need more work than allowed.
     #[error(
-        "the march needs more than {steps} steps of {cells} memory cells: the waves in the half-space take {ratio:.3e} collision times to cross the disc, the impact is over long before the disc is loaded as a whole"
+        "the march needs more than {steps} steps of {cells} memory cells, more than allowed: the half-space remembers {ratio:.3e} collision times; ask for a larger tolerance or step_s, or for a smaller disc_radius_m if there is one"
     )]
     TooLong {
         /// Steps taken.
@@ -118,10 +119,14 @@ pub struct History {
     pub displacement: Vec<f64>,
     /// Deflection of the half-space that enters the contact law.
     pub deflection: Vec<f64>,
+    /// What the trapezoidal rule misses of the impulse at the touch.
+    pub(crate) start: f64,
     /// Velocity where the scheme computes it itself; empty otherwise.
     pub(crate) velocity: Vec<f64>,
     /// Compliance of the newest sample: d - w + compliance * p is smooth through the end of contact.
     pub(crate) compliance: f64,
+    /// End of the first contact where the march finds it itself.
+    pub(crate) separation: Option<Separation>,
     /// Layer at the end of a contact that shrinks.
     pub(crate) end_layer: EndLayer,
 }
@@ -149,8 +154,10 @@ impl History {
             force: start(),
             displacement: start(),
             deflection: start(),
+            start: 0.0,
             velocity: Vec::new(),
             compliance: 0.0,
+            separation: None,
             end_layer: EndLayer::default(),
         }
     }
@@ -159,6 +166,7 @@ impl History {
     pub(crate) fn restart(&mut self, step: f64) {
         self.step = step;
         self.velocity.clear();
+        self.separation = None;
         for samples in [
             &mut self.force,
             &mut self.displacement,
@@ -173,16 +181,6 @@ impl History {
         self.force.push(force);
         self.displacement.push(displacement);
         self.deflection.push(deflection);
-    }
-
-    /// Velocity of the striker at every sample.
-    #[must_use]
-    pub fn velocities(&self) -> Vec<f64> {
-        if self.velocity.is_empty() {
-            velocities(&self.force, self.step)
-        } else {
-            self.velocity.clone()
-        }
     }
 
     /// Mean velocity over the last step.

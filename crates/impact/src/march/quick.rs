@@ -6,8 +6,9 @@
 
 use super::implicit::advance;
 use super::refine::{HALVINGS, may_pass};
+use super::separation::Lag;
 use super::tabulated::ResponseTable;
-use super::weights::Weights;
+use super::weights::{Weights, slack};
 use super::{Accuracy, Budget, History, MarchError, StaticShare, Summary};
 
 /// An impact on a disc of fixed radius in dimensionless groups, with a tabulated response.
@@ -62,7 +63,6 @@ impl Workspace {
         accuracy: &Accuracy,
     ) -> Result<Found, MarchError> {
         let mut step = step;
-        let mut before = None;
         let mut coarse: Option<Summary> = None;
         let mut error = f64::INFINITY;
         for attempt in 0..HALVINGS {
@@ -79,9 +79,8 @@ impl Workspace {
                 Err(other) => return Err(other),
             };
             if let Some(coarse) = &coarse {
-                let judged = accuracy.judge(coarse, &summary, before);
+                let judged = accuracy.judge(coarse, &summary);
                 error = judged.error;
-                before = Some(judged.time_change);
                 if judged.ratio <= 1.0 {
                     return Ok(Found {
                         summary: Accuracy::extrapolated(coarse, &summary),
@@ -103,7 +102,9 @@ impl Workspace {
     fn march(&mut self, impact: &TabulatedDisc<'_>, step: f64) -> Result<(), MarchError> {
         let memory = impact.table.memory() * impact.wave_time;
         let budget = Budget::of_memory(memory, step)?;
-        self.weights.read(impact.table, step, impact.wave_time);
+        let slack = slack(impact.coupling, impact.share);
+        self.weights
+            .read(impact.table, step, impact.wave_time, slack);
         self.history.restart(step);
         advance(
             impact.coupling,
@@ -111,6 +112,13 @@ impl Workspace {
             &self.weights,
             &budget,
             &mut self.history,
-        )
+        )?;
+        let (table, unit) = (impact.table, impact.wave_time);
+        self.history.separate(&Lag {
+            coupling: impact.coupling,
+            memory,
+            remaining: |s: f64| unit * (table.relaxation_time() + table.integrals(s / unit)[0]) - s,
+        });
+        Ok(())
     }
 }

@@ -31,21 +31,19 @@ pub(crate) struct Judged {
     pub(crate) ratio: f64,
     /// Estimated relative error of the contact's results.
     pub(crate) error: f64,
-    /// Relative change of the contact time.
-    pub(crate) time_change: f64,
 }
 
-/// Least decrease of the error when the step is halved: observed orders lie between 2 and 4.
-const DECREASE: f64 = 4.0;
+/// Share of the last change of force, restitution and displacement that is taken as the error.
+///
+/// 95 % of the marches on fixed discs leave less, 1 % more than three times as much.
+const REST: f64 = 1.0;
 
-/// Share of the contact time's last change that is taken as its error at least, however fast it falls.
-const LEAST_REST: f64 = 1.0;
-
-/// Share of the last change that is added to the loss: an order of 2.6.
-const EXTRAPOLATION: f64 = 0.2;
+/// Share of the last change that is added to the loss: its error goes with h^2 log h, which between 24 and
+/// 200 steps is an order of 1.7.
+const EXTRAPOLATION: f64 = 0.45;
 
 /// Share of the last change that is taken as the error of the loss so extrapolated.
-const LOSS_REST: f64 = 0.25;
+const LOSS_REST: f64 = 0.3;
 
 impl Accuracy {
     /// Of the contact's results only: what a sweep asks.
@@ -59,31 +57,20 @@ impl Accuracy {
     }
 
     /// Judges the finer of two summaries a halving apart.
-    ///
-    /// `before` is the change of the contact time over the halving before, where there was one: two changes tell
-    /// the order of its error, which lies anywhere between a half and four.
-    pub(crate) fn judge(&self, coarse: &Summary, fine: &Summary, before: Option<f64>) -> Judged {
-        let rest = 1.0 / (DECREASE - 1.0);
-        let time_change = fine.contact_time_distance(coarse);
-        let (most, stays) = fine.end.rest();
-        let share = match before {
-            Some(before) if before > time_change => {
-                (time_change / (before - time_change)).clamp(LEAST_REST.min(most), most)
-            }
-            Some(_) | None => most,
-        };
-        let error = (rest * fine.distance(coarse)).max(share * time_change + stays);
+    pub(crate) fn judge(&self, coarse: &Summary, fine: &Summary) -> Judged {
+        let (share, stays) = fine.end.rest();
+        let error =
+            (REST * fine.distance(coarse)).max(share * fine.contact_time_distance(coarse) + stays);
         let parts = [
             Some(error / self.tolerance),
             self.loss
                 .map(|t| LOSS_REST * fine.loss_distance(coarse) / t),
             self.deflection
-                .map(|t| rest * fine.deflection_distance(coarse) / t),
+                .map(|t| REST * fine.deflection_distance(coarse) / t),
         ];
         Judged {
             ratio: parts.into_iter().flatten().fold(0.0, f64::max),
             error,
-            time_change,
         }
     }
 
@@ -105,10 +92,10 @@ impl Accuracy {
     /// Steps of the first march over a contact: the coarser of two that are expected to agree.
     #[must_use]
     pub fn first_steps(&self) -> f64 {
-        let contact = 16.0 * (1e-4 / self.tolerance).max(1.0).powf(0.4);
+        let contact = 12.0 * (1e-4 / self.tolerance).max(1.0).powf(0.4);
         let loss = self
             .loss
-            .map_or(0.0, |t| 24.0 * (1e-3 / t).max(1.0).powf(0.4));
+            .map_or(0.0, |t| 26.0 * (1e-3 / t).max(1.0).powf(0.5));
         contact.max(loss)
     }
 }
@@ -151,7 +138,6 @@ pub fn refine(
 ) -> Result<Refined, MarchError> {
     let accuracy = accuracy.into();
     let mut step = step;
-    let mut before = None;
     let mut coarse: Option<Summary> = None;
     let mut error = f64::INFINITY;
     for attempt in 0..HALVINGS {
@@ -169,9 +155,8 @@ pub fn refine(
             Err(other) => return Err(other),
         };
         if let Some(coarse) = coarse {
-            let judged = accuracy.judge(&coarse, &summary, before);
+            let judged = accuracy.judge(&coarse, &summary);
             error = judged.error;
-            before = Some(judged.time_change);
             if judged.ratio <= 1.0 {
                 return Ok(Refined {
                     history,

@@ -6,7 +6,6 @@
 //! the power 3/2 (A is the compliance of the newest sample), so b is extrapolated from the last five
 //! samples in contact and the force of the last cells is integrated from it.
 
-use super::flight::impulse_until;
 use super::implicit::solve;
 use super::{History, MarchError};
 use crate::energy::work;
@@ -50,13 +49,12 @@ pub enum EndOfContact {
 }
 
 impl EndOfContact {
-    /// Share of the change over a halving of the step that is left, and what stays at any step.
+    /// Share of the last change of the contact time that is taken as its error, and what stays at any step.
     ///
-    /// The force goes to zero with the power 3/2, which product integration sees with parabolas:
-    /// the last part of the contact time's error goes with the root of the step only.
+    /// 95 % of the marches on fixed discs leave less.
     pub(crate) fn rest(self) -> (f64, f64) {
         match self {
-            Self::Smooth => (2.4, 0.0),
+            Self::Smooth => (3.0, 0.0),
             Self::Singular => (1.5, 0.0),
             Self::Layer(uncertainty) => (1.0 / 3.0, uncertainty),
         }
@@ -170,7 +168,7 @@ fn departure(velocity: f64, work: f64) -> (f64, f64) {
 }
 
 /// Index of the first sample without force after the touch.
-fn first_separation(force: &[f64]) -> usize {
+pub(super) fn first_separation(force: &[f64]) -> usize {
     let free = force.iter().skip(1).position(|&p| p <= 0.0);
     free.map_or(force.len(), |i| i + 1)
 }
@@ -219,6 +217,10 @@ fn end_of_layer(history: &History, end: usize) -> Option<(f64, f64)> {
 /// End of the first contact and the impulse until then; `end` is the first free sample.
 fn end_of_contact(history: &History, end: usize) -> (f64, f64) {
     let step = history.step;
+    let k = end - 3;
+    if let Some(found) = history.separation {
+        return (found.time, history.impulse_until(k) + found.impulse);
+    }
     let a = history.compliance;
     let b = |i: usize| history.displacement[i] - history.deflection[i] + a * history.force[i];
     let from = end - 5;
@@ -232,7 +234,6 @@ fn end_of_contact(history: &History, end: usize) -> (f64, f64) {
     };
     let contact_time = (from as f64 + place) * step;
     // Samples 0..=k by Euler-Maclaurin, the rest from b with x^2 the time before the end.
-    let k = end - 3;
     let rest = place - (k - from) as f64;
     let root = rest.sqrt();
     let tail: f64 = GAUSS_8
@@ -243,10 +244,7 @@ fn end_of_contact(history: &History, end: usize) -> (f64, f64) {
             weight * root * 2.0 * root * x * y * y * y
         })
         .sum();
-    (
-        contact_time,
-        impulse_until(&history.force, step, k) + tail * step,
-    )
+    (contact_time, history.impulse_until(k) + tail * step)
 }
 
 /// Time at which a linearly interpolated decreasing quantity passes zero after sample `i`.

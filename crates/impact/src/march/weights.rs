@@ -11,6 +11,7 @@
 //! g_j = 0 for cells older than the memory, so the sum is short.
 
 use super::tabulated::ResponseTable;
+use super::{FixedDisc, StaticShare};
 use crate::quadrature::GAUSS_4;
 use halfspace::SurfaceResponse;
 
@@ -21,12 +22,16 @@ pub(crate) struct Weights {
 }
 
 impl Weights {
-    /// For `step` and `unit` = r0/c1, both in the same unit of time.
+    /// For a force that is known; `step` and `unit` = r0/c1 in the same unit of time.
     pub(crate) fn new(response: &SurfaceResponse, step: f64, unit: f64) -> Self {
+        Self::limited(response, step, unit, f64::INFINITY)
+    }
+
+    fn limited(response: &SurfaceResponse, step: f64, unit: f64, slack: f64) -> Self {
         let h = step / unit;
         let mut weights = Self::default();
         let mut before = 0.0;
-        weights.fill(response.memory(), h, |from, to| {
+        weights.fill(response.memory(), h, slack, |from, to| {
             let after = response.step_integral(to);
             let moment = first_moment(response, from, to, before, after);
             let rise = after - before;
@@ -36,11 +41,17 @@ impl Weights {
         weights
     }
 
-    /// The same from a table, in the place of whatever weights were held before.
-    pub(crate) fn read(&mut self, table: &ResponseTable, step: f64, unit: f64) {
+    /// For the march of an impact; `response` is its own or that of another deflection of the same disc.
+    pub(crate) fn of(impact: &FixedDisc<'_>, response: &SurfaceResponse, step: f64) -> Self {
+        let slack = slack(impact.coupling, impact.share);
+        Self::limited(response, step, impact.wave_time, slack)
+    }
+
+    /// For a march with tabulated responses, in the place of whatever weights were held before.
+    pub(crate) fn read(&mut self, table: &ResponseTable, step: f64, unit: f64, slack: f64) {
         let h = step / unit;
         let mut before = [0.0; 2];
-        self.fill(table.memory(), h, |_, to| {
+        self.fill(table.memory(), h, slack, |_, to| {
             let after = table.integrals(to);
             let moment = 0.5 * h * (before[0] + after[0]) - (after[1] - before[1]);
             let rise = after[0] - before[0];
@@ -50,25 +61,34 @@ impl Weights {
     }
 
     /// `cell` gives int W and int W (x - mid) over each cell in turn.
-    fn fill(&mut self, memory: f64, h: f64, mut cell: impl FnMut(f64, f64) -> (f64, f64)) {
+    fn fill(
+        &mut self,
+        memory: f64,
+        h: f64,
+        slack: f64,
+        mut cell: impl FnMut(f64, f64) -> (f64, f64),
+    ) {
         let cells = (memory / h).ceil() as usize;
         let lag = &mut self.lag;
         lag.clear();
         lag.resize(cells + 2, 0.0);
+        let mut newest = 0.0;
         for j in 0..cells {
             let (rise, moment) = cell(j as f64 * h, (j + 1) as f64 * h);
             lag[j] += 1.0 - rise / h;
             let curvature = moment / (h * h);
             if j == 0 {
-                // the cell that ends now: its curvature continues the two before it
-                lag[0] += 1.5 * curvature;
-                lag[1] -= 2.0 * curvature;
-                lag[2] += 0.5 * curvature;
+                newest = curvature;
             } else {
                 lag[j - 1] += 0.5 * curvature;
                 lag[j + 1] -= 0.5 * curvature;
             }
         }
+        // the cell that ends now: its curvature continues the two before it
+        newest *= stable_share(lag, newest, slack);
+        lag[0] += 1.5 * newest;
+        lag[1] -= 2.0 * newest;
+        lag[2] += 0.5 * newest;
     }
 
     /// sum over all j of g_j (p_{n-j} - p_{n-j-1}); `force` holds p_0 = 0 .. p_n.
@@ -94,6 +114,27 @@ impl Weights {
                 .zip(rises)
                 .map(|(g, rise)| g * rise)
                 .sum::<f64>()
+    }
+}
+
+/// Stiffness of the contact, (2/3) p^(-1/3) > 2/3, over the coupling, with a margin: what the compliance that an
+/// alternating force meets may fall below zero, 1 - 2 sum_j (-1)^j g_j for the full share and 1 less without it.
+pub(crate) fn slack(coupling: f64, share: StaticShare) -> f64 {
+    (0.5 / coupling - (1.0 - share.factor())).max(0.0)
+}
+
+/// Share of the newest cell's curvature that leaves the march stable.
+///
+/// The curvature of the newest cell, an extrapolation, takes 8 times itself from the compliance that a force
+/// meets which alternates from sample to sample; that of the others cancels.
+/// The share is 1 for weak coupling and for steps longer than about twice the memory, where the extrapolation
+/// gives the march its second order; shorter steps have it from the other cells.
+fn stable_share(lag: &[f64], curvature: f64, slack: f64) -> f64 {
+    let alternating: f64 = lag.iter().rev().fold(0.0, |sum, g| g - sum);
+    if curvature > 0.0 {
+        ((1.0 + slack - 2.0 * alternating) / (8.0 * curvature)).min(1.0)
+    } else {
+        1.0
     }
 }
 

@@ -9,12 +9,12 @@ use super::{Choices, ImpactError, KernelChoice, Outcome, Results, Series};
 use crate::contact::Collision;
 use crate::convolve::between_samples;
 use crate::energy::Ledger;
-use crate::march::Weights;
+use crate::march::{StaticShare, Weights};
 use crate::resample::Resampler;
 use crate::scene::{DEFLECTIONS, MODELS, Model, SHARES, Scene, Scheme, Striker, name_of};
 use crate::units::{CollisionUnits, KernelUnits};
 use crate::validity::{Reached, warnings};
-use halfspace::{Medium, SurfaceResponse};
+use halfspace::{Deflection, Medium, SurfaceResponse};
 
 pub(super) fn strike(
     scene: &Scene,
@@ -45,6 +45,13 @@ pub(super) fn strike(
             contact_time_s: results.contact_time_s,
             disc_radius_m: fixed,
             contacts: run.summary.contacts,
+            centre_coupling: match (run.model, contact.static_share, contact.deflection) {
+                (Model::Wave, StaticShare::Full, Deflection::Centre) => {
+                    let disc = disc_radius_m(contact, striker);
+                    collision.disc_groups(response.static_compliance(), disc).0
+                }
+                _ => 0.0,
+            },
         },
     );
     let kernel_units = collision.kernel_units(loaded_radius_m);
