@@ -3,8 +3,9 @@
 use crate::compact::{compact, passed};
 use crate::field::Field;
 use crate::fronts::{self, Point, Sense};
-use crate::kernel::{Kernel, Sum, fields};
+use crate::kernel::{Kernel, Sum, fields, set_traction};
 use crate::panels::{Landscape, ROUNDING, Strength};
+use crate::shallow;
 use crate::spectrum::{self, Wave};
 use num_complex::Complex64;
 
@@ -21,6 +22,7 @@ impl Kernel {
         sum: &mut Sum,
     ) {
         let limit = at.r + self.profile().radius();
+        let shallow = shallow::applies::<ORDER>(self.profile(), at);
         match sense {
             Sense::Outgoing if at.t >= self.last_fast(at, wave, limit) => {
                 if ORDER == 1 {
@@ -34,7 +36,8 @@ impl Kernel {
                 }
                 return;
             }
-            Sense::Image if at.t + at.z * self.vertical_at_one(wave) >= limit => return,
+            Sense::Image if at.t >= limit => return,
+            Sense::Image if !shallow && at.t + at.z * self.vertical_at_one(wave) >= limit => return,
             Sense::Outgoing | Sense::Image => {}
         }
         let mut landscape = Landscape::new(&self.fixed.fast, ORIGIN, self.strength::<ORDER>());
@@ -46,10 +49,15 @@ impl Kernel {
             wave,
             sense,
         );
+        if shallow {
+            let (above, radius) = (shallow::above(at), self.profile().radius());
+            fronts::add_fast(&mut landscape, above, radius, self.k, wave, sense);
+        }
         for interval in landscape.intervals() {
             let (x, p, _) = half_angle(0.5 * (interval.0 + interval.1));
             let eta = self.eta(at, wave, sense, x, p);
-            if eta.abs() < limit {
+            let at_surface = sense.sign() * at.t / x;
+            if eta.abs() < limit || shallow && at_surface.abs() < limit {
                 landscape.visit(interval, self.digits(), &mut |u, weight, share| {
                     let (x, p, jacobian) = half_angle(u);
                     let eta = self.eta(at, wave, sense, x, p);
@@ -66,7 +74,17 @@ impl Kernel {
                         psi = psi.map(|v| sense.sign() / x * v);
                     }
                     let amplitudes = spectrum::fast(wave, self.k, x, p);
-                    sum.add(weight * jacobian, share, fields(&amplitudes, &psi, at.r));
+                    let mut term = fields(&amplitudes, &psi, at.r);
+                    if shallow {
+                        let root = match wave {
+                            Wave::P => p,
+                            Wave::S => (self.k - x * x).sqrt(),
+                        };
+                        let (surface, step) = (sense.sign() * at.t / x, at.z * root / x);
+                        let difference = shallow::compact_difference(surface, step, at.r);
+                        set_traction(&mut term, &amplitudes, difference, at.r);
+                    }
+                    sum.add(weight * jacobian, share, term);
                 });
             } else if ORDER >= 1 && eta < 0.0 {
                 self.add_passed::<ORDER>(at, wave, interval, sum);

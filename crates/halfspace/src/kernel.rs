@@ -18,6 +18,7 @@ use crate::medium::Medium;
 use crate::panels::{ROUNDING, Strength};
 use crate::potential::{Potentials, potentials};
 use crate::profile::Profile;
+use crate::shallow::{self, Difference, Front};
 use crate::spectrum::{self, Amplitudes, Pole, Wave};
 use crate::statics;
 use num_complex::Complex64;
@@ -261,7 +262,12 @@ impl Kernel {
             self.slow::<ORDER>(at, wave, &mut spectrum);
         }
         total.add(1.0 / PI, 0.0, spectrum.value);
-        let floor = rounding_floor(at.r);
+        let mut floor = rounding_floor(at.r);
+        if at.r > 1.0 && shallow::applies::<ORDER>(self.profile, at) {
+            for field in [Field::StressZz, Field::StressRz] {
+                floor[field.index()] *= at.z.sqrt();
+            }
+        }
         Estimate {
             value: total.value,
             error: std::array::from_fn(|f| total.error[f] + spectrum.error[f] / PI + floor[f]),
@@ -272,9 +278,14 @@ impl Kernel {
     fn pole_terms<const ORDER: i32>(&self, at: Point) -> Sum {
         let c = self.medium.rayleigh_speed();
         let mut sum = Sum::default();
+        let shallow = shallow::applies::<ORDER>(self.profile, at);
+        let front = Front::near::<ORDER>(&self.medium, self.profile, at);
         for pole in &self.poles {
             let xi = Complex64::new(pole.decay * at.z, -c * at.t);
-            let mut psi = potentials::<ORDER>(self.profile, xi, at.r);
+            let mut psi = match &front {
+                Some(front) => front.potentials(xi),
+                None => potentials::<ORDER>(self.profile, xi, at.r),
+            };
             // d/dt of order n + 1 is i c times order n
             if ORDER == 1 {
                 psi = psi.map(|v| v * Complex64::new(0.0, -1.0 / c));
@@ -283,11 +294,21 @@ impl Kernel {
             } else if ORDER < 0 {
                 psi = psi.map(|v| v * Complex64::new(0.0, c));
             }
-            sum.add(
-                1.0,
-                ROUNDING,
-                fields(&pole.amplitudes, &psi.map(|v| v.re), at.r),
-            );
+            let mut term = fields(&pole.amplitudes, &psi.map(|v| v.re), at.r);
+            if shallow {
+                let surface = Complex64::new(0.0, xi.im);
+                let Difference { a, g } = match &front {
+                    Some(front) => front.difference(surface, xi.re),
+                    None => shallow::difference(surface, xi.re.into(), at.r),
+                };
+                set_traction(
+                    &mut term,
+                    &pole.amplitudes,
+                    Difference { a: a.re, g: g.re },
+                    at.r,
+                );
+            }
+            sum.add(1.0, ROUNDING, term);
         }
         sum
     }
@@ -348,4 +369,15 @@ pub(crate) fn fields(m: &Amplitudes<f64>, psi: &Potentials<f64>, r: f64) -> Six 
         m.zz * psi.a_lower,
         m.rz * psi.g_lower * r,
     ]
+}
+
+/// Replaces sigma_zz and sigma_rz by those of potentials less their values at the surface.
+pub(crate) fn set_traction(
+    term: &mut Six,
+    m: &Amplitudes<f64>,
+    difference: Difference<f64>,
+    r: f64,
+) {
+    term[Field::StressZz.index()] = m.zz * difference.a;
+    term[Field::StressRz.index()] = m.rz * difference.g * r;
 }

@@ -1,5 +1,6 @@
 //! The elastic half-space in reduced units: everything that follows from Poisson's ratio.
 
+use crate::double::Double;
 use crate::error::DomainError;
 use num_complex::Complex64;
 
@@ -18,6 +19,8 @@ pub struct Medium {
     poisson_ratio: f64,
     kappa: f64,
     rayleigh_speed: f64,
+    /// The rounding error of `rayleigh_speed`.
+    rayleigh_rest: f64,
     cubic_roots: [Complex64; 3],
 }
 
@@ -38,10 +41,12 @@ impl Medium {
         )?;
         let a2 = (1.0 - 2.0 * poisson_ratio) / (2.0 - 2.0 * poisson_ratio);
         let roots = rayleigh_cubic_roots(a2);
+        let rayleigh_speed = (a2 / roots[2].re).sqrt();
         Ok(Self {
             poisson_ratio,
             kappa: a2.sqrt(),
-            rayleigh_speed: (a2 / roots[2].re).sqrt(),
+            rayleigh_speed,
+            rayleigh_rest: rayleigh_rest(poisson_ratio, roots[2].re, rayleigh_speed),
             cubic_roots: roots,
         })
     }
@@ -73,6 +78,11 @@ impl Medium {
     /// (c1/c2)^2 = 1/kappa^2, the square of the shear slowness.
     pub(crate) fn shear_slowness_squared(&self) -> f64 {
         (2.0 - 2.0 * self.poisson_ratio) / (1.0 - 2.0 * self.poisson_ratio)
+    }
+
+    /// The Rayleigh speed to twice the digits.
+    pub(crate) fn exact_rayleigh_speed(&self) -> Double {
+        Double::sum(self.rayleigh_speed, self.rayleigh_rest)
     }
 
     /// Rayleigh function of a speed w in [0, kappa], whose zeros are w = 0 and the Rayleigh speed:
@@ -112,6 +122,20 @@ impl Medium {
     pub fn rayleigh_cubic_roots(&self) -> [Complex64; 3] {
         self.cubic_roots
     }
+}
+
+/// What the Rayleigh speed is more than `speed`, from one step of Newton's method to twice the digits.
+fn rayleigh_rest(poisson_ratio: f64, root: f64, speed: f64) -> f64 {
+    let double = Double::from;
+    let a2 =
+        Double::sum(1.0, -2.0 * poisson_ratio) / (double(2.0) * Double::sum(1.0, -poisson_ratio));
+    let x = double(root);
+    let c3 = double(-16.0) * (double(1.0) - a2);
+    let c2 = double(8.0) * (double(3.0) - double(2.0) * a2);
+    let value = ((c3 * x + c2) * x - double(8.0)) * x + double(1.0);
+    let slope = (3.0 * c3.high * root + 2.0 * c2.high) * root - 8.0;
+    let square = a2 / (x - double(value.value() / slope));
+    (square - Double::product(speed, speed)).value() / (2.0 * speed)
 }
 
 fn rayleigh_cubic_roots(a2: f64) -> [Complex64; 3] {

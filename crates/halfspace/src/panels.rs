@@ -15,7 +15,7 @@ const MOST_NODES: f64 = 24.0;
 const NARROWEST: f64 = 1e-9;
 
 /// Most cuts or singularities that an integrand of this crate has.
-const CAPACITY: usize = 40;
+const CAPACITY: usize = 64;
 
 /// Power of the variable toward a cut of a single singularity.
 const SQUARE: i32 = 2;

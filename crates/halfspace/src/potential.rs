@@ -90,6 +90,75 @@ fn by_primitives<const ORDER: i32>(xi: Complex64, r: f64) -> Potentials<Complex6
     from_primitives::<ORDER>(psi, eta, r)
 }
 
+/// The ends zeta of the chord and their rho, for the Hertz disc at xi = d - i c t, d >= 0, from r +- 1 +- c t.
+///
+/// `factors` are r - s and r + s of the two ends, s = -c t -+ 1, where those that are small near a front are exact.
+fn ends_at_front(xi: Complex64, factors: [[f64; 2]; 2]) -> ([Complex64; 2], [Complex64; 2]) {
+    let zeta = [1.0, -1.0].map(|sigma| Complex64::new(xi.re, xi.im - sigma));
+    let rho = [0, 1].map(|i| {
+        let s = zeta[i].im;
+        let inside = factors[i][0] * factors[i][1];
+        if xi.re > 0.0 {
+            panels::root(Complex64::new(xi.re * xi.re + inside, 2.0 * xi.re * s))
+        } else if inside >= 0.0 {
+            Complex64::new(inside.sqrt(), 0.0)
+        } else {
+            Complex64::new(0.0, (-inside).sqrt().copysign(s))
+        }
+    });
+    (zeta, rho)
+}
+
+fn times_minus_i(v: Complex64) -> Complex64 {
+    Complex64::new(v.im, -v.re)
+}
+
+/// The potentials there, for xi near the disc and r not small.
+pub(crate) fn at_front(xi: Complex64, r: f64, factors: [[f64; 2]; 2]) -> Potentials<Complex64> {
+    let (zeta, rho) = ends_at_front(xi, factors);
+    let phi = [0, 1].map(|i| times_minus_i(logarithm(zeta[i] + rho[i])));
+    let eta = times_minus_i(xi);
+    let psi = chord_primitives::<0, Complex64>(eta, r, phi, rho);
+    from_primitives::<0>(psi, eta, r)
+}
+
+/// A_2 and B_2/r there, the difference between xi + step and xi = -i c t for real step > 0, to its own last digits.
+///
+/// Differences of the primitives of `chord_primitives`, each from those of rho^2 and of zeta + rho.
+pub(crate) fn step_at_front(
+    xi: Complex64,
+    step: f64,
+    r: f64,
+    factors: [[f64; 2]; 2],
+) -> (Complex64, Complex64) {
+    const TINY: f64 = 1e-300;
+    let (zeta, from) = ends_at_front(xi, factors);
+    let (_, to) = ends_at_front(xi + step, factors);
+    let d_rho = [0, 1].map(|i| {
+        let sum = from[i] + to[i];
+        if sum.norm_sqr() < TINY {
+            return Complex64::default();
+        }
+        step * (2.0 * zeta[i] + step) * reciprocal(sum)
+    });
+    let d_phi = [0, 1].map(|i| {
+        let w = (d_rho[i] + step) * reciprocal(zeta[i] + from[i]);
+        let modulus = 0.5 * (2.0 * w.re + w.norm_sqr()).ln_1p();
+        times_minus_i(Complex64::new(modulus, w.im.atan2(1.0 + w.re)))
+    });
+    let phi = [0, 1].map(|i| times_minus_i(logarithm(zeta[i] + step + to[i])));
+    let (eta, h) = (times_minus_i(xi), Complex64::new(0.0, -step));
+    // s q changes by s dq + h q
+    let d_sq = [0, 1].map(|i| times_minus_i(zeta[i]) * d_rho[i] + h * to[i]);
+    let (m0, d_m0) = (phi[1] - phi[0], d_phi[1] - d_phi[0]);
+    let (m1, d_m1) = (to[0] - to[1], d_rho[0] - d_rho[1]);
+    let d_m2 = 0.5 * (r * r * d_m0 - d_sq[1] + d_sq[0]);
+    let scale = 0.75 / PI;
+    let a = scale * (d_m1 - eta * d_m0 - h * m0);
+    let g = scale / (r * r) * (d_m2 - eta * d_m1 - h * m1);
+    (Complex64::new(-a.im, a.re), g)
+}
+
 /// The same on the imaginary axis, where real and imaginary part separate into real functions.
 fn on_imaginary_axis<const ORDER: i32>(eta: f64, r: f64) -> Potentials<Complex64> {
     let s = [eta - 1.0, eta + 1.0];

@@ -1,9 +1,10 @@
 //! Slownesses between one and 1/kappa: longitudinal waves bound to the surface, shear waves that travel.
 
 use crate::fronts::{self, Point};
-use crate::kernel::{Kernel, Sum, fields};
+use crate::kernel::{Kernel, Sum, fields, set_traction};
 use crate::panels::Landscape;
 use crate::potential::{Potentials, potentials};
+use crate::shallow::{self, Difference};
 use crate::spectrum::{self, Wave};
 use num_complex::Complex64;
 
@@ -35,6 +36,11 @@ impl Kernel {
             stretch,
             wave,
         );
+        let shallow = shallow::applies::<ORDER>(self.profile(), at);
+        if shallow {
+            let (above, radius) = (shallow::above(at), self.profile().radius());
+            fronts::add_slow(&mut landscape, above, radius, self.k, stretch, wave);
+        }
         for interval in landscape.intervals() {
             landscape.visit(interval, self.digits(), &mut |s, weight, share| {
                 let (q, dq) = stretch.half_angle(s);
@@ -57,7 +63,15 @@ impl Kernel {
                 let amplitudes = spectrum::slow(wave, self.k, x, p_abs, y);
                 // dx = p^ dp^/x, dp^ = 2 y/(1 + q^2) dq
                 let jacobian = p_abs * 2.0 * y * inverse / x * dq;
-                sum.add(weight * jacobian, share, fields(&amplitudes, &psi, at.r));
+                let mut term = fields(&amplitudes, &psi, at.r);
+                if shallow {
+                    let difference = match wave {
+                        Wave::P => longitudinal_difference(at, slowness),
+                        Wave::S => shear_difference(at, slowness),
+                    };
+                    set_traction(&mut term, &amplitudes, difference, at.r);
+                }
+                sum.add(weight * jacobian, share, term);
             });
         }
     }
@@ -111,5 +125,29 @@ impl Kernel {
             g_upper: over_r(both(minus.g_upper, plus.g_upper)),
             g_lower: over_ir(both(minus.g_lower, plus.g_lower)),
         }
+    }
+}
+
+/// What the longitudinal potentials of the tractions are more than at the surface.
+fn longitudinal_difference(at: Point, n: Slowness) -> Difference<f64> {
+    let surface = Complex64::new(0.0, -at.t / n.x);
+    let step = Complex64::new(at.z * n.p_abs / n.x, 0.0);
+    let Difference { a, g } = shallow::difference(surface, step, at.r);
+    let factor = 2.0 * n.im;
+    Difference {
+        a: factor * a.re,
+        g: factor * g.re,
+    }
+}
+
+/// The same of the shear wave.
+fn shear_difference(at: Point, n: Slowness) -> Difference<f64> {
+    let step = Complex64::new(0.0, at.z * n.y / n.x);
+    let [minus, plus] =
+        [-at.t, at.t].map(|t| shallow::difference(Complex64::new(0.0, t / n.x), step, at.r));
+    let (a, g) = (minus.a + plus.a, minus.g + plus.g);
+    Difference {
+        a: n.re * a.re - n.im * a.im,
+        g: n.im * g.re + n.re * g.im,
     }
 }

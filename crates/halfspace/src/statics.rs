@@ -8,9 +8,11 @@
 //! For the Hertz profile this is Huber's solution (1904).
 
 use crate::field::Six;
+use crate::fronts::Point;
 use crate::medium::Medium;
 use crate::potential::potentials;
 use crate::profile::Profile;
+use crate::shallow;
 use num_complex::Complex64;
 
 /// Static fields at (r, z), r, z >= 0.
@@ -31,7 +33,11 @@ pub(crate) fn static_field(medium: &Medium, profile: Profile, r: f64, z: f64) ->
         (0.0, 0.0, 0.0)
     };
     let u_over_r = 0.5 * (z_g2 - (1.0 - 2.0 * nu) * g3);
-    let szz = if z > 0.0 {
+    let szz = if r > 1.0 && shallow::applies::<0>(profile, Point { r, z, t: 0.0 }) {
+        // outside the disc A2 vanishes on the surface
+        let surface = Complex64::new(0.0, 0.0);
+        -(shallow::difference(surface, xi, r).a.re + z_a1)
+    } else if z > 0.0 {
         -(a2 + z_a1)
     } else {
         -profile.pressure(r)

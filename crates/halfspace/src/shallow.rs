@@ -1,0 +1,149 @@
+//! Just below the surface, where the traction is a small difference of the two waves.
+//!
+//! At z = 0 the arguments of P and S are the same, xi0 = -+ i t/x, and the waves cancel: for the normal stress
+//! their amplitudes add up to -i/x at every slowness, whichever sense, and the two senses cancel; for the
+//! shear stress the amplitudes cancel by themselves; at the Rayleigh pole they add up to -D(c) = 0. So each potential
+//! Psi(xi) may be replaced by Psi(xi) - Psi(xi0), and what is left under the integral is of the order of the depth.
+//!
+//! Taken as it stands the difference would be lost to rounding. Away from the singularities of the potentials it is
+//! the step in xi times the mean of the potentials one order lower, by Gauss's rule of two points.
+
+use crate::compact::compact;
+use crate::double::Double;
+use crate::fronts::Point;
+use crate::medium::Medium;
+use crate::potential::{Potentials, at_front, potentials, step_at_front};
+use crate::profile::Profile;
+use num_complex::Complex64;
+
+/// Depth from which on the stresses have digits to spare.
+const DEEPEST: f64 = 1e-4;
+
+/// Radius down to which the closed forms of every order hold.
+const NEAREST: f64 = 0.15;
+
+/// A step of this share of the distance to a singularity: the rule errs by its fourth power over 4320.
+const SHORT: f64 = 1e-3;
+
+/// Places of the two points of Gauss's rule on [0, 1].
+const PLACES: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
+
+/// A_2 and B_2/r less their values at the surface.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Difference<T> {
+    pub(crate) a: T,
+    pub(crate) g: T,
+}
+
+/// Whether sigma_zz and sigma_rz are taken from differences.
+pub(crate) fn applies<const ORDER: i32>(profile: Profile, at: Point) -> bool {
+    ORDER == 0 && profile == Profile::Hertz && at.z > 0.0 && at.z < DEEPEST && at.r > NEAREST
+}
+
+/// The Rayleigh wave near its arrival from an edge, c t = |r -+ 1|.
+///
+/// It passes in a time of the order of the depth, so the rounding errors of c, of c t and of r -+ 1 would all be seen.
+pub(crate) struct Front {
+    r: f64,
+    factors: [[f64; 2]; 2],
+}
+
+impl Front {
+    /// None away from the arrivals, where rounding does no harm.
+    pub(crate) fn near<const ORDER: i32>(
+        medium: &Medium,
+        profile: Profile,
+        at: Point,
+    ) -> Option<Self> {
+        const NEAR: f64 = 1e-2;
+        let Point { r, z, t } = at;
+        let xi = Complex64::new(0.0, medium.rayleigh_speed() * t);
+        if ORDER != 0
+            || profile != Profile::Hertz
+            || z >= DEEPEST
+            || r <= NEAREST
+            || gap(xi, r) > NEAR
+        {
+            return None;
+        }
+        let path = medium.exact_rayleigh_speed() * t.into();
+        let (inner, outer) = (Double::sum(r, -1.0), Double::sum(r, 1.0));
+        Some(Self {
+            r,
+            factors: [
+                [(outer + path).value(), (inner - path).value()],
+                [(inner + path).value(), (outer - path).value()],
+            ],
+        })
+    }
+
+    /// The potentials at xi = d - i c t.
+    pub(crate) fn potentials(&self, xi: Complex64) -> Potentials<Complex64> {
+        at_front(xi, self.r, self.factors)
+    }
+
+    /// [`difference`] for xi = -i c t and a real step.
+    pub(crate) fn difference(&self, xi: Complex64, step: f64) -> Difference<Complex64> {
+        if is_short(xi, step, self.r) {
+            return difference(xi, step.into(), self.r);
+        }
+        let (a, g) = step_at_front(xi, step, self.r, self.factors);
+        Difference { a, g }
+    }
+}
+
+/// The same point on the surface.
+pub(crate) fn above(at: Point) -> Point {
+    Point { z: 0.0, ..at }
+}
+
+/// Distance of an imaginary number from the singularities, which lie at +-i (1 +- r).
+fn gap(xi: Complex64, r: f64) -> f64 {
+    let height = xi.im.abs();
+    (height - (1.0 + r))
+        .abs()
+        .min((height - (1.0 - r).abs()).abs())
+}
+
+/// Whether a step from imaginary xi is short enough for the mean of derivatives.
+fn is_short(xi: Complex64, step: f64, r: f64) -> bool {
+    step < SHORT * gap(xi, r)
+}
+
+/// The difference between xi + step and xi.
+pub(crate) fn difference(xi: Complex64, step: Complex64, r: f64) -> Difference<Complex64> {
+    if is_short(xi, step.norm(), r) {
+        let [first, second] =
+            PLACES.map(|place| potentials::<-1>(Profile::Hertz, xi + place * step, r));
+        Difference {
+            a: -0.5 * step * (first.a_lower + second.a_lower),
+            g: -0.5 * step * (first.g_lower + second.g_lower),
+        }
+    } else {
+        let from = potentials::<0>(Profile::Hertz, xi, r);
+        let to = potentials::<0>(Profile::Hertz, xi + step, r);
+        Difference {
+            a: to.a_lower - from.a_lower,
+            g: to.g_lower - from.g_lower,
+        }
+    }
+}
+
+/// The same of the compact parts, between eta + step and eta.
+pub(crate) fn compact_difference(eta: f64, step: f64, r: f64) -> Difference<f64> {
+    if is_short(Complex64::new(0.0, eta), step.abs(), r) {
+        let [first, second] =
+            PLACES.map(|place| compact::<-1>(Profile::Hertz, eta + place * step, r));
+        Difference {
+            a: 0.5 * step * (first.a_lower + second.a_lower),
+            g: 0.5 * step * (first.g_lower + second.g_lower),
+        }
+    } else {
+        let from = compact::<0>(Profile::Hertz, eta, r);
+        let to = compact::<0>(Profile::Hertz, eta + step, r);
+        Difference {
+            a: to.a_lower - from.a_lower,
+            g: to.g_lower - from.g_lower,
+        }
+    }
+}
