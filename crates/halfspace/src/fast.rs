@@ -81,7 +81,7 @@ impl Kernel {
                             Wave::S => (self.k - x * x).sqrt(),
                         };
                         let (surface, step) = (sense.sign() * at.t / x, at.z * root / x);
-                        let difference = shallow::compact_difference(surface, step, at.r);
+                        let difference = shallow::compact_difference(surface, step, eta, at.r);
                         set_traction(&mut term, &amplitudes, difference, at.r);
                     }
                     sum.add(weight * jacobian, share, term);

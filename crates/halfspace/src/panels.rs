@@ -36,7 +36,7 @@ pub(crate) const ROUNDING: f64 = 4.0 * f64::EPSILON;
 const SAME: f64 = 1e-13;
 
 /// Smaller places are as good as zero once multiplied by [`SAME`].
-const SMALLEST: f64 = 1e-6;
+const SMALLEST: f64 = 1e-14;
 
 /// Whether two places in [0, 1] are one: just after a plane front cuts of 1e-16 are distinct from zero.
 fn same(a: f64, b: f64) -> bool {

@@ -129,18 +129,20 @@ pub(crate) fn difference(xi: Complex64, step: Complex64, r: f64) -> Difference<C
     }
 }
 
-/// The same of the compact parts, between eta + step and eta.
-pub(crate) fn compact_difference(eta: f64, step: f64, r: f64) -> Difference<f64> {
-    if is_short(Complex64::new(0.0, eta), step.abs(), r) {
+/// The same of the compact parts, between eta = surface + step and the surface.
+///
+/// Just after the plane front both are large and eta is not, so it is not taken from their sum.
+pub(crate) fn compact_difference(surface: f64, step: f64, eta: f64, r: f64) -> Difference<f64> {
+    if is_short(Complex64::new(0.0, surface), step.abs(), r) {
         let [first, second] =
-            PLACES.map(|place| compact::<-1>(Profile::Hertz, eta + place * step, r));
+            PLACES.map(|place| compact::<-1>(Profile::Hertz, surface + place * step, r));
         Difference {
             a: 0.5 * step * (first.a_lower + second.a_lower),
             g: 0.5 * step * (first.g_lower + second.g_lower),
         }
     } else {
-        let from = compact::<0>(Profile::Hertz, eta, r);
-        let to = compact::<0>(Profile::Hertz, eta + step, r);
+        let from = compact::<0>(Profile::Hertz, surface, r);
+        let to = compact::<0>(Profile::Hertz, eta, r);
         Difference {
             a: to.a_lower - from.a_lower,
             g: to.g_lower - from.g_lower,
