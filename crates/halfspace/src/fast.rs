@@ -4,7 +4,7 @@ use crate::compact::{compact, passed};
 use crate::field::Field;
 use crate::fronts::{self, Point, Sense};
 use crate::kernel::{Kernel, Sum, fields, set_traction};
-use crate::panels::{Landscape, ROUNDING, Strength};
+use crate::panels::{Fold, Landscape, ROUNDING, Strength};
 use crate::shallow;
 use crate::spectrum::{self, Wave};
 use num_complex::Complex64;
@@ -40,7 +40,12 @@ impl Kernel {
             Sense::Image if !shallow && at.t + at.z * self.vertical_at_one(wave) >= limit => return,
             Sense::Outgoing | Sense::Image => {}
         }
-        let mut landscape = Landscape::new(&self.fixed.fast, ORIGIN, self.strength::<ORDER>());
+        let mut landscape = Landscape::new(
+            &self.fixed.fast,
+            ORIGIN,
+            self.strength::<ORDER>(),
+            Fold::Upper,
+        );
         fronts::add_fast(
             &mut landscape,
             at,
@@ -58,34 +63,38 @@ impl Kernel {
             let eta = self.eta(at, wave, sense, x, p);
             let at_surface = sense.sign() * at.t / x;
             if eta.abs() < limit || shallow && at_surface.abs() < limit {
-                landscape.visit(interval, self.digits(), &mut |u, weight, share| {
-                    let (x, p, jacobian) = half_angle(u);
-                    let eta = self.eta(at, wave, sense, x, p);
-                    let mut psi = compact::<ORDER>(self.profile(), eta, at.r);
-                    if ORDER == 1 {
-                        // int dt = -+x int d eta; the order below b3 is -b2
-                        let step = sense.sign() * x;
-                        psi = psi.map(|v| step * v);
-                        psi.g_lower = -psi.g_lower;
-                    } else if ORDER == 2 {
-                        psi = psi.map(|v| x * x * v);
-                        psi.g_lower = -psi.g_lower;
-                    } else if ORDER < 0 {
-                        psi = psi.map(|v| sense.sign() / x * v);
-                    }
-                    let amplitudes = spectrum::fast(wave, self.k, x, p);
-                    let mut term = fields(&amplitudes, &psi, at.r);
-                    if shallow {
-                        let root = match wave {
-                            Wave::P => p,
-                            Wave::S => (self.k - x * x).sqrt(),
-                        };
-                        let (surface, step) = (sense.sign() * at.t / x, at.z * root / x);
-                        let difference = shallow::compact_difference(surface, step, eta, at.r);
-                        set_traction(&mut term, &amplitudes, difference, at.r);
-                    }
-                    sum.add(weight * jacobian, share, term);
-                });
+                landscape.visit(
+                    interval,
+                    self.digits(at, shallow),
+                    &mut |u, weight, share| {
+                        let (x, p, jacobian) = half_angle(u);
+                        let eta = self.eta(at, wave, sense, x, p);
+                        let mut psi = compact::<ORDER>(self.profile(), eta, at.r);
+                        if ORDER == 1 {
+                            // int dt = -+x int d eta; the order below b3 is -b2
+                            let step = sense.sign() * x;
+                            psi = psi.map(|v| step * v);
+                            psi.g_lower = -psi.g_lower;
+                        } else if ORDER == 2 {
+                            psi = psi.map(|v| x * x * v);
+                            psi.g_lower = -psi.g_lower;
+                        } else if ORDER < 0 {
+                            psi = psi.map(|v| sense.sign() / x * v);
+                        }
+                        let amplitudes = spectrum::fast(wave, self.k, x, p);
+                        let mut term = fields(&amplitudes, &psi, at.r);
+                        if shallow {
+                            let root = match wave {
+                                Wave::P => p,
+                                Wave::S => (self.k - x * x).sqrt(),
+                            };
+                            let (surface, step) = (sense.sign() * at.t / x, at.z * root / x);
+                            let difference = shallow::compact_difference(surface, step, eta, at.r);
+                            set_traction(&mut term, &amplitudes, difference, at.r);
+                        }
+                        sum.add(weight * jacobian, share, term);
+                    },
+                );
             } else if ORDER >= 1 && eta < 0.0 {
                 self.add_passed::<ORDER>(at, wave, interval, sum);
             }
@@ -113,8 +122,13 @@ impl Kernel {
         interval: (f64, f64),
         sum: &mut Sum,
     ) {
-        let landscape = Landscape::new(&self.fixed.fast, Complex64::i(), Strength::Bounded);
-        landscape.visit(interval, self.digits(), &mut |u, weight, share| {
+        let landscape = Landscape::new(
+            &self.fixed.fast,
+            Complex64::i(),
+            Strength::Bounded,
+            Fold::Upper,
+        );
+        landscape.visit(interval, self.digits(at, false), &mut |u, weight, share| {
             let (x, p, jacobian) = half_angle(u);
             let eta = self.eta(at, wave, Sense::Outgoing, x, p);
             let step = if ORDER == 1 { -x } else { x * x };

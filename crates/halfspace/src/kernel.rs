@@ -15,7 +15,7 @@ use crate::error::DomainError;
 use crate::field::{Estimate, Field, Six};
 use crate::fronts::{FixedSingularities, Point, Sense};
 use crate::medium::Medium;
-use crate::panels::{ROUNDING, Strength};
+use crate::panels::{ROUNDING, Share, Strength};
 use crate::potential::{Potentials, potentials};
 use crate::profile::Profile;
 use crate::shallow::{self, Difference, Front};
@@ -80,11 +80,16 @@ pub(crate) struct Sum {
 impl Sum {
     /// Adds a term whose error is a share of its size.
     #[inline]
-    pub(crate) fn add(&mut self, weight: f64, share: f64, term: Six) {
-        for ((value, error), t) in self.value.iter_mut().zip(&mut self.error).zip(term) {
-            let x = weight * t;
-            *value += x;
-            *error += share * x.abs();
+    pub(crate) fn add(&mut self, weight: f64, share: impl Into<Share>, term: Six) {
+        let Share {
+            displacement: d,
+            stress: s,
+        } = share.into();
+        let shares = [d, d, s, s, s, s];
+        for (f, share) in shares.into_iter().enumerate() {
+            let x = weight * term[f];
+            self.value[f] += x;
+            self.error[f] += share * x.abs();
         }
     }
 }
@@ -253,6 +258,8 @@ impl Kernel {
     }
 
     fn integrate<const ORDER: i32>(&self, at: Point) -> Estimate {
+        /// Outside the disc the pressure is zero, and at a distance from the edge so are its rounding errors.
+        const CLEAR_OF_EDGE: f64 = 1.01;
         let mut total = self.pole_terms::<ORDER>(at);
         let mut spectrum = Sum::default();
         for wave in [Wave::P, Wave::S] {
@@ -263,9 +270,9 @@ impl Kernel {
         }
         total.add(1.0 / PI, 0.0, spectrum.value);
         let mut floor = rounding_floor(at.r);
-        if at.r > 1.0 && shallow::applies::<ORDER>(self.profile, at) {
+        if at.r > CLEAR_OF_EDGE && shallow::applies::<ORDER>(self.profile, at) {
             for field in [Field::StressZz, Field::StressRz] {
-                floor[field.index()] *= at.z.sqrt();
+                floor[field.index()] *= 8.0 * at.z.sqrt();
             }
         }
         Estimate {
@@ -308,9 +315,32 @@ impl Kernel {
                     at.r,
                 );
             }
-            sum.add(1.0, ROUNDING, term);
+            sum.add(1.0, self.share_at_front::<ORDER>(at, xi, shallow), term);
         }
         sum
+    }
+
+    /// The share of the Rayleigh wave that rounding of its distance from the edges of the disc may take.
+    fn share_at_front<const ORDER: i32>(&self, at: Point, xi: Complex64, shallow: bool) -> Share {
+        let radius = self.profile.radius();
+        let height = xi.im.abs();
+        let gap = [at.r + radius, (at.r - radius).abs()]
+            .map(|edge| (height - edge).hypot(xi.re))
+            .into_iter()
+            .fold(f64::INFINITY, f64::min);
+        let front = ROUNDING * height / gap.max(f64::EPSILON * height);
+        match self.strength::<ORDER>() {
+            Strength::Bounded if shallow => (ROUNDING + front).into(),
+            Strength::Bounded => ROUNDING.into(),
+            Strength::InverseRoot => Share {
+                displacement: ROUNDING + ROUNDING.sqrt() * front.sqrt(),
+                stress: ROUNDING + front,
+            },
+            Strength::FinitePart => Share {
+                displacement: ROUNDING + front,
+                stress: ROUNDING + 3.0 * front,
+            },
+        }
     }
 
     /// The step response of stress to a point force has fronts of power -3/2, to a punch of power -1/2, and each
@@ -327,9 +357,16 @@ impl Kernel {
     /// Accuracy asked of each rule, as minus its natural logarithm.
     ///
     /// The rules are a little better than the tolerance because the waves cancel in the sum.
-    pub(crate) fn digits(&self) -> f64 {
+    ///
+    /// Just below the surface the terms are of order z/t and the peak of the field is of order sqrt(z).
+    pub(crate) fn digits(&self, at: Point, shallow: bool) -> f64 {
         const MARGIN: f64 = 0.1;
-        -(MARGIN * self.tolerance).ln()
+        let peak = if shallow {
+            (at.t / at.z.sqrt()).min(1.0)
+        } else {
+            1.0
+        };
+        -(MARGIN * self.tolerance * peak).ln()
     }
 }
 

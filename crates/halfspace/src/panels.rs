@@ -51,6 +51,14 @@ pub(crate) struct Landscape {
     /// Where the integrand grows as a pole of high order.
     pole: Complex64,
     strength: Strength,
+    fold: Fold,
+}
+
+/// The ends at which a smooth variable stands for the square root of the distance in slowness.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Fold {
+    Upper,
+    Both,
 }
 
 /// What a rule has to keep away from, in its own variable.
@@ -68,6 +76,22 @@ pub(crate) enum Strength {
     InverseRoot,
     /// The power -3/2, taken as Hadamard's finite part.
     FinitePart,
+}
+
+/// The likely error of a term as a share of its size.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Share {
+    pub(crate) displacement: f64,
+    pub(crate) stress: f64,
+}
+
+impl From<f64> for Share {
+    fn from(share: f64) -> Self {
+        Self {
+            displacement: share,
+            stress: share,
+        }
+    }
 }
 
 /// A short list on the stack.
@@ -101,12 +125,18 @@ impl<T: Copy + Default> List<T> {
 
 impl Landscape {
     /// An interval with nothing but a pole and the given singularities, none of them on it.
-    pub(crate) fn new(fixed: &[Complex64], pole: Complex64, strength: Strength) -> Self {
+    pub(crate) fn new(
+        fixed: &[Complex64],
+        pole: Complex64,
+        strength: Strength,
+        fold: Fold,
+    ) -> Self {
         let mut landscape = Self {
             cuts: List::new(),
             singularities: List::new(),
             pole,
             strength,
+            fold,
         };
         for &point in fixed {
             landscape.add(point);
@@ -160,7 +190,7 @@ impl Landscape {
         &self,
         (from, to): (f64, f64),
         digits: f64,
-        f: &mut impl FnMut(f64, f64, f64),
+        f: &mut impl FnMut(f64, f64, Share),
     ) {
         match (self.power(from), self.power(to)) {
             (None, None) => {
@@ -171,7 +201,7 @@ impl Landscape {
                     3.0,
                     Strength::Bounded,
                     &mut |s, weight, share| {
-                        f(from + (to - from) * s, weight * (to - from), share);
+                        f(from + (to - from) * s, weight * (to - from), share.into());
                     },
                 );
             }
@@ -202,7 +232,7 @@ impl Landscape {
         end: f64,
         power: i32,
         digits: f64,
-        f: &mut impl FnMut(f64, f64, f64),
+        f: &mut impl FnMut(f64, f64, Share),
     ) {
         let scale = end - cut;
         // the singularity of the cut itself is what the power is for
@@ -216,6 +246,7 @@ impl Landscape {
                 distance.powf(1.0 / f64::from(power))
             }
         });
+        let blur = self.blur(cut);
         // A power of a logarithm is left at s = 0: Gauss's rule gains 2 power digits a doubling there.
         let least = if power == SQUARE { 3.0 } else { 0.7 * digits };
         panels(
@@ -229,11 +260,76 @@ impl Landscape {
                     f(
                         v,
                         weight * scale.abs() * f64::from(power) * s.powi(power - 1),
-                        share,
+                        self.at_front(share, blur, (v - cut).abs(), s),
                     );
                 }
             },
         );
+    }
+
+    /// How far a cut may be from the front it stands for, by rounding, where the integrand is unbounded.
+    ///
+    /// A front and its neighbour are roots of one quadratic, which are as uncertain as they are close; so are the
+    /// slowness and its mirror image at an end where the variable folds.
+    fn blur(&self, cut: f64) -> f64 {
+        /// Fronts that were taken for one leave out what lies between them.
+        const MERGED: f64 = 1e7;
+        /// A neighbour within this share of the place may be the other root.
+        const TWIN: f64 = 0.1;
+        if self.strength == Strength::Bounded {
+            return 0.0;
+        }
+        // beyond its root rounding does not move a root
+        let by = |distance: f64| ROUNDING / distance.max(ROUNDING.sqrt());
+        let mut nearest = 1.0_f64;
+        let mut own = 0;
+        for &other in self.cuts.as_slice() {
+            if same(other, cut) {
+                own += 1;
+                if other != cut {
+                    return MERGED;
+                }
+            } else {
+                nearest = nearest.min((other - cut).abs());
+            }
+        }
+        if own > 1 {
+            return MERGED;
+        }
+        for point in self.singularities.as_slice() {
+            let distance = (point - cut).norm();
+            if distance > SAME * cut.max(SMALLEST) {
+                nearest = nearest.min(distance);
+            }
+        }
+        let twin = if nearest < TWIN * cut {
+            by(nearest)
+        } else {
+            0.0
+        };
+        let fold = match self.fold {
+            Fold::Upper => by(1.0 - cut),
+            Fold::Both => by(1.0 - cut) + by(cut),
+        };
+        // a fold moves what is small by no more than a share
+        ROUNDING * cut + twin + fold.min(cut)
+    }
+
+    /// The share of a term at a distance from a cut, s in the smooth variable, with the rounding error of the distance.
+    fn at_front(&self, share: f64, blur: f64, distance: f64, s: f64) -> Share {
+        let front = blur / distance;
+        match self.strength {
+            Strength::Bounded => share.into(),
+            // displacements have a root there
+            Strength::InverseRoot => Share {
+                displacement: share + front * s,
+                stress: share + front,
+            },
+            Strength::FinitePart => Share {
+                displacement: share + front,
+                stress: share + 3.0 * front,
+            },
+        }
     }
 
     /// Singularities in another variable, but for those that `drop` names.
@@ -343,7 +439,7 @@ mod tests {
     const NOWHERE: Complex64 = Complex64::new(1e99, 0.0);
 
     fn integral(singularity: Complex64, f: impl Fn(f64) -> f64) -> (f64, usize) {
-        let mut landscape = Landscape::new(&[singularity], NOWHERE, Strength::Bounded);
+        let mut landscape = Landscape::new(&[singularity], NOWHERE, Strength::Bounded, Fold::Upper);
         let (mut sum, mut count) = (0.0, 0);
         for interval in landscape.intervals() {
             landscape.visit(interval, 28.0, &mut |v, w, _| {
@@ -364,7 +460,12 @@ mod tests {
 
     #[test]
     fn logarithms_at_double_cuts_are_integrated() {
-        let mut landscape = Landscape::new(&[0.3.into(), 0.3.into()], NOWHERE, Strength::Bounded);
+        let mut landscape = Landscape::new(
+            &[0.3.into(), 0.3.into()],
+            NOWHERE,
+            Strength::Bounded,
+            Fold::Upper,
+        );
         let mut sum = 0.0;
         for interval in landscape.intervals() {
             landscape.visit(interval, 28.0, &mut |v, w, _| {

@@ -19,8 +19,11 @@ use num_complex::Complex64;
 /// Depth from which on the stresses have digits to spare.
 const DEEPEST: f64 = 1e-4;
 
-/// Radius down to which the closed forms of every order hold.
-const NEAREST: f64 = 0.15;
+/// Radius down to which the compact parts of every order hold: nearer the axis sigma_rz vanishes as r.
+const NEAREST: f64 = 1e-6;
+
+/// Radius down to which the closed forms at the fronts hold.
+const NEAREST_FRONT: f64 = 0.15;
 
 /// A step of this share of the distance to a singularity: the rule errs by its fourth power over 4320.
 const SHORT: f64 = 1e-3;
@@ -61,7 +64,7 @@ impl Front {
         if ORDER != 0
             || profile != Profile::Hertz
             || z >= DEEPEST
-            || r <= NEAREST
+            || r <= NEAREST_FRONT
             || gap(xi, r) > NEAR
         {
             return None;

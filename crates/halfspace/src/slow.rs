@@ -2,7 +2,7 @@
 
 use crate::fronts::{self, Point};
 use crate::kernel::{Kernel, Sum, fields, set_traction};
-use crate::panels::Landscape;
+use crate::panels::{Fold, Landscape};
 use crate::potential::{Potentials, potentials};
 use crate::shallow::{self, Difference};
 use crate::spectrum::{self, Wave};
@@ -26,6 +26,7 @@ impl Kernel {
             &self.fixed.slow,
             self.fixed.slow_pole,
             self.strength::<ORDER>(),
+            Fold::Both,
         );
         let stretch = &self.fixed.stretch;
         fronts::add_slow(
@@ -42,37 +43,41 @@ impl Kernel {
             fronts::add_slow(&mut landscape, above, radius, self.k, stretch, wave);
         }
         for interval in landscape.intervals() {
-            landscape.visit(interval, self.digits(), &mut |s, weight, share| {
-                let (q, dq) = stretch.half_angle(s);
-                let inverse = 1.0 / (1.0 + q * q);
-                let p_abs = span * 2.0 * q * inverse;
-                let y = span * (1.0 - q) * (1.0 + q) * inverse;
-                let x = (1.0 + p_abs * p_abs).sqrt();
-                let (re, im) = spectrum::inverse_rayleigh(self.k, x, p_abs, y);
-                let slowness = Slowness {
-                    x,
-                    p_abs,
-                    y,
-                    re,
-                    im,
-                };
-                let psi = match wave {
-                    Wave::P => self.longitudinal::<ORDER>(at, slowness),
-                    Wave::S => self.shear::<ORDER>(at, slowness),
-                };
-                let amplitudes = spectrum::slow(wave, self.k, x, p_abs, y);
-                // dx = p^ dp^/x, dp^ = 2 y/(1 + q^2) dq
-                let jacobian = p_abs * 2.0 * y * inverse / x * dq;
-                let mut term = fields(&amplitudes, &psi, at.r);
-                if shallow {
-                    let difference = match wave {
-                        Wave::P => longitudinal_difference(at, slowness),
-                        Wave::S => shear_difference(at, slowness),
+            landscape.visit(
+                interval,
+                self.digits(at, shallow),
+                &mut |s, weight, share| {
+                    let (q, dq) = stretch.half_angle(s);
+                    let inverse = 1.0 / (1.0 + q * q);
+                    let p_abs = span * 2.0 * q * inverse;
+                    let y = span * (1.0 - q) * (1.0 + q) * inverse;
+                    let x = (1.0 + p_abs * p_abs).sqrt();
+                    let (re, im) = spectrum::inverse_rayleigh(self.k, x, p_abs, y);
+                    let slowness = Slowness {
+                        x,
+                        p_abs,
+                        y,
+                        re,
+                        im,
                     };
-                    set_traction(&mut term, &amplitudes, difference, at.r);
-                }
-                sum.add(weight * jacobian, share, term);
-            });
+                    let psi = match wave {
+                        Wave::P => self.longitudinal::<ORDER>(at, slowness),
+                        Wave::S => self.shear::<ORDER>(at, slowness),
+                    };
+                    let amplitudes = spectrum::slow(wave, self.k, x, p_abs, y);
+                    // dx = p^ dp^/x, dp^ = 2 y/(1 + q^2) dq
+                    let jacobian = p_abs * 2.0 * y * inverse / x * dq;
+                    let mut term = fields(&amplitudes, &psi, at.r);
+                    if shallow {
+                        let difference = match wave {
+                            Wave::P => longitudinal_difference(at, slowness),
+                            Wave::S => shear_difference(at, slowness),
+                        };
+                        set_traction(&mut term, &amplitudes, difference, at.r);
+                    }
+                    sum.add(weight * jacobian, share, term);
+                },
+            );
         }
     }
 
