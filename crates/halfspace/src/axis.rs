@@ -13,6 +13,9 @@ use crate::profile::Profile;
 /// Radii below this share of the distance from the edge of the disc are continued.
 const NEAR: f64 = 0.03;
 
+/// Across a front nothing is known: the error over the size of what is combined.
+const ACROSS: f64 = 30.0;
+
 /// Number of radii used.
 const NODES: usize = 6;
 
@@ -32,33 +35,46 @@ pub(crate) fn continued(
     at: Point,
     evaluate: impl Fn(Point) -> Estimate,
 ) -> Estimate {
-    let step = step(kernel, at);
+    let (step, is_clear) = step(kernel, at);
     let radii: [f64; NODES] = std::array::from_fn(|i| step * (i + 1) as f64);
     let values = radii.map(|r| evaluate(Point { r, ..at }));
     let (value, error) = combine(at.r, &radii, &values);
     let (coarse, _) = combine(at.r, &radii[..NODES - 1], &values[..NODES - 1]);
+    let sizes = values.map(|estimate| Estimate {
+        error: estimate.value.map(f64::abs),
+        ..estimate
+    });
+    let (_, size) = combine(at.r, &radii, &sizes);
     Estimate {
         value,
-        error: std::array::from_fn(|f| error[f] + (value[f] - coarse[f]).abs()),
+        error: std::array::from_fn(|f| {
+            let left = (value[f] - coarse[f]).abs();
+            let across = if is_clear { 0.0 } else { ACROSS * size[f] };
+            error[f] + left + across
+        }),
     }
 }
 
-/// A spacing that keeps all radii on one side of every front.
+/// A spacing that keeps all radii on one side of every front, and whether there is one.
 ///
 /// Off the axis a front from the edge of a disc arrives earlier or later by at most r, one from a point by r^2/(2 z).
-fn step(kernel: &Kernel, at: Point) -> f64 {
+fn step(kernel: &Kernel, at: Point) -> (f64, bool) {
     const SHARE: f64 = 0.05;
+    const LEAST: f64 = 1e-4;
     let radius = kernel.profile().radius();
     let distance = at.z.hypot(radius);
     let arrivals = Arrivals::new(kernel.medium(), kernel.profile(), 0.0, at.z);
     let times = arrivals.map_or(vec![], |arrivals| arrivals.sorted());
     let gap = times.iter().map(|a| (at.t - a).abs()).fold(at.t, f64::min);
+    let reach = kernel.medium().kappa() * gap;
     let widest = if radius > 0.0 {
-        kernel.medium().kappa() * gap
+        reach
     } else {
-        (gap * at.z).sqrt()
+        (reach * at.z).sqrt()
     };
-    (widest / (NODES + 1) as f64).clamp(1e-4 * distance, SHARE * distance)
+    let step = widest / (NODES + 1) as f64;
+    let least = LEAST * distance;
+    (step.clamp(least, SHARE * distance), step >= least)
 }
 
 /// Lagrange interpolation of the fields, divided by r where odd, in r^2.

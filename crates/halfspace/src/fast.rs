@@ -45,7 +45,8 @@ impl Kernel {
             ORIGIN,
             self.strength::<ORDER>(),
             Fold::Upper,
-        );
+        )
+        .with_rounding(self.front_rounding(at));
         fronts::add_fast(
             &mut landscape,
             at,

@@ -320,6 +320,12 @@ impl Kernel {
         sum
     }
 
+    /// Rounding of the distance to the nearest edge, in units of that of the distance itself.
+    pub(crate) fn front_rounding(&self, at: Point) -> f64 {
+        let radius = self.profile.radius();
+        3.0 * (at.r + radius) / (at.r - radius).hypot(at.z).max(f64::EPSILON)
+    }
+
     /// The share of the Rayleigh wave that rounding of its distance from the edges of the disc may take.
     fn share_at_front<const ORDER: i32>(&self, at: Point, xi: Complex64, shallow: bool) -> Share {
         let radius = self.profile.radius();
@@ -328,7 +334,8 @@ impl Kernel {
             .map(|edge| (height - edge).hypot(xi.re))
             .into_iter()
             .fold(f64::INFINITY, f64::min);
-        let front = ROUNDING * height / gap.max(f64::EPSILON * height);
+        let size = height + at.r + radius;
+        let front = ROUNDING * size / gap.max(f64::EPSILON * size);
         match self.strength::<ORDER>() {
             Strength::Bounded if shallow => (ROUNDING + front).into(),
             Strength::Bounded => ROUNDING.into(),

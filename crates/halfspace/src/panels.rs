@@ -29,6 +29,15 @@ const CAUTION: f64 = 130.0;
 /// The same of a pole of third order over a simple one.
 const POLE: f64 = 30.0;
 
+/// How much more it is of integrands that are unbounded at the fronts.
+fn caution(strength: Strength) -> f64 {
+    match strength {
+        Strength::Bounded => CAUTION,
+        Strength::InverseRoot => 3.0 * CAUTION,
+        Strength::FinitePart => 20.0 * CAUTION,
+    }
+}
+
 /// Rounding error of a term as a share of it.
 pub(crate) const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
@@ -52,6 +61,7 @@ pub(crate) struct Landscape {
     pole: Complex64,
     strength: Strength,
     fold: Fold,
+    rounding: f64,
 }
 
 /// The ends at which a smooth variable stands for the square root of the distance in slowness.
@@ -65,6 +75,15 @@ pub(crate) enum Fold {
 struct Images {
     all: List<Complex64>,
     pole: Complex64,
+}
+
+/// How a piece is integrated.
+#[derive(Debug, Clone, Copy)]
+struct Rule {
+    /// The finite part of an inverse square at zero.
+    finite_part: bool,
+    /// The error over what the nearest singularity alone would leave.
+    caution: f64,
 }
 
 /// How strong the singularities at the cuts are.
@@ -137,11 +156,18 @@ impl Landscape {
             pole,
             strength,
             fold,
+            rounding: ROUNDING,
         };
         for &point in fixed {
             landscape.add(point);
         }
         landscape
+    }
+
+    /// Counts the rounding of unbounded integrands so many times.
+    pub(crate) fn with_rounding(mut self, times: f64) -> Self {
+        self.rounding *= times;
+        self
     }
 
     /// Adds a singularity: a cut if it lies on the interval, a point to keep away from otherwise.
@@ -199,7 +225,10 @@ impl Landscape {
                     &images,
                     digits,
                     3.0,
-                    Strength::Bounded,
+                    Rule {
+                        finite_part: false,
+                        caution: caution(self.strength),
+                    },
                     &mut |s, weight, share| {
                         f(from + (to - from) * s, weight * (to - from), share.into());
                     },
@@ -253,7 +282,10 @@ impl Landscape {
             &images,
             digits,
             least,
-            self.strength,
+            Rule {
+                finite_part: self.strength == Strength::FinitePart,
+                caution: caution(self.strength),
+            },
             &mut |s, weight, share| {
                 let v = cut + scale * s.powi(power);
                 if v != cut {
@@ -280,7 +312,7 @@ impl Landscape {
             return 0.0;
         }
         // beyond its root rounding does not move a root
-        let by = |distance: f64| ROUNDING / distance.max(ROUNDING.sqrt());
+        let by = |distance: f64| self.rounding / distance.max(self.rounding.sqrt());
         let mut nearest = 1.0_f64;
         let mut own = 0;
         for &other in self.cuts.as_slice() {
@@ -312,7 +344,7 @@ impl Landscape {
             Fold::Both => by(1.0 - cut) + by(cut),
         };
         // a fold moves what is small by no more than a share
-        ROUNDING * cut + twin + fold.min(cut)
+        self.rounding * cut + twin + fold.min(cut)
     }
 
     /// The share of a term at a distance from a cut, s in the smooth variable, with the rounding error of the distance.
@@ -366,13 +398,7 @@ pub(crate) fn root(v: Complex64) -> Complex64 {
 }
 
 /// Visits Gauss nodes, at least so many a panel, on panels of [0, 1] that keep clear of the singularities.
-fn panels(
-    images: &Images,
-    digits: f64,
-    least: f64,
-    strength: Strength,
-    f: &mut impl FnMut(f64, f64, f64),
-) {
+fn panels(images: &Images, digits: f64, least: f64, rule: Rule, f: &mut impl FnMut(f64, f64, f64)) {
     let mut stack = [(0.0, 1.0); 64];
     let mut depth = 1;
     while depth > 0 {
@@ -380,7 +406,7 @@ fn panels(
         let (s0, s1) = stack[depth];
         let rate = smallest_ellipse(images.all.as_slice(), s0, s1).ln();
         let pole_rate = half_axes(axis(images.pole, s0, s1)).ln();
-        let at_cut = s0 == 0.0 && strength == Strength::FinitePart;
+        let at_cut = s0 == 0.0 && rule.finite_part;
         // Gauss's rule has twice the degree of one that only interpolates.
         let degree = if at_cut { 1.0 } else { 2.0 };
         let least_nodes = (digits / rate).max((digits + POLE.ln()) / pole_rate);
@@ -394,7 +420,7 @@ fn panels(
         }
         let n = nodes.max(least).min(MOST_NODES);
         let left = |rate: f64| (-degree * n * rate).exp();
-        let share = CAUTION * (left(rate) + POLE * left(pole_rate)) + ROUNDING;
+        let share = rule.caution * (left(rate) + POLE * left(pole_rate)) + ROUNDING;
         let n = n as usize;
         if at_cut {
             let rule = gauss::finite_part_rule(n);

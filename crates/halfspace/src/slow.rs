@@ -27,7 +27,8 @@ impl Kernel {
             self.fixed.slow_pole,
             self.strength::<ORDER>(),
             Fold::Both,
-        );
+        )
+        .with_rounding(self.front_rounding(at));
         let stretch = &self.fixed.stretch;
         fronts::add_slow(
             &mut landscape,
