@@ -323,11 +323,12 @@ impl Kernel {
     /// Rounding of the distance to the nearest edge, in units of that of the distance itself.
     pub(crate) fn front_rounding(&self, at: Point) -> f64 {
         let radius = self.profile.radius();
-        let times = match self.profile {
-            Profile::Hertz | Profile::Punch => 3.0,
+        match self.profile {
+            Profile::Hertz | Profile::Punch => {
+                3.0 * (at.r + radius) / (at.r - radius).hypot(at.z).max(f64::EPSILON)
+            }
             Profile::Point => 30.0,
-        };
-        times * (at.r + radius) / (at.r - radius).hypot(at.z).max(f64::EPSILON)
+        }
     }
 
     /// The share of the Rayleigh wave that rounding of its distance from the edges of the disc may take.

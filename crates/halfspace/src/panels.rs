@@ -343,8 +343,13 @@ impl Landscape {
             Fold::Upper => by(1.0 - cut),
             Fold::Both => by(1.0 - cut) + by(cut),
         };
+        // under a disc the plane front is exact however small its place; a point force has none
+        let place = match self.strength {
+            Strength::FinitePart => 1.0,
+            Strength::Bounded | Strength::InverseRoot => cut,
+        };
         // a fold moves what is small by no more than a share
-        self.rounding * cut + twin + fold.min(cut)
+        self.rounding * place + twin + fold.min(cut)
     }
 
     /// The share of a term at a distance from a cut, s in the smooth variable, with the rounding error of the distance.
