@@ -39,21 +39,25 @@ pub(crate) fn compact<const ORDER: i32>(profile: Profile, eta: f64, r: f64) -> P
     }
 }
 
-/// phi and q at one end of the chord.
+/// phi and q at the end s = eta + shift of the chord.
+///
+/// r - s and r + s are taken from r -+ shift, which is exact at the edge of the disc.
 #[inline]
-fn circle(s: f64, r: f64) -> (f64, f64) {
-    if s >= r {
+fn circle(eta: f64, shift: f64, r: f64) -> (f64, f64) {
+    let (below, above) = ((r - shift) - eta, (r + shift) + eta);
+    if below <= 0.0 {
         (FRAC_PI_2, 0.0)
-    } else if s <= -r {
+    } else if above <= 0.0 {
         (-FRAC_PI_2, 0.0)
     } else {
-        ((s / r).asin(), ((r - s) * (r + s)).sqrt())
+        let sine = ((eta + shift) / r).clamp(-1.0, 1.0);
+        (sine.asin(), (below * above).sqrt())
     }
 }
 
 #[inline]
 fn hertz<const ORDER: i32>(eta: f64, r: f64) -> Potentials<f64> {
-    let ((phi1, q1), (phi2, q2)) = (circle(eta - 1.0, r), circle(eta + 1.0, r));
+    let ((phi1, q1), (phi2, q2)) = (circle(eta, -1.0, r), circle(eta, 1.0, r));
     if ORDER < 0 {
         return hertz_slopes(eta, r, [phi1, phi2], [q1, q2]);
     }
@@ -232,7 +236,7 @@ fn hertz_on_axis<const ORDER: i32>(eta: f64) -> Potentials<f64> {
 #[inline]
 fn punch<const ORDER: i32>(eta: f64, r: f64) -> Potentials<f64> {
     let (s1, s2) = (eta - 1.0, eta + 1.0);
-    let ((phi1, q1), (phi2, q2)) = (circle(s1, r), circle(s2, r));
+    let ((phi1, q1), (phi2, q2)) = (circle(eta, -1.0, r), circle(eta, 1.0, r));
     let scale = 0.25 / PI;
     let ring = scale / (r * r);
     let a3 = scale * (phi2 - phi1);
@@ -259,7 +263,7 @@ fn punch<const ORDER: i32>(eta: f64, r: f64) -> Potentials<f64> {
 
 #[inline]
 fn point<const ORDER: i32>(eta: f64, r: f64) -> Potentials<f64> {
-    let (phi, q) = circle(eta, r);
+    let (phi, q) = circle(eta, 0.0, r);
     let scale = 0.5 / PI;
     let ring = scale / (r * r);
     let inverse = if q > 0.0 { 1.0 / q } else { 0.0 };

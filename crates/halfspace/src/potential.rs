@@ -73,7 +73,8 @@ pub(crate) fn potentials<const ORDER: i32>(
 /// The Hertz disc from the chord primitives, phi = -i L and q = rho in the variable eta = -i xi.
 fn by_primitives<const ORDER: i32>(xi: Complex64, r: f64) -> Potentials<Complex64> {
     let zeta = [1.0, -1.0].map(|sigma| Complex64::new(xi.re, xi.im - sigma));
-    let rho = zeta.map(|zeta| root_with_circle(zeta, r));
+    let inside = inside(xi.im, r);
+    let rho = [0, 1].map(|i| root_inside(zeta[i], inside[i]));
     let sum = [zeta[0] + rho[0], zeta[1] + rho[1]];
     let minus_i = |v: Complex64| Complex64::new(v.im, -v.re);
     let eta = minus_i(xi);
@@ -95,17 +96,7 @@ fn by_primitives<const ORDER: i32>(xi: Complex64, r: f64) -> Potentials<Complex6
 /// `factors` are r - s and r + s of the two ends, s = -c t -+ 1, where those that are small near a front are exact.
 fn ends_at_front(xi: Complex64, factors: [[f64; 2]; 2]) -> ([Complex64; 2], [Complex64; 2]) {
     let zeta = [1.0, -1.0].map(|sigma| Complex64::new(xi.re, xi.im - sigma));
-    let rho = [0, 1].map(|i| {
-        let s = zeta[i].im;
-        let inside = factors[i][0] * factors[i][1];
-        if xi.re > 0.0 {
-            panels::root(Complex64::new(xi.re * xi.re + inside, 2.0 * xi.re * s))
-        } else if inside >= 0.0 {
-            Complex64::new(inside.sqrt(), 0.0)
-        } else {
-            Complex64::new(0.0, (-inside).sqrt().copysign(s))
-        }
-    });
+    let rho = [0, 1].map(|i| root_inside(zeta[i], factors[i][0] * factors[i][1]));
     (zeta, rho)
 }
 
@@ -162,7 +153,7 @@ pub(crate) fn step_at_front(
 /// The same on the imaginary axis, where real and imaginary part separate into real functions.
 fn on_imaginary_axis<const ORDER: i32>(eta: f64, r: f64) -> Potentials<Complex64> {
     let s = [eta - 1.0, eta + 1.0];
-    let inside = s.map(|s| (r - s) * (r + s));
+    let inside = inside(eta, r);
     // Re: phi and q held at their value on the circle outside it
     let re = if ORDER == 0 && eta.abs() >= 1.0 + r {
         Potentials::default()
@@ -411,8 +402,20 @@ pub(crate) fn logarithm(v: Complex64) -> Complex64 {
 /// sqrt(zeta + ir) sqrt(zeta - ir), the branch that is zeta at r = 0, for Re zeta >= 0.
 #[inline]
 pub(crate) fn root_with_circle(zeta: Complex64, r: f64) -> Complex64 {
+    root_inside(zeta, (r - zeta.im) * (r + zeta.im))
+}
+
+/// (r - s)(r + s) at the ends s = eta -+ 1 of the chord, exact at the edge of the disc.
+#[inline]
+fn inside(eta: f64, r: f64) -> [f64; 2] {
+    let (inner, outer) = (r - 1.0, r + 1.0);
+    [(outer - eta) * (inner + eta), (inner - eta) * (outer + eta)]
+}
+
+/// sqrt(d^2 + inside + 2 i d s) for zeta = d + i s.
+#[inline]
+fn root_inside(zeta: Complex64, inside: f64) -> Complex64 {
     let (d, s) = (zeta.re, zeta.im);
-    let inside = (r - s) * (r + s);
     if d == 0.0 {
         return if inside >= 0.0 {
             Complex64::new(inside.sqrt(), 0.0)
