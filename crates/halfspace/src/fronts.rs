@@ -17,9 +17,10 @@
 //!
 //! Other singularities are fixed: zeros of the Rayleigh function on neighbouring sheets and branch points.
 
+use crate::complex::{logarithm, root};
+use crate::landscape::Landscape;
 use crate::medium::Medium;
-use crate::panels::{Landscape, root, smallest_ellipse};
-use crate::potential::logarithm;
+use crate::panels::smallest_ellipse;
 use crate::spectrum::Wave;
 use num_complex::Complex64;
 

@@ -11,7 +11,8 @@
 //! where the closed form becomes a difference of large numbers.
 
 use crate::compact::Scalar;
-use crate::potential::{Potentials, logarithm, reciprocal, root_with_circle};
+use crate::complex::{logarithm, reciprocal, root_with_circle};
+use crate::potential::Potentials;
 use crate::profile::Profile;
 use num_complex::Complex64;
 use std::f64::consts::{FRAC_PI_2, PI};

@@ -1,9 +1,8 @@
-//! Quadrature of a function whose singularities are all known.
+//! Gauss rules on panels that keep clear of singularities.
 //!
-//! The interval [0, 1] is cut at the singularities that lie on it; toward a cut the variable is squared,
-//! which turns square roots into smooth functions. A panel is accepted when every singularity lies outside
-//! a Bernstein ellipse large enough for a Gauss rule to reach the accuracy asked for, else it is halved.
-//! So the number of nodes follows from the geometry, and nothing is evaluated twice.
+//! A panel is accepted when every singularity lies outside a Bernstein ellipse large enough for a Gauss rule to reach
+//! the accuracy asked for, else it is halved. So the number of nodes follows from the geometry, and nothing is
+//! evaluated twice.
 
 use crate::gauss;
 use num_complex::Complex64;
@@ -15,120 +14,46 @@ const MOST_NODES: f64 = 24.0;
 const NARROWEST: f64 = 1e-9;
 
 /// Most cuts or singularities that an integrand of this crate has.
-const CAPACITY: usize = 64;
+pub(crate) const CAPACITY: usize = 64;
 
-/// Power of the variable toward a cut of a single singularity.
-const SQUARE: i32 = 2;
-
-/// Power toward a cut where singularities meet.
-const HIGH: i32 = 6;
-
-/// The error of a rule over what the nearest singularity alone would leave, rho^(-2n): many meet near a front.
-const CAUTION: f64 = 130.0;
-
-/// The same of a pole of third order over a simple one.
+/// The error at a pole of third order over that at a simple one.
 const POLE: f64 = 30.0;
-
-/// How much more it is of integrands that are unbounded at the fronts.
-fn caution(strength: Strength) -> f64 {
-    match strength {
-        Strength::Bounded => CAUTION,
-        Strength::InverseRoot => 3.0 * CAUTION,
-        Strength::FinitePart => 20.0 * CAUTION,
-    }
-}
 
 /// Rounding error of a term as a share of it.
 pub(crate) const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
-/// Cuts closer than this share of their size are one.
-const SAME: f64 = 1e-13;
-
-/// Smaller places are as good as zero once multiplied by [`SAME`].
-const SMALLEST: f64 = 1e-14;
-
-/// Whether two places in [0, 1] are one: just after a plane front cuts of 1e-16 are distinct from zero.
-fn same(a: f64, b: f64) -> bool {
-    (a - b).abs() <= SAME * a.max(b).max(SMALLEST)
-}
-
-/// The interval [0, 1] of a smooth variable with everything that is not smooth near it.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Landscape {
-    cuts: List<f64>,
-    singularities: List<Complex64>,
-    /// Where the integrand grows as a pole of high order.
-    pole: Complex64,
-    strength: Strength,
-    fold: Fold,
-    rounding: f64,
-}
-
-/// The ends at which a smooth variable stands for the square root of the distance in slowness.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Fold {
-    Upper,
-    Both,
-}
-
 /// What a rule has to keep away from, in its own variable.
-struct Images {
-    all: List<Complex64>,
-    pole: Complex64,
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Images {
+    pub(crate) all: List<Complex64>,
+    pub(crate) pole: Complex64,
 }
 
 /// How a piece is integrated.
 #[derive(Debug, Clone, Copy)]
-struct Rule {
+pub(crate) struct Rule {
     /// The finite part of an inverse square at zero.
-    finite_part: bool,
+    pub(crate) finite_part: bool,
     /// The error over what the nearest singularity alone would leave.
-    caution: f64,
-}
-
-/// How strong the singularities at the cuts are.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Strength {
-    /// The integrand stays finite.
-    Bounded,
-    /// The inverse square root.
-    InverseRoot,
-    /// The power -3/2, taken as Hadamard's finite part.
-    FinitePart,
-}
-
-/// The likely error of a term as a share of its size.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Share {
-    pub(crate) displacement: f64,
-    pub(crate) stress: f64,
-}
-
-impl From<f64> for Share {
-    fn from(share: f64) -> Self {
-        Self {
-            displacement: share,
-            stress: share,
-        }
-    }
+    pub(crate) caution: f64,
 }
 
 /// A short list on the stack.
 #[derive(Debug, Clone, Copy)]
-struct List<T> {
+pub(crate) struct List<T> {
     items: [T; CAPACITY],
     length: usize,
 }
 
 impl<T: Copy + Default> List<T> {
-    fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self {
             items: [T::default(); CAPACITY],
             length: 0,
         }
     }
 
-    fn push(&mut self, item: T) {
+    pub(crate) fn push(&mut self, item: T) {
         debug_assert!(
             self.length < CAPACITY,
             "a landscape holds at most {CAPACITY} points"
@@ -137,273 +62,23 @@ impl<T: Copy + Default> List<T> {
         self.length += 1;
     }
 
-    fn as_slice(&self) -> &[T] {
+    pub(crate) fn as_mut_slice(&mut self) -> &mut [T] {
+        &mut self.items[..self.length]
+    }
+
+    pub(crate) fn as_slice(&self) -> &[T] {
         &self.items[..self.length]
     }
 }
 
-impl Landscape {
-    /// An interval with nothing but a pole and the given singularities, none of them on it.
-    pub(crate) fn new(
-        fixed: &[Complex64],
-        pole: Complex64,
-        strength: Strength,
-        fold: Fold,
-    ) -> Self {
-        let mut landscape = Self {
-            cuts: List::new(),
-            singularities: List::new(),
-            pole,
-            strength,
-            fold,
-            rounding: ROUNDING,
-        };
-        for &point in fixed {
-            landscape.add(point);
-        }
-        landscape
-    }
-
-    /// Counts the rounding of unbounded integrands so many times.
-    pub(crate) fn with_rounding(mut self, times: f64) -> Self {
-        self.rounding *= times;
-        self
-    }
-
-    /// Adds a singularity: a cut if it lies on the interval, a point to keep away from otherwise.
-    ///
-    /// Of a conjugate pair one is enough.
-    pub(crate) fn add(&mut self, point: Complex64) {
-        /// A singularity this close to the interval is worth a cut: the squared variable resolves it sooner.
-        const CLOSE: f64 = 0.02;
-        /// Beyond this distance a singularity costs no node.
-        const FAR: f64 = 1.5;
-        let clear = (point.re - 0.5).abs() - 0.5;
-        if !(clear < FAR && point.im.abs() < FAR) {
-            return;
-        }
-        if clear < CLOSE && point.im.abs() < CLOSE {
-            self.cuts.push(point.re.clamp(0.0, 1.0));
-        }
-        if clear > 0.0 || point.im != 0.0 {
-            self.singularities
-                .push(Complex64::new(point.re, point.im.abs()));
-        }
-    }
-
-    /// The cuts in order, between the ends of the interval.
-    pub(crate) fn intervals(&mut self) -> impl Iterator<Item = (f64, f64)> + use<> {
-        let cuts = &mut self.cuts.items[..self.cuts.length];
-        cuts.sort_unstable_by(f64::total_cmp);
-        let mut ends = [0.0; CAPACITY + 2];
-        let mut last = 0;
-        for &cut in cuts.iter() {
-            if !same(cut, ends[last]) {
-                last += 1;
-                ends[last] = cut;
-            }
-        }
-        if !same(ends[last], 1.0) {
-            last += 1;
-        }
-        ends[last] = 1.0;
-        (0..last).map(move |i| (ends[i], ends[i + 1]))
-    }
-
-    /// Visits nodes (v, weight, share) of a rule on one interval, accurate to exp(-`digits`) of the size of
-    /// the integrand; the share of its size is the likely error of a term.
-    pub(crate) fn visit(
-        &self,
-        (from, to): (f64, f64),
-        digits: f64,
-        f: &mut impl FnMut(f64, f64, Share),
-    ) {
-        match (self.power(from), self.power(to)) {
-            (None, None) => {
-                let images = self.images(|_| false, |v| (v - from) / (to - from));
-                panels(
-                    &images,
-                    digits,
-                    3.0,
-                    Rule {
-                        finite_part: false,
-                        caution: caution(self.strength),
-                    },
-                    &mut |s, weight, share| {
-                        f(from + (to - from) * s, weight * (to - from), share.into());
-                    },
-                );
-            }
-            (Some(power), None) => self.visit_power(from, to, power, digits, f),
-            (None, Some(power)) => self.visit_power(to, from, power, digits, f),
-            (Some(lower), Some(upper)) => {
-                let middle = 0.5 * (from + to);
-                self.visit_power(from, middle, lower, digits, f);
-                self.visit_power(to, middle, upper, digits, f);
-            }
-        }
-    }
-
-    /// The power of the variable that smooths the end of an interval, if it is a cut.
-    fn power(&self, end: f64) -> Option<i32> {
-        let cuts = self.cuts.as_slice().iter();
-        match cuts.filter(|&&cut| same(cut, end)).count() {
-            0 => None,
-            1 => Some(SQUARE),
-            _ => Some(HIGH),
-        }
-    }
-
-    /// v = cut + (end - cut) s^power.
-    fn visit_power(
-        &self,
-        cut: f64,
-        end: f64,
-        power: i32,
-        digits: f64,
-        f: &mut impl FnMut(f64, f64, Share),
-    ) {
-        let scale = end - cut;
-        // the singularity of the cut itself is what the power is for
-        let reach = (SAME * scale).powi(2);
-        let own = |v: Complex64| (v - cut).norm_sqr() <= reach;
-        let images = self.images(own, |v| {
-            let distance = (v - cut) / scale;
-            if power == SQUARE {
-                root(distance)
-            } else {
-                distance.powf(1.0 / f64::from(power))
-            }
-        });
-        let blur = self.blur(cut);
-        // A power of a logarithm is left at s = 0: Gauss's rule gains 2 power digits a doubling there.
-        let least = if power == SQUARE { 3.0 } else { 0.7 * digits };
-        panels(
-            &images,
-            digits,
-            least,
-            Rule {
-                finite_part: self.strength == Strength::FinitePart,
-                caution: caution(self.strength),
-            },
-            &mut |s, weight, share| {
-                let v = cut + scale * s.powi(power);
-                if v != cut {
-                    f(
-                        v,
-                        weight * scale.abs() * f64::from(power) * s.powi(power - 1),
-                        self.at_front(share, blur, (v - cut).abs(), s),
-                    );
-                }
-            },
-        );
-    }
-
-    /// How far a cut may be from the front it stands for, by rounding, where the integrand is unbounded.
-    ///
-    /// A front and its neighbour are roots of one quadratic, which are as uncertain as they are close; so are the
-    /// slowness and its mirror image at an end where the variable folds.
-    fn blur(&self, cut: f64) -> f64 {
-        /// Fronts that were taken for one leave out what lies between them.
-        const MERGED: f64 = 1e7;
-        /// A neighbour within this share of the place may be the other root.
-        const TWIN: f64 = 0.1;
-        if self.strength == Strength::Bounded {
-            return 0.0;
-        }
-        // beyond its root rounding does not move a root
-        let by = |distance: f64| self.rounding / distance.max(self.rounding.sqrt());
-        let mut nearest = 1.0_f64;
-        let mut own = 0;
-        for &other in self.cuts.as_slice() {
-            if same(other, cut) {
-                own += 1;
-                if other != cut {
-                    return MERGED;
-                }
-            } else {
-                nearest = nearest.min((other - cut).abs());
-            }
-        }
-        if own > 1 {
-            return MERGED;
-        }
-        for point in self.singularities.as_slice() {
-            let distance = (point - cut).norm();
-            if distance > SAME * cut.max(SMALLEST) {
-                nearest = nearest.min(distance);
-            }
-        }
-        let twin = if nearest < TWIN * cut {
-            by(nearest)
-        } else {
-            0.0
-        };
-        let fold = match self.fold {
-            Fold::Upper => by(1.0 - cut),
-            Fold::Both => by(1.0 - cut) + by(cut),
-        };
-        // under a disc the plane front is exact however small its place; a point force has none
-        let place = match self.strength {
-            Strength::FinitePart => 1.0,
-            Strength::Bounded | Strength::InverseRoot => cut,
-        };
-        // a fold moves what is small by no more than a share
-        self.rounding * place + twin + fold.min(cut)
-    }
-
-    /// The share of a term at a distance from a cut, s in the smooth variable, with the rounding error of the distance.
-    fn at_front(&self, share: f64, blur: f64, distance: f64, s: f64) -> Share {
-        let front = blur / distance;
-        match self.strength {
-            Strength::Bounded => share.into(),
-            // displacements have a root there
-            Strength::InverseRoot => Share {
-                displacement: share + front * s,
-                stress: share + front,
-            },
-            Strength::FinitePart => Share {
-                displacement: share + front,
-                stress: share + 3.0 * front,
-            },
-        }
-    }
-
-    /// Singularities in another variable, but for those that `drop` names.
-    fn images(
-        &self,
-        drop: impl Fn(Complex64) -> bool,
-        to_variable: impl Fn(Complex64) -> Complex64,
-    ) -> Images {
-        let mut all = List::new();
-        let cuts = self.cuts.as_slice().iter().map(|&c| Complex64::new(c, 0.0));
-        let others = self.singularities.as_slice().iter().copied();
-        for point in cuts.chain(others) {
-            if !drop(point) {
-                all.push(to_variable(point));
-            }
-        }
-        Images {
-            all,
-            pole: to_variable(self.pole),
-        }
-    }
-}
-
-/// Principal square root.
-pub(crate) fn root(v: Complex64) -> Complex64 {
-    let modulus = v.norm_sqr().sqrt();
-    if v.re >= 0.0 {
-        let a = (0.5 * (modulus + v.re)).sqrt();
-        Complex64::new(a, if a > 0.0 { 0.5 * v.im / a } else { 0.0 })
-    } else {
-        let b = (0.5 * (modulus - v.re)).sqrt();
-        Complex64::new(0.5 * v.im.abs() / b, b.copysign(v.im))
-    }
-}
-
 /// Visits Gauss nodes, at least so many a panel, on panels of [0, 1] that keep clear of the singularities.
-fn panels(images: &Images, digits: f64, least: f64, rule: Rule, f: &mut impl FnMut(f64, f64, f64)) {
+pub(crate) fn panels(
+    images: &Images,
+    digits: f64,
+    least: f64,
+    rule: Rule,
+    f: &mut impl FnMut(f64, f64, f64),
+) {
     let mut stack = [(0.0, 1.0); 64];
     let mut depth = 1;
     while depth > 0 {
@@ -461,62 +136,4 @@ fn axis(point: Complex64, s0: f64, s1: f64) -> f64 {
 fn half_axes(axis: f64) -> f64 {
     let half = 0.5 * axis.max(2.0);
     half + (half * half - 1.0).sqrt().max(1e-9)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    const NOWHERE: Complex64 = Complex64::new(1e99, 0.0);
-
-    fn integral(singularity: Complex64, f: impl Fn(f64) -> f64) -> (f64, usize) {
-        let mut landscape = Landscape::new(&[singularity], NOWHERE, Strength::Bounded, Fold::Upper);
-        let (mut sum, mut count) = (0.0, 0);
-        for interval in landscape.intervals() {
-            landscape.visit(interval, 28.0, &mut |v, w, _| {
-                sum += w * f(v);
-                count += 1;
-            });
-        }
-        (sum, count)
-    }
-
-    #[test]
-    fn square_roots_at_cuts_are_integrated() {
-        let (sum, count) = integral(0.3.into(), |v| (v - 0.3).abs().sqrt());
-        let exact = (0.3_f64.powf(1.5) + 0.7_f64.powf(1.5)) / 1.5;
-        assert!((sum - exact).abs() < 1e-14, "{sum} {exact}");
-        assert!(count < 20, "{count} nodes");
-    }
-
-    #[test]
-    fn logarithms_at_double_cuts_are_integrated() {
-        let mut landscape = Landscape::new(
-            &[0.3.into(), 0.3.into()],
-            NOWHERE,
-            Strength::Bounded,
-            Fold::Upper,
-        );
-        let mut sum = 0.0;
-        for interval in landscape.intervals() {
-            landscape.visit(interval, 28.0, &mut |v, w, _| {
-                sum += w * (v - 0.3).abs().ln();
-            });
-        }
-        let exact = 0.3 * 0.3_f64.ln() + 0.7 * 0.7_f64.ln() - 1.0;
-        assert!((sum - exact).abs() < 1e-12, "{sum} {exact}");
-    }
-
-    #[test]
-    fn a_near_pole_is_resolved() {
-        for gap in [0.3, 1e-2, 1e-4, 1e-7] {
-            let pole = Complex64::new(0.4, gap);
-            let (sum, count) = integral(pole, |v| gap / ((v - 0.4).powi(2) + gap * gap));
-            let exact = (0.6 / gap).atan() + (0.4 / gap).atan();
-            // the distance to the pole carries the rounding error of its place
-            let noise = 1e-13 + 1e-16 / gap;
-            assert!((sum - exact).abs() < noise, "{gap}: {sum} {exact}");
-            assert!(count < 1500, "{count} nodes");
-        }
-    }
 }

@@ -11,11 +11,12 @@
 //! B_n is carried as B_n/r, which is smooth at r = 0.
 
 use crate::compact::chord_primitives;
+use crate::complex::{inside, logarithm, reciprocal, root_inside, times_minus_i};
+use crate::end::{End, end_orders};
 use crate::multipole;
-use crate::panels;
 use crate::profile::Profile;
 use num_complex::Complex64;
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::PI;
 
 /// Potentials of two neighbouring orders; `ORDER` 0 is the step response, 1 and 2 its time integrals, -1 its derivative.
 #[derive(Debug, Clone, Copy, Default)]
@@ -76,78 +77,18 @@ fn by_primitives<const ORDER: i32>(xi: Complex64, r: f64) -> Potentials<Complex6
     let inside = inside(xi.im, r);
     let rho = [0, 1].map(|i| root_inside(zeta[i], inside[i]));
     let sum = [zeta[0] + rho[0], zeta[1] + rho[1]];
-    let minus_i = |v: Complex64| Complex64::new(v.im, -v.re);
-    let eta = minus_i(xi);
+    let eta = times_minus_i(xi);
     // The step response needs only the difference of phi.
     let phi = if ORDER == 0 {
         [
             Complex64::default(),
-            minus_i(logarithm(sum[1] * reciprocal(sum[0]))),
+            times_minus_i(logarithm(sum[1] * reciprocal(sum[0]))),
         ]
     } else {
-        sum.map(|sum| minus_i(logarithm(sum)))
+        sum.map(|sum| times_minus_i(logarithm(sum)))
     };
     let psi = chord_primitives::<ORDER, Complex64>(eta, r, phi, rho);
     from_primitives::<ORDER>(psi, eta, r)
-}
-
-/// The ends zeta of the chord and their rho, for the Hertz disc at xi = d - i c t, d >= 0, from r +- 1 +- c t.
-///
-/// `factors` are r - s and r + s of the two ends, s = -c t -+ 1, where those that are small near a front are exact.
-fn ends_at_front(xi: Complex64, factors: [[f64; 2]; 2]) -> ([Complex64; 2], [Complex64; 2]) {
-    let zeta = [1.0, -1.0].map(|sigma| Complex64::new(xi.re, xi.im - sigma));
-    let rho = [0, 1].map(|i| root_inside(zeta[i], factors[i][0] * factors[i][1]));
-    (zeta, rho)
-}
-
-fn times_minus_i(v: Complex64) -> Complex64 {
-    Complex64::new(v.im, -v.re)
-}
-
-/// The potentials there, for xi near the disc and r not small.
-pub(crate) fn at_front(xi: Complex64, r: f64, factors: [[f64; 2]; 2]) -> Potentials<Complex64> {
-    let (zeta, rho) = ends_at_front(xi, factors);
-    let phi = [0, 1].map(|i| times_minus_i(logarithm(zeta[i] + rho[i])));
-    let eta = times_minus_i(xi);
-    let psi = chord_primitives::<0, Complex64>(eta, r, phi, rho);
-    from_primitives::<0>(psi, eta, r)
-}
-
-/// A_2 and B_2/r there, the difference between xi + step and xi = -i c t for real step > 0, to its own last digits.
-///
-/// Differences of the primitives of `chord_primitives`, each from those of rho^2 and of zeta + rho.
-pub(crate) fn step_at_front(
-    xi: Complex64,
-    step: f64,
-    r: f64,
-    factors: [[f64; 2]; 2],
-) -> (Complex64, Complex64) {
-    const TINY: f64 = 1e-300;
-    let (zeta, from) = ends_at_front(xi, factors);
-    let (_, to) = ends_at_front(xi + step, factors);
-    let d_rho = [0, 1].map(|i| {
-        let sum = from[i] + to[i];
-        if sum.norm_sqr() < TINY {
-            return Complex64::default();
-        }
-        step * (2.0 * zeta[i] + step) * reciprocal(sum)
-    });
-    let d_phi = [0, 1].map(|i| {
-        let w = (d_rho[i] + step) * reciprocal(zeta[i] + from[i]);
-        let modulus = 0.5 * (2.0 * w.re + w.norm_sqr()).ln_1p();
-        times_minus_i(Complex64::new(modulus, w.im.atan2(1.0 + w.re)))
-    });
-    let phi = [0, 1].map(|i| times_minus_i(logarithm(zeta[i] + step + to[i])));
-    let (eta, h) = (times_minus_i(xi), Complex64::new(0.0, -step));
-    // s q changes by s dq + h q
-    let d_sq = [0, 1].map(|i| times_minus_i(zeta[i]) * d_rho[i] + h * to[i]);
-    let (m0, d_m0) = (phi[1] - phi[0], d_phi[1] - d_phi[0]);
-    let (m1, d_m1) = (to[0] - to[1], d_rho[0] - d_rho[1]);
-    let d_m2 = 0.5 * (r * r * d_m0 - d_sq[1] + d_sq[0]);
-    let scale = 0.75 / PI;
-    let a = scale * (d_m1 - eta * d_m0 - h * m0);
-    let g = scale / (r * r) * (d_m2 - eta * d_m1 - h * m1);
-    (Complex64::new(-a.im, a.re), g)
 }
 
 /// The same on the imaginary axis, where real and imaginary part separate into real functions.
@@ -184,7 +125,7 @@ fn on_imaginary_axis<const ORDER: i32>(eta: f64, r: f64) -> Potentials<Complex64
 /// Potentials from chord primitives: powers of i from the change of variable, and the part of
 /// F_0 = (1 - zeta/rho)/r and F_1 = (rho - zeta)/r that is free of roots.
 #[inline]
-fn from_primitives<const ORDER: i32>(
+pub(crate) fn from_primitives<const ORDER: i32>(
     psi: Potentials<Complex64>,
     eta: Complex64,
     r: f64,
@@ -215,45 +156,6 @@ fn from_primitives<const ORDER: i32>(
             }
         }
     }
-}
-
-/// E and F/r of orders `ORDER` and `ORDER` - 1.
-#[inline]
-fn end_orders<const ORDER: i32>(zeta: Complex64, r: f64) -> Potentials<Complex64> {
-    if ORDER < 0 {
-        let end = End::without_log(zeta, r);
-        return Potentials {
-            a_upper: end.e(ORDER),
-            a_lower: end.e(ORDER - 1),
-            g_upper: end.f(ORDER),
-            g_lower: end.f(ORDER - 1),
-        };
-    }
-    let rho = End::without_log(zeta, r).rho;
-    let inverse = reciprocal(rho);
-    let sum = reciprocal(rho + zeta);
-    if ORDER == 0 {
-        let cube = inverse * inverse * inverse;
-        Potentials {
-            a_upper: inverse,
-            a_lower: zeta * cube,
-            g_upper: inverse * sum,
-            g_lower: cube,
-        }
-    } else {
-        Potentials {
-            a_upper: -logarithm(rho + zeta),
-            a_lower: inverse,
-            g_upper: sum,
-            g_lower: inverse * sum,
-        }
-    }
-}
-
-#[inline]
-pub(crate) fn reciprocal(v: Complex64) -> Complex64 {
-    let scale = 1.0 / v.norm_sqr();
-    Complex64::new(v.re * scale, -v.im * scale)
 }
 
 fn by_parts<const ORDER: i32>(profile: Profile, xi: Complex64, r: f64) -> Potentials<Complex64> {
@@ -290,141 +192,6 @@ fn by_parts<const ORDER: i32>(profile: Profile, xi: Complex64, r: f64) -> Potent
             }
         }
     }
-}
-
-/// One end of a chord: zeta, rho = sqrt(zeta^2 + r^2) with Re rho >= 0, L = log(zeta + rho).
-pub(crate) struct End {
-    zeta: Complex64,
-    rho: Complex64,
-    log: Complex64,
-    r: f64,
-}
-
-impl End {
-    /// Re zeta >= 0; on the imaginary axis the limit from the right is taken.
-    #[inline]
-    pub(crate) fn new(zeta: Complex64, r: f64) -> Self {
-        let mut end = Self::without_log(zeta, r);
-        let Self { rho, .. } = end;
-        end.log = if zeta.re == 0.0 && rho.re != 0.0 {
-            Complex64::new(r.ln(), (zeta.im / r).clamp(-1.0, 1.0).asin())
-        } else {
-            logarithm(zeta + rho)
-        };
-        end
-    }
-
-    /// An end of which only orders up to zero are used, which need no logarithm.
-    #[inline]
-    fn without_log(zeta: Complex64, r: f64) -> Self {
-        let mut rho = root_with_circle(zeta, r);
-        if rho.norm_sqr() == 0.0 {
-            // a node that rounds to the very front: as near as rounding lets it be
-            rho.re = f64::EPSILON.sqrt() * r;
-        }
-        Self {
-            zeta,
-            rho,
-            log: Complex64::default(),
-            r,
-        }
-    }
-
-    /// E_n(zeta), -2 <= n <= 5.
-    #[inline]
-    pub(crate) fn e(&self, n: i32) -> Complex64 {
-        let Self { zeta, rho, log, r } = *self;
-        let r2 = r * r;
-        match n {
-            -2 => (2.0 * zeta * zeta - r2) / (rho * rho * rho * rho * rho),
-            -1 => zeta / (rho * rho * rho),
-            0 => 1.0 / rho,
-            1 => -log,
-            2 => zeta * log - rho,
-            3 => 0.75 * zeta * rho + (0.25 * r2 - 0.5 * zeta * zeta) * log,
-            4 => {
-                let z2 = zeta * zeta;
-                zeta * (z2 / 6.0 - 0.25 * r2) * log + (r2 / 9.0 - 11.0 / 36.0 * z2) * rho
-            }
-            5 => {
-                let z2 = zeta * zeta;
-                (z2 * (0.125 * r2 - z2 / 24.0) - r2 * r2 / 64.0) * log
-                    + zeta * (25.0 / 288.0 * z2 - 55.0 / 576.0 * r2) * rho
-            }
-            _ => unreachable!("potentials use orders -2 to 5"),
-        }
-    }
-
-    /// F_n(zeta)/r with F_n = int k^{-n} J1(kr) e^{-k zeta} dk, -2 <= n <= 5; smooth at r = 0.
-    #[inline]
-    pub(crate) fn f(&self, n: i32) -> Complex64 {
-        let Self { zeta, rho, log, r } = *self;
-        let mut sum = rho + zeta;
-        if sum.norm_sqr() == 0.0 {
-            // the very singularity on the axis: any finite value will do
-            sum.re = 1e-100;
-        }
-        match n {
-            -2 => 3.0 * zeta / (rho * rho * rho * rho * rho),
-            -1 => 1.0 / (rho * rho * rho),
-            0 => 1.0 / (rho * sum),
-            1 => 1.0 / sum,
-            2 => -0.5 * (zeta / sum + log),
-            3 => 0.5 * ((rho * sum + zeta * zeta) / (3.0 * sum) + zeta * log - rho),
-            4 => {
-                let cubic = zeta * (rho * sum + zeta * zeta) / (12.0 * sum);
-                0.5 * (0.625 * zeta * rho - cubic + (0.125 * r * r - 0.5 * zeta * zeta) * log)
-            }
-            5 => {
-                let (z2, rho2, r2) = (zeta * zeta, rho * rho, r * r);
-                // (rho^5 - zeta^5)/r^2
-                let fifth = (rho2 * rho2 + rho * zeta * (rho2 + rho * zeta + z2) + z2 * z2) / sum;
-                let cubic = (5.0 / 24.0 + 1.0 / 18.0) * rho2 * rho - zeta * z2 * log / 6.0;
-                -0.5 * (cubic - fifth / 60.0 + 0.125 * r2 * (zeta * log - rho) - r2 * rho / 6.0)
-            }
-            _ => unreachable!("potentials use orders -2 to 5"),
-        }
-    }
-}
-
-/// Principal logarithm; of zero it is finite.
-#[inline]
-pub(crate) fn logarithm(v: Complex64) -> Complex64 {
-    let modulus = v.norm_sqr().max(f64::MIN_POSITIVE);
-    let angle = if v.re == 0.0 {
-        FRAC_PI_2.copysign(v.im)
-    } else {
-        v.im.atan2(v.re)
-    };
-    Complex64::new(0.5 * modulus.ln(), angle)
-}
-
-/// sqrt(zeta + ir) sqrt(zeta - ir), the branch that is zeta at r = 0, for Re zeta >= 0.
-#[inline]
-pub(crate) fn root_with_circle(zeta: Complex64, r: f64) -> Complex64 {
-    root_inside(zeta, (r - zeta.im) * (r + zeta.im))
-}
-
-/// (r - s)(r + s) at the ends s = eta -+ 1 of the chord, exact at the edge of the disc.
-#[inline]
-fn inside(eta: f64, r: f64) -> [f64; 2] {
-    let (inner, outer) = (r - 1.0, r + 1.0);
-    [(outer - eta) * (inner + eta), (inner - eta) * (outer + eta)]
-}
-
-/// sqrt(d^2 + inside + 2 i d s) for zeta = d + i s.
-#[inline]
-fn root_inside(zeta: Complex64, inside: f64) -> Complex64 {
-    let (d, s) = (zeta.re, zeta.im);
-    if d == 0.0 {
-        return if inside >= 0.0 {
-            Complex64::new(inside.sqrt(), 0.0)
-        } else {
-            Complex64::new(0.0, (-inside).sqrt().copysign(s))
-        };
-    }
-    let square = Complex64::new(d * d + inside, 2.0 * d * s);
-    panels::root(square)
 }
 
 #[cfg(test)]

@@ -9,21 +9,16 @@
 //! the step in xi times the mean of the potentials one order lower, by Gauss's rule of two points.
 
 use crate::compact::compact;
-use crate::double::Double;
 use crate::fronts::Point;
-use crate::medium::Medium;
-use crate::potential::{Potentials, at_front, potentials, step_at_front};
+use crate::potential::potentials;
 use crate::profile::Profile;
 use num_complex::Complex64;
 
 /// Depth from which on the stresses have digits to spare.
-const DEEPEST: f64 = 1e-4;
+pub(crate) const DEEPEST: f64 = 1e-4;
 
 /// Radius down to which the compact parts of every order hold: nearer the axis sigma_rz vanishes as r.
 const NEAREST: f64 = 1e-6;
-
-/// Radius down to which the closed forms at the fronts hold.
-const NEAREST_FRONT: f64 = 0.15;
 
 /// A step of this share of the distance to a singularity: the rule errs by its fourth power over 4320.
 const SHORT: f64 = 1e-3;
@@ -43,65 +38,13 @@ pub(crate) fn applies<const ORDER: i32>(profile: Profile, at: Point) -> bool {
     ORDER == 0 && profile == Profile::Hertz && at.z > 0.0 && at.z < DEEPEST && at.r > NEAREST
 }
 
-/// The Rayleigh wave near its arrival from an edge, c t = |r -+ 1|.
-///
-/// It passes in a time of the order of the depth, so the rounding errors of c, of c t and of r -+ 1 would all be seen.
-pub(crate) struct Front {
-    r: f64,
-    factors: [[f64; 2]; 2],
-}
-
-impl Front {
-    /// None away from the arrivals, where rounding does no harm.
-    pub(crate) fn near<const ORDER: i32>(
-        medium: &Medium,
-        profile: Profile,
-        at: Point,
-    ) -> Option<Self> {
-        const NEAR: f64 = 1e-2;
-        let Point { r, z, t } = at;
-        let xi = Complex64::new(0.0, medium.rayleigh_speed() * t);
-        if ORDER != 0
-            || profile != Profile::Hertz
-            || z >= DEEPEST
-            || r <= NEAREST_FRONT
-            || gap(xi, r) > NEAR
-        {
-            return None;
-        }
-        let path = medium.exact_rayleigh_speed() * t.into();
-        let (inner, outer) = (Double::sum(r, -1.0), Double::sum(r, 1.0));
-        Some(Self {
-            r,
-            factors: [
-                [(outer + path).value(), (inner - path).value()],
-                [(inner + path).value(), (outer - path).value()],
-            ],
-        })
-    }
-
-    /// The potentials at xi = d - i c t.
-    pub(crate) fn potentials(&self, xi: Complex64) -> Potentials<Complex64> {
-        at_front(xi, self.r, self.factors)
-    }
-
-    /// [`difference`] for xi = -i c t and a real step.
-    pub(crate) fn difference(&self, xi: Complex64, step: f64) -> Difference<Complex64> {
-        if is_short(xi, step, self.r) {
-            return difference(xi, step.into(), self.r);
-        }
-        let (a, g) = step_at_front(xi, step, self.r, self.factors);
-        Difference { a, g }
-    }
-}
-
 /// The same point on the surface.
 pub(crate) fn above(at: Point) -> Point {
     Point { z: 0.0, ..at }
 }
 
 /// Distance of an imaginary number from the singularities, which lie at +-i (1 +- r).
-fn gap(xi: Complex64, r: f64) -> f64 {
+pub(crate) fn gap(xi: Complex64, r: f64) -> f64 {
     let height = xi.im.abs();
     (height - (1.0 + r))
         .abs()
@@ -109,7 +52,7 @@ fn gap(xi: Complex64, r: f64) -> f64 {
 }
 
 /// Whether a step from imaginary xi is short enough for the mean of derivatives.
-fn is_short(xi: Complex64, step: f64, r: f64) -> bool {
+pub(crate) fn is_short(xi: Complex64, step: f64, r: f64) -> bool {
     step < SHORT * gap(xi, r)
 }
 

@@ -2,7 +2,7 @@
 
 use crate::fronts::{self, Point};
 use crate::kernel::{Kernel, Sum, fields, set_traction};
-use crate::panels::{Fold, Landscape};
+use crate::landscape::{Fold, Landscape};
 use crate::potential::{Potentials, potentials};
 use crate::shallow::{self, Difference};
 use crate::spectrum::{self, Wave};
