@@ -124,7 +124,7 @@ impl Kernel {
         interval: (f64, f64),
         sum: &mut Sum,
     ) {
-        let landscape = Landscape::new(
+        let mut landscape = Landscape::new(
             &self.fixed.fast,
             Complex64::i(),
             Strength::Bounded,

@@ -41,6 +41,8 @@ fn same(a: f64, b: f64) -> bool {
 pub(crate) struct Landscape {
     cuts: List<f64>,
     singularities: List<Complex64>,
+    /// What the rule at hand keeps away from, in its own variable.
+    images: List<Complex64>,
     /// Where the integrand grows as a pole of high order.
     pole: Complex64,
     strength: Strength,
@@ -64,6 +66,25 @@ pub(crate) enum Strength {
     InverseRoot,
     /// The power -3/2, taken as Hadamard's finite part.
     FinitePart,
+}
+
+impl Strength {
+    /// The share of a term at a distance from a cut, s in the smooth variable, with the rounding error of the distance.
+    fn at_front(self, share: f64, blur: f64, distance: f64, s: f64) -> Share {
+        let front = blur / distance;
+        match self {
+            Self::Bounded => share.into(),
+            // displacements have a root there
+            Self::InverseRoot => Share {
+                displacement: share + front * s,
+                stress: share + front,
+            },
+            Self::FinitePart => Share {
+                displacement: share + front,
+                stress: share + 3.0 * front,
+            },
+        }
+    }
 }
 
 /// The likely error of a term as a share of its size.
@@ -93,6 +114,7 @@ impl Landscape {
         let mut landscape = Self {
             cuts: List::new(),
             singularities: List::new(),
+            images: List::new(),
             pole,
             strength,
             fold,
@@ -153,26 +175,21 @@ impl Landscape {
     /// Visits nodes (v, weight, share) of a rule on one interval, accurate to exp(-`digits`) of the size of
     /// the integrand; the share of its size is the likely error of a term.
     pub(crate) fn visit(
-        &self,
+        &mut self,
         (from, to): (f64, f64),
         digits: f64,
         f: &mut impl FnMut(f64, f64, Share),
     ) {
         match (self.power(from), self.power(to)) {
             (None, None) => {
+                let rule = Rule {
+                    finite_part: false,
+                    caution: caution(self.strength),
+                };
                 let images = self.images(|_| false, |v| (v - from) / (to - from));
-                panels(
-                    &images,
-                    digits,
-                    3.0,
-                    Rule {
-                        finite_part: false,
-                        caution: caution(self.strength),
-                    },
-                    &mut |s, weight, share| {
-                        f(from + (to - from) * s, weight * (to - from), share.into());
-                    },
-                );
+                panels(&images, digits, 3.0, rule, &mut |s, weight, share| {
+                    f(from + (to - from) * s, weight * (to - from), share.into());
+                });
             }
             (Some(power), None) => self.visit_power(from, to, power, digits, f),
             (None, Some(power)) => self.visit_power(to, from, power, digits, f),
@@ -196,7 +213,7 @@ impl Landscape {
 
     /// v = cut + (end - cut) s^power.
     fn visit_power(
-        &self,
+        &mut self,
         cut: f64,
         end: f64,
         power: i32,
@@ -207,6 +224,7 @@ impl Landscape {
         // the singularity of the cut itself is what the power is for
         let reach = (SAME * scale).powi(2);
         let own = |v: Complex64| (v - cut).norm_sqr() <= reach;
+        let (blur, strength) = (self.blur(cut), self.strength);
         let images = self.images(own, |v| {
             let distance = (v - cut) / scale;
             if power == SQUARE {
@@ -215,7 +233,6 @@ impl Landscape {
                 distance.powf(1.0 / f64::from(power))
             }
         });
-        let blur = self.blur(cut);
         // A power of a logarithm is left at s = 0: Gauss's rule gains 2 power digits a doubling there.
         let least = if power == SQUARE { 3.0 } else { 0.7 * digits };
         panels(
@@ -223,8 +240,8 @@ impl Landscape {
             digits,
             least,
             Rule {
-                finite_part: self.strength == Strength::FinitePart,
-                caution: caution(self.strength),
+                finite_part: strength == Strength::FinitePart,
+                caution: caution(strength),
             },
             &mut |s, weight, share| {
                 let v = cut + scale * s.powi(power);
@@ -232,7 +249,7 @@ impl Landscape {
                     f(
                         v,
                         weight * scale.abs() * f64::from(power) * s.powi(power - 1),
-                        self.at_front(share, blur, (v - cut).abs(), s),
+                        strength.at_front(share, blur, (v - cut).abs(), s),
                     );
                 }
             },
@@ -292,39 +309,22 @@ impl Landscape {
         self.rounding * place + twin + fold.min(cut)
     }
 
-    /// The share of a term at a distance from a cut, s in the smooth variable, with the rounding error of the distance.
-    fn at_front(&self, share: f64, blur: f64, distance: f64, s: f64) -> Share {
-        let front = blur / distance;
-        match self.strength {
-            Strength::Bounded => share.into(),
-            // displacements have a root there
-            Strength::InverseRoot => Share {
-                displacement: share + front * s,
-                stress: share + front,
-            },
-            Strength::FinitePart => Share {
-                displacement: share + front,
-                stress: share + 3.0 * front,
-            },
-        }
-    }
-
     /// Singularities in another variable, but for those that `drop` names.
     fn images(
-        &self,
+        &mut self,
         drop: impl Fn(Complex64) -> bool,
         to_variable: impl Fn(Complex64) -> Complex64,
-    ) -> Images {
-        let mut all = List::new();
+    ) -> Images<'_> {
+        self.images.clear();
         let cuts = self.cuts.as_slice().iter().map(|&c| Complex64::new(c, 0.0));
         let others = self.singularities.as_slice().iter().copied();
         for point in cuts.chain(others) {
             if !drop(point) {
-                all.push(to_variable(point));
+                self.images.push(to_variable(point));
             }
         }
         Images {
-            all,
+            all: self.images.as_slice(),
             pole: to_variable(self.pole),
         }
     }

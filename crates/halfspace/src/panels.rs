@@ -24,8 +24,8 @@ pub(crate) const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// What a rule has to keep away from, in its own variable.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Images {
-    pub(crate) all: List<Complex64>,
+pub(crate) struct Images<'a> {
+    pub(crate) all: &'a [Complex64],
     pub(crate) pole: Complex64,
 }
 
@@ -53,6 +53,10 @@ impl<T: Copy + Default> List<T> {
         }
     }
 
+    pub(crate) fn clear(&mut self) {
+        self.length = 0;
+    }
+
     pub(crate) fn push(&mut self, item: T) {
         debug_assert!(
             self.length < CAPACITY,
@@ -73,7 +77,7 @@ impl<T: Copy + Default> List<T> {
 
 /// Visits Gauss nodes, at least so many a panel, on panels of [0, 1] that keep clear of the singularities.
 pub(crate) fn panels(
-    images: &Images,
+    images: &Images<'_>,
     digits: f64,
     least: f64,
     rule: Rule,
@@ -84,7 +88,7 @@ pub(crate) fn panels(
     while depth > 0 {
         depth -= 1;
         let (s0, s1) = stack[depth];
-        let rate = smallest_ellipse(images.all.as_slice(), s0, s1).ln();
+        let rate = smallest_ellipse(images.all, s0, s1).ln();
         let pole_rate = half_axes(axis(images.pole, s0, s1)).ln();
         let at_cut = s0 == 0.0 && rule.finite_part;
         // Gauss's rule has twice the degree of one that only interpolates.
