@@ -37,16 +37,18 @@ use std::f64::consts::PI;
 /// 20 digits: 1e-10 of the peak over time of the same field's step response at the same point, on the axis, on the
 /// surface, at the edge of the disc, 1e-9 and more below the surface and at arrivals to the last bit.
 ///
-/// - Rounding leaves 1e-15 P/r0^2 in the stresses: just below the surface, where sigma_zz and sigma_rz are small
-///   differences of terms of order one, that is the error, not a share of the field.
-/// - There the Rayleigh wave passes in a time of order z, so at its arrival the rounding error of t itself counts
-///   epsilon t/z of the peak.
+/// - For 0 < z < 1e-4 sigma_zz and sigma_rz are integrated as differences to the surface, where they vanish: their errors
+///   are shares of peaks that are of order sqrt(z). Time integrals and cell averages keep an absolute 1e-15 P/r0^2.
+/// - There the Rayleigh wave passes in a time of order z, so at its arrival half a unit in the last place of t counts
+///   epsilon t/z of the peak: the value is that of the t given, but t is seldom known so well.
 /// - At tolerances of 1e-4, 1e-6 and 1e-8 the largest errors at random points are below the tolerance, the 99th
 ///   percentiles a hundred times below it.
 /// - Punch: displacements as above; stresses are infinite at fronts and lose digits toward them.
-/// - Point: displacements 1e-11 of the static field in the median, 1e-6 at worst; stresses 3e-10 in the median and
-///   1e-5 at the 99th percentile for z > r/10, and none to be relied on for 0 < z < r/100, where fronts of both
-///   senses of travel all but coincide.
+/// - Point: displacements 1e-12 of the static field in the median, 1e-6 at the 99th percentile; stresses 1e-11 in the
+///   median, 1e-6 at nine places of ten. For 0 < z < r/100, where fronts of both senses of travel all but coincide,
+///   1e-9 in the median and nothing to be relied on at one place of ten.
+/// - [`Estimate::error`] covers all this: for Punch and Point less than one error in a thousand exceeds it, near the
+///   edge, the axis and the surface too; it is typically a thousand times the error there.
 ///
 /// # Singular places
 ///
