@@ -12,7 +12,7 @@ use num_complex::Complex64;
 use std::f64::consts::PI;
 
 /// Radius down to which the closed forms at the fronts hold.
-const NEAREST: f64 = 0.01;
+const NEAREST: f64 = 0.002;
 
 /// The Rayleigh wave near its arrival from an edge, c t = |r -+ 1|.
 ///
