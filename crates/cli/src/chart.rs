@@ -1,7 +1,7 @@
 //! `hertzlamb chart`: speed against accuracy, and where methods fail.
 
 use crate::failure::{Failure, print};
-use crate::tabulate::Bar;
+use crate::progress::Bar;
 use clap::Args;
 use impact::output::Existing;
 use std::path::PathBuf;

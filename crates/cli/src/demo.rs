@@ -4,13 +4,13 @@ use crate::comparison::Comparison;
 use crate::failure::{Failure, print};
 use crate::impact_command::open_table;
 use crate::picture::draw;
+use crate::progress::Bar;
 use clap::Args;
 use impact::output::{Existing, write, write_whole};
 use impact::{KernelChoice, Outcome, Scene, simulate};
-use indicatif::{ProgressBar, ProgressStyle};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
-use tabulator::{Grid, Progress, build};
+use tabulator::{Grid, build};
 
 /// The paper's scene, the same file as in scenes/.
 const SCENE: &str = include_str!("../../../scenes/copper-on-steel.toml");
@@ -96,37 +96,10 @@ fn make_table(path: &Path) -> Result<(), Failure> {
     eprintln!("making the demo kernel table {} (once)", path.display());
     let bar = Bar::new();
     let summary = build(&Grid::demo(), path, &bar).map_err(Failure::work)?;
-    bar.0.finish_and_clear();
+    bar.finish();
     eprintln!(
         "{} points in {:.1} s, {} bytes",
         summary.points, summary.wall_s, summary.bytes
     );
     Ok(())
-}
-
-/// A progress bar on standard error; silent when that is not a terminal.
-#[derive(Debug)]
-struct Bar(ProgressBar);
-
-impl Bar {
-    fn new() -> Self {
-        let bar = ProgressBar::new(0);
-        if let Ok(style) = ProgressStyle::with_template("{msg:<14} [{wide_bar}] {pos}/{len} {eta}")
-        {
-            bar.set_style(style);
-        }
-        Self(bar)
-    }
-}
-
-impl Progress for Bar {
-    fn total(&self, stage: &str, total: u64) {
-        self.0.set_message(stage.to_owned());
-        self.0.set_length(total);
-        self.0.set_position(0);
-    }
-
-    fn advance(&self, done: u64) {
-        self.0.inc(done);
-    }
 }

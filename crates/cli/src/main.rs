@@ -8,6 +8,7 @@ mod failure;
 mod impact_command;
 mod materials;
 mod picture;
+mod progress;
 mod report;
 mod sweep;
 mod table;

@@ -1,12 +1,13 @@
 //! `hertzlamb table`: looks at finished tables.
 
 use crate::failure::{Failure, print};
+use crate::progress::Bar;
 use crate::tabulate;
 use clap::{Args, Subcommand};
-use lookup::{Content, TableError};
+use lookup::{Content, DamagedPatch, TableError};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
-use tabulator::{CheckReport, Difference, Existing, check_table, differences, merge};
+use tabulator::{BadNode, Difference, Existing, check_table, differences, merge};
 
 const EXAMPLES: &str = "Examples:
   hertzlamb table info kernels.h5
@@ -159,7 +160,7 @@ fn info(path: &Path, json: bool) -> Result<(), Failure> {
     print(format!("interpolation   {} points", info.stencil_points))?;
     print("measured off the grid, 99 % of all points and fields, error over the peak in time:")?;
     for (length, error) in info.pulse_lengths.iter().zip(info.p99_relative_error) {
-        print(format!("  pulses of {length:>5} r0/c1  {error:.0e}"))?;
+        print(format!("  pulses of {length:>5} r0/c1  {error:.1e}"))?;
     }
     Ok(())
 }
@@ -169,48 +170,90 @@ struct Verified {
     file: String,
     nodes_checked: usize,
     largest_relative_difference: f64,
+    hash_right: bool,
     bad_nodes: Vec<String>,
+    damaged_patches: Vec<String>,
 }
 
 fn verify(path: &Path, sample: usize, seed: u64, json: bool) -> Result<(), Failure> {
-    let report: CheckReport = check_table(path, sample, seed).map_err(|error| match error {
-        tabulator::BuildError::Table(error @ TableError::Checksum { .. }) => Failure::work(error),
-        tabulator::BuildError::Table(error) => Failure::input(named(path, &error)),
+    let report = check_table(path, sample, seed).map_err(|error| match error {
+        tabulator::BuildError::Table(
+            error @ (TableError::Unreadable { .. }
+            | TableError::NotHdf5 { .. }
+            | TableError::Foreign { .. }
+            | TableError::Version { .. }),
+        ) => Failure::input(error),
+        tabulator::BuildError::Table(error) => Failure::work(named(path, &error)),
         other => tabulate::failure(other),
     })?;
-    let bad_nodes: Vec<String> = report
-        .bad
-        .iter()
-        .map(|bad| {
-            format!(
-                "nu = {}, r/r0 = {}, z/r0 = {}: {} differs by {:.1e}",
-                bad.poisson_ratio, bad.r, bad.z, bad.field, bad.relative_difference
-            )
-        })
-        .collect();
     let verified = Verified {
         file: path.display().to_string(),
         nodes_checked: report.nodes_checked,
         largest_relative_difference: report.largest_difference,
-        bad_nodes,
+        hash_right: report.hash_right,
+        bad_nodes: report.bad.iter().map(bad_node).collect(),
+        damaged_patches: report.damaged.iter().map(damaged_patch).collect(),
     };
     if json {
         print(serde_json::to_string(&verified).map_err(Failure::work)?)?;
+    }
+    if report.is_good() {
+        return if json {
+            Ok(())
+        } else {
+            print(format!(
+                "{}: complete, checksum right, {} nodes computed again, largest difference {:.1e}",
+                verified.file, verified.nodes_checked, verified.largest_relative_difference
+            ))
+        };
+    }
+    Err(Failure::work(wrong(&verified, sample)))
+}
+
+/// What is wrong with a table, in one line.
+fn wrong(verified: &Verified, sample: usize) -> String {
+    let first = |list: &[String]| {
+        let more = match list.len() {
+            0..=5 => String::new(),
+            count => format!("; and {} more", count - 5),
+        };
+        list[..list.len().min(5)].join("; ") + &more
+    };
+    let mut parts = Vec::new();
+    if !verified.damaged_patches.is_empty() {
+        let patches = first(&verified.damaged_patches);
+        parts.push(format!("damaged, nodes that cannot be read: {patches}"));
+    } else if !verified.hash_right {
+        parts.push("the content is not that of content_sha256, it was changed".to_owned());
+    }
+    if !verified.bad_nodes.is_empty() {
+        let count = verified.bad_nodes.len();
+        parts.push(format!("{count} wrong: {}", first(&verified.bad_nodes)));
+    } else if verified.damaged_patches.is_empty() {
+        parts.push(format!(
+            "no wrong node among {sample}, try a larger --sample"
+        ));
+    }
+    format!("{}: {}", verified.file, parts.join("; "))
+}
+
+fn bad_node(bad: &BadNode) -> String {
+    let what = if bad.relative_difference.is_finite() {
+        format!("differs by {:.1e}", bad.relative_difference)
     } else {
-        print(format!(
-            "{}: complete, checksum right, {} nodes computed again, largest difference {:.1e}",
-            verified.file, verified.nodes_checked, verified.largest_relative_difference
-        ))?;
-    }
-    if verified.bad_nodes.is_empty() {
-        return Ok(());
-    }
-    let count = verified.bad_nodes.len();
-    let shown = verified.bad_nodes[..count.min(5)].join("; ");
-    Err(Failure::work(format!(
-        "{}: {count} wrong values: {shown}",
-        verified.file
-    )))
+        "is not finite".to_owned()
+    };
+    format!(
+        "nu = {}, r/r0 = {}, z/r0 = {}: {} ({}) {what}",
+        bad.poisson_ratio, bad.r, bad.z, bad.field, bad.dataset
+    )
+}
+
+fn damaged_patch(patch: &DamagedPatch) -> String {
+    format!(
+        "nu = {}, r/r0 = {} .. {}, z/r0 = {} .. {}: {}",
+        patch.poisson_ratio, patch.r[0], patch.r[1], patch.z[0], patch.z[1], patch.dataset
+    )
 }
 
 fn diff(first: &Path, second: &Path, json: bool) -> Result<(), Failure> {
@@ -243,7 +286,7 @@ fn join(shards: &[PathBuf], output: &Path, force: bool, json: bool) -> Result<()
     } else {
         Existing::Keep
     };
-    let progress = tabulate::Bar::new();
+    let progress = Bar::new();
     let summary = merge(shards, output, existing, &progress).map_err(tabulate::failure)?;
     progress.finish();
     let file = output.display().to_string();

@@ -1,15 +1,13 @@
 //! `hertzlamb tabulate`: builds a kernel table.
 
 use crate::failure::{Failure, print};
+use crate::progress::Bar;
 use clap::Args;
-use indicatif::{ProgressBar, ProgressStyle};
 use lookup::TableError;
 use serde::Serialize;
-use std::io::IsTerminal;
+use std::io::ErrorKind;
 use std::path::PathBuf;
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicU64, Ordering};
-use tabulator::{BuildError, Existing, Extension, Grid, Progress, Summary};
+use tabulator::{BuildError, Existing, Extension, Grid, Summary};
 use tabulator::{build_over, build_shard, extend, refine};
 
 const EXAMPLES: &str = "Examples:
@@ -164,7 +162,7 @@ fn tell(grid: &Grid, arguments: &Arguments, summary: &Summary) -> Result<(), Fai
     ))?;
     print("measured off the grid, 99 % of all points and fields, error over the peak in time:")?;
     for (length, error) in summary.pulse_lengths.iter().zip(&summary.p99_error) {
-        print(format!("  pulses of {length:>5} r0/c1  {error:.0e}"))?;
+        print(format!("  pulses of {length:>5} r0/c1  {error:.1e}"))?;
     }
     Ok(())
 }
@@ -233,82 +231,22 @@ pub(crate) fn failure(error: BuildError) -> Failure {
         | BuildError::NotBlocks { .. }
         | BuildError::Mixed { .. }
         | BuildError::Incomplete { .. }
-        | BuildError::File { .. }
         | BuildError::Table(
             TableError::Unreadable { .. }
             | TableError::NotHdf5 { .. }
             | TableError::Foreign { .. }
             | TableError::Version { .. },
         ) => Failure::input(error),
+        BuildError::File { ref source, .. } => match source.kind() {
+            ErrorKind::StorageFull | ErrorKind::QuotaExceeded | ErrorKind::FileTooLarge => {
+                Failure::work(error)
+            }
+            _ => Failure::input(error),
+        },
         BuildError::Unwritable(_)
         | BuildError::NotFinite { .. }
         | BuildError::Domain(_)
         | BuildError::Table(_)
         | BuildError::Lookup(_) => Failure::work(error),
-    }
-}
-
-/// A bar on a terminal, a line for each tenth elsewhere.
-pub(crate) struct Bar {
-    bar: Option<ProgressBar>,
-    stage: Mutex<String>,
-    total: AtomicU64,
-    done: AtomicU64,
-}
-
-impl Bar {
-    pub(crate) fn new() -> Self {
-        let bar = std::io::stderr().is_terminal().then(|| {
-            let style = "{msg:12} [{bar:40}] {percent:>3} %  {per_sec}  {eta} left";
-            let style = ProgressStyle::with_template(style)
-                .unwrap_or_else(|_| ProgressStyle::default_bar());
-            ProgressBar::new(0).with_style(style.progress_chars("=> "))
-        });
-        Self {
-            bar,
-            stage: Mutex::new(String::new()),
-            total: AtomicU64::new(0),
-            done: AtomicU64::new(0),
-        }
-    }
-
-    pub(crate) fn finish(&self) {
-        if let Some(bar) = &self.bar {
-            bar.finish_and_clear();
-        }
-    }
-}
-
-impl Progress for Bar {
-    fn total(&self, stage: &str, total: u64) {
-        self.total.store(total, Ordering::Relaxed);
-        self.done.store(0, Ordering::Relaxed);
-        if let Ok(mut name) = self.stage.lock() {
-            stage.clone_into(&mut name);
-        }
-        if let Some(bar) = &self.bar {
-            bar.set_message(stage.to_owned());
-            bar.set_length(total);
-            bar.set_position(0);
-            bar.reset_eta();
-        }
-    }
-
-    fn advance(&self, done: u64) {
-        let now = self.done.fetch_add(done, Ordering::Relaxed) + done;
-        if let Some(bar) = &self.bar {
-            bar.inc(done);
-            return;
-        }
-        let total = self.total.load(Ordering::Relaxed).max(1);
-        let tenth = |n: u64| 10 * n / total;
-        if tenth(now) > tenth(now - done) {
-            let stage = self
-                .stage
-                .lock()
-                .map(|name| name.clone())
-                .unwrap_or_default();
-            eprintln!("{stage} {} %", 10 * tenth(now));
-        }
     }
 }

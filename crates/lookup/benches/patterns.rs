@@ -45,6 +45,7 @@ fn clustered(table: &Table, i: usize) -> [f64; 2] {
 fn main() {
     let table = common::table();
     let mut cells = vec![[0.0; 6]; CELLS];
+    let mut plain = f64::NAN;
     println!("microseconds a trace of {CELLS} cells, 6 fields, {POINTS} points: median, 99 %");
     for (smoothness, name) in [
         (Smoothness::Linear, "averages"),
@@ -60,33 +61,45 @@ fn main() {
                     .trace_for(smoothness, 0.3, r, z, 0, &mut cells)
                     .unwrap();
             });
-            println!("  {pattern:10} {name:22} {median:7.1} {most:7.1}");
+            println!("  {pattern:16} {name:22} {median:7.1} {most:7.1}");
+            if pattern == "random" && smoothness == Smoothness::Linear {
+                plain = median;
+            }
         }
     }
-    cold(&table, &mut cells);
-    copies(&table);
+    for (place, pattern) in [
+        (random as fn(&Table, usize) -> [f64; 2], "random, cold"),
+        (clustered, "clustered, cold"),
+    ] {
+        let (median, most) = cold(&table, place, &mut cells);
+        println!("  {pattern:16} {:22} {median:7.1} {most:7.1}", "averages");
+    }
+    let copy = copies(&table);
+    println!(
+        "a random trace of averages takes {:.1} times as long as the copy of the bytes that it reads",
+        plain / copy
+    );
     scaling(&table);
 }
 
-/// Each trace after 64 MB of other memory went through the caches.
-fn cold(table: &Table, cells: &mut [[f64; 6]]) {
+/// A first call each time: 64 MB of other memory went through the caches before it.
+fn cold(table: &Table, place: fn(&Table, usize) -> [f64; 2], cells: &mut [[f64; 6]]) -> (f64, f64) {
     let mut other = vec![0_u64; 8 << 20];
-    let times = (0..200)
+    let times = (0..400)
         .map(|i| {
             other.iter_mut().for_each(|x| *x = x.wrapping_add(1));
             black_box(&other);
-            let [r, z] = random(table, i);
+            let [r, z] = place(table, i);
             let start = Instant::now();
             table.trace(0.3, r, z, 0, cells).unwrap();
             start.elapsed().as_secs_f64() * 1e6
         })
         .collect();
-    let (median, most) = quantiles(times);
-    println!("  {:10} {:22} {median:7.1} {most:7.1}", "cold", "averages");
+    quantiles(times)
 }
 
 /// The bytes of a trace, copied from random patches.
-fn copies(table: &Table) {
+fn copies(table: &Table) -> f64 {
     let stored = &table.content().slices[0].remainder;
     let row = POINTS * 6 * CELLS;
     let mut copy = vec![0.0_f32; POINTS * row];
@@ -99,10 +112,11 @@ fn copies(table: &Table) {
         black_box(&copy);
     });
     println!(
-        "  {:10} {:22} {median:7.1} {most:7.1}",
+        "  {:16} {:22} {median:7.1} {most:7.1}",
         "random",
         format!("copy of {} kB", BYTES / 1000)
     );
+    median
 }
 
 /// 10,000 probes in batches of 100, each thread with memory of its own.

@@ -2,7 +2,7 @@
 
 use crate::schema;
 
-/// One dataset of a slice.
+/// One dataset.
 pub(crate) struct Described {
     pub(crate) name: &'static str,
     pub(crate) units: &'static str,
@@ -47,6 +47,12 @@ pub(crate) const FIELD: Described = Described {
     name: schema::FIELD,
     units: "1",
     long_name: "name of the field",
+};
+/// Root scales.
+pub(crate) const TERM: Described = Described {
+    name: schema::TERM,
+    units: "1",
+    long_name: "order k of the Chebyshev polynomial",
 };
 /// Root scales.
 pub(crate) const BETWEEN_R: Described = Described {

@@ -5,13 +5,13 @@ use crate::schema;
 use sha2::{Digest, Sha256};
 use std::fmt::Write;
 
-/// Identity of a table: the first 16 hexadecimal digits of SHA-256 over the format version and the resolved grid.
+/// Identity of a table: the first 16 hexadecimal digits of SHA-256 over the major format version and the resolved grid.
 ///
 /// Two tables with the same id were made with the same settings, whatever the machine or the date.
 #[must_use]
 pub fn settings_id(grid: &str) -> String {
     let mut hash = Sha256::new();
-    hash.update(schema::FORMAT_VERSION_VALUE.as_bytes());
+    hash.update(schema::MAJOR_READ.to_string().as_bytes());
     hash.update([0]);
     hash.update(grid.as_bytes());
     let mut id = hex(&hash.finalize());

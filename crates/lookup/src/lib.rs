@@ -15,6 +15,7 @@
 
 mod certificate;
 mod content;
+mod damage;
 mod error;
 mod file;
 mod gather;
@@ -34,11 +35,12 @@ mod write;
 
 pub use certificate::{SAFETY, SAFETY_BETWEEN};
 pub use content::{Between, Content, Origin, Role, Slice, Verification, centres};
+pub use damage::{DamagedPatch, damaged_patches};
 pub use error::{LookupError, TableError};
 pub use hash::{content_hash, settings_id};
 pub use pulse::PulseSum;
 pub use ratio::{cell_scale, ratio_coordinate};
-pub use read::{check_hash, read};
+pub use read::{check_hash, read, stated_hash};
 pub use series::{Numbers, Series, Smoothness};
 pub use smooth::correct_for_curvature;
 pub use stencil::{Stencil, locate};

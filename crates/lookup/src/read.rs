@@ -9,9 +9,9 @@ use hdf5::{File, Group, H5Type, Location};
 use std::path::Path;
 
 /// A file that is being read, with its path for messages.
-struct Source<'a> {
+pub(crate) struct Source<'a> {
     path: &'a Path,
-    file: File,
+    pub(crate) file: File,
 }
 
 /// Reads the content of the table at `path`; [`crate::Table::new`] then judges the values.
@@ -88,8 +88,7 @@ pub(crate) fn read_chosen(
 /// # Errors
 /// [`TableError::Checksum`] when they differ, or the reading errors of [`read`].
 pub fn check_hash(path: &Path, content: &Content) -> Result<(), TableError> {
-    let source = open(path)?;
-    let stated = source.text(&source.file, schema::CONTENT_SHA256)?;
+    let stated = stated_hash(path)?;
     let found = content_hash(content);
     if stated == found {
         Ok(())
@@ -102,7 +101,16 @@ pub fn check_hash(path: &Path, content: &Content) -> Result<(), TableError> {
     }
 }
 
-fn open(path: &Path) -> Result<Source<'_>, TableError> {
+/// The SHA-256 that the file at `path` states.
+///
+/// # Errors
+/// As [`read`].
+pub fn stated_hash(path: &Path) -> Result<String, TableError> {
+    let source = open(path)?;
+    source.text(&source.file, schema::CONTENT_SHA256)
+}
+
+pub(crate) fn open(path: &Path) -> Result<Source<'_>, TableError> {
     std::fs::File::open(path)
         .and_then(|file| file.metadata())
         .and_then(|data| {
@@ -204,11 +212,11 @@ impl Source<'_> {
         })
     }
 
-    fn group(&self, parent: &Group, name: &str) -> Result<Group, TableError> {
+    pub(crate) fn group(&self, parent: &Group, name: &str) -> Result<Group, TableError> {
         parent.group(name).map_err(|error| self.item(name, &error))
     }
 
-    fn array<T: H5Type>(
+    pub(crate) fn array<T: H5Type>(
         &self,
         group: &Group,
         name: &str,
@@ -227,7 +235,7 @@ impl Source<'_> {
             .map_err(|error| self.item(name, &error))
     }
 
-    fn number<T: H5Type>(&self, place: &Location, name: &str) -> Result<T, TableError> {
+    pub(crate) fn number<T: H5Type>(&self, place: &Location, name: &str) -> Result<T, TableError> {
         place
             .attr(name)
             .and_then(|attribute| attribute.read_scalar())
@@ -241,7 +249,7 @@ impl Source<'_> {
             .map_err(|error| self.item(name, &error))
     }
 
-    fn item(&self, item: &str, error: &hdf5::Error) -> TableError {
+    pub(crate) fn item(&self, item: &str, error: &hdf5::Error) -> TableError {
         TableError::Item {
             path: self.path.to_owned(),
             item: item.to_owned(),
@@ -250,7 +258,7 @@ impl Source<'_> {
     }
 }
 
-fn first_line(error: &hdf5::Error) -> String {
+pub(crate) fn first_line(error: &hdf5::Error) -> String {
     error
         .to_string()
         .lines()

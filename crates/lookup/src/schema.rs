@@ -5,7 +5,7 @@
 /// Value of [`FILE_TYPE`] in every kernel table.
 pub const FILE_TYPE_VALUE: &str = "hertzlamb kernel table";
 /// Version of the format that this program writes: major.minor.
-pub const FORMAT_VERSION_VALUE: &str = "2.0";
+pub const FORMAT_VERSION_VALUE: &str = "2.1";
 /// Major versions that this program reads.
 pub const MAJOR_READ: u32 = 2;
 
@@ -43,6 +43,8 @@ pub const Z_MAX: &str = "z_max";
 pub const R: &str = "r";
 /// Dataset and scale: depth nodes.
 pub const Z: &str = "z";
+/// Dataset and scale: orders of the polynomials of a tail.
+pub const TERM: &str = "term";
 /// Dataset and scale: names of the fields.
 pub const FIELD: &str = "field";
 /// Dataset and scale: radii of the verification probes.
@@ -116,10 +118,11 @@ pub const ROOT_ATTRIBUTES: [&str; 14] = [
     ACCURACY_REACHED,
 ];
 /// Datasets at the root.
-pub const ROOT_DATASETS: [&str; 8] = [
+pub const ROOT_DATASETS: [&str; 9] = [
     R,
     Z,
     FIELD,
+    TERM,
     PROBE_R,
     PROBE_Z,
     PULSE_LENGTH,

@@ -269,7 +269,23 @@ fn validate_slice(content: &Content, slice: &Slice) -> Result<(), TableError> {
         (schema::CURVATURE, &slice.curvature, stored),
         (schema::TAIL, &slice.tail, nodes * FIELDS * terms.max(1)),
     ] {
-        numbers(&group, dataset, array, needed)?;
+        let each = array.len() / nodes;
+        numbers(&group, dataset, array, needed).map_err(|error| match error {
+            TableError::Value { value, range, .. } => {
+                let bad = array.iter().position(|x| !x.is_finite()).unwrap_or(0);
+                let node = bad / each.max(1);
+                let (i, k) = (node / content.z.len(), node % content.z.len());
+                TableError::Value {
+                    item: format!(
+                        "{group}/{dataset} (r/r0 = {}, z/r0 = {})",
+                        content.r[i], content.z[k]
+                    ),
+                    value,
+                    range,
+                }
+            }
+            other => other,
+        })?;
     }
     let probes = content.probes().map(|places| places.len()).iter().product();
     validate_probes(content, &group, &slice.verification, probes)

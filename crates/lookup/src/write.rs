@@ -6,6 +6,7 @@ use crate::file::{self, Described};
 use crate::hash::{content_hash, settings_id};
 use crate::labels::{attach_scale, set_scale, text};
 use crate::ratio::cell_scale;
+use crate::read::first_line;
 use crate::schema;
 use hdf5::types::FixedAscii;
 use hdf5::{Dataset, File, Group, H5Type};
@@ -25,13 +26,24 @@ const PATCH: usize = 8;
 pub fn write(path: &Path, content: &Content) -> Result<(), TableError> {
     write_file(path, content).map_err(|error| TableError::Unwritable {
         path: path.to_owned(),
-        detail: error
-            .to_string()
-            .lines()
-            .next()
-            .unwrap_or_default()
-            .to_owned(),
+        detail: detail(&error),
     })
+}
+
+/// What the system said, if it did, else the first line of what the library says.
+fn detail(error: &hdf5::Error) -> String {
+    let frames: Vec<String> = error
+        .stack()
+        .iter()
+        .flat_map(|stack| stack.iter().map(|frame| frame.desc().to_owned()))
+        .collect();
+    let system = frames
+        .iter()
+        .find_map(|text| text.split_once("error message = '")?.1.split_once('\''));
+    match system {
+        Some((message, _)) => message.to_owned(),
+        None => first_line(error),
+    }
 }
 
 fn write_file(path: &Path, content: &Content) -> Result<(), hdf5::Error> {
@@ -47,6 +59,13 @@ fn write_file(path: &Path, content: &Content) -> Result<(), hdf5::Error> {
     let field = make_scale(&file, &file::FIELD, &names)?;
     let r = scale(&file::R, &content.r)?;
     let z = scale(&file::Z, &content.z)?;
+    let nodes = content.r.len() * content.z.len();
+    let terms = content
+        .slices
+        .first()
+        .map_or(0, |slice| slice.tail_terms(nodes));
+    let orders: Vec<f64> = (0..terms).map(|k| k as f64).collect();
+    let term = scale(&file::TERM, &orders)?;
 
     let slices = file.create_group(schema::SLICES)?;
     for slice in &content.slices {
@@ -80,7 +99,8 @@ fn write_file(path: &Path, content: &Content) -> Result<(), hdf5::Error> {
             make_data(&group, described, &shape, values, &[&r, &z, &field, &time])?;
         }
         let shape = [rows, columns, FIELDS, slice.tail_terms(rows * columns)];
-        make_data(&group, &file::TAIL, &shape, &slice.tail, &[&r, &z, &field])?;
+        let scales = [&r, &z, &field, &term];
+        make_data(&group, &file::TAIL, &shape, &slice.tail, &scales)?;
         let scales = [&probe_r, &probe_z, &pulse, &field];
         write_verification(&group, &slice.verification, &scales)?;
     }

@@ -33,13 +33,13 @@ fn main() -> Result<(), Failure> {
             for (storage, label, factor) in
                 [(Storage::Single, "f32", 1.0), (Storage::Double, "f64", 2.0)]
             {
-                for length in LENGTHS {
-                    let errors = sample_errors(&grid, length, storage)?;
+                let sampled = sample_errors(&grid, &LENGTHS, storage)?;
+                for (length, errors) in LENGTHS.into_iter().zip(&sampled) {
                     let size = factor * bytes / 1e6;
                     row(
                         &format!("{name} sampled,{spacing},8,{label},{size:.2},nan"),
                         length,
-                        &errors,
+                        errors,
                     );
                 }
             }
@@ -88,9 +88,10 @@ fn stencils(content: &Content, points: usize, label: &str) -> Result<(), Failure
         .map(|(time, done)| done.map(|_| time))
         .collect::<Result<_, _>>()?;
     times.sort_by(f64::total_cmp);
+    let observed = observe_lengths(&table, 120, &LENGTHS, 3)?;
     for length in LENGTHS {
         let mut errors = Vec::new();
-        for o in observe_lengths(&table, 120, &[length], 3)? {
+        for o in observed.iter().filter(|o| o.pulse_length == length) {
             errors.extend((0..6).map(|f| o.error[f] / o.peak[f]));
         }
         errors.sort_by(f64::total_cmp);

@@ -68,6 +68,11 @@ pub fn build_over(
     refuse(path, existing)?;
     let work = blocks::all(grid);
     let (journal, finished) = Journal::open(&beside(path, ".journal"), &grid.to_toml()?)?;
+    // Another run may have finished the table before this one had the journal.
+    if let Err(error) = refuse(path, existing) {
+        journal.remove()?;
+        return Err(error);
+    }
     let resumed_blocks = finished.len();
     let journal = Mutex::new(journal);
     let rows = compute(grid, &work, finished, &journal, None, progress)?;
@@ -228,6 +233,7 @@ pub(crate) fn compute(
                 .lock()
                 .unwrap_or_else(PoisonError::into_inner)
                 .record(block, &row)?;
+            progress.slice(plans.of(block).kernel().medium().poisson_ratio());
             progress.advance(1);
             Ok((block, row))
         })
@@ -366,6 +372,7 @@ fn assemble(
             rows,
             known,
         )?);
+        progress.slice(nu);
         progress.advance(1);
     }
     let mut between = Vec::new();
@@ -383,6 +390,7 @@ fn assemble(
                 known,
             )?,
         });
+        progress.slice(poisson_ratio);
         progress.advance(1);
     }
     let mut content = table.into_content();
@@ -406,6 +414,15 @@ fn assemble(
 /// Writes under `NAME.part`, reads back, compares, renames. Returns the size of the file.
 fn finish(content: &Content, path: &Path) -> Result<u64, BuildError> {
     let part = beside(path, ".part");
+    let done = write_checked(content, &part, path);
+    if done.is_err() {
+        // What could be written takes room and is of no use; the journal has all of it.
+        let _ = std::fs::remove_file(&part);
+    }
+    done
+}
+
+fn write_checked(content: &Content, part: &Path, path: &Path) -> Result<u64, BuildError> {
     let failed = |action, path: &Path| {
         let path = path.to_owned();
         move |source| BuildError::File {
@@ -414,12 +431,12 @@ fn finish(content: &Content, path: &Path) -> Result<u64, BuildError> {
             source,
         }
     };
-    lookup::write(&part, content)?;
-    let back = lookup::read(&part)?;
-    lookup::check_hash(&part, &back)?;
-    let file = std::fs::File::open(&part).map_err(failed("open", &part))?;
-    file.sync_all().map_err(failed("flush", &part))?;
-    std::fs::rename(&part, path).map_err(failed("rename the finished table to", path))?;
+    lookup::write(part, content)?;
+    let back = lookup::read(part)?;
+    lookup::check_hash(part, &back)?;
+    let file = std::fs::File::open(part).map_err(failed("open", part))?;
+    file.sync_all().map_err(failed("flush", part))?;
+    std::fs::rename(part, path).map_err(failed("rename the finished table to", path))?;
     let data = std::fs::metadata(path).map_err(failed("look at", path))?;
     Ok(data.len())
 }

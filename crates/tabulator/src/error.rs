@@ -70,13 +70,13 @@ pub enum BuildError {
         path: PathBuf,
     },
     /// An unfinished build with other settings is in the way.
-    #[error("{} belongs to an unfinished build with other settings; finish that one or remove the file", path.display())]
+    #[error("{} belongs to an unfinished build with other settings or of another version of this program; finish that one or remove the file", path.display())]
     OtherSettings {
         /// Its journal.
         path: PathBuf,
     },
     /// A file that should hold blocks of a table does not.
-    #[error("{} is not a shard of a kernel table", path.display())]
+    #[error("{} is not a shard of a kernel table made by this version of the program", path.display())]
     NotBlocks {
         /// File given.
         path: PathBuf,

@@ -9,7 +9,7 @@ use crate::known::Known;
 use crate::progress::Progress;
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
-use std::time::Instant;
+use std::time::{Instant, SystemTime};
 
 /// What a table is to have in addition.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -38,6 +38,7 @@ pub fn extend(
     progress: &dyn Progress,
 ) -> Result<Summary, BuildError> {
     let started = Instant::now();
+    let seen = state(path);
     let content = lookup::read(path)?;
     lookup::check_hash(path, &content)?;
     let mut grid = Grid::of(&content)?;
@@ -46,6 +47,13 @@ pub fn extend(
     grid.validate()?;
     let work = blocks::all(&grid);
     let (journal, mut finished) = Journal::open(&beside(path, ".journal"), &grid.to_toml()?)?;
+    if state(path) != seen {
+        // Another run replaced the table before this one had the journal.
+        journal.remove()?;
+        return Err(BuildError::Busy {
+            path: path.to_owned(),
+        });
+    }
     let resumed_blocks = finished.len();
     let cells = grid.cells()?;
     for &block in &work {
@@ -65,6 +73,12 @@ pub fn extend(
         wall_s: started.elapsed().as_secs_f64(),
         ..summary
     })
+}
+
+/// What changes when a file is replaced.
+fn state(path: &Path) -> Option<(u64, SystemTime)> {
+    let data = std::fs::metadata(path).ok()?;
+    Some((data.len(), data.modified().ok()?))
 }
 
 fn apply(grid: &mut Grid, known: &Known, extension: &Extension) -> Result<(), BuildError> {

@@ -14,7 +14,11 @@ use std::io::{Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 /// How every journal starts.
-const KIND: &str = "hertzlamb kernel blocks 2, settings ";
+const KIND: &str = concat!(
+    "hertzlamb kernel blocks 3, program ",
+    env!("CARGO_PKG_VERSION"),
+    ", settings "
+);
 /// Bytes before the numbers of a record: seven integers.
 const HEADER: usize = 7 * 8;
 /// Bytes after them.
@@ -45,6 +49,12 @@ impl Journal {
                 });
             }
             Err(std::fs::TryLockError::Error(source)) => return Err(failed("lock")(source)),
+        }
+        // The run that had the lock may have finished and removed the journal in between.
+        if !path.exists() {
+            return Err(BuildError::Busy {
+                path: path.to_owned(),
+            });
         }
         let mut bytes = Vec::new();
         file.seek(SeekFrom::Start(0)).map_err(failed("read"))?;

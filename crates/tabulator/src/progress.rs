@@ -6,6 +6,8 @@ pub trait Progress: Sync {
     fn total(&self, stage: &str, total: u64);
     /// `done` more units are finished.
     fn advance(&self, done: u64);
+    /// The work is at this Poisson ratio.
+    fn slice(&self, _poisson_ratio: f64) {}
 }
 
 /// Tells nobody.

@@ -50,10 +50,8 @@ pub fn refine(
         if scaled.validate().is_err() {
             break;
         }
-        let error = quantile(
-            &sample_errors(&scaled, pulse_length, Storage::Single)?,
-            0.99,
-        );
+        let errors = sample_errors(&scaled, &[pulse_length], Storage::Single)?;
+        let error = quantile(&errors[0], 0.99);
         let [r, z] = scaled.nodes();
         trials.push(Trial {
             spacing: scaled.r.spacing.max(scaled.z.spacing),
@@ -106,18 +104,18 @@ pub enum Storage {
     Double,
 }
 
-/// Errors over peaks in time at sampled meshes of the slice with the largest Poisson ratio, sorted.
+/// Errors over peaks in time at sampled meshes of the slice with the largest Poisson ratio, sorted, for each length.
 ///
 /// # Errors
 /// What the exact kernels say.
 pub fn sample_errors(
     grid: &Grid,
-    pulse_length: f64,
+    pulse_lengths: &[f64],
     storage: Storage,
-) -> Result<Vec<f64>, BuildError> {
+) -> Result<Vec<Vec<f64>>, BuildError> {
     let nu = grid.poisson_ratios[grid.poisson_ratios.len() - 1];
     let plan = plan(grid, nu)?;
-    let errors: Vec<Vec<f64>> = (0..PLACES)
+    let errors: Vec<Vec<[f64; 6]>> = (0..PLACES)
         .into_par_iter()
         .map(|i| {
             let near = i % 2 == 1;
@@ -128,22 +126,26 @@ pub fn sample_errors(
                 draw(0) * grid.r.max
             };
             let z = draw(1) * if near { 0.3 } else { 1.0 } * grid.z.max;
-            errors_at(grid, &plan, [r, z], pulse_length, storage)
+            errors_at(grid, &plan, [r, z], pulse_lengths, storage)
         })
         .collect::<Result<_, BuildError>>()?;
-    let mut all: Vec<f64> = errors.into_iter().flatten().collect();
-    all.sort_by(f64::total_cmp);
-    Ok(all)
+    Ok((0..pulse_lengths.len())
+        .map(|length| {
+            let mut all: Vec<f64> = errors.iter().flat_map(|place| place[length]).collect();
+            all.sort_by(f64::total_cmp);
+            all
+        })
+        .collect())
 }
 
-/// Errors over peaks at the centre of the mesh around a place.
+/// Errors over peaks at the centre of the mesh around a place, for each length.
 fn errors_at(
     grid: &Grid,
     plan: &PointPlan,
     place: [f64; 2],
-    pulse_length: f64,
+    pulse_lengths: &[f64],
     storage: Storage,
-) -> Result<Vec<f64>, BuildError> {
+) -> Result<Vec<[f64; 6]>, BuildError> {
     let [r_nodes, z_nodes] = grid.nodes();
     let mesh = |nodes: &[f64], x: f64| {
         let i = locate(nodes, x).unwrap_or(0);
@@ -166,32 +168,34 @@ fn errors_at(
         }
     }
     let width = grid.cell_width * lookup::cell_scale(plan.kernel().medium().poisson_ratio())?;
-    let count = grid.cells()? * 2 / 3 + (pulse_length / width) as usize + 1;
-    let cells = |sum: Sum| {
-        let mut cells = vec![[0.0; 6]; count];
-        Series::new(width, sum.cells, sum.numbers).fill(Smoothness::Smooth, 0, &mut cells);
-        cells
-    };
-    let (exact, mut found) = (cells(exact), cells(found));
-    for (a, b) in found.iter_mut().zip(&exact) {
-        for f in 0..6 {
-            a[f] -= b[f];
-        }
-    }
-    let pulse = PulseSum::new(pulse_length, width);
     let rest = plan.kernel().static_field(r, z)?;
+    let (cells, arrived) = (grid.cells()?, grid.cells()? * 2 / 3);
+    let series = |sum: Sum| Series::new(width, cells, sum.numbers);
+    let (exact, found) = (series(exact), series(found));
     let most =
         |list: &[[f64; 6]], f: usize| list.iter().fold(0.0_f64, |m, six| m.max(six[f].abs()));
-    let (whole, wrong) = (
-        pulse.response(&rest, &exact),
-        pulse.response(&[0.0; 6], &found),
-    );
-    Ok((0..6).map(|f| most(&wrong, f) / most(&whole, f)).collect())
+    Ok(pulse_lengths
+        .iter()
+        .map(|&length| {
+            let mut direct = vec![[0.0; 6]; arrived + (length / width) as usize + 1];
+            let mut wrong = direct.clone();
+            exact.fill(Smoothness::Smooth, 0, &mut direct);
+            found.fill(Smoothness::Smooth, 0, &mut wrong);
+            for (a, b) in wrong.iter_mut().zip(&direct) {
+                for f in 0..6 {
+                    a[f] -= b[f];
+                }
+            }
+            let pulse = PulseSum::new(length, width);
+            let whole = pulse.response(&rest, &direct);
+            let wrong = pulse.response(&[0.0; 6], &wrong);
+            std::array::from_fn(|f| most(&wrong, f) / most(&whole, f))
+        })
+        .collect())
 }
 
 /// A weighted sum of the numbers of points.
 struct Sum {
-    cells: usize,
     numbers: Numbers,
 }
 
@@ -199,7 +203,6 @@ impl Sum {
     fn zero(grid: &Grid) -> Result<Self, BuildError> {
         let cells = grid.cells()?;
         Ok(Self {
-            cells,
             numbers: Numbers {
                 averages: vec![0.0; 6 * cells],
                 moments: vec![0.0; 6 * cells],

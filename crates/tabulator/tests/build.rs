@@ -183,6 +183,8 @@ fn a_grid_file_is_read_back_and_unknown_keys_are_refused() {
     let path = folder.path().join("grid.toml");
     std::fs::write(&path, small().to_toml().unwrap()).unwrap();
     assert_eq!(Grid::from_file(&path).unwrap(), small());
+    let example = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/kernel-grid.toml");
+    assert_eq!(Grid::from_file(Path::new(example)).unwrap().r.max, 3.0);
     std::fs::write(&path, "poisson_ratios = [0.3]\nspacng = 1\n").unwrap();
     let message = Grid::from_file(&path).unwrap_err().to_string();
     assert!(

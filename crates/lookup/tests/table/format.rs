@@ -19,7 +19,7 @@ fn what_is_written_is_read() {
     check_hash(&path, &back).unwrap();
     let table = Table::open(&path).unwrap();
     assert_eq!(table.id().len(), 16);
-    assert_eq!(table.format_version(), "2.0");
+    assert_eq!(table.format_version(), "2.1");
 }
 
 #[test]
@@ -139,7 +139,7 @@ fn versions_kinds_and_gaps_are_named() {
     });
     assert_eq!(
         error.to_string(),
-        "kernel table: slices/nu_0.3/tail[0] = NaN, allowed: finite numbers"
+        "kernel table: slices/nu_0.3/tail (r/r0 = 0, z/r0 = 0) = NaN, allowed: finite numbers"
     );
     let error = changed(&folder, |file| {
         file.dataset("r")

@@ -1,0 +1,109 @@
+//! How far a long computation is: a bar on a terminal, plain lines elsewhere.
+
+use indicatif::{ProgressBar, ProgressStyle};
+use std::io::IsTerminal;
+use std::sync::{Mutex, PoisonError};
+use std::time::Instant;
+use tabulator::Progress;
+
+/// A bar on a terminal, a line for each tenth elsewhere: share, slice, rate, time left.
+pub(crate) struct Bar {
+    bar: Option<ProgressBar>,
+    state: Mutex<State>,
+}
+
+struct State {
+    stage: String,
+    total: u64,
+    done: u64,
+    started: Instant,
+    /// Poisson's ratio where the work is, if it is anywhere.
+    slice: Option<f64>,
+}
+
+impl Bar {
+    pub(crate) fn new() -> Self {
+        let bar = std::io::stderr().is_terminal().then(|| {
+            let style = "{msg:24} [{bar:40}] {percent:>3} %  {per_sec}  {eta} left";
+            let style = ProgressStyle::with_template(style)
+                .unwrap_or_else(|_| ProgressStyle::default_bar());
+            ProgressBar::new(0).with_style(style.progress_chars("=> "))
+        });
+        let state = State {
+            stage: String::new(),
+            total: 0,
+            done: 0,
+            started: Instant::now(),
+            slice: None,
+        };
+        Self {
+            bar,
+            state: Mutex::new(state),
+        }
+    }
+
+    pub(crate) fn finish(&self) {
+        if let Some(bar) = &self.bar {
+            bar.finish_and_clear();
+        }
+    }
+}
+
+impl Progress for Bar {
+    fn total(&self, stage: &str, total: u64) {
+        let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
+        *state = State {
+            stage: stage.to_owned(),
+            total,
+            done: 0,
+            started: Instant::now(),
+            slice: None,
+        };
+        if let Some(bar) = &self.bar {
+            bar.set_message(stage.to_owned());
+            bar.set_length(total);
+            bar.set_position(0);
+            bar.reset();
+        }
+    }
+
+    fn slice(&self, poisson_ratio: f64) {
+        let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
+        state.slice = Some(poisson_ratio);
+        if let Some(bar) = &self.bar {
+            bar.set_message(format!("{}, nu = {poisson_ratio:.4}", state.stage));
+        }
+    }
+
+    fn advance(&self, done: u64) {
+        let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
+        let before = state.done;
+        state.done += done;
+        if let Some(bar) = &self.bar {
+            bar.inc(done);
+        } else if let Some(line) = state.line(before) {
+            eprintln!("{line}");
+        }
+    }
+}
+
+impl State {
+    /// What to say when another tenth is done.
+    fn line(&self, before: u64) -> Option<String> {
+        let total = self.total.max(1);
+        let tenth = |n: u64| 10 * n / total;
+        if tenth(self.done) == tenth(before) {
+            return None;
+        }
+        let rate = self.done as f64 / self.started.elapsed().as_secs_f64().max(1e-9);
+        let left = total.saturating_sub(self.done) as f64 / rate;
+        let slice = self
+            .slice
+            .map_or_else(String::new, |nu| format!(", nu = {nu:.4}"));
+        Some(format!(
+            "{} {} %{slice}, {rate:.1} a second, {left:.0} s left",
+            self.stage,
+            10 * tenth(self.done)
+        ))
+    }
+}
