@@ -222,6 +222,18 @@ def test_table_has_shapes_units_and_named_dimensions(table):
         assert "P/(mu r0)" in units(remainder) and "P/r0^2" in units(remainder)
 
 
+def test_table_labels_every_dataset_and_every_axis(table):
+    with h5py.File(table, "r") as file:
+        found = []
+        file.visititems(lambda name, item: found.append(item) if isinstance(item, h5py.Dataset) else None)
+        assert len(found) > 15
+        for dataset in found:
+            assert dataset.attrs["units"] and dataset.attrs["long_name"], dataset.name
+            if not dataset.is_scale:
+                lengths = [len(dimension[0]) for dimension in dataset.dims]
+                assert lengths == list(dataset.shape), dataset.name
+
+
 def test_table_is_finite_throughout(table):
     with h5py.File(table, "r") as file:
         found = []

@@ -54,7 +54,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     };
     let scene = read_scene(&arguments.scene)?;
     let table = match &arguments.table {
-        Some(path) => Some(open_table(path)?),
+        Some(path) => Some(open_table(path, &scene)?),
         None => None,
     };
     if let Some(path) = &arguments.output {
@@ -84,16 +84,19 @@ pub(crate) fn read_scene(path: &Path) -> Result<Scene, Failure> {
     })
 }
 
-pub(crate) fn open_table(path: &Path) -> Result<Arc<Table>, Failure> {
-    Table::open(path).map(Arc::new).map_err(|error| {
-        let text = error.to_string();
-        let name = path.display().to_string();
-        Failure::input(if text.contains(&name) {
-            text
-        } else {
-            format!("{name}: {text}")
+/// The table at `path`, as much of it as the target of `scene` needs.
+pub(crate) fn open_table(path: &Path, scene: &Scene) -> Result<Arc<Table>, Failure> {
+    Table::open_for(path, &[scene.target.poisson_ratio])
+        .map(Arc::new)
+        .map_err(|error| {
+            let text = error.to_string();
+            let name = path.display().to_string();
+            Failure::input(if text.contains(&name) {
+                text
+            } else {
+                format!("{name}: {text}")
+            })
         })
-    })
 }
 
 pub(crate) fn compute(

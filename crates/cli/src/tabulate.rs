@@ -137,7 +137,9 @@ fn grid(arguments: &Arguments) -> Result<Grid, Failure> {
     let (Some(tolerance), Some(pulse)) = (arguments.tol, arguments.pulse) else {
         return Ok(grid);
     };
-    let (grid, trials) = refine(&grid, tolerance, pulse).map_err(failure)?;
+    let progress = Bar::new();
+    let (grid, trials) = refine(&grid, tolerance, pulse, &progress).map_err(failure)?;
+    progress.finish();
     for trial in trials {
         eprintln!(
             "spacing {:.4} r0: {} nodes a slice, error {:.1e} for pulses of {pulse} r0/c1",

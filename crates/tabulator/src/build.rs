@@ -75,7 +75,7 @@ pub fn build_over(
     }
     let resumed_blocks = finished.len();
     let journal = Mutex::new(journal);
-    let rows = compute(grid, &work, finished, &journal, None, progress)?;
+    let rows = compute(grid, &work, finished, Some(&journal), None, progress)?;
     let summary = complete(grid, rows, path, None, progress)?;
     journal
         .into_inner()
@@ -116,7 +116,14 @@ pub fn build_shard(
         .step_by(count)
         .collect();
     let (journal, finished) = Journal::open(path, &grid.to_toml()?)?;
-    compute(grid, &work, finished, &Mutex::new(journal), None, progress)?;
+    compute(
+        grid,
+        &work,
+        finished,
+        Some(&Mutex::new(journal)),
+        None,
+        progress,
+    )?;
     Ok(work.len())
 }
 
@@ -205,12 +212,12 @@ pub(crate) fn complete(
     })
 }
 
-/// All rows in the order of `work`: those finished before, and the others computed and recorded now.
+/// All rows in the order of `work`: those finished before, and the others computed and, with a journal, recorded now.
 pub(crate) fn compute(
     grid: &Grid,
     work: &[Block],
     mut finished: HashMap<Block, Row>,
-    journal: &Mutex<Journal>,
+    journal: Option<&Mutex<Journal>>,
     known: Option<&Known>,
     progress: &dyn Progress,
 ) -> Result<Vec<Row>, BuildError> {
@@ -229,10 +236,10 @@ pub(crate) fn compute(
         .map(|&block| {
             let [r, z] = &positions[block.kind as usize];
             let row = blocks::compute(plans.of(block), block.kind, r[block.row], z, known)?;
-            journal
-                .lock()
-                .unwrap_or_else(PoisonError::into_inner)
-                .record(block, &row)?;
+            if let Some(journal) = journal {
+                let mut journal = journal.lock().unwrap_or_else(PoisonError::into_inner);
+                journal.record(block, &row)?;
+            }
             progress.slice(plans.of(block).kernel().medium().poisson_ratio());
             progress.advance(1);
             Ok((block, row))
@@ -286,7 +293,7 @@ pub(crate) fn plan(grid: &Grid, poisson_ratio: f64) -> Result<PointPlan, BuildEr
 }
 
 /// Puts the rows in their places and measures the errors off the grid.
-fn assemble(
+pub(crate) fn assemble(
     grid: &Grid,
     work: &[Block],
     rows: Vec<Row>,
@@ -295,7 +302,7 @@ fn assemble(
 ) -> Result<Content, BuildError> {
     let [r, z] = grid.nodes();
     let [probe_r, probe_z] = blocks::positions(Kind::Probes, grid);
-    let pulse_lengths = verify::PULSE_LENGTHS.to_vec();
+    let pulse_lengths = grid.pulse_lengths.clone();
     let blank = |places: usize| {
         let zeros = vec![0.0; places * pulse_lengths.len() * 6];
         Verification {

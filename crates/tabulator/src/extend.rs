@@ -62,7 +62,14 @@ pub fn extend(
         }
     }
     let journal = Mutex::new(journal);
-    let rows = compute(&grid, &work, finished, &journal, Some(&known), progress)?;
+    let rows = compute(
+        &grid,
+        &work,
+        finished,
+        Some(&journal),
+        Some(&known),
+        progress,
+    )?;
     let summary = complete(&grid, rows, path, Some(&known), progress)?;
     journal
         .into_inner()

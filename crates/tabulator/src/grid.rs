@@ -33,6 +33,12 @@ pub struct Grid {
     /// Tolerance of the exact kernels.
     #[serde(default = "defaults::tolerance")]
     pub tolerance: f64,
+    /// Lengths of the verification pulses in r0/c1, ascending.
+    #[serde(
+        default = "defaults::pulse_lengths",
+        skip_serializing_if = "defaults::are_usual"
+    )]
+    pub pulse_lengths: Vec<f64>,
     /// Radial nodes.
     pub r: Axis,
     /// Depth nodes.
@@ -85,6 +91,12 @@ mod defaults {
     pub(super) fn tolerance() -> f64 {
         1e-8
     }
+    pub(super) fn pulse_lengths() -> Vec<f64> {
+        crate::verify::PULSE_LENGTHS.to_vec()
+    }
+    pub(super) fn are_usual(lengths: &[f64]) -> bool {
+        lengths == crate::verify::PULSE_LENGTHS
+    }
 }
 
 impl Grid {
@@ -99,6 +111,7 @@ impl Grid {
             tail_terms: defaults::tail_terms(),
             stencil_points: defaults::stencil_points(),
             tolerance: defaults::tolerance(),
+            pulse_lengths: defaults::pulse_lengths(),
             r: Axis::graded(6.0, 0.15, 1.0, 0.04, 0.15),
             z: Axis::graded(6.0, 0.15, 0.0, 0.04, 0.15),
         }
@@ -249,6 +262,19 @@ impl Grid {
             even,
             "{2, 4, 6, 8}",
         )?;
+        let lengths = &self.pulse_lengths;
+        let none = lengths.is_empty();
+        setting("pulse_lengths", f64::NAN, !none, "a list of at least one")?;
+        for (i, &length) in lengths.iter().enumerate() {
+            within("pulse_lengths", length, 0.5, 1000.0, "[0.5, 1000]")?;
+            let ascends = i == 0 || length > lengths[i - 1];
+            setting(
+                "pulse_lengths",
+                length,
+                ascends,
+                "strictly ascending values",
+            )?;
+        }
         let first = self.poisson_ratios.first().copied().unwrap_or(f64::NAN);
         setting(
             "poisson_ratios",

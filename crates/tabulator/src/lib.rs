@@ -19,7 +19,7 @@ mod observe;
 mod point;
 mod progress;
 mod refine;
-
+mod sample;
 mod verify;
 
 pub use axis::Axis;
@@ -32,5 +32,6 @@ pub use grid::{Grid, PRESETS};
 pub use observe::{Observation, observe, observe_lengths};
 pub use point::{PointKernels, PointPlan};
 pub use progress::{Progress, Silent};
-pub use refine::{Storage, Trial, refine, sample_errors};
+pub use refine::{Trial, refine};
+pub use sample::{Storage, sample_errors};
 pub use verify::{PULSE_LENGTHS, quantile};

@@ -7,7 +7,7 @@ use halfspace::{Kernel, Medium, Profile, Six};
 use lookup::{Content, Numbers, PulseSum, Series, Smoothness, Table, Verification};
 use rayon::prelude::*;
 
-/// Lengths of the verification pulses in r0/c1.
+/// Lengths of the verification pulses in r0/c1, unless a grid has others.
 pub const PULSE_LENGTHS: [f64; 6] = [1.0, 3.0, 10.0, 20.0, 40.0, 100.0];
 /// A pulse is sampled by at least this many cells where the table has them.
 const SAMPLES: f64 = 250.0;

@@ -1,5 +1,6 @@
 //! The file: round trip, damage, foreign files, and agreement with its description.
 
+use crate::slices::sliced;
 use crate::stand_in::content;
 use lookup::{Table, TableError, check_hash, content_hash, read, schema, write};
 use std::path::{Path, PathBuf};
@@ -221,6 +222,14 @@ fn the_description_names_what_is_in_the_file() {
         );
         assert_eq!(names, found, "{heading}: constants against file");
     }
+    let path = folder.path().join("sliced.h5");
+    write(&path, &sliced()).unwrap();
+    let file = hdf5::File::open(path).unwrap();
+    let between = file.group(schema::BETWEEN).unwrap();
+    let name = between.member_names().unwrap().remove(0);
+    let group = between.group(&name).unwrap();
+    assert_eq!(members(&group), constants(&schema::BETWEEN_DATASETS));
+    assert_eq!(group.attr_names().unwrap(), [schema::POISSON_RATIO]);
     for name in schema::FIELD_NAMES {
         assert!(documented("Fields").contains(&name.to_owned()), "{name}");
     }

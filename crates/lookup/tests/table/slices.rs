@@ -19,7 +19,7 @@ fn growth(nu: f64) -> f64 {
 }
 
 /// Slices at 0, 0.04 .. 0.4 that interpolate, and at 0.21 one of another size that does not.
-fn sliced() -> Content {
+pub(crate) fn sliced() -> Content {
     let mut content = content();
     let original = content.slices.remove(0);
     let slice = |nu: f64, factor: f64, role: Role| {
