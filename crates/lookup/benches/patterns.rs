@@ -7,7 +7,7 @@
 
 mod common;
 
-use common::{BYTES, CELLS, NODES, POINTS, uniform};
+use common::{BYTES, CELLS, NODES, POINTS, STORED, uniform};
 use lookup::{Smoothness, Table, TraceInfo};
 use std::hint::black_box;
 use std::time::Instant;
@@ -101,12 +101,12 @@ fn cold(table: &Table, place: fn(&Table, usize) -> [f64; 2], cells: &mut [[f64; 
 /// The bytes of a trace, copied from random patches.
 fn copies(table: &Table) -> f64 {
     let stored = &table.content().slices[0].remainder;
-    let row = POINTS * 6 * CELLS;
+    let row = POINTS * 6 * STORED;
     let mut copy = vec![0.0_f32; POINTS * row];
     let (median, most) = timed(|i| {
         let place = |k: usize| (uniform((2 * i + k) as u64) * (NODES - POINTS) as f64) as usize;
         for (j, part) in copy.chunks_exact_mut(row).enumerate() {
-            let start = ((place(0) + j) * NODES + place(1)) * 6 * CELLS;
+            let start = ((place(0) + j) * NODES + place(1)) * 6 * STORED;
             part.copy_from_slice(&stored[start..start + row]);
         }
         black_box(&copy);

@@ -6,7 +6,7 @@
 
 mod common;
 
-use common::{BYTES, CELLS, NODES, POINTS};
+use common::{BYTES, CELLS, NODES, POINTS, STORED};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use lookup::Smoothness;
 use std::hint::black_box;
@@ -29,12 +29,12 @@ fn traces(criterion: &mut Criterion) {
     }
     // The same patch of nodes, each read once and written once.
     let stored = &table.content().slices[0].remainder;
-    let row = POINTS * 6 * CELLS;
+    let row = POINTS * 6 * STORED;
     let mut copy = vec![0.0_f32; POINTS * row];
     group.bench_function("copy of the same bytes", |bencher| {
         bencher.iter(|| {
             for (i, part) in copy.chunks_exact_mut(row).enumerate() {
-                let start = ((20 + i) * NODES + 16) * 6 * CELLS;
+                let start = ((20 + i) * NODES + 16) * 6 * STORED;
                 part.copy_from_slice(black_box(&stored[start..start + row]));
             }
             black_box(&copy);

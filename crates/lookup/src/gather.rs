@@ -63,7 +63,8 @@ fn gather_rows(values: &[f32], length: usize, nodes: &[Node], used: usize, sums:
     if used == 0 {
         return;
     }
-    for group in nodes.chunks(ROWS) {
+    for (index, group) in nodes.chunks(ROWS).enumerate() {
+        let next = nodes.get((index + 1) * ROWS..).unwrap_or_default();
         for (field, sum) in sums.chunks_exact_mut(used).enumerate() {
             // A group that is not full is filled with its first node at no weight.
             let mut weights = [0.0; ROWS];
@@ -76,9 +77,31 @@ fn gather_rows(values: &[f32], length: usize, nodes: &[Node], used: usize, sums:
                 let start = (node.index * FIELDS + field) * length;
                 *row = &values[start..start + used];
             }
+            for node in next.iter().take(ROWS) {
+                let start = (node.index * FIELDS + field) * length;
+                fetch(&values[start..start + used]);
+            }
             add_rows(weights, rows, sum);
         }
     }
+}
+
+/// Asks for numbers that are needed soon, so that the memory works while the processor adds.
+#[inline(always)]
+fn fetch(row: &[f32]) {
+    /// Numbers in a line of the cache.
+    const LINE: usize = 16;
+    #[cfg(target_arch = "x86_64")]
+    for line in row.chunks(LINE) {
+        use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
+        // SAFETY: the address is that of a number in `row`, and a prefetch changes nothing.
+        #[allow(unsafe_code)]
+        unsafe {
+            _mm_prefetch::<_MM_HINT_T0>(line.as_ptr().cast());
+        }
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    let _ = row;
 }
 
 /// `sum[t] += w0 a[t] + w1 b[t] + w2 c[t] + w3 d[t]`.

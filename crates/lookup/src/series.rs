@@ -2,7 +2,7 @@
 
 use crate::content::FIELDS;
 use crate::smooth;
-use crate::tail::Tail;
+use crate::tail::{Integrals, Tail};
 use halfspace::Six;
 
 /// What is assumed of the force between samples one cell apart.
@@ -27,6 +27,7 @@ pub struct Series {
     moments: Vec<f64>,
     curvatures: Vec<f64>,
     tails: Vec<Tail>,
+    integrals: Integrals,
 }
 
 /// The numbers of a [`Series`], each of shape (field, time) or (field, term).
@@ -50,14 +51,16 @@ impl Series {
     pub fn new(width: f64, cells: usize, numbers: Numbers) -> Self {
         let terms = (numbers.tail.len() / FIELDS).max(1);
         let end = cells as f64 * width;
+        let tails: Vec<Tail> = numbers
+            .tail
+            .chunks_exact(terms)
+            .map(|c| Tail::new(end, c))
+            .collect();
         Self {
             width,
             stored: numbers.averages.len() / FIELDS,
-            tails: numbers
-                .tail
-                .chunks_exact(terms)
-                .map(|c| Tail::new(end, c))
-                .collect(),
+            integrals: Integrals::new(&tails),
+            tails,
             averages: numbers.averages,
             moments: numbers.moments,
             curvatures: numbers.curvatures,
@@ -73,12 +76,17 @@ impl Series {
     /// Fills `cells` with averages over 2^`coarsening` table cells, corrected as `smoothness` says.
     pub fn fill(&self, smoothness: Smoothness, coarsening: u32, cells: &mut [Six]) {
         let fine = 1_usize << coarsening;
-        for (field, tail) in self.tails.iter().enumerate() {
+        let whole = (self.stored / fine).min(cells.len());
+        for field in 0..FIELDS {
             let averages = self.row(&self.averages, field);
-            for (j, cell) in cells.iter_mut().enumerate() {
-                cell[field] = self.average(averages, tail, j, fine);
+            for (j, cell) in cells[..whole].iter_mut().enumerate() {
+                cell[field] = match fine {
+                    1 => averages[j],
+                    _ => pairwise(&averages[j * fine..(j + 1) * fine]) / fine as f64,
+                };
             }
         }
+        self.continue_from(whole, fine, cells);
         match smoothness {
             Smoothness::Linear => {}
             Smoothness::Smooth => self.correct(fine, cells),
@@ -101,20 +109,26 @@ impl Series {
         &values[field * self.stored..(field + 1) * self.stored]
     }
 
-    /// Average over coarse cell `j` of `fine` cells, of which the stored ones come first.
-    fn average(&self, stored: &[f64], tail: &Tail, j: usize, fine: usize) -> f64 {
-        let (from, to) = (j * fine, (j + 1) * fine);
-        if to <= stored.len() {
-            return if fine == 1 {
-                stored[j]
-            } else {
-                pairwise(&stored[from..to]) / fine as f64
-            };
+    /// Fills the cells from `whole` on, of which the tail has all or a part: all fields at once, each edge once.
+    fn continue_from(&self, whole: usize, fine: usize, cells: &mut [Six]) {
+        let mut near = None;
+        for (j, cell) in cells.iter_mut().enumerate().skip(whole) {
+            let (from, to) = (j * fine, (j + 1) * fine);
+            let start = from.max(self.stored) as f64 * self.width;
+            let end = to as f64 * self.width;
+            let before = near.unwrap_or_else(|| self.integrals.at(start));
+            let after = self.integrals.at(end);
+            for field in 0..FIELDS {
+                let stored = self.row(&self.averages, field);
+                let sum = pairwise(&stored[from.min(self.stored)..]);
+                let tail = self
+                    .integrals
+                    .average(before[field] - after[field], end - start);
+                cell[field] =
+                    (sum * self.width + tail * (end - start)) / (fine as f64 * self.width);
+            }
+            near = Some(after);
         }
-        let sum = pairwise(&stored[from.min(stored.len())..]);
-        let start = from.max(stored.len()) as f64 * self.width;
-        let end = to as f64 * self.width;
-        (sum * self.width + tail.average(start, end) * (end - start)) / (fine as f64 * self.width)
     }
 
     /// First and second moment over coarse cell `j` from its parts.

@@ -1,5 +1,7 @@
 //! The decay of the remainder after the last time cell.
 
+use halfspace::Six;
+
 /// Series of the remainder after the end of the cells, R(t) = u^2 g(u) with u = `t_end`/t in (0, 1].
 ///
 /// ```text
@@ -38,6 +40,43 @@ impl Tail {
     }
 }
 
+/// The integrals of the tails of all fields, evaluated together.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Integrals {
+    time_end: f64,
+    /// Term by term.
+    terms: Vec<Six>,
+}
+
+impl Integrals {
+    /// Those of `tails`, one for each field, with the same end and the same number of terms.
+    pub(crate) fn new(tails: &[Tail]) -> Self {
+        let count = tails.first().map_or(0, |tail| tail.integral.len());
+        let term = |k: usize| std::array::from_fn(|f| tails[f].integral[k]);
+        Self {
+            time_end: tails.first().map_or(0.0, |tail| tail.time_end),
+            terms: (0..count).map(term).collect(),
+        }
+    }
+
+    /// G at time `t`, the same to the last bit as field by field.
+    pub(crate) fn at(&self, t: f64) -> Six {
+        let x = 2.0 * (self.time_end / t) - 1.0;
+        let (mut b1, mut b2): (Six, Six) = ([0.0; 6], [0.0; 6]);
+        for c in self.terms.iter().skip(1).rev() {
+            let next = std::array::from_fn(|f| 2.0 * x * b1[f] - b2[f] + c[f]);
+            (b1, b2) = (next, b1);
+        }
+        let first = self.terms.first().copied().unwrap_or([0.0; 6]);
+        std::array::from_fn(|f| x * b1[f] - b2[f] + first[f])
+    }
+
+    /// The average of R over a time that long, between whose ends G differs by `difference`.
+    pub(crate) fn average(&self, difference: f64, duration: f64) -> f64 {
+        self.time_end * difference / duration
+    }
+}
+
 /// Sum of c_k T_k(2u - 1) by Clenshaw's recurrence.
 #[must_use]
 pub fn chebyshev(coefficients: &[f64], u: f64) -> f64 {
@@ -61,6 +100,19 @@ mod tests {
             let (a, b) = (20.0 / from, 20.0 / to);
             let exact = 20.0 * ((a - b) + 1.5 * (a * a - b * b)) / (to - from);
             assert!((tail.average(from, to) - exact).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn all_fields_together_are_as_each_alone() {
+        let tails: Vec<Tail> = (0..6)
+            .map(|f| Tail::new(30.0, &[0.3 + f64::from(f), -0.2, 0.1 * f64::from(f), 0.05]))
+            .collect();
+        let integrals = Integrals::new(&tails);
+        let (before, after) = (integrals.at(41.0), integrals.at(43.5));
+        for (f, tail) in tails.iter().enumerate() {
+            let together = integrals.average(before[f] - after[f], 2.5);
+            assert_eq!(together, tail.average(41.0, 43.5));
         }
     }
 
