@@ -95,14 +95,40 @@ impl Series {
 
     fn correct(&self, fine: usize, cells: &mut [Six]) {
         let count = cells.len() + smooth::BEYOND;
+        // Of these cells a part is stored, of those after them none.
+        let mixed = self.stored.div_ceil(fine);
         let (mut moments, mut curvatures) =
             (vec![[0.0; FIELDS]; count], vec![[0.0; FIELDS]; count]);
         for (field, tail) in self.tails.iter().enumerate() {
-            for (j, (moment, curvature)) in moments.iter_mut().zip(&mut curvatures).enumerate() {
-                [moment[field], curvature[field]] = self.moments_of(field, tail, j, fine);
+            for j in 0..count.min(mixed) {
+                [moments[j][field], curvatures[j][field]] = self.moments_of(field, tail, j, fine);
             }
         }
+        self.continue_moments(mixed, fine, &mut moments, &mut curvatures);
         smooth::correct(cells, &moments, &curvatures);
+    }
+
+    /// Fills the moments of the cells from `first` on, which the tail has whole: all fields at once, each edge once.
+    fn continue_moments(
+        &self,
+        first: usize,
+        fine: usize,
+        moments: &mut [Six],
+        curvatures: &mut [Six],
+    ) {
+        let mut near = None;
+        for j in first..moments.len() {
+            let [t0, t1, t2, t3] = thirds((j * fine) as f64, fine as f64, self.width);
+            let g0 = near.unwrap_or_else(|| self.integrals.at(t0));
+            let [g1, g2, g3] = [t1, t2, t3].map(|t| self.integrals.at(t));
+            for f in 0..FIELDS {
+                let a = self.integrals.average(g0[f] - g1[f], t1 - t0);
+                let b = self.integrals.average(g1[f] - g2[f], t2 - t1);
+                let c = self.integrals.average(g2[f] - g3[f], t3 - t2);
+                [_, moments[j][f], curvatures[j][f]] = of_thirds(a, b, c);
+            }
+            near = Some(g3);
+        }
     }
 
     fn row<'a>(&self, values: &'a [f64], field: usize) -> &'a [f64] {
@@ -169,10 +195,9 @@ impl Series {
             // After the last arrival R is smooth: differences of thirds.
             let start = from.max(self.stored) as f64;
             let part = to as f64 - start;
-            let edge = |i: f64| (start + part * i / 3.0) * self.width;
-            let [a, b, c] = [0.0, 1.0, 2.0].map(|i| tail.average(edge(i), edge(i + 1.0)));
-            let (average, moment, curvature) =
-                ((a + b + c) / 3.0, (c - a) / 8.0, (a - 2.0 * b + c) / 40.0);
+            let edges = thirds(start, part, self.width);
+            let [a, b, c] = [0, 1, 2].map(|i| tail.average(edges[i], edges[i + 1]));
+            let [average, moment, curvature] = of_thirds(a, b, c);
             add(
                 start + 0.5 * part - centre,
                 part,
@@ -183,6 +208,16 @@ impl Series {
         }
         [first / width, second / width]
     }
+}
+
+/// Times of the ends and the thirds of a part of a cell, `start` and `part` in table cells.
+fn thirds(start: f64, part: f64, width: f64) -> [f64; 4] {
+    [0.0, 1.0, 2.0, 3.0].map(|i| (start + part * i / 3.0) * width)
+}
+
+/// Average, first and second moment from the averages over thirds.
+fn of_thirds(a: f64, b: f64, c: f64) -> [f64; 3] {
+    [(a + b + c) / 3.0, (c - a) / 8.0, (a - 2.0 * b + c) / 40.0]
 }
 
 /// Sum by halves: a coarse cell is then exactly the mean of its two halves.
