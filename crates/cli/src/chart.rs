@@ -10,6 +10,7 @@ use study::{Chart, Effort, StudyError, prepare_folder};
 const EXAMPLES: &str = "Examples:
   hertzlamb chart --quick -o chart-quick
   hertzlamb chart -o chart-full --force
+  hertzlamb chart --quick --check -o chart-check
 
 The folder gets chart.csv, chart.h5, report.md and the pictures as SVG and PNG.
 Times are those of this machine; run it on an idle one.";
@@ -23,6 +24,9 @@ pub(crate) struct Arguments {
     /// Folder for the chart.
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
+    /// Fail unless the default path is on the Pareto front by time, or the report says why not.
+    #[arg(long)]
+    check: bool,
     /// Replace the files of an earlier chart.
     #[arg(long)]
     force: bool,
@@ -50,7 +54,14 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         chart.records.len(),
         chart.diagrams.len() + chart.maps.len(),
         chart.wall_s
-    ))
+    ))?;
+    match chart.unexplained() {
+        ahead if arguments.check && !ahead.is_empty() => Err(Failure::Work(format!(
+            "the default path is not on the Pareto front at {}",
+            ahead.join("; ")
+        ))),
+        _ => Ok(()),
+    }
 }
 
 /// A folder that cannot be written to is the user's, the rest is work that failed.

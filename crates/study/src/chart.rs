@@ -8,6 +8,7 @@ use crate::machine::Machine;
 use crate::map::{inversions, kernels, lookups, marches, models};
 use crate::question;
 use crate::record::Record;
+use crate::standing::{Measure, Standing, standings};
 use crate::tables::{Density, Spacing};
 use crate::{csv_file, hdf_file, report, work_precision};
 use impact::output::{Existing, OutputError, write_whole};
@@ -54,7 +55,7 @@ impl Chart {
         records.extend(question::force::measure(effort, &advance)?);
         progress.total("fields", effort.pick(3, 9));
         records.extend(question::fields::measure(effort, &densities, &advance)?);
-        progress.total("inversions", 14);
+        progress.total("inversions", 21);
         let mut maps = inversions::figures(effort, &advance)?;
         progress.total("marches", 3);
         maps.extend(marches::figures(effort, &advance)?);
@@ -71,6 +72,16 @@ impl Chart {
             maps,
             wall_s: started.elapsed().as_secs_f64(),
         })
+    }
+
+    /// What is ahead of the default path at 1e-3 to 1e-8 without a reason, in words; empty as it should be.
+    #[must_use]
+    pub fn unexplained(&self) -> Vec<String> {
+        standings(&self.records, Measure::Time)
+            .iter()
+            .filter(|standing| standing.is_unexplained())
+            .filter_map(Standing::ahead)
+            .collect()
     }
 
     /// Writes chart.csv, chart.h5, report.md and the pictures into a folder.

@@ -29,8 +29,8 @@ impl Clock {
         }
     }
 
-    /// Times `work`, which makes `values` values.
-    pub(crate) fn time(&self, values: usize, mut work: impl FnMut()) -> Timing {
+    /// Times `work`, which is worth `values` values.
+    pub(crate) fn time(&self, values: f64, mut work: impl FnMut()) -> Timing {
         let begun = Instant::now();
         work();
         let once = begun.elapsed().max(Duration::from_nanos(20));
@@ -38,15 +38,19 @@ impl Clock {
             .ceil()
             .max(1.0);
         let mut samples = Vec::with_capacity(self.runs);
-        for run in 0..self.runs {
-            if run >= 3 && begun.elapsed() > self.longest {
+        if repeats <= 1.0 {
+            // long enough for a run, and for the caches not to matter
+            samples.push(once.as_secs_f64() * 1e9 / values);
+        }
+        while samples.len() < self.runs {
+            if samples.len() >= 3 && begun.elapsed() > self.longest {
                 break;
             }
             let start = Instant::now();
             for _ in 0..repeats as usize {
                 work();
             }
-            samples.push(start.elapsed().as_secs_f64() * 1e9 / repeats / values.max(1) as f64);
+            samples.push(start.elapsed().as_secs_f64() * 1e9 / repeats / values);
         }
         samples.sort_by(f64::total_cmp);
         let at = |share: f64| samples[((samples.len() - 1) as f64 * share).round() as usize];
@@ -65,7 +69,7 @@ mod tests {
     fn a_run_does_as_much_work_as_it_says() {
         let clock = Clock::new(5, Duration::from_micros(200), Duration::from_millis(50));
         let mut count = 0_u64;
-        let timing = clock.time(10, || count += 1);
+        let timing = clock.time(10.0, || count += 1);
         assert!(count >= 6, "{count}");
         assert!(timing.median_ns > 0.0 && timing.spread_ns >= 0.0);
     }

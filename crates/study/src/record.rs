@@ -33,7 +33,7 @@ impl Question {
         match self {
             Self::Kernels => "six fields at one point and time",
             Self::Force => "one impact",
-            Self::Fields => "six fields at one point and time sample",
+            Self::Fields => "six fields at one point over r0/c1 of time",
         }
     }
 
@@ -43,7 +43,7 @@ impl Question {
         match self {
             Self::Kernels => "integrand evaluations per value",
             Self::Force => "steps times cells of memory per impact",
-            Self::Fields => "exact kernel values per value",
+            Self::Fields => "cells of kernels per value",
         }
     }
 }

@@ -3,13 +3,11 @@
 use crate::chart::Chart;
 use crate::effort::Effort;
 use crate::figure::Figure;
+use crate::reasons::reason;
 use crate::record::{Question, Record};
-use crate::standing::{LEVELS, Measure, Standing, standings};
+use crate::standing::{EQUAL, LEVELS, Measure, Standing, standings};
 use crate::work_precision::distinct;
 use std::fmt::Write;
-
-/// Default paths within this factor of the cheapest time count as equal: times on a busy machine scatter so.
-const EQUAL: f64 = 1.25;
 
 /// The report as Markdown.
 pub(crate) fn markdown(chart: &Chart) -> String {
@@ -38,7 +36,11 @@ fn write_report(out: &mut String, chart: &Chart) -> std::fmt::Result {
     )?;
     writeln!(
         out,
-        "Setting up (weights, nodes, a table) is not part of a cost; everything that a new point, time or impact needs is.\n"
+        "Setting up (weights, nodes, a table, the force's spectrum) is not part of a cost; everything that a new point, time or impact needs is."
+    )?;
+    writeln!(
+        out,
+        "In the diagrams `[default]` marks the ways that the program itself takes, and `(fails)` those whose largest error is above a tenth at every setting; what is above the frame is not drawn.\n"
     )?;
     let all = standings(&chart.records, Measure::Time);
     for (question, title) in [
@@ -57,8 +59,12 @@ fn write_report(out: &mut String, chart: &Chart) -> std::fmt::Result {
             Question::Force => "force",
             Question::Fields => "fields",
         };
+        not_adopted(out, &mine)?;
         for figure in chart.diagrams.iter().filter(|f| f.name.starts_with(names)) {
             picture(out, figure)?;
+            if !figure.caption.is_empty() {
+                writeln!(out, "{}\n", figure.caption)?;
+            }
         }
         table(out, &mine)?;
     }
@@ -76,6 +82,21 @@ fn write_report(out: &mut String, chart: &Chart) -> std::fmt::Result {
 
 fn picture(out: &mut String, figure: &Figure) -> std::fmt::Result {
     writeln!(out, "![{}]({}.png)\n", figure.title, figure.name)
+}
+
+/// Methods that are ahead somewhere, with the reason why the program does not take them.
+fn not_adopted(out: &mut String, standings: &[&Standing<'_>]) -> std::fmt::Result {
+    let ahead = standings.iter().filter(|s| !s.on_front(EQUAL));
+    let methods = distinct(ahead.filter_map(|s| Some(s.best?.0.method)));
+    if methods.is_empty() {
+        return Ok(());
+    }
+    writeln!(out, "Ahead of the default path somewhere, and not taken:\n")?;
+    for method in methods {
+        let why = reason(method).unwrap_or("no reason is written down: it should be adopted");
+        writeln!(out, "- {method}: {why}.")?;
+    }
+    writeln!(out)
 }
 
 /// Three sentences: what is cheapest, where the default stands, what does not work.
@@ -104,24 +125,7 @@ fn answer(chart: &Chart, question: Question, standings: &[&Standing<'_>]) -> [St
     );
     let reached: Vec<&&Standing<'_>> = standings.iter().filter(|s| s.best.is_some()).collect();
     let on = reached.iter().filter(|s| s.on_front(EQUAL)).count();
-    let off: Vec<String> = reached
-        .iter()
-        .filter(|s| !s.on_front(EQUAL))
-        .map(|s| match (s.own, s.best) {
-            (Some((_, own)), Some((best, cost))) => format!(
-                "{:.0e} in \"{}\" ({} is {:.1} times cheaper)",
-                s.level,
-                s.scene,
-                best.method,
-                own / cost
-            ),
-            (_, Some((best, _))) => format!(
-                "{:.0e} in \"{}\" (only {} reaches it)",
-                s.level, s.scene, best.method
-            ),
-            (_, None) => String::new(),
-        })
-        .collect();
+    let off: Vec<String> = reached.iter().filter_map(|s| s.ahead()).collect();
     let second = if off.is_empty() {
         format!(
             "The default path is on the front by time at all {on} accuracies from 1e-3 to 1e-8 that anything reaches."

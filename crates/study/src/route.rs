@@ -74,26 +74,21 @@ impl Route {
         &self,
         window: &Window,
         times: &[f64],
-        sum: impl Fn(&Window, &[Complex64], f64) -> f64,
+        sum: impl Fn(&Window, &[Complex64], &[f64]) -> Vec<f64>,
     ) -> Vec<Six> {
         let nodes: Vec<Complex64> = (0..window.samples).map(|k| window.node(k)).collect();
         let samples = self.values(&nodes, Path::RightHalf);
         let columns: [Vec<Complex64>; 6] =
             std::array::from_fn(|f| samples.iter().map(|s| s[f]).collect());
-        let live = columns
-            .each_ref()
-            .map(|column| column.iter().any(|v| v.norm_sqr() > 0.0));
-        times
-            .iter()
-            .map(|&t| {
-                std::array::from_fn(|f| {
-                    if live[f] {
-                        sum(window, &columns[f], t)
-                    } else {
-                        0.0
-                    }
-                })
-            })
+        let values = columns.map(|column| {
+            if column.iter().any(|v| v.norm_sqr() > 0.0) {
+                sum(window, &column, times)
+            } else {
+                vec![0.0; times.len()]
+            }
+        });
+        (0..times.len())
+            .map(|i| std::array::from_fn(|f| values[f][i]))
             .collect()
     }
 }

@@ -1,7 +1,7 @@
 //! The paper's route against the single integral and the closed form: two ways to the same numbers.
 
 use crate::hankel::Hankel;
-use crate::inversion::{Window, de_hoog, euler, talbot};
+use crate::inversion::{DeHoog, Window, euler, talbot};
 use crate::single_integral::remainder;
 use crate::surface::SurfaceTransform;
 use halfspace::{Kernel, Medium, Profile, Six, kausel};
@@ -51,7 +51,7 @@ fn the_interior_by_inversion_is_the_single_integral() {
         let exact: Six = std::array::from_fn(|f| value[f] + rest[f]);
         let series: Six = std::array::from_fn(|f| {
             let column: Vec<Complex64> = samples.iter().map(|s| s[f]).collect();
-            de_hoog(&window, &column, t)
+            DeHoog::new(&window, &column).at(t)
         });
         assert!(distance(&series, &exact) < promised, "de Hoog at {t}");
         if t >= 5.0 {

@@ -1,10 +1,14 @@
 //! Where the default path stands: the cheapest method for each accuracy, and the default beside it.
 
+use crate::reasons::reason;
 use crate::record::{Question, Record};
 use crate::work_precision::distinct;
 
 /// Accuracies at which the default path is to be on the Pareto front.
 pub const LEVELS: [f64; 6] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8];
+
+/// Costs within this factor count as equal: times on a busy machine scatter so.
+pub const EQUAL: f64 = 1.25;
 
 /// What a cost is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -48,6 +52,35 @@ impl Standing<'_> {
             (None, None) => true,
             (Some(_), None) | (None, Some(_)) => false,
         }
+    }
+}
+
+impl Standing<'_> {
+    /// What is ahead of the default path, in words; nothing where it is on the front.
+    #[must_use]
+    pub fn ahead(&self) -> Option<String> {
+        if self.on_front(EQUAL) {
+            return None;
+        }
+        let (best, cost) = self.best?;
+        let place = format!("{:.0e} in \"{}\"", self.level, self.scene);
+        Some(match self.own {
+            Some((_, own)) => format!(
+                "{place} ({} is {:.1} times cheaper)",
+                best.method,
+                own / cost
+            ),
+            None => format!("{place} (only {} reaches it)", best.method),
+        })
+    }
+
+    /// Whether something is ahead of the default path for which no reason is written down.
+    #[must_use]
+    pub fn is_unexplained(&self) -> bool {
+        let unknown = self
+            .best
+            .is_some_and(|(best, _)| reason(best.method).is_none());
+        unknown && !self.on_front(EQUAL)
     }
 }
 

@@ -7,9 +7,6 @@ use tabulator::{Axis, Grid, Silent};
 /// Extent of the tables in r0.
 const EXTENT: f64 = 2.0;
 
-/// Stencil of the program's own tables.
-pub(crate) const DEFAULT_POINTS: usize = 6;
-
 /// How the nodes of a table lie.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Spacing {
@@ -62,9 +59,14 @@ impl Density {
         })
     }
 
+    /// Nodes along each axis of the stencils of the program's own tables.
+    pub(crate) fn points() -> usize {
+        Grid::demo().stencil_points
+    }
+
     /// Whether the program's own tables are like this one when read with `points` nodes along each axis.
     pub(crate) fn is_default(&self, points: usize) -> bool {
-        self.spacing == Spacing::Own && points == DEFAULT_POINTS
+        self.spacing == Spacing::Own && points == Self::points()
     }
 
     /// The table read with `points` nodes along each axis.

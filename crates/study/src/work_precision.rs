@@ -46,25 +46,28 @@ pub(crate) fn figures(records: &[Record]) -> Vec<Figure> {
 const FLOOR: f64 = 1e-16;
 
 fn diagram(question: Question, scene: &str, name: &'static str, rows: &[&Record]) -> Figure {
-    let costs = rows.iter().map(|r| r.cost.median_ns);
-    let low = costs.clone().fold(f64::INFINITY, f64::min);
-    let high = costs.fold(0.0, f64::max);
-    let lowest = rows
-        .iter()
-        .map(|r| r.error.max.max(FLOOR))
-        .fold(1.0, f64::min);
-    let down = 10.0_f64.powf(lowest.log10().floor());
+    let shown = || {
+        rows.iter()
+            .filter(|r| r.error.max < 2.0)
+            .map(|r| (r.cost.median_ns, r.error.max.max(FLOOR)))
+    };
+    // half a marker of room around the outermost points
+    let low = shown().map(|p| p.0).fold(f64::INFINITY, f64::min);
+    let high = shown().map(|p| p.0).fold(0.0, f64::max);
+    let lowest = shown().map(|p| p.1).fold(1.0, f64::min);
     let decade = |x: f64, up: f64| 10.0_f64.powf((x.log10() + up).floor());
+    let down = decade(lowest, -0.2);
     let mut figure = Figure::new(
         name,
         &format!("{}: {scene}", question.name()),
         Axis::logarithmic(
             &format!("cost [ns per value: {}]", question.value()),
-            decade(low, 0.0),
-            decade(high, 1.0),
+            decade(low, -0.1),
+            decade(high, 1.1),
         ),
         Axis::logarithmic("largest error over the largest value", down, 2.0),
     );
+    figure.caption = caption(question, scene).to_owned();
     // settings of fields vary in several ways at once: no line orders them
     let style = match question {
         Question::Kernels | Question::Force => Style::Marked,
@@ -93,6 +96,34 @@ fn diagram(question: Question, scene: &str, name: &'static str, rows: &[&Record]
     let front = pareto_front(rows, |r| Some(r.cost.median_ns));
     figure.curve("Pareto front", Style::HeavyDashed, staircase(rows, &front));
     figure
+}
+
+/// What a diagram needs to be read.
+fn caption(question: Question, scene: &str) -> &'static str {
+    match question {
+        Question::Kernels if scene.starts_with("interior point, across") => {
+            "Times are even in the logarithm, with more at one hundredth before and after every front. \
+             The table holds averages over time cells, and its error here is that of single cells, which a front that \
+             passes between two nodes makes large; it is made for sums with a force, as in the diagrams of fields, where \
+             the fronts cancel."
+        }
+        Question::Kernels if scene.starts_with("surface") => {
+            "The closed form is the reference here: its error is zero by definition and drawn at the bottom."
+        }
+        Question::Kernels => "",
+        Question::Force => {
+            "The marches at a given number of steps are the scheme alone; those with a tolerance halve the step until the \
+             results stand still, and pay for the coarser marches as well."
+        }
+        Question::Fields if scene.starts_with("whole") => {
+            "Both by the same stencils over the same exact kernels in double precision: the static part, which is exact and \
+             steep near the disc, is worth interpolating around."
+        }
+        Question::Fields => {
+            "A value is the six fields at a point over a unit of time, so that a method with longer steps has fewer samples \
+             to make. Steps of the table are powers of two of its cells."
+        }
+    }
 }
 
 /// The border of what the front dominates.

@@ -7,15 +7,17 @@ use impact::choose::Rung;
 use impact::contact::hertz::CONTACT_TIME;
 use impact::march::{FixedDisc, StaticShare, Summary, march_explicit, march_implicit, refine};
 use std::f64::consts::PI;
+use study::map::disc_models::{disc_at, disc_chosen, disc_errors};
+use study::map::dynamic::{dynamic_growth_limit, dynamic_is_solved, dynamic_limit};
 use study::map::kernels::{
-    closed_form_error, deep_static_error, double_root_error, incompressible_error,
-    incompressible_surface,
+    closed_form_error, deep_static_error, double_root_error, double_root_own_error,
+    incompressible_error, incompressible_surface,
 };
 use study::map::marches::{
-    Fate, admittance, converged, dynamic_is_solved, dynamic_limit, explicit_fate, implicit_fate,
-    linear_growth, paper_disc, paper_response,
+    Fate, admittance, converged, explicit_fate, implicit_fate, paper_disc, paper_response,
 };
 use study::map::models::{Plane, SPEEDS_M_S, TOLERANCES, place_of, targets};
+use study::map::recurrence::linear_growth;
 
 #[test]
 fn the_published_restitution_is_the_explicit_schemes_step() {
@@ -142,6 +144,26 @@ fn the_dynamic_share_is_refused_where_it_has_no_solution() {
             "limit {limit} at {step}"
         );
     }
+    // coarse steps hide it, up to the fold and not from where the samples grow
+    for step in [0.1, 0.18] {
+        let step = step * CONTACT_TIME;
+        let at = |coupling: f64| {
+            let disc = FixedDisc {
+                coupling,
+                ..paper.clone()
+            };
+            dynamic_is_solved(&disc, step)
+        };
+        let (grows, folds) = (
+            dynamic_growth_limit(&paper, step),
+            dynamic_limit(&paper, step),
+        );
+        assert!(grows < folds, "{grows} {folds}");
+        assert!(
+            at(0.9 * grows) && !at(1.1 * folds),
+            "{grows} {folds} at {step}"
+        );
+    }
     let disc = FixedDisc {
         coupling: 2.0,
         share: StaticShare::Dynamic,
@@ -184,13 +206,19 @@ fn closed_potentials_lose_digits_as_the_cube_of_the_distance_and_the_program_doe
 
 #[test]
 fn the_double_root_costs_the_closed_form_digits_but_not_the_answer() {
+    let mut worst = 0.0_f64;
     for distance in [1e-2, 1e-6, 1e-9, 1e-12, 1e-15, 0.0] {
         for sign in [1.0, -1.0] {
             let error = double_root_error(sign * distance).unwrap();
             let promised = (1e-13 + 1e-15 / distance.sqrt()).min(1e-7);
             assert!(error < promised, "{distance:e}: {error:e}");
+            worst = worst.max(error);
+            let own = double_root_own_error(sign * distance).unwrap();
+            assert!(own < 2e-14, "{distance:e}: {own:e}");
         }
     }
+    // the place is the double root, to the last bits
+    assert!(worst > 1e-11, "{worst:e}");
 }
 
 #[test]
@@ -245,6 +273,61 @@ fn auto_never_takes_a_model_that_misses_the_map() {
         }
     }
     assert!(cheap > 40, "{cheap}");
+}
+
+#[test]
+fn auto_leaves_a_model_not_long_before_the_map_does() {
+    // the last memory at which a model is taken, and twice and a half of it
+    let plane = Plane::new(0.3).unwrap();
+    let mut seen = 0;
+    for share in [0.03, 0.1, 0.3, 1.0] {
+        for tolerance in TOLERANCES {
+            for rung in [Rung::QuasiStatic, Rung::Radiation] {
+                let memory = plane.boundary(share, tolerance, rung);
+                if memory * CONTACT_TIME > 0.29 {
+                    // as far as the expansion is trusted at all
+                    continue;
+                }
+                let errors = plane.errors(share, 2.5 * memory, 128).unwrap();
+                let error = match rung {
+                    Rung::QuasiStatic => errors.hertz,
+                    Rung::Radiation | Rung::FullMemory => errors.radiation,
+                };
+                assert!(error > tolerance, "{share} {tolerance} {rung:?}: {error:e}");
+                seen += 1;
+            }
+        }
+    }
+    assert!(seen > 15, "{seen}");
+}
+
+#[test]
+fn auto_agrees_with_the_map_of_the_papers_disc() {
+    let response = paper_response().unwrap();
+    let paper = paper_disc(&response).unwrap();
+    let mut cheap = [0, 0];
+    for coupling in [3e-3, 0.03, 0.18, 0.8, 3.0] {
+        for memory in [3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 0.1] {
+            let disc = disc_at(&paper, coupling, memory);
+            let errors = disc_errors(&disc).unwrap();
+            for tolerance in TOLERANCES {
+                let allowed = 1.05 * tolerance + 2e-5;
+                let found = format!("{coupling} {memory} {tolerance}: {errors:?}");
+                match disc_chosen(&disc, tolerance) {
+                    Rung::QuasiStatic => {
+                        cheap[0] += 1;
+                        assert!(errors.springs <= allowed, "{found}");
+                    }
+                    Rung::Radiation => {
+                        cheap[1] += 1;
+                        assert!(errors.radiation <= allowed, "{found}");
+                    }
+                    Rung::FullMemory => assert!(errors.springs > 0.5 * tolerance, "{found}"),
+                }
+            }
+        }
+    }
+    assert!(cheap[0] > 15 && cheap[1] > 10, "{cheap:?}");
 }
 
 #[test]

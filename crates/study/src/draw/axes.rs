@@ -13,15 +13,29 @@ pub(super) fn place(figure: &Figure, x: f64, y: f64) -> (f64, f64) {
     )
 }
 
-/// Frame, grid, ticks and labels of both axes.
-pub(super) fn draw_axes(mut group: Group, figure: &Figure) -> Group {
+/// Lines at the ticks, below everything else; none under a map.
+pub(super) fn draw_grid(figure: &Figure) -> Group {
     let [left, top, right, bottom] = AREA;
-    let grid = figure.cells.is_none();
+    let mut group = Group::new();
+    if figure.cells.is_some() {
+        return group;
+    }
     for value in ticks(&figure.x) {
         let x = place(figure, value, figure.y.range.0).0;
-        if grid {
-            group = group.add(line([x, top, x, bottom], "#e3e3e3"));
-        }
+        group = group.add(line([x, top, x, bottom], "#e3e3e3"));
+    }
+    for value in ticks(&figure.y) {
+        let y = place(figure, figure.x.range.0, value).1;
+        group = group.add(line([left, y, right, y], "#e3e3e3"));
+    }
+    group
+}
+
+/// Frame, ticks and labels of both axes.
+pub(super) fn draw_axes(mut group: Group, figure: &Figure) -> Group {
+    let [left, top, right, bottom] = AREA;
+    for value in ticks(&figure.x) {
+        let x = place(figure, value, figure.y.range.0).0;
         group = group
             .add(line([x, bottom, x, bottom + 5.0], BLACK))
             .add(text(
@@ -34,9 +48,6 @@ pub(super) fn draw_axes(mut group: Group, figure: &Figure) -> Group {
     }
     for value in ticks(&figure.y) {
         let y = place(figure, figure.x.range.0, value).1;
-        if grid {
-            group = group.add(line([left, y, right, y], "#e3e3e3"));
-        }
         group = group.add(line([left - 5.0, y, left, y], BLACK)).add(text(
             &name(&figure.y, value),
             left - 9.0,

@@ -8,7 +8,7 @@ mod marker;
 mod png;
 
 use crate::figure::{Axis, Cells, Curve, Figure, Style};
-use axes::{draw_axes, place};
+use axes::{draw_axes, draw_grid, place};
 use legend::Entry;
 use svg::Document;
 use svg::node::element::{ClipPath, Definitions, Group, Line, Polyline, Rectangle, Text};
@@ -124,8 +124,7 @@ pub fn to_svg(figure: &Figure) -> String {
             entries.push(Entry::Fill(name.clone(), fill));
         }
     }
-    let mut frame = Group::new();
-    frame = draw_axes(frame, figure);
+    let mut frame = draw_axes(Group::new(), figure);
     let inside_range = |x: f64| (0.0..=1.0).contains(&figure.x.share(x));
     for (x, label) in figure.marks.iter().filter(|(x, _)| inside_range(*x)) {
         let at = place(figure, *x, figure.y.range.0).0;
@@ -184,6 +183,7 @@ pub fn to_svg(figure: &Figure) -> String {
                 .set("fill", "#ffffff"),
         )
         .add(text(&figure.title, left, 26.0, 17.0, "start"))
+        .add(draw_grid(figure))
         .add(inside)
         .add(frame)
         .add(labels)

@@ -3,23 +3,41 @@
 use super::Window;
 use num_complex::Complex64;
 
-/// f(t) from an odd number of samples of a transform, with the remainder estimate of the authors.
-#[must_use]
-pub fn de_hoog(window: &Window, samples: &[Complex64], t: f64) -> f64 {
-    let coefficients = fraction(samples);
-    let z = Complex64::from_polar(1.0, std::f64::consts::PI * t / window.half_period);
-    let last = coefficients.len() - 1;
-    let one = Complex64::new(1.0, 0.0);
-    let (mut a0, mut a1) = (Complex64::default(), coefficients[0]);
-    let (mut b0, mut b1) = (one, one);
-    for &d in &coefficients[1..last] {
-        (a0, a1) = (a1, a1 + d * z * a0);
-        (b0, b1) = (b1, b1 + d * z * b0);
+/// The continued fraction of the samples of a transform, which serves every time of the window.
+#[derive(Debug, Clone)]
+pub struct DeHoog {
+    window: Window,
+    coefficients: Vec<Complex64>,
+}
+
+impl DeHoog {
+    /// From an odd number of samples.
+    #[must_use]
+    pub fn new(window: &Window, samples: &[Complex64]) -> Self {
+        Self {
+            window: *window,
+            coefficients: fraction(samples),
+        }
     }
-    let half = 0.5 * (one + (coefficients[last - 1] - coefficients[last]) * z);
-    let rest = -half * (one - (one + coefficients[last] * z / (half * half)).sqrt());
-    let (a, b) = (a1 + rest * a0, b1 + rest * b0);
-    (window.damping * t).exp() / window.half_period * (a / b).re
+
+    /// f(t), with the remainder estimate of the authors.
+    #[must_use]
+    pub fn at(&self, t: f64) -> f64 {
+        let (window, coefficients) = (&self.window, &self.coefficients);
+        let z = Complex64::from_polar(1.0, std::f64::consts::PI * t / window.half_period);
+        let last = coefficients.len() - 1;
+        let one = Complex64::new(1.0, 0.0);
+        let (mut a0, mut a1) = (Complex64::default(), coefficients[0]);
+        let (mut b0, mut b1) = (one, one);
+        for &d in &coefficients[1..last] {
+            (a0, a1) = (a1, a1 + d * z * a0);
+            (b0, b1) = (b1, b1 + d * z * b0);
+        }
+        let half = 0.5 * (one + (coefficients[last - 1] - coefficients[last]) * z);
+        let rest = -half * (one - (one + coefficients[last] * z / (half * half)).sqrt());
+        let (a, b) = (a1 + rest * a0, b1 + rest * b0);
+        (window.damping * t).exp() / window.half_period * (a / b).re
+    }
 }
 
 /// Coefficients d_0 .. d_2M of the fraction d_0/(1 + d_1 z/(1 + d_2 z/ ...)).

@@ -19,7 +19,7 @@ mod talbot;
 
 pub use cme::cme;
 pub use crump::crump;
-pub use de_hoog::de_hoog;
+pub use de_hoog::DeHoog;
 pub use durbin::durbin;
 pub use euler::euler;
 pub use stehfest::stehfest;

@@ -1,5 +1,5 @@
 use super::{
-    ExtendedWeights, Framework, Window, cme, crump, de_hoog, durbin, euler, stehfest,
+    DeHoog, ExtendedWeights, Framework, Window, cme, crump, durbin, euler, stehfest,
     stehfest_extended, talbot,
 };
 use num_complex::Complex64;
@@ -54,9 +54,10 @@ fn series_share_their_samples() {
         .collect();
     let long = Window::new(5.0, 1e-6, 4001);
     let many: Vec<Complex64> = (0..long.samples).map(|k| smooth(long.node(k))).collect();
+    let fraction = DeHoog::new(&window, &samples);
     for t in TIMES {
         let exact = smooth_at(t);
-        assert!((de_hoog(&window, &samples, t) - exact).abs() < 1e-8, "{t}");
+        assert!((fraction.at(t) - exact).abs() < 1e-8, "{t}");
         assert!((crump(&window, &samples, t) - exact).abs() < 1e-6, "{t}");
         assert!((durbin(&long, &many, t) - exact).abs() < 2e-2, "{t}");
     }

@@ -3,11 +3,12 @@
 use crate::StudyError;
 use crate::effort::Effort;
 use crate::figure::{Axis, Figure, Style};
+use crate::inversion::ExtendedWeights;
 use crate::question::inversions::Inversion;
 use crate::question::kernels::{KernelScene, POISSON_RATIO};
 use halfspace::{Kernel, Medium, Profile, Six};
 
-/// One picture for the surface centre and one for the interior.
+/// One picture for the surface centre, one for the interior and one for the axis.
 pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Figure>, StudyError> {
     let medium = Medium::new(POISSON_RATIO)?;
     let count = effort.pick(40, 160);
@@ -16,12 +17,17 @@ pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Figure>,
         (
             "inversions-surface",
             "Inversions over time: deflection of the surface's centre",
-            KernelScene::surface(&medium, count)?,
+            KernelScene::surface(&medium, count, &[])?,
         ),
         (
             "inversions-interior",
             "Inversions over time: six fields at (0.55, 0.65) r0",
-            KernelScene::interior(&medium, count)?,
+            KernelScene::interior(&medium, count, &[])?,
+        ),
+        (
+            "inversions-axis",
+            "Inversions over time: w on the axis at a depth of 0.65 r0",
+            KernelScene::axis(&medium, count, &[])?,
         ),
     ] {
         let last = scene.times[count - 1];
@@ -54,6 +60,18 @@ pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Figure>,
                 over_time(&scene, &values),
             );
             advance();
+        }
+        if name == "inversions-axis" {
+            // every third time: double-double arithmetic is slow
+            let mut few = scene.clone();
+            few.thin(3);
+            let weights = ExtendedWeights::new(26);
+            let (values, _) = few.extended(&medium, &weights);
+            figure.curve(
+                "Gaver-Stehfest, 31 digits, 26 terms",
+                Style::Marked,
+                over_time(&few, &values),
+            );
         }
         let kernel = single(&medium, &scene)?;
         figure.curve(

@@ -7,7 +7,7 @@ use crate::StudyError;
 use crate::effort::Effort;
 use crate::figure::{Axis, Figure, Style};
 use crate::question::kernels::POISSON_RATIO;
-use crate::tables::{DEFAULT_POINTS, Density, Spacing};
+use crate::tables::{Density, Spacing};
 use halfspace::Medium;
 use lookup::Table;
 
@@ -46,7 +46,7 @@ pub(crate) fn figures(densities: &[Density], effort: Effort) -> Result<Vec<Figur
     let Some(density) = densities.iter().find(|d| d.spacing == Spacing::Own) else {
         return Ok(Vec::new());
     };
-    let table = density.with_stencil(DEFAULT_POINTS)?;
+    let table = density.with_stencil(Density::points())?;
     let content = table.content();
     let kappa = Medium::new(POISSON_RATIO)?.kappa();
     let radii = content.probes()[0].len();

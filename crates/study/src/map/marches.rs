@@ -15,10 +15,11 @@
 //! by half a step, which feeds h (25/16) int p^2 into the striker, and w by a step, which takes
 //! h (5/2) int p' w' out again.
 
+use super::dynamic;
+use super::recurrence::linear_growth;
 use crate::StudyError;
 use crate::effort::Effort;
 use crate::figure::{Axis, Figure, Style};
-use crate::gauss::Rule;
 use crate::scenes::{PAPER, read};
 use halfspace::{Deflection, Medium, SurfaceResponse};
 use impact::contact::hertz::CONTACT_TIME;
@@ -292,7 +293,7 @@ pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Figure>,
         .to_owned();
     figures.push(implicit);
     advance();
-    figures.push(dynamic(&paper, shape, effort)?);
+    figures.push(dynamic::figure(&paper, shape, effort));
     advance();
     Ok(figures)
 }
@@ -314,130 +315,4 @@ fn explain(paper: &FixedDisc<'_>, own: &Converged) -> String {
         own.explicit_restitution(at(200.0)),
         own.explicit_restitution(at(54.0)),
     )
-}
-
-/// What the `dynamic` share makes of an impact at a step: whether it has a solution.
-#[must_use]
-pub fn dynamic_is_solved(disc: &FixedDisc<'_>, step: f64) -> bool {
-    let disc = FixedDisc {
-        share: StaticShare::Dynamic,
-        ..disc.clone()
-    };
-    !matches!(
-        march_implicit(&disc, step),
-        Err(MarchError::NoSolution { .. })
-    )
-}
-
-/// Largest coupling for which the `dynamic` share has a solution at a step, up to a force of Hertz's peak.
-#[must_use]
-pub fn dynamic_limit(disc: &FixedDisc<'_>, step: f64) -> f64 {
-    let newest = weights(disc.response, step / disc.wave_time)[0];
-    // Numerov's weight of the newest force
-    (2.0 / 3.0 + 1.25 * step * step / 12.0) / newest
-}
-
-/// The implicit scheme's weights g_j of a step in r0/c1: cell means of 1 - W, corrected for the curvature of
-/// the force with the first moments of W, that of the newest cell continued from the two before it.
-fn weights(response: &SurfaceResponse, step: f64) -> Vec<f64> {
-    let cells = (response.memory() / step).ceil() as usize;
-    let rule = Rule::new(8);
-    let integral = |t: f64| response.step_integral(t);
-    let mut lag = vec![0.0; cells + 2];
-    for j in 0..cells {
-        let (from, to) = (j as f64 * step, (j + 1) as f64 * step);
-        lag[j] += 1.0 - (integral(to) - integral(from)) / step;
-        // the response has a corner where its memory ends
-        let live = response.memory().clamp(from, to);
-        let area: f64 = [(from, live), (live, to)]
-            .iter()
-            .flat_map(|&(a, b)| rule.on(a, b))
-            .map(|(t, weight)| weight * integral(t))
-            .sum();
-        let curvature = (0.5 * step * (integral(from) + integral(to)) - area) / (step * step);
-        if j == 0 {
-            lag[0] += 1.5 * curvature;
-            lag[1] -= 2.0 * curvature;
-            lag[2] += 0.5 * curvature;
-        } else {
-            lag[j - 1] += 0.5 * curvature;
-            lag[j + 1] -= 0.5 * curvature;
-        }
-    }
-    lag
-}
-
-/// Growth per step of the implicit scheme's newest samples at a frozen contact stiffness k.
-///
-/// The largest root, in modulus, of p_n/k + coupling [p_n - sum_j g_j (p_{n-j} - p_{n-j-1})] = 0, from a long
-/// run of the recurrence; below one the samples settle.
-#[must_use]
-pub fn linear_growth(disc: &FixedDisc<'_>, stiffness: f64, step: f64) -> f64 {
-    const STEPS: usize = 400;
-    let lag = weights(disc.response, step / disc.wave_time);
-    let own = 1.0 / stiffness + disc.coupling * (1.0 - lag[0]);
-    let mut p = vec![0.0; lag.len() + 1];
-    p.push(1.0);
-    // rescaled so that nothing overflows; the logarithm of the scale is kept
-    let mut growth = 0.0;
-    for n in 0..STEPS {
-        let m = p.len();
-        let past: f64 = lag[1..]
-            .iter()
-            .enumerate()
-            .map(|(j, g)| g * (p[m - 1 - j] - p[m - 2 - j]))
-            .sum();
-        p.push(disc.coupling * (past - lag[0] * p[m - 1]) / own);
-        p.remove(0);
-        let size = p.iter().fold(0.0_f64, |a, v| a.max(v.abs()));
-        if size == 0.0 {
-            return 0.0;
-        }
-        for v in &mut p {
-            *v /= size;
-        }
-        if n >= STEPS / 2 {
-            growth += size.ln();
-        }
-    }
-    (growth / (STEPS / 2) as f64).exp()
-}
-
-fn dynamic(paper: &FixedDisc<'_>, shape: [usize; 2], effort: Effort) -> Result<Figure, StudyError> {
-    let x = Axis::logarithmic("static deflection over indentation (coupling)", 0.05, 5.0);
-    let y = Axis::logarithmic("step over Hertz's contact time", 1e-3, 0.2);
-    let mut figure = Figure::new(
-        "march-dynamic",
-        "Dynamic share (static part of the deflection taken out)",
-        x.clone(),
-        y.clone(),
-    );
-    figure.map(shape, &["solved", "refused: no solution"], |x, y| {
-        let disc = FixedDisc {
-            coupling: x,
-            ..paper.clone()
-        };
-        usize::from(!dynamic_is_solved(&disc, y * CONTACT_TIME))
-    });
-    let line = y
-        .cells(effort.pick(30, 80))
-        .into_iter()
-        .map(|y| (dynamic_limit(paper, y * CONTACT_TIME), y))
-        .filter(|(x, _)| *x < 5.0)
-        .collect();
-    figure.curve(
-        "theory: newest weight times coupling = 2/3",
-        Style::Heavy,
-        line,
-    );
-    figure.labelled = vec![(
-        paper.coupling,
-        1.0 / 137.0,
-        "paper's case, 137 steps".to_owned(),
-    )];
-    figure.caption = "Without its static part the newest weight of the deflection is negative: the contact law \
-        folds back, and beyond a coupling of 2/3 it has no solution. A step coarser than the memory hides that \
-        behind the mean of W over the step; the march refuses with a sentence, it does not go on."
-        .to_owned();
-    Ok(figure)
 }

@@ -4,21 +4,18 @@
 //! that follows the load, and the coupling of a fixed disc; memory is the time that the waves need across the
 //! contact, over Hertz's contact time.
 
+use super::disc_models;
 use crate::StudyError;
 use crate::effort::Effort;
 use crate::figure::{Axis, Figure, Style};
 use crate::marching::Results;
 use crate::record::Error;
-use crate::scenes::{PAPER, ball, read};
+use crate::scenes::{ball, read};
 use halfspace::{Deflection, Medium, SurfaceResponse};
 use impact::choose::{Rung, choose};
 use impact::contact::hertz::CONTACT_TIME;
-use impact::contact::quasi_static::quasi_static;
 use impact::contact::radiation::{LARGEST_LAG, radiation};
-use impact::march::{
-    FixedDisc, GrowingDisc, MarchError, PunchResponse, StaticShare, Summary, march_growing,
-    march_implicit,
-};
+use impact::march::{GrowingDisc, MarchError, PunchResponse, Summary, march_growing};
 use impact::material::Library;
 
 /// Tolerances of the three pictures.
@@ -99,7 +96,8 @@ impl Plane {
     }
 
     /// Memory at which `auto` leaves a rung for the next, at a share.
-    fn boundary(&self, share: f64, tolerance: f64, leaves: Rung) -> f64 {
+    #[must_use]
+    pub fn boundary(&self, share: f64, tolerance: f64, leaves: Rung) -> f64 {
         let cheap = |memory: f64| match self.chosen(share, memory, tolerance) {
             Rung::QuasiStatic => true,
             Rung::Radiation => leaves != Rung::QuasiStatic,
@@ -230,7 +228,7 @@ pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Figure>,
         );
         figures.push(figure);
     }
-    figures.push(disc(effort)?);
+    figures.extend(disc_models::figures(effort)?);
     advance();
     Ok(figures)
 }
@@ -241,98 +239,4 @@ fn ratio(plane: &Plane, errors: &[ModelErrors], shape: [usize; 2], x: &Axis, y: 
     let (lag, memory) = plane.groups(x.cells(shape[0])[i], y.cells(shape[1])[k]);
     let estimate = choose(lag, memory, f64::INFINITY, None).error;
     format!("{:.1}", estimate / errors[k * shape[0] + i].hertz)
-}
-
-/// The paper's family: a fixed disc whose whole deflection is added to Hertz's indentation.
-fn disc(effort: Effort) -> Result<Figure, StudyError> {
-    let (_, striker, collision) = read(PAPER)?;
-    let response = SurfaceResponse::new(&Medium::new(0.3)?, Deflection::Centre);
-    let paper = collision.fixed_disc(&response, striker.tip_radius_m, StaticShare::Full);
-    let mut figure = Figure::new(
-        "models-disc",
-        "Fixed disc, full static share: error of the models without waves",
-        Axis::logarithmic("static deflection over indentation (coupling)", 1e-4, 10.0),
-        Axis::logarithmic("memory over contact time", 1e-3, 1.0),
-    );
-    let mut failure = None;
-    let classes = [
-        "hertz within 1e-3",
-        "two springs within 1e-3",
-        "hertz within 1e-2",
-        "two springs within 1e-2",
-        "waves needed for 1e-2",
-    ];
-    figure.map(
-        effort.pick([14, 12], [40, 32]),
-        &classes,
-        |coupling, memory| {
-            let disc = FixedDisc {
-                coupling,
-                wave_time: memory * CONTACT_TIME / response.memory(),
-                ..paper.clone()
-            };
-            match disc_errors(&disc) {
-                Ok([hertz, springs]) => {
-                    let classes = [
-                        (hertz, 1e-3),
-                        (springs, 1e-3),
-                        (hertz, 1e-2),
-                        (springs, 1e-2),
-                    ];
-                    classes
-                        .iter()
-                        .position(|(error, least)| error <= least)
-                        .unwrap_or(4)
-                }
-                Err(error) => {
-                    failure = Some(error);
-                    4
-                }
-            }
-        },
-    );
-    if let Some(error) = failure {
-        return Err(error.into());
-    }
-    figure.labelled = vec![(
-        paper.coupling,
-        paper.memory() / CONTACT_TIME,
-        "paper's case".to_owned(),
-    )];
-    // two springs leave the radiated loss out: (5/2) lag int p'^2, half of it in the restitution
-    let lag_limit = 2.0 * 1e-2 / impact::contact::radiation::LOSS;
-    let line = figure
-        .x
-        .cells(40)
-        .into_iter()
-        .map(|coupling| {
-            let wave_time = lag_limit / (coupling * response.relaxation_time());
-            (coupling, wave_time * response.memory() / CONTACT_TIME)
-        })
-        .filter(|(_, memory)| (1e-3..=1.0).contains(memory));
-    let line = line.collect();
-    figure.curve("theory: first-order loss of 2e-2", Style::HeavyDashed, line);
-    figure.caption = "With the full share the half-space is a second spring: hertz alone is right only for a coupling \
-        below the tolerance, two springs in series carry the rest until the radiated loss is seen. The paper's case \
-        needs its waves."
-        .to_owned();
-    Ok(figure)
-}
-
-/// Errors of hertz and of two springs in series against the implicit march.
-///
-/// # Errors
-/// Those of the march.
-pub fn disc_errors(disc: &FixedDisc<'_>) -> Result<[f64; 2], MarchError> {
-    let springs = quasi_static(disc.coupling);
-    let history = march_implicit(disc, springs.contact_time / 200.0)?;
-    let exact = Results::from(&Summary::new(&history)?);
-    let static_only = Results {
-        peak_force: springs.peak_force,
-        contact_time: springs.contact_time,
-        restitution: 1.0,
-        peak_displacement: springs.peak_displacement,
-    };
-    let error = |found: Results| Error::of(&found.errors(&exact)).max;
-    Ok([error(Results::from(&radiation(0.0))), error(static_only)])
 }

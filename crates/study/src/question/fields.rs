@@ -1,30 +1,29 @@
 //! Question 3: how to compute fields under a given force history.
 //!
-//! The force is a pulse sin^4(pi t/T); one value is the six fields at one sample; the error is relative to
-//! each field's peak, against the exact convolution.
+//! The force is a pulse sin^4(pi t/T); one value is the six fields at one point over r0/c1 of time, so that
+//! coarser cells are worth what they save; the error is relative to each field's peak, against the exact
+//! convolution.
 
+use super::interpolation::{self, interpolations};
 use super::kernels::POISSON_RATIO;
 use crate::StudyError;
-use crate::convolution::{direct, transformed};
+use crate::convolution::{Convolution, Way};
 use crate::effort::Effort;
 use crate::pulse_reference::PulseReference;
 use crate::record::{Error, Question, Record};
-use crate::tables::{DEFAULT_POINTS, Density};
-use halfspace::{FIELDS, Kernel, Medium, Profile, Six};
-use lookup::{PulseSum, Smoothness, Stencil, Table};
+use crate::tables::Density;
+use halfspace::{DomainError, Kernel, Medium, Profile, Six};
+use lookup::{PulseSum, Smoothness, Table, correct_for_curvature};
 use std::hint::black_box;
-use tabulator::{Axis, PointPlan};
+use tabulator::PointPlan;
 
 /// A pulse at a point.
-struct Scene {
-    name: &'static str,
+pub(super) struct Scene {
+    pub(super) name: &'static str,
     /// Its name where two ways to interpolate are compared.
-    interpolation: &'static str,
-    reference: PulseReference,
+    pub(super) interpolation: &'static str,
+    pub(super) reference: PulseReference,
 }
-
-/// Samples, and the exact kernel values that they took.
-type Samples = (Vec<Six>, u64);
 
 /// Every method is sampled at multiples of this.
 const EVERY: f64 = 1.6;
@@ -77,45 +76,79 @@ pub(crate) fn measure(
     Ok(records)
 }
 
+/// What a record is called.
+pub(super) struct Label {
+    pub(super) scene: &'static str,
+    pub(super) method: &'static str,
+    pub(super) setting: String,
+    pub(super) default_path: bool,
+}
+
 /// Adds the record of a method whose samples are `width` apart.
-fn add(
+pub(super) fn add(
     records: &mut Vec<Record>,
     effort: Effort,
-    scene: &Scene,
-    (method, setting, default_path): (&'static str, String, bool),
+    reference: &PulseReference,
+    label: Label,
     width: f64,
-    run: &mut dyn FnMut() -> Samples,
+    run: &mut dyn FnMut() -> Vec<Six>,
 ) {
-    let (samples, work) = run();
-    let count = samples.len();
-    let Some(errors) = scene.reference.errors(&samples, width) else {
+    let samples = run();
+    let Some(errors) = reference.errors(&samples, width) else {
         return;
     };
-    let cost = effort.clock().time(count, || {
+    let time = reference.times.last().copied().unwrap_or(1.0);
+    let cost = effort.clock().time(time, || {
         black_box(run());
     });
     records.push(Record {
         question: Question::Fields,
-        scene: if method.starts_with("interpolated") {
-            scene.interpolation
-        } else {
-            scene.name
-        },
-        method,
-        setting,
-        default_path,
+        scene: label.scene,
+        method: label.method,
+        setting: label.setting,
+        default_path: label.default_path,
         cost,
         error: Error::of(&errors),
-        work: Some(work as f64 / count as f64),
+        work: Some(samples.len() as f64 / time),
         refusal: None,
     });
 }
 
 /// Samples needed at a width.
-fn sample_count(scene: &Scene, width: f64) -> usize {
-    let end = scene.reference.times.last().copied().unwrap_or(0.0);
+pub(super) fn sample_count(reference: &PulseReference, width: f64) -> usize {
+    let end = reference.times.last().copied().unwrap_or(0.0);
     (end / width).round() as usize + 1
 }
+
+/// Samples of the pulse.
+fn force(reference: &PulseReference, width: f64) -> Vec<f64> {
+    let pulse = PulseSum::new(reference.length, width);
+    let count = sample_count(reference, width);
+    (0..count).map(|n| pulse.force(n)).collect()
+}
+
+/// The faster way to sum for so many samples.
+fn faster(count: usize) -> Way {
+    if count > 64 {
+        Way::Transform
+    } else {
+        Way::Direct
+    }
+}
+
+/// Shapes of the force between its samples for which cells can be computed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Shape {
+    /// A line: averages alone.
+    Linear,
+    /// A parabola, by first moments: what the program takes for a smooth force.
+    Parabola,
+    /// A cubic, by first and second moments.
+    Cubic,
+}
+
+/// First moments are computed to this share of the static field, as in the program.
+const MOMENT_SHARE: f64 = 1e-7;
 
 /// Cells computed for the point itself, for a force that is linear or smooth between samples.
 fn exact_cells(
@@ -124,112 +157,160 @@ fn exact_cells(
     effort: Effort,
     records: &mut Vec<Record>,
 ) -> Result<(), StudyError> {
-    let [r, z] = scene.reference.place;
-    for tolerance in effort.pick(vec![1e-9], vec![1e-4, 1e-9]) {
+    let reference = &scene.reference;
+    let [r, z] = reference.place;
+    // the program asks for a thousandth of the scene's tolerance, 1e-12 at least and 1e-8 at most
+    let settings = [
+        (
+            Shape::Parabola,
+            1e-8,
+            effort.pick(vec![1, 3], vec![0, 1, 2, 3, 4, 5]),
+        ),
+        (
+            Shape::Parabola,
+            1e-12,
+            effort.pick(vec![], vec![2, 3, 4, 5]),
+        ),
+        (Shape::Parabola, 1e-4, effort.pick(vec![], vec![1, 2, 3])),
+        (
+            Shape::Linear,
+            1e-8,
+            effort.pick(vec![3], vec![0, 1, 2, 3, 4, 5]),
+        ),
+        (
+            Shape::Cubic,
+            1e-8,
+            effort.pick(vec![3], vec![1, 2, 3, 4, 5]),
+        ),
+    ];
+    for (shape, tolerance, halvings) in settings {
         let kernel = Kernel::new(medium, Profile::Hertz, tolerance)?;
-        let rest = kernel.static_field(r, z)?;
-        for halvings in effort.pick(vec![2, 4], vec![0, 1, 2, 3, 4, 5]) {
+        for halvings in halvings {
             let width = EVERY * 0.5_f64.powi(halvings);
-            let count = sample_count(scene, width);
-            let pulse = PulseSum::new(scene.reference.length, width);
-            let mut run = || {
-                let mut cells = vec![[0.0; 6]; count];
-                // the scene's point is inside every range
-                let done = kernel.cell_averages(r, z, width, &mut cells);
-                debug_assert!(done.is_ok());
-                (pulse.response(&rest, &cells), count as u64)
-            };
-            let label = (
-                "direct",
-                format!("step {width}, kernel {tolerance:.0e}"),
-                true,
-            );
-            add(records, effort, scene, label, width, &mut run);
-        }
-    }
-    for halvings in effort.pick(vec![2], vec![0, 1, 2, 3, 4]) {
-        let width = EVERY * 0.5_f64.powi(halvings);
-        let count = sample_count(scene, width);
-        let plan = PointPlan::new(medium.poisson_ratio(), 1e-9, width, count + 4, 4)?;
-        let rest = plan.kernel().static_field(r, z)?;
-        let pulse = PulseSum::new(scene.reference.length, width);
-        let mut failure = None;
-        let mut run = || {
-            let cells = match plan.compute(r, z) {
-                Ok(point) => series(&point, width, count),
-                Err(error) => {
-                    failure = Some(error);
-                    vec![[f64::NAN; 6]; count]
+            let force = force(reference, width);
+            let count = force.len();
+            let plan = PointPlan::new(medium.poisson_ratio(), tolerance, width, count + 4, 4)?;
+            let cells = || -> Result<Vec<Six>, StudyError> {
+                match shape {
+                    Shape::Linear | Shape::Parabola => {
+                        Ok(cells(&kernel, [r, z], width, count, shape)?)
+                    }
+                    Shape::Cubic => Ok(interpolation::series(&plan.compute(r, z)?, width, count)),
                 }
             };
-            (pulse.response(&rest, &cells), 3 * count as u64)
-        };
-        let label = ("direct, smooth cells", format!("step {width}"), false);
-        add(records, effort, scene, label, width, &mut run);
-        if let Some(error) = failure {
-            return Err(error.into());
+            cells()?;
+            let rest = kernel.static_field(r, z)?;
+            let convolution = Convolution::new(force, faster(count));
+            let mut run = || match cells() {
+                Ok(cells) => convolution.response(&rest, &cells),
+                // not after the first time
+                Err(_) => vec![[f64::NAN; 6]; count],
+            };
+            let label = Label {
+                scene: scene.name,
+                method: match shape {
+                    Shape::Linear => "direct, linear cells",
+                    Shape::Parabola => "direct",
+                    Shape::Cubic => "direct, second moments too",
+                },
+                setting: format!("step {width}, kernel {tolerance:.0e}"),
+                default_path: shape == Shape::Parabola && tolerance < 1e-7,
+            };
+            add(records, effort, reference, label, width, &mut run);
         }
     }
     Ok(())
 }
 
-/// Cells corrected for the force's curvature from the numbers of one point.
-fn series(point: &tabulator::PointKernels, width: f64, count: usize) -> Vec<Six> {
-    let by_field = |values: &[Six]| -> Vec<f64> {
-        (0..6)
-            .flat_map(|f| values.iter().map(move |v| v[f]))
-            .collect()
-    };
-    let numbers = lookup::Numbers {
-        averages: by_field(&point.averages),
-        moments: by_field(&point.moments),
-        curvatures: by_field(&point.curvatures),
-        tail: by_field(&point.tail),
-    };
-    let whole = lookup::Series::new(width, point.averages.len(), numbers);
-    let mut cells = vec![[0.0; 6]; count];
-    whole.fill(Smoothness::Smooth, 0, &mut cells);
-    cells
+/// Cells as the program computes them.
+fn cells(
+    kernel: &Kernel,
+    [r, z]: [f64; 2],
+    width: f64,
+    count: usize,
+    shape: Shape,
+) -> Result<Vec<Six>, DomainError> {
+    // the correction looks one cell ahead
+    let mut averages = vec![[0.0; 6]; count + 1];
+    kernel.cell_averages(r, z, width, &mut averages)?;
+    if shape == Shape::Parabola {
+        let floor = kernel.static_field(r, z)?.map(|s| MOMENT_SHARE * s.abs());
+        let mut moments = averages.clone();
+        kernel.cell_moments(r, z, width, &averages, &floor, &mut moments)?;
+        averages.truncate(count);
+        correct_for_curvature(&mut averages, &moments);
+    }
+    averages.truncate(count);
+    Ok(averages)
 }
 
-/// Tables of several densities, coarser cells, three ways to sum.
+/// Tables of several densities and stencils, coarser cells, three ways to sum.
 fn looked_up(
     scene: &Scene,
     densities: &[Density],
     effort: Effort,
     records: &mut Vec<Record>,
 ) -> Result<(), StudyError> {
+    use Smoothness::{Linear, Smooth};
     for density in densities {
-        for points in effort.pick(vec![DEFAULT_POINTS], vec![4, DEFAULT_POINTS, 8]) {
+        for points in effort.pick(vec![Density::points()], vec![4, 6, Density::points()]) {
             let table = density.with_stencil(points)?;
-            let own = density.is_default(points);
-            let cell = table.cell_width(POISSON_RATIO)?;
-            let ways = [
-                ("table", Smoothness::Linear, own),
-                ("table, smooth cells", Smoothness::Smooth, false),
-            ];
-            let coarsest = if points == DEFAULT_POINTS { 4 } else { 0 };
-            for coarsening in (0..=coarsest).step_by(effort.pick(2, 1)) {
-                for (method, smoothness, default_path) in ways {
-                    let width = cell * f64::from(1_u32 << coarsening);
-                    let setting =
-                        format!("step {width}, {}, {points} points", density.spacing.label());
-                    let mut run =
-                        || lookup_run(scene, &table, smoothness, coarsening, Sum::Running);
-                    let label = (method, setting, default_path);
-                    add(records, effort, scene, label, width, &mut run);
-                }
+            let mut add =
+                |method, smoothness, coarsening, sum, default_path| -> Result<(), StudyError> {
+                    let lookup = Lookup::new(scene, &table, smoothness, coarsening, sum)?;
+                    let label = Label {
+                        scene: scene.name,
+                        method,
+                        setting: format!(
+                            "step {}, {}, {points} points",
+                            lookup.width,
+                            density.spacing.label()
+                        ),
+                        default_path,
+                    };
+                    lookup.run()?;
+                    let mut run = || lookup.run().unwrap_or_default();
+                    add(
+                        records,
+                        effort,
+                        &scene.reference,
+                        label,
+                        lookup.width,
+                        &mut run,
+                    );
+                    Ok(())
+                };
+            if !density.is_default(points) {
+                add(
+                    "table, other nodes or points",
+                    Smooth,
+                    0,
+                    Sum::By(Way::Transform),
+                    false,
+                )?;
+                continue;
             }
-            if own {
-                for (method, sum) in [
-                    ("table, direct sums", Sum::Direct),
-                    ("table, FFT", Sum::Transform),
+            for coarsening in (0..=4).step_by(effort.pick(2, 1)) {
+                for (way, method) in [
+                    (Way::Direct, "table, direct sums"),
+                    (Way::Transform, "table, FFT"),
                 ] {
-                    let width = cell;
-                    let mut run = || lookup_run(scene, &table, Smoothness::Linear, 0, sum);
-                    let label = (method, format!("step {width}"), true);
-                    add(records, effort, scene, label, width, &mut run);
+                    add(method, Smooth, coarsening, Sum::By(way), true)?;
                 }
+                add(
+                    "table, linear cells",
+                    Linear,
+                    coarsening,
+                    Sum::By(Way::Transform),
+                    false,
+                )?;
+                add(
+                    "table, sums for this pulse only",
+                    Smooth,
+                    coarsening,
+                    Sum::Running,
+                    false,
+                )?;
             }
         }
     }
@@ -237,120 +318,65 @@ fn looked_up(
 }
 
 /// How cells and force are summed.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Sum {
-    /// Running sums of two exponentials: for this pulse only.
+    By(Way),
+    /// Running sums of the two exponentials of the pulse.
     Running,
-    Direct,
-    Transform,
 }
 
-fn lookup_run(
-    scene: &Scene,
-    table: &Table,
+/// A lookup with everything that does not depend on the point.
+struct Lookup<'a> {
+    table: &'a Table,
+    place: [f64; 2],
     smoothness: Smoothness,
     coarsening: u32,
-    sum: Sum,
-) -> Samples {
-    let [r, z] = scene.reference.place;
-    let Ok(cell) = table.cell_width(POISSON_RATIO) else {
-        return (Vec::new(), 0);
-    };
-    let width = cell * f64::from(1_u32 << coarsening);
-    let count = sample_count(scene, width);
-    let mut cells = vec![[0.0; 6]; count];
-    let Ok(info) = table.trace_for(smoothness, POISSON_RATIO, r, z, coarsening, &mut cells) else {
-        return (vec![[f64::NAN; 6]; count], 0);
-    };
-    let pulse = PulseSum::new(scene.reference.length, width);
-    let force = || (0..count).map(|n| pulse.force(n)).collect::<Vec<f64>>();
-    let samples = match sum {
-        Sum::Running => pulse.response(&info.static_part, &cells),
-        Sum::Direct => direct(&info.static_part, &cells, &force()),
-        Sum::Transform => transformed(&info.static_part, &cells, &force()),
-    };
-    (samples, 0)
+    width: f64,
+    count: usize,
+    /// None: running sums.
+    convolution: Option<Convolution>,
+    pulse: PulseSum,
 }
 
-/// What is interpolated between the nodes of a grid.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Interpolated {
-    Whole,
-    Remainder,
-}
-
-/// Interpolating the whole response against interpolating the remainder, in double precision.
-fn interpolations(
-    medium: &Medium,
-    scene: &Scene,
-    effort: Effort,
-    records: &mut Vec<Record>,
-) -> Result<(), StudyError> {
-    let [r, z] = scene.reference.place;
-    let width = 0.1;
-    let count = sample_count(scene, width);
-    let plan = PointPlan::new(medium.poisson_ratio(), 1e-9, width, count + 4, 4)?;
-    let kernel = plan.kernel();
-    let rest = kernel.static_field(r, z)?;
-    let pulse = PulseSum::new(scene.reference.length, width);
-    for spacing in effort.pick(vec![0.125], vec![0.25, 0.125, 0.0625]) {
-        let nodes = Axis::uniform(3.0, spacing).nodes();
-        for points in effort.pick(vec![6], vec![4, 6, 8]) {
-            let mesh = lookup::locate(&nodes, r).zip(lookup::locate(&nodes, z));
-            let Some((i, k)) = mesh else {
-                continue;
-            };
-            let across = Stencil::mirrored(&nodes, i, r, points);
-            let down = Stencil::one_sided(&nodes, k, z, points);
-            let mut corners = Vec::new();
-            for (a, &i) in across.nodes().iter().enumerate() {
-                for (d, &k) in down.nodes().iter().enumerate() {
-                    let cells = series(&plan.compute(nodes[i], nodes[k])?, width, count);
-                    let weight: Six = std::array::from_fn(|f| {
-                        let radial = if FIELDS[f].is_odd_in_r() {
-                            across.odd()[a]
-                        } else {
-                            across.even()[a]
-                        };
-                        radial * down.even()[d]
-                    });
-                    corners.push((weight, cells, kernel.static_field(nodes[i], nodes[k])?));
-                }
-            }
-            for (method, what) in [
-                ("interpolated whole response", Interpolated::Whole),
-                ("interpolated remainder", Interpolated::Remainder),
-            ] {
-                let mut run = || {
-                    let mut sum = vec![[0.0; 6]; count];
-                    for (weight, cells, node_rest) in &corners {
-                        let shift = match what {
-                            Interpolated::Whole => *node_rest,
-                            Interpolated::Remainder => [0.0; 6],
-                        };
-                        for (total, cell) in sum.iter_mut().zip(cells) {
-                            for f in 0..6 {
-                                total[f] += weight[f] * (cell[f] + shift[f]);
-                            }
-                        }
-                    }
-                    let own = match what {
-                        Interpolated::Whole => [0.0; 6],
-                        Interpolated::Remainder => rest,
-                    };
-                    (pulse.response(&own, &sum), 0)
-                };
-                let setting = format!("spacing {spacing} r0, {points} points, step {width}");
-                add(
-                    records,
-                    effort,
-                    scene,
-                    (method, setting, false),
-                    width,
-                    &mut run,
-                );
-            }
-        }
+impl<'a> Lookup<'a> {
+    fn new(
+        scene: &Scene,
+        table: &'a Table,
+        smoothness: Smoothness,
+        coarsening: u32,
+        sum: Sum,
+    ) -> Result<Self, StudyError> {
+        let width = table.cell_width(POISSON_RATIO)? * f64::from(1_u32 << coarsening);
+        let force = force(&scene.reference, width);
+        Ok(Self {
+            table,
+            place: scene.reference.place,
+            smoothness,
+            coarsening,
+            width,
+            count: force.len(),
+            convolution: match sum {
+                Sum::By(way) => Some(Convolution::new(force, way)),
+                Sum::Running => None,
+            },
+            pulse: PulseSum::new(scene.reference.length, width),
+        })
     }
-    Ok(())
+
+    fn run(&self) -> Result<Vec<Six>, StudyError> {
+        let [r, z] = self.place;
+        let mut cells = vec![[0.0; 6]; self.count];
+        let info = self.table.trace_for(
+            self.smoothness,
+            POISSON_RATIO,
+            r,
+            z,
+            self.coarsening,
+            &mut cells,
+        )?;
+        Ok(match &self.convolution {
+            Some(convolution) => convolution.response(&info.static_part, &cells),
+            None => self.pulse.response(&info.static_part, &cells),
+        })
+    }
 }

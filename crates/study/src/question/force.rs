@@ -10,12 +10,14 @@ use crate::record::{Error, Question, Record};
 use crate::scenes::{PAPER, ball, read};
 use halfspace::{Deflection, Medium, SurfaceResponse};
 use impact::contact::hertz::CONTACT_TIME;
-use impact::contact::quasi_static::quasi_static;
+use impact::contact::quasi_static::{quasi_static, quasi_static_radiation};
 use impact::contact::radiation::radiation;
 use impact::march::{
-    FixedDisc, GrowingDisc, History, MarchError, PunchResponse, StaticShare, Summary,
-    march_explicit, march_growing, march_implicit, refine,
+    Accuracy, FixedDisc, GrowingDisc, History, MarchError, PunchResponse, ResponseTable,
+    StaticShare, Summary, TabulatedDisc, Workspace, march_explicit, march_growing, march_implicit,
+    refine,
 };
+use std::cell::{Cell, RefCell};
 use std::hint::black_box;
 
 /// The paper's fixed disc.
@@ -41,7 +43,10 @@ pub(crate) fn measure(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Record>,
     let response = SurfaceResponse::new(&medium, Deflection::Centre);
     let disc = collision.fixed_disc(&response, striker.tip_radius_m, StaticShare::Full);
     let reference = refine(|step| march_implicit(&disc, step), 0.02, 2e-11)?;
-    for candidate in on_disc(&disc, effort) {
+    let table = ResponseTable::new(&response);
+    let mut candidates = on_disc(&disc, effort);
+    candidates.extend(to_tolerance(&disc, &table, effort));
+    for candidate in candidates {
         records.push(take(effort, DISC, &(&reference.summary).into(), &candidate));
     }
     advance();
@@ -66,7 +71,7 @@ pub(crate) fn measure(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Record>,
 
 fn take(effort: Effort, scene: &'static str, exact: &Results, candidate: &Candidate<'_>) -> Record {
     let outcome = (candidate.run)();
-    let cost = effort.clock().time(1, || {
+    let cost = effort.clock().time(1.0, || {
         let _ = black_box((candidate.run)());
     });
     let (error, work, refusal) = match outcome {
@@ -112,27 +117,6 @@ fn on_disc<'a>(disc: &'a FixedDisc<'a>, effort: Effort) -> Vec<Candidate<'a>> {
             }),
         });
     }
-    for digits in 3..=effort.pick(5, 9) {
-        let tolerance = 10.0_f64.powi(-digits);
-        list.push(Candidate {
-            method: "wave implicit, step halved to tolerance",
-            setting: format!("tolerance {tolerance:.0e}"),
-            default_path: true,
-            run: Box::new(move || {
-                let total = std::cell::Cell::new(0);
-                let found = refine(
-                    |step| {
-                        let history = march_implicit(disc, step)?;
-                        total.set(total.get() + work(&history, memory));
-                        Ok(history)
-                    },
-                    steps(16),
-                    tolerance,
-                )?;
-                Ok(((&found.summary).into(), total.get()))
-            }),
-        });
-    }
     for (order, method) in [
         (Order::First, "implicit of order 1"),
         (Order::Second, "implicit of order 2"),
@@ -161,21 +145,73 @@ fn on_disc<'a>(disc: &'a FixedDisc<'a>, effort: Effort) -> Vec<Candidate<'a>> {
         });
     }
     list.push(hertz());
-    list.push(Candidate {
-        method: "two springs, no waves",
-        setting: "closed form".to_owned(),
-        default_path: false,
-        run: Box::new(move || {
-            let found = quasi_static(disc.coupling);
-            let results = Results {
-                peak_force: found.peak_force,
-                contact_time: found.contact_time,
-                restitution: 1.0,
-                peak_displacement: found.peak_displacement,
-            };
-            Ok((results, 1))
-        }),
-    });
+    let lag = disc.coupling * disc.wave_time * disc.response.relaxation_time();
+    for (method, lag) in [
+        ("two springs, no waves", 0.0),
+        ("two springs, first-order loss", lag),
+    ] {
+        list.push(Candidate {
+            method,
+            setting: "closed form".to_owned(),
+            default_path: true,
+            run: Box::new(move || {
+                let found = quasi_static_radiation(black_box(disc.coupling), lag);
+                Ok(((&found).into(), 1))
+            }),
+        });
+    }
+    list
+}
+
+/// The marches whose step is halved until a tolerance is met: for one scene, and for the scenes of a sweep.
+fn to_tolerance<'a>(
+    disc: &'a FixedDisc<'a>,
+    table: &'a ResponseTable,
+    effort: Effort,
+) -> Vec<Candidate<'a>> {
+    let duration = quasi_static(disc.coupling).contact_time;
+    let memory = disc.memory();
+    let mut list = Vec::new();
+    for digits in 3..=effort.pick(5, 9) {
+        let tolerance = 10.0_f64.powi(-digits);
+        list.push(Candidate {
+            method: "wave implicit, step halved to tolerance",
+            setting: format!("tolerance {tolerance:.0e}"),
+            default_path: true,
+            run: Box::new(move || {
+                let accuracy = Accuracy::from(tolerance);
+                let total = Cell::new(0);
+                let march = |step| {
+                    let history = march_implicit(disc, step)?;
+                    total.set(total.get() + work(&history, memory));
+                    Ok(history)
+                };
+                let found = refine(march, duration / accuracy.first_steps(), accuracy)?;
+                Ok(((&found.summary).into(), total.get()))
+            }),
+        });
+        let workspace = RefCell::new(Workspace::default());
+        let tabulated = TabulatedDisc {
+            table,
+            coupling: disc.coupling,
+            wave_time: disc.wave_time,
+            share: disc.share,
+        };
+        list.push(Candidate {
+            method: "wave implicit, as in sweeps",
+            setting: format!("tolerance {tolerance:.0e}"),
+            default_path: true,
+            run: Box::new(move || {
+                let accuracy = Accuracy::of_contact(tolerance, None);
+                let first = duration / accuracy.first_steps();
+                let found = workspace.borrow_mut().solve(&tabulated, first, &accuracy)?;
+                // each halving doubles steps and cells
+                let steps = found.summary.contact_time / found.step;
+                let cells = (memory / found.step).ceil() + 1.0;
+                Ok(((&found.summary).into(), (4.0 / 3.0 * steps * cells) as u64))
+            }),
+        });
+    }
     list
 }
 
@@ -195,7 +231,10 @@ fn growing_contact<'a>(
 ) -> Vec<Candidate<'a>> {
     let memory = growing.punch.memory() * growing.wave_time;
     let mut list = vec![
-        hertz(),
+        Candidate {
+            default_path: true,
+            ..hertz()
+        },
         Candidate {
             method: "radiation",
             setting: "first order".to_owned(),
@@ -212,6 +251,25 @@ fn growing_contact<'a>(
                 let history = march_growing(growing, CONTACT_TIME / n as f64)?;
                 let summary = Summary::new(&history)?;
                 Ok(((&summary).into(), work(&history, memory)))
+            }),
+        });
+    }
+    for digits in 3..=effort.pick(4, 5) {
+        let tolerance = 10.0_f64.powi(-digits);
+        list.push(Candidate {
+            method: "growing, step halved to tolerance",
+            setting: format!("tolerance {tolerance:.0e}"),
+            default_path: true,
+            run: Box::new(move || {
+                let accuracy = Accuracy::from(tolerance);
+                let total = Cell::new(0);
+                let march = |step| {
+                    let history = march_growing(growing, step)?;
+                    total.set(total.get() + work(&history, memory));
+                    Ok(history)
+                };
+                let found = refine(march, CONTACT_TIME / accuracy.first_steps(), accuracy)?;
+                Ok(((&found.summary).into(), total.get()))
             }),
         });
     }

@@ -1,7 +1,7 @@
 //! The inversions with the settings that the chart gives them.
 
 use crate::effort::Effort;
-use crate::inversion::{Framework, Window, cme, crump, de_hoog, durbin, euler, stehfest, talbot};
+use crate::inversion::{DeHoog, Framework, Window, cme, crump, durbin, euler, stehfest, talbot};
 use crate::route::{Path, Route};
 use halfspace::{Medium, Six};
 use num_complex::Complex64;
@@ -18,8 +18,14 @@ pub(crate) enum Inversion {
     DeHoog(usize),
 }
 
-/// The sum of a series method at one time.
-type Sum = fn(&Window, &[Complex64], f64) -> f64;
+/// The sum of a series method at all times of a window.
+type Sum = fn(&Window, &[Complex64], &[f64]) -> Vec<f64>;
+
+/// Ratio of the last to the first time that share the samples of an accelerated series: over more the early
+/// ones are not resolved, over less the samples are not used.
+///
+/// Durbin's plain sum gains nothing by it.
+const SPAN: f64 = 4.0;
 
 /// An inversion ready to run.
 #[derive(Debug)]
@@ -128,17 +134,44 @@ impl Prepared {
                 .map(|&t| route.framework(rule, t, *path))
                 .collect(),
             Self::Series(method, aliasing) => {
-                let longest = times.last().copied().unwrap_or(1.0);
                 let (samples, sum): (usize, Sum) = match *method {
-                    Inversion::Durbin(n) => (n, durbin),
-                    Inversion::Crump(n) => (n, crump),
+                    Inversion::Durbin(n) => (n, |window, samples, times| {
+                        times.iter().map(|&t| durbin(window, samples, t)).collect()
+                    }),
+                    Inversion::Crump(n) => (n, |window, samples, times| {
+                        times.iter().map(|&t| crump(window, samples, t)).collect()
+                    }),
                     Inversion::DeHoog(n)
                     | Inversion::Talbot(n)
                     | Inversion::Stehfest(n)
                     | Inversion::Euler(n)
-                    | Inversion::Cme(n) => (n, de_hoog),
+                    | Inversion::Cme(n) => (n, |window, samples, times| {
+                        let fraction = DeHoog::new(window, samples);
+                        times.iter().map(|&t| fraction.at(t)).collect()
+                    }),
                 };
-                route.series(&Window::new(longest, *aliasing, samples), times, sum)
+                let span = match method {
+                    Inversion::Durbin(_) => f64::INFINITY,
+                    Inversion::Crump(_)
+                    | Inversion::DeHoog(_)
+                    | Inversion::Talbot(_)
+                    | Inversion::Stehfest(_)
+                    | Inversion::Euler(_)
+                    | Inversion::Cme(_) => SPAN,
+                };
+                let mut values = Vec::with_capacity(times.len());
+                let mut rest = times;
+                while let Some(first) = rest.first() {
+                    let (now, later) = rest.split_at(rest.partition_point(|t| *t <= span * first));
+                    let longest = now.last().copied().unwrap_or(*first);
+                    values.extend(route.series(
+                        &Window::new(longest, *aliasing, samples),
+                        now,
+                        sum,
+                    ));
+                    rest = later;
+                }
+                values
             }
         };
         (values, route.evaluations())

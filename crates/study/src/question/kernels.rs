@@ -16,7 +16,7 @@ use std::hint::black_box;
 use tabulator::Progress;
 
 /// A point, its times and the exact step responses there.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct KernelScene {
     pub(crate) name: &'static str,
     pub(crate) place: [f64; 2],
@@ -36,18 +36,28 @@ const INTERIOR: [f64; 2] = [0.55, 0.65];
 /// On the axis, where Gaver-Stehfest is run in extended precision.
 const AXIS: [f64; 2] = [0.0, 0.65];
 
+/// How near the fronts are looked at, after and before them: over their times.
+const NEAR: [f64; 2] = [0.01, -0.01];
+
 /// All six fields.
 const ALL: [usize; 6] = [0, 1, 2, 3, 4, 5];
 
 impl KernelScene {
     /// Six fields at a point inside, from before the first arrival to long after the last.
-    pub(crate) fn interior(medium: &Medium, count: usize) -> Result<Self, StudyError> {
+    ///
+    /// `near` are distances from every arrival, over its time, that are looked at too.
+    pub(crate) fn interior(
+        medium: &Medium,
+        count: usize,
+        near: &[f64],
+    ) -> Result<Self, StudyError> {
         Self::new(
             "interior point, across the fronts",
             medium,
             INTERIOR,
             count,
             &ALL,
+            near,
         )
     }
 
@@ -59,6 +69,7 @@ impl KernelScene {
             INTERIOR,
             3 * count,
             &ALL,
+            &[],
         )?;
         let last = scene.arrivals.last().copied().unwrap_or(0.0);
         let first = scene.times.partition_point(|&t| t < 1.05 * last);
@@ -68,13 +79,14 @@ impl KernelScene {
     }
 
     /// w on the axis.
-    fn axis(medium: &Medium, count: usize) -> Result<Self, StudyError> {
-        Self::new("axis, w", medium, AXIS, count, &[1])
+    pub(crate) fn axis(medium: &Medium, count: usize, near: &[f64]) -> Result<Self, StudyError> {
+        Self::new("axis, w", medium, AXIS, count, &[1], near)
     }
 
     /// w at the centre of the surface over its static value: the kernel of the impact equation.
-    pub(crate) fn surface(medium: &Medium, count: usize) -> Result<Self, StudyError> {
-        let mut scene = Self::new("surface centre, w", medium, [0.0, 0.0], count, &[1])?;
+    pub(crate) fn surface(medium: &Medium, count: usize, near: &[f64]) -> Result<Self, StudyError> {
+        let name = "surface centre, w";
+        let mut scene = Self::new(name, medium, [0.0, 0.0], count, &[1], near)?;
         for (exact, t) in scene.exact.iter_mut().zip(&scene.times) {
             exact[1] = kausel::centre_step(medium, medium.kappa() * t);
         }
@@ -88,15 +100,24 @@ impl KernelScene {
         place: [f64; 2],
         count: usize,
         fields: &[usize],
+        near: &[f64],
     ) -> Result<Self, StudyError> {
         let kernel = Kernel::new(medium, Profile::Hertz, 1e-14)?;
         let [r, z] = place;
         let arrivals = Arrivals::new(medium, Profile::Hertz, r, z)?;
         // from before the first arrival to long after the last, even in the logarithm
         let (first, last) = (0.8 * arrivals.first().max(0.1), 8.0 * arrivals.last());
-        let times: Vec<f64> = (0..count)
+        let mut times: Vec<f64> = (0..count)
             .map(|i| first * (last / first).powf(i as f64 / (count - 1) as f64))
             .collect();
+        for arrival in arrivals.sorted() {
+            times.extend(
+                near.iter()
+                    .flat_map(|d| [arrival * (1.0 - d), arrival * (1.0 + d)]),
+            );
+        }
+        times.retain(|t| *t > 0.0);
+        times.sort_by(f64::total_cmp);
         let rest = kernel.static_field(r, z)?;
         let mut scale = [f64::INFINITY; 6];
         for &f in fields {
@@ -119,6 +140,25 @@ impl KernelScene {
             exact,
             scale,
         })
+    }
+
+    /// Keeps every n-th time.
+    pub(crate) fn thin(&mut self, n: usize) {
+        self.times = self.times.iter().step_by(n).copied().collect();
+        self.exact = self.exact.iter().step_by(n).copied().collect();
+    }
+
+    /// w on the axis by Gaver-Stehfest in double-double arithmetic, and the integrand evaluations.
+    pub(crate) fn extended(&self, medium: &Medium, weights: &ExtendedWeights) -> (Vec<Six>, u64) {
+        let mut work = 0;
+        let value = |&t: &f64| {
+            let least = std::f64::consts::LN_2 / t;
+            let transform = AxisTransform::new(medium, self.place[1], least);
+            work += (weights.terms() * transform.nodes()) as u64;
+            let w = stehfest_extended(weights, t, |s| transform.step(s));
+            [0.0, w, 0.0, 0.0, 0.0, 0.0]
+        };
+        (self.times.iter().map(value).collect(), work)
     }
 
     /// Largest relative error over the fields at each time.
@@ -165,13 +205,14 @@ pub(crate) fn measure(
     progress: &dyn Progress,
 ) -> Result<Vec<Record>, StudyError> {
     let medium = Medium::new(POISSON_RATIO)?;
-    let count = effort.pick(10, 40);
+    let count = effort.pick(8, 40);
+    let near = effort.pick(&NEAR[..1], &NEAR[..]);
     let mut records = Vec::new();
     let scenes = [
-        KernelScene::interior(&medium, count)?,
+        KernelScene::interior(&medium, count, near)?,
         KernelScene::late(&medium, count)?,
-        KernelScene::axis(&medium, count)?,
-        KernelScene::surface(&medium, count)?,
+        KernelScene::axis(&medium, count, near)?,
+        KernelScene::surface(&medium, count, near)?,
     ];
     let mut work = Vec::new();
     for scene in &scenes {
@@ -196,9 +237,9 @@ pub(crate) fn measure(
 }
 
 fn take(effort: Effort, scene: &KernelScene, candidate: &Candidate<'_>) -> Record {
-    let (values, work) = (candidate.run)();
-    let cost = effort.clock().time(scene.times.len(), || {
-        black_box((candidate.run)());
+    let (mut values, mut work) = (Vec::new(), None);
+    let cost = effort.clock().time(scene.times.len() as f64, || {
+        (values, work) = black_box((candidate.run)());
     });
     Record {
         question: Question::Kernels,
@@ -306,8 +347,8 @@ fn closed_forms<'a>(medium: &'a Medium, scene: &'a KernelScene) -> Vec<Candidate
             }),
         },
         Candidate {
-            method: "closed form (Kausel)",
-            setting: "reference".to_owned(),
+            method: "closed form (Kausel): the reference",
+            setting: "no settings".to_owned(),
             default_path: false,
             run: Box::new(move || {
                 let value = |&t: &f64| at_centre(kausel::centre_step(medium, medium.kappa() * t));
@@ -328,18 +369,7 @@ fn extended<'a>(medium: &'a Medium, scene: &'a KernelScene, effort: Effort) -> V
                 setting: format!("{terms} terms"),
                 default_path: false,
                 run: Box::new(move || {
-                    let mut work = 0;
-                    let values = scene
-                        .times
-                        .iter()
-                        .map(|&t| {
-                            let least = std::f64::consts::LN_2 / t;
-                            let transform = AxisTransform::new(medium, scene.place[1], least);
-                            work += (weights.terms() * transform.nodes()) as u64;
-                            let w = stehfest_extended(&weights, t, |s| transform.step(s));
-                            [0.0, w, 0.0, 0.0, 0.0, 0.0]
-                        })
-                        .collect();
+                    let (values, work) = scene.extended(medium, &weights);
                     (values, Some(work))
                 }),
             }
@@ -359,7 +389,7 @@ fn tables(
     let exact_kernel = Kernel::new(medium, Profile::Hertz, 1e-12)?;
     let mut records = Vec::new();
     for density in densities {
-        for points in effort.pick(vec![4, 6], vec![2, 4, 6, 8]) {
+        for points in effort.pick(vec![4, Density::points()], vec![2, 4, 6, 8]) {
             let table = density.with_stencil(points)?;
             let width = table.cell_width(medium.poisson_ratio())?;
             let count = (last / width) as usize;
@@ -371,7 +401,7 @@ fn tables(
             for (a, b) in cells.iter().zip(&exact) {
                 errors.extend((0..6).map(|f| (a[f] - b[f]) / scene.scale[f]));
             }
-            let cost = effort.clock().time(count, || {
+            let cost = effort.clock().time(count as f64, || {
                 let _ = black_box(table.trace(medium.poisson_ratio(), r, z, 0, &mut cells));
             });
             records.push(Record {

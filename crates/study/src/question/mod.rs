@@ -2,5 +2,6 @@
 
 pub(crate) mod fields;
 pub(crate) mod force;
+pub(crate) mod interpolation;
 pub(crate) mod inversions;
 pub(crate) mod kernels;

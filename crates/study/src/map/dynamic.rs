@@ -1,0 +1,123 @@
+//! The `dynamic` share at strong coupling: where it has no solution, and where a coarse step hides that.
+
+use super::marches::{Converged, Fate, converged, implicit_fate};
+use super::recurrence::{linear_growth, weights};
+use crate::effort::Effort;
+use crate::figure::{Axis, Figure, Style};
+use impact::contact::hertz::CONTACT_TIME;
+use impact::march::{FixedDisc, MarchError, StaticShare, march_implicit};
+
+/// What the `dynamic` share makes of an impact at a step: whether it has a solution.
+#[must_use]
+pub fn dynamic_is_solved(disc: &FixedDisc<'_>, step: f64) -> bool {
+    let disc = FixedDisc {
+        share: StaticShare::Dynamic,
+        ..disc.clone()
+    };
+    !matches!(
+        march_implicit(&disc, step),
+        Err(MarchError::NoSolution { .. })
+    )
+}
+
+/// Largest coupling for which the `dynamic` share has a solution at a step, up to a force of Hertz's peak.
+#[must_use]
+pub fn dynamic_limit(disc: &FixedDisc<'_>, step: f64) -> f64 {
+    let newest = weights(disc.response, step / disc.wave_time)[0];
+    // Numerov's weight of the newest force
+    (2.0 / 3.0 + 1.25 * step * step / 12.0) / newest
+}
+
+/// Largest coupling for which the newest samples of the `dynamic` share settle, up to a force of Hertz's peak.
+#[must_use]
+pub fn dynamic_growth_limit(disc: &FixedDisc<'_>, step: f64) -> f64 {
+    let grows = |coupling: f64| {
+        let disc = FixedDisc {
+            coupling,
+            share: StaticShare::Dynamic,
+            ..disc.clone()
+        };
+        linear_growth(&disc, 1.5, step) > 1.0
+    };
+    let (mut low, mut high) = (0.0, dynamic_limit(disc, step));
+    for _ in 0..30 {
+        let middle = 0.5 * (low + high);
+        if grows(middle) {
+            high = middle;
+        } else {
+            low = middle;
+        }
+    }
+    low
+}
+
+const CLASSES: [&str; 4] = [
+    "restitution within 1e-3",
+    "solved, off by more",
+    "solved only because the step is coarse",
+    "refused: no solution",
+];
+
+/// The plane of coupling and step.
+pub(super) fn figure(paper: &FixedDisc<'_>, shape: [usize; 2], effort: Effort) -> Figure {
+    let x = Axis::logarithmic("static deflection over indentation (coupling)", 0.05, 5.0);
+    let y = Axis::logarithmic("step over Hertz's contact time", 1e-3, 0.2);
+    let mut figure = Figure::new(
+        "march-dynamic",
+        "Dynamic share (static part of the deflection taken out)",
+        x.clone(),
+        y.clone(),
+    );
+    let at = |coupling: f64| FixedDisc {
+        coupling,
+        share: StaticShare::Dynamic,
+        ..paper.clone()
+    };
+    let columns: Vec<Option<Converged>> = x
+        .cells(shape[0])
+        .into_iter()
+        .map(|coupling| converged(&at(coupling)).ok())
+        .collect();
+    figure.map(shape, &CLASSES, |coupling, step| {
+        let column = (x.share(coupling) * shape[0] as f64) as usize;
+        let (disc, step) = (at(coupling), step * CONTACT_TIME);
+        match (
+            &columns[column.min(shape[0] - 1)],
+            dynamic_is_solved(&disc, step),
+        ) {
+            (_, false) => 3,
+            (None, true) => 2,
+            (Some(exact), true) => match implicit_fate(&disc, exact, step) {
+                Fate::Accurate => 0,
+                Fate::Lossy | Fate::GainsEnergy | Fate::Oscillates | Fate::BlownUp => 1,
+            },
+        }
+    });
+    let steps = y.cells(effort.pick(30, 80));
+    let line = |limit: &dyn Fn(f64) -> f64| -> Vec<(f64, f64)> {
+        let points = steps.iter().map(|&y| (limit(y * CONTACT_TIME), y));
+        points.filter(|(x, _)| *x < 5.0).collect()
+    };
+    figure.curve(
+        "theory: newest weight times coupling = 2/3, the law folds back",
+        Style::Heavy,
+        line(&|step| dynamic_limit(paper, step)),
+    );
+    figure.curve(
+        "theory: a root of the weights beyond 1, the samples grow",
+        Style::HeavyDashed,
+        line(&|step| dynamic_growth_limit(paper, step)),
+    );
+    figure.labelled = vec![(
+        paper.coupling,
+        1.0 / 137.0,
+        "paper's case, 137 steps".to_owned(),
+    )];
+    figure.caption = "Without its static part the newest weight of the deflection is negative: the contact law \
+        folds back, and beyond a coupling of 2/3 it has no solution. At steps near the memory and beyond \
+        the samples alternate and grow from the dashed line on, until they reach the fold. \
+        A coarse step can hide that there is no solution; the march refuses with a sentence as soon as the step is \
+        halved, which step control does."
+        .to_owned();
+    figure
+}

@@ -1,0 +1,19 @@
+//! Why the program does not take a way that is cheaper than its own somewhere.
+
+/// The reason in one clause, for methods that have been looked at; none for others.
+#[must_use]
+pub fn reason(method: &str) -> Option<&'static str> {
+    match method {
+        "table, sums for this pulse only" => {
+            Some("its sums know that this pulse is two exponentials, which no computed force is")
+        }
+        "table, linear cells" => Some(
+            "it reads a third of the numbers and needs a step many times finer as soon as more is asked; the program \
+             takes it for forces with corners",
+        ),
+        "table, other nodes or points" => Some(
+            "fewer nodes are enough at this place and not at the worst places of a table, for which its nodes are chosen",
+        ),
+        _ => None,
+    }
+}
