@@ -14,6 +14,10 @@ pub fn reason(method: &str) -> Option<&'static str> {
         "table, other nodes or points" => Some(
             "fewer nodes are enough at this place and not at the worst places of a table, for which its nodes are chosen",
         ),
+        "direct, second moments too" => Some(
+            "the second moments of exact cells are the tabulator's, on which impacts do not depend; it is ahead only \
+             where more is asked than a table holds",
+        ),
         _ => None,
     }
 }

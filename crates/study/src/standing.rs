@@ -123,3 +123,52 @@ pub fn standings(records: &[Record], measure: Measure) -> Vec<Standing<'_>> {
     }
     found
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::measure::Timing;
+    use crate::record::Error;
+
+    fn record(method: &'static str, default_path: bool, cost: f64, error: f64) -> Record {
+        Record {
+            question: Question::Fields,
+            scene: "a scene",
+            method,
+            setting: String::new(),
+            default_path,
+            cost: Timing {
+                median_ns: cost,
+                spread_ns: 0.0,
+            },
+            error: Error::of(&[error]),
+            work: None,
+            refusal: None,
+        }
+    }
+
+    #[test]
+    fn what_is_ahead_is_said_and_needs_a_reason() {
+        let own = record("own", true, 100.0, 1e-7);
+        let near = record("stranger", false, 90.0, 1e-9);
+        let at = |records: &[Record], level: f64| -> (Option<String>, bool) {
+            let found = standings(records, Measure::Time);
+            let standing = found.iter().find(|s| s.level == level).unwrap();
+            (standing.ahead(), standing.is_unexplained())
+        };
+        // a tenth cheaper is equal
+        assert_eq!(at(&[own.clone(), near], 1e-6), (None, false));
+        let stranger = record("stranger", false, 50.0, 1e-7);
+        let (ahead, unexplained) = at(&[own.clone(), stranger.clone()], 1e-6);
+        assert!(ahead.unwrap().contains("stranger is 2.0 times cheaper") && unexplained);
+        let known = record("table, linear cells", false, 50.0, 1e-7);
+        let (ahead, unexplained) = at(&[own.clone(), known], 1e-6);
+        assert!(ahead.is_some() && !unexplained);
+        // nothing of the program's own reaches it
+        let exact = record("stranger", false, 1e3, 1e-9);
+        let (ahead, unexplained) = at(&[own, exact], 1e-8);
+        assert!(ahead.unwrap().contains("only stranger reaches it") && unexplained);
+        // a scene that only compares other ways has nothing to judge
+        assert!(standings(&[stranger], Measure::Time).is_empty());
+    }
+}

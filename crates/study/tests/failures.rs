@@ -5,7 +5,9 @@
 use halfspace::Medium;
 use impact::choose::Rung;
 use impact::contact::hertz::CONTACT_TIME;
-use impact::march::{FixedDisc, StaticShare, Summary, march_explicit, march_implicit, refine};
+use impact::march::{
+    FixedDisc, StaticShare, Summary, march_explicit, march_growing, march_implicit, refine,
+};
 use std::f64::consts::PI;
 use study::map::disc_models::{disc_at, disc_chosen, disc_errors};
 use study::map::dynamic::{dynamic_growth_limit, dynamic_is_solved, dynamic_limit};
@@ -273,6 +275,21 @@ fn auto_never_takes_a_model_that_misses_the_map() {
         }
     }
     assert!(cheap > 40, "{cheap}");
+}
+
+#[test]
+fn the_start_of_a_very_fast_contact_is_refused_at_a_coarse_step_and_found_at_a_fine_one() {
+    // the contact grows faster than the waves, and a coarse step lets it separate at once
+    let plane = Plane::new(0.3).unwrap();
+    let growing = plane.contact(1.0, 2.637);
+    let history = march_growing(&growing, CONTACT_TIME / 192.0).unwrap();
+    let message = Summary::new(&history).unwrap_err().to_string();
+    assert!(message.contains("smaller step_s"), "{message}");
+    let history = march_growing(&growing, CONTACT_TIME / 768.0).unwrap();
+    let found = Summary::new(&history).unwrap();
+    assert!(found.contact_time > 0.5 * CONTACT_TIME, "{found:?}");
+    assert!((0.0..0.5).contains(&found.restitution), "{found:?}");
+    assert!(plane.errors(1.0, 2.637, 192).unwrap().hertz > 0.1);
 }
 
 #[test]

@@ -191,6 +191,9 @@ pub fn paper_response() -> Result<SurfaceResponse, StudyError> {
     Ok(SurfaceResponse::new(&Medium::new(0.3)?, Deflection::Centre))
 }
 
+/// Steps over the paper's contact at which its scheme is looked at: the second gives its restitution.
+const PAPER_STEPS: [f64; 2] = [54.0, 200.0];
+
 /// Draws all three maps.
 pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Figure>, StudyError> {
     let response = paper_response()?;
@@ -215,7 +218,7 @@ pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Figure>,
         &columns[index.min(shape[0] - 1)]
     };
     let place = 1.5 * admittance(&paper);
-    let paper_steps = [54.0, 200.0].map(|n| {
+    let paper_steps = PAPER_STEPS.map(|n| {
         let step = own.summary.contact_time / n;
         (place, step / CONTACT_TIME, format!("paper's case, ts/{n}"))
     });
@@ -254,6 +257,11 @@ pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Figure>,
         line(&|(_, c)| c.energy_step()),
     );
     explicit.labelled = paper_steps.to_vec();
+    for ((_, _, label), n) in explicit.labelled.iter_mut().zip(PAPER_STEPS) {
+        if let Ok((_, summary)) = march_explicit(&paper, own.summary.contact_time / n) {
+            label.push_str(&format!(": e = {:.4}", summary.restitution));
+        }
+    }
     explicit.caption = explain(&paper, &own);
     figures.push(explicit);
     advance();
@@ -284,13 +292,23 @@ pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Figure>,
         Style::Dots,
         boundary,
     );
+    implicit.curve(
+        "eight samples in contact, the fewest that are interpolated",
+        Style::Dotted,
+        line(&|(_, c)| c.summary.contact_time / 8.0),
+    );
+    let gains = implicit.cells.iter().flat_map(|cells| &cells.class);
+    let gains = gains
+        .filter(|&&class| class == Fate::GainsEnergy as usize)
+        .count();
     implicit.labelled = paper_steps.to_vec();
-    implicit.caption = "The implicit march gains no energy anywhere on this plane, and with fewer than eight samples in \
+    implicit.caption = format!(
+        "The implicit march gains energy in {gains} cells of this plane, and with fewer than eight samples in \
         contact it refuses with a sentence that asks for a smaller step. On a half-space much softer than the contact and \
         at steps of a quarter of the memory to twice it, its force oscillates: the curvature of the newest cell is \
         extrapolated, and the weights have a root beyond one there. Step control leaves that region by itself, because \
         results that oscillate do not stand still when the step is halved."
-        .to_owned();
+    );
     figures.push(implicit);
     advance();
     figures.push(dynamic::figure(&paper, shape, effort));

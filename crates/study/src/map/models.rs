@@ -41,7 +41,24 @@ pub struct ModelErrors {
     pub radiation: f64,
 }
 
+/// How often a step that is too long is halved.
+const MOST_HALVINGS: usize = 5;
+
+fn summary(growing: &GrowingDisc<'_>, step: f64) -> Result<Summary, MarchError> {
+    Summary::new(&march_growing(growing, step)?)
+}
+
 impl Plane {
+    /// The contact at a place of the plane.
+    #[must_use]
+    pub fn contact(&self, share: f64, memory: f64) -> GrowingDisc<'_> {
+        GrowingDisc {
+            punch: &self.punch,
+            target_share: share,
+            wave_time: self.wave_time(memory),
+        }
+    }
+
     /// The plane at a Poisson ratio.
     ///
     /// # Errors
@@ -72,16 +89,21 @@ impl Plane {
 
     /// Errors of the cheaper models against the growing contact with `steps` steps over Hertz's contact time.
     ///
+    /// Where that is too coarse to hold the start of a very fast contact the step is halved, as step control does.
+    ///
     /// # Errors
     /// Those of the march.
     pub fn errors(&self, share: f64, memory: f64, steps: usize) -> Result<ModelErrors, MarchError> {
-        let growing = GrowingDisc {
-            punch: &self.punch,
-            target_share: share,
-            wave_time: self.wave_time(memory),
-        };
-        let history = march_growing(&growing, CONTACT_TIME / steps as f64)?;
-        let exact = Results::from(&Summary::new(&history)?);
+        let growing = self.contact(share, memory);
+        let mut step = CONTACT_TIME / steps as f64;
+        let mut found = summary(&growing, step);
+        for _ in 0..MOST_HALVINGS {
+            if matches!(found, Err(MarchError::StepTooLong { .. })) {
+                step *= 0.5;
+                found = summary(&growing, step);
+            }
+        }
+        let exact = Results::from(&found?);
         let of = |lag: f64| Error::of(&Results::from(&radiation(lag)).errors(&exact)).max;
         let (lag, _) = self.groups(share, memory);
         Ok(ModelErrors {
