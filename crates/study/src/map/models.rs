@@ -39,7 +39,12 @@ pub struct ModelErrors {
     pub hertz: f64,
     /// First-order radiated loss.
     pub radiation: f64,
+    /// Change of the march that they are compared with over the last halving of its step.
+    pub march: f64,
 }
+
+/// A march that changes by more when its step is halved is said not to have converged.
+const UNSETTLED: f64 = 1e-2;
 
 /// How often a step that is too long is halved.
 const MOST_HALVINGS: usize = 5;
@@ -104,6 +109,10 @@ impl Plane {
             }
         }
         let exact = Results::from(&found?);
+        let march = match summary(&growing, 2.0 * step) {
+            Ok(coarse) => Error::of(&Results::from(&coarse).errors(&exact)).max,
+            Err(_) => f64::INFINITY,
+        };
         let of = |lag: f64| Error::of(&Results::from(&radiation(lag)).errors(&exact)).max;
         let (lag, _) = self.groups(share, memory);
         Ok(ModelErrors {
@@ -114,6 +123,7 @@ impl Plane {
             } else {
                 f64::INFINITY
             },
+            march,
         })
     }
 
@@ -217,11 +227,17 @@ pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Figure>,
         let mut cells = errors.iter();
         figure.map(
             shape,
-            &["hertz", "radiation", "growing"],
+            &[
+                "hertz",
+                "radiation",
+                "growing",
+                "growing, not yet converged to 1e-2",
+            ],
             |_, _| match cells.next() {
                 Some(e) if e.hertz <= tolerance => 0,
                 Some(e) if e.radiation <= tolerance => 1,
-                Some(_) | None => 2,
+                Some(e) if e.march <= UNSETTLED => 2,
+                Some(_) | None => 3,
             },
         );
         for (label, rung, style) in [
@@ -244,7 +260,9 @@ pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Figure>,
         figure.caption = format!(
             "Regions are computed: each model against the converged growing contact, largest error of peak force, \
              contact time, restitution and peak displacement. The lines are where `auto` changes model at a tolerance \
-             of {tolerance:.0e}: it never takes a model that misses, and its estimate for hertz is {} times the error \
+             of {tolerance:.0e}. In the darkest region the contact at first grows faster than the waves: the force of \
+             `growing` starts with a spike there that does not stand still when {steps} steps are made twice as long, \
+             and step control refuses it. `auto` never takes a model that misses, and its estimate for hertz is {} times the error \
              found in the middle of the plane.",
             ratio(&plane, &errors, shape, &x, &y)
         );
