@@ -91,6 +91,12 @@ fn diagram(question: Question, scene: &str, name: &'static str, rows: &[&Record]
             n if n == own.len() => " (fails)".to_owned(),
             n => format!(" ({n} of {} fail)", own.len()),
         };
+        // nor those of tables
+        let style = if method == "table" {
+            Style::Points
+        } else {
+            style
+        };
         figure.curve(&format!("{method}{default}{failures}"), style, points);
     }
     let front = pareto_front(rows, |r| Some(r.cost.median_ns));
