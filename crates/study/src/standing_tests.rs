@@ -162,7 +162,7 @@ fn a_table_knows_its_errors_near_the_edge_and_for_short_pulses() {
     let table = density().with_stencil(Density::points()).unwrap();
     let width = table.cell_width(0.3).unwrap();
     let count = 1200;
-    let plan = tabulator::PointPlan::new(0.3, 1e-9, width, count + 4, 4).unwrap();
+    let plan = tabulator::PointPlan::new(0.3, 1e-11, width, count + 4, 4).unwrap();
     let mut largest = [0.0_f64; 2];
     for (r, z) in [
         (0.97, 0.02),

@@ -6,7 +6,7 @@ use halfspace::Medium;
 use impact::choose::Rung;
 use impact::contact::hertz::CONTACT_TIME;
 use impact::march::{
-    FixedDisc, StaticShare, Summary, march_explicit, march_growing, march_implicit, refine,
+    FixedDisc, StaticShare, Summary, march_explicit, march_growing, march_implicit,
 };
 use std::f64::consts::PI;
 use study::map::disc_models::{disc_at, disc_chosen, disc_errors};
@@ -111,21 +111,24 @@ fn the_implicit_march_is_stable_on_the_papers_plane_and_gains_no_energy() {
 }
 
 #[test]
-fn on_a_very_soft_half_space_step_control_leaves_the_steps_that_oscillate() {
+fn on_a_very_soft_half_space_steps_near_the_memory_settle() {
     let response = paper_response().unwrap();
     let paper = paper_disc(&response).unwrap();
-    // k/Z = 50 a collision time
+    // k/Z = 50 a collision time: with the curvature of the newest cell extrapolated in full the force blew up here
     let disc = FixedDisc {
         coupling: paper.coupling * 50.0 / (1.5 * admittance(&paper)),
         ..paper
     };
     let exact = converged(&disc).unwrap();
-    let step = 0.04 * CONTACT_TIME;
-    assert!(linear_growth(&disc, 1.5 * exact.summary.peak_force.cbrt(), step) > 1.0);
-    let fate = implicit_fate(&disc, &exact, step);
-    assert!(matches!(fate, Fate::Oscillates | Fate::BlownUp), "{fate:?}");
-    let found = refine(|step| march_implicit(&disc, step), step, 1e-4).unwrap();
-    assert!(found.summary.distance(&exact.summary) < 1e-3);
+    for step in [0.01, 0.02, 0.04, 0.08] {
+        let step = step * CONTACT_TIME;
+        assert!(linear_growth(&disc, 1.5 * exact.summary.peak_force.cbrt(), step) < 1.0);
+        let fate = implicit_fate(&disc, &exact, step);
+        assert!(
+            matches!(fate, Fate::Accurate | Fate::Lossy),
+            "{step}: {fate:?}"
+        );
+    }
 }
 
 #[test]

@@ -22,6 +22,7 @@ pub use quick::{Found, TabulatedDisc, Workspace};
 pub use refine::{Accuracy, Refined, refine};
 pub use summary::{EndOfContact, Summary};
 pub use tabulated::ResponseTable;
+pub use weights::memory_weights;
 
 pub(crate) use implicit::solve;
 pub(crate) use separation::Separation;

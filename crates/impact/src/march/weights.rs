@@ -117,6 +117,14 @@ impl Weights {
     }
 }
 
+/// The weights g_j of the implicit march of an impact at a step in collision units, newest first.
+///
+/// The deflection is coupling [p_n - sum_j g_j (p_{n-j} - p_{n-j-1})], without the first p_n for the dynamic share.
+#[must_use]
+pub fn memory_weights(impact: &FixedDisc<'_>, step: f64) -> Vec<f64> {
+    Weights::of(impact, impact.response, step).lag
+}
+
 /// Stiffness of the contact, (2/3) p^(-1/3) > 2/3, over the coupling, with a margin: what the compliance that an
 /// alternating force meets may fall below zero, 1 - 2 sum_j (-1)^j g_j for the full share and 1 less without it.
 pub(crate) fn slack(coupling: f64, share: StaticShare) -> f64 {

@@ -35,7 +35,6 @@ pub struct DiscErrors {
 /// Those of the march.
 pub fn disc_errors(disc: &FixedDisc<'_>) -> Result<DiscErrors, MarchError> {
     let springs = quasi_static(disc.coupling);
-    // steps near the memory oscillate on a soft half-space, and step control leaves them
     let accuracy = Accuracy::of_contact(ACCURACY, None);
     let march = |step| march_implicit(disc, step);
     let found = refine(

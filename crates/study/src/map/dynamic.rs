@@ -1,11 +1,11 @@
 //! The `dynamic` share at strong coupling: where it has no solution, and where a coarse step hides that.
 
 use super::marches::{Converged, Fate, converged, implicit_fate};
-use super::recurrence::{linear_growth, weights};
+use super::recurrence::linear_growth;
 use crate::effort::Effort;
 use crate::figure::{Axis, Figure, Style};
 use impact::contact::hertz::CONTACT_TIME;
-use impact::march::{FixedDisc, MarchError, StaticShare, march_implicit};
+use impact::march::{FixedDisc, MarchError, StaticShare, march_implicit, memory_weights};
 
 /// What the `dynamic` share makes of an impact at a step: whether it has a solution.
 #[must_use]
@@ -23,9 +23,31 @@ pub fn dynamic_is_solved(disc: &FixedDisc<'_>, step: f64) -> bool {
 /// Largest coupling for which the `dynamic` share has a solution at a step, up to a force of Hertz's peak.
 #[must_use]
 pub fn dynamic_limit(disc: &FixedDisc<'_>, step: f64) -> f64 {
-    let newest = weights(disc.response, step / disc.wave_time)[0];
     // Numerov's weight of the newest force
-    (2.0 / 3.0 + 1.25 * step * step / 12.0) / newest
+    let allowed = 2.0 / 3.0 + 1.25 * step * step / 12.0;
+    let is_solved = |coupling: f64| {
+        let disc = FixedDisc {
+            coupling,
+            share: StaticShare::Dynamic,
+            ..disc.clone()
+        };
+        coupling * memory_weights(&disc, step)[0] < allowed
+    };
+    bisected(0.0, 1e6, is_solved)
+}
+
+/// The largest argument that a condition allows, which it does below and not above; relative to 1e-9.
+fn bisected(low: f64, high: f64, allows: impl Fn(f64) -> bool) -> f64 {
+    let (mut low, mut high) = (low, high);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if allows(middle) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    low
 }
 
 /// Largest coupling for which the newest samples of the `dynamic` share settle, up to a force of Hertz's peak.
@@ -39,16 +61,7 @@ pub fn dynamic_growth_limit(disc: &FixedDisc<'_>, step: f64) -> f64 {
         };
         linear_growth(&disc, 1.5, step) > 1.0
     };
-    let (mut low, mut high) = (0.0, dynamic_limit(disc, step));
-    for _ in 0..30 {
-        let middle = 0.5 * (low + high);
-        if grows(middle) {
-            high = middle;
-        } else {
-            low = middle;
-        }
-    }
-    low
+    bisected(0.0, dynamic_limit(disc, step), |coupling| !grows(coupling))
 }
 
 const CLASSES: [&str; 4] = [

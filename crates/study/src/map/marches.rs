@@ -304,10 +304,10 @@ pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Figure>,
     implicit.labelled = paper_steps.to_vec();
     implicit.caption = format!(
         "The implicit march gains energy in {gains} cells of this plane, and with fewer than eight samples in \
-        contact it refuses with a sentence that asks for a smaller step. On a half-space much softer than the contact and \
-        at steps of a quarter of the memory to twice it, its force oscillates: the curvature of the newest cell is \
-        extrapolated, and the weights have a root beyond one there. Step control leaves that region by itself, because \
-        results that oscillate do not stand still when the step is halved."
+        contact it refuses with a sentence that asks for a smaller step. The curvature of the newest cell, an \
+        extrapolation, is limited so that a force which alternates from sample to sample meets no negative compliance. \
+        Where dots are left the deflection of the centre feeds energy back, on half-spaces much softer than the contact: \
+        at some frequencies its compliance is real and negative, at any step. The mean deflection does not."
     );
     figures.push(implicit);
     advance();
