@@ -378,12 +378,14 @@ impl Kernel {
     /// Just below the surface the terms are of order z/t and the peak of the field is of order sqrt(z).
     pub(crate) fn digits(&self, at: Point, shallow: bool) -> f64 {
         const MARGIN: f64 = 0.1;
+        // beyond the last digit of a double, and what 24 nodes reach beside a finite part
+        const MOST: f64 = 40.0;
         let peak = if shallow {
             (at.t / at.z.sqrt()).min(1.0)
         } else {
             1.0
         };
-        -(MARGIN * self.tolerance * peak).ln()
+        (-(MARGIN * self.tolerance * peak).ln()).min(MOST)
     }
 }
 

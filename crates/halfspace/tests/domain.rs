@@ -240,6 +240,24 @@ fn round_numbers_give_finite_fields() {
 }
 
 /// Huge but legal arguments: finite, quick, and tending to the static field or to nothing.
+/// Depths whose root is far above the time: more digits than a double has must not be asked for.
+#[test]
+fn tiny_depths_and_times_are_answered() {
+    let kernel = Kernel::new(&Medium::new(0.3).unwrap(), Profile::Hertz, 1e-10).unwrap();
+    for z in [5e-324, 1e-308, 1e-200, 1e-100, 1e-20] {
+        for t in [5e-324, 1e-224, 1e-100, 1e-20, 1e-12] {
+            let clock = Instant::now();
+            let found = kernel.remainder(0.5, z, t).unwrap();
+            assert!(sound(&found), "{z:e} {t:e}: {found:?}");
+            assert!(
+                clock.elapsed() < Duration::from_millis(100),
+                "{z:e} {t:e}: {:?}",
+                clock.elapsed()
+            );
+        }
+    }
+}
+
 #[test]
 fn huge_arguments_are_answered() {
     for profile in PROFILES {
