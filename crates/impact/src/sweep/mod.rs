@@ -3,7 +3,7 @@
 //! A [`Spec`] is read from TOML: a base scene and the keys that vary, as a Cartesian product, as a
 //! list of keys that vary together, and as random draws.
 //! Row by row a [`Collider`] computes the contact alone; a scene that fails is a row with a reason.
-//! Rows are computed in blocks that a [`journal`] keeps, so that an interrupted sweep goes on where
+//! Rows are computed in blocks that a journal keeps, so that an interrupted sweep goes on where
 //! it stopped, and the file is written when all of them are there.
 
 mod axis;
