@@ -48,4 +48,4 @@ def table(tmp_path_factory):
 @pytest.fixture(scope="session")
 def impact(tmp_path_factory, table, paper_scene):
     path = tmp_path_factory.mktemp("impact") / "impact.h5"
-    return Impact(run_well("impact", paper_scene, "--table", table, "-o", path), path)
+    return Impact(run_well("impact", paper_scene, "--kernel", "table", "--table", table, "-o", path), path)

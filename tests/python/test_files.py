@@ -120,7 +120,7 @@ def test_probe_under_the_disc_carries_the_pressure(tmp_path, paper_scene, table)
     scene = tmp_path / "centre.toml"
     scene.write_text(without_probes(paper_scene) + "\n[[probe]]\nr_m = 0.0\nz_m = 0.0\n")
     out = tmp_path / "centre.h5"
-    run_well("impact", scene, "--table", table, "-o", out)
+    run_well("impact", scene, "--kernel", "table", "--table", table, "-o", out)
     with h5py.File(out, "r") as file:
         pressure = 1.5 * file["force"][()] / (np.pi * DISC_RADIUS_M**2)
         np.testing.assert_allclose(-file["probes/stress_zz"][0], pressure, atol=1e-4 * pressure.max())
@@ -135,7 +135,7 @@ def test_surface_centre_moves_as_the_march_says(tmp_path, paper_scene, table):
     scene = tmp_path / "centre.toml"
     scene.write_text(without_probes(paper_scene) + "\n[[probe]]\nr_m = 0.0\nz_m = 0.0\n")
     out = tmp_path / "centre.h5"
-    summary = run_well("impact", scene, "--table", table, "-o", out)
+    summary = run_well("impact", scene, "--kernel", "table", "--table", table, "-o", out)
     with h5py.File(out, "r") as file:
         gap = np.abs(file["probes/displacement_z"][0] - file["deflection"][()]).max()
         stated = file["probes/displacement_z_error"][0]
@@ -180,7 +180,7 @@ def test_results_name_the_table(impact, table):
 
 def test_same_input_same_numbers(tmp_path, impact, paper_scene, table):
     again = tmp_path / "again.h5"
-    run_well("impact", paper_scene, "--table", table, "-o", again)
+    run_well("impact", paper_scene, "--kernel", "table", "--table", table, "-o", again)
     with h5py.File(again, "r") as a, h5py.File(impact.path, "r") as b:
         for name in ("force", "probes/stress_zz"):
             np.testing.assert_array_equal(a[name], b[name])
@@ -198,7 +198,7 @@ def test_forced_history(tmp_path, paper_scene, table):
         "[[probe]]\nr_m = 0.0\nz_m = 0.0\n"
     )
     out = tmp_path / "pulse.h5"
-    summary = run_well("impact", scene, "--table", table, "-o", out)
+    summary = run_well("impact", scene, "--kernel", "table", "--table", table, "-o", out)
     assert summary["peak_force_n"] == pytest.approx(1e4, rel=1e-3)
     with h5py.File(out, "r") as file:
         np.testing.assert_allclose(np.interp(time_s, file["time"], file["force"]), force_n, atol=1e-3 * force_n.max())
