@@ -101,7 +101,7 @@ def test_probes(impact):
 @pytest.mark.parametrize("kernel", ["table", "direct"])
 def test_probes_rest_until_the_first_wave(tmp_path, paper_scene, table, kernel):
     out = tmp_path / "out.h5"
-    kernels = ("--table", table) if kernel == "table" else ("--kernel", "direct")
+    kernels = ("--kernel", "table", "--table", table) if kernel == "table" else ("--kernel", "direct")
     run_well("impact", paper_scene, *kernels, "-o", out)
     with h5py.File(out, "r") as file:
         time, probes = file["time"][()], file["probes"]
