@@ -118,14 +118,28 @@ pub(crate) fn find_root(f: impl Fn(f64) -> (f64, f64), from: f64, to: f64) -> f6
     x
 }
 
-/// Place (in steps) and value of the largest of equidistant samples, interpolated through five of them.
-pub(crate) fn peak(samples: &[f64]) -> (f64, f64) {
-    let (mut best, mut largest) = (0, samples.first().copied().unwrap_or(0.0));
-    for (i, &value) in samples.iter().enumerate() {
-        if value > largest {
-            (best, largest) = (i, value);
+/// The first of the largest samples, and it; four lanes at a time.
+fn largest(samples: &[f64]) -> (usize, f64) {
+    let mut lanes = [f64::NEG_INFINITY; 4];
+    let (fours, rest) = samples.as_chunks::<4>();
+    for four in fours {
+        for (lane, &value) in lanes.iter_mut().zip(four) {
+            *lane = if value > *lane { value } else { *lane };
         }
     }
+    let largest = lanes
+        .iter()
+        .chain(rest)
+        .fold(f64::NEG_INFINITY, |a, &b| a.max(b));
+    match samples.iter().position(|&value| value == largest) {
+        Some(place) => (place, largest),
+        None => (0, samples.first().copied().unwrap_or(0.0)),
+    }
+}
+
+/// Place (in steps) and value of the largest of equidistant samples, interpolated through five of them.
+pub(crate) fn peak(samples: &[f64]) -> (f64, f64) {
+    let (best, largest) = largest(samples);
     if samples.len() < 5 {
         return (best as f64, largest);
     }

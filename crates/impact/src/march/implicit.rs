@@ -77,8 +77,8 @@ pub(crate) fn advance(
     history.start = start.force;
     let compliance = inertia + elastic;
     history.compliance = compliance;
-    // the last four roots, newest first: the guess is the cubic through them
-    let mut roots = [0.0_f64; 4];
+    // the last five roots, newest first: the guess is the polynomial through them
+    let mut roots = [0.0_f64; 5];
     let mut free_since = 0;
     loop {
         let n = history.force.len();
@@ -87,12 +87,12 @@ pub(crate) fn advance(
         let known_deflection = coupling * (newest_lag * newest - past);
         let free = flight.free_displacement();
         let known = free - known_deflection;
-        let guess = 4.0 * (roots[0] + roots[2]) - 6.0 * roots[1] - roots[3];
+        let guess = 5.0 * (roots[0] - roots[3]) + 10.0 * (roots[2] - roots[1]) + roots[4];
         let solved = solve(compliance, known, guess).ok_or(MarchError::NoSolution {
             time: n as f64 * step,
             coupling,
         })?;
-        roots = [solved, roots[0], roots[1], roots[2]];
+        roots = [solved, roots[0], roots[1], roots[2], roots[3]];
         let force = solved * solved * solved;
         history.push(
             force,

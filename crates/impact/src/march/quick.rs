@@ -117,7 +117,7 @@ impl Workspace {
         self.history.separate(&Lag {
             coupling: impact.coupling,
             memory,
-            remaining: |s: f64| unit * (table.relaxation_time() + table.integrals(s / unit)[0]) - s,
+            remaining: |s: f64| unit * (table.relaxation_time() + table.integral(s / unit)) - s,
         });
         Ok(())
     }

@@ -14,7 +14,7 @@
 
 use super::History;
 use super::summary::first_separation;
-use crate::quadrature::{GAUSS_8, Local};
+use crate::quadrature::{GAUSS_4, GAUSS_8, Local};
 
 /// What follows from the last samples in contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -122,7 +122,7 @@ impl Tail {
     /// int_0^m K p'' ds: with s = x^2, p'' ds = (3 H + 5 x H' + x^2 H'')/2 dx.
     fn deflection<K: Fn(f64) -> f64>(&self, step: f64, lag: &Lag<K>) -> f64 {
         let reach = (lag.memory / step).sqrt();
-        let sum: f64 = GAUSS_8
+        let sum: f64 = GAUSS_4
             .iter()
             .map(|&(node, weight)| {
                 let x = node * reach;

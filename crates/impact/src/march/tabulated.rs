@@ -93,8 +93,15 @@ impl ResponseTable {
         self.memory
     }
 
+    /// int W dt from 0 to t, in r0/c1.
+    #[must_use]
+    pub fn integral(&self, t: f64) -> f64 {
+        self.integrals(t)[0]
+    }
+
     /// int W dt and int int W dt^2 from 0 to t, in r0/c1 and its square.
     #[must_use]
+    #[inline]
     pub fn integrals(&self, t: f64) -> [f64; 2] {
         let m = self.memory;
         let place = t / m * CELLS as f64;
