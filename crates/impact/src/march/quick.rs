@@ -5,7 +5,7 @@
 //! returned has the same verified error as a march with [`refine`](super::refine).
 
 use super::implicit::advance;
-use super::refine::{HALVINGS, may_pass};
+use super::refine::halve;
 use super::separation::Lag;
 use super::tabulated::ResponseTable;
 use super::weights::{Weights, slack};
@@ -62,39 +62,15 @@ impl Workspace {
         step: f64,
         accuracy: &Accuracy,
     ) -> Result<Found, MarchError> {
-        let mut step = step;
-        let mut coarse: Option<Summary> = None;
-        let mut error = f64::INFINITY;
-        for attempt in 0..HALVINGS {
-            let summary = match self.march(impact, step) {
-                Ok(()) => Summary::new(&self.history),
-                Err(other) => Err(other),
-            };
-            let summary = match summary {
-                Ok(summary) => summary,
-                Err(error) if may_pass(&error, attempt) => {
-                    step *= 0.5;
-                    continue;
-                }
-                Err(other) => return Err(other),
-            };
-            if let Some(coarse) = &coarse {
-                let judged = accuracy.judge(coarse, &summary);
-                error = judged.error;
-                if judged.ratio <= 1.0 {
-                    return Ok(Found {
-                        summary: Accuracy::extrapolated(coarse, &summary),
-                        error,
-                        step,
-                    });
-                }
-            }
-            coarse = Some(summary);
-            step *= 0.5;
-        }
-        Err(MarchError::NotConverged {
-            tolerance: accuracy.tolerance,
-            change: error,
+        let march = |step| {
+            self.march(impact, step)?;
+            Ok((Summary::new(&self.history)?, ()))
+        };
+        let found = halve(march, step, accuracy)?;
+        Ok(Found {
+            summary: found.summary,
+            error: found.error,
+            step: found.step,
         })
     }
 

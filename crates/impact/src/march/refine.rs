@@ -112,12 +112,12 @@ pub struct Refined {
 }
 
 /// Steps are halved at most so often.
-pub(crate) const HALVINGS: usize = 14;
+const HALVINGS: usize = 14;
 
 /// Whether an error of the march may be that of a coarse step.
 ///
 /// Coarse weights of the dynamic share overstate the part of the newest force, which can cost it its solution.
-pub(crate) fn may_pass(error: &MarchError, attempt: usize) -> bool {
+fn may_pass(error: &MarchError, attempt: usize) -> bool {
     match error {
         MarchError::StepTooLong { .. } => true,
         MarchError::NoSolution { .. } => attempt < 8,
@@ -137,35 +137,63 @@ pub fn refine(
     accuracy: impl Into<Accuracy>,
 ) -> Result<Refined, MarchError> {
     let accuracy = accuracy.into();
-    let mut step = step;
+    let found = halve(
+        |step| {
+            let history = march(step)?;
+            let summary = Summary::new(&history)?;
+            Ok((summary, history))
+        },
+        step,
+        &accuracy,
+    )?;
+    Ok(Refined {
+        history: found.finest,
+        summary: found.summary,
+        error: found.error,
+    })
+}
+
+/// The finest of some marches, and what it gives.
+pub(crate) struct Halved<T> {
+    /// What the finest march returned beside its results.
+    pub(crate) finest: T,
+    /// Its results, extrapolated.
+    pub(crate) summary: Summary,
+    /// Estimated relative error of the contact's results.
+    pub(crate) error: f64,
+    /// Step of the finest march.
+    pub(crate) step: f64,
+}
+
+/// Halves the step of a march until its results meet `accuracy`.
+pub(crate) fn halve<T>(
+    mut march: impl FnMut(f64) -> Result<(Summary, T), MarchError>,
+    mut step: f64,
+    accuracy: &Accuracy,
+) -> Result<Halved<T>, MarchError> {
     let mut coarse: Option<Summary> = None;
     let mut error = f64::INFINITY;
     for attempt in 0..HALVINGS {
-        let history = match march(step) {
-            Err(error) if may_pass(&error, attempt) => {
-                step *= 0.5;
-                continue;
+        match march(step) {
+            Ok((summary, finest)) => {
+                if let Some(coarse) = &coarse {
+                    let judged = accuracy.judge(coarse, &summary);
+                    error = judged.error;
+                    if judged.ratio <= 1.0 {
+                        return Ok(Halved {
+                            finest,
+                            summary: Accuracy::extrapolated(coarse, &summary),
+                            error,
+                            step,
+                        });
+                    }
+                }
+                coarse = Some(summary);
             }
-            done => done?,
-        };
-        step *= 0.5;
-        let summary = match Summary::new(&history) {
-            Ok(summary) => summary,
-            Err(MarchError::StepTooLong { .. }) => continue,
+            Err(error) if may_pass(&error, attempt) => {}
             Err(other) => return Err(other),
-        };
-        if let Some(coarse) = coarse {
-            let judged = accuracy.judge(&coarse, &summary);
-            error = judged.error;
-            if judged.ratio <= 1.0 {
-                return Ok(Refined {
-                    history,
-                    summary: Accuracy::extrapolated(&coarse, &summary),
-                    error,
-                });
-            }
         }
-        coarse = Some(summary);
+        step *= 0.5;
     }
     Err(MarchError::NotConverged {
         tolerance: accuracy.tolerance,
