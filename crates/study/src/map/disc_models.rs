@@ -1,6 +1,6 @@
 //! Which model the paper's family needs: a fixed disc whose whole deflection is added to Hertz's indentation.
 
-use super::models::TOLERANCES;
+use super::models::{TOLERANCES, memory_of_change};
 use crate::StudyError;
 use crate::effort::Effort;
 use crate::figure::{Axis, Figure, Style};
@@ -102,21 +102,9 @@ pub(super) fn figures(effort: Effort) -> Result<Vec<Figure>, StudyError> {
         }
     }
     let boundary = |coupling: f64, tolerance: f64, leaves: Rung| {
-        let cheap = |memory: f64| match disc_chosen(&disc_at(&paper, coupling, memory), tolerance) {
-            Rung::QuasiStatic => true,
-            Rung::Radiation => leaves != Rung::QuasiStatic,
-            Rung::FullMemory => false,
-        };
-        let (mut low, mut high) = (1e-12_f64, 1e3_f64);
-        for _ in 0..60 {
-            let middle = (low * high).sqrt();
-            if cheap(middle) {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
-        low
+        memory_of_change(1e-12, leaves, |memory| {
+            disc_chosen(&disc_at(&paper, coupling, memory), tolerance)
+        })
     };
     let mut figures = Vec::new();
     for (name, tolerance) in ["models-disc-1e-2", "models-disc-1e-3", "models-disc-1e-4"]

@@ -130,22 +130,27 @@ impl Plane {
     /// Memory at which `auto` leaves a rung for the next, at a share.
     #[must_use]
     pub fn boundary(&self, share: f64, tolerance: f64, leaves: Rung) -> f64 {
-        let cheap = |memory: f64| match self.chosen(share, memory, tolerance) {
+        memory_of_change(1e-9, leaves, |memory| self.chosen(share, memory, tolerance))
+    }
+}
+
+/// Largest memory, from `low` to 1e3, at which `auto` has not yet left a rung for the next.
+pub(super) fn memory_of_change(low: f64, leaves: Rung, chosen: impl Fn(f64) -> Rung) -> f64 {
+    let (mut low, mut high) = (low, 1e3_f64);
+    for _ in 0..60 {
+        let middle = (low * high).sqrt();
+        let cheap = match chosen(middle) {
             Rung::QuasiStatic => true,
             Rung::Radiation => leaves != Rung::QuasiStatic,
             Rung::FullMemory => false,
         };
-        let (mut low, mut high) = (1e-9_f64, 1e3_f64);
-        for _ in 0..60 {
-            let middle = (low * high).sqrt();
-            if cheap(middle) {
-                low = middle;
-            } else {
-                high = middle;
-            }
+        if cheap {
+            low = middle;
+        } else {
+            high = middle;
         }
-        low
     }
+    low
 }
 
 /// Where a steel ball on a material of the library lies in the plane.
