@@ -39,8 +39,11 @@ impl Ledger {
 #[must_use]
 pub fn radiated(impact: &FixedDisc<'_>, mean: &SurfaceResponse, history: &History) -> f64 {
     debug_assert_eq!(mean.deflection(), Deflection::Mean);
-    let weights = Weights::of(impact, mean, history.step);
     let coupling = impact.coupling * mean.static_compliance() / impact.response.static_compliance();
+    if let Some(work) = history.work_on(mean, coupling, impact.wave_time) {
+        return work;
+    }
+    let weights = Weights::of(impact, mean, history.step);
     let force = &history.force;
     let deflection: Vec<f64> = (0..force.len())
         .map(|n| -coupling * weights.lagging(&force[..=n]))

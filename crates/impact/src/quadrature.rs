@@ -20,6 +20,16 @@ pub(crate) const GAUSS_8: [(f64, f64); 8] = [
     (0.980_144_928_248_768_1, 0.050_614_268_145_188_13),
 ];
 
+/// The integral of f by one of these rules.
+pub(crate) fn gauss(rule: &[(f64, f64)], from: f64, to: f64, f: impl Fn(f64) -> f64) -> f64 {
+    let width = to - from;
+    width
+        * rule
+            .iter()
+            .map(|&(x, weight)| weight * f(from + x * width))
+            .sum::<f64>()
+}
+
 /// A polynomial through N values at x = 0, 1, .., N - 1 in Newton's form.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Local<const N: usize> {
@@ -92,7 +102,7 @@ impl<const N: usize> Local<N> {
 /// A zero of f (value and slope) between two places of different sign.
 pub(crate) fn find_root(f: impl Fn(f64) -> (f64, f64), from: f64, to: f64) -> f64 {
     let (mut low, mut high) = (from, to);
-    let rising = f(low).0 < f(high).0;
+    let rising = f(low).0 < 0.0;
     let mut x = 0.5 * (low + high);
     for _ in 0..80 {
         let (value, slope) = f(x);
@@ -110,7 +120,9 @@ pub(crate) fn find_root(f: impl Fn(f64) -> (f64, f64), from: f64, to: f64) -> f6
         } else {
             0.5 * (low + high)
         };
-        if (next - x).abs() <= 1e-15 * x.abs().max(1e-30) {
+        // Newton's error is squared each time: the next one would be below the last digit
+        let enough = if next == newton { 1e-8 } else { 1e-15 };
+        if (next - x).abs() <= enough * x.abs().max(1e-30) {
             return next;
         }
         x = next;

@@ -13,6 +13,18 @@ use super::History;
 use super::implicit::solve;
 use crate::units::INVERSE_MASS;
 
+/// Samples after which Euler and Maclaurin's expansion at the upper end is good to 1e-5 of the constants.
+pub(crate) const STARTING: usize = 4;
+
+/// Roots y of the force p = y^3 at the first samples, from y^2 + sigma y^3 = t.
+pub(crate) fn starting_roots(step: f64, compliance: f64) -> [f64; STARTING] {
+    let mut y = 0.0;
+    std::array::from_fn(|j| {
+        y = solve(compliance.max(0.0), (j + 1) as f64 * step, y).unwrap_or(0.0);
+        y
+    })
+}
+
 /// What the trapezoidal rule misses at the touch: of int p dt and of int t p dt, the constants of Euler and Maclaurin.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct Start {
@@ -23,25 +35,19 @@ pub(crate) struct Start {
 }
 
 impl Start {
-    /// Steps after which Euler and Maclaurin's expansion at the upper end is good to 1e-5 of the constants.
-    const STEPS: usize = 4;
-
-    /// For a surface that gives way by `compliance` times the force at once.
+    /// From the first roots of the force, on a surface that gives way by `compliance` times the force at once.
     ///
     /// t = y^2 + sigma y^3 makes both integrals and the derivatives at the upper end elementary.
-    pub(crate) fn new(step: f64, compliance: f64) -> Self {
+    pub(crate) fn new(step: f64, compliance: f64, roots: &[f64; STARTING]) -> Self {
         let sigma = compliance.max(0.0);
         let (mut force, mut moment) = (0.0, 0.0);
-        let mut y = 0.0_f64;
-        for j in 1..=Self::STEPS {
-            let t = j as f64 * step;
-            y = solve(sigma, t, y).unwrap_or(0.0);
-            let weight = if j == Self::STEPS { 0.5 } else { 1.0 };
-            let p = y * y * y;
-            force += weight * p * step;
-            moment += weight * t * p * step;
+        for (j, y) in roots.iter().enumerate() {
+            let weight = if j + 1 == STARTING { 0.5 } else { 1.0 };
+            let p = y * y * y * step * weight;
+            force += p;
+            moment += (j + 1) as f64 * step * p;
         }
-        let t = Self::STEPS as f64 * step;
+        let (t, y) = (STARTING as f64 * step, roots[STARTING - 1]);
         let (y2, u) = (y * y, 2.0 + 3.0 * sigma * y);
         let p = [
             y2 * y,
@@ -148,7 +154,7 @@ mod tests {
     fn errors(step: f64, compliance: f64, p: impl Fn(f64) -> f64, exact: [f64; 2]) -> [f64; 2] {
         let n = (1.0 / step).round() as usize;
         let mut history = History::at_touch(step, n);
-        let start = Start::new(step, compliance);
+        let start = Start::new(step, compliance, &starting_roots(step, compliance));
         let mut flight = Flight::new(step, start);
         history.start = start.force;
         for i in 1..=n + 2 {

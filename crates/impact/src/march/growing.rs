@@ -14,7 +14,7 @@
 //! materials; with increments shaped like Hertz's pressure it would not be for phi > 2/3.
 //! u is nearly linear at the touch, so that no start correction is needed for the deflection.
 
-use super::flight::{Flight, Start};
+use super::flight::{Flight, Start, starting_roots};
 use super::implicit::solve;
 use super::punch::PunchResponse;
 use super::{Budget, EndLayer, History, MarchError};
@@ -44,7 +44,7 @@ const ITERATIONS: usize = 30;
 pub fn march_growing(impact: &GrowingDisc<'_>, step: f64) -> Result<History, MarchError> {
     let memory = impact.punch.memory() * impact.wave_time;
     let budget = Budget::new((memory / step).min(1e9) as usize * 8, memory);
-    let start = Start::new(step, 0.0);
+    let start = Start::new(step, 0.0, &starting_roots(step, 0.0));
     let mut flight = Flight::new(step, start);
     let inertia = flight.newest_weight();
     let mut history = History::at_touch(step, 256);

@@ -6,8 +6,9 @@
 //! product integration that is exact for a force linear in each cell and corrected for its curvature:
 //! the scheme is of an order between 2 and 4 where the force is smooth, and stable at any step.
 
-use super::flight::{Flight, Start};
-use super::separation::Lag;
+use super::edge::Edge;
+use super::flight::{Flight, STARTING, Start, starting_roots};
+use super::lag::{Lag, RESOLVED, lag};
 use super::weights::Weights;
 use super::{Budget, History, MarchError, StaticShare};
 use halfspace::SurfaceResponse;
@@ -43,47 +44,39 @@ pub fn march_implicit(impact: &FixedDisc<'_>, step: f64) -> Result<History, Marc
     let budget = Budget::of_memory(impact.memory(), step)?;
     let weights = Weights::of(impact, impact.response, step);
     let mut history = History::at_touch(step, 256);
-    advance(
-        impact.coupling,
-        impact.share,
-        &weights,
-        &budget,
-        &mut history,
-    )?;
-    let unit = impact.wave_time;
-    let relaxation = impact.response.relaxation_time();
-    history.separate(&Lag {
-        coupling: impact.coupling,
-        memory: impact.memory(),
-        remaining: |s: f64| relaxation * unit - s + unit * impact.response.step_integral(s / unit),
-    });
+    let lag = lag(impact.response, impact.coupling, impact.wave_time / step);
+    advance(&lag, impact.share, &weights, &budget, &mut history)?;
+    history.separate(&lag);
     Ok(history)
 }
 
 /// Marches a history that holds the touch until the striker has left for good.
 pub(crate) fn advance(
-    coupling: f64,
+    lag: &Lag<impl Fn(f64) -> f64>,
     share: StaticShare,
     weights: &Weights,
     budget: &Budget,
     history: &mut History,
 ) -> Result<(), MarchError> {
-    let step = history.step;
+    let (step, coupling) = (history.step, lag.coupling);
     let newest_lag = weights.lag[0];
     let elastic = coupling * (share.factor() - newest_lag);
-    let start = Start::new(step, elastic);
+    let roots = starting_roots(step, elastic);
+    let start = Start::new(step, elastic, &roots);
+    let missed = missed(lag, weights, &Edge::touch(elastic, step), &roots);
     let mut flight = Flight::new(step, start);
     let inertia = flight.newest_weight();
     history.start = start.force;
     let compliance = inertia + elastic;
     history.compliance = compliance;
+    history.elastic = elastic;
     // the last five roots, newest first: the guess is the polynomial through them
     let mut roots = [0.0_f64; 5];
     let mut free_since = 0;
     loop {
         let n = history.force.len();
         let newest = history.force[n - 1];
-        let past = weights.past(&history.force);
+        let past = weights.past(&history.force) + missed.get(n - 1).copied().unwrap_or(0.0);
         let known_deflection = coupling * (newest_lag * newest - past);
         let free = flight.free_displacement();
         let known = free - known_deflection;
@@ -112,6 +105,26 @@ pub(crate) fn advance(
             budget.check(n)?;
         }
     }
+}
+
+/// What the weights miss of the lagging deflection at the first samples.
+///
+/// They follow a parabola through the samples, the force at the touch has the roots of `edge`.
+fn missed(
+    lag: &Lag<impl Fn(f64) -> f64>,
+    weights: &Weights,
+    edge: &Edge,
+    roots: &[f64; STARTING],
+) -> [f64; STARTING] {
+    if lag.memory > RESOLVED {
+        return [0.0; STARTING];
+    }
+    let mut force = [0.0; STARTING + 1];
+    std::array::from_fn(|i| {
+        let y = roots[i];
+        force[i + 1] = y * y * y;
+        edge.lagging_at_touch(lag, y) - weights.lagging(&force[..i + 2])
+    })
 }
 
 /// The smallest y >= 0 of a y^3 + y^2 = b, relative error below 1e-12; zero where b <= 0, nothing where there is none.

@@ -2,10 +2,13 @@
 //!
 //! All of them work in [`CollisionUnits`](crate::units::CollisionUnits) and fill a [`History`].
 
+mod dissipation;
+mod edge;
 mod explicit;
 mod flight;
 mod growing;
 mod implicit;
+mod lag;
 mod punch;
 mod quick;
 mod refine;
@@ -126,8 +129,12 @@ pub struct History {
     pub(crate) velocity: Vec<f64>,
     /// Compliance of the newest sample: d - w + compliance * p is smooth through the end of contact.
     pub(crate) compliance: f64,
+    /// The surface's part of it.
+    pub(crate) elastic: f64,
     /// End of the first contact where the march finds it itself.
     pub(crate) separation: Option<Separation>,
+    /// Work left in the half-space where the march finds it itself.
+    pub(crate) dissipated: Option<f64>,
     /// Layer at the end of a contact that shrinks.
     pub(crate) end_layer: EndLayer,
 }
@@ -158,7 +165,9 @@ impl History {
             start: 0.0,
             velocity: Vec::new(),
             compliance: 0.0,
+            elastic: 0.0,
             separation: None,
+            dissipated: None,
             end_layer: EndLayer::default(),
         }
     }
@@ -168,6 +177,7 @@ impl History {
         self.step = step;
         self.velocity.clear();
         self.separation = None;
+        self.dissipated = None;
         for samples in [
             &mut self.force,
             &mut self.displacement,

@@ -5,8 +5,8 @@
 //! returned has the same verified error as a march with [`refine`](super::refine).
 
 use super::implicit::advance;
+use super::lag::tabulated_lag;
 use super::refine::halve;
-use super::separation::Lag;
 use super::tabulated::ResponseTable;
 use super::weights::{Weights, slack};
 use super::{Accuracy, Budget, History, MarchError, StaticShare, Summary};
@@ -82,19 +82,15 @@ impl Workspace {
         self.weights
             .read(impact.table, step, impact.wave_time, slack);
         self.history.restart(step);
+        let lag = tabulated_lag(impact.table, impact.coupling, impact.wave_time / step);
         advance(
-            impact.coupling,
+            &lag,
             impact.share,
             &self.weights,
             &budget,
             &mut self.history,
         )?;
-        let (table, unit) = (impact.table, impact.wave_time);
-        self.history.separate(&Lag {
-            coupling: impact.coupling,
-            memory,
-            remaining: |s: f64| unit * (table.relaxation_time() + table.integral(s / unit)) - s,
-        });
+        self.history.separate(&lag);
         Ok(())
     }
 }

@@ -36,14 +36,13 @@ pub(crate) struct Judged {
 /// Share of the last change of force, restitution and displacement that is taken as the error.
 ///
 /// 95 % of the marches on fixed discs leave less, 1 % more than three times as much.
-const REST: f64 = 1.0;
+const REST: f64 = 0.7;
 
-/// Share of the last change that is added to the loss: its error goes with h^2 log h, which between 24 and
-/// 200 steps is an order of 1.7.
-const EXTRAPOLATION: f64 = 0.45;
+/// Share of the last change that is added to the loss.
+const EXTRAPOLATION: f64 = 0.2;
 
 /// Share of the last change that is taken as the error of the loss so extrapolated.
-const LOSS_REST: f64 = 0.3;
+const LOSS_REST: f64 = 0.35;
 
 impl Accuracy {
     /// Of the contact's results only: what a sweep asks.
@@ -59,8 +58,8 @@ impl Accuracy {
     /// Judges the finer of two summaries a halving apart.
     pub(crate) fn judge(&self, coarse: &Summary, fine: &Summary) -> Judged {
         let (share, stays) = fine.end.rest();
-        let error =
-            (REST * fine.distance(coarse)).max(share * fine.contact_time_distance(coarse) + stays);
+        let error = (REST * fine.motion_distance(coarse))
+            .max(share * fine.contact_time_distance(coarse) + stays);
         let parts = [
             Some(error / self.tolerance),
             self.loss
@@ -95,7 +94,7 @@ impl Accuracy {
         let contact = 12.0 * (1e-4 / self.tolerance).max(1.0).powf(0.4);
         let loss = self
             .loss
-            .map_or(0.0, |t| 26.0 * (1e-3 / t).max(1.0).powf(0.5));
+            .map_or(0.0, |t| 13.0 * (1e-3 / t).max(1.0).powf(0.5));
         contact.max(loss)
     }
 }

@@ -42,6 +42,8 @@ pub struct Summary {
 pub enum EndOfContact {
     /// By extrapolation of what is smooth there.
     Smooth,
+    /// From what the surface keeps of the force, of this relative uncertainty at any step longer than its memory.
+    Kept(f64),
     /// In a contact whose radius goes to zero, its last instants resolved: of first order.
     Singular,
     /// In such a contact with its last instants in closed form, of this relative uncertainty.
@@ -54,7 +56,8 @@ impl EndOfContact {
     /// 95 % of the marches on fixed discs leave less.
     pub(crate) fn rest(self) -> (f64, f64) {
         match self {
-            Self::Smooth => (3.0, 0.0),
+            Self::Smooth => (1.0, 0.0),
+            Self::Kept(uncertainty) => (0.5, uncertainty),
             Self::Singular => (1.5, 0.0),
             Self::Layer(uncertainty) => (1.0 / 3.0, uncertainty),
         }
@@ -80,7 +83,9 @@ impl Summary {
             });
         }
         let (mut contact_time, impulse) = end_of_contact(history, end);
-        let mut how = EndOfContact::Smooth;
+        let mut how = history.separation.map_or(EndOfContact::Smooth, |found| {
+            EndOfContact::Kept(found.uncertainty / found.time)
+        });
         if history.end_layer.shrinks {
             how = EndOfContact::Singular;
             if let Some((time, uncertainty)) = end_of_layer(history, end) {
@@ -90,12 +95,12 @@ impl Summary {
         }
         let (place, peak_force) = peak(force);
         let contacts = count_contacts(force, peak_force);
-        let velocity = if contacts == 1 {
-            1.0 - INVERSE_MASS * impulse
+        let (velocity, loss) = if contacts == 1 {
+            departure(1.0 - INVERSE_MASS * impulse, history)
         } else {
-            history.last_velocity()
+            let velocity = history.last_velocity();
+            (velocity, (1.0 - velocity) * (1.0 + velocity))
         };
-        let (velocity, loss) = departure(velocity, work(&history.force, &history.deflection));
         Ok(Self {
             peak_force,
             peak_force_time: place * step,
@@ -114,14 +119,15 @@ impl Summary {
     /// of approach): peak force, contact time, restitution, largest displacement.
     #[must_use]
     pub fn distance(&self, other: &Self) -> f64 {
-        [
-            relative(self.peak_force, other.peak_force),
-            relative(self.contact_time, other.contact_time),
-            (self.restitution - other.restitution).abs(),
-            relative(self.peak_displacement, other.peak_displacement),
-        ]
-        .into_iter()
-        .fold(0.0, f64::max)
+        self.motion_distance(other)
+            .max(self.contact_time_distance(other))
+    }
+
+    /// The same without the contact time.
+    pub(crate) fn motion_distance(&self, other: &Self) -> f64 {
+        relative(self.peak_force, other.peak_force)
+            .max((self.restitution - other.restitution).abs())
+            .max(relative(self.peak_displacement, other.peak_displacement))
     }
 
     /// The relative difference of the contact time.
@@ -158,12 +164,16 @@ const SMALL_LOSS: f64 = 0.03;
 ///
 /// Hertz's spring gives back what it takes, so the loss is the work int p dw: an error of this sum
 /// is relative to the loss however small it is, that of the momentum is relative to all energy.
-fn departure(velocity: f64, work: f64) -> (f64, f64) {
+fn departure(velocity: f64, history: &History) -> (f64, f64) {
     let loss = (1.0 - velocity) * (1.0 + velocity);
-    if work < SMALL_LOSS && loss < 2.0 * SMALL_LOSS && velocity < 0.0 {
-        (-(1.0 - work).sqrt(), work)
-    } else {
-        (velocity, loss)
+    let small = |work: &f64| *work < SMALL_LOSS && loss < 2.0 * SMALL_LOSS;
+    let work = history
+        .dissipated
+        .or_else(|| Some(work(&history.force, &history.deflection)).filter(small))
+        .filter(|work| velocity < 0.0 && *work < 1.0);
+    match work {
+        Some(work) => (-(1.0 - work).sqrt(), work),
+        None => (velocity, loss),
     }
 }
 
