@@ -44,6 +44,7 @@ impl From<impact::ImpactError> for Failure {
         use impact::march::MarchError as M;
         match error {
             E::Field(_)
+            | E::Table { .. }
             | E::Domain(_)
             | E::LossTooLarge { .. }
             | E::TooManySamples { .. }

@@ -4,10 +4,9 @@ use crate::failure::{Failure, print};
 use crate::report::Report;
 use clap::{Args, ValueEnum};
 use impact::output::{Existing, check, write};
-use impact::{KernelChoice, Outcome, Scene, simulate};
-use lookup::Table;
+use impact::{ImpactError, KernelChoice, Outcome, Scene, simulate};
+use lookup::TableFile;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 use std::time::Instant;
 
 /// Where the kernels of the fields come from.
@@ -54,7 +53,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     };
     let scene = read_scene(&arguments.scene)?;
     let table = match &arguments.table {
-        Some(path) => Some(open_table(path, &scene)?),
+        Some(path) => Some(open_table(path)?),
         None => None,
     };
     if let Some(path) = &arguments.output {
@@ -84,25 +83,20 @@ pub(crate) fn read_scene(path: &Path) -> Result<Scene, Failure> {
     })
 }
 
-/// The table at `path`, as much of it as the target of `scene` needs.
-pub(crate) fn open_table(path: &Path, scene: &Scene) -> Result<Arc<Table>, Failure> {
-    Table::open_for(path, &[scene.target.poisson_ratio])
-        .map(Arc::new)
-        .map_err(|error| {
-            let text = error.to_string();
-            let name = path.display().to_string();
-            Failure::input(if text.contains(&name) {
-                text
-            } else {
-                format!("{name}: {text}")
-            })
+/// The table at `path`.
+pub(crate) fn open_table(path: &Path) -> Result<TableFile, Failure> {
+    TableFile::open(path).map_err(|source| {
+        Failure::from(ImpactError::Table {
+            path: path.to_owned(),
+            source,
         })
+    })
 }
 
 pub(crate) fn compute(
     scene: &Scene,
     kernel: Kernel,
-    table: Option<Arc<Table>>,
+    table: Option<TableFile>,
 ) -> Result<Outcome, Failure> {
     match (kernel, table) {
         (Kernel::Table, None) => Err(Failure::input(

@@ -20,15 +20,21 @@ pub const SAFETY_BETWEEN: f64 = 2.3;
 const ROUNDING: f64 = 6e-8;
 
 /// Where errors were measured: a grid of places for one set of numbers.
-struct Measured<'a> {
-    content: &'a Content,
-    probes: &'a Verification,
-    depths: usize,
+pub(crate) struct Measured<'a> {
+    pub(crate) content: &'a Content,
+    pub(crate) probes: &'a Verification,
+    pub(crate) depths: usize,
 }
 
 impl Measured<'_> {
     /// The largest error of a field among the places `across` by `down`, for the pulse of index `pulse`.
-    fn most(&self, across: &Range<usize>, down: &Range<usize>, pulse: usize, field: usize) -> f64 {
+    pub(crate) fn most(
+        &self,
+        across: &Range<usize>,
+        down: &Range<usize>,
+        pulse: usize,
+        field: usize,
+    ) -> f64 {
         let mut most = 0.0_f64;
         for i in across.clone() {
             for k in down.clone() {
@@ -129,15 +135,15 @@ impl Table {
             *error = [f64::INFINITY; FIELDS];
             return Ok(());
         };
-        let polynomial = |ratio: f64| -> Result<f64, LookupError> {
-            let place = ratio_coordinate(ratio)?;
-            let mut product = 1.0;
-            for &(index, _) in slices {
-                product *= place - ratio_coordinate(content.slices[index].poisson_ratio)?;
-            }
-            Ok(product.abs())
-        };
-        let share = polynomial(poisson_ratio)? / polynomial(between.poisson_ratio)?;
+        let coordinates: Vec<f64> = slices
+            .iter()
+            .map(|&(index, _)| self.coordinate(index))
+            .collect();
+        let share = between_share(
+            &coordinates,
+            ratio_coordinate(poisson_ratio)?,
+            ratio_coordinate(between.poisson_ratio)?,
+        );
         let measured = Measured {
             content,
             probes: &between.verification,
@@ -152,6 +158,15 @@ impl Table {
         }
         Ok(())
     }
+}
+
+/// The node polynomial of slices at `place` over that at `middle`, where the error was measured.
+pub(crate) fn between_share(coordinates: &[f64], place: f64, middle: f64) -> f64 {
+    coordinates
+        .iter()
+        .map(|node| (place - node) / (middle - node))
+        .product::<f64>()
+        .abs()
 }
 
 /// The tabulated slice itself, or the two of the grid beside a ratio.
@@ -172,7 +187,7 @@ fn around(index: usize, count: usize) -> Range<usize> {
 }
 
 /// The places on both sides of `x`; the nearest one beyond the first or last.
-fn corners(places: &[f64], x: f64) -> Range<usize> {
+pub(crate) fn corners(places: &[f64], x: f64) -> Range<usize> {
     let above = places.partition_point(|&place| place < x);
     above.saturating_sub(1)..(above + 1).min(places.len())
 }

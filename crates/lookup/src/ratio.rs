@@ -35,33 +35,49 @@ pub fn ratio_coordinate(poisson_ratio: f64) -> Result<f64, DomainError> {
     Ok(0.2 * poisson_ratio - Medium::new(poisson_ratio)?.rayleigh_speed())
 }
 
+/// A slice as far as Poisson's ratio goes.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Served {
+    pub(crate) ratio: f64,
+    pub(crate) role: Role,
+    /// [`ratio_coordinate`] of the ratio.
+    pub(crate) coordinate: f64,
+}
+
+impl Served {
+    pub(crate) fn new(ratio: f64, role: Role) -> Result<Self, DomainError> {
+        Ok(Self {
+            ratio,
+            role,
+            coordinate: ratio_coordinate(ratio)?,
+        })
+    }
+}
+
 /// Slices of `slices` that serve a Poisson ratio, with their weights: one if it is tabulated, else Lagrange's.
 ///
 /// `None` outside the slices that interpolate, and for NaN.
 pub(crate) fn weights(
-    slices: &[(f64, Role)],
+    slices: &[Served],
     poisson_ratio: f64,
 ) -> Result<Option<Vec<(usize, f64)>>, DomainError> {
-    let same = |(nu, _): &(f64, Role)| (nu - poisson_ratio).abs() < SAME;
+    let same = |slice: &Served| (slice.ratio - poisson_ratio).abs() < SAME;
     if let Some(index) = slices.iter().position(same) {
         return Ok(Some(vec![(index, 1.0)]));
     }
     let grid: Vec<usize> = (0..slices.len())
-        .filter(|&i| slices[i].1 == Role::Grid)
+        .filter(|&i| slices[i].role == Role::Grid)
         .collect();
     let inside = match (grid.first(), grid.last()) {
         (Some(&first), Some(&last)) => {
-            poisson_ratio > slices[first].0 && poisson_ratio < slices[last].0
+            poisson_ratio > slices[first].ratio && poisson_ratio < slices[last].ratio
         }
         _ => false,
     };
     if !inside {
         return Ok(None);
     }
-    let coordinates = grid
-        .iter()
-        .map(|&i| ratio_coordinate(slices[i].0))
-        .collect::<Result<Vec<_>, _>>()?;
+    let coordinates: Vec<f64> = grid.iter().map(|&i| slices[i].coordinate).collect();
     // The ends are checked above; rounding of the coordinate must not take the point outside.
     let place =
         ratio_coordinate(poisson_ratio)?.clamp(coordinates[0], coordinates[coordinates.len() - 1]);
@@ -73,18 +89,15 @@ pub(crate) fn weights(
 }
 
 /// The ratios of the neighbouring slices that interpolate, below or equal and above.
-pub(crate) fn neighbours(slices: &[(f64, Role)], poisson_ratio: f64) -> (f64, f64) {
-    let grid = slices.iter().filter(|(_, role)| *role == Role::Grid);
-    grid.fold(
-        (f64::NEG_INFINITY, f64::INFINITY),
-        |(low, high), (nu, _)| {
-            if *nu <= poisson_ratio {
-                (low.max(*nu), high)
-            } else {
-                (low, high.min(*nu))
-            }
-        },
-    )
+pub(crate) fn neighbours(slices: &[Served], poisson_ratio: f64) -> (f64, f64) {
+    let grid = slices.iter().filter(|slice| slice.role == Role::Grid);
+    grid.fold((f64::NEG_INFINITY, f64::INFINITY), |(low, high), slice| {
+        if slice.ratio <= poisson_ratio {
+            (low.max(slice.ratio), high)
+        } else {
+            (low, high.min(slice.ratio))
+        }
+    })
 }
 
 #[cfg(test)]

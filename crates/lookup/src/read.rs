@@ -6,6 +6,7 @@ use crate::hash::content_hash;
 use crate::schema;
 use hdf5::types::VarLenUnicode;
 use hdf5::{File, Group, H5Type, Location};
+use ndarray::s;
 use std::path::Path;
 
 /// A file that is being read, with its path for messages.
@@ -19,68 +20,36 @@ pub(crate) struct Source<'a> {
 /// # Errors
 /// [`TableError`] when the file is absent, of another kind or version, incomplete or damaged.
 pub fn read(path: &Path) -> Result<Content, TableError> {
-    read_chosen(path, |slices| (0..slices.len()).collect())
+    let source = open(path)?;
+    let (mut content, groups) = source.head()?;
+    let whole = Nodes::all(&content);
+    for (_, _, group) in &groups {
+        content.slices.push(source.slice(group, &whole)?);
+    }
+    Ok(content)
 }
 
-/// [`read`] of those slices that `choose` names by their place in the list, which ascends.
-pub(crate) fn read_chosen(
-    path: &Path,
-    choose: impl FnOnce(&[(f64, Role)]) -> Vec<usize>,
-) -> Result<Content, TableError> {
-    let source = open(path)?;
-    let root: &Group = &source.file;
-    let slices = source.group(root, schema::SLICES)?;
-    let mut content = Content {
-        origin: Origin {
-            grid: source.text(root, schema::GRID)?,
-            software_version: source.text(root, schema::SOFTWARE_VERSION)?,
-            git_revision: source.text(root, schema::GIT_REVISION)?,
-            created_unix_s: source.number(root, schema::CREATED)?,
-            accuracy_asked: source.number(root, schema::ACCURACY_ASKED)?,
-            accuracy_reached: source.numbers(root, schema::ACCURACY_REACHED)?,
-        },
-        r: source.array(root, schema::R)?.0,
-        z: source.array(root, schema::Z)?.0,
-        r_max: source.number(root, schema::R_MAX)?,
-        z_max: source.number(root, schema::Z_MAX)?,
-        cell_width: source.number(root, schema::CELL_WIDTH)?,
-        stencil_points: source.number::<u64>(root, schema::STENCIL_POINTS)? as usize,
-        pulse_lengths: source.array(root, schema::PULSE_LENGTH)?.0,
-        slices: Vec::new(),
-        between_r: source.array(root, schema::BETWEEN_R)?.0,
-        between_z: source.array(root, schema::BETWEEN_Z)?.0,
-        between: Vec::new(),
-    };
-    let names = slices
-        .member_names()
-        .map_err(|error| source.item(schema::SLICES, &error))?;
-    let mut groups = Vec::new();
-    for name in names {
-        let group = source.group(&slices, &name)?;
-        let ratio: f64 = source.number(&group, schema::POISSON_RATIO)?;
-        groups.push((ratio, source.role(&group)?, group));
+/// The nodes and meshes from 0 on that are read.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Nodes {
+    /// Nodes in the file, in r and z.
+    pub(crate) stored: [usize; 2],
+    /// Nodes read.
+    pub(crate) nodes: [usize; 2],
+    /// Meshes read, of which probes tell the error.
+    pub(crate) meshes: [usize; 2],
+}
+
+impl Nodes {
+    /// All of a table.
+    pub(crate) fn all(content: &Content) -> Self {
+        let stored = [content.r.len(), content.z.len()];
+        Self {
+            stored,
+            nodes: stored,
+            meshes: content.probes().map(|places| places.len()),
+        }
     }
-    groups.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let list: Vec<(f64, Role)> = groups.iter().map(|group| (group.0, group.1)).collect();
-    for index in choose(&list) {
-        let slice = source.slice(&groups[index].2, content.r.len(), content.z.len())?;
-        content.slices.push(slice);
-    }
-    let between = source.group(root, schema::BETWEEN)?;
-    let names = between
-        .member_names()
-        .map_err(|error| source.item(schema::BETWEEN, &error))?;
-    for name in names {
-        let group = source.group(&between, &name)?;
-        content.between.push(Between {
-            poisson_ratio: source.number(&group, schema::POISSON_RATIO)?,
-            verification: source.verification(&group)?,
-        });
-    }
-    content
-        .between
-        .sort_by(|a, b| a.poisson_ratio.total_cmp(&b.poisson_ratio));
-    Ok(content)
 }
 
 /// Compares the SHA-256 that the file at `path` states with that of its `content`.
@@ -152,29 +121,117 @@ pub(crate) fn open(path: &Path) -> Result<Source<'_>, TableError> {
     Ok(source)
 }
 
+/// A slice's Poisson ratio, role and place in the file.
+pub(crate) type Listed = (f64, Role, Group);
+
 impl Source<'_> {
-    fn slice(&self, group: &Group, rows: usize, columns: usize) -> Result<Slice, TableError> {
-        let (remainder, shape) = self.array(group, schema::REMAINDER)?;
-        let cells = shape.get(3).copied().unwrap_or(0);
-        self.expect(
-            group,
-            schema::REMAINDER,
-            &shape,
-            &[rows, columns, FIELDS, cells],
-        )?;
-        let (tail, shape) = self.array(group, schema::TAIL)?;
-        let terms = shape.get(3).copied().unwrap_or(0);
-        self.expect(group, schema::TAIL, &shape, &[rows, columns, FIELDS, terms])?;
+    /// Everything but the slices, and their list by ascending ratio.
+    pub(crate) fn head(&self) -> Result<(Content, Vec<Listed>), TableError> {
+        let root: &Group = &self.file;
+        let slices = self.group(root, schema::SLICES)?;
+        let mut content = Content {
+            origin: Origin {
+                grid: self.text(root, schema::GRID)?,
+                software_version: self.text(root, schema::SOFTWARE_VERSION)?,
+                git_revision: self.text(root, schema::GIT_REVISION)?,
+                created_unix_s: self.number(root, schema::CREATED)?,
+                accuracy_asked: self.number(root, schema::ACCURACY_ASKED)?,
+                accuracy_reached: self.numbers(root, schema::ACCURACY_REACHED)?,
+            },
+            r: self.array(root, schema::R)?.0,
+            z: self.array(root, schema::Z)?.0,
+            r_max: self.number(root, schema::R_MAX)?,
+            z_max: self.number(root, schema::Z_MAX)?,
+            cell_width: self.number(root, schema::CELL_WIDTH)?,
+            stencil_points: self.number::<u64>(root, schema::STENCIL_POINTS)? as usize,
+            pulse_lengths: self.array(root, schema::PULSE_LENGTH)?.0,
+            slices: Vec::new(),
+            between_r: self.array(root, schema::BETWEEN_R)?.0,
+            between_z: self.array(root, schema::BETWEEN_Z)?.0,
+            between: Vec::new(),
+        };
+        let mut groups = Vec::new();
+        for name in self.members(&slices, schema::SLICES)? {
+            let group = self.group(&slices, &name)?;
+            let ratio: f64 = self.number(&group, schema::POISSON_RATIO)?;
+            groups.push((ratio, self.role(&group)?, group));
+        }
+        groups.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let between = self.group(root, schema::BETWEEN)?;
+        for name in self.members(&between, schema::BETWEEN)? {
+            let group = self.group(&between, &name)?;
+            content.between.push(Between {
+                poisson_ratio: self.number(&group, schema::POISSON_RATIO)?,
+                verification: Verification {
+                    direct: self.array(&group, schema::PROBE_DIRECT)?.0,
+                    looked_up: self.array(&group, schema::PROBE_LOOKED_UP)?.0,
+                    error: self.array(&group, schema::PROBE_ERROR)?.0,
+                },
+            });
+        }
+        content
+            .between
+            .sort_by(|a, b| a.poisson_ratio.total_cmp(&b.poisson_ratio));
+        Ok((content, groups))
+    }
+
+    fn members(&self, group: &Group, name: &str) -> Result<Vec<String>, TableError> {
+        group
+            .member_names()
+            .map_err(|error| self.item(name, &error))
+    }
+
+    /// A slice at the nodes wanted.
+    pub(crate) fn slice(&self, group: &Group, wanted: &Nodes) -> Result<Slice, TableError> {
+        let [rows, columns] = wanted.stored;
+        let mut lengths = [0; 2];
+        for (length, name) in lengths.iter_mut().zip([schema::REMAINDER, schema::TAIL]) {
+            let shape = self.shape(group, name)?;
+            *length = shape.get(3).copied().unwrap_or(0);
+            self.expect(group, name, &shape, &[rows, columns, FIELDS, *length])?;
+        }
+        let at_nodes = |name| self.corner(group, name, wanted.nodes);
+        let of_meshes = |name| self.corner(group, name, wanted.meshes);
         Ok(Slice {
             poisson_ratio: self.number(group, schema::POISSON_RATIO)?,
             role: self.role(group)?,
-            cells,
-            remainder,
-            moment: self.array(group, schema::MOMENT)?.0,
-            curvature: self.array(group, schema::CURVATURE)?.0,
-            tail,
-            verification: self.verification(group)?,
+            cells: lengths[0],
+            remainder: at_nodes(schema::REMAINDER)?,
+            moment: at_nodes(schema::MOMENT)?,
+            curvature: at_nodes(schema::CURVATURE)?,
+            tail: at_nodes(schema::TAIL)?,
+            verification: Verification {
+                direct: of_meshes(schema::PROBE_DIRECT)?,
+                looked_up: of_meshes(schema::PROBE_LOOKED_UP)?,
+                error: of_meshes(schema::PROBE_ERROR)?,
+            },
         })
+    }
+
+    fn shape(&self, group: &Group, name: &str) -> Result<Vec<usize>, TableError> {
+        group
+            .dataset(name)
+            .map(|dataset| dataset.shape())
+            .map_err(|error| self.item(&format!("{}/{name}", group.name()), &error))
+    }
+
+    /// The first `count` entries along r and z of a dataset over (r, z, .., ..); fewer where it has no more.
+    fn corner(&self, group: &Group, name: &str, count: [usize; 2]) -> Result<Vec<f32>, TableError> {
+        let shape = self.shape(group, name)?;
+        let [rows, columns, ..] = shape[..] else {
+            return Ok(self.array(group, name)?.0);
+        };
+        if shape.len() != 4 || (count[0] >= rows && count[1] >= columns) {
+            return Ok(self.array(group, name)?.0);
+        }
+        let (rows, columns) = (rows.min(count[0]), columns.min(count[1]));
+        group
+            .dataset(name)
+            .and_then(|dataset| {
+                dataset.read_slice::<f32, _, ndarray::Ix4>(s![..rows, ..columns, .., ..])
+            })
+            .map(|array| array.into_raw_vec_and_offset().0)
+            .map_err(|error| self.item(&format!("{}/{name}", group.name()), &error))
     }
 
     fn role(&self, group: &Group) -> Result<Role, TableError> {
@@ -183,14 +240,6 @@ impl Source<'_> {
             path: self.path.to_owned(),
             item: format!("{}/{}", group.name(), schema::ROLE),
             detail: format!("{role:?} is neither grid nor exact"),
-        })
-    }
-
-    fn verification(&self, group: &Group) -> Result<Verification, TableError> {
-        Ok(Verification {
-            direct: self.array(group, schema::PROBE_DIRECT)?.0,
-            looked_up: self.array(group, schema::PROBE_LOOKED_UP)?.0,
-            error: self.array(group, schema::PROBE_ERROR)?.0,
         })
     }
 

@@ -2,7 +2,7 @@
 
 use crate::content::{Between, Content, FIELDS, Role, Slice, Verification, centres};
 use crate::error::{LookupError, TableError};
-use crate::ratio::{self, cell_scale};
+use crate::ratio::{self, Served, cell_scale};
 use crate::stencil::locate;
 use crate::{hash, schema};
 use halfspace::{Kernel, Medium, Profile};
@@ -16,7 +16,7 @@ pub struct Table {
     content: Content,
     id: String,
     poisson_ratios: Vec<f64>,
-    roles: Vec<(f64, Role)>,
+    served: Vec<Served>,
     kernels: Vec<Kernel>,
     meshes: [usize; 2],
 }
@@ -24,6 +24,7 @@ pub struct Table {
 impl Table {
     /// Reads the table at `path` into memory and validates it.
     ///
+    /// [`TableFile`](crate::TableFile) reads parts.
     /// The HDF5 library checks a Fletcher-32 sum of every chunk while it reads; [`crate::read`] with
     /// [`crate::content_hash`] checks the stated SHA-256 as well.
     ///
@@ -32,26 +33,6 @@ impl Table {
     /// holds values that cannot be right.
     pub fn open(path: &Path) -> Result<Self, TableError> {
         Self::new(crate::read(path)?)
-    }
-
-    /// [`Self::open`] of the slices alone that serve `poisson_ratios`; for other ratios the table answers
-    /// as one that was made without the rest.
-    ///
-    /// # Errors
-    /// As [`Self::open`].
-    pub fn open_for(path: &Path, poisson_ratios: &[f64]) -> Result<Self, TableError> {
-        let content = crate::read::read_chosen(path, |slices| {
-            let mut chosen = std::collections::BTreeSet::new();
-            for &nu in poisson_ratios {
-                match ratio::weights(slices, nu) {
-                    Ok(Some(weights)) => chosen.extend(weights.iter().map(|(index, _)| *index)),
-                    // Not served: the answers need all slices to say what range is.
-                    Ok(None) | Err(_) => chosen.extend(0..slices.len()),
-                }
-            }
-            chosen.into_iter().collect()
-        })?;
-        Self::new(content)
     }
 
     /// Accepts `content` as a table.
@@ -65,11 +46,11 @@ impl Table {
             .iter()
             .map(|slice| Kernel::new(&Medium::new(slice.poisson_ratio)?, Profile::Hertz, 1e-6))
             .collect::<Result<_, _>>()?;
-        let roles = content
+        let served = content
             .slices
             .iter()
-            .map(|slice| (slice.poisson_ratio, slice.role))
-            .collect();
+            .map(|slice| Served::new(slice.poisson_ratio, slice.role))
+            .collect::<Result<_, _>>()?;
         let meshes = content.probes().map(|places| places.len());
         Ok(Self {
             meshes,
@@ -79,7 +60,7 @@ impl Table {
                 .iter()
                 .map(|slice| slice.poisson_ratio)
                 .collect(),
-            roles,
+            served,
             kernels,
             content,
         })
@@ -140,10 +121,10 @@ impl Table {
         &self,
         poisson_ratio: f64,
     ) -> Result<Vec<(usize, f64)>, LookupError> {
-        ratio::weights(&self.roles, poisson_ratio)?.ok_or_else(|| {
-            let grid = self.roles.iter().filter(|(_, role)| *role == Role::Grid);
-            let (min, max) = grid.fold((f64::NAN, f64::NAN), |(min, max), (nu, _)| {
-                (nu.min(min), nu.max(max))
+        ratio::weights(&self.served, poisson_ratio)?.ok_or_else(|| {
+            let grid = self.served.iter().filter(|slice| slice.role == Role::Grid);
+            let (min, max) = grid.fold((f64::NAN, f64::NAN), |(min, max), slice| {
+                (slice.ratio.min(min), slice.ratio.max(max))
             });
             LookupError::Outside {
                 axis: "poisson_ratio",
@@ -154,9 +135,14 @@ impl Table {
         })
     }
 
+    /// Coordinate of slice `index` across Poisson's ratios.
+    pub(crate) fn coordinate(&self, index: usize) -> f64 {
+        self.served[index].coordinate
+    }
+
     /// What was measured between the slices around a ratio.
     pub(crate) fn between(&self, poisson_ratio: f64) -> Option<&Between> {
-        let (low, high) = ratio::neighbours(&self.roles, poisson_ratio);
+        let (low, high) = ratio::neighbours(&self.served, poisson_ratio);
         let inside =
             |between: &&Between| between.poisson_ratio > low && between.poisson_ratio < high;
         self.content.between.iter().find(inside)

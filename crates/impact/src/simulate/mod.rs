@@ -15,8 +15,8 @@ use crate::convolve::FieldError;
 use crate::march::MarchError;
 use crate::scene::{Load, Scene};
 use halfspace::DomainError;
-use lookup::Table;
-use std::sync::Arc;
+use lookup::{TableError, TableFile};
+use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 /// Where the fields' kernels come from.
@@ -24,10 +24,10 @@ use thiserror::Error;
 pub enum KernelChoice {
     /// Computed for each probe.
     Direct,
-    /// A table.
-    Table(Arc<Table>),
+    /// A table, of which the part that the scene needs is loaded.
+    Table(TableFile),
     /// The table or computed, by the estimated cost and error of both.
-    Auto(Arc<Table>),
+    Auto(TableFile),
 }
 
 /// Why a scene could not be computed.
@@ -39,6 +39,14 @@ pub enum ImpactError {
     /// A field failed.
     #[error(transparent)]
     Field(#[from] FieldError),
+    /// The part of the table could not be loaded.
+    #[error("{}", table_text(path, source))]
+    Table {
+        /// The table.
+        path: PathBuf,
+        /// What is wrong with it.
+        source: TableError,
+    },
     /// A material is outside the physics.
     #[error(transparent)]
     Domain(#[from] DomainError),
@@ -62,6 +70,16 @@ pub enum ImpactError {
         /// Samples allowed.
         limit: usize,
     },
+}
+
+/// The sentence of a table's error, with the name of the file.
+fn table_text(path: &Path, error: &TableError) -> String {
+    let (text, name) = (error.to_string(), path.display().to_string());
+    if text.contains(&name) {
+        text
+    } else {
+        format!("{name}: {text}")
+    }
 }
 
 /// Names of the choices made.

@@ -5,7 +5,7 @@ use crate::convolve::KernelSource;
 use crate::scene::Scene;
 use crate::units::KernelUnits;
 use halfspace::Medium;
-use lookup::Table;
+use lookup::{Table, TableFile};
 use std::sync::Arc;
 
 /// The source chosen and why.
@@ -49,10 +49,22 @@ pub(super) fn source(
             reason,
         })
     };
+    let radius = units.disc_radius_m;
+    let farthest = points.iter().fold([0.0_f64; 2], |far, &(r_m, z_m)| {
+        [far[0].max(r_m / radius), far[1].max(z_m / radius)]
+    });
+    let load = |file: &TableFile| {
+        file.part(medium.poisson_ratio(), farthest)
+            .map(Arc::new)
+            .map_err(|source| ImpactError::Table {
+                path: file.path().to_owned(),
+                source,
+            })
+    };
     match kernels {
         KernelChoice::Direct => direct("asked for, or no table is given".to_owned()),
-        KernelChoice::Table(table) => Ok(looked_up(table, "asked for".to_owned())),
-        KernelChoice::Auto(table) => {
+        KernelChoice::Table(file) => Ok(looked_up(&load(file)?, "asked for".to_owned())),
+        KernelChoice::Auto(file) => {
             let cells = super::grid::cells(scene, units, medium, load_end_s, pulse_s);
             let count: usize =
                 scene.probes.len() + scene.map.map_or(0, |map| map.points[0] * map.points[1]);
@@ -60,20 +72,22 @@ pub(super) fn source(
             let cost_s = count as f64 * cells * DIRECT_CELL_S / threads;
             let cost =
                 format!("{count} points of {cells:.0} cells take about {cost_s:.1e} s to compute");
-            let error = match table_error(table, medium, units, &points, pulse_s) {
+            if cost_s <= CHEAP_S {
+                return direct(format!("{cost}: computed"));
+            }
+            let table = load(file)?;
+            let error = match table_error(&table, medium, units, &points, pulse_s) {
                 Err(outside) => return direct(format!("{outside}: computed")),
                 Ok(error) => error,
             };
             let tolerance = scene.contact.tolerance;
-            if cost_s <= CHEAP_S {
-                direct(format!("{cost}: computed"))
-            } else if error > tolerance && cost_s <= DEAR_S {
+            if error > tolerance && cost_s <= DEAR_S {
                 direct(format!(
                     "{cost}, and the table's error {error:.1e} is above the tolerance {tolerance:.1e}: computed"
                 ))
             } else {
                 Ok(looked_up(
-                    table,
+                    &table,
                     format!("{cost}; the table's error is {error:.1e}: looked up"),
                 ))
             }
