@@ -232,7 +232,7 @@ impl Place {
 }
 
 /// A sampled force, ready to be convolved with the cells of any number of points.
-pub(crate) struct Convolver {
+pub struct Convolver {
     force: Vec<f64>,
     rise: Vec<f64>,
     /// Samples until the force has come to rest.
@@ -258,8 +258,24 @@ const STAGE_NS: f64 = 9.0;
 
 impl Convolver {
     /// Fields are wanted at all samples.
-    pub(crate) fn new(force: &[f64]) -> Self {
+    #[must_use]
+    pub fn new(force: &[f64]) -> Self {
         Self::at(force, (0..force.len()).collect())
+    }
+
+    /// Fields are wanted at all samples, in a way given.
+    #[must_use]
+    pub fn by(force: &[f64], method: Method) -> Self {
+        let mut convolver = Self::new(force);
+        match method {
+            Method::Direct => convolver.transform = None,
+            Method::Transform => {
+                let size = (2 * force.len()).next_power_of_two();
+                convolver.transform = Some(Transform::new(&convolver.rise, size));
+            }
+            Method::Chosen => {}
+        }
+        convolver
     }
 
     /// Fields are wanted at some samples, ascending.
@@ -287,15 +303,17 @@ impl Convolver {
         }
     }
 
-    /// The six fields at the samples wanted.
-    pub(crate) fn fields(&self, cells: &Cells) -> [Vec<f64>; 6] {
+    /// The six fields at the samples wanted, from the static part and the averages of the remainder over as many cells
+    /// as the force has samples.
+    #[must_use]
+    pub fn fields(&self, static_part: &Six, averages: &[Six]) -> [Vec<f64>; 6] {
         let mut out = match &self.transform {
-            Some(transform) => transform.convolve(&cells.averages, self.force.len(), &self.wanted),
-            None => self.direct_sum(&cells.averages),
+            Some(transform) => transform.convolve(averages, self.force.len(), &self.wanted),
+            None => self.direct_sum(averages),
         };
         for (field, samples) in out.iter_mut().enumerate() {
             for (value, &n) in samples.iter_mut().zip(&self.wanted) {
-                *value += self.force[n] * cells.static_part[field];
+                *value += self.force[n] * static_part[field];
             }
         }
         out
@@ -328,27 +346,6 @@ pub enum Method {
     Transform,
     /// The one that is estimated to be faster.
     Chosen,
-}
-
-/// One convolution of made-up cells, for the bench that the estimate rests on.
-pub fn bench_convolution(force: &[f64], method: Method) -> impl Fn() -> [Vec<f64>; 6] + use<> {
-    let mut convolver = Convolver::new(force);
-    match method {
-        Method::Direct => convolver.transform = None,
-        Method::Transform => {
-            let size = (2 * force.len()).next_power_of_two();
-            convolver.transform = Some(Transform::new(&convolver.rise, size));
-        }
-        Method::Chosen => {}
-    }
-    let cells = Cells {
-        static_part: [1.0; 6],
-        averages: (0..force.len())
-            .map(|j| std::array::from_fn(|f| 1.0 / (1.0 + (j * (f + 1)) as f64)))
-            .collect(),
-        error: [0.0; 6],
-    };
-    move || convolver.fields(&cells)
 }
 
 /// P_m - P_{m-1}, with nothing before the first sample.
@@ -420,14 +417,9 @@ mod tests {
         for wanted in [(0..300).collect::<Vec<_>>(), vec![0, 7, 150, 299]] {
             let mut convolver = Convolver::at(&force, wanted);
             convolver.transform = Some(Transform::new(&convolver.rise, 1024));
-            let cells = Cells {
-                static_part: [1.0; 6],
-                averages: averages.clone(),
-                error: [0.0; 6],
-            };
-            let b = convolver.fields(&cells);
+            let b = convolver.fields(&[1.0; 6], &averages);
             convolver.transform = None;
-            let a = convolver.fields(&cells);
+            let a = convolver.fields(&[1.0; 6], &averages);
             for field in 0..6 {
                 for (x, y) in a[field].iter().zip(&b[field]) {
                     assert!((x - y).abs() < 1e-13);

@@ -10,7 +10,6 @@
 
 mod axis_extended;
 mod chart;
-mod convolution;
 pub mod csv_file;
 pub mod draw;
 mod effort;

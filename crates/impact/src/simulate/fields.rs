@@ -182,7 +182,7 @@ impl Load<'_> {
         let arrivals = Arrivals::new(self.medium, Profile::Hertz, place.r, place.z)?;
         let direct = arrivals.above.unwrap_or([arrivals.p[0], arrivals.s[0]]);
         let first = [direct[0], direct[1], arrivals.rayleigh[0]];
-        let mut values = convolver.fields(&cells);
+        let mut values = convolver.fields(&cells.static_part, &cells.averages);
         let variation = cells.variation();
         let peak = self.force_n.iter().fold(0.0_f64, |m, p| m.max(p.abs()));
         let mut errors = [0.0; 6];

@@ -7,12 +7,12 @@
 use super::interpolation::{self, interpolations};
 use super::kernels::POISSON_RATIO;
 use crate::StudyError;
-use crate::convolution::{Convolution, Way};
 use crate::effort::Effort;
 use crate::pulse_reference::PulseReference;
 use crate::record::{Error, Question, Record};
 use crate::tables::Density;
 use halfspace::{DomainError, Kernel, Medium, Profile, Six};
+use impact::convolve::{Convolver, Method};
 use lookup::{PulseSum, Smoothness, Table, correct_for_curvature};
 use std::hint::black_box;
 use tabulator::PointPlan;
@@ -127,13 +127,12 @@ fn force(reference: &PulseReference, width: f64) -> Vec<f64> {
     (0..count).map(|n| pulse.force(n)).collect()
 }
 
-/// The faster way to sum for so many samples.
-fn faster(count: usize) -> Way {
-    if count > 64 {
-        Way::Transform
-    } else {
-        Way::Direct
-    }
+/// The response at all samples.
+fn response(convolver: &Convolver, rest: &Six, cells: &[Six]) -> Vec<Six> {
+    let fields = convolver.fields(rest, cells);
+    (0..fields[0].len())
+        .map(|n| std::array::from_fn(|f| fields[f][n]))
+        .collect()
 }
 
 /// Shapes of the force between its samples for which cells can be computed.
@@ -200,9 +199,9 @@ fn exact_cells(
             };
             cells()?;
             let rest = kernel.static_field(r, z)?;
-            let convolution = Convolution::new(force, faster(count));
+            let convolver = Convolver::new(&force);
             let mut run = || match cells() {
-                Ok(cells) => convolution.response(&rest, &cells),
+                Ok(cells) => response(&convolver, &rest, &cells),
                 // not after the first time
                 Err(_) => vec![[f64::NAN; 6]; count],
             };
@@ -285,23 +284,23 @@ fn looked_up(
                     "table, other nodes or points",
                     Smooth,
                     0,
-                    Sum::By(Way::Transform),
+                    Sum::By(Method::Transform),
                     false,
                 )?;
                 continue;
             }
             for coarsening in (0..=4).step_by(effort.pick(2, 1)) {
-                for (way, method) in [
-                    (Way::Direct, "table, direct sums"),
-                    (Way::Transform, "table, FFT"),
+                for (way, name) in [
+                    (Method::Direct, "table, direct sums"),
+                    (Method::Transform, "table, FFT"),
                 ] {
-                    add(method, Smooth, coarsening, Sum::By(way), true)?;
+                    add(name, Smooth, coarsening, Sum::By(way), true)?;
                 }
                 add(
                     "table, linear cells",
                     Linear,
                     coarsening,
-                    Sum::By(Way::Transform),
+                    Sum::By(Method::Transform),
                     false,
                 )?;
                 add(
@@ -320,7 +319,7 @@ fn looked_up(
 /// How cells and force are summed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Sum {
-    By(Way),
+    By(Method),
     /// Running sums of the two exponentials of the pulse.
     Running,
 }
@@ -334,7 +333,7 @@ struct Lookup<'a> {
     width: f64,
     count: usize,
     /// None: running sums.
-    convolution: Option<Convolution>,
+    convolver: Option<Convolver>,
     pulse: PulseSum,
 }
 
@@ -355,8 +354,8 @@ impl<'a> Lookup<'a> {
             coarsening,
             width,
             count: force.len(),
-            convolution: match sum {
-                Sum::By(way) => Some(Convolution::new(force, way)),
+            convolver: match sum {
+                Sum::By(method) => Some(Convolver::by(&force, method)),
                 Sum::Running => None,
             },
             pulse: PulseSum::new(scene.reference.length, width),
@@ -374,8 +373,8 @@ impl<'a> Lookup<'a> {
             self.coarsening,
             &mut cells,
         )?;
-        Ok(match &self.convolution {
-            Some(convolution) => convolution.response(&info.static_part, &cells),
+        Ok(match &self.convolver {
+            Some(convolver) => response(convolver, &info.static_part, &cells),
             None => self.pulse.response(&info.static_part, &cells),
         })
     }

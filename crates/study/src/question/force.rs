@@ -163,6 +163,31 @@ fn on_disc<'a>(disc: &'a FixedDisc<'a>, effort: Effort) -> Vec<Candidate<'a>> {
     list
 }
 
+/// A march whose step is halved until a tolerance is met, over a contact of some duration with some memory.
+fn halved<'a>(
+    method: &'static str,
+    tolerance: f64,
+    (duration, memory): (f64, f64),
+    march: impl Fn(f64) -> Result<History, MarchError> + 'a,
+) -> Candidate<'a> {
+    Candidate {
+        method,
+        setting: format!("tolerance {tolerance:.0e}"),
+        default_path: true,
+        run: Box::new(move || {
+            let accuracy = Accuracy::from(tolerance);
+            let total = Cell::new(0);
+            let counted = |step| {
+                let history = march(step)?;
+                total.set(total.get() + work(&history, memory));
+                Ok(history)
+            };
+            let found = refine(counted, duration / accuracy.first_steps(), accuracy)?;
+            Ok(((&found.summary).into(), total.get()))
+        }),
+    }
+}
+
 /// The marches whose step is halved until a tolerance is met: for one scene, and for the scenes of a sweep.
 fn to_tolerance<'a>(
     disc: &'a FixedDisc<'a>,
@@ -174,22 +199,12 @@ fn to_tolerance<'a>(
     let mut list = Vec::new();
     for digits in 3..=effort.pick(5, 9) {
         let tolerance = 10.0_f64.powi(-digits);
-        list.push(Candidate {
-            method: "wave implicit, step halved to tolerance",
-            setting: format!("tolerance {tolerance:.0e}"),
-            default_path: true,
-            run: Box::new(move || {
-                let accuracy = Accuracy::from(tolerance);
-                let total = Cell::new(0);
-                let march = |step| {
-                    let history = march_implicit(disc, step)?;
-                    total.set(total.get() + work(&history, memory));
-                    Ok(history)
-                };
-                let found = refine(march, duration / accuracy.first_steps(), accuracy)?;
-                Ok(((&found.summary).into(), total.get()))
-            }),
-        });
+        list.push(halved(
+            "wave implicit, step halved to tolerance",
+            tolerance,
+            (duration, memory),
+            |step| march_implicit(disc, step),
+        ));
         let workspace = RefCell::new(Workspace::default());
         let tabulated = TabulatedDisc {
             table,
@@ -256,22 +271,12 @@ fn growing_contact<'a>(
     }
     for digits in 3..=effort.pick(4, 5) {
         let tolerance = 10.0_f64.powi(-digits);
-        list.push(Candidate {
-            method: "growing, step halved to tolerance",
-            setting: format!("tolerance {tolerance:.0e}"),
-            default_path: true,
-            run: Box::new(move || {
-                let accuracy = Accuracy::from(tolerance);
-                let total = Cell::new(0);
-                let march = |step| {
-                    let history = march_growing(growing, step)?;
-                    total.set(total.get() + work(&history, memory));
-                    Ok(history)
-                };
-                let found = refine(march, CONTACT_TIME / accuracy.first_steps(), accuracy)?;
-                Ok(((&found.summary).into(), total.get()))
-            }),
-        });
+        list.push(halved(
+            "growing, step halved to tolerance",
+            tolerance,
+            (CONTACT_TIME, memory),
+            |step| march_growing(growing, step),
+        ));
     }
     list
 }
