@@ -31,8 +31,7 @@ impl Table {
     ///
     /// Cells before the first arrival are minus the static part only to the interpolation error. They are
     /// not set to it: around a front the errors of neighbouring cells cancel, because the time integral
-    /// of R is smooth in space behind the front, and exact cells ahead of it would break that balance
-    /// (error for pulses of 40 r0/c1: 1e-4 instead of 1e-7).
+    /// of R is smooth in space behind the front, and exact cells ahead of it would break that balance.
     ///
     /// # Errors
     /// [`LookupError`] when a coordinate, Poisson's ratio or the coarsening is outside the table.

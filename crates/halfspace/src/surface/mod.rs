@@ -67,7 +67,7 @@ pub struct SurfaceResponse {
 }
 
 impl SurfaceResponse {
-    /// Prepares the response of `medium`: some hundred microseconds, then nanoseconds a value.
+    /// Prepares the response of `medium`; make it once for many values.
     #[must_use]
     pub fn new(medium: &Medium, deflection: Deflection) -> Self {
         let measure = Measure::new(medium);

@@ -1,4 +1,4 @@
-//! A surface response as a table of its time integrals: a few nanoseconds a value.
+//! A surface response as a table of its time integrals.
 //!
 //! One table serves every impact on half-spaces of the same Poisson's ratio, whatever the units.
 
