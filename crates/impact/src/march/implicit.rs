@@ -63,7 +63,7 @@ pub(crate) fn advance(
     let elastic = coupling * (share.factor() - newest_lag);
     let roots = starting_roots(step, elastic);
     let start = Start::new(step, elastic, &roots);
-    let missed = missed(lag, weights, &Edge::touch(elastic, step), &roots);
+    let missed = missed(lag, weights, &Edge::touch(elastic.max(0.0), step), &roots);
     let mut flight = Flight::new(step, start);
     let inertia = flight.newest_weight();
     history.start = start.force;
