@@ -20,6 +20,14 @@ pub(crate) const GAUSS_8: [(f64, f64); 8] = [
     (0.980_144_928_248_768_1, 0.050_614_268_145_188_13),
 ];
 
+/// The cubic on [0, 1] with these values and slopes at its ends, at x.
+#[inline]
+pub(crate) fn hermite([v0, s0]: [f64; 2], [v1, s1]: [f64; 2], x: f64) -> f64 {
+    let rise = v1 - v0;
+    let cubic = s0 + s1 - 2.0 * rise;
+    v0 + x * (s0 + x * (rise - s0 - cubic + x * cubic))
+}
+
 /// The integral of f by one of these rules.
 pub(crate) fn gauss(rule: &[(f64, f64)], from: f64, to: f64, f: impl Fn(f64) -> f64) -> f64 {
     let width = to - from;
@@ -173,6 +181,16 @@ mod tests {
                 let sum: f64 = rule.iter().map(|&(x, w)| w * x.powi(k)).sum();
                 assert!((sum * f64::from(k + 1) - 1.0).abs() < 1e-14);
             }
+        }
+    }
+
+    #[test]
+    fn a_cubic_is_met_by_its_ends() {
+        let f = |x: f64| 0.3 - x + 2.0 * x * x - 1.5 * x * x * x;
+        let slope = |x: f64| -1.0 + 4.0 * x - 4.5 * x * x;
+        for x in [0.0, 0.3, 1.0] {
+            let found = hermite([f(0.0), slope(0.0)], [f(1.0), slope(1.0)], x);
+            assert!((found - f(x)).abs() < 1e-14);
         }
     }
 

@@ -85,7 +85,7 @@ impl Edge {
                 return 0.0;
             }
             y = next;
-            if change.abs() < 1e-6 * y {
+            if change.abs() < 1e-3 * y {
                 break;
             }
         }

@@ -1,7 +1,7 @@
 //! What the half-space has not yet given way of a force.
 
 use super::tabulated::ResponseTable;
-use crate::quadrature::{GAUSS_8, gauss};
+use crate::quadrature::{GAUSS_8, gauss, hermite};
 use halfspace::SurfaceResponse;
 
 /// The lag 1 - W of a step response in units of a march's step.
@@ -56,15 +56,37 @@ impl<F: Fn(f64) -> f64> Lag<F> {
     }
 }
 
+/// Cells of the memory between which int W is a cubic: what it is asked for is small and asked for often.
+const CELLS: usize = 6;
+
 /// Of a disc's response, with r0/c1 in steps.
+///
+/// Beyond [`RESOLVED`] nothing but its memory and coupling may be asked of it.
 pub(crate) fn lag(
     response: &SurfaceResponse,
     coupling: f64,
     unit: f64,
 ) -> Lag<impl Fn(f64) -> f64> {
-    let integral = |t| response.step_integral(t);
-    let moments = moments(response.memory(), response.relaxation_time(), integral);
-    Lag::new(coupling, unit, response.memory(), moments, integral)
+    let memory = response.memory();
+    let width = memory / CELLS as f64;
+    let nodes: [[f64; 2]; CELLS + 1] = if memory * unit > RESOLVED {
+        [[0.0; 2]; CELLS + 1]
+    } else {
+        std::array::from_fn(|i| {
+            let t = i as f64 * width;
+            [response.step_integral(t), width * response.step(t)]
+        })
+    };
+    let integral = move |t: f64| {
+        let place = (t / width).max(0.0);
+        if place >= CELLS as f64 {
+            return nodes[CELLS][0] + t - memory;
+        }
+        let i = place as usize;
+        hermite(nodes[i], nodes[i + 1], place - i as f64)
+    };
+    let moments = moments(memory, response.relaxation_time(), integral);
+    Lag::new(coupling, unit, memory, moments, integral)
 }
 
 /// Of a tabulated response.

@@ -3,6 +3,7 @@
 //! One table serves every impact on half-spaces of the same Poisson's ratio, whatever the units.
 
 use super::lag::moments;
+use crate::quadrature::hermite;
 use halfspace::{Deflection, SurfaceResponse};
 
 /// Step response of a disc's deflection with its first and second time integral, by quintic interpolation.
@@ -116,9 +117,7 @@ impl ResponseTable {
         let x = place.max(0.0) - i as f64;
         let width = 1.0 / CELLS as f64;
         let ([w0, v0, _], [w1, v1, _]) = (self.nodes[i], self.nodes[i + 1]);
-        let (rise, from, to) = (v1 - v0, w0 * width, w1 * width);
-        let cubic = from + to - 2.0 * rise;
-        (v0 + x * (from + x * (rise - from - cubic + x * cubic))) * self.memory
+        hermite([v0, w0 * width], [v1, w1 * width], x) * self.memory
     }
 
     /// int W dt and int int W dt^2 from 0 to t, in r0/c1 and its square.
