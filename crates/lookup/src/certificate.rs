@@ -16,8 +16,7 @@ pub const SAFETY: f64 = 2.3;
 /// Factor from the error measured in the middle between two slices, at places farther apart than the nodes.
 pub const SAFETY_BETWEEN: f64 = 2.3;
 
-/// Estimates never go below this share of the peak of a field, the rounding of stored values, nor below the accuracy
-/// asked of the table's kernels times the largest peak of a displacement or of a stress.
+/// Estimates never go below this share of the peak of a field: the rounding of stored values.
 const ROUNDING: f64 = 6e-8;
 
 /// Where errors were measured: a grid of places for one set of numbers.
@@ -110,16 +109,10 @@ impl Table {
                 probes: &content.slices[index].verification,
                 depths: rows,
             };
-            let peaks: Six =
-                std::array::from_fn(|field| measured.peak(mesh.0, mesh.1, pulse, field));
-            let largest = |fields: &[f64]| fields.iter().fold(0.0_f64, |a, &b| a.max(b));
-            let of_kind = [largest(&peaks[..2]), largest(&peaks[2..])];
             for (field, value) in error.iter_mut().enumerate() {
                 let most = SAFETY * measured.most(&across, &down, pulse, field);
-                let rounding = ROUNDING * peaks[field];
-                // a field that all but vanishes is known as well as the others of its kind
-                let kernels = content.origin.accuracy_asked * of_kind[usize::from(field >= 2)];
-                *value = value.max(most).max(rounding).max(kernels);
+                let rounding = ROUNDING * measured.peak(mesh.0, mesh.1, pulse, field);
+                *value = value.max(most).max(rounding);
             }
         }
         if slices.len() > 1 {
