@@ -1,10 +1,10 @@
 //! The error estimate of a looked-up response, from errors measured off the grid.
 
-use crate::content::{Content, FIELDS, Role, Verification};
+use crate::content::{Between, Content, FIELDS, Role, Verification};
 use crate::error::LookupError;
 use crate::ratio::ratio_coordinate;
 use crate::table::Table;
-use halfspace::Six;
+use halfspace::{DomainError, Six};
 use std::ops::Range;
 
 /// Factor from the error measured at the centre of a mesh to the estimate for every point of it.
@@ -20,21 +20,15 @@ pub const SAFETY_BETWEEN: f64 = 2.3;
 const ROUNDING: f64 = 6e-8;
 
 /// Where errors were measured: a grid of places for one set of numbers.
-pub(crate) struct Measured<'a> {
-    pub(crate) content: &'a Content,
-    pub(crate) probes: &'a Verification,
-    pub(crate) depths: usize,
+struct Measured<'a> {
+    content: &'a Content,
+    probes: &'a Verification,
+    depths: usize,
 }
 
 impl Measured<'_> {
     /// The largest error of a field among the places `across` by `down`, for the pulse of index `pulse`.
-    pub(crate) fn most(
-        &self,
-        across: &Range<usize>,
-        down: &Range<usize>,
-        pulse: usize,
-        field: usize,
-    ) -> f64 {
+    fn most(&self, across: &Range<usize>, down: &Range<usize>, pulse: usize, field: usize) -> f64 {
         let mut most = 0.0_f64;
         for i in across.clone() {
             for k in down.clone() {
@@ -124,7 +118,7 @@ impl Table {
     fn add_between(
         &self,
         poisson_ratio: f64,
-        [r, z]: [f64; 2],
+        point: [f64; 2],
         slices: &[(usize, f64)],
         pulse: usize,
         error: &mut Six,
@@ -139,34 +133,64 @@ impl Table {
             .iter()
             .map(|&(index, _)| self.coordinate(index))
             .collect();
-        let share = between_share(
-            &coordinates,
-            ratio_coordinate(poisson_ratio)?,
-            ratio_coordinate(between.poisson_ratio)?,
-        );
-        let measured = Measured {
-            content,
-            probes: &between.verification,
-            depths: content.between_z.len(),
-        };
-        let (across, down) = (
-            corners(&content.between_r, r),
-            corners(&content.between_z, z),
-        );
+        let added = Added::new(content, between, &coordinates, poisson_ratio)?;
+        let places = added.around(point);
         for (field, value) in error.iter_mut().enumerate() {
-            *value += SAFETY_BETWEEN * share * measured.most(&across, &down, pulse, field);
+            *value += added.most(&places, pulse, field);
         }
         Ok(())
     }
 }
 
-/// The node polynomial of slices at `place` over that at `middle`, where the error was measured.
-pub(crate) fn between_share(coordinates: &[f64], place: f64, middle: f64) -> f64 {
-    coordinates
-        .iter()
-        .map(|node| (place - node) / (middle - node))
-        .product::<f64>()
-        .abs()
+/// What interpolation between slices adds to the error, from what was measured in the middle between two of them.
+pub(crate) struct Added<'a> {
+    measured: Measured<'a>,
+    /// The node polynomial at the ratio over that at the middle.
+    share: f64,
+}
+
+impl<'a> Added<'a> {
+    /// At a ratio that slices at `coordinates` serve.
+    pub(crate) fn new(
+        content: &'a Content,
+        between: &'a Between,
+        coordinates: &[f64],
+        poisson_ratio: f64,
+    ) -> Result<Self, DomainError> {
+        let place = ratio_coordinate(poisson_ratio)?;
+        let middle = ratio_coordinate(between.poisson_ratio)?;
+        let share: f64 = coordinates
+            .iter()
+            .map(|node| (place - node) / (middle - node))
+            .product();
+        Ok(Self {
+            measured: Measured {
+                content,
+                probes: &between.verification,
+                depths: content.between_z.len(),
+            },
+            share: share.abs(),
+        })
+    }
+
+    /// The places of the measurement around a point.
+    pub(crate) fn around(&self, [r, z]: [f64; 2]) -> [Range<usize>; 2] {
+        let content = self.measured.content;
+        [
+            corners(&content.between_r, r),
+            corners(&content.between_z, z),
+        ]
+    }
+
+    /// The largest at some places, times [`SAFETY_BETWEEN`].
+    pub(crate) fn most(
+        &self,
+        [across, down]: &[Range<usize>; 2],
+        pulse: usize,
+        field: usize,
+    ) -> f64 {
+        SAFETY_BETWEEN * self.share * self.measured.most(across, down, pulse, field)
+    }
 }
 
 /// The tabulated slice itself, or the two of the grid beside a ratio.
@@ -187,7 +211,7 @@ fn around(index: usize, count: usize) -> Range<usize> {
 }
 
 /// The places on both sides of `x`; the nearest one beyond the first or last.
-pub(crate) fn corners(places: &[f64], x: f64) -> Range<usize> {
+fn corners(places: &[f64], x: f64) -> Range<usize> {
     let above = places.partition_point(|&place| place < x);
     above.saturating_sub(1)..(above + 1).min(places.len())
 }

@@ -1,9 +1,9 @@
 //! A table on disk, of which the part that a question needs is loaded.
 
-use crate::certificate::{Measured, SAFETY, SAFETY_BETWEEN, between_share, corners};
+use crate::certificate::{Added, SAFETY};
 use crate::content::{Content, FIELDS, Role, Slice, Verification};
 use crate::error::TableError;
-use crate::ratio::{self, Served, ratio_coordinate};
+use crate::ratio::{self, Served};
 use crate::read::{self, Listed, Nodes, Source};
 use crate::schema;
 use crate::stencil::locate;
@@ -60,7 +60,7 @@ impl TableFile {
                 let slice = source.slice(&groups[*index].2, &wanted)?;
                 content.slices.push(slice);
             }
-            Some(weights) if measured_between(&content, &served, poisson_ratio).is_some() => {
+            Some(weights) if ratio::between(&content, &served, poisson_ratio).is_some() => {
                 let slice = blend(&source, &groups, weights, &wanted, poisson_ratio)?;
                 let verification =
                     blend_errors(&content, &served, weights, slice.1, poisson_ratio)?;
@@ -101,19 +101,6 @@ fn cut(content: &mut Content, wanted: &Nodes) {
     }
     content.r.truncate(wanted.nodes[0]);
     content.z.truncate(wanted.nodes[1]);
-}
-
-/// The measurement between the slices beside a ratio.
-fn measured_between<'a>(
-    content: &'a Content,
-    served: &[Served],
-    poisson_ratio: f64,
-) -> Option<&'a crate::content::Between> {
-    let (low, high) = ratio::neighbours(served, poisson_ratio);
-    content
-        .between
-        .iter()
-        .find(|between| between.poisson_ratio > low && between.poisson_ratio < high)
 }
 
 /// The numbers of slices interpolated at a ratio, without errors, and the verification of the two slices beside it.
@@ -195,35 +182,22 @@ fn blend_errors(
             }
         }
     }
-    let Some(between) = measured_between(content, served, poisson_ratio) else {
+    let Some(between) = ratio::between(content, served, poisson_ratio) else {
         return Ok(found);
     };
     let coordinates: Vec<f64> = weights.iter().map(|&(i, _)| served[i].coordinate).collect();
-    let share = between_share(
-        &coordinates,
-        ratio_coordinate(poisson_ratio)?,
-        ratio_coordinate(between.poisson_ratio)?,
-    );
-    let measured = Measured {
-        content,
-        probes: &between.verification,
-        depths: content.between_z.len(),
-    };
+    let added = Added::new(content, between, &coordinates, poisson_ratio)?;
     let [across, down] = content.probes();
     let places = across
         .iter()
         .flat_map(|&r| down.iter().map(move |&z| (r, z)));
     let pulses = content.pulse_lengths.len();
     for (place, (r, z)) in places.enumerate() {
-        let (columns, rows) = (
-            corners(&content.between_r, r),
-            corners(&content.between_z, z),
-        );
+        let around = added.around([r, z]);
         for pulse in 0..pulses {
             for field in 0..FIELDS {
-                let most = measured.most(&columns, &rows, pulse, field);
-                let added = SAFETY_BETWEEN / SAFETY * share * most;
-                found.error[(place * pulses + pulse) * FIELDS + field] += added as f32;
+                let index = (place * pulses + pulse) * FIELDS + field;
+                found.error[index] += (added.most(&around, pulse, field) / SAFETY) as f32;
             }
         }
     }

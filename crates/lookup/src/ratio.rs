@@ -1,6 +1,6 @@
 //! Interpolation across Poisson's ratio.
 
-use crate::content::Role;
+use crate::content::{Between, Content, Role};
 use crate::stencil::{Stencil, locate};
 use halfspace::{DomainError, Medium};
 
@@ -88,8 +88,19 @@ pub(crate) fn weights(
     }))
 }
 
+/// What was measured between the slices around a ratio.
+pub(crate) fn between<'a>(
+    content: &'a Content,
+    slices: &[Served],
+    poisson_ratio: f64,
+) -> Option<&'a Between> {
+    let (low, high) = neighbours(slices, poisson_ratio);
+    let inside = |between: &&Between| between.poisson_ratio > low && between.poisson_ratio < high;
+    content.between.iter().find(inside)
+}
+
 /// The ratios of the neighbouring slices that interpolate, below or equal and above.
-pub(crate) fn neighbours(slices: &[Served], poisson_ratio: f64) -> (f64, f64) {
+fn neighbours(slices: &[Served], poisson_ratio: f64) -> (f64, f64) {
     let grid = slices.iter().filter(|slice| slice.role == Role::Grid);
     grid.fold((f64::NEG_INFINITY, f64::INFINITY), |(low, high), slice| {
         if slice.ratio <= poisson_ratio {

@@ -142,10 +142,7 @@ impl Table {
 
     /// What was measured between the slices around a ratio.
     pub(crate) fn between(&self, poisson_ratio: f64) -> Option<&Between> {
-        let (low, high) = ratio::neighbours(&self.served, poisson_ratio);
-        let inside =
-            |between: &&Between| between.poisson_ratio > low && between.poisson_ratio < high;
-        self.content.between.iter().find(inside)
+        ratio::between(&self.content, &self.served, poisson_ratio)
     }
 
     /// The exact kernels of slice `index`.

@@ -177,6 +177,7 @@ mod tests {
                     before = once;
                     let found = table.integrals(t);
                     worst = worst.max((found[0] - once).abs() / m);
+                    assert!((table.integral(t) - once).abs() < 1e-8 * m);
                     // the trapezoid beside it is good to 1e-9
                     assert!(
                         (found[1] - twice).abs() < 3e-9 * m * m,
