@@ -1,9 +1,9 @@
 //! `hertzlamb chart`: speed against accuracy, and where methods fail.
 
 use crate::failure::{Failure, print};
+use crate::overwrite::Overwrite;
 use crate::progress::Bar;
 use clap::Args;
-use impact::output::Existing;
 use std::path::PathBuf;
 use study::{Chart, Effort, StudyError, prepare_folder};
 
@@ -27,23 +27,17 @@ pub(crate) struct Arguments {
     /// Fail unless the default path is on the Pareto front by time, or the report says why not.
     #[arg(long)]
     check: bool,
-    /// Replace the files of an earlier chart.
-    #[arg(long)]
-    force: bool,
+    #[command(flatten)]
+    overwrite: Overwrite,
 }
 
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let existing = if arguments.force {
-        Existing::Replace
-    } else {
-        Existing::Keep
-    };
     let effort = if arguments.quick {
         Effort::Quick
     } else {
         Effort::Full
     };
-    prepare_folder(&arguments.output, existing).map_err(failure)?;
+    prepare_folder(&arguments.output, arguments.overwrite.existing()).map_err(failure)?;
     let progress = Bar::new();
     let chart = Chart::run(effort, &progress).map_err(failure)?;
     progress.finish();
@@ -67,11 +61,12 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
 /// A folder that cannot be written to is the user's, the rest is work that failed.
 fn failure(error: StudyError) -> Failure {
     match error {
-        StudyError::Exists { .. } | StudyError::Unwritable { .. } => Failure::input(error),
+        StudyError::Exists { .. } => Failure::input(format!("{error}; give --force to replace it")),
+        StudyError::Unwritable { .. } => Failure::input(error),
         StudyError::Domain(_)
         | StudyError::March(_)
-        | StudyError::Scene(_)
-        | StudyError::NoStriker
+        | StudyError::Body(_)
+        | StudyError::Material(_)
         | StudyError::Build(_)
         | StudyError::Table(_)
         | StudyError::Lookup(_)

@@ -6,9 +6,10 @@ use crate::impact_command::open_table;
 use crate::picture::draw;
 use crate::progress::Bar;
 use clap::Args;
-use impact::output::{Existing, write, write_whole};
-use impact::{KernelChoice, Outcome, Scene, simulate};
+use formats::{Existing, parse_scene, write_results, write_whole};
+use impact::{KernelChoice, simulate};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::Instant;
 use tabulator::{Grid, build};
 
@@ -35,36 +36,17 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     })?;
     let table_path = folder.join("kernels.h5");
     make_table(&table_path)?;
-    let scene = |edit: &dyn Fn(&str) -> String| {
-        Scene::from_toml(&edit(SCENE), Path::new(".")).map_err(Failure::work)
-    };
     let table = open_table(&table_path)?;
-    let force_only = |text: &str| text.split("[[probe]]").next().unwrap_or(text).to_owned();
-    let stiffer = |text: &str| force_only(text).replace("123e9", "129e9");
-    let explicit = |text: &str, step: &str| {
-        stiffer(text)
-            .replace("\"implicit\"", "\"explicit\"")
-            .replace("tolerance = 1e-4", step)
-    };
-    let hertz = |text: &str| text.replace("\"wave\"", "\"hertz\"");
-    let run =
-        |scene: &Scene| -> Result<Outcome, Failure> { Ok(simulate(scene, &KernelChoice::Direct)?) };
+    let table_1 = parse_scene(SCENE, Path::new(".")).map_err(Failure::work)?;
     let start = Instant::now();
-    let main = simulate(&scene(&str::to_owned)?, &KernelChoice::Table(table))?;
+    let coupled = simulate(&table_1, &KernelChoice::Table(Arc::new(table)))?;
     let wall_s = start.elapsed().as_secs_f64();
-    let comparison = Comparison {
-        table_1: scene(&str::to_owned)?,
-        coupled: main,
-        coupled_129: run(&scene(&stiffer)?)?,
-        explicit_129: run(&scene(&|text| explicit(text, "step_s = 1.35e-7"))?)?,
-        explicit_coarse: run(&scene(&|text| explicit(text, "step_s = 5e-7"))?)?,
-        hertz: run(&scene(&|text| hertz(&force_only(text)))?)?,
-        hertz_129: run(&scene(&|text| hertz(&stiffer(text)))?)?,
-    };
+    let comparison = Comparison::new(table_1, coupled)?;
     print(comparison.text()?)?;
 
     let results = folder.join("copper-on-steel.h5");
-    write(&results, &comparison.coupled, Existing::Replace)?;
+    let scene = &comparison.table_1;
+    write_results(&results, scene, &comparison.coupled, Existing::Replace)?;
     let picture = folder.join("copper-on-steel.svg");
     write_whole(&picture, Existing::Replace, |part| {
         draw(part, &comparison.coupled)
@@ -76,7 +58,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         "the coupled impact with its {} probes took {:.1} ms",
         comparison
             .coupled
-            .fields
+            .probes
             .as_ref()
             .map_or(0, |f| f.r_m.len()),
         1e3 * wall_s

@@ -32,29 +32,37 @@ impl Failure {
     }
 }
 
-impl From<impact::output::OutputError> for Failure {
-    fn from(error: impact::output::OutputError) -> Self {
-        Self::input(error)
+impl From<formats::OutputError> for Failure {
+    fn from(error: formats::OutputError) -> Self {
+        match error {
+            exists @ formats::OutputError::Exists { .. } => {
+                Self::input(format!("{exists}; give --force to replace it"))
+            }
+            other @ formats::OutputError::Unwritable { .. } => Self::input(other),
+        }
     }
 }
 
 impl From<impact::ImpactError> for Failure {
     fn from(error: impact::ImpactError) -> Self {
-        use impact::ImpactError as E;
-        use impact::march::MarchError as M;
+        use contact::{ContactError as C, MarchError as M};
+        use impact::{FieldError, FieldsError as F, ImpactError as E};
         match error {
-            E::Field(_)
-            | E::Table { .. }
-            | E::Domain(_)
-            | E::LossTooLarge { .. }
-            | E::TooManySamples { .. }
-            | E::March(M::StepTooLong { .. }) => Self::input(error),
-            E::March(
+            E::Contact(C::March(
                 M::NoSolution { .. }
                 | M::TooLong { .. }
                 | M::NotConverged { .. }
                 | M::Unstable { .. },
-            ) => Self::work(error),
+            )) => Self::work(error),
+            E::Fields(F::Field(FieldError::Table { .. })) => {
+                Self::input(format!("{error}; use --kernel direct or another table"))
+            }
+            E::Contact(_)
+            | E::Source(_)
+            | E::Fields(_)
+            | E::TooManySamples(_)
+            | E::Domain(_)
+            | E::NoDisc => Self::input(error),
         }
     }
 }

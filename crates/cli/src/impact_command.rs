@@ -1,17 +1,19 @@
 //! `hertzlamb impact`: one scene.
 
 use crate::failure::{Failure, print};
-use crate::report::Report;
+use crate::overwrite::Overwrite;
+use crate::report::text_report;
 use clap::{Args, ValueEnum};
-use impact::output::{Existing, check, write};
-use impact::{ImpactError, KernelChoice, Outcome, Scene, simulate};
+use formats::{check, json_report, read_scene, write_results};
+use impact::{KernelChoice, simulate};
 use lookup::TableFile;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::Instant;
 
 /// Where the kernels of the fields come from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Kernel {
+enum Kernel {
     /// Computed for each probe, no table.
     Direct,
     /// Looked up in the table given with --table.
@@ -36,9 +38,8 @@ pub(crate) struct Arguments {
     /// Results file (HDF5, see data-schema/results.md).
     #[arg(short, long, value_name = "OUT.h5")]
     output: Option<PathBuf>,
-    /// Replace an existing results file.
-    #[arg(long)]
-    force: bool,
+    #[command(flatten)]
+    overwrite: Overwrite,
     /// Print one JSON object instead of text.
     #[arg(long)]
     json: bool,
@@ -46,64 +47,42 @@ pub(crate) struct Arguments {
 
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let start = Instant::now();
-    let existing = if arguments.force {
-        Existing::Replace
-    } else {
-        Existing::Keep
-    };
-    let scene = read_scene(&arguments.scene)?;
-    let table = match &arguments.table {
-        Some(path) => Some(open_table(path)?),
-        None => None,
-    };
+    let existing = arguments.overwrite.existing();
+    let scene = read_scene(&arguments.scene).map_err(Failure::input)?;
+    let kernels = kernels(arguments)?;
     if let Some(path) = &arguments.output {
         check(path, existing)?;
     }
-    let outcome = compute(&scene, arguments.kernel, table)?;
+    let outcome = simulate(&scene, &kernels)?;
     if let Some(path) = &arguments.output {
-        write(path, &outcome, existing)?;
+        write_results(path, &scene, &outcome, existing)?;
     }
     for warning in &outcome.warnings {
         eprintln!("warning: {warning}");
     }
-    let report = Report::new(&outcome, start.elapsed().as_secs_f64());
     if arguments.json {
-        print(serde_json::to_string(&report).map_err(Failure::work)?)
+        print(json_report(&scene, &outcome, start.elapsed().as_secs_f64()))
     } else {
-        print(report.text())
+        print(text_report(&scene, &outcome))
     }
 }
 
-pub(crate) fn read_scene(path: &Path) -> Result<Scene, Failure> {
-    Scene::from_file(path).map_err(|error| match error {
-        named @ (impact::SceneError::Unreadable { .. } | impact::SceneError::ForceFile { .. }) => {
-            Failure::input(named)
-        }
-        other => Failure::input(format!("{}: {other}", path.display())),
-    })
+fn kernels(arguments: &Arguments) -> Result<KernelChoice, Failure> {
+    let table = match &arguments.table {
+        Some(path) => Some(Arc::new(open_table(path)?)),
+        None => None,
+    };
+    match (arguments.kernel, table) {
+        (Kernel::Table, None) => Err(Failure::input(
+            "--kernel table needs a table: give --table FILE, made with hertzlamb tabulate",
+        )),
+        (Kernel::Direct, _) | (Kernel::Auto, None) => Ok(KernelChoice::Direct),
+        (Kernel::Table, Some(table)) => Ok(KernelChoice::Table(table)),
+        (Kernel::Auto, Some(table)) => Ok(KernelChoice::Auto(table)),
+    }
 }
 
 /// The table at `path`.
 pub(crate) fn open_table(path: &Path) -> Result<TableFile, Failure> {
-    TableFile::open(path).map_err(|source| {
-        Failure::from(ImpactError::Table {
-            path: path.to_owned(),
-            source,
-        })
-    })
-}
-
-pub(crate) fn compute(
-    scene: &Scene,
-    kernel: Kernel,
-    table: Option<TableFile>,
-) -> Result<Outcome, Failure> {
-    match (kernel, table) {
-        (Kernel::Table, None) => Err(Failure::input(
-            "--kernel table needs a table: give --table FILE, made with hertzlamb tabulate",
-        )),
-        (Kernel::Direct, _) | (Kernel::Auto, None) => Ok(simulate(scene, &KernelChoice::Direct)?),
-        (Kernel::Table, Some(table)) => Ok(simulate(scene, &KernelChoice::Table(table))?),
-        (Kernel::Auto, Some(table)) => Ok(simulate(scene, &KernelChoice::Auto(table))?),
-    }
+    TableFile::open(path).map_err(Failure::input)
 }

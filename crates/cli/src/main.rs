@@ -7,6 +7,7 @@ mod demo;
 mod failure;
 mod impact_command;
 mod materials;
+mod overwrite;
 mod picture;
 mod progress;
 mod report;

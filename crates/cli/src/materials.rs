@@ -2,7 +2,8 @@
 
 use crate::failure::{Failure, print};
 use clap::Args;
-use impact::material::{Library, Material};
+use contact::{Library, Material};
+use formats::read_materials;
 use serde::Serialize;
 use std::path::PathBuf;
 
@@ -74,10 +75,7 @@ impl<'a> Row<'a> {
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let mut library = Library::built_in().clone();
     if let Some(path) = &arguments.file {
-        let text = std::fs::read_to_string(path)
-            .map_err(|error| Failure::input(format!("cannot read {}: {error}", path.display())))?;
-        let own = Library::from_toml(&text)
-            .map_err(|error| Failure::input(format!("{}: {error}", path.display())))?;
+        let own = read_materials(path).map_err(Failure::input)?;
         library = library.extended(&own);
     }
     let word = arguments.search.as_deref().unwrap_or("");

@@ -1,6 +1,7 @@
 //! The paper's Fig. 4: force, displacement, deflection and velocity against time.
 
-use impact::Outcome;
+use contact::{Choice, Results};
+use impact::{Cause, Outcome};
 use plotters::prelude::{
     BLACK, ChartBuilder, IntoDrawingArea, LineSeries, PathElement, RGBColor, SVGBackend,
     SeriesLabelPosition, WHITE,
@@ -58,7 +59,20 @@ fn at(x: u32, y: u32) -> (i32, i32) {
 
 fn draw_panels(picture: &mut String, outcome: &Outcome) -> Result<(), Box<dyn Error>> {
     let series = &outcome.series;
-    let end_us = 1.12e6 * outcome.results.contact_time_s;
+    let (
+        Cause::Contact {
+            model,
+            scheme,
+            results,
+            ..
+        },
+        Some(striker),
+    ) = (&outcome.cause, &series.striker)
+    else {
+        return Err("a record has no striker".into());
+    };
+    let results: &Results = results;
+    let end_us = 1.12e6 * results.contact_time_s;
     let panels = [
         Panel {
             label: "force [kN]",
@@ -74,7 +88,7 @@ fn draw_panels(picture: &mut String, outcome: &Outcome) -> Result<(), Box<dyn Er
             curves: vec![
                 Curve {
                     name: "striker h",
-                    samples: &series.displacement_m,
+                    samples: &striker.displacement_m,
                     scale: 1e6,
                     colour: BLUE,
                 },
@@ -90,7 +104,7 @@ fn draw_panels(picture: &mut String, outcome: &Outcome) -> Result<(), Box<dyn Er
             label: "velocity [m/s]",
             curves: vec![Curve {
                 name: "striker v",
-                samples: &series.velocity_m_s,
+                samples: &striker.velocity_m_s,
                 scale: 1.0,
                 colour: GREEN,
             }],
@@ -105,11 +119,11 @@ fn draw_panels(picture: &mut String, outcome: &Outcome) -> Result<(), Box<dyn Er
     head.draw_text(
         &format!(
             "peak force {:.1} kN, contact {:.2} \u{b5}s, restitution {:.4} (model {}, {})",
-            outcome.results.peak_force_n / 1e3,
-            1e6 * outcome.results.contact_time_s,
-            outcome.results.restitution,
-            outcome.choices.model,
-            outcome.choices.scheme
+            results.peak_force_n / 1e3,
+            1e6 * results.contact_time_s,
+            results.restitution,
+            model.name(),
+            scheme.map_or("closed form", Choice::name)
         ),
         &small,
         at(24, 38),

@@ -2,7 +2,7 @@
 
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 use tabulator::Progress;
 
@@ -42,6 +42,21 @@ impl Bar {
         }
     }
 
+    /// Begins a stage of `total` units.
+    pub(crate) fn start(&self, stage: &str, total: u64) {
+        Progress::total(self, stage, total);
+    }
+
+    /// Says how many units of the stage are done.
+    pub(crate) fn set(&self, done: u64) {
+        let before = self.lock().done;
+        Progress::advance(self, done.saturating_sub(before));
+    }
+
+    fn lock(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
     pub(crate) fn finish(&self) {
         if let Some(bar) = &self.bar {
             bar.finish_and_clear();
@@ -51,7 +66,7 @@ impl Bar {
 
 impl Progress for Bar {
     fn total(&self, stage: &str, total: u64) {
-        let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut state = self.lock();
         *state = State {
             stage: stage.to_owned(),
             total,
@@ -68,7 +83,7 @@ impl Progress for Bar {
     }
 
     fn slice(&self, poisson_ratio: f64) {
-        let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut state = self.lock();
         state.slice = Some(poisson_ratio);
         if let Some(bar) = &self.bar {
             bar.set_message(format!("{}, nu = {poisson_ratio:.4}", state.stage));
@@ -76,7 +91,7 @@ impl Progress for Bar {
     }
 
     fn advance(&self, done: u64) {
-        let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut state = self.lock();
         let before = state.done;
         state.done += done;
         if let Some(bar) = &self.bar {

@@ -1,12 +1,12 @@
 //! `hertzlamb sweep`: many scenes.
 
 use crate::failure::{Failure, print};
+use crate::overwrite::Overwrite;
+use crate::progress::Bar;
 use clap::Args;
-use impact::output::{Existing, check};
-use impact::sweep::{Spec, SweepError, run as run_sweep, write, write_csv};
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use formats::check;
+use formats::sweep::{Spec, SweepError, run_sweep, write_csv, write_sweep};
 use serde::Serialize;
-use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -23,9 +23,8 @@ pub(crate) struct Arguments {
     /// Also write the rows as text.
     #[arg(long, value_name = "OUT.csv")]
     csv: Option<PathBuf>,
-    /// Replace existing files.
-    #[arg(long)]
-    force: bool,
+    #[command(flatten)]
+    overwrite: Overwrite,
     /// Print one JSON object instead of text.
     #[arg(long)]
     json: bool,
@@ -46,30 +45,21 @@ struct Report<'a> {
 
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let start = Instant::now();
-    let existing = if arguments.force {
-        Existing::Replace
-    } else {
-        Existing::Keep
-    };
-    let named = |error: &dyn std::fmt::Display| {
-        Failure::input(format!("{}: {error}", arguments.sweep.display()))
-    };
-    let spec = Spec::from_file(&arguments.sweep).map_err(|error| match error {
-        unreadable @ impact::SceneError::Unreadable { .. } => Failure::input(unreadable),
-        other => named(&other),
-    })?;
+    let existing = arguments.overwrite.existing();
+    let spec = Spec::from_file(&arguments.sweep).map_err(Failure::input)?;
     check(&arguments.output, existing)?;
     if let Some(csv) = &arguments.csv {
         check(csv, existing)?;
     }
-    let mut progress = Progress::new(spec.rows());
+    let progress = Bar::new();
+    progress.start("scenes", spec.rows() as u64);
     let part = part(&arguments.output);
     let done = run_sweep(&spec, &part, |rows| {
-        progress.show(rows);
+        progress.set(rows as u64);
         true
     })
     .map_err(|error| match error {
-        SweepError::Scene(scene) => named(&scene),
+        SweepError::Scene(scene) => Failure::input(scene.in_file(&arguments.sweep)),
         journal @ SweepError::Journal(_) => Failure::input(journal),
     })?;
     progress.finish();
@@ -77,7 +67,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         return Err(Failure::work("the sweep was stopped"));
     };
     let computing_s = start.elapsed().as_secs_f64();
-    write(&arguments.output, &spec, &done.blocks, existing)?;
+    write_sweep(&arguments.output, &spec, &done.blocks, existing)?;
     if let Some(csv) = &arguments.csv {
         write_csv(csv, &spec, &done.blocks, existing)?;
     }
@@ -131,50 +121,4 @@ fn part(output: &Path) -> PathBuf {
     let mut name = output.as_os_str().to_owned();
     name.push(".part");
     PathBuf::from(name)
-}
-
-/// A bar on a terminal, else a line for each tenth.
-struct Progress {
-    bar: Option<ProgressBar>,
-    rows: usize,
-    tenths: usize,
-}
-
-impl Progress {
-    fn new(rows: usize) -> Self {
-        let bar = std::io::stderr().is_terminal().then(|| {
-            let bar =
-                ProgressBar::with_draw_target(Some(rows as u64), ProgressDrawTarget::stderr());
-            if let Ok(style) = ProgressStyle::with_template(
-                "{bar:40} {human_pos}/{human_len} scenes, {per_sec}, {eta} left",
-            ) {
-                bar.set_style(style);
-            }
-            bar
-        });
-        Self {
-            bar,
-            rows,
-            tenths: 0,
-        }
-    }
-
-    fn show(&mut self, done: usize) {
-        match &self.bar {
-            Some(bar) => bar.set_position(done as u64),
-            None => {
-                let tenths = 10 * done / self.rows.max(1);
-                if tenths > self.tenths && tenths < 10 {
-                    eprintln!("{done} of {} scenes", self.rows);
-                }
-                self.tenths = tenths;
-            }
-        }
-    }
-
-    fn finish(&self) {
-        if let Some(bar) = &self.bar {
-            bar.finish_and_clear();
-        }
-    }
 }

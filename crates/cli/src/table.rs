@@ -1,13 +1,14 @@
 //! `hertzlamb table`: looks at finished tables.
 
 use crate::failure::{Failure, print};
+use crate::overwrite::Overwrite;
 use crate::progress::Bar;
 use crate::tabulate;
 use clap::{Args, Subcommand};
 use lookup::{Content, DamagedPatch, TableError};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
-use tabulator::{BadNode, Difference, Existing, check_table, differences, merge};
+use tabulator::{BadNode, Difference, check_table, differences, merge};
 
 const EXAMPLES: &str = "Examples:
   hertzlamb table info kernels.h5
@@ -58,9 +59,8 @@ enum Action {
         /// The table to write.
         #[arg(short, long, value_name = "OUT.h5")]
         output: PathBuf,
-        /// Replace an existing table, when the new one is complete.
-        #[arg(long)]
-        force: bool,
+        #[command(flatten)]
+        overwrite: Overwrite,
     },
 }
 
@@ -76,8 +76,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         Action::Merge {
             shards,
             output,
-            force,
-        } => join(shards, output, *force, arguments.json),
+            overwrite,
+        } => join(shards, output, *overwrite, arguments.json),
     }
 }
 
@@ -280,14 +280,15 @@ fn diff(first: &Path, second: &Path, json: bool) -> Result<(), Failure> {
     }
 }
 
-fn join(shards: &[PathBuf], output: &Path, force: bool, json: bool) -> Result<(), Failure> {
-    let existing = if force {
-        Existing::Replace
-    } else {
-        Existing::Keep
-    };
+fn join(
+    shards: &[PathBuf],
+    output: &Path,
+    overwrite: Overwrite,
+    json: bool,
+) -> Result<(), Failure> {
     let progress = Bar::new();
-    let summary = merge(shards, output, existing, &progress).map_err(tabulate::failure)?;
+    let summary =
+        merge(shards, output, overwrite.existing_table(), &progress).map_err(tabulate::failure)?;
     progress.finish();
     let file = output.display().to_string();
     if json {

@@ -1,13 +1,14 @@
 //! `hertzlamb tabulate`: builds a kernel table.
 
 use crate::failure::{Failure, print};
+use crate::overwrite::Overwrite;
 use crate::progress::Bar;
 use clap::Args;
 use lookup::TableError;
 use serde::Serialize;
 use std::io::ErrorKind;
 use std::path::PathBuf;
-use tabulator::{BuildError, Existing, Extension, Grid, Summary};
+use tabulator::{BuildError, Extension, Grid, Summary};
 use tabulator::{build_over, build_shard, extend, refine};
 
 const EXAMPLES: &str = "Examples:
@@ -47,9 +48,8 @@ pub(crate) struct Arguments {
     /// The table to write.
     #[arg(short, long, value_name = "OUT.h5")]
     output: PathBuf,
-    /// Replace an existing table, when the new one is complete.
-    #[arg(long)]
-    force: bool,
+    #[command(flatten)]
+    overwrite: Overwrite,
     /// Compute part I of N into the output, which is then a shard for `hertzlamb table merge`.
     #[arg(long, value_name = "I/N", conflicts_with = "force")]
     shard: Option<String>,
@@ -82,11 +82,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         return tell(&Grid::of(&content).map_err(failure)?, arguments, &summary);
     }
     let grid = grid(arguments)?;
-    let existing = if arguments.force {
-        Existing::Replace
-    } else {
-        Existing::Keep
-    };
+    let existing = arguments.overwrite.existing_table();
     let progress = Bar::new();
     if let Some(shard) = &arguments.shard {
         let (index, count) = parse_shard(shard)?;
@@ -107,7 +103,7 @@ fn extension(arguments: &Arguments) -> Option<Extension> {
         || arguments.z_max.is_some()
         || arguments.time_factor.is_some();
     let new = arguments.grid.is_some()
-        || arguments.force
+        || arguments.overwrite.force
         || arguments.shard.is_some()
         || arguments.tol.is_some();
     (more && !new && arguments.output.exists()).then(|| Extension {

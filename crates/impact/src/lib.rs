@@ -1,26 +1,53 @@
-//! Impact of a body on an elastic half-space: contact force, rebound and wave fields.
+//! Waves in an elastic half-space under an impact.
 //!
-//! A [`Scene`] in SI units is read and checked, its contact is computed in reduced units by one of
-//! the models of [`contact`] with one of the schemes of [`march`], and the fields at its probes are
-//! the [`convolve`]d force.
-//! [`simulate`](fn@simulate) does all of it; [`output`] writes the results file.
+//! A contact that is solved ([`Impact`]) or a force that was measured ([`ForceRecord`]) is an [`Excitation`]: a force
+//! history on a disc.
+//! From it follow the fields at points ([`Excitation::fields`]) and all that a [`Scene`] asks for ([`simulate`]).
+//! Many contacts without fields are [`sweep`]s.
+//! Nothing here reads or writes a file; without the default feature `hdf5` there is no C library either.
+//!
+//! ```
+//! use impact::{Field, HalfSpace, Impact, Material, Striker};
+//!
+//! let steel = HalfSpace::new(Material::named("steel")?)?;
+//! let ball = Striker::ball(Material::named("bearing-steel")?, 0.002)?;
+//! let run = Impact::new(steel, ball, 1.0).solve()?;
+//! let fields = run.excitation().fields(1e-8)?;
+//! // half a millimetre below the contact
+//! let below = fields.at(0.0, 5e-4)?;
+//! assert!(below[Field::StressZz].peak() < -1e7, "compression is negative");
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
-pub mod choose;
-pub mod contact;
+// in reading order
 pub mod convolve;
-pub mod energy;
-pub mod march;
-pub mod material;
-pub mod output;
-mod quadrature;
-mod resample;
+pub mod excitation;
+pub mod fields;
+pub mod grid;
+pub mod impact;
+pub mod kernels;
+pub mod outcome;
+mod place;
+pub mod probes;
+pub mod record;
+mod samples;
 pub mod scene;
-mod simulate;
+pub mod simulate;
+pub mod source;
 pub mod sweep;
-pub mod units;
-pub mod validity;
+mod transform;
 
-pub use scene::{Scene, SceneError};
-pub use simulate::{
-    Choices, Fields, ImpactError, KernelChoice, MapFields, Outcome, Results, Series, simulate,
-};
+pub use contact::{HalfSpace, Material, Settings, Striker};
+pub use excitation::{Excitation, Motion};
+pub use fields::{FieldHistory, Fields, FieldsError, Trace};
+pub use grid::{Grid, TooManySamples};
+pub use halfspace::Field;
+pub use impact::{Impact, Run};
+pub use kernels::KernelSource;
+pub use outcome::{Cause, FieldsUsed, KernelsUsed, Outcome, RecordResults, Series, StrikerSeries};
+pub use place::FieldError;
+pub use probes::{ProbeFields, SectionFields};
+pub use record::{ForceRecord, RecordError};
+pub use scene::{Load, Probe, Scene, Section, Strike};
+pub use simulate::{ImpactError, simulate};
+pub use source::{KernelChoice, SourceError, Tables};

@@ -11,7 +11,7 @@ use crate::record::Record;
 use crate::standing::{Measure, Standing, standings};
 use crate::tables::{Density, Spacing};
 use crate::{csv_file, hdf_file, report, work_precision};
-use impact::output::{Existing, OutputError, write_whole};
+use formats::{Existing, OutputError, write_whole};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use tabulator::Progress;
@@ -136,7 +136,7 @@ pub fn prepare_folder(folder: &Path, existing: Existing) -> Result<(), StudyErro
         (Existing::Keep, None) | (Existing::Replace, _) => {
             // a folder that takes no files is found now, not after minutes
             let probe = folder.join("chart.csv");
-            impact::output::check(&probe, Existing::Replace).map_err(|error| output(&probe, error))
+            formats::check(&probe, Existing::Replace).map_err(|error| output(&probe, error))
         }
     }
 }

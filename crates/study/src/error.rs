@@ -11,13 +11,13 @@ pub enum StudyError {
     Domain(#[from] halfspace::DomainError),
     /// A march failed where it must not.
     #[error(transparent)]
-    March(#[from] impact::march::MarchError),
-    /// A scene was not accepted.
+    March(#[from] contact::MarchError),
+    /// A body that cannot be made.
     #[error(transparent)]
-    Scene(#[from] impact::SceneError),
-    /// A scene without a striker.
-    #[error("the scene has a prescribed force: nothing strikes")]
-    NoStriker,
+    Body(#[from] contact::BodyError),
+    /// A material that is not in the library.
+    #[error(transparent)]
+    Material(#[from] contact::UnknownMaterial),
     /// A local table could not be built.
     #[error(transparent)]
     Build(#[from] tabulator::BuildError),
@@ -31,7 +31,7 @@ pub enum StudyError {
     #[error("a temporary folder cannot be made: {0}")]
     Temporary(#[from] std::io::Error),
     /// The folder holds something already.
-    #[error("{} exists already; give --force to replace it", path.display())]
+    #[error("{} exists already and is not replaced", path.display())]
     Exists {
         /// The file in the way.
         path: PathBuf,

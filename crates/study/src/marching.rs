@@ -6,9 +6,9 @@
 //! order 2   force linear in a cell:    g_j = 1 - (1/h) int W over the cell
 //! ```
 //!
-//! Product integration after Linz (1985); collision units as in [`impact::units::CollisionUnits`].
+//! Product integration after Linz (1985); collision units as in [`contact::units::CollisionUnits`].
 
-use impact::march::FixedDisc;
+use contact::ExactDisc;
 
 /// Shape of the force within a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -39,8 +39,8 @@ impl Results {
     }
 }
 
-impl From<&impact::march::Summary> for Results {
-    fn from(summary: &impact::march::Summary) -> Self {
+impl From<&contact::Summary> for Results {
+    fn from(summary: &contact::Summary) -> Self {
         Self {
             peak_force: summary.peak_force,
             contact_time: summary.contact_time,
@@ -51,7 +51,7 @@ impl From<&impact::march::Summary> for Results {
 }
 
 /// Marches until the first separation; the results and the work, steps times cells of memory.
-pub(crate) fn march(impact: &FixedDisc<'_>, step: f64, order: Order) -> (Results, u64) {
+pub(crate) fn march(impact: &ExactDisc<'_>, step: f64, order: Order) -> (Results, u64) {
     const MOST_STEPS: usize = 1_000_000;
     let cell = step / impact.wave_time;
     let cells = (impact.response.memory() / cell).ceil() as usize + 1;
@@ -144,13 +144,13 @@ fn peak(samples: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use contact::{StaticShare, Summary, march_implicit, refine};
     use halfspace::{Deflection, Medium, SurfaceResponse};
-    use impact::march::{StaticShare, Summary, march_implicit, refine};
 
     #[test]
     fn each_march_converges_with_its_order() {
         let response = SurfaceResponse::new(&Medium::new(0.3).unwrap(), Deflection::Centre);
-        let impact = FixedDisc {
+        let impact = ExactDisc {
             response: &response,
             coupling: 0.14,
             wave_time: 0.08,

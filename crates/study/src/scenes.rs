@@ -1,47 +1,41 @@
 //! The impacts of the chart.
 
 use crate::StudyError;
-use impact::Scene;
-use impact::contact::Collision;
-use impact::scene::{Load, Striker};
-use std::path::Path;
+use contact::{Collision, HalfSpace, Material, Striker};
+use impact::Impact;
 
-/// The paper's case: a copper rod on a steel block, table values.
-pub(crate) const PAPER: &str = "\
-[target]
-youngs_modulus_pa = 209e9
-poisson_ratio = 0.3
-density_kg_m3 = 7830
-[striker]
-youngs_modulus_pa = 123e9
-poisson_ratio = 0.34
-mass_kg = 0.0122
-tip_radius_m = 0.004
-velocity_m_s = 100.0
-[contact]
-disc_radius_m = 0.004
-model = \"wave\"
-";
+/// Tip radius of the paper's rod, and radius of its disc, in m.
+pub(crate) const ROD_RADIUS_M: f64 = 0.004;
 
-/// Tip radius of the ball in m.
-pub(crate) const BALL_RADIUS_M: f64 = 0.005;
+/// Radius of the ball in m.
+const BALL_RADIUS_M: f64 = 0.005;
 
-/// A steel ball of 10 mm on a block of a material of the library.
-pub(crate) fn ball(target: &str, velocity_m_s: f64, contact: &str) -> String {
-    let mass_kg = 4.0 / 3.0 * std::f64::consts::PI * BALL_RADIUS_M.powi(3) * 7850.0;
-    format!(
-        "[target]\nmaterial = \"{target}\"\n[striker]\nmaterial = \"steel\"\nmass_kg = {mass_kg}\n\
-         tip_radius_m = {BALL_RADIUS_M}\nvelocity_m_s = {velocity_m_s:?}\n{contact}"
-    )
+/// The collision of the paper: a copper rod of this Young's modulus in Pa on a steel block.
+pub(crate) fn paper(copper_pa: f64) -> Result<Collision, StudyError> {
+    let block = HalfSpace::new(Material::named("steel")?)?;
+    let copper = Material {
+        youngs_modulus_pa: copper_pa,
+        ..Material::named("copper")?
+    };
+    let rod = Striker::new(copper, 0.0122, ROD_RADIUS_M)?;
+    Ok(Collision::new(&block, &rod, 100.0))
 }
 
-/// A scene from text, and its collision.
-pub(crate) fn read(text: &str) -> Result<(Scene, Striker, Collision), StudyError> {
-    let scene = Scene::from_toml(text, Path::new("."))?;
-    let striker = match &scene.load {
-        Load::Strike(striker) => striker.clone(),
-        Load::Prescribed(_) => return Err(StudyError::NoStriker),
-    };
-    let collision = Collision::new(&scene, &striker);
-    Ok((scene, striker, collision))
+/// Young's modulus of copper in Pa in the paper's Table 1.
+pub(crate) const TABLE_1_PA: f64 = 123e9;
+
+/// Young's modulus of copper in Pa that the paper's Hertz values are computed with.
+pub(crate) const HERTZ_PA: f64 = 129e9;
+
+/// A steel ball of 10 mm on a block of a material of the library.
+pub(crate) fn ball(target: &str, velocity_m_s: f64) -> Result<Impact, StudyError> {
+    let block = HalfSpace::new(Material::named(target)?)?;
+    let mass_kg = 4.0 / 3.0 * std::f64::consts::PI * BALL_RADIUS_M.powi(3) * 7850.0;
+    let ball = Striker::new(Material::named("steel")?, mass_kg, BALL_RADIUS_M)?;
+    Ok(Impact::new(block, ball, velocity_m_s))
+}
+
+/// The collision of an impact.
+pub(crate) fn collision(impact: &Impact) -> Collision {
+    Collision::new(&impact.half_space, &impact.striker, impact.velocity_m_s)
 }

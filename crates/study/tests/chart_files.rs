@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
-use impact::output::Existing;
+use formats::Existing;
 use study::hdf_file::{ATTRIBUTES, FIGURES, FILE_TYPE, FORMAT_VERSION};
 use study::{StudyError, csv_file::COLUMNS, prepare_folder};
 

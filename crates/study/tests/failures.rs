@@ -2,12 +2,12 @@
 
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
-use halfspace::Medium;
-use impact::choose::Rung;
-use impact::contact::hertz::CONTACT_TIME;
-use impact::march::{
-    FixedDisc, StaticShare, Summary, march_explicit, march_growing, march_implicit,
+use contact::choose::Rung;
+use contact::law::hertz::CONTACT_TIME;
+use contact::{
+    ExactDisc, Model, StaticShare, Summary, march_explicit, march_growing, march_implicit,
 };
+use halfspace::Medium;
 use std::f64::consts::PI;
 use study::map::disc_models::{disc_at, disc_chosen, disc_errors};
 use study::map::dynamic::{dynamic_growth_limit, dynamic_is_solved, dynamic_limit};
@@ -71,7 +71,7 @@ fn the_explicit_march_blows_up_beyond_its_boundary_and_not_well_below() {
     let response = paper_response().unwrap();
     let paper = paper_disc(&response).unwrap();
     for scale in [3.0, 10.0, 30.0] {
-        let disc = FixedDisc {
+        let disc = ExactDisc {
             coupling: scale * paper.coupling,
             ..paper.clone()
         };
@@ -94,7 +94,7 @@ fn the_implicit_march_is_stable_on_the_papers_plane_and_gains_no_energy() {
     let response = paper_response().unwrap();
     let disc = paper_disc(&response).unwrap();
     for scale in [0.1, 1.0, 3.0] {
-        let disc = FixedDisc {
+        let disc = ExactDisc {
             coupling: scale * disc.coupling,
             ..disc.clone()
         };
@@ -115,7 +115,7 @@ fn on_a_very_soft_half_space_steps_near_the_memory_settle() {
     let response = paper_response().unwrap();
     let paper = paper_disc(&response).unwrap();
     // k/Z = 50 a collision time: with the curvature of the newest cell extrapolated in full the force blew up here
-    let disc = FixedDisc {
+    let disc = ExactDisc {
         coupling: paper.coupling * 50.0 / (1.5 * admittance(&paper)),
         ..paper
     };
@@ -138,7 +138,7 @@ fn the_dynamic_share_is_refused_where_it_has_no_solution() {
     for step in [1e-3, 0.01] {
         let limit = dynamic_limit(&paper, step * CONTACT_TIME);
         let at = |coupling: f64| {
-            let disc = FixedDisc {
+            let disc = ExactDisc {
                 coupling,
                 ..paper.clone()
             };
@@ -153,7 +153,7 @@ fn the_dynamic_share_is_refused_where_it_has_no_solution() {
     for step in [0.1, 0.18] {
         let step = step * CONTACT_TIME;
         let at = |coupling: f64| {
-            let disc = FixedDisc {
+            let disc = ExactDisc {
                 coupling,
                 ..paper.clone()
             };
@@ -169,7 +169,7 @@ fn the_dynamic_share_is_refused_where_it_has_no_solution() {
             "{grows} {folds} at {step}"
         );
     }
-    let disc = FixedDisc {
+    let disc = ExactDisc {
         coupling: 2.0,
         share: StaticShare::Dynamic,
         ..paper
@@ -366,18 +366,14 @@ fn built_in_materials_lie_where_auto_finds_them() {
             "steel on steel shares evenly: {share}"
         );
         for tolerance in TOLERANCES {
-            let text = study::map::models::ball_scene("steel", speed, tolerance);
-            let scene = impact::Scene::from_toml(&text, std::path::Path::new(".")).unwrap();
-            let outcome = impact::simulate(&scene, &impact::KernelChoice::Direct).unwrap();
+            let impact = study::map::models::ball_impact("steel", speed, tolerance).unwrap();
+            let model = impact.solve().unwrap().solved.plan.model;
             let expected = match plane.chosen(share, memory, tolerance) {
-                Rung::QuasiStatic => "hertz",
-                Rung::Radiation => "radiation",
-                Rung::FullMemory => "growing",
+                Rung::QuasiStatic => Model::Hertz,
+                Rung::Radiation => Model::Radiation,
+                Rung::FullMemory => Model::Growing,
             };
-            assert_eq!(
-                outcome.choices.model, expected,
-                "{speed} m/s at {tolerance:e}"
-            );
+            assert_eq!(model, expected, "{speed} m/s at {tolerance:e}");
         }
     }
 }

@@ -6,12 +6,12 @@ use crate::effort::Effort;
 use crate::figure::{Axis, Figure, Style};
 use crate::marching::Results;
 use crate::record::Error;
-use crate::scenes::{PAPER, read};
+use crate::scenes::{ROD_RADIUS_M, TABLE_1_PA, paper};
+use contact::choose::{Family, Groups, Rung};
+use contact::law::hertz::CONTACT_TIME;
+use contact::law::quasi_static::{quasi_static, quasi_static_radiation};
+use contact::{Accuracy, ExactDisc, MarchError, StaticShare, march_implicit, refine};
 use halfspace::{Deflection, Medium, SurfaceResponse};
-use impact::choose::{Family, Groups, Rung};
-use impact::contact::hertz::CONTACT_TIME;
-use impact::contact::quasi_static::{quasi_static, quasi_static_radiation};
-use impact::march::{Accuracy, FixedDisc, MarchError, StaticShare, march_implicit, refine};
 
 /// Largest first-order loss that the program's radiation models take.
 const LARGEST_LOSS: f64 = 0.5;
@@ -33,7 +33,7 @@ pub struct DiscErrors {
 ///
 /// # Errors
 /// Those of the march.
-pub fn disc_errors(disc: &FixedDisc<'_>) -> Result<DiscErrors, MarchError> {
+pub fn disc_errors(disc: &ExactDisc<'_>) -> Result<DiscErrors, MarchError> {
     let springs = quasi_static(disc.coupling);
     let accuracy = Accuracy::of_contact(ACCURACY, None);
     let march = |step| march_implicit(disc, step);
@@ -61,13 +61,13 @@ pub fn disc_errors(disc: &FixedDisc<'_>) -> Result<DiscErrors, MarchError> {
 
 /// What `auto` chooses for a disc at a tolerance.
 #[must_use]
-pub fn disc_chosen(disc: &FixedDisc<'_>, tolerance: f64) -> Rung {
+pub fn disc_chosen(disc: &ExactDisc<'_>, tolerance: f64) -> Rung {
     groups(disc)
         .choose(&Accuracy::of_contact(tolerance, None))
         .rung
 }
 
-fn groups(disc: &FixedDisc<'_>) -> Groups {
+fn groups(disc: &ExactDisc<'_>) -> Groups {
     Groups {
         family: Family::Full,
         coupling: disc.coupling,
@@ -78,20 +78,19 @@ fn groups(disc: &FixedDisc<'_>) -> Groups {
 
 /// The paper's disc with other groups.
 #[must_use]
-pub fn disc_at<'a>(like: &FixedDisc<'a>, coupling: f64, memory: f64) -> FixedDisc<'a> {
-    FixedDisc {
+pub fn disc_at<'a>(like: &ExactDisc<'a>, coupling: f64, memory: f64) -> ExactDisc<'a> {
+    ExactDisc {
         coupling,
         wave_time: memory * CONTACT_TIME / like.response.memory(),
         share: StaticShare::Full,
-        ..like.clone()
+        ..*like
     }
 }
 
 /// A picture a tolerance.
 pub(super) fn figures(effort: Effort) -> Result<Vec<Figure>, StudyError> {
-    let (_, striker, collision) = read(PAPER)?;
     let response = SurfaceResponse::new(&Medium::new(0.3)?, Deflection::Centre);
-    let paper = collision.fixed_disc(&response, striker.tip_radius_m, StaticShare::Full);
+    let paper = paper(TABLE_1_PA)?.fixed_disc(&response, ROD_RADIUS_M, StaticShare::Full);
     let x = Axis::logarithmic("static deflection over indentation (coupling)", 1e-3, 10.0);
     let y = Axis::logarithmic("memory over contact time", 1e-4, 1.0);
     let shape = effort.pick([14, 12], [40, 40]);

@@ -4,15 +4,15 @@ use super::marches::{Converged, Fate, converged, implicit_fate};
 use super::recurrence::linear_growth;
 use crate::effort::Effort;
 use crate::figure::{Axis, Figure, Style};
-use impact::contact::hertz::CONTACT_TIME;
-use impact::march::{FixedDisc, MarchError, StaticShare, march_implicit, memory_weights};
+use contact::law::hertz::CONTACT_TIME;
+use contact::{ExactDisc, MarchError, StaticShare, march_implicit, memory_weights};
 
 /// What the `dynamic` share makes of an impact at a step: whether it has a solution.
 #[must_use]
-pub fn dynamic_is_solved(disc: &FixedDisc<'_>, step: f64) -> bool {
-    let disc = FixedDisc {
+pub fn dynamic_is_solved(disc: &ExactDisc<'_>, step: f64) -> bool {
+    let disc = ExactDisc {
         share: StaticShare::Dynamic,
-        ..disc.clone()
+        ..*disc
     };
     !matches!(
         march_implicit(&disc, step),
@@ -22,14 +22,14 @@ pub fn dynamic_is_solved(disc: &FixedDisc<'_>, step: f64) -> bool {
 
 /// Largest coupling for which the `dynamic` share has a solution at a step, up to a force of Hertz's peak.
 #[must_use]
-pub fn dynamic_limit(disc: &FixedDisc<'_>, step: f64) -> f64 {
+pub fn dynamic_limit(disc: &ExactDisc<'_>, step: f64) -> f64 {
     // Numerov's weight of the newest force
     let allowed = 2.0 / 3.0 + 1.25 * step * step / 12.0;
     let is_solved = |coupling: f64| {
-        let disc = FixedDisc {
+        let disc = ExactDisc {
             coupling,
             share: StaticShare::Dynamic,
-            ..disc.clone()
+            ..*disc
         };
         coupling * memory_weights(&disc, step)[0] < allowed
     };
@@ -52,12 +52,12 @@ fn bisected(low: f64, high: f64, allows: impl Fn(f64) -> bool) -> f64 {
 
 /// Largest coupling for which the newest samples of the `dynamic` share settle, up to a force of Hertz's peak.
 #[must_use]
-pub fn dynamic_growth_limit(disc: &FixedDisc<'_>, step: f64) -> f64 {
+pub fn dynamic_growth_limit(disc: &ExactDisc<'_>, step: f64) -> f64 {
     let grows = |coupling: f64| {
-        let disc = FixedDisc {
+        let disc = ExactDisc {
             coupling,
             share: StaticShare::Dynamic,
-            ..disc.clone()
+            ..*disc
         };
         linear_growth(&disc, 1.5, step) > 1.0
     };
@@ -72,7 +72,7 @@ const CLASSES: [&str; 4] = [
 ];
 
 /// The plane of coupling and step.
-pub(super) fn figure(paper: &FixedDisc<'_>, shape: [usize; 2], effort: Effort) -> Figure {
+pub(super) fn figure(paper: &ExactDisc<'_>, shape: [usize; 2], effort: Effort) -> Figure {
     let x = Axis::logarithmic("static deflection over indentation (coupling)", 0.05, 5.0);
     let y = Axis::logarithmic("step over Hertz's contact time", 1e-3, 0.2);
     let mut figure = Figure::new(
@@ -81,10 +81,10 @@ pub(super) fn figure(paper: &FixedDisc<'_>, shape: [usize; 2], effort: Effort) -
         x.clone(),
         y.clone(),
     );
-    let at = |coupling: f64| FixedDisc {
+    let at = |coupling: f64| ExactDisc {
         coupling,
         share: StaticShare::Dynamic,
-        ..paper.clone()
+        ..*paper
     };
     let columns: Vec<Option<Converged>> = x
         .cells(shape[0])

@@ -20,12 +20,12 @@ use super::recurrence::linear_growth;
 use crate::StudyError;
 use crate::effort::Effort;
 use crate::figure::{Axis, Figure, Style};
-use crate::scenes::{PAPER, read};
-use halfspace::{Deflection, Medium, SurfaceResponse};
-use impact::contact::hertz::CONTACT_TIME;
-use impact::march::{
-    FixedDisc, History, MarchError, StaticShare, Summary, march_explicit, march_implicit,
+use crate::scenes::{HERTZ_PA, ROD_RADIUS_M, paper};
+use contact::law::hertz::CONTACT_TIME;
+use contact::{
+    ExactDisc, History, MarchError, StaticShare, Summary, march_explicit, march_implicit,
 };
+use halfspace::{Deflection, Medium, SurfaceResponse};
 
 /// What a march made of an impact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -65,7 +65,7 @@ pub struct Converged {
 ///
 /// # Errors
 /// Those of the march.
-pub fn converged(disc: &FixedDisc<'_>) -> Result<Converged, MarchError> {
+pub fn converged(disc: &ExactDisc<'_>) -> Result<Converged, MarchError> {
     let history = march_implicit(disc, CONTACT_TIME / 800.0)?;
     let summary = Summary::new(&history)?;
     let steps = (summary.contact_time / history.step).ceil() as usize;
@@ -97,35 +97,35 @@ impl Converged {
 
     /// Step beyond which the explicit scheme blows up: h k/Z = 2.
     #[must_use]
-    pub fn stable_step(&self, disc: &FixedDisc<'_>) -> f64 {
+    pub fn stable_step(&self, disc: &ExactDisc<'_>) -> f64 {
         2.0 / (1.5 * self.summary.peak_force.cbrt() * admittance(disc))
     }
 
     /// Step beyond which the newest samples of the explicit scheme oscillate: h k/Z = 6 - 4 sqrt 2.
     #[must_use]
-    pub fn smooth_step(&self, disc: &FixedDisc<'_>) -> f64 {
+    pub fn smooth_step(&self, disc: &ExactDisc<'_>) -> f64 {
         (3.0 - 2.0 * std::f64::consts::SQRT_2) * self.stable_step(disc)
     }
 }
 
 /// 1/Z = G(0) in collision units.
 #[must_use]
-pub fn admittance(disc: &FixedDisc<'_>) -> f64 {
+pub fn admittance(disc: &ExactDisc<'_>) -> f64 {
     disc.coupling * disc.response.impulse(0.0) / disc.wave_time
 }
 
 /// A disc of a given stiffness over impedance at the wave time of another.
-fn disc_at<'a>(like: &FixedDisc<'a>, stiffness_over_impedance: f64) -> FixedDisc<'a> {
+fn disc_at<'a>(like: &ExactDisc<'a>, stiffness_over_impedance: f64) -> ExactDisc<'a> {
     let scale = stiffness_over_impedance / (1.5 * admittance(like));
-    FixedDisc {
+    ExactDisc {
         coupling: like.coupling * scale,
-        ..like.clone()
+        ..*like
     }
 }
 
 /// What the explicit scheme makes of an impact at a step.
 #[must_use]
-pub fn explicit_fate(disc: &FixedDisc<'_>, exact: &Converged, step: f64) -> Fate {
+pub fn explicit_fate(disc: &ExactDisc<'_>, exact: &Converged, step: f64) -> Fate {
     match march_explicit(disc, step) {
         Ok((history, summary)) => fate(&history, &summary, exact),
         Err(_) => Fate::BlownUp,
@@ -134,7 +134,7 @@ pub fn explicit_fate(disc: &FixedDisc<'_>, exact: &Converged, step: f64) -> Fate
 
 /// What the implicit scheme makes of it.
 #[must_use]
-pub fn implicit_fate(disc: &FixedDisc<'_>, exact: &Converged, step: f64) -> Fate {
+pub fn implicit_fate(disc: &ExactDisc<'_>, exact: &Converged, step: f64) -> Fate {
     let done = march_implicit(disc, step)
         .and_then(|history| Summary::new(&history).map(|summary| (history, summary)));
     match done {
@@ -181,9 +181,8 @@ fn maxima(force: &[f64]) -> usize {
 }
 
 /// The paper's disc with E = 129 GPa for the copper, which its Hertz values are computed with.
-pub fn paper_disc<'a>(response: &'a SurfaceResponse) -> Result<FixedDisc<'a>, StudyError> {
-    let (_, striker, collision) = read(&PAPER.replace("123e9", "129e9"))?;
-    Ok(collision.fixed_disc(response, striker.tip_radius_m, StaticShare::Full))
+pub fn paper_disc<'a>(response: &'a SurfaceResponse) -> Result<ExactDisc<'a>, StudyError> {
+    Ok(paper(HERTZ_PA)?.fixed_disc(response, ROD_RADIUS_M, StaticShare::Full))
 }
 
 /// The steel block's response under the paper's disc.
@@ -234,7 +233,7 @@ pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Figure>,
         let (disc, exact) = column(x);
         explicit_fate(disc, exact, y * CONTACT_TIME) as usize
     });
-    let line = |step: &dyn Fn(&(FixedDisc<'_>, Converged)) -> f64| {
+    let line = |step: &dyn Fn(&(ExactDisc<'_>, Converged)) -> f64| {
         columns
             .iter()
             .zip(x.cells(shape[0]))
@@ -317,7 +316,7 @@ pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Figure>,
 }
 
 /// The restitution of 0.991 in numbers.
-fn explain(paper: &FixedDisc<'_>, own: &Converged) -> String {
+fn explain(paper: &ExactDisc<'_>, own: &Converged) -> String {
     let at = |n: f64| own.summary.contact_time / n;
     let found = |n: f64| match march_explicit(paper, at(n)) {
         Ok((_, summary)) => format!("{:.4}", summary.restitution),

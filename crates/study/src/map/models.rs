@@ -10,13 +10,13 @@ use crate::effort::Effort;
 use crate::figure::{Axis, Figure, Style};
 use crate::marching::Results;
 use crate::record::Error;
-use crate::scenes::{ball, read};
+use crate::scenes::{ball, collision};
+use contact::choose::{Rung, choose};
+use contact::law::hertz::CONTACT_TIME;
+use contact::law::radiation::{LARGEST_LAG, radiation};
+use contact::{GrowingDisc, Library, MarchError, PunchResponse, Summary, march_growing};
 use halfspace::{Deflection, Medium, SurfaceResponse};
-use impact::choose::{Rung, choose};
-use impact::contact::hertz::CONTACT_TIME;
-use impact::contact::radiation::{LARGEST_LAG, radiation};
-use impact::march::{GrowingDisc, MarchError, PunchResponse, Summary, march_growing};
-use impact::material::Library;
+use impact::Impact;
 
 /// Tolerances of the three pictures.
 pub const TOLERANCES: [f64; 3] = [1e-2, 1e-3, 1e-4];
@@ -158,7 +158,7 @@ pub(super) fn memory_of_change(low: f64, leaves: Rung, chosen: impl Fn(f64) -> R
 /// # Errors
 /// When the library's material makes no scene.
 pub fn place_of(target: &str, velocity_m_s: f64) -> Result<(f64, f64), StudyError> {
-    let (_, _, collision) = read(&ball(target, velocity_m_s, ""))?;
+    let collision = collision(&ball(target, velocity_m_s)?);
     let centre = SurfaceResponse::new(
         &Medium::new(collision.target_poisson_ratio)?,
         Deflection::Centre,
@@ -167,11 +167,12 @@ pub fn place_of(target: &str, velocity_m_s: f64) -> Result<(f64, f64), StudyErro
     Ok((collision.target_share(), memory / CONTACT_TIME))
 }
 
-/// The scene of such a point with model `auto` at a tolerance.
-#[must_use]
-pub fn ball_scene(target: &str, velocity_m_s: f64, tolerance: f64) -> String {
-    let contact = format!("[contact]\nmodel = \"auto\"\ntolerance = {tolerance:?}\n");
-    ball(target, velocity_m_s, &contact)
+/// The impact of such a point with model `auto` at a tolerance.
+///
+/// # Errors
+/// When the library's material makes no half-space.
+pub fn ball_impact(target: &str, velocity_m_s: f64, tolerance: f64) -> Result<Impact, StudyError> {
+    Ok(ball(target, velocity_m_s)?.to_tolerance(tolerance))
 }
 
 /// Names of the built-in materials that can be a target: those with a density.

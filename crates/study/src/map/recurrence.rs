@@ -1,13 +1,13 @@
 //! The recurrence that the implicit scheme's newest samples follow at a frozen contact stiffness.
 
-use impact::march::{FixedDisc, StaticShare, memory_weights};
+use contact::{ExactDisc, StaticShare, memory_weights};
 
 /// Growth per step of the implicit scheme's newest samples at a frozen contact stiffness k.
 ///
 /// The largest root, in modulus, of p_n/k + coupling [p_n - sum_j g_j (p_{n-j} - p_{n-j-1})] = 0, for the dynamic
 /// share without the first p_n in brackets, from a long run of the recurrence; below one the samples settle.
 #[must_use]
-pub fn linear_growth(disc: &FixedDisc<'_>, stiffness: f64, step: f64) -> f64 {
+pub fn linear_growth(disc: &ExactDisc<'_>, stiffness: f64, step: f64) -> f64 {
     const STEPS: usize = 400;
     let lag = memory_weights(disc, step);
     let still = match disc.share {

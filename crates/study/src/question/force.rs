@@ -7,16 +7,17 @@ use crate::StudyError;
 use crate::effort::Effort;
 use crate::marching::{Order, Results, march};
 use crate::record::{Error, Question, Record};
-use crate::scenes::{PAPER, ball, read};
-use halfspace::{Deflection, Medium, SurfaceResponse};
-use impact::contact::hertz::CONTACT_TIME;
-use impact::contact::quasi_static::{quasi_static, quasi_static_radiation};
-use impact::contact::radiation::radiation;
-use impact::march::{
-    Accuracy, FixedDisc, GrowingDisc, History, MarchError, PunchResponse, ResponseTable,
-    StaticShare, Summary, TabulatedDisc, Workspace, march_explicit, march_growing, march_implicit,
-    refine,
+use crate::scenes::{ROD_RADIUS_M, TABLE_1_PA, ball, collision, paper};
+use contact::law::hertz::CONTACT_TIME;
+use contact::law::quasi_static::{quasi_static, quasi_static_radiation};
+use contact::law::radiation::radiation;
+use contact::surface::Surface;
+use contact::{
+    Accuracy, ExactDisc, FixedDisc, GrowingDisc, History, MarchError, PunchResponse, ResponseTable,
+    StaticShare, Summary, Workspace, march_explicit, march_growing, march_implicit, refine,
+    solve_disc,
 };
+use halfspace::{Deflection, Medium, SurfaceResponse};
 use std::cell::{Cell, RefCell};
 use std::hint::black_box;
 
@@ -38,10 +39,10 @@ struct Candidate<'a> {
 /// Measures every method in both scenes.
 pub(crate) fn measure(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Record>, StudyError> {
     let mut records = Vec::new();
-    let (_, striker, collision) = read(PAPER)?;
-    let medium = Medium::new(collision.target_poisson_ratio)?;
+    let collided = paper(TABLE_1_PA)?;
+    let medium = Medium::new(collided.target_poisson_ratio)?;
     let response = SurfaceResponse::new(&medium, Deflection::Centre);
-    let disc = collision.fixed_disc(&response, striker.tip_radius_m, StaticShare::Full);
+    let disc = collided.fixed_disc(&response, ROD_RADIUS_M, StaticShare::Full);
     let reference = refine(|step| march_implicit(&disc, step), 0.02, 2e-11)?;
     let table = ResponseTable::new(&response);
     let mut candidates = on_disc(&disc, effort);
@@ -51,7 +52,7 @@ pub(crate) fn measure(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Record>,
     }
     advance();
 
-    let (_, _, collision) = read(&ball("steel", 1.0, ""))?;
+    let collision = collision(&ball("steel", 1.0)?);
     let medium = Medium::new(collision.target_poisson_ratio)?;
     let response = SurfaceResponse::new(&medium, Deflection::Centre);
     let punch = PunchResponse::new(&response);
@@ -61,7 +62,7 @@ pub(crate) fn measure(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Record>,
         0.02,
         effort.pick(1e-5, 1e-6),
     )?;
-    let lag = collision.lag(&response);
+    let lag = collision.lag(&Surface::of(&response));
     for candidate in growing_contact(&growing, lag, effort) {
         records.push(take(effort, BALL, &(&reference.summary).into(), &candidate));
     }
@@ -97,7 +98,7 @@ fn work(history: &History, memory: f64) -> u64 {
     steps * steps.min((memory / history.step).ceil() as u64 + 1)
 }
 
-fn on_disc<'a>(disc: &'a FixedDisc<'a>, effort: Effort) -> Vec<Candidate<'a>> {
+fn on_disc<'a>(disc: &'a ExactDisc<'a>, effort: Effort) -> Vec<Candidate<'a>> {
     let duration = quasi_static(disc.coupling).contact_time;
     let memory = disc.memory();
     let steps = move |n: usize| duration / n as f64;
@@ -190,7 +191,7 @@ fn halved<'a>(
 
 /// The marches whose step is halved until a tolerance is met: for one scene, and for the scenes of a sweep.
 fn to_tolerance<'a>(
-    disc: &'a FixedDisc<'a>,
+    disc: &'a ExactDisc<'a>,
     table: &'a ResponseTable,
     effort: Effort,
 ) -> Vec<Candidate<'a>> {
@@ -206,8 +207,8 @@ fn to_tolerance<'a>(
             |step| march_implicit(disc, step),
         ));
         let workspace = RefCell::new(Workspace::default());
-        let tabulated = TabulatedDisc {
-            table,
+        let tabulated = FixedDisc {
+            response: table,
             coupling: disc.coupling,
             wave_time: disc.wave_time,
             share: disc.share,
@@ -218,11 +219,12 @@ fn to_tolerance<'a>(
             default_path: true,
             run: Box::new(move || {
                 let accuracy = Accuracy::of_contact(tolerance, None);
-                let first = duration / accuracy.first_steps();
-                let found = workspace.borrow_mut().solve(&tabulated, first, &accuracy)?;
+                let room = &mut *workspace.borrow_mut();
+                let found = solve_disc(room, &tabulated, None, accuracy)?;
                 // each halving doubles steps and cells
-                let steps = found.summary.contact_time / found.step;
-                let cells = (memory / found.step).ceil() + 1.0;
+                let step = found.step.unwrap_or(f64::INFINITY);
+                let steps = found.summary.contact_time / step;
+                let cells = (memory / step).ceil() + 1.0;
                 Ok(((&found.summary).into(), (4.0 / 3.0 * steps * cells) as u64))
             }),
         });

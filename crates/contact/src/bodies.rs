@@ -1,0 +1,118 @@
+//! The two bodies of an impact.
+
+use crate::body_error::{BodyError, positive};
+use crate::material::Material;
+use std::f64::consts::PI;
+
+/// An elastic half-space: a material with a density, and the block's thickness where it is known.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HalfSpace {
+    material: Material,
+    density_kg_m3: f64,
+    /// Thickness of the block in m, for the check of reflections.
+    pub thickness_m: Option<f64>,
+}
+
+impl HalfSpace {
+    /// Of a material.
+    ///
+    /// # Errors
+    /// [`BodyError`] without a density, or for elastic constants outside their ranges.
+    pub fn new(material: Material) -> Result<Self, BodyError> {
+        material.check()?;
+        Ok(Self {
+            density_kg_m3: density(&material)?,
+            material,
+            thickness_m: None,
+        })
+    }
+
+    /// What it is made of.
+    #[must_use]
+    pub fn material(&self) -> &Material {
+        &self.material
+    }
+
+    /// Changes numbers of the material.
+    ///
+    /// # Errors
+    /// [`BodyError`] when the changed material makes no half-space; it is not to be used then.
+    pub fn change(&mut self, change: impl FnOnce(&mut Material)) -> Result<(), BodyError> {
+        change(&mut self.material);
+        self.material.check()?;
+        self.density_kg_m3 = density(&self.material)?;
+        Ok(())
+    }
+
+    /// Density in kg/m^3.
+    #[must_use]
+    pub fn density_kg_m3(&self) -> f64 {
+        self.density_kg_m3
+    }
+
+    /// Longitudinal wave speed c1 in m/s.
+    #[must_use]
+    pub fn longitudinal_speed_m_s(&self) -> f64 {
+        (self.material.longitudinal_modulus_pa() / self.density_kg_m3).sqrt()
+    }
+}
+
+fn density(material: &Material) -> Result<f64, BodyError> {
+    material.density_kg_m3.ok_or_else(|| BodyError::NoDensity {
+        material: material.name.clone(),
+        purpose: "the half-space",
+    })
+}
+
+/// The body that strikes: a rigid mass with a spherical elastic tip.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Striker {
+    /// What it is made of.
+    pub material: Material,
+    /// Mass in kg.
+    pub mass_kg: f64,
+    /// Radius of its tip in m.
+    pub tip_radius_m: f64,
+    /// Length in m of a rod, for the check of its free oscillations.
+    pub length_m: Option<f64>,
+}
+
+impl Striker {
+    /// A mass with a tip of a radius.
+    ///
+    /// # Errors
+    /// [`BodyError::OutOfRange`] for a mass or a radius that is not positive.
+    pub fn new(material: Material, mass_kg: f64, tip_radius_m: f64) -> Result<Self, BodyError> {
+        material.check()?;
+        Ok(Self {
+            mass_kg: positive("mass_kg", mass_kg)?,
+            tip_radius_m: positive("tip_radius_m", tip_radius_m)?,
+            material,
+            length_m: None,
+        })
+    }
+
+    /// A ball of a radius: its mass follows from the density of its material.
+    ///
+    /// ```
+    /// use contact::{Material, Striker};
+    /// let ball = Striker::ball(Material::named("bearing-steel")?, 0.005)?;
+    /// assert!((ball.mass_kg - 7800.0 * 4.0 / 3.0 * std::f64::consts::PI * 0.005_f64.powi(3)).abs() < 1e-12);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`BodyError`] without a density or for a radius that is not positive.
+    pub fn ball(material: Material, radius_m: f64) -> Result<Self, BodyError> {
+        let density = material.density_kg_m3.ok_or_else(|| BodyError::NoDensity {
+            material: material.name.clone(),
+            purpose: "the mass of a ball",
+        })?;
+        let radius_m = positive("radius_m", radius_m)?;
+        Self::new(
+            material,
+            density * 4.0 / 3.0 * PI * radius_m.powi(3),
+            radius_m,
+        )
+    }
+}

@@ -1,0 +1,183 @@
+//! `auto`: the cheapest rung of a family of models that meets the tolerance.
+//!
+//! Within a family (growing contact, fixed disc with the full or the dynamic share) the rungs are
+//! quasi-static, quasi-static with the first-order radiated loss, and full memory; each is the limit
+//! of the next as the memory over the contact time goes to zero.
+//! What a rung leaves out is estimated from three numbers in collision units: the coupling sigma (zero
+//! unless the share is full), the lag c and the memory T of the half-space.
+//! With l = (5/2) c int p'^2, the first-order loss,
+//!
+//! ```text
+//! quasi-static    peak force, contact time, restitution, displacement   l/2 + what radiation leaves out
+//!                 loss                                                  all of it
+//! radiation       the same four        0.4 l^2 + (0.12 + 0.07 sigma) l sqrt(T)       fixed disc
+//!                                      0.4 l^2 + 0.3 l T + 0.06 l sqrt(T)            growing contact
+//!                 loss, relative       0.75 l + 0.8 T^2    and    0.75 l + 0.25 T^2
+//! ```
+//!
+//! l/2 and the exponents are those of the expansion in the lag: the next order of the restitution is
+//! l^2/3, of the loss (2/3) l; the square root comes from the end of contact, where p' has one; T^2 from
+//! the third derivative of the force.
+//! The coefficients bound the differences from the full memory that were measured over couplings of 1e-3 to 5,
+//! memories of 1e-4 to 0.25 and Poisson's ratios of 0 to 0.48, with a margin of about 1.3.
+//! `tests/auto.rs` repeats the comparison on random scenes.
+
+use crate::law::quasi_static::quasi_static;
+use crate::law::radiation::LOSS;
+use crate::march::refine::Accuracy;
+
+/// A rung of the ladder.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Rung {
+    /// No waves at all.
+    QuasiStatic,
+    /// First-order radiated loss.
+    Radiation,
+    /// Full memory.
+    FullMemory,
+}
+
+/// The physics that a scene states.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Family {
+    /// The contact radius follows the load.
+    Growing,
+    /// Fixed disc whose static deflection is added to Hertz's.
+    Full,
+    /// Fixed disc without its static deflection.
+    Dynamic,
+}
+
+/// What the choice depends on, in collision units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Groups {
+    /// Family.
+    pub family: Family,
+    /// Static compliance of the disc over Hertz's; only looked at for the full share.
+    pub coupling: f64,
+    /// c of w = -c p', the dynamic part of the deflection to first order.
+    pub lag: f64,
+    /// Time after which the half-space has forgotten.
+    pub memory: f64,
+}
+
+/// Estimated relative errors of a rung.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Estimate {
+    /// Of peak force, contact time, restitution, largest displacement: the largest.
+    pub contact: f64,
+    /// Of the loss 1 - e^2.
+    pub loss: f64,
+}
+
+/// The rung chosen and why.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Choice {
+    /// The rung.
+    pub rung: Rung,
+    /// Estimated relative error of that rung; zero for full memory, whose error is its step's.
+    pub error: f64,
+    /// What radiation changes, l/2.
+    pub radiation: f64,
+    /// What the first order of radiation leaves out.
+    pub left_out: Estimate,
+}
+
+/// First-order losses and memories up to which the expansion is trusted at all.
+const LARGEST_LOSS: f64 = 0.3;
+const LARGEST_MEMORY: f64 = 0.3;
+
+impl Groups {
+    /// l = (5/2) c int p'^2 of the quasi-static impact.
+    #[must_use]
+    pub fn first_order_loss(&self) -> f64 {
+        match self.family {
+            Family::Full => quasi_static(self.coupling).loss_per_lag * self.lag,
+            Family::Growing | Family::Dynamic => LOSS * self.lag,
+        }
+    }
+
+    /// What the first order of radiation leaves out.
+    #[must_use]
+    pub fn beyond_radiation(&self) -> Estimate {
+        let (l, t) = (self.first_order_loss(), self.memory);
+        if l > LARGEST_LOSS || t > LARGEST_MEMORY {
+            return Estimate {
+                contact: 1.0,
+                loss: 1.0,
+            };
+        }
+        let fixed = |coupling: f64| Estimate {
+            contact: 0.4 * l * l + (0.12 + 0.07 * coupling) * l * t.sqrt(),
+            loss: 0.75 * l + 0.8 * t * t,
+        };
+        match self.family {
+            Family::Full => fixed(self.coupling),
+            Family::Dynamic => fixed(0.0),
+            Family::Growing => Estimate {
+                contact: 0.4 * l * l + 0.3 * l * t + 0.06 * l * t.sqrt(),
+                loss: 0.75 * l + 0.25 * t * t,
+            },
+        }
+    }
+
+    /// The cheapest rung that meets the accuracy asked for.
+    #[must_use]
+    pub fn choose(&self, accuracy: &Accuracy) -> Choice {
+        let radiation = 0.5 * self.first_order_loss();
+        let left_out = self.beyond_radiation();
+        let choice = |rung, error| Choice {
+            rung,
+            error,
+            radiation,
+            left_out,
+        };
+        if accuracy.loss.is_none() && radiation + left_out.contact <= accuracy.tolerance {
+            return choice(Rung::QuasiStatic, radiation + left_out.contact);
+        }
+        let loss_is_met = accuracy.loss.is_none_or(|asked| left_out.loss <= asked);
+        if left_out.contact <= accuracy.tolerance && loss_is_met {
+            return choice(Rung::Radiation, left_out.contact);
+        }
+        choice(Rung::FullMemory, 0.0)
+    }
+}
+
+/// The choice for a contact that follows the load, from its lag and its memory in collision units.
+#[must_use]
+pub fn choose(lag: f64, memory: f64, tolerance: f64, loss_tolerance: Option<f64>) -> Choice {
+    let groups = Groups {
+        family: Family::Growing,
+        coupling: 0.0,
+        lag,
+        memory,
+    };
+    groups.choose(&Accuracy::of_contact(tolerance, loss_tolerance))
+}
+
+impl Choice {
+    /// The reason in words.
+    #[must_use]
+    pub fn reason(&self, accuracy: &Accuracy) -> String {
+        let (first, tolerance) = (self.radiation, accuracy.tolerance);
+        let second = self.left_out.contact;
+        let change = format!("radiation changes the results by {first:.1e}");
+        match self.rung {
+            Rung::QuasiStatic => {
+                format!("{change}, below the tolerance {tolerance:.1e}: no waves needed")
+            }
+            Rung::Radiation => format!(
+                "{change}; what its first order leaves out, {second:.1e}, is below the tolerance {tolerance:.1e}"
+            ),
+            Rung::FullMemory => match accuracy.loss {
+                Some(asked) if second <= tolerance => format!(
+                    "the first order of radiation would leave out {:.1e} of the loss, above the loss_tolerance {asked:.1e}: full memory",
+                    self.left_out.loss
+                ),
+                Some(_) | None => format!(
+                    "{change}; its first order would leave out {second:.1e}, above the tolerance {tolerance:.1e}: full memory"
+                ),
+            },
+        }
+    }
+}

@@ -1,0 +1,146 @@
+//! A collision of two elastic bodies and its dimensionless groups.
+
+use crate::bodies::{HalfSpace, Striker};
+use crate::disc::FixedDisc;
+use crate::march::growing::GrowingDisc;
+use crate::response::disc::DiscResponse;
+use crate::response::punch::PunchResponse;
+use crate::settings::StaticShare;
+use crate::surface::Surface;
+use crate::units::{CollisionUnits, KernelUnits};
+
+/// A striker with a spherical tip that meets an elastic half-space, in SI units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Collision {
+    /// Mass of the striker in kg.
+    pub mass_kg: f64,
+    /// Velocity of approach in m/s.
+    pub velocity_m_s: f64,
+    /// Radius of the tip in m.
+    pub tip_radius_m: f64,
+    /// E* in Pa: 1/E* = (1 - nu1^2)/E1 + (1 - nu^2)/E.
+    pub effective_modulus_pa: f64,
+    /// Plane modulus E/(1 - nu^2) of the half-space in Pa.
+    pub target_plane_modulus_pa: f64,
+    /// Shear modulus of the half-space in Pa.
+    pub target_shear_modulus_pa: f64,
+    /// Longitudinal wave speed of the half-space in m/s.
+    pub target_longitudinal_speed_m_s: f64,
+    /// Poisson's ratio of the half-space.
+    pub target_poisson_ratio: f64,
+}
+
+impl Collision {
+    /// The collision of a striker with a half-space at a velocity of approach in m/s.
+    #[must_use]
+    pub fn new(half_space: &HalfSpace, striker: &Striker, velocity_m_s: f64) -> Self {
+        let (one, two) = (&striker.material, half_space.material());
+        let compliance = 1.0 / one.plane_modulus_pa() + 1.0 / two.plane_modulus_pa();
+        Self {
+            mass_kg: striker.mass_kg,
+            velocity_m_s,
+            tip_radius_m: striker.tip_radius_m,
+            effective_modulus_pa: 1.0 / compliance,
+            target_plane_modulus_pa: two.plane_modulus_pa(),
+            target_shear_modulus_pa: two.shear_modulus_pa(),
+            target_longitudinal_speed_m_s: half_space.longitudinal_speed_m_s(),
+            target_poisson_ratio: two.poisson_ratio,
+        }
+    }
+
+    /// K = (4/3) E* sqrt(R) in N/m^(3/2), (37).
+    #[must_use]
+    pub fn stiffness_n_m32(&self) -> f64 {
+        4.0 / 3.0 * self.effective_modulus_pa * self.tip_radius_m.sqrt()
+    }
+
+    /// Units of the collision: Hertz's largest approach and force.
+    #[must_use]
+    pub fn units(&self) -> CollisionUnits {
+        CollisionUnits::new(self.stiffness_n_m32(), self.mass_kg, self.velocity_m_s)
+    }
+
+    /// Units of the half-space's kernels for a disc.
+    #[must_use]
+    pub fn kernel_units(&self, disc_radius_m: f64) -> KernelUnits {
+        KernelUnits {
+            disc_radius_m,
+            longitudinal_speed_m_s: self.target_longitudinal_speed_m_s,
+            shear_modulus_pa: self.target_shear_modulus_pa,
+        }
+    }
+
+    /// Kinetic energy before, in J.
+    #[must_use]
+    pub fn energy_j(&self) -> f64 {
+        0.5 * self.mass_kg * self.velocity_m_s * self.velocity_m_s
+    }
+
+    /// Contact radius a = sqrt(R alpha) in m under a force in N: (3 P R/(4 E*))^(1/3).
+    #[must_use]
+    pub fn contact_radius_m(&self, force_n: f64) -> f64 {
+        (0.75 * force_n * self.tip_radius_m / self.effective_modulus_pa).cbrt()
+    }
+
+    /// phi: the half-space's part of the contact's compliance, E* (1 - nu^2)/E in (0, 1).
+    #[must_use]
+    pub fn target_share(&self) -> f64 {
+        self.effective_modulus_pa / self.target_plane_modulus_pa
+    }
+
+    /// The groups of an impact on a fixed disc.
+    #[must_use]
+    pub fn fixed_disc<'a, R: DiscResponse>(
+        &self,
+        response: &'a R,
+        disc_radius_m: f64,
+        share: StaticShare,
+    ) -> FixedDisc<'a, R> {
+        let (coupling, wave_time) = self.disc_groups(response.static_compliance(), disc_radius_m);
+        FixedDisc {
+            response,
+            coupling,
+            wave_time,
+            share,
+        }
+    }
+
+    /// Static compliance of a disc over Hertz's, and r0/c1, in collision units.
+    #[must_use]
+    pub fn disc_groups(&self, static_compliance: f64, disc_radius_m: f64) -> (f64, f64) {
+        let units = self.units();
+        let kernel = self.kernel_units(disc_radius_m);
+        (
+            static_compliance * kernel.displacement_m_per_n() * units.force_n / units.length_m,
+            kernel.time_s() / units.time_s,
+        )
+    }
+
+    /// The groups of an impact whose contact radius follows the load.
+    #[must_use]
+    pub fn growing_disc<'a>(&self, punch: &'a PunchResponse) -> GrowingDisc<'a> {
+        GrowingDisc {
+            punch,
+            target_share: self.target_share(),
+            wave_time: self.contact_wave_time(),
+        }
+    }
+
+    /// a/c1 in collision times, a = sqrt(R alpha) the contact radius at Hertz's largest approach.
+    #[must_use]
+    pub fn contact_wave_time(&self) -> f64 {
+        let units = self.units();
+        let radius = (self.tip_radius_m * units.length_m).sqrt();
+        radius / self.target_longitudinal_speed_m_s / units.time_s
+    }
+
+    /// c of the radiation model in collision units: w = -c p' to first order, for any load.
+    #[must_use]
+    pub fn lag(&self, surface: &Surface) -> f64 {
+        // phi (2/3) a J_p with the punch's J, which is the same for any disc
+        // (the Hertz disc's mean deflection has another static part and another relaxation, the same product)
+        let centre = surface.static_compliance * surface.relaxation_time
+            / (0.375 * (1.0 - self.target_poisson_ratio));
+        self.target_share() * self.contact_wave_time() * centre
+    }
+}

@@ -1,0 +1,45 @@
+//! An impact on a disc of fixed radius in dimensionless groups.
+
+use crate::response::disc::DiscResponse;
+use crate::settings::StaticShare;
+use halfspace::SurfaceResponse;
+
+/// An impact on a disc of fixed radius, in dimensionless groups; the response is exact or tabulated.
+#[derive(Debug)]
+pub struct FixedDisc<'a, R> {
+    /// Step response of the deflection of the disc.
+    pub response: &'a R,
+    /// Static deflection of the disc under Hertz's largest force over Hertz's largest approach.
+    pub coupling: f64,
+    /// r0/c1 in collision times.
+    pub wave_time: f64,
+    /// Which part of the deflection enters.
+    pub share: StaticShare,
+}
+
+/// One with the exact response.
+pub type ExactDisc<'a> = FixedDisc<'a, SurfaceResponse>;
+
+impl<R> Clone for FixedDisc<'_, R> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<R> Copy for FixedDisc<'_, R> {}
+
+impl<R: DiscResponse> FixedDisc<'_, R> {
+    /// Memory of the half-space in collision times.
+    #[must_use]
+    pub fn memory(&self) -> f64 {
+        self.response.memory() * self.wave_time
+    }
+
+    /// Coupling of the static spring in the contact law: none for the dynamic share.
+    pub(crate) fn static_coupling(&self) -> f64 {
+        match self.share {
+            StaticShare::Full => self.coupling,
+            StaticShare::Dynamic => 0.0,
+        }
+    }
+}

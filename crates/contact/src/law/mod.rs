@@ -1,0 +1,5 @@
+//! Contact laws in closed form or without memory, one file each.
+
+pub mod hertz;
+pub mod quasi_static;
+pub mod radiation;

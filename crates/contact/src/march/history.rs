@@ -1,0 +1,105 @@
+//! Samples of a march.
+
+/// The end of the first contact, as the last samples in contact tell it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Separation {
+    /// When the force is zero.
+    pub(crate) time: f64,
+    /// Uncertainty of `time` for steps longer than the memory.
+    pub(crate) uncertainty: f64,
+    /// Impulse from the third sample before the first free one until then.
+    pub(crate) impulse: f64,
+}
+
+/// Samples of a march, a step apart, from the first touch until the striker has left for good.
+///
+/// In collision units.
+#[derive(Debug, Clone, PartialEq)]
+pub struct History {
+    /// Time between samples.
+    pub step: f64,
+    /// Contact force.
+    pub force: Vec<f64>,
+    /// Displacement of the striker.
+    pub displacement: Vec<f64>,
+    /// Deflection of the half-space that enters the contact law.
+    pub deflection: Vec<f64>,
+    /// What the trapezoidal rule misses of the impulse at the touch.
+    pub(crate) start: f64,
+    /// Velocity where the scheme computes it itself; empty otherwise.
+    pub(crate) velocity: Vec<f64>,
+    /// Compliance of the newest sample: d - w + compliance * p is smooth through the end of contact.
+    pub(crate) compliance: f64,
+    /// The surface's part of it.
+    pub(crate) elastic: f64,
+    /// End of the first contact where the march finds it itself.
+    pub(crate) separation: Option<Separation>,
+    /// Work left in the half-space where the march finds it itself.
+    pub(crate) dissipated: Option<f64>,
+    /// Layer at the end of a contact that shrinks.
+    pub(crate) end_layer: EndLayer,
+}
+
+/// The last instants of a contact whose radius goes to zero, too short for the step.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(crate) struct EndLayer {
+    /// Whether the contact's radius goes to zero at all.
+    pub(crate) shrinks: bool,
+    /// Displacement of the striker at the end of contact over the square of its velocity there.
+    pub(crate) depth: f64,
+    /// Duration of the layer over the velocity; zero where there is none.
+    pub(crate) width: f64,
+}
+
+impl History {
+    pub(crate) fn at_touch(step: f64, capacity: usize) -> Self {
+        let start = || {
+            let mut samples = Vec::with_capacity(capacity);
+            samples.push(0.0);
+            samples
+        };
+        Self {
+            step,
+            force: start(),
+            displacement: start(),
+            deflection: start(),
+            start: 0.0,
+            velocity: Vec::new(),
+            compliance: 0.0,
+            elastic: 0.0,
+            separation: None,
+            dissipated: None,
+            end_layer: EndLayer::default(),
+        }
+    }
+
+    /// Forgets everything but the room that it takes.
+    pub(crate) fn restart(&mut self, step: f64) {
+        self.step = step;
+        self.velocity.clear();
+        self.separation = None;
+        self.dissipated = None;
+        for samples in [
+            &mut self.force,
+            &mut self.displacement,
+            &mut self.deflection,
+        ] {
+            samples.clear();
+            samples.push(0.0);
+        }
+    }
+
+    pub(crate) fn push(&mut self, force: f64, displacement: f64, deflection: f64) {
+        self.force.push(force);
+        self.displacement.push(displacement);
+        self.deflection.push(deflection);
+    }
+
+    /// Mean velocity over the last step.
+    pub(crate) fn last_velocity(&self) -> f64 {
+        match self.displacement[..] {
+            [.., before, last] => (last - before) / self.step,
+            _ => 1.0,
+        }
+    }
+}

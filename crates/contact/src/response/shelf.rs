@@ -1,0 +1,188 @@
+//! Surface responses by Poisson's ratio: exact ones, and tabulated ones that all threads share.
+
+use super::disc::DiscResponse;
+use super::punch::PunchResponse;
+use super::table::ResponseTable;
+use halfspace::{Deflection, DomainError, Medium, SurfaceResponse};
+use std::collections::HashMap;
+use std::hash::Hash;
+use std::sync::{Arc, PoisonError, RwLock};
+
+/// Where a solver has its responses from.
+pub trait Responses {
+    /// Response of a fixed disc.
+    type Disc: DiscResponse;
+
+    /// The response of a fixed disc.
+    ///
+    /// # Errors
+    /// [`DomainError`] for a Poisson's ratio outside (-1, 0.5).
+    fn disc(&self, ratio: f64, deflection: Deflection) -> Result<Arc<Self::Disc>, DomainError>;
+
+    /// The response of a flat punch.
+    ///
+    /// # Errors
+    /// [`DomainError`] for a Poisson's ratio outside (-1, 0.5).
+    fn punch(&self, ratio: f64) -> Result<Arc<PunchResponse>, DomainError>;
+}
+
+/// Exact responses, made when they are asked for: what a single impact takes.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Exact;
+
+impl Responses for Exact {
+    type Disc = SurfaceResponse;
+
+    fn disc(
+        &self,
+        ratio: f64,
+        deflection: Deflection,
+    ) -> Result<Arc<SurfaceResponse>, DomainError> {
+        let medium = Medium::new(ratio)?;
+        Ok(Arc::new(SurfaceResponse::new(&medium, deflection)))
+    }
+
+    fn punch(&self, ratio: f64) -> Result<Arc<PunchResponse>, DomainError> {
+        let centre = self.disc(ratio, Deflection::Centre)?;
+        Ok(Arc::new(PunchResponse::new(&centre)))
+    }
+}
+
+/// How many Poisson's ratios are met.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Ratios {
+    /// A few: each has its own response.
+    Few,
+    /// Any number, as random draws have: responses of a lattice, linear between two of them.
+    ///
+    /// The lattice has steps of 1/4096 in sqrt(1/2 - nu); what lies between is off by less than 1e-6.
+    Many,
+}
+
+type Shelf<K, V> = RwLock<HashMap<K, Arc<V>>>;
+
+/// Tabulated responses, made once and shared by all threads: what a sweep takes.
+#[derive(Debug)]
+pub struct Tabulated {
+    ratios: Ratios,
+    tables: Shelf<(u64, Deflection), ResponseTable>,
+    punches: Shelf<u64, PunchResponse>,
+}
+
+/// Steps of the lattice in sqrt(1/2 - nu), in which every response is smooth.
+const LATTICE: f64 = 4096.0;
+
+/// Lattice points next to nu = 1/2 that are not used: the memory grows like 1/sqrt(1/2 - nu) there.
+const FIRST: f64 = 512.0;
+
+impl Tabulated {
+    /// None yet.
+    #[must_use]
+    pub fn new(ratios: Ratios) -> Self {
+        Self {
+            ratios,
+            tables: Shelf::default(),
+            punches: Shelf::default(),
+        }
+    }
+
+    /// The lattice's Poisson's ratios on both sides and the place between them.
+    fn neighbours(&self, ratio: f64) -> Option<(f64, f64, f64)> {
+        let place = (0.5 - ratio).max(0.0).sqrt() * LATTICE;
+        let below = place.floor();
+        let at = |i: f64| 0.5 - (i / LATTICE).powi(2);
+        let inside = below >= FIRST && at(below + 1.0) > -1.0;
+        match self.ratios {
+            Ratios::Many if inside => Some((at(below), at(below + 1.0), place - below)),
+            Ratios::Many | Ratios::Few => None,
+        }
+    }
+}
+
+impl Responses for Tabulated {
+    type Disc = ResponseTable;
+
+    fn disc(&self, ratio: f64, deflection: Deflection) -> Result<Arc<ResponseTable>, DomainError> {
+        let exact = |nu: f64| {
+            shelved(&self.tables, (nu.to_bits(), deflection), || {
+                let medium = Medium::new(nu)?;
+                Ok(ResponseTable::new(&SurfaceResponse::new(
+                    &medium, deflection,
+                )))
+            })
+        };
+        match self.neighbours(ratio) {
+            None => exact(ratio),
+            Some((near, far, share)) => {
+                let (near, far) = (exact(near)?, exact(far)?);
+                Ok(Arc::new(ResponseTable::between(&near, &far, share)))
+            }
+        }
+    }
+
+    fn punch(&self, ratio: f64) -> Result<Arc<PunchResponse>, DomainError> {
+        let exact = |nu: f64| {
+            shelved(&self.punches, nu.to_bits(), || {
+                let medium = Medium::new(nu)?;
+                Ok(PunchResponse::new(&SurfaceResponse::new(
+                    &medium,
+                    Deflection::Centre,
+                )))
+            })
+        };
+        match self.neighbours(ratio) {
+            None => exact(ratio),
+            Some((near, far, share)) => {
+                let (near, far) = (exact(near)?, exact(far)?);
+                Ok(Arc::new(PunchResponse::between(&near, &far, share)))
+            }
+        }
+    }
+}
+
+/// The value of a key, made when it is first asked for.
+fn shelved<K: Eq + Hash, V>(
+    shelf: &Shelf<K, V>,
+    key: K,
+    make: impl FnOnce() -> Result<V, DomainError>,
+) -> Result<Arc<V>, DomainError> {
+    let read = shelf.read().unwrap_or_else(PoisonError::into_inner);
+    if let Some(found) = read.get(&key) {
+        return Ok(Arc::clone(found));
+    }
+    drop(read);
+    let made = Arc::new(make()?);
+    let mut shelf = shelf.write().unwrap_or_else(PoisonError::into_inner);
+    Ok(Arc::clone(shelf.entry(key).or_insert(made)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn between_lattice_points_responses_are_good_to_1e_6() {
+        let (few, many) = (Tabulated::new(Ratios::Few), Tabulated::new(Ratios::Many));
+        for nu in [-0.9, -0.4, 0.05, 0.263_082_06, 0.31, 0.47, 0.498] {
+            for deflection in [Deflection::Centre, Deflection::Mean] {
+                let exact = few.disc(nu, deflection).unwrap();
+                let found = many.disc(nu, deflection).unwrap();
+                let memory = exact.memory();
+                assert!((found.memory() / memory - 1.0).abs() < 1e-6, "nu = {nu}");
+                assert!((found.relaxation_time() / exact.relaxation_time() - 1.0).abs() < 1e-6);
+                for i in 1..400 {
+                    let t = memory * f64::from(i) / 300.0;
+                    let (a, b) = (exact.integrals(t), found.integrals(t));
+                    let error = (a[0] - b[0]).abs() / memory;
+                    assert!(error < 1e-6, "nu = {nu}, t = {t}: {error:e}");
+                }
+            }
+            let (exact, found) = (few.punch(nu).unwrap(), many.punch(nu).unwrap());
+            for i in 1..400 {
+                let t = exact.memory() * f64::from(i) / 300.0;
+                let (a, b) = (exact.relaxation_integral(t), found.relaxation_integral(t));
+                assert!((a / b - 1.0).abs() < 1e-5, "nu = {nu}, t = {t}");
+            }
+        }
+    }
+}

@@ -1,0 +1,82 @@
+//! The results of a contact in SI units.
+
+use crate::collision::Collision;
+use crate::energy::Ledger;
+use crate::plan::fixed_disc_m;
+use crate::settings::Settings;
+use crate::solver::Solved;
+
+/// Scalar results of a contact in SI units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Results {
+    /// Largest force in N.
+    pub peak_force_n: f64,
+    /// When it is reached in s.
+    pub peak_force_time_s: f64,
+    /// Duration of the first contact in s.
+    pub contact_time_s: f64,
+    /// Velocity of departure in m/s, positive away from the half-space.
+    pub rebound_velocity_m_s: f64,
+    /// Velocity of departure over velocity of approach.
+    pub restitution: f64,
+    /// Kinetic energy lost over kinetic energy before, 1 - restitution^2.
+    pub loss: f64,
+    /// Largest displacement of the striker in m.
+    pub peak_displacement_m: f64,
+    /// Largest deflection that enters the contact law in m.
+    pub peak_deflection_m: f64,
+    /// Momentum given to the striker in N s.
+    pub impulse_n_s: f64,
+    /// Kinetic energy before in J.
+    pub initial_energy_j: f64,
+    /// Energy radiated into the half-space in J.
+    pub radiated_energy_j: f64,
+    /// (initial - rebound - radiated)/initial.
+    pub energy_residual: f64,
+    /// Contact radius of Hertz's law at the largest force in m.
+    pub contact_radius_m: f64,
+    /// Radius of the disc that loads the half-space in m: that of the settings, or the largest contact radius.
+    pub disc_radius_m: f64,
+    /// Number of contacts.
+    pub contacts: usize,
+    /// Steps of the march over the contact, 0 without a march.
+    pub march_steps: usize,
+    /// Step of the march in s, 0 without a march.
+    pub march_step_s: f64,
+    /// Estimated relative error of peak force, contact time, restitution and displacement.
+    pub relative_error_estimate: f64,
+}
+
+impl Results {
+    /// Of a contact solved; `radiated` is relative to the kinetic energy before.
+    #[must_use]
+    pub fn new(collision: &Collision, settings: &Settings, solved: &Solved, radiated: f64) -> Self {
+        let (s, units) = (&solved.summary, collision.units());
+        let peak_force_n = s.peak_force * units.force_n;
+        let contact_radius_m = collision.contact_radius_m(peak_force_n);
+        let steps = solved
+            .step
+            .map_or(0.0, |step| (s.contact_time / step).ceil());
+        Self {
+            peak_force_n,
+            peak_force_time_s: s.peak_force_time * units.time_s,
+            contact_time_s: s.contact_time * units.time_s,
+            rebound_velocity_m_s: s.restitution * collision.velocity_m_s,
+            restitution: s.restitution,
+            loss: s.loss,
+            peak_displacement_m: s.peak_displacement * units.length_m,
+            peak_deflection_m: s.peak_deflection * units.length_m,
+            impulse_n_s: s.impulse * units.force_n * units.time_s,
+            initial_energy_j: collision.energy_j(),
+            radiated_energy_j: radiated * collision.energy_j(),
+            energy_residual: Ledger::new(s.restitution, radiated).residual,
+            contact_radius_m,
+            disc_radius_m: fixed_disc_m(solved.plan.model, settings, collision)
+                .unwrap_or(contact_radius_m),
+            contacts: s.contacts,
+            march_steps: steps as usize,
+            march_step_s: solved.step.map_or(0.0, |step| step * units.time_s),
+            relative_error_estimate: solved.error,
+        }
+    }
+}

@@ -1,0 +1,187 @@
+//! What can be chosen about a contact: model, scheme, disc, tolerances.
+
+use halfspace::Deflection;
+
+/// A choice with a fixed list of values, each with the name that it has in files and reports.
+pub trait Choice: Copy + PartialEq + 'static {
+    /// All values, in the order in which documents list them.
+    const ALL: &'static [Self];
+
+    /// The name of this value.
+    fn name(self) -> &'static str;
+
+    /// The value of a name.
+    fn named(name: &str) -> Option<Self> {
+        Self::ALL.iter().copied().find(|value| value.name() == name)
+    }
+}
+
+/// The contact model asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Model {
+    /// Closed form, no waves.
+    Hertz,
+    /// First-order radiated loss.
+    Radiation,
+    /// Hertz's spring in series with the disc's static one, no waves.
+    QuasiStatic,
+    /// The same with the first-order radiated loss.
+    QuasiStaticRadiation,
+    /// Full retarded deflection of a disc of fixed radius: the paper.
+    Wave,
+    /// Contact radius that follows the load.
+    Growing,
+    /// The cheapest of these that meets the tolerance.
+    Auto,
+}
+
+impl Choice for Model {
+    const ALL: &'static [Self] = &[
+        Self::Hertz,
+        Self::Radiation,
+        Self::QuasiStatic,
+        Self::QuasiStaticRadiation,
+        Self::Wave,
+        Self::Growing,
+        Self::Auto,
+    ];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Hertz => "hertz",
+            Self::Radiation => "radiation",
+            Self::QuasiStatic => "quasi_static",
+            Self::QuasiStaticRadiation => "quasi_static_radiation",
+            Self::Wave => "wave",
+            Self::Growing => "growing",
+            Self::Auto => "auto",
+        }
+    }
+}
+
+/// The marching scheme.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Scheme {
+    /// Product integration, any step.
+    Implicit,
+    /// The paper's (40)-(44).
+    Explicit,
+}
+
+impl Choice for Scheme {
+    const ALL: &'static [Self] = &[Self::Implicit, Self::Explicit];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Implicit => "implicit",
+            Self::Explicit => "explicit",
+        }
+    }
+}
+
+/// Which part of the half-space's deflection is added to Hertz's indentation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum StaticShare {
+    /// All of it: the paper, whose K already holds the static compliance of the half-space.
+    Full,
+    /// Only what differs from the static deflection: nothing is counted twice.
+    Dynamic,
+}
+
+impl StaticShare {
+    /// Part of the static deflection that enters.
+    #[must_use]
+    pub fn factor(self) -> f64 {
+        match self {
+            Self::Full => 1.0,
+            Self::Dynamic => 0.0,
+        }
+    }
+}
+
+impl Choice for StaticShare {
+    const ALL: &'static [Self] = &[Self::Full, Self::Dynamic];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Full => "full",
+            Self::Dynamic => "dynamic",
+        }
+    }
+}
+
+impl Choice for Deflection {
+    const ALL: &'static [Self] = &[Self::Centre, Self::Mean];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Centre => "centre",
+            Self::Mean => "mean",
+        }
+    }
+}
+
+/// How a contact is computed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Settings {
+    /// Radius of the loaded disc in m, if it is fixed.
+    pub disc_radius_m: Option<f64>,
+    /// Model.
+    pub model: Model,
+    /// Marching scheme.
+    pub scheme: Scheme,
+    /// Static share.
+    pub static_share: StaticShare,
+    /// Deflection.
+    pub deflection: Deflection,
+    /// Relative tolerance on the results.
+    pub tolerance: f64,
+    /// Relative tolerance on the loss 1 - e^2, if it is asked for.
+    pub loss_tolerance: Option<f64>,
+    /// Fixed step in s.
+    pub step_s: Option<f64>,
+}
+
+impl Default for Settings {
+    /// Model `auto` at a tolerance of 1e-4.
+    fn default() -> Self {
+        Self {
+            disc_radius_m: None,
+            model: Model::Auto,
+            scheme: Scheme::Implicit,
+            static_share: StaticShare::Full,
+            deflection: Deflection::Centre,
+            tolerance: 1e-4,
+            loss_tolerance: None,
+            step_s: None,
+        }
+    }
+}
+
+/// Two settings that exclude each other.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Conflict {
+    /// The explicit scheme with the dynamic share.
+    ExplicitDynamic,
+    /// The explicit scheme with a model that it does not march.
+    ExplicitModel(Model),
+    /// A contact that follows the load with a fixed disc.
+    GrowingDisc,
+}
+
+impl Settings {
+    /// The first two settings that exclude each other, if there are any.
+    #[must_use]
+    pub fn conflict(&self) -> Option<Conflict> {
+        if self.scheme == Scheme::Explicit {
+            if self.static_share == StaticShare::Dynamic {
+                return Some(Conflict::ExplicitDynamic);
+            }
+            if !matches!(self.model, Model::Wave | Model::Auto) {
+                return Some(Conflict::ExplicitModel(self.model));
+            }
+        }
+        (self.model == Model::Growing && self.disc_radius_m.is_some())
+            .then_some(Conflict::GrowingDisc)
+    }
+}

@@ -1,0 +1,259 @@
+//! What is asked of a history: peaks, the end of contact, the rebound.
+//!
+//! None of them lies on a sample.
+//! Peaks are interpolated through five samples.
+//! The contact ends where b = d - w + A p reaches zero: b is smooth there while p goes to zero with
+//! the power 3/2 (A is the compliance of the newest sample), so b is extrapolated from the last five
+//! samples in contact and the force of the last cells is integrated from it.
+
+use crate::force_balance::force_root;
+use crate::march::error::MarchError;
+use crate::march::history::History;
+use crate::quadrature::{GAUSS_8, Local, peak};
+use crate::units::INVERSE_MASS;
+use crate::work::work;
+
+/// The scalar results of an impact in collision units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Summary {
+    /// Largest force.
+    pub peak_force: f64,
+    /// When it is reached.
+    pub peak_force_time: f64,
+    /// Duration of the first contact.
+    pub contact_time: f64,
+    /// Velocity of departure over velocity of approach.
+    pub restitution: f64,
+    /// Kinetic energy lost over kinetic energy before: 1 - restitution^2.
+    pub loss: f64,
+    /// Largest displacement of the striker.
+    pub peak_displacement: f64,
+    /// Largest deflection that enters the contact law.
+    pub peak_deflection: f64,
+    /// int p dt.
+    pub impulse: f64,
+    /// Number of contacts: 1 unless the surface strikes again.
+    pub contacts: usize,
+    /// How well the end of contact is known.
+    pub end: EndOfContact,
+}
+
+/// How the end of the first contact was found, and so what the contact time's error does with the step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum EndOfContact {
+    /// By extrapolation of what is smooth there.
+    Smooth,
+    /// From what the surface keeps of the force, of this relative uncertainty at any step longer than its memory.
+    Kept(f64),
+    /// In a contact whose radius goes to zero, its last instants resolved: of first order.
+    Singular,
+    /// In such a contact with its last instants in closed form, of this relative uncertainty.
+    Layer(f64),
+}
+
+impl EndOfContact {
+    /// Fraction of the last change of the contact time that is taken as its error, and what stays at any step.
+    ///
+    /// 95 % of the marches on fixed discs leave less.
+    pub(crate) fn rest(self) -> (f64, f64) {
+        match self {
+            Self::Smooth => (1.0, 0.0),
+            Self::Kept(uncertainty) => (0.5, uncertainty),
+            Self::Singular => (1.5, 0.0),
+            Self::Layer(uncertainty) => (1.0 / 3.0, uncertainty),
+        }
+    }
+}
+
+/// Samples in contact that the interpolation needs.
+const NEEDED: usize = 8;
+
+impl Summary {
+    /// Of a history made by the implicit or the growing march.
+    ///
+    /// # Errors
+    /// [`MarchError::StepTooLong`] when the contact has too few samples to interpolate.
+    pub fn new(history: &History) -> Result<Self, MarchError> {
+        let step = history.step;
+        let force = &history.force;
+        let end = first_separation(force);
+        if end < NEEDED {
+            return Err(MarchError::StepTooLong {
+                samples: end,
+                needed: NEEDED,
+            });
+        }
+        let (mut contact_time, impulse) = end_of_contact(history, end);
+        let mut how = history.separation.map_or(EndOfContact::Smooth, |found| {
+            EndOfContact::Kept(found.uncertainty / found.time)
+        });
+        if history.end_layer.shrinks {
+            how = EndOfContact::Singular;
+            if let Some((time, uncertainty)) = end_of_layer(history, end) {
+                contact_time = time;
+                how = EndOfContact::Layer(uncertainty / time);
+            }
+        }
+        let (place, peak_force) = peak(force);
+        let contacts = count_contacts(force, peak_force);
+        let (velocity, loss) = if contacts == 1 {
+            departure(1.0 - INVERSE_MASS * impulse, history)
+        } else {
+            let velocity = history.last_velocity();
+            (velocity, (1.0 - velocity) * (1.0 + velocity))
+        };
+        Ok(Self {
+            peak_force,
+            peak_force_time: place * step,
+            contact_time,
+            restitution: -velocity,
+            loss,
+            peak_displacement: peak(&history.displacement).1,
+            peak_deflection: peak(&history.deflection).1,
+            impulse: (1.0 - velocity) / INVERSE_MASS,
+            contacts,
+            end: how,
+        })
+    }
+
+    /// The largest difference of what a tolerance is asked on, relative (restitution: of the velocity
+    /// of approach): peak force, contact time, restitution, largest displacement.
+    #[must_use]
+    pub fn distance(&self, other: &Self) -> f64 {
+        self.motion_distance(other)
+            .max(self.contact_time_distance(other))
+    }
+
+    /// The same without the contact time.
+    pub(crate) fn motion_distance(&self, other: &Self) -> f64 {
+        relative(self.peak_force, other.peak_force)
+            .max((self.restitution - other.restitution).abs())
+            .max(relative(self.peak_displacement, other.peak_displacement))
+    }
+
+    /// The relative difference of the contact time.
+    pub(crate) fn contact_time_distance(&self, other: &Self) -> f64 {
+        relative(self.contact_time, other.contact_time)
+    }
+
+    /// The relative difference of the loss.
+    #[must_use]
+    pub fn loss_distance(&self, other: &Self) -> f64 {
+        relative(self.loss, other.loss)
+    }
+
+    /// The relative difference of the largest deflection.
+    #[must_use]
+    pub fn deflection_distance(&self, other: &Self) -> f64 {
+        relative(self.peak_deflection, other.peak_deflection)
+    }
+}
+
+fn relative(a: f64, b: f64) -> f64 {
+    let size = a.abs().max(b.abs());
+    if size > 0.0 {
+        (a - b).abs() / size
+    } else {
+        0.0
+    }
+}
+
+/// Loss below which it is taken from the work on the half-space, not from the momentum.
+const SMALL_LOSS: f64 = 0.03;
+
+/// Velocity of departure and loss.
+///
+/// Hertz's spring gives back what it takes, so the loss is the work int p dw: an error of this sum
+/// is relative to the loss however small it is, that of the momentum is relative to all energy.
+fn departure(velocity: f64, history: &History) -> (f64, f64) {
+    let loss = (1.0 - velocity) * (1.0 + velocity);
+    let small = |work: &f64| *work < SMALL_LOSS && loss < 2.0 * SMALL_LOSS;
+    let work = history
+        .dissipated
+        .or_else(|| Some(work(&history.force, &history.deflection)).filter(small))
+        .filter(|work| velocity < 0.0 && *work < 1.0);
+    match work {
+        Some(work) => (-(1.0 - work).sqrt(), work),
+        None => (velocity, loss),
+    }
+}
+
+/// Index of the first sample without force after the touch.
+pub(crate) fn first_separation(force: &[f64]) -> usize {
+    let free = force.iter().skip(1).position(|&p| p <= 0.0);
+    free.map_or(force.len(), |i| i + 1)
+}
+
+/// Contacts whose force exceeds 1e-6 of the largest.
+fn count_contacts(force: &[f64], peak_force: f64) -> usize {
+    let mut contacts = 0;
+    let mut counted = false;
+    for &p in force {
+        if p <= 0.0 {
+            counted = false;
+        } else if !counted && p > 1e-6 * peak_force {
+            counted = true;
+            contacts += 1;
+        }
+    }
+    contacts
+}
+
+/// Uncertainty of the time spent in the end layer.
+const LAYER_UNCERTAINTY: f64 = 0.05;
+
+/// End of a contact with a layer that the step does not resolve, and its uncertainty.
+///
+/// The displacement is smooth there, so the place where it reaches the layer's depth is known well.
+fn end_of_layer(history: &History, end: usize) -> Option<(f64, f64)> {
+    let (step, d) = (history.step, &history.displacement);
+    let layer = history.end_layer;
+    let from = end.checked_sub(3)?;
+    if layer.width == 0.0 || end + 1 >= d.len() {
+        return None;
+    }
+    let velocity = (d[end - 1] - d[end]) / step;
+    if velocity <= 0.0 || 4.0 * step < layer.width * velocity {
+        return None;
+    }
+    let depth = layer.depth * velocity * velocity;
+    let local = Local::<5>::new(std::array::from_fn(|i| d[from + i] - depth));
+    if local.value(0.0) <= 0.0 || local.value(4.0) >= 0.0 {
+        return None;
+    }
+    let time = (from as f64 + local.root(0.0, 4.0)) * step;
+    Some((time, LAYER_UNCERTAINTY * depth / velocity))
+}
+
+/// End of the first contact and the impulse until then; `end` is the first free sample.
+fn end_of_contact(history: &History, end: usize) -> (f64, f64) {
+    let step = history.step;
+    let k = end - 3;
+    if let Some(found) = history.separation {
+        return (found.time, history.impulse_until(k) + found.impulse);
+    }
+    let a = history.compliance;
+    let b = |i: usize| history.displacement[i] - history.deflection[i] + a * history.force[i];
+    let from = end - 5;
+    let local = Local::<5>::new(std::array::from_fn(|i| b(from + i)));
+    // Place of zero in steps from `from`: beyond the fifth sample and before the first free one.
+    let place = if local.value(4.0) > 0.0 && local.value(5.0) <= 0.0 {
+        local.root(4.0, 5.0)
+    } else {
+        let (inside, outside) = (b(end - 1), b(end).min(0.0));
+        4.0 + inside / (inside - outside).max(f64::MIN_POSITIVE)
+    };
+    let contact_time = (from as f64 + place) * step;
+    // Samples 0..=k by Euler-Maclaurin, the rest from b with x^2 the time before the end.
+    let rest = place - (k - from) as f64;
+    let root = rest.sqrt();
+    let tail: f64 = GAUSS_8
+        .iter()
+        .map(|&(x, weight)| {
+            let before = (root * x) * (root * x);
+            let y = force_root(a, local.value(place - before), 0.0).unwrap_or(0.0);
+            weight * root * 2.0 * root * x * y * y * y
+        })
+        .sum();
+    (contact_time, history.impulse_until(k) + tail * step)
+}

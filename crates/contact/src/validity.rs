@@ -1,0 +1,157 @@
+//! Where the model leaves what it was made for: warnings with their numbers.
+
+use crate::bodies::{HalfSpace, Striker};
+use crate::collision::Collision;
+use crate::plan::fixed_disc_m;
+use crate::results::Results;
+use crate::settings::{Model, Settings, StaticShare};
+use halfspace::Deflection;
+use std::f64::consts::PI;
+
+/// Coupling up to which the deflection of the centre takes more energy than it gives, for any Poisson's ratio
+/// between 0 and 0.45: its compliance at some frequencies is real and down to -0.14 of the static one.
+const CENTRE_COUPLING: f64 = 5.0;
+
+/// alpha_A = sqrt(pi rho r^3/m) (V0/c1)^(3/2): the weight of the super-seismic stage.
+#[must_use]
+pub fn super_seismic(half_space: &HalfSpace, collision: &Collision, radius_m: f64) -> f64 {
+    (PI * half_space.density_kg_m3() * radius_m.powi(3) / collision.mass_kg).sqrt()
+        * (collision.velocity_m_s / half_space.longitudinal_speed_m_s()).powf(1.5)
+}
+
+/// What is checked: the bodies, the settings, the model that was used and what it gave.
+#[derive(Debug, Clone, Copy)]
+pub struct Checked<'a> {
+    /// The half-space.
+    pub half_space: &'a HalfSpace,
+    /// The striker.
+    pub striker: &'a Striker,
+    /// Their collision.
+    pub collision: &'a Collision,
+    /// The settings.
+    pub settings: &'a Settings,
+    /// The model that was used.
+    pub model: Model,
+    /// Coupling of the fixed disc, zero without one.
+    pub coupling: f64,
+    /// What it gave.
+    pub results: &'a Results,
+}
+
+impl Checked<'_> {
+    /// Sentences for the user, each with its numbers; none where all is well.
+    #[must_use]
+    pub fn warnings(&self) -> Vec<String> {
+        let mut found = self.of_the_contact();
+        found.extend(self.of_the_materials());
+        found.extend(self.of_the_bodies());
+        found.extend(self.of_the_model());
+        found
+    }
+
+    fn disc_radius_m(&self) -> Option<f64> {
+        fixed_disc_m(self.model, self.settings, self.collision)
+    }
+
+    fn of_the_contact(&self) -> Vec<String> {
+        let mut found = Vec::new();
+        let (disc_radius_m, hertz_radius) = (self.disc_radius_m(), self.results.contact_radius_m);
+        let radius = disc_radius_m.unwrap_or(hertz_radius);
+        let alpha = super_seismic(self.half_space, self.collision, radius);
+        if alpha > 0.1 {
+            found.push(format!(
+                "alpha_A = {alpha:.3} is not small against 1: the contact spreads faster than waves for a good part of the impact"
+            ));
+        }
+        if hertz_radius > 0.5 * self.striker.tip_radius_m {
+            found.push(format!(
+                "the contact radius reaches {hertz_radius:.3e} m, more than half of tip_radius_m = {:.3e} m: Hertz's law is for small contacts",
+                self.striker.tip_radius_m
+            ));
+        }
+        if let Some(disc) = disc_radius_m {
+            let ratio = disc / hertz_radius;
+            if !(0.5..=2.0).contains(&ratio) {
+                found.push(format!(
+                    "disc_radius_m = {disc:.3e} m is {ratio:.2} times the largest contact radius {hertz_radius:.3e} m: the fixed disc does not resemble the contact"
+                ));
+            }
+        }
+        found
+    }
+
+    fn of_the_materials(&self) -> Vec<String> {
+        let mut found = Vec::new();
+        let radius = self
+            .disc_radius_m()
+            .unwrap_or(self.results.contact_radius_m);
+        let stress = self.results.peak_force_n / (PI * radius * radius);
+        let bodies = [
+            ("striker", &self.striker.material),
+            ("target", self.half_space.material()),
+        ];
+        for (body, material) in bodies {
+            for (name, strength) in [
+                ("yield strength", material.yield_strength_pa),
+                ("tensile strength", material.tensile_strength_pa),
+            ] {
+                if let Some(strength) = strength.filter(|&s| stress > s) {
+                    found.push(format!(
+                        "the mean contact stress {:.4e} Pa is {:.2} times the {name} {strength:.4e} Pa of the {body} (the ratio Kmax): the impact is not elastic unless the dynamic strength is that high",
+                        stress,
+                        stress / strength
+                    ));
+                }
+            }
+        }
+        found
+    }
+
+    fn of_the_bodies(&self) -> Vec<String> {
+        let mut found = Vec::new();
+        let contact_time_s = self.results.contact_time_s;
+        let material = &self.striker.material;
+        if let (Some(length), Some(density)) = (self.striker.length_m, material.density_kg_m3) {
+            let period = 2.0 * length / (material.youngs_modulus_pa / density).sqrt();
+            let ratio = contact_time_s / period;
+            if ratio < 10.0 {
+                found.push(format!(
+                    "the contact lasts {ratio:.2} periods {period:.3e} s of the striker's longest free oscillation, less than 10: waves in the striker matter and are not modelled"
+                ));
+            }
+        }
+        if let Some(thickness) = self.half_space.thickness_m {
+            let echo = 2.0 * thickness / self.half_space.longitudinal_speed_m_s();
+            if echo < contact_time_s {
+                found.push(format!(
+                    "the echo from thickness_m = {thickness:.3e} m returns after {echo:.3e} s, before the contact ends at {contact_time_s:.3e} s: the block is not a half-space"
+                ));
+            }
+        }
+        found
+    }
+
+    fn of_the_model(&self) -> Vec<String> {
+        let mut found = Vec::new();
+        let centre = match (
+            self.model,
+            self.settings.static_share,
+            self.settings.deflection,
+        ) {
+            (Model::Wave, StaticShare::Full, Deflection::Centre) => self.coupling,
+            _ => 0.0,
+        };
+        if centre > CENTRE_COUPLING {
+            found.push(format!(
+                "the disc gives way {centre:.1} times as much as the contact, more than {CENTRE_COUPLING}: the deflection of its centre is not conjugate to the pressure and may feed energy back; set deflection = \"mean\""
+            ));
+        }
+        if self.results.contacts > 1 {
+            found.push(format!(
+                "the surface strikes again: {} contacts; contact_time_s is that of the first",
+                self.results.contacts
+            ));
+        }
+        found
+    }
+}

@@ -1,0 +1,152 @@
+//! An elastic body as a section of keys.
+
+use crate::error::SceneError;
+use crate::section::{NOT_NEGATIVE, POISSON, POSITIVE, Section};
+use contact::material::from_wave_speeds;
+use contact::{Library, Material};
+use toml::Table;
+
+/// Keys that describe an elastic body.
+pub(crate) const ELASTIC_KEYS: [&str; 7] = [
+    "youngs_modulus_pa",
+    "poisson_ratio",
+    "density_kg_m3",
+    "longitudinal_speed_m_s",
+    "shear_speed_m_s",
+    "yield_strength_pa",
+    "tensile_strength_pa",
+];
+
+/// Relative difference up to which quantities given twice are taken as rounded, not different.
+const ROUNDING: f64 = 0.02;
+
+/// The elastic body of a section: the numbers of `base` with those given replaced.
+///
+/// E and nu may be given by both wave speeds and the density instead.
+pub(crate) fn elastic(
+    section: &Section<'_>,
+    base: Option<&Material>,
+) -> Result<Material, SceneError> {
+    let density = section.number("density_kg_m3", POSITIVE)?;
+    let density = density.or_else(|| base.and_then(|b| b.density_kg_m3));
+    let modulus = section.number("youngs_modulus_pa", POSITIVE)?;
+    let ratio = section.number("poisson_ratio", POISSON)?;
+    let (c1, c2) = (
+        section.number("longitudinal_speed_m_s", POSITIVE)?,
+        section.number("shear_speed_m_s", POSITIVE)?,
+    );
+    let from_speeds = match (c1, c2) {
+        (None, None) => None,
+        (Some(_), None) => Some(Err(("shear_speed_m_s", "both wave speeds are needed"))),
+        (None, Some(_)) => Some(Err((
+            "longitudinal_speed_m_s",
+            "both wave speeds are needed",
+        ))),
+        (Some(c1), Some(c2)) => Some(Ok((c1, c2))),
+    };
+    let from_speeds = match from_speeds {
+        None => None,
+        Some(Err((key, hint))) => return Err(section.missing(key, hint)),
+        Some(Ok((c1, c2))) => {
+            let density = density.ok_or_else(|| {
+                section.missing(
+                    "density_kg_m3",
+                    "wave speeds give moduli only with a density",
+                )
+            })?;
+            // nu in (-1, 1/2) needs c2/c1 < sqrt(3)/2
+            if c2 * c2 >= 0.75 * c1 * c1 {
+                return Err(SceneError::OutOfRange {
+                    key: section.key("shear_speed_m_s"),
+                    value: c2,
+                    range: "(0, sqrt(3)/2) times longitudinal_speed_m_s",
+                });
+            }
+            Some(from_wave_speeds(c1, c2, density))
+        }
+    };
+    if let Some((speed_modulus, speed_ratio)) = from_speeds {
+        let twice = |quantity, first_key, given: Option<f64>, second: f64, size: f64| match given {
+            Some(first) if (first - second).abs() > ROUNDING * size => {
+                Err(SceneError::Inconsistent {
+                    section: format!("[{}]", section.name()),
+                    quantity,
+                    first,
+                    first_key,
+                    second,
+                    second_key: "longitudinal_speed_m_s and shear_speed_m_s",
+                })
+            }
+            Some(_) | None => Ok(()),
+        };
+        twice(
+            "Young's modulus",
+            "youngs_modulus_pa",
+            modulus,
+            speed_modulus,
+            speed_modulus,
+        )?;
+        twice("Poisson's ratio", "poisson_ratio", ratio, speed_ratio, 0.5)?;
+    }
+    let hint = "give a material, youngs_modulus_pa and poisson_ratio, or both wave speeds and density_kg_m3";
+    let youngs_modulus_pa = modulus
+        .or(from_speeds.map(|s| s.0))
+        .or(base.map(|b| b.youngs_modulus_pa))
+        .ok_or_else(|| section.missing("youngs_modulus_pa", hint))?;
+    let poisson_ratio = ratio
+        .or(from_speeds.map(|s| s.1))
+        .or(base.map(|b| b.poisson_ratio))
+        .ok_or_else(|| section.missing("poisson_ratio", hint))?;
+    let strength = |key, base: Option<f64>| -> Result<Option<f64>, SceneError> {
+        Ok(section
+            .number(key, NOT_NEGATIVE)?
+            .or(base)
+            .filter(|&s| s > 0.0))
+    };
+    Ok(Material {
+        name: base.map_or_else(|| "given".to_owned(), |b| b.name.clone()),
+        youngs_modulus_pa,
+        poisson_ratio,
+        density_kg_m3: density,
+        yield_strength_pa: strength("yield_strength_pa", base.and_then(|b| b.yield_strength_pa))?,
+        tensile_strength_pa: strength(
+            "tensile_strength_pa",
+            base.and_then(|b| b.tensile_strength_pa),
+        )?,
+        group: base.map_or_else(String::new, |b| b.group.clone()),
+        source: base.map_or_else(|| "the scene".to_owned(), |b| b.source.clone()),
+    })
+}
+
+/// The body of a section that may name a material of a library.
+pub(crate) fn body(section: &Section<'_>, library: &Library) -> Result<Material, SceneError> {
+    let base = match section.text("material")? {
+        Some(name) => Some(
+            library
+                .find(name)
+                .map_err(|unknown| SceneError::UnknownMaterial {
+                    key: section.key("material"),
+                    value: unknown.name,
+                    suggestion: unknown.suggestion,
+                })?,
+        ),
+        None => None,
+    };
+    elastic(section, base)
+}
+
+/// The numbers of a material as TOML keys, for the resolved scene.
+pub(crate) fn to_table(material: &Material) -> Table {
+    let mut table = Table::new();
+    let mut put = |key: &str, value: Option<f64>| {
+        if let Some(value) = value {
+            table.insert(key.to_owned(), value.into());
+        }
+    };
+    put("youngs_modulus_pa", Some(material.youngs_modulus_pa));
+    put("poisson_ratio", Some(material.poisson_ratio));
+    put("density_kg_m3", material.density_kg_m3);
+    put("yield_strength_pa", material.yield_strength_pa);
+    put("tensile_strength_pa", material.tensile_strength_pa);
+    table
+}

@@ -1,0 +1,150 @@
+//! What can be wrong with a scene.
+
+use std::path::{Path, PathBuf};
+use thiserror::Error;
+
+/// A scene that cannot be run, told in one sentence with the key, the value and what is allowed.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum SceneError {
+    /// An error in a file.
+    #[error("{}: {error}", path.display())]
+    In {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong in it.
+        error: Box<SceneError>,
+    },
+    /// The file cannot be read.
+    #[error("cannot read {}: {reason}", path.display())]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// The system's reason.
+        reason: String,
+    },
+    /// The text is not TOML.
+    #[error("line {line} is not valid TOML: {reason}")]
+    Syntax {
+        /// Line, from 1.
+        line: usize,
+        /// The parser's reason.
+        reason: String,
+    },
+    /// A key that does not exist.
+    #[error("unknown key {key}{}", suggested(.suggestion, .allowed))]
+    UnknownKey {
+        /// Full name of the key.
+        key: String,
+        /// The nearest key that exists.
+        suggestion: Option<String>,
+        /// The keys that exist there.
+        allowed: String,
+    },
+    /// A key that must be given is absent.
+    #[error("{key} is missing: {hint}")]
+    Missing {
+        /// Full name of the key.
+        key: String,
+        /// What to give.
+        hint: String,
+    },
+    /// A value of the wrong kind.
+    #[error("{key} = {value} is not {expected}")]
+    WrongKind {
+        /// Full name of the key.
+        key: String,
+        /// The value found.
+        value: String,
+        /// What was expected.
+        expected: &'static str,
+    },
+    /// A number outside its range.
+    #[error("{key} = {value} is outside {range}")]
+    OutOfRange {
+        /// Full name of the key.
+        key: String,
+        /// The value found.
+        value: f64,
+        /// The allowed range in interval notation.
+        range: &'static str,
+    },
+    /// A word that is not one of the choices.
+    #[error("{key} = \"{value}\" is not one of {allowed}")]
+    UnknownChoice {
+        /// Full name of the key.
+        key: String,
+        /// The word found.
+        value: String,
+        /// The choices.
+        allowed: String,
+    },
+    /// A material that is not in the library.
+    #[error("{key} = \"{value}\" is not in the materials library{}", .suggestion.as_ref().map_or_else(String::new, |near| format!("; did you mean {near}?")))]
+    UnknownMaterial {
+        /// Full name of the key.
+        key: String,
+        /// The name found.
+        value: String,
+        /// The nearest name.
+        suggestion: Option<String>,
+    },
+    /// The same quantity given twice, differently.
+    #[error(
+        "{section} gives {quantity} twice: {first} from {first_key} and {second} from {second_key}; leave one pair out"
+    )]
+    Inconsistent {
+        /// Section of the scene.
+        section: String,
+        /// The quantity.
+        quantity: &'static str,
+        /// Value from the first keys.
+        first: f64,
+        /// The first keys.
+        first_key: &'static str,
+        /// Value from the second keys.
+        second: f64,
+        /// The second keys.
+        second_key: &'static str,
+    },
+    /// Two choices that exclude each other.
+    #[error("{first} cannot be combined with {second}: {reason}")]
+    Conflict {
+        /// The first choice.
+        first: String,
+        /// The second choice.
+        second: String,
+        /// Why.
+        reason: &'static str,
+    },
+    /// A force file with an unusable row.
+    #[error("{} line {line}: {reason}", path.display())]
+    ForceFile {
+        /// The file.
+        path: PathBuf,
+        /// Line, from 1.
+        line: usize,
+        /// What is wrong with it.
+        reason: String,
+    },
+}
+
+impl SceneError {
+    /// The same with the path of the file that it is in, unless it names a file already.
+    #[must_use]
+    pub fn in_file(self, path: &Path) -> Self {
+        match self {
+            named @ (Self::In { .. } | Self::Unreadable { .. } | Self::ForceFile { .. }) => named,
+            error => Self::In {
+                path: path.to_owned(),
+                error: Box::new(error),
+            },
+        }
+    }
+}
+
+fn suggested(suggestion: &Option<String>, otherwise: &str) -> String {
+    match suggestion {
+        Some(name) => format!("; did you mean {name}?"),
+        None => format!(" ({otherwise})"),
+    }
+}

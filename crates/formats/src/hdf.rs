@@ -1,0 +1,67 @@
+//! What the HDF5 library is asked to do: described datasets, texts, dimension scales.
+
+use hdf5::types::VarLenUnicode;
+use hdf5::{Dataset, Group, H5Type};
+pub(crate) use lookup::labels::{attach_scale, set_scale, text};
+
+/// The first line of a library's error, which has one for each of its own calls.
+pub(crate) fn first_line(error: &hdf5::Error) -> String {
+    let text = error.to_string();
+    text.lines().next().unwrap_or_default().to_owned()
+}
+
+pub(crate) fn vector(
+    group: &Group,
+    described: &(&str, &str, &str),
+    samples: &[f64],
+) -> Result<Dataset, hdf5::Error> {
+    numbers(group, described, &[samples.len()], samples)
+}
+
+pub(crate) fn matrix(
+    group: &Group,
+    described: &(&str, &str, &str),
+    shape: [usize; 2],
+    samples: &[f64],
+) -> Result<Dataset, hdf5::Error> {
+    numbers(group, described, &shape, samples)
+}
+
+/// A dataset of any shape; `described` is its name, unit and meaning.
+pub(crate) fn numbers<T: H5Type>(
+    group: &Group,
+    described: &(&str, &str, &str),
+    shape: &[usize],
+    samples: &[T],
+) -> Result<Dataset, hdf5::Error> {
+    let dataset = group
+        .new_dataset::<T>()
+        .shape(shape)
+        .obj_track_times(false)
+        .create(described.0)?;
+    dataset.write_raw(samples)?;
+    describe(&dataset, described)?;
+    Ok(dataset)
+}
+
+/// A list of texts.
+pub(crate) fn texts(
+    group: &Group,
+    described: &(&str, &str, &str),
+    values: &[String],
+) -> Result<Dataset, hdf5::Error> {
+    let values: Vec<VarLenUnicode> = values
+        .iter()
+        .map(|value| value.replace('\0', " ").parse())
+        .collect::<Result<_, _>>()
+        .map_err(|_| hdf5::Error::from("a text holds a NUL"))?;
+    numbers(group, described, &[values.len()], &values)
+}
+
+pub(crate) fn describe(
+    dataset: &Dataset,
+    described: &(&str, &str, &str),
+) -> Result<(), hdf5::Error> {
+    text(dataset, "units", described.1)?;
+    text(dataset, "long_name", described.2)
+}

@@ -1,0 +1,37 @@
+//! Files of hertzlamb: readers and writers as functions over typed values.
+//!
+//! Scenes, materials and force records come in, results, sections and sweeps go out; `data-schema/` describes each.
+//!
+//! ```
+//! let text = "[target]\nmaterial = \"granite\"\n[striker]\nmaterial = \"steel\"\nmass_kg = 4e-6\n\
+//!     tip_radius_m = 5e-4\nvelocity_m_s = 1.0\n";
+//! let scene = formats::parse_scene(text, std::path::Path::new("."))?;
+//! let outcome = impact::simulate(&scene, &impact::KernelChoice::Direct)?;
+//! let report = formats::json_report(&scene, &outcome, 0.0);
+//! assert!(report["peak_force_n"].as_f64() > Some(1.0));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+// in reading order
+mod body;
+mod error;
+mod hdf;
+mod materials;
+mod output;
+pub mod quantities;
+mod record;
+mod report;
+pub mod results;
+pub mod scene;
+mod section;
+pub mod sweep;
+mod text;
+
+pub use error::SceneError;
+pub use materials::{parse_materials, read_materials};
+pub use output::{Existing, OutputError, check, write_whole};
+pub use quantities::{Kind, QUANTITIES, Quantity};
+pub use record::read_record;
+pub use report::{Choices, choices, json_report, kernel_name};
+pub use results::write_results;
+pub use scene::{parse_scene, read_scene, resolved};

@@ -1,0 +1,25 @@
+//! Force records: text with the columns `time_s,force_n`, or HDF5 with `/time` and `/force`, which a results file has.
+
+mod csv;
+mod hdf;
+
+use crate::error::SceneError;
+use crate::text::read_text;
+use csv::from_csv;
+use hdf::{from_hdf5, is_hdf5};
+use impact::ForceRecord;
+use std::path::Path;
+
+/// Reads a record; the ending of its name says which of both it is.
+///
+/// # Errors
+/// [`SceneError::ForceFile`] with the line at fault, [`SceneError::Unreadable`].
+pub fn read_record(path: &Path) -> Result<ForceRecord, SceneError> {
+    let mut record = if is_hdf5(path) {
+        from_hdf5(path)?
+    } else {
+        from_csv(&read_text(path)?, path)?
+    };
+    record.file = Some(path.to_owned());
+    Ok(record)
+}

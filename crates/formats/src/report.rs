@@ -1,0 +1,108 @@
+//! The results of an impact for people and for machines.
+
+use crate::quantities::{Kind, QUANTITIES};
+use contact::Choice;
+use impact::{Cause, KernelsUsed, Outcome, Scene};
+use serde_json::{Map, Value, json};
+
+/// Names of the choices made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Choices<'a> {
+    /// Model, never "auto"; "prescribed" for a force that was given.
+    pub model: &'static str,
+    /// Scheme; "closed form" where nothing was marched.
+    pub scheme: &'static str,
+    /// Static share.
+    pub static_share: &'static str,
+    /// Deflection.
+    pub deflection: &'static str,
+    /// Why this model.
+    pub reason: &'a str,
+}
+
+/// Name of the scheme where nothing is marched.
+const CLOSED_FORM: &str = "closed form";
+
+/// What a scene was computed with.
+#[must_use]
+pub fn choices<'a>(scene: &Scene, outcome: &'a Outcome) -> Choices<'a> {
+    let (model, scheme, reason) = match &outcome.cause {
+        Cause::Contact {
+            model,
+            scheme,
+            reason,
+            ..
+        } => (model.name(), scheme.map(Choice::name), reason.as_str()),
+        Cause::Record(_) => ("prescribed", None, "the force is given"),
+    };
+    let static_share = match &outcome.cause {
+        Cause::Contact { .. } => scene.settings.static_share.name(),
+        Cause::Record(_) => "full",
+    };
+    Choices {
+        model,
+        scheme: scheme.unwrap_or(CLOSED_FORM),
+        static_share,
+        deflection: scene.settings.deflection.name(),
+        reason,
+    }
+}
+
+/// Kernel of the fields: "none", "direct" or "table".
+#[must_use]
+pub fn kernel_name(outcome: &Outcome) -> &'static str {
+    let used = outcome.used.as_ref();
+    used.map_or("none", |used| used.kernels.name())
+}
+
+/// All that is reported of a scene, with the time that it took in s.
+#[must_use]
+pub fn json_report(scene: &Scene, outcome: &Outcome, wall_s: f64) -> Value {
+    let choices = choices(scene, outcome);
+    let used = outcome.used.as_ref();
+    let table_id = match used.map(|used| &used.kernels) {
+        Some(KernelsUsed::Table { id, .. }) => Some(id.as_str()),
+        Some(KernelsUsed::Direct) | None => None,
+    };
+    let time_s = &outcome.series.time_s;
+    let section = outcome.section.as_ref();
+    let head = json!({
+        "model": choices.model,
+        "scheme": choices.scheme,
+        "static_share": choices.static_share,
+        "deflection": choices.deflection,
+        "reason": choices.reason,
+        "kernel": kernel_name(outcome),
+        "kernel_reason": used.map_or("", |used| &used.reason),
+        "convolution": used.map_or("", |used| used.convolution.name()),
+        "table_id": table_id,
+        "steps": time_s.len().saturating_sub(1),
+        "step_s": time_s.get(1).copied().unwrap_or(0.0),
+    });
+    let tail = json!({
+        "probes": outcome.probes.as_ref().map_or(0, |fields| fields.r_m.len()),
+        "map": section.map(|s| [s.time_s.len(), s.z_m.len(), s.r_m.len()]),
+        "wall_s": wall_s,
+        "warnings": outcome.warnings,
+    });
+    let quantities = QUANTITIES.iter().map(|quantity| {
+        let value = quantity
+            .of(outcome)
+            .map_or(Value::Null, |x| match quantity.kind {
+                Kind::Real => Value::from(x),
+                Kind::Count => Value::from(x as u64),
+            });
+        (quantity.name.to_owned(), value)
+    });
+    let pairs = |value: Value| match value {
+        Value::Object(map) => map,
+        _ => Map::new(),
+    };
+    Value::Object(
+        pairs(head)
+            .into_iter()
+            .chain(quantities)
+            .chain(pairs(tail))
+            .collect(),
+    )
+}

@@ -1,0 +1,10 @@
+//! The results file: HDF5, as `data-schema/results.md` writes it down.
+//!
+//! Every name on disk is a constant of [`schema`] or of the table of quantities. The file is written beside its final
+//! name and renamed when it is complete.
+
+pub mod schema;
+mod section;
+mod write;
+
+pub use write::write_results;

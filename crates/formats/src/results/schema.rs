@@ -1,0 +1,88 @@
+//! Names and versions on disk.
+
+/// Value of the attribute `file_type`.
+pub const FILE_TYPE: &str = "hertzlamb results";
+/// Version of the format: the first number changes when a reader of the old one would fail.
+pub const FORMAT_VERSION: &str = "1.2";
+/// Datasets in the root, with unit and description.
+pub const SERIES: [(&str, &str, &str); 5] = [
+    ("time", "s", "time since the first touch"),
+    ("force", "N", "contact force, positive in compression"),
+    (
+        "displacement",
+        "m",
+        "displacement of the striker, positive into the half-space",
+    ),
+    (
+        "velocity",
+        "m/s",
+        "velocity of the striker, positive into the half-space",
+    ),
+    (
+        "deflection",
+        "m",
+        "deflection of the half-space in the contact law, positive inwards",
+    ),
+];
+/// Group of the probes.
+pub const PROBES: &str = "probes";
+/// Coordinates of the probes.
+pub const PLACES: [(&str, &str, &str); 2] = [
+    ("r", "m", "distance from the axis"),
+    ("z", "m", "depth below the surface"),
+];
+/// Fields at the probes, in the order of the kernels.
+pub const FIELDS: [(&str, &str, &str); 6] = [
+    (
+        "displacement_r",
+        "m",
+        "radial displacement, positive outwards",
+    ),
+    (
+        "displacement_z",
+        "m",
+        "axial displacement, positive into the half-space",
+    ),
+    ("stress_rr", "Pa", "radial stress, negative in compression"),
+    ("stress_tt", "Pa", "hoop stress, negative in compression"),
+    ("stress_zz", "Pa", "axial stress, negative in compression"),
+    ("stress_rz", "Pa", "shear stress"),
+];
+/// Appended to the name of a field: the estimate of its error.
+pub const ERROR_SUFFIX: &str = "_error";
+/// Arrivals of the first P, S and Rayleigh wave.
+pub const ARRIVALS: (&str, &str, &str) = (
+    "arrival",
+    "s",
+    "time after the first touch at which the first P, S and Rayleigh wave arrive",
+);
+/// Text attributes of the root.
+pub const TEXTS: [&str; 15] = [
+    "file_type",
+    "format_version",
+    "software_version",
+    "model",
+    "scheme",
+    "static_share",
+    "deflection_of",
+    "reason",
+    "kernel",
+    "kernel_reason",
+    "convolution",
+    "table_id",
+    "table_format_version",
+    "warnings",
+    "scene",
+];
+/// Group of the section.
+pub const MAP: &str = "map";
+/// Scales of the section in the order of its dimensions.
+pub const MAP_SCALES: [(&str, &str, &str); 3] = [
+    ("time", "s", "time of each frame since the first touch"),
+    ("z", "m", "depth below the surface, descending"),
+    ("r", "m", "distance from the axis"),
+];
+/// Group that ParaView and pyvista read.
+pub const VTK: &str = "VTKHDF";
+/// Group of the fields in it.
+pub const VTK_POINTS: &str = "PointData";

@@ -1,0 +1,122 @@
+//! Writing results files.
+
+use super::schema;
+use super::section::write_section;
+use crate::hdf::{attach_scale, first_line, matrix, set_scale, text, vector};
+use crate::output::{Existing, OutputError, write_whole};
+use crate::quantities::QUANTITIES;
+use crate::report::{choices, kernel_name};
+use crate::scene::resolved;
+use hdf5::{Dataset, File};
+use impact::{KernelsUsed, Outcome, ProbeFields, Scene};
+use std::path::Path;
+
+/// Writes the results of a scene.
+///
+/// # Errors
+/// [`OutputError`].
+pub fn write_results(
+    path: &Path,
+    scene: &Scene,
+    outcome: &Outcome,
+    existing: Existing,
+) -> Result<(), OutputError> {
+    write_whole(path, existing, |part| {
+        write_file(part, scene, outcome).map_err(|error| first_line(&error))
+    })
+}
+
+fn write_file(path: &Path, scene: &Scene, outcome: &Outcome) -> Result<(), hdf5::Error> {
+    let file = File::create(path)?;
+    write_attributes(&file, scene, outcome)?;
+    let series = &outcome.series;
+    let striker = series.striker.as_ref();
+    let columns = [
+        Some(&series.time_s),
+        Some(&series.force_n),
+        striker.map(|striker| &striker.displacement_m),
+        striker.map(|striker| &striker.velocity_m_s),
+        Some(&series.deflection_m),
+    ];
+    let mut time: Option<Dataset> = None;
+    for (described, samples) in schema::SERIES.iter().zip(columns) {
+        let Some(samples) = samples else {
+            continue;
+        };
+        let dataset = vector(&file, described, samples)?;
+        match &time {
+            None => {
+                set_scale(&dataset, described.0)?;
+                time = Some(dataset);
+            }
+            Some(time) => attach_scale(&dataset, time, 0)?,
+        }
+    }
+    if let (Some(fields), Some(time)) = (&outcome.probes, &time) {
+        write_probes(&file, fields, time)?;
+    }
+    if let Some(section) = &outcome.section {
+        write_section(&file, section)?;
+    }
+    file.flush()?;
+    file.close()
+}
+
+fn write_probes(file: &File, fields: &ProbeFields, time: &Dataset) -> Result<(), hdf5::Error> {
+    let group = file.create_group(schema::PROBES)?;
+    let [r, z] = &schema::PLACES;
+    vector(&group, r, &fields.r_m)?;
+    vector(&group, z, &fields.z_m)?;
+    let arrivals: Vec<f64> = fields.arrival_s.iter().flatten().copied().collect();
+    let rows = fields.r_m.len();
+    matrix(&group, &schema::ARRIVALS, [rows, 3], &arrivals)?;
+    for (i, described) in schema::FIELDS.iter().enumerate() {
+        let (name, unit, meaning) = *described;
+        let columns = fields.values[i].first().map_or(0, Vec::len);
+        let samples: Vec<f64> = fields.values[i].iter().flatten().copied().collect();
+        let dataset = matrix(&group, described, [rows, columns], &samples)?;
+        attach_scale(&dataset, time, 1)?;
+        let error = format!("{name}{}", schema::ERROR_SUFFIX);
+        let meaning = format!("estimated absolute error: {meaning}");
+        vector(&group, &(&error, unit, &meaning), &fields.errors[i])?;
+    }
+    Ok(())
+}
+
+fn write_attributes(file: &File, scene: &Scene, outcome: &Outcome) -> Result<(), hdf5::Error> {
+    let choices = choices(scene, outcome);
+    let used = outcome.used.as_ref();
+    let (id, version) = match used.map(|used| &used.kernels) {
+        Some(KernelsUsed::Table { id, format_version }) => (id.as_str(), format_version.as_str()),
+        Some(KernelsUsed::Direct) | None => ("", ""),
+    };
+    let warnings = outcome.warnings.join("\n");
+    let texts = [
+        schema::FILE_TYPE,
+        schema::FORMAT_VERSION,
+        env!("CARGO_PKG_VERSION"),
+        choices.model,
+        choices.scheme,
+        choices.static_share,
+        choices.deflection,
+        choices.reason,
+        kernel_name(outcome),
+        used.map_or("", |used| &used.reason),
+        used.map_or("", |used| used.convolution.name()),
+        id,
+        version,
+        &warnings,
+        &resolved(scene),
+    ];
+    for (name, value) in schema::TEXTS.into_iter().zip(texts) {
+        text(file, name, value)?;
+    }
+    for quantity in &QUANTITIES {
+        if let Some(value) = quantity.of(outcome) {
+            file.new_attr::<f64>()
+                .create(quantity.name)?
+                .write_scalar(&value)?;
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,9 @@
+//! Scene files: what hits what, and what is asked, in TOML and SI units.
+//!
+//! The format is written down in `data-schema/scene.md`.
+
+mod read;
+mod write;
+
+pub use read::{parse_scene, read_scene, scene_of};
+pub use write::resolved;

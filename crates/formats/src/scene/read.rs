@@ -1,0 +1,257 @@
+//! Reading scenes.
+
+use crate::body::{ELASTIC_KEYS, body};
+use crate::error::SceneError;
+use crate::materials::read_materials;
+use crate::record::read_record;
+use crate::section::{NOT_NEGATIVE, POSITIVE, Section, TOLERANCE, parse};
+use crate::text::read_text;
+use contact::{Choice, Conflict, HalfSpace, Library, Settings, Striker};
+use impact::{Load, Probe, Scene, Section as MeridionalSection, Strike};
+use std::path::Path;
+use toml::Table;
+
+const SECTIONS: [&str; 8] = [
+    "target",
+    "striker",
+    "contact",
+    "force",
+    "probe",
+    "map",
+    "output",
+    "materials",
+];
+
+/// Reads a scene file; other files it names are found beside it.
+///
+/// # Errors
+/// [`SceneError`], with the path of the file at fault.
+pub fn read_scene(path: &Path) -> Result<Scene, SceneError> {
+    let text = read_text(path)?;
+    let directory = path.parent().unwrap_or(Path::new("."));
+    parse_scene(&text, directory).map_err(|error| error.in_file(path))
+}
+
+/// Reads a scene from text; other files it names are found in `directory`.
+///
+/// # Errors
+/// [`SceneError`].
+pub fn parse_scene(text: &str, directory: &Path) -> Result<Scene, SceneError> {
+    scene_of(&parse(text)?, directory)
+}
+
+/// Reads a scene from a parsed table, as sweeps make them.
+///
+/// # Errors
+/// [`SceneError`].
+pub fn scene_of(table: &Table, directory: &Path) -> Result<Scene, SceneError> {
+    let root = Section::root(table);
+    root.allow(&SECTIONS)?;
+    let library = read_library(&root, directory)?;
+    let target = read_target(&root, &library)?;
+    let settings = read_settings(root.section("contact")?.as_ref())?;
+    let load = read_load(&root, &settings, &library, directory)?;
+    let (probes, section) = (read_probes(&root)?, read_section(&root)?);
+    let mut duration_s = None;
+    if let Some(output) = root.section("output")? {
+        output.allow(&["duration_s"])?;
+        duration_s = output.number("duration_s", POSITIVE)?;
+    }
+    Ok(Scene {
+        target,
+        load,
+        settings,
+        probes,
+        section,
+        duration_s,
+    })
+}
+
+fn read_target(root: &Section<'_>, library: &Library) -> Result<HalfSpace, SceneError> {
+    let target = root
+        .section("target")?
+        .ok_or_else(|| root.missing("target", "describe the half-space in a section [target]"))?;
+    target.allow(&with(&ELASTIC_KEYS, &["material", "thickness_m"]))?;
+    let material = body(&target, library)?;
+    // the reader has checked the ranges: a density is all that can be missing
+    let mut half_space = HalfSpace::new(material).map_err(|_| {
+        target.missing(
+            "density_kg_m3",
+            "the half-space needs a density for its waves",
+        )
+    })?;
+    half_space.thickness_m = target.number("thickness_m", POSITIVE)?;
+    Ok(half_space)
+}
+
+fn with(keys: &[&'static str], more: &[&'static str]) -> Vec<&'static str> {
+    [more, keys].concat()
+}
+
+fn read_library(root: &Section<'_>, directory: &Path) -> Result<Library, SceneError> {
+    let Some(section) = root.section("materials")? else {
+        return Ok(Library::built_in().clone());
+    };
+    section.allow(&["file"])?;
+    let file = section
+        .text("file")?
+        .ok_or_else(|| section.missing("file", "name a TOML file of materials"))?;
+    let own = read_materials(&directory.join(file))?;
+    Ok(Library::built_in().extended(&own))
+}
+
+fn read_settings(section: Option<&Section<'_>>) -> Result<Settings, SceneError> {
+    let mut settings = Settings::default();
+    let Some(section) = section else {
+        return Ok(settings);
+    };
+    section.allow(&[
+        "disc_radius_m",
+        "model",
+        "scheme",
+        "static_share",
+        "deflection",
+        "tolerance",
+        "loss_tolerance",
+        "step_s",
+    ])?;
+    settings.disc_radius_m = section.number("disc_radius_m", POSITIVE)?;
+    settings.step_s = section.number("step_s", POSITIVE)?;
+    settings.loss_tolerance = section.number("loss_tolerance", TOLERANCE)?;
+    if let Some(tolerance) = section.number("tolerance", TOLERANCE)? {
+        settings.tolerance = tolerance;
+    }
+    if let Some(model) = section.choice("model")? {
+        settings.model = model;
+    }
+    if let Some(scheme) = section.choice("scheme")? {
+        settings.scheme = scheme;
+    }
+    if let Some(share) = section.choice("static_share")? {
+        settings.static_share = share;
+    }
+    if let Some(deflection) = section.choice("deflection")? {
+        settings.deflection = deflection;
+    }
+    match settings.conflict() {
+        None => Ok(settings),
+        Some(conflict) => Err(in_words(conflict)),
+    }
+}
+
+/// Settings that exclude each other, in the words of a scene.
+fn in_words(conflict: Conflict) -> SceneError {
+    let (first, second, reason) = match conflict {
+        Conflict::ExplicitDynamic => (
+            "contact.scheme = \"explicit\"",
+            "static_share = \"dynamic\"".to_owned(),
+            "the paper's kernel holds the static deflection",
+        ),
+        Conflict::ExplicitModel(model) => (
+            "contact.scheme = \"explicit\"",
+            format!("model = \"{}\"", model.name()),
+            "the paper's scheme marches model wave only",
+        ),
+        Conflict::GrowingDisc => (
+            "contact.model = \"growing\"",
+            "disc_radius_m".to_owned(),
+            "its contact radius follows the load",
+        ),
+    };
+    SceneError::Conflict {
+        first: first.to_owned(),
+        second,
+        reason,
+    }
+}
+
+fn read_load(
+    root: &Section<'_>,
+    settings: &Settings,
+    library: &Library,
+    directory: &Path,
+) -> Result<Load, SceneError> {
+    match (root.section("striker")?, root.section("force")?) {
+        (Some(striker), None) => read_strike(&striker, library).map(Load::Strike),
+        (None, Some(force)) => {
+            force.allow(&["file"])?;
+            let file = force.text("file")?.ok_or_else(|| {
+                force.missing("file", "name a CSV file with columns time_s,force_n or an HDF5 file with /time and /force")
+            })?;
+            if settings.disc_radius_m.is_none() {
+                return Err(SceneError::Missing {
+                    key: "contact.disc_radius_m".to_owned(),
+                    hint: "a prescribed force needs the radius of the disc that it loads"
+                        .to_owned(),
+                });
+            }
+            read_record(&directory.join(file)).map(Load::Record)
+        }
+        (Some(_), Some(_)) => Err(SceneError::Conflict {
+            first: "[striker]".to_owned(),
+            second: "[force]".to_owned(),
+            reason: "the force is either computed or prescribed",
+        }),
+        (None, None) => Err(root.missing(
+            "striker",
+            "give a section [striker], or [force] with a prescribed history",
+        )),
+    }
+}
+
+fn read_strike(section: &Section<'_>, library: &Library) -> Result<Strike, SceneError> {
+    section.allow(&with(
+        &ELASTIC_KEYS,
+        &[
+            "material",
+            "mass_kg",
+            "tip_radius_m",
+            "velocity_m_s",
+            "length_m",
+        ],
+    ))?;
+    Ok(Strike {
+        striker: Striker {
+            material: body(section, library)?,
+            mass_kg: section.required("mass_kg", POSITIVE, "the mass of the striker")?,
+            tip_radius_m: section.required(
+                "tip_radius_m",
+                POSITIVE,
+                "the radius of the striker's tip",
+            )?,
+            length_m: section.number("length_m", POSITIVE)?,
+        },
+        velocity_m_s: section.required("velocity_m_s", POSITIVE, "the velocity of approach")?,
+    })
+}
+
+fn read_probes(root: &Section<'_>) -> Result<Vec<Probe>, SceneError> {
+    root.list("probe")?
+        .iter()
+        .map(|(name, table)| {
+            let section = Section::of(name, table);
+            section.allow(&["r_m", "z_m"])?;
+            Ok(Probe {
+                r_m: section.required("r_m", NOT_NEGATIVE, "the distance from the axis")?,
+                z_m: section.required("z_m", NOT_NEGATIVE, "the depth below the surface")?,
+            })
+        })
+        .collect()
+}
+
+fn read_section(root: &Section<'_>) -> Result<Option<MeridionalSection>, SceneError> {
+    let Some(section) = root.section("map")? else {
+        return Ok(None);
+    };
+    section.allow(&["r_max_m", "z_max_m", "points", "frames"])?;
+    Ok(Some(MeridionalSection {
+        r_max_m: section.required("r_max_m", POSITIVE, "the width of the section")?,
+        z_max_m: section.required("z_max_m", POSITIVE, "the depth of the section")?,
+        points: section
+            .counts("points", 2, 2001, "[2, 2001]")?
+            .ok_or_else(|| section.missing("points", "points along r and z, such as [81, 81]"))?,
+        frames: section
+            .count("frames", 1, 100_000, "[1, 100000]")?
+            .ok_or_else(|| section.missing("frames", "the number of frames in time"))?,
+    }))
+}

@@ -1,0 +1,79 @@
+//! Writing scenes.
+
+use crate::body::to_table;
+use contact::{Choice, Settings};
+use impact::{Load, Scene};
+use toml::{Table, Value};
+
+/// The scene with every default and material spelled out, as TOML.
+#[must_use]
+pub fn resolved(scene: &Scene) -> String {
+    let mut root = Table::new();
+    let mut target = to_table(scene.target.material());
+    put(&mut target, "thickness_m", scene.target.thickness_m);
+    root.insert("target".into(), Value::Table(target));
+    match &scene.load {
+        Load::Strike(strike) => {
+            let striker = &strike.striker;
+            let mut table = to_table(&striker.material);
+            put(&mut table, "mass_kg", Some(striker.mass_kg));
+            put(&mut table, "tip_radius_m", Some(striker.tip_radius_m));
+            put(&mut table, "velocity_m_s", Some(strike.velocity_m_s));
+            put(&mut table, "length_m", striker.length_m);
+            root.insert("striker".into(), Value::Table(table));
+        }
+        Load::Record(record) => {
+            let mut table = Table::new();
+            let file = record.file.as_ref().map(|path| path.display().to_string());
+            table.insert("file".into(), file.unwrap_or_default().into());
+            root.insert("force".into(), Value::Table(table));
+        }
+    }
+    root.insert("contact".into(), Value::Table(settings(&scene.settings)));
+    let probes = scene.probes.iter().map(|probe| {
+        let mut table = Table::new();
+        put(&mut table, "r_m", Some(probe.r_m));
+        put(&mut table, "z_m", Some(probe.z_m));
+        Value::Table(table)
+    });
+    if !scene.probes.is_empty() {
+        root.insert("probe".into(), Value::Array(probes.collect()));
+    }
+    if let Some(section) = scene.section {
+        let mut table = Table::new();
+        put(&mut table, "r_max_m", Some(section.r_max_m));
+        put(&mut table, "z_max_m", Some(section.z_max_m));
+        let points = section.points.map(|n| Value::Integer(n as i64));
+        table.insert("points".into(), Value::Array(points.to_vec()));
+        table.insert("frames".into(), Value::Integer(section.frames as i64));
+        root.insert("map".into(), Value::Table(table));
+    }
+    if scene.duration_s.is_some() {
+        let mut table = Table::new();
+        put(&mut table, "duration_s", scene.duration_s);
+        root.insert("output".into(), Value::Table(table));
+    }
+    root.to_string()
+}
+
+fn settings(settings: &Settings) -> Table {
+    let mut table = Table::new();
+    let mut word = |key: &str, value: &str| {
+        table.insert(key.to_owned(), value.into());
+    };
+    word("model", settings.model.name());
+    word("scheme", settings.scheme.name());
+    word("static_share", settings.static_share.name());
+    word("deflection", settings.deflection.name());
+    put(&mut table, "disc_radius_m", settings.disc_radius_m);
+    put(&mut table, "tolerance", Some(settings.tolerance));
+    put(&mut table, "loss_tolerance", settings.loss_tolerance);
+    put(&mut table, "step_s", settings.step_s);
+    table
+}
+
+fn put(table: &mut Table, key: &str, value: Option<f64>) {
+    if let Some(value) = value {
+        table.insert(key.to_owned(), value.into());
+    }
+}

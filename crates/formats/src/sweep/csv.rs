@@ -1,0 +1,107 @@
+//! The rows of a sweep as text.
+
+use super::axis::{Column, Values, place};
+use super::block::Block;
+use super::schema::{FAILURE, MODEL};
+use super::spec::Spec;
+use crate::output::{Existing, OutputError, write_whole};
+use crate::quantities::QUANTITIES;
+use contact::{Choice, Model};
+use rayon::prelude::*;
+use std::collections::HashMap;
+use std::fmt::Write as _;
+use std::io::Write as _;
+use std::path::Path;
+
+/// Writes one line a row: the varied keys, the results, the model, the reason of a failure.
+///
+/// # Errors
+/// [`OutputError`].
+pub fn write_csv(
+    path: &Path,
+    spec: &Spec,
+    blocks: &[Block],
+    existing: Existing,
+) -> Result<(), OutputError> {
+    write_whole(path, existing, |part| {
+        let written = std::fs::File::create(part).and_then(|file| {
+            let mut file = std::io::BufWriter::new(file);
+            writeln!(file, "{}", header(spec))?;
+            for block in blocks {
+                let parts: Vec<String> = (0..block.numbers.len())
+                    .into_par_iter()
+                    .step_by(1024)
+                    .map(|from| lines(spec, block, from))
+                    .collect();
+                for part in parts {
+                    file.write_all(part.as_bytes())?;
+                }
+            }
+            file.flush()
+        });
+        written.map_err(|error| error.to_string())
+    })
+}
+
+fn header(spec: &Spec) -> String {
+    let keys = spec
+        .axes
+        .iter()
+        .flat_map(|axis| axis.columns.iter().map(Column::name));
+    let numbers = QUANTITIES.iter().map(|q| q.name.to_owned());
+    let rest = [MODEL.0, FAILURE.0].map(str::to_owned);
+    keys.chain(numbers)
+        .chain(rest)
+        .collect::<Vec<_>>()
+        .join(",")
+}
+
+/// Up to 1024 lines of a block.
+fn lines(spec: &Spec, block: &Block, from: usize) -> String {
+    let to = (from + 1024).min(block.numbers.len());
+    let failures: HashMap<usize, &str> = block
+        .failures
+        .iter()
+        .map(|(row, reason)| (*row, reason.as_str()))
+        .collect();
+    let mut text = String::with_capacity(300 * (to - from));
+    let mut places = Vec::new();
+    for i in from..to {
+        let row = block.start + i;
+        place(&spec.axes, row, &mut places);
+        for (axis, &index) in spec.axes.iter().zip(&places) {
+            for column in &axis.columns {
+                match &column.values {
+                    Values::Numbers(numbers) => {
+                        let _ = write!(text, "{},", numbers[index]);
+                    }
+                    Values::Texts(words) => {
+                        let _ = write!(text, "{},", quoted(&words[index]));
+                    }
+                }
+            }
+        }
+        for number in &block.numbers[i] {
+            // a failed scene has empty fields
+            if number.is_finite() {
+                let _ = write!(text, "{number}");
+            }
+            text.push(',');
+        }
+        let model = Model::ALL
+            .get(usize::from(block.models[i]))
+            .map_or("", |m| m.name());
+        let reason = failures.get(&row).copied().unwrap_or("");
+        let _ = writeln!(text, "{model},{}", quoted(reason));
+    }
+    text
+}
+
+/// In quotation marks where a comma or one of them would break the line.
+fn quoted(word: &str) -> String {
+    if word.contains(['"', ',', '\n']) {
+        format!("\"{}\"", word.replace('"', "\"\""))
+    } else {
+        word.to_owned()
+    }
+}

@@ -1,0 +1,134 @@
+//! The sweep file: HDF5, as `data-schema/sweep.md` writes it down.
+
+use super::axis::{Axis, Values};
+use super::block::Block;
+use super::schema;
+use super::spec::Spec;
+use crate::hdf::{attach_scale, first_line, numbers, set_scale, text, texts};
+use crate::output::{Existing, OutputError, write_whole};
+use crate::quantities::QUANTITIES;
+use contact::{Choice, Model};
+use hdf5::{Dataset, File, Group};
+use std::collections::HashMap;
+use std::path::Path;
+
+/// Writes the results of a sweep whose blocks are all there, in order.
+///
+/// # Errors
+/// [`OutputError`].
+pub fn write_sweep(
+    path: &Path,
+    spec: &Spec,
+    blocks: &[Block],
+    existing: Existing,
+) -> Result<(), OutputError> {
+    write_whole(path, existing, |part| {
+        write_file(part, spec, blocks).map_err(|error| first_line(&error))
+    })
+}
+
+fn write_file(path: &Path, spec: &Spec, blocks: &[Block]) -> Result<(), hdf5::Error> {
+    let file = File::create(path)?;
+    let values = [
+        schema::FILE_TYPE,
+        schema::FORMAT_VERSION,
+        env!("CARGO_PKG_VERSION"),
+        &spec.resolved,
+    ];
+    for (name, value) in schema::TEXTS.into_iter().zip(values) {
+        text(&file, name, value)?;
+    }
+    let failed: usize = blocks.iter().map(|block| block.failures.len()).sum();
+    for (name, count) in schema::COUNTS.into_iter().zip([spec.rows(), failed]) {
+        file.new_attr::<u64>()
+            .create(name)?
+            .write_scalar(&(count as u64))?;
+    }
+    let scales = write_axes(&file, &spec.axes)?;
+    let shape: Vec<usize> = spec.axes.iter().map(|axis| axis.len).collect();
+    let group = file.create_group(schema::RESULTS)?;
+    let attach = |dataset: &Dataset| -> Result<(), hdf5::Error> {
+        for (index, scales) in scales.iter().enumerate() {
+            for scale in scales {
+                attach_scale(dataset, scale, index)?;
+            }
+        }
+        Ok(())
+    };
+    for (k, quantity) in QUANTITIES.iter().enumerate() {
+        let column: Vec<f64> = blocks
+            .iter()
+            .flat_map(|block| block.numbers.iter().map(|row| row[k]))
+            .collect();
+        let described = (quantity.name, quantity.unit, quantity.meaning);
+        attach(&numbers(&group, &described, &shape, &column)?)?;
+    }
+    let models: Vec<u8> = blocks
+        .iter()
+        .flat_map(|block| block.models.iter().copied())
+        .collect();
+    let dataset = numbers(&group, &schema::MODEL, &shape, &models)?;
+    let names: Vec<&str> = Model::ALL.iter().map(|m| m.name()).collect();
+    text(&dataset, "names", &names.join(" "))?;
+    attach(&dataset)?;
+    let (indices, reasons) = failures(spec.rows(), blocks);
+    attach(&numbers(&group, &schema::FAILURE, &shape, &indices)?)?;
+    texts(&file, &schema::FAILURES, &reasons)?;
+    file.flush()?;
+    file.close()
+}
+
+/// One scale for each key, in the order of the dimensions.
+fn write_axes(file: &File, axes: &[Axis]) -> Result<Vec<Vec<Dataset>>, hdf5::Error> {
+    let group = file.create_group(schema::AXES)?;
+    axes.iter().map(|axis| write_axis(&group, axis)).collect()
+}
+
+fn write_axis(group: &Group, axis: &Axis) -> Result<Vec<Dataset>, hdf5::Error> {
+    let mut scales = Vec::new();
+    for column in &axis.columns {
+        let name = column.name();
+        let meaning = format!("scene key {name}");
+        let described = (name.as_str(), unit(&column.key), meaning.as_str());
+        let scale = match &column.values {
+            Values::Numbers(values) => numbers(group, &described, &[values.len()], values)?,
+            Values::Texts(values) => texts(group, &described, values)?,
+        };
+        set_scale(&scale, &name)?;
+        text(&scale, "axis", &axis.name)?;
+        scales.push(scale);
+    }
+    Ok(scales)
+}
+
+/// The unit that a scene key carries in its name.
+fn unit(key: &str) -> &'static str {
+    const UNITS: [(&str, &str); 6] = [
+        ("_kg_m3", "kg/m^3"),
+        ("_m_s", "m/s"),
+        ("_kg", "kg"),
+        ("_pa", "Pa"),
+        ("_m", "m"),
+        ("_s", "s"),
+    ];
+    UNITS
+        .iter()
+        .find(|(ending, _)| key.ends_with(ending))
+        .map_or("1", |(_, unit)| unit)
+}
+
+/// Index of each row's reason, -1 without one, and the distinct reasons.
+fn failures(rows: usize, blocks: &[Block]) -> (Vec<i32>, Vec<String>) {
+    let mut indices = vec![-1; rows];
+    let mut reasons: Vec<String> = Vec::new();
+    let mut known: HashMap<&str, i32> = HashMap::new();
+    for (row, reason) in blocks.iter().flat_map(|block| &block.failures) {
+        let next = reasons.len() as i32;
+        let index = *known.entry(reason).or_insert(next);
+        if index == next {
+            reasons.push(reason.clone());
+        }
+        indices[*row] = index;
+    }
+    (indices, reasons)
+}

@@ -1,0 +1,26 @@
+//! Sweeps: many scenes that differ in some keys, their contacts computed and written as one table.
+//!
+//! A [`Spec`] is read from TOML: a base scene and the keys that vary, as a Cartesian product, as a
+//! list of keys that vary together, and as random draws.
+//! Row by row the contact alone is computed; a scene that fails is a row with a reason.
+//! Rows are computed in blocks that a journal keeps, so that an interrupted sweep goes on where
+//! it stopped, and the file is written when all of them are there.
+
+mod axis;
+mod block;
+mod csv;
+mod file;
+mod journal;
+mod random;
+mod run;
+pub mod schema;
+mod spec;
+mod template;
+
+pub use axis::{Axis, Column, Values};
+pub use block::{Block, NO_MODEL};
+pub use csv::write_csv;
+pub use file::write_sweep;
+pub use journal::{Journal, JournalError};
+pub use run::{BLOCK, Done, SweepError, run_sweep};
+pub use spec::Spec;

@@ -1,0 +1,259 @@
+//! The sweep file.
+
+use super::axis::{Axis, Column, Values, rows};
+use super::random::Distribution;
+use super::schema::{LIST, SAMPLE};
+use crate::error::SceneError;
+use crate::section::{FINITE, POSITIVE, Section, parse};
+use crate::text::read_text;
+use contact::Choice;
+use std::path::{Path, PathBuf};
+use toml::{Table, Value};
+
+/// A sweep: a base scene and the axes along which it varies.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Spec {
+    /// The base scene.
+    pub(crate) scene: Table,
+    /// Where the files it names are.
+    pub(crate) directory: PathBuf,
+    /// Axes: the product's in alphabetical order, then the list's, then that of the draws.
+    pub axes: Vec<Axis>,
+    /// Everything spelled out, as TOML.
+    pub(crate) resolved: String,
+}
+
+/// Rows of a sweep at most: they are held in memory, a hundred bytes each.
+const MOST_ROWS: usize = 10_000_000;
+
+impl Spec {
+    /// Reads a sweep file; the scene it names is looked for beside it.
+    ///
+    /// # Errors
+    /// [`SceneError`].
+    pub fn from_file(path: &Path) -> Result<Self, SceneError> {
+        let text = read_text(path)?;
+        let directory = path.parent().unwrap_or(Path::new("."));
+        Self::from_toml(&text, directory).map_err(|error| error.in_file(path))
+    }
+
+    /// Reads a sweep; the scene it names is looked for in `directory`.
+    ///
+    /// # Errors
+    /// [`SceneError`].
+    pub fn from_toml(text: &str, directory: &Path) -> Result<Self, SceneError> {
+        let table = parse(text)?;
+        let root = Section::root(&table);
+        root.allow(&["scene", "product", "list", "random"])?;
+        let (scene, directory) = base(&root, &table, directory)?;
+        let mut axes = Vec::new();
+        if let Some(product) = root.section("product")? {
+            for column in columns(&product, &[])? {
+                axes.push(Axis {
+                    name: column.name(),
+                    len: column.values.len(),
+                    columns: vec![column],
+                });
+            }
+        }
+        if let Some(list) = root.section("list")? {
+            axes.push(together(columns(&list, &[])?)?);
+        }
+        if let Some(random) = root.section("random")? {
+            axes.push(drawn(&random)?);
+        }
+        check(&axes)?;
+        let mut resolved = table.clone();
+        resolved.insert("scene".into(), Value::Table(scene.clone()));
+        Ok(Self {
+            scene,
+            directory,
+            axes,
+            resolved: resolved.to_string(),
+        })
+    }
+
+    /// Number of scenes.
+    #[must_use]
+    pub fn rows(&self) -> usize {
+        rows(&self.axes).unwrap_or(0)
+    }
+}
+
+/// The base scene, from a file or in place, and where its own files are.
+fn base(
+    root: &Section<'_>,
+    table: &Table,
+    directory: &Path,
+) -> Result<(Table, PathBuf), SceneError> {
+    if let Some(Value::Table(scene)) = table.get("scene") {
+        return Ok((scene.clone(), directory.to_owned()));
+    }
+    let file = root
+        .text("scene")?
+        .ok_or_else(|| root.missing("scene", "name a scene file, or give a section [scene]"))?;
+    let path = directory.join(file);
+    let scene = parse(&read_text(&path)?).map_err(|error| error.in_file(&path))?;
+    let directory = path.parent().unwrap_or(Path::new(".")).to_owned();
+    Ok((scene, directory))
+}
+
+/// The scene keys below a section of the sweep, with their values.
+fn columns(section: &Section<'_>, other: &[&str]) -> Result<Vec<Column>, SceneError> {
+    let mut found = Vec::new();
+    for (name, keys) in section.subsections(other)? {
+        for key in keys.names() {
+            found.push(Column {
+                section: name.clone(),
+                key: key.to_owned(),
+                values: values(&keys, key)?,
+            });
+        }
+    }
+    if found.is_empty() {
+        return Err(section.missing(
+            "striker.velocity_m_s",
+            "give at least one scene key, such as this one",
+        ));
+    }
+    Ok(found)
+}
+
+/// Values of a key: a list, or from, to, count and spacing.
+fn values(section: &Section<'_>, key: &str) -> Result<Values, SceneError> {
+    if let Some(range) = section.inner(key) {
+        return spaced(&range).map(Values::Numbers);
+    }
+    Values::read(section, key)
+}
+
+/// How values lie between two ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Spacing {
+    Linear,
+    Log,
+}
+
+impl Choice for Spacing {
+    const ALL: &'static [Self] = &[Self::Linear, Self::Log];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Linear => "linear",
+            Self::Log => "log",
+        }
+    }
+}
+
+fn spaced(range: &Section<'_>) -> Result<Vec<f64>, SceneError> {
+    range.allow(&["from", "to", "count", "spacing"])?;
+    let spacing = range.choice("spacing")?.unwrap_or(Spacing::Linear);
+    let allowed = match spacing {
+        Spacing::Linear => FINITE,
+        Spacing::Log => POSITIVE,
+    };
+    let from = range.required("from", allowed, "the first value")?;
+    let to = range.required("to", allowed, "the last value")?;
+    let count = range
+        .count("count", 2, MOST_ROWS, "[2, 10000000]")?
+        .ok_or_else(|| range.missing("count", "how many values"))?;
+    let last = (count - 1) as f64;
+    Ok((0..count)
+        .map(|i| {
+            let fraction = i as f64 / last;
+            if i + 1 == count {
+                return to;
+            }
+            match spacing {
+                Spacing::Linear => from + fraction * (to - from),
+                Spacing::Log => from * (to / from).powf(fraction),
+            }
+        })
+        .collect())
+}
+
+/// The axis of keys that vary together.
+fn together(columns: Vec<Column>) -> Result<Axis, SceneError> {
+    let len = columns[0].values.len();
+    if let Some(other) = columns.iter().find(|c| c.values.len() != len) {
+        return Err(SceneError::Conflict {
+            first: format!("list.{} of {len} values", columns[0].name()),
+            second: format!("list.{} of {}", other.name(), other.values.len()),
+            reason: "the keys of a list vary together and need as many values each",
+        });
+    }
+    Ok(Axis {
+        name: LIST.to_owned(),
+        columns,
+        len,
+    })
+}
+
+/// The axis of random draws.
+fn drawn(random: &Section<'_>) -> Result<Axis, SceneError> {
+    let samples = random
+        .count("samples", 1, MOST_ROWS, "[1, 10000000]")?
+        .ok_or_else(|| random.missing("samples", "how many draws"))?;
+    let seed = random
+        .count("seed", 0, usize::MAX, "[0, 2^63)")?
+        .unwrap_or(0) as u64;
+    let mut columns = Vec::new();
+    for (name, keys) in random.subsections(&["samples", "seed"])? {
+        for key in keys.names() {
+            let inner = keys.inner(key).ok_or_else(|| SceneError::Missing {
+                key: format!("{}.distribution", keys.key(key)),
+                hint: "a random key is a table such as { distribution = \"normal\", mean = 1.0, deviation = 0.1 }".to_owned(),
+            })?;
+            let distribution = Distribution::read(&inner)?;
+            let full = format!("{name}.{key}");
+            let draws = (0..samples as u64).map(|i| distribution.draw(seed, &full, i));
+            columns.push(Column {
+                section: name.clone(),
+                key: key.to_owned(),
+                values: Values::Numbers(draws.collect()),
+            });
+        }
+    }
+    if columns.is_empty() {
+        return Err(random.missing(
+            "striker.velocity_m_s",
+            "give at least one scene key with a distribution",
+        ));
+    }
+    Ok(Axis {
+        name: SAMPLE.to_owned(),
+        columns,
+        len: samples,
+    })
+}
+
+/// No key twice, at least one axis, not too many rows.
+fn check(axes: &[Axis]) -> Result<(), SceneError> {
+    if axes.is_empty() {
+        return Err(SceneError::Missing {
+            key: "product".to_owned(),
+            hint: "a sweep varies something: give [product], [list] or [random]".to_owned(),
+        });
+    }
+    let names: Vec<String> = axes
+        .iter()
+        .flat_map(|axis| axis.columns.iter().map(Column::name))
+        .collect();
+    for (i, name) in names.iter().enumerate() {
+        if names[..i].contains(name) {
+            return Err(SceneError::Conflict {
+                first: name.clone(),
+                second: name.clone(),
+                reason: "a key varies along one axis only",
+            });
+        }
+    }
+    match rows(axes) {
+        Some(rows) if rows <= MOST_ROWS => Ok(()),
+        rows => Err(SceneError::OutOfRange {
+            key: "the number of rows".to_owned(),
+            value: rows.map_or(f64::INFINITY, |n| n as f64),
+            range: "[1, 10000000]",
+        }),
+    }
+}

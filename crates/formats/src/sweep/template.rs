@@ -1,0 +1,304 @@
+//! From a row's place to its scene: parsed once for all rows that differ in plain numbers only.
+
+use super::axis::{Column, Values};
+use super::spec::Spec;
+use crate::error::SceneError;
+use crate::scene::scene_of;
+use crate::section::{POISSON, POSITIVE, Range, TOLERANCE};
+use contact::{HalfSpace, Settings, Striker};
+use impact::{Load, Scene, Strike};
+use toml::Value;
+
+/// A key that is a plain number of a parsed scene.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Plain {
+    Velocity,
+    Mass,
+    TipRadius,
+    DiscRadius,
+    Tolerance,
+    LossTolerance,
+    StrikerModulus,
+    StrikerRatio,
+    TargetModulus,
+    TargetRatio,
+    TargetDensity,
+}
+
+const PLAIN: [(&str, Plain, Range, f64); 11] = [
+    ("striker.velocity_m_s", Plain::Velocity, POSITIVE, 1.0),
+    ("striker.mass_kg", Plain::Mass, POSITIVE, 1.0),
+    ("striker.tip_radius_m", Plain::TipRadius, POSITIVE, 1.0),
+    ("contact.disc_radius_m", Plain::DiscRadius, POSITIVE, 1.0),
+    ("contact.tolerance", Plain::Tolerance, TOLERANCE, 1e-4),
+    (
+        "contact.loss_tolerance",
+        Plain::LossTolerance,
+        TOLERANCE,
+        1e-3,
+    ),
+    (
+        "striker.youngs_modulus_pa",
+        Plain::StrikerModulus,
+        POSITIVE,
+        1.0,
+    ),
+    ("striker.poisson_ratio", Plain::StrikerRatio, POISSON, 0.25),
+    (
+        "target.youngs_modulus_pa",
+        Plain::TargetModulus,
+        POSITIVE,
+        1.0,
+    ),
+    ("target.poisson_ratio", Plain::TargetRatio, POISSON, 0.25),
+    ("target.density_kg_m3", Plain::TargetDensity, POSITIVE, 1.0),
+];
+
+/// A column of plain numbers: its axis, what it is, its values.
+#[derive(Debug)]
+struct Fast<'a> {
+    axis: usize,
+    plain: Plain,
+    range: Range,
+    name: String,
+    numbers: &'a [f64],
+}
+
+/// Parsed scenes of a sweep.
+#[derive(Debug)]
+pub(crate) struct Templates<'a> {
+    spec: &'a Spec,
+    fast: Vec<Fast<'a>>,
+    /// Axes with a column that needs parsing.
+    slow: Vec<usize>,
+    /// The templates where there are not too many of them.
+    ready: Vec<Result<Scene, SceneError>>,
+}
+
+/// The scene of the row before, which the next one likely shares.
+#[derive(Debug, Default)]
+pub(crate) struct Scratch {
+    id: Option<usize>,
+    scene: Option<Result<Scene, SceneError>>,
+}
+
+/// What a row is computed from.
+pub(crate) type Row<'s> = (&'s HalfSpace, &'s Strike, &'s Settings);
+
+/// Templates that are parsed ahead.
+const READY: usize = 4096;
+
+impl<'a> Templates<'a> {
+    /// Parses the first template, so that a misspelt key is an error of the sweep and not of each row.
+    pub(crate) fn new(spec: &'a Spec) -> Result<Self, SceneError> {
+        let mut templates = Self {
+            spec,
+            fast: Vec::new(),
+            slow: Vec::new(),
+            ready: Vec::new(),
+        };
+        for (index, axis) in spec.axes.iter().enumerate() {
+            let mut slow = false;
+            for column in &axis.columns {
+                match fast(spec, index, column) {
+                    Some(found) => templates.fast.push(found),
+                    None => slow = true,
+                }
+            }
+            if slow {
+                templates.slow.push(index);
+            }
+        }
+        let origin = vec![0; spec.axes.len()];
+        match templates.parse(&origin) {
+            Ok(scene) => contact_only(&scene)?,
+            Err(
+                error @ (SceneError::OutOfRange { .. }
+                | SceneError::UnknownMaterial { .. }
+                | SceneError::UnknownChoice { .. }
+                | SceneError::Inconsistent { .. }
+                | SceneError::Conflict { .. }),
+            ) => drop(error),
+            Err(error) => return Err(error),
+        }
+        let count = templates
+            .slow
+            .iter()
+            .try_fold(1_usize, |n, &axis| n.checked_mul(spec.axes[axis].len))
+            .filter(|&n| n <= READY);
+        if let Some(count) = count {
+            templates.ready = (0..count)
+                .map(|id| templates.parse(&templates.place(id)))
+                .collect();
+        }
+        Ok(templates)
+    }
+
+    /// The bodies and settings of a row at a place along all axes.
+    pub(crate) fn scene<'s>(
+        &self,
+        place: &[usize],
+        scratch: &'s mut Scratch,
+    ) -> Result<Row<'s>, SceneError> {
+        let id = self.slow.iter().fold(0_usize, |id, &axis| {
+            id.wrapping_mul(self.spec.axes[axis].len)
+                .wrapping_add(place[axis])
+        });
+        if scratch.id != Some(id) {
+            scratch.scene = Some(match self.ready.get(id) {
+                Some(template) => template.clone(),
+                None => self.parse(place),
+            });
+            scratch.id = Some(id);
+        }
+        let scene = match &mut scratch.scene {
+            Some(Ok(scene)) => scene,
+            Some(Err(error)) => return Err(error.clone()),
+            None => unreachable!("it was just put there"),
+        };
+        for fast in &self.fast {
+            fast.set(scene, fast.numbers[place[fast.axis]])?;
+        }
+        match &scene.load {
+            Load::Strike(strike) => Ok((&scene.target, strike, &scene.settings)),
+            Load::Record(_) => Err(contacts_only("[force]")),
+        }
+    }
+
+    /// The place along all axes of a template; zero along the fast ones.
+    fn place(&self, id: usize) -> Vec<usize> {
+        let mut place = vec![0; self.spec.axes.len()];
+        let mut rest = id;
+        for &axis in self.slow.iter().rev() {
+            let len = self.spec.axes[axis].len;
+            place[axis] = rest % len;
+            rest /= len;
+        }
+        place
+    }
+
+    fn parse(&self, place: &[usize]) -> Result<Scene, SceneError> {
+        let mut table = self.spec.scene.clone();
+        for (axis, &index) in self.spec.axes.iter().zip(place) {
+            for column in &axis.columns {
+                let name = column.name();
+                let plain = self.fast.iter().any(|f| f.name == name);
+                let value = match PLAIN.iter().find(|p| p.0 == name) {
+                    Some((_, _, _, stand_in)) if plain => Value::Float(*stand_in),
+                    Some(_) | None => column.values.get(index),
+                };
+                column.put(&mut table, value)?;
+            }
+        }
+        scene_of(&table, &self.spec.directory)
+    }
+}
+
+/// A sweep is about contacts.
+fn contact_only(scene: &Scene) -> Result<(), SceneError> {
+    let found = if matches!(scene.load, Load::Record(_)) {
+        "[force]"
+    } else if !scene.probes.is_empty() {
+        "[[probe]]"
+    } else if scene.section.is_some() {
+        "[map]"
+    } else {
+        return Ok(());
+    };
+    Err(contacts_only(found))
+}
+
+fn contacts_only(found: &str) -> SceneError {
+    SceneError::Conflict {
+        first: "a sweep".to_owned(),
+        second: found.to_owned(),
+        reason: "it computes contacts only; leave this section out of its scene",
+    }
+}
+
+/// The column as plain numbers, if that is what it is.
+fn fast<'a>(spec: &'a Spec, axis: usize, column: &'a Column) -> Option<Fast<'a>> {
+    let name = column.name();
+    let &(_, plain, range, _) = PLAIN.iter().find(|p| p.0 == name)?;
+    let Values::Numbers(numbers) = &column.values else {
+        return None;
+    };
+    // wave speeds have to be compared with the moduli, which reading a scene does
+    let speed = |key: &str| key.ends_with("_speed_m_s");
+    let in_scene = match spec.scene.get(&column.section) {
+        Some(Value::Table(section)) => section.keys().any(|key| speed(key)),
+        Some(_) | None => false,
+    };
+    let varies = spec
+        .axes
+        .iter()
+        .flat_map(|a| &a.columns)
+        .any(|other| other.section == column.section && speed(&other.key));
+    (!in_scene && !varies).then_some(Fast {
+        axis,
+        plain,
+        range,
+        name,
+        numbers,
+    })
+}
+
+impl Fast<'_> {
+    fn set(&self, scene: &mut Scene, value: f64) -> Result<(), SceneError> {
+        if !(self.range.holds)(value) {
+            return Err(SceneError::OutOfRange {
+                key: self.name.clone(),
+                value,
+                range: self.range.name,
+            });
+        }
+        let settings = &mut scene.settings;
+        match (self.plain, &mut scene.load) {
+            (Plain::DiscRadius, _) => settings.disc_radius_m = Some(value),
+            (Plain::LossTolerance, _) => settings.loss_tolerance = Some(value),
+            (Plain::Tolerance, _) => settings.tolerance = value,
+            (Plain::TargetDensity | Plain::TargetModulus | Plain::TargetRatio, _) => {
+                self.of_target(&mut scene.target, value);
+            }
+            (Plain::Velocity, Load::Strike(strike)) => strike.velocity_m_s = value,
+            (_, Load::Strike(strike)) => *self.of_striker(&mut strike.striker) = value,
+            // the first template was checked for a striker
+            (_, Load::Record(_)) => {}
+        }
+        Ok(())
+    }
+
+    /// The range has been checked, so that the change is a half-space again.
+    fn of_target(&self, target: &mut HalfSpace, value: f64) {
+        let changed = target.change(|material| match self.plain {
+            Plain::TargetModulus => material.youngs_modulus_pa = value,
+            Plain::TargetRatio => material.poisson_ratio = value,
+            Plain::TargetDensity
+            | Plain::Velocity
+            | Plain::Mass
+            | Plain::TipRadius
+            | Plain::DiscRadius
+            | Plain::Tolerance
+            | Plain::LossTolerance
+            | Plain::StrikerModulus
+            | Plain::StrikerRatio => material.density_kg_m3 = Some(value),
+        });
+        debug_assert!(changed.is_ok());
+    }
+
+    fn of_striker<'s>(&self, striker: &'s mut Striker) -> &'s mut f64 {
+        match self.plain {
+            Plain::Mass => &mut striker.mass_kg,
+            Plain::TipRadius => &mut striker.tip_radius_m,
+            Plain::StrikerModulus => &mut striker.material.youngs_modulus_pa,
+            Plain::StrikerRatio
+            | Plain::Velocity
+            | Plain::DiscRadius
+            | Plain::Tolerance
+            | Plain::LossTolerance
+            | Plain::TargetModulus
+            | Plain::TargetRatio
+            | Plain::TargetDensity => &mut striker.material.poisson_ratio,
+        }
+    }
+}

@@ -1,0 +1,123 @@
+//! A striker and a half-space: from two bodies and a velocity to an excitation.
+
+use crate::excitation::Excitation;
+use contact::plan::fixed_disc_m;
+use contact::validity::Checked;
+use contact::{
+    Collision, ContactError, Exact, HalfSpace, Results, Settings, Solved, Solver, Striker,
+};
+use std::ops::Deref;
+
+/// A striker that meets a half-space.
+///
+/// ```
+/// use impact::{HalfSpace, Impact, Material, Striker};
+/// let granite = HalfSpace::new(Material::named("granite")?)?;
+/// let ball = Striker::ball(Material::named("bearing-steel")?, 0.001)?;
+/// let run = Impact::new(granite, ball, 2.0).solve()?;
+/// assert!(run.peak_force_n > 40.0 && run.restitution < 1.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Impact {
+    /// The half-space.
+    pub half_space: HalfSpace,
+    /// The body that strikes.
+    pub striker: Striker,
+    /// Velocity of approach in m/s.
+    pub velocity_m_s: f64,
+    /// How the contact is computed.
+    pub settings: Settings,
+}
+
+/// An impact solved: its [`Results`], and the excitation that it is for the half-space.
+#[derive(Debug, Clone)]
+pub struct Run {
+    /// Model, scheme and results in collision units.
+    pub solved: Solved,
+    /// Results in SI units.
+    pub results: Results,
+    /// What the user should know.
+    pub warnings: Vec<String>,
+    excitation: Excitation,
+}
+
+impl Deref for Run {
+    type Target = Results;
+
+    fn deref(&self) -> &Results {
+        &self.results
+    }
+}
+
+impl Run {
+    /// The force on the half-space.
+    #[must_use]
+    pub fn excitation(&self) -> &Excitation {
+        &self.excitation
+    }
+}
+
+impl Impact {
+    /// With the default settings: model `auto` at a tolerance of 1e-4.
+    #[must_use]
+    pub fn new(half_space: HalfSpace, striker: Striker, velocity_m_s: f64) -> Self {
+        Self {
+            half_space,
+            striker,
+            velocity_m_s,
+            settings: Settings::default(),
+        }
+    }
+
+    /// With a relative tolerance on the results.
+    #[must_use]
+    pub fn to_tolerance(mut self, tolerance: f64) -> Self {
+        self.settings.tolerance = tolerance;
+        self
+    }
+
+    /// Solves the contact.
+    ///
+    /// # Errors
+    /// [`ContactError`].
+    pub fn solve(&self) -> Result<Run, ContactError> {
+        let settings = &self.settings;
+        let collision = Collision::new(&self.half_space, &self.striker, self.velocity_m_s);
+        let mut solver = Solver::new(&Exact);
+        let (solved, history) = solver.solve_with_history(&collision, settings)?;
+        let radiated = solver.radiated(&collision, settings, &solved)?;
+        let results = Results::new(&collision, settings, &solved, radiated);
+        let model = solved.plan.model;
+        let warnings = Checked {
+            half_space: &self.half_space,
+            striker: &self.striker,
+            collision: &collision,
+            settings,
+            model,
+            coupling: solved.plan.groups.coupling,
+            results: &results,
+        }
+        .warnings();
+        let excitation = Excitation::of_contact(
+            &self.half_space,
+            results.disc_radius_m,
+            history,
+            collision.units(),
+            results.contact_time_s,
+            solved.error,
+        )?;
+        Ok(Run {
+            solved,
+            results,
+            warnings,
+            excitation,
+        })
+    }
+
+    /// Whether the pressure of the fields has the radius of a fixed disc, not that of the contact.
+    pub(crate) fn has_fixed_disc(&self, run: &Run) -> bool {
+        let collision = Collision::new(&self.half_space, &self.striker, self.velocity_m_s);
+        fixed_disc_m(run.solved.plan.model, &self.settings, &collision).is_some()
+    }
+}

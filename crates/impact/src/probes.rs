@@ -1,0 +1,120 @@
+//! Fields at the probes of a scene and on its meridional section.
+
+use crate::convolve::{Convolver, Method};
+use crate::fields::{FieldsError, Point, Sampled};
+use crate::grid::Grid;
+use crate::scene::{Probe, Section};
+use rayon::prelude::*;
+
+/// Fields at the probes in SI units.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ProbeFields {
+    /// Distances from the axis in m.
+    pub r_m: Vec<f64>,
+    /// Depths in m.
+    pub z_m: Vec<f64>,
+    /// Times of the first P, S and Rayleigh arrival in s, one row a probe.
+    pub arrival_s: Vec<[f64; 3]>,
+    /// Samples of each field (order of [`halfspace::FIELDS`]), one row a probe.
+    pub values: [Vec<Vec<f64>>; 6],
+    /// Estimated error of each field, one value a probe.
+    pub errors: [Vec<f64>; 6],
+}
+
+/// Fields on a meridional section in SI units.
+///
+/// Depth comes before radius, and the deepest row first, so that a picture has the surface on top.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SectionFields {
+    /// Distances from the axis in m, ascending.
+    pub r_m: Vec<f64>,
+    /// Depths in m, descending.
+    pub z_m: Vec<f64>,
+    /// Times of the frames in s.
+    pub time_s: Vec<f64>,
+    /// Times of the first P, S and Rayleigh arrival in s at each point.
+    pub arrival_s: [Vec<f64>; 3],
+    /// Each field (order of [`halfspace::FIELDS`]): frames, depths, radii.
+    pub values: [Vec<f32>; 6],
+    /// Estimated error of each field at each point.
+    pub errors: [Vec<f64>; 6],
+}
+
+/// The fields at probes, at all samples of the force.
+pub(crate) fn at_probes(
+    sampled: &Sampled<'_>,
+    force_n: &[f64],
+    probes: &[Probe],
+) -> Result<ProbeFields, FieldsError> {
+    let convolver = Convolver::new(force_n);
+    let points: Vec<Point> = probes
+        .par_iter()
+        .map(|probe| sampled.point(&convolver, probe.r_m, probe.z_m))
+        .collect::<Result<_, _>>()?;
+    let mut fields = ProbeFields {
+        r_m: probes.iter().map(|p| p.r_m).collect(),
+        z_m: probes.iter().map(|p| p.z_m).collect(),
+        arrival_s: Vec::new(),
+        values: Default::default(),
+        errors: Default::default(),
+    };
+    for point in points {
+        fields.arrival_s.push(point.arrival_s);
+        for (field, samples) in point.values.into_iter().enumerate() {
+            fields.errors[field].push(point.errors[field]);
+            fields.values[field].push(samples);
+        }
+    }
+    Ok(fields)
+}
+
+/// The fields on a section, at the samples nearest to its frames; and how the sum was done.
+pub(crate) fn on_section(
+    sampled: &Sampled<'_>,
+    force_n: &[f64],
+    grid: &Grid,
+    section: &Section,
+) -> Result<(SectionFields, Method), FieldsError> {
+    let last = force_n.len() - 1;
+    let frame = |i: usize| {
+        (i as f64 * last as f64 / (section.frames as f64 - 1.0).max(1.0)).round() as usize
+    };
+    let wanted: Vec<usize> = (0..section.frames).map(frame).collect();
+    let time_s = wanted.iter().map(|&n| grid.time_s(n)).collect();
+    let even =
+        |end: f64, count: usize| (0..count).map(move |i| end * i as f64 / (count as f64 - 1.0));
+    let r_m: Vec<f64> = even(section.r_max_m, section.points[0]).collect();
+    let mut z_m: Vec<f64> = even(section.z_max_m, section.points[1]).collect();
+    z_m.reverse();
+    let (radii, size) = (r_m.len(), r_m.len() * z_m.len());
+    let mut fields = SectionFields {
+        time_s,
+        arrival_s: Default::default(),
+        values: std::array::from_fn(|_| vec![0.0; section.frames * size]),
+        errors: Default::default(),
+        r_m,
+        z_m,
+    };
+    let convolver = Convolver::at(force_n, wanted);
+    for row in 0..fields.z_m.len() {
+        let z_m = fields.z_m[row];
+        let points: Vec<Point> = fields
+            .r_m
+            .par_iter()
+            .map(|&r_m| sampled.point(&convolver, r_m, z_m))
+            .collect::<Result<_, _>>()?;
+        for (column, point) in points.into_iter().enumerate() {
+            for (times, time) in fields.arrival_s.iter_mut().zip(point.arrival_s) {
+                times.push(time);
+            }
+            let place = row * radii + column;
+            for (field, samples) in point.values.iter().enumerate() {
+                fields.errors[field].push(point.errors[field]);
+                for (frame, &value) in samples.iter().enumerate() {
+                    fields.values[field][frame * size + place] = value as f32;
+                }
+            }
+        }
+    }
+    Ok((fields, convolver.method()))
+}

@@ -1,0 +1,153 @@
+//! A force history that was measured or invented: linear between its samples.
+
+use std::path::PathBuf;
+use thiserror::Error;
+
+/// Samples of a force; zero before the first and after the last.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ForceRecord {
+    time_s: Vec<f64>,
+    force_n: Vec<f64>,
+    /// The file that it comes from, if it comes from one.
+    pub file: Option<PathBuf>,
+}
+
+/// Samples that are no force history; they count from 0.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum RecordError {
+    /// Times and forces differ in number, or there are fewer than two.
+    #[error("there are {times} times and {forces} forces; as many of each are needed, at least 2")]
+    Count {
+        /// Number of times.
+        times: usize,
+        /// Number of forces.
+        forces: usize,
+    },
+    /// A number that is not finite.
+    #[error("sample {sample} is not finite")]
+    NotFinite {
+        /// The sample.
+        sample: usize,
+    },
+    /// A time before the origin.
+    #[error("the first time is {time_s} s, outside [0, inf)")]
+    Negative {
+        /// The first time in s.
+        time_s: f64,
+    },
+    /// A time that does not follow the one before.
+    #[error("time {time_s} s of sample {sample} does not follow {before_s} s; times must ascend")]
+    NotAscending {
+        /// The sample.
+        sample: usize,
+        /// Its time in s.
+        time_s: f64,
+        /// The time before in s.
+        before_s: f64,
+    },
+}
+
+impl ForceRecord {
+    /// Of times in s, strictly ascending from 0 or later, and forces in N; positive presses.
+    ///
+    /// ```
+    /// let triangle = impact::ForceRecord::new(vec![0.0, 1e-5, 2e-5], vec![0.0, 100.0, 0.0])?;
+    /// assert_eq!(triangle.at(5e-6), 50.0);
+    /// assert_eq!(triangle.impulse_n_s(), 1e-3);
+    /// # Ok::<(), impact::RecordError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`RecordError`] with the first sample at fault.
+    pub fn new(time_s: Vec<f64>, force_n: Vec<f64>) -> Result<Self, RecordError> {
+        if time_s.len() != force_n.len() || time_s.len() < 2 {
+            return Err(RecordError::Count {
+                times: time_s.len(),
+                forces: force_n.len(),
+            });
+        }
+        let finite = |i: usize| time_s[i].is_finite() && force_n[i].is_finite();
+        if let Some(sample) = (0..time_s.len()).find(|&i| !finite(i)) {
+            return Err(RecordError::NotFinite { sample });
+        }
+        if time_s[0] < 0.0 {
+            return Err(RecordError::Negative { time_s: time_s[0] });
+        }
+        if let Some(i) = (1..time_s.len()).find(|&i| time_s[i] <= time_s[i - 1]) {
+            return Err(RecordError::NotAscending {
+                sample: i,
+                time_s: time_s[i],
+                before_s: time_s[i - 1],
+            });
+        }
+        Ok(Self {
+            time_s,
+            force_n,
+            file: None,
+        })
+    }
+
+    /// Times of the samples in s.
+    #[must_use]
+    pub fn time_s(&self) -> &[f64] {
+        &self.time_s
+    }
+
+    /// Forces of the samples in N.
+    #[must_use]
+    pub fn force_n(&self) -> &[f64] {
+        &self.force_n
+    }
+
+    /// The force at a time: linear between samples, zero outside.
+    #[must_use]
+    pub fn at(&self, time_s: f64) -> f64 {
+        let after = self.time_s.partition_point(|&t| t <= time_s);
+        if after == 0 {
+            return 0.0;
+        }
+        if after == self.time_s.len() {
+            let last = after - 1;
+            return if time_s == self.time_s[last] {
+                self.force_n[last]
+            } else {
+                0.0
+            };
+        }
+        let (t0, t1) = (self.time_s[after - 1], self.time_s[after]);
+        let fraction = (time_s - t0) / (t1 - t0);
+        self.force_n[after - 1] + fraction * (self.force_n[after] - self.force_n[after - 1])
+    }
+
+    /// Times of the first and the last sample in s.
+    #[must_use]
+    pub fn span_s(&self) -> [f64; 2] {
+        [self.time_s[0], self.time_s[self.time_s.len() - 1]]
+    }
+
+    /// Time in s and force in N of the largest sample; zeros where none is positive.
+    #[must_use]
+    pub fn peak(&self) -> (f64, f64) {
+        let mut peak = (0.0, 0.0);
+        for (&t, &p) in self.time_s.iter().zip(&self.force_n) {
+            if p > peak.1 {
+                peak = (t, p);
+            }
+        }
+        peak
+    }
+
+    /// int P dt in N s.
+    #[must_use]
+    pub fn impulse_n_s(&self) -> f64 {
+        let pairs = self.time_s.windows(2).zip(self.force_n.windows(2));
+        pairs.fold(0.0, |sum, (t, p)| sum + 0.5 * (t[1] - t[0]) * (p[0] + p[1]))
+    }
+
+    /// Shortest time between two samples in s.
+    #[must_use]
+    pub fn shortest_gap_s(&self) -> f64 {
+        let gaps = self.time_s.windows(2).map(|t| t[1] - t[0]);
+        gaps.fold(f64::INFINITY, f64::min)
+    }
+}

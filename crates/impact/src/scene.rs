@@ -1,0 +1,78 @@
+//! A scene: what loads which half-space, and what is asked.
+
+use crate::record::ForceRecord;
+use contact::{HalfSpace, Settings, Striker};
+
+/// What loads the half-space.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Load {
+    /// A striker with its velocity of approach.
+    Strike(Strike),
+    /// A force history on a disc.
+    Record(ForceRecord),
+}
+
+/// A striker with its velocity of approach.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Strike {
+    /// The body.
+    pub striker: Striker,
+    /// Velocity of approach in m/s.
+    pub velocity_m_s: f64,
+}
+
+/// A point of the half-space.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Probe {
+    /// Distance from the axis in m.
+    pub r_m: f64,
+    /// Depth in m.
+    pub z_m: f64,
+}
+
+/// A meridional section.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Section {
+    /// Largest distance from the axis in m.
+    pub r_max_m: f64,
+    /// Largest depth in m.
+    pub z_max_m: f64,
+    /// Points along r and z.
+    pub points: [usize; 2],
+    /// Frames in time.
+    pub frames: usize,
+}
+
+/// A scene, validated.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scene {
+    /// The half-space.
+    pub target: HalfSpace,
+    /// What loads it.
+    pub load: Load,
+    /// How the contact is computed; its disc is what a record loads.
+    pub settings: Settings,
+    /// Where fields are asked for.
+    pub probes: Vec<Probe>,
+    /// Section of the field asked for.
+    pub section: Option<Section>,
+    /// Time in s that the output covers, if the scene says so.
+    pub duration_s: Option<f64>,
+}
+
+impl Scene {
+    /// Distance in m from the centre of the load to the farthest point that is asked for; zero without one.
+    #[must_use]
+    pub fn farthest_m(&self) -> f64 {
+        let probes = self.probes.iter().map(|probe| probe.r_m.hypot(probe.z_m));
+        let corner = self.section.iter().map(|s| s.r_max_m.hypot(s.z_max_m));
+        probes.chain(corner).fold(0.0, f64::max)
+    }
+
+    /// Points at which fields are asked for.
+    #[must_use]
+    pub fn points(&self) -> usize {
+        let section = self.section.map_or(0, |s| s.points[0] * s.points[1]);
+        self.probes.len() + section
+    }
+}

@@ -1,0 +1,233 @@
+//! From a scene to all that it gives: an excitation, then series and fields.
+
+use crate::convolve::Convolver;
+use crate::excitation::Excitation;
+use crate::fields::{FieldsError, Sampled};
+use crate::grid::{Grid, TooManySamples, Wanted};
+use crate::impact::Impact;
+use crate::kernels::KernelSource;
+use crate::outcome::{
+    Cause, FieldsUsed, KernelsUsed, Outcome, RecordResults, Series, StrikerSeries,
+};
+use crate::probes::{ProbeFields, SectionFields, at_probes, on_section};
+use crate::record::ForceRecord;
+use crate::scene::{Load, Scene, Strike};
+use crate::source::{Chosen, KernelChoice, SourceError, choose_source};
+use contact::work::work_j;
+use contact::{ContactError, Model, Scheme, StaticShare};
+use halfspace::DomainError;
+use thiserror::Error;
+
+/// Why a scene could not be computed.
+#[derive(Debug, Error)]
+pub enum ImpactError {
+    /// The contact failed.
+    #[error(transparent)]
+    Contact(#[from] ContactError),
+    /// The kernels could not be had.
+    #[error(transparent)]
+    Source(#[from] SourceError),
+    /// A field failed.
+    #[error(transparent)]
+    Fields(#[from] FieldsError),
+    /// More samples than memory should hold.
+    #[error(transparent)]
+    TooManySamples(#[from] TooManySamples),
+    /// A number is outside the physics.
+    #[error(transparent)]
+    Domain(#[from] DomainError),
+    /// A record without the disc that it loads.
+    #[error("a force record needs the radius of the disc that it loads: set disc_radius_m")]
+    NoDisc,
+}
+
+/// Computes a scene.
+///
+/// # Errors
+/// [`ImpactError`].
+pub fn simulate(scene: &Scene, kernels: &KernelChoice) -> Result<Outcome, ImpactError> {
+    match &scene.load {
+        Load::Strike(strike) => of_strike(scene, strike, kernels),
+        Load::Record(record) => of_record(scene, record, kernels),
+    }
+}
+
+fn of_strike(
+    scene: &Scene,
+    strike: &Strike,
+    kernels: &KernelChoice,
+) -> Result<Outcome, ImpactError> {
+    let impact = Impact {
+        half_space: scene.target.clone(),
+        striker: strike.striker.clone(),
+        velocity_m_s: strike.velocity_m_s,
+        settings: scene.settings,
+    };
+    let run = impact.solve()?;
+    let excitation = run.excitation();
+    let computed = Computed::new(scene, excitation, kernels)?;
+    let marched = (run.solved.plan.model, run.solved.scheme);
+    let mut deflection_m = None;
+    if marched == (Model::Wave, Some(Scheme::Implicit)) {
+        // Anew on the output's step: the march's own step may be coarser than the disc's memory.
+        deflection_m = Some(computed.disc_deflection_m(scene, scene.settings.static_share));
+    }
+    let mut striker = StrikerSeries::default();
+    let mut law_m = Vec::new();
+    for &time_s in &computed.time_s {
+        if let Some(motion) = excitation.motion(time_s) {
+            striker.displacement_m.push(motion.displacement_m);
+            striker.velocity_m_s.push(motion.velocity_m_s);
+            law_m.push(motion.deflection_m);
+        }
+    }
+    let mut warnings = run.warnings.clone();
+    if computed.used.is_some() && !impact.has_fixed_disc(&run) {
+        warnings.push(format!(
+            "the fields are those of a disc of the largest contact radius, {:.3e} m, throughout",
+            excitation.units().disc_radius_m
+        ));
+    }
+    let cause = Cause::Contact {
+        model: run.solved.plan.model,
+        scheme: run.solved.scheme,
+        reason: run.solved.plan.reason(&scene.settings),
+        results: run.results,
+    };
+    Ok(computed.outcome(
+        cause,
+        deflection_m.unwrap_or(law_m),
+        Some(striker),
+        warnings,
+    ))
+}
+
+fn of_record(
+    scene: &Scene,
+    record: &ForceRecord,
+    kernels: &KernelChoice,
+) -> Result<Outcome, ImpactError> {
+    let radius_m = scene.settings.disc_radius_m.ok_or(ImpactError::NoDisc)?;
+    let excitation = Excitation::of_record(&scene.target, radius_m, record.clone())?;
+    let computed = Computed::new(scene, &excitation, kernels)?;
+    let deflection_m = computed.disc_deflection_m(scene, scene.settings.static_share);
+    let mut warnings = Vec::new();
+    let (gap_s, step_s) = (record.shortest_gap_s(), computed.grid.step_s);
+    if gap_s < step_s {
+        warnings.push(format!(
+            "samples of the force are as close as {gap_s:.3e} s, the output step is {step_s:.3e} s: steeper parts are smoothed over a step; give a smaller contact.step_s"
+        ));
+    }
+    if record.force_n().iter().any(|&p| p < 0.0) {
+        warnings.push("the force is negative in places: it pulls there".to_owned());
+    }
+    let (peak_force_time_s, peak_force_n) = record.peak();
+    let cause = Cause::Record(RecordResults {
+        peak_force_n,
+        peak_force_time_s,
+        duration_s: excitation.pulse_s(),
+        disc_radius_m: radius_m,
+        impulse_n_s: record.impulse_n_s(),
+        peak_deflection_m: deflection_m.iter().copied().fold(0.0, f64::max),
+        radiated_energy_j: work_j(&computed.force_n, &deflection_m),
+    });
+    Ok(computed.outcome(cause, deflection_m, None, warnings))
+}
+
+/// What follows from an excitation, whatever has caused it.
+struct Computed<'a> {
+    excitation: &'a Excitation,
+    grid: Grid,
+    time_s: Vec<f64>,
+    force_n: Vec<f64>,
+    used: Option<FieldsUsed>,
+    probes: Option<ProbeFields>,
+    section: Option<SectionFields>,
+}
+
+impl<'a> Computed<'a> {
+    fn new(
+        scene: &Scene,
+        excitation: &'a Excitation,
+        kernels: &KernelChoice,
+    ) -> Result<Self, ImpactError> {
+        let chosen = choose_source(scene, kernels, excitation)?;
+        let source = chosen.as_ref().map(|chosen| &chosen.source);
+        let grid = Grid::new(&Wanted::of(scene), excitation, source)?;
+        let time_s: Vec<f64> = (0..grid.count).map(|i| grid.time_s(i)).collect();
+        let force_n = time_s.iter().map(|&t| excitation.force_n(t)).collect();
+        let mut computed = Self {
+            excitation,
+            grid,
+            time_s,
+            force_n,
+            used: None,
+            probes: None,
+            section: None,
+        };
+        if let Some(chosen) = chosen {
+            computed.add_fields(scene, chosen)?;
+        }
+        Ok(computed)
+    }
+
+    fn add_fields(&mut self, scene: &Scene, chosen: Chosen) -> Result<(), FieldsError> {
+        let Chosen { source, reason } = chosen;
+        let sampled = Sampled::new(self.excitation, &source, self.grid, &self.force_n);
+        if !scene.probes.is_empty() {
+            self.probes = Some(at_probes(&sampled, &self.force_n, &scene.probes)?);
+        }
+        let convolution = match &scene.section {
+            Some(section) => {
+                let (fields, method) = on_section(&sampled, &self.force_n, &self.grid, section)?;
+                self.section = Some(fields);
+                method
+            }
+            None => Convolver::new(&self.force_n).method(),
+        };
+        self.used = Some(FieldsUsed {
+            kernels: used(&source),
+            reason,
+            convolution,
+        });
+        Ok(())
+    }
+
+    fn disc_deflection_m(&self, scene: &Scene, share: StaticShare) -> Vec<f64> {
+        let deflection = scene.settings.deflection;
+        self.excitation
+            .deflection_m(deflection, share, self.grid.step_s, &self.force_n)
+    }
+
+    fn outcome(
+        self,
+        cause: Cause,
+        deflection_m: Vec<f64>,
+        striker: Option<StrikerSeries>,
+        warnings: Vec<String>,
+    ) -> Outcome {
+        Outcome {
+            cause,
+            used: self.used,
+            series: Series {
+                time_s: self.time_s,
+                force_n: self.force_n,
+                deflection_m,
+                striker,
+            },
+            probes: self.probes,
+            section: self.section,
+            warnings,
+        }
+    }
+}
+
+fn used(source: &KernelSource) -> KernelsUsed {
+    match source {
+        KernelSource::Direct(_) => KernelsUsed::Direct,
+        KernelSource::Table(table) => KernelsUsed::Table {
+            id: table.id().to_owned(),
+            format_version: table.format_version().to_owned(),
+        },
+    }
+}

@@ -1,0 +1,165 @@
+//! Where the kernels of the fields come from: computed, or looked up.
+
+use crate::excitation::Excitation;
+use crate::grid::Wanted;
+use crate::kernels::KernelSource;
+use crate::scene::Scene;
+use halfspace::DomainError;
+use lookup::{LookupError, Table, TableError};
+use std::fmt;
+use std::sync::Arc;
+use thiserror::Error;
+
+/// Something that has kernel tables: one in memory, or a file of which the part that is needed is loaded.
+pub trait Tables: fmt::Debug + Send + Sync {
+    /// A table for a Poisson's ratio that reaches to r and z in disc radii.
+    ///
+    /// # Errors
+    /// [`TableError`] when it cannot be loaded.
+    fn part(&self, poisson_ratio: f64, farthest: [f64; 2]) -> Result<Arc<Table>, TableError>;
+}
+
+impl Tables for Arc<Table> {
+    fn part(&self, _: f64, _: [f64; 2]) -> Result<Arc<Table>, TableError> {
+        Ok(Self::clone(self))
+    }
+}
+
+#[cfg(feature = "hdf5")]
+impl Tables for lookup::TableFile {
+    fn part(&self, poisson_ratio: f64, farthest: [f64; 2]) -> Result<Arc<Table>, TableError> {
+        Self::part(self, poisson_ratio, farthest).map(Arc::new)
+    }
+}
+
+/// Which kernels the fields shall have.
+#[derive(Debug, Clone)]
+pub enum KernelChoice {
+    /// Computed for each probe.
+    Direct,
+    /// A table's.
+    Table(Arc<dyn Tables>),
+    /// A table's or computed, by the estimated cost and error of both.
+    Auto(Arc<dyn Tables>),
+}
+
+/// Kernels that could not be had.
+#[derive(Debug, Error)]
+pub enum SourceError {
+    /// The table could not be loaded.
+    #[error(transparent)]
+    Table(#[from] TableError),
+    /// A number is outside the physics.
+    #[error(transparent)]
+    Domain(#[from] DomainError),
+}
+
+/// The source chosen and why.
+#[derive(Debug, Clone)]
+pub(crate) struct Chosen {
+    pub(crate) source: KernelSource,
+    pub(crate) reason: String,
+}
+
+/// Seconds that one cell of six fields takes when it is computed, on one thread.
+const DIRECT_CELL_S: f64 = 8e-6;
+
+/// Computed fields that cost less are not worth a table's error.
+const CHEAP_S: f64 = 0.2;
+
+/// Computed fields that cost more are not worth waiting for, whatever a table's error.
+const DEAR_S: f64 = 10.0;
+
+/// The source of the fields of a scene; none when it asks for none.
+pub(crate) fn choose_source(
+    scene: &Scene,
+    kernels: &KernelChoice,
+    excitation: &Excitation,
+) -> Result<Option<Chosen>, SourceError> {
+    let points = places(scene);
+    if points.is_empty() {
+        return Ok(None);
+    }
+    let medium = excitation.medium();
+    let direct = |reason: String| -> Result<Option<Chosen>, SourceError> {
+        let tolerance = (1e-3 * scene.settings.tolerance).clamp(1e-12, 1e-8);
+        let source = KernelSource::direct(medium, tolerance)?;
+        Ok(Some(Chosen { source, reason }))
+    };
+    let looked_up = |table: Arc<Table>, reason: String| {
+        let source = KernelSource::Table(table);
+        Some(Chosen { source, reason })
+    };
+    let radius = excitation.units().disc_radius_m;
+    let farthest = points.iter().fold([0.0_f64; 2], |far, &(r_m, z_m)| {
+        [far[0].max(r_m / radius), far[1].max(z_m / radius)]
+    });
+    let load = |tables: &Arc<dyn Tables>| tables.part(medium.poisson_ratio(), farthest);
+    match kernels {
+        KernelChoice::Direct => direct("asked for, or no table is given".to_owned()),
+        KernelChoice::Table(tables) => Ok(looked_up(load(tables)?, "asked for".to_owned())),
+        KernelChoice::Auto(tables) => {
+            let cells = Wanted::of(scene).cells(excitation);
+            let count = scene.points();
+            let threads = rayon::current_num_threads() as f64;
+            let cost_s = count as f64 * cells * DIRECT_CELL_S / threads;
+            let cost =
+                format!("{count} points of {cells:.0} cells take about {cost_s:.1e} s to compute");
+            if cost_s <= CHEAP_S {
+                return direct(format!("{cost}: computed"));
+            }
+            let table = load(tables)?;
+            let error = match table_error(&table, excitation, &points) {
+                Err(outside) => return direct(format!("{outside}: computed")),
+                Ok(error) => error,
+            };
+            let tolerance = scene.settings.tolerance;
+            if error > tolerance && cost_s <= DEAR_S {
+                direct(format!(
+                    "{cost}, and the table's error {error:.1e} is above the tolerance {tolerance:.1e}: computed"
+                ))
+            } else {
+                let reason = format!("{cost}; the table's error is {error:.1e}: looked up");
+                Ok(looked_up(table, reason))
+            }
+        }
+    }
+}
+
+/// All probes and the corners and edges of the section: (r, z) in m.
+fn places(scene: &Scene) -> Vec<(f64, f64)> {
+    let probes = scene.probes.iter().map(|probe| (probe.r_m, probe.z_m));
+    let section = scene.section.iter().flat_map(|section| {
+        let at = |i: u32, j: u32| {
+            (
+                section.r_max_m * f64::from(i) / 4.0,
+                section.z_max_m * f64::from(j) / 4.0,
+            )
+        };
+        (0..5).flat_map(move |i| (0..5).map(move |j| at(i, j)))
+    });
+    probes.chain(section).collect()
+}
+
+/// Largest estimated error at some places, over the largest static field of its kind there.
+fn table_error(
+    table: &Table,
+    excitation: &Excitation,
+    places: &[(f64, f64)],
+) -> Result<f64, LookupError> {
+    let (nu, units) = (excitation.medium().poisson_ratio(), excitation.units());
+    let (mut errors, mut sizes) = ([0.0_f64; 2], [0.0_f64; 2]);
+    for &(r_m, z_m) in places {
+        let (r, z) = (r_m / units.disc_radius_m, z_m / units.disc_radius_m);
+        let error = table.error(nu, r, z, excitation.pulse_s() / units.time_s())?;
+        let still = table.trace(nu, r, z, 0, &mut [])?.static_part;
+        for field in 0..6 {
+            // displacements and stresses
+            let kind = usize::from(field >= 2);
+            errors[kind] = errors[kind].max(error[field]);
+            sizes[kind] = sizes[kind].max(still[field].abs());
+        }
+    }
+    let relative = |kind: usize| errors[kind] / sizes[kind].max(f64::MIN_POSITIVE);
+    Ok(relative(0).max(relative(1)))
+}
