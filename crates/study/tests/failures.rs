@@ -73,7 +73,7 @@ fn the_explicit_march_blows_up_beyond_its_boundary_and_not_well_below() {
     for scale in [3.0, 10.0, 30.0] {
         let disc = ExactDisc {
             coupling: scale * paper.coupling,
-            ..paper.clone()
+            ..paper
         };
         let exact = converged(&disc).unwrap();
         let beyond = explicit_fate(&disc, &exact, 2.0 * exact.stable_step(&disc));
@@ -96,7 +96,7 @@ fn the_implicit_march_is_stable_on_the_papers_plane_and_gains_no_energy() {
     for scale in [0.1, 1.0, 3.0] {
         let disc = ExactDisc {
             coupling: scale * disc.coupling,
-            ..disc.clone()
+            ..disc
         };
         let exact = converged(&disc).unwrap();
         for step in [2e-3, 8e-3, 0.03, 0.08] {
@@ -140,7 +140,7 @@ fn the_dynamic_share_is_refused_where_it_has_no_solution() {
         let at = |coupling: f64| {
             let disc = ExactDisc {
                 coupling,
-                ..paper.clone()
+                ..paper
             };
             dynamic_is_solved(&disc, step * CONTACT_TIME)
         };
@@ -155,7 +155,7 @@ fn the_dynamic_share_is_refused_where_it_has_no_solution() {
         let at = |coupling: f64| {
             let disc = ExactDisc {
                 coupling,
-                ..paper.clone()
+                ..paper
             };
             dynamic_is_solved(&disc, step)
         };

@@ -52,17 +52,33 @@ pub(crate) struct EndLayer {
 }
 
 impl History {
+    /// At the touch, with room for as many samples.
     pub(crate) fn at_touch(step: f64, capacity: usize) -> Self {
-        let start = || {
-            let mut samples = Vec::with_capacity(capacity);
+        Self::begun(step, std::array::from_fn(|_| Vec::with_capacity(capacity)))
+    }
+
+    /// Forgets everything but the room that it takes.
+    pub(crate) fn restart(&mut self, step: f64) {
+        let room = [
+            &mut self.force,
+            &mut self.displacement,
+            &mut self.deflection,
+        ];
+        *self = Self::begun(step, room.map(std::mem::take));
+    }
+
+    /// At the touch, in the room of force, displacement and deflection.
+    fn begun(step: f64, mut room: [Vec<f64>; 3]) -> Self {
+        for samples in &mut room {
+            samples.clear();
             samples.push(0.0);
-            samples
-        };
+        }
+        let [force, displacement, deflection] = room;
         Self {
             step,
-            force: start(),
-            displacement: start(),
-            deflection: start(),
+            force,
+            displacement,
+            deflection,
             start: 0.0,
             velocity: Vec::new(),
             compliance: 0.0,
@@ -70,22 +86,6 @@ impl History {
             separation: None,
             dissipated: None,
             end_layer: EndLayer::default(),
-        }
-    }
-
-    /// Forgets everything but the room that it takes.
-    pub(crate) fn restart(&mut self, step: f64) {
-        self.step = step;
-        self.velocity.clear();
-        self.separation = None;
-        self.dissipated = None;
-        for samples in [
-            &mut self.force,
-            &mut self.displacement,
-            &mut self.deflection,
-        ] {
-            samples.clear();
-            samples.push(0.0);
         }
     }
 

@@ -1,0 +1,168 @@
+//! Impacts a second of each model, with the accuracy reached; the explicit scheme at equal accuracy beside them.
+//!
+//! `cargo bench --package hertzlamb-contact --bench impacts`
+
+#![allow(missing_docs, reason = "criterion's macros make undocumented items")]
+#![allow(clippy::unwrap_used, reason = "a bench may panic")]
+
+use contact::{
+    Choice, Collision, HalfSpace, Material, Model, Ratios, Settings, Solver, StaticShare, Striker,
+    Summary, Tabulated, march_explicit, march_implicit,
+};
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use halfspace::{Deflection, Medium, SurfaceResponse};
+use std::hint::black_box;
+use std::time::Instant;
+
+const TARGETS: [&str; 5] = ["steel", "granite", "soda-lime-glass", "aluminium", "pmma"];
+const STRIKERS: [&str; 4] = ["steel", "copper", "alumina-99.5", "soda-lime-glass"];
+
+/// A thousand balls of 0.2 to 20 mm at 0.05 to 50 m/s on discs of 0.3 to 3 of their contact radii.
+fn scenes(model: Model) -> Vec<(Collision, Settings)> {
+    (0..1000_u32)
+        .map(|i| {
+            // equidistributed in five dimensions (Kronecker's sequence of square roots)
+            let part = |root: f64| (f64::from(i) * root).fract();
+            let between = |low: f64, high: f64, x: f64| low * (high / low).powf(x);
+            let tip = between(2e-4, 2e-2, part(2f64.sqrt()));
+            let mass = 4.19 * tip.powi(3) * between(1500.0, 9000.0, part(3f64.sqrt()));
+            let velocity = between(0.05, 50.0, part(5f64.sqrt()));
+            let disc =
+                tip * 0.6 * (velocity / 3000.0).powf(0.4) * between(0.3, 3.0, part(7f64.sqrt()));
+            let named = |name: &str| Material::named(name).unwrap();
+            let target = HalfSpace::new(named(TARGETS[i as usize % 5])).unwrap();
+            let striker = Striker::new(named(STRIKERS[i as usize / 5 % 4]), mass, tip).unwrap();
+            let settings = Settings {
+                model,
+                tolerance: 1e-4,
+                loss_tolerance: Some(1e-3),
+                disc_radius_m: matches!(model, Model::Wave | Model::Auto).then_some(disc),
+                ..Settings::default()
+            };
+            (Collision::new(&target, &striker, velocity), settings)
+        })
+        .collect()
+}
+
+/// Errors against the same model with a tolerance of 1e-8, of force, time, restitution and of the loss.
+fn accuracy(scenes: &[(Collision, Settings)], responses: &Tabulated) -> String {
+    let mut solver = Solver::new(responses);
+    let mut errors: Vec<(f64, f64)> = scenes
+        .iter()
+        .filter_map(|(collision, settings)| {
+            let closer = Settings {
+                tolerance: 1e-8,
+                loss_tolerance: Some(1e-6),
+                ..*settings
+            };
+            let exact = solver.solve(collision, &closer).ok()?.summary;
+            let found = solver.solve(collision, settings).ok()?.summary;
+            Some((found.distance(&exact), found.loss_distance(&exact)))
+        })
+        .collect();
+    let mut quantiles = |of: fn(&(f64, f64)) -> f64| {
+        errors.sort_by(|a, b| of(a).total_cmp(&of(b)));
+        let at = |share: f64| of(&errors[((errors.len() - 1) as f64 * share) as usize]);
+        format!(
+            "median {:.1e}, 99 % {:.1e}, largest {:.1e}",
+            at(0.5),
+            at(0.99),
+            at(1.0)
+        )
+    };
+    let contact = quantiles(|e| e.0);
+    let loss = quantiles(|e| e.1);
+    format!(
+        "force, time, restitution: {contact}; loss: {loss}; {} scenes",
+        errors.len()
+    )
+}
+
+fn models(c: &mut Criterion) {
+    let responses = Tabulated::new(Ratios::Few);
+    let mut group = c.benchmark_group("impacts");
+    for model in [
+        Model::Hertz,
+        Model::Radiation,
+        Model::Wave,
+        Model::Auto,
+        Model::Growing,
+    ] {
+        let all = scenes(model);
+        // the growing contact is marched in tenths of milliseconds
+        let scenes = if model == Model::Growing {
+            &all[..50]
+        } else {
+            &all[..]
+        };
+        if model == Model::Wave {
+            println!("{}: {}", model.name(), accuracy(scenes, &responses));
+        }
+        let mut solver = Solver::new(&responses);
+        group.throughput(Throughput::Elements(scenes.len() as u64));
+        group.bench_function(model.name(), |b| {
+            b.iter(|| {
+                for (collision, settings) in scenes {
+                    let _ = black_box(solver.solve(black_box(collision), settings));
+                }
+            });
+        });
+    }
+    group.finish();
+}
+
+/// How many times slower the explicit scheme is where both reach 1e-4 on force, time and restitution.
+fn explicit(c: &mut Criterion) {
+    let all = scenes(Model::Wave);
+    let responses = Tabulated::new(Ratios::Few);
+    let mut solver = Solver::new(&responses);
+    let mut ratios = Vec::new();
+    for (collision, settings) in all.iter().step_by(97) {
+        let medium = Medium::new(collision.target_poisson_ratio).unwrap();
+        let response = SurfaceResponse::new(&medium, Deflection::Centre);
+        let disc = settings.disc_radius_m.unwrap();
+        let impact = collision.fixed_disc(&response, disc, StaticShare::Full);
+        let exact = Summary::new(&march_implicit(&impact, 1e-3).unwrap()).unwrap();
+        let start = Instant::now();
+        for _ in 0..100 {
+            let _ = black_box(solver.solve(collision, settings));
+        }
+        let implicit_s = start.elapsed().as_secs_f64() / 100.0;
+        // first the impulse response, which both schemes have ready
+        let _ = response.impulse(0.1);
+        let mut steps = 200.0;
+        while steps < 1e6 {
+            let start = Instant::now();
+            let done = march_explicit(&impact, exact.contact_time / steps);
+            let explicit_s = start.elapsed().as_secs_f64();
+            if let Ok((_, summary)) = done
+                && summary.distance(&exact) <= 1e-4
+            {
+                ratios.push((explicit_s / implicit_s, steps));
+                break;
+            }
+            steps *= 2.0;
+        }
+    }
+    ratios.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let middle = ratios[ratios.len() / 2];
+    println!(
+        "explicit at 1e-4 on force, time, restitution: {:.0} times slower (median of {} scenes, {} steps; {:.0} to {:.0} times)",
+        middle.0,
+        ratios.len(),
+        middle.1,
+        ratios[0].0,
+        ratios[ratios.len() - 1].0
+    );
+    let medium = Medium::new(0.3).unwrap();
+    let response = SurfaceResponse::new(&medium, Deflection::Centre);
+    let (collision, settings) = &all[0];
+    let disc = settings.disc_radius_m.unwrap();
+    let impact = collision.fixed_disc(&response, disc, StaticShare::Full);
+    c.bench_function("explicit, the paper's 200 steps", |b| {
+        b.iter(|| march_explicit(black_box(&impact), 3.0 / 200.0));
+    });
+}
+
+criterion_group!(benches, models, explicit);
+criterion_main!(benches);

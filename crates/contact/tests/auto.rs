@@ -1,0 +1,168 @@
+//! `auto` against the full memory on a thousand random scenes of each family.
+
+#![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
+
+use contact::{
+    Collision, ContactError, HalfSpace, Material, Model, Ratios, Settings, Solved, Solver,
+    StaticShare, Striker, Tabulated,
+};
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+
+const SCENES: u64 = 1000;
+
+/// Numbers in [0, 1) that depend on the scene and the place of use only (splitmix64).
+struct Draws(u64);
+
+impl Draws {
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    fn log(&mut self, low: f64, high: f64) -> f64 {
+        low * (high / low).powf(self.next())
+    }
+}
+
+/// A family of models.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Family {
+    Growing,
+    Disc(StaticShare),
+}
+
+impl Family {
+    /// The model of its full memory.
+    fn full(self) -> Model {
+        match self {
+            Self::Growing => Model::Growing,
+            Self::Disc(_) => Model::Wave,
+        }
+    }
+
+    /// Distinguishes the random numbers of the families.
+    fn offset(self) -> u64 {
+        match self {
+            Self::Growing | Self::Disc(StaticShare::Dynamic) => 7,
+            Self::Disc(StaticShare::Full) => 4,
+        }
+    }
+}
+
+fn material(youngs_modulus_pa: f64, poisson_ratio: f64, density_kg_m3: f64) -> Material {
+    Material {
+        youngs_modulus_pa,
+        poisson_ratio,
+        density_kg_m3: Some(density_kg_m3),
+        ..Material::named("steel").unwrap()
+    }
+}
+
+/// A collision and what is asked of it.
+fn random_scene(family: Family, index: u64) -> (Collision, Settings) {
+    let mut draws = Draws(index * 1000 + family.offset());
+    let (tip, density) = (draws.log(1e-4, 0.1), draws.log(1000.0, 10_000.0));
+    // around the mass of a ball of that radius
+    let mass = 4.19 * tip.powi(3) * draws.log(1000.0, 20_000.0) * draws.log(0.3, 10.0);
+    let (first, second) = (draws.log(1e9, 4e11), draws.log(1e9, 4e11));
+    let velocity = draws.log(1e-5, 3e-3) * (second / density).sqrt();
+    let (ratio, other) = (0.48 * draws.next(), 0.05 + 0.4 * draws.next());
+    let tolerance = match family {
+        Family::Growing => draws.log(1e-4, 1e-2),
+        Family::Disc(_) => draws.log(1e-6, 1e-2),
+    };
+    let mut settings = Settings {
+        tolerance,
+        ..Settings::default()
+    };
+    if draws.next() < 0.5 {
+        settings.loss_tolerance = Some((tolerance * draws.log(3.0, 30.0)).clamp(1e-3, 0.1));
+    }
+    if let Family::Disc(share) = family {
+        // around the contact's own radius, sqrt(tip * approach)
+        let approach = (velocity * velocity * density / first.min(second)).powf(0.4) * tip;
+        settings.disc_radius_m = Some((tip * approach).sqrt() * draws.log(0.5, 5.0));
+        settings.static_share = share;
+    }
+    let target = HalfSpace::new(material(second, ratio, density)).unwrap();
+    let striker = Striker::new(material(first, other, density), mass, tip).unwrap();
+    (Collision::new(&target, &striker, velocity), settings)
+}
+
+fn collide(
+    collision: &Collision,
+    settings: &Settings,
+    responses: &Tabulated,
+) -> Result<Solved, ContactError> {
+    Solver::new(responses).solve(collision, settings)
+}
+
+/// Model chosen, error over the tolerance, error of the loss over its tolerance.
+fn compare(family: Family, index: u64, responses: &Tabulated) -> Option<(Model, f64, f64)> {
+    let (collision, settings) = random_scene(family, index);
+    let reference = Settings {
+        model: family.full(),
+        tolerance: (0.1 * settings.tolerance).max(1e-9),
+        loss_tolerance: settings.loss_tolerance.map(|t| 0.1 * t),
+        ..settings
+    };
+    // the dynamic share has no solution for soft targets: neither has its full memory
+    let exact = collide(&collision, &reference, responses).ok()?;
+    let Ok(found) = collide(&collision, &settings, responses) else {
+        return Some((family.full(), f64::INFINITY, 0.0));
+    };
+    let (a, b) = (&found.summary, &exact.summary);
+    let loss = settings
+        .loss_tolerance
+        .map_or(0.0, |asked| a.loss_distance(b) / asked);
+    Some((found.plan.model, a.distance(b) / settings.tolerance, loss))
+}
+
+fn check(family: Family) {
+    let responses = Tabulated::new(Ratios::Many);
+    let found: Vec<_> = (0..SCENES)
+        .into_par_iter()
+        .filter_map(|index| compare(family, index, &responses))
+        .collect();
+    let mut models: BTreeMap<String, usize> = BTreeMap::new();
+    for (model, _, _) in &found {
+        *models.entry(format!("{model:?}")).or_default() += 1;
+    }
+    let mut worst: Vec<f64> = found.iter().map(|(_, e, l)| e.max(*l)).collect();
+    worst.sort_by(f64::total_cmp);
+    let missed = worst.iter().filter(|&&e| e > 1.0).count();
+    println!(
+        "{family:?}: {} scenes, {models:?}; error over tolerance: median {:.2}, 99 % {:.2}, largest {:.2}; {missed} missed",
+        found.len(),
+        worst[worst.len() / 2],
+        worst[worst.len() * 99 / 100],
+        worst[worst.len() - 1]
+    );
+    for rung in &found {
+        if rung.1.max(rung.2) > 1.0 {
+            println!("   missed: {rung:?}");
+        }
+    }
+    assert!(found.len() as u64 > SCENES * 7 / 10, "{}", found.len());
+    assert!(models.len() >= 3, "every rung is taken: {models:?}");
+    assert!(missed * 100 <= found.len(), "{missed} of {}", found.len());
+}
+
+#[test]
+fn full_share_is_within_tolerance() {
+    check(Family::Disc(StaticShare::Full));
+}
+
+#[test]
+fn dynamic_share_is_within_tolerance() {
+    check(Family::Disc(StaticShare::Dynamic));
+}
+
+#[test]
+fn growing_contact_is_within_tolerance() {
+    check(Family::Growing);
+}

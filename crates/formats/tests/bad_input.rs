@@ -1,0 +1,289 @@
+//! Scenes that are refused: the message names key, value and what is allowed, in one line.
+
+#![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
+
+use contact::Library;
+use formats::parse_scene;
+use std::path::Path;
+
+const GOOD: &str = "\
+[target]
+material = \"steel\"
+[striker]
+material = \"copper\"
+mass_kg = 0.0122
+tip_radius_m = 0.004
+velocity_m_s = 100.0
+[contact]
+disc_radius_m = 0.004
+model = \"wave\"
+[[probe]]
+r_m = 0.001
+z_m = 0.002
+";
+
+/// What is replaced in the good scene, by what, and what the message must hold.
+const BAD: [(&str, &str, &[&str]); 34] = [
+    (
+        "mass_kg = 0.0122",
+        "mass_kg = -1.0",
+        &["striker.mass_kg = -1", "(0, inf)"],
+    ),
+    (
+        "mass_kg = 0.0122",
+        "mass_kg = 0",
+        &["striker.mass_kg = 0", "(0, inf)"],
+    ),
+    (
+        "mass_kg = 0.0122",
+        "mass_kg = nan",
+        &["striker.mass_kg = NaN", "(0, inf)"],
+    ),
+    (
+        "mass_kg = 0.0122",
+        "mass_kg = inf",
+        &["striker.mass_kg = inf", "(0, inf)"],
+    ),
+    (
+        "mass_kg = 0.0122",
+        "mass_kg = \"heavy\"",
+        &["striker.mass_kg", "\"heavy\"", "a number"],
+    ),
+    (
+        "mass_kg = 0.0122",
+        "mass_kg = [1]",
+        &["striker.mass_kg", "a number"],
+    ),
+    ("mass_kg = 0.0122\n", "", &["striker.mass_kg is missing"]),
+    (
+        "mass_kg = 0.0122",
+        "mas_kg = 0.0122",
+        &["striker.mas_kg", "did you mean mass_kg?"],
+    ),
+    (
+        "mass_kg = 0.0122",
+        "colour = 3",
+        &["striker.colour", "known keys: "],
+    ),
+    (
+        "tip_radius_m = 0.004",
+        "tip_radius_m = -0.004",
+        &["striker.tip_radius_m = -0.004"],
+    ),
+    (
+        "velocity_m_s = 100.0",
+        "velocity_m_s = 0.0",
+        &["striker.velocity_m_s = 0"],
+    ),
+    (
+        "disc_radius_m = 0.004",
+        "disc_radius_m = 0.0",
+        &["contact.disc_radius_m = 0"],
+    ),
+    (
+        "model = \"wave\"",
+        "model = \"waves\"",
+        &[
+            "contact.model = \"waves\"",
+            "hertz, radiation, quasi_static, quasi_static_radiation, wave, growing, auto",
+        ],
+    ),
+    (
+        "model = \"wave\"",
+        "model = \"growing\"",
+        &["growing", "disc_radius_m"],
+    ),
+    (
+        "model = \"wave\"",
+        "tolerance = 1e-12",
+        &["contact.tolerance = 0.000000000001", "[1e-9, 0.1]"],
+    ),
+    (
+        "model = \"wave\"",
+        "step_s = -1e-9",
+        &["contact.step_s", "(0, inf)"],
+    ),
+    (
+        "model = \"wave\"",
+        "scheme = \"explicit\"\nstatic_share = \"dynamic\"",
+        &["explicit", "dynamic"],
+    ),
+    (
+        "model = \"wave\"",
+        "scheme = \"explicit\"\nmodel = \"hertz\"",
+        &["explicit", "hertz"],
+    ),
+    (
+        "r_m = 0.001",
+        "r_m = -0.001",
+        &["probe[1].r_m = -0.001", "[0, inf)"],
+    ),
+    (
+        "z_m = 0.002",
+        "z_m = inf",
+        &["probe[1].z_m = inf", "[0, inf)"],
+    ),
+    ("z_m = 0.002\n", "", &["probe[1].z_m is missing"]),
+    ("[[probe]]", "[probe]", &["probe", "[[..]]"]),
+    ("[target]", "[traget]", &["traget", "did you mean target?"]),
+    (
+        "material = \"steel\"",
+        "material = \"steal\"",
+        &["target.material = \"steal\"", "did you mean steel?"],
+    ),
+    (
+        "material = \"steel\"",
+        "youngs_modulus_pa = 1e9\ndensity_kg_m3 = 1",
+        &["target.poisson_ratio is missing"],
+    ),
+    (
+        "material = \"steel\"",
+        "youngs_modulus_pa = 1e9\npoisson_ratio = 0.3",
+        &["target.density_kg_m3 is missing"],
+    ),
+    (
+        "material = \"steel\"",
+        "material = \"steel\"\npoisson_ratio = 0.5",
+        &["target.poisson_ratio = 0.5", "(-1, 0.5)"],
+    ),
+    (
+        "material = \"steel\"",
+        "material = \"steel\"\npoisson_ratio = -1.5",
+        &["target.poisson_ratio = -1.5"],
+    ),
+    (
+        "material = \"steel\"",
+        "material = \"steel\"\nshear_speed_m_s = 3000",
+        &["target.longitudinal_speed_m_s is missing"],
+    ),
+    (
+        "material = \"steel\"",
+        "material = \"steel\"\nlongitudinal_speed_m_s = 3000\nshear_speed_m_s = 3000",
+        &["target.shear_speed_m_s = 3000"],
+    ),
+    (
+        "material = \"steel\"",
+        "youngs_modulus_pa = 209e9\npoisson_ratio = 0.3\ndensity_kg_m3 = 7830\nlongitudinal_speed_m_s = 5000\nshear_speed_m_s = 3204",
+        &[
+            "[target]",
+            "209000000000",
+            "longitudinal_speed_m_s and shear_speed_m_s",
+        ],
+    ),
+    (
+        "[striker]",
+        "[force]\nfile = \"none.csv\"\n[striker]",
+        &["[striker]", "[force]"],
+    ),
+    ("[target]", "[target", &["line 1"]),
+    (
+        "z_m = 0.002",
+        "z_m = 0.002\n[output]\nduration_s = 0",
+        &["output.duration_s = 0"],
+    ),
+];
+
+fn refused(text: &str, directory: &Path) -> String {
+    let message = parse_scene(text, directory).expect_err(text).to_string();
+    assert!(!message.contains('\n'), "{message}");
+    message
+}
+
+#[test]
+fn the_good_scene_is_good() {
+    let scene = parse_scene(GOOD, Path::new(".")).unwrap();
+    assert_eq!(scene.probes.len(), 1);
+}
+
+#[test]
+fn every_fault_is_named() {
+    for (good, bad, parts) in BAD {
+        assert!(GOOD.contains(good), "{good}");
+        let message = refused(&GOOD.replacen(good, bad, 1), Path::new("."));
+        for part in parts {
+            assert!(message.contains(part), "{bad}: {message}");
+        }
+    }
+}
+
+#[test]
+fn force_files_are_checked_line_by_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = "[target]\nmaterial = \"steel\"\n[contact]\ndisc_radius_m = 0.004\n[force]\nfile = \"f.csv\"\n";
+    let cases: [(&str, &[&str]); 10] = [
+        ("", &["line 1", "empty"]),
+        ("time,force\n0,1\n", &["line 1", "time_s,force_n"]),
+        ("time_s,force_n\n", &["0 rows"]),
+        ("time_s,force_n\n0,1\n", &["1 rows"]),
+        ("time_s,force_n\n0,1\n0,2\n", &["line 3", "must ascend"]),
+        ("time_s,force_n\n1,1\n0.5,2\n", &["line 3", "0.5"]),
+        ("time_s,force_n\n-1,1\n0.5,2\n", &["line 2", "[0, inf)"]),
+        (
+            "time_s,force_n\n0,1\n1,nan\n",
+            &["line 3", "force_n", "nan"],
+        ),
+        ("time_s,force_n\n0,1\n1\n", &["line 3", "force_n"]),
+        ("time_s,force_n\n0,1\n1,2,3\n", &["line 3", "third field"]),
+    ];
+    for (text, parts) in cases {
+        std::fs::write(folder.path().join("f.csv"), text).unwrap();
+        let message = refused(scene, folder.path());
+        for part in parts.iter().chain(&["f.csv"]) {
+            assert!(message.contains(part), "{text:?}: {message}");
+        }
+    }
+    std::fs::remove_file(folder.path().join("f.csv")).unwrap();
+    assert!(refused(scene, folder.path()).contains("f.csv"));
+    std::fs::write(
+        folder.path().join("f.csv"),
+        "# why not\ntime_s,force_n\n0,0\n1e-6,5\n",
+    )
+    .unwrap();
+    assert!(parse_scene(scene, folder.path()).is_ok());
+    let without = scene.replace("disc_radius_m = 0.004\n", "");
+    assert!(refused(&without, folder.path()).contains("contact.disc_radius_m is missing"));
+}
+
+#[test]
+fn the_library_is_readable_and_physical() {
+    let library = Library::built_in();
+    assert!(library.iter().count() >= 40);
+    for material in library.iter() {
+        assert!(
+            !material.source.is_empty() && material.density_kg_m3.is_some(),
+            "{}",
+            material.name
+        );
+        assert!(
+            (-0.5..0.4999).contains(&material.poisson_ratio),
+            "{}",
+            material.name
+        );
+    }
+    for group in [
+        "metal", "ceramic", "glass", "polymer", "rock", "concrete", "soil",
+    ] {
+        assert!(library.iter().any(|m| m.group == group), "{group}");
+    }
+    assert!(library.search("CRC").count() > 5);
+    // Table 1 of the paper: c1 = 5994 m/s and c2 = 3204 m/s of steel
+    let steel = library.get("steel").unwrap();
+    assert!((steel.longitudinal_speed_m_s().unwrap() - 5994.0).abs() < 2.0);
+    assert!((steel.shear_speed_m_s().unwrap() - 3204.0).abs() < 2.0);
+}
+
+#[test]
+fn a_users_library_extends_the_built_in_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let own = "[mine]\nyoungs_modulus_pa = 1e9\npoisson_ratio = 0.2\ndensity_kg_m3 = 1000\nsource = \"measured\"\n";
+    std::fs::write(folder.path().join("own.toml"), own).unwrap();
+    let text = GOOD.replace("\"steel\"", "\"mine\"") + "[materials]\nfile = \"own.toml\"\n";
+    let scene = parse_scene(&text, folder.path()).unwrap();
+    assert_eq!(scene.target.material().youngs_modulus_pa, 1e9);
+    std::fs::write(
+        folder.path().join("own.toml"),
+        own.replace("source = \"measured\"\n", ""),
+    )
+    .unwrap();
+    assert!(refused(&text, folder.path()).contains("mine.source is missing"));
+}

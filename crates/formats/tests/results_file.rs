@@ -1,0 +1,145 @@
+//! The results file against its description in `data-schema/results.md`.
+
+#![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
+
+use formats::results::schema;
+use formats::{Existing, OutputError, QUANTITIES, parse_scene, resolved, write_results};
+use impact::{KernelChoice, Outcome, Scene, simulate};
+use std::collections::BTreeSet;
+use std::path::Path;
+
+const DOCUMENT: &str = include_str!("../../../data-schema/results.md");
+
+fn outcome() -> (Scene, Outcome) {
+    let text = include_str!("../../../scenes/copper-on-steel.toml");
+    let section = "[map]\nr_max_m = 0.004\nz_max_m = 0.002\npoints = [4, 3]\nframes = 5\n";
+    let scene = parse_scene(&format!("{text}\n{section}"), Path::new(".")).unwrap();
+    let outcome = simulate(&scene, &KernelChoice::Direct).unwrap();
+    (scene, outcome)
+}
+
+/// First cells of the tables of a part of the document, without their back quotes.
+fn listed(from: &str, to: &str) -> BTreeSet<String> {
+    let part = DOCUMENT.split(from).nth(1).unwrap();
+    let part = if to.is_empty() {
+        part
+    } else {
+        part.split(to).next().unwrap()
+    };
+    part.lines()
+        .filter_map(|line| line.strip_prefix("| `"))
+        .map(|line| line.split('`').next().unwrap().to_owned())
+        .collect()
+}
+
+#[test]
+fn every_dataset_is_described_and_every_description_is_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("out.h5");
+    let (scene, outcome) = outcome();
+    write_results(&path, &scene, &outcome, Existing::Keep).unwrap();
+    let file = hdf5::File::open(&path).unwrap();
+    let mut written = BTreeSet::new();
+    let mut groups = vec![(String::new(), file.as_group().unwrap())];
+    while let Some((name, group)) = groups.pop() {
+        // by the names of the links: a dataset of the section has two
+        for member in group.member_names().unwrap() {
+            let Ok(dataset) = group.dataset(&member) else {
+                continue;
+            };
+            let path = format!("{name}/{member}");
+            for attribute in ["units", "long_name"] {
+                assert!(dataset.attr(attribute).is_ok(), "{path} has no {attribute}");
+            }
+            let expected = DOCUMENT
+                .lines()
+                .find(|line| line.contains(&format!("| `{path}` |")));
+            let unit: hdf5::types::VarLenUnicode =
+                dataset.attr("units").unwrap().read_scalar().unwrap();
+            assert!(
+                expected.is_some_and(|line| line.contains(&format!("| {unit} |"))),
+                "{path}"
+            );
+            written.insert(path);
+        }
+        for inner in group.groups().unwrap() {
+            groups.push((inner.name(), inner));
+        }
+    }
+    assert_eq!(written, listed("## Datasets", "## Attributes"));
+    let attributes: BTreeSet<String> = file.attr_names().unwrap().into_iter().collect();
+    assert_eq!(attributes, listed("## Attributes", ""));
+    for quantity in &QUANTITIES {
+        let row = format!("| `{}` |", quantity.name);
+        let line = DOCUMENT.lines().find(|line| line.contains(&row));
+        assert!(
+            line.is_some_and(|line| line.contains(&format!("| {} |", quantity.unit))),
+            "{row}"
+        );
+    }
+    assert!(DOCUMENT.contains(&format!("Version {}.\n", schema::FORMAT_VERSION)));
+}
+
+#[test]
+fn the_section_is_what_probes_at_its_points_see() {
+    let text = include_str!("../../../scenes/copper-on-steel.toml");
+    let start = text.find("[[probe]]").unwrap();
+    let text = format!(
+        "{}[[probe]]\nr_m = 0.004\nz_m = 0.001\n[map]\nr_max_m = 0.008\nz_max_m = 0.002\npoints = [3, 3]\nframes = 7\n",
+        &text[..start]
+    );
+    let scene = parse_scene(&text, Path::new(".")).unwrap();
+    let outcome = simulate(&scene, &KernelChoice::Direct).unwrap();
+    let (map, probe) = (outcome.section.unwrap(), outcome.probes.unwrap());
+    assert_eq!((map.r_m[1], map.z_m[1]), (0.004, 0.001));
+    assert_eq!((map.z_m[0], map.z_m[2]), (0.002, 0.0));
+    for (frame, time_s) in map.time_s.iter().enumerate() {
+        let sample = outcome
+            .series
+            .time_s
+            .iter()
+            .position(|t| (t / time_s - 1.0).abs() < 1e-12 || t == time_s);
+        let sample = sample.unwrap();
+        for field in 0..6 {
+            let (a, b) = (
+                map.values[field][frame * 9 + 4],
+                probe.values[field][0][sample],
+            );
+            let peak = probe.values[field][0]
+                .iter()
+                .fold(0.0_f64, |m, x| m.max(x.abs()));
+            assert!(
+                (f64::from(a) - b).abs() < 1e-6 * peak,
+                "{field} {frame}: {a} {b}"
+            );
+        }
+    }
+    assert_eq!(
+        [map.arrival_s[0][4], map.arrival_s[2][4]],
+        [probe.arrival_s[0][0], probe.arrival_s[0][2]]
+    );
+}
+
+#[test]
+fn a_file_in_the_way_is_kept() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("out.h5");
+    std::fs::write(&path, "precious").unwrap();
+    let (scene, outcome) = outcome();
+    let refused = write_results(&path, &scene, &outcome, Existing::Keep);
+    assert!(matches!(refused, Err(OutputError::Exists { .. })));
+    assert_eq!(std::fs::read(&path).unwrap(), b"precious");
+    write_results(&path, &scene, &outcome, Existing::Replace).unwrap();
+    assert!(hdf5::File::open(&path).is_ok());
+    let nowhere = folder.path().join("none").join("out.h5");
+    assert!(write_results(&nowhere, &scene, &outcome, Existing::Keep).is_err());
+    // nothing but the one file is left
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+}
+
+#[test]
+fn the_resolved_scene_gives_the_same_numbers() {
+    let (scene, first) = outcome();
+    let again = parse_scene(&resolved(&scene), Path::new(".")).unwrap();
+    assert_eq!(simulate(&again, &KernelChoice::Direct).unwrap(), first);
+}

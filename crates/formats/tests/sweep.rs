@@ -1,0 +1,268 @@
+//! Sweeps: every row a scene, resumed, reproducible, failures with their reason.
+
+#![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
+
+use contact::{Choice, Model};
+use formats::sweep::{BLOCK, Block, Spec, run_sweep, schema, write_csv, write_sweep};
+use formats::{Existing, QUANTITIES, parse_scene};
+use impact::{KernelChoice, simulate};
+use std::collections::BTreeSet;
+use std::path::Path;
+
+const SCENE: &str = "\
+[scene.target]
+material = \"steel\"
+[scene.striker]
+material = \"copper\"
+mass_kg = 0.0122
+tip_radius_m = 0.004
+velocity_m_s = 1.0
+";
+
+fn place_of(name: &str) -> usize {
+    QUANTITIES.iter().position(|q| q.name == name).unwrap()
+}
+
+fn spec(axes: &str) -> Spec {
+    Spec::from_toml(&format!("{SCENE}{axes}"), Path::new(".")).unwrap()
+}
+
+fn all(spec: &Spec) -> Vec<Block> {
+    let folder = tempfile::tempdir().unwrap();
+    let done = run_sweep(spec, &folder.path().join("part"), |_| true);
+    done.unwrap().unwrap().blocks
+}
+
+#[test]
+fn each_row_is_what_its_scene_gives_alone() {
+    let spec = spec(
+        "[scene.contact]\ntolerance = 1e-4\n[product.striker]\nvelocity_m_s = [0.3, 30.0]\n\
+         [product.target]\nmaterial = [\"granite\", \"pmma\"]\n\
+         [product.contact]\nmodel = [\"hertz\", \"radiation\", \"wave\", \"growing\"]\n",
+    );
+    let blocks = all(&spec);
+    let rows: Vec<[f64; QUANTITIES.len()]> =
+        blocks.iter().flat_map(|b| b.numbers.clone()).collect();
+    assert_eq!(rows.len(), 16);
+    let mut row = 0;
+    // alphabetical: contact.model, striker.velocity_m_s, target.material
+    for model in ["hertz", "radiation", "wave", "growing"] {
+        for velocity in [0.3, 30.0] {
+            for target in ["granite", "pmma"] {
+                let text = SCENE
+                    .replace("scene.", "")
+                    .replace("\"steel\"", &format!("\"{target}\""))
+                    .replace("velocity_m_s = 1.0", &format!("velocity_m_s = {velocity}"));
+                let text = format!("{text}[contact]\ntolerance = 1e-4\nmodel = \"{model}\"\n");
+                let scene = parse_scene(&text, Path::new(".")).unwrap();
+                let alone = simulate(&scene, &KernelChoice::Direct).unwrap();
+                let alone = *alone.results().unwrap();
+                let close = |name: &str, value: f64| {
+                    let k = place_of(name);
+                    let found = rows[row][k];
+                    // both are within the tolerance
+                    assert!(
+                        (found / value - 1.0).abs() < 2e-4,
+                        "{model} {velocity} {target}, {}: {found} {value}",
+                        QUANTITIES[k].name
+                    );
+                };
+                close("peak_force_n", alone.peak_force_n);
+                close("contact_time_s", alone.contact_time_s);
+                close("restitution", alone.restitution);
+                close("peak_displacement_m", alone.peak_displacement_m);
+                close("impulse_n_s", alone.impulse_n_s);
+                row += 1;
+            }
+        }
+    }
+}
+
+#[test]
+fn a_failed_scene_is_a_row_with_a_reason() {
+    let spec = spec(
+        "[scene.contact]\ndisc_radius_m = 0.004\nmodel = \"wave\"\n\
+         [list.striker]\nmass_kg = [0.01, -1.0, 0.01]\n[list.target]\nmaterial = [\"steel\", \"steel\", \"steal\"]\n",
+    );
+    let blocks = all(&spec);
+    let block = &blocks[0];
+    assert!(block.numbers[0][0] > 0.0);
+    assert!(
+        block.numbers[1]
+            .iter()
+            .chain(&block.numbers[2])
+            .all(|x| x.is_nan())
+    );
+    let reasons: Vec<&str> = block.failures.iter().map(|(_, r)| r.as_str()).collect();
+    assert!(reasons[0].contains("striker.mass_kg = -1") && reasons[0].contains("(0, inf)"));
+    assert!(reasons[1].contains("target.material") && reasons[1].contains("did you mean steel"));
+    let folder = tempfile::tempdir().unwrap();
+    let (h5, csv) = (folder.path().join("s.h5"), folder.path().join("s.csv"));
+    write_sweep(&h5, &spec, &blocks, Existing::Keep).unwrap();
+    write_csv(&csv, &spec, &blocks, Existing::Keep).unwrap();
+    let text = std::fs::read_to_string(csv).unwrap();
+    let lines: Vec<&str> = text.lines().collect();
+    assert_eq!(lines.len(), 4);
+    assert!(lines[0].starts_with("striker.mass_kg,target.material,peak_force_n,"));
+    assert!(lines[2].contains("outside (0, inf)"));
+    let columns = lines[0].split(',').count();
+    assert_eq!(lines[1].split(',').count(), columns);
+    let file = hdf5::File::open(&h5).unwrap();
+    let failure: Vec<i32> = file.dataset("results/failure").unwrap().read_raw().unwrap();
+    assert_eq!(failure, [-1, 0, 1]);
+    assert_eq!(file.dataset("failures").unwrap().size(), 2);
+}
+
+const DRAWS: &str = "[scene.contact]\nmodel = \"wave\"\ndisc_radius_m = 0.002\n\
+    [product.striker]\nvelocity_m_s = { from = 1.0, to = 100.0, count = 10, spacing = \"log\" }\n\
+    [random]\nsamples = 10000\nseed = 7\n[random.target]\n\
+    poisson_ratio = { distribution = \"normal\", mean = 0.3, deviation = 0.01 }\n[random.striker]\n\
+    mass_kg = { distribution = \"log_normal\", median = 0.0122, deviation = 0.05 }\n";
+
+#[test]
+fn an_interrupted_sweep_goes_on_and_gives_the_same() {
+    let spec = spec(DRAWS);
+    assert!(spec.rows() > 2 * BLOCK);
+    let folder = tempfile::tempdir().unwrap();
+    let part = folder.path().join("part");
+    // stops after the first block
+    let stopped = run_sweep(&spec, &part, |done| done == 0).unwrap();
+    assert!(stopped.is_none());
+    // a record that is cut short is computed anew
+    let length = std::fs::metadata(&part).unwrap().len();
+    let stopped = run_sweep(&spec, &part, |done| done < 2 * BLOCK).unwrap();
+    assert!(stopped.is_none());
+    let file = std::fs::OpenOptions::new().write(true).open(&part).unwrap();
+    let both = file.metadata().unwrap().len();
+    assert!(both > length);
+    file.set_len(both - 100).unwrap();
+    let mut first = None;
+    let done = run_sweep(&spec, &part, |rows| {
+        first.get_or_insert(rows);
+        true
+    });
+    let done = done.unwrap().unwrap();
+    assert_eq!((first, done.resumed), (Some(BLOCK), BLOCK));
+    let whole = all(&spec);
+    let bits = |blocks: &[Block]| -> Vec<u64> {
+        let numbers = blocks.iter().flat_map(|b| b.numbers.iter().flatten());
+        numbers.map(|x| x.to_bits()).collect()
+    };
+    assert!(bits(&done.blocks) == bits(&whole), "resumed rows differ");
+    let k = place_of("restitution");
+    let restitutions: BTreeSet<u64> = whole[0].numbers.iter().map(|n| n[k].to_bits()).collect();
+    assert!(
+        restitutions.len() > BLOCK / 2,
+        "draws differ from row to row"
+    );
+    // another sweep does not go on with this one's rows
+    let other = self::spec(&DRAWS.replace("seed = 7", "seed = 8"));
+    run_sweep(&spec, &part, |_| false).unwrap();
+    let message = run_sweep(&other, &part, |_| true).unwrap_err().to_string();
+    assert!(message.contains("another sweep"), "{message}");
+}
+
+#[test]
+fn the_model_of_a_row_is_an_index_into_the_names() {
+    let spec = spec("[product.contact]\nmodel = [\"growing\", \"hertz\"]\n");
+    let blocks = all(&spec);
+    let names: Vec<&str> = blocks[0]
+        .models
+        .iter()
+        .map(|&m| Model::ALL[usize::from(m)].name())
+        .collect();
+    assert_eq!(names, ["growing", "hertz"]);
+}
+
+#[test]
+fn bad_sweeps_are_refused_with_key_and_value() {
+    let cases = [
+        ("", "product"),
+        (
+            "[product.striker]\nvelocity_ms = [1.0]\n",
+            "striker.velocity_ms",
+        ),
+        ("[product.striker]\nmass_kg = []\n", "mass_kg = []"),
+        (
+            "[product.striker]\nmass_kg = [1.0, \"a\"]\n",
+            "list of numbers",
+        ),
+        (
+            "[product.striker]\nmass_kg = { from = 1.0, to = 2.0, count = 1 }\n",
+            "mass_kg.count = 1 is outside [2",
+        ),
+        (
+            "[product.striker]\nmass_kg = { from = 0.0, to = 2.0, count = 3, spacing = \"log\" }\n",
+            "mass_kg.from = 0 is outside (0, inf)",
+        ),
+        (
+            "[list.striker]\nmass_kg = [1.0, 2.0]\nvelocity_m_s = [1.0]\n",
+            "of 2 values cannot be combined",
+        ),
+        (
+            "[random]\nsamples = 3\n[random.striker]\nmass_kg = { distribution = \"gauss\", mean = 1.0 }\n",
+            "uniform, log_uniform, normal, log_normal",
+        ),
+        (
+            "[random]\nsamples = 3\n[random.striker]\nmass_kg = { distribution = \"uniform\", low = 2.0, high = 1.0 }\n",
+            "high must be above low",
+        ),
+        (
+            "[product.striker]\nmass_kg = [1.0]\n[list.striker]\nmass_kg = [1.0]\n",
+            "along one axis only",
+        ),
+        (
+            "[product.striker]\nmass_kg = { from = 1.0, to = 2.0, count = 10000 }\nvelocity_m_s = { from = 1.0, to = 2.0, count = 10000 }\n",
+            "100000000 is outside [1, 10000000]",
+        ),
+        (
+            "[[scene.probe]]\nr_m = 0.0\nz_m = 0.0\n[product.striker]\nmass_kg = [1.0]\n",
+            "[[probe]]",
+        ),
+    ];
+    let folder = tempfile::tempdir().unwrap();
+    for (axes, expected) in cases {
+        let text = format!("{SCENE}{axes}");
+        let message = match Spec::from_toml(&text, Path::new(".")) {
+            Err(error) => error.to_string(),
+            Ok(spec) => match run_sweep(&spec, &folder.path().join("part"), |_| true) {
+                Err(error) => error.to_string(),
+                Ok(_) => "no error".to_owned(),
+            },
+        };
+        assert!(message.contains(expected), "{axes}\n{message}");
+        assert_eq!(message.lines().count(), 1, "{message}");
+    }
+}
+
+#[test]
+fn the_format_is_written_down() {
+    let document = include_str!("../../../data-schema/sweep.md");
+    let numbers = QUANTITIES.iter().map(|q| q.name);
+    let names = numbers
+        .chain(schema::TEXTS)
+        .chain(schema::COUNTS)
+        .chain([schema::MODEL.0, schema::FAILURE.0, schema::FAILURES.0])
+        .chain([
+            schema::AXES,
+            schema::RESULTS,
+            schema::FILE_TYPE,
+            schema::FORMAT_VERSION,
+        ]);
+    for name in names {
+        assert!(
+            document.contains(name),
+            "{name} is not in data-schema/sweep.md"
+        );
+    }
+    for quantity in &QUANTITIES {
+        let (name, unit) = (quantity.name, quantity.unit);
+        let row = document
+            .lines()
+            .find(|line| line.contains(&format!("/{name}`")));
+        assert!(
+            row.is_some_and(|row| row.contains(&format!("| {unit} |"))),
+            "{name}: {unit}"
+        );
+    }
+}
