@@ -9,7 +9,7 @@
 //! let fields = run.excitation().fields(1e-8)?;
 //! let under = fields.at(0.0, 0.004)?;
 //! println!("{} N, {} Pa", run.peak_force_n, under[Field::StressZz].peak());
-//! # assert!((run.peak_force_n / 498.6 - 1.0).abs() < 1e-3, "{}", run.peak_force_n);
+//! # assert!((run.peak_force_n / 269.98 - 1.0).abs() < 1e-3, "{}", run.peak_force_n);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
