@@ -102,13 +102,15 @@ struct Info<'a> {
     accuracy_asked: f64,
     pulse_lengths: &'a [f64],
     p99_relative_error: &'a [f64],
+    relative_errors: Vec<tabulate::Errors>,
     grid: &'a str,
 }
 
 fn info(path: &Path, json: bool) -> Result<(), Failure> {
-    let content = read(path)?;
-    let table = lookup::Table::new(content.clone()).map_err(Failure::input)?;
+    let table = lookup::Table::open(path).map_err(Failure::input)?;
+    let content = table.content();
     let origin = &content.origin;
+    let accuracy = content.accuracy();
     let info = Info {
         file: path.display().to_string(),
         bytes: std::fs::metadata(path).map_or(0, |data| data.len()),
@@ -117,7 +119,7 @@ fn info(path: &Path, json: bool) -> Result<(), Failure> {
         software_version: &origin.software_version,
         git_revision: &origin.git_revision,
         created_unix_s: origin.created_unix_s,
-        content_sha256: lookup::content_hash(&content),
+        content_sha256: lookup::content_hash(content),
         poisson_ratios: table.poisson_ratios().to_vec(),
         r_nodes: content.r.len(),
         z_nodes: content.z.len(),
@@ -129,6 +131,7 @@ fn info(path: &Path, json: bool) -> Result<(), Failure> {
         accuracy_asked: origin.accuracy_asked,
         pulse_lengths: &content.pulse_lengths,
         p99_relative_error: &origin.accuracy_reached,
+        relative_errors: tabulate::Errors::of(&accuracy),
         grid: &origin.grid,
     };
     if json {
@@ -158,11 +161,7 @@ fn info(path: &Path, json: bool) -> Result<(), Failure> {
         info.cell_width, info.cells
     ))?;
     print(format!("interpolation   {} points", info.stencil_points))?;
-    print("measured off the grid, 99 % of all points and fields, error over the peak in time:")?;
-    for (length, error) in info.pulse_lengths.iter().zip(info.p99_relative_error) {
-        print(format!("  pulses of {length:>5} r0/c1  {error:.1e}"))?;
-    }
-    Ok(())
+    tabulate::print_errors(&accuracy)
 }
 
 #[derive(Debug, Serialize)]
@@ -183,7 +182,7 @@ fn verify(path: &Path, sample: usize, seed: u64, json: bool) -> Result<(), Failu
             | TableError::Foreign { .. }
             | TableError::Version { .. }),
         ) => Failure::input(error),
-        tabulator::BuildError::Table(error) => Failure::work(named(path, &error)),
+        tabulator::BuildError::Table(error) => Failure::work(error),
         other => tabulate::failure(other),
     })?;
     let verified = Verified {
@@ -337,15 +336,5 @@ fn describe(difference: &Difference) -> String {
 }
 
 fn read(path: &Path) -> Result<Content, Failure> {
-    lookup::read(path).map_err(|error| Failure::input(named(path, &error)))
-}
-
-/// The error with the name of the file in it.
-fn named(path: &Path, error: &TableError) -> String {
-    let (text, name) = (error.to_string(), path.display().to_string());
-    if text.contains(&name) {
-        text
-    } else {
-        format!("{name}: {text}")
-    }
+    lookup::read(path).map_err(Failure::input)
 }

@@ -4,8 +4,9 @@ use crate::failure::{Failure, print};
 use crate::overwrite::Overwrite;
 use crate::progress::Bar;
 use clap::Args;
-use lookup::TableError;
+use lookup::{Accuracy, Quantiles, TableError, schema};
 use serde::Serialize;
+use std::collections::BTreeMap;
 use std::io::ErrorKind;
 use std::path::PathBuf;
 use tabulator::{BuildError, Extension, Grid, Summary};
@@ -71,6 +72,43 @@ struct Report<'a> {
     resumed_blocks: usize,
     pulse_lengths: &'a [f64],
     p99_relative_error: &'a [f64],
+    relative_errors: Vec<Errors>,
+}
+
+/// Relative errors measured off the grid with pulses of one length, by region and field.
+#[derive(Debug, Serialize)]
+pub(crate) struct Errors {
+    pulse_length: f64,
+    on_slices: BTreeMap<&'static str, OfField>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    between_slices: Option<BTreeMap<&'static str, OfField>>,
+}
+
+#[derive(Debug, Serialize)]
+struct OfField {
+    p50: f64,
+    p99: f64,
+    max: f64,
+}
+
+impl Errors {
+    /// All that were measured.
+    pub(crate) fn of(accuracy: &[Accuracy]) -> Vec<Self> {
+        let fields = |errors: &[Quantiles; 6]| {
+            let named = schema::FIELD_NAMES.into_iter().zip(errors);
+            named
+                .map(|(name, &Quantiles { p50, p99, max })| (name, OfField { p50, p99, max }))
+                .collect()
+        };
+        accuracy
+            .iter()
+            .map(|measured| Self {
+                pulse_length: measured.pulse_length,
+                on_slices: fields(&measured.on_slices),
+                between_slices: measured.between_slices.as_ref().map(fields),
+            })
+            .collect()
+    }
 }
 
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
@@ -158,9 +196,28 @@ fn tell(grid: &Grid, arguments: &Arguments, summary: &Summary) -> Result<(), Fai
         report.wall_s,
         report.id
     ))?;
-    print("measured off the grid, 99 % of all points and fields, error over the peak in time:")?;
-    for (length, error) in summary.pulse_lengths.iter().zip(&summary.p99_error) {
-        print(format!("  pulses of {length:>5} r0/c1  {error:.1e}"))?;
+    print_errors(&summary.accuracy)
+}
+
+/// The errors of the worst field in each region, for each length of the pulse.
+pub(crate) fn print_errors(accuracy: &[Accuracy]) -> Result<(), Failure> {
+    print(
+        "measured off the grid, error over the peak in time, of the worst field: 50 %, 99 %, most",
+    )?;
+    for measured in accuracy {
+        let length = measured.pulse_length;
+        let regions = [
+            ("on slices", Some(measured.worst_on_slices())),
+            ("between slices", measured.worst_between_slices()),
+        ];
+        for (region, worst) in regions {
+            if let Some((field, Quantiles { p50, p99, max })) = worst {
+                let field = schema::FIELD_NAMES[field as usize];
+                print(format!(
+                    "  pulses of {length:>5} r0/c1, {region:14}  {p50:.1e}  {p99:.1e}  {max:.1e}  {field}"
+                ))?;
+            }
+        }
     }
     Ok(())
 }
@@ -190,7 +247,7 @@ fn report<'a>(grid: &'a Grid, arguments: &Arguments, summary: &'a Summary) -> Re
         file: arguments.output.display().to_string(),
         id: &summary.id,
         content_sha256: &summary.content_sha256,
-        format_version: lookup::schema::FORMAT_VERSION_VALUE,
+        format_version: schema::FORMAT_VERSION_VALUE,
         poisson_ratios: grid.slices().iter().map(|slice| slice.0).collect(),
         points: summary.points,
         bytes: summary.bytes,
@@ -198,6 +255,7 @@ fn report<'a>(grid: &'a Grid, arguments: &Arguments, summary: &'a Summary) -> Re
         resumed_blocks: summary.resumed_blocks,
         pulse_lengths: &summary.pulse_lengths,
         p99_relative_error: &summary.p99_error,
+        relative_errors: Errors::of(&summary.accuracy),
     }
 }
 
@@ -218,16 +276,17 @@ fn resolve(name: &str) -> Result<Grid, Failure> {
 /// Bad settings and files in the way are the user's, the rest is work that failed.
 pub(crate) fn failure(error: BuildError) -> Failure {
     match error {
+        BuildError::Exists { .. } => Failure::input(format!("{error}; --force replaces it")),
         BuildError::Setting { .. }
-        | BuildError::GridFile { .. }
+        | BuildError::InFile { .. }
         | BuildError::Shrinks { .. }
         | BuildError::TooFine { .. }
         | BuildError::Settings { .. }
-        | BuildError::Exists { .. }
         | BuildError::Busy { .. }
         | BuildError::OtherSettings { .. }
         | BuildError::NotBlocks { .. }
         | BuildError::Mixed { .. }
+        | BuildError::NoShards
         | BuildError::Incomplete { .. }
         | BuildError::Table(
             TableError::Unreadable { .. }
@@ -245,6 +304,7 @@ pub(crate) fn failure(error: BuildError) -> Failure {
         | BuildError::NotFinite { .. }
         | BuildError::Domain(_)
         | BuildError::Table(_)
+        | BuildError::Content(_)
         | BuildError::Lookup(_) => Failure::work(error),
     }
 }

@@ -5,30 +5,34 @@ use crate::grid::Wanted;
 use crate::kernels::KernelSource;
 use crate::scene::Scene;
 use halfspace::DomainError;
-use lookup::{LookupError, Table, TableError};
+use lookup::{LookupError, Table};
+use std::error::Error;
 use std::fmt;
 use std::sync::Arc;
 use thiserror::Error;
+
+/// Why a table cannot be loaded, in one sentence.
+pub type TableFault = Box<dyn Error + Send + Sync>;
 
 /// Something that has kernel tables: one in memory, or a file of which the part that is needed is loaded.
 pub trait Tables: fmt::Debug + Send + Sync {
     /// A table for a Poisson's ratio that reaches to r and z in disc radii.
     ///
     /// # Errors
-    /// [`TableError`] when it cannot be loaded.
-    fn part(&self, poisson_ratio: f64, farthest: [f64; 2]) -> Result<Arc<Table>, TableError>;
+    /// Why it cannot be loaded.
+    fn part(&self, poisson_ratio: f64, farthest: [f64; 2]) -> Result<Arc<Table>, TableFault>;
 }
 
 impl Tables for Arc<Table> {
-    fn part(&self, _: f64, _: [f64; 2]) -> Result<Arc<Table>, TableError> {
+    fn part(&self, _: f64, _: [f64; 2]) -> Result<Arc<Table>, TableFault> {
         Ok(Self::clone(self))
     }
 }
 
 #[cfg(feature = "hdf5")]
 impl Tables for lookup::TableFile {
-    fn part(&self, poisson_ratio: f64, farthest: [f64; 2]) -> Result<Arc<Table>, TableError> {
-        Self::part(self, poisson_ratio, farthest).map(Arc::new)
+    fn part(&self, poisson_ratio: f64, farthest: [f64; 2]) -> Result<Arc<Table>, TableFault> {
+        Ok(Arc::new(Self::part(self, poisson_ratio, farthest)?))
     }
 }
 
@@ -47,8 +51,8 @@ pub enum KernelChoice {
 #[derive(Debug, Error)]
 pub enum SourceError {
     /// The table could not be loaded.
-    #[error(transparent)]
-    Table(#[from] TableError),
+    #[error("{0}")]
+    Table(TableFault),
     /// A number is outside the physics.
     #[error(transparent)]
     Domain(#[from] DomainError),
@@ -94,7 +98,11 @@ pub(crate) fn choose_source(
     let farthest = points.iter().fold([0.0_f64; 2], |far, &(r_m, z_m)| {
         [far[0].max(r_m / radius), far[1].max(z_m / radius)]
     });
-    let load = |tables: &Arc<dyn Tables>| tables.part(medium.poisson_ratio(), farthest);
+    let load = |tables: &Arc<dyn Tables>| {
+        tables
+            .part(medium.poisson_ratio(), farthest)
+            .map_err(SourceError::Table)
+    };
     match kernels {
         KernelChoice::Direct => direct("asked for, or no table is given".to_owned()),
         KernelChoice::Table(tables) => Ok(looked_up(load(tables)?, "asked for".to_owned())),

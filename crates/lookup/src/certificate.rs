@@ -16,7 +16,7 @@ pub const SAFETY: f64 = 2.3;
 /// Factor from the error measured in the middle between two slices, at places farther apart than the nodes.
 pub const SAFETY_BETWEEN: f64 = 2.3;
 
-/// Estimates never go below this share of the peak of a field: the rounding of stored values.
+/// Estimates never go below this fraction of the peak of a field: the rounding of stored values.
 const ROUNDING: f64 = 6e-8;
 
 /// Where errors were measured: a grid of places for one set of numbers.
@@ -73,14 +73,14 @@ impl Table {
         let content = self.content();
         let mesh = self.mesh(r, z)?;
         let slices = self.slice_weights(poisson_ratio)?;
-        let (lower, share) = bracket(&content.pulse_lengths, pulse_length);
+        let (lower, fraction) = bracket(&content.pulse_lengths, pulse_length);
         let upper = (lower + 1).min(content.pulse_lengths.len() - 1);
         let (short, long) = (
             self.measured(poisson_ratio, [r, z], mesh, &slices, lower)?,
             self.measured(poisson_ratio, [r, z], mesh, &slices, upper)?,
         );
         Ok(std::array::from_fn(|f| {
-            short[f].powf(1.0 - share) * long[f].powf(share)
+            short[f].powf(1.0 - fraction) * long[f].powf(fraction)
         }))
     }
 
@@ -146,7 +146,7 @@ impl Table {
 pub(crate) struct Added<'a> {
     measured: Measured<'a>,
     /// The node polynomial at the ratio over that at the middle.
-    share: f64,
+    polynomial: f64,
 }
 
 impl<'a> Added<'a> {
@@ -159,7 +159,7 @@ impl<'a> Added<'a> {
     ) -> Result<Self, DomainError> {
         let place = ratio_coordinate(poisson_ratio)?;
         let middle = ratio_coordinate(between.poisson_ratio)?;
-        let share: f64 = coordinates
+        let polynomial: f64 = coordinates
             .iter()
             .map(|node| (place - node) / (middle - node))
             .product();
@@ -169,7 +169,7 @@ impl<'a> Added<'a> {
                 probes: &between.verification,
                 depths: content.between_z.len(),
             },
-            share: share.abs(),
+            polynomial: polynomial.abs(),
         })
     }
 
@@ -189,7 +189,7 @@ impl<'a> Added<'a> {
         pulse: usize,
         field: usize,
     ) -> f64 {
-        SAFETY_BETWEEN * self.share * self.measured.most(across, down, pulse, field)
+        SAFETY_BETWEEN * self.polynomial * self.measured.most(across, down, pulse, field)
     }
 }
 
@@ -216,7 +216,7 @@ fn corners(places: &[f64], x: f64) -> Range<usize> {
     above.saturating_sub(1)..(above + 1).min(places.len())
 }
 
-/// Position of `length` among the measured lengths: index below and share of the one above, in logarithms.
+/// Position of `length` among the measured lengths: index below and weight of the one above, in logarithms.
 fn bracket(lengths: &[f64], length: f64) -> (usize, f64) {
     let last = lengths.len() - 1;
     if length <= lengths[0] {

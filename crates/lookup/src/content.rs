@@ -38,6 +38,8 @@ pub struct Content {
 pub struct Origin {
     /// The resolved grid as TOML: all settings that the numbers depend on.
     pub grid: String,
+    /// Version of the format of the file that was read; [`crate::schema::FORMAT_VERSION_VALUE`] for a new table.
+    pub format_version: String,
     /// Version of the program.
     pub software_version: String,
     /// Git revision of the program, or `unknown`.
@@ -46,7 +48,7 @@ pub struct Origin {
     pub created_unix_s: u64,
     /// Tolerance asked of the exact kernels.
     pub accuracy_asked: f64,
-    /// p99 over all probes and fields of error over peak, for each pulse length.
+    /// 99 % quantile of the relative error of the worst field, for each pulse length; see [`Content::accuracy`].
     pub accuracy_reached: Vec<f64>,
 }
 
@@ -69,6 +71,7 @@ impl Role {
         }
     }
 
+    #[cfg(feature = "hdf5")]
     pub(crate) fn from_name(name: &str) -> Option<Self> {
         [Self::Grid, Self::Exact]
             .into_iter()

@@ -25,12 +25,12 @@ pub(crate) fn nodes(
     let columns = across.nodes().iter().zip(across.even()).zip(across.odd());
     columns.flat_map(move |((&i, &even), &odd)| {
         let rows = down.nodes().iter().zip(down.even());
-        rows.filter_map(move |(&k, &share)| {
-            let share = weight * share;
+        rows.filter_map(move |(&k, &own)| {
+            let row = weight * own;
             let node = Node {
                 index: i * depths + k,
-                even: even * share,
-                odd: odd * share,
+                even: even * row,
+                odd: odd * row,
             };
             (node.even != 0.0 || node.odd != 0.0).then_some(node)
         })
@@ -90,6 +90,7 @@ fn gather_rows(values: &[f32], length: usize, nodes: &[Node], used: usize, sums:
 #[inline(always)]
 fn fetch(row: &[f32]) {
     /// Numbers in a line of the cache.
+    #[cfg(target_arch = "x86_64")]
     const LINE: usize = 16;
     #[cfg(target_arch = "x86_64")]
     for line in row.chunks(LINE) {

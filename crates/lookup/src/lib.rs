@@ -13,18 +13,77 @@
 //! stresses by P/r0^2; z points into the body and compression is negative stress.
 //! The six fields are in the order of [`halfspace::FIELDS`]: u, w, srr, stt, szz, srz.
 
+//!
+//! # Features
+//!
+//! - `hdf5` (default): the file of a table. Without it a table lives in memory, and no C library is needed.
+//! - `static`: the HDF5 library that comes with its binding, instead of the system's.
+//!
+//! # A table in memory
+//!
+//! What a table holds is a [`Content`]; a [`Table`] is a valid one that answers questions.
+//!
+//! ```
+//! use lookup::{Content, Origin, Role, Slice, Table, Verification};
+//!
+//! // Four by four nodes, five cells, two terms of the decay: one field that is 1 in all cells and decays like 1/t^2.
+//! let axis = vec![0.0, 0.5, 1.0, 1.5];
+//! let (nodes, meshes) = (4 * 4, 3 * 3);
+//! let slice = Slice {
+//!     poisson_ratio: 0.3,
+//!     role: Role::Grid,
+//!     cells: 5,
+//!     remainder: vec![1.0; nodes * 6 * 5],
+//!     moment: vec![0.0; nodes * 6 * 5],
+//!     curvature: vec![0.0; nodes * 6 * 5],
+//!     tail: [1.0, 0.0].repeat(nodes * 6),
+//!     verification: Verification {
+//!         direct: vec![1.0; meshes * 6],
+//!         looked_up: vec![1.0; meshes * 6],
+//!         error: vec![1e-6; meshes * 6],
+//!     },
+//! };
+//! let table = Table::new(Content {
+//!     origin: Origin {
+//!         grid: String::new(),
+//!         format_version: lookup::schema::FORMAT_VERSION_VALUE.to_owned(),
+//!         software_version: String::new(),
+//!         git_revision: String::new(),
+//!         created_unix_s: 0,
+//!         accuracy_asked: 1e-8,
+//!         accuracy_reached: vec![1e-6],
+//!     },
+//!     r: axis.clone(),
+//!     z: axis,
+//!     r_max: 1.5,
+//!     z_max: 1.5,
+//!     cell_width: 0.2,
+//!     stencil_points: 4,
+//!     pulse_lengths: vec![10.0],
+//!     slices: vec![slice],
+//!     between_r: Vec::new(),
+//!     between_z: Vec::new(),
+//!     between: Vec::new(),
+//! })?;
+//! let mut cells = [[0.0; 6]; 6];
+//! let info = table.trace(0.3, 0.7, 0.2, 0, &mut cells)?;
+//! assert!((cells[4][1] - 1.0).abs() < 1e-12);
+//! // The sixth cell, from 1.0 to 1.2 r0/c1, is of the decay: the average of 1/t^2 there.
+//! assert!((cells[5][1] - 1.0 / 1.2).abs() < 1e-12);
+//! assert_eq!(info.cell_width, 0.2);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod accuracy;
 mod certificate;
 mod content;
-mod damage;
 mod error;
+#[cfg(feature = "hdf5")]
 mod file;
 mod gather;
 mod hash;
-pub mod labels;
-mod part;
 mod pulse;
 mod ratio;
-mod read;
 pub mod schema;
 mod series;
 mod smooth;
@@ -32,21 +91,24 @@ mod stencil;
 mod table;
 mod tail;
 mod trace;
-mod write;
+mod validate;
 
+pub use accuracy::{Accuracy, Quantiles, quantile};
 pub use certificate::{SAFETY, SAFETY_BETWEEN};
 pub use content::{Between, Content, Origin, Role, Slice, Verification, centres};
-pub use damage::{DamagedPatch, damaged_patches};
-pub use error::{LookupError, TableError};
+pub use error::{ContentError, LookupError};
+#[cfg(feature = "hdf5")]
+pub use file::labels;
+#[cfg(feature = "hdf5")]
+pub use file::{DamagedPatch, TableError, TableFile, damaged_patches};
+#[cfg(feature = "hdf5")]
+pub use file::{check_hash, read, stated_hash, write};
 pub use hash::{content_hash, settings_id};
-pub use part::TableFile;
 pub use pulse::PulseSum;
 pub use ratio::{cell_scale, ratio_coordinate};
-pub use read::{check_hash, read, stated_hash};
 pub use series::{Numbers, Series, Smoothness};
 pub use smooth::correct_for_curvature;
 pub use stencil::{Stencil, locate};
 pub use table::Table;
 pub use tail::{Tail, chebyshev};
 pub use trace::TraceInfo;
-pub use write::write;

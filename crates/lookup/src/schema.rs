@@ -5,7 +5,7 @@
 /// Value of [`FILE_TYPE`] in every kernel table.
 pub const FILE_TYPE_VALUE: &str = "hertzlamb kernel table";
 /// Version of the format that this program writes: major.minor.
-pub const FORMAT_VERSION_VALUE: &str = "2.1";
+pub const FORMAT_VERSION_VALUE: &str = "2.2";
 /// Major versions that this program reads.
 pub const MAJOR_READ: u32 = 2;
 
@@ -31,9 +31,13 @@ pub const CELL_WIDTH: &str = "cell_width";
 pub const STENCIL_POINTS: &str = "stencil_points";
 /// Root attribute: tolerance asked of the exact kernels.
 pub const ACCURACY_ASKED: &str = "accuracy_asked";
-/// Root attribute: p99 over all probes of the error relative to the field's peak, per pulse length.
+/// Root attribute: 99 % quantile of the relative error of the worst field, per pulse length.
 pub const ACCURACY_REACHED: &str = "accuracy_reached";
 
+/// Root attribute: quantiles of the relative error on slices, shape (pulse, field, quantile).
+pub const ERROR_ON_SLICES: &str = "error_on_slices";
+/// Root attribute: the same between slices; absent where the table has one slice that interpolates.
+pub const ERROR_BETWEEN_SLICES: &str = "error_between_slices";
 /// Root attribute: largest radius served in r0.
 pub const R_MAX: &str = "r_max";
 /// Root attribute: largest depth served in r0.
@@ -101,7 +105,7 @@ pub const FIELD_NAMES: [&str; 6] = [
 ];
 
 /// Root attributes.
-pub const ROOT_ATTRIBUTES: [&str; 14] = [
+pub const ROOT_ATTRIBUTES: [&str; 16] = [
     FILE_TYPE,
     FORMAT_VERSION,
     SOFTWARE_VERSION,
@@ -116,6 +120,8 @@ pub const ROOT_ATTRIBUTES: [&str; 14] = [
     STENCIL_POINTS,
     ACCURACY_ASKED,
     ACCURACY_REACHED,
+    ERROR_ON_SLICES,
+    ERROR_BETWEEN_SLICES,
 ];
 /// Datasets at the root.
 pub const ROOT_DATASETS: [&str; 9] = [

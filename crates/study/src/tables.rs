@@ -73,6 +73,6 @@ impl Density {
     pub(crate) fn with_stencil(&self, points: usize) -> Result<Table, StudyError> {
         let mut content = self.content.clone();
         content.stencil_points = points;
-        Ok(Table::new(content)?)
+        Ok(Table::new(content).map_err(tabulator::BuildError::from)?)
     }
 }

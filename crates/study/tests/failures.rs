@@ -138,10 +138,7 @@ fn the_dynamic_share_is_refused_where_it_has_no_solution() {
     for step in [1e-3, 0.01] {
         let limit = dynamic_limit(&paper, step * CONTACT_TIME);
         let at = |coupling: f64| {
-            let disc = ExactDisc {
-                coupling,
-                ..paper
-            };
+            let disc = ExactDisc { coupling, ..paper };
             dynamic_is_solved(&disc, step * CONTACT_TIME)
         };
         assert!(
@@ -153,10 +150,7 @@ fn the_dynamic_share_is_refused_where_it_has_no_solution() {
     for step in [0.1, 0.18] {
         let step = step * CONTACT_TIME;
         let at = |coupling: f64| {
-            let disc = ExactDisc {
-                coupling,
-                ..paper
-            };
+            let disc = ExactDisc { coupling, ..paper };
             dynamic_is_solved(&disc, step)
         };
         let (grows, folds) = (

@@ -60,6 +60,15 @@ impl Axis {
     /// The nodes, ascending from 0 to `max`, the focus among them, rounded to multiples of 2^-16; then the extension.
     #[must_use]
     pub fn nodes(&self) -> Vec<f64> {
+        let mut nodes = self.inner();
+        let step = self.last_step(&nodes);
+        let count = self.extension(step) as usize;
+        nodes.extend((1..=count).map(|i| self.max + step * i as f64));
+        nodes
+    }
+
+    /// The nodes up to `max`.
+    fn inner(&self) -> Vec<f64> {
         let focus = self.focus.unwrap_or(0.0).clamp(0.0, self.max);
         let mut nodes = Vec::new();
         if focus > 0.0 {
@@ -79,12 +88,25 @@ impl Axis {
         if let Some(last) = nodes.last_mut() {
             *last = self.max;
         }
-        let step = self.last_step(&nodes);
-        let steps = (self.extended_to.unwrap_or(0.0) - self.max) / step;
-        nodes.extend(
-            (1..=(steps - 1e-9).ceil().max(0.0) as usize).map(|i| self.max + step * i as f64),
-        );
         nodes
+    }
+
+    /// Number of steps beyond `max`, a whole number.
+    fn extension(&self, step: f64) -> f64 {
+        let steps = (self.extended_to.unwrap_or(0.0) - self.max) / step;
+        (steps - 1e-9).ceil().max(0.0)
+    }
+
+    /// Number of nodes, found without making those beyond `max`; infinite where neighbours coincide.
+    ///
+    /// `max` and the spacings must be positive.
+    pub(crate) fn count(&self) -> f64 {
+        let nodes = self.inner();
+        if nodes.windows(2).all(|pair| pair[0] < pair[1]) {
+            nodes.len() as f64 + self.extension(self.last_step(&nodes))
+        } else {
+            f64::INFINITY
+        }
     }
 
     /// [`Self::nodes`] and `count` more beyond `max`, at the last spacing.
@@ -172,6 +194,16 @@ mod tests {
                 .enumerate()
                 .all(|(i, &x)| x == 0.125 * i as f64)
         );
+    }
+
+    #[test]
+    fn nodes_are_counted_without_making_them() {
+        let mut axis = Axis::graded(6.0, 0.125, 1.0, 0.02, 0.2);
+        axis.extended_to = Some(7.3);
+        assert_eq!(axis.count(), axis.nodes().len() as f64);
+        // A focus that rounds to the end: the last step is none.
+        axis.focus = Some(6.0 - 1e-9);
+        assert_eq!(axis.count(), f64::INFINITY);
     }
 
     #[test]

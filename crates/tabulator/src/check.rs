@@ -1,11 +1,12 @@
 //! Whether a finished table is what it says: checksums, completeness, finiteness, and a sample computed again.
 
-use crate::build::plan;
 use crate::error::BuildError;
 use crate::grid::Grid;
+use crate::plans::plan;
 use crate::point::PointKernels;
+use crate::random::picks;
 use halfspace::Six;
-use lookup::{Content, DamagedPatch, Slice, Table, TableError};
+use lookup::{Content, ContentError, DamagedPatch, Slice, Table, TableError};
 use lookup::{content_hash, damaged_patches, schema};
 use rayon::prelude::*;
 use std::path::Path;
@@ -90,10 +91,14 @@ pub fn check_table(path: &Path, sample: usize, seed: u64) -> Result<CheckReport,
             ..CheckReport::default()
         });
     }
-    let table = Table::new(content)?;
+    let wrong = |source| TableError::Content {
+        path: path.to_owned(),
+        source,
+    };
+    let table = Table::new(content).map_err(wrong)?;
     let content = table.content();
-    let grid = Grid::of(content)?;
-    same_axes(&grid, content)?;
+    let grid = Grid::of(content).map_err(|error| error.in_file(path))?;
+    same_axes(&grid, content)?.map_err(wrong)?;
     let nodes = content.r.len() * content.z.len();
     let total = nodes * content.slices.len();
     let plans = content
@@ -218,68 +223,50 @@ fn compare(
     (largest, bad)
 }
 
-/// The axes and cells must be those of the settings.
-fn same_axes(grid: &Grid, content: &Content) -> Result<(), BuildError> {
-    let shape = |item: &str, needed: usize, found: usize| TableError::Shape {
+/// Whether the axes and cells are those of the settings.
+fn same_axes(grid: &Grid, content: &Content) -> Result<Result<(), ContentError>, BuildError> {
+    let cells = grid.cells()?;
+    let [r, z] = grid.nodes();
+    let ratios: Vec<f64> = grid.slices().iter().map(|slice| slice.0).collect();
+    let found: Vec<f64> = content.slices.iter().map(|s| s.poisson_ratio).collect();
+    let nodes = content.r.len() * content.z.len();
+    let lists = same("r", &r, &content.r)
+        .and_then(|()| same("z", &z, &content.z))
+        .and_then(|()| same("slices", &ratios, &found));
+    Ok(lists.and_then(|()| {
+        content.slices.iter().try_for_each(|slice| {
+            for (item, needed, found) in [
+                ("tail", grid.tail_terms, slice.tail_terms(nodes)),
+                ("time", cells, slice.cells),
+            ] {
+                if needed != found {
+                    return Err(shape(item, needed, found));
+                }
+            }
+            Ok(())
+        })
+    }))
+}
+
+/// Whether a list is that of the settings.
+fn same(item: &str, needed: &[f64], found: &[f64]) -> Result<(), ContentError> {
+    if needed.len() != found.len() {
+        return Err(shape(item, needed.len(), found.len()));
+    }
+    match (0..found.len()).find(|&i| needed[i] != found[i]) {
+        Some(i) => Err(ContentError::Value {
+            item: format!("{item}[{i}]"),
+            value: found[i],
+            range: "the value that the settings say",
+        }),
+        None => Ok(()),
+    }
+}
+
+fn shape(item: &str, needed: usize, found: usize) -> ContentError {
+    ContentError::Shape {
         item: item.to_owned(),
         needed,
         found,
-    };
-    for (item, needed, found) in [
-        ("r", &grid.nodes()[0], &content.r),
-        ("z", &grid.nodes()[1], &content.z),
-    ] {
-        if needed.len() != found.len() {
-            return Err(shape(item, needed.len(), found.len()).into());
-        }
-        if let Some(i) = (0..found.len()).find(|&i| needed[i] != found[i]) {
-            return Err(TableError::Value {
-                item: format!("{item}[{i}]"),
-                value: found[i],
-                range: "the node that the settings say",
-            }
-            .into());
-        }
     }
-    let slices: Vec<f64> = grid.slices().iter().map(|slice| slice.0).collect();
-    if slices.len() != content.slices.len() {
-        return Err(shape("slices", slices.len(), content.slices.len()).into());
-    }
-    for (slice, ratio) in content.slices.iter().zip(slices) {
-        if slice.poisson_ratio != ratio {
-            return Err(TableError::Value {
-                item: "poisson_ratio".to_owned(),
-                value: slice.poisson_ratio,
-                range: "the ratio that the settings say",
-            }
-            .into());
-        }
-        if slice.tail_terms(content.r.len() * content.z.len()) != grid.tail_terms {
-            let found = slice.tail_terms(content.r.len() * content.z.len());
-            return Err(shape("tail", grid.tail_terms, found).into());
-        }
-        let needed = grid.cells()?;
-        if needed != slice.cells {
-            return Err(shape("time", needed, slice.cells).into());
-        }
-    }
-    Ok(())
-}
-
-/// `count` different numbers below `total`, all of them if there are no more, by a fixed generator.
-fn picks(total: usize, count: usize, seed: u64) -> Vec<usize> {
-    if count >= total {
-        return (0..total).collect();
-    }
-    let mut state = seed;
-    let mut chosen = std::collections::BTreeSet::new();
-    while chosen.len() < count {
-        // SplitMix64 (Steele, Lea and Flood 2014).
-        state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut x = state;
-        x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        chosen.insert(((x ^ (x >> 31)) % total as u64) as usize);
-    }
-    chosen.into_iter().collect()
 }

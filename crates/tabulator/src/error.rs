@@ -1,8 +1,8 @@
 //! What can stop a build.
 
 use halfspace::DomainError;
-use lookup::TableError;
-use std::path::PathBuf;
+use lookup::{ContentError, TableError};
+use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 /// A table could not be built.
@@ -18,26 +18,26 @@ pub enum BuildError {
         /// The allowed range.
         range: &'static str,
     },
-    /// The grid file is not what it should be.
-    #[error("grid file {}: {detail}", path.display())]
-    GridFile {
-        /// File given.
-        path: PathBuf,
-        /// What is wrong with it, and where.
+    /// Text that is no grid.
+    #[error("the settings are not a grid: {detail}")]
+    Settings {
+        /// What is wrong with them, and where.
         detail: String,
     },
-    /// The settings that a table carries are not a grid.
-    #[error("the settings in the table are not a grid: {detail}")]
-    Settings {
+    /// Settings from a file are not a grid, or not an accepted one.
+    #[error("{}: {source}", path.display())]
+    InFile {
+        /// Grid file, table or shard.
+        path: PathBuf,
         /// What is wrong with them.
-        detail: String,
+        source: Box<BuildError>,
     },
     /// The settings cannot be written as TOML.
     #[error("grid: {0}")]
     Unwritable(#[from] toml::ser::Error),
     /// No spacing allowed is fine enough.
     #[error(
-        "--tol {tolerance} for pulses of {pulse_length} r0/c1 is not reached: {best:.1e} at the finest spacing tried; a smaller cell_width or a longer pulse is needed"
+        "an error of {tolerance} for pulses of {pulse_length} r0/c1 is not reached: {best:.1e} at the finest spacing tried; a smaller cell_width or a longer pulse is needed"
     )]
     TooFine {
         /// The error asked for.
@@ -58,7 +58,7 @@ pub enum BuildError {
         present: f64,
     },
     /// There is a file in the way.
-    #[error("{} exists; --force replaces it", path.display())]
+    #[error("{} exists already", path.display())]
     Exists {
         /// File in the way.
         path: PathBuf,
@@ -69,8 +69,8 @@ pub enum BuildError {
         /// Its journal.
         path: PathBuf,
     },
-    /// An unfinished build with other settings is in the way.
-    #[error("{} belongs to an unfinished build with other settings or of another version of this program; finish that one or remove the file", path.display())]
+    /// An unfinished build or extension of another kind is in the way.
+    #[error("{} belongs to an unfinished build or extension with other settings, from another table or of another version of this program; finish that one or remove the file", path.display())]
     OtherSettings {
         /// Its journal.
         path: PathBuf,
@@ -81,6 +81,9 @@ pub enum BuildError {
         /// File given.
         path: PathBuf,
     },
+    /// No shard at all.
+    #[error("a table is joined from one shard or more")]
+    NoShards,
     /// Shards of different tables.
     #[error("{} was made with other settings than {}: shards of one table have the same grid", second.display(), first.display())]
     Mixed {
@@ -91,7 +94,7 @@ pub enum BuildError {
     },
     /// Shards that do not make up a table.
     #[error(
-        "{missing} of {total} blocks are missing, the first for poisson_ratio = {poisson_ratio}, row {row}: give all shards, each finished"
+        "{missing} of {total} blocks are missing, the first for poisson_ratio = {poisson_ratio}, row {row}: all shards are needed, each finished"
     )]
     Incomplete {
         /// Blocks missing.
@@ -135,7 +138,20 @@ pub enum BuildError {
     /// The table cannot be written, read back or accepted.
     #[error(transparent)]
     Table(#[from] TableError),
+    /// The numbers computed are no table.
+    #[error("the numbers computed are no table: {0}")]
+    Content(#[from] ContentError),
     /// A probe cannot be looked up.
     #[error("verification: {0}")]
     Lookup(#[from] lookup::LookupError),
+}
+
+impl BuildError {
+    /// The error of settings that came from a file.
+    pub(crate) fn in_file(self, path: &Path) -> Self {
+        Self::InFile {
+            path: path.to_owned(),
+            source: Box::new(self),
+        }
+    }
 }

@@ -1,12 +1,15 @@
 //! Adds slices, places and times to a finished table, computing only what it lacks.
 
-use crate::blocks;
-use crate::build::{Summary, beside, complete, compute};
+use crate::block;
 use crate::error::BuildError;
 use crate::grid::Grid;
-use crate::journal::Journal;
+use crate::journal::{Journal, Task};
 use crate::known::Known;
+use crate::output::beside;
 use crate::progress::Progress;
+use crate::rows::{rows, usable};
+use crate::summary::{Summary, complete};
+use lookup::{Table, TableError};
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 use std::time::{Instant, SystemTime};
@@ -26,7 +29,8 @@ pub struct Extension {
 
 /// Extends the table at `path`; it is replaced when the larger one is complete and verified.
 ///
-/// An interrupted run goes on where it stopped. Nodes keep their numbers: an extended axis goes on from its
+/// An interrupted run goes on where it stopped. An extension by nothing writes the table anew in the present format,
+/// without computing a number. Nodes keep their numbers: an extended axis goes on from its
 /// last node at its last spacing.
 ///
 /// # Errors
@@ -41,12 +45,25 @@ pub fn extend(
     let seen = state(path);
     let content = lookup::read(path)?;
     lookup::check_hash(path, &content)?;
-    let mut grid = Grid::of(&content)?;
+    let base = lookup::content_hash(&content);
+    let content = match Table::new(content) {
+        Ok(table) => table.into_content(),
+        Err(source) => {
+            let path = path.to_owned();
+            return Err(TableError::Content { path, source }.into());
+        }
+    };
+    let mut grid = Grid::of(&content).map_err(|error| error.in_file(path))?;
     let known = Known::new(content);
     apply(&mut grid, &known, extension)?;
     grid.validate()?;
-    let work = blocks::all(&grid);
-    let (journal, mut finished) = Journal::open(&beside(path, ".journal"), &grid.to_toml()?)?;
+    let work = block::all(&grid);
+    let text = grid.to_toml()?;
+    let task = Task::Extension {
+        grid: &text,
+        base: &base,
+    };
+    let (journal, found) = Journal::open(&beside(path, ".journal"), task)?;
     if state(path) != seen {
         // Another run replaced the table before this one had the journal.
         journal.remove()?;
@@ -54,23 +71,17 @@ pub fn extend(
             path: path.to_owned(),
         });
     }
+    let mut finished = usable(&grid, &work, found, Some(&known))?;
     let resumed_blocks = finished.len();
-    let cells = grid.cells()?;
     for &block in &work {
-        if let Some(row) = known.row(&grid, cells, block) {
+        if let Some(row) = known.row(&grid, block)? {
             finished.insert(block, row);
         }
     }
     let journal = Mutex::new(journal);
-    let rows = compute(
-        &grid,
-        &work,
-        finished,
-        Some(&journal),
-        Some(&known),
-        progress,
-    )?;
-    let summary = complete(&grid, rows, path, Some(&known), progress)?;
+    let recorded = Some(&journal);
+    let rows = rows(&grid, &work, finished, recorded, Some(&known), progress)?;
+    let summary = complete(&grid, &work, rows, path, Some(&known), progress)?;
     journal
         .into_inner()
         .unwrap_or_else(PoisonError::into_inner)

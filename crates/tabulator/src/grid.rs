@@ -7,6 +7,9 @@ use lookup::{Content, Role};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
+/// Lengths of the verification pulses in r0/c1, unless a grid has others.
+pub const PULSE_LENGTHS: [f64; 6] = [1.0, 3.0, 10.0, 20.0, 40.0, 100.0];
+
 /// A grid: which Poisson ratios, which points, which times, how exact.
 ///
 /// Its TOML form is stored in the table and decides the table's id.
@@ -45,117 +48,7 @@ pub struct Grid {
     pub z: Axis,
 }
 
-/// Names that [`Grid::preset`] knows.
-pub const PRESETS: [&str; 3] = ["demo", "standard", "wide"];
-
-/// `count` ratios from `first` to `last` at equal steps of [`lookup::ratio_coordinate`], to three decimals.
-fn ratios(first: f64, last: f64, count: usize) -> Result<Vec<f64>, BuildError> {
-    let (start, end) = (
-        lookup::ratio_coordinate(first)?,
-        lookup::ratio_coordinate(last)?,
-    );
-    (0..count)
-        .map(|i| {
-            let wanted = start + (end - start) * i as f64 / (count - 1) as f64;
-            Ok((1000.0 * bisect(first, last, wanted)?).round() / 1000.0)
-        })
-        .collect()
-}
-
-/// The ratio in [`low`, `high`] whose coordinate is `wanted`.
-fn bisect(mut low: f64, mut high: f64, wanted: f64) -> Result<f64, BuildError> {
-    for _ in 0..50 {
-        let middle = 0.5 * (low + high);
-        if lookup::ratio_coordinate(middle)? < wanted {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    Ok(high)
-}
-
-mod defaults {
-    pub(super) fn cell_width() -> f64 {
-        0.1
-    }
-    pub(super) fn time_factor() -> f64 {
-        1.5
-    }
-    pub(super) fn tail_terms() -> usize {
-        12
-    }
-    pub(super) fn stencil_points() -> usize {
-        8
-    }
-    pub(super) fn tolerance() -> f64 {
-        1e-8
-    }
-    pub(super) fn pulse_lengths() -> Vec<f64> {
-        crate::verify::PULSE_LENGTHS.to_vec()
-    }
-    pub(super) fn are_usual(lengths: &[f64]) -> bool {
-        lengths == crate::verify::PULSE_LENGTHS
-    }
-}
-
 impl Grid {
-    /// One slice at nu = 0.30, r and z to 6 r0: built in seconds.
-    #[must_use]
-    pub fn demo() -> Self {
-        Self {
-            poisson_ratios: vec![0.3],
-            exact_ratios: Vec::new(),
-            cell_width: defaults::cell_width(),
-            time_factor: defaults::time_factor(),
-            tail_terms: defaults::tail_terms(),
-            stencil_points: defaults::stencil_points(),
-            tolerance: defaults::tolerance(),
-            pulse_lengths: defaults::pulse_lengths(),
-            r: Axis::graded(6.0, 0.15, 1.0, 0.04, 0.15),
-            z: Axis::graded(6.0, 0.15, 0.0, 0.04, 0.15),
-        }
-    }
-
-    /// Every Poisson ratio from 0 to 0.45, r and z to 6 r0: minutes.
-    ///
-    /// # Errors
-    /// [`BuildError::Domain`], which no ratio of the preset causes.
-    pub fn standard() -> Result<Self, BuildError> {
-        Ok(Self {
-            poisson_ratios: ratios(0.0, 0.45, 11)?,
-            cell_width: 0.125,
-            r: Axis::graded(6.0, 0.1, 1.0, 0.025, 0.12),
-            z: Axis::graded(6.0, 0.1, 0.0, 0.02, 0.12),
-            ..Self::demo()
-        })
-    }
-
-    /// [`Self::standard`] to 12 r0, with fewer nodes to a length.
-    ///
-    /// # Errors
-    /// As [`Self::standard`].
-    pub fn wide() -> Result<Self, BuildError> {
-        Ok(Self {
-            r: Axis::graded(12.0, 0.15, 1.0, 0.04, 0.12),
-            z: Axis::graded(12.0, 0.15, 0.0, 0.03, 0.12),
-            ..Self::standard()?
-        })
-    }
-
-    /// The preset called `name`.
-    ///
-    /// # Errors
-    /// As [`Self::standard`].
-    pub fn preset(name: &str) -> Result<Option<Self>, BuildError> {
-        Ok(match name {
-            "demo" => Some(Self::demo()),
-            "standard" => Some(Self::standard()?),
-            "wide" => Some(Self::wide()?),
-            _ => None,
-        })
-    }
-
     /// Reads a grid from a TOML file.
     ///
     /// # Errors
@@ -166,9 +59,25 @@ impl Grid {
             path: path.to_owned(),
             source,
         })?;
-        let grid: Self = toml::from_str(&text).map_err(|error| BuildError::GridFile {
-            path: path.to_owned(),
-            detail: error.to_string(),
+        Self::parse(&text).map_err(|error| error.in_file(path))
+    }
+
+    /// Reads a grid from TOML.
+    ///
+    /// # Errors
+    /// [`BuildError::Settings`] for text that is no grid, with its line, [`BuildError::Setting`] for a value outside its
+    /// range.
+    pub fn parse(text: &str) -> Result<Self, BuildError> {
+        let grid: Self = toml::from_str(text).map_err(|error| {
+            let before = error.span().map_or(0, |span| span.start).min(text.len());
+            let line = 1 + text.as_bytes()[..before]
+                .iter()
+                .filter(|&&b| b == b'\n')
+                .count();
+            let message = error.message().replace('\n', " ");
+            BuildError::Settings {
+                detail: format!("line {line}: {message}"),
+            }
         })?;
         grid.validate()?;
         Ok(grid)
@@ -177,11 +86,9 @@ impl Grid {
     /// The grid that a table was made with.
     ///
     /// # Errors
-    /// [`BuildError::Settings`] when the table's text is not a grid.
+    /// As [`Self::parse`].
     pub fn of(content: &Content) -> Result<Self, BuildError> {
-        toml::from_str(&content.origin.grid).map_err(|error| BuildError::Settings {
-            detail: error.message().to_owned(),
-        })
+        Self::parse(&content.origin.grid)
     }
 
     /// The resolved settings as TOML.
@@ -219,6 +126,11 @@ impl Grid {
         slices
     }
 
+    /// Number of intervals between slices that interpolate.
+    pub(crate) fn intervals(&self) -> usize {
+        self.poisson_ratios.len().saturating_sub(1)
+    }
+
     /// The Poisson ratio in the middle between slices `interval` and the next of [`Self::poisson_ratios`].
     ///
     /// # Errors
@@ -231,108 +143,42 @@ impl Grid {
         let middle = 0.5 * (lookup::ratio_coordinate(low)? + lookup::ratio_coordinate(high)?);
         bisect(low, high, middle)
     }
+}
 
-    /// Checks every setting.
-    ///
-    /// # Errors
-    /// [`BuildError::Setting`] naming the first key outside its range.
-    pub fn validate(&self) -> Result<(), BuildError> {
-        let setting = |key: &str, value: f64, good: bool, range| {
-            if good {
-                Ok(())
-            } else {
-                Err(BuildError::Setting {
-                    key: key.to_owned(),
-                    value,
-                    range,
-                })
-            }
-        };
-        let within = |key: &str, x: f64, low: f64, high: f64, range| {
-            setting(key, x, x >= low && x <= high, range)
-        };
-        within("cell_width", self.cell_width, 0.005, 1.0, "[0.005, 1]")?;
-        within("time_factor", self.time_factor, 1.1, 10.0, "[1.1, 10]")?;
-        within("tail_terms", self.tail_terms as f64, 2.0, 20.0, "[2, 20]")?;
-        within("tolerance", self.tolerance, 1e-12, 1e-3, "[1e-12, 1e-3]")?;
-        let even = self.stencil_points.is_multiple_of(2) && (2..=8).contains(&self.stencil_points);
-        setting(
-            "stencil_points",
-            self.stencil_points as f64,
-            even,
-            "{2, 4, 6, 8}",
-        )?;
-        let lengths = &self.pulse_lengths;
-        let none = lengths.is_empty();
-        setting("pulse_lengths", f64::NAN, !none, "a list of at least one")?;
-        for (i, &length) in lengths.iter().enumerate() {
-            within("pulse_lengths", length, 0.5, 1000.0, "[0.5, 1000]")?;
-            let ascends = i == 0 || length > lengths[i - 1];
-            setting(
-                "pulse_lengths",
-                length,
-                ascends,
-                "strictly ascending values",
-            )?;
+/// The ratio in [`low`, `high`] whose coordinate is `wanted`.
+pub(crate) fn bisect(mut low: f64, mut high: f64, wanted: f64) -> Result<f64, BuildError> {
+    for _ in 0..50 {
+        let middle = 0.5 * (low + high);
+        if lookup::ratio_coordinate(middle)? < wanted {
+            low = middle;
+        } else {
+            high = middle;
         }
-        let first = self.poisson_ratios.first().copied().unwrap_or(f64::NAN);
-        setting(
-            "poisson_ratios",
-            first,
-            !self.poisson_ratios.is_empty(),
-            "a list of at least one",
-        )?;
-        for (i, &nu) in self.poisson_ratios.iter().enumerate() {
-            within("poisson_ratios", nu, -0.95, 0.495, "[-0.95, 0.495]")?;
-            let ascends = i == 0 || nu > self.poisson_ratios[i - 1];
-            setting("poisson_ratios", nu, ascends, "strictly ascending values")?;
-        }
-        for (i, &nu) in self.exact_ratios.iter().enumerate() {
-            within("exact_ratios", nu, -0.95, 0.495, "[-0.95, 0.495]")?;
-            let ascends = i == 0 || nu > self.exact_ratios[i - 1];
-            setting("exact_ratios", nu, ascends, "strictly ascending values")?;
-            let new = !self.poisson_ratios.contains(&nu);
-            setting("exact_ratios", nu, new, "ratios that poisson_ratios lacks")?;
-        }
-        for (name, axis) in [("r", &self.r), ("z", &self.z)] {
-            within(&format!("{name}.max"), axis.max, 0.25, 100.0, "[0.25, 100]")?;
-            within(
-                &format!("{name}.spacing"),
-                axis.spacing,
-                0.005,
-                1.0,
-                "[0.005, 1]",
-            )?;
-            for (key, value, low, high, range) in [
-                ("focus", axis.focus, 0.0, axis.max, "[0, max]"),
-                (
-                    "focus_spacing",
-                    axis.focus_spacing,
-                    0.001,
-                    axis.spacing,
-                    "[0.001, spacing]",
-                ),
-                ("growth", axis.growth, 0.01, 1.0, "[0.01, 1]"),
-                (
-                    "extended_to",
-                    axis.extended_to,
-                    axis.max,
-                    100.0,
-                    "[max, 100]",
-                ),
-            ] {
-                if let Some(value) = value {
-                    within(&format!("{name}.{key}"), value, low, high, range)?;
-                }
-            }
-            let nodes = axis.nodes().len();
-            setting(
-                &format!("{name}: number of nodes"),
-                nodes as f64,
-                (8..=2000).contains(&nodes),
-                "[8, 2000]",
-            )?;
-        }
-        Ok(())
+    }
+    Ok(high)
+}
+
+/// Settings that a grid file may leave out.
+pub(crate) mod defaults {
+    pub(crate) fn cell_width() -> f64 {
+        0.1
+    }
+    pub(crate) fn time_factor() -> f64 {
+        1.5
+    }
+    pub(crate) fn tail_terms() -> usize {
+        12
+    }
+    pub(crate) fn stencil_points() -> usize {
+        8
+    }
+    pub(crate) fn tolerance() -> f64 {
+        1e-8
+    }
+    pub(crate) fn pulse_lengths() -> Vec<f64> {
+        super::PULSE_LENGTHS.to_vec()
+    }
+    pub(crate) fn are_usual(lengths: &[f64]) -> bool {
+        lengths == super::PULSE_LENGTHS
     }
 }

@@ -1,28 +1,45 @@
 //! The blocks computed so far, kept in a file that survives an interruption at any moment.
 //!
 //! `NAME.journal`, or a shard, starts with a line that names the settings and with the settings themselves;
-//! then follow records that are only ever appended: a header (slice, kind, row, four lengths), the numbers, and a SHA-256 of both. A record that
-//! was cut short is dropped on reading and computed again. The finished table is made from the records in
+//! then follow records that are only ever appended: a header (slice, kind, row, four lengths), the numbers, and a
+//! SHA-256 of both. A record that was cut short is dropped on reading and computed again. The finished table is made from the records in
 //! the order of the grid, so its bytes do not depend on the order in which they were written.
 
-use crate::blocks::{Block, Kind, Row};
+use crate::block::{Block, Kind, Row};
 use crate::error::BuildError;
+use crate::numbers::NUMBERS_REVISION;
 use sha2::{Digest, Sha256};
 use std::collections::HashMap;
 use std::fs::{File, OpenOptions};
 use std::io::{Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
-/// How every journal starts.
-const KIND: &str = concat!(
-    "hertzlamb kernel blocks 3, program ",
-    env!("CARGO_PKG_VERSION"),
-    ", settings "
-);
+/// How every journal starts: version 4 has blanks where a probe was not computed.
+fn kind() -> String {
+    format!("hertzlamb kernel blocks 4, numbers {NUMBERS_REVISION}, settings ")
+}
+
 /// Bytes before the numbers of a record: seven integers.
 const HEADER: usize = 7 * 8;
 /// Bytes after them.
 const SUM: usize = 32;
+
+/// What blocks are computed for.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Task<'a> {
+    /// A table, or a part of one.
+    Build {
+        /// Its settings.
+        grid: &'a str,
+    },
+    /// More of a table: the blocks go on from its numbers and leave out what it has.
+    Extension {
+        /// The settings of the larger table.
+        grid: &'a str,
+        /// SHA-256 of the content of the smaller one.
+        base: &'a str,
+    },
+}
 
 /// An open journal, locked against other runs.
 #[derive(Debug)]
@@ -32,9 +49,15 @@ pub(crate) struct Journal {
 }
 
 impl Journal {
-    /// Opens the journal at `path` for the settings `grid`, or starts one, and returns the finished blocks.
-    pub(crate) fn open(path: &Path, grid: &str) -> Result<(Self, HashMap<Block, Row>), BuildError> {
+    /// Opens the journal at `path` for a task, or starts one, and returns the finished blocks.
+    pub(crate) fn open(
+        path: &Path,
+        task: Task<'_>,
+    ) -> Result<(Self, HashMap<Block, Row>), BuildError> {
         let failed = |action| file_error(action, path);
+        if path.exists() {
+            regular(path)?;
+        }
         let mut file = OpenOptions::new()
             .read(true)
             .append(true)
@@ -59,7 +82,7 @@ impl Journal {
         let mut bytes = Vec::new();
         file.seek(SeekFrom::Start(0)).map_err(failed("read"))?;
         file.read_to_end(&mut bytes).map_err(failed("read"))?;
-        let title = title(grid);
+        let title = title(task);
         let mut journal = Self {
             path: path.to_owned(),
             file,
@@ -123,12 +146,19 @@ impl Journal {
     }
 }
 
-fn title(grid: &str) -> String {
-    format!("{KIND}{} {}\n{grid}", lookup::settings_id(grid), grid.len())
+/// The line that names the task, and the settings.
+fn title(task: Task<'_>) -> String {
+    let (grid, base) = match task {
+        Task::Build { grid } => (grid, String::new()),
+        Task::Extension { grid, base } => (grid, format!(", extends {base}")),
+    };
+    let (kind, id) = (kind(), lookup::settings_id(grid));
+    format!("{kind}{id} {}{base}\n{grid}", grid.len())
 }
 
 /// Reads a journal or a shard without changing it: its settings and its whole records.
 pub(crate) fn read(path: &Path) -> Result<(String, HashMap<Block, Row>), BuildError> {
+    regular(path)?;
     let bytes = std::fs::read(path).map_err(file_error("read", path))?;
     let foreign = || BuildError::NotBlocks {
         path: path.to_owned(),
@@ -139,7 +169,7 @@ pub(crate) fn read(path: &Path) -> Result<(String, HashMap<Block, Row>), BuildEr
         .ok_or_else(foreign)?;
     let line = std::str::from_utf8(&bytes[..end])
         .ok()
-        .and_then(|line| line.strip_prefix(KIND));
+        .and_then(|line| line.strip_prefix(&kind()));
     let length: usize = line
         .and_then(|line| line.split_once(' ')?.1.parse().ok())
         .ok_or_else(foreign)?;
@@ -148,11 +178,21 @@ pub(crate) fn read(path: &Path) -> Result<(String, HashMap<Block, Row>), BuildEr
         .and_then(|rest| rest.get(..length))
         .ok_or_else(foreign)?;
     let grid = std::str::from_utf8(text).map_err(|_| foreign())?;
-    if !bytes.starts_with(title(grid).as_bytes()) {
+    if !bytes.starts_with(title(Task::Build { grid }).as_bytes()) {
         return Err(foreign());
     }
     let (rows, _) = records(&bytes, end + 1 + length);
     Ok((grid.to_owned(), rows))
+}
+
+/// Refuses pipes and devices: they wait for their other end, or never end.
+fn regular(path: &Path) -> Result<(), BuildError> {
+    let data = std::fs::metadata(path).map_err(file_error("read", path))?;
+    if data.is_file() {
+        return Ok(());
+    }
+    let source = std::io::Error::other("it is not a file");
+    Err(file_error("read", path)(source))
 }
 
 fn file_error(action: &'static str, path: &Path) -> impl FnOnce(std::io::Error) -> BuildError {
@@ -222,6 +262,8 @@ fn record(bytes: &[u8]) -> Option<(Block, Row, usize)> {
 mod tests {
     use super::*;
 
+    const ABC: Task<'_> = Task::Build { grid: "abc" };
+
     fn row(seed: f32) -> Row {
         Row {
             remainder: vec![seed; 7],
@@ -243,18 +285,18 @@ mod tests {
     fn a_journal_cut_anywhere_gives_back_its_whole_records() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("t.journal");
-        let (mut journal, found) = Journal::open(&path, "abc").unwrap();
+        let (mut journal, found) = Journal::open(&path, ABC).unwrap();
         assert!(found.is_empty());
         for i in 0..3 {
             journal.record(block(i), &row(i as f32)).unwrap();
         }
         drop(journal);
         let whole = std::fs::read(&path).unwrap();
-        let size = (whole.len() - title("abc").len()) / 3;
+        let size = (whole.len() - title(ABC).len()) / 3;
         for length in 0..=whole.len() {
             std::fs::write(&path, &whole[..length]).unwrap();
-            let (_, found) = Journal::open(&path, "abc").unwrap();
-            let expected = length.saturating_sub(title("abc").len()) / size;
+            let (_, found) = Journal::open(&path, ABC).unwrap();
+            let expected = length.saturating_sub(title(ABC).len()) / size;
             assert_eq!(found.len(), expected, "cut at {length}");
             assert!(found.iter().all(|(b, r)| *r == row(b.row as f32)));
         }
@@ -264,14 +306,14 @@ mod tests {
     fn other_settings_and_a_second_run_are_refused() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("t.journal");
-        let (first, _) = Journal::open(&path, "abc").unwrap();
+        let (first, _) = Journal::open(&path, ABC).unwrap();
         assert!(matches!(
-            Journal::open(&path, "abc"),
+            Journal::open(&path, ABC),
             Err(BuildError::Busy { .. })
         ));
         drop(first);
         assert!(matches!(
-            Journal::open(&path, "xyz"),
+            Journal::open(&path, Task::Build { grid: "xyz" }),
             Err(BuildError::OtherSettings { .. })
         ));
     }

@@ -1,8 +1,9 @@
 //! Whether the error estimate of a table is true: random places and pulses against the exact kernels.
 
-use crate::build::plan;
 use crate::error::BuildError;
 use crate::grid::Grid;
+use crate::plans::plan;
+use crate::random::uniform;
 use lookup::{Numbers, PulseSum, Series, Smoothness, Table};
 use rayon::prelude::*;
 
@@ -135,14 +136,4 @@ fn compare(
         error: most(&pulse.response(&[0.0; 6], &found)),
         estimate: table.error(nu, r, z, pulse_length)?,
     })
-}
-
-/// Number `index` of the sequence `seed` in [0, 1) (SplitMix64: Steele, Lea and Flood 2014).
-pub(crate) fn uniform(seed: u64, index: u64) -> f64 {
-    let mut x = seed
-        .wrapping_mul(0xd1b5_4a32_d192_ed03)
-        .wrapping_add((index + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15));
-    x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    ((x ^ (x >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
 }

@@ -1,7 +1,6 @@
 //! All numbers of one point: cell averages, first moments and tail.
 
 use crate::error::BuildError;
-use crate::known::KnownPoint;
 use crate::late::Late;
 use crate::moments::Cells;
 use halfspace::{Arrivals, Kernel, Medium, Profile, Six};
@@ -28,8 +27,15 @@ pub struct PointKernels {
     pub tail: Vec<Six>,
 }
 
-/// Moments are computed and stored to this share of the field there: they enter with the second difference of the force, far below one.
-const MOMENT_SHARE: f64 = 1e-5;
+/// Numbers of a point that are known already, as far in time as they go.
+pub(crate) struct KnownPoint {
+    pub(crate) averages: Vec<Six>,
+    pub(crate) moments: Vec<Six>,
+    pub(crate) curvatures: Vec<Six>,
+}
+
+/// Accuracy of moments relative to the field there: they enter with the second difference of the force, far below one.
+const MOMENT_ACCURACY: f64 = 1e-5;
 
 impl PointPlan {
     /// Plan for `cells` cells of `width` at one Poisson ratio.
@@ -69,14 +75,14 @@ impl PointPlan {
         self.go_on(r, z, None)
     }
 
-    /// Zeros in place of a point.
+    /// A point that is not computed: no number can be taken for one.
     pub(crate) fn blank(&self) -> PointKernels {
-        let zeros = vec![[0.0; 6]; self.cells];
+        let blanks = vec![[f64::NAN; 6]; self.cells];
         PointKernels {
-            averages: zeros.clone(),
-            moments: zeros.clone(),
-            curvatures: zeros,
-            tail: vec![[0.0; 6]; self.tail_terms],
+            averages: blanks.clone(),
+            moments: blanks.clone(),
+            curvatures: blanks,
+            tail: vec![[f64::NAN; 6]; self.tail_terms],
         }
     }
 
@@ -162,7 +168,7 @@ impl PointPlan {
     }
 }
 
-/// Step to which moments are rounded: a power of two near [`MOMENT_SHARE`] of the largest average of the field
+/// Step to which moments are rounded: a power of two near [`MOMENT_ACCURACY`] of the largest average of the field
 /// or of the static displacement or stress, whichever is less.
 ///
 /// Away from fronts most of their digits are then zero and cost nothing in a compressed file.
@@ -174,7 +180,7 @@ fn quantum(averages: &[Six], rest: &Six) -> Six {
     let (displacement, stress) = (largest(&rest[..2]), largest(&rest[2..]));
     std::array::from_fn(|f| {
         let scale = most[f].min(if f < 2 { displacement } else { stress });
-        (MOMENT_SHARE * scale).log2().floor().exp2()
+        (MOMENT_ACCURACY * scale).log2().floor().exp2()
     })
 }
 

@@ -1,10 +1,12 @@
 //! Chooses the spacing of a grid so that errors off it stay below a tolerance.
 
-use crate::blocks;
-use crate::build::{assemble, compute};
+use crate::assemble::assemble;
+use crate::block;
 use crate::error::BuildError;
 use crate::grid::Grid;
+use crate::limits::within;
 use crate::progress::Progress;
+use crate::rows::rows;
 use std::collections::HashMap;
 
 /// What was tried on the way to a grid.
@@ -14,7 +16,7 @@ pub struct Trial {
     pub spacing: f64,
     /// Nodes of the grid.
     pub nodes: usize,
-    /// 99 % quantile over the probes and fields of a slice of the error over the peak in time, as in a table's
+    /// 99 % quantile over the probes of a slice of the relative error of the worst field, as in a table's
     /// `accuracy_reached`.
     pub error: f64,
 }
@@ -36,8 +38,8 @@ pub fn refine(
     pulse_length: f64,
     progress: &dyn Progress,
 ) -> Result<(Grid, Vec<Trial>), BuildError> {
-    within("tol", tolerance, 1e-7, 0.1, "[1e-7, 0.1]")?;
-    within("pulse", pulse_length, 0.5, 1000.0, "[0.5, 1000]")?;
+    within("tol", tolerance, [1e-7, 0.1], "[1e-7, 0.1]")?;
+    within("pulse", pulse_length, [0.5, 1000.0], "[0.5, 1000]")?;
     let mut grid = grid.clone();
     if !grid.pulse_lengths.contains(&pulse_length) {
         grid.pulse_lengths.push(pulse_length);
@@ -84,25 +86,14 @@ fn measure(grid: &Grid, pulse_length: f64, progress: &dyn Progress) -> Result<f6
         exact_ratios: Vec::new(),
         ..grid.clone()
     };
-    let work = blocks::all(&slice);
-    let rows = compute(&slice, &work, HashMap::new(), None, None, progress)?;
+    let work = block::all(&slice);
+    let rows = rows(&slice, &work, HashMap::new(), None, None, progress)?;
     let content = assemble(&slice, &work, rows, None, progress)?;
     let index = content
         .pulse_lengths
         .iter()
         .position(|&x| x == pulse_length);
     Ok(index.map_or(f64::NAN, |i| content.origin.accuracy_reached[i]))
-}
-
-fn within(key: &str, x: f64, low: f64, high: f64, range: &'static str) -> Result<(), BuildError> {
-    if x >= low && x <= high {
-        return Ok(());
-    }
-    Err(BuildError::Setting {
-        key: key.to_owned(),
-        value: x,
-        range,
-    })
 }
 
 fn scale(grid: &Grid, factor: f64) -> Grid {

@@ -1,11 +1,11 @@
 //! Errors at some places off a grid, with nodes stored in 32 or 64 bits, without a table.
 
-use crate::blocks;
-use crate::build::plan;
 use crate::error::BuildError;
 use crate::grid::Grid;
-use crate::observe::uniform;
+use crate::plans::plan;
 use crate::point::{PointKernels, PointPlan};
+use crate::random::uniform;
+use crate::rounding::round;
 use halfspace::FIELDS;
 use lookup::{Numbers, PulseSum, Series, Smoothness, Stencil, locate};
 use rayon::prelude::*;
@@ -79,7 +79,7 @@ fn errors_at(
         for (&k, &weight) in down.nodes().iter().zip(down.even()) {
             let mut node = plan.compute(r_nodes[i], z_nodes[k])?;
             match storage {
-                Storage::Single => blocks::round(&mut node),
+                Storage::Single => round(&mut node),
                 Storage::Double => {}
             }
             found = found.added(&node, [even * weight, odd * weight]);

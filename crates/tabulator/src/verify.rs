@@ -1,14 +1,12 @@
 //! Errors measured off the grid: exact against looked-up responses at the centre of every mesh.
 
-use crate::blocks::{Kind, Row};
+use crate::block::{Kind, Row};
 use crate::error::BuildError;
 use crate::known::Known;
 use halfspace::{Kernel, Medium, Profile, Six};
 use lookup::{Content, Numbers, PulseSum, Series, Smoothness, Table, Verification};
 use rayon::prelude::*;
 
-/// Lengths of the verification pulses in r0/c1, unless a grid has others.
-pub const PULSE_LENGTHS: [f64; 6] = [1.0, 3.0, 10.0, 20.0, 40.0, 100.0];
 /// A pulse is sampled by at least this many cells where the table has them.
 const SAMPLES: f64 = 250.0;
 
@@ -17,7 +15,7 @@ pub(crate) fn verify(
     table: &Table,
     poisson_ratio: f64,
     kind: Kind,
-    [r, z]: [&[f64]; 2],
+    [r, z]: &[Vec<f64>; 2],
     rows: &[Row],
     known: Option<&Known>,
 ) -> Result<Verification, BuildError> {
@@ -32,9 +30,8 @@ pub(crate) fn verify(
         .map(|(row, &r)| {
             let mut part = Verification::default();
             for (k, &z) in z.iter().enumerate() {
-                if known.is_some_and(|known| {
-                    known.measured(kind, poisson_ratio, [r, z], Some(&mut part))
-                }) {
+                let place = [r, z];
+                if known.is_some_and(|known| known.copy(kind, poisson_ratio, place, &mut part)) {
                     continue;
                 }
                 let exact = exact(table.content(), width, row, k);
@@ -54,43 +51,6 @@ pub(crate) fn verify(
         whole.error.extend(part.error);
     }
     Ok(whole)
-}
-
-/// Errors relative to the peak over all probes, sorted, for one pulse length; probes where the field
-/// stays below `least` of its largest peak over all probes are left out.
-pub(crate) fn relative_errors(
-    content: &Content,
-    measured: &[&Verification],
-    pulse: usize,
-    field: usize,
-    least: f64,
-) -> Vec<f64> {
-    let mut ratios = Vec::new();
-    for probes in measured {
-        let picked =
-            (pulse * 6 + field..probes.direct.len()).step_by(6 * content.pulse_lengths.len());
-        let largest = picked
-            .clone()
-            .fold(0.0_f32, |a, i| a.max(probes.direct[i].abs()));
-        for i in picked {
-            let peak = f64::from(probes.direct[i].abs());
-            if peak > least * f64::from(largest) {
-                ratios.push(f64::from(probes.error[i]) / peak);
-            }
-        }
-    }
-    ratios.sort_by(f64::total_cmp);
-    ratios
-}
-
-/// The `share` quantile of sorted values; zero for none.
-#[must_use]
-pub fn quantile(sorted: &[f64], share: f64) -> f64 {
-    let last = sorted.len().saturating_sub(1) as f64;
-    sorted
-        .get((share * last).round() as usize)
-        .copied()
-        .unwrap_or(0.0)
 }
 
 /// Exact series of depth `k` of a row of probes.

@@ -4,8 +4,8 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
-use tabulator::{Axis, BuildError, Existing, Grid, Progress, Silent};
-use tabulator::{build, build_over, build_shard, check_table, differences, merge};
+use tabulator::{Axis, BuildError, Existing, Extension, Grid, Progress, Silent};
+use tabulator::{build, build_over, build_shard, check_table, differences, extend, merge};
 
 /// Two slices of 8 by 8 nodes and three beyond each outer edge.
 fn small() -> Grid {
@@ -70,6 +70,63 @@ fn an_interrupted_build_goes_on_and_gives_the_same_content() {
     );
     assert!(differences(&a, &b).is_empty());
     assert!(!journal(&broken).exists());
+}
+
+/// What an extension computes goes on from numbers of its table: it is no part of a build with the same settings.
+#[test]
+fn a_build_takes_nothing_that_an_interrupted_extension_left() {
+    let folder = tempfile::tempdir().unwrap();
+    let (path, straight) = (
+        folder.path().join("t.h5"),
+        folder.path().join("straight.h5"),
+    );
+    build(&small(), &path, &Silent).unwrap();
+    std::fs::copy(&path, &straight).unwrap();
+    let higher = Extension {
+        z_max: Some(1.0),
+        ..Extension::default()
+    };
+    let expected = extend(&straight, &higher, &Silent).unwrap();
+    let interrupt = Interrupt(Mutex::new(30));
+    let crash = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| {
+        extend(&path, &higher, &interrupt)
+    }));
+    assert!(crash.is_err());
+    let mut grid = small();
+    grid.z.extended_to = Some(1.0);
+    assert!(matches!(
+        build_over(&grid, &path, Existing::Replace, &Silent),
+        Err(BuildError::OtherSettings { .. })
+    ));
+    // Nor does the extension of another table with these settings.
+    let mut other = lookup::read(&path).unwrap();
+    let kept = std::fs::read(&path).unwrap();
+    other.slices[0].remainder[0] += 1e-3;
+    lookup::write(&path, &other).unwrap();
+    assert!(matches!(
+        extend(&path, &higher, &Silent),
+        Err(BuildError::OtherSettings { .. })
+    ));
+    std::fs::write(&path, kept).unwrap();
+    let resumed = extend(&path, &higher, &Silent).unwrap();
+    assert!(resumed.resumed_blocks > 0);
+    assert_eq!(resumed.content_sha256, expected.content_sha256);
+}
+
+#[test]
+fn an_extension_by_nothing_writes_the_same_table_without_computing() {
+    struct None;
+    impl Progress for None {
+        fn total(&self, stage: &str, total: u64) {
+            assert!(stage != "kernels" || total == 0, "{total} blocks computed");
+        }
+        fn advance(&self, _done: u64) {}
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("t.h5");
+    let first = build(&small(), &path, &Silent).unwrap();
+    let again = extend(&path, &Extension::default(), &None).unwrap();
+    assert_eq!(first.content_sha256, again.content_sha256);
 }
 
 #[test]
@@ -171,6 +228,15 @@ fn settings_outside_their_range_are_named() {
         message(|g| g.stencil_points = 5),
         "grid: stencil_points = 5 is outside {2, 4, 6, 8}"
     );
+    let message_of_a_large_one = message(|g| {
+        g.r = Axis::uniform(100.0, 0.055);
+        g.z = Axis::uniform(100.0, 0.055);
+        g.cell_width = 0.01;
+    });
+    assert!(
+        message_of_a_large_one.starts_with("grid: size of the table in memory in GB = 20625."),
+        "{message_of_a_large_one}"
+    );
     assert_eq!(
         message(|g| g.z.spacing = 0.5),
         "grid: z: number of nodes = 3 is outside [8, 2000]"
@@ -188,7 +254,18 @@ fn a_grid_file_is_read_back_and_unknown_keys_are_refused() {
     std::fs::write(&path, "poisson_ratios = [0.3]\nspacng = 1\n").unwrap();
     let message = Grid::from_file(&path).unwrap_err().to_string();
     assert!(
-        message.contains("grid.toml") && message.contains("spacng"),
+        message.contains("grid.toml") && message.contains("line 2") && message.contains("spacng"),
+        "{message}"
+    );
+    assert!(!message.contains('\n'), "{message}");
+    let text = small()
+        .to_toml()
+        .unwrap()
+        .replace("cell_width = 0.25", "cell_width = 25.0");
+    std::fs::write(&path, text).unwrap();
+    let message = Grid::from_file(&path).unwrap_err().to_string();
+    assert!(
+        message.ends_with("grid.toml: grid: cell_width = 25 is outside [0.005, 1]"),
         "{message}"
     );
 }

@@ -41,6 +41,7 @@ pub fn table() -> Table {
     Table::new(Content {
         origin: Origin {
             grid: "bench = true\n".to_owned(),
+            format_version: lookup::schema::FORMAT_VERSION_VALUE.to_owned(),
             software_version: "0".to_owned(),
             git_revision: "unknown".to_owned(),
             created_unix_s: 0,

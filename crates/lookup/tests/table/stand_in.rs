@@ -67,6 +67,7 @@ pub(crate) fn content() -> Content {
     Content {
         origin: Origin {
             grid: "stand_in = true\n".to_owned(),
+            format_version: lookup::schema::FORMAT_VERSION_VALUE.to_owned(),
             software_version: "0".to_owned(),
             git_revision: "unknown".to_owned(),
             created_unix_s: 0,

@@ -1,10 +1,10 @@
 //! Which nodes of a damaged file cannot be read.
 
+use super::error::TableError;
+use super::open::open;
 use crate::content::FIELDS;
-use crate::error::TableError;
-use crate::read::open;
 use crate::schema;
-use hdf5::{Dataset, Group};
+use hdf5::Dataset;
 use ndarray::s;
 use std::ops::Range;
 use std::path::Path;
@@ -28,17 +28,11 @@ pub struct DamagedPatch {
 /// [`TableError`] when the file cannot be opened, or axes or groups cannot be read.
 pub fn damaged_patches(path: &Path) -> Result<Vec<DamagedPatch>, TableError> {
     let source = open(path)?;
-    let root: &Group = &source.file;
-    let r: Vec<f64> = source.array(root, schema::R)?.0;
-    let z: Vec<f64> = source.array(root, schema::Z)?.0;
-    let slices = source.group(root, schema::SLICES)?;
-    let names = slices
-        .member_names()
-        .map_err(|error| source.item(schema::SLICES, &error))?;
+    let root = source.root()?;
+    let r: Vec<f64> = source.list(&root, schema::R)?;
+    let z: Vec<f64> = source.list(&root, schema::Z)?;
     let mut found = Vec::new();
-    for name in names {
-        let group = source.group(&slices, &name)?;
-        let poisson_ratio = source.number(&group, schema::POISSON_RATIO)?;
+    for slice in source.listed(&root)? {
         for dataset in [
             schema::REMAINDER,
             schema::MOMENT,
@@ -46,14 +40,14 @@ pub fn damaged_patches(path: &Path) -> Result<Vec<DamagedPatch>, TableError> {
             schema::TAIL,
         ] {
             // One that is not there has no patches; reading the table says that it is not.
-            let Ok(data) = group.dataset(dataset) else {
+            let Ok(data) = source.dataset::<f32>(&slice.place, dataset, 4) else {
                 continue;
             };
             for (across, down) in patches(&data, r.len(), z.len()) {
                 let selection = s![across.clone(), down.clone(), .., ..];
                 if data.read_slice::<f32, _, ndarray::Ix4>(selection).is_err() {
                     found.push(DamagedPatch {
-                        poisson_ratio,
+                        poisson_ratio: slice.ratio,
                         dataset,
                         r: [r[across.start], r[across.end - 1]],
                         z: [z[down.start], z[down.end - 1]],

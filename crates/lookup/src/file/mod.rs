@@ -1,0 +1,19 @@
+//! The HDF5 file of a table: everything that knows the HDF5 library.
+
+mod blend;
+mod damage;
+mod datasets;
+mod error;
+pub mod labels;
+mod open;
+mod read;
+mod seal;
+mod source;
+mod table_file;
+mod write;
+
+pub use damage::{DamagedPatch, damaged_patches};
+pub use error::TableError;
+pub use read::{check_hash, read, stated_hash};
+pub use table_file::TableFile;
+pub use write::write;

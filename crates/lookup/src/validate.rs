@@ -1,0 +1,227 @@
+//! Whether numbers are a table: axes, sizes and values, before anything is indexed by them.
+
+use crate::content::{Content, FIELDS, Slice, Verification, centres};
+use crate::error::ContentError;
+use crate::schema;
+use crate::stencil::MAX_POINTS;
+
+/// Cells outside this are those of no table.
+const CELL_WIDTHS: [f64; 2] = [1e-4, 1e2];
+
+/// Checks everything.
+///
+/// # Errors
+/// [`ContentError`] with the first item that is wrong.
+pub(crate) fn content(content: &Content) -> Result<(), ContentError> {
+    frame(content)?;
+    slices(content)
+}
+
+/// Checks what a slice is read and interpolated by: axes, stencil, pulses, and what lies between slices.
+pub(crate) fn frame(content: &Content) -> Result<(), ContentError> {
+    axis("r", &content.r)?;
+    axis("z", &content.z)?;
+    for (name, nodes, max) in [
+        ("r", &content.r, content.r_max),
+        ("z", &content.z, content.z_max),
+    ] {
+        if !nodes.contains(&max) || centres(nodes, max).is_empty() {
+            return Err(value(format!("{name}_max"), max, "one of the nodes but 0"));
+        }
+    }
+    let [narrowest, widest] = CELL_WIDTHS;
+    if !(narrowest..=widest).contains(&content.cell_width) {
+        return Err(value("cell_width", content.cell_width, "[1e-4, 100]"));
+    }
+    if content.pulse_lengths.is_empty() {
+        return Err(shape("pulse_length", 1, 0));
+    }
+    ascending("pulse_length", &content.pulse_lengths)?;
+    if content.pulse_lengths[0] <= 0.0 {
+        return Err(value(
+            "pulse_length[0]",
+            content.pulse_lengths[0],
+            "(0, inf)",
+        ));
+    }
+    let points = content.stencil_points;
+    if !(2..=MAX_POINTS).contains(&points) || points % 2 == 1 {
+        return Err(value("stencil_points", points as f64, "2, 4, 6 or 8"));
+    }
+    for (name, length) in [("r", content.r.len()), ("z", content.z.len())] {
+        if length < points {
+            return Err(shape(name, points, length));
+        }
+    }
+    between(content)
+}
+
+/// Checks what was measured between slices.
+fn between(content: &Content) -> Result<(), ContentError> {
+    ascending("between_r", &content.between_r)?;
+    ascending("between_z", &content.between_z)?;
+    let ratios: Vec<f64> = content.between.iter().map(|b| b.poisson_ratio).collect();
+    ascending("between: poisson_ratio", &ratios)?;
+    let places = content.between_r.len() * content.between_z.len();
+    if places == 0 && !content.between.is_empty() {
+        return Err(shape("between_r and between_z", 1, 0));
+    }
+    content.between.iter().try_for_each(|between| {
+        let group = format!("between/{}", schema::slice_name(between.poisson_ratio));
+        probes(content, &group, &between.verification, places)
+    })
+}
+
+/// Checks the slices against the axes and against each other.
+fn slices(content: &Content) -> Result<(), ContentError> {
+    let Some(first) = content.slices.first() else {
+        return Err(shape("slices", 1, 0));
+    };
+    let ratios: Vec<f64> = content.slices.iter().map(|s| s.poisson_ratio).collect();
+    ascending("poisson_ratio", &ratios)?;
+    for slice in &content.slices {
+        same_size(content, slice, size(content, first))?;
+        one_slice(content, slice)?;
+    }
+    Ok(())
+}
+
+/// Numbers of cells and of terms of a slice.
+pub(crate) fn size(content: &Content, slice: &Slice) -> [usize; 2] {
+    let nodes = content.r.len() * content.z.len();
+    [slice.cells, slice.tail_terms(nodes)]
+}
+
+/// Checks that a slice has as many cells and terms as `needed`: slices are interpolated cell by cell and term by term.
+pub(crate) fn same_size(
+    content: &Content,
+    slice: &Slice,
+    needed: [usize; 2],
+) -> Result<(), ContentError> {
+    let names = [schema::TIME, schema::TERM];
+    for ((name, found), needed) in names.into_iter().zip(size(content, slice)).zip(needed) {
+        if found != needed.max(1) {
+            return Err(shape(
+                format!("{}/{name}", group(slice)),
+                needed.max(1),
+                found,
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// Path of the group of a slice.
+fn group(slice: &Slice) -> String {
+    format!("slices/{}", schema::slice_name(slice.poisson_ratio))
+}
+
+/// Checks the numbers of a slice against the axes.
+pub(crate) fn one_slice(content: &Content, slice: &Slice) -> Result<(), ContentError> {
+    let group = group(slice);
+    let nodes = content.r.len() * content.z.len();
+    let stored = product(&[nodes, FIELDS, slice.cells]);
+    let terms = slice.tail_terms(nodes);
+    for (dataset, array, needed) in [
+        (schema::REMAINDER, &slice.remainder, stored),
+        (schema::MOMENT, &slice.moment, stored),
+        (schema::CURVATURE, &slice.curvature, stored),
+        (schema::TAIL, &slice.tail, product(&[nodes, FIELDS, terms])),
+    ] {
+        let name = format!("{group}/{dataset}");
+        length(&name, array, needed)?;
+        if let Some(bad) = array.iter().position(|x| !x.is_finite()) {
+            let node = bad / (needed / nodes);
+            let (i, k) = (node / content.z.len(), node % content.z.len());
+            let place = format!("(r/r0 = {}, z/r0 = {})", content.r[i], content.z[k]);
+            return Err(value(
+                format!("{name} {place}"),
+                f64::from(array[bad]),
+                "finite numbers",
+            ));
+        }
+    }
+    let places = content.probes().map(|places| places.len()).iter().product();
+    probes(content, &group, &slice.verification, places)
+}
+
+fn probes(
+    content: &Content,
+    group: &str,
+    probes: &Verification,
+    places: usize,
+) -> Result<(), ContentError> {
+    let needed = product(&[places, content.pulse_lengths.len(), FIELDS]);
+    for (dataset, array, least, range) in [
+        (
+            schema::PROBE_DIRECT,
+            &probes.direct,
+            f32::MIN,
+            "finite numbers",
+        ),
+        (
+            schema::PROBE_LOOKED_UP,
+            &probes.looked_up,
+            f32::MIN,
+            "finite numbers",
+        ),
+        (schema::PROBE_ERROR, &probes.error, 0.0, "[0, inf)"),
+    ] {
+        let name = format!("{group}/{dataset}");
+        length(&name, array, needed)?;
+        let bad = |x: &f32| !x.is_finite() || *x < least;
+        if let Some(index) = array.iter().position(bad) {
+            let item = format!("{name}[{index}]");
+            return Err(value(item, f64::from(array[index]), range));
+        }
+    }
+    Ok(())
+}
+
+/// The product, or more than any list has where it is more than a number holds.
+pub(crate) fn product(factors: &[usize]) -> usize {
+    factors.iter().fold(1, |all, &x| all.saturating_mul(x))
+}
+
+fn length(name: &str, array: &[f32], needed: usize) -> Result<(), ContentError> {
+    if array.len() == needed {
+        Ok(())
+    } else {
+        Err(shape(name, needed, array.len()))
+    }
+}
+
+fn axis(name: &'static str, nodes: &[f64]) -> Result<(), ContentError> {
+    ascending(name, nodes)?;
+    match nodes.first() {
+        Some(&first) if first != 0.0 => Err(value(format!("{name}[0]"), first, "0")),
+        Some(_) | None => Ok(()),
+    }
+}
+
+/// Finite values, each above the one before.
+pub(crate) fn ascending(name: &'static str, values: &[f64]) -> Result<(), ContentError> {
+    for (index, &x) in values.iter().enumerate() {
+        if !x.is_finite() || index > 0 && x <= values[index - 1] {
+            let range = "finite, strictly ascending";
+            return Err(value(format!("{name}[{index}]"), x, range));
+        }
+    }
+    Ok(())
+}
+
+fn value(item: impl Into<String>, value: f64, range: &'static str) -> ContentError {
+    ContentError::Value {
+        item: item.into(),
+        value,
+        range,
+    }
+}
+
+fn shape(item: impl Into<String>, needed: usize, found: usize) -> ContentError {
+    ContentError::Shape {
+        item: item.into(),
+        needed,
+        found,
+    }
+}

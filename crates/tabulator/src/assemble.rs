@@ -1,0 +1,153 @@
+//! From rows to a table: numbers in their places, errors measured off the grid.
+
+use crate::block::{self, Block, Kind, Row};
+use crate::error::BuildError;
+use crate::grid::Grid;
+use crate::known::Known;
+use crate::progress::Progress;
+use crate::verify;
+use lookup::{Between, Content, Origin, Slice, Table, Verification, schema};
+use std::time::{SystemTime, UNIX_EPOCH};
+
+/// Puts the rows in their places and measures the errors off the grid.
+///
+/// # Errors
+/// [`BuildError`] when the numbers are no table or a probe cannot be looked up.
+pub(crate) fn assemble(
+    grid: &Grid,
+    work: &[Block],
+    rows: Vec<Row>,
+    known: Option<&Known>,
+    progress: &dyn Progress,
+) -> Result<Content, BuildError> {
+    let (slices, exact) = sorted(grid, work, rows)?;
+    let table = Table::new(unmeasured(grid, slices)?)?;
+    let steps = exact.probes.len() + exact.between.len();
+    progress.total("verification", steps as u64);
+    let measure = |kind: Kind, poisson_ratio: f64, rows: &[Row]| {
+        let places = block::positions(kind, grid);
+        let measured = verify::verify(&table, poisson_ratio, kind, &places, rows, known)?;
+        progress.slice(poisson_ratio);
+        progress.advance(1);
+        Ok::<_, BuildError>(measured)
+    };
+    let ratios = table.poisson_ratios().iter();
+    let measured = ratios
+        .zip(&exact.probes)
+        .map(|(&nu, rows)| measure(Kind::Probes, nu, rows))
+        .collect::<Result<Vec<_>, _>>()?;
+    let mut between = Vec::new();
+    for (interval, rows) in exact.between.iter().enumerate() {
+        let poisson_ratio = grid.between(interval)?;
+        between.push(Between {
+            poisson_ratio,
+            verification: measure(Kind::Between, poisson_ratio, rows)?,
+        });
+    }
+    let mut content = table.into_content();
+    content.between = between;
+    for (slice, verification) in content.slices.iter_mut().zip(measured) {
+        slice.verification = verification;
+    }
+    let accuracy = content.accuracy();
+    let worst = accuracy.iter().map(|errors| errors.worst_on_slices().1.p99);
+    content.origin.accuracy_reached = worst.collect();
+    Ok(content)
+}
+
+/// Exact numbers off the grid, row by row.
+struct Exact {
+    /// For each slice.
+    probes: Vec<Vec<Row>>,
+    /// For each interval between slices.
+    between: Vec<Vec<Row>>,
+}
+
+/// The slices, not measured yet, and the rows to measure them by.
+fn sorted(grid: &Grid, work: &[Block], rows: Vec<Row>) -> Result<(Vec<Slice>, Exact), BuildError> {
+    let places: usize = block::positions(Kind::Probes, grid)
+        .iter()
+        .map(Vec::len)
+        .product();
+    let zeros = vec![0.0; places * grid.pulse_lengths.len() * 6];
+    let cells = grid.cells()?;
+    let slice = |(poisson_ratio, role)| Slice {
+        poisson_ratio,
+        role,
+        cells,
+        remainder: Vec::new(),
+        moment: Vec::new(),
+        curvature: Vec::new(),
+        tail: Vec::new(),
+        verification: Verification {
+            direct: zeros.clone(),
+            looked_up: zeros.clone(),
+            error: zeros.clone(),
+        },
+    };
+    let mut slices: Vec<Slice> = grid.slices().into_iter().map(slice).collect();
+    let mut exact = Exact {
+        probes: vec![Vec::new(); slices.len()],
+        between: vec![Vec::new(); grid.intervals()],
+    };
+    for (block, row) in work.iter().zip(rows) {
+        match block.kind {
+            Kind::Nodes => {
+                let slice = &mut slices[block.slice];
+                slice.remainder.extend(row.remainder);
+                slice.moment.extend(row.moment);
+                slice.curvature.extend(row.curvature);
+                slice.tail.extend(row.tail);
+            }
+            Kind::Probes => exact.probes[block.slice].push(row),
+            Kind::Between => exact.between[block.slice].push(row),
+        }
+    }
+    Ok((slices, exact))
+}
+
+/// The content before anything is measured.
+fn unmeasured(grid: &Grid, slices: Vec<Slice>) -> Result<Content, BuildError> {
+    let [r, z] = grid.nodes();
+    let [between_r, between_z] = if grid.intervals() > 0 {
+        block::positions(Kind::Between, grid)
+    } else {
+        Default::default()
+    };
+    Ok(Content {
+        origin: Origin {
+            grid: grid.to_toml()?,
+            format_version: schema::FORMAT_VERSION_VALUE.to_owned(),
+            software_version: env!("CARGO_PKG_VERSION").to_owned(),
+            git_revision: env!("HERTZLAMB_GIT_REVISION").to_owned(),
+            created_unix_s: creation_time(),
+            accuracy_asked: grid.tolerance,
+            accuracy_reached: Vec::new(),
+        },
+        r,
+        z,
+        r_max: grid.r.end(),
+        z_max: grid.z.end(),
+        cell_width: grid.cell_width,
+        stencil_points: grid.stencil_points,
+        pulse_lengths: grid.pulse_lengths.clone(),
+        slices,
+        between_r,
+        between_z,
+        between: Vec::new(),
+    })
+}
+
+/// `SOURCE_DATE_EPOCH` if it is set, so that a build can be repeated byte by byte, else now.
+fn creation_time() -> u64 {
+    std::env::var("SOURCE_DATE_EPOCH")
+        .ok()
+        .and_then(|text| text.parse().ok())
+        .or_else(|| {
+            SystemTime::now()
+                .duration_since(UNIX_EPOCH)
+                .ok()
+                .map(|time| time.as_secs())
+        })
+        .unwrap_or(0)
+}

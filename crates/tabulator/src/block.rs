@@ -1,0 +1,89 @@
+//! The units of work: one row of points of one slice.
+
+use crate::error::BuildError;
+use crate::grid::Grid;
+
+/// Which points a block holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub(crate) enum Kind {
+    /// Nodes of the grid.
+    Nodes,
+    /// Centres of its meshes, for the verification.
+    Probes,
+    /// Places in the middle between two slices, for the verification across Poisson's ratio.
+    Between,
+}
+
+/// One row: all depths at one radius.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub(crate) struct Block {
+    /// Index of the slice, or of the interval between slices.
+    pub(crate) slice: usize,
+    /// Nodes or probes.
+    pub(crate) kind: Kind,
+    /// Index of the row.
+    pub(crate) row: usize,
+}
+
+/// The numbers of a block, as stored: three of shape (z, field, time), one of shape (z, field, term).
+///
+/// Points that were not computed because their errors are known are NaN.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct Row {
+    pub(crate) remainder: Vec<f32>,
+    pub(crate) moment: Vec<f32>,
+    pub(crate) curvature: Vec<f32>,
+    pub(crate) tail: Vec<f32>,
+}
+
+impl Row {
+    /// All arrays, in the order in which they are recorded.
+    pub(crate) fn arrays(&self) -> [&[f32]; 4] {
+        [&self.remainder, &self.moment, &self.curvature, &self.tail]
+    }
+}
+
+/// All blocks of a grid, in the order in which they are stored.
+pub(crate) fn all(grid: &Grid) -> Vec<Block> {
+    let rows = |kind| positions(kind, grid)[0].len();
+    let mut blocks = Vec::new();
+    for slice in 0..grid.slices().len() {
+        for kind in [Kind::Nodes, Kind::Probes] {
+            blocks.extend((0..rows(kind)).map(|row| Block { slice, kind, row }));
+        }
+    }
+    for slice in 0..grid.intervals() {
+        let kind = Kind::Between;
+        blocks.extend((0..rows(kind)).map(|row| Block { slice, kind, row }));
+    }
+    blocks
+}
+
+impl Grid {
+    /// Poisson's ratio of the points of a block of this grid.
+    ///
+    /// # Errors
+    /// [`BuildError::Domain`], which no valid grid causes.
+    pub(crate) fn ratio_of(&self, block: Block) -> Result<f64, BuildError> {
+        match block.kind {
+            Kind::Nodes | Kind::Probes => Ok(self.slices()[block.slice].0),
+            Kind::Between => self.between(block.slice),
+        }
+    }
+}
+
+/// Radii and depths of the points of a kind: nodes, centres of meshes, or some of these.
+pub(crate) fn positions(kind: Kind, grid: &Grid) -> [Vec<f64>; 2] {
+    /// Places between slices along an axis, at most.
+    const PLACES: usize = 14;
+    match kind {
+        Kind::Nodes => grid.nodes(),
+        Kind::Probes => [&grid.r, &grid.z].map(|axis| lookup::centres(&axis.nodes(), axis.end())),
+        Kind::Between => positions(Kind::Probes, grid).map(|centres| {
+            let count = centres.len().min(PLACES);
+            (0..count)
+                .map(|i| centres[i * (centres.len() - 1) / (count - 1).max(1)])
+                .collect()
+        }),
+    }
+}

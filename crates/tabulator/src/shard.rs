@@ -1,0 +1,112 @@
+//! A table in parts: shards computed apart, joined into one.
+
+use crate::block::{self, Block, Row};
+use crate::error::BuildError;
+use crate::grid::Grid;
+use crate::journal::{self, Journal, Task};
+use crate::output::{Existing, refuse};
+use crate::progress::Progress;
+use crate::rows::{rows, usable};
+use crate::summary::{Summary, complete};
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::time::Instant;
+
+/// Computes part `index` of `count` (from 1) of the blocks of `grid` into the file `path`, to be joined by [`merge`].
+///
+/// Given again, it goes on where it stopped; when all blocks of the part are there it does nothing.
+///
+/// # Errors
+/// As [`build`]; [`BuildError::Setting`] when `index` is not in 1 ..= `count`.
+pub fn build_shard(
+    grid: &Grid,
+    index: usize,
+    count: usize,
+    path: &Path,
+    progress: &dyn Progress,
+) -> Result<usize, BuildError> {
+    grid.validate()?;
+    if index < 1 || index > count {
+        let key = "shard".to_owned();
+        return Err(BuildError::Setting {
+            key,
+            value: index as f64,
+            range: "1 .. the number of shards",
+        });
+    }
+    let work: Vec<Block> = block::all(grid)
+        .into_iter()
+        .skip(index - 1)
+        .step_by(count)
+        .collect();
+    let text = grid.to_toml()?;
+    let (journal, finished) = Journal::open(path, Task::Build { grid: &text })?;
+    let finished = usable(grid, &work, finished, None)?;
+    let journal = Mutex::new(journal);
+    rows(grid, &work, finished, Some(&journal), None, progress)?;
+    Ok(work.len())
+}
+
+/// Joins the shards at `parts` into a table at `path`.
+///
+/// # Errors
+/// [`BuildError`]: a file that is no shard, shards of different settings, blocks that are missing, or as [`build`].
+pub fn merge(
+    parts: &[PathBuf],
+    path: &Path,
+    existing: Existing,
+    progress: &dyn Progress,
+) -> Result<Summary, BuildError> {
+    let started = Instant::now();
+    refuse(path, existing)?;
+    let (grid, found) = read_all(parts)?;
+    let work = block::all(&grid);
+    let mut found = usable(&grid, &work, found, None)?;
+    let missing: Vec<&Block> = work
+        .iter()
+        .filter(|block| !found.contains_key(block))
+        .collect();
+    if let Some(first) = missing.first() {
+        return Err(BuildError::Incomplete {
+            missing: missing.len(),
+            total: work.len(),
+            poisson_ratio: grid.ratio_of(**first)?,
+            row: first.row,
+        });
+    }
+    let rows = work
+        .iter()
+        .filter_map(|block| found.remove(block))
+        .collect();
+    let summary = complete(&grid, &work, rows, path, None, progress)?;
+    Ok(Summary {
+        wall_s: started.elapsed().as_secs_f64(),
+        ..summary
+    })
+}
+
+/// The settings that all shards share, valid, and all their blocks.
+fn read_all(parts: &[PathBuf]) -> Result<(Grid, HashMap<Block, Row>), BuildError> {
+    let mut settings: Option<(String, Grid)> = None;
+    let mut found = HashMap::new();
+    for part in parts {
+        let (text, rows) = journal::read(part)?;
+        match &settings {
+            Some((first, _)) if *first != text => {
+                return Err(BuildError::Mixed {
+                    first: parts[0].clone(),
+                    second: part.clone(),
+                });
+            }
+            Some(_) => {}
+            None => {
+                let grid = Grid::parse(&text).map_err(|error| error.in_file(part))?;
+                settings = Some((text, grid));
+            }
+        }
+        found.extend(rows);
+    }
+    let (_, grid) = settings.ok_or(BuildError::NoShards)?;
+    Ok((grid, found))
+}
