@@ -8,15 +8,14 @@ Errors are relative where the size is not one.
 import sys
 from pathlib import Path
 
-from theory import fields, impact, surface
+from theory import energy, fields, impact, radiation, surface, transforms
 from theory.report import Report
 
 
 def main():
     report = Report()
-    fields.check(report)
-    surface.check(report)
-    impact.check(report)
+    for section in (transforms, fields, surface, impact, radiation, energy):
+        section.check(report)
     report.compare_with((Path(__file__).resolve().parent.parent / "docs" / "theory.md").read_text(encoding="utf-8"))
     return report.end()
 

@@ -87,7 +87,7 @@ def chain_f(n, zeta, r):
 
 def potential(chain, n, profile, xi, r):
     """A_n (chain_e) or B_n/r (chain_f) of (T14)."""
-    half = lambda m: (chain(m, xi - 1j, r) - chain(m, xi + 1j, r)) / 2j  # noqa: E731
+    half = lambda m: (chain(m, xi - 1j, r) - chain(m, xi + 1j, r)) / 2j
     if profile == "hertz":
         return 1.5 / np.pi * (half(n) - 0.5 * (chain(n - 1, xi - 1j, r) + chain(n - 1, xi + 1j, r)))
     if profile == "punch":

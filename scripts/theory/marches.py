@@ -38,8 +38,12 @@ class Memory:
         self.area = np.concatenate([[0], np.cumsum((values * rule * half[:, None]).sum(axis=1))])
         self.value = np.array([1 - step(medium, chord, v) if v else 1.0 for v in grid])
 
+    def left(self, t):
+        """V at any t >= 0."""
+        return 1 - step(self.medium, self.chord, t) if 0 < t < self.length else float(t == 0)
+
     def integral(self, t):
-        """int_0^t V, cubic between the nodes."""
+        """int_0^t V, t >= 0, cubic between the nodes."""
         t = np.minimum(t, self.length)
         i = np.clip(np.searchsorted(self.grid, t, side="right") - 1, 0, len(self.grid) - 2)
         width = self.grid[i + 1] - self.grid[i]
@@ -58,7 +62,7 @@ def start_constants(h, sigma, samples=4):
     y, end = y[-1], t[-1]
     u = 2 + 3 * sigma * y
     d1, d2, d3 = 3 * y / u, 6 / (y * u**3), -6 * (u + 9 * sigma * y) / (y**3 * u**5)
-    tail = lambda first, third: h * h / 12 * (first - h * h / 60 * third)  # noqa: E731
+    tail = lambda first, third: h * h / 12 * (first - h * h / 60 * third)
     force = y**5 * (0.4 + 0.5 * sigma * y) - h * np.sum(weight * p) + tail(d1, d3)
     moment = y**7 * (2 / 7 + sigma * y * (5 / 8 + sigma * y / 3)) - h * np.sum(weight * t * p)
     return force, moment + tail(p[-1] + end * d1, 3 * d2 + end * d3)
@@ -81,7 +85,11 @@ def fixed_disc(memory, sigma, wave_time, h, full=True):
         past = np.sum(g[1 : 1 + len(steps)] * steps)
         known = sigma * (g[0] * p[-1] - past)
         inertia = 1.25 * h * h / 12
-        y = root(inertia + elastic, free - known) if elastic + inertia >= 0 else lower_root(inertia + elastic, free - known)
+        y = (
+            root(inertia + elastic, free - known)
+            if elastic + inertia >= 0
+            else lower_root(inertia + elastic, free - known)
+        )
         force = y**3
         p.append(force)
         d.append(free - inertia * force)
@@ -112,7 +120,7 @@ def explicit(memory, slope, sigma, wave_time, h):
     """(40) to (44) of the paper; returns the restitution and the largest force."""
     count = int(memory.length * wave_time / h) + 2
     kernel = np.array([sigma * slope(i * h / wave_time) * h / wave_time for i in range(count)])
-    p, d, v = [0.0], 0.0, 1.0
+    p, d, v, last = [0.0], 0.0, 1.0, 0.0
     while True:
         n = len(p)
         a = -1.25 * p[-1]

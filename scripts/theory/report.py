@@ -3,6 +3,14 @@
 import math
 import re
 
+import numpy as np
+
+
+def relative(found, exact):
+    """Largest difference over the largest value."""
+    found, exact = np.asarray(found), np.asarray(exact)
+    return np.max(abs(found - exact)) / np.max(abs(exact))
+
 
 class Report:
     """Rows `equation | what is compared | error`, and whether all are within their bounds."""

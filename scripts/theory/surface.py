@@ -16,7 +16,15 @@ MEAN = (lambda e: np.where(e < 2, (2 - e) ** 3 * (e * e + 6 * e + 4) / 32, 0.0),
 PUNCH = (lambda e: np.where(e < 2, 1 - e / 2, 0.0), 2.0, 1 / 4)
 
 # the table of (T32)
-J_VALUES = {0.0: 0.21396398, 0.2: 0.15986440, 0.25: 0.14813388, 0.3: 0.13722707, 1 / 3: 0.13045234, 0.4: 0.11824355, 0.45: 0.11047434}
+J_VALUES = {
+    0.0: 0.21396398,
+    0.2: 0.15986440,
+    0.25: 0.14813388,
+    0.3: 0.13722707,
+    1 / 3: 0.13045234,
+    0.4: 0.11824355,
+    0.45: 0.11047434,
+}
 
 
 PANELS = [np.pi / 2 * f for f in (0.03, 0.12, 0.25, 0.5, 0.75, 0.88, 0.94, 0.97, 0.99)]
@@ -167,11 +175,15 @@ def measure_checks(report):
             nu, r, t, exact = (float(row[name]) for name in ("nu", "r", "t", "w"))
             medium = Medium(nu)
             x, weight = measure(medium, [t / (1 + r), t / max(abs(1 - r), 1e-9)])
-            a3 = np.array([hs.potential(hs.chain_e, 3, "hertz", 1j * t / v, r).real if t / v < 1 + r else 0.0 for v in x])
+            a3 = np.array(
+                [hs.potential(hs.chain_e, 3, "hertz", 1j * t / v, r).real if t / v < 1 + r else 0.0 for v in x]
+            )
             rest = hs.potential(hs.chain_e, 3, "hertz", 0j, r).real
             found = (1 - nu) * (rest - np.sum(weight * a3))
             error, count = max(error, abs(found - exact) / ((1 - nu) * rest)), count + 1
-    report.row("T25", f"w(r,0,t) at the {count} rows of tests/reference on the surface", error if count else np.inf, 1e-8)
+    report.row(
+        "T25", f"w(r,0,t) at the {count} rows of tests/reference on the surface", error if count else np.inf, 1e-8
+    )
     masses = [np.sum(measure(Medium(nu))[1]) for nu in RATIOS]
     report.row("T26", "mass of the measure against 1, 6 ratios", max(abs(m - 1) for m in masses), 1e-10)
     least = min(np.min(measure(Medium(nu))[1]) for nu in RATIOS)
@@ -186,7 +198,12 @@ def measure_checks(report):
     angle, weight = hs.on_panels([0, np.pi / 2])
     rest = np.array([0.7 * hs.potential(hs.chain_e, 3, "hertz", 0j, np.sin(a)).real for a in angle])
     mean = np.sum(weight * 3 * np.cos(angle) ** 2 * np.sin(angle) * rest)
-    report.row("T27", "mean of Huber's surface under its own pressure over the centre's against 4/5", abs(mean / (0.7 * 3 / 8) - 0.8), 1e-8)
+    report.row(
+        "T27",
+        "mean of Huber's surface under its own pressure over the centre's against 4/5",
+        abs(mean / (0.7 * 3 / 8) - 0.8),
+        1e-8,
+    )
     medium, error = Medium(0.3), 0
     for r in (0.3, 0.9, 2.0):
         error = max(error, abs(hs.remainder(medium, "hertz", r, 0.0, (1 + r) / medium.c * 1.0001)[1]))
@@ -241,7 +258,12 @@ def relaxation(report):
     report.row("T32", "int Re A3(i eta; r) d eta against 1/4, two profiles, r = 0.2 .. 4", error, 1e-6)
     for chord, name in ((CENTRE, "centre"), (MEAN, "mean"), (PUNCH, "punch")):
         eta, weight = hs.on_panels([0, chord[1]])
-        report.row("T32", f"static value times area of phi against 1/4, {name}", abs(chord[2] * np.sum(weight * chord[0](eta)) - 0.25), 1e-14)
+        report.row(
+            "T32",
+            f"static value times area of phi against 1/4, {name}",
+            abs(chord[2] * np.sum(weight * chord[0](eta)) - 0.25),
+            1e-14,
+        )
     error = max(abs(lag(Medium(nu)) / J - 1) for nu, J in J_VALUES.items())
     report.row("T32", "J = kappa (1 - nu) <x>/4 against the 7 values of its table", error, 1e-7)
     error = 0
@@ -253,7 +275,12 @@ def relaxation(report):
     report.row("T32", "J against S0 int (1 - W) dT of Kausel's closed form", error, 1e-10)
     medium = Medium(0.25)
     share = measure(medium)[1][-1] / medium.c / mean_slowness(medium)
-    report.row("T32", f"Rayleigh wave's part of J, {share:.4f} at nu = 1/4, against 0.67 of Miller and Pursey", abs(share - 0.67), 5e-3)
+    report.row(
+        "T32",
+        f"Rayleigh wave's part of J, {share:.4f} at nu = 1/4, against 0.67 of Miller and Pursey",
+        abs(share - 0.67),
+        5e-3,
+    )
     expansion(report)
     error = 0
     for nu in (0.0, 0.25, 0.4):
@@ -263,9 +290,16 @@ def relaxation(report):
     report.row("T34", "S0 W'(0) against kappa^2 Z(0), and kappa^2 9/(8 pi) of the mean", error, 1e-4)
     omega = np.linspace(0.01, 60, 4000)
     eta, weight = hs.on_panels([0, 0.5, 1, 1.5, 2])
-    transform = {name: np.cos(np.outer(omega, eta)) @ (weight * chord[0](eta)) for name, chord in
-                 (("mean", MEAN), ("punch", PUNCH), ("centre", CENTRE))}
-    report.row("T35", "how far the cosine transforms of the means' phi are below zero", max(0, -min(transform["mean"].min(), transform["punch"].min())), 1e-12)
+    transform = {
+        name: np.cos(np.outer(omega, eta)) @ (weight * chord[0](eta))
+        for name, chord in (("mean", MEAN), ("punch", PUNCH), ("centre", CENTRE))
+    }
+    report.row(
+        "T35",
+        "how far the cosine transforms of the means' phi are below zero",
+        max(0, -min(transform["mean"].min(), transform["punch"].min())),
+        1e-12,
+    )
     report.fails("T35", "the same of the centre's phi: it is not positive", -transform["centre"].min(), 1e-2)
 
 
@@ -287,7 +321,12 @@ def expansion(report):
             rates = [np.sin(2 * t / length) / length, 2 * np.cos(2 * t / length) / length**2]
             found = S * (np.sin(t / length) ** 2 - moments[0] * rates[0] + moments[1] * rates[1])
             errors.append(abs(found - exact))
-        report.row("T33", f"three terms of the expansion in slowness, {name}: order of the error against 3", abs(np.log2(errors[0] / errors[1]) - 3), 0.1)
+        report.row(
+            "T33",
+            f"three terms of the expansion in slowness, {name}: order of the error against 3",
+            abs(np.log2(errors[0] / errors[1]) - 3),
+            0.1,
+        )
 
 
 # ------------------------------------------------------------------ numerical inversion where it fails (section 7)
