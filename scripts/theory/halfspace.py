@@ -197,10 +197,12 @@ def remainder(medium, profile, r, z, t, split=1):
     d = rayleigh_denominator(medium, q2, a, b)
     # a node that rounds to a front, where rho is zero, lies outside the compact part and is set to zero
     with np.errstate(divide="ignore", invalid="ignore"):
-        for n, decay in zip(amplitudes(medium, q2, a, b), (a, b)):
+        for n, decay, slowness in zip(amplitudes(medium, q2, a, b), (a, b), (1, K**0.5)):
             amplitude = [v / (1j * x * d) for v in n]
+            # gamma^ = slowness - x^2/(slowness + gamma^) keeps the digits of z - t just after the plane front
+            less = z * x / (slowness - 1j * x * decay)
             for sense in (-1, 1):
-                xi = decay * z + sense * 1j * t / x
+                xi = 1j * ((z * slowness + sense * t) / x - less)
                 term = combine(amplitude, potentials(profile, xi, r), r).real
                 term[:, (x < 1) & (abs(xi.imag) > radius + r)] = 0.0
                 total += term @ weight / np.pi

@@ -97,6 +97,16 @@ def march_parts(report):
         moment = top**7 * (2 / 7 + sigma * top * (5 / 8 + sigma * top / 3))
         error = max(error, abs(np.sum(weight * time * p * rate) - moment))
     report.row("T44", "int p dt and int t p dt of y^2 + sigma y^3 = t in closed form", error, 1e-14)
+    error = 0
+    for sigma in (0.0, 3.0):
+        n = 80
+        p = np.array([marches.root(sigma, j / n) ** 3 for j in range(n + 1)])
+        first, second = marches.start_constants(1 / n, sigma)
+        found = (np.sum((n - np.arange(n)) * p[:n]) + p[n] / 12) / n**2 + first - second
+        y = marches.root(sigma, 1.0)
+        exact = y**5 * (0.4 + 0.5 * sigma * y) - y**7 * (2 / 7 + sigma * y * (5 / 8 + sigma * y / 3))
+        error = max(error, abs(found - exact))
+    report.row("T40", "the double sum with E_0, E_1 at a force that starts as (T44), step 1/80", error, 1e-8)
     memory = marches.Memory(Medium(0.3), CENTRE)
     h = 0.4
     cells = int(memory.length / h) + 1
