@@ -1,0 +1,24 @@
+"""Checks the numbered equations of docs/theory.md by routes that do not use them: called by scripts/check-theory.
+
+A row names the equation, what it is compared with, the largest error and the bound stated for it.
+A bound with > belongs to a form that must not hold, such as a misprint of the source paper.
+Errors are relative where the size is not one.
+"""
+
+import sys
+from pathlib import Path
+
+from theory import energy, fields, impact, radiation, surface, transforms
+from theory.report import Report
+
+
+def main():
+    report = Report()
+    for section in (transforms, fields, surface, impact, radiation, energy):
+        section.check(report)
+    report.compare_with((Path(__file__).resolve().parent.parent / "docs" / "theory.md").read_text(encoding="utf-8"))
+    return report.end()
+
+
+if __name__ == "__main__":
+    sys.exit(main())

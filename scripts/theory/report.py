@@ -1,0 +1,67 @@
+"""The table of the checks."""
+
+import math
+import re
+
+import numpy as np
+
+
+def relative(found, exact):
+    """Largest difference over the largest value."""
+    found, exact = np.asarray(found), np.asarray(exact)
+    return np.max(abs(found - exact)) / np.max(abs(exact))
+
+
+class Report:
+    """Rows `equation | what is compared | error`, and whether all are within their bounds."""
+
+    def __init__(self):
+        self.rows = 0
+        self.failed = []
+        self.equations = set()
+        print(f"{'equation':10} | {'what is compared':92} | {'error':>8} | {'bound':>7}")
+        print(f"{'-' * 10} | {'-' * 92} | {'-' * 8} | {'-' * 7}")
+
+    def row(self, equation, what, error, bound):
+        """One comparison; an error that is not a number fails."""
+        self.equations.update(equation.split(", "))
+        error = float(error)
+        fits = math.isfinite(error) and error <= bound
+        self.rows += 1
+        if not fits:
+            self.failed.append((equation, what))
+        mark = "" if fits else "  TOO LARGE"
+        print(f"{equation:10} | {what:92} | {error:8.1e} | {bound:7.0e}{mark}", flush=True)
+
+    def fails(self, equation, what, error, least):
+        """A form that must not hold, such as a misprint: its error has to be at least so large."""
+        self.equations.update(equation.split(", "))
+        error = float(error)
+        fits = math.isfinite(error) and error >= least
+        self.rows += 1
+        if not fits:
+            self.failed.append((equation, what))
+        mark = "" if fits else "  TOO SMALL"
+        print(f"{equation:10} | {what:92} | {error:8.1e} | >{least:6.0e}{mark}", flush=True)
+
+    def compare_with(self, text):
+        """Every equation of the document has to have a row, and every row an equation."""
+        anchors = re.findall(r'<a id="(T\d+)"></a>', text)
+        missing = [name for name in anchors if name not in self.equations]
+        unknown = sorted(name for name in self.equations if name.startswith("T") and name not in anchors)
+        for name in missing:
+            self.failed.append((name, "no comparison"))
+        for name in unknown:
+            self.failed.append((name, "not in the document"))
+        if anchors != [f"T{i + 1}" for i in range(len(anchors))]:
+            self.failed.append(("anchors", "are not T1, T2, ... in this order"))
+        for name in set(re.findall(r"\((T\d+)\)", text)) - set(anchors):
+            self.failed.append((name, "cited in the document, not in it"))
+        print(f"{len(anchors)} equations, {len(missing)} without a comparison")
+
+    def end(self):
+        """Prints the outcome and returns the exit code."""
+        for equation, what in self.failed:
+            print(f"failed: {equation}: {what}")
+        print(f"{self.rows} comparisons, {len(self.failed)} failed")
+        return 1 if self.failed else 0
