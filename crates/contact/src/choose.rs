@@ -15,8 +15,8 @@
 //!                 loss, relative       0.75 l + 0.8 T^2    and    0.75 l + 0.25 T^2
 //! ```
 //!
-//! l/2 and the exponents are those of the expansion in the lag: the next order of the restitution is
-//! l^2/3, of the loss (2/3) l; the square root comes from the end of contact, where p' has one; T^2 from
+//! l/2 and the exponents are those of the expansion in the lag, docs/theory.md (T53): the next order of the restitution
+//! is (13/40) l^2, of the loss (13/20) l; the square root comes from the end of contact, where p' has one; T^2 from
 //! the third derivative of the force.
 //! The coefficients bound the differences from the full memory that were measured over couplings of 1e-3 to 5,
 //! memories of 1e-4 to 0.25 and Poisson's ratios of 0 to 0.48, with a margin of about 1.3.

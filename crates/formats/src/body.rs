@@ -29,74 +29,7 @@ pub(crate) fn elastic(
 ) -> Result<Material, SceneError> {
     let density = section.number("density_kg_m3", POSITIVE)?;
     let density = density.or_else(|| base.and_then(|b| b.density_kg_m3));
-    let modulus = section.number("youngs_modulus_pa", POSITIVE)?;
-    let ratio = section.number("poisson_ratio", POISSON)?;
-    let (c1, c2) = (
-        section.number("longitudinal_speed_m_s", POSITIVE)?,
-        section.number("shear_speed_m_s", POSITIVE)?,
-    );
-    let from_speeds = match (c1, c2) {
-        (None, None) => None,
-        (Some(_), None) => Some(Err(("shear_speed_m_s", "both wave speeds are needed"))),
-        (None, Some(_)) => Some(Err((
-            "longitudinal_speed_m_s",
-            "both wave speeds are needed",
-        ))),
-        (Some(c1), Some(c2)) => Some(Ok((c1, c2))),
-    };
-    let from_speeds = match from_speeds {
-        None => None,
-        Some(Err((key, hint))) => return Err(section.missing(key, hint)),
-        Some(Ok((c1, c2))) => {
-            let density = density.ok_or_else(|| {
-                section.missing(
-                    "density_kg_m3",
-                    "wave speeds give moduli only with a density",
-                )
-            })?;
-            // nu in (-1, 1/2) needs c2/c1 < sqrt(3)/2
-            if c2 * c2 >= 0.75 * c1 * c1 {
-                return Err(SceneError::OutOfRange {
-                    key: section.key("shear_speed_m_s"),
-                    value: c2,
-                    range: "(0, sqrt(3)/2) times longitudinal_speed_m_s",
-                });
-            }
-            Some(from_wave_speeds(c1, c2, density))
-        }
-    };
-    if let Some((speed_modulus, speed_ratio)) = from_speeds {
-        let twice = |quantity, first_key, given: Option<f64>, second: f64, size: f64| match given {
-            Some(first) if (first - second).abs() > ROUNDING * size => {
-                Err(SceneError::Inconsistent {
-                    section: format!("[{}]", section.name()),
-                    quantity,
-                    first,
-                    first_key,
-                    second,
-                    second_key: "longitudinal_speed_m_s and shear_speed_m_s",
-                })
-            }
-            Some(_) | None => Ok(()),
-        };
-        twice(
-            "Young's modulus",
-            "youngs_modulus_pa",
-            modulus,
-            speed_modulus,
-            speed_modulus,
-        )?;
-        twice("Poisson's ratio", "poisson_ratio", ratio, speed_ratio, 0.5)?;
-    }
-    let hint = "give a material, youngs_modulus_pa and poisson_ratio, or both wave speeds and density_kg_m3";
-    let youngs_modulus_pa = modulus
-        .or(from_speeds.map(|s| s.0))
-        .or(base.map(|b| b.youngs_modulus_pa))
-        .ok_or_else(|| section.missing("youngs_modulus_pa", hint))?;
-    let poisson_ratio = ratio
-        .or(from_speeds.map(|s| s.1))
-        .or(base.map(|b| b.poisson_ratio))
-        .ok_or_else(|| section.missing("poisson_ratio", hint))?;
+    let (youngs_modulus_pa, poisson_ratio) = constants(section, base, density)?;
     let strength = |key, base: Option<f64>| -> Result<Option<f64>, SceneError> {
         Ok(section
             .number(key, NOT_NEGATIVE)?
@@ -116,6 +49,82 @@ pub(crate) fn elastic(
         group: base.map_or_else(String::new, |b| b.group.clone()),
         source: base.map_or_else(|| "the scene".to_owned(), |b| b.source.clone()),
     })
+}
+
+/// Young's modulus in Pa and Poisson's ratio: as given, from the wave speeds, or those of `base`.
+fn constants(
+    section: &Section<'_>,
+    base: Option<&Material>,
+    density: Option<f64>,
+) -> Result<(f64, f64), SceneError> {
+    let modulus = section.number("youngs_modulus_pa", POSITIVE)?;
+    let ratio = section.number("poisson_ratio", POISSON)?;
+    let from_speeds = from_speeds(section, density)?;
+    if let Some((speed_modulus, speed_ratio)) = from_speeds {
+        let twice = |quantity, key, given: Option<f64>, speeds: f64, size: f64| match given {
+            Some(first) if (first - speeds).abs() > ROUNDING * size => {
+                Err(SceneError::Inconsistent {
+                    section: format!("[{}]", section.name()),
+                    quantity,
+                    first,
+                    first_key: key,
+                    second: speeds,
+                    second_key: "longitudinal_speed_m_s and shear_speed_m_s",
+                })
+            }
+            Some(_) | None => Ok(()),
+        };
+        let key = "youngs_modulus_pa";
+        twice(
+            "Young's modulus",
+            key,
+            modulus,
+            speed_modulus,
+            speed_modulus,
+        )?;
+        twice("Poisson's ratio", "poisson_ratio", ratio, speed_ratio, 0.5)?;
+    }
+    let hint = "give a material, youngs_modulus_pa and poisson_ratio, or both wave speeds and density_kg_m3";
+    let modulus = modulus
+        .or(from_speeds.map(|s| s.0))
+        .or(base.map(|b| b.youngs_modulus_pa))
+        .ok_or_else(|| section.missing("youngs_modulus_pa", hint))?;
+    let ratio = ratio
+        .or(from_speeds.map(|s| s.1))
+        .or(base.map(|b| b.poisson_ratio))
+        .ok_or_else(|| section.missing("poisson_ratio", hint))?;
+    Ok((modulus, ratio))
+}
+
+/// Young's modulus in Pa and Poisson's ratio from the wave speeds, where they are given.
+fn from_speeds(
+    section: &Section<'_>,
+    density: Option<f64>,
+) -> Result<Option<(f64, f64)>, SceneError> {
+    let both = "both wave speeds are needed";
+    let c1 = section.number("longitudinal_speed_m_s", POSITIVE)?;
+    let c2 = section.number("shear_speed_m_s", POSITIVE)?;
+    let (c1, c2) = match (c1, c2) {
+        (None, None) => return Ok(None),
+        (Some(_), None) => return Err(section.missing("shear_speed_m_s", both)),
+        (None, Some(_)) => return Err(section.missing("longitudinal_speed_m_s", both)),
+        (Some(c1), Some(c2)) => (c1, c2),
+    };
+    let density = density.ok_or_else(|| {
+        section.missing(
+            "density_kg_m3",
+            "wave speeds give moduli only with a density",
+        )
+    })?;
+    // nu in (-1, 1/2) needs c2/c1 < sqrt(3)/2
+    if c2 * c2 >= 0.75 * c1 * c1 {
+        return Err(SceneError::OutOfRange {
+            key: section.key("shear_speed_m_s"),
+            value: c2,
+            range: "(0, sqrt(3)/2) times longitudinal_speed_m_s",
+        });
+    }
+    Ok(Some(from_wave_speeds(c1, c2, density)))
 }
 
 /// The body of a section that may name a material of a library.
