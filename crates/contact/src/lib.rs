@@ -70,3 +70,8 @@ pub use results::Results;
 pub use settings::{Choice, Conflict, Model, Scheme, Settings, StaticShare};
 pub use solver::{Found, Solved, Solver, solve_disc};
 pub use summary::Summary;
+
+/// The README's program runs.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -35,3 +35,8 @@ pub use record::read_record;
 pub use report::{Choices, choices, json_report, kernel_name};
 pub use results::write_results;
 pub use scene::{parse_scene, read_scene, resolved};
+
+/// The README's program runs.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -37,3 +37,8 @@ pub mod prelude {
     };
     pub use lookup::{Table, TableFile};
 }
+
+/// The README's program runs.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

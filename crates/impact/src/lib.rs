@@ -2,7 +2,7 @@
 //!
 //! A contact that is solved ([`Impact`]) or a force that was measured ([`ForceRecord`]) is an [`Excitation`]: a force
 //! history on a disc.
-//! From it follow the fields at points ([`Excitation::fields`]) and all that a [`Scene`] asks for ([`simulate`]).
+//! From it follow the fields at points ([`Excitation::fields`]) and all that a [`Scene`] asks for ([`simulate()`]).
 //! Many contacts without fields are [`sweep`]s.
 //! Nothing here reads or writes a file; without the default feature `hdf5` there is no C library either.
 //!
@@ -51,3 +51,8 @@ pub use record::{ForceRecord, RecordError};
 pub use scene::{Load, Probe, Scene, Section, Strike};
 pub use simulate::{ImpactError, simulate};
 pub use source::{KernelChoice, SourceError, Tables};
+
+/// The README's program runs.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

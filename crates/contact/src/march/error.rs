@@ -22,7 +22,7 @@ pub enum MarchError {
     NoSolution {
         /// Time in collision units.
         time: f64,
-        /// Static compliance of the half-space over Hertz's, see [`FixedDisc::coupling`].
+        /// Static compliance of the half-space over Hertz's, see [`FixedDisc`](crate::disc::FixedDisc).
         coupling: f64,
     },
     /// The march would need more work than allowed.
