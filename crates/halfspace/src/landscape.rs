@@ -4,7 +4,9 @@
 //! which turns square roots into smooth functions. The pieces are integrated by Gauss rules on panels.
 
 use crate::complex::root;
-use crate::panels::{CAPACITY, Images, List, ROUNDING, Rule, panels};
+use crate::list::{CAPACITY, List};
+use crate::panels::{Images, ROUNDING, Rule, panels};
+use crate::strength::{RelativeError, Strength};
 use num_complex::Complex64;
 
 /// Power of the variable toward a cut of a single singularity.
@@ -12,18 +14,6 @@ const SQUARE: i32 = 2;
 
 /// Power toward a cut where singularities meet.
 const HIGH: i32 = 6;
-
-/// The error of a rule over what the nearest singularity alone would leave, rho^(-2n): many meet near a front.
-const CAUTION: f64 = 130.0;
-
-/// How much more it is of integrands that are unbounded at the fronts.
-fn caution(strength: Strength) -> f64 {
-    match strength {
-        Strength::Bounded => CAUTION,
-        Strength::InverseRoot => 3.0 * CAUTION,
-        Strength::FinitePart => 20.0 * CAUTION,
-    }
-}
 
 /// Cuts closer than this share of their size are one.
 const SAME: f64 = 1e-13;
@@ -55,52 +45,6 @@ pub(crate) struct Landscape {
 pub(crate) enum Fold {
     Upper,
     Both,
-}
-
-/// How strong the singularities at the cuts are.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Strength {
-    /// The integrand stays finite.
-    Bounded,
-    /// The inverse square root.
-    InverseRoot,
-    /// The power -3/2, taken as Hadamard's finite part.
-    FinitePart,
-}
-
-impl Strength {
-    /// The share of a term at a distance from a cut, s in the smooth variable, with the rounding error of the distance.
-    fn at_front(self, share: f64, blur: f64, distance: f64, s: f64) -> Share {
-        let front = blur / distance;
-        match self {
-            Self::Bounded => share.into(),
-            // displacements have a root there
-            Self::InverseRoot => Share {
-                displacement: share + front * s,
-                stress: share + front,
-            },
-            Self::FinitePart => Share {
-                displacement: share + front,
-                stress: share + 3.0 * front,
-            },
-        }
-    }
-}
-
-/// The likely error of a term as a share of its size.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Share {
-    pub(crate) displacement: f64,
-    pub(crate) stress: f64,
-}
-
-impl From<f64> for Share {
-    fn from(share: f64) -> Self {
-        Self {
-            displacement: share,
-            stress: share,
-        }
-    }
 }
 
 impl Landscape {
@@ -178,13 +122,13 @@ impl Landscape {
         &mut self,
         (from, to): (f64, f64),
         digits: f64,
-        f: &mut impl FnMut(f64, f64, Share),
+        f: &mut impl FnMut(f64, f64, RelativeError),
     ) {
         match (self.power(from), self.power(to)) {
             (None, None) => {
                 let rule = Rule {
                     finite_part: false,
-                    caution: caution(self.strength),
+                    caution: self.strength.caution(),
                 };
                 let images = self.images(|_| false, |v| (v - from) / (to - from));
                 panels(&images, digits, 3.0, rule, &mut |s, weight, share| {
@@ -218,7 +162,7 @@ impl Landscape {
         end: f64,
         power: i32,
         digits: f64,
-        f: &mut impl FnMut(f64, f64, Share),
+        f: &mut impl FnMut(f64, f64, RelativeError),
     ) {
         let scale = end - cut;
         // the singularity of the cut itself is what the power is for
@@ -241,7 +185,7 @@ impl Landscape {
             least,
             Rule {
                 finite_part: strength == Strength::FinitePart,
-                caution: caution(strength),
+                caution: strength.caution(),
             },
             &mut |s, weight, share| {
                 let v = cut + scale * s.powi(power);

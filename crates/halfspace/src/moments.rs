@@ -4,6 +4,7 @@
 //! it as linear. Where R is smooth over five cells the moment follows from the averages around it; where a
 //! front crosses them it comes from int R dt and its own integral.
 
+use crate::domain::{check_hertz, check_place_under, check_time, check_width};
 use crate::error::DomainError;
 use crate::field::Six;
 use crate::kernel::Kernel;
@@ -19,7 +20,7 @@ impl Kernel {
     /// the absolute error, field by field, to which moments of smooth cells may be taken from their neighbours.
     ///
     /// # Errors
-    /// [`DomainError`] as [`Self::cell_averages`], and for a profile other than Hertz.
+    /// [`DomainError`] as [`Self::cell_averages`], for a profile other than Hertz, and for slices of different lengths.
     pub fn cell_moments(
         &self,
         r: f64,
@@ -29,8 +30,16 @@ impl Kernel {
         floor: &Six,
         moments: &mut [Six],
     ) -> Result<(), DomainError> {
-        self.check_hertz()?;
-        self.check_place(r, z)?;
+        check_hertz(self.profile(), "a cell moment")?;
+        check_place_under(self.profile(), r, z)?;
+        check_width(width)?;
+        check_time(moments.len() as f64 * width)?;
+        if averages.len() != moments.len() {
+            return Err(DomainError::Lengths {
+                averages: averages.len(),
+                moments: moments.len(),
+            });
+        }
         let quiet = (self.first_arrival(r, z) / width) as usize;
         let mut before: Option<Edge> = None;
         for (j, moment) in moments.iter_mut().enumerate() {

@@ -13,9 +13,6 @@ const MOST_NODES: f64 = 24.0;
 /// A panel narrower than this share of its piece is taken as it is.
 const NARROWEST: f64 = 1e-9;
 
-/// Most cuts or singularities that an integrand of this crate has.
-pub(crate) const CAPACITY: usize = 64;
-
 /// The error at a pole of third order over that at a simple one.
 const POLE: f64 = 30.0;
 
@@ -36,43 +33,6 @@ pub(crate) struct Rule {
     pub(crate) finite_part: bool,
     /// The error over what the nearest singularity alone would leave.
     pub(crate) caution: f64,
-}
-
-/// A short list on the stack.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct List<T> {
-    items: [T; CAPACITY],
-    length: usize,
-}
-
-impl<T: Copy + Default> List<T> {
-    pub(crate) fn new() -> Self {
-        Self {
-            items: [T::default(); CAPACITY],
-            length: 0,
-        }
-    }
-
-    pub(crate) fn clear(&mut self) {
-        self.length = 0;
-    }
-
-    pub(crate) fn push(&mut self, item: T) {
-        debug_assert!(
-            self.length < CAPACITY,
-            "a landscape holds at most {CAPACITY} points"
-        );
-        self.items[self.length] = item;
-        self.length += 1;
-    }
-
-    pub(crate) fn as_mut_slice(&mut self) -> &mut [T] {
-        &mut self.items[..self.length]
-    }
-
-    pub(crate) fn as_slice(&self) -> &[T] {
-        &self.items[..self.length]
-    }
 }
 
 /// Visits Gauss nodes, at least so many a panel, on panels of [0, 1] that keep clear of the singularities.

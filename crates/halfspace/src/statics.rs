@@ -7,10 +7,11 @@
 //!
 //! For the Hertz profile this is Huber's solution (1904).
 
+use crate::closed_form::potentials;
 use crate::field::Six;
-use crate::fronts::Point;
 use crate::medium::Medium;
-use crate::potential::potentials;
+use crate::order::{Impulse, Step};
+use crate::point::Point;
 use crate::profile::Profile;
 use crate::shallow;
 use num_complex::Complex64;
@@ -19,11 +20,11 @@ use num_complex::Complex64;
 pub(crate) fn static_field(medium: &Medium, profile: Profile, r: f64, z: f64) -> Six {
     let nu = medium.poisson_ratio();
     let xi = Complex64::new(z, 0.0);
-    let here = potentials::<0>(profile, xi, r);
+    let here = potentials::<Step>(profile, xi, r);
     let (a3, a2, g3) = (here.a_upper.re, here.a_lower.re, here.g_upper.re);
     // z times the lower orders vanishes on the surface, though they are singular at the edge there
     let (z_a1, z_g2, z_g1) = if z > 0.0 {
-        let below = potentials::<-1>(profile, xi, r);
+        let below = potentials::<Impulse>(profile, xi, r);
         (
             z * below.a_lower.re,
             z * here.g_lower.re,
@@ -33,7 +34,7 @@ pub(crate) fn static_field(medium: &Medium, profile: Profile, r: f64, z: f64) ->
         (0.0, 0.0, 0.0)
     };
     let u_over_r = 0.5 * (z_g2 - (1.0 - 2.0 * nu) * g3);
-    let szz = if r > 1.0 && shallow::applies::<0>(profile, Point { r, z, t: 0.0 }) {
+    let szz = if r > 1.0 && shallow::applies::<Step>(profile, Point { r, z, t: 0.0 }) {
         // outside the disc A2 vanishes on the surface
         let surface = Complex64::new(0.0, 0.0);
         -(shallow::difference(surface, xi, r).a.re + z_a1)
