@@ -1,4 +1,4 @@
-//! The k-integrals of every kernel in closed form.
+//! The integrals over wave number k in closed form.
 //!
 //! ```text
 //! A_n(xi; r) = int_0^inf Z_H(k) k^{3-n} J0(kr) e^{-k xi} dk      (B_n: J1),   Re xi >= 0
@@ -135,6 +135,7 @@ fn by_parts<O: TimeOrder>(profile: Profile, xi: Complex64, r: f64) -> Potentials
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::order::{Impulse, SecondIntegral, Step, StepIntegral};
 
     /// d/dxi of order n + 1 is minus order n: A_{n+1}(xi + h) - A_{n+1}(xi - h) = -2 h A_n.
     #[test]
@@ -207,12 +208,7 @@ mod tests {
                     ),
                 ];
                 for (a, b) in pairs {
-                    let gap = [
-                        a.a_upper - b.a_upper,
-                        a.a_lower - b.a_lower,
-                        a.g_upper - b.g_upper,
-                        a.g_lower - b.g_lower,
-                    ];
+                    let gap = a.zip(b, |a, b| a - b).into_array();
                     assert!(
                         gap.iter()
                             .all(|g| g.norm() < 1e-15 * (20.0 + 10.0 / (r * r))),
@@ -249,12 +245,7 @@ mod tests {
                         ),
                     ];
                     for (order, (closed, series)) in pairs.into_iter().enumerate() {
-                        for (a, b) in [
-                            (closed.a_upper, series.a_upper),
-                            (closed.a_lower, series.a_lower),
-                            (closed.g_upper, series.g_upper),
-                            (closed.g_lower, series.g_lower),
-                        ] {
+                        for (a, b) in closed.zip(series, |a, b| (a, b)).into_array() {
                             assert!(
                                 (a - b).norm() < 2e-12,
                                 "{profile:?} #{order} {r} {xi}: {a} {b}"

@@ -219,7 +219,9 @@ fn point<O: TimeOrder>(eta: f64, r: f64) -> Potentials<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::potential::potentials;
+    use crate::closed_form::potentials;
+    use crate::order::{Step, StepIntegral};
+    use num_complex::Complex64;
 
     /// The parts named in the module text, taken from the complex potentials.
     #[test]

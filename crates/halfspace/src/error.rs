@@ -5,7 +5,7 @@ use thiserror::Error;
 
 /// An argument lies outside the domain on which the kernels are defined.
 ///
-/// The message names what was asked, the value received and what is allowed.
+/// The message names the argument or the function, the value received and what is allowed.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum DomainError {
     /// A number outside its range; NaN is outside every range.
@@ -21,7 +21,7 @@ pub enum DomainError {
     /// A function that exists for the Hertz profile only: under the others it is infinite at the fronts.
     #[error("{function} is defined for the Hertz profile only, not for {profile:?}")]
     HertzOnly {
-        /// The function asked for.
+        /// The function called.
         function: &'static str,
         /// The profile of the kernel.
         profile: Profile,

@@ -15,7 +15,7 @@ const SQUARE: i32 = 2;
 /// Power toward a cut where singularities meet.
 const HIGH: i32 = 6;
 
-/// Cuts closer than this share of their size are one.
+/// Cuts at a relative distance below this are one.
 const SAME: f64 = 1e-13;
 
 /// Smaller places are as good as zero once multiplied by [`SAME`].
@@ -70,7 +70,7 @@ impl Landscape {
         landscape
     }
 
-    /// Counts the rounding of unbounded integrands so many times.
+    /// Multiplies the assumed rounding error of unbounded integrands by `times`.
     pub(crate) fn with_rounding(mut self, times: f64) -> Self {
         self.rounding *= times;
         self
@@ -116,8 +116,8 @@ impl Landscape {
         (0..last).map(move |i| (ends[i], ends[i + 1]))
     }
 
-    /// Visits nodes (v, weight, share) of a rule on one interval, accurate to exp(-`digits`) of the size of
-    /// the integrand; the share of its size is the likely error of a term.
+    /// Visits nodes (v, weight, relative error) of a rule on one interval, accurate to exp(-`digits`) of the size of
+    /// the integrand.
     pub(crate) fn visit(
         &mut self,
         (from, to): (f64, f64),
@@ -131,8 +131,8 @@ impl Landscape {
                     caution: self.strength.caution(),
                 };
                 let images = self.images(|_| false, |v| (v - from) / (to - from));
-                panels(&images, digits, 3.0, rule, &mut |s, weight, share| {
-                    f(from + (to - from) * s, weight * (to - from), share.into());
+                panels(&images, digits, 3.0, rule, &mut |s, weight, error| {
+                    f(from + (to - from) * s, weight * (to - from), error.into());
                 });
             }
             (Some(power), None) => self.visit_power(from, to, power, digits, f),
@@ -187,13 +187,13 @@ impl Landscape {
                 finite_part: strength == Strength::FinitePart,
                 caution: strength.caution(),
             },
-            &mut |s, weight, share| {
+            &mut |s, weight, error| {
                 let v = cut + scale * s.powi(power);
                 if v != cut {
                     f(
                         v,
                         weight * scale.abs() * f64::from(power) * s.powi(power - 1),
-                        strength.at_front(share, blur, (v - cut).abs(), s),
+                        strength.at_front(error, blur, (v - cut).abs(), s),
                     );
                 }
             },
@@ -202,12 +202,12 @@ impl Landscape {
 
     /// How far a cut may be from the front it stands for, by rounding, where the integrand is unbounded.
     ///
-    /// A front and its neighbour are roots of one quadratic, which are as uncertain as they are close; so are the
-    /// slowness and its mirror image at an end where the variable folds.
+    /// A front and its neighbour are roots of one quadratic: the closer two roots, the worse conditioned each is. The same
+    /// holds for a slowness and its mirror image at an end where the variable folds.
     fn blur(&self, cut: f64) -> f64 {
         /// Fronts that were taken for one leave out what lies between them.
         const MERGED: f64 = 1e7;
-        /// A neighbour within this share of the place may be the other root.
+        /// A neighbour within this fraction of the place may be the other root of the quadratic.
         const TWIN: f64 = 0.1;
         if self.strength == Strength::Bounded {
             return 0.0;
@@ -249,7 +249,7 @@ impl Landscape {
             Strength::FinitePart => 1.0,
             Strength::Bounded | Strength::InverseRoot => cut,
         };
-        // a fold moves what is small by no more than a share
+        // a fold moves a small cut by no more than a fraction of itself
         self.rounding * place + twin + fold.min(cut)
     }
 

@@ -10,13 +10,13 @@ use num_complex::Complex64;
 /// Panels are halved rather than given more nodes than this.
 const MOST_NODES: f64 = 24.0;
 
-/// A panel narrower than this share of its piece is taken as it is.
+/// A panel narrower than this fraction of its piece is not halved.
 const NARROWEST: f64 = 1e-9;
 
 /// The error at a pole of third order over that at a simple one.
 const POLE: f64 = 30.0;
 
-/// Rounding error of a term as a share of it.
+/// Relative rounding error of a term.
 pub(crate) const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// What a rule has to keep away from, in its own variable.
@@ -35,7 +35,8 @@ pub(crate) struct Rule {
     pub(crate) caution: f64,
 }
 
-/// Visits Gauss nodes, at least so many a panel, on panels of [0, 1] that keep clear of the singularities.
+/// Visits Gauss nodes (s, weight, relative error), at least `least` a panel, on panels of [0, 1] that keep clear of the
+/// singularities, to exp(-`digits`) of the integrand.
 pub(crate) fn panels(
     images: &Images<'_>,
     digits: f64,
@@ -64,16 +65,16 @@ pub(crate) fn panels(
         }
         let n = nodes.max(least).min(MOST_NODES);
         let left = |rate: f64| (-degree * n * rate).exp();
-        let share = rule.caution * (left(rate) + POLE * left(pole_rate)) + ROUNDING;
+        let error = rule.caution * (left(rate) + POLE * left(pole_rate)) + ROUNDING;
         let n = n as usize;
         if at_cut {
             let rule = gauss::finite_part_rule(n);
             for (s, weight) in rule.nodes.iter().zip(&rule.weights) {
-                f(s1 * s, s1 * weight, share);
+                f(s1 * s, s1 * weight, error);
             }
         } else {
             for (s, weight) in gauss::rule(n).on(s0, s1) {
-                f(s, weight, share);
+                f(s, weight, error);
             }
         }
     }

@@ -28,7 +28,7 @@ impl Setting {
         }
     }
 
-    /// Accuracy asked of each rule, as minus its natural logarithm.
+    /// Relative accuracy of each quadrature rule, as minus its natural logarithm.
     ///
     /// The rules are a little better than the tolerance because the waves cancel in the sum.
     /// Just below the surface (`shallow`) the terms are of order z/t and the peak of the field is of order sqrt(z).
