@@ -13,12 +13,16 @@
 use crate::chord_integral::{chord_primitives, from_primitives};
 use crate::complex::{inside, logarithm, reciprocal, root_inside, times_minus_i};
 use crate::end::{End, end_orders};
+use crate::far_front;
 use crate::multipole;
 use crate::order::{Order, TimeOrder};
 use crate::potentials::Potentials;
 use crate::profile::Profile;
 use num_complex::Complex64;
 use std::f64::consts::PI;
+
+/// Below this radius the primitives, which are divided by r^2, lose digits.
+pub(crate) const SMALL_RADIUS: f64 = 0.15;
 
 /// The potentials at xi (Re xi >= 0) and radius r.
 #[inline]
@@ -30,8 +34,6 @@ pub(crate) fn potentials<O: TimeOrder>(
     if profile == Profile::Point {
         return end_orders::<O>(xi, r).map(|v| v / (2.0 * PI));
     }
-    /// Below this radius the primitives, which are divided by r^2, lose digits.
-    const SMALL_RADIUS: f64 = 0.15;
     // Farther out the closed forms lose digits, those of the time integral sooner.
     let nearest = match O::ORDER {
         Order::Step if r > 0.3 => 10.0,
@@ -39,6 +41,9 @@ pub(crate) fn potentials<O: TimeOrder>(
     };
     match multipole::terms(xi, r, nearest) {
         Some(terms) => multipole::multipole::<O>(profile, terms, xi, r),
+        None if O::ORDER == Order::Step && profile == Profile::Hertz && r > far_front::FAR => {
+            at_far_front(xi, r)
+        }
         None if O::ORDER != Order::Impulse && profile == Profile::Hertz && r > SMALL_RADIUS => {
             if xi.re == 0.0 {
                 on_imaginary_axis::<O>(xi.im, r)
@@ -47,6 +52,20 @@ pub(crate) fn potentials<O: TimeOrder>(
             }
         }
         None => by_parts::<O>(profile, xi, r),
+    }
+}
+
+/// The step response of a distant point, xi = d + i eta; the potentials of the conjugate are conjugate.
+fn at_far_front(xi: Complex64, r: f64) -> Potentials<Complex64> {
+    let eta = xi.im.abs();
+    let psi = far_front::potentials(
+        [r - 1.0, r + 1.0].map(|edge| Complex64::new(edge - eta, xi.re)),
+        r,
+    );
+    if xi.im < 0.0 {
+        psi.map(|v| v.conj())
+    } else {
+        psi
     }
 }
 
@@ -250,6 +269,26 @@ mod tests {
                                 (a - b).norm() < 2e-12,
                                 "{profile:?} #{order} {r} {xi}: {a} {b}"
                             );
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// Where both are good, the series at a distant front agrees with integration by parts.
+    #[test]
+    fn the_far_front_agrees_with_integration_by_parts() {
+        for r in [26.0, 40.0, 90.0] {
+            for d in [0.0, 1e-3, 0.4, 3.0] {
+                for i in -40..=40 {
+                    let eta = r + 0.217 * f64::from(i);
+                    for xi in [Complex64::new(d, eta), Complex64::new(d, -eta)] {
+                        let found = at_far_front(xi, r).into_array();
+                        let expected = by_parts::<Step>(Profile::Hertz, xi, r).into_array();
+                        for (a, b) in found.into_iter().zip(expected) {
+                            let gap = (a - b).norm();
+                            assert!(gap < 1e-15 * r * r, "{r} {xi}: {a} {b}");
                         }
                     }
                 }

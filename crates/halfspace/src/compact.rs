@@ -18,9 +18,12 @@
 //! and so on. The antiderivatives a4, a5 and b5 are measured so that they vanish before the arrival.
 
 use crate::chord_integral::chord_primitives;
-use crate::order::{Order, TimeOrder};
+use crate::far_front;
+use crate::multipole;
+use crate::order::{Order, Step, TimeOrder};
 use crate::potentials::Potentials;
 use crate::profile::Profile;
+use num_complex::Complex64;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Radius below which a point is on the axis as far as rounding goes.
@@ -42,6 +45,7 @@ pub(crate) fn compact<O: TimeOrder>(profile: Profile, eta: f64, r: f64) -> Poten
             Order::Step | Order::StepIntegral | Order::SecondIntegral if r < AXIS => {
                 hertz_on_axis::<O>(eta)
             }
+            Order::Step if r > far_front::FAR => hertz_far(eta, r),
             Order::Step | Order::StepIntegral | Order::SecondIntegral => hertz::<O>(eta, r),
         },
         Profile::Punch => punch::<O>(eta, r),
@@ -80,6 +84,34 @@ fn hertz<O: TimeOrder>(eta: f64, r: f64) -> Potentials<f64> {
         }
     }
     psi
+}
+
+/// The step response of a distant point.
+fn hertz_far(eta: f64, r: f64) -> Potentials<f64> {
+    let distance = eta.abs();
+    if distance >= r + 1.0 {
+        return Potentials::default();
+    }
+    let psi = match multipole::terms(Complex64::new(0.0, distance), r, 10.0) {
+        Some(terms) => {
+            let xi = Complex64::new(0.0, distance);
+            let psi = multipole::multipole::<Step>(Profile::Hertz, terms, xi, r);
+            Potentials {
+                a_upper: psi.a_upper.re,
+                a_lower: psi.a_lower.im,
+                g_upper: psi.g_upper.im,
+                g_lower: psi.g_lower.re,
+            }
+        }
+        None => far_front::compact([(r - 1.0) - distance, (r + 1.0) - distance], r),
+    };
+    // a2 and b3 are odd
+    let sign = 1.0_f64.copysign(eta);
+    Potentials {
+        a_lower: sign * psi.a_lower,
+        g_upper: sign * psi.g_upper,
+        ..psi
+    }
 }
 
 /// The compact parts after the wave has passed, eta below minus the reach of the disc.
@@ -220,16 +252,16 @@ fn point<O: TimeOrder>(eta: f64, r: f64) -> Potentials<f64> {
 mod tests {
     use super::*;
     use crate::closed_form::potentials;
-    use crate::order::{Step, StepIntegral};
-    use num_complex::Complex64;
+    use crate::order::StepIntegral;
 
     /// The parts named in the module text, taken from the complex potentials.
     #[test]
     fn agrees_with_the_complex_potentials() {
         for profile in [Profile::Hertz, Profile::Punch] {
-            for r in [1e-6, 0.2, 0.9, 1.001, 1.7, 4.0] {
+            for r in [1e-6, 0.2, 0.9, 1.001, 1.7, 4.0, 30.0] {
                 for i in -60..=60 {
-                    let eta = 0.097 * f64::from(i);
+                    // about the front, too
+                    let eta = 0.097 * f64::from(i) + if r > 5.0 { r } else { 0.0 };
                     let xi = Complex64::new(0.0, eta);
                     let (full0, full1) = (
                         potentials::<Step>(profile, xi, r),

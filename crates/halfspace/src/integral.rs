@@ -10,9 +10,11 @@
 //! potentials are taken whole.
 
 use crate::axis;
+use crate::closed_form::SMALL_RADIUS;
+use crate::far_front;
 use crate::field::{Estimate, Field, Six};
 use crate::medium::Medium;
-use crate::order::TimeOrder;
+use crate::order::{Order, TimeOrder};
 use crate::point::{Point, Sense};
 use crate::profile::Profile;
 use crate::setting::Setting;
@@ -71,7 +73,7 @@ impl Integral {
             self.setting.slow::<O>(at, wave, &mut spectrum);
         }
         total.add(1.0 / PI, 0.0, spectrum.value);
-        let mut floor = rounding_floor(at.r);
+        let mut floor = rounding_floor::<O>(self.setting.profile, at.r);
         if at.r > CLEAR_OF_EDGE && shallow::applies::<O>(self.setting.profile, at) {
             for field in [Field::StressZz, Field::StressRz] {
                 floor[field.index()] *= 8.0 * at.z.sqrt();
@@ -92,9 +94,19 @@ fn impose_surface(estimate: &mut Estimate) {
     }
 }
 
-/// Rounding errors of what cancels within the potentials, whose terms grow with the radius.
-fn rounding_floor(r: f64) -> Six {
-    let displacement = 0.25 * f64::EPSILON * (8.0 + r * r);
-    let stress = 0.25 * f64::EPSILON * (8.0 + r);
+/// Rounding errors of what cancels within the potentials.
+///
+/// The terms of the closed forms grow with the radius; those of the step response at a distant front do not, and fall as
+/// its inverse root.
+fn rounding_floor<O: TimeOrder>(profile: Profile, r: f64) -> Six {
+    const UNIT: f64 = 2.0 * f64::EPSILON;
+    let [displacement, stress] =
+        if O::ORDER == Order::Step && profile == Profile::Hertz && r > far_front::FAR {
+            [UNIT / r.sqrt(); 2]
+        } else {
+            // the primitives are divided by r^2
+            let near = if r > SMALL_RADIUS { 8.0 / (r * r) } else { 0.0 };
+            [UNIT * (64.0 + r * r), UNIT * (64.0 + r + near)]
+        };
     [displacement, displacement, stress, stress, stress, stress]
 }

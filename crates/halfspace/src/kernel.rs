@@ -89,6 +89,12 @@ impl Kernel {
         self.integral.setting.profile
     }
 
+    /// The accuracy asked for, as a fraction of each field's peak over time.
+    #[must_use]
+    pub fn tolerance(&self) -> f64 {
+        self.integral.setting.tolerance
+    }
+
     /// The static fields under a unit force, in the order of [`FIELDS`](crate::FIELDS), in closed form.
     ///
     /// ```text

@@ -62,6 +62,7 @@ mod arrivals;
 mod axis;
 mod branch_points;
 mod cells;
+mod chebyshev;
 mod chord_integral;
 mod closed_form;
 mod compact;
@@ -70,6 +71,7 @@ mod domain;
 mod double;
 mod end;
 mod error;
+mod far_front;
 mod fast;
 mod field;
 mod fronts;
@@ -100,6 +102,7 @@ mod strength;
 mod sum;
 mod surface;
 mod tail;
+mod trace;
 
 pub use arrivals::Arrivals;
 pub use error::DomainError;
@@ -108,6 +111,7 @@ pub use kernel::Kernel;
 pub use medium::Medium;
 pub use profile::Profile;
 pub use surface::{Deflection, SurfaceResponse};
+pub use trace::Trace;
 
 /// The example of the README is compiled and run.
 #[cfg(doctest)]

@@ -3,6 +3,7 @@
 use crate::chord_integral::{chord_primitives, from_primitives};
 use crate::complex::{logarithm, reciprocal, root_inside, times_minus_i};
 use crate::double::Double;
+use crate::far_front;
 use crate::medium::Medium;
 use crate::order::{Order, Step, TimeOrder};
 use crate::point::Point;
@@ -50,7 +51,13 @@ impl Front {
 
     /// The potentials at xi = d - i c t.
     pub(crate) fn potentials(&self, xi: Complex64) -> Potentials<Complex64> {
-        at_front(xi, self.r, self.factors)
+        if self.r > far_front::FAR {
+            // r - 1 - c t and r + 1 - c t; xi is the conjugate of d + i c t
+            let delta = self.factors.map(|[_, edge]| Complex64::new(edge, xi.re));
+            far_front::potentials(delta, self.r).map(|v| v.conj())
+        } else {
+            at_front(xi, self.r, self.factors)
+        }
     }
 
     /// [`difference`] for xi = -i c t and a real step.

@@ -11,7 +11,7 @@ use crate::spectrum::Wave;
 pub(crate) struct Setting {
     pub(crate) medium: Medium,
     pub(crate) profile: Profile,
-    tolerance: f64,
+    pub(crate) tolerance: f64,
     /// 1/kappa^2.
     pub(crate) k: f64,
     pub(crate) fixed: FixedSingularities,

@@ -58,7 +58,7 @@ impl Strength {
         match self {
             Self::Bounded => BOUNDED,
             Self::InverseRoot => 3.0 * BOUNDED,
-            Self::FinitePart => 20.0 * BOUNDED,
+            Self::FinitePart => 40.0 * BOUNDED,
         }
     }
 }

@@ -1,10 +1,10 @@
 //! The time integral of the remainder long after the last arrival, where it is a smooth function of 1/t.
 
 use crate::arrivals::Arrivals;
+use crate::chebyshev;
 use crate::error::DomainError;
 use crate::field::{Estimate, Six};
 use crate::kernel::Kernel;
-use std::f64::consts::PI;
 
 /// int R dt after the last arrival: a Chebyshev series in 1/t for each field.
 pub(crate) struct Tail {
@@ -39,26 +39,20 @@ impl Tail {
             0.5 * (1.0 / from + 1.0 / end),
             0.5 * (1.0 / from - 1.0 / end),
         );
-        let angle = |i: usize| PI * (i as f64 + 0.5) / Self::TERMS as f64;
         let mut values = [Six::default(); Self::TERMS];
         let mut error = Six::default();
         for (i, value) in values.iter_mut().enumerate() {
-            let estimate = kernel.step_integral(r, z, 1.0 / (middle + half * angle(i).cos()))?;
+            let estimate = kernel.step_integral(
+                r,
+                z,
+                1.0 / (middle + half * chebyshev::node(i, Self::TERMS)),
+            )?;
             *value = estimate.value;
             for (largest, e) in error.iter_mut().zip(estimate.error) {
                 *largest = largest.max(e);
             }
         }
-        let mut coefficients = [Six::default(); Self::TERMS];
-        for (k, coefficient) in coefficients.iter_mut().enumerate() {
-            let scale = if k == 0 { 1.0 } else { 2.0 } / Self::TERMS as f64;
-            for (i, value) in values.iter().enumerate() {
-                let weight = scale * (k as f64 * angle(i)).cos();
-                for (c, v) in coefficient.iter_mut().zip(value) {
-                    *c += weight * v;
-                }
-            }
-        }
+        let coefficients = chebyshev::fit(&values);
         for (f, e) in error.iter_mut().enumerate() {
             // what the series leaves out is about its last terms
             let last = coefficients[Self::TERMS - 2..].iter().map(|c| c[f].abs());
@@ -76,18 +70,7 @@ impl Tail {
     /// Clenshaw's sum at t.
     pub(crate) fn value(&self, t: f64) -> Estimate {
         let x = (1.0 / t - self.middle) / self.half;
-        let (mut b1, mut b2) = (Six::default(), Six::default());
-        for c in self.coefficients[1..].iter().rev() {
-            let mut b0 = Six::default();
-            for f in 0..6 {
-                b0[f] = 2.0 * x * b1[f] - b2[f] + c[f];
-            }
-            (b1, b2) = (b0, b1);
-        }
-        let mut value = Six::default();
-        for f in 0..6 {
-            value[f] = x * b1[f] - b2[f] + self.coefficients[0][f];
-        }
+        let value = chebyshev::value(&self.coefficients, x);
         Estimate {
             value,
             error: self.error,
