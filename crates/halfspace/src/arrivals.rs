@@ -1,7 +1,7 @@
 //! Arrival times of the wave fronts from the loaded disc.
 
+use crate::domain::check_place;
 use crate::error::DomainError;
-use crate::kernel::check_place;
 use crate::medium::Medium;
 use crate::profile::Profile;
 

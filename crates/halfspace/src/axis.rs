@@ -6,11 +6,12 @@
 
 use crate::arrivals::Arrivals;
 use crate::field::{Estimate, FIELDS, Six};
-use crate::fronts::Point;
-use crate::kernel::Kernel;
+use crate::medium::Medium;
+use crate::order::{Order, TimeOrder};
+use crate::point::Point;
 use crate::profile::Profile;
 
-/// Radii below this share of the distance from the edge of the disc are continued.
+/// Radii below this fraction of the distance from the edge of the disc are continued.
 const NEAR: f64 = 0.03;
 
 /// Across a front nothing is known: the error over the size of what is combined.
@@ -20,22 +21,25 @@ const ACROSS: f64 = 30.0;
 const NODES: usize = 6;
 
 /// Whether the fields at a point are continued from larger radii.
-pub(crate) fn is_near<const ORDER: i32>(profile: Profile, at: Point) -> bool {
-    match profile {
-        Profile::Hertz if ORDER >= 0 => false,
-        Profile::Hertz | Profile::Punch | Profile::Point => {
-            at.r < NEAR * at.z.hypot(profile.radius())
-        }
+pub(crate) fn is_near<O: TimeOrder>(profile: Profile, at: Point) -> bool {
+    match (profile, O::ORDER) {
+        (Profile::Hertz, Order::Step | Order::StepIntegral | Order::SecondIntegral) => false,
+        (Profile::Hertz, Order::Impulse)
+        | (
+            Profile::Punch | Profile::Point,
+            Order::Impulse | Order::Step | Order::StepIntegral | Order::SecondIntegral,
+        ) => at.r < NEAR * at.z.hypot(profile.radius()),
     }
 }
 
 /// The value at `at` from `evaluate` at radii h, 2h, ..., by interpolation in r^2.
 pub(crate) fn continued(
-    kernel: &Kernel,
+    medium: &Medium,
+    profile: Profile,
     at: Point,
     evaluate: impl Fn(Point) -> Estimate,
 ) -> Estimate {
-    let (step, is_clear) = step(kernel, at);
+    let (step, is_clear) = step(medium, profile, at);
     let radii: [f64; NODES] = std::array::from_fn(|i| step * (i + 1) as f64);
     let values = radii.map(|r| evaluate(Point { r, ..at }));
     let (value, error) = combine(at.r, &radii, &values);
@@ -58,15 +62,16 @@ pub(crate) fn continued(
 /// A spacing that keeps all radii on one side of every front, and whether there is one.
 ///
 /// Off the axis a front from the edge of a disc arrives earlier or later by at most r, one from a point by r^2/(2 z).
-fn step(kernel: &Kernel, at: Point) -> (f64, bool) {
-    const SHARE: f64 = 0.05;
+fn step(medium: &Medium, profile: Profile, at: Point) -> (f64, bool) {
+    /// Widest and least spacing over the distance from the edge of the disc.
+    const WIDEST: f64 = 0.05;
     const LEAST: f64 = 1e-4;
-    let radius = kernel.profile().radius();
+    let radius = profile.radius();
     let distance = at.z.hypot(radius);
-    let arrivals = Arrivals::new(kernel.medium(), kernel.profile(), 0.0, at.z);
+    let arrivals = Arrivals::new(medium, profile, 0.0, at.z);
     let times = arrivals.map_or(vec![], |arrivals| arrivals.sorted());
     let gap = times.iter().map(|a| (at.t - a).abs()).fold(at.t, f64::min);
-    let reach = kernel.medium().kappa() * gap;
+    let reach = medium.kappa() * gap;
     let widest = if radius > 0.0 {
         reach
     } else {
@@ -74,7 +79,7 @@ fn step(kernel: &Kernel, at: Point) -> (f64, bool) {
     };
     let step = widest / (NODES + 1) as f64;
     let least = LEAST * distance;
-    (step.clamp(least, SHARE * distance), step >= least)
+    (step.clamp(least, WIDEST * distance), step >= least)
 }
 
 /// Lagrange interpolation of the fields, divided by r where odd, in r^2.

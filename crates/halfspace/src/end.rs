@@ -1,39 +1,46 @@
 //! One end of a chord: the antiderivative chains E_n and F_n in closed form.
 
 use crate::complex::{logarithm, reciprocal, root_with_circle};
-use crate::potential::Potentials;
+use crate::order::{Order, TimeOrder};
+use crate::potentials::Potentials;
 use num_complex::Complex64;
 
-/// E and F/r of orders `ORDER` and `ORDER` - 1.
+/// E and F/r of the orders m and m - 1, m the number of integrations in time: the potentials of a point force.
 #[inline]
-pub(crate) fn end_orders<const ORDER: i32>(zeta: Complex64, r: f64) -> Potentials<Complex64> {
-    if ORDER < 0 {
-        let end = End::without_log(zeta, r);
-        return Potentials {
-            a_upper: end.e(ORDER),
-            a_lower: end.e(ORDER - 1),
-            g_upper: end.f(ORDER),
-            g_lower: end.f(ORDER - 1),
-        };
-    }
-    let rho = End::without_log(zeta, r).rho;
-    let inverse = reciprocal(rho);
-    let sum = reciprocal(rho + zeta);
-    if ORDER == 0 {
-        let cube = inverse * inverse * inverse;
-        Potentials {
-            a_upper: inverse,
-            a_lower: zeta * cube,
-            g_upper: inverse * sum,
-            g_lower: cube,
+pub(crate) fn end_orders<O: TimeOrder>(zeta: Complex64, r: f64) -> Potentials<Complex64> {
+    let m = O::ORDER.integrations();
+    let by_end = |end: End| Potentials {
+        a_upper: end.e(m),
+        a_lower: end.e(m - 1),
+        g_upper: end.f(m),
+        g_lower: end.f(m - 1),
+    };
+    let roots = || {
+        let rho = End::without_log(zeta, r).rho;
+        (rho, reciprocal(rho), reciprocal(rho + zeta))
+    };
+    match O::ORDER {
+        Order::Impulse => by_end(End::without_log(zeta, r)),
+        Order::Step => {
+            let (_, inverse, sum) = roots();
+            let cube = inverse * inverse * inverse;
+            Potentials {
+                a_upper: inverse,
+                a_lower: zeta * cube,
+                g_upper: inverse * sum,
+                g_lower: cube,
+            }
         }
-    } else {
-        Potentials {
-            a_upper: -logarithm(rho + zeta),
-            a_lower: inverse,
-            g_upper: sum,
-            g_lower: inverse * sum,
+        Order::StepIntegral => {
+            let (rho, inverse, sum) = roots();
+            Potentials {
+                a_upper: -logarithm(rho + zeta),
+                a_lower: inverse,
+                g_upper: sum,
+                g_lower: inverse * sum,
+            }
         }
+        Order::SecondIntegral => by_end(End::new(zeta, r)),
     }
 }
 

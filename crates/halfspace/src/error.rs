@@ -1,37 +1,37 @@
-//! The one error of this crate: an argument outside the domain of the physics.
+//! The one error of this crate: a question outside the domain of the physics.
 
+use crate::profile::Profile;
 use thiserror::Error;
 
 /// An argument lies outside the domain on which the kernels are defined.
 ///
-/// The message names the argument, the value received and the allowed range.
+/// The message names the argument or the function, the value received and what is allowed.
 #[derive(Debug, Clone, PartialEq, Error)]
-#[error("{argument} = {value} is outside {range}")]
-pub struct DomainError {
-    /// Name of the argument, with its unit where it has one.
-    pub argument: &'static str,
-    /// The value received.
-    pub value: f64,
-    /// The allowed range in interval notation.
-    pub range: &'static str,
-}
-
-impl DomainError {
-    /// Passes `value` on if `allowed`, else reports it against `range`.
-    pub(crate) fn unless(
-        allowed: bool,
+pub enum DomainError {
+    /// A number outside its range; NaN is outside every range.
+    #[error("{argument} = {value} is outside {range}")]
+    Range {
+        /// Name of the argument.
         argument: &'static str,
+        /// The value received.
         value: f64,
+        /// The allowed range in interval notation.
         range: &'static str,
-    ) -> Result<f64, Self> {
-        if allowed {
-            Ok(value)
-        } else {
-            Err(Self {
-                argument,
-                value,
-                range,
-            })
-        }
-    }
+    },
+    /// A function that exists for the Hertz profile only: under the others it is infinite at the fronts.
+    #[error("{function} is defined for the Hertz profile only, not for {profile:?}")]
+    HertzOnly {
+        /// The function called.
+        function: &'static str,
+        /// The profile of the kernel.
+        profile: Profile,
+    },
+    /// Slices that describe the same cells have different lengths.
+    #[error("{averages} averages for {moments} moments of the same cells")]
+    Lengths {
+        /// Number of cell averages.
+        averages: usize,
+        /// Number of cell moments.
+        moments: usize,
+    },
 }

@@ -1,39 +1,43 @@
 //! Slownesses below one: waves that travel as plane fronts, felt only while they pass.
 
 use crate::compact::{compact, passed};
-use crate::field::Field;
-use crate::fronts::{self, Point, Sense};
-use crate::kernel::{Kernel, Sum, fields, set_traction};
-use crate::landscape::{Fold, Landscape, Strength};
+use crate::field::{Field, Six};
+use crate::fronts;
+use crate::landscape::{Fold, Landscape};
+use crate::order::{Order, StepIntegral, TimeOrder};
 use crate::panels::ROUNDING;
+use crate::point::{Point, Sense};
+use crate::potentials::Potentials;
+use crate::setting::Setting;
 use crate::shallow;
 use crate::spectrum::{self, Wave};
+use crate::strength::Strength;
+use crate::sum::Sum;
 use num_complex::Complex64;
 
 /// Slowness zero, where the argument of the potentials is infinite.
 const ORIGIN: Complex64 = Complex64::new(0.0, 0.0);
 
-impl Kernel {
-    /// Adds one wave in one sense over 0 < x < 1.
-    pub(crate) fn fast<const ORDER: i32>(
+impl Setting {
+    /// Adds one wave in one sense over 0 < x < 1; `passed` is its time integral once it has passed.
+    pub(crate) fn fast<O: TimeOrder>(
         &self,
         at: Point,
         wave: Wave,
         sense: Sense,
+        passed: f64,
         sum: &mut Sum,
     ) {
-        let limit = at.r + self.profile().radius();
-        let shallow = shallow::applies::<ORDER>(self.profile(), at);
+        let limit = at.r + self.profile.radius();
+        let shallow = shallow::applies::<O>(self.profile, at);
         match sense {
             Sense::Outgoing if at.t >= self.last_fast(at, wave, limit) => {
-                if ORDER == 1 {
-                    sum.add(
-                        1.0,
-                        ROUNDING,
-                        [0.0, self.passed[wave as usize], 0.0, 0.0, 0.0, 0.0],
-                    );
-                } else if ORDER == 2 {
-                    self.add_passed::<ORDER>(at, wave, (0.0, 1.0), sum);
+                match O::ORDER {
+                    Order::Impulse | Order::Step => {}
+                    Order::StepIntegral => {
+                        sum.add(1.0, ROUNDING, [0.0, passed, 0.0, 0.0, 0.0, 0.0]);
+                    }
+                    Order::SecondIntegral => self.add_passed::<O>(at, wave, (0.0, 1.0), sum),
                 }
                 return;
             }
@@ -41,25 +45,7 @@ impl Kernel {
             Sense::Image if !shallow && at.t + at.z * self.vertical_at_one(wave) >= limit => return,
             Sense::Outgoing | Sense::Image => {}
         }
-        let mut landscape = Landscape::new(
-            &self.fixed.fast,
-            ORIGIN,
-            self.strength::<ORDER>(),
-            Fold::Upper,
-        )
-        .with_rounding(self.front_rounding(at));
-        fronts::add_fast(
-            &mut landscape,
-            at,
-            self.profile().radius(),
-            self.k,
-            wave,
-            sense,
-        );
-        if shallow {
-            let (above, radius) = (shallow::above(at), self.profile().radius());
-            fronts::add_fast(&mut landscape, above, radius, self.k, wave, sense);
-        }
+        let mut landscape = self.fast_landscape::<O>(at, wave, sense, shallow);
         for interval in landscape.intervals() {
             let (x, p, _) = half_angle(0.5 * (interval.0 + interval.1));
             let eta = self.eta(at, wave, sense, x, p);
@@ -68,39 +54,67 @@ impl Kernel {
                 landscape.visit(
                     interval,
                     self.digits(at, shallow),
-                    &mut |u, weight, share| {
+                    &mut |u, weight, error| {
                         let (x, p, jacobian) = half_angle(u);
-                        let eta = self.eta(at, wave, sense, x, p);
-                        let mut psi = compact::<ORDER>(self.profile(), eta, at.r);
-                        if ORDER == 1 {
-                            // int dt = -+x int d eta; the order below b3 is -b2
-                            let step = sense.sign() * x;
-                            psi = psi.map(|v| step * v);
-                            psi.g_lower = -psi.g_lower;
-                        } else if ORDER == 2 {
-                            psi = psi.map(|v| x * x * v);
-                            psi.g_lower = -psi.g_lower;
-                        } else if ORDER < 0 {
-                            psi = psi.map(|v| sense.sign() / x * v);
-                        }
-                        let amplitudes = spectrum::fast(wave, self.k, x, p);
-                        let mut term = fields(&amplitudes, &psi, at.r);
-                        if shallow {
-                            let root = match wave {
-                                Wave::P => p,
-                                Wave::S => (self.k - x * x).sqrt(),
-                            };
-                            let (surface, step) = (sense.sign() * at.t / x, at.z * root / x);
-                            let difference = shallow::compact_difference(surface, step, eta, at.r);
-                            set_traction(&mut term, &amplitudes, difference, at.r);
-                        }
-                        sum.add(weight * jacobian, share, term);
+                        let term = self.fast_term::<O>(at, wave, sense, (x, p), shallow);
+                        sum.add(weight * jacobian, error, term);
                     },
                 );
-            } else if ORDER >= 1 && eta < 0.0 {
-                self.add_passed::<ORDER>(at, wave, interval, sum);
+            } else if eta < 0.0 {
+                match O::ORDER {
+                    Order::Impulse | Order::Step => {}
+                    Order::StepIntegral | Order::SecondIntegral => {
+                        self.add_passed::<O>(at, wave, interval, sum);
+                    }
+                }
             }
         }
+    }
+
+    /// The singularities of one wave in one sense.
+    fn fast_landscape<O: TimeOrder>(
+        &self,
+        at: Point,
+        wave: Wave,
+        sense: Sense,
+        shallow: bool,
+    ) -> Landscape {
+        let strength = Strength::of::<O>(self.profile);
+        let mut landscape = Landscape::new(&self.fixed.fast, ORIGIN, strength, Fold::Upper)
+            .with_rounding(self.front_rounding(at));
+        let radius = self.profile.radius();
+        fronts::add_fast(&mut landscape, at, radius, self.k, wave, sense);
+        if shallow {
+            let above = shallow::above(at);
+            fronts::add_fast(&mut landscape, above, radius, self.k, wave, sense);
+        }
+        landscape
+    }
+
+    /// The integrand at slowness x, p = sqrt(1 - x^2).
+    #[inline]
+    fn fast_term<O: TimeOrder>(
+        &self,
+        at: Point,
+        wave: Wave,
+        sense: Sense,
+        (x, p): (f64, f64),
+        shallow: bool,
+    ) -> Six {
+        let eta = self.eta(at, wave, sense, x, p);
+        let psi = in_time::<O>(compact::<O>(self.profile, eta, at.r), sense, x);
+        let amplitudes = spectrum::fast(wave, self.k, x, p);
+        let mut term = amplitudes.fields(&psi, at.r);
+        if shallow {
+            let root = match wave {
+                Wave::P => p,
+                Wave::S => (self.k - x * x).sqrt(),
+            };
+            let (surface, step) = (sense.sign() * at.t / x, at.z * root / x);
+            let difference = shallow::compact_difference(surface, step, eta, at.r);
+            amplitudes.set_traction(&mut term, difference.a, difference.g, at.r);
+        }
+        term
     }
 
     /// int of the amplitude of w times x/2 dx over the whole fast interval: the time integral of a wave
@@ -112,31 +126,29 @@ impl Kernel {
             z: 0.0,
             t: 0.0,
         };
-        self.add_passed::<1>(anywhere, wave, (0.0, 1.0), &mut sum);
+        self.add_passed::<StepIntegral>(anywhere, wave, (0.0, 1.0), &mut sum);
         sum.value[Field::DisplacementZ.index()]
     }
 
     /// Adds an outgoing wave that has passed on an interval.
-    fn add_passed<const ORDER: i32>(
-        &self,
-        at: Point,
-        wave: Wave,
-        interval: (f64, f64),
-        sum: &mut Sum,
-    ) {
+    fn add_passed<O: TimeOrder>(&self, at: Point, wave: Wave, interval: (f64, f64), sum: &mut Sum) {
         let mut landscape = Landscape::new(
             &self.fixed.fast,
             Complex64::i(),
             Strength::Bounded,
             Fold::Upper,
         );
-        landscape.visit(interval, self.digits(at, false), &mut |u, weight, share| {
+        landscape.visit(interval, self.digits(at, false), &mut |u, weight, error| {
             let (x, p, jacobian) = half_angle(u);
             let eta = self.eta(at, wave, Sense::Outgoing, x, p);
-            let step = if ORDER == 1 { -x } else { x * x };
-            let psi = passed::<ORDER>(eta).map(|v| step * v);
+            let step = match O::ORDER {
+                Order::Impulse | Order::Step => return,
+                Order::StepIntegral => -x,
+                Order::SecondIntegral => x * x,
+            };
+            let psi = passed::<O>(eta).map(|v| step * v);
             let amplitudes = spectrum::fast(wave, self.k, x, p);
-            sum.add(weight * jacobian, share, fields(&amplitudes, &psi, at.r));
+            sum.add(weight * jacobian, error, amplitudes.fields(&psi, at.r));
         });
     }
 
@@ -148,14 +160,6 @@ impl Kernel {
             slowness * reach
         } else {
             at.z * self.vertical_at_one(wave) + limit
-        }
-    }
-
-    /// 1 for P, sqrt(K) for S.
-    fn slowness(&self, wave: Wave) -> f64 {
-        match wave {
-            Wave::P => 1.0,
-            Wave::S => self.k.sqrt(),
         }
     }
 
@@ -185,4 +189,25 @@ fn half_angle(u: f64) -> (f64, f64, f64) {
     let inverse = 1.0 / (1.0 + u * u);
     let p = (1.0 - u) * (1.0 + u) * inverse;
     (2.0 * u * inverse, p, 2.0 * p * inverse)
+}
+
+/// Derivatives and integrals in t of functions of eta = (z gamma^ -+ t)/x, from those in eta.
+#[inline]
+fn in_time<O: TimeOrder>(psi: Potentials<f64>, sense: Sense, x: f64) -> Potentials<f64> {
+    match O::ORDER {
+        Order::Impulse => psi.map(|v| sense.sign() / x * v),
+        Order::Step => psi,
+        Order::StepIntegral => {
+            // int dt = -+x int d eta; the order below b3 is -b2
+            let step = sense.sign() * x;
+            let mut psi = psi.map(|v| step * v);
+            psi.g_lower = -psi.g_lower;
+            psi
+        }
+        Order::SecondIntegral => {
+            let mut psi = psi.map(|v| x * x * v);
+            psi.g_lower = -psi.g_lower;
+            psi
+        }
+    }
 }

@@ -1,20 +1,26 @@
-//! Gauss-Legendre rules on [-1, 1].
+//! Gauss-Legendre rules.
+//!
+//! ```
+//! // int_0^1 e^x dx = e - 1
+//! let sum: f64 = halfspace::gauss::rule(10).on(0.0, 1.0).map(|(x, weight)| weight * x.exp()).sum();
+//! assert!((sum - (1.0_f64.exp() - 1.0)).abs() < 1e-15);
+//! ```
 
 use std::sync::LazyLock;
 
-/// Largest number of nodes kept in the table of rules.
-pub(crate) const MAX_NODES: usize = 40;
+/// Largest number of nodes of a rule.
+pub const MAX_NODES: usize = 40;
 
 /// Nodes and weights of one Gauss-Legendre rule on [-1, 1], nodes ascending.
 #[derive(Debug, Clone)]
-pub(crate) struct Rule {
+pub struct Rule {
     pub(crate) nodes: Vec<f64>,
     pub(crate) weights: Vec<f64>,
 }
 
 impl Rule {
     /// Node and weight pairs carried over to the interval [a, b].
-    pub(crate) fn on(&self, a: f64, b: f64) -> impl Iterator<Item = (f64, f64)> + '_ {
+    pub fn on(&self, a: f64, b: f64) -> impl Iterator<Item = (f64, f64)> + '_ {
         let (mid, half) = (0.5 * (a + b), 0.5 * (b - a));
         self.nodes
             .iter()
@@ -23,8 +29,12 @@ impl Rule {
     }
 }
 
-/// The rule with `n` nodes, 1 <= n <= [`MAX_NODES`]; exact for polynomials of degree 2n - 1.
-pub(crate) fn rule(n: usize) -> &'static Rule {
+/// The rule with `n` nodes, exact for polynomials of degree 2n - 1; computed once.
+///
+/// # Panics
+/// Where n is not from 1 to [`MAX_NODES`].
+#[must_use]
+pub fn rule(n: usize) -> &'static Rule {
     static RULES: LazyLock<Vec<Rule>> = LazyLock::new(|| (1..=MAX_NODES).map(compute).collect());
     &RULES[n - 1]
 }

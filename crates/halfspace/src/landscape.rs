@@ -4,7 +4,9 @@
 //! which turns square roots into smooth functions. The pieces are integrated by Gauss rules on panels.
 
 use crate::complex::root;
-use crate::panels::{CAPACITY, Images, List, ROUNDING, Rule, panels};
+use crate::list::{CAPACITY, List};
+use crate::panels::{Images, ROUNDING, Rule, panels};
+use crate::strength::{RelativeError, Strength};
 use num_complex::Complex64;
 
 /// Power of the variable toward a cut of a single singularity.
@@ -13,19 +15,7 @@ const SQUARE: i32 = 2;
 /// Power toward a cut where singularities meet.
 const HIGH: i32 = 6;
 
-/// The error of a rule over what the nearest singularity alone would leave, rho^(-2n): many meet near a front.
-const CAUTION: f64 = 130.0;
-
-/// How much more it is of integrands that are unbounded at the fronts.
-fn caution(strength: Strength) -> f64 {
-    match strength {
-        Strength::Bounded => CAUTION,
-        Strength::InverseRoot => 3.0 * CAUTION,
-        Strength::FinitePart => 20.0 * CAUTION,
-    }
-}
-
-/// Cuts closer than this share of their size are one.
+/// Cuts at a relative distance below this are one.
 const SAME: f64 = 1e-13;
 
 /// Smaller places are as good as zero once multiplied by [`SAME`].
@@ -57,52 +47,6 @@ pub(crate) enum Fold {
     Both,
 }
 
-/// How strong the singularities at the cuts are.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Strength {
-    /// The integrand stays finite.
-    Bounded,
-    /// The inverse square root.
-    InverseRoot,
-    /// The power -3/2, taken as Hadamard's finite part.
-    FinitePart,
-}
-
-impl Strength {
-    /// The share of a term at a distance from a cut, s in the smooth variable, with the rounding error of the distance.
-    fn at_front(self, share: f64, blur: f64, distance: f64, s: f64) -> Share {
-        let front = blur / distance;
-        match self {
-            Self::Bounded => share.into(),
-            // displacements have a root there
-            Self::InverseRoot => Share {
-                displacement: share + front * s,
-                stress: share + front,
-            },
-            Self::FinitePart => Share {
-                displacement: share + front,
-                stress: share + 3.0 * front,
-            },
-        }
-    }
-}
-
-/// The likely error of a term as a share of its size.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Share {
-    pub(crate) displacement: f64,
-    pub(crate) stress: f64,
-}
-
-impl From<f64> for Share {
-    fn from(share: f64) -> Self {
-        Self {
-            displacement: share,
-            stress: share,
-        }
-    }
-}
-
 impl Landscape {
     /// An interval with nothing but a pole and the given singularities, none of them on it.
     pub(crate) fn new(
@@ -126,7 +70,7 @@ impl Landscape {
         landscape
     }
 
-    /// Counts the rounding of unbounded integrands so many times.
+    /// Multiplies the assumed rounding error of unbounded integrands by `times`.
     pub(crate) fn with_rounding(mut self, times: f64) -> Self {
         self.rounding *= times;
         self
@@ -172,23 +116,23 @@ impl Landscape {
         (0..last).map(move |i| (ends[i], ends[i + 1]))
     }
 
-    /// Visits nodes (v, weight, share) of a rule on one interval, accurate to exp(-`digits`) of the size of
-    /// the integrand; the share of its size is the likely error of a term.
+    /// Visits nodes (v, weight, relative error) of a rule on one interval, accurate to exp(-`digits`) of the size of
+    /// the integrand.
     pub(crate) fn visit(
         &mut self,
         (from, to): (f64, f64),
         digits: f64,
-        f: &mut impl FnMut(f64, f64, Share),
+        f: &mut impl FnMut(f64, f64, RelativeError),
     ) {
         match (self.power(from), self.power(to)) {
             (None, None) => {
                 let rule = Rule {
                     finite_part: false,
-                    caution: caution(self.strength),
+                    caution: self.strength.caution(),
                 };
                 let images = self.images(|_| false, |v| (v - from) / (to - from));
-                panels(&images, digits, 3.0, rule, &mut |s, weight, share| {
-                    f(from + (to - from) * s, weight * (to - from), share.into());
+                panels(&images, digits, 3.0, rule, &mut |s, weight, error| {
+                    f(from + (to - from) * s, weight * (to - from), error.into());
                 });
             }
             (Some(power), None) => self.visit_power(from, to, power, digits, f),
@@ -218,7 +162,7 @@ impl Landscape {
         end: f64,
         power: i32,
         digits: f64,
-        f: &mut impl FnMut(f64, f64, Share),
+        f: &mut impl FnMut(f64, f64, RelativeError),
     ) {
         let scale = end - cut;
         // the singularity of the cut itself is what the power is for
@@ -241,15 +185,15 @@ impl Landscape {
             least,
             Rule {
                 finite_part: strength == Strength::FinitePart,
-                caution: caution(strength),
+                caution: strength.caution(),
             },
-            &mut |s, weight, share| {
+            &mut |s, weight, error| {
                 let v = cut + scale * s.powi(power);
                 if v != cut {
                     f(
                         v,
                         weight * scale.abs() * f64::from(power) * s.powi(power - 1),
-                        strength.at_front(share, blur, (v - cut).abs(), s),
+                        strength.at_front(error, blur, (v - cut).abs(), s),
                     );
                 }
             },
@@ -258,12 +202,12 @@ impl Landscape {
 
     /// How far a cut may be from the front it stands for, by rounding, where the integrand is unbounded.
     ///
-    /// A front and its neighbour are roots of one quadratic, which are as uncertain as they are close; so are the
-    /// slowness and its mirror image at an end where the variable folds.
+    /// A front and its neighbour are roots of one quadratic: the closer two roots, the worse conditioned each is. The same
+    /// holds for a slowness and its mirror image at an end where the variable folds.
     fn blur(&self, cut: f64) -> f64 {
         /// Fronts that were taken for one leave out what lies between them.
         const MERGED: f64 = 1e7;
-        /// A neighbour within this share of the place may be the other root.
+        /// A neighbour within this fraction of the place may be the other root of the quadratic.
         const TWIN: f64 = 0.1;
         if self.strength == Strength::Bounded {
             return 0.0;
@@ -305,7 +249,7 @@ impl Landscape {
             Strength::FinitePart => 1.0,
             Strength::Bounded | Strength::InverseRoot => cut,
         };
-        // a fold moves what is small by no more than a share
+        // a fold moves a small cut by no more than a fraction of itself
         self.rounding * place + twin + fold.min(cut)
     }
 

@@ -1,5 +1,6 @@
 //! The elastic half-space in reduced units: everything that follows from Poisson's ratio.
 
+use crate::domain::check;
 use crate::double::Double;
 use crate::error::DomainError;
 use num_complex::Complex64;
@@ -33,7 +34,7 @@ impl Medium {
     /// # Errors
     /// [`DomainError`] when the ratio is not inside the open interval (NaN included).
     pub fn new(poisson_ratio: f64) -> Result<Self, DomainError> {
-        DomainError::unless(
+        check(
             poisson_ratio > -1.0 && poisson_ratio < 0.5,
             "poisson_ratio",
             poisson_ratio,
@@ -94,7 +95,7 @@ impl Medium {
     /// # Errors
     /// [`DomainError`] for a speed outside [0, kappa].
     pub fn rayleigh_function(&self, speed: f64) -> Result<f64, DomainError> {
-        DomainError::unless(
+        check(
             (0.0..=self.kappa).contains(&speed),
             "speed",
             speed,

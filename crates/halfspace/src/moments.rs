@@ -2,14 +2,15 @@
 //!
 //! With them a convolution is exact for a force that is a parabola over a cell, where averages alone take
 //! it as linear. Where R is smooth over five cells the moment follows from the averages around it; where a
-//! front crosses them it comes from int R dt and its own integral.
+//! front crosses them it comes from int R dt and its own integral, and far from the load from R itself, as averages do.
 
+use crate::domain::{check_hertz, check_place_under, check_time, check_width};
 use crate::error::DomainError;
-use crate::field::Six;
+use crate::field::{Estimate, Six};
 use crate::kernel::Kernel;
 
 impl Kernel {
-    /// Fills `moments[j]` with the first moment of R over cell j of `width`, from its averages.
+    /// Fills `moments[j]` with the first moment of R over cell j of `width`; returns an error per field.
     ///
     /// ```text
     /// M_j = 1/width^2 int (t - t_j) R dt,   t_j the middle of the cell
@@ -19,7 +20,7 @@ impl Kernel {
     /// the absolute error, field by field, to which moments of smooth cells may be taken from their neighbours.
     ///
     /// # Errors
-    /// [`DomainError`] as [`Self::cell_averages`], and for a profile other than Hertz.
+    /// [`DomainError`] as [`Self::cell_averages`], for a profile other than Hertz, and for slices of different lengths.
     pub fn cell_moments(
         &self,
         r: f64,
@@ -28,9 +29,27 @@ impl Kernel {
         averages: &[Six],
         floor: &Six,
         moments: &mut [Six],
-    ) -> Result<(), DomainError> {
-        self.check_hertz()?;
-        self.check_place(r, z)?;
+    ) -> Result<Six, DomainError> {
+        check_hertz(self.profile(), "a cell moment")?;
+        check_place_under(self.profile(), r, z)?;
+        check_width(width)?;
+        check_time(moments.len() as f64 * width)?;
+        if averages.len() != moments.len() {
+            return Err(DomainError::Lengths {
+                averages: averages.len(),
+                moments: moments.len(),
+            });
+        }
+        let end = moments.len() as f64 * width;
+        let mut error = Six::default();
+        if self.prefers_trace(r, z, width, end) {
+            let trace = self.trace(r, z, end)?;
+            trace.for_each_cell(width, moments.len(), |j, _, moment| {
+                moments[j] = moment.value;
+                raise(&mut error, &moment.error);
+            });
+            return Ok(error);
+        }
         let quiet = (self.first_arrival(r, z) / width) as usize;
         let mut before: Option<Edge> = None;
         for (j, moment) in moments.iter_mut().enumerate() {
@@ -39,7 +58,8 @@ impl Kernel {
                 continue;
             }
             if let Some(smooth) = smooth_moment(averages, j, floor) {
-                *moment = smooth;
+                *moment = smooth.value;
+                raise(&mut error, &smooth.error);
                 before = None;
                 continue;
             }
@@ -48,16 +68,18 @@ impl Kernel {
                 None => self.edge(r, z, j as f64 * width)?,
             };
             let end = self.edge(r, z, (j + 1) as f64 * width)?;
-            *moment = exact_moment(&start, &end, width);
+            let exact = exact_moment(&start, &end, width);
+            *moment = exact.value;
+            raise(&mut error, &exact.error);
             before = Some(end);
         }
-        Ok(())
+        Ok(error)
     }
 
     fn edge(&self, r: f64, z: f64, t: f64) -> Result<Edge, DomainError> {
         Ok(Edge {
-            first: self.step_integral(r, z, t)?.value,
-            second: self.second_integral(r, z, t)?.value,
+            first: self.step_integral(r, z, t)?,
+            second: self.second_integral(r, z, t)?,
         })
     }
 }
@@ -65,34 +87,51 @@ impl Kernel {
 /// S = int R dt and int S dt at the edge of a cell.
 #[derive(Clone, Copy)]
 struct Edge {
-    first: Six,
-    second: Six,
+    first: Estimate,
+    second: Estimate,
 }
 
 /// width (S_0 + S_1)/2 - int S dt, over width^2.
-fn exact_moment(start: &Edge, end: &Edge, width: f64) -> Six {
-    std::array::from_fn(|f| {
+fn exact_moment(start: &Edge, end: &Edge, width: f64) -> Estimate {
+    let value = std::array::from_fn(|f| {
         // relative to S at the start, which may hold a large constant
-        let trapezoid = 0.5 * width * (end.first[f] - start.first[f]);
-        let area = end.second[f] - start.second[f] - width * start.first[f];
+        let trapezoid = 0.5 * width * (end.first.value[f] - start.first.value[f]);
+        let area = end.second.value[f] - start.second.value[f] - width * start.first.value[f];
         (trapezoid - area) / (width * width)
-    })
+    });
+    let error = std::array::from_fn(|f| {
+        let once = 0.5 * (end.first.error[f] + start.first.error[f]);
+        let twice = end.second.error[f] + start.second.error[f];
+        (once + twice / width) / width
+    });
+    Estimate { value, error }
+}
+
+/// Raises each field of `largest` to `error`.
+fn raise(largest: &mut Six, error: &Six) {
+    for (largest, e) in largest.iter_mut().zip(error) {
+        *largest = largest.max(*e);
+    }
 }
 
 /// Moment of cell `j` to fourth order from the averages around it, where R is smooth over five cells.
-fn smooth_moment(averages: &[Six], j: usize, floor: &Six) -> Option<Six> {
+fn smooth_moment(averages: &[Six], j: usize, floor: &Six) -> Option<Estimate> {
     if j < 2 || j + 2 >= averages.len() {
         return None;
     }
-    let mut moment = Six::default();
+    let (mut moment, mut error) = (Six::default(), Six::default());
     for f in 0..6 {
         let near = averages[j + 1][f] - averages[j - 1][f];
         let far = averages[j + 2][f] - averages[j - 2][f];
         moment[f] = near * 41.0 / 720.0 - far * 11.0 / 1440.0;
         // the second term is what a lower order leaves out: where it is small, what is left out here is smaller
-        if (moment[f] - near / 24.0).abs() > 8.0 * floor[f] {
+        error[f] = (moment[f] - near / 24.0).abs();
+        if error[f] > 8.0 * floor[f] {
             return None;
         }
     }
-    Some(moment)
+    Some(Estimate {
+        value: moment,
+        error,
+    })
 }

@@ -10,10 +10,11 @@
 //! with zeta = xi, M_2j the even moments of the chord function and P_k Legendre polynomials. It takes over
 //! where the closed form becomes a difference of large numbers.
 
-use crate::compact::Scalar;
 use crate::complex::{logarithm, reciprocal, root_with_circle};
-use crate::potential::Potentials;
+use crate::order::{Order, TimeOrder};
+use crate::potentials::Potentials;
 use crate::profile::Profile;
+use crate::scalar::Scalar;
 use num_complex::Complex64;
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -60,7 +61,7 @@ fn moment(profile: Profile, j: usize) -> f64 {
 ///
 /// `alternate` is the factor from one j to the next, `over` is zeta/rho^2, `inverse2` 1/rho^2, `q0` 1/rho.
 #[inline]
-fn sums<const ORDER: i32, T: Scalar>(
+fn sums<O: TimeOrder, T: Scalar>(
     profile: Profile,
     terms: usize,
     alternate: f64,
@@ -86,32 +87,37 @@ fn sums<const ORDER: i32, T: Scalar>(
         let m = sign * moment(profile, j);
         let q_next = (over * q_even * (2.0 * k + 1.0) - inverse2 * q_odd * k) * (1.0 / (k + 1.0));
         let v_next = (v_odd + q_even * (2.0 * k + 1.0)) * inverse2;
-        if ORDER == 0 {
-            sum.a_upper = sum.a_upper + q_even * m;
-            sum.a_lower = sum.a_lower + q_next * (m * (k + 1.0));
-            sum.g_lower = sum.g_lower + v_next * m;
-            if j > 0 {
-                sum.g_upper = sum.g_upper + v_even * (m / k);
+        match O::ORDER {
+            Order::Impulse => {
+                sum.a_upper = sum.a_upper + q_next * (m * (k + 1.0));
+                sum.g_upper = sum.g_upper + v_next * m;
             }
-        } else if ORDER < 0 {
-            sum.a_upper = sum.a_upper + q_next * (m * (k + 1.0));
-            sum.g_upper = sum.g_upper + v_next * m;
-        } else if ORDER == 2 {
-            if j > 0 {
-                let pair = k * (k - 1.0);
-                sum.a_upper = sum.a_upper + q_before * (m / pair);
-                sum.a_lower = sum.a_lower + q_odd * (m / k);
-                sum.g_lower = sum.g_lower + v_odd * (m / pair);
+            Order::Step => {
+                sum.a_upper = sum.a_upper + q_even * m;
+                sum.a_lower = sum.a_lower + q_next * (m * (k + 1.0));
+                sum.g_lower = sum.g_lower + v_next * m;
+                if j > 0 {
+                    sum.g_upper = sum.g_upper + v_even * (m / k);
+                }
             }
-            if j > 1 {
-                sum.g_upper = sum.g_upper + v_before * (m / (k * (k - 1.0) * (k - 2.0)));
+            Order::StepIntegral => {
+                sum.a_lower = sum.a_lower + q_even * m;
+                if j > 0 {
+                    sum.a_upper = sum.a_upper + q_odd * (m / k);
+                    sum.g_upper = sum.g_upper + v_odd * (m / (k * (k - 1.0)));
+                    sum.g_lower = sum.g_lower + v_even * (m / k);
+                }
             }
-        } else {
-            sum.a_lower = sum.a_lower + q_even * m;
-            if j > 0 {
-                sum.a_upper = sum.a_upper + q_odd * (m / k);
-                sum.g_upper = sum.g_upper + v_odd * (m / (k * (k - 1.0)));
-                sum.g_lower = sum.g_lower + v_even * (m / k);
+            Order::SecondIntegral => {
+                if j > 0 {
+                    let pair = k * (k - 1.0);
+                    sum.a_upper = sum.a_upper + q_before * (m / pair);
+                    sum.a_lower = sum.a_lower + q_odd * (m / k);
+                    sum.g_lower = sum.g_lower + v_odd * (m / pair);
+                }
+                if j > 1 {
+                    sum.g_upper = sum.g_upper + v_before * (m / (k * (k - 1.0) * (k - 2.0)));
+                }
             }
         }
         (q_before, v_before) = (q_even, v_even);
@@ -120,7 +126,7 @@ fn sums<const ORDER: i32, T: Scalar>(
         q_odd = q_next;
         v_even = (v_even + q_next * (2.0 * k + 3.0)) * inverse2;
         v_odd = v_next;
-        if ORDER < 0 {
+        if O::ORDER == Order::Impulse {
             sum.a_lower = sum.a_lower + q_even * (m * (k + 1.0) * (k + 2.0));
             sum.g_lower = sum.g_lower + v_even * (m * (k + 1.0));
         }
@@ -129,41 +135,44 @@ fn sums<const ORDER: i32, T: Scalar>(
     sum
 }
 
-/// The potentials by `terms` terms of the series, `ORDER` -1 to 2.
-pub(crate) fn multipole<const ORDER: i32>(
+/// The potentials by `terms` terms of the series.
+pub(crate) fn multipole<O: TimeOrder>(
     profile: Profile,
     terms: usize,
     xi: Complex64,
     r: f64,
 ) -> Potentials<Complex64> {
-    if ORDER >= 0 && xi.re == 0.0 && xi.im.abs() > r {
-        return on_imaginary_axis::<ORDER>(profile, terms, xi.im, r);
+    if O::ORDER != Order::Impulse && xi.re == 0.0 && xi.im.abs() > r {
+        return on_imaginary_axis::<O>(profile, terms, xi.im, r);
     }
     let rho = root_with_circle(xi, r);
     let inverse = reciprocal(rho);
     let square = inverse * inverse;
     let sum = reciprocal(rho + xi);
     let mass = moment(profile, 0);
-    let mut psi = sums::<ORDER, Complex64>(profile, terms, -1.0, xi * square, square, inverse);
-    if ORDER == 0 {
-        psi.g_upper += mass * inverse * sum;
-    } else if ORDER == 2 {
-        let log = logarithm(rho + xi);
-        psi.a_upper += mass * (xi * log - rho);
-        psi.a_lower -= mass * log;
-        // F_2/r and, from the second moment, F_0/r
-        psi.g_upper -= 0.5 * (mass * (xi * sum + log) + moment(profile, 1) * inverse * sum);
-        psi.g_lower += mass * sum;
-    } else if ORDER > 0 {
-        psi.a_upper -= mass * logarithm(rho + xi);
-        psi.g_upper += mass * sum;
-        psi.g_lower += mass * inverse * sum;
+    let mut psi = sums::<O, Complex64>(profile, terms, -1.0, xi * square, square, inverse);
+    match O::ORDER {
+        Order::Impulse => {}
+        Order::Step => psi.g_upper += mass * inverse * sum,
+        Order::StepIntegral => {
+            psi.a_upper -= mass * logarithm(rho + xi);
+            psi.g_upper += mass * sum;
+            psi.g_lower += mass * inverse * sum;
+        }
+        Order::SecondIntegral => {
+            let log = logarithm(rho + xi);
+            psi.a_upper += mass * (xi * log - rho);
+            psi.a_lower -= mass * log;
+            // F_2/r and, from the second moment, F_0/r
+            psi.g_upper -= 0.5 * (mass * (xi * sum + log) + moment(profile, 1) * inverse * sum);
+            psi.g_lower += mass * sum;
+        }
     }
     psi
 }
 
 /// At zeta = i s with |s| > r all is real up to powers of i: Q_k = (-i)^{k+1} q_k, V_k = (-i)^{k+2} v_k.
-fn on_imaginary_axis<const ORDER: i32>(
+fn on_imaginary_axis<O: TimeOrder>(
     profile: Profile,
     terms: usize,
     s: f64,
@@ -176,36 +185,37 @@ fn on_imaginary_axis<const ORDER: i32>(
     let square = inverse * inverse;
     let sum = 1.0 / (w2 * inverse + far);
     let mass = moment(profile, 0);
-    let psi = sums::<ORDER, f64>(profile, terms, 1.0, s * square, square, side * inverse);
+    let psi = sums::<O, f64>(profile, terms, 1.0, s * square, square, side * inverse);
     let (real, imaginary) = (|v| Complex64::new(v, 0.0), |v| Complex64::new(0.0, v));
-    if ORDER == 0 {
-        Potentials {
+    match O::ORDER {
+        Order::Impulse => unreachable!("the impulse response takes the complex series"),
+        Order::Step => Potentials {
             a_upper: imaginary(-psi.a_upper),
             a_lower: real(-psi.a_lower),
             g_upper: real(-psi.g_upper - mass * inverse * sum),
             g_lower: imaginary(psi.g_lower),
-        }
-    } else if ORDER == 2 {
-        let (log, angle) = (-sum.ln(), side * FRAC_PI_2);
-        let spread = 0.5 * moment(profile, 1) * inverse * sum;
-        Potentials {
-            a_upper: Complex64::new(
-                -mass * s * angle,
-                psi.a_upper + mass * (s * log - side * w2 * inverse),
-            ),
-            a_lower: Complex64::new(psi.a_lower - mass * log, -mass * angle),
-            g_upper: Complex64::new(
-                psi.g_upper + spread - 0.5 * mass * (far * sum + log),
-                -0.5 * mass * angle,
-            ),
-            g_lower: imaginary(-psi.g_lower - mass * side * sum),
-        }
-    } else {
-        Potentials {
+        },
+        Order::StepIntegral => Potentials {
             a_upper: Complex64::new(psi.a_upper + mass * sum.ln(), -mass * side * FRAC_PI_2),
             a_lower: imaginary(-psi.a_lower),
             g_upper: imaginary(-psi.g_upper - mass * side * sum),
             g_lower: real(-psi.g_lower - mass * inverse * sum),
+        },
+        Order::SecondIntegral => {
+            let (log, angle) = (-sum.ln(), side * FRAC_PI_2);
+            let spread = 0.5 * moment(profile, 1) * inverse * sum;
+            Potentials {
+                a_upper: Complex64::new(
+                    -mass * s * angle,
+                    psi.a_upper + mass * (s * log - side * w2 * inverse),
+                ),
+                a_lower: Complex64::new(psi.a_lower - mass * log, -mass * angle),
+                g_upper: Complex64::new(
+                    psi.g_upper + spread - 0.5 * mass * (far * sum + log),
+                    -0.5 * mass * angle,
+                ),
+                g_lower: imaginary(-psi.g_lower - mass * side * sum),
+            }
         }
     }
 }

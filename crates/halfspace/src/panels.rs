@@ -10,16 +10,13 @@ use num_complex::Complex64;
 /// Panels are halved rather than given more nodes than this.
 const MOST_NODES: f64 = 24.0;
 
-/// A panel narrower than this share of its piece is taken as it is.
+/// A panel narrower than this fraction of its piece is not halved.
 const NARROWEST: f64 = 1e-9;
-
-/// Most cuts or singularities that an integrand of this crate has.
-pub(crate) const CAPACITY: usize = 64;
 
 /// The error at a pole of third order over that at a simple one.
 const POLE: f64 = 30.0;
 
-/// Rounding error of a term as a share of it.
+/// Relative rounding error of a term.
 pub(crate) const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// What a rule has to keep away from, in its own variable.
@@ -38,44 +35,8 @@ pub(crate) struct Rule {
     pub(crate) caution: f64,
 }
 
-/// A short list on the stack.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct List<T> {
-    items: [T; CAPACITY],
-    length: usize,
-}
-
-impl<T: Copy + Default> List<T> {
-    pub(crate) fn new() -> Self {
-        Self {
-            items: [T::default(); CAPACITY],
-            length: 0,
-        }
-    }
-
-    pub(crate) fn clear(&mut self) {
-        self.length = 0;
-    }
-
-    pub(crate) fn push(&mut self, item: T) {
-        debug_assert!(
-            self.length < CAPACITY,
-            "a landscape holds at most {CAPACITY} points"
-        );
-        self.items[self.length] = item;
-        self.length += 1;
-    }
-
-    pub(crate) fn as_mut_slice(&mut self) -> &mut [T] {
-        &mut self.items[..self.length]
-    }
-
-    pub(crate) fn as_slice(&self) -> &[T] {
-        &self.items[..self.length]
-    }
-}
-
-/// Visits Gauss nodes, at least so many a panel, on panels of [0, 1] that keep clear of the singularities.
+/// Visits Gauss nodes (s, weight, relative error), at least `least` a panel, on panels of [0, 1] that keep clear of the
+/// singularities, to exp(-`digits`) of the integrand.
 pub(crate) fn panels(
     images: &Images<'_>,
     digits: f64,
@@ -104,16 +65,16 @@ pub(crate) fn panels(
         }
         let n = nodes.max(least).min(MOST_NODES);
         let left = |rate: f64| (-degree * n * rate).exp();
-        let share = rule.caution * (left(rate) + POLE * left(pole_rate)) + ROUNDING;
+        let error = rule.caution * (left(rate) + POLE * left(pole_rate)) + ROUNDING;
         let n = n as usize;
         if at_cut {
             let rule = gauss::finite_part_rule(n);
             for (s, weight) in rule.nodes.iter().zip(&rule.weights) {
-                f(s1 * s, s1 * weight, share);
+                f(s1 * s, s1 * weight, error);
             }
         } else {
             for (s, weight) in gauss::rule(n).on(s0, s1) {
-                f(s, weight, share);
+                f(s, weight, error);
             }
         }
     }

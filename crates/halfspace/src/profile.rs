@@ -25,13 +25,16 @@ impl Profile {
         }
     }
 
-    /// Pressure of a unit force at radius r.
+    /// Pressure of a unit force at radius r, in P/r0^2.
     ///
-    /// Zero outside the disc; infinite at the edge of a punch and under a point force.
+    /// Zero outside the disc; infinite at the edge of a punch and under a point force; NaN for NaN.
     #[must_use]
     pub fn pressure(self, r: f64) -> f64 {
         use std::f64::consts::PI;
         let inside = (1.0 - r) * (1.0 + r);
+        if inside.is_nan() {
+            return inside;
+        }
         match self {
             Self::Hertz => 1.5 / PI * inside.max(0.0).sqrt(),
             Self::Punch if inside >= 0.0 => 0.5 / (PI * inside.sqrt()),

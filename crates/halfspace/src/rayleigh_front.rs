@@ -1,11 +1,13 @@
 //! The Rayleigh wave near its arrival, just below the surface.
 
-use crate::compact::chord_primitives;
+use crate::chord_integral::{chord_primitives, from_primitives};
 use crate::complex::{logarithm, reciprocal, root_inside, times_minus_i};
 use crate::double::Double;
-use crate::fronts::Point;
+use crate::far_front;
 use crate::medium::Medium;
-use crate::potential::{Potentials, from_primitives};
+use crate::order::{Order, Step, TimeOrder};
+use crate::point::Point;
+use crate::potentials::Potentials;
 use crate::profile::Profile;
 use crate::shallow::{DEEPEST, Difference, difference, gap, is_short};
 use num_complex::Complex64;
@@ -24,15 +26,11 @@ pub(crate) struct Front {
 
 impl Front {
     /// None away from the arrivals, where rounding does no harm.
-    pub(crate) fn near<const ORDER: i32>(
-        medium: &Medium,
-        profile: Profile,
-        at: Point,
-    ) -> Option<Self> {
+    pub(crate) fn near<O: TimeOrder>(medium: &Medium, profile: Profile, at: Point) -> Option<Self> {
         const NEAR: f64 = 1e-2;
         let Point { r, z, t } = at;
         let xi = Complex64::new(0.0, medium.rayleigh_speed() * t);
-        if ORDER != 0
+        if O::ORDER != Order::Step
             || profile != Profile::Hertz
             || z >= DEEPEST
             || r <= NEAREST
@@ -53,7 +51,13 @@ impl Front {
 
     /// The potentials at xi = d - i c t.
     pub(crate) fn potentials(&self, xi: Complex64) -> Potentials<Complex64> {
-        at_front(xi, self.r, self.factors)
+        if self.r > far_front::FAR {
+            // r - 1 - c t and r + 1 - c t; xi is the conjugate of d + i c t
+            let delta = self.factors.map(|[_, edge]| Complex64::new(edge, xi.re));
+            far_front::potentials(delta, self.r).map(|v| v.conj())
+        } else {
+            at_front(xi, self.r, self.factors)
+        }
     }
 
     /// [`difference`] for xi = -i c t and a real step.
@@ -80,8 +84,8 @@ fn at_front(xi: Complex64, r: f64, factors: [[f64; 2]; 2]) -> Potentials<Complex
     let (zeta, rho) = ends_at_front(xi, factors);
     let phi = [0, 1].map(|i| times_minus_i(logarithm(zeta[i] + rho[i])));
     let eta = times_minus_i(xi);
-    let psi = chord_primitives::<0, Complex64>(eta, r, phi, rho);
-    from_primitives::<0>(psi, eta, r)
+    let psi = chord_primitives::<Step, Complex64>(eta, r, phi, rho);
+    from_primitives::<Step>(psi, eta, r)
 }
 
 /// A_2 and B_2/r there, the difference between xi + step and xi = -i c t for real step > 0, to its own last digits.

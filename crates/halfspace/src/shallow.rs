@@ -8,9 +8,10 @@
 //! Taken as it stands the difference would be lost to rounding. Away from the singularities of the potentials it is
 //! the step in xi times the mean of the potentials one order lower, by Gauss's rule of two points.
 
+use crate::closed_form::potentials;
 use crate::compact::compact;
-use crate::fronts::Point;
-use crate::potential::potentials;
+use crate::order::{Impulse, Order, Step, TimeOrder};
+use crate::point::Point;
 use crate::profile::Profile;
 use num_complex::Complex64;
 
@@ -20,7 +21,7 @@ pub(crate) const DEEPEST: f64 = 1e-4;
 /// Radius down to which the compact parts of every order hold: nearer the axis sigma_rz vanishes as r.
 const NEAREST: f64 = 1e-6;
 
-/// A step of this share of the distance to a singularity: the rule errs by its fourth power over 4320.
+/// Longest step over the distance to a singularity: the rule errs by its fourth power over 4320.
 const SHORT: f64 = 1e-3;
 
 /// Places of the two points of Gauss's rule on [0, 1].
@@ -34,8 +35,12 @@ pub(crate) struct Difference<T> {
 }
 
 /// Whether sigma_zz and sigma_rz are taken from differences.
-pub(crate) fn applies<const ORDER: i32>(profile: Profile, at: Point) -> bool {
-    ORDER == 0 && profile == Profile::Hertz && at.z > 0.0 && at.z < DEEPEST && at.r > NEAREST
+pub(crate) fn applies<O: TimeOrder>(profile: Profile, at: Point) -> bool {
+    O::ORDER == Order::Step
+        && profile == Profile::Hertz
+        && at.z > 0.0
+        && at.z < DEEPEST
+        && at.r > NEAREST
 }
 
 /// The same point on the surface.
@@ -60,14 +65,14 @@ pub(crate) fn is_short(xi: Complex64, step: f64, r: f64) -> bool {
 pub(crate) fn difference(xi: Complex64, step: Complex64, r: f64) -> Difference<Complex64> {
     if is_short(xi, step.norm(), r) {
         let [first, second] =
-            PLACES.map(|place| potentials::<-1>(Profile::Hertz, xi + place * step, r));
+            PLACES.map(|place| potentials::<Impulse>(Profile::Hertz, xi + place * step, r));
         Difference {
             a: -0.5 * step * (first.a_lower + second.a_lower),
             g: -0.5 * step * (first.g_lower + second.g_lower),
         }
     } else {
-        let from = potentials::<0>(Profile::Hertz, xi, r);
-        let to = potentials::<0>(Profile::Hertz, xi + step, r);
+        let from = potentials::<Step>(Profile::Hertz, xi, r);
+        let to = potentials::<Step>(Profile::Hertz, xi + step, r);
         Difference {
             a: to.a_lower - from.a_lower,
             g: to.g_lower - from.g_lower,
@@ -81,14 +86,14 @@ pub(crate) fn difference(xi: Complex64, step: Complex64, r: f64) -> Difference<C
 pub(crate) fn compact_difference(surface: f64, step: f64, eta: f64, r: f64) -> Difference<f64> {
     if is_short(Complex64::new(0.0, surface), step.abs(), r) {
         let [first, second] =
-            PLACES.map(|place| compact::<-1>(Profile::Hertz, surface + place * step, r));
+            PLACES.map(|place| compact::<Impulse>(Profile::Hertz, surface + place * step, r));
         Difference {
             a: 0.5 * step * (first.a_lower + second.a_lower),
             g: 0.5 * step * (first.g_lower + second.g_lower),
         }
     } else {
-        let from = compact::<0>(Profile::Hertz, surface, r);
-        let to = compact::<0>(Profile::Hertz, eta, r);
+        let from = compact::<Step>(Profile::Hertz, surface, r);
+        let to = compact::<Step>(Profile::Hertz, eta, r);
         Difference {
             a: to.a_lower - from.a_lower,
             g: to.g_lower - from.g_lower,

@@ -1,11 +1,17 @@
 //! Slownesses between one and 1/kappa: longitudinal waves bound to the surface, shear waves that travel.
 
-use crate::fronts::{self, Point};
-use crate::kernel::{Kernel, Sum, fields, set_traction};
+use crate::closed_form::potentials;
+use crate::field::Six;
+use crate::fronts;
 use crate::landscape::{Fold, Landscape};
-use crate::potential::{Potentials, potentials};
+use crate::order::{Order, TimeOrder};
+use crate::point::Point;
+use crate::potentials::Potentials;
+use crate::setting::Setting;
 use crate::shallow::{self, Difference};
 use crate::spectrum::{self, Wave};
+use crate::strength::Strength;
+use crate::sum::Sum;
 use num_complex::Complex64;
 
 /// One slowness with the vertical slownesses that belong to it and 1/R = re + i im.
@@ -18,109 +24,108 @@ struct Slowness {
     im: f64,
 }
 
-impl Kernel {
+impl Setting {
     /// Adds both senses of one wave over 1 < x < 1/kappa.
-    pub(crate) fn slow<const ORDER: i32>(&self, at: Point, wave: Wave, sum: &mut Sum) {
+    pub(crate) fn slow<O: TimeOrder>(&self, at: Point, wave: Wave, sum: &mut Sum) {
         let span = (self.k - 1.0).sqrt();
-        let mut landscape = Landscape::new(
-            &self.fixed.slow,
-            self.fixed.slow_pole,
-            self.strength::<ORDER>(),
-            Fold::Both,
-        )
-        .with_rounding(self.front_rounding(at));
-        let stretch = &self.fixed.stretch;
-        fronts::add_slow(
-            &mut landscape,
-            at,
-            self.profile().radius(),
-            self.k,
-            stretch,
-            wave,
-        );
-        let shallow = shallow::applies::<ORDER>(self.profile(), at);
-        if shallow {
-            let (above, radius) = (shallow::above(at), self.profile().radius());
-            fronts::add_slow(&mut landscape, above, radius, self.k, stretch, wave);
-        }
+        let shallow = shallow::applies::<O>(self.profile, at);
+        let mut landscape = self.slow_landscape::<O>(at, wave, shallow);
         for interval in landscape.intervals() {
             landscape.visit(
                 interval,
                 self.digits(at, shallow),
-                &mut |s, weight, share| {
-                    let (q, dq) = stretch.half_angle(s);
+                &mut |s, weight, error| {
+                    let (q, dq) = self.fixed.stretch.half_angle(s);
                     let inverse = 1.0 / (1.0 + q * q);
                     let p_abs = span * 2.0 * q * inverse;
                     let y = span * (1.0 - q) * (1.0 + q) * inverse;
                     let x = (1.0 + p_abs * p_abs).sqrt();
-                    let (re, im) = spectrum::inverse_rayleigh(self.k, x, p_abs, y);
-                    let slowness = Slowness {
-                        x,
-                        p_abs,
-                        y,
-                        re,
-                        im,
-                    };
-                    let psi = match wave {
-                        Wave::P => self.longitudinal::<ORDER>(at, slowness),
-                        Wave::S => self.shear::<ORDER>(at, slowness),
-                    };
-                    let amplitudes = spectrum::slow(wave, self.k, x, p_abs, y);
+                    let term = self.slow_term::<O>(at, wave, (x, p_abs, y), shallow);
                     // dx = p^ dp^/x, dp^ = 2 y/(1 + q^2) dq
                     let jacobian = p_abs * 2.0 * y * inverse / x * dq;
-                    let mut term = fields(&amplitudes, &psi, at.r);
-                    if shallow {
-                        let difference = match wave {
-                            Wave::P => longitudinal_difference(at, slowness),
-                            Wave::S => shear_difference(at, slowness),
-                        };
-                        set_traction(&mut term, &amplitudes, difference, at.r);
-                    }
-                    sum.add(weight * jacobian, share, term);
+                    sum.add(weight * jacobian, error, term);
                 },
             );
         }
+    }
+
+    /// The singularities of one wave in both senses.
+    fn slow_landscape<O: TimeOrder>(&self, at: Point, wave: Wave, shallow: bool) -> Landscape {
+        let fixed = &self.fixed;
+        let strength = Strength::of::<O>(self.profile);
+        let mut landscape = Landscape::new(&fixed.slow, fixed.slow_pole, strength, Fold::Both)
+            .with_rounding(self.front_rounding(at));
+        let radius = self.profile.radius();
+        fronts::add_slow(&mut landscape, at, radius, self.k, &fixed.stretch, wave);
+        if shallow {
+            let above = shallow::above(at);
+            fronts::add_slow(&mut landscape, above, radius, self.k, &fixed.stretch, wave);
+        }
+        landscape
+    }
+
+    /// The integrand at slowness x, p = -i `p_abs`, y = sqrt(K - x^2).
+    #[inline]
+    fn slow_term<O: TimeOrder>(
+        &self,
+        at: Point,
+        wave: Wave,
+        (x, p_abs, y): (f64, f64, f64),
+        shallow: bool,
+    ) -> Six {
+        let (re, im) = spectrum::inverse_rayleigh(self.k, x, p_abs, y);
+        let slowness = Slowness {
+            x,
+            p_abs,
+            y,
+            re,
+            im,
+        };
+        let psi = match wave {
+            Wave::P => self.longitudinal::<O>(at, slowness),
+            Wave::S => self.shear::<O>(at, slowness),
+        };
+        let amplitudes = spectrum::slow(wave, self.k, x, p_abs, y);
+        let mut term = amplitudes.fields(&psi, at.r);
+        if shallow {
+            let Difference { a, g } = match wave {
+                Wave::P => longitudinal_difference(at, slowness),
+                Wave::S => shear_difference(at, slowness),
+            };
+            amplitudes.set_traction(&mut term, a, g, at.r);
+        }
+        term
     }
 
     /// Re of -i/R times the sum of both senses, or times i x their difference for the time integral.
     ///
     /// xi+ is the conjugate of xi-, so the potentials combine to real numbers.
     #[inline]
-    fn longitudinal<const ORDER: i32>(&self, at: Point, n: Slowness) -> Potentials<f64> {
+    fn longitudinal<O: TimeOrder>(&self, at: Point, n: Slowness) -> Potentials<f64> {
         let inverse = 1.0 / n.x;
         let xi = Complex64::new(at.z * n.p_abs * inverse, -at.t * inverse);
         let factor = 2.0 * n.im;
-        potentials::<ORDER>(self.profile(), xi, at.r).map(|v| {
-            if ORDER == 0 {
-                factor * v.re
-            } else if ORDER == 1 {
-                factor * n.x * v.im
-            } else if ORDER == 2 {
-                -factor * n.x * n.x * v.re
-            } else {
-                -factor * inverse * v.im
-            }
+        potentials::<O>(self.profile, xi, at.r).map(|v| match O::ORDER {
+            Order::Impulse => -factor * inverse * v.im,
+            Order::Step => factor * v.re,
+            Order::StepIntegral => factor * n.x * v.im,
+            Order::SecondIntegral => -factor * n.x * n.x * v.re,
         })
     }
 
     /// The same for the shear wave, whose arguments are imaginary; u and the normal stresses take 1/R.
     #[inline]
-    fn shear<const ORDER: i32>(&self, at: Point, n: Slowness) -> Potentials<f64> {
+    fn shear<O: TimeOrder>(&self, at: Point, n: Slowness) -> Potentials<f64> {
         let inverse = 1.0 / n.x;
         let argument = |t: f64| Complex64::new(0.0, (at.z * n.y + t) * inverse);
-        let minus = potentials::<ORDER>(self.profile(), argument(-at.t), at.r);
-        let plus = potentials::<ORDER>(self.profile(), argument(at.t), at.r);
-        let both = |m: Complex64, p: Complex64| {
-            // the factors +-i/x of d/dt and -+i x of int dt for the two senses
-            if ORDER == 0 {
-                m + p
-            } else if ORDER == 1 {
-                Complex64::new(n.x * (m.im - p.im), n.x * (p.re - m.re))
-            } else if ORDER == 2 {
-                -n.x * n.x * (m + p)
-            } else {
-                Complex64::new(inverse * (p.im - m.im), inverse * (m.re - p.re))
-            }
+        let minus = potentials::<O>(self.profile, argument(-at.t), at.r);
+        let plus = potentials::<O>(self.profile, argument(at.t), at.r);
+        // the factors +-i/x of d/dt and -+i x of int dt for the two senses
+        let both = |m: Complex64, p: Complex64| match O::ORDER {
+            Order::Impulse => Complex64::new(inverse * (p.im - m.im), inverse * (m.re - p.re)),
+            Order::Step => m + p,
+            Order::StepIntegral => Complex64::new(n.x * (m.im - p.im), n.x * (p.re - m.re)),
+            Order::SecondIntegral => -n.x * n.x * (m + p),
         };
         // Re[(re + i im) v] and Re[-i (re + i im) v]
         let over_r = |v: Complex64| n.re * v.re - n.im * v.im;
@@ -134,7 +139,7 @@ impl Kernel {
     }
 }
 
-/// What the longitudinal potentials of the tractions are more than at the surface.
+/// The longitudinal potentials of the tractions less their values at the surface.
 fn longitudinal_difference(at: Point, n: Slowness) -> Difference<f64> {
     let surface = Complex64::new(0.0, -at.t / n.x);
     let step = Complex64::new(at.z * n.p_abs / n.x, 0.0);

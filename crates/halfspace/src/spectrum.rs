@@ -5,7 +5,9 @@
 //! Below x = 1 every amplitude is real or imaginary; above it p = -i sqrt(x^2 - 1), R is complex, and every
 //! amplitude is a real number over R or over i R.
 
+use crate::field::{Field, Six};
 use crate::medium::Medium;
+use crate::potentials::Potentials;
 
 /// The two body waves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -31,6 +33,28 @@ pub(crate) struct Amplitudes<T> {
     pub(crate) rz: T,
     pub(crate) rr: T,
     pub(crate) tt: T,
+}
+
+impl Amplitudes<f64> {
+    /// The six fields from real amplitudes and potentials.
+    #[inline]
+    pub(crate) fn fields(&self, psi: &Potentials<f64>, r: f64) -> Six {
+        let hoop = 2.0 * self.u * psi.g_upper;
+        [
+            self.u * psi.g_upper * r,
+            self.w * psi.a_upper,
+            self.rr * psi.a_lower - hoop,
+            self.tt * psi.a_lower + hoop,
+            self.zz * psi.a_lower,
+            self.rz * psi.g_lower * r,
+        ]
+    }
+
+    /// Replaces sigma_zz and sigma_rz by those of A_2 and B_2/r less their values at the surface, `a` and `g`.
+    pub(crate) fn set_traction(&self, term: &mut Six, a: f64, g: f64, r: f64) {
+        term[Field::StressZz.index()] = self.zz * a;
+        term[Field::StressRz.index()] = self.rz * g * r;
+    }
 }
 
 /// Floor of the Rayleigh function, which vanishes with the numerators at slowness one when nu = 0.

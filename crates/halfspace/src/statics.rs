@@ -5,25 +5,32 @@
 //! srr = -A2 + z A1 - 2 u/r         stt = -2 nu A2 + 2 u/r             potentials at xi = z
 //! ```
 //!
-//! For the Hertz profile this is Huber's solution (1904).
+//! For the Hertz profile this is Huber's solution (1904), which has a form of its own.
 
+use crate::closed_form::potentials;
 use crate::field::Six;
-use crate::fronts::Point;
+use crate::huber;
 use crate::medium::Medium;
-use crate::potential::potentials;
+use crate::order::{Impulse, Step};
 use crate::profile::Profile;
-use crate::shallow;
 use num_complex::Complex64;
 
 /// Static fields at (r, z), r, z >= 0.
 pub(crate) fn static_field(medium: &Medium, profile: Profile, r: f64, z: f64) -> Six {
+    match profile {
+        Profile::Hertz => huber::static_field(medium.poisson_ratio(), r, z),
+        Profile::Punch | Profile::Point => by_potentials(medium, profile, r, z),
+    }
+}
+
+fn by_potentials(medium: &Medium, profile: Profile, r: f64, z: f64) -> Six {
     let nu = medium.poisson_ratio();
     let xi = Complex64::new(z, 0.0);
-    let here = potentials::<0>(profile, xi, r);
+    let here = potentials::<Step>(profile, xi, r);
     let (a3, a2, g3) = (here.a_upper.re, here.a_lower.re, here.g_upper.re);
     // z times the lower orders vanishes on the surface, though they are singular at the edge there
     let (z_a1, z_g2, z_g1) = if z > 0.0 {
-        let below = potentials::<-1>(profile, xi, r);
+        let below = potentials::<Impulse>(profile, xi, r);
         (
             z * below.a_lower.re,
             z * here.g_lower.re,
@@ -33,11 +40,7 @@ pub(crate) fn static_field(medium: &Medium, profile: Profile, r: f64, z: f64) ->
         (0.0, 0.0, 0.0)
     };
     let u_over_r = 0.5 * (z_g2 - (1.0 - 2.0 * nu) * g3);
-    let szz = if r > 1.0 && shallow::applies::<0>(profile, Point { r, z, t: 0.0 }) {
-        // outside the disc A2 vanishes on the surface
-        let surface = Complex64::new(0.0, 0.0);
-        -(shallow::difference(surface, xi, r).a.re + z_a1)
-    } else if z > 0.0 {
+    let szz = if z > 0.0 {
         -(a2 + z_a1)
     } else {
         -profile.pressure(r)

@@ -130,7 +130,7 @@ fn one_error_in_a_thousand_exceeds_its_estimate_for_a_punch_and_a_point() {
                     }
                 }
             }
-            let share = exceeding as f64 / (6 * POINTS) as f64;
+            let fraction = exceeding as f64 / (6 * POINTS) as f64;
             heading(&format!(
                 "{profile:?} {region:?}, tolerance {tolerance:e}: {exceeding} of {} errors exceed their estimate",
                 6 * POINTS
@@ -139,8 +139,8 @@ fn one_error_in_a_thousand_exceeds_its_estimate_for_a_punch_and_a_point() {
             line("displacement, error/size", &relative[0]);
             line("stress, error/size", &relative[1]);
             assert!(
-                share <= 1e-3,
-                "{profile:?} {region:?} {tolerance:e}: {share}"
+                fraction <= 1e-3,
+                "{profile:?} {region:?} {tolerance:e}: {fraction}"
             );
         }
     }
@@ -166,12 +166,12 @@ fn one_error_in_a_thousand_exceeds_its_estimate() {
                 }
             }
         }
-        let share = exceeding as f64 / total as f64;
+        let fraction = exceeding as f64 / total as f64;
         heading(&format!(
             "tolerance {tolerance:e}: {exceeding} of {total} errors exceed their estimate"
         ));
         let caution = line("estimate / error", &caution);
-        assert!(share < 1e-3, "tolerance {tolerance:e}: {share}");
+        assert!(fraction < 1e-3, "tolerance {tolerance:e}: {fraction}");
         assert!(
             (10.0..200.0).contains(&caution.p50),
             "tolerance {tolerance:e}: {caution}"

@@ -47,10 +47,10 @@ proptest! {
 
     #[test]
     fn nothing_moves_before_the_first_arrival(
-        nu in -0.5..0.499_f64, profile in any_profile(), r in 0.0..20.0_f64, z in 1e-6..20.0_f64, share in 0.0..1.0_f64,
+        nu in -0.5..0.499_f64, profile in any_profile(), r in 0.0..20.0_f64, z in 1e-6..20.0_f64, part in 0.0..1.0_f64,
     ) {
         let kernel = kernel(nu, profile, 1e-10);
-        let t = share * arrivals(&kernel, r, z).first();
+        let t = part * arrivals(&kernel, r, z).first();
         let total = step(&kernel, r, z, t);
         prop_assert_eq!(total, Six::default());
     }

@@ -49,7 +49,7 @@ fn kausel_vertical(nu: f64, tau: f64) -> f64 {
     let rayleigh = weight(2, (x3 - a2).sqrt().into()).re;
     let statics = (1.0 - nu) / (2.0 * PI);
     let square = tau * tau;
-    let surface = |share: f64| share - share * rayleigh / (x3 - square).sqrt();
+    let surface = |weight: f64| weight - weight * rayleigh / (x3 - square).sqrt();
     if square < a2 {
         0.0
     } else if tau < 1.0 {
@@ -103,12 +103,12 @@ fn pekeris_radial(tau: f64) -> f64 {
     if k2 <= 0.0 {
         return 0.0;
     }
-    let (modulus, share, scale) = if tau < 1.0 {
+    let (modulus, factor, scale) = if tau < 1.0 {
         (k2, k2, 1.0)
     } else {
         (1.0 / k2, 1.0, 1.0 / k2.sqrt())
     };
-    let third = |n: f64| complete_elliptic(n * share, modulus);
+    let third = |n: f64| complete_elliptic(n * factor, modulus);
     let sum = 6.0 * third(0.0) - 18.0 * third(8.0)
         + (6.0 - 4.0 * root3) * third(-(12.0 * root3 - 20.0))
         + (6.0 + 4.0 * root3) * third(12.0 * root3 + 20.0);
@@ -231,9 +231,20 @@ fn the_response_on_the_axis_is_algebraic() {
         let kernel = point(nu, 1e-12);
         let fronts = [1.0, 1.0 / kernel.medium().kappa()];
         // the axis is a continuation from larger radii, which a front leaves less and less room
+        // p90 and largest of w, then of szz
         for (label, near, far, bounds) in [
-            ("clear of fronts by 5 %", 0.05, f64::INFINITY, [1e-5, 1e-2]),
-            ("within 0.5 to 5 %", 0.005, 0.05, [1e-4, 0.1]),
+            (
+                "clear of fronts by 5 %",
+                0.05,
+                f64::INFINITY,
+                [[5e-9, 2e-8], [1e-5, 2e-3]],
+            ),
+            (
+                "within 0.5 to 5 %",
+                0.005,
+                0.05,
+                [[1e-8, 2e-8], [1e-4, 1e-3]],
+            ),
         ] {
             let mut errors = [vec![], vec![]];
             for i in 1..=1200 {
@@ -252,9 +263,12 @@ fn the_response_on_the_axis_is_algebraic() {
                 assert_eq!(found[U], 0.0);
             }
             println!("nu = {nu:.4}, {label}");
-            for ((name, errors), bound) in ["w", "szz"].iter().zip(&errors).zip(bounds) {
+            for ((name, errors), [p90, max]) in ["w", "szz"].iter().zip(&errors).zip(bounds) {
                 let found = line(name, errors);
-                assert!(found.max < bound, "nu = {nu}, {name}, {label}: {found}");
+                assert!(
+                    found.p90 < p90 && found.max < max,
+                    "nu = {nu}, {name}, {label}: {found}"
+                );
             }
         }
     }

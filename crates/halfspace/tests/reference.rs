@@ -162,7 +162,7 @@ fn the_reported_error_bounds_the_observed_error() {
         let samples = samples(tolerance);
         // the estimate is that of the remainder; the static part adds its own rounding
         let covered = |s: &&Sample| s.error <= s.estimate + ROUNDING;
-        let share = samples.iter().filter(covered).count() as f64 / samples.len() as f64;
+        let fraction = samples.iter().filter(covered).count() as f64 / samples.len() as f64;
         let caution: Vec<f64> = samples
             .iter()
             .filter(|s| s.error > 0.0)
@@ -170,7 +170,7 @@ fn the_reported_error_bounds_the_observed_error() {
             .collect();
         heading(&format!(
             "tolerance {tolerance:e}: {:.2} % of the errors within the estimate",
-            100.0 * share
+            100.0 * fraction
         ));
         let caution = line("estimate / error", &caution);
         let relative: Vec<f64> = samples.iter().map(Sample::relative).collect();
@@ -185,7 +185,7 @@ fn the_reported_error_bounds_the_observed_error() {
                 s.error, s.estimate, s.kind, s.label
             );
         }
-        assert!(share >= covers, "tolerance {tolerance:e}: {share}");
+        assert!(fraction >= covers, "tolerance {tolerance:e}: {fraction}");
         assert!(
             caution.p50 < 1e3,
             "tolerance {tolerance:e}: {}",

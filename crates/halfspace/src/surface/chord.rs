@@ -12,7 +12,8 @@ pub(super) type Moments = [f64; POWERS.len()];
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Chord {
     pub(super) support: f64,
-    pub(super) static_share: f64,
+    /// Static deflection under unit force over 1 - nu.
+    pub(super) static_factor: f64,
     /// a_k for the k of [`POWERS`].
     pub(super) coefficients: Moments,
 }
@@ -22,13 +23,13 @@ impl Chord {
         match deflection {
             Deflection::Centre => Self {
                 support: 1.0,
-                static_share: 3.0 / 8.0,
+                static_factor: 3.0 / 8.0,
                 coefficients: [0.0, 1.0, -1.0, 0.0, 0.0],
             },
             // (2 - eta)^3 (eta^2 + 6 eta + 4)/32, the chord function convolved with itself
             Deflection::Mean => Self {
                 support: 2.0,
-                static_share: 3.0 / 10.0,
+                static_factor: 3.0 / 10.0,
                 coefficients: [0.0, 1.0, -5.0 / 4.0, 5.0 / 8.0, -1.0 / 32.0],
             },
         }

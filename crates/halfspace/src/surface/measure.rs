@@ -21,12 +21,12 @@ impl Measure {
     pub(super) fn new(medium: &Medium) -> Self {
         let k = medium.shear_slowness_squared();
         let c = medium.rayleigh_speed();
-        let share = k / (1.0 - medium.poisson_ratio());
+        let density = k / (1.0 - medium.poisson_ratio());
         let mut measure = Self {
             k,
-            scale: 2.0 / PI * share,
+            scale: 2.0 / PI * density,
             rayleigh_slowness: 1.0 / c,
-            rayleigh_mass: 2.0 * (1.0 - c * c).sqrt() * c * share / medium.rayleigh_slope(),
+            rayleigh_mass: 2.0 * (1.0 - c * c).sqrt() * c * density / medium.rayleigh_slope(),
             ends: [panel_ends(Zone::Fast), panel_ends(Zone::Slow)],
             beyond: [vec![], vec![]],
         };

@@ -61,7 +61,7 @@ pub struct SurfaceResponse {
     relaxation_time: f64,
     /// Step response and its integral, for each zone.
     curves: [[Curve; 2]; 2],
-    /// Impulse response for each zone, fitted when it is first asked for.
+    /// Impulse response for each zone, fitted at the first call.
     impulse: OnceLock<[Curve; 2]>,
     medium: Medium,
 }
@@ -87,7 +87,7 @@ impl SurfaceResponse {
         });
         Self {
             deflection,
-            static_compliance: chord.static_share * (1.0 - medium.poisson_ratio()),
+            static_compliance: chord.static_factor * (1.0 - medium.poisson_ratio()),
             shear_slowness: measure.k.sqrt(),
             rayleigh_slowness: measure.rayleigh_slowness,
             rayleigh_mass: measure.rayleigh_mass,
@@ -124,10 +124,13 @@ impl SurfaceResponse {
         self.relaxation_time
     }
 
-    /// W(t): step response over its static value; 0 for t <= 0, 1 for t >= [`Self::memory`].
+    /// W(t): step response over its static value; 0 for t <= 0, 1 for t >= [`Self::memory`], NaN for NaN.
     #[must_use]
     pub fn step(&self, t: f64) -> f64 {
-        if t.is_nan() || t <= 0.0 {
+        if t.is_nan() {
+            return t;
+        }
+        if t <= 0.0 {
             return 0.0;
         }
         self.fitted(t, 0).unwrap_or_else(|| {
@@ -135,10 +138,13 @@ impl SurfaceResponse {
         })
     }
 
-    /// int_0^t W dt; t - [`Self::relaxation_time`] once the response is static.
+    /// int_0^t W dt in r0/c1; t - [`Self::relaxation_time`] once the response is static, 0 for t <= 0, NaN for NaN.
     #[must_use]
     pub fn step_integral(&self, t: f64) -> f64 {
-        if t.is_nan() || t <= 0.0 {
+        if t.is_nan() {
+            return t;
+        }
+        if t <= 0.0 {
             return 0.0;
         }
         self.fitted(t, 1).unwrap_or_else(|| {
@@ -160,7 +166,10 @@ impl SurfaceResponse {
     /// The first call takes as long as [`Self::new`]. Accuracy 1e-11 of the value at t = 0.
     #[must_use]
     pub fn impulse(&self, t: f64) -> f64 {
-        if t.is_nan() || t < 0.0 {
+        if t.is_nan() {
+            return t;
+        }
+        if t < 0.0 {
             return 0.0;
         }
         let chord = self.chord();
@@ -218,8 +227,8 @@ mod tests {
                 let response = SurfaceResponse::new(&medium, deflection);
                 let size = response.impulse(0.0);
                 let memory = response.memory();
-                for share in [0.003, 0.07, 0.2, 0.33, 0.57, 0.81, 0.93, 0.999] {
-                    let (t, h) = (share * memory, 1e-5 * memory);
+                for part in [0.003, 0.07, 0.2, 0.33, 0.57, 0.81, 0.93, 0.999] {
+                    let (t, h) = (part * memory, 1e-5 * memory);
                     let slope = (response.step(t + h) - response.step(t - h)) / (2.0 * h);
                     let error = (response.impulse(t) - slope).abs();
                     assert!(error < 3e-6 * size, "nu = {nu}, t = {t}: {error}");

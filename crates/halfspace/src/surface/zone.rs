@@ -114,8 +114,8 @@ mod tests {
         for zone in [Zone::Fast, Zone::Slow] {
             let ends = panel_ends(zone);
             for pair in ends.windows(2) {
-                for share in [1e-9, 0.3, 0.999_999] {
-                    let fraction = (pair[0] + share * (pair[1] - pair[0])) / FRAC_PI_2;
+                for part in [1e-9, 0.3, 0.999_999] {
+                    let fraction = (pair[0] + part * (pair[1] - pair[0])) / FRAC_PI_2;
                     let (panel, from, to) = panel_of(zone, fraction);
                     assert!((from - ends[panel] / FRAC_PI_2).abs() < 1e-15);
                     assert!((to - ends[panel + 1] / FRAC_PI_2).abs() < 1e-15);

@@ -1,9 +1,6 @@
-//! What the tests of this crate share: quantiles, peaks over time, reference files.
+//! Helpers of all tests of this crate: quantiles, peaks over time, reference files.
 
-#![allow(
-    dead_code,
-    reason = "every test crate uses its own share of these helpers"
-)]
+#![allow(dead_code, reason = "every test crate uses some of these helpers")]
 
 use halfspace::{Arrivals, FIELDS, Kernel, Six};
 

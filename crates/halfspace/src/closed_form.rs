@@ -1,4 +1,4 @@
-//! The k-integrals of every kernel in closed form.
+//! The integrals over wave number k in closed form.
 //!
 //! ```text
 //! A_n(xi; r) = int_0^inf Z_H(k) k^{3-n} J0(kr) e^{-k xi} dk      (B_n: J1),   Re xi >= 0
@@ -10,76 +10,74 @@
 //! and by a short Gauss rule when it is far, where the closed form is a difference of large numbers.
 //! B_n is carried as B_n/r, which is smooth at r = 0.
 
-use crate::compact::chord_primitives;
+use crate::chord_integral::{chord_primitives, from_primitives};
 use crate::complex::{inside, logarithm, reciprocal, root_inside, times_minus_i};
 use crate::end::{End, end_orders};
+use crate::far_front;
 use crate::multipole;
+use crate::order::{Order, TimeOrder};
+use crate::potentials::Potentials;
 use crate::profile::Profile;
 use num_complex::Complex64;
 use std::f64::consts::PI;
 
-/// Potentials of two neighbouring orders; `ORDER` 0 is the step response, 1 and 2 its time integrals, -1 its derivative.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Potentials<T> {
-    /// A_{3 + ORDER}, carries w.
-    pub(crate) a_upper: T,
-    /// A_{2 + ORDER}, carries the normal stresses.
-    pub(crate) a_lower: T,
-    /// B_{3 + ORDER}/r, carries u and the hoop terms.
-    pub(crate) g_upper: T,
-    /// B_{2 + ORDER}/r, carries the shear stress.
-    pub(crate) g_lower: T,
-}
-
-impl<T> Potentials<T> {
-    /// The same with every potential replaced.
-    #[inline]
-    pub(crate) fn map<U>(self, f: impl Fn(T) -> U) -> Potentials<U> {
-        Potentials {
-            a_upper: f(self.a_upper),
-            a_lower: f(self.a_lower),
-            g_upper: f(self.g_upper),
-            g_lower: f(self.g_lower),
-        }
-    }
-}
+/// Below this radius the primitives, which are divided by r^2, lose digits.
+pub(crate) const SMALL_RADIUS: f64 = 0.15;
 
 /// The potentials at xi (Re xi >= 0) and radius r.
 #[inline]
-pub(crate) fn potentials<const ORDER: i32>(
+pub(crate) fn potentials<O: TimeOrder>(
     profile: Profile,
     xi: Complex64,
     r: f64,
 ) -> Potentials<Complex64> {
     if profile == Profile::Point {
-        return end_orders::<ORDER>(xi, r).map(|v| v / (2.0 * PI));
+        return end_orders::<O>(xi, r).map(|v| v / (2.0 * PI));
     }
-    /// Below this radius the primitives, which are divided by r^2, lose digits.
-    const SMALL_RADIUS: f64 = 0.15;
     // Farther out the closed forms lose digits, those of the time integral sooner.
-    let nearest = if ORDER == 0 && r > 0.3 { 10.0 } else { 7.0 };
+    let nearest = match O::ORDER {
+        Order::Step if r > 0.3 => 10.0,
+        Order::Impulse | Order::Step | Order::StepIntegral | Order::SecondIntegral => 7.0,
+    };
     match multipole::terms(xi, r, nearest) {
-        Some(terms) => multipole::multipole::<ORDER>(profile, terms, xi, r),
-        None if ORDER >= 0 && profile == Profile::Hertz && r > SMALL_RADIUS => {
+        Some(terms) => multipole::multipole::<O>(profile, terms, xi, r),
+        None if O::ORDER == Order::Step && profile == Profile::Hertz && r > far_front::FAR => {
+            at_far_front(xi, r)
+        }
+        None if O::ORDER != Order::Impulse && profile == Profile::Hertz && r > SMALL_RADIUS => {
             if xi.re == 0.0 {
-                on_imaginary_axis::<ORDER>(xi.im, r)
+                on_imaginary_axis::<O>(xi.im, r)
             } else {
-                by_primitives::<ORDER>(xi, r)
+                by_primitives::<O>(xi, r)
             }
         }
-        None => by_parts::<ORDER>(profile, xi, r),
+        None => by_parts::<O>(profile, xi, r),
+    }
+}
+
+/// The step response of a distant point, xi = d + i eta; the potentials of the conjugate are conjugate.
+fn at_far_front(xi: Complex64, r: f64) -> Potentials<Complex64> {
+    let eta = xi.im.abs();
+    let psi = far_front::potentials(
+        [r - 1.0, r + 1.0].map(|edge| Complex64::new(edge - eta, xi.re)),
+        r,
+    );
+    if xi.im < 0.0 {
+        psi.map(|v| v.conj())
+    } else {
+        psi
     }
 }
 
 /// The Hertz disc from the chord primitives, phi = -i L and q = rho in the variable eta = -i xi.
-fn by_primitives<const ORDER: i32>(xi: Complex64, r: f64) -> Potentials<Complex64> {
+fn by_primitives<O: TimeOrder>(xi: Complex64, r: f64) -> Potentials<Complex64> {
     let zeta = [1.0, -1.0].map(|sigma| Complex64::new(xi.re, xi.im - sigma));
     let inside = inside(xi.im, r);
     let rho = [0, 1].map(|i| root_inside(zeta[i], inside[i]));
     let sum = [zeta[0] + rho[0], zeta[1] + rho[1]];
     let eta = times_minus_i(xi);
     // The step response needs only the difference of phi.
-    let phi = if ORDER == 0 {
+    let phi = if O::ORDER == Order::Step {
         [
             Complex64::default(),
             times_minus_i(logarithm(sum[1] * reciprocal(sum[0]))),
@@ -87,86 +85,45 @@ fn by_primitives<const ORDER: i32>(xi: Complex64, r: f64) -> Potentials<Complex6
     } else {
         sum.map(|sum| times_minus_i(logarithm(sum)))
     };
-    let psi = chord_primitives::<ORDER, Complex64>(eta, r, phi, rho);
-    from_primitives::<ORDER>(psi, eta, r)
+    let psi = chord_primitives::<O, Complex64>(eta, r, phi, rho);
+    from_primitives::<O>(psi, eta, r)
 }
 
 /// The same on the imaginary axis, where real and imaginary part separate into real functions.
-fn on_imaginary_axis<const ORDER: i32>(eta: f64, r: f64) -> Potentials<Complex64> {
+fn on_imaginary_axis<O: TimeOrder>(eta: f64, r: f64) -> Potentials<Complex64> {
     let s = [eta - 1.0, eta + 1.0];
     let inside = inside(eta, r);
     // Re: phi and q held at their value on the circle outside it
-    let re = if ORDER == 0 && eta.abs() >= 1.0 + r {
+    let re = if O::ORDER == Order::Step && eta.abs() >= 1.0 + r {
         Potentials::default()
     } else {
         let phi = s.map(|s| (s / r).clamp(-1.0, 1.0).asin());
         let q = inside.map(|square| square.max(0.0).sqrt());
-        chord_primitives::<ORDER, f64>(eta, r, phi, q)
+        chord_primitives::<O, f64>(eta, r, phi, q)
     };
     // Im: -log|zeta + rho| and Im rho, held inside the circle
     let w = [0, 1].map(|i| (-inside[i]).max(0.0).sqrt().copysign(s[i]));
     let modulus = [0, 1].map(|i| s[i].abs().max(r) + w[i].abs());
-    let log = if ORDER == 0 {
+    let log = if O::ORDER == Order::Step {
         [0.0, (modulus[0] / modulus[1]).ln()]
     } else {
         modulus.map(|modulus| -modulus.ln())
     };
-    let im = chord_primitives::<ORDER, f64>(eta, r, log, w);
-    let join = Complex64::new;
-    let psi = Potentials {
-        a_upper: join(re.a_upper, im.a_upper),
-        a_lower: join(re.a_lower, im.a_lower),
-        g_upper: join(re.g_upper, im.g_upper),
-        g_lower: join(re.g_lower, im.g_lower),
-    };
-    from_primitives::<ORDER>(psi, eta.into(), r)
+    let im = chord_primitives::<O, f64>(eta, r, log, w);
+    let psi = re.zip(im, Complex64::new);
+    from_primitives::<O>(psi, eta.into(), r)
 }
 
-/// Potentials from chord primitives: powers of i from the change of variable, and the part of
-/// F_0 = (1 - zeta/rho)/r and F_1 = (rho - zeta)/r that is free of roots.
-#[inline]
-pub(crate) fn from_primitives<const ORDER: i32>(
-    psi: Potentials<Complex64>,
-    eta: Complex64,
-    r: f64,
-) -> Potentials<Complex64> {
-    let force = 0.5 / (PI * r * r);
-    let times_i = |v: Complex64| Complex64::new(-v.im, v.re);
-    match ORDER {
-        0 => Potentials {
-            a_upper: psi.a_upper,
-            a_lower: times_i(psi.a_lower),
-            g_upper: times_i(psi.g_upper) + force,
-            g_lower: psi.g_lower,
-        },
-        1 => Potentials {
-            a_upper: -times_i(psi.a_upper),
-            a_lower: psi.a_lower,
-            g_upper: psi.g_upper - times_i(eta) * force,
-            g_lower: times_i(psi.g_lower) + force,
-        },
-        _ => {
-            // the second moment of the chord function over its integral
-            const SPREAD: f64 = 0.2;
-            Potentials {
-                a_upper: -psi.a_upper,
-                a_lower: -times_i(psi.a_lower),
-                g_upper: -times_i(psi.g_upper) - (eta * eta + SPREAD) * (0.5 * force),
-                g_lower: psi.g_lower - times_i(eta) * force,
-            }
-        }
-    }
-}
-
-fn by_parts<const ORDER: i32>(profile: Profile, xi: Complex64, r: f64) -> Potentials<Complex64> {
+fn by_parts<O: TimeOrder>(profile: Profile, xi: Complex64, r: f64) -> Potentials<Complex64> {
     let upper = End::new(Complex64::new(xi.re, xi.im - 1.0), r);
     let lower = End::new(Complex64::new(xi.re, xi.im + 1.0), r);
+    let m = O::ORDER.integrations();
     // (X - Y)/(2 i)
     let half_difference = |x: Complex64, y: Complex64| Complex64::new(0.0, -0.5) * (x - y);
     match profile {
         Profile::Hertz => {
             let scale = 1.5 / PI;
-            let (e3, e2, e1) = (3 + ORDER, 2 + ORDER, 1 + ORDER);
+            let (e3, e2, e1) = (3 + m, 2 + m, 1 + m);
             let combine = |outer: [Complex64; 2], inner: [Complex64; 2]| {
                 scale * (half_difference(outer[0], outer[1]) - 0.5 * (inner[0] + inner[1]))
             };
@@ -185,10 +142,10 @@ fn by_parts<const ORDER: i32>(profile: Profile, xi: Complex64, r: f64) -> Potent
             let a = |n| scale * half_difference(upper.e(n), lower.e(n));
             let g = |n| scale * half_difference(upper.f(n), lower.f(n));
             Potentials {
-                a_upper: a(1 + ORDER),
-                a_lower: a(ORDER),
-                g_upper: g(1 + ORDER),
-                g_lower: g(ORDER),
+                a_upper: a(1 + m),
+                a_lower: a(m),
+                g_upper: g(1 + m),
+                g_lower: g(m),
             }
         }
     }
@@ -197,6 +154,7 @@ fn by_parts<const ORDER: i32>(profile: Profile, xi: Complex64, r: f64) -> Potent
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::order::{Impulse, SecondIntegral, Step, StepIntegral};
 
     /// d/dxi of order n + 1 is minus order n: A_{n+1}(xi + h) - A_{n+1}(xi - h) = -2 h A_n.
     #[test]
@@ -212,9 +170,9 @@ mod tests {
                     (0.3, -70.0),
                 ] {
                     let xi = Complex64::new(x, y);
-                    let here = potentials::<0>(profile, xi, r);
-                    let ahead = potentials::<1>(profile, xi + h, r);
-                    let behind = potentials::<1>(profile, xi - h, r);
+                    let here = potentials::<Step>(profile, xi, r);
+                    let ahead = potentials::<StepIntegral>(profile, xi + h, r);
+                    let behind = potentials::<StepIntegral>(profile, xi - h, r);
                     let check = |a: Complex64, b: Complex64, value: Complex64| {
                         let slope = -(a - b) / (2.0 * h);
                         let tolerance = 1e-4 * value.norm() + 1e-10;
@@ -228,9 +186,9 @@ mod tests {
                     check(ahead.g_upper, behind.g_upper, here.g_upper);
                     check(ahead.g_lower, behind.g_lower, here.g_lower);
                     if profile == Profile::Hertz {
-                        let here = potentials::<1>(profile, xi, r);
-                        let ahead = potentials::<2>(profile, xi + h, r);
-                        let behind = potentials::<2>(profile, xi - h, r);
+                        let here = potentials::<StepIntegral>(profile, xi, r);
+                        let ahead = potentials::<SecondIntegral>(profile, xi + h, r);
+                        let behind = potentials::<SecondIntegral>(profile, xi - h, r);
                         check(ahead.a_upper, behind.a_upper, here.a_upper);
                         check(ahead.a_lower, behind.a_lower, here.a_lower);
                         check(ahead.g_upper, behind.g_upper, here.g_upper);
@@ -256,25 +214,20 @@ mod tests {
                 let xi = Complex64::new(x, y);
                 let pairs = [
                     (
-                        potentials::<0>(Profile::Hertz, xi, r),
-                        by_parts::<0>(Profile::Hertz, xi, r),
+                        potentials::<Step>(Profile::Hertz, xi, r),
+                        by_parts::<Step>(Profile::Hertz, xi, r),
                     ),
                     (
-                        potentials::<1>(Profile::Hertz, xi, r),
-                        by_parts::<1>(Profile::Hertz, xi, r),
+                        potentials::<StepIntegral>(Profile::Hertz, xi, r),
+                        by_parts::<StepIntegral>(Profile::Hertz, xi, r),
                     ),
                     (
-                        potentials::<2>(Profile::Hertz, xi, r),
-                        by_parts::<2>(Profile::Hertz, xi, r),
+                        potentials::<SecondIntegral>(Profile::Hertz, xi, r),
+                        by_parts::<SecondIntegral>(Profile::Hertz, xi, r),
                     ),
                 ];
                 for (a, b) in pairs {
-                    let gap = [
-                        a.a_upper - b.a_upper,
-                        a.a_lower - b.a_lower,
-                        a.g_upper - b.g_upper,
-                        a.g_lower - b.g_lower,
-                    ];
+                    let gap = a.zip(b, |a, b| a - b).into_array();
                     assert!(
                         gap.iter()
                             .all(|g| g.norm() < 1e-15 * (20.0 + 10.0 / (r * r))),
@@ -294,33 +247,48 @@ mod tests {
                     let xi = Complex64::new(x, y);
                     let pairs = [
                         (
-                            by_parts::<0>(profile, xi, r),
-                            multipole::multipole::<0>(profile, 9, xi, r),
+                            by_parts::<Step>(profile, xi, r),
+                            multipole::multipole::<Step>(profile, 9, xi, r),
                         ),
                         (
-                            by_parts::<1>(profile, xi, r),
-                            multipole::multipole::<1>(profile, 9, xi, r),
+                            by_parts::<StepIntegral>(profile, xi, r),
+                            multipole::multipole::<StepIntegral>(profile, 9, xi, r),
                         ),
                         (
-                            by_parts::<-1>(profile, xi, r),
-                            multipole::multipole::<-1>(profile, 9, xi, r),
+                            by_parts::<Impulse>(profile, xi, r),
+                            multipole::multipole::<Impulse>(profile, 9, xi, r),
                         ),
                         (
-                            by_parts::<2>(Profile::Hertz, xi, r),
-                            multipole::multipole::<2>(Profile::Hertz, 9, xi, r),
+                            by_parts::<SecondIntegral>(Profile::Hertz, xi, r),
+                            multipole::multipole::<SecondIntegral>(Profile::Hertz, 9, xi, r),
                         ),
                     ];
                     for (order, (closed, series)) in pairs.into_iter().enumerate() {
-                        for (a, b) in [
-                            (closed.a_upper, series.a_upper),
-                            (closed.a_lower, series.a_lower),
-                            (closed.g_upper, series.g_upper),
-                            (closed.g_lower, series.g_lower),
-                        ] {
+                        for (a, b) in closed.zip(series, |a, b| (a, b)).into_array() {
                             assert!(
                                 (a - b).norm() < 2e-12,
                                 "{profile:?} #{order} {r} {xi}: {a} {b}"
                             );
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// Where both are good, the series at a distant front agrees with integration by parts.
+    #[test]
+    fn the_far_front_agrees_with_integration_by_parts() {
+        for r in [26.0, 40.0, 90.0] {
+            for d in [0.0, 1e-3, 0.4, 3.0] {
+                for i in -40..=40 {
+                    let eta = r + 0.217 * f64::from(i);
+                    for xi in [Complex64::new(d, eta), Complex64::new(d, -eta)] {
+                        let found = at_far_front(xi, r).into_array();
+                        let expected = by_parts::<Step>(Profile::Hertz, xi, r).into_array();
+                        for (a, b) in found.into_iter().zip(expected) {
+                            let gap = (a - b).norm();
+                            assert!(gap < 1e-15 * r * r, "{r} {xi}: {a} {b}");
                         }
                     }
                 }

@@ -1,0 +1,74 @@
+//! Ranges of the arguments.
+
+use crate::error::DomainError;
+use crate::profile::Profile;
+
+/// Lengths and times up to here: their powers stay in the range of a double.
+pub(crate) const FARTHEST: f64 = 1e20;
+
+/// Least distance from a point force and least width of a cell, for the same reason.
+pub(crate) const NEAREST: f64 = 1e-20;
+
+/// `value` if `allowed`, else the error that names it and `range`.
+pub(crate) fn check(
+    allowed: bool,
+    argument: &'static str,
+    value: f64,
+    range: &'static str,
+) -> Result<f64, DomainError> {
+    if allowed {
+        Ok(value)
+    } else {
+        Err(DomainError::Range {
+            argument,
+            value,
+            range,
+        })
+    }
+}
+
+/// r and z in [0, 1e20].
+pub(crate) fn check_place(r: f64, z: f64) -> Result<(), DomainError> {
+    check((0.0..=FARTHEST).contains(&r), "r", r, "[0, 1e20]")?;
+    check((0.0..=FARTHEST).contains(&z), "z", z, "[0, 1e20]")?;
+    Ok(())
+}
+
+/// A place in range at which the fields of a profile are finite.
+pub(crate) fn check_place_under(profile: Profile, r: f64, z: f64) -> Result<(), DomainError> {
+    check_place(r, z)?;
+    let (is_regular, range) = match profile {
+        Profile::Hertz => return Ok(()),
+        Profile::Punch => (
+            z >= NEAREST || r != 1.0,
+            "[0, 1) or (1, 1e20] where z < 1e-20, for a punch",
+        ),
+        Profile::Point => (
+            z >= NEAREST || r >= NEAREST,
+            "[1e-20, 1e20] where z < 1e-20, for a point force",
+        ),
+    };
+    check(is_regular, "r", r, range)?;
+    Ok(())
+}
+
+/// t in [0, 1e20].
+pub(crate) fn check_time(t: f64) -> Result<(), DomainError> {
+    check((0.0..=FARTHEST).contains(&t), "t", t, "[0, 1e20]")?;
+    Ok(())
+}
+
+/// Width of a cell in [1e-20, 1e20].
+pub(crate) fn check_width(width: f64) -> Result<(), DomainError> {
+    let range = NEAREST..=FARTHEST;
+    check(range.contains(&width), "width", width, "[1e-20, 1e20]")?;
+    Ok(())
+}
+
+/// A function that only the Hertz profile has.
+pub(crate) fn check_hertz(profile: Profile, function: &'static str) -> Result<(), DomainError> {
+    match profile {
+        Profile::Hertz => Ok(()),
+        Profile::Punch | Profile::Point => Err(DomainError::HertzOnly { function, profile }),
+    }
+}

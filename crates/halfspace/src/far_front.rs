@@ -1,0 +1,119 @@
+//! The potentials of a Hertz disc where a front passes a distant point.
+//!
+//! There the closed forms are differences of terms of the order of r^2. With s = eta - sigma the place on the chord seen
+//! from the point and delta = r - s the distance behind the front,
+//!
+//! ```text
+//! 1/rho = delta^{-1/2} (2 r - delta)^{-1/2} = (2 r)^{-1/2} sum_k (1/2)_k/k! (2 r)^{-k} delta^{k - 1/2}
+//! ```
+//!
+//! where delta is of order one and 2 r large, and the chord integrals are those of powers of delta:
+//!
+//! ```text
+//! A_3 = C I_0     A_2 = -2 i C K_0     B_3/r = C/r^2 [4/3 - i (r I_0 - I_1)]     B_2/r = -2 C/r^2 (r K_0 - K_1)
+//! I_j = int (1 - sigma^2) delta^j/rho dsigma     K_j = int sigma delta^j/rho dsigma     C = 3/(8 pi)
+//! ```
+//!
+//! Nothing is left of the distance but its root, so all digits of the front are kept.
+
+use crate::potentials::Potentials;
+use crate::scalar::Scalar;
+use num_complex::Complex64;
+use std::f64::consts::PI;
+
+/// Radius from which on the closed forms are replaced.
+pub(crate) const FAR: f64 = 25.0;
+
+const C: f64 = 0.375 / PI;
+
+/// Most terms of the series, enough at [`FAR`] for |delta| <= 11.
+const MOST_TERMS: usize = 26;
+
+/// The four chord integrals.
+struct Chord<T> {
+    i: [T; 2],
+    k: [T; 2],
+}
+
+/// The integrals from delta and its square root at both ends, sigma = -1 and 1.
+///
+/// Any branch of the root may be taken, and a root of zero stands for an end that the front has not reached.
+fn chord<T: Scalar>(delta: [T; 2], root: [T; 2], size: f64, r: f64) -> Chord<T> {
+    let zero = T::from(0.0);
+    let one = T::from(1.0);
+    let ratio = size / (2.0 * r);
+    let terms = ((-37.0 / ratio.ln()).ceil() as usize).clamp(4, MOST_TERMS);
+    // sigma = e + delta
+    let e = one - delta[1];
+    let inside = (one - e) * (one + e);
+    let twice = e + e;
+    // D_m = [delta^{m + 1/2}]/(m + 1/2) over (2 r)^m
+    let scale = 1.0 / (2.0 * r);
+    let mut powers = root;
+    let mut next = |m: usize| {
+        let difference = (powers[1] - powers[0]) * (1.0 / (m as f64 + 0.5));
+        powers = [0, 1].map(|end| powers[end] * delta[end] * scale);
+        difference
+    };
+    let mut d = [next(0), next(1), next(2), next(3)];
+    let (mut i, mut k) = ([zero; 2], [zero; 2]);
+    let mut coefficient = 1.0;
+    let up = 2.0 * r;
+    for m in 0..terms {
+        for j in 0..2 {
+            // delta^j lifts the order by j, a factor (2 r)^j of what is held
+            let lift = if j == 0 {
+                coefficient
+            } else {
+                coefficient * up
+            };
+            let bent = inside * d[j] - (twice * d[j + 1] + d[j + 2] * up) * up;
+            i[j] = i[j] + bent * lift;
+            k[j] = k[j] + (e * d[j] + d[j + 1] * up) * lift;
+        }
+        coefficient *= (m as f64 + 0.5) / (m as f64 + 1.0);
+        d = [d[1], d[2], d[3], next(m + 4)];
+    }
+    let front = scale.sqrt();
+    Chord {
+        i: i.map(|v| v * front),
+        k: k.map(|v| v * front),
+    }
+}
+
+/// The compact parts (a3, a2, b3/r, b2/r) at r - 9 < eta, from `delta` = r - eta -+ 1 at sigma = -1 and 1.
+///
+/// They vanish before the front, delta < 0.
+pub(crate) fn compact(delta: [f64; 2], r: f64) -> Potentials<f64> {
+    let root = delta.map(|delta| delta.max(0.0).sqrt());
+    let size = delta[0].abs().max(delta[1].abs());
+    let Chord { i, k } = chord(delta, root, size, r);
+    let ring = C / (r * r);
+    Potentials {
+        a_upper: C * i[0],
+        a_lower: -2.0 * C * k[0],
+        g_upper: -ring * (r * i[0] - i[1]),
+        g_lower: -2.0 * ring * (r * k[0] - k[1]),
+    }
+}
+
+/// The potentials at xi = d + i eta, eta > 0, from `delta` = r - eta -+ 1 + i d at sigma = -1 and 1.
+pub(crate) fn potentials(delta: [Complex64; 2], r: f64) -> Potentials<Complex64> {
+    let root = delta.map(|delta| {
+        if delta.im == 0.0 && delta.re < 0.0 {
+            Complex64::new(0.0, (-delta.re).sqrt())
+        } else {
+            crate::complex::root(delta)
+        }
+    });
+    let size = delta[0].norm().max(delta[1].norm());
+    let Chord { i, k } = chord(delta, root, size, r);
+    let ring = C / (r * r);
+    let times_minus_i = |v: Complex64| Complex64::new(v.im, -v.re);
+    Potentials {
+        a_upper: C * i[0],
+        a_lower: 2.0 * C * times_minus_i(k[0]),
+        g_upper: ring * (4.0 / 3.0 + times_minus_i(r * i[0] - i[1])),
+        g_lower: -2.0 * ring * (r * k[0] - k[1]),
+    }
+}

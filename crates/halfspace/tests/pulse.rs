@@ -1,0 +1,192 @@
+//! Responses to smooth pulses far from the load, from averages and first moments over cells of any width.
+//!
+//! `cargo test -p hertzlamb-halfspace --test pulse -- --nocapture` prints errors, estimates and costs.
+//!
+//! On each cell the rate of the force is taken as its best straight line, which averages and moments convolve exactly; the
+//! rest of the rate, small and of zero mean, is integrated with values of R. So what is seen is the error of the cells.
+
+#![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
+
+mod support;
+
+use halfspace::gauss::rule;
+use halfspace::{Arrivals, Kernel, Medium, Profile, Six, Trace};
+use std::f64::consts::PI;
+use std::time::Instant;
+use support::{NAMES, heading, line, read_csv};
+
+/// P = sin^4(pi t/length).
+#[derive(Clone, Copy)]
+struct Pulse {
+    length: f64,
+}
+
+impl Pulse {
+    fn force(self, t: f64) -> f64 {
+        if (0.0..self.length).contains(&t) {
+            (PI * t / self.length).sin().powi(4)
+        } else {
+            0.0
+        }
+    }
+
+    fn rate(self, t: f64) -> f64 {
+        let (sin, cos) = (PI * t / self.length).sin_cos();
+        4.0 * PI / self.length * sin.powi(3) * cos
+    }
+
+    /// Mean and slope of the best straight line to the rate of t - s on a cell, in powers of s - centre.
+    fn line(self, t: f64, [from, to]: [f64; 2]) -> [f64; 2] {
+        let (centre, width) = (0.5 * (from + to), to - from);
+        let (mut mean, mut slope) = (0.0, 0.0);
+        for (s, weight) in rule(8).on(from, to) {
+            let rate = weight / width * self.rate(t - s);
+            mean += rate;
+            slope += 12.0 / (width * width) * (s - centre) * rate;
+        }
+        [mean, slope]
+    }
+}
+
+/// A response and what its cells say of its error.
+struct Response {
+    value: Six,
+    error: Six,
+}
+
+/// The response at t from `count` cells of the pulse's length.
+fn by_cells(
+    kernel: &Kernel,
+    trace: &Trace,
+    place: [f64; 2],
+    pulse: Pulse,
+    t: f64,
+    count: usize,
+) -> Response {
+    let [r, z] = place;
+    let rest = kernel.static_field(r, z).unwrap();
+    let arrivals = Arrivals::new(kernel.medium(), Profile::Hertz, r, z)
+        .unwrap()
+        .sorted();
+    let mut value = rest.map(|s| pulse.force(t) * s);
+    let mut error = Six::default();
+    let edge = |j: usize| t - pulse.length * (1.0 - j as f64 / count as f64);
+    for j in 0..count {
+        let cell = [edge(j), edge(j + 1)];
+        let (width, centre) = (cell[1] - cell[0], 0.5 * (cell[0] + cell[1]));
+        let [mean, slope] = pulse.line(t, cell);
+        let (average, moment) = trace.cell(cell[0], cell[1]).unwrap();
+        for f in 0..6 {
+            value[f] += width * (mean * average.value[f] + width * slope * moment.value[f]);
+            error[f] +=
+                width * (mean.abs() * average.error[f] + width * slope.abs() * moment.error[f]);
+        }
+        let mut ends = cell.to_vec();
+        ends.extend(arrivals.iter().filter(|&&a| a > cell[0] && a < cell[1]));
+        ends.sort_by(f64::total_cmp);
+        for pair in ends.windows(2) {
+            // beside a front a map that is flat at both ends
+            let (nodes, bend) = match (ends.len(), count) {
+                (2, 1000) => (4, 0.0),
+                (2, _) => (8, 0.0),
+                (_, _) => (16, 0.5),
+            };
+            for (x, weight) in rule(nodes).on(-1.0, 1.0) {
+                let (q, half) = (x * x, 0.5 * (pair[1] - pair[0]));
+                let s = 0.5 * (pair[0] + pair[1]) + half * x * (1.0 + bend * (1.0 - q));
+                let weight = weight * half * (1.0 + bend * (1.0 - 3.0 * q));
+                let rate = pulse.rate(t - s) - mean - slope * (s - centre);
+                let found = kernel.remainder(r, z, s).unwrap().value;
+                for f in 0..6 {
+                    value[f] += weight * rate * found[f];
+                }
+            }
+        }
+    }
+    Response { value, error }
+}
+
+/// Largest magnitude over time of each field of the response to a pulse, from times about `t`.
+fn peaks(trace: &Trace, rest: &Six, pulse: Pulse, t: f64, end: f64) -> Six {
+    const CELLS: usize = 60;
+    let mut peak = Six::default();
+    for i in -20..=20 {
+        let t = t + 0.1 * pulse.length * f64::from(i);
+        if t > end || t < pulse.length {
+            continue;
+        }
+        let mut value = rest.map(|s| pulse.force(t) * s);
+        for j in 0..CELLS {
+            let edge = |j: usize| t - pulse.length * (1.0 - j as f64 / CELLS as f64);
+            let rise = pulse.force(t - edge(j)) - pulse.force(t - edge(j + 1));
+            let (average, _) = trace.cell(edge(j), edge(j + 1)).unwrap();
+            for f in 0..6 {
+                value[f] += rise * average.value[f];
+            }
+        }
+        for f in 0..6 {
+            peak[f] = peak[f].max(value[f].abs());
+        }
+    }
+    peak
+}
+
+#[test]
+fn pulses_far_away_are_accurate_at_any_step() {
+    let (header, rows) = read_csv("pulse_response.csv");
+    assert_eq!(header[5..11], NAMES);
+    assert!(rows.len() >= 1, "{} rows", rows.len());
+    for tolerance in [1e-4, 1e-6, 1e-8, 1e-10] {
+        let mut relative = [vec![], vec![], vec![]];
+        let mut caution = vec![];
+        let mut exceeding = 0;
+        println!(
+            "\ntolerance {tolerance:e}: largest error of six fields over peak, pulse/50, pulse/200, pulse/1000"
+        );
+        for row in &rows {
+            let v: Vec<f64> = row.iter().map(|x| x.parse().unwrap()).collect();
+            let kernel =
+                Kernel::new(&Medium::new(v[0]).unwrap(), Profile::Hertz, tolerance).unwrap();
+            let (r, z, pulse, t) = (v[1], v[2], Pulse { length: v[3] }, v[4]);
+            let end = t + 2.0 * pulse.length;
+            let clock = Instant::now();
+            let trace = kernel.trace(r, z, end).unwrap();
+            let cost = clock.elapsed();
+            let rest = kernel.static_field(r, z).unwrap();
+            let peak = peaks(&trace, &rest, pulse, t, end);
+            let mut text = String::new();
+            for (i, count) in [50, 200, 1000].into_iter().enumerate() {
+                let found = by_cells(&kernel, &trace, [r, z], pulse, t, count);
+                let mut worst = 0.0_f64;
+                for f in 0..6 {
+                    if z == 0.0 && f >= 4 {
+                        continue;
+                    }
+                    let error = (found.value[f] - v[5 + f]).abs();
+                    worst = worst.max(error / peak[f]);
+                    relative[i].push(error / peak[f]);
+                    caution.push(found.error[f] / error);
+                    exceeding += usize::from(error > found.error[f]);
+                }
+                text += &format!(" {worst:8.1e}");
+            }
+            println!(
+                "r {r:6} z {z:6} pulse {:3}: {text}   trace {cost:.1?}",
+                pulse.length
+            );
+        }
+        heading("error over peak");
+        for (errors, label) in relative.iter().zip(["pulse/50", "pulse/200", "pulse/1000"]) {
+            let found = line(label, errors);
+            assert!(
+                found.max < tolerance.max(1e-8),
+                "{tolerance:e} {label}: {found}"
+            );
+        }
+        let caution = line("estimate / error", &caution);
+        println!(
+            "{exceeding} of {} errors exceed their estimate",
+            caution.count
+        );
+    }
+}
