@@ -183,6 +183,6 @@ pub const QUANTITIES: [Quantity; 18] = [
         meaning: "estimated relative error of peak force, contact time, restitution and displacement",
         kind: Kind::Real,
         of_contact: |r| r.relative_error_estimate,
-        of_record: None,
+        of_record: Some(|r| r.relative_error_estimate),
     },
 ];

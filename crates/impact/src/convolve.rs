@@ -52,7 +52,12 @@ impl Convolver {
 
     /// Fields are wanted at some samples, ascending.
     pub(crate) fn at(force: &[f64], wanted: Vec<usize>) -> Self {
-        let rise = increments(force);
+        Self::from_base(0.0, force, wanted)
+    }
+
+    /// The same of a force that was `base` for long before.
+    pub(crate) fn from_base(base: f64, force: &[f64], wanted: Vec<usize>) -> Self {
+        let rise = increments(base, force);
         let live = rise.iter().rposition(|&d| d != 0.0).map_or(0, |i| i + 1);
         let size = (2 * force.len()).next_power_of_two();
         let direct = PRODUCT_NS * wanted.len() as f64 * live as f64;
@@ -75,8 +80,8 @@ impl Convolver {
         }
     }
 
-    /// The six fields at the samples wanted, from the static part and the averages of the remainder over as many cells
-    /// as the force has samples.
+    /// The six fields at the samples wanted, from the static part and the averages of the remainder over at least as many
+    /// cells as the force has samples.
     #[must_use]
     pub fn fields(&self, static_part: &Six, averages: &[Six]) -> [Vec<f64>; 6] {
         let mut out = match &self.transform {
@@ -132,9 +137,9 @@ impl Method {
     }
 }
 
-/// P_m - P_{m-1}, with nothing before the first sample.
-fn increments(force: &[f64]) -> Vec<f64> {
-    let mut before = 0.0;
+/// P_m - P_{m-1}, with `base` before the first sample.
+fn increments(base: f64, force: &[f64]) -> Vec<f64> {
+    let mut before = base;
     force
         .iter()
         .map(|&p| {

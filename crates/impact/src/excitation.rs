@@ -4,6 +4,7 @@
 //! it in one way.
 
 use crate::record::ForceRecord;
+use crate::stretch::Departure;
 use contact::march::weights::Weights;
 use contact::resample::{Instant, Resampler};
 use contact::units::{CollisionUnits, KernelUnits};
@@ -145,6 +146,15 @@ impl Excitation {
         }
     }
 
+    /// The record that it is, if it is one.
+    #[must_use]
+    pub fn record(&self) -> Option<&ForceRecord> {
+        match &self.force {
+            Force::Contact { .. } => None,
+            Force::Record(record) => Some(record),
+        }
+    }
+
     /// When the force ends, in s.
     #[must_use]
     pub fn end_s(&self) -> f64 {
@@ -154,33 +164,39 @@ impl Excitation {
         }
     }
 
-    /// How long the force lasts, in s.
+    /// Length in s of a pulse that is as steep as the force: its duration for a contact.
     #[must_use]
     pub fn pulse_s(&self) -> f64 {
         match &self.force {
             Force::Contact { contact_time_s, .. } => *contact_time_s,
-            Force::Record(record) => {
-                let [from, to] = record.span_s();
-                (to - from).max(f64::MIN_POSITIVE)
-            }
+            Force::Record(record) => record.pulse_s(),
         }
     }
 
-    /// Deflection of the disc in m under the force sampled a step apart, with a share of its static part.
+    /// How far the force departs from its samples a step apart from `from_s` to `to_s`, where that is known exactly.
+    pub(crate) fn departure(&self, from_s: f64, to_s: f64, step_s: f64) -> Option<Departure> {
+        let record = self.record()?;
+        Some(record.departure(from_s, to_s, step_s))
+    }
+
+    /// Deflection of the disc in m under the force sampled a step apart, with a share of its static part; `base_n` is the
+    /// force long before.
     #[must_use]
     pub fn deflection_m(
         &self,
         deflection: Deflection,
         share: StaticShare,
         step_s: f64,
+        base_n: f64,
         force_n: &[f64],
     ) -> Vec<f64> {
         let response = SurfaceResponse::new(&self.medium, deflection);
         let weights = Weights::of_known_force(&response, step_s, self.units.time_s());
         let static_m_per_n = response.static_compliance() * self.units.displacement_m_per_n();
         let factor = share.factor();
+        let above_n: Vec<f64> = force_n.iter().map(|p| p - base_n).collect();
         (0..force_n.len())
-            .map(|n| static_m_per_n * (factor * force_n[n] - weights.delayed(&force_n[..=n])))
+            .map(|n| static_m_per_n * (factor * force_n[n] - weights.delayed(&above_n[..=n])))
             .collect()
     }
 }

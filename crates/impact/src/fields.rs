@@ -5,7 +5,8 @@ use crate::excitation::Excitation;
 use crate::grid::{Grid, TooManySamples, Wanted};
 use crate::kernels::{CellPlan, KernelSource};
 use crate::place::{FieldError, Place};
-use crate::samples::between_samples;
+use crate::samples::{between_samples, half_variation};
+use crate::stretch::Departure;
 use halfspace::{Arrivals, DomainError, Field, Profile};
 use lookup::Smoothness;
 use std::ops::Index;
@@ -29,11 +30,16 @@ pub enum FieldsError {
 pub(crate) struct Sampled<'a> {
     excitation: &'a Excitation,
     source: &'a KernelSource,
-    grid: Grid,
-    peak_n: f64,
-    /// How the force is taken between its samples, and the error of that in N.
-    between_samples: (Smoothness, f64),
+    grid: &'a Grid,
+    /// Half of the force's total variation in N: its peak where it rises and falls once.
+    half_variation_n: f64,
+    smoothness: Smoothness,
+    /// What the samples leave of the force.
+    left: Departure,
 }
+
+/// The forces of the runs of a grid, ready to be convolved.
+pub(crate) type Convolvers = Vec<Convolver>;
 
 /// The fields at one point, in SI units.
 #[derive(Debug, Clone, PartialEq)]
@@ -51,26 +57,64 @@ impl<'a> Sampled<'a> {
     pub(crate) fn new(
         excitation: &'a Excitation,
         source: &'a KernelSource,
-        grid: Grid,
+        grid: &'a Grid,
         force_n: &[f64],
     ) -> Self {
+        let (mut smoothness, mut left, mut half_variation_n) =
+            (Smoothness::Smooth, Departure::default(), 0.0);
+        for (run, force_n) in grid.split(force_n) {
+            let to_s = run.start_s + (run.count - 1) as f64 * grid.step_s;
+            let (own, departure) = match excitation.departure(run.start_s, to_s, grid.step_s) {
+                // a record is linear between its rows, and so are its samples
+                Some(departure) => (Smoothness::Linear, departure),
+                None => {
+                    let (smoothness, error_n) = between_samples(force_n);
+                    let departure = Departure {
+                        most_n: error_n,
+                        sum_n: f64::INFINITY,
+                    };
+                    (smoothness, departure)
+                }
+            };
+            if own == Smoothness::Linear {
+                smoothness = own;
+            }
+            left.join(departure);
+            half_variation_n += half_variation(run.base_n, force_n);
+        }
         Self {
             excitation,
             source,
             grid,
-            peak_n: force_n.iter().fold(0.0_f64, |m, p| m.max(p.abs())),
-            between_samples: between_samples(force_n),
+            half_variation_n,
+            smoothness,
+            left,
         }
     }
 
-    /// The fields at a point, at the samples that the convolver wants.
+    /// The forces of the runs for fields at some samples of all, ascending.
+    pub(crate) fn convolvers(&self, force_n: &[f64], wanted: &[usize]) -> Convolvers {
+        let mut first = 0;
+        let parts = self.grid.split(force_n).into_iter();
+        parts
+            .map(|(run, force_n)| {
+                let own = first..first + run.count;
+                first = own.end;
+                let wanted = wanted.iter().filter(|n| own.contains(n));
+                let wanted = wanted.map(|n| n - own.start).collect();
+                Convolver::from_base(run.base_n, force_n, wanted)
+            })
+            .collect()
+    }
+
+    /// The fields at a point, at the samples that the convolvers want.
     pub(crate) fn point(
         &self,
-        convolver: &Convolver,
+        convolvers: &[Convolver],
         r_m: f64,
         z_m: f64,
     ) -> Result<Point, FieldsError> {
-        let (excitation, grid) = (self.excitation, &self.grid);
+        let (excitation, grid) = (self.excitation, self.grid);
         let (units, medium) = (excitation.units(), excitation.medium());
         let radius = units.disc_radius_m;
         let place = Place {
@@ -78,20 +122,25 @@ impl<'a> Sampled<'a> {
             z: z_m / radius,
             disc_radius_m: radius,
         };
-        let (smoothness, sampling) = self.between_samples;
         let plan = CellPlan {
             step: grid.step_s / units.time_s(),
             coarsening: grid.coarsening,
-            count: grid.count,
-            smoothness,
+            count: grid.longest(),
+            smoothness: self.smoothness,
             pulse_length: excitation.pulse_s() / units.time_s(),
         };
         let cells = self.source.cells(medium.poisson_ratio(), place, plan)?;
         let arrivals = Arrivals::new(medium, Profile::Hertz, place.r, place.z)?;
         let direct = arrivals.above.unwrap_or([arrivals.p[0], arrivals.s[0]]);
         let first = [direct[0], direct[1], arrivals.rayleigh[0]];
-        let mut values = convolver.fields(&cells.static_part, &cells.averages);
-        let variation = cells.variation();
+        let mut values: [Vec<f64>; 6] = Default::default();
+        for convolver in convolvers {
+            let own = convolver.fields(&cells.static_part, &cells.averages);
+            for (all, own) in values.iter_mut().zip(own) {
+                all.extend(own);
+            }
+        }
+        let (variation, steps) = (cells.variation(), cells.largest_step());
         let mut errors = [0.0; 6];
         for (field, samples) in values.iter_mut().enumerate() {
             let unit = if field < 2 {
@@ -104,7 +153,8 @@ impl<'a> Sampled<'a> {
                 *value *= unit;
                 largest = largest.max(value.abs());
             }
-            let kernel = cells.error[field] * self.peak_n + variation[field] * sampling;
+            let kernel = cells.error[field] * self.half_variation_n
+                + self.left.moves(variation[field], steps[field]);
             errors[field] = kernel * unit + excitation.relative_error() * largest;
         }
         Ok(Point {
@@ -175,10 +225,11 @@ impl Fields<'_> {
             farthest_m: Some(r_m.hypot(z_m)),
         };
         let grid = Grid::new(&wanted, self.excitation, Some(&self.source))?;
-        let time_s: Vec<f64> = (0..grid.count).map(|i| grid.time_s(i)).collect();
+        let time_s: Vec<f64> = grid.times_s().collect();
         let force_n: Vec<f64> = time_s.iter().map(|&t| self.excitation.force_n(t)).collect();
-        let sampled = Sampled::new(self.excitation, &self.source, grid, &force_n);
-        let point = sampled.point(&Convolver::new(&force_n), r_m, z_m)?;
+        let sampled = Sampled::new(self.excitation, &self.source, &grid, &force_n);
+        let all: Vec<usize> = (0..force_n.len()).collect();
+        let point = sampled.point(&sampled.convolvers(&force_n, &all), r_m, z_m)?;
         let Point {
             arrival_s,
             values,

@@ -54,43 +54,114 @@ impl Wanted {
     #[must_use]
     pub fn cells(&self, excitation: &Excitation) -> f64 {
         let (duration_s, step_s) = self.duration_and_step_s(excitation);
-        duration_s / step_s
+        let runs = self.runs(excitation, duration_s, step_s);
+        runs.iter().map(|run| run.count as f64).sum()
     }
 
     /// Duration and largest step in s.
     fn duration_and_step_s(&self, excitation: &Excitation) -> (f64, f64) {
-        // linear between samples: relative error about (1.07 step/duration * pi)^2/8
-        let samples = (1.1 / self.tolerance.sqrt()).clamp(100.0, 4000.0);
         let duration_s = self
             .duration_s
-            .unwrap_or_else(|| self.default_duration_s(excitation));
-        let mut step_s = self.step_s.unwrap_or(excitation.pulse_s() / samples);
+            .unwrap_or_else(|| 1.1 * excitation.end_s() + self.passing_s(excitation));
+        let mut step_s = self
+            .step_s
+            .unwrap_or_else(|| self.fitting_step_s(excitation));
         if let Some(frames) = self.frames {
             step_s = step_s.min(duration_s / (frames as f64 - 1.0).max(1.0));
         }
         (duration_s, step_s)
     }
 
-    /// The load and a tenth, or until its last Rayleigh wave has passed the farthest point.
-    fn default_duration_s(&self, excitation: &Excitation) -> f64 {
+    /// A step in s that the tolerance asks for.
+    fn fitting_step_s(&self, excitation: &Excitation) -> f64 {
+        match excitation.record() {
+            // linear between samples: relative error about (1.07 step/duration * pi)^2/8
+            None => excitation.pulse_s() / (1.1 / self.tolerance.sqrt()).clamp(100.0, 4000.0),
+            Some(record) => {
+                let stretches = record.stretches(self.settling_s(excitation));
+                let unit_s = excitation.units().time_s();
+                record.step_s(&stretches, self.tolerance, unit_s, MOST_RECORD)
+            }
+        }
+    }
+
+    /// Time in s that the last Rayleigh wave takes to pass the farthest point.
+    fn passing_s(&self, excitation: &Excitation) -> f64 {
         let units = excitation.units();
         let slowest = excitation.medium().rayleigh_speed() * units.longitudinal_speed_m_s;
-        let passed = self.farthest_m.map_or(0.0, |distance_m| {
+        1.05 * self.farthest_m.map_or(0.0, |distance_m| {
             (distance_m + units.disc_radius_m) / slowest
-        });
-        1.1 * excitation.end_s() + 1.05 * passed
+        })
+    }
+
+    /// Time in s after which the fields of a force that has come to rest are static to 1e-6 of their peak or better.
+    fn settling_s(&self, excitation: &Excitation) -> f64 {
+        let units = excitation.units();
+        let slowest = excitation.medium().rayleigh_speed() * units.longitudinal_speed_m_s;
+        SETTLED * (self.passing_s(excitation) + units.disc_radius_m / slowest)
+    }
+
+    /// The runs of samples: where a record is quiet for long there are none.
+    fn runs(&self, excitation: &Excitation, duration_s: f64, step_s: f64) -> Vec<Run> {
+        let run = |from_s: f64, to_s: f64, base_n: f64| Run {
+            start_s: from_s,
+            base_n,
+            count: ((to_s - from_s) / step_s).ceil() as usize + 1,
+        };
+        let settling_s = self.settling_s(excitation);
+        let stretches = excitation
+            .record()
+            .map_or_else(Vec::new, |record| record.stretches(settling_s));
+        let begins_s = |i: usize| match stretches.get(i) {
+            // a short lead is kept, so that a record that begins at once is sampled from 0
+            Some(stretch) if i > 0 || stretch.span_s[0] > settling_s => stretch.span_s[0],
+            Some(_) => 0.0,
+            None => f64::INFINITY,
+        };
+        let whole = begins_s(0) == 0.0 && stretches.len() < 2;
+        if stretches.is_empty() || whole && self.duration_s.is_none() {
+            return vec![run(0.0, duration_s, 0.0)];
+        }
+        let mut runs = Vec::new();
+        for (i, stretch) in stretches.iter().enumerate() {
+            let settled_s = stretch.span_s[1] + settling_s;
+            let to_s = settled_s.min(begins_s(i + 1)).min(duration_s);
+            if begins_s(i) < to_s {
+                runs.push(run(begins_s(i), to_s, stretch.base_n));
+            }
+        }
+        runs
     }
 }
 
-/// Times of the output: `count` samples a step apart, from 0.
+/// Samples of a record at most when the step is chosen: jumps could take any number.
+const MOST_RECORD: f64 = 262_144.0;
+
+/// How many times longer than the passing of the waves the fields are followed before they count as static.
+const SETTLED: f64 = 20.0;
+
+/// Consecutive samples.
 #[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Run {
+    /// Time of the first in s.
+    pub start_s: f64,
+    /// Force long before it in N.
+    pub base_n: f64,
+    /// How many.
+    pub count: usize,
+}
+
+/// Times of the output: samples a step apart, in one run from 0 or, where a record is quiet for long, in several.
+#[derive(Debug, Clone, PartialEq)]
 pub struct Grid {
     /// Step in s.
     pub step_s: f64,
     /// The step is 2^coarsening cells of a table.
     pub(crate) coarsening: u32,
-    /// Number of samples.
-    pub count: usize,
+    /// Consecutive samples, in the order of time.
+    pub runs: Vec<Run>,
+    /// Largest step in s that was wanted.
+    pub(crate) wanted_s: f64,
 }
 
 impl Grid {
@@ -113,7 +184,8 @@ impl Grid {
             }
             None => (wanted_s, 0),
         };
-        let samples = (duration_s / step_s).ceil() + 1.0;
+        let runs = wanted.runs(excitation, duration_s, step_s);
+        let samples: f64 = runs.iter().map(|run| run.count as f64).sum();
         if samples > MOST_SAMPLES as f64 {
             return Err(TooManySamples {
                 samples,
@@ -124,13 +196,36 @@ impl Grid {
         Ok(Self {
             step_s,
             coarsening,
-            count: samples as usize,
+            runs,
+            wanted_s,
         })
     }
 
-    /// Time of a sample in s.
+    /// Number of samples.
     #[must_use]
-    pub fn time_s(&self, sample: usize) -> f64 {
-        sample as f64 * self.step_s
+    pub fn count(&self) -> usize {
+        self.runs.iter().map(|run| run.count).sum()
+    }
+
+    /// Samples of the longest run.
+    pub(crate) fn longest(&self) -> usize {
+        self.runs.iter().map(|run| run.count).max().unwrap_or(0)
+    }
+
+    /// Times of all samples in s.
+    pub fn times_s(&self) -> impl Iterator<Item = f64> + '_ {
+        self.runs
+            .iter()
+            .flat_map(|run| (0..run.count).map(|i| run.start_s + i as f64 * self.step_s))
+    }
+
+    /// The samples of each run, of samples of all.
+    pub(crate) fn split<'s>(&self, mut samples: &'s [f64]) -> Vec<(Run, &'s [f64])> {
+        let cut = |&run: &Run| {
+            let (own, rest) = samples.split_at(run.count);
+            samples = rest;
+            (run, own)
+        };
+        self.runs.iter().map(cut).collect()
     }
 }

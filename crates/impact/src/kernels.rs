@@ -32,6 +32,15 @@ impl Cells {
             (self.static_part[f] + first).abs() + steps.sum::<f64>()
         })
     }
+
+    /// Largest change of the step response from one cell to the next.
+    pub(crate) fn largest_step(&self) -> Six {
+        std::array::from_fn(|f| {
+            let first = self.averages.first().map_or(0.0, |cell| cell[f]);
+            let steps = self.averages.windows(2).map(|c| (c[1][f] - c[0][f]).abs());
+            steps.fold((self.static_part[f] + first).abs(), f64::max)
+        })
+    }
 }
 
 /// First moments of direct kernels are computed to this share of the static field.

@@ -34,6 +34,7 @@ mod samples;
 pub mod scene;
 pub mod simulate;
 pub mod source;
+mod stretch;
 pub mod sweep;
 mod transform;
 

@@ -37,7 +37,9 @@ pub struct RecordResults {
     pub peak_deflection_m: f64,
     /// Radius of the disc that it loads in m.
     pub disc_radius_m: f64,
-    /// int P dw of the deflection that the settings name, in J.
+    /// Largest difference between the force and its samples joined by straight lines, over the largest force.
+    pub relative_error_estimate: f64,
+    /// int P dw of the pressure-weighted mean deflection, in J.
     pub radiated_energy_j: f64,
 }
 

@@ -46,10 +46,11 @@ pub(crate) fn at_probes(
     force_n: &[f64],
     probes: &[Probe],
 ) -> Result<ProbeFields, FieldsError> {
-    let convolver = Convolver::new(force_n);
+    let all: Vec<usize> = (0..force_n.len()).collect();
+    let convolvers = sampled.convolvers(force_n, &all);
     let points: Vec<Point> = probes
         .par_iter()
-        .map(|probe| sampled.point(&convolver, probe.r_m, probe.z_m))
+        .map(|probe| sampled.point(&convolvers, probe.r_m, probe.z_m))
         .collect::<Result<_, _>>()?;
     let mut fields = ProbeFields {
         r_m: probes.iter().map(|p| p.r_m).collect(),
@@ -68,6 +69,16 @@ pub(crate) fn at_probes(
     Ok(fields)
 }
 
+/// How forces are summed, for reports.
+pub(crate) fn method(convolvers: &[Convolver]) -> Method {
+    let transformed = convolvers.iter().any(|c| c.method() == Method::Transform);
+    if transformed {
+        Method::Transform
+    } else {
+        Method::Direct
+    }
+}
+
 /// The fields on a section, at the samples nearest to its frames; and how the sum was done.
 pub(crate) fn on_section(
     sampled: &Sampled<'_>,
@@ -80,7 +91,8 @@ pub(crate) fn on_section(
         (i as f64 * last as f64 / (section.frames as f64 - 1.0).max(1.0)).round() as usize
     };
     let wanted: Vec<usize> = (0..section.frames).map(frame).collect();
-    let time_s = wanted.iter().map(|&n| grid.time_s(n)).collect();
+    let times_s: Vec<f64> = grid.times_s().collect();
+    let time_s = wanted.iter().map(|&n| times_s[n]).collect();
     let even =
         |end: f64, count: usize| (0..count).map(move |i| end * i as f64 / (count as f64 - 1.0));
     let r_m: Vec<f64> = even(section.r_max_m, section.points[0]).collect();
@@ -95,13 +107,13 @@ pub(crate) fn on_section(
         r_m,
         z_m,
     };
-    let convolver = Convolver::at(force_n, wanted);
+    let convolvers = sampled.convolvers(force_n, &wanted);
     for row in 0..fields.z_m.len() {
         let z_m = fields.z_m[row];
         let points: Vec<Point> = fields
             .r_m
             .par_iter()
-            .map(|&r_m| sampled.point(&convolver, r_m, z_m))
+            .map(|&r_m| sampled.point(&convolvers, r_m, z_m))
             .collect::<Result<_, _>>()?;
         for (column, point) in points.into_iter().enumerate() {
             for (times, time) in fields.arrival_s.iter_mut().zip(point.arrival_s) {
@@ -116,5 +128,5 @@ pub(crate) fn on_section(
             }
         }
     }
-    Ok((fields, convolver.method()))
+    Ok((fields, method(&convolvers)))
 }

@@ -47,6 +47,9 @@ pub enum RecordError {
     },
 }
 
+/// Largest slope of sin^4(pi t/T) times T: 3 sqrt(3) pi/4.
+const STEEPNESS: f64 = 4.081;
+
 impl ForceRecord {
     /// Of times in s, strictly ascending from 0 or later, and forces in N; positive presses.
     ///
@@ -144,10 +147,23 @@ impl ForceRecord {
         pairs.fold(0.0, |sum, (t, p)| sum + 0.5 * (t[1] - t[0]) * (p[0] + p[1]))
     }
 
-    /// Shortest time between two samples in s.
+    /// Length in s of a pulse sin^4(pi t/T) of the same largest force and the same largest slope, at most the time
+    /// from the first to the last sample.
     #[must_use]
-    pub fn shortest_gap_s(&self) -> f64 {
-        let gaps = self.time_s.windows(2).map(|t| t[1] - t[0]);
-        gaps.fold(f64::INFINITY, f64::min)
+    pub fn pulse_s(&self) -> f64 {
+        let pairs = self.time_s.windows(2).zip(self.force_n.windows(2));
+        let steepest = pairs.fold(0.0_f64, |most, (t, p)| {
+            most.max((p[1] - p[0]).abs() / (t[1] - t[0]))
+        });
+        let [from_s, to_s] = self.span_s();
+        let largest_n = self
+            .force_n
+            .iter()
+            .fold(0.0_f64, |most, p| most.max(p.abs()));
+        if steepest > 0.0 {
+            (STEEPNESS * largest_n / steepest).min(to_s - from_s)
+        } else {
+            to_s - from_s
+        }
     }
 }

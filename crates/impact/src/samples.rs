@@ -2,6 +2,17 @@
 
 use lookup::Smoothness;
 
+/// Half of the total variation of a sampled force that was `base` before.
+pub(crate) fn half_variation(base: f64, force: &[f64]) -> f64 {
+    let mut before = base;
+    let changes = force.iter().map(|&p| {
+        let change = (p - before).abs();
+        before = p;
+        change
+    });
+    0.5 * changes.sum::<f64>()
+}
+
 /// How the force is taken between its samples, and the largest error of that in the force's unit.
 ///
 /// A force whose third differences are below half of its second differences is smooth on this step; one

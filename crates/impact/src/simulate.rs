@@ -1,6 +1,5 @@
 //! From a scene to all that it gives: an excitation, then series and fields.
 
-use crate::convolve::Convolver;
 use crate::excitation::Excitation;
 use crate::fields::{FieldsError, Sampled};
 use crate::grid::{Grid, TooManySamples, Wanted};
@@ -9,13 +8,13 @@ use crate::kernels::KernelSource;
 use crate::outcome::{
     Cause, FieldsUsed, KernelsUsed, Outcome, RecordResults, Series, StrikerSeries,
 };
-use crate::probes::{ProbeFields, SectionFields, at_probes, on_section};
+use crate::probes::{ProbeFields, SectionFields, at_probes, method, on_section};
 use crate::record::ForceRecord;
 use crate::scene::{Load, Scene, Strike};
 use crate::source::{Chosen, KernelChoice, SourceError, choose_source};
 use contact::work::work_j;
 use contact::{ContactError, Model, Scheme, StaticShare};
-use halfspace::DomainError;
+use halfspace::{Deflection, DomainError};
 use thiserror::Error;
 
 /// Why a scene could not be computed.
@@ -70,7 +69,8 @@ fn of_strike(
     let mut deflection_m = None;
     if marched == (Model::Wave, Some(Scheme::Implicit)) {
         // Anew on the output's step: the march's own step may be coarser than the disc's memory.
-        deflection_m = Some(computed.disc_deflection_m(scene, scene.settings.static_share));
+        let settings = &scene.settings;
+        deflection_m = Some(computed.disc_deflection_m(settings.deflection, settings.static_share));
     }
     let mut striker = StrikerSeries::default();
     let mut law_m = Vec::new();
@@ -82,6 +82,7 @@ fn of_strike(
         }
     }
     let mut warnings = run.warnings.clone();
+    warnings.extend(computed.warnings());
     if computed.used.is_some() && !impact.has_fixed_disc(&run) {
         warnings.push(format!(
             "the fields are those of a disc of the largest contact radius, {:.3e} m, throughout",
@@ -110,12 +111,16 @@ fn of_record(
     let radius_m = scene.settings.disc_radius_m.ok_or(ImpactError::NoDisc)?;
     let excitation = Excitation::of_record(&scene.target, radius_m, record.clone())?;
     let computed = Computed::new(scene, &excitation, kernels)?;
-    let deflection_m = computed.disc_deflection_m(scene, scene.settings.static_share);
-    let mut warnings = Vec::new();
-    let (gap_s, step_s) = (record.shortest_gap_s(), computed.grid.step_s);
-    if gap_s < step_s {
+    let disc = |deflection| computed.disc_deflection_m(deflection, StaticShare::Full);
+    // the work of the pressure is that on the mean deflection, whatever is asked for
+    let (deflection_m, mean_m) = (disc(scene.settings.deflection), disc(Deflection::Mean));
+    let mut warnings = computed.warnings();
+    let left_n = computed.left_n();
+    let relative_error = left_n / record.largest_n().max(f64::MIN_POSITIVE);
+    if relative_error > scene.settings.tolerance {
         warnings.push(format!(
-            "samples of the force are as close as {gap_s:.3e} s, the output step is {step_s:.3e} s: steeper parts are smoothed over a step; give a smaller contact.step_s"
+            "on the output's step of {:.3e} s, samples joined by straight lines miss the force by up to {left_n:.3e} N, {relative_error:.1e} of its largest: the errors of the fields count it, a smaller step_s lowers it",
+            computed.grid.step_s
         ));
     }
     if record.force_n().iter().any(|&p| p < 0.0) {
@@ -125,11 +130,12 @@ fn of_record(
     let cause = Cause::Record(RecordResults {
         peak_force_n,
         peak_force_time_s,
-        duration_s: excitation.pulse_s(),
+        duration_s: record.span_s()[1] - record.span_s()[0],
+        relative_error_estimate: relative_error,
         disc_radius_m: radius_m,
         impulse_n_s: record.impulse_n_s(),
         peak_deflection_m: deflection_m.iter().copied().fold(0.0, f64::max),
-        radiated_energy_j: work_j(&computed.force_n, &deflection_m),
+        radiated_energy_j: work_j(&computed.force_n, &mean_m),
     });
     Ok(computed.outcome(cause, deflection_m, None, warnings))
 }
@@ -154,7 +160,7 @@ impl<'a> Computed<'a> {
         let chosen = choose_source(scene, kernels, excitation)?;
         let source = chosen.as_ref().map(|chosen| &chosen.source);
         let grid = Grid::new(&Wanted::of(scene), excitation, source)?;
-        let time_s: Vec<f64> = (0..grid.count).map(|i| grid.time_s(i)).collect();
+        let time_s: Vec<f64> = grid.times_s().collect();
         let force_n = time_s.iter().map(|&t| excitation.force_n(t)).collect();
         let mut computed = Self {
             excitation,
@@ -173,7 +179,7 @@ impl<'a> Computed<'a> {
 
     fn add_fields(&mut self, scene: &Scene, chosen: Chosen) -> Result<(), FieldsError> {
         let Chosen { source, reason } = chosen;
-        let sampled = Sampled::new(self.excitation, &source, self.grid, &self.force_n);
+        let sampled = Sampled::new(self.excitation, &source, &self.grid, &self.force_n);
         if !scene.probes.is_empty() {
             self.probes = Some(at_probes(&sampled, &self.force_n, &scene.probes)?);
         }
@@ -183,7 +189,10 @@ impl<'a> Computed<'a> {
                 self.section = Some(fields);
                 method
             }
-            None => Convolver::new(&self.force_n).method(),
+            None => {
+                let all: Vec<usize> = (0..self.force_n.len()).collect();
+                method(&sampled.convolvers(&self.force_n, &all))
+            }
         };
         self.used = Some(FieldsUsed {
             kernels: used(&source),
@@ -193,10 +202,38 @@ impl<'a> Computed<'a> {
         Ok(())
     }
 
-    fn disc_deflection_m(&self, scene: &Scene, share: StaticShare) -> Vec<f64> {
-        let deflection = scene.settings.deflection;
-        self.excitation
-            .deflection_m(deflection, share, self.grid.step_s, &self.force_n)
+    /// Largest difference in N between the force and its samples joined by straight lines.
+    fn left_n(&self) -> f64 {
+        let step_s = self.grid.step_s;
+        let runs = self.grid.runs.iter().filter_map(|run| {
+            let to_s = run.start_s + (run.count - 1) as f64 * step_s;
+            self.excitation.departure(run.start_s, to_s, step_s)
+        });
+        runs.fold(0.0, |most, left| most.max(left.most_n))
+    }
+
+    /// What the user should know of the times of the output.
+    fn warnings(&self) -> Vec<String> {
+        let Grid {
+            step_s, wanted_s, ..
+        } = self.grid;
+        if step_s <= wanted_s {
+            return Vec::new();
+        }
+        vec![format!(
+            "the output's step is {step_s:.3e} s, that of the table's cells, where {wanted_s:.3e} s or less was wanted"
+        )]
+    }
+
+    fn disc_deflection_m(&self, deflection: Deflection, share: StaticShare) -> Vec<f64> {
+        let step_s = self.grid.step_s;
+        let parts = self.grid.split(&self.force_n).into_iter();
+        parts
+            .flat_map(|(run, force_n)| {
+                self.excitation
+                    .deflection_m(deflection, share, step_s, run.base_n, force_n)
+            })
+            .collect()
     }
 
     fn outcome(

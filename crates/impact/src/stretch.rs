@@ -1,0 +1,199 @@
+//! The stretches of a record in which its force changes: only they need a fine step.
+//!
+//! Between two of them the force is constant and the waves of the one before have passed, so that the fields are the
+//! static ones and a stretch is computed as if it were alone.
+
+use crate::record::ForceRecord;
+
+/// A part of a record in which the force changes, with the constant force before it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Stretch {
+    /// First and last time of change in s.
+    pub(crate) span_s: [f64; 2],
+    /// Force before it in N.
+    pub(crate) base_n: f64,
+}
+
+/// Steps in the time in which kernels change for a force that only jumps.
+const JUMP: f64 = 64.0;
+
+/// What samples joined by straight lines leave of a force, in N.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(crate) struct Departure {
+    /// Largest difference.
+    pub(crate) most_n: f64,
+    /// Sum over the cells of the largest difference in each.
+    pub(crate) sum_n: f64,
+}
+
+impl Departure {
+    fn add(&mut self, cell_n: f64) {
+        self.most_n = self.most_n.max(cell_n);
+        self.sum_n += cell_n;
+    }
+
+    pub(crate) fn join(&mut self, other: Self) {
+        self.most_n = self.most_n.max(other.most_n);
+        self.sum_n += other.sum_n;
+    }
+
+    /// How far a response may be moved by it that varies by `variation` in all and by `step` over a cell at most.
+    pub(crate) fn moves(&self, variation: f64, step: f64) -> f64 {
+        (self.most_n * variation).min(self.sum_n * step)
+    }
+}
+
+impl ForceRecord {
+    /// The stretches, those less than `quiet_s` apart as one; none where the force is zero throughout.
+    pub(crate) fn stretches(&self, quiet_s: f64) -> Vec<Stretch> {
+        let (time_s, force_n) = (self.time_s(), self.force_n());
+        let mut found: Vec<Stretch> = Vec::new();
+        let mut change = |from_s: f64, to_s: f64, base_n: f64| match found.last_mut() {
+            Some(last) if from_s - last.span_s[1] < quiet_s => last.span_s[1] = to_s,
+            Some(_) | None => found.push(Stretch {
+                span_s: [from_s, to_s],
+                base_n,
+            }),
+        };
+        // the force is zero before the first sample and after the last
+        let [first_s, last_s] = self.span_s();
+        if force_n[0] != 0.0 {
+            change(first_s, first_s, 0.0);
+        }
+        for (t, p) in time_s.windows(2).zip(force_n.windows(2)) {
+            if p[0] != p[1] {
+                change(t[0], t[1], p[0]);
+            }
+        }
+        let last_n = force_n[force_n.len() - 1];
+        if last_n != 0.0 {
+            change(last_s, last_s, last_n);
+        }
+        found
+    }
+
+    /// How far the force departs from its samples a step apart from `from_s` to `to_s`, joined by straight lines.
+    pub(crate) fn departure(&self, from_s: f64, to_s: f64, step_s: f64) -> Departure {
+        let mut found = self.departure_at_rows(from_s, to_s, step_s);
+        let force_n = self.force_n();
+        // the force jumps where a record begins or ends with one; a run that begins with a row takes it as a jump
+        let [first_s, last_s] = self.span_s();
+        if from_s < first_s && first_s <= to_s {
+            found.add(force_n[0].abs());
+        }
+        if from_s <= last_s && last_s <= to_s {
+            found.add(force_n[force_n.len() - 1].abs());
+        }
+        found
+    }
+
+    /// The same without the jumps at both ends, which no step lowers.
+    ///
+    /// Force and samples are linear between the rows and the samples, so that the difference is largest at a row.
+    fn departure_at_rows(&self, from_s: f64, to_s: f64, step_s: f64) -> Departure {
+        let (time_s, force_n) = (self.time_s(), self.force_n());
+        let rows = time_s.partition_point(|&t| t < from_s)..time_s.partition_point(|&t| t <= to_s);
+        let (mut cell, mut ends) = (f64::NAN, [0.0; 2]);
+        let (mut here, mut found) = (0.0_f64, Departure::default());
+        for row in rows {
+            let place = (time_s[row] - from_s) / step_s;
+            if place.floor() != cell {
+                found.add(here);
+                here = 0.0;
+                cell = place.floor();
+                ends = [cell, cell + 1.0].map(|i| self.at(from_s + i * step_s));
+            }
+            let joined = ends[0] + (place - cell) * (ends[1] - ends[0]);
+            here = here.max((force_n[row] - joined).abs());
+        }
+        found.add(here);
+        found
+    }
+
+    /// The largest step in s, of halvings of a start, that leaves less than `tolerance` of the largest force.
+    ///
+    /// What is left within one cell moves the fields by the fraction that the cell is of `unit_s`, the time in which
+    /// kernels change. The search ends where `most` samples would be needed, as jumps do.
+    pub(crate) fn step_s(
+        &self,
+        stretches: &[Stretch],
+        tolerance: f64,
+        unit_s: f64,
+        most: f64,
+    ) -> f64 {
+        let span = |stretch: &Stretch| stretch.span_s[1] - stretch.span_s[0];
+        let spans = || stretches.iter().map(span).filter(|&s| s > 0.0);
+        let (total_s, shortest_s) = (spans().sum::<f64>(), spans().fold(f64::INFINITY, f64::min));
+        if total_s == 0.0 {
+            // nothing but jumps
+            return unit_s / JUMP;
+        }
+        let allowed_n = tolerance * self.largest_n();
+        let mut step_s = (shortest_s / 64.0).max(total_s / most);
+        while step_s > total_s / most {
+            let mut left = Departure::default();
+            for stretch in stretches {
+                let [from_s, to_s] = stretch.span_s;
+                left.join(self.departure_at_rows(from_s, to_s, step_s));
+            }
+            if left.moves(1.0, step_s / unit_s) <= allowed_n {
+                break;
+            }
+            step_s *= 0.5;
+        }
+        step_s
+    }
+
+    /// Largest magnitude of the force in N.
+    pub(crate) fn largest_n(&self) -> f64 {
+        self.force_n().iter().fold(0.0, |most, p| most.max(p.abs()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn record(time_s: &[f64], force_n: &[f64]) -> ForceRecord {
+        ForceRecord::new(time_s.to_vec(), force_n.to_vec()).unwrap()
+    }
+
+    #[test]
+    fn quiet_parts_separate_stretches() {
+        let two = record(
+            &[0.0, 1.0, 2.0, 50.0, 51.0, 60.0],
+            &[0.0, 3.0, 1.0, 1.0, 0.0, 0.0],
+        );
+        let found = two.stretches(10.0);
+        assert_eq!(found.len(), 2);
+        assert_eq!(found[0].span_s, [0.0, 2.0]);
+        assert_eq!((found[1].span_s, found[1].base_n), ([50.0, 51.0], 1.0));
+        assert_eq!(two.stretches(49.0).len(), 1);
+        assert!(record(&[0.0, 1.0], &[0.0, 0.0]).stretches(1.0).is_empty());
+        // on at once and off at once
+        let plateau = record(&[5.0, 100.0], &[2.0, 2.0]);
+        let found = plateau.stretches(10.0);
+        assert_eq!((found[0].span_s, found[1].span_s), ([5.0; 2], [100.0; 2]));
+        assert_eq!((found[0].base_n, found[1].base_n), (0.0, 2.0));
+    }
+
+    #[test]
+    fn the_step_follows_the_steepest_part() {
+        // a triangle of 20 us in a record of 1 s
+        let triangle = record(
+            &[0.0, 0.5, 0.500_007, 0.500_02, 1.0],
+            &[0.0, 0.0, 1.0, 0.0, 0.0],
+        );
+        let stretches = triangle.stretches(1e-3);
+        let step_s = triangle.step_s(&stretches, 1e-3, 1e-12, 1e6);
+        assert!(step_s < 1e-6 && step_s > 1e-9, "{step_s}");
+        let [from_s, to_s] = stretches[0].span_s;
+        let left = |step_s: f64| triangle.departure(from_s, to_s, step_s);
+        assert!(left(step_s).most_n <= 1e-3);
+        // sampled at its corners it is exact
+        assert!(left(1e-6).most_n < 1e-9);
+        assert!(left(1.5e-5).most_n > 0.1);
+        // kernels that change slowly do not see the corner
+        assert!(triangle.step_s(&stretches, 1e-3, 1.0, 1e6) > step_s);
+    }
+}
