@@ -165,7 +165,10 @@ fn check_panel(i: usize, panel: &Panel) -> Result<(), FigureError> {
             return Err(FigureError::NotLinear { panel: i, side });
         }
     }
-    panel.layers.iter().try_for_each(|layer| check_layer(i, layer))
+    panel
+        .layers
+        .iter()
+        .try_for_each(|layer| check_layer(i, layer))
 }
 
 fn check_layer(panel: usize, layer: &Layer) -> Result<(), FigureError> {

@@ -72,6 +72,9 @@ impl Rect {
 
     /// The middle.
     pub(crate) fn centre(&self) -> (f64, f64) {
-        (0.5 * (self.left + self.right), 0.5 * (self.top + self.bottom))
+        (
+            0.5 * (self.left + self.right),
+            0.5 * (self.top + self.bottom),
+        )
     }
 }

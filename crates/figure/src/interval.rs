@@ -52,10 +52,15 @@ impl Interval {
         }
     }
 
-    /// Whether an axis can show it: ends finite, in order, and positive where logarithmic.
+    /// Whether an axis can show it: ends finite, in order, and positive where logarithmic, and its length finite.
     #[must_use]
     pub fn is_valid(&self) -> bool {
-        self.scale.shows(self.low) && self.scale.shows(self.high) && self.low < self.high
+        let is_long = match self.scale {
+            Scale::Linear => (self.high - self.low).is_finite(),
+            Scale::Logarithmic => (self.high / self.low).is_finite(),
+        };
+        let is_shown = self.scale.shows(self.low) && self.scale.shows(self.high);
+        is_shown && is_long && self.low < self.high
     }
 
     /// Place of a value: 0 at the low end, 1 at the high one.
@@ -116,7 +121,11 @@ impl Interval {
         if self.low >= self.high {
             return match self.scale {
                 Scale::Linear => {
-                    let half = if self.low == 0.0 { 1.0 } else { 0.5 * self.low.abs() };
+                    let half = if self.low == 0.0 {
+                        1.0
+                    } else {
+                        0.5 * self.low.abs()
+                    };
                     Self::linear(self.low - half, self.high + half)
                 }
                 Scale::Logarithmic => Self::logarithmic(self.low / 3.0, self.high * 3.0),
@@ -125,8 +134,16 @@ impl Interval {
         let stays = |end: f64| self.scale == Scale::Linear && end == 0.0;
         Self {
             scale: self.scale,
-            low: if stays(self.low) { 0.0 } else { self.value(-air) },
-            high: if stays(self.high) { 0.0 } else { self.value(1.0 + air) },
+            low: if stays(self.low) {
+                0.0
+            } else {
+                self.value(-air)
+            },
+            high: if stays(self.high) {
+                0.0
+            } else {
+                self.value(1.0 + air)
+            },
         }
     }
 }
@@ -137,7 +154,10 @@ mod tests {
 
     #[test]
     fn places_and_values_are_inverse() {
-        for interval in [Interval::linear(-2.0, 6.0), Interval::logarithmic(1e-9, 30.0)] {
+        for interval in [
+            Interval::linear(-2.0, 6.0),
+            Interval::logarithmic(1e-9, 30.0),
+        ] {
             for fraction in [0.0, 0.2, 0.5, 1.0] {
                 let back = interval.fraction(interval.value(fraction));
                 assert!((back - fraction).abs() < 1e-12);
@@ -153,7 +173,8 @@ mod tests {
         assert!(!Interval::linear(1.0, 1.0).is_valid());
         assert!(!Interval::linear(0.0, f64::NAN).is_valid());
         assert!(!Interval::logarithmic(0.0, 1.0).is_valid());
-        assert!(Interval::logarithmic(1e-300, 1e300).is_valid());
+        assert!(Interval::logarithmic(1e-150, 1e150).is_valid());
+        assert!(!Interval::logarithmic(1e-300, 1e300).is_valid());
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use crate::colour::{BLACK, Colour};
 use crate::geometry::Rect;
-use crate::text::{Rich, Run};
+use crate::text::{Rich, text_width};
 
 /// A part of an outline.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -198,26 +198,29 @@ impl Text {
         self
     }
 
-    /// Its parts, each with the start of its own line and its width.
-    pub(crate) fn parts(&self) -> Vec<(&Run, (f64, f64), f64)> {
+    /// Its parts from the start on; blanks around one are left out, its place says them.
+    pub(crate) fn parts(&self) -> Vec<Part<'_>> {
         let mut along = 0.0;
-        let mut part = |run: &'_ Run| {
-            let width = self.size * run.width();
+        let mut parts = Vec::with_capacity(self.rich.0.len());
+        for run in &self.rich.0 {
+            let text = run.text.trim();
+            let width = |text: &str| self.size * run.size * text_width(text);
+            let indent = width(&run.text[..run.text.len() - run.text.trim_start().len()]);
             let (x, y) = self.start;
             let up = self.size * run.rise;
-            let at = match self.turn {
-                Turn::Level => (x + along, y - up),
-                Turn::Upward => (x - up, y - along),
-            };
-            along += width;
-            (at, width)
-        };
-        let runs = self.rich.0.iter();
-        runs.map(|run| {
-            let (at, width) = part(run);
-            (run, at, width)
-        })
-        .collect()
+            let start = along + indent;
+            parts.push(Part {
+                text,
+                size: self.size * run.size,
+                start: match self.turn {
+                    Turn::Level => (x + start, y - up),
+                    Turn::Upward => (x - up, y - start),
+                },
+                width: width(text),
+            });
+            along += width(&run.text);
+        }
+        parts
     }
 
     /// The rectangle that it covers.
@@ -239,6 +242,15 @@ impl Text {
     pub(crate) fn plain(&self) -> String {
         self.rich.0.iter().map(|run| run.text.as_str()).collect()
     }
+}
+
+/// A part of a text at one size and height.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Part<'a> {
+    pub(crate) text: &'a str,
+    pub(crate) size: f64,
+    pub(crate) start: (f64, f64),
+    pub(crate) width: f64,
 }
 
 /// One thing that is drawn.
@@ -289,7 +301,12 @@ mod tests {
         let text = Text::upward("r_{0}/c", (10.0, 10.0), 10.0);
         let parts = text.parts();
         assert_eq!(parts.len(), 3);
-        assert!(parts[1].1.0 > parts[0].1.0, "lowered to the right");
-        assert!((parts[0].1.1 - parts[0].2 - parts[1].1.1).abs() < 1e-12);
+        assert!(parts[1].start.0 > parts[0].start.0, "lowered to the right");
+        assert!((parts[0].start.1 - parts[0].width - parts[1].start.1).abs() < 1e-12);
+        // a blank after a raised part keeps its place
+        let text = Text::new("10^{6} s", (0.0, 0.0), 10.0, Anchor::Start);
+        let parts = text.parts();
+        assert_eq!(parts[2].text, "s");
+        assert!(parts[2].start.0 > parts[1].start.0 + parts[1].width + 1.0);
     }
 }

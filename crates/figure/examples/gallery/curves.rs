@@ -46,7 +46,9 @@ pub(crate) fn histories() -> Figure {
 pub(crate) fn convergence() -> Figure {
     let steps: Vec<f64> = (0..12).map(|i| 0.2 * 0.5_f64.powi(i)).collect();
     let order = |name: &str, size: f64, power: i32| {
-        let points = steps.iter().map(|&h| (h, (size * h.powi(power)).max(3e-15)));
+        let points = steps
+            .iter()
+            .map(|&h| (h, (size * h.powi(power)).max(3e-15)));
         Line::new(name, Style::Marked, points.collect())
     };
     let panel = Panel::new(
@@ -63,7 +65,9 @@ pub(crate) fn convergence() -> Figure {
         Style::HeavyDashed,
         vec![(1e-4, 1.5e-9), (0.2, 6e-3)],
     );
-    Figure::new("Order of convergence").width(680.0).panel(panel)
+    Figure::new("Order of convergence")
+        .width(680.0)
+        .panel(panel)
 }
 
 /// All styles, more curves than colours.
@@ -73,11 +77,14 @@ pub(crate) fn styles() -> Figure {
         let shift = 0.35 * i as f64;
         xs.iter().map(|&x| (x, (x - shift).sin() + shift)).collect()
     };
-    let axes = || Panel::new(Axis::linear("x").unit("r_{0}"), Axis::linear("y")).legend(Legend::Outside);
+    let axes =
+        || Panel::new(Axis::linear("x").unit("r_{0}"), Axis::linear("y")).legend(Legend::Outside);
     let mut plain = axes().title("lines").height(330.0);
     let mut marked = axes().title("markers").height(330.0);
     for i in 0..8 {
-        let names = ["Talbot", "Euler", "CME", "Durbin", "Crump", "de Hoog", "Stehfest", "own"];
+        let names = [
+            "Talbot", "Euler", "CME", "Durbin", "Crump", "de Hoog", "Stehfest", "own",
+        ];
         plain = plain.line(names[i], Style::Plain, line(i));
         marked = marked.line(names[i], Style::Points, line(i));
     }
@@ -102,20 +109,31 @@ pub(crate) fn classes() -> Figure {
     let names = ["hertz", "radiation", "growing", "not converged"];
     let class = |a: f64, b: f64| ((a * b).log10() + 5.0).clamp(0.0, 3.0) as usize;
     let map = Classes::of([x, y], [60, 60], &names, class);
-    let line = |c: f64| x.cells(50).into_iter().map(|a| (a, c / a)).collect::<Vec<_>>();
-    Figure::new("Cheapest model that meets 1e-3").width(760.0).panel(
-        Panel::new(
-            Axis::over(x, "static deflection of the half-space over indentation"),
-            Axis::over(y, "memory over contact time"),
+    let line = |c: f64| {
+        x.cells(50)
+            .into_iter()
+            .map(|a| (a, c / a))
+            .collect::<Vec<_>>()
+    };
+    Figure::new("Cheapest model that meets 1e-3")
+        .width(760.0)
+        .panel(
+            Panel::new(
+                Axis::over(x, "static deflection of the half-space over indentation"),
+                Axis::over(y, "memory over contact time"),
+            )
+            .height(400.0)
+            .layer(Layer::Classes(map))
+            .line("auto leaves hertz", Style::Heavy, line(1e-4))
+            .line("auto leaves radiation", Style::HeavyDashed, line(1e-3))
+            .layer(Layer::Point(LabelledPoint::new(0.12, 0.08, "paper's case")))
+            .layer(Layer::Point(LabelledPoint::new(
+                0.14,
+                0.09,
+                "the same at 129 GPa",
+            )))
+            .layer(Layer::Point(LabelledPoint::new(0.98, 2.4, "corner"))),
         )
-        .height(400.0)
-        .layer(Layer::Classes(map))
-        .line("auto leaves hertz", Style::Heavy, line(1e-4))
-        .line("auto leaves radiation", Style::HeavyDashed, line(1e-3))
-        .layer(Layer::Point(LabelledPoint::new(0.12, 0.08, "paper's case")))
-        .layer(Layer::Point(LabelledPoint::new(0.14, 0.09, "the same at 129 GPa")))
-        .layer(Layer::Point(LabelledPoint::new(0.98, 2.4, "corner"))),
-    )
 }
 
 /// Distributions, one of them over decades.
@@ -123,25 +141,46 @@ pub(crate) fn histograms() -> Figure {
     // a sum of uniform numbers from a fixed generator is nearly normal
     let mut state = 1_u64;
     let mut uniform = || {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1);
         (state >> 11) as f64 / (1_u64 << 53) as f64
     };
     let mut normal = || (0..12).map(|_| uniform()).sum::<f64>() - 6.0;
     let first: Vec<f64> = (0..4000).map(|_| 0.72 + 0.03 * normal()).collect();
     let second: Vec<f64> = (0..3000).map(|_| 0.81 + 0.05 * normal()).collect();
-    let errors: Vec<f64> = (0..5000).map(|_| 10_f64.powf(-6.0 + 0.9 * normal())).collect();
+    let errors: Vec<f64> = (0..5000)
+        .map(|_| 10_f64.powf(-6.0 + 0.9 * normal()))
+        .collect();
     Figure::new("Ten thousand impacts")
         .columns(2)
         .width(900.0)
         .panel(
             Panel::new(Axis::linear("restitution"), Axis::linear("impacts"))
-                .layer(Layer::Histogram(Histogram::of("glass on steel", &first, 40, Scale::Linear)))
-                .layer(Layer::Histogram(Histogram::of("steel on steel", &second, 40, Scale::Linear))),
+                .layer(Layer::Histogram(Histogram::of(
+                    "glass on steel",
+                    &first,
+                    40,
+                    Scale::Linear,
+                )))
+                .layer(Layer::Histogram(Histogram::of(
+                    "steel on steel",
+                    &second,
+                    40,
+                    Scale::Linear,
+                ))),
         )
         .panel(
-            Panel::new(Axis::logarithmic("relative error"), Axis::logarithmic("impacts")).layer(
-                Layer::Histogram(Histogram::of("against the march", &errors, 40, Scale::Logarithmic)),
-            ),
+            Panel::new(
+                Axis::logarithmic("relative error"),
+                Axis::logarithmic("impacts"),
+            )
+            .layer(Layer::Histogram(Histogram::of(
+                "against the march",
+                &errors,
+                40,
+                Scale::Logarithmic,
+            ))),
         )
 }
 
@@ -149,7 +188,8 @@ pub(crate) fn histograms() -> Figure {
 pub(crate) fn column() -> Figure {
     let times = even(0.0, 60e-6, 200);
     let wave = |delay: f64| -> Vec<(f64, f64)> {
-        let value = |t: f64| -2.1e8 * pulse(t - delay, 25e-6) + 4e7 * pulse(t - delay - 20e-6, 15e-6);
+        let value =
+            |t: f64| -2.1e8 * pulse(t - delay, 25e-6) + 4e7 * pulse(t - delay - 20e-6, 15e-6);
         times.iter().map(|&t| (t, value(t))).collect()
     };
     Figure::new("").width(321.0).text(9.5).panel(

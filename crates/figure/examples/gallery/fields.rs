@@ -33,13 +33,17 @@ fn front(radius: f64) -> Vec<(f64, f64)> {
 }
 
 fn snapshot(time: f64, nodes: usize) -> Panel {
-    Panel::new(Axis::linear("radius r").si("m"), depth())
+    Panel::new(Axis::linear("distance x from the axis").si("m"), depth())
         .title(&format!("t = {:.0} µs", 1e6 * time))
         .equal_lengths()
         .mirrored(Mirror::Even)
         .layer(field(time, nodes))
-        .line("P front", Style::Rimmed, front(SPEEDS[0] * (time - 0.0)))
-        .line("S front", Style::RimmedDashed, front(SPEEDS[1] * (time - 0.0)))
+        .line("P front", Style::Rimmed, front(SPEEDS[0] * (time - 0.8e-6)))
+        .line(
+            "S front",
+            Style::RimmedDashed,
+            front(SPEEDS[1] * (time - 0.8e-6)),
+        )
 }
 
 /// A mirrored section with wave fronts.
@@ -96,25 +100,31 @@ pub(crate) fn seismogram() -> Figure {
             .map(|&t| {
                 let arrive = |i: usize, f: f64| ricker(t - 2e-6 - offset / SPEEDS[i], f);
                 let near = 0.01 / offset;
-                (t, near * (0.3 * arrive(0, 5e5) + 0.4 * arrive(1, 4e5)) + near.sqrt() * arrive(2, 3e5))
+                (
+                    t,
+                    near * (0.3 * arrive(0, 5e5) + 0.4 * arrive(1, 4e5))
+                        + near.sqrt() * arrive(2, 3e5),
+                )
             })
             .collect(),
     };
     let arrival = |i: usize| -> Vec<(f64, f64)> {
         offsets.iter().map(|&r| (2e-6 + r / SPEEDS[i], r)).collect()
     };
-    Figure::new("Surface velocity after a ball drop").width(720.0).panel(
-        Panel::new(
-            Axis::linear("time").si("s"),
-            Axis::linear("distance from the impact").si("m"),
+    Figure::new("Surface velocity after a ball drop")
+        .width(720.0)
+        .panel(
+            Panel::new(
+                Axis::linear("time").si("s"),
+                Axis::linear("distance from the impact").si("m"),
+            )
+            .height(460.0)
+            .layer(Layer::Traces(Traces::new(
+                "vertical velocity, each trace to its largest value",
+                Gain::Each,
+                offsets.iter().map(trace).collect(),
+            )))
+            .line("P", Style::HeavyDashed, arrival(0))
+            .line("Rayleigh", Style::Dotted, arrival(2)),
         )
-        .height(460.0)
-        .layer(Layer::Traces(Traces::new(
-            "vertical velocity, each trace to its largest value",
-            Gain::Each,
-            offsets.iter().map(trace).collect(),
-        )))
-        .line("P", Style::HeavyDashed, arrival(0))
-        .line("Rayleigh", Style::Dotted, arrival(2)),
-    )
 }

@@ -2,7 +2,7 @@
 
 use super::thin;
 use crate::colour::GRID;
-use crate::layout::{Placed, TICK, Typeface};
+use crate::layout::{Placed, Typeface};
 use crate::scene::{Anchor, Scene, Segment, Shape, Stroke, Text};
 use crate::text::LINE;
 
@@ -29,24 +29,29 @@ pub(super) fn grid(scene: &mut Scene, placed: &Placed<'_>) {
 /// Frame, ticks, numbers, labels and title of a panel.
 pub(super) fn draw(scene: &mut Scene, placed: &Placed<'_>, faces: &Typeface) {
     let area = placed.frame.area;
-    scene.shape(ticks(placed));
+    scene.shape(ticks(placed, faces));
     scene.shape(Shape::rectangle(area).stroked(thin()));
     let fitted = &placed.fitted;
     let middle = area.centre();
     if placed.plan.x.labelled {
-        let mut line = area.bottom + TICK + 0.2 * faces.tick + faces.tick;
+        let mut line = area.bottom + faces.tick_length() + 0.2 * faces.tick + faces.tick;
         for tick in &fitted.x_ticks.major {
             let at = (placed.frame.across(tick.value), line);
             scene.text(Text::new(&tick.label, at, faces.tick, Anchor::Middle));
         }
         line += 0.55 * faces.tick + faces.label;
         for label in &fitted.x_label {
-            scene.text(Text::new(label, (middle.0, line), faces.label, Anchor::Middle));
+            scene.text(Text::new(
+                label,
+                (middle.0, line),
+                faces.label,
+                Anchor::Middle,
+            ));
             line += LINE * faces.label;
         }
     }
     if placed.plan.y.labelled {
-        let right = area.left - TICK - 0.35 * faces.tick;
+        let right = area.left - faces.tick_length() - 0.35 * faces.tick;
         for tick in &fitted.y_ticks.major {
             let at = (right, placed.frame.down(tick.value) + 0.35 * faces.tick);
             scene.text(Text::new(&tick.label, at, faces.tick, Anchor::End));
@@ -67,12 +72,13 @@ pub(super) fn draw(scene: &mut Scene, placed: &Placed<'_>, faces: &Typeface) {
 }
 
 /// All ticks, outside of the plot.
-fn ticks(placed: &Placed<'_>) -> Shape {
+fn ticks(placed: &Placed<'_>, faces: &Typeface) -> Shape {
     let (frame, area, fitted) = (&placed.frame, placed.frame.area, &placed.fitted);
     let mut segments = Vec::new();
     let both = |major: &[crate::ticks::Tick], minor: &[f64]| -> Vec<(f64, f64)> {
-        let long = major.iter().map(|tick| (tick.value, TICK));
-        long.chain(minor.iter().map(|&value| (value, 0.55 * TICK))).collect()
+        let long = major.iter().map(|tick| (tick.value, faces.tick_length()));
+        long.chain(minor.iter().map(|&value| (value, faces.minor_length())))
+            .collect()
     };
     for (value, length) in both(&fitted.x_ticks.major, &fitted.x_ticks.minor) {
         let x = frame.across(value);

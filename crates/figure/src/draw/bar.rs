@@ -3,7 +3,7 @@
 use super::thin;
 use crate::colour::Colour;
 use crate::geometry::Rect;
-use crate::layout::{BarFit, TICK, Typeface};
+use crate::layout::{BarFit, Typeface};
 use crate::scene::{Anchor, Fill, Item, Picture, Scene, Segment, Shape, Text};
 use crate::text::LINE;
 
@@ -23,7 +23,9 @@ pub(super) fn draw(scene: &mut Scene, bar: &BarFit, plot: Rect, faces: &Typeface
         bottom: plot.bottom,
     };
     // arrows where values go on beyond the limits, within the height of the plot
-    let [below, above] = colours.beyond.map(|is| if is { BarFit::arrow() } else { 0.0 });
+    let [below, above] = colours
+        .beyond
+        .map(|is| if is { BarFit::arrow() } else { 0.0 });
     let body = Rect {
         top: strip.top + above,
         bottom: strip.bottom - below,
@@ -65,13 +67,19 @@ pub(super) fn draw(scene: &mut Scene, bar: &BarFit, plot: Rect, faces: &Typeface
     let mut segments = Vec::new();
     for tick in &bar.ticks.major {
         let y = down(tick.value);
-        segments.extend([Segment::Move(right, y), Segment::Line(right + TICK, y)]);
+        segments.extend([
+            Segment::Move(right, y),
+            Segment::Line(right + faces.tick_length(), y),
+        ]);
         let start = (plot.right + bar.numbers, y + 0.35 * faces.tick);
         scene.text(Text::new(&tick.label, start, faces.tick, Anchor::Start));
     }
     for &value in &bar.ticks.minor {
         let y = down(value);
-        segments.extend([Segment::Move(right, y), Segment::Line(right + 0.55 * TICK, y)]);
+        segments.extend([
+            Segment::Move(right, y),
+            Segment::Line(right + faces.minor_length(), y),
+        ]);
     }
     scene.shape(Shape {
         segments,

@@ -8,7 +8,7 @@ use crate::panel::Mirror;
 use crate::scene::{Fill, Scene, Shape, Stroke};
 
 /// How much a band hides.
-const BAND: f64 = 0.22;
+pub(super) const BAND: f64 = 0.22;
 
 /// Draws a curve within its plot.
 pub(super) fn draw(scene: &mut Scene, frame: &Frame, points: &[(f64, f64)], look: Look) {

@@ -1,6 +1,6 @@
 //! The legend, in a plot or beside it.
 
-use super::marker;
+use super::{curve, histogram, marker};
 use crate::colour::{BLACK, Colour, MARK, WHITE};
 use crate::geometry::Rect;
 use crate::layout::{Block, LegendPlace, Look, Marker, SWATCH, Swatch, Typeface};
@@ -30,7 +30,10 @@ pub(super) fn draw(
             let edge = Stroke::solid(Colour::new(0xcc_cc_cc), 0.8);
             scene.shape(Shape::rectangle(frame).filled(back).stroked(edge));
             let air = 0.5 * (found.width() - block.width);
-            (frame.left + air, frame.top + 0.5 * (found.height() - block.height))
+            (
+                frame.left + air,
+                frame.top + 0.5 * (found.height() - block.height),
+            )
         }
         LegendPlace::Right(from) => (plot.right + from, plot.top),
         LegendPlace::Below(from) => (plot.left, plot.bottom + from),
@@ -56,11 +59,22 @@ fn swatch(scene: &mut Scene, swatch: &Swatch, (x, y): (f64, f64), size: f64) {
             let fill = Fill::solid(*colour);
             scene.shape(Shape::rectangle(patch).filled(fill).stroked(edge));
         }
+        Swatch::Bars(look) => histogram::outline(
+            scene,
+            &[
+                (patch.left, patch.bottom),
+                (patch.left, patch.top),
+                (patch.right, patch.top),
+                (patch.right, patch.bottom),
+            ],
+            look,
+            patch.grown(2.0),
+        ),
         Swatch::Curve { line, band } => {
             if let Some(colour) = *band {
                 let fill = Fill {
                     colour,
-                    opacity: 0.22,
+                    opacity: curve::BAND,
                 };
                 scene.shape(Shape::rectangle(patch).filled(fill));
             }

@@ -38,7 +38,9 @@ fn shape(
     fill: Colour,
 ) {
     let polygon = |corners: &[(f64, f64)]| {
-        let corners = corners.iter().map(|(dx, dy)| (x + dx * size, y + dy * size));
+        let corners = corners
+            .iter()
+            .map(|(dx, dy)| (x + dx * size, y + dy * size));
         Shape::polygon(&corners.collect::<Vec<_>>())
     };
     let shape = match index {

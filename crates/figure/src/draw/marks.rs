@@ -1,6 +1,6 @@
 //! Vertical lines with labels above the plot.
 
-use crate::colour::MARK;
+use crate::colour::{MARK, WHITE};
 use crate::layer::Layer;
 use crate::layout::{Placed, Typeface};
 use crate::scene::{Anchor, Scene, Shape, Stroke, Text};
@@ -15,11 +15,16 @@ pub(super) fn draw(scene: &mut Scene, placed: &Placed<'_>, faces: &Typeface) {
         width: 1.0,
         dash: &[3.0, 3.0],
     };
+    let is_filled = placed.plan.panel.layers.iter().any(Layer::fills);
     for layer in &placed.plan.panel.layers {
         if let Layer::Mark(mark) = layer
             && frame.x.contains(mark.x)
         {
             let x = frame.across(mark.x);
+            if is_filled {
+                let rim = Stroke::solid(WHITE, 2.2);
+                scene.shape(Shape::polyline(&[(x, area.bottom), (x, area.top)], rim));
+            }
             scene.shape(Shape::polyline(&[(x, area.bottom), (x, area.top)], stroke));
         }
     }

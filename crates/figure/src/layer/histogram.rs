@@ -20,10 +20,16 @@ impl Histogram {
     #[must_use]
     pub fn of(name: &str, values: &[f64], bins: usize, scale: Scale) -> Self {
         let bins = bins.max(1);
-        let interval = Interval::around(scale, values.iter().copied())
-            .map_or(Interval::linear(0.0, 1.0), |found| {
-                if found.low < found.high { found } else { found.with_air(0.0) }
-            });
+        let interval = Interval::around(scale, values.iter().copied()).map_or(
+            Interval::linear(0.0, 1.0),
+            |found| {
+                if found.low < found.high {
+                    found
+                } else {
+                    found.with_air(0.0)
+                }
+            },
+        );
         let mut counts = vec![0.0; bins];
         for &value in values.iter().filter(|&&v| scale.shows(v)) {
             let bin = (interval.fraction(value) * bins as f64) as usize;
@@ -64,7 +70,12 @@ mod tests {
         assert!((found.edges[1] - 10.0).abs() < 1e-12 && found.edges.len() == 4);
         let same = Histogram::of("", &[5.0, 5.0], 4, Scale::Linear);
         assert_eq!(same.counts.iter().sum::<f64>(), 2.0);
-        assert!(Histogram::of("", &[], 2, Scale::Linear).counts.iter().all(|&c| c == 0.0));
+        assert!(
+            Histogram::of("", &[], 2, Scale::Linear)
+                .counts
+                .iter()
+                .all(|&c| c == 0.0)
+        );
     }
 
     #[test]

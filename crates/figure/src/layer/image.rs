@@ -118,7 +118,11 @@ impl Image {
 }
 
 fn blend(a: f64, fraction: f64, b: impl Fn() -> f64) -> f64 {
-    if fraction == 0.0 { a } else { a + fraction * (b() - a) }
+    if fraction == 0.0 {
+        a
+    } else {
+        a + fraction * (b() - a)
+    }
 }
 
 /// What the nodes of an axis cover.
@@ -141,7 +145,9 @@ fn locate(nodes: &[f64], at: f64, shading: Shading) -> Option<(usize, f64)> {
     if !(low..=high).contains(&at) {
         return None;
     }
-    let upper = nodes.partition_point(|&node| node <= at).clamp(1, nodes.len());
+    let upper = nodes
+        .partition_point(|&node| node <= at)
+        .clamp(1, nodes.len());
     let lower = upper - 1;
     if upper == nodes.len() {
         return Some((lower, 0.0));
@@ -159,7 +165,9 @@ mod tests {
 
     fn plane(shading: Shading) -> Image {
         let scale = ColourScale::new("", Unit::One, ColourMap::Sequential);
-        let mut image = Image::of(vec![0.0, 1.0, 3.0], vec![0.0, 2.0], scale, |x, y| x + 10.0 * y);
+        let mut image = Image::of(vec![0.0, 1.0, 3.0], vec![0.0, 2.0], scale, |x, y| {
+            x + 10.0 * y
+        });
         image.shading = shading;
         image
     }
@@ -178,7 +186,14 @@ mod tests {
     fn cells_reach_half_way_to_their_neighbours() {
         let image = plane(Shading::Cells);
         assert_eq!(image.corners(), [(-0.5, -1.0), (4.0, 3.0)]);
-        for (x, node) in [(-0.4, 0.0), (0.4, 0.0), (0.6, 1.0), (1.9, 1.0), (2.1, 3.0), (3.9, 3.0)] {
+        for (x, node) in [
+            (-0.4, 0.0),
+            (0.4, 0.0),
+            (0.6, 1.0),
+            (1.9, 1.0),
+            (2.1, 3.0),
+            (3.9, 3.0),
+        ] {
             assert_eq!(image.at(x, -0.9), node, "{x}");
         }
     }

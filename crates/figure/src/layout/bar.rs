@@ -1,7 +1,7 @@
 //! The colour bar beside a panel or beside all of them.
 
 use super::plan::Colours;
-use super::typeface::{TICK, Typeface};
+use super::typeface::Typeface;
 use crate::interval::Interval;
 use crate::text::{LINE, Rich, wrap};
 use crate::ticks::{Room, Ticks, shown, ticks};
@@ -45,7 +45,7 @@ impl BarFit {
             .fold(0.0, f64::max);
         let label = wrap(&shown.label, faces.label, height);
         let left = 1.2 * faces.tick;
-        let numbers = left + STRIP + TICK + 0.3 * faces.tick;
+        let numbers = left + STRIP + faces.tick_length() + 0.3 * faces.tick;
         let text = numbers + widest + faces.gap() + 0.5 * LINE * faces.label;
         Self {
             colours: colours.clone(),

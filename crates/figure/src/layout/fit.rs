@@ -7,7 +7,7 @@ use super::looks::Looks;
 use super::marks::{PlacedMark, place_marks};
 use super::plan::{AxisPlan, PanelPlan};
 use super::room::{free, occupied};
-use super::typeface::{TICK, Typeface};
+use super::typeface::Typeface;
 use crate::geometry::Rect;
 use crate::layer::Layer;
 use crate::panel::{Legend, Mirror};
@@ -52,7 +52,11 @@ pub(crate) struct Context<'a> {
 }
 
 /// Fits a panel around a plot of a size.
-pub(crate) fn fit(plan: &PanelPlan<'_>, [width, height]: [f64; 2], context: &Context<'_>) -> Fitted {
+pub(crate) fn fit(
+    plan: &PanelPlan<'_>,
+    [width, height]: [f64; 2],
+    context: &Context<'_>,
+) -> Fitted {
     let faces = context.faces;
     let (x_ticks, x_label) = along_x(&plan.x, width, faces);
     let (y_ticks, y_label) = along_y(&plan.y, height, faces);
@@ -65,7 +69,7 @@ pub(crate) fn fit(plan: &PanelPlan<'_>, [width, height]: [f64; 2], context: &Con
     };
     let mut needs = Needs::default();
     if plan.y.labelled {
-        needs.left = TICK + 0.35 * faces.tick + y_numbers;
+        needs.left = faces.tick_length() + 0.35 * faces.tick + y_numbers;
         if !y_label.is_empty() {
             needs.left += faces.gap() + Typeface::lines(faces.label, y_label.len());
         }
@@ -74,10 +78,14 @@ pub(crate) fn fit(plan: &PanelPlan<'_>, [width, height]: [f64; 2], context: &Con
     if plan.x.labelled {
         let first = x_ticks.major.first();
         let last = x_ticks.major.last();
-        let ends = [first, last].map(|tick| tick.map_or(0.0, |tick| overhang(plan, tick.value, &tick.label, width, faces)));
+        let ends = [first, last].map(|tick| {
+            tick.map_or(0.0, |tick| {
+                overhang(plan, tick.value, &tick.label, width, faces)
+            })
+        });
         needs.left = needs.left.max(ends[0]);
         needs.right = ends[0].max(ends[1]);
-        needs.bottom = TICK + 0.2 * faces.tick + LINE * faces.tick;
+        needs.bottom = faces.tick_length() + 0.2 * faces.tick + LINE * faces.tick;
         if !x_label.is_empty() {
             needs.bottom += 0.3 * faces.tick + Typeface::lines(faces.label, x_label.len());
         }

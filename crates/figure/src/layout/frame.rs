@@ -89,30 +89,36 @@ mod tests {
     use super::*;
     use crate::axis::Axis;
 
-    fn frame(y: Axis) -> Frame {
+    fn frame(y: &Axis) -> Frame {
         let area = Rect::new(50.0, 10.0, 200.0, 100.0);
         let x = AxisPlan::new(&Axis::linear("x"), Interval::linear(0.0, 4.0));
         let interval = y.interval().unwrap();
-        Frame::new(area, &x, &AxisPlan::new(&y, interval))
+        Frame::new(area, &x, &AxisPlan::new(y, interval))
     }
 
     #[test]
     fn places_run_over_the_area_and_back() {
-        let usual = frame(Axis::logarithmic("y").range(1.0, 100.0));
+        let usual = frame(&Axis::logarithmic("y").range(1.0, 100.0));
         assert_eq!(usual.place((0.0, 1.0)), Some((50.0, 110.0)));
         assert_eq!(usual.place((4.0, 100.0)), Some((250.0, 10.0)));
         assert_eq!(usual.place((1.0, 0.0)), None);
         let (x, y) = usual.values((150.0, 60.0));
         assert!((x - 2.0).abs() < 1e-12 && (y - 10.0).abs() < 1e-12);
-        let depth = frame(Axis::linear("z").range(0.0, 1.0).reversed());
+        let depth = frame(&Axis::linear("z").range(0.0, 1.0).reversed());
         assert_eq!(depth.place((0.0, 0.0)), Some((50.0, 10.0)));
         assert_eq!(depth.values((50.0, 110.0)), (0.0, 1.0));
     }
 
     #[test]
     fn a_curve_breaks_where_nothing_can_be_shown() {
-        let frame = frame(Axis::logarithmic("y").range(1.0, 100.0));
-        let runs = frame.runs(&[(0.0, 1.0), (1.0, 2.0), (f64::NAN, 2.0), (2.0, 0.0), (3.0, 5.0)]);
+        let frame = frame(&Axis::logarithmic("y").range(1.0, 100.0));
+        let runs = frame.runs(&[
+            (0.0, 1.0),
+            (1.0, 2.0),
+            (f64::NAN, 2.0),
+            (2.0, 0.0),
+            (3.0, 5.0),
+        ]);
         assert_eq!(runs.iter().map(Vec::len).collect::<Vec<_>>(), [2, 1]);
         assert!(frame.place((1e300, 1.0)).unwrap().0 <= 1e5);
     }

@@ -106,9 +106,8 @@ fn rows<'a>(
     let members: Vec<(PanelPlan<'a>, Fitted)> = plans.into_iter().zip(fitted).collect();
     let mut panels = Vec::with_capacity(members.len());
     for row in members.chunk_by(|a, b| a.0.row == b.0.row) {
-        let most = |of: &dyn Fn(&(PanelPlan<'a>, Fitted)) -> f64| {
-            row.iter().map(of).fold(0.0, f64::max)
-        };
+        let most =
+            |of: &dyn Fn(&(PanelPlan<'a>, Fitted)) -> f64| row.iter().map(of).fold(0.0, f64::max);
         let height = most(&|(plan, _)| size(plan, columns.plot)[1]);
         top += most(&|(_, fitted)| fitted.needs.top);
         for (plan, fitted) in row {

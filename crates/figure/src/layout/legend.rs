@@ -11,10 +11,15 @@ use crate::text::{LINE, Rich, wrap};
 /// The sample beside a name.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Swatch {
-    /// A class or a bar.
+    /// A class.
     Fill(Colour),
+    /// The bars of a histogram.
+    Bars(Look),
     /// A curve, a band of its colour, or both.
-    Curve { line: Option<Look>, band: Option<Colour> },
+    Curve {
+        line: Option<Look>,
+        band: Option<Colour>,
+    },
 }
 
 /// A name with its sample.
@@ -84,7 +89,7 @@ fn entries(plan: &PanelPlan<'_>, looks: &Looks) -> Vec<Entry> {
                 line: None,
                 band: Some(colour),
             },
-            Layer::Histogram(_) => Swatch::Fill(colour),
+            Layer::Histogram(_) => Swatch::Bars(look(index, Style::Plain)),
             Layer::Image(_) | Layer::Mark(_) | Layer::Point(_) => continue,
         };
         let name = layer.name();

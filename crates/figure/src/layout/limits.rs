@@ -56,7 +56,10 @@ mod tests {
     use crate::axis::Unit;
 
     fn of(map: ColourMap, which: Limits, values: &[f64]) -> (f64, f64) {
-        limits(&ColourScale::new("", Unit::One, map).limits(which), values.iter())
+        limits(
+            &ColourScale::new("", Unit::One, map).limits(which),
+            values.iter(),
+        )
     }
 
     #[test]
@@ -72,9 +75,18 @@ mod tests {
 
     #[test]
     fn a_diverging_map_has_zero_in_its_middle() {
-        assert_eq!(of(ColourMap::Diverging, Limits::All, &[-1.0, 4.0]), (-4.0, 4.0));
-        assert_eq!(of(ColourMap::Diverging, Limits::Between(-1.0, 3.0), &[]), (-3.0, 3.0));
-        assert_eq!(of(ColourMap::Sequential, Limits::All, &[2.0, 2.0]), (1.0, 3.0));
+        assert_eq!(
+            of(ColourMap::Diverging, Limits::All, &[-1.0, 4.0]),
+            (-4.0, 4.0)
+        );
+        assert_eq!(
+            of(ColourMap::Diverging, Limits::Between(-1.0, 3.0), &[]),
+            (-3.0, 3.0)
+        );
+        assert_eq!(
+            of(ColourMap::Sequential, Limits::All, &[2.0, 2.0]),
+            (1.0, 3.0)
+        );
         assert_eq!(of(ColourMap::Diverging, Limits::All, &[]), (-1.0, 1.0));
     }
 }

@@ -12,7 +12,7 @@ const COLOURS: [Colour; 10] = [
     Colour::new(0x1b_7f_5c),
     Colour::new(0x7a_3b_9a),
     Colour::new(0x56_b4_e9),
-    Colour::new(0x8c_56_4b),
+    Colour::new(0xb5_89_6f),
     Colour::new(0x7f_7f_7f),
     Colour::new(0xd5_5e_8e),
     Colour::new(0x3b_3b_00),
@@ -104,7 +104,10 @@ pub(crate) fn look(index: usize, style: Style) -> Look {
             line: false,
             ..coloured
         },
-        Style::Heavy => Look { width: 2.6, ..black },
+        Style::Heavy => Look {
+            width: 2.6,
+            ..black
+        },
         Style::HeavyDashed => Look {
             dash: &[9.0, 5.0],
             ..black
@@ -167,10 +170,12 @@ fn coloured(layers: &[Layer]) -> impl Iterator<Item = (usize, String)> + '_ {
         Layer::Image(_) | Layer::Classes(_) | Layer::Mark(_) | Layer::Point(_) => false,
     };
     let layers = layers.iter().enumerate().filter(move |(_, l)| own(l));
-    layers.enumerate().map(|(n, (i, layer))| match layer.name() {
-        "" => (i, format!("\0{n}")),
-        name => (i, name.to_owned()),
-    })
+    layers
+        .enumerate()
+        .map(|(n, (i, layer))| match layer.name() {
+            "" => (i, format!("\0{n}")),
+            name => (i, name.to_owned()),
+        })
 }
 
 #[cfg(test)]

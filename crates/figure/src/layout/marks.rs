@@ -126,7 +126,12 @@ mod tests {
 
     #[test]
     fn labels_never_overlap_nor_leave_the_plot() {
-        let near = [(1.0, "first front"), (2.0, "S"), (3.0, "Rayleigh"), (299.0, "end")];
+        let near = [
+            (1.0, "first front"),
+            (2.0, "S"),
+            (3.0, "Rayleigh"),
+            (299.0, "end"),
+        ];
         for width in [300.0, 120.0, 70.0, 30.0] {
             let (placed, rows) = boxes(&near, width);
             assert!(rows >= 1);

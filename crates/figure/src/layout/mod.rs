@@ -14,11 +14,11 @@ mod room;
 mod typeface;
 
 pub(crate) use bar::BarFit;
-pub(crate) use frame::Frame;
 pub(crate) use columns::PAD;
+pub(crate) use frame::Frame;
 pub(crate) use grid::{Layout, Placed, lay_out};
 pub(crate) use legend::{Block, LegendPlace, Swatch};
 pub(crate) use looks::{Look, Marker, fills, look};
 pub(crate) use plan::{AxisPlan, Colours};
 pub(crate) use room::occupied;
-pub(crate) use typeface::{SWATCH, TICK, Typeface};
+pub(crate) use typeface::{SWATCH, Typeface};

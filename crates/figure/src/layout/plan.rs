@@ -104,7 +104,9 @@ fn share<'p>(
 ) {
     let lines = plans.iter().map(&line).max().map_or(0, |last| last + 1);
     for at in 0..lines {
-        let members: Vec<usize> = (0..plans.len()).filter(|&i| line(&plans[i]) == at).collect();
+        let members: Vec<usize> = (0..plans.len())
+            .filter(|&i| line(&plans[i]) == at)
+            .collect();
         let intervals = members.iter().map(|&i| axis(&mut plans[i]).interval);
         let Some(union) = intervals.reduce(Interval::union) else {
             continue;
@@ -140,9 +142,16 @@ fn y_interval(panel: &Panel) -> Interval {
 
 /// Holds all layers; along y only what lies within a given x axis.
 ///
-/// Along x curves run from end to end, and images fill their panel: there is air above and below curves alone.
+/// Along x curves run from end to end, and images fill their panel, whatever is drawn over them: there is air
+/// above and below curves alone.
 fn automatic(panel: &Panel, side: Side) -> Interval {
-    let places = panel.layers.iter().flat_map(Layer::places);
+    let is_image = |layer: &&Layer| matches!(layer, Layer::Image(_));
+    let has_image = panel.layers.iter().any(|layer| is_image(&layer));
+    let layers = panel
+        .layers
+        .iter()
+        .filter(|layer| !has_image || is_image(layer));
+    let places = layers.flat_map(Layer::places);
     let (scale, found) = match side {
         Side::X => {
             let scale = panel.x.scale;
@@ -201,8 +210,11 @@ mod tests {
     use crate::layer::Style;
 
     fn panel(high: f64) -> Panel {
-        Panel::new(Axis::linear("t").si("s"), Axis::linear("P"))
-            .line("a", Style::Plain, vec![(0.0, 0.0), (high, 2.0 * high)])
+        Panel::new(Axis::linear("t").si("s"), Axis::linear("P")).line(
+            "a",
+            Style::Plain,
+            vec![(0.0, 0.0), (high, 2.0 * high)],
+        )
     }
 
     #[test]

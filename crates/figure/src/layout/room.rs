@@ -24,9 +24,12 @@ pub(crate) fn occupied(panel: &Panel, frame: &Frame) -> Vec<(f64, f64)> {
 fn curves(layer: &Layer, frame: &Frame) -> Vec<Vec<(f64, f64)>> {
     match layer {
         Layer::Line(line) => vec![line.points.clone()],
-        Layer::Band(band) => [|p: &(f64, f64, f64)| (p.0, p.1), |p: &(f64, f64, f64)| (p.0, p.2)]
-            .map(|side| band.points.iter().map(side).collect())
-            .to_vec(),
+        Layer::Band(band) => [
+            |p: &(f64, f64, f64)| (p.0, p.1),
+            |p: &(f64, f64, f64)| (p.0, p.2),
+        ]
+        .map(|side| band.points.iter().map(side).collect())
+        .to_vec(),
         Layer::Histogram(histogram) => {
             // whole bars, not only their tops
             let base = frame.y.low.max(0.0);
@@ -93,7 +96,10 @@ pub(super) fn free(
     air: f64,
     taken: &[(f64, f64)],
 ) -> Option<Rect> {
-    let span = [area.width() - width - 2.0 * air, area.height() - height - 2.0 * air];
+    let span = [
+        area.width() - width - 2.0 * air,
+        area.height() - height - 2.0 * air,
+    ];
     if span.iter().any(|&s| s < 0.0) {
         return None;
     }

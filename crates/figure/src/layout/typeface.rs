@@ -2,9 +2,6 @@
 
 use crate::text::LINE;
 
-/// Length of a tick.
-pub(crate) const TICK: f64 = 5.0;
-
 /// Width of the sample of a curve in a legend.
 pub(crate) const SWATCH: f64 = 30.0;
 
@@ -36,6 +33,16 @@ impl Typeface {
     /// Height of so many lines of a size.
     pub(crate) fn lines(size: f64, count: usize) -> f64 {
         LINE * size * count as f64
+    }
+
+    /// Length of a tick with a label.
+    pub(crate) fn tick_length(&self) -> f64 {
+        0.42 * self.tick
+    }
+
+    /// Length of a tick without one.
+    pub(crate) fn minor_length(&self) -> f64 {
+        0.23 * self.tick
     }
 
     /// A small distance.

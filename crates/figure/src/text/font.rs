@@ -45,8 +45,10 @@ impl Font {
 }
 
 fn width_of(file: &FontRef<'_>, glyph: GlyphId) -> f64 {
-    let metrics = file.glyph_metrics(Size::new(1.0), LocationRef::default());
-    f64::from(metrics.advance_width(glyph).unwrap_or(0.0))
+    let at = (Size::unscaled(), LocationRef::default());
+    let units = f64::from(file.metrics(at.0, at.1).units_per_em);
+    let metrics = file.glyph_metrics(at.0, at.1);
+    f64::from(metrics.advance_width(glyph).unwrap_or(0.0)) / units
 }
 
 /// The glyph of a letter; glyph 0, an empty box, for one that the font does not have.
@@ -60,7 +62,7 @@ pub(crate) fn glyph_width(glyph: GlyphId) -> f64 {
 }
 
 /// Width of a text over the font's size, without kerning, which can only narrow it.
-pub(super) fn width(text: &str) -> f64 {
+pub(crate) fn width(text: &str) -> f64 {
     let font = Font::get();
     text.chars()
         .map(|letter| match font.ascii.get(letter as usize) {
@@ -76,6 +78,8 @@ mod tests {
 
     #[test]
     fn widths_are_those_of_the_font() {
+        // advance of the zero in the file's table: 564 of 1000 units
+        assert!((width("0") - 0.564).abs() < 1e-9, "{}", width("0"));
         assert!(width("W") > 2.0 * width("i"));
         assert!((width("ab") - width("a") - width("b")).abs() < 1e-12);
         // digits are equally wide, so that numbers line up

@@ -7,9 +7,10 @@ mod number;
 mod rich;
 mod wrap;
 
+pub(crate) use font::width as text_width;
 pub(crate) use font::{ASCENT, DESCENT, FAMILY, GlyphId, data, glyph, glyph_width};
 pub(crate) use number::{decimal, power_of_ten};
-pub(crate) use rich::{Rich, Run};
+pub(crate) use rich::Rich;
 pub(crate) use wrap::wrap;
 
 /// Height of a line of text over the height of its letters.

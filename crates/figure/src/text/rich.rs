@@ -14,7 +14,7 @@ pub(crate) struct Run {
 
 impl Run {
     /// Width over the size of the line.
-    pub(crate) fn width(&self) -> f64 {
+    fn width(&self) -> f64 {
         self.size * font::width(&self.text)
     }
 }
@@ -51,7 +51,11 @@ impl Rich {
                 continue;
             };
             push(&rest[..at], 1.0, 0.0);
-            let rise = if rest[at..].starts_with('^') { RAISED } else { LOWERED };
+            let rise = if rest[at..].starts_with('^') {
+                RAISED
+            } else {
+                LOWERED
+            };
             push(inner, SMALL, rise);
             (rest, from) = (after, 0);
         }
@@ -81,13 +85,20 @@ mod tests {
     use super::*;
 
     fn texts(markup: &str) -> Vec<String> {
-        Rich::new(markup).0.into_iter().map(|run| run.text).collect()
+        Rich::new(markup)
+            .0
+            .into_iter()
+            .map(|run| run.text)
+            .collect()
     }
 
     #[test]
     fn parts_are_raised_and_lowered() {
         let rich = Rich::new("time [r_{0}/c_{1}]");
-        assert_eq!(texts("time [r_{0}/c_{1}]"), ["time [r", "0", "/c", "1", "]"]);
+        assert_eq!(
+            texts("time [r_{0}/c_{1}]"),
+            ["time [r", "0", "/c", "1", "]"]
+        );
         assert!(rich.0[1].rise < 0.0 && rich.0[2].rise == 0.0);
         assert!(Rich::new("10^{-6}").0[1].rise > 0.0);
         assert!(Rich::new("10^{-6}").extent().0 > Rich::new("10").extent().0);

@@ -57,7 +57,8 @@ mod tests {
     fn a_word_that_is_too_long_is_broken_too() {
         let lines = wrap("incompressibility of it", 12.0, 40.0);
         assert!(lines.iter().all(|l| Rich::new(l).width(12.0) <= 40.0));
-        assert_eq!(lines.concat(), "incompressibilityofit");
+        assert!(lines.len() >= 3);
+        assert_eq!(lines.concat().replace(' ', ""), "incompressibilityofit");
         assert_eq!(wrap("x^{22}", 12.0, 1.0), ["x^{22}"]);
     }
 }

@@ -52,7 +52,11 @@ pub(crate) fn shown(quantity: &str, unit: &Unit, interval: &Interval) -> Shown {
     };
     match unit {
         Unit::Si(unit) => {
-            let wanted = if exponent == -1 { 0 } else { 3 * exponent.div_euclid(3) };
+            let wanted = if exponent == -1 {
+                0
+            } else {
+                3 * exponent.div_euclid(3)
+            };
             let wanted = wanted.clamp(-24, 24);
             let prefix = PREFIXES.iter().find(|(_, e)| *e == wanted);
             let (prefix, exponent) = prefix.copied().unwrap_or(("", 0));
@@ -89,7 +93,13 @@ mod tests {
 
     #[test]
     fn units_of_the_si_take_prefixes() {
-        let si = |unit: &str, high: f64| shown("x", &Unit::Si(unit.to_owned()), &Interval::linear(0.0, high));
+        let si = |unit: &str, high: f64| {
+            shown(
+                "x",
+                &Unit::Si(unit.to_owned()),
+                &Interval::linear(0.0, high),
+            )
+        };
         assert_eq!(si("s", 4e-5).label, "x [\u{b5}s]");
         assert_eq!(si("N", 38_200.0).label, "x [kN]");
         assert_eq!(si("m/s", 0.5).label, "x [m/s]");
@@ -103,11 +113,20 @@ mod tests {
     #[test]
     fn other_units_take_powers_of_ten_where_needed() {
         let fixed = Unit::Fixed("r0".to_owned());
-        assert_eq!(shown("u", &fixed, &Interval::linear(0.0, 20.0)).label, "u [r0]");
+        assert_eq!(
+            shown("u", &fixed, &Interval::linear(0.0, 20.0)).label,
+            "u [r0]"
+        );
         let small = shown("u", &fixed, &Interval::linear(-2e-5, 1e-5));
         assert_eq!(small.label, "u [10^{\u{2212}6} r0]");
         assert_eq!(small.factor, 1e-6);
-        assert_eq!(shown("n", &Unit::One, &Interval::linear(0.0, 2e6)).label, "n [10^{6}]");
-        assert_eq!(shown("n", &Unit::One, &Interval::linear(0.0, 12.0)).label, "n");
+        assert_eq!(
+            shown("n", &Unit::One, &Interval::linear(0.0, 2e6)).label,
+            "n [10^{6}]"
+        );
+        assert_eq!(
+            shown("n", &Unit::One, &Interval::linear(0.0, 12.0)).label,
+            "n"
+        );
     }
 }

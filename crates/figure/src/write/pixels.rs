@@ -15,5 +15,6 @@ pub(super) fn encode(picture: &Picture) -> Result<Vec<u8>, RenderError> {
         };
         *to = colour.premultiply();
     }
-    map.encode_png().map_err(|error| RenderError::Png(error.to_string()))
+    map.encode_png()
+        .map_err(|error| RenderError::Png(error.to_string()))
 }

@@ -82,7 +82,9 @@ fn path(shape: &Shape, clips: &[Rect]) -> Path {
             path = path.set("stroke-dasharray", dashes.join(" "));
         }
     }
-    let clip = shape.clip.and_then(|area| clips.iter().position(|c| *c == area));
+    let clip = shape
+        .clip
+        .and_then(|area| clips.iter().position(|c| *c == area));
     match clip {
         Some(i) => path.set("clip-path", format!("url(#plot{i})")),
         None => path,
@@ -113,7 +115,10 @@ fn image(picture: &Picture) -> Result<Image, RenderError> {
         .set("width", number(area.width()))
         .set("height", number(area.height()))
         .set("preserveAspectRatio", "none")
-        .set("href", format!("data:image/png;base64,{}", STANDARD.encode(png))))
+        .set(
+            "href",
+            format!("data:image/png;base64,{}", STANDARD.encode(png)),
+        ))
 }
 
 /// A text, its raised and lowered parts each on its own.
@@ -126,19 +131,22 @@ fn label(text: &Text) -> Group {
             .set("paint-order", "stroke")
             .set("stroke-linejoin", "round");
     }
-    for (run, (x, y), width) in text.parts() {
-        let mut part = Label::new(run.text.clone())
+    for part in text.parts() {
+        let (x, y) = part.start;
+        let mut label = Label::new(part.text)
             .set("x", number(x))
             .set("y", number(y))
-            .set("font-size", number(text.size * run.size))
-            .set("textLength", number(width))
+            .set("font-size", number(part.size))
+            .set("textLength", number(part.width))
             .set("lengthAdjust", "spacingAndGlyphs")
-            .set("fill", "#111111")
-            .set("xml:space", "preserve");
+            .set("fill", "#111111");
         if text.turn == Turn::Upward {
-            part = part.set("transform", format!("rotate(-90 {} {})", number(x), number(y)));
+            label = label.set(
+                "transform",
+                format!("rotate(-90 {} {})", number(x), number(y)),
+            );
         }
-        group = group.add(part);
+        group = group.add(label);
     }
     group
 }
@@ -147,7 +155,11 @@ fn label(text: &Text) -> Group {
 fn number(value: f64) -> String {
     let text = format!("{value:.2}");
     let short = text.trim_end_matches('0').trim_end_matches('.');
-    if short == "-0" { "0".to_owned() } else { short.to_owned() }
+    if short == "-0" {
+        "0".to_owned()
+    } else {
+        short.to_owned()
+    }
 }
 
 #[cfg(test)]

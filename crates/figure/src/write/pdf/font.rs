@@ -48,7 +48,9 @@ impl Subset {
 
     /// A text as numbers of letters, two bytes each.
     pub(super) fn encode(&self, text: &str) -> Vec<u8> {
-        let numbers = text.chars().map(|c| self.letters.get(&c).map_or(0, |l| l.0));
+        let numbers = text
+            .chars()
+            .map(|c| self.letters.get(&c).map_or(0, |l| l.0));
         numbers.flat_map(u16::to_be_bytes).collect()
     }
 

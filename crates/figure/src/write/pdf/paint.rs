@@ -130,14 +130,14 @@ fn draw_text(content: &mut Content, text: &Text, font: &Subset) {
     for &pass in passes {
         content.begin_text();
         content.set_text_rendering_mode(pass);
-        for (run, (x, y), _) in text.parts() {
-            content.set_font(Name(FONT), (text.size * run.size) as f32);
-            let (x, y) = (x as f32, y as f32);
+        for part in text.parts() {
+            content.set_font(Name(FONT), part.size as f32);
+            let (x, y) = (part.start.0 as f32, part.start.1 as f32);
             content.set_text_matrix(match text.turn {
                 Turn::Level => [1.0, 0.0, 0.0, -1.0, x, y],
                 Turn::Upward => [0.0, -1.0, -1.0, 0.0, x, y],
             });
-            content.show(Str(&font.encode(&run.text)));
+            content.show(Str(&font.encode(part.text)));
         }
         content.end_text();
     }
