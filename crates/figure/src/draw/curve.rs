@@ -3,7 +3,7 @@
 use super::{marker, sides};
 use crate::colour::WHITE;
 use crate::layer::{Band, Style};
-use crate::layout::{Frame, Look, look};
+use crate::layout::{Frame, Look, Slot, look};
 use crate::panel::Mirror;
 use crate::scene::{Fill, Scene, Shape, Stroke};
 
@@ -34,8 +34,8 @@ pub(super) fn draw(scene: &mut Scene, frame: &Frame, points: &[(f64, f64)], look
 }
 
 /// Fills the area between two curves.
-pub(super) fn band(scene: &mut Scene, frame: &Frame, band: &Band, index: usize, mirror: Mirror) {
-    let colour = look(index, Style::Plain).colour;
+pub(super) fn band(scene: &mut Scene, frame: &Frame, band: &Band, slot: Slot, mirror: Mirror) {
+    let colour = look(slot, Style::Plain).colour;
     let edge = |of: fn(&(f64, f64, f64)) -> (f64, f64)| -> Vec<(f64, f64)> {
         band.points.iter().map(of).collect()
     };

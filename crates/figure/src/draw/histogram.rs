@@ -2,16 +2,16 @@
 
 use crate::geometry::Rect;
 use crate::layer::{Histogram, Style};
-use crate::layout::{Frame, Look, look};
+use crate::layout::{Frame, Look, Slot, look};
 use crate::scene::{Fill, Scene, Shape, Stroke};
 
 /// Draws the bars of a histogram within its plot.
-pub(super) fn draw(scene: &mut Scene, frame: &Frame, bars: &Histogram, index: usize) {
+pub(super) fn draw(scene: &mut Scene, frame: &Frame, bars: &Histogram, slot: Slot) {
     // a logarithmic axis has no zero: bars stand on its end
     let above = |(x, y): (f64, f64)| (x, y.max(frame.y.low));
     let points: Vec<(f64, f64)> = bars.outline().into_iter().map(above).collect();
     for run in frame.runs(&points).iter().filter(|run| run.len() > 1) {
-        outline(scene, run, &look(index, Style::Plain), frame.area);
+        outline(scene, run, &look(slot, Style::Plain), frame.area);
     }
 }
 

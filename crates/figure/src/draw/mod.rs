@@ -16,7 +16,7 @@ use crate::error::FigureError;
 use crate::figure::Figure;
 use crate::geometry::Rect;
 use crate::layer::{Layer, Style};
-use crate::layout::{Layout, Look, PAD, Placed, Typeface, lay_out, look};
+use crate::layout::{Layout, Look, PAD, Placed, Slot, Typeface, lay_out, look};
 use crate::panel::Mirror;
 use crate::scene::{Anchor, Fill, Item, Scene, Shape, Stroke, Text};
 
@@ -60,9 +60,9 @@ fn draw_panel(scene: &mut Scene, placed: &Placed<'_>, layout: &Layout<'_>) {
     if !layers.iter().any(Layer::fills) {
         axes::grid(scene, placed);
     }
-    let indices = layout.looks.indices(layers);
-    for (layer, &index) in layers.iter().zip(&indices) {
-        draw_layer(scene, placed, layer, index);
+    let slots = layout.looks.slots(layers);
+    for (layer, &slot) in layers.iter().zip(&slots) {
+        draw_layer(scene, placed, layer, slot);
     }
     marks::draw(scene, placed, faces);
     axes::draw(scene, placed, faces);
@@ -75,23 +75,23 @@ fn draw_panel(scene: &mut Scene, placed: &Placed<'_>, layout: &Layout<'_>) {
     }
 }
 
-fn draw_layer(scene: &mut Scene, placed: &Placed<'_>, layer: &Layer, index: usize) {
+fn draw_layer(scene: &mut Scene, placed: &Placed<'_>, layer: &Layer, slot: Slot) {
     let frame = &placed.frame;
     let mirror = placed.plan.panel.mirror;
     match layer {
         Layer::Line(line) => {
-            let look = look(index, line.style);
+            let look = look(slot, line.style);
             for points in sides(&line.points, mirror) {
                 curve::draw(scene, frame, &points, look);
             }
         }
-        Layer::Band(band) => curve::band(scene, frame, band, index, mirror),
-        Layer::Histogram(bars) => histogram::draw(scene, frame, bars, index),
+        Layer::Band(band) => curve::band(scene, frame, band, slot, mirror),
+        Layer::Histogram(bars) => histogram::draw(scene, frame, bars, slot),
         Layer::Traces(traces) => {
             let look = Look {
                 dash: &[],
                 width: 1.1,
-                ..look(index, Style::Plain)
+                ..look(slot, Style::Plain)
             };
             for points in traces.curves() {
                 curve::draw(scene, frame, &points, look);

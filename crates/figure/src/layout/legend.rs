@@ -60,13 +60,13 @@ pub(crate) enum LegendPlace {
 /// Names of a panel; a band and a line of the same name are one.
 fn entries(plan: &PanelPlan<'_>, looks: &Looks) -> Vec<Entry> {
     let mut found: Vec<Entry> = Vec::new();
-    let indices = looks.indices(&plan.panel.layers);
-    for (layer, &index) in plan.panel.layers.iter().zip(&indices) {
+    let slots = looks.slots(&plan.panel.layers);
+    for (layer, &slot) in plan.panel.layers.iter().zip(&slots) {
         let curve = |style| Swatch::Curve {
-            line: Some(look(index, style)),
+            line: Some(look(slot, style)),
             band: None,
         };
-        let colour = look(index, Style::Plain).colour;
+        let colour = look(slot, Style::Plain).colour;
         let swatch = match layer {
             Layer::Classes(classes) => {
                 let fills = fills(classes.names.len());
@@ -81,7 +81,7 @@ fn entries(plan: &PanelPlan<'_>, looks: &Looks) -> Vec<Entry> {
             Layer::Traces(_) => Swatch::Curve {
                 line: Some(Look {
                     dash: &[],
-                    ..look(index, Style::Plain)
+                    ..look(slot, Style::Plain)
                 }),
                 band: None,
             },
@@ -89,7 +89,7 @@ fn entries(plan: &PanelPlan<'_>, looks: &Looks) -> Vec<Entry> {
                 line: None,
                 band: Some(colour),
             },
-            Layer::Histogram(_) => Swatch::Bars(look(index, Style::Plain)),
+            Layer::Histogram(_) => Swatch::Bars(look(slot, Style::Plain)),
             Layer::Image(_) | Layer::Mark(_) | Layer::Point(_) => continue,
         };
         let name = layer.name();

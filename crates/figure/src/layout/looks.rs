@@ -3,6 +3,7 @@
 use crate::colour::{BLACK, Colour, WHITE};
 use crate::figure::Figure;
 use crate::layer::{Layer, Style};
+use crate::panel::Panel;
 
 /// Colours of curves; neighbours differ in lightness as well as in hue.
 const COLOURS: [Colour; 10] = [
@@ -77,14 +78,14 @@ pub(crate) enum Marker {
     Shape(usize),
 }
 
-/// The look of the n-th curve in a style.
-pub(crate) fn look(index: usize, style: Style) -> Look {
+/// The look of a name in a style.
+pub(crate) fn look(slot: Slot, style: Style) -> Look {
     let coloured = Look {
-        colour: COLOURS[index % COLOURS.len()],
+        colour: COLOURS[slot.figure % COLOURS.len()],
         dash: &[],
         width: 1.6,
         line: true,
-        marker: Marker::Shape(index),
+        marker: Marker::Shape(slot.figure),
         rim: false,
     };
     let black = Look {
@@ -96,7 +97,7 @@ pub(crate) fn look(index: usize, style: Style) -> Look {
     match style {
         Style::Marked => coloured,
         Style::Plain => Look {
-            dash: DASHES[index % DASHES.len()],
+            dash: DASHES[slot.panel % DASHES.len()],
             marker: Marker::None,
             ..coloured
         },
@@ -135,28 +136,51 @@ pub(crate) fn look(index: usize, style: Style) -> Look {
     }
 }
 
-/// Numbers of the names that have a colour, in the order of their first appearance in a figure.
+/// Numbers of a name that has a colour.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) struct Slot {
+    /// In the figure, by order of first appearance: colour and marker.
+    figure: usize,
+    /// The least number that no other name has in any panel where it appears: its dash, so that the first curve
+    /// of a panel is a whole line.
+    panel: usize,
+}
+
+/// The numbers of all names of a figure.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Looks(Vec<String>);
+pub(crate) struct Looks(Vec<(String, Slot)>);
 
 impl Looks {
     pub(crate) fn of(figure: &Figure) -> Self {
-        let mut names = Vec::new();
-        for panel in &figure.panels {
-            for name in coloured(&panel.layers).map(|(_, name)| name) {
-                if !names.contains(&name) {
-                    names.push(name);
-                }
+        let of_panel = |panel: &Panel| coloured(&panel.layers).map(|(_, name)| name).collect();
+        let panels: Vec<Vec<String>> = figure.panels.iter().map(of_panel).collect();
+        let mut found: Vec<(String, Slot)> = Vec::new();
+        for name in panels.iter().flatten() {
+            if found.iter().any(|(known, _)| known == name) {
+                continue;
             }
+            let beside =
+                |other: &String| panels.iter().any(|p| p.contains(name) && p.contains(other));
+            let taken: Vec<usize> = found
+                .iter()
+                .filter(|(other, _)| beside(other))
+                .map(|(_, slot)| slot.panel)
+                .collect();
+            let slot = Slot {
+                figure: found.len(),
+                panel: (0..).find(|n| !taken.contains(n)).unwrap_or(0),
+            };
+            found.push((name.clone(), slot));
         }
-        Self(names)
+        Self(found)
     }
 
-    /// The number of each layer of a panel; 0 for those without a colour of their own.
-    pub(crate) fn indices(&self, layers: &[Layer]) -> Vec<usize> {
-        let mut found = vec![0; layers.len()];
+    /// The numbers of each layer of a panel; the first for those without a colour of their own.
+    pub(crate) fn slots(&self, layers: &[Layer]) -> Vec<Slot> {
+        let mut found = vec![Slot::default(); layers.len()];
         for (i, name) in coloured(layers) {
-            found[i] = self.0.iter().position(|n| *n == name).unwrap_or(0);
+            let known = self.0.iter().find(|(n, _)| *n == name);
+            found[i] = known.map_or(Slot::default(), |(_, slot)| *slot);
         }
         found
     }
@@ -182,7 +206,6 @@ fn coloured(layers: &[Layer]) -> impl Iterator<Item = (usize, String)> + '_ {
 mod tests {
     use super::*;
     use crate::axis::Axis;
-    use crate::panel::Panel;
 
     #[test]
     fn a_name_looks_the_same_in_every_panel() {
@@ -201,12 +224,24 @@ mod tests {
                     .line("c", Style::Plain, vec![]),
             );
         let looks = Looks::of(&figure);
-        assert_eq!(looks.indices(&figure.panels[0].layers), [0, 0, 1]);
-        assert_eq!(looks.indices(&figure.panels[1].layers), [1, 1, 2]);
+        let numbers = |panel: usize| -> Vec<[usize; 2]> {
+            let slots = looks.slots(&figure.panels[panel].layers);
+            slots.iter().map(|s| [s.figure, s.panel]).collect()
+        };
+        assert_eq!(numbers(0), [[0, 0], [0, 0], [1, 1]]);
+        // a name keeps its numbers, and no dash comes twice in a panel
+        assert_eq!(numbers(1), [[1, 1], [1, 1], [2, 0]]);
     }
 
     #[test]
     fn curves_differ_in_grey() {
+        let look = |n: usize, style: Style| {
+            let slot = Slot {
+                figure: n,
+                panel: n,
+            };
+            super::look(slot, style)
+        };
         for i in 0..COLOURS.len() {
             for k in 0..i {
                 let (a, b) = (look(i, Style::Plain), look(k, Style::Plain));

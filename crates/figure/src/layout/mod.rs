@@ -18,7 +18,7 @@ pub(crate) use columns::PAD;
 pub(crate) use frame::Frame;
 pub(crate) use grid::{Layout, Placed, lay_out};
 pub(crate) use legend::{Block, LegendPlace, Swatch};
-pub(crate) use looks::{Look, Marker, fills, look};
+pub(crate) use looks::{Look, Marker, Slot, fills, look};
 pub(crate) use plan::{AxisPlan, Colours};
 pub(crate) use room::occupied;
 pub(crate) use typeface::{SWATCH, Typeface};
