@@ -235,19 +235,19 @@ mod tests {
 
     #[test]
     fn curves_differ_in_grey() {
-        let look = |n: usize, style: Style| {
+        let nth = |n: usize, style: Style| {
             let slot = Slot {
                 figure: n,
                 panel: n,
             };
-            super::look(slot, style)
+            look(slot, style)
         };
         for i in 0..COLOURS.len() {
             for k in 0..i {
-                let (a, b) = (look(i, Style::Plain), look(k, Style::Plain));
+                let (a, b) = (nth(i, Style::Plain), nth(k, Style::Plain));
                 let apart = (a.colour.luminance() - b.colour.luminance()).abs();
                 assert!(a.dash != b.dash || apart > 0.02, "{i} and {k}: {apart}");
-                assert_ne!(look(i, Style::Marked).marker, look(k, Style::Marked).marker);
+                assert_ne!(nth(i, Style::Marked).marker, nth(k, Style::Marked).marker);
             }
         }
         // classes grow darker
