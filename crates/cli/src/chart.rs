@@ -67,7 +67,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
 /// A folder that cannot be written to is the user's, the rest is work that failed.
 fn failure(error: StudyError) -> Failure {
     match error {
-        StudyError::Exists { .. } | StudyError::Unwritable { .. } => Failure::input(error),
+        StudyError::Exists { .. } => Failure::input(format!("{error}; give --force to replace it")),
+        StudyError::Unwritable { .. } => Failure::input(error),
         StudyError::Domain(_)
         | StudyError::March(_)
         | StudyError::Scene(_)
@@ -75,6 +76,7 @@ fn failure(error: StudyError) -> Failure {
         | StudyError::Build(_)
         | StudyError::Table(_)
         | StudyError::Lookup(_)
+        | StudyError::Picture { .. }
         | StudyError::Temporary(_) => Failure::work(error),
     }
 }

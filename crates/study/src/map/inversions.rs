@@ -2,14 +2,15 @@
 
 use crate::StudyError;
 use crate::effort::Effort;
-use crate::figure::{Axis, Figure, Style};
 use crate::inversion::ExtendedWeights;
+use crate::picture::Picture;
 use crate::question::inversions::Inversion;
 use crate::question::kernels::{KernelScene, POISSON_RATIO};
+use figure::{Axis, Style};
 use halfspace::{Kernel, Medium, Profile, Six};
 
 /// One picture for the surface centre, one for the interior and one for the axis.
-pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Figure>, StudyError> {
+pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>, StudyError> {
     let medium = Medium::new(POISSON_RATIO)?;
     let count = effort.pick(40, 160);
     let mut figures = Vec::new();
@@ -31,11 +32,13 @@ pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Figure>,
         ),
     ] {
         let last = scene.times[count - 1];
-        let mut figure = Figure::new(
+        let mut figure = Picture::new(
             name,
             title,
-            Axis::logarithmic("time [r0/c1]", scene.times[0], last),
-            Axis::logarithmic("largest error over the largest value", 1e-16, 10.0),
+            Axis::logarithmic("time")
+                .unit("r0/c1")
+                .range(scene.times[0], last),
+            Axis::logarithmic("largest error over the largest value").range(1e-16, 10.0),
         );
         let methods: &[Inversion] = match effort {
             Effort::Quick => &[
@@ -79,13 +82,14 @@ pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Figure>,
             Style::Heavy,
             over_time(&scene, &kernel),
         );
-        figure.marks = [
+        for (arrival, label) in [
             (scene.arrivals.first(), "first front"),
             (scene.arrivals.last(), "last front"),
-        ]
-        .into_iter()
-        .filter_map(|(t, label)| Some((*t?, label.to_owned())))
-        .collect();
+        ] {
+            if let Some(&t) = arrival {
+                figure.mark(t, label);
+            }
+        }
         figure.caption = "Fixed Talbot, which is the best of all after the last front, leaves the numbers before it \
             (errors up to 1e60, cut off at the top): the transform of a wave that is still to come grows as e^{-s t} on \
             its contour. The Fourier-series methods lose their digits at every front; the single integral knows where \
