@@ -3,7 +3,7 @@
 use super::thin;
 use crate::colour::Colour;
 use crate::geometry::Rect;
-use crate::layout::{BarFit, Typeface};
+use crate::layout::{BarFit, Colours, Typeface};
 use crate::scene::{Anchor, Fill, Item, Picture, Scene, Segment, Shape, Text};
 use crate::text::LINE;
 
@@ -12,9 +12,6 @@ const STEPS: u32 = 256;
 
 /// Draws a colour bar at the right of a plot, or of all plots.
 pub(super) fn draw(scene: &mut Scene, bar: &BarFit, plot: Rect, faces: &Typeface) {
-    let colours = &bar.colours;
-    let map = colours.scale.map;
-    let at = |fraction: f64| map.at(fraction);
     let [left, right] = bar.strip.map(|x| plot.right + x);
     let strip = Rect {
         left,
@@ -22,7 +19,43 @@ pub(super) fn draw(scene: &mut Scene, bar: &BarFit, plot: Rect, faces: &Typeface
         top: plot.top,
         bottom: plot.bottom,
     };
-    // arrows where values go on beyond the limits, within the height of the plot
+    let body = draw_strip(scene, &bar.colours, strip);
+    let (low, high) = bar.colours.limits;
+    let down = |value: f64| body.bottom - (value - low) / (high - low) * body.height();
+    let mut segments = Vec::new();
+    for tick in &bar.ticks.major {
+        let y = down(tick.value);
+        segments.extend([
+            Segment::Move(right, y),
+            Segment::Line(right + faces.tick_length(), y),
+        ]);
+        let start = (plot.right + bar.numbers, y + 0.35 * faces.tick);
+        scene.text(Text::new(&tick.label, start, faces.tick, Anchor::Start));
+    }
+    for &value in &bar.ticks.minor {
+        let y = down(value);
+        segments.extend([
+            Segment::Move(right, y),
+            Segment::Line(right + faces.minor_length(), y),
+        ]);
+    }
+    scene.shape(Shape {
+        segments,
+        stroke: Some(thin()),
+        ..Shape::default()
+    });
+    let mut line = plot.right + bar.text + 0.3 * faces.label;
+    for label in &bar.label {
+        scene.text(Text::upward(label, (line, plot.centre().1), faces.label));
+        line += LINE * faces.label;
+    }
+}
+
+/// The strip of colours with arrows where values go on beyond its limits; gives the strip between the arrows.
+fn draw_strip(scene: &mut Scene, colours: &Colours, strip: Rect) -> Rect {
+    let at = |fraction: f64| colours.scale.map.at(fraction);
+    let (left, right) = (strip.left, strip.right);
+    // within the height of the plot
     let [below, above] = colours
         .beyond
         .map(|is| if is { BarFit::arrow() } else { 0.0 });
@@ -62,33 +95,5 @@ pub(super) fn draw(scene: &mut Scene, bar: &BarFit, plot: Rect, faces: &Typeface
     let square = Shape::rectangle(strip);
     let is_square = colours.beyond == [false, false];
     scene.shape(if is_square { square } else { outline }.stroked(thin()));
-    let (low, high) = colours.limits;
-    let down = |value: f64| body.bottom - (value - low) / (high - low) * body.height();
-    let mut segments = Vec::new();
-    for tick in &bar.ticks.major {
-        let y = down(tick.value);
-        segments.extend([
-            Segment::Move(right, y),
-            Segment::Line(right + faces.tick_length(), y),
-        ]);
-        let start = (plot.right + bar.numbers, y + 0.35 * faces.tick);
-        scene.text(Text::new(&tick.label, start, faces.tick, Anchor::Start));
-    }
-    for &value in &bar.ticks.minor {
-        let y = down(value);
-        segments.extend([
-            Segment::Move(right, y),
-            Segment::Line(right + faces.minor_length(), y),
-        ]);
-    }
-    scene.shape(Shape {
-        segments,
-        stroke: Some(thin()),
-        ..Shape::default()
-    });
-    let mut line = plot.right + bar.text + 0.3 * faces.label;
-    for label in &bar.label {
-        scene.text(Text::upward(label, (line, plot.centre().1), faces.label));
-        line += LINE * faces.label;
-    }
+    body
 }
