@@ -70,6 +70,7 @@ fn failure(error: StudyError) -> Failure {
         | StudyError::Build(_)
         | StudyError::Table(_)
         | StudyError::Lookup(_)
+        | StudyError::Picture { .. }
         | StudyError::Temporary(_) => Failure::work(error),
     }
 }

@@ -49,7 +49,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     write_results(&results, scene, &comparison.coupled, Existing::Replace)?;
     let picture = folder.join("copper-on-steel.svg");
     write_whole(&picture, Existing::Replace, |part| {
-        draw(part, &comparison.coupled)
+        draw(part, scene, &comparison.coupled)
     })?;
     for warning in &comparison.coupled.warnings {
         eprintln!("warning: {warning}");

@@ -1,7 +1,7 @@
 //! chart.csv: one row a method, setting and scene. Described in data-schema/chart.md.
 
 use crate::StudyError;
-use crate::chart::whole;
+use crate::files::whole;
 use crate::record::Record;
 use std::path::Path;
 

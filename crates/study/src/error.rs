@@ -30,8 +30,16 @@ pub enum StudyError {
     /// A temporary file.
     #[error("a temporary folder cannot be made: {0}")]
     Temporary(#[from] std::io::Error),
+    /// A picture could not be drawn: a mistake of this library.
+    #[error("the picture {name} cannot be drawn: {source}")]
+    Picture {
+        /// Name of its files.
+        name: &'static str,
+        /// The reason.
+        source: figure::RenderError,
+    },
     /// The folder holds something already.
-    #[error("{} exists already and is not replaced", path.display())]
+    #[error("{} exists already", path.display())]
     Exists {
         /// The file in the way.
         path: PathBuf,

@@ -1,11 +1,13 @@
 //! chart.h5: the rows of chart.csv and the numbers behind every picture. Described in data-schema/chart.md.
 
 use crate::StudyError;
-use crate::chart::{Chart, whole};
+use crate::chart::Chart;
 use crate::csv_file::COLUMNS;
 use crate::effort::Effort;
-use crate::figure::{Axis, Figure};
+use crate::files::whole;
+use crate::picture::Picture;
 use crate::record::Record;
+use figure::{Axis, Scale};
 use hdf5::types::VarLenUnicode;
 use hdf5::{File, Group, Location};
 use std::path::Path;
@@ -110,13 +112,13 @@ fn rows(file: &File, records: &[Record]) -> Result<(), hdf5::Error> {
     Ok(())
 }
 
-fn picture(group: &Group, figure: &Figure) -> Result<(), hdf5::Error> {
+fn picture(group: &Group, figure: &Picture) -> Result<(), hdf5::Error> {
     text(group, "title", &figure.title)?;
     text(group, "caption", &figure.caption)?;
-    for (name, axis) in [("x", &figure.x), ("y", &figure.y)] {
+    for (name, axis) in [("x", &figure.panel.x), ("y", &figure.panel.y)] {
         axis_attributes(group, name, axis)?;
     }
-    if let Some(cells) = &figure.cells {
+    if let Some(cells) = figure.classes() {
         let classes: Vec<u8> = cells.class.iter().map(|&c| c as u8).collect();
         let [columns, rows] = cells.shape;
         let data = group
@@ -126,7 +128,7 @@ fn picture(group: &Group, figure: &Figure) -> Result<(), hdf5::Error> {
         data.write_raw(&classes)?;
         text(&data, "names", &cells.names.join("\n"))?;
     }
-    for (i, curve) in figure.curves.iter().enumerate() {
+    for (i, curve) in figure.curves().enumerate() {
         let values: Vec<f64> = curve.points.iter().flat_map(|&(x, y)| [x, y]).collect();
         let data = group
             .new_dataset::<f64>()
@@ -141,13 +143,13 @@ fn picture(group: &Group, figure: &Figure) -> Result<(), hdf5::Error> {
 }
 
 fn axis_attributes(group: &Group, name: &str, axis: &Axis) -> Result<(), hdf5::Error> {
-    text(group, &format!("{name}_label"), &axis.label)?;
-    number(group, &format!("{name}_low"), axis.range.0)?;
-    number(group, &format!("{name}_high"), axis.range.1)?;
-    let scale = if axis.logarithmic {
-        "logarithmic"
-    } else {
-        "linear"
+    let (low, high) = axis.range.unwrap_or((f64::NAN, f64::NAN));
+    text(group, &format!("{name}_label"), &axis.label())?;
+    number(group, &format!("{name}_low"), low)?;
+    number(group, &format!("{name}_high"), high)?;
+    let scale = match axis.scale {
+        Scale::Logarithmic => "logarithmic",
+        Scale::Linear => "linear",
     };
     text(group, &format!("{name}_scale"), scale)
 }

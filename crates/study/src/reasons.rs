@@ -22,6 +22,10 @@ pub fn reason(method: &str) -> Option<&'static str> {
             "it knows the loss 1 - e^2 from the momentum alone, to the digits of the restitution and not to its own; what \
              the program's march takes longer at 1e-3 goes into the loss and the instant of separation",
         ),
+        "wave implicit" | "growing" => Some(
+            "its number of steps is known beforehand; the program does not know how many a tolerance needs, halves the \
+             step until the results stand still, and pays for the coarser marches as well",
+        ),
         _ => None,
     }
 }

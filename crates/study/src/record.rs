@@ -128,6 +128,17 @@ pub fn pareto_front(records: &[&Record], cost: impl Fn(&Record) -> Option<f64>) 
     order.into_iter().map(|(i, _)| i).collect()
 }
 
+/// The different items in the order of their first appearance.
+pub(crate) fn distinct<'a>(items: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
+    let mut seen = Vec::new();
+    for item in items {
+        if !seen.contains(&item) {
+            seen.push(item);
+        }
+    }
+    seen
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -2,11 +2,10 @@
 
 use crate::chart::Chart;
 use crate::effort::Effort;
-use crate::figure::Figure;
+use crate::picture::Picture;
 use crate::reasons::reason;
-use crate::record::{Question, Record};
+use crate::record::{Question, Record, distinct};
 use crate::standing::{EQUAL, LEVELS, Measure, Standing, standings};
-use crate::work_precision::distinct;
 use std::fmt::Write;
 
 /// The report as Markdown.
@@ -60,34 +59,34 @@ fn write_report(out: &mut String, chart: &Chart) -> std::fmt::Result {
             Question::Fields => "fields",
         };
         not_adopted(out, &mine)?;
-        for figure in chart.diagrams.iter().filter(|f| f.name.starts_with(names)) {
-            picture(out, figure)?;
-            if !figure.caption.is_empty() {
-                writeln!(out, "{}\n", figure.caption)?;
+        for picture in chart.diagrams.iter().filter(|f| f.name.starts_with(names)) {
+            show(out, picture)?;
+            if !picture.caption.is_empty() {
+                writeln!(out, "{}\n", picture.caption)?;
             }
         }
         table(out, &mine)?;
     }
     writeln!(out, "## Where methods fail\n")?;
-    for figure in &chart.maps {
-        writeln!(out, "### {}\n", figure.title)?;
-        for sentence in figure.caption.split(". ") {
+    for picture in &chart.maps {
+        writeln!(out, "### {}\n", picture.title)?;
+        for sentence in picture.caption.split(". ") {
             writeln!(out, "{}.", sentence.trim_end_matches('.'))?;
         }
         writeln!(out)?;
-        picture(out, figure)?;
+        show(out, picture)?;
     }
     failures(out, &chart.records)
 }
 
-fn picture(out: &mut String, figure: &Figure) -> std::fmt::Result {
-    writeln!(out, "![{}]({}.png)\n", figure.title, figure.name)
+fn show(out: &mut String, picture: &Picture) -> std::fmt::Result {
+    writeln!(out, "![{}]({}.png)\n", picture.title, picture.name)
 }
 
 /// Methods that are ahead somewhere, with the reason why the program does not take them.
 fn not_adopted(out: &mut String, standings: &[&Standing<'_>]) -> std::fmt::Result {
-    let ahead = standings.iter().filter(|s| !s.on_front(EQUAL));
-    let methods = distinct(ahead.filter_map(|s| Some(s.best?.0.method)));
+    let ahead = standings.iter().flat_map(|s| &s.ahead);
+    let methods = distinct(ahead.map(|(record, _)| record.method));
     if methods.is_empty() {
         return Ok(());
     }
@@ -125,7 +124,7 @@ fn answer(chart: &Chart, question: Question, standings: &[&Standing<'_>]) -> [St
     );
     let reached: Vec<&&Standing<'_>> = standings.iter().filter(|s| s.best.is_some()).collect();
     let on = reached.iter().filter(|s| s.on_front(EQUAL)).count();
-    let off: Vec<String> = reached.iter().filter_map(|s| s.ahead()).collect();
+    let off: Vec<String> = reached.iter().filter_map(|s| s.first_ahead()).collect();
     let second = if off.is_empty() {
         format!(
             "The default path is on the front by time at all {on} accuracies from 1e-3 to 1e-8 that anything reaches."

@@ -1,8 +1,7 @@
 //! Where the default path stands: the cheapest method for each accuracy, and the default beside it.
 
 use crate::reasons::reason;
-use crate::record::{Question, Record};
-use crate::work_precision::distinct;
+use crate::record::{Question, Record, distinct};
 
 /// Accuracies at which the default path is to be on the Pareto front.
 pub const LEVELS: [f64; 6] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8];
@@ -29,7 +28,7 @@ impl Measure {
 }
 
 /// The cheapest records of a scene that reach an accuracy.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct Standing<'a> {
     /// Question.
     pub question: Question,
@@ -41,6 +40,9 @@ pub struct Standing<'a> {
     pub best: Option<(&'a Record, f64)>,
     /// Cheapest of the default path.
     pub own: Option<(&'a Record, f64)>,
+    /// Cheapest of every method that is ahead of the default path by more than [`EQUAL`], by ascending cost; all
+    /// that reach the accuracy where the default path does not.
+    pub ahead: Vec<(&'a Record, f64)>,
 }
 
 impl Standing<'_> {
@@ -53,34 +55,32 @@ impl Standing<'_> {
             (Some(_), None) | (None, Some(_)) => false,
         }
     }
-}
 
-impl Standing<'_> {
-    /// What is ahead of the default path, in words; nothing where it is on the front.
+    /// The cheapest that is ahead of the default path, in words; nothing where it is on the front.
     #[must_use]
-    pub fn ahead(&self) -> Option<String> {
-        if self.on_front(EQUAL) {
-            return None;
-        }
-        let (best, cost) = self.best?;
-        let place = format!("{:.0e} in \"{}\"", self.level, self.scene);
-        Some(match self.own {
-            Some((_, own)) => format!(
-                "{place} ({} is {:.1} times cheaper)",
-                best.method,
-                own / cost
-            ),
-            None => format!("{place} (only {} reaches it)", best.method),
-        })
+    pub fn first_ahead(&self) -> Option<String> {
+        Some(self.words(*self.ahead.first()?))
     }
 
-    /// Whether something is ahead of the default path for which no reason is written down.
+    /// The cheapest that is ahead of the default path for no reason that is written down, in words.
+    ///
+    /// A reason excuses its own method and no other one behind it.
     #[must_use]
-    pub fn is_unexplained(&self) -> bool {
-        let unknown = self
-            .best
-            .is_some_and(|(best, _)| reason(best.method).is_none());
-        unknown && !self.on_front(EQUAL)
+    pub fn unexplained(&self) -> Option<String> {
+        let found = self.ahead.iter().find(|(r, _)| reason(r.method).is_none());
+        Some(self.words(*found?))
+    }
+
+    fn words(&self, (record, cost): (&Record, f64)) -> String {
+        let place = format!("{:.0e} in \"{}\"", self.level, self.scene);
+        match self.own {
+            Some((_, own)) => format!(
+                "{place} ({} is {:.1} times cheaper)",
+                record.method,
+                own / cost
+            ),
+            None => format!("{place} (only {} reaches it)", record.method),
+        }
     }
 }
 
@@ -89,39 +89,45 @@ impl Standing<'_> {
 pub fn standings(records: &[Record], measure: Measure) -> Vec<Standing<'_>> {
     let mut found = Vec::new();
     for question in Question::ALL {
-        let scenes = distinct(
-            records
-                .iter()
-                .filter(|r| r.question == question)
-                .map(|r| r.scene),
-        );
-        for scene in scenes {
+        let mine = || records.iter().filter(move |r| r.question == question);
+        for scene in distinct(mine().map(|r| r.scene)) {
+            let rows: Vec<&Record> = mine().filter(|r| r.scene == scene).collect();
             // a scene that only compares other ways has no default path to judge
-            let mut rows = records.iter().filter(|r| r.scene == scene);
-            if !rows.any(|r| r.default_path) {
-                continue;
-            }
-            for level in LEVELS {
-                let cheapest = |default: bool| {
-                    records
-                        .iter()
-                        .filter(|r| r.question == question && r.scene == scene)
-                        .filter(|r| !r.failed() && r.error.max <= level)
-                        .filter(|r| r.default_path || !default)
-                        .filter_map(|r| Some((r, measure.of(r)?)))
-                        .min_by(|a, b| a.1.total_cmp(&b.1))
-                };
-                found.push(Standing {
-                    question,
-                    scene,
-                    level,
-                    best: cheapest(false),
-                    own: cheapest(true),
-                });
+            if rows.iter().any(|r| r.default_path) {
+                let at = |level| standing(&rows, measure, level);
+                found.extend(LEVELS.into_iter().filter_map(at));
             }
         }
     }
     found
+}
+
+/// Of the rows of one scene, at one accuracy; none without rows.
+fn standing<'a>(rows: &[&'a Record], measure: Measure, level: f64) -> Option<Standing<'a>> {
+    let first = rows.first()?;
+    let mut reached: Vec<(&Record, f64)> = rows
+        .iter()
+        .filter(|r| !r.failed() && r.error.max <= level)
+        .filter_map(|&r| Some((r, measure.of(r)?)))
+        .collect();
+    reached.sort_by(|a, b| a.1.total_cmp(&b.1));
+    let own = reached.iter().find(|(r, _)| r.default_path).copied();
+    let is_ahead = |cost: f64| own.is_none_or(|(_, own)| own > EQUAL * cost);
+    let mut ahead: Vec<(&Record, f64)> = Vec::new();
+    for &(record, cost) in &reached {
+        let is_known = ahead.iter().any(|(r, _)| r.method == record.method);
+        if is_ahead(cost) && !is_known {
+            ahead.push((record, cost));
+        }
+    }
+    Some(Standing {
+        question: first.question,
+        scene: first.scene,
+        level,
+        best: reached.first().copied(),
+        own,
+        ahead,
+    })
 }
 
 #[cfg(test)]
@@ -154,7 +160,7 @@ mod tests {
         let at = |records: &[Record], level: f64| -> (Option<String>, bool) {
             let found = standings(records, Measure::Time);
             let standing = found.iter().find(|s| s.level == level).unwrap();
-            (standing.ahead(), standing.is_unexplained())
+            (standing.first_ahead(), standing.unexplained().is_some())
         };
         // a tenth cheaper is equal
         assert_eq!(at(&[own.clone(), near], 1e-6), (None, false));
@@ -162,8 +168,20 @@ mod tests {
         let (ahead, unexplained) = at(&[own.clone(), stranger.clone()], 1e-6);
         assert!(ahead.unwrap().contains("stranger is 2.0 times cheaper") && unexplained);
         let known = record("table, linear cells", false, 50.0, 1e-7);
-        let (ahead, unexplained) = at(&[own.clone(), known], 1e-6);
+        let (ahead, unexplained) = at(&[own.clone(), known.clone()], 1e-6);
         assert!(ahead.is_some() && !unexplained);
+        // a reason does not excuse what is hidden behind its method
+        let behind = record("stranger", false, 60.0, 1e-7);
+        let rows = [own.clone(), known, behind];
+        let found = standings(&rows, Measure::Time);
+        let standing = found.iter().find(|s| s.level == 1e-6).unwrap();
+        assert!(
+            standing
+                .first_ahead()
+                .unwrap()
+                .contains("table, linear cells")
+        );
+        assert!(standing.unexplained().unwrap().contains("stranger"));
         // nothing of the program's own reaches it
         let exact = record("stranger", false, 1e3, 1e-9);
         let (ahead, unexplained) = at(&[own, exact], 1e-8);

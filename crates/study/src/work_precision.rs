@@ -1,7 +1,8 @@
 //! Work-precision diagrams: error against cost, one curve a method, the Pareto front drawn.
 
-use crate::figure::{Axis, Figure, Style};
-use crate::record::{Question, Record, pareto_front};
+use crate::picture::Picture;
+use crate::record::{Question, Record, distinct, pareto_front};
+use figure::{Axis, Style};
 
 /// File names of the diagrams, in the order in which the scenes appear.
 const NAMES: [(Question, &[&str]); 3] = [
@@ -29,7 +30,7 @@ const NAMES: [(Question, &[&str]); 3] = [
 ];
 
 /// One diagram a scene.
-pub(crate) fn figures(records: &[Record]) -> Vec<Figure> {
+pub(crate) fn figures(records: &[Record]) -> Vec<Picture> {
     let mut figures = Vec::new();
     for (question, names) in NAMES {
         let mine: Vec<&Record> = records.iter().filter(|r| r.question == question).collect();
@@ -45,7 +46,7 @@ pub(crate) fn figures(records: &[Record]) -> Vec<Figure> {
 /// Errors smaller than this are drawn here.
 const FLOOR: f64 = 1e-16;
 
-fn diagram(question: Question, scene: &str, name: &'static str, rows: &[&Record]) -> Figure {
+fn diagram(question: Question, scene: &str, name: &'static str, rows: &[&Record]) -> Picture {
     let shown = || {
         rows.iter()
             .filter(|r| r.error.max < 2.0)
@@ -57,15 +58,13 @@ fn diagram(question: Question, scene: &str, name: &'static str, rows: &[&Record]
     let lowest = shown().map(|p| p.1).fold(1.0, f64::min);
     let decade = |x: f64, up: f64| 10.0_f64.powf((x.log10() + up).floor());
     let down = decade(lowest, -0.2);
-    let mut figure = Figure::new(
+    let mut figure = Picture::new(
         name,
         &format!("{}: {scene}", question.name()),
-        Axis::logarithmic(
-            &format!("cost [ns per value: {}]", question.value()),
-            decade(low, -0.1),
-            decade(high, 1.1),
-        ),
-        Axis::logarithmic("largest error over the largest value", down, 2.0),
+        Axis::logarithmic("cost")
+            .unit(&format!("ns per value: {}", question.value()))
+            .range(decade(low, -0.1), decade(high, 1.1)),
+        Axis::logarithmic("largest error over the largest value").range(down, 2.0),
     );
     figure.caption = caption(question, scene).to_owned();
     // settings of fields vary in several ways at once: no line orders them
@@ -145,15 +144,4 @@ fn staircase(rows: &[&Record], front: &[usize]) -> Vec<(f64, f64)> {
         before = Some(error);
     }
     points
-}
-
-/// The different items in the order of their first appearance.
-pub(crate) fn distinct<'a>(items: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
-    let mut seen = Vec::new();
-    for item in items {
-        if !seen.contains(&item) {
-            seen.push(item);
-        }
-    }
-    seen
 }

@@ -3,18 +3,17 @@
 use super::models::{TOLERANCES, memory_of_change};
 use crate::StudyError;
 use crate::effort::Effort;
-use crate::figure::{Axis, Figure, Style};
 use crate::marching::Results;
+use crate::picture::Picture;
 use crate::record::Error;
 use crate::scenes::{ROD_RADIUS_M, TABLE_1_PA, paper};
 use contact::choose::{Family, Groups, Rung};
 use contact::law::hertz::CONTACT_TIME;
 use contact::law::quasi_static::{quasi_static, quasi_static_radiation};
+use contact::law::radiation::{LARGEST_LAG, LOSS};
 use contact::{Accuracy, ExactDisc, MarchError, StaticShare, march_implicit, refine};
+use figure::{Axis, Interval, Style};
 use halfspace::{Deflection, Medium, SurfaceResponse};
-
-/// Largest first-order loss that the program's radiation models take.
-const LARGEST_LOSS: f64 = 0.5;
 
 /// Accuracy of the march that they are compared with.
 const ACCURACY: f64 = 1e-5;
@@ -51,7 +50,7 @@ pub fn disc_errors(disc: &ExactDisc<'_>) -> Result<DiscErrors, MarchError> {
     Ok(DiscErrors {
         springs: of(0.0),
         // beyond it the program refuses the first-order law
-        radiation: if springs.loss_per_lag * lag <= LARGEST_LOSS {
+        radiation: if springs.loss_per_lag * lag <= LOSS * LARGEST_LAG {
             of(lag)
         } else {
             f64::INFINITY
@@ -88,11 +87,11 @@ pub fn disc_at<'a>(like: &ExactDisc<'a>, coupling: f64, memory: f64) -> ExactDis
 }
 
 /// A picture a tolerance.
-pub(super) fn figures(effort: Effort) -> Result<Vec<Figure>, StudyError> {
+pub(crate) fn figures(effort: Effort) -> Result<Vec<Picture>, StudyError> {
     let response = SurfaceResponse::new(&Medium::new(0.3)?, Deflection::Centre);
     let paper = paper(TABLE_1_PA)?.fixed_disc(&response, ROD_RADIUS_M, StaticShare::Full);
-    let x = Axis::logarithmic("static deflection over indentation (coupling)", 1e-3, 10.0);
-    let y = Axis::logarithmic("memory over contact time", 1e-4, 1.0);
+    let x = Interval::logarithmic(1e-3, 10.0);
+    let y = Interval::logarithmic(1e-4, 1.0);
     let shape = effort.pick([14, 12], [40, 40]);
     let mut errors = Vec::new();
     for &memory in &y.cells(shape[1]) {
@@ -110,15 +109,15 @@ pub(super) fn figures(effort: Effort) -> Result<Vec<Figure>, StudyError> {
         .into_iter()
         .zip(TOLERANCES)
     {
-        let mut figure = Figure::new(
+        let mut figure = Picture::new(
             name,
             &format!("Cheapest model of the paper's fixed disc that meets {tolerance:.0e}"),
-            x.clone(),
-            y.clone(),
+            Axis::over(x, "static deflection over indentation (coupling)"),
+            Axis::over(y, "memory over contact time"),
         );
         let mut cells = errors.iter();
         let classes = ["two springs", "two springs and first-order loss", "wave"];
-        figure.map(shape, &classes, |_, _| match cells.next() {
+        figure.map([x, y], shape, &classes, |_, _| match cells.next() {
             Some(e) if e.springs <= tolerance => 0,
             Some(e) if e.radiation <= tolerance => 1,
             Some(_) | None => 2,
@@ -148,11 +147,8 @@ pub(super) fn figures(effort: Effort) -> Result<Vec<Figure>, StudyError> {
             Style::Dotted,
             theory.collect(),
         );
-        figure.labelled = vec![(
-            paper.coupling,
-            paper.memory() / CONTACT_TIME,
-            "paper's case".to_owned(),
-        )];
+        let place = (paper.coupling, paper.memory() / CONTACT_TIME);
+        figure.point(place, "paper's case");
         figure.caption = format!(
             "With the full share the half-space is a second spring; the waves are seen by their radiated loss, first \
              order in the memory, and then by their shape. Regions are computed against the implicit march; the lines \

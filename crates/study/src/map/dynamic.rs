@@ -1,11 +1,15 @@
 //! The `dynamic` share at strong coupling: where it has no solution, and where a coarse step hides that.
 
-use super::marches::{Converged, Fate, converged, implicit_fate};
+use super::marches::{
+    Converged, Fate, converged, implicit_fate, map_shape, paper_disc, paper_response,
+};
 use super::recurrence::linear_growth;
+use crate::StudyError;
 use crate::effort::Effort;
-use crate::figure::{Axis, Figure, Style};
+use crate::picture::Picture;
 use contact::law::hertz::CONTACT_TIME;
 use contact::{ExactDisc, MarchError, StaticShare, march_implicit, memory_weights};
+use figure::{Axis, Interval, Style};
 
 /// What the `dynamic` share makes of an impact at a step: whether it has a solution.
 #[must_use]
@@ -72,14 +76,17 @@ const CLASSES: [&str; 4] = [
 ];
 
 /// The plane of coupling and step.
-pub(super) fn figure(paper: &ExactDisc<'_>, shape: [usize; 2], effort: Effort) -> Figure {
-    let x = Axis::logarithmic("static deflection over indentation (coupling)", 0.05, 5.0);
-    let y = Axis::logarithmic("step over Hertz's contact time", 1e-3, 0.2);
-    let mut figure = Figure::new(
+pub(crate) fn figure(effort: Effort) -> Result<Picture, StudyError> {
+    let response = paper_response()?;
+    let paper = &paper_disc(&response)?;
+    let shape = map_shape(effort);
+    let x = Interval::logarithmic(0.05, 5.0);
+    let y = Interval::logarithmic(1e-3, 0.2);
+    let mut figure = Picture::new(
         "march-dynamic",
         "Dynamic share (static part of the deflection taken out)",
-        x.clone(),
-        y.clone(),
+        Axis::over(x, "static deflection over indentation (coupling)"),
+        Axis::over(y, "step over Hertz's contact time"),
     );
     let at = |coupling: f64| ExactDisc {
         coupling,
@@ -91,8 +98,8 @@ pub(super) fn figure(paper: &ExactDisc<'_>, shape: [usize; 2], effort: Effort) -
         .into_iter()
         .map(|coupling| converged(&at(coupling)).ok())
         .collect();
-    figure.map(shape, &CLASSES, |coupling, step| {
-        let column = (x.share(coupling) * shape[0] as f64) as usize;
+    figure.map([x, y], shape, &CLASSES, |coupling, step| {
+        let column = (x.fraction(coupling) * shape[0] as f64) as usize;
         let (disc, step) = (at(coupling), step * CONTACT_TIME);
         match (
             &columns[column.min(shape[0] - 1)],
@@ -121,16 +128,12 @@ pub(super) fn figure(paper: &ExactDisc<'_>, shape: [usize; 2], effort: Effort) -
         Style::HeavyDashed,
         line(&|step| dynamic_growth_limit(paper, step)),
     );
-    figure.labelled = vec![(
-        paper.coupling,
-        1.0 / 137.0,
-        "paper's case, 137 steps".to_owned(),
-    )];
+    figure.point((paper.coupling, 1.0 / 137.0), "paper's case, 137 steps");
     figure.caption = "Without its static part the newest weight of the deflection is negative: the contact law \
         folds back, and beyond a coupling of 2/3 it has no solution. At steps near the memory and beyond \
         the samples alternate and grow from the dashed line on, until they reach the fold. \
         A coarse step can hide that there is no solution; the march refuses with a sentence as soon as the step is \
         halved, which step control does."
         .to_owned();
-    figure
+    Ok(figure)
 }

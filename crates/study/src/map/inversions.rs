@@ -2,14 +2,21 @@
 
 use crate::StudyError;
 use crate::effort::Effort;
-use crate::figure::{Axis, Figure, Style};
 use crate::inversion::ExtendedWeights;
+use crate::picture::Picture;
 use crate::question::inversions::Inversion;
 use crate::question::kernels::{KernelScene, POISSON_RATIO};
+use figure::{Axis, Style};
 use halfspace::{Kernel, Medium, Profile, Six};
 
+/// What the pictures say.
+const CAPTION: &str = "Fixed Talbot, which is the best of all after the last front, leaves the numbers before it \
+    (errors up to 1e60, cut off at the top): the transform of a wave that is still to come grows as e^{-s t} on \
+    its contour. The Fourier-series methods lose their digits at every front; the single integral knows where \
+    the fronts are and does not notice them.";
+
 /// One picture for the surface centre, one for the interior and one for the axis.
-pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Figure>, StudyError> {
+pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>, StudyError> {
     let medium = Medium::new(POISSON_RATIO)?;
     let count = effort.pick(40, 160);
     let mut figures = Vec::new();
@@ -30,70 +37,79 @@ pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Figure>,
             KernelScene::axis(&medium, count, &[])?,
         ),
     ] {
-        let last = scene.times[count - 1];
-        let mut figure = Figure::new(
-            name,
-            title,
-            Axis::logarithmic("time [r0/c1]", scene.times[0], last),
-            Axis::logarithmic("largest error over the largest value", 1e-16, 10.0),
-        );
-        let methods: &[Inversion] = match effort {
-            Effort::Quick => &[
-                Inversion::Talbot(16),
-                Inversion::Stehfest(14),
-                Inversion::Euler(10),
-                Inversion::Cme(20),
-                Inversion::Durbin(200),
-                Inversion::Crump(41),
-                Inversion::DeHoog(81),
-            ],
-            Effort::Full => &Inversion::best(),
-        };
-        for method in methods {
-            let (values, _) =
-                method
-                    .prepare()
-                    .run(&medium, scene.place, method.digits(), &scene.times);
-            figure.curve(
-                &format!("{}, {}", method.name(), method.setting()),
-                Style::Plain,
-                over_time(&scene, &values),
-            );
-            advance();
-        }
-        if name == "inversions-axis" {
-            // every third time: double-double arithmetic is slow
-            let mut few = scene.clone();
-            few.thin(3);
-            let weights = ExtendedWeights::new(26);
-            let (values, _) = few.extended(&medium, &weights);
-            figure.curve(
-                "Gaver-Stehfest, 31 digits, 26 terms",
-                Style::Marked,
-                over_time(&few, &values),
-            );
-        }
-        let kernel = single(&medium, &scene)?;
-        figure.curve(
-            "single integral, 1e-10",
-            Style::Heavy,
-            over_time(&scene, &kernel),
-        );
-        figure.marks = [
-            (scene.arrivals.first(), "first front"),
-            (scene.arrivals.last(), "last front"),
-        ]
-        .into_iter()
-        .filter_map(|(t, label)| Some((*t?, label.to_owned())))
-        .collect();
-        figure.caption = "Fixed Talbot, which is the best of all after the last front, leaves the numbers before it \
-            (errors up to 1e60, cut off at the top): the transform of a wave that is still to come grows as e^{-s t} on \
-            its contour. The Fourier-series methods lose their digits at every front; the single integral knows where \
-            the fronts are and does not notice them."
-            .to_owned();
-        figures.push(figure);
+        figures.push(over_scene(&medium, &scene, (name, title), effort, advance)?);
     }
     Ok(figures)
+}
+
+/// Every inversion at one place.
+fn over_scene(
+    medium: &Medium,
+    scene: &KernelScene,
+    (name, title): (&'static str, &str),
+    effort: Effort,
+    advance: &dyn Fn(),
+) -> Result<Picture, StudyError> {
+    let last = scene.times.last().copied().unwrap_or(1.0);
+    let mut figure = Picture::new(
+        name,
+        title,
+        Axis::logarithmic("time")
+            .unit("r0/c1")
+            .range(scene.times[0], last),
+        Axis::logarithmic("largest error over the largest value").range(1e-16, 10.0),
+    );
+    let methods: &[Inversion] = match effort {
+        Effort::Quick => &[
+            Inversion::Talbot(16),
+            Inversion::Stehfest(14),
+            Inversion::Euler(10),
+            Inversion::Cme(20),
+            Inversion::Durbin(200),
+            Inversion::Crump(41),
+            Inversion::DeHoog(81),
+        ],
+        Effort::Full => &Inversion::best(),
+    };
+    for method in methods {
+        let (values, _) = method
+            .prepare()
+            .run(medium, scene.place, method.digits(), &scene.times);
+        figure.curve(
+            &format!("{}, {}", method.name(), method.setting()),
+            Style::Plain,
+            over_time(scene, &values),
+        );
+        advance();
+    }
+    if name == "inversions-axis" {
+        // every third time: double-double arithmetic is slow
+        let mut few = scene.clone();
+        few.thin(3);
+        let weights = ExtendedWeights::new(26);
+        let (values, _) = few.extended(medium, &weights);
+        figure.curve(
+            "Gaver-Stehfest, 31 digits, 26 terms",
+            Style::Marked,
+            over_time(&few, &values),
+        );
+    }
+    let kernel = single(medium, scene)?;
+    figure.curve(
+        "single integral, 1e-10",
+        Style::Heavy,
+        over_time(scene, &kernel),
+    );
+    for (arrival, label) in [
+        (scene.arrivals.first(), "first front"),
+        (scene.arrivals.last(), "last front"),
+    ] {
+        if let Some(&t) = arrival {
+            figure.mark(t, label);
+        }
+    }
+    CAPTION.clone_into(&mut figure.caption);
+    Ok(figure)
 }
 
 fn over_time(scene: &KernelScene, values: &[Six]) -> Vec<(f64, f64)> {

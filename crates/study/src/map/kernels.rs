@@ -2,9 +2,10 @@
 
 use crate::StudyError;
 use crate::effort::Effort;
-use crate::figure::{Axis, Figure, Style};
 use crate::gauss::Rule;
+use crate::picture::Picture;
 use crate::single_integral::closed_potentials;
+use figure::{Axis, Interval, Style};
 use halfspace::{Deflection, Kernel, Medium, Profile, SurfaceResponse, kausel};
 use num_complex::Complex64;
 use std::f64::consts::PI;
@@ -127,7 +128,7 @@ pub fn incompressible_surface(distance: f64) -> Result<[f64; 2], StudyError> {
 }
 
 /// All three pictures.
-pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Figure>, StudyError> {
+pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>, StudyError> {
     let done = vec![
         potentials(effort)?,
         double_root(effort)?,
@@ -137,14 +138,14 @@ pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Figure>,
     Ok(done)
 }
 
-fn potentials(effort: Effort) -> Result<Figure, StudyError> {
-    let x = Axis::logarithmic("|xi| [r0]", 3.0, 1e6);
+fn potentials(effort: Effort) -> Result<Picture, StudyError> {
+    let x = Interval::logarithmic(3.0, 1e6);
     let sizes = x.cells(effort.pick(40, 120));
-    let mut figure = Figure::new(
+    let mut figure = Picture::new(
         "potentials",
         "Potentials in closed form, without the multipole series",
-        x,
-        Axis::logarithmic("relative error of A3", 1e-18, 10.0),
+        Axis::over(x, "|xi|").unit("r0"),
+        Axis::logarithmic("relative error of A3").range(1e-18, 10.0),
     );
     for (name, direction) in [
         ("closed form, static (xi real)", 0.0),
@@ -173,17 +174,13 @@ fn potentials(effort: Effort) -> Result<Figure, StudyError> {
     Ok(figure)
 }
 
-fn double_root(effort: Effort) -> Result<Figure, StudyError> {
-    let x = Axis::logarithmic(
-        "distance of Poisson's ratio from 0.263082064883",
-        1e-16,
-        0.1,
-    );
-    let mut figure = Figure::new(
+fn double_root(effort: Effort) -> Result<Picture, StudyError> {
+    let x = Interval::logarithmic(1e-16, 0.1);
+    let mut figure = Picture::new(
         "double-root",
         "Closed form of W where two roots meet",
-        x.clone(),
-        Axis::logarithmic("largest error of W", 1e-17, 1e-6),
+        Axis::over(x, "distance of Poisson's ratio from 0.263082064883"),
+        Axis::logarithmic("largest error of W").range(1e-17, 1e-6),
     );
     for (name, sign) in [("closed form, above", 1.0), ("closed form, below", -1.0)] {
         let mut points = Vec::new();
@@ -214,14 +211,14 @@ fn double_root(effort: Effort) -> Result<Figure, StudyError> {
     Ok(figure)
 }
 
-fn incompressible(effort: Effort) -> Result<Figure, StudyError> {
-    let x = Axis::logarithmic("1/2 - nu", 1e-9, 0.5);
+fn incompressible(effort: Effort) -> Result<Picture, StudyError> {
+    let x = Interval::logarithmic(1e-9, 0.5);
     let distances = x.cells(effort.pick(12, 40));
-    let mut figure = Figure::new(
+    let mut figure = Picture::new(
         "incompressible",
         "Kernels as Poisson's ratio goes to 1/2",
-        x,
-        Axis::logarithmic("relative error; c2/c1", 1e-17, 10.0),
+        Axis::over(x, "1/2 - nu"),
+        Axis::logarithmic("relative error; c2/c1").range(1e-17, 10.0),
     );
     let (mut kernels, mut surface) = (Vec::new(), Vec::new());
     for &d in &distances {
@@ -245,7 +242,7 @@ fn incompressible(effort: Effort) -> Result<Figure, StudyError> {
         Style::HeavyDashed,
         distances.iter().map(ratio).collect(),
     );
-    figure.marks = vec![(0.005, "tables end".to_owned())];
+    figure.mark(0.005, "tables end");
     figure.caption = "c1/c2 goes to infinity as the root of 1/(1/2 - nu): a table's time axis in r0/c1 grows with \
         it, which is why tables end at nu = 0.495. The kernels and the surface response themselves keep their accuracy."
         .to_owned();

@@ -5,9 +5,10 @@
 
 use crate::StudyError;
 use crate::effort::Effort;
-use crate::figure::{Axis, Figure, Style};
+use crate::picture::Picture;
 use crate::question::kernels::POISSON_RATIO;
 use crate::tables::{Density, Spacing};
+use figure::{Axis, Interval, Style};
 use halfspace::Medium;
 use lookup::Table;
 
@@ -42,7 +43,7 @@ fn error_at(table: &Table, i: usize, k: usize, pulse: usize) -> f64 {
 }
 
 /// One picture for the first mesh below the surface and one for half a radius down.
-pub(crate) fn figures(densities: &[Density], effort: Effort) -> Result<Vec<Figure>, StudyError> {
+pub(crate) fn figures(densities: &[Density], effort: Effort) -> Result<Vec<Picture>, StudyError> {
     let Some(density) = densities.iter().find(|d| d.spacing == Spacing::Own) else {
         return Ok(Vec::new());
     };
@@ -56,13 +57,18 @@ pub(crate) fn figures(densities: &[Density], effort: Effort) -> Result<Vec<Figur
         let centre = 0.5 * (content.z[k] + content.z[k + 1]);
         let lengths = &content.pulse_lengths;
         let last = lengths.len() - 1;
-        let mut figure = Figure::new(
+        let plane = [
+            Interval::linear(0.0, table.r_max()),
+            Interval::logarithmic(lengths[0], lengths[last]),
+        ];
+        let mut figure = Picture::new(
             name,
             &format!("Looked-up fields, {centre:.3} r0 below the surface"),
-            Axis::linear("distance from the axis [r0]", 0.0, table.r_max()),
-            Axis::logarithmic("length of the pulse [r0/c1]", lengths[0], lengths[last]),
+            Axis::over(plane[0], "distance from the axis").unit("r0"),
+            Axis::over(plane[1], "length of the pulse").unit("r0/c1"),
         );
         figure.map(
+            plane,
             [effort.pick(40, 100), effort.pick(20, 40)],
             &CLASSES,
             |r, length| {
@@ -87,7 +93,7 @@ pub(crate) fn figures(densities: &[Density], effort: Effort) -> Result<Vec<Figur
             Style::HeavyDashed,
             vec![(0.0, resolved), (table.r_max(), resolved)],
         );
-        figure.marks = vec![(1.0, "edge of the disc".to_owned())];
+        figure.mark(1.0, "edge of the disc");
         figure.caption = "The remainder is smooth behind its fronts, and for slow pulses the fronts cancel: errors fall \
             with the length of the pulse everywhere. Just outside the edge of the disc they are largest at every length, \
             because the first waves from the edge are not smooth across a mesh; the static part, which is steep there, is \

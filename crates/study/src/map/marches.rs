@@ -15,16 +15,16 @@
 //! by half a step, which feeds h (25/16) int p^2 into the striker, and w by a step, which takes
 //! h (5/2) int p' w' out again.
 
-use super::dynamic;
 use super::recurrence::linear_growth;
 use crate::StudyError;
 use crate::effort::Effort;
-use crate::figure::{Axis, Figure, Style};
+use crate::picture::Picture;
 use crate::scenes::{HERTZ_PA, ROD_RADIUS_M, paper};
 use contact::law::hertz::CONTACT_TIME;
 use contact::{
     ExactDisc, History, MarchError, StaticShare, Summary, march_explicit, march_implicit,
 };
+use figure::{Axis, Interval, Style};
 use halfspace::{Deflection, Medium, SurfaceResponse};
 
 /// What a march made of an impact.
@@ -193,126 +193,155 @@ pub fn paper_response() -> Result<SurfaceResponse, StudyError> {
 /// Steps over the paper's contact at which its scheme is looked at: the second gives its restitution.
 const PAPER_STEPS: [f64; 2] = [54.0, 200.0];
 
-/// Draws all three maps.
-pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Figure>, StudyError> {
-    let response = paper_response()?;
-    let paper = paper_disc(&response)?;
-    let own = converged(&paper)?;
-    let x = Axis::logarithmic(
-        "contact stiffness over impedance, k/Z, per collision time",
-        0.1,
-        100.0,
-    );
-    let y = Axis::logarithmic("step over Hertz's contact time", 1e-3, 0.2);
-    let shape = effort.pick([16, 14], [48, 40]);
-    // one converged impact a column
-    let mut columns = Vec::new();
-    for stiffness in x.cells(shape[0]) {
-        let disc = disc_at(&paper, stiffness);
-        let exact = converged(&disc)?;
-        columns.push((disc, exact));
-    }
-    let column = |value: f64| {
-        let index = (x.share(value) * shape[0] as f64) as usize;
-        &columns[index.min(shape[0] - 1)]
-    };
-    let place = 1.5 * admittance(&paper);
-    let paper_steps = PAPER_STEPS.map(|n| {
-        let step = own.summary.contact_time / n;
-        (place, step / CONTACT_TIME, format!("paper's case, ts/{n}"))
-    });
-    let mut figures = Vec::new();
+/// Cells of a map of marches.
+pub(super) fn map_shape(effort: Effort) -> [usize; 2] {
+    effort.pick([16, 14], [48, 40])
+}
 
-    let mut explicit = Figure::new(
-        "march-explicit",
-        "Explicit march (the paper's scheme)",
-        x.clone(),
-        y.clone(),
-    );
-    explicit.map(shape, &FATES, |x, y| {
-        let (disc, exact) = column(x);
-        explicit_fate(disc, exact, y * CONTACT_TIME) as usize
-    });
-    let line = |step: &dyn Fn(&(ExactDisc<'_>, Converged)) -> f64| {
+/// The plane of both maps: contact stiffness over impedance, step over Hertz's contact time.
+struct MarchPlane<'a> {
+    x: Interval,
+    y: Interval,
+    shape: [usize; 2],
+    /// Disc and converged impact of each column.
+    columns: Vec<(ExactDisc<'a>, Converged)>,
+    paper: &'a ExactDisc<'a>,
+    /// The converged impact of the paper's disc.
+    own: Converged,
+}
+
+impl<'a> MarchPlane<'a> {
+    fn new(paper: &'a ExactDisc<'a>, effort: Effort) -> Result<Self, StudyError> {
+        let x = Interval::logarithmic(0.1, 100.0);
+        let shape = map_shape(effort);
+        let mut columns = Vec::new();
+        for stiffness in x.cells(shape[0]) {
+            let disc = disc_at(paper, stiffness);
+            let exact = converged(&disc)?;
+            columns.push((disc, exact));
+        }
+        Ok(Self {
+            x,
+            y: Interval::logarithmic(1e-3, 0.2),
+            shape,
+            columns,
+            paper,
+            own: converged(paper)?,
+        })
+    }
+
+    /// A picture of what a scheme makes of every cell.
+    fn map(
+        &self,
+        name: &'static str,
+        title: &str,
+        fate: impl Fn(&ExactDisc<'_>, &Converged, f64) -> Fate,
+    ) -> Picture {
+        let stiffness = "contact stiffness over impedance, k/Z, per collision time";
+        let mut figure = Picture::new(
+            name,
+            title,
+            Axis::over(self.x, stiffness),
+            Axis::over(self.y, "step over Hertz's contact time"),
+        );
+        figure.map([self.x, self.y], self.shape, &FATES, |x, y| {
+            let column = (self.x.fraction(x) * self.shape[0] as f64) as usize;
+            let (disc, exact) = &self.columns[column.min(self.shape[0] - 1)];
+            fate(disc, exact, y * CONTACT_TIME) as usize
+        });
+        figure
+    }
+
+    /// A step of each column as a curve.
+    fn line(&self, step: impl Fn(&ExactDisc<'_>, &Converged) -> f64) -> Vec<(f64, f64)> {
+        let columns = self.columns.iter().zip(self.x.cells(self.shape[0]));
         columns
-            .iter()
-            .zip(x.cells(shape[0]))
-            .map(|(column, x)| (x, step(column) / CONTACT_TIME))
-            .collect::<Vec<_>>()
-    };
-    explicit.curve(
-        "theory: h k/Z = 2",
-        Style::Heavy,
-        line(&|(d, c)| c.stable_step(d)),
-    );
-    explicit.curve(
-        "theory: roots turn complex, h k/Z = 0.34",
-        Style::Dotted,
-        line(&|(d, c)| c.smooth_step(d)),
-    );
-    explicit.curve(
-        "theory: gain = radiated loss",
-        Style::HeavyDashed,
-        line(&|(_, c)| c.energy_step()),
-    );
-    explicit.labelled = paper_steps.to_vec();
-    for ((_, _, label), n) in explicit.labelled.iter_mut().zip(PAPER_STEPS) {
-        if let Ok((_, summary)) = march_explicit(&paper, own.summary.contact_time / n) {
-            label.push_str(&format!(": e = {:.4}", summary.restitution));
+            .map(|((disc, exact), x)| (x, step(disc, exact) / CONTACT_TIME))
+            .collect()
+    }
+
+    /// Marks the paper's case at its steps, with something to say of each.
+    fn mark_paper(&self, figure: &mut Picture, says: impl Fn(f64) -> String) {
+        for n in PAPER_STEPS {
+            let step = self.own.summary.contact_time / n;
+            let place = (1.5 * admittance(self.paper), step / CONTACT_TIME);
+            figure.point(place, &format!("paper's case, ts/{n}{}", says(step)));
         }
     }
-    explicit.caption = explain(&paper, &own);
-    figures.push(explicit);
-    advance();
+}
 
-    let mut implicit = Figure::new(
-        "march-implicit",
-        "Implicit march (the default)",
-        x.clone(),
-        y.clone(),
+/// Draws both maps.
+pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>, StudyError> {
+    let response = paper_response()?;
+    let paper = paper_disc(&response)?;
+    let plane = MarchPlane::new(&paper, effort)?;
+    let explicit = explicit(&plane);
+    advance();
+    let implicit = implicit(&plane);
+    advance();
+    Ok(vec![explicit, implicit])
+}
+
+fn explicit(plane: &MarchPlane<'_>) -> Picture {
+    let title = "Explicit march (the paper's scheme)";
+    let mut figure = plane.map("march-explicit", title, explicit_fate);
+    figure.curve(
+        "theory: h k/Z = 2",
+        Style::Heavy,
+        plane.line(|disc, exact| exact.stable_step(disc)),
     );
-    implicit.map(shape, &FATES, |x, y| {
-        let (disc, exact) = column(x);
-        implicit_fate(disc, exact, y * CONTACT_TIME) as usize
+    figure.curve(
+        "theory: roots turn complex, h k/Z = 0.34",
+        Style::Dotted,
+        plane.line(|disc, exact| exact.smooth_step(disc)),
+    );
+    figure.curve(
+        "theory: gain = radiated loss",
+        Style::HeavyDashed,
+        plane.line(|_, exact| exact.energy_step()),
+    );
+    plane.mark_paper(&mut figure, |step| {
+        match march_explicit(plane.paper, step) {
+            Ok((_, summary)) => format!(": e = {:.4}", summary.restitution),
+            Err(_) => String::new(),
+        }
     });
-    let boundary = columns
-        .iter()
-        .zip(x.cells(shape[0]))
-        .flat_map(|((disc, exact), x)| {
-            let stiffness = 1.5 * exact.summary.peak_force.cbrt();
-            y.cells(4 * shape[1])
-                .into_iter()
-                .filter(move |y| linear_growth(disc, stiffness, y * CONTACT_TIME) > 1.0)
-                .map(move |y| (x, y))
-        })
-        .collect();
-    implicit.curve(
+    figure.caption = explain(plane.paper, &plane.own);
+    figure
+}
+
+fn implicit(plane: &MarchPlane<'_>) -> Picture {
+    let title = "Implicit march (the default)";
+    let mut figure = plane.map("march-implicit", title, implicit_fate);
+    let steps = plane.y.cells(4 * plane.shape[1]);
+    let mut growing = Vec::new();
+    for ((disc, exact), x) in plane.columns.iter().zip(plane.x.cells(plane.shape[0])) {
+        let stiffness = 1.5 * exact.summary.peak_force.cbrt();
+        let grows = |y: &&f64| linear_growth(disc, stiffness, **y * CONTACT_TIME) > 1.0;
+        growing.extend(steps.iter().filter(grows).map(|&y| (x, y)));
+    }
+    figure.curve(
         "theory: a root of the weights beyond 1",
         Style::Dots,
-        boundary,
+        growing,
     );
-    implicit.curve(
+    figure.curve(
         "eight samples in contact, the fewest that are interpolated",
         Style::Dotted,
-        line(&|(_, c)| c.summary.contact_time / 8.0),
+        plane.line(|_, exact| exact.summary.contact_time / 8.0),
     );
-    let gains = implicit.cells.iter().flat_map(|cells| &cells.class);
-    let gains = gains
-        .filter(|&&class| class == Fate::GainsEnergy as usize)
-        .count();
-    implicit.labelled = paper_steps.to_vec();
-    implicit.caption = format!(
+    let classes = figure.classes().into_iter().flat_map(|c| &c.class);
+    let gains = classes.filter(|&&class| class == Fate::GainsEnergy as usize);
+    let gains = gains.count();
+    plane.mark_paper(&mut figure, |_| String::new());
+    figure.caption = format!(
         "The implicit march gains energy in {gains} cells of this plane, and with fewer than eight samples in \
         contact it refuses with a sentence that asks for a smaller step. The curvature of the newest cell, an \
         extrapolation, is limited so that a force which alternates from sample to sample meets no negative compliance. \
         Where dots are left the deflection of the centre feeds energy back, on half-spaces much softer than the contact: \
         at some frequencies its compliance is real and negative, at any step. The mean deflection does not."
     );
-    figures.push(implicit);
-    advance();
-    figures.push(dynamic::figure(&paper, shape, effort));
-    advance();
-    Ok(figures)
+    figure
 }
 
 /// The restitution of 0.991 in numbers.

@@ -4,17 +4,18 @@
 //! that follows the load, and the coupling of a fixed disc; memory is the time that the waves need across the
 //! contact, over Hertz's contact time.
 
-use super::disc_models;
 use crate::StudyError;
 use crate::effort::Effort;
-use crate::figure::{Axis, Figure, Style};
 use crate::marching::Results;
+use crate::picture::Picture;
 use crate::record::Error;
 use crate::scenes::{ball, collision};
+use contact::Library;
 use contact::choose::{Rung, choose};
 use contact::law::hertz::CONTACT_TIME;
 use contact::law::radiation::{LARGEST_LAG, radiation};
-use contact::{GrowingDisc, Library, MarchError, PunchResponse, Summary, march_growing};
+use contact::{GrowingDisc, MarchError, PunchResponse, Summary, march_growing};
+use figure::{Axis, Interval, Style};
 use halfspace::{Deflection, Medium, SurfaceResponse};
 use impact::Impact;
 
@@ -194,15 +195,11 @@ pub(crate) fn rows(effort: Effort) -> u64 {
     shape(effort)[1] as u64
 }
 
-/// A picture a tolerance for contacts that follow the load, and one for the paper's disc.
-pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Figure>, StudyError> {
+/// A picture a tolerance.
+pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>, StudyError> {
     let plane = Plane::new(0.3)?;
-    let x = Axis::logarithmic(
-        "static deflection of the half-space over indentation",
-        0.01,
-        1.15,
-    );
-    let y = Axis::logarithmic("memory over contact time", 1e-4, 3.0);
+    let x = Interval::logarithmic(0.01, 1.15);
+    let y = Interval::logarithmic(1e-4, 3.0);
     let shape = shape(effort);
     let steps = effort.pick(128, 192);
     let mut errors = Vec::new();
@@ -224,14 +221,15 @@ pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Figure>,
         .into_iter()
         .zip(TOLERANCES)
     {
-        let mut figure = Figure::new(
+        let mut figure = Picture::new(
             name,
             &format!("Cheapest model that meets {tolerance:.0e}"),
-            x.clone(),
-            y.clone(),
+            Axis::over(x, "static deflection of the half-space over indentation"),
+            Axis::over(y, "memory over contact time"),
         );
         let mut cells = errors.iter();
         figure.map(
+            [x, y],
             shape,
             &[
                 "hertz",
@@ -270,17 +268,21 @@ pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Figure>,
              `growing` starts with a spike there that does not stand still when {steps} steps are made twice as long, \
              and step control refuses it. `auto` never takes a model that misses, and its estimate for hertz is {} times the error \
              found in the middle of the plane.",
-            ratio(&plane, &errors, shape, &x, &y)
+            ratio(&plane, &errors, shape, x, y)
         );
         figures.push(figure);
     }
-    figures.extend(disc_models::figures(effort)?);
-    advance();
     Ok(figures)
 }
 
 /// `auto`'s estimate of what hertz leaves out over the error found, in the middle of the plane.
-fn ratio(plane: &Plane, errors: &[ModelErrors], shape: [usize; 2], x: &Axis, y: &Axis) -> String {
+fn ratio(
+    plane: &Plane,
+    errors: &[ModelErrors],
+    shape: [usize; 2],
+    x: Interval,
+    y: Interval,
+) -> String {
     let (i, k) = (shape[0] / 2, shape[1] / 2);
     let (lag, memory) = plane.groups(x.cells(shape[0])[i], y.cells(shape[1])[k]);
     let estimate = choose(lag, memory, f64::INFINITY, None).error;

@@ -6,27 +6,16 @@
 
 use super::interpolation::{self, interpolations};
 use super::kernels::POISSON_RATIO;
+use super::pulse_scene::{EVERY, Label, Scene, add, sample_count, scenes};
 use crate::StudyError;
 use crate::effort::Effort;
 use crate::pulse_reference::PulseReference;
-use crate::record::{Error, Question, Record};
+use crate::record::Record;
 use crate::tables::Density;
 use halfspace::{DomainError, Kernel, Medium, Profile, Six};
 use impact::convolve::{Convolver, Method};
 use lookup::{PulseSum, Smoothness, Table, correct_for_curvature};
-use std::hint::black_box;
 use tabulator::PointPlan;
-
-/// A pulse at a point.
-pub(super) struct Scene {
-    pub(super) name: &'static str,
-    /// Its name where two ways to interpolate are compared.
-    pub(super) interpolation: &'static str,
-    pub(super) reference: PulseReference,
-}
-
-/// Every method is sampled at multiples of this.
-const EVERY: f64 = 1.6;
 
 /// Measures every method in every scene.
 pub(crate) fn measure(
@@ -35,35 +24,7 @@ pub(crate) fn measure(
     advance: &dyn Fn(),
 ) -> Result<Vec<Record>, StudyError> {
     let medium = Medium::new(POISSON_RATIO)?;
-    let count = effort.pick(8, 16);
-    let scene = |name, interpolation, place, length| -> Result<Scene, StudyError> {
-        let reference = PulseReference::new(&medium, place, length, EVERY, count)?;
-        Ok(Scene {
-            name,
-            interpolation,
-            reference,
-        })
-    };
-    let mut scenes = vec![scene(
-        "under the disc, pulse of 10 r0/c1",
-        "whole response against remainder, pulse of 10 r0/c1",
-        [0.55, 0.65],
-        10.0,
-    )?];
-    if effort == Effort::Full {
-        scenes.push(scene(
-            "under the disc, pulse of 40 r0/c1",
-            "whole response against remainder, pulse of 40 r0/c1",
-            [0.55, 0.65],
-            40.0,
-        )?);
-        scenes.push(scene(
-            "near the edge, pulse of 40 r0/c1",
-            "whole response against remainder, near the edge",
-            [1.03, 0.45],
-            40.0,
-        )?);
-    }
+    let scenes = scenes(&medium, effort)?;
     let mut records = Vec::new();
     for scene in &scenes {
         exact_cells(&medium, scene, effort, &mut records)?;
@@ -74,50 +35,6 @@ pub(crate) fn measure(
         advance();
     }
     Ok(records)
-}
-
-/// What a record is called.
-pub(super) struct Label {
-    pub(super) scene: &'static str,
-    pub(super) method: &'static str,
-    pub(super) setting: String,
-    pub(super) default_path: bool,
-}
-
-/// Adds the record of a method whose samples are `width` apart.
-pub(super) fn add(
-    records: &mut Vec<Record>,
-    effort: Effort,
-    reference: &PulseReference,
-    label: Label,
-    width: f64,
-    run: &mut dyn FnMut() -> Vec<Six>,
-) {
-    let samples = run();
-    let Some(errors) = reference.errors(&samples, width) else {
-        return;
-    };
-    let time = reference.times.last().copied().unwrap_or(1.0);
-    let cost = effort.clock().time(time, || {
-        black_box(run());
-    });
-    records.push(Record {
-        question: Question::Fields,
-        scene: label.scene,
-        method: label.method,
-        setting: label.setting,
-        default_path: label.default_path,
-        cost,
-        error: Error::of(&errors),
-        work: Some(samples.len() as f64 / time),
-        refusal: None,
-    });
-}
-
-/// Samples needed at a width.
-pub(super) fn sample_count(reference: &PulseReference, width: f64) -> usize {
-    let end = reference.times.last().copied().unwrap_or(0.0);
-    (end / width).round() as usize + 1
 }
 
 /// Samples of the pulse.

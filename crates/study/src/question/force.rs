@@ -110,7 +110,8 @@ fn on_disc<'a>(disc: &'a ExactDisc<'a>, effort: Effort) -> Vec<Candidate<'a>> {
         list.push(Candidate {
             method: "wave implicit",
             setting: format!("{n} steps"),
-            default_path: true,
+            // the program halves its step instead: nobody tells it how many are enough
+            default_path: false,
             run: Box::new(move || {
                 let history = march_implicit(disc, steps(n))?;
                 let summary = Summary::new(&history)?;
@@ -263,7 +264,7 @@ fn growing_contact<'a>(
         list.push(Candidate {
             method: "growing",
             setting: format!("{n} steps"),
-            default_path: true,
+            default_path: false,
             run: Box::new(move || {
                 let history = march_growing(growing, CONTACT_TIME / n as f64)?;
                 let summary = Summary::new(&history)?;

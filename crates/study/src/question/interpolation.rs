@@ -2,7 +2,7 @@
 //!
 //! Both by the same stencils over the same exact kernels in double precision.
 
-use super::fields::{Label, Scene, add, sample_count};
+use super::pulse_scene::{Label, Scene, add, sample_count};
 use crate::StudyError;
 use crate::effort::Effort;
 use crate::record::Record;

@@ -5,3 +5,4 @@ pub(crate) mod force;
 pub(crate) mod interpolation;
 pub(crate) mod inversions;
 pub(crate) mod kernels;
+mod pulse_scene;

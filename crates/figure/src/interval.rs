@@ -1,0 +1,190 @@
+//! The values that an axis shows, and their places along it.
+
+/// How values are spread along an axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Scale {
+    /// Equal differences are equally long.
+    Linear,
+    /// Equal ratios are equally long.
+    Logarithmic,
+}
+
+impl Scale {
+    /// Whether a value has a place on such an axis: finite, and positive on a logarithmic one.
+    #[must_use]
+    pub fn shows(self, value: f64) -> bool {
+        match self {
+            Self::Linear => value.is_finite(),
+            Self::Logarithmic => value.is_finite() && value > 0.0,
+        }
+    }
+}
+
+/// The values from `low` to `high`, `low < high`; both positive where logarithmic.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Interval {
+    /// How values are spread over it.
+    pub scale: Scale,
+    /// Lower end.
+    pub low: f64,
+    /// Upper end.
+    pub high: f64,
+}
+
+impl Interval {
+    /// A linear interval.
+    #[must_use]
+    pub fn linear(low: f64, high: f64) -> Self {
+        Self {
+            scale: Scale::Linear,
+            low,
+            high,
+        }
+    }
+
+    /// A logarithmic interval.
+    #[must_use]
+    pub fn logarithmic(low: f64, high: f64) -> Self {
+        Self {
+            scale: Scale::Logarithmic,
+            low,
+            high,
+        }
+    }
+
+    /// Whether an axis can show it: ends finite, in order, and positive where logarithmic, and its length finite.
+    #[must_use]
+    pub fn is_valid(&self) -> bool {
+        let is_long = match self.scale {
+            Scale::Linear => (self.high - self.low).is_finite(),
+            Scale::Logarithmic => (self.high / self.low).is_finite(),
+        };
+        let is_shown = self.scale.shows(self.low) && self.scale.shows(self.high);
+        is_shown && is_long && self.low < self.high
+    }
+
+    /// Place of a value: 0 at the low end, 1 at the high one.
+    #[must_use]
+    pub fn fraction(&self, value: f64) -> f64 {
+        match self.scale {
+            Scale::Linear => (value - self.low) / (self.high - self.low),
+            Scale::Logarithmic => (value / self.low).ln() / (self.high / self.low).ln(),
+        }
+    }
+
+    /// The value at a place.
+    #[must_use]
+    pub fn value(&self, fraction: f64) -> f64 {
+        match self.scale {
+            Scale::Linear => self.low + fraction * (self.high - self.low),
+            Scale::Logarithmic => self.low * (self.high / self.low).powf(fraction),
+        }
+    }
+
+    /// Whether a value lies in it, up to a billionth of its length.
+    #[must_use]
+    pub fn contains(&self, value: f64) -> bool {
+        self.scale.shows(value) && (-1e-9..=1.0 + 1e-9).contains(&self.fraction(value))
+    }
+
+    /// Centres of `count` equal cells.
+    #[must_use]
+    pub fn cells(&self, count: usize) -> Vec<f64> {
+        (0..count)
+            .map(|i| self.value((i as f64 + 0.5) / count as f64))
+            .collect()
+    }
+
+    /// The smallest interval of a scale that holds all values that it can show; none for no such value.
+    pub(crate) fn around(scale: Scale, values: impl Iterator<Item = f64>) -> Option<Self> {
+        let mut found: Option<(f64, f64)> = None;
+        for value in values.filter(|&v| scale.shows(v)) {
+            let (low, high) = found.unwrap_or((value, value));
+            found = Some((low.min(value), high.max(value)));
+        }
+        found.map(|(low, high)| Self { scale, low, high })
+    }
+
+    /// The smallest interval that holds both.
+    pub(crate) fn union(self, other: Self) -> Self {
+        Self {
+            scale: self.scale,
+            low: self.low.min(other.low),
+            high: self.high.max(other.high),
+        }
+    }
+
+    /// Longer by a fraction of its length at both ends; a single value becomes an interval around it.
+    ///
+    /// A linear end at zero stays there: an axis of a force that begins at zero begins at zero.
+    pub(crate) fn with_air(self, air: f64) -> Self {
+        if self.low >= self.high {
+            return match self.scale {
+                Scale::Linear => {
+                    let half = if self.low == 0.0 {
+                        1.0
+                    } else {
+                        0.5 * self.low.abs()
+                    };
+                    Self::linear(self.low - half, self.high + half)
+                }
+                Scale::Logarithmic => Self::logarithmic(self.low / 3.0, self.high * 3.0),
+            };
+        }
+        let stays = |end: f64| self.scale == Scale::Linear && end == 0.0;
+        Self {
+            scale: self.scale,
+            low: if stays(self.low) {
+                0.0
+            } else {
+                self.value(-air)
+            },
+            high: if stays(self.high) {
+                0.0
+            } else {
+                self.value(1.0 + air)
+            },
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_and_values_are_inverse() {
+        for interval in [
+            Interval::linear(-2.0, 6.0),
+            Interval::logarithmic(1e-9, 30.0),
+        ] {
+            for fraction in [0.0, 0.2, 0.5, 1.0] {
+                let back = interval.fraction(interval.value(fraction));
+                assert!((back - fraction).abs() < 1e-12);
+            }
+            assert!(interval.contains(interval.high) && !interval.contains(40.0));
+        }
+        assert!((Interval::logarithmic(1.0, 100.0).fraction(10.0) - 0.5).abs() < 1e-15);
+        assert_eq!(Interval::linear(0.0, 4.0).cells(4), [0.5, 1.5, 2.5, 3.5]);
+    }
+
+    #[test]
+    fn what_no_axis_can_show_is_not_valid() {
+        assert!(!Interval::linear(1.0, 1.0).is_valid());
+        assert!(!Interval::linear(0.0, f64::NAN).is_valid());
+        assert!(!Interval::logarithmic(0.0, 1.0).is_valid());
+        assert!(Interval::logarithmic(1e-150, 1e150).is_valid());
+        assert!(!Interval::logarithmic(1e-300, 1e300).is_valid());
+    }
+
+    #[test]
+    fn values_that_cannot_be_shown_do_not_count() {
+        let values = [f64::NAN, 3.0, -1.0, 0.0, f64::INFINITY, 30.0];
+        let found = Interval::around(Scale::Logarithmic, values.into_iter());
+        assert_eq!(found, Some(Interval::logarithmic(3.0, 30.0)));
+        assert_eq!(Interval::around(Scale::Linear, std::iter::empty()), None);
+        let air = Interval::linear(0.0, 10.0).with_air(0.1);
+        assert_eq!((air.low, air.high), (0.0, 11.0));
+        assert!(Interval::linear(2.0, 2.0).with_air(0.1).is_valid());
+    }
+}

@@ -1,0 +1,121 @@
+//! Scientific figures as data, drawn as SVG, PNG and PDF.
+//!
+//! A [`Figure`] holds [`Panel`]s in rows; a panel has two [`Axis`]es and [`Layer`]s; and that is all: there is no
+//! state, no canvas and no font of the system. Everything else follows:
+//!
+//! - ranges from the data, ticks at round values whose labels fit, minor ticks, SI prefixes;
+//! - colour, dash and marker of a curve from its name, different in grey and for eyes that see few colours;
+//! - legends in a corner that no curve enters, or beside the panel;
+//! - margins from the size of every label, so that none is cut off and none lies over another.
+//!
+//! ```
+//! use figure::{Axis, Figure, Panel, Sharing, Style};
+//!
+//! let time = || (0..=100).map(|i| f64::from(i) * 0.25e-6);
+//! let pulse = |t: f64| 160e3 * (std::f64::consts::PI * t / 25e-6).sin().powf(1.5);
+//! let force: Vec<_> = time().map(|t| (t, pulse(t))).collect();
+//! let band: Vec<_> = time().map(|t| (t, 0.9 * pulse(t), 1.1 * pulse(t))).collect();
+//!
+//! let figure = Figure::new("Copper rod on a steel block")
+//!     .sharing(Sharing::X)
+//!     .panel(
+//!         Panel::new(Axis::linear("time").si("s"), Axis::linear("force").si("N"))
+//!             .band("contact force", band)
+//!             .line("contact force", Style::Plain, force)
+//!             .mark(2.0e-6, "P")
+//!             .mark(3.8e-6, "S"),
+//!     );
+//! let svg = figure::to_svg(&figure)?;
+//! assert!(svg.contains("force [kN]") && svg.contains("time [µs]"));
+//! # Ok::<(), figure::RenderError>(())
+//! ```
+//!
+//! Labels may hold raised and lowered parts: `Axis::linear("radius").unit("r_{0}")`. Lengths are in pixels of
+//! 1/96 inch from the upper left corner. The same figure gives the same bytes.
+
+mod axis;
+mod colour;
+mod draw;
+mod error;
+mod figure;
+mod geometry;
+mod interval;
+mod layer;
+mod layout;
+mod panel;
+mod scene;
+mod text;
+mod ticks;
+mod write;
+
+pub use axis::{Axis, Direction, Unit};
+pub use colour::{Colour, ColourMap};
+pub use error::{FigureError, RenderError, Side};
+pub use figure::{ColourBar, Figure, Sharing};
+pub use geometry::Rect;
+pub use interval::{Interval, Scale};
+pub use layer::{
+    Band, Classes, ColourScale, Gain, Histogram, Image, LabelledPoint, Layer, Limits, Line, Mark,
+    Shading, Style, Trace, Traces,
+};
+pub use panel::{Aspect, Legend, Mirror, Panel};
+
+/// The figure as SVG.
+///
+/// # Errors
+/// [`RenderError`] for a figure that cannot be drawn.
+pub fn to_svg(figure: &Figure) -> Result<String, RenderError> {
+    write::svg(&draw::draw(figure)?)
+}
+
+/// The figure as PNG, at `scale` pixels for each of its own.
+///
+/// # Errors
+/// [`RenderError`] for a figure that cannot be drawn, or a picture that is too large.
+pub fn to_png(figure: &Figure, scale: f32) -> Result<Vec<u8>, RenderError> {
+    svg_to_png(&to_svg(figure)?, scale)
+}
+
+/// The figure as PDF: a page of its size, with its font.
+///
+/// # Errors
+/// [`RenderError`] for a figure that cannot be drawn.
+pub fn to_pdf(figure: &Figure) -> Result<Vec<u8>, RenderError> {
+    write::pdf(&draw::draw(figure)?)
+}
+
+/// An SVG of [`to_svg`] as PNG, for who needs both.
+///
+/// # Errors
+/// [`RenderError`] for what is not SVG, or a picture that is too large.
+pub fn svg_to_png(svg: &str, scale: f32) -> Result<Vec<u8>, RenderError> {
+    write::png(svg, scale)
+}
+
+/// What is known of a drawn figure.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Measured {
+    /// The canvas.
+    pub canvas: Rect,
+    /// The plots of the panels, without what is written around them.
+    pub plots: Vec<Rect>,
+    /// Every text with the rectangle that it covers; raised and lowered parts are written level.
+    pub texts: Vec<(String, Rect)>,
+}
+
+/// Measures a figure: no two texts overlap, and none leaves the canvas.
+///
+/// # Errors
+/// [`FigureError`] for a figure that cannot be drawn.
+pub fn measure(figure: &Figure) -> Result<Measured, FigureError> {
+    let scene = draw::draw(figure)?;
+    let texts = scene.items.iter().filter_map(|item| match item {
+        scene::Item::Text(text) => Some((text.plain(), text.bounds())),
+        scene::Item::Shape(_) | scene::Item::Picture(_) => None,
+    });
+    Ok(Measured {
+        canvas: Rect::new(0.0, 0.0, scene.width, scene.height),
+        texts: texts.collect(),
+        plots: scene.plots,
+    })
+}

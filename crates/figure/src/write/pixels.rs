@@ -1,0 +1,20 @@
+//! Pixels as PNG, to lie in an SVG.
+
+use crate::error::RenderError;
+use crate::scene::Picture;
+use resvg::tiny_skia::{ColorU8, Pixmap};
+
+/// The pixels of a picture as PNG.
+pub(super) fn encode(picture: &Picture) -> Result<Vec<u8>, RenderError> {
+    let (width, height) = (picture.columns, picture.rows);
+    let mut map = Pixmap::new(width, height).ok_or(RenderError::Pixels { width, height })?;
+    for (to, from) in map.pixels_mut().iter_mut().zip(&picture.pixels) {
+        let colour = match from {
+            Some(c) => ColorU8::from_rgba(c.red, c.green, c.blue, 255),
+            None => ColorU8::from_rgba(0, 0, 0, 0),
+        };
+        *to = colour.premultiply();
+    }
+    map.encode_png()
+        .map_err(|error| RenderError::Png(error.to_string()))
+}

@@ -1,0 +1,174 @@
+//! SVG.
+
+use super::pixels::encode;
+use crate::error::RenderError;
+use crate::geometry::Rect;
+use crate::scene::{Item, Picture, Scene, Segment, Shape, Text, Turn};
+use crate::text::FAMILY;
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use svg::Document;
+use svg::node::element::{ClipPath, Definitions, Group, Image, Path, Rectangle, Text as Label};
+
+/// Writes a scene.
+///
+/// Every text says how long it is, so that a viewer without the font keeps it in its place.
+pub(crate) fn svg(scene: &Scene) -> Result<String, RenderError> {
+    let clips = clips(scene);
+    let mut definitions = Definitions::new();
+    for (i, clip) in clips.iter().enumerate() {
+        let area = rectangle(clip);
+        definitions = definitions.add(ClipPath::new().set("id", format!("plot{i}")).add(area));
+    }
+    let (width, height) = (number(scene.width), number(scene.height));
+    let mut document = Document::new()
+        .set("viewBox", format!("0 0 {width} {height}"))
+        .set("width", width)
+        .set("height", height)
+        .set("font-family", FAMILY)
+        .set("font-weight", "300");
+    if !clips.is_empty() {
+        document = document.add(definitions);
+    }
+    for item in &scene.items {
+        document = match item {
+            Item::Shape(shape) => document.add(path(shape, &clips)),
+            Item::Picture(picture) => document.add(image(picture)?),
+            Item::Text(text) => document.add(label(text)),
+        };
+    }
+    Ok(document.to_string())
+}
+
+/// The different areas outside of which something is not drawn.
+fn clips(scene: &Scene) -> Vec<Rect> {
+    let mut found = Vec::new();
+    for item in &scene.items {
+        if let Item::Shape(Shape {
+            clip: Some(area), ..
+        }) = item
+            && !found.contains(area)
+        {
+            found.push(*area);
+        }
+    }
+    found
+}
+
+fn rectangle(area: &Rect) -> Rectangle {
+    Rectangle::new()
+        .set("x", number(area.left))
+        .set("y", number(area.top))
+        .set("width", number(area.width()))
+        .set("height", number(area.height()))
+}
+
+fn path(shape: &Shape, clips: &[Rect]) -> Path {
+    let mut path = Path::new().set("d", outline(&shape.segments));
+    path = match shape.fill {
+        Some(fill) if fill.opacity < 1.0 => path
+            .set("fill", fill.colour.hex())
+            .set("fill-opacity", fill.opacity),
+        Some(fill) => path.set("fill", fill.colour.hex()),
+        None => path.set("fill", "none"),
+    };
+    if let Some(stroke) = shape.stroke {
+        path = path
+            .set("stroke", stroke.colour.hex())
+            .set("stroke-width", stroke.width)
+            .set("stroke-linejoin", "round");
+        if !stroke.dash.is_empty() {
+            let dashes: Vec<String> = stroke.dash.iter().map(ToString::to_string).collect();
+            path = path.set("stroke-dasharray", dashes.join(" "));
+        }
+    }
+    let clip = shape
+        .clip
+        .and_then(|area| clips.iter().position(|c| *c == area));
+    match clip {
+        Some(i) => path.set("clip-path", format!("url(#plot{i})")),
+        None => path,
+    }
+}
+
+fn outline(segments: &[Segment]) -> String {
+    let mut text = String::new();
+    for segment in segments {
+        match segment {
+            Segment::Move(x, y) => text += &format!("M{} {}", number(*x), number(*y)),
+            Segment::Line(x, y) => text += &format!("L{} {}", number(*x), number(*y)),
+            Segment::Curve(points) => {
+                text += &format!("C{}", points.map(number).join(" "));
+            }
+            Segment::Close => text.push('Z'),
+        }
+    }
+    text
+}
+
+fn image(picture: &Picture) -> Result<Image, RenderError> {
+    let png = encode(picture)?;
+    let area = picture.area;
+    Ok(Image::new()
+        .set("x", number(area.left))
+        .set("y", number(area.top))
+        .set("width", number(area.width()))
+        .set("height", number(area.height()))
+        .set("preserveAspectRatio", "none")
+        .set(
+            "href",
+            format!("data:image/png;base64,{}", STANDARD.encode(png)),
+        ))
+}
+
+/// A text, its raised and lowered parts each on its own.
+fn label(text: &Text) -> Group {
+    let mut group = Group::new();
+    if text.rim {
+        group = group
+            .set("stroke", "#ffffff")
+            .set("stroke-width", 3)
+            .set("paint-order", "stroke")
+            .set("stroke-linejoin", "round");
+    }
+    for part in text.parts() {
+        let (x, y) = part.start;
+        let mut label = Label::new(part.text)
+            .set("x", number(x))
+            .set("y", number(y))
+            .set("font-size", number(part.size))
+            .set("textLength", number(part.width))
+            .set("lengthAdjust", "spacingAndGlyphs")
+            .set("fill", "#111111");
+        if text.turn == Turn::Upward {
+            label = label.set(
+                "transform",
+                format!("rotate(-90 {} {})", number(x), number(y)),
+            );
+        }
+        group = group.add(label);
+    }
+    group
+}
+
+/// To a hundredth of a pixel.
+fn number(value: f64) -> String {
+    let text = format!("{value:.2}");
+    let short = text.trim_end_matches('0').trim_end_matches('.');
+    if short == "-0" {
+        "0".to_owned()
+    } else {
+        short.to_owned()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short() {
+        let written: Vec<String> = [1.0, -0.001, 2.345, 0.5, 100.0].map(number).into();
+        assert_eq!(written, ["1", "0", "2.35", "0.5", "100"]);
+    }
+}

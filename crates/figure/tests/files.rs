@@ -1,0 +1,160 @@
+//! Small figures as files: SVG to the byte, PNG with something on it, PDF with its font.
+
+#![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
+
+use figure::{
+    Axis, Classes, ColourMap, ColourScale, Figure, FigureError, Histogram, Image, Interval,
+    LabelledPoint, Layer, Panel, RenderError, Scale, Style, Unit, to_pdf, to_png, to_svg,
+};
+use resvg::tiny_skia::{Pixmap, PremultipliedColorU8};
+use std::path::Path;
+
+/// A curve over a band, with a mark.
+fn curve() -> Figure {
+    let points: Vec<(f64, f64)> = (0..5).map(|i| (f64::from(i), f64::from(i * i))).collect();
+    let band = points.iter().map(|&(x, y)| (x, y - 1.0, y + 1.0)).collect();
+    Figure::new("A < B & C").width(300.0).panel(
+        Panel::new(
+            Axis::linear("time").unit("r_{0}/c_{1}"),
+            Axis::linear("force").si("N"),
+        )
+        .height(120.0)
+        .band("P", band)
+        .line("P", Style::Marked, points)
+        .mark(1.0, "S"),
+    )
+}
+
+/// Classes on logarithmic axes, with a point.
+fn classes() -> Figure {
+    let x = Interval::logarithmic(1.0, 1e6);
+    let y = Interval::logarithmic(1e-9, 1.0);
+    let map = Classes::of([x, y], [4, 2], &["good", "bad"], |x, _| {
+        usize::from(x > 1e3)
+    });
+    let broken = vec![
+        (1.0, 1.0),
+        (1e2, 1e-3),
+        (f64::NAN, 1.0),
+        (1e4, 1e-6),
+        (1e6, 1e-9),
+    ];
+    Figure::new("").width(360.0).panel(
+        Panel::new(Axis::over(x, "cost"), Axis::over(y, "error"))
+            .height(120.0)
+            .layer(Layer::Classes(map))
+            .line("front", Style::HeavyDashed, broken)
+            .layer(Layer::Point(LabelledPoint::new(1e5, 1e-2, "here"))),
+    )
+}
+
+/// An image with its bar, and a histogram.
+fn image() -> Figure {
+    let scale = ColourScale::new("u", Unit::Si("m".to_owned()), ColourMap::Diverging);
+    let nodes = vec![0.0, 1.0, 2.0];
+    let image = Image::of(nodes.clone(), nodes, scale, |x, y| 1e-6 * (x - y));
+    let bars = Histogram::of("n", &[1.0, 2.0, 2.5, 4.0], 3, Scale::Linear);
+    let axis = || Axis::linear("x").si("m");
+    Figure::new("")
+        .width(300.0)
+        .columns(2)
+        .panel(
+            Panel::new(axis(), axis().reversed())
+                .height(80.0)
+                .layer(Layer::Image(image)),
+        )
+        .panel(
+            Panel::new(Axis::linear("e"), Axis::linear("n"))
+                .height(80.0)
+                .layer(Layer::Histogram(bars)),
+        )
+}
+
+fn all() -> [(&'static str, Figure); 3] {
+    [
+        ("curve", curve()),
+        ("classes", classes()),
+        ("image", image()),
+    ]
+}
+
+#[test]
+fn the_svg_is_the_same_to_the_byte() {
+    for (name, figure) in all() {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/golden/{name}.svg"));
+        let svg = to_svg(&figure).unwrap();
+        // writes them anew; then look at each
+        if std::env::var_os("FIGURE_BLESS").is_some() {
+            std::fs::write(&path, &svg).unwrap();
+        }
+        let golden = std::fs::read_to_string(&path).unwrap();
+        assert!(svg == golden, "{name}.svg is not what it was");
+        assert!(!svg.contains("NaN") && !svg.contains("inf"));
+    }
+}
+
+#[test]
+fn the_png_has_the_curve_its_text_and_its_size() {
+    let decode = |figure: &Figure| Pixmap::decode_png(&to_png(figure, 2.0).unwrap()).unwrap();
+    let pixels = decode(&curve());
+    assert_eq!(pixels.width(), 600);
+    let blue = |p: &&PremultipliedColorU8| p.blue() > 100 && p.red() < 60;
+    assert!(
+        pixels.pixels().iter().filter(blue).count() > 300,
+        "the curve"
+    );
+    let dark = |pixels: &Pixmap| pixels.pixels().iter().filter(|p| p.green() < 100).count();
+    let mut silent = curve();
+    silent.title.clear();
+    assert!(dark(&pixels) > 100 + dark(&decode(&silent)), "the title");
+}
+
+#[test]
+fn an_image_is_seen_in_its_colours() {
+    let pixels = Pixmap::decode_png(&to_png(&image(), 1.0).unwrap()).unwrap();
+    let count = |of: &dyn Fn(u8, u8) -> bool| {
+        let found = pixels.pixels().iter();
+        found.filter(|p| of(p.red(), p.blue())).count()
+    };
+    assert!(count(&|red, blue| red > 120 && blue < 60) > 30, "positive");
+    assert!(count(&|red, blue| blue > 120 && red < 60) > 30, "negative");
+}
+
+#[test]
+fn the_pdf_has_its_page_its_font_and_its_pictures() {
+    for (name, figure) in all() {
+        let pdf = to_pdf(&figure).unwrap();
+        let text = String::from_utf8_lossy(&pdf);
+        assert!(text.starts_with("%PDF-1."), "{name}");
+        assert!(text.trim_end().ends_with("%%EOF"), "{name}");
+        assert!(text.contains("Ubuntu-Light") && text.contains("/ToUnicode"));
+        let pictures = if name == "image" { 2 } else { 0 };
+        assert_eq!(text.matches("/Subtype /Image").count(), pictures, "{name}");
+        assert!(pdf.len() < 60_000, "{name}: {}", pdf.len());
+    }
+}
+
+#[test]
+fn what_cannot_be_drawn_is_refused_with_its_place() {
+    let refused = |figure: &Figure| match to_svg(figure) {
+        Err(RenderError::Figure(error)) => error,
+        Ok(_) => panic!("drawn"),
+        Err(other) => panic!("{other}"),
+    };
+    assert_eq!(refused(&Figure::new("")), FigureError::NoPanels);
+    let mut figure = classes();
+    figure.panels[0].y.range = Some((0.0, 1.0));
+    let message = refused(&figure).to_string();
+    assert_eq!(message, "panel 0: the y axis cannot run from 0 to 1");
+    let mut figure = image();
+    if let Layer::Image(image) = &mut figure.panels[0].layers[0] {
+        image.values.pop();
+    }
+    let message = refused(&figure).to_string();
+    assert_eq!(message, "panel 0: 8 values of an image, and 9 are needed");
+    let wide = refused(&curve().width(1e9));
+    assert!(matches!(wide, FigureError::Size { .. }));
+    let mut figure = classes();
+    figure.panels[0] = figure.panels[0].clone().equal_lengths();
+    assert!(matches!(refused(&figure), FigureError::NotLinear { .. }));
+}
