@@ -12,7 +12,7 @@ ROOT = Path(__file__).resolve().parent.parent
 MOST_LINES = 450
 MOST_FUNCTION = 80
 # parent and child may know each other here: a module and its parts
-PARENTS_ALLOWED = {"halfspace", "study"}
+PARENTS_ALLOWED = {"figure", "halfspace", "study"}
 
 
 def modules(src):

@@ -67,6 +67,7 @@ fn failure(error: StudyError) -> Failure {
         | StudyError::March(_)
         | StudyError::Body(_)
         | StudyError::Material(_)
+        | StudyError::Field(_)
         | StudyError::Build(_)
         | StudyError::Table(_)
         | StudyError::Lookup(_)

@@ -8,7 +8,7 @@
 
 use std::sync::LazyLock;
 
-/// Largest number of nodes of a rule.
+/// Largest number of nodes of a rule that is kept.
 pub const MAX_NODES: usize = 40;
 
 /// Nodes and weights of one Gauss-Legendre rule on [-1, 1], nodes ascending.
@@ -19,6 +19,41 @@ pub struct Rule {
 }
 
 impl Rule {
+    /// The rule with `n` > 0 nodes, exact for polynomials of degree 2n - 1.
+    ///
+    /// Newton iteration on the Legendre polynomial from Tricomi's initial guess.
+    #[must_use]
+    pub fn new(n: usize) -> Self {
+        let mut nodes = vec![0.0; n];
+        let mut weights = vec![0.0; n];
+        for i in 0..n.div_ceil(2) {
+            let mut x = (std::f64::consts::PI * (i as f64 + 0.75) / (n as f64 + 0.5)).cos();
+            let mut slope = 0.0;
+            for _ in 0..100 {
+                let (value, derivative) = legendre(n, x);
+                slope = derivative;
+                let step = value / derivative;
+                x -= step;
+                if step.abs() < 1e-16 {
+                    break;
+                }
+            }
+            let weight = 2.0 / ((1.0 - x * x) * slope * slope);
+            (nodes[i], weights[i]) = (-x, weight);
+            (nodes[n - 1 - i], weights[n - 1 - i]) = (x, weight);
+        }
+        if n % 2 == 1 {
+            nodes[n / 2] = 0.0;
+        }
+        Self { nodes, weights }
+    }
+
+    /// Nodes on [-1, 1], ascending.
+    #[must_use]
+    pub fn nodes(&self) -> &[f64] {
+        &self.nodes
+    }
+
     /// Node and weight pairs carried over to the interval [a, b].
     pub fn on(&self, a: f64, b: f64) -> impl Iterator<Item = (f64, f64)> + '_ {
         let (mid, half) = (0.5 * (a + b), 0.5 * (b - a));
@@ -35,7 +70,7 @@ impl Rule {
 /// Where n is not from 1 to [`MAX_NODES`].
 #[must_use]
 pub fn rule(n: usize) -> &'static Rule {
-    static RULES: LazyLock<Vec<Rule>> = LazyLock::new(|| (1..=MAX_NODES).map(compute).collect());
+    static RULES: LazyLock<Vec<Rule>> = LazyLock::new(|| (1..=MAX_NODES).map(Rule::new).collect());
     &RULES[n - 1]
 }
 
@@ -70,32 +105,6 @@ fn finite_part(n: usize) -> Rule {
             plain[i] - nodes[i] * nodes[i] * (value * value_cost + slope * slope_cost)
         })
         .collect();
-    Rule { nodes, weights }
-}
-
-/// Newton iteration on the Legendre polynomial from Tricomi's initial guess.
-fn compute(n: usize) -> Rule {
-    let mut nodes = vec![0.0; n];
-    let mut weights = vec![0.0; n];
-    for i in 0..n.div_ceil(2) {
-        let mut x = (std::f64::consts::PI * (i as f64 + 0.75) / (n as f64 + 0.5)).cos();
-        let mut slope = 0.0;
-        for _ in 0..100 {
-            let (value, derivative) = legendre(n, x);
-            slope = derivative;
-            let step = value / derivative;
-            x -= step;
-            if step.abs() < 1e-16 {
-                break;
-            }
-        }
-        let weight = 2.0 / ((1.0 - x * x) * slope * slope);
-        (nodes[i], weights[i]) = (-x, weight);
-        (nodes[n - 1 - i], weights[n - 1 - i]) = (x, weight);
-    }
-    if n % 2 == 1 {
-        nodes[n / 2] = 0.0;
-    }
     Rule { nodes, weights }
 }
 

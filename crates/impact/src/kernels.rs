@@ -16,16 +16,19 @@ pub enum KernelSource {
 
 /// Cells at one point with what goes with them.
 #[derive(Debug, Clone)]
-pub(crate) struct Cells {
-    pub(crate) static_part: Six,
-    pub(crate) averages: Vec<Six>,
+pub struct Cells {
+    /// Static field under unit force.
+    pub static_part: Six,
+    /// Averages of the remainder over the cells, corrected for the force's curvature where it is smooth.
+    pub averages: Vec<Six>,
     /// Error of the response to a force of unit peak.
-    pub(crate) error: Six,
+    pub error: Six,
 }
 
 impl Cells {
     /// Total variation of the step response: the largest response to a force that is nowhere above one.
-    pub(crate) fn variation(&self) -> Six {
+    #[must_use]
+    pub fn variation(&self) -> Six {
         std::array::from_fn(|f| {
             let first = self.averages.first().map_or(0.0, |cell| cell[f]);
             let steps = self.averages.windows(2).map(|c| (c[1][f] - c[0][f]).abs());
@@ -34,7 +37,8 @@ impl Cells {
     }
 
     /// Largest change of the step response from one cell to the next.
-    pub(crate) fn largest_step(&self) -> Six {
+    #[must_use]
+    pub fn largest_step(&self) -> Six {
         std::array::from_fn(|f| {
             let first = self.averages.first().map_or(0.0, |cell| cell[f]);
             let steps = self.averages.windows(2).map(|c| (c[1][f] - c[0][f]).abs());
@@ -62,7 +66,8 @@ impl KernelSource {
     /// Step in r0/c1 not longer than `wanted`, unless the table has none so short; and its coarsening.
     ///
     /// Powers of two also without a table, so that both sources give the same samples.
-    pub(crate) fn step(&self, poisson_ratio: f64, wanted: f64) -> (f64, u32) {
+    #[must_use]
+    pub fn step(&self, poisson_ratio: f64, wanted: f64) -> (f64, u32) {
         match self {
             Self::Direct(_) => (wanted.log2().floor().exp2(), 0),
             Self::Table(table) => {
@@ -75,7 +80,10 @@ impl KernelSource {
     }
 
     /// The cells at (r, z).
-    pub(crate) fn cells(
+    ///
+    /// # Errors
+    /// [`FieldError`] for a point outside the half-space or the table.
+    pub fn cells(
         &self,
         poisson_ratio: f64,
         place: Place,
@@ -138,12 +146,15 @@ impl KernelSource {
 
 /// Which cells a convolution needs; lengths of time in r0/c1.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct CellPlan {
-    pub(crate) step: f64,
+pub struct CellPlan {
+    /// Width of a cell.
+    pub step: f64,
     /// The step is 2^coarsening cells of the table.
-    pub(crate) coarsening: u32,
-    pub(crate) count: usize,
-    pub(crate) smoothness: Smoothness,
+    pub coarsening: u32,
+    /// How many cells.
+    pub count: usize,
+    /// How the force is taken within a cell.
+    pub smoothness: Smoothness,
     /// Of the force, for the table's error.
-    pub(crate) pulse_length: f64,
+    pub pulse_length: f64,
 }

@@ -46,7 +46,7 @@ pub use halfspace::Field;
 pub use impact::{Impact, Run};
 pub use kernels::KernelSource;
 pub use outcome::{Cause, FieldsUsed, KernelsUsed, Outcome, RecordResults, Series, StrikerSeries};
-pub use place::FieldError;
+pub use place::{FieldError, Place};
 pub use probes::{ProbeFields, SectionFields};
 pub use record::{ForceRecord, RecordError};
 pub use scene::{Load, Probe, Scene, Section, Strike};

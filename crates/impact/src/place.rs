@@ -33,10 +33,13 @@ pub enum FieldError {
 
 /// A point in kernel units, with its unit for messages.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Place {
-    pub(crate) r: f64,
-    pub(crate) z: f64,
-    pub(crate) disc_radius_m: f64,
+pub struct Place {
+    /// Distance from the axis in disc radii.
+    pub r: f64,
+    /// Depth in disc radii.
+    pub z: f64,
+    /// Unit of length in m.
+    pub disc_radius_m: f64,
 }
 
 impl Place {

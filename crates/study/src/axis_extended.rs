@@ -104,7 +104,7 @@ fn load(k: TwoFloat) -> TwoFloat {
 
 /// Gauss-Legendre nodes and weights on [-1, 1].
 fn rule(points: usize) -> Vec<(TwoFloat, TwoFloat)> {
-    let coarse = crate::gauss::Rule::new(points);
+    let coarse = halfspace::gauss::Rule::new(points);
     let legendre = |x: TwoFloat| {
         let (mut before, mut value) = (TwoFloat::from(0.0), TwoFloat::from(1.0));
         for j in 1..=points {
@@ -118,7 +118,7 @@ fn rule(points: usize) -> Vec<(TwoFloat, TwoFloat)> {
         (value, slope)
     };
     coarse
-        .nodes
+        .nodes()
         .iter()
         .map(|&x| {
             let mut x = TwoFloat::from(x);

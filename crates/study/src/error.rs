@@ -18,6 +18,9 @@ pub enum StudyError {
     /// A material that is not in the library.
     #[error(transparent)]
     Material(#[from] contact::UnknownMaterial),
+    /// A field that could not be computed.
+    #[error(transparent)]
+    Field(#[from] impact::FieldError),
     /// A local table could not be built.
     #[error(transparent)]
     Build(#[from] tabulator::BuildError),

@@ -5,9 +5,9 @@
 //! that distance and the oscillation of J(k r) Z_H(k) set the panels, and e^{-k z} sets the end.
 //! For Re s <= 0, which only Talbot's contour needs, they have crossed the axis, and the path is raised above them.
 
-use crate::gauss::Rule;
 use crate::transform::{Roots, Solid, load, path};
 use halfspace::Medium;
+use halfspace::gauss::Rule;
 use num_complex::Complex64;
 use std::cell::Cell;
 

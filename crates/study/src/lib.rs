@@ -16,7 +16,6 @@ mod error;
 mod extended;
 mod files;
 mod folder;
-mod gauss;
 mod hankel;
 pub mod hdf_file;
 pub mod inversion;

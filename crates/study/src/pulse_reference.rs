@@ -7,7 +7,7 @@
 //! No cells, no samples of the force: it shares only R with what it judges.
 
 use crate::StudyError;
-use crate::gauss::Rule;
+use halfspace::gauss::Rule;
 use halfspace::{Arrivals, Kernel, Medium, Profile, Six};
 use std::f64::consts::PI;
 

@@ -10,7 +10,7 @@
 //! closed forms alone, without the multipole series.
 //! It counts what an integral costs and shows where the closed forms lose digits.
 
-use crate::gauss::Rule;
+use halfspace::gauss::Rule;
 use halfspace::{Medium, Six};
 use num_complex::Complex64;
 use std::f64::consts::PI;

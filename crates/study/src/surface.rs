@@ -3,9 +3,9 @@
 //! At z = 0 nothing decays along k. Beyond the singularities the load's e^{ik} and e^{-ik} are separated and
 //! each is followed into the half-plane where it decays, after the static deflection is taken out.
 
-use crate::gauss::Rule;
 use crate::transform::{Roots, Solid, load, path};
 use halfspace::Medium;
+use halfspace::gauss::Rule;
 use num_complex::Complex64;
 use std::cell::Cell;
 use std::f64::consts::PI;

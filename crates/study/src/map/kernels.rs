@@ -2,10 +2,10 @@
 
 use crate::StudyError;
 use crate::effort::Effort;
-use crate::gauss::Rule;
 use crate::picture::Picture;
 use crate::single_integral::closed_potentials;
 use figure::{Axis, Interval, Style};
+use halfspace::gauss::Rule;
 use halfspace::{Deflection, Kernel, Medium, Profile, SurfaceResponse, kausel};
 use num_complex::Complex64;
 use std::f64::consts::PI;

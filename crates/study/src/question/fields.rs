@@ -12,9 +12,11 @@ use crate::effort::Effort;
 use crate::pulse_reference::PulseReference;
 use crate::record::Record;
 use crate::tables::Density;
-use halfspace::{DomainError, Kernel, Medium, Profile, Six};
+use halfspace::{Medium, Six};
 use impact::convolve::{Convolver, Method};
-use lookup::{PulseSum, Smoothness, Table, correct_for_curvature};
+use impact::kernels::CellPlan;
+use impact::{KernelSource, Place};
+use lookup::{PulseSum, Smoothness, Table};
 use tabulator::PointPlan;
 
 /// Measures every method in every scene.
@@ -63,9 +65,6 @@ enum Shape {
     Cubic,
 }
 
-/// First moments are computed to this share of the static field, as in the program.
-const MOMENT_SHARE: f64 = 1e-7;
-
 /// Cells computed for the point itself, for a force that is linear or smooth between samples.
 fn exact_cells(
     medium: &Medium,
@@ -100,22 +99,36 @@ fn exact_cells(
         ),
     ];
     for (shape, tolerance, halvings) in settings {
-        let kernel = Kernel::new(medium, Profile::Hertz, tolerance)?;
+        let source = KernelSource::direct(medium, tolerance)?;
         for halvings in halvings {
             let width = EVERY * 0.5_f64.powi(halvings);
             let force = force(reference, width);
             let count = force.len();
             let plan = PointPlan::new(medium.poisson_ratio(), tolerance, width, count + 4, 4)?;
+            let direct = |smoothness| {
+                let place = Place {
+                    r,
+                    z,
+                    disc_radius_m: 1.0,
+                };
+                let plan = CellPlan {
+                    step: width,
+                    coarsening: 0,
+                    count,
+                    smoothness,
+                    pulse_length: reference.length,
+                };
+                source.cells(medium.poisson_ratio(), place, plan)
+            };
             let cells = || -> Result<Vec<Six>, StudyError> {
                 match shape {
-                    Shape::Linear | Shape::Parabola => {
-                        Ok(cells(&kernel, [r, z], width, count, shape)?)
-                    }
+                    Shape::Linear => Ok(direct(Smoothness::Linear)?.averages),
+                    Shape::Parabola => Ok(direct(Smoothness::Smooth)?.averages),
                     Shape::Cubic => Ok(interpolation::series(&plan.compute(r, z)?, width, count)),
                 }
             };
             cells()?;
-            let rest = kernel.static_field(r, z)?;
+            let rest = plan.kernel().static_field(r, z)?;
             let convolver = Convolver::new(&force);
             let mut run = || match cells() {
                 Ok(cells) => response(&convolver, &rest, &cells),
@@ -136,28 +149,6 @@ fn exact_cells(
         }
     }
     Ok(())
-}
-
-/// Cells as the program computes them.
-fn cells(
-    kernel: &Kernel,
-    [r, z]: [f64; 2],
-    width: f64,
-    count: usize,
-    shape: Shape,
-) -> Result<Vec<Six>, DomainError> {
-    // the correction looks one cell ahead
-    let mut averages = vec![[0.0; 6]; count + 1];
-    kernel.cell_averages(r, z, width, &mut averages)?;
-    if shape == Shape::Parabola {
-        let floor = kernel.static_field(r, z)?.map(|s| MOMENT_SHARE * s.abs());
-        let mut moments = averages.clone();
-        kernel.cell_moments(r, z, width, &averages, &floor, &mut moments)?;
-        averages.truncate(count);
-        correct_for_curvature(&mut averages, &moments);
-    }
-    averages.truncate(count);
-    Ok(averages)
 }
 
 /// Tables of several densities and stencils, coarser cells, three ways to sum.
