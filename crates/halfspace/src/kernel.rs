@@ -33,6 +33,7 @@ use crate::statics;
 ///   a value by epsilon t/z of the peak. The value returned is that of exactly the t given.
 /// - For 1e-4 < z < 1e-2 near the edge of the disc sigma_zz and sigma_rz miss the promise: 1.3e-9 of their peaks.
 /// - For r < 0.002 sigma_rz, itself of order r, misses it: 5e-8 of its peak at r = 1e-3, z = 1e-9.
+/// - Farther out, to r = z = 1e4, responses to pulses hold the tolerance, see [`Trace`](crate::Trace) and `tests/pulse.rs`.
 /// - At tolerances of 1e-4, 1e-6 and 1e-8 the 99th percentile of the errors at random points is below the tolerance,
 ///   and typically a hundred times below it.
 /// - Punch: displacements as above; stresses are infinite at fronts and lose digits toward them.

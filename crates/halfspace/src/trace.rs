@@ -6,7 +6,7 @@
 //! the cells.
 
 use crate::arrivals::Arrivals;
-use crate::domain::{check, check_hertz, check_place_under, check_time};
+use crate::domain::{check, check_hertz, check_place_under, check_time, check_width};
 use crate::error::DomainError;
 use crate::field::{Estimate, Six};
 use crate::interpolation::segments;
@@ -135,7 +135,7 @@ impl Trace {
             value: self.static_field.map(|v| -v),
             error: self.static_field.map(|v| f64::EPSILON * v.abs()),
         };
-        let average = match self.segments.get(first) {
+        let average = match self.segments.get(first).or(self.segments.last()) {
             Some(segment) if t > self.first_arrival => segment.at(t),
             Some(_) | None => before(),
         };
@@ -146,13 +146,19 @@ impl Trace {
         (average, moment)
     }
 
-    /// Calls `f` with the average and first moment of each of `count` cells of `width`, from time zero.
-    pub(crate) fn for_each_cell(
+    /// Calls `f` with the index, the average and the first moment of each of `count` cells of `width`, from time zero.
+    ///
+    /// # Errors
+    /// [`DomainError`] for a width outside [1e-20, 1e20] and for cells that reach beyond the trace.
+    pub fn for_each_cell(
         &self,
         width: f64,
         count: usize,
         mut f: impl FnMut(usize, Estimate, Estimate),
-    ) {
+    ) -> Result<(), DomainError> {
+        check_width(width)?;
+        let end = count as f64 * width;
+        check(end <= self.end, "t", end, "[0, end of the trace]")?;
         let mut first = 0;
         for j in 0..count {
             let (from, to) = (j as f64 * width, (j + 1) as f64 * width);
@@ -162,5 +168,6 @@ impl Trace {
             let (average, moment) = self.cell_from(first, from, to);
             f(j, average, moment);
         }
+        Ok(())
     }
 }

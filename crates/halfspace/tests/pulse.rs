@@ -88,8 +88,9 @@ fn by_cells(
             // beside a front a map that is flat at both ends
             let (nodes, bend) = match (ends.len(), count) {
                 (2, 1000) => (4, 0.0),
-                (2, _) => (8, 0.0),
-                (_, _) => (16, 0.5),
+                (2, 200) => (12, 0.0),
+                (2, _) => (32, 0.0),
+                (_, _) => (40, 0.5),
             };
             for (x, weight) in rule(nodes).on(-1.0, 1.0) {
                 let (q, half) = (x * x, 0.5 * (pair[1] - pair[0]));
@@ -244,4 +245,55 @@ fn interpolation_agrees_with_differences_near_the_load() {
     println!("{exceeding} exceed their estimate");
     assert!(average.max < 1e-8 && moment.max < 1e-8);
     assert!(100 * exceeding <= averages.len() + moments.len());
+}
+
+/// Cells of all kinds cover the time from zero without a gap, and what lies beyond the trace is refused.
+#[test]
+fn cells_add_up_to_the_whole() {
+    let medium = Medium::new(0.3).unwrap();
+    let kernel = Kernel::new(&medium, Profile::Hertz, 1e-10).unwrap();
+    for (r, z) in [(0.0, 0.5), (60.0, 0.0), (60.0, 20.0)] {
+        let end = 1.5 * (1.0 + r + z);
+        let trace = kernel.trace(r, z, end).unwrap();
+        let (whole, _) = trace.cell(0.0, end).unwrap();
+        for count in [1, 7, 1000] {
+            let width = end / count as f64;
+            let (mut sum, mut called) = (Six::default(), 0);
+            let done = trace.for_each_cell(width, count, |j, average, _| {
+                assert_eq!(j, called);
+                called += 1;
+                for (sum, v) in sum.iter_mut().zip(average.value) {
+                    *sum += v / count as f64;
+                }
+            });
+            assert!(done.is_ok() && called == count);
+            for f in 0..6 {
+                let gap = (sum[f] - whole.value[f]).abs();
+                assert!(gap < 1e-13, "r {r} z {z} {count} {}: {gap:e}", NAMES[f]);
+            }
+            // the averages that the kernel gives are these
+            let mut cells = vec![Six::default(); count];
+            let error = kernel.cell_averages(r, z, width, &mut cells).unwrap();
+            for (j, cell) in cells.iter().enumerate() {
+                let (average, _) = trace
+                    .cell(j as f64 * width, ((j + 1) as f64 * width).min(end))
+                    .unwrap();
+                for f in 0..6 {
+                    let gap = (cell[f] - average.value[f]).abs();
+                    assert!(
+                        gap <= error[f] + average.error[f],
+                        "r {r} z {z} {count} {j} {}: {gap:e}",
+                        NAMES[f]
+                    );
+                }
+            }
+        }
+        assert!(trace.cell(0.0, end.next_up()).is_err());
+        assert!(trace.cell(1.0, 1.0).is_err());
+        assert!(trace.cell(-1.0, 1.0).is_err());
+        assert!(trace.cell(f64::NAN, 1.0).is_err());
+        assert!(trace.for_each_cell(end, 2, |_, _, _| ()).is_err());
+    }
+    let point = Kernel::new(&medium, Profile::Point, 1e-8).unwrap();
+    assert!(point.trace(1.0, 1.0, 4.0).is_err());
 }
