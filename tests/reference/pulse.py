@@ -4,7 +4,7 @@
 
 with step responses from steepest-descent contours (contours.py), which share nothing with the kernels of the workspace,
 and Gauss-Legendre rules on pieces that are cut at every front and grow by factors of four away from it; next to a front
-the variable is the square root of the distance. The rule with four more nodes on every piece agrees (--check).
+the variable is the square root of the distance.
 
     python pulse.py [part parts]     rows that are missing, each as soon as it is there; row i where i % parts == part
     python pulse.py --check          the first rows again with four more nodes on every piece

@@ -43,7 +43,7 @@ impl Kernel {
                 for (largest, e) in error.iter_mut().zip(average.error) {
                     *largest = largest.max(e);
                 }
-            });
+            })?;
             return Ok(error);
         }
         let rest = self.static_field(r, z)?;

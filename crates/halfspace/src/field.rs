@@ -48,11 +48,10 @@ pub type Six = [f64; 6];
 ///
 /// The estimate is the sum, over the panels of the quadrature, of the truncation error of a Gauss rule beside the
 /// nearest singularity, rho^(-2n) times a factor calibrated on random points, and of rounding. For the Hertz profile at
-/// tolerances of 1e-4 to 1e-10 less than one error in a hundred exceeds it at 95 % confidence, see `tests/estimate.rs`,
-/// and the median estimate is 110 to 150 times the error:
-/// `cargo test -p hertzlamb-halfspace --test estimate -- --nocapture` prints both.
+/// tolerances of 1e-4 to 1e-10 less than one error in a thousand exceeds it, and the median estimate is 110 to 190
+/// times the error: `cargo test -p hertzlamb-halfspace --test estimate -- --nocapture` prints both.
 /// Stresses under a punch or a point force are infinite at fronts; there the estimate includes the rounding of the
-/// fronts, and its median is 300 to 60000 times the error by region.
+/// fronts, and its median is 400 to 350000 times the error by region.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Estimate {
     /// The values.

@@ -21,6 +21,7 @@
 //!
 //! - [`Medium`]: wave speeds and the Rayleigh function of a Poisson ratio.
 //! - [`Kernel`]: static field, step-response remainder, its time integral and its averages over time cells.
+//! - [`Trace`]: the remainder at one place over time, with averages and moments over cells of any width.
 //! - [`SurfaceResponse`]: the deflection under the load itself, with finite memory, in nanoseconds.
 //! - [`Arrivals`]: times of all wave fronts.
 //! - [`gauss`]: Gauss-Legendre rules, for those who integrate kernels.
@@ -78,6 +79,7 @@ mod fronts;
 pub mod gauss;
 mod huber;
 mod integral;
+mod interpolation;
 pub mod kausel;
 mod kernel;
 mod landscape;
@@ -93,6 +95,7 @@ mod profile;
 mod rayleigh_front;
 mod rayleigh_pole;
 mod scalar;
+mod segment;
 mod setting;
 mod shallow;
 mod slow;

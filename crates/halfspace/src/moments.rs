@@ -47,7 +47,7 @@ impl Kernel {
             trace.for_each_cell(width, moments.len(), |j, _, moment| {
                 moments[j] = moment.value;
                 raise(&mut error, &moment.error);
-            });
+            })?;
             return Ok(error);
         }
         let quiet = (self.first_arrival(r, z) / width) as usize;

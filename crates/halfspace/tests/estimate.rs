@@ -9,7 +9,7 @@ mod support;
 use halfspace::{Arrivals, Kernel, Medium, Profile};
 use support::{Stream, heading, line};
 
-const COUNT: usize = 6000;
+const COUNT: usize = 12000;
 
 const RATIOS: [f64; 6] = [-0.5, 0.0, 0.25, 0.263_082_06, 0.3, 0.4999];
 
@@ -100,7 +100,8 @@ fn point_in(region: Region, profile: Profile, random: &mut Stream, i: usize) -> 
 #[test]
 fn one_error_in_a_thousand_exceeds_its_estimate_for_a_punch_and_a_point() {
     use Region::{Any, NearAxis, NearEdge, Shallow, Surface};
-    const POINTS: usize = 3000;
+    const POINTS: usize = 2000;
+    const SEEDS: [u64; 3] = [5, 77, 2026];
     for (profile, region) in [
         (Profile::Punch, Any),
         (Profile::Punch, Surface),
@@ -112,10 +113,11 @@ fn one_error_in_a_thousand_exceeds_its_estimate_for_a_punch_and_a_point() {
         (Profile::Point, Shallow),
     ] {
         for tolerance in [1e-4, 1e-7, 1e-10] {
-            let mut random = Stream::new(5);
             let (mut caution, mut relative, mut exceeding) = (vec![], [vec![], vec![]], 0);
-            for i in 0..POINTS {
-                let (fine, [r, z, t]) = point_in(region, profile, &mut random, i);
+            let mut streams = SEEDS.map(Stream::new);
+            for i in 0..SEEDS.len() * POINTS {
+                let random = &mut streams[i % SEEDS.len()];
+                let (fine, [r, z, t]) = point_in(region, profile, random, i);
                 let kernel = Kernel::new(fine.medium(), profile, tolerance).unwrap();
                 let rest = fine.static_field(r, z).unwrap();
                 let exact = fine.remainder(r, z, t).unwrap();
@@ -130,10 +132,10 @@ fn one_error_in_a_thousand_exceeds_its_estimate_for_a_punch_and_a_point() {
                     }
                 }
             }
-            let fraction = exceeding as f64 / (6 * POINTS) as f64;
+            let fraction = exceeding as f64 / (6 * SEEDS.len() * POINTS) as f64;
             heading(&format!(
                 "{profile:?} {region:?}, tolerance {tolerance:e}: {exceeding} of {} errors exceed their estimate",
-                6 * POINTS
+                6 * SEEDS.len() * POINTS
             ));
             line("estimate / error", &caution);
             line("displacement, error/size", &relative[0]);
@@ -149,10 +151,10 @@ fn one_error_in_a_thousand_exceeds_its_estimate_for_a_punch_and_a_point() {
 #[test]
 fn one_error_in_a_thousand_exceeds_its_estimate() {
     for tolerance in [1e-4, 1e-6, 1e-8, 1e-10] {
-        let mut random = Stream::new(99);
+        let mut streams = [99, 3, 41].map(Stream::new);
         let (mut caution, mut exceeding, mut total) = (vec![], 0, 0);
         for i in 0..COUNT {
-            let (medium, r, z, t) = point(&mut random, i);
+            let (medium, r, z, t) = point(&mut streams[i % 3], i);
             let [exact, kernel] = [1e-13, tolerance].map(|tolerance| {
                 let kernel = Kernel::new(&medium, Profile::Hertz, tolerance).unwrap();
                 kernel.remainder(r, z, t).unwrap()

@@ -151,14 +151,7 @@ fn every_row_is_within_the_promised_accuracy() {
 
 #[test]
 fn the_reported_error_bounds_the_observed_error() {
-    // toward 1e-11 rounding, which the estimate counts only roughly, takes over
-    for (tolerance, covers) in [
-        (1e-11, 0.99),
-        (1e-10, 0.995),
-        (1e-8, 0.999),
-        (1e-6, 0.999),
-        (1e-4, 0.999),
-    ] {
+    for tolerance in [1e-11, 1e-10, 1e-8, 1e-6, 1e-4] {
         let samples = samples(tolerance);
         // the estimate is that of the remainder; the static part adds its own rounding
         let covered = |s: &&Sample| s.error <= s.estimate + ROUNDING;
@@ -185,7 +178,7 @@ fn the_reported_error_bounds_the_observed_error() {
                 s.error, s.estimate, s.kind, s.label
             );
         }
-        assert!(fraction >= covers, "tolerance {tolerance:e}: {fraction}");
+        assert!(fraction >= 0.999, "tolerance {tolerance:e}: {fraction}");
         assert!(
             caution.p50 < 1e3,
             "tolerance {tolerance:e}: {}",
