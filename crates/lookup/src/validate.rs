@@ -81,7 +81,8 @@ fn slices(content: &Content) -> Result<(), ContentError> {
     ascending("poisson_ratio", &ratios)?;
     for slice in &content.slices {
         same_size(content, slice, size(content, first))?;
-        one_slice(content, slice)?;
+        fits(content, slice)?;
+        finite(content, slice)?;
     }
     Ok(())
 }
@@ -116,33 +117,42 @@ fn group(slice: &Slice) -> String {
     format!("slices/{}", schema::slice_name(slice.poisson_ratio))
 }
 
-/// Checks the numbers of a slice against the axes.
-pub(crate) fn one_slice(content: &Content, slice: &Slice) -> Result<(), ContentError> {
+/// The lists of a slice with their names.
+fn lists(slice: &Slice) -> [(&'static str, &[f32]); 4] {
+    [
+        (schema::REMAINDER, &slice.remainder),
+        (schema::MOMENT, &slice.moment),
+        (schema::CURVATURE, &slice.curvature),
+        (schema::TAIL, &slice.tail),
+    ]
+}
+
+/// Checks a slice as far as it is indexed by: the lengths of its lists, and what was measured.
+pub(crate) fn fits(content: &Content, slice: &Slice) -> Result<(), ContentError> {
     let group = group(slice);
     let nodes = content.r.len() * content.z.len();
-    let stored = product(&[nodes, FIELDS, slice.cells]);
-    let terms = slice.tail_terms(nodes);
-    for (dataset, array, needed) in [
-        (schema::REMAINDER, &slice.remainder, stored),
-        (schema::MOMENT, &slice.moment, stored),
-        (schema::CURVATURE, &slice.curvature, stored),
-        (schema::TAIL, &slice.tail, product(&[nodes, FIELDS, terms])),
-    ] {
-        let name = format!("{group}/{dataset}");
-        length(&name, array, needed)?;
-        if let Some(bad) = array.iter().position(|x| !x.is_finite()) {
-            let node = bad / (needed / nodes);
-            let (i, k) = (node / content.z.len(), node % content.z.len());
-            let place = format!("(r/r0 = {}, z/r0 = {})", content.r[i], content.z[k]);
-            return Err(value(
-                format!("{name} {place}"),
-                f64::from(array[bad]),
-                "finite numbers",
-            ));
-        }
+    let [cells, terms] = size(content, slice);
+    for ((dataset, list), each) in lists(slice).into_iter().zip([cells, cells, cells, terms]) {
+        let needed = product(&[nodes, FIELDS, each]);
+        length(&format!("{group}/{dataset}"), list, needed)?;
     }
     let places = content.probes().map(|places| places.len()).iter().product();
     probes(content, &group, &slice.verification, places)
+}
+
+/// Checks that the numbers of a slice that fits are finite.
+fn finite(content: &Content, slice: &Slice) -> Result<(), ContentError> {
+    let nodes = content.r.len() * content.z.len();
+    for (dataset, list) in lists(slice) {
+        if let Some(bad) = list.iter().position(|x| !x.is_finite()) {
+            let node = bad / (list.len() / nodes);
+            let (i, k) = (node / content.z.len(), node % content.z.len());
+            let place = format!("(r/r0 = {}, z/r0 = {})", content.r[i], content.z[k]);
+            let item = format!("{}/{dataset} {place}", group(slice));
+            return Err(value(item, f64::from(list[bad]), "finite numbers"));
+        }
+    }
+    Ok(())
 }
 
 fn probes(

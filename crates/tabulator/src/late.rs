@@ -26,7 +26,7 @@ impl Late {
         let mut samples = [[0.0; Self::TERMS]; 6];
         for i in 0..Self::TERMS {
             let value = kernel
-                .step_integral(r, z, from / share(i, Self::TERMS))?
+                .step_integral(r, z, from / node(i, Self::TERMS))?
                 .value;
             for (list, x) in samples.iter_mut().zip(value) {
                 list[i] = x;
@@ -54,7 +54,7 @@ impl Late {
         for (f, coefficients) in self.coefficients.iter().enumerate() {
             let slope = derivative(coefficients);
             let samples: Vec<f64> = (0..terms)
-                .map(|i| scale * chebyshev(&slope, self.from / end * share(i, terms)))
+                .map(|i| scale * chebyshev(&slope, self.from / end * node(i, terms)))
                 .collect();
             let mut column = vec![0.0; terms];
             transform(&samples, &mut column);
@@ -67,11 +67,11 @@ impl Late {
 }
 
 /// Chebyshev point `i` of `count` on [0, 1].
-fn share(i: usize, count: usize) -> f64 {
+fn node(i: usize, count: usize) -> f64 {
     0.5 * (1.0 + (PI * (i as f64 + 0.5) / count as f64).cos())
 }
 
-/// Coefficients of the interpolant through `samples` at the points of [`share`].
+/// Coefficients of the interpolant through `samples` at the points of [`node`].
 fn transform(samples: &[f64], coefficients: &mut [f64]) {
     let count = samples.len() as f64;
     for (k, c) in coefficients.iter_mut().enumerate() {

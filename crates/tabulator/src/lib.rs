@@ -2,6 +2,26 @@
 //!
 //! A table is built from blocks, each one row of points of one slice; a block depends on the settings
 //! alone, so the bytes of the table do not depend on threads, interruptions or the order of work.
+//!
+//! ```
+//! use tabulator::{Axis, Grid, Silent, build};
+//!
+//! // Eight by eight nodes and cells five times as wide as those of a real table.
+//! let grid = Grid {
+//!     cell_width: 0.5,
+//!     pulse_lengths: vec![10.0],
+//!     tolerance: 1e-6,
+//!     r: Axis::uniform(0.875, 0.125),
+//!     z: Axis::uniform(0.875, 0.125),
+//!     ..Grid::demo()
+//! };
+//! let folder = tempfile::tempdir()?;
+//! let summary = build(&grid, &folder.path().join("small.h5"), &Silent)?;
+//! let (field, errors) = summary.accuracy[0].worst_on_slices();
+//! println!("{field:?}: p50 {:.1e}, p99 {:.1e}, max {:.1e}", errors.p50, errors.p99, errors.max);
+//! # assert!(errors.p99 < 0.1);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod assemble;
 mod axis;

@@ -137,7 +137,7 @@ const DOUBT_AT_FRONT: f64 = 2.0;
 
 /// Ends of the parts of a cell that starts at `start`: the fronts in it and its end.
 fn cuts(arrivals: &[f64], start: f64, width: f64) -> Vec<f64> {
-    /// Parts shorter than this share of the cell are not worth their evaluations.
+    /// Parts shorter than this fraction of the cell are not worth their evaluations.
     const SHORTEST: f64 = 1e-3;
     let mut cuts = Vec::new();
     let mut last = 0.0;

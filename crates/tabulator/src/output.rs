@@ -1,7 +1,7 @@
 //! The finished file: written beside its name, read back, compared, renamed.
 
 use crate::error::BuildError;
-use lookup::Content;
+use lookup::{Content, TableError};
 use std::path::{Path, PathBuf};
 
 /// What to do when the output exists already.
@@ -13,19 +13,32 @@ pub enum Existing {
     Replace,
 }
 
-/// Refuses a file that is in the way.
+/// Refuses a file that is in the way, and what is no file whatever `existing` says: a device would become one.
 pub(crate) fn refuse(path: &Path, existing: Existing) -> Result<(), BuildError> {
+    let Ok(there) = std::fs::metadata(path) else {
+        return Ok(());
+    };
     match existing {
-        Existing::Keep if path.exists() => Err(BuildError::Exists {
+        Existing::Keep => Err(BuildError::Exists {
             path: path.to_owned(),
         }),
-        Existing::Keep | Existing::Replace => Ok(()),
+        Existing::Replace if there.is_file() => Ok(()),
+        Existing::Replace => Err(BuildError::File {
+            action: "replace",
+            path: path.to_owned(),
+            source: std::io::Error::other("it is not a file"),
+        }),
     }
 }
 
 /// Writes under `NAME.part`, reads back, compares, renames. Returns the size of the file.
 pub(crate) fn finish(content: &Content, path: &Path) -> Result<u64, BuildError> {
     let part = beside(path, ".part");
+    // A link would be written through, a device written to.
+    if std::fs::symlink_metadata(&part).is_ok_and(|there| !there.is_file()) {
+        let detail = "something that is not a file has its name".to_owned();
+        return Err(TableError::Unwritable { path: part, detail }.into());
+    }
     let done = write_checked(content, &part, path);
     if done.is_err() {
         // What could be written takes room and is of no use; the journal has all of it.

@@ -193,10 +193,10 @@ mod tests {
         const PARTS: usize = 4000;
         let mut sums = [[0.0; 6]; 3];
         for i in 0..PARTS {
-            let share = (i as f64 + 0.5) / PARTS as f64;
-            let t = (j as f64 + share) * width;
+            let fraction = (i as f64 + 0.5) / PARTS as f64;
+            let t = (j as f64 + fraction) * width;
             let value = kernel.remainder(r, z, t).unwrap().value;
-            let s = share - 0.5;
+            let s = fraction - 0.5;
             for (sum, weight) in sums.iter_mut().zip([1.0, s, s * s - 1.0 / 12.0]) {
                 for f in 0..6 {
                     sum[f] += weight * value[f] / PARTS as f64;

@@ -193,6 +193,19 @@ fn files_in_the_way_are_kept_unless_replaced() {
         Err(BuildError::OtherSettings { .. })
     ));
 
+    // A link under the name of the unfinished table is not written through.
+    #[cfg(unix)]
+    {
+        let linked = folder.path().join("linked.h5");
+        std::fs::write(&path, "precious").unwrap();
+        let part = folder.path().join("linked.h5.part");
+        std::os::unix::fs::symlink(&path, &part).unwrap();
+        let message = build(&small(), &linked, &Silent).unwrap_err().to_string();
+        assert!(message.contains("linked.h5.part"), "{message}");
+        assert_eq!(std::fs::read(&path).unwrap(), b"precious");
+        assert!(part.is_symlink());
+    }
+
     let nowhere = folder.path().join("no/such/folder/t.h5");
     let message = build(&small(), &nowhere, &Silent).unwrap_err().to_string();
     assert!(

@@ -33,7 +33,7 @@ impl<'a> Blend<'a> {
         }
     }
 
-    /// Adds the slice of index `index` among those served.
+    /// Adds the slice of index `index` among those served; a number that is not finite is found in the sum.
     ///
     /// # Errors
     /// [`ContentError`] when it does not fit the axes or the slices before it.
@@ -45,7 +45,7 @@ impl<'a> Blend<'a> {
     ) -> Result<(), ContentError> {
         let size = validate::size(self.content, &slice);
         validate::same_size(self.content, &slice, *self.size.get_or_insert(size))?;
-        validate::one_slice(self.content, &slice)?;
+        validate::fits(self.content, &slice)?;
         let numbers = [
             &slice.remainder,
             &slice.moment,

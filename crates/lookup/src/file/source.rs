@@ -143,6 +143,10 @@ impl Source {
             return Ok(());
         }
         let layout = plan.get_layout().map_err(|error| first_line(&error))?;
+        if data.storage_size() > self.bytes {
+            let detail = format!("it takes {} bytes of the file", data.storage_size());
+            return Err(detail);
+        }
         if layout == Layout::Chunked {
             let filters = plan.get_filters().map_err(|error| first_line(&error))?;
             return chunks(data, &shape, &filters);
@@ -151,7 +155,7 @@ impl Source {
             return Err("its numbers are those of other datasets".to_owned());
         }
         let needed = numbers.saturating_mul(width as u64);
-        if data.storage_size() != needed || needed > self.bytes {
+        if data.storage_size() != needed {
             let detail = format!("{} of its {needed} bytes are stored", data.storage_size());
             return Err(detail);
         }

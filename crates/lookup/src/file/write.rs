@@ -21,7 +21,7 @@ const DEFLATE: u8 = 2;
 const PATCH: usize = 8;
 /// Half the rank of the trees of chunks, not the library's own 32: the superblock then has version 1, by which a file
 /// says at its start that it has a seal at its end.
-const TREE_RANK: u32 = 64;
+const TREE_RANK: u32 = 16;
 
 /// Writes `content` to `path`, replacing what is there, and seals it.
 ///
