@@ -103,7 +103,7 @@ impl KernelSource {
                 let domain = |source| place.domain(source);
                 // one more cell than asked for: the correction looks one ahead
                 averages.push([0.0; 6]);
-                let error = kernel
+                let mut error = kernel
                     .cell_averages(r, z, step, &mut averages)
                     .map_err(domain)?;
                 let static_part = kernel.static_field(r, z).map_err(domain)?;
@@ -112,9 +112,12 @@ impl KernelSource {
                     Smoothness::Smooth => {
                         let floor = static_part.map(|s| MOMENT_SHARE * s.abs());
                         let mut moments = averages.clone();
-                        kernel
+                        let of_moments = kernel
                             .cell_moments(r, z, step, &averages, &floor, &mut moments)
                             .map_err(domain)?;
+                        for (all, own) in error.iter_mut().zip(of_moments) {
+                            *all += own;
+                        }
                         averages.truncate(count);
                         correct_for_curvature(&mut averages, &moments);
                     }

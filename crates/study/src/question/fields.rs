@@ -74,31 +74,7 @@ fn exact_cells(
 ) -> Result<(), StudyError> {
     let reference = &scene.reference;
     let [r, z] = reference.place;
-    // the program asks for a thousandth of the scene's tolerance, 1e-12 at least and 1e-8 at most
-    let settings = [
-        (
-            Shape::Parabola,
-            1e-8,
-            effort.pick(vec![1, 3], vec![0, 1, 2, 3, 4, 5]),
-        ),
-        (
-            Shape::Parabola,
-            1e-12,
-            effort.pick(vec![], vec![2, 3, 4, 5]),
-        ),
-        (Shape::Parabola, 1e-4, effort.pick(vec![], vec![1, 2, 3])),
-        (
-            Shape::Linear,
-            1e-8,
-            effort.pick(vec![3], vec![0, 1, 2, 3, 4, 5]),
-        ),
-        (
-            Shape::Cubic,
-            1e-8,
-            effort.pick(vec![3], vec![1, 2, 3, 4, 5]),
-        ),
-    ];
-    for (shape, tolerance, halvings) in settings {
+    for (shape, tolerance, halvings) in settings(effort) {
         let source = KernelSource::direct(medium, tolerance)?;
         for halvings in halvings {
             let width = EVERY * 0.5_f64.powi(halvings);
@@ -149,6 +125,34 @@ fn exact_cells(
         }
     }
     Ok(())
+}
+
+/// Shape, kernel tolerance and halvings of the step of cells computed for a point.
+fn settings(effort: Effort) -> [(Shape, f64, Vec<i32>); 5] {
+    // the program asks for a thousandth of the scene's tolerance, 1e-12 at least and 1e-8 at most
+    [
+        (
+            Shape::Parabola,
+            1e-8,
+            effort.pick(vec![1, 3], vec![0, 1, 2, 3, 4, 5]),
+        ),
+        (
+            Shape::Parabola,
+            1e-12,
+            effort.pick(vec![], vec![2, 3, 4, 5]),
+        ),
+        (Shape::Parabola, 1e-4, effort.pick(vec![], vec![1, 2, 3])),
+        (
+            Shape::Linear,
+            1e-8,
+            effort.pick(vec![3], vec![0, 1, 2, 3, 4, 5]),
+        ),
+        (
+            Shape::Cubic,
+            1e-8,
+            effort.pick(vec![3], vec![1, 2, 3, 4, 5]),
+        ),
+    ]
 }
 
 /// Tables of several densities and stencils, coarser cells, three ways to sum.
