@@ -14,7 +14,7 @@ use std::time::Instant;
 use tabulator::{Grid, build};
 
 /// The paper's scene, the same file as in scenes/.
-const SCENE: &str = include_str!("../../../scenes/copper-on-steel.toml");
+const SCENE: &str = include_str!("copper-on-steel.toml");
 
 #[derive(Debug, Args)]
 #[command(

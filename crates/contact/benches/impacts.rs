@@ -159,8 +159,10 @@ fn explicit(c: &mut Criterion) {
     let (collision, settings) = &all[0];
     let disc = settings.disc_radius_m.unwrap();
     let impact = collision.fixed_disc(&response, disc, StaticShare::Full);
+    let exact = Summary::new(&march_implicit(&impact, 1e-3).unwrap()).unwrap();
+    let step = exact.contact_time / 200.0;
     c.bench_function("explicit, the paper's 200 steps", |b| {
-        b.iter(|| march_explicit(black_box(&impact), 3.0 / 200.0));
+        b.iter(|| march_explicit(black_box(&impact), step).unwrap());
     });
 }
 

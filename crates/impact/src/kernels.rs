@@ -47,7 +47,7 @@ impl Cells {
     }
 }
 
-/// First moments of direct kernels are computed to this share of the static field.
+/// First moments of direct kernels are computed to this fraction of the static field.
 const MOMENT_SHARE: f64 = 1e-7;
 
 impl KernelSource {

@@ -2,7 +2,7 @@
 //!
 //! In Hertz's contact an increment of load is carried by a flat punch of the radius at that moment,
 //! a(t') = sqrt(R u(t')), and deflects both bodies by du (the law u = p^(2/3) is the sum of the punches).
-//! The half-space gives its share of each increment not at once but as the punch's waves allow:
+//! The half-space gives its part of each increment not at once but as the punch's waves allow:
 //!
 //! ```text
 //! d(t) = u(t) - phi int_0^t V_p((t - t') c1/a(t')) du(t'),     phi = E* (1 - nu^2)/E
@@ -131,10 +131,10 @@ fn end_layer(impact: &GrowingDisc<'_>) -> EndLayer {
             ..EndLayer::default()
         };
     }
-    let share = 1.0 - 0.78 * phi + 0.08 * phi * phi;
+    let factor = 1.0 - 0.78 * phi + 0.08 * phi * phi;
     EndLayer {
         shrinks: true,
-        depth: 2.0 * phi * impact.punch.first_moment() * share * tau * tau,
+        depth: 2.0 * phi * impact.punch.first_moment() * factor * tau * tau,
         width: memory * memory,
     }
 }

@@ -113,9 +113,9 @@ impl Responses for Tabulated {
         };
         match self.neighbours(ratio) {
             None => exact(ratio),
-            Some((near, far, share)) => {
+            Some((near, far, fraction)) => {
                 let (near, far) = (exact(near)?, exact(far)?);
-                Ok(Arc::new(ResponseTable::between(&near, &far, share)))
+                Ok(Arc::new(ResponseTable::between(&near, &far, fraction)))
             }
         }
     }
@@ -132,9 +132,9 @@ impl Responses for Tabulated {
         };
         match self.neighbours(ratio) {
             None => exact(ratio),
-            Some((near, far, share)) => {
+            Some((near, far, fraction)) => {
                 let (near, far) = (exact(near)?, exact(far)?);
-                Ok(Arc::new(PunchResponse::between(&near, &far, share)))
+                Ok(Arc::new(PunchResponse::between(&near, &far, fraction)))
             }
         }
     }
