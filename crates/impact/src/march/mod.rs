@@ -13,6 +13,7 @@ mod punch;
 mod quick;
 mod refine;
 mod separation;
+mod spectral;
 mod summary;
 mod tabulated;
 mod weights;
@@ -23,6 +24,9 @@ pub use implicit::{FixedDisc, march_implicit};
 pub use punch::PunchResponse;
 pub use quick::{Found, TabulatedDisc, Workspace};
 pub use refine::{Accuracy, Refined, refine};
+pub use spectral::{
+    Estimates, GrowingContact, GrowingError, Instant, PunchWaves, SolvedContact, solve_growing,
+};
 pub use summary::{EndOfContact, Summary};
 pub use tabulated::ResponseTable;
 pub use weights::memory_weights;

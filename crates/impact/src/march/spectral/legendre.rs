@@ -7,7 +7,10 @@ pub(super) fn legendre(n: usize, x: f64) -> (f64, f64, f64) {
     let (mut before, mut value) = (0.0, 1.0);
     for k in 1..=n {
         let k = k as f64;
-        (before, value) = (value, ((2.0 * k - 1.0) * x * value - (k - 1.0) * before) / k);
+        (before, value) = (
+            value,
+            ((2.0 * k - 1.0) * x * value - (k - 1.0) * before) / k,
+        );
     }
     let slope = n as f64 * (before - x * value) / ((1.0 - x) * (1.0 + x));
     (before, value, slope)
@@ -26,7 +29,10 @@ pub(super) fn gauss(n: usize) -> Vec<(f64, f64)> {
             }
         }
         let slope = legendre(n, x).2;
-        *entry = (0.5 * (1.0 + x), 1.0 / ((1.0 - x) * (1.0 + x) * slope * slope));
+        *entry = (
+            0.5 * (1.0 + x),
+            1.0 / ((1.0 - x) * (1.0 + x) * slope * slope),
+        );
     }
     rule
 }

@@ -1,6 +1,8 @@
 //! Collocation at Radau's nodes: what a piece of degree n needs, made once for each n.
 
+use super::factors::inverse;
 use super::legendre::{gauss, radau};
+use super::polynomial::Polynomial;
 use std::sync::OnceLock;
 
 /// Largest degree of a piece.
@@ -41,7 +43,9 @@ impl Nodes {
         let barycentric: Vec<f64> = (0..=n)
             .map(|i| {
                 let others = (0..=n).filter(|&j| j != i);
-                1.0 / others.map(|j| 2.0 * (places[i] - places[j])).product::<f64>()
+                1.0 / others
+                    .map(|j| 2.0 * (places[i] - places[j]))
+                    .product::<f64>()
             })
             .collect();
         let mut slope = vec![0.0; n * (n + 1)];
@@ -124,7 +128,11 @@ impl Nodes {
         for ((value, &weight), &place) in values.iter_mut().zip(&self.barycentric).zip(&self.places)
         {
             let distance = s - place;
-            *value = if distance == 0.0 { 1e300 } else { weight / distance };
+            *value = if distance == 0.0 {
+                1e300
+            } else {
+                weight / distance
+            };
             sum += *value;
         }
         for value in &mut values[..=self.degree] {
@@ -133,83 +141,15 @@ impl Nodes {
     }
 }
 
-/// A polynomial in s on [0, 1], in powers of 2 s - 1.
-///
-/// The coefficients of a function that a piece resolves fall faster than these powers lose digits.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Polynomial {
-    degree: usize,
-    powers: [f64; LARGEST + 1],
-}
-
-impl Polynomial {
-    pub(super) fn constant(value: f64) -> Self {
-        let mut powers = [0.0; LARGEST + 1];
-        powers[0] = value;
-        Self { degree: 0, powers }
-    }
-
-    /// (from + rise s)^power
-    pub(super) fn power(from: f64, rise: f64, power: usize) -> Self {
-        let (middle, half) = (from + 0.5 * rise, 0.5 * rise);
-        let mut found = Self::constant(1.0);
-        for degree in 1..=power {
-            for k in (0..=degree).rev() {
-                let below = if k > 0 { found.powers[k - 1] } else { 0.0 };
-                found.powers[k] = middle * found.powers[k] + half * below;
-            }
-            found.degree = degree;
-        }
-        found
-    }
-
-    /// constant - self
-    pub(super) fn below(mut self, constant: f64) -> Self {
-        for power in &mut self.powers {
-            *power = -*power;
-        }
-        self.powers[0] += constant;
-        self
-    }
-
-    pub(super) fn value(&self, s: f64) -> f64 {
-        let x = 2.0 * s - 1.0;
-        let powers = &self.powers[..=self.degree];
-        powers.iter().rev().fold(0.0, |sum, c| sum * x + c)
-    }
-
-    /// Values and slopes at some places together.
-    pub(super) fn jets<const N: usize>(&self, places: &[f64; N], values: &mut [f64; N], slopes: &mut [f64; N]) {
-        let x = places.map(|s| 2.0 * s - 1.0);
-        let (mut value, mut slope) = ([0.0; N], [0.0; N]);
-        for c in self.powers[..=self.degree].iter().rev() {
-            for l in 0..N {
-                slope[l] = slope[l] * x[l] + value[l];
-                value[l] = value[l] * x[l] + c;
-            }
-        }
-        *values = value;
-        *slopes = slope.map(|s| 2.0 * s);
-    }
-
-    /// Value and slope.
-    pub(super) fn jet(&self, s: f64) -> (f64, f64) {
-        let x = 2.0 * s - 1.0;
-        let (mut value, mut slope) = (0.0, 0.0);
-        for c in self.powers[..=self.degree].iter().rev() {
-            slope = slope * x + value;
-            value = value * x + c;
-        }
-        (value, 2.0 * slope)
-    }
-}
-
 /// P_k(x), at the ends too.
 fn polynomial(k: usize, x: f64) -> f64 {
     let (mut before, mut value) = (0.0, 1.0);
     for j in 1..=k {
         let j = j as f64;
-        (before, value) = (value, ((2.0 * j - 1.0) * x * value - (j - 1.0) * before) / j);
+        (before, value) = (
+            value,
+            ((2.0 * j - 1.0) * x * value - (j - 1.0) * before) / j,
+        );
     }
     value
 }
@@ -225,111 +165,16 @@ fn powers(n: usize) -> Vec<f64> {
     for degree in 2..=n {
         let d = degree as f64;
         for k in 0..=degree {
-            let up = if k > 0 { rows[(k - 1) * size + degree - 1] } else { 0.0 };
+            let up = if k > 0 {
+                rows[(k - 1) * size + degree - 1]
+            } else {
+                0.0
+            };
             rows[k * size + degree] =
                 ((2.0 * d - 1.0) * up - (d - 1.0) * rows[k * size + degree - 2]) / d;
         }
     }
     rows
-}
-
-/// The triangular factors of a small dense matrix, rows exchanged.
-#[derive(Debug, Clone)]
-pub(super) struct Factors {
-    size: usize,
-    matrix: [f64; LARGEST * LARGEST],
-    rows: [usize; LARGEST],
-}
-
-impl Factors {
-    /// Room for a matrix of `size` rows, filled by the caller.
-    pub(super) fn room(size: usize) -> Self {
-        Self {
-            size,
-            matrix: [0.0; LARGEST * LARGEST],
-            rows: [0; LARGEST],
-        }
-    }
-
-    /// A row of the matrix, to be filled before [`Self::eliminate`].
-    pub(super) fn row(&mut self, i: usize) -> &mut [f64] {
-        &mut self.matrix[i * self.size..(i + 1) * self.size]
-    }
-
-    /// Eliminates with row pivoting; false where the matrix is singular.
-    pub(super) fn eliminate(&mut self) -> bool {
-        let n = self.size;
-        let matrix = &mut self.matrix[..n * n];
-        for k in 0..n {
-            let size = |i: usize| matrix[i * n + k].abs();
-            let pivot = (k + 1..n).fold(k, |best, i| if size(i) > size(best) { i } else { best });
-            self.rows[k] = pivot;
-            if pivot != k {
-                for j in 0..n {
-                    matrix.swap(k * n + j, pivot * n + j);
-                }
-            }
-            let diagonal = matrix[k * n + k];
-            if diagonal == 0.0 || !diagonal.is_finite() {
-                return false;
-            }
-            let (upper, lower) = matrix.split_at_mut((k + 1) * n);
-            let top = &upper[k * n + k + 1..];
-            for row in lower.chunks_exact_mut(n) {
-                let factor = row[k] / diagonal;
-                row[k] = factor;
-                for (a, b) in row[k + 1..].iter_mut().zip(top) {
-                    *a -= factor * b;
-                }
-            }
-        }
-        true
-    }
-
-    /// Solves for a right side in place.
-    pub(super) fn solve(&self, right: &mut [f64]) {
-        let n = self.size;
-        for k in 0..n {
-            right.swap(k, self.rows[k]);
-        }
-        for k in 0..n {
-            let row = &self.matrix[k * n..k * n + k];
-            let known: f64 = row.iter().zip(&right[..k]).map(|(a, b)| a * b).sum();
-            right[k] -= known;
-        }
-        for k in (0..n).rev() {
-            let row = &self.matrix[k * n + k..(k + 1) * n];
-            let known: f64 = row[1..].iter().zip(&right[k + 1..n]).map(|(a, b)| a * b).sum();
-            right[k] = (right[k] - known) / row[0];
-        }
-    }
-}
-
-/// The inverse of a matrix of n <= `LARGEST` + 1 rows, by Gauss and Jordan.
-fn inverse(matrix: &[f64], n: usize) -> Vec<f64> {
-    let mut left = matrix.to_vec();
-    let mut right: Vec<f64> = (0..n * n).map(|i| if i % (n + 1) == 0 { 1.0 } else { 0.0 }).collect();
-    for k in 0..n {
-        let size = |i: usize| left[i * n + k].abs();
-        let pivot = (k + 1..n).fold(k, |best, i| if size(i) > size(best) { i } else { best });
-        for j in 0..n {
-            left.swap(k * n + j, pivot * n + j);
-            right.swap(k * n + j, pivot * n + j);
-        }
-        let diagonal = left[k * n + k];
-        for j in 0..n {
-            left[k * n + j] /= diagonal;
-            right[k * n + j] /= diagonal;
-        }
-        for i in (0..n).filter(|&i| i != k) {
-            let factor = left[i * n + k];
-            for j in 0..n {
-                left[i * n + j] -= factor * left[k * n + j];
-                right[i * n + j] -= factor * right[k * n + j];
-            }
-        }
-    }
-    right
 }
 
 #[cfg(test)]

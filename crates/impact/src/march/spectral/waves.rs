@@ -13,10 +13,10 @@
 //! What the contact needs are integrals over this measure of functions that are analytic in X,
 //! so that Gauss's rule of the whole measure, Rayleigh's wave included, converges exponentially.
 
+use super::gauss_rule::gauss_rule;
 use super::legendre::gauss;
 use halfspace::Medium;
-use std::f64::consts::FRAC_PI_2;
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::OnceLock;
 
 /// Nodes of the rules, coarse to fine.
@@ -101,7 +101,9 @@ impl PunchWaves {
     pub fn relaxation(&self, t: f64) -> f64 {
         let x = t / self.memory;
         let parts = self.points.iter().filter(|(slowness, _)| *slowness > x);
-        parts.map(|(slowness, mass)| mass * (1.0 - x / slowness)).sum()
+        parts
+            .map(|(slowness, mass)| mass * (1.0 - x / slowness))
+            .sum()
     }
 
     /// The rule of a level; made when it is first asked for.
@@ -168,77 +170,66 @@ impl Zone {
     }
 }
 
-/// Gauss's rule of n nodes for a sum of point masses, ascending: Stieltjes' recurrence and its Jacobi matrix.
-fn gauss_rule(points: &[(f64, f64)], n: usize) -> (Vec<f64>, Vec<f64>) {
-    let total: f64 = points.iter().map(|(_, mass)| mass).sum();
-    let (mut diagonal, mut beside) = (vec![], vec![]);
-    let mut before = vec![0.0; points.len()];
-    let mut now = vec![1.0 / total.sqrt(); points.len()];
-    let mut norm = 0.0;
-    for _ in 0..n {
-        let mean: f64 = points.iter().zip(&now).map(|((x, m), p)| m * x * p * p).sum();
-        diagonal.push(mean);
-        let mut square = 0.0;
-        for (((x, mass), p), q) in points.iter().zip(&mut now).zip(&mut before) {
-            let next = (x - mean) * *p - norm * *q;
-            *q = *p;
-            *p = next;
-            square += mass * next * next;
-        }
-        norm = square.sqrt();
-        beside.push(norm);
-        for p in &mut now {
-            *p /= norm;
-        }
-    }
-    let first = eigen(&mut diagonal, &mut beside);
-    let mut rule: Vec<(f64, f64)> = diagonal
-        .iter()
-        .zip(first)
-        .map(|(&x, z)| (x, total * z * z))
-        .collect();
-    rule.sort_by(|a, b| a.0.total_cmp(&b.0));
-    rule.into_iter().unzip()
-}
+#[cfg(test)]
+mod tests {
+    use super::super::super::PunchResponse;
+    use super::*;
+    use halfspace::{Deflection, SurfaceResponse};
 
-/// Eigenvalues (in place of the diagonal) of a symmetric tridiagonal matrix and the first components of
-/// its eigenvectors, by the implicit QL iteration.
-fn eigen(diagonal: &mut [f64], beside: &mut [f64]) -> Vec<f64> {
-    let n = diagonal.len();
-    beside[n - 1] = 0.0;
-    let mut first = vec![0.0; n];
-    first[0] = 1.0;
-    for l in 0..n {
-        for _ in 0..60 {
-            let small = |i: usize| {
-                beside[i].abs() <= f64::EPSILON * (diagonal[i].abs() + diagonal[i + 1].abs())
-            };
-            let m = (l..n - 1).find(|&i| small(i)).unwrap_or(n - 1);
-            if m == l {
-                break;
+    #[test]
+    fn the_measure_is_that_of_the_surface_response() {
+        for nu in [
+            -0.5,
+            0.0,
+            0.01,
+            0.25,
+            0.263_082_06,
+            0.3,
+            0.45,
+            0.499,
+            0.4999,
+        ] {
+            let medium = Medium::new(nu).unwrap();
+            let waves = PunchWaves::new(&medium);
+            let centre = SurfaceResponse::new(&medium, Deflection::Centre);
+            assert!(
+                (waves.moment(0) - 1.0).abs() < 1e-12,
+                "nu = {nu}: {:e}",
+                waves.moment(0) - 1.0
+            );
+            let relaxation = waves.relaxation_time() / centre.relaxation_time();
+            assert!((relaxation - 1.5).abs() < 1e-12, "nu = {nu}: {relaxation}");
+            assert!((waves.memory() / centre.memory() - 2.0).abs() < 1e-14);
+            // the triangle's superposition, integrated, is the other way to the same punch
+            let punch = PunchResponse::new(&centre);
+            for part in [0.01, 0.1, 0.3, 0.6, 0.9, 1.0] {
+                let t = part * waves.memory();
+                let cells = 400;
+                let sum: f64 = (0..cells)
+                    .map(|i| waves.relaxation((f64::from(i) + 0.5) / f64::from(cells) * t))
+                    .sum();
+                let error = sum * t / f64::from(cells) - punch.lag_integral(t);
+                assert!(
+                    error.abs() < 1e-4 * waves.relaxation_time(),
+                    "nu = {nu}, t = {t}: {error}"
+                );
             }
-            let half = 0.5 * (diagonal[l + 1] - diagonal[l]) / beside[l];
-            let shift = half + half.hypot(1.0).copysign(half);
-            let mut g = diagonal[m] - diagonal[l] + beside[l] / shift;
-            let (mut sine, mut cosine, mut rest) = (1.0, 1.0, 0.0);
-            for i in (l..m).rev() {
-                let (f, b) = (sine * beside[i], cosine * beside[i]);
-                let r = f.hypot(g);
-                beside[i + 1] = r;
-                (sine, cosine) = (f / r, g / r);
-                g = diagonal[i + 1] - rest;
-                let turn = (diagonal[i] - g) * sine + 2.0 * cosine * b;
-                rest = sine * turn;
-                diagonal[i + 1] = g + rest;
-                g = cosine * turn - b;
-                let f = first[i + 1];
-                first[i + 1] = sine * first[i] + cosine * f;
-                first[i] = cosine * first[i] - sine * f;
-            }
-            diagonal[l] -= rest;
-            beside[l] = g;
-            beside[m] = 0.0;
         }
     }
-    first
+
+    #[test]
+    fn rules_have_the_moments_of_the_measure() {
+        let waves = PunchWaves::new(&Medium::new(0.3).unwrap());
+        for level in 0..LEVELS {
+            let rule = waves.rule(level);
+            for power in 0..2 * SIZES[level] as i32 {
+                let parts = rule.delays.iter().zip(&rule.rates);
+                let sum: f64 = parts
+                    .map(|(x, rate)| rate * x * (x / waves.memory).powi(power))
+                    .sum();
+                let exact = waves.moment(power) / waves.memory.powi(power);
+                assert!((sum / exact - 1.0).abs() < 1e-11, "{level} {power}");
+            }
+        }
+    }
 }
