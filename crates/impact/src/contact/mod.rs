@@ -1,5 +1,6 @@
 //! Contact models: a collision of two elastic bodies and its dimensionless groups.
 
+pub mod area_dashpot;
 pub mod hertz;
 pub mod quasi_static;
 pub mod radiation;

@@ -161,7 +161,8 @@ impl<'a> March<'a> {
         }
         // the rate of the lag is a difference of slopes
         let slopes = (self.nodes.degree * self.nodes.degree) as f64;
-        self.errors.work += solution.dissipated.abs() * error * slopes / solution.widest.max(duration);
+        self.errors.work +=
+            solution.dissipated.abs() * error * slopes / solution.widest.max(duration);
         self.pieces.push(solution.piece);
         self.state = solution.end;
         self.dissipated += solution.dissipated;
