@@ -359,7 +359,8 @@ def main():
             coarse = solve(nu, phi, tau, kernel, 0.25, 0.06)
             fine = solve(nu, phi, tau, kernel, 0.18, 0.045)
             if coarse is None or fine is None:
-                line = f"{kind},{nu!r},{phi!r},{tau!r}" + ",nan" * 16
+                print("not resolved:", kind, nu, phi, tau)
+                continue
             else:
                 line = ",".join(
                     [kind, f"{nu!r},{phi!r},{tau!r}"]
