@@ -346,14 +346,14 @@ def long_memory(draw):
 def main():
     rows = int(sys.argv[1]) if len(sys.argv) > 1 else 110
     known = FILE.read_text().splitlines()[1:] if FILE.exists() else []
-    have = {kind: sum(line.startswith(kind + ",") for line in known) for kind in ("scene", "long")}
+    have = {",".join(line.split(",")[:4]) for line in known}
     if not FILE.exists():
         FILE.write_text(COLUMNS + "\n")
     for kind, make, seed, wanted in (("scene", groups, 1, rows), ("long", long_memory, 2, rows // 4)):
         draw = np.random.default_rng(seed)
-        for i in range(wanted):
+        for _ in range(wanted):
             nu, phi, tau = (float(f"{x:.12g}") for x in make(draw))
-            if i < have[kind]:
+            if f"{kind},{nu!r},{phi!r},{tau!r}" in have:
                 continue
             kernel = punch(nu)
             coarse = solve(nu, phi, tau, kernel, 0.25, 0.06)
@@ -361,12 +361,11 @@ def main():
             if coarse is None or fine is None:
                 print("not resolved:", kind, nu, phi, tau)
                 continue
-            else:
-                line = ",".join(
-                    [kind, f"{nu!r},{phi!r},{tau!r}"]
-                    + [f"{x:.14g}" for x in fine]
-                    + [f"{x:.0e}" for x in np.abs(fine - coarse)]
-                )
+            line = ",".join(
+                [kind, f"{nu!r},{phi!r},{tau!r}"]
+                + [f"{x:.14g}" for x in fine]
+                + [f"{x:.0e}" for x in np.abs(fine - coarse)]
+            )
             print(line, flush=True)
             with FILE.open("a") as file:
                 file.write(line + "\n")

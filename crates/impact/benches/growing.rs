@@ -41,7 +41,15 @@ fn growing(c: &mut Criterion) {
         let solve = |i: usize| {
             let (waves, target_share, wave_time) = &scenes[i];
             let (target_share, wave_time) = (*target_share, *wave_time);
-            solve_growing(&GrowingContact { waves, target_share, wave_time }, &accuracy).unwrap()
+            solve_growing(
+                &GrowingContact {
+                    waves,
+                    target_share,
+                    wave_time,
+                },
+                &accuracy,
+            )
+            .unwrap()
         };
         let mut times: Vec<f64> = (0..scenes.len())
             .map(|i| {
@@ -61,12 +69,15 @@ fn growing(c: &mut Criterion) {
             1e3 * times[times.len() - 1]
         );
         let mut i = 0;
-        c.bench_function(&format!("growing at {tolerance:e}, all scenes in turn"), |b| {
-            b.iter(|| {
-                i = (i + 1) % scenes.len();
-                solve(i)
-            });
-        });
+        c.bench_function(
+            &format!("growing at {tolerance:e}, all scenes in turn"),
+            |b| {
+                b.iter(|| {
+                    i = (i + 1) % scenes.len();
+                    solve(i)
+                });
+            },
+        );
     }
     let terms: Vec<AreaDashpot> = scenes
         .iter()
@@ -83,7 +94,11 @@ fn growing(c: &mut Criterion) {
         b.iter(|| {
             let waves = PunchWaves::new(&Medium::new(black_box(0.3)).unwrap());
             solve_growing(
-                &GrowingContact { waves: &waves, target_share: 0.5, wave_time: 0.01 },
+                &GrowingContact {
+                    waves: &waves,
+                    target_share: 0.5,
+                    wave_time: 0.01,
+                },
                 &Accuracy::of_contact(1e-4, None),
             )
         });

@@ -108,16 +108,20 @@ fn golden_rows() {
                 target_share: row[1],
                 wave_time: row[2],
             };
-            let found = results(&solve(&case, &Accuracy::of_contact(1e-9, Some(1e-7))).unwrap());
-            // peaks of what is flat at its top, and the loss: in other measure
-            let least = [1e-9, 3e-9, 3e-9, 1e-9, 1e-9, 1e-9, 1e-8, 1e-9];
+            let found = results(&solve(&case, &Accuracy::of_contact(1e-9, None)).unwrap());
+            let least = [1e-9, 3e-9, 3e-9, 1e-9, 1e-9, 2e-9, 1e-8, 1e-9];
             let parts = (0..8).map(|k| {
-                let allowed = least[k] + 2.0 * row[11 + k];
+                let allowed = least[k] + 3.0 * row[11 + k];
                 ((found[k] - row[3 + k]).abs() / allowed, k)
             });
             parts.fold((0.0, 0), |a, b| if b.0 > a.0 { b } else { a })
         })
         .collect();
+    let largest = worst.iter().fold(0.0_f64, |m, (error, _)| m.max(*error));
+    println!(
+        "{} rows, largest error over what is allowed {largest:.2}",
+        rows.len()
+    );
     for (k, (error, which)) in worst.iter().enumerate() {
         assert!(
             *error < 1.0,
@@ -169,7 +173,7 @@ fn the_history_is_as_accurate_as_the_results() {
             assert!((a.displacement - b.displacement).abs() < 3.0 * tolerance);
             assert!((a.velocity - b.velocity).abs() < 3.0 * tolerance);
         }
-        assert_eq!(solved.at(0.0).unwrap().force, 0.0);
+        assert!(solved.at(0.0).unwrap().force < 1e-30);
         assert!(solved.at(-1e-9).is_none() && solved.at(1.01 * end).is_none());
         let samples = solved.history(0.01);
         assert!((samples.force[100] - exact.at(1.0).unwrap().force).abs() < 3.0 * tolerance);
@@ -197,8 +201,13 @@ fn what_cannot_be_solved_is_said() {
         );
     }
     // the half-space remembers more than the contact: the waves of a contact that closes fast
-    let found = solve(&case(0.78, 1.5), &Accuracy::of_contact(1e-4, None));
-    assert!(found.is_err(), "{found:?}");
+    let long = Case {
+        poisson_ratio: 0.4491,
+        target_share: 0.78,
+        wave_time: 0.4361,
+    };
+    let found = solve(&long, &Accuracy::of_contact(1e-4, None)).unwrap_err();
+    assert!(matches!(found, GrowingError::Overtaken { .. }), "{found}");
 }
 
 /// Of some random scenes at a tolerance: none is refused, few estimates are exceeded.
@@ -265,7 +274,7 @@ fn the_area_dashpot_keeps_its_bounds() {
             let waves = PunchWaves::new(&Medium::new(case.poisson_ratio).unwrap());
             let terms = AreaDashpot::new(case.target_share, case.wave_time, &waves);
             let bounds = terms.left_out(waves.memory() * case.wave_time);
-            let exact = solve(&case, &Accuracy::of_contact(3e-9, Some(1e-7))).unwrap();
+            let exact = solve(&case, &Accuracy::of_contact(3e-9, None)).unwrap();
             let (a, b) = (terms.summary(), exact.summary());
             let relative = |x: f64, y: f64| (x / y - 1.0).abs();
             [

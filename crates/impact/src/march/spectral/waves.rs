@@ -20,7 +20,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::OnceLock;
 
 /// Nodes of the rules, coarse to fine.
-const SIZES: [usize; 9] = [3, 5, 8, 12, 18, 26, 38, 56, 80];
+const SIZES: [usize; 12] = [3, 5, 8, 12, 18, 26, 38, 56, 80, 112, 156, 220];
 
 /// Rules that there are.
 pub(super) const LEVELS: usize = SIZES.len();
@@ -119,7 +119,7 @@ impl PunchWaves {
 }
 
 /// Nodes of a panel.
-const NODES: usize = 12;
+const NODES: usize = 18;
 
 /// The two intervals of slowness on which the density is smooth in an angle.
 #[derive(Debug, Clone, Copy)]
@@ -222,7 +222,7 @@ mod tests {
         let waves = PunchWaves::new(&Medium::new(0.3).unwrap());
         for level in 0..LEVELS {
             let rule = waves.rule(level);
-            for power in 0..2 * SIZES[level] as i32 {
+            for power in (0..2 * SIZES[level] as i32).step_by(1 + level) {
                 let parts = rule.delays.iter().zip(&rule.rates);
                 let sum: f64 = parts
                     .map(|(x, rate)| rate * x * (x / waves.memory).powi(power))
