@@ -108,6 +108,12 @@ def results(c, b):
     return np.array([peak, peak_time, end, -velocity, displacement, 2.5 * work / c, deflection])
 
 
+def number(value, digits):
+    """Without zeros at the end of the mantissa."""
+    mantissa, exponent = f"{value:.{digits}e}".split("e")
+    return mantissa.rstrip("0") + "e" + exponent
+
+
 def main():
     angles = (np.arange(DEGREE + 1) + 0.5) * np.pi / (DEGREE + 1)
     x = np.cos(angles)
@@ -125,7 +131,8 @@ def main():
         for k, name in enumerate(NAMES):
             row = inverse @ table[:, k]
             print(f"    // {name}; next {abs(row[min(keep, DEGREE)]):.0e}")
-            print("    [" + ", ".join(f"{v:.15e}" if title == "AT_ZERO" else f"{v:.9e}" for v in row[:keep]) + "],")
+            digits = 14 if title == "AT_ZERO" else 9
+            print("    [" + ", ".join(number(v, digits) for v in row[:keep]) + "],")
         print("];")
     # third order of the loss: -(phi M_3/24) int p'' (p^(5/3))'' dt over Hertz's pulse, in x = d, both halves
     def integrand(y):  # d = 1 - y^2, dt = dd/v

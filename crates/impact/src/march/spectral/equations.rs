@@ -104,8 +104,8 @@ impl Equations<'_> {
             impulse[j - 1] = radius[j].powi(3) * time_slope[j];
         }
         let mut velocity = [self.from.2; LARGEST + 1];
-        for i in 1..=n {
-            velocity[i] -= INVERSE_MASS * dot(self.nodes.integral_row(i), &impulse[..n]);
+        for (i, v) in velocity.iter_mut().enumerate().take(n + 1).skip(1) {
+            *v -= INVERSE_MASS * dot(self.nodes.integral_row(i), &impulse[..n]);
         }
         Motion {
             time,

@@ -220,9 +220,9 @@ mod tests {
     #[test]
     fn rules_have_the_moments_of_the_measure() {
         let waves = PunchWaves::new(&Medium::new(0.3).unwrap());
-        for level in 0..LEVELS {
+        for (level, &size) in SIZES.iter().enumerate() {
             let rule = waves.rule(level);
-            for power in (0..2 * SIZES[level] as i32).step_by(1 + level) {
+            for power in (0..2 * size as i32).step_by(1 + level) {
                 let parts = rule.delays.iter().zip(&rule.rates);
                 let sum: f64 = parts
                     .map(|(x, rate)| rate * x * (x / waves.memory).powi(power))
