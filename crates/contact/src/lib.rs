@@ -41,6 +41,7 @@ pub mod response;
 pub mod results;
 pub mod settings;
 pub mod solver;
+pub mod spectral;
 pub mod summary;
 pub mod surface;
 pub mod units;
@@ -69,6 +70,7 @@ pub use response::table::ResponseTable;
 pub use results::Results;
 pub use settings::{Choice, Conflict, Model, Scheme, Settings, StaticShare};
 pub use solver::{Found, Solved, Solver, solve_disc};
+pub use spectral::{GrowingContact, GrowingError, PunchWaves, SolvedContact, solve_growing};
 pub use summary::Summary;
 
 /// The README's program runs.

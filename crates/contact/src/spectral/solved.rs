@@ -1,0 +1,243 @@
+//! A contact that has been solved: its results, their errors, and its history at any time.
+
+use super::extrema::{Extremum, largest};
+use super::march::{Errors, March};
+use super::piece::Piece;
+use crate::march::history::History;
+use crate::summary::{EndOfContact, Summary};
+use crate::units::INVERSE_MASS;
+
+/// Estimated errors of the results: relative, but that of the restitution, which is absolute.
+///
+/// Each is true in 99 of 100 random scenes; see `tests/growing.rs`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Estimates {
+    /// Of the largest force.
+    pub peak_force: f64,
+    /// Of its time, over the contact time.
+    pub peak_force_time: f64,
+    /// Of the contact time.
+    pub contact_time: f64,
+    /// Of the restitution, of the velocity of approach.
+    pub restitution: f64,
+    /// Of the loss.
+    pub loss: f64,
+    /// Of the largest displacement.
+    pub peak_displacement: f64,
+    /// Of the largest deflection.
+    pub peak_deflection: f64,
+    /// Of the force at any time, over the largest.
+    pub force: f64,
+}
+
+impl Estimates {
+    /// The largest of what a tolerance is asked on: peak force, contact time, restitution, displacement.
+    #[must_use]
+    pub fn contact(&self) -> f64 {
+        self.peak_force
+            .max(self.contact_time)
+            .max(self.restitution)
+            .max(self.peak_displacement)
+    }
+}
+
+/// A contact whose radius follows the load, in collision units.
+#[derive(Debug, Clone)]
+pub struct SolvedContact {
+    pieces: Vec<Piece>,
+    summary: Summary,
+    estimates: Estimates,
+}
+
+/// The contact at a time, in collision units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Instant {
+    /// Contact force p = a^3.
+    pub force: f64,
+    /// Contact radius a over that at Hertz's largest approach.
+    pub radius: f64,
+    /// Velocity of the striker.
+    pub velocity: f64,
+    /// Displacement of the striker.
+    pub displacement: f64,
+    /// What the displacement is more than Hertz's indentation a^2 under the same force.
+    pub deflection: f64,
+}
+
+/// Loss below which it is taken from the work on the half-space, not from the momentum.
+const SMALL_LOSS: f64 = 0.03;
+
+/// Factors from the sums of the pieces' errors to those of the results.
+const PEAK_FORCE: f64 = 0.4;
+const PEAK_FORCE_TIME: f64 = 1.0;
+const CONTACT_TIME: f64 = 16.0;
+const RESTITUTION: f64 = 0.2;
+const LOSS: f64 = 8.0;
+const DISPLACEMENT: f64 = 2.0;
+const DEFLECTION: f64 = 1.0;
+const FORCE: f64 = 2.0;
+
+impl SolvedContact {
+    pub(super) fn new(march: March<'_>) -> Self {
+        let March {
+            pieces,
+            state,
+            dissipated,
+            errors,
+            ..
+        } = march;
+        let force = largest(&pieces, |p, s| p.radius.value(s), |p, s| p.radius.jet(s).1);
+        let travel = largest(
+            &pieces,
+            |p, s| p.displacement.value(s),
+            |p, s| p.velocity.value(s),
+        );
+        let late = pieces
+            .iter()
+            .take_while(|piece| piece.to.0 <= force.time)
+            .count();
+        let deflection = largest(&pieces[late..], deflection, deflection_slope);
+        let work = 2.0 * INVERSE_MASS * dissipated;
+        let momentum = (1.0 - state.velocity) * (1.0 + state.velocity);
+        let (restitution, loss) = if work < SMALL_LOSS {
+            ((1.0 - work).sqrt().copysign(-state.velocity), work)
+        } else {
+            (-state.velocity, momentum)
+        };
+        let peak_force = force.value.powi(3);
+        let summary = Summary {
+            peak_force,
+            peak_force_time: force.time,
+            contact_time: state.time,
+            restitution,
+            loss,
+            peak_displacement: travel.value,
+            peak_deflection: deflection.value,
+            impulse: (1.0 + restitution) / INVERSE_MASS,
+            contacts: 1,
+            end: EndOfContact::Layer(0.0),
+        };
+        let estimates = estimates(&summary, &errors, (work - momentum).abs(), &deflection);
+        Self {
+            summary: Summary {
+                end: EndOfContact::Layer(estimates.contact_time),
+                ..summary
+            },
+            pieces,
+            estimates,
+        }
+    }
+
+    /// The results.
+    #[must_use]
+    pub fn summary(&self) -> &Summary {
+        &self.summary
+    }
+
+    /// Their estimated errors.
+    #[must_use]
+    pub fn estimates(&self) -> &Estimates {
+        &self.estimates
+    }
+
+    /// Number of polynomial pieces.
+    #[must_use]
+    pub fn pieces(&self) -> usize {
+        self.pieces.len()
+    }
+
+    pub(super) fn all_pieces(&self) -> &[Piece] {
+        &self.pieces
+    }
+
+    /// The contact at a time in [0, contact time]; nothing outside.
+    #[must_use]
+    pub fn at(&self, time: f64) -> Option<Instant> {
+        if !(time >= 0.0 && time <= self.summary.contact_time) {
+            return None;
+        }
+        let after = self.pieces.partition_point(|piece| piece.to.0 < time);
+        let piece = self.pieces.get(after).or(self.pieces.last())?;
+        let place = place_of(piece, time);
+        let radius = piece.radius.value(place).max(0.0);
+        let displacement = piece.displacement.value(place);
+        Some(Instant {
+            force: radius.powi(3),
+            radius,
+            velocity: piece.velocity.value(place),
+            displacement,
+            deflection: displacement - radius * radius,
+        })
+    }
+
+    /// Samples a step apart up to the first after the contact, as the marches make them.
+    ///
+    /// After the contact the deflection is not followed: that sample holds the one at the end.
+    #[must_use]
+    pub fn history(&self, step: f64) -> History {
+        let steps = (self.summary.contact_time / step) as usize;
+        let mut history = History::at_touch(step, steps + 2);
+        for i in 1..=steps {
+            if let Some(now) = self.at(i as f64 * step) {
+                history.push(now.force, now.displacement, now.deflection);
+            }
+        }
+        let last = self
+            .at(self.summary.contact_time)
+            .map_or(0.0, |now| now.displacement);
+        let beyond = history.force.len() as f64 * step - self.summary.contact_time;
+        history.push(0.0, last - self.summary.restitution * beyond, last);
+        history
+    }
+}
+
+fn deflection(piece: &Piece, place: f64) -> f64 {
+    let radius = piece.radius.value(place);
+    piece.displacement.value(place) - radius * radius
+}
+
+fn deflection_slope(piece: &Piece, place: f64) -> f64 {
+    let (radius, radius_slope) = piece.radius.jet(place);
+    let time_slope = piece.time.jet(place).1;
+    piece.velocity.value(place) * time_slope - 2.0 * radius * radius_slope
+}
+
+/// The place of a time in a piece: its time rises.
+fn place_of(piece: &Piece, time: f64) -> f64 {
+    let (mut low, mut high) = (0.0_f64, 1.0_f64);
+    let span = piece.to.0 - piece.from.0;
+    let mut place = ((time - piece.from.0) / span).clamp(0.0, 1.0);
+    for _ in 0..60 {
+        let (value, slope) = piece.time.jet(place);
+        let miss = value - time;
+        if miss < 0.0 {
+            low = place;
+        } else {
+            high = place;
+        }
+        let newton = place - miss / slope;
+        let next = if newton >= low && newton <= high {
+            newton
+        } else {
+            0.5 * (low + high)
+        };
+        if (next - place).abs() < 1e-14 {
+            return next;
+        }
+        place = next;
+    }
+    place
+}
+
+fn estimates(summary: &Summary, errors: &Errors, energy: f64, deflection: &Extremum) -> Estimates {
+    Estimates {
+        peak_force: PEAK_FORCE * (errors.force + errors.momentum) / summary.peak_force,
+        peak_force_time: PEAK_FORCE_TIME * (errors.force + errors.momentum),
+        contact_time: CONTACT_TIME * (errors.end + 0.1 * errors.momentum) / summary.contact_time,
+        restitution: RESTITUTION * (errors.momentum + energy),
+        loss: LOSS * (errors.work / summary.loss + energy),
+        peak_displacement: DISPLACEMENT * errors.momentum / summary.peak_displacement,
+        peak_deflection: DEFLECTION * errors.force / deflection.value,
+        force: FORCE * errors.force / summary.peak_force,
+    }
+}

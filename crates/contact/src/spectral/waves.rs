@@ -1,0 +1,235 @@
+//! The waves under a flat punch as a measure over slowness, and Gauss's rules for it.
+//!
+//! The relaxation of the punch of radius a is a superposition of triangles,
+//!
+//! ```text
+//! V_p(t) = int (1 - t/X)_+ dmu,     X = 2 x, x the slowness; all times in a/c1, slownesses in 1/c1
+//! dmu = 2 K/(pi (1 - nu)) Re[p/R] dx  on 0 < x < 1/kappa,    + m_R delta(x - 1/c)
+//! p = sqrt(1 - x^2),  y = sqrt(K - x^2),  K = 1/kappa^2,  R = (2 x^2 - K)^2 + 4 x^2 p y
+//! m_R = 2 a c K/((1 - nu) D'(c)),  a = sqrt(1 - c^2)
+//! ```
+//!
+//! a positive measure of total mass one: each slowness brings the load on one rim to the other after X.
+//! What the contact needs are integrals over this measure of functions that are analytic in X,
+//! so that Gauss's rule of the whole measure, Rayleigh's wave included, converges exponentially.
+
+use super::gauss_rule::gauss_rule;
+use super::legendre::gauss;
+use halfspace::Medium;
+use std::f64::consts::{FRAC_PI_2, PI};
+use std::sync::OnceLock;
+
+/// Nodes of the rules, coarse to fine.
+const SIZES: [usize; 12] = [3, 5, 8, 12, 18, 26, 38, 56, 80, 112, 156, 220];
+
+/// Rules that there are.
+pub(super) const LEVELS: usize = SIZES.len();
+
+/// The waves under a flat punch.
+#[derive(Debug, Clone)]
+pub struct PunchWaves {
+    poisson_ratio: f64,
+    /// Slownesses over the largest, and their masses.
+    points: Vec<(f64, f64)>,
+    /// Largest delay 2/c in a/c1.
+    memory: f64,
+    rules: [OnceLock<Rule>; LEVELS],
+}
+
+/// A rule for the measure: delays X in a/c1, ascending, and the mass over the delay of each.
+#[derive(Debug, Clone)]
+pub(super) struct Rule {
+    pub(super) delays: Vec<f64>,
+    pub(super) rates: Vec<f64>,
+}
+
+impl PunchWaves {
+    /// The waves of a half-space.
+    #[must_use]
+    pub fn new(medium: &Medium) -> Self {
+        let c = medium.rayleigh_speed();
+        let k = medium.kappa().powi(-2);
+        let share = k / (1.0 - medium.poisson_ratio());
+        let rayleigh = 2.0 * ((1.0 - c) * (1.0 + c)).sqrt() * c * share / medium.rayleigh_slope();
+        let mut points = vec![];
+        let rule = gauss(NODES);
+        for zone in [Zone::Fast, Zone::Slow] {
+            for (from, to) in zone.panels() {
+                for &(x, weight) in &rule {
+                    let (slowness, density) = zone.density(k, FRAC_PI_2 * (from + x * (to - from)));
+                    let mass = FRAC_PI_2 * (to - from) * weight * density * share * 2.0 / PI;
+                    points.push((slowness * c, mass));
+                }
+            }
+        }
+        points.push((1.0, rayleigh));
+        Self {
+            poisson_ratio: medium.poisson_ratio(),
+            points,
+            memory: 2.0 / c,
+            rules: Default::default(),
+        }
+    }
+
+    /// Poisson's ratio of the half-space.
+    #[must_use]
+    pub fn poisson_ratio(&self) -> f64 {
+        self.poisson_ratio
+    }
+
+    /// Time after which the response of a punch is static, in a/c1: Rayleigh's wave across the diameter.
+    #[must_use]
+    pub fn memory(&self) -> f64 {
+        self.memory
+    }
+
+    /// int V_p dt in a/c1: 3/2 of the relaxation time of a Hertz disc's centre.
+    #[must_use]
+    pub fn relaxation_time(&self) -> f64 {
+        0.5 * self.moment(1)
+    }
+
+    /// int X^n dmu.
+    #[must_use]
+    pub fn moment(&self, n: i32) -> f64 {
+        let sum: f64 = self.points.iter().map(|(x, mass)| mass * x.powi(n)).sum();
+        sum * self.memory.powi(n)
+    }
+
+    /// V_p(t), t in a/c1, by summation; the convergence is that of the points.
+    #[must_use]
+    pub fn relaxation(&self, t: f64) -> f64 {
+        let x = t / self.memory;
+        let parts = self.points.iter().filter(|(slowness, _)| *slowness > x);
+        parts
+            .map(|(slowness, mass)| mass * (1.0 - x / slowness))
+            .sum()
+    }
+
+    /// The rule of a level; made when it is first asked for.
+    pub(super) fn rule(&self, level: usize) -> &Rule {
+        let level = level.min(LEVELS - 1);
+        self.rules[level].get_or_init(|| {
+            let (nodes, masses) = gauss_rule(&self.points, SIZES[level]);
+            let delays: Vec<f64> = nodes.iter().map(|x| x * self.memory).collect();
+            let rates = masses.iter().zip(&delays).map(|(m, x)| m / x).collect();
+            Rule { delays, rates }
+        })
+    }
+}
+
+/// Nodes of a panel.
+const NODES: usize = 18;
+
+/// The two intervals of slowness on which the density is smooth in an angle.
+#[derive(Debug, Clone, Copy)]
+enum Zone {
+    /// 0 < x < 1, x = sin(angle).
+    Fast,
+    /// 1 < x < 1/kappa, x^2 = 1 + (K - 1) sin^2(angle).
+    Slow,
+}
+
+impl Zone {
+    /// Panels as fractions of the right angle; they shrink toward slowness one, where a zero of the
+    /// Rayleigh function on a neighbouring sheet may be near, and a little toward the shear slowness.
+    fn panels(self) -> Vec<(f64, f64)> {
+        let toward_zero = |halvings: i32| {
+            let ends = (1..=halvings).rev().map(|j| 0.5_f64.powi(j));
+            [0.0].into_iter().chain(ends).collect::<Vec<f64>>()
+        };
+        let (lower, upper) = match self {
+            Self::Fast => (3, 16),
+            Self::Slow => (16, 4),
+        };
+        let mut ends = toward_zero(lower);
+        ends.extend(toward_zero(upper).iter().rev().skip(1).map(|x| 1.0 - x));
+        ends.windows(2).map(|pair| (pair[0], pair[1])).collect()
+    }
+
+    /// Slowness and Re[p/R] dx over the angle.
+    fn density(self, k: f64, angle: f64) -> (f64, f64) {
+        let s = angle.sin();
+        let c = (FRAC_PI_2 - angle).sin();
+        match self {
+            Self::Fast => {
+                let g = 2.0 * s * s - k;
+                let y = (k - s * s).sqrt();
+                (s, c * c / (g * g + 4.0 * s * s * c * y))
+            }
+            Self::Slow => {
+                // p = -i p^, so Re[p/R] = 4 x^2 p^2 y/((2 x^2 - K)^4 + 16 x^4 p^2 y^2)
+                let p2 = (k - 1.0) * s * s;
+                let x2 = 1.0 + p2;
+                let g = 2.0 * x2 - k;
+                let y2 = (k - 1.0) * c * c;
+                let density = 4.0 * x2 * p2 * y2.sqrt() / (g.powi(4) + 16.0 * x2 * x2 * p2 * y2);
+                (x2.sqrt(), density * (k - 1.0) * s * c / x2.sqrt())
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::response::punch::PunchResponse;
+    use halfspace::{Deflection, SurfaceResponse};
+
+    #[test]
+    fn the_measure_is_that_of_the_surface_response() {
+        for nu in [
+            -0.5,
+            0.0,
+            0.01,
+            0.25,
+            0.263_082_06,
+            0.3,
+            0.45,
+            0.499,
+            0.4999,
+        ] {
+            let medium = Medium::new(nu).unwrap();
+            let waves = PunchWaves::new(&medium);
+            let centre = SurfaceResponse::new(&medium, Deflection::Centre);
+            assert!(
+                (waves.moment(0) - 1.0).abs() < 1e-12,
+                "nu = {nu}: {:e}",
+                waves.moment(0) - 1.0
+            );
+            let relaxation = waves.relaxation_time() / centre.relaxation_time();
+            assert!((relaxation - 1.5).abs() < 1e-12, "nu = {nu}: {relaxation}");
+            assert!((waves.memory() / centre.memory() - 2.0).abs() < 1e-14);
+            // the triangle's superposition, integrated, is the other way to the same punch
+            let punch = PunchResponse::new(&centre);
+            for part in [0.01, 0.1, 0.3, 0.6, 0.9, 1.0] {
+                let t = part * waves.memory();
+                let cells = 400;
+                let sum: f64 = (0..cells)
+                    .map(|i| waves.relaxation((f64::from(i) + 0.5) / f64::from(cells) * t))
+                    .sum();
+                let error = sum * t / f64::from(cells) - punch.relaxation_integral(t);
+                assert!(
+                    error.abs() < 1e-4 * waves.relaxation_time(),
+                    "nu = {nu}, t = {t}: {error}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn rules_have_the_moments_of_the_measure() {
+        let waves = PunchWaves::new(&Medium::new(0.3).unwrap());
+        for (level, &size) in SIZES.iter().enumerate() {
+            let rule = waves.rule(level);
+            for power in (0..2 * size as i32).step_by(1 + level) {
+                let parts = rule.delays.iter().zip(&rule.rates);
+                let sum: f64 = parts
+                    .map(|(x, rate)| rate * x * (x / waves.memory).powi(power))
+                    .sum();
+                let exact = waves.moment(power) / waves.memory.powi(power);
+                assert!((sum / exact - 1.0).abs() < 1e-11, "{level} {power}");
+            }
+        }
+    }
+}

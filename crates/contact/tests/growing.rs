@@ -1,0 +1,311 @@
+//! The growing contact against superposition in time, and on random scenes.
+//!
+//! `cargo test -p hertzlamb-contact --test growing -- --nocapture`; with `--include-ignored` all scenes.
+
+#![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
+
+use contact::law::area_dashpot::AreaDashpot;
+use contact::{Accuracy, GrowingContact, GrowingError, PunchWaves, SolvedContact, solve_growing};
+use halfspace::Medium;
+use rayon::prelude::*;
+use std::path::Path;
+
+/// Poisson's ratio, phi and tau of a contact.
+#[derive(Debug, Clone, Copy)]
+struct Case {
+    poisson_ratio: f64,
+    target_share: f64,
+    wave_time: f64,
+}
+
+fn solve(case: &Case, accuracy: &Accuracy) -> Result<SolvedContact, GrowingError> {
+    let waves = PunchWaves::new(&Medium::new(case.poisson_ratio).unwrap());
+    let (target_share, wave_time) = (case.target_share, case.wave_time);
+    solve_growing(
+        &GrowingContact {
+            waves: &waves,
+            target_share,
+            wave_time,
+        },
+        accuracy,
+    )
+}
+
+/// Peak force, its time, contact time, restitution, loss, displacement, deflection, impulse.
+fn results(solved: &SolvedContact) -> [f64; 8] {
+    let s = solved.summary();
+    [
+        s.peak_force,
+        s.peak_force_time,
+        s.contact_time,
+        s.restitution,
+        s.loss,
+        s.peak_displacement,
+        s.peak_deflection,
+        s.impulse,
+    ]
+}
+
+/// Numbers in [0, 1) that depend on the scene and the place of use only (splitmix64).
+struct Draws(u64);
+
+impl Draws {
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    fn log(&mut self, low: f64, high: f64) -> f64 {
+        low * (high / low).powf(self.next())
+    }
+}
+
+/// A ball of a third to ten times its mass on a half-space, both of moduli of 1 MPa to 400 GPa, at 1e-4 to
+/// 5e-2 of the half-space's shear wave speed.
+fn random_scene(index: u64) -> Case {
+    let mut draws = Draws(index * 7919 + 29);
+    let (density, striker_density) = (draws.log(900.0, 1e4), draws.log(900.0, 2e4));
+    let (striker, target) = (draws.log(1e6, 4e11), draws.log(1e6, 4e11));
+    let (other, ratio) = (0.49 * draws.next(), 0.4995 * draws.next());
+    let mass = 4.188_79 * striker_density * draws.log(0.3, 10.0);
+    let shear_speed = (target / (2.0 * (1.0 + ratio)) / density).sqrt();
+    let speed = shear_speed * ((2.0 - 2.0 * ratio) / (1.0 - 2.0 * ratio)).sqrt();
+    let velocity = shear_speed * draws.log(1e-4, 5e-2);
+    let modulus = 1.0 / ((1.0 - other * other) / striker + (1.0 - ratio * ratio) / target);
+    let approach = (1.25 * mass * velocity * velocity / (4.0 / 3.0 * modulus)).powf(0.4);
+    Case {
+        poisson_ratio: ratio,
+        target_share: modulus * (1.0 - ratio * ratio) / target,
+        wave_time: approach.sqrt() / speed * velocity / approach,
+    }
+}
+
+#[test]
+fn golden_rows() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/reference/growing.csv");
+    let text = std::fs::read_to_string(path).unwrap();
+    let rows: Vec<Vec<f64>> = text
+        .lines()
+        .skip(1)
+        .map(|line| {
+            line.split(',')
+                .skip(1)
+                .map(|x| x.parse().unwrap())
+                .collect()
+        })
+        .collect();
+    assert!(rows.len() > 125, "{}", rows.len());
+    let worst: Vec<(f64, usize)> = rows
+        .par_iter()
+        .map(|row| {
+            let case = Case {
+                poisson_ratio: row[0],
+                target_share: row[1],
+                wave_time: row[2],
+            };
+            let found = results(&solve(&case, &Accuracy::of_contact(1e-9, None)).unwrap());
+            let least = [1e-9, 3e-9, 3e-9, 1e-9, 1e-9, 2e-9, 1e-8, 1e-9];
+            let parts = (0..8).map(|k| {
+                let allowed = least[k] + 3.0 * row[11 + k];
+                ((found[k] - row[3 + k]).abs() / allowed, k)
+            });
+            parts.fold((0.0, 0), |a, b| if b.0 > a.0 { b } else { a })
+        })
+        .collect();
+    let largest = worst.iter().fold(0.0_f64, |m, (error, _)| m.max(*error));
+    println!(
+        "{} rows, largest error over what is allowed {largest:.2}",
+        rows.len()
+    );
+    for (k, (error, which)) in worst.iter().enumerate() {
+        assert!(
+            *error < 1.0,
+            "row {k}: result {which} is off by {error} of what is allowed"
+        );
+    }
+}
+
+#[test]
+fn finer_pieces_converge_as_asked() {
+    let case = Case {
+        poisson_ratio: 0.3,
+        target_share: 0.7,
+        wave_time: 0.05,
+    };
+    let exact = results(&solve(&case, &Accuracy::of_contact(1e-11, None)).unwrap());
+    let mut pieces = 0;
+    for tolerance in [1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9] {
+        let solved = solve(&case, &Accuracy::of_contact(tolerance, None)).unwrap();
+        let found = results(&solved);
+        for k in [0, 2, 3, 5] {
+            let error = (found[k] - exact[k]).abs() / exact[k];
+            assert!(error < tolerance, "{tolerance:e}, {k}: {error:e}");
+        }
+        // exponential: each digit costs a few pieces of a degree that grows by one
+        assert!(solved.pieces() <= 30 && solved.pieces() + 3 >= pieces);
+        pieces = solved.pieces();
+    }
+}
+
+#[test]
+fn the_history_is_as_accurate_as_the_results() {
+    let case = Case {
+        poisson_ratio: 0.25,
+        target_share: 0.9,
+        wave_time: 0.08,
+    };
+    let exact = solve(&case, &Accuracy::of_contact(1e-10, None)).unwrap();
+    let end = exact.summary().contact_time;
+    for tolerance in [1e-4, 1e-6, 1e-8] {
+        let solved = solve(&case, &Accuracy::of_contact(tolerance, None)).unwrap();
+        for i in 0..=1000 {
+            let t = end * f64::from(i) / 1000.0 * 0.999_99;
+            let (a, b) = (solved.at(t).unwrap(), exact.at(t).unwrap());
+            assert!(
+                (a.force - b.force).abs() < 3.0 * tolerance,
+                "{t}: {a:?} {b:?}"
+            );
+            assert!((a.displacement - b.displacement).abs() < 3.0 * tolerance);
+            assert!((a.velocity - b.velocity).abs() < 3.0 * tolerance);
+        }
+        assert!(solved.at(0.0).unwrap().force < 1e-30);
+        assert!(solved.at(-1e-9).is_none() && solved.at(1.01 * end).is_none());
+        let samples = solved.history(0.01);
+        assert!((samples.force[100] - exact.at(1.0).unwrap().force).abs() < 3.0 * tolerance);
+        assert_eq!(*samples.force.last().unwrap(), 0.0);
+    }
+}
+
+#[test]
+fn what_cannot_be_solved_is_said() {
+    let case = |target_share, wave_time| Case {
+        poisson_ratio: 0.3,
+        target_share,
+        wave_time,
+    };
+    for bad in [
+        case(0.0, 0.1),
+        case(1.1, 0.1),
+        case(0.5, 0.0),
+        case(0.5, f64::NAN),
+    ] {
+        let found = solve(&bad, &Accuracy::of_contact(1e-4, None));
+        assert!(
+            matches!(found, Err(GrowingError::OutOfRange { .. })),
+            "{found:?}"
+        );
+    }
+    // the half-space remembers more than the contact: the waves of a contact that closes fast
+    let long = Case {
+        poisson_ratio: 0.4491,
+        target_share: 0.78,
+        wave_time: 0.4361,
+    };
+    let found = solve(&long, &Accuracy::of_contact(1e-4, None)).unwrap_err();
+    assert!(matches!(found, GrowingError::Overtaken { .. }), "{found}");
+}
+
+/// Of some random scenes at a tolerance: none is refused, few estimates are exceeded.
+fn check_scenes(count: u64, tolerance: f64) {
+    let checked: Vec<[bool; 8]> = (0..count)
+        .into_par_iter()
+        .map(|index| {
+            let case = random_scene(index);
+            let solved = solve(&case, &Accuracy::of_contact(tolerance, None))
+                .unwrap_or_else(|error| panic!("scene {index} {case:?}: {error}"));
+            let fine = Accuracy::of_contact((0.01 * tolerance).max(1e-9), None);
+            let exact =
+                solve(&case, &fine).unwrap_or_else(|error| panic!("scene {index}: {error}"));
+            let (a, b, e) = (results(&solved), results(&exact), solved.estimates());
+            let estimates = [
+                e.peak_force * b[0],
+                e.peak_force_time * b[2],
+                e.contact_time * b[2],
+                e.restitution,
+                e.loss * b[4],
+                e.peak_displacement * b[5],
+            ];
+            let mut kept = [true; 8];
+            for (k, estimate) in estimates.iter().enumerate() {
+                kept[k] = (a[k] - b[k]).abs() <= *estimate;
+            }
+            kept[6] = [0, 2, 3, 5]
+                .iter()
+                .all(|&k| (a[k] - b[k]).abs() <= tolerance * b[k].max(1.0));
+            kept
+        })
+        .collect();
+    let missed = |k: usize| checked.iter().filter(|kept| !kept[k]).count();
+    let missed: Vec<usize> = (0..7).map(missed).collect();
+    println!(
+        "{tolerance:e}: of {count} scenes, estimates exceeded (force, its time, contact time, restitution, loss, displacement) and tolerance missed: {missed:?}"
+    );
+    let allowed = (count / 50).max(3) as usize;
+    assert!(missed.iter().all(|&k| k <= allowed), "{missed:?}");
+}
+
+#[test]
+fn random_scenes() {
+    for tolerance in [1e-4, 1e-6, 1e-8] {
+        check_scenes(100, tolerance);
+    }
+}
+
+#[test]
+#[ignore = "a minute"]
+fn a_thousand_random_scenes() {
+    for tolerance in [1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8] {
+        check_scenes(1000, tolerance);
+    }
+}
+
+#[test]
+fn the_area_dashpot_keeps_its_bounds() {
+    let count = 300;
+    let ratios: Vec<[f64; 6]> = (0..count)
+        .into_par_iter()
+        .map(|index| {
+            let case = random_scene(5000 + index);
+            let waves = PunchWaves::new(&Medium::new(case.poisson_ratio).unwrap());
+            let terms = AreaDashpot::new(case.target_share, case.wave_time, &waves);
+            let bounds = terms.left_out(waves.memory() * case.wave_time);
+            let exact = solve(&case, &Accuracy::of_contact(3e-9, None)).unwrap();
+            let (a, b) = (terms.summary(), exact.summary());
+            let relative = |x: f64, y: f64| (x / y - 1.0).abs();
+            [
+                relative(a.peak_force, b.peak_force) / bounds.peak_force,
+                (a.peak_force_time - b.peak_force_time).abs()
+                    / b.contact_time
+                    / bounds.peak_force_time,
+                relative(a.contact_time, b.contact_time) / bounds.contact_time,
+                (a.restitution - b.restitution).abs() / bounds.restitution,
+                relative(a.loss, b.loss) / bounds.loss,
+                relative(a.peak_displacement, b.peak_displacement) / bounds.peak_displacement,
+            ]
+        })
+        .collect();
+    for (k, name) in [
+        "force",
+        "its time",
+        "contact time",
+        "restitution",
+        "loss",
+        "displacement",
+    ]
+    .iter()
+    .enumerate()
+    {
+        let mut parts: Vec<f64> = ratios.iter().map(|row| row[k]).collect();
+        parts.sort_by(f64::total_cmp);
+        let over = parts.iter().filter(|&&part| part > 1.0).count();
+        println!(
+            "{name}: error over bound, median {:.2}, largest {:.2}; {over} of {count} exceed it",
+            parts[parts.len() / 2],
+            parts[parts.len() - 1]
+        );
+        assert!(over * 50 <= parts.len(), "{name}: {over}");
+    }
+}
