@@ -109,7 +109,9 @@ fn golden_rows() {
             let found = results(&solve(&case, &Accuracy::of_contact(1e-9, None)).unwrap());
             let least = [1e-9, 3e-9, 3e-9, 1e-9, 1e-9, 2e-9, 1e-8, 1e-9];
             let parts = (0..8).map(|k| {
-                let allowed = least[k] + 3.0 * row[11 + k];
+                // the reference extrapolates its last instants, where u is below 1e-13/(1 - phi), on both meshes
+                let unseen = if k == 2 && row[1] > 0.9999 { 1e-8 } else { 0.0 };
+                let allowed = least[k] + unseen + 3.0 * row[11 + k];
                 ((found[k] - row[3 + k]).abs() / allowed, k)
             });
             parts.fold((0.0, 0), |a, b| if b.0 > a.0 { b } else { a })

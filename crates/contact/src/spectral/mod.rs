@@ -118,7 +118,7 @@ pub enum GrowingError {
 const TOLERANCES: [f64; 2] = [1e-11, 1e-2];
 
 /// Error of a piece over the tolerance on the results.
-const PIECE: f64 = 0.4;
+const PIECE: f64 = 0.3;
 
 /// Least error of a piece.
 const FINEST: f64 = 1e-11;

@@ -70,10 +70,10 @@ const SMALL_LOSS: f64 = 0.03;
 /// Factors from the sums of the pieces' errors to those of the results.
 const PEAK_FORCE: f64 = 0.4;
 const PEAK_FORCE_TIME: f64 = 1.0;
-const CONTACT_TIME: f64 = 16.0;
+const CONTACT_TIME: f64 = 24.0;
 const RESTITUTION: f64 = 0.2;
 const LOSS: f64 = 8.0;
-const DISPLACEMENT: f64 = 2.0;
+const DISPLACEMENT: f64 = 3.0;
 const DEFLECTION: f64 = 1.0;
 const FORCE: f64 = 2.0;
 

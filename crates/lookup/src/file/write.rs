@@ -34,8 +34,7 @@ pub fn write(path: &Path, content: &Content) -> Result<(), TableError> {
         path: path.to_owned(),
         detail,
     };
-    write_file(path, content).map_err(|error| failed(detail(&error)))?;
-    let chunks = checked_chunks(path).map_err(|error| failed(detail(&error)))?;
+    let chunks = write_file(path, content).map_err(|error| failed(detail(&error)))?;
     seal::append(path, chunks).map_err(|error| failed(error.to_string()))
 }
 
@@ -55,7 +54,10 @@ fn detail(error: &hdf5::Error) -> String {
     }
 }
 
-fn write_file(path: &Path, content: &Content) -> Result<(), hdf5::Error> {
+/// Writes the file and says where its chunks with a Fletcher-32 sum are.
+///
+/// It is not opened again: a process that was started meanwhile may hold its lock.
+fn write_file(path: &Path, content: &Content) -> Result<Vec<Range<u64>>, hdf5::Error> {
     let file = File::with_options()
         .with_fcpl(|plan| plan.istore_k(TREE_RANK))
         .create(path)?;
@@ -96,7 +98,9 @@ fn write_file(path: &Path, content: &Content) -> Result<(), hdf5::Error> {
         write_verification(&group, &place.verification, &scales)?;
     }
     file.flush()?;
-    file.close()
+    let chunks = checked_chunks(&file)?;
+    file.close()?;
+    Ok(chunks)
 }
 
 /// Scales that slices share.
@@ -144,8 +148,7 @@ fn write_slice(
 }
 
 /// Where the chunks with a Fletcher-32 sum are.
-fn checked_chunks(path: &Path) -> Result<Vec<Range<u64>>, hdf5::Error> {
-    let file = File::open(path)?;
+fn checked_chunks(file: &File) -> Result<Vec<Range<u64>>, hdf5::Error> {
     let mut chunks = Vec::new();
     for parent in [schema::SLICES, schema::BETWEEN] {
         for group in file.group(parent)?.groups()? {
@@ -158,7 +161,6 @@ fn checked_chunks(path: &Path) -> Result<Vec<Range<u64>>, hdf5::Error> {
             }
         }
     }
-    file.close()?;
     Ok(chunks)
 }
 
