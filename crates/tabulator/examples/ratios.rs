@@ -90,40 +90,59 @@ fn series(nu: f64, width: f64, r: f64, z: f64, count: usize) -> Result<(Vec<Six>
     Ok((out, plan.kernel().static_field(r, z)?))
 }
 
+/// Places (r, z) in r0.
+const POINTS: [(f64, f64); 10] = [
+    (0.1, 0.3),
+    (0.5, 0.6),
+    (1.05, 0.1),
+    (1.5, 1.2),
+    (0.2, 3.1),
+    (3.1, 0.2),
+    (3.0, 3.0),
+    (5.5, 0.3),
+    (0.4, 5.6),
+    (5.5, 5.5),
+];
+
+/// Coordinate in which slices are interpolated.
+#[derive(Clone, Copy, PartialEq)]
+enum Coordinate {
+    Slowness,
+    Speed,
+    Ratio,
+}
+
+impl Coordinate {
+    fn of(self, nu: f64) -> Result<f64, Failure> {
+        match self {
+            Self::Slowness => slowness(nu, 1.0),
+            Self::Speed => speed(nu, 0.2),
+            Self::Ratio => Ok(nu),
+        }
+    }
+}
+
 fn main() -> Result<(), Failure> {
-    let points = [
-        (0.1, 0.3),
-        (0.5, 0.6),
-        (1.05, 0.1),
-        (1.5, 1.2),
-        (0.2, 3.1),
-        (3.1, 0.2),
-        (3.0, 3.0),
-        (5.5, 0.3),
-        (0.4, 5.6),
-        (5.5, 5.5),
-    ];
     for (clock, clock_name) in [
         (Clock::Longitudinal, "c1"),
         (Clock::Shear, "c2"),
         (Clock::Rayleigh, "cR"),
     ] {
-        for (kind, kind_name) in [(0, "slowness + nu"), (1, "-speed"), (2, "nu")] {
-            let coordinate = |nu: f64| match kind {
-                0 => slowness(nu, 1.0),
-                1 => speed(nu, 0.2),
-                _ => Ok(nu),
-            };
-            if matches!(clock, Clock::Longitudinal) && kind != 0 {
+        for (coordinate, name) in [
+            (Coordinate::Slowness, "slowness + nu"),
+            (Coordinate::Speed, "-speed"),
+            (Coordinate::Ratio, "nu"),
+        ] {
+            if matches!(clock, Clock::Longitudinal) && coordinate != Coordinate::Slowness {
                 continue;
             }
-            let fine = ratios(coordinate)?;
+            let fine = ratios(|nu| coordinate.of(nu))?;
             let places: Vec<(f64, f64)> = fine
                 .iter()
-                .map(|&nu| Ok((coordinate(nu)?, clock.width(nu)?)))
+                .map(|&nu| Ok((coordinate.of(nu)?, clock.width(nu)?)))
                 .collect::<Result<_, Failure>>()?;
             let count = ((100.0 + 40.0) / places[0].1) as usize;
-            let all: Vec<Vec<(Vec<Six>, Six)>> = points
+            let all: Vec<Vec<(Vec<Six>, Six)>> = POINTS
                 .par_iter()
                 .map(|&(r, z)| {
                     fine.iter()
@@ -133,54 +152,13 @@ fn main() -> Result<(), Failure> {
                 })
                 .collect::<Result<_, _>>()?;
             for step in [8, 6, 4, 3] {
-                let set: Vec<usize> = (0..=STEPS).step_by(step).collect();
-                let nodes: Vec<f64> = set.iter().map(|&i| places[i].0).collect();
-                for stencil_points in [6, 8] {
-                    print!(
-                        "{clock_name} {kind_name:>14} {:>2} slices, {stencil_points} points:",
-                        set.len()
-                    );
+                for points in [6, 8] {
+                    let slices = STEPS / step + 1;
+                    print!("{clock_name} {name:>14} {slices:>2} slices, {points} points:");
                     for length in LENGTHS {
-                        let mut errors = Vec::new();
-                        for place in &all {
-                            for i in (0..=STEPS).filter(|i| i % step == step / 2) {
-                                let (x, width) = places[i];
-                                let interval = lookup::locate(&nodes, x).ok_or("outside")?;
-                                let stencil =
-                                    Stencil::one_sided(&nodes, interval, x, stencil_points);
-                                let samples = (((length + 40.0) / width) as usize).min(count);
-                                let exact = &place[i];
-                                let difference: Vec<Six> = (0..samples)
-                                    .map(|n| {
-                                        std::array::from_fn(|f| {
-                                            stencil
-                                                .nodes()
-                                                .iter()
-                                                .zip(stencil.even())
-                                                .map(|(&k, w)| w * place[set[k]].0[n][f])
-                                                .sum::<f64>()
-                                                - exact.0[n][f]
-                                        })
-                                    })
-                                    .collect();
-                                let pulse = PulseSum::new(length, width);
-                                let whole = pulse.response(&exact.1, &exact.0[..samples]);
-                                let wrong = pulse.response(&[0.0; 6], &difference);
-                                let most = |list: &[Six], f: usize| {
-                                    list.iter().fold(0.0_f64, |m, six| m.max(six[f].abs()))
-                                };
-                                for f in 0..6 {
-                                    errors.push(most(&wrong, f) / most(&whole, f));
-                                }
-                            }
-                        }
-                        errors.sort_by(f64::total_cmp);
-                        print!(
-                            "  T={length} {:.0e} {:.0e} {:.0e};",
-                            quantile(&errors, 0.5),
-                            quantile(&errors, 0.99),
-                            quantile(&errors, 1.0)
-                        );
+                        let errors = errors(&all, &places, step, points, length)?;
+                        let [p50, p99, most] = [0.5, 0.99, 1.0].map(|q| quantile(&errors, q));
+                        print!("  T={length} {p50:.0e} {p99:.0e} {most:.0e};");
                     }
                     println!();
                 }
@@ -188,4 +166,41 @@ fn main() -> Result<(), Failure> {
         }
     }
     Ok(())
+}
+
+/// Errors over peaks, sorted, in the middle between slices that are every `step`-th of the fine set.
+fn errors(
+    all: &[Vec<(Vec<Six>, Six)>],
+    places: &[(f64, f64)],
+    step: usize,
+    points: usize,
+    length: f64,
+) -> Result<Vec<f64>, Failure> {
+    let set: Vec<usize> = (0..=STEPS).step_by(step).collect();
+    let nodes: Vec<f64> = set.iter().map(|&i| places[i].0).collect();
+    let mut errors = Vec::new();
+    for place in all {
+        for i in (0..=STEPS).filter(|i| i % step == step / 2) {
+            let (x, width) = places[i];
+            let interval = lookup::locate(&nodes, x).ok_or("outside")?;
+            let stencil = Stencil::one_sided(&nodes, interval, x, points);
+            let (exact, rest) = &place[i];
+            let samples = (((length + 40.0) / width) as usize).min(exact.len());
+            let found = |n: usize, f: usize| -> f64 {
+                let weighted = stencil.nodes().iter().zip(stencil.even());
+                weighted.map(|(&k, w)| w * place[set[k]].0[n][f]).sum()
+            };
+            let difference: Vec<Six> = (0..samples)
+                .map(|n| std::array::from_fn(|f| found(n, f) - exact[n][f]))
+                .collect();
+            let pulse = PulseSum::new(length, width);
+            let whole = pulse.response(rest, &exact[..samples]);
+            let wrong = pulse.response(&[0.0; 6], &difference);
+            let most =
+                |list: &[Six], f: usize| list.iter().fold(0.0_f64, |m, six| m.max(six[f].abs()));
+            errors.extend((0..6).map(|f| most(&wrong, f) / most(&whole, f)));
+        }
+    }
+    errors.sort_by(f64::total_cmp);
+    Ok(errors)
 }
