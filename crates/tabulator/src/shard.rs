@@ -18,7 +18,7 @@ use std::time::Instant;
 /// Given again, it goes on where it stopped; when all blocks of the part are there it does nothing.
 ///
 /// # Errors
-/// As [`build`]; [`BuildError::Setting`] when `index` is not in 1 ..= `count`.
+/// As [`build`](crate::build); [`BuildError::Setting`] when `index` is not in 1 ..= `count`.
 pub fn build_shard(
     grid: &Grid,
     index: usize,
@@ -51,7 +51,7 @@ pub fn build_shard(
 /// Joins the shards at `parts` into a table at `path`.
 ///
 /// # Errors
-/// [`BuildError`]: a file that is no shard, shards of different settings, blocks that are missing, or as [`build`].
+/// [`BuildError`]: a file that is no shard, shards of different settings, blocks that are missing, or as [`build`](crate::build).
 pub fn merge(
     parts: &[PathBuf],
     path: &Path,
