@@ -19,6 +19,9 @@ use crate::response::disc::DiscResponse;
 use crate::response::punch::PunchResponse;
 use crate::response::shelf::Responses;
 use crate::settings::{Model, Scheme, Settings};
+use crate::spectral::solved::SolvedContact;
+use crate::spectral::waves::PunchWaves;
+use crate::spectral::{GrowingContact, solve_growing};
 use crate::summary::Summary;
 use crate::surface::Surface;
 use crate::work::work;
@@ -47,7 +50,13 @@ pub struct Solver<'a, S: Responses> {
     workspace: Workspace,
     disc: Option<(u64, Arc<S::Disc>)>,
     punch: Option<(u64, Arc<PunchResponse>)>,
+    waves: Option<(u64, Option<Arc<PunchWaves>>)>,
+    /// The contact solved last, where it was one that follows the load and was not marched.
+    growing: Option<SolvedContact>,
 }
+
+/// Samples over a contact of a history that was not marched.
+const SAMPLES: f64 = 2048.0;
 
 /// Steps over a contact of the explicit scheme when none is given: the paper's ts/200.
 const EXPLICIT_STEPS: f64 = 200.0;
@@ -61,6 +70,8 @@ impl<'a, S: Responses> Solver<'a, S> {
             workspace: Workspace::default(),
             disc: None,
             punch: None,
+            waves: None,
+            growing: None,
         }
     }
 
@@ -90,9 +101,10 @@ impl<'a, S: Responses> Solver<'a, S> {
             ..accuracy(settings)
         };
         let solved = self.solve_to(collision, settings, asked)?;
-        let history = match solved.scheme {
-            Some(_) => self.workspace.history.clone(),
-            None => {
+        let history = match (&self.growing, solved.scheme) {
+            (Some(growing), _) => growing.history(solved.summary.contact_time / SAMPLES),
+            (None, Some(_)) => self.workspace.history.clone(),
+            (None, None) => {
                 let coupling = solved.plan.coupling();
                 let steps = accuracy(settings).first_steps().max(100.0);
                 let step = expected_contact_time(coupling) / steps;
@@ -115,7 +127,10 @@ impl<'a, S: Responses> Solver<'a, S> {
         let history = &self.workspace.history;
         Ok(match (solved.plan.model, solved.scheme) {
             (_, None) => solved.summary.loss,
-            (Model::Growing, Some(_)) => work(&history.force, &history.deflection),
+            (Model::Growing, Some(_)) => match &self.growing {
+                Some(growing) => growing.work(),
+                None => work(&history.force, &history.deflection),
+            },
             (
                 Model::Hertz
                 | Model::Radiation
@@ -145,6 +160,7 @@ impl<'a, S: Responses> Solver<'a, S> {
         let plan = plan(settings, collision, &Surface::of(&*disc));
         let time_s = collision.units().time_s;
         let step = settings.step_s.map(|step_s| step_s / time_s);
+        self.growing = None;
         let (scheme, found) = match (plan.model, settings.scheme) {
             (
                 Model::Hertz | Model::Radiation | Model::QuasiStatic | Model::QuasiStaticRadiation,
@@ -159,18 +175,14 @@ impl<'a, S: Responses> Solver<'a, S> {
                 (None, found)
             }
             (Model::Growing, _) => {
-                let punch = self.punch(ratio)?;
-                let impact = collision.growing_disc(&punch);
-                let found = stepped(
-                    &mut self.workspace,
-                    step,
-                    hertz::CONTACT_TIME,
-                    asked,
-                    |step, workspace| {
-                        workspace.history = march_growing(&impact, step)?;
-                        Ok(())
-                    },
-                )?;
+                let followed = match step {
+                    None => self.follow(collision, &asked)?,
+                    Some(_) => None,
+                };
+                let found = match followed {
+                    Some(found) => found,
+                    None => self.march_growing(collision, step, asked)?,
+                };
                 (Some(Scheme::Implicit), found)
             }
             (Model::Wave | Model::Auto, Scheme::Implicit) => {
@@ -206,6 +218,62 @@ impl<'a, S: Responses> Solver<'a, S> {
         let disc = self.responses.disc(ratio, deflection)?;
         self.disc = Some((ratio.to_bits(), Arc::clone(&disc)));
         Ok(disc)
+    }
+
+    /// A contact that follows the load by polynomial pieces; nothing where they do not serve: with too many Poisson's
+    /// ratios, a memory as long as the contact, or a second contact.
+    fn follow(
+        &mut self,
+        collision: &Collision,
+        asked: &Accuracy,
+    ) -> Result<Option<Found>, DomainError> {
+        let Some(waves) = self.waves(collision.target_poisson_ratio)? else {
+            return Ok(None);
+        };
+        let contact = GrowingContact {
+            waves: &waves,
+            target_share: collision.target_share(),
+            wave_time: collision.contact_wave_time(),
+        };
+        self.growing = solve_growing(&contact, asked).ok();
+        Ok(self.growing.as_ref().map(|growing| Found {
+            summary: *growing.summary(),
+            error: growing.estimates().contact(),
+            step: None,
+        }))
+    }
+
+    /// The same contact with a uniform step.
+    fn march_growing(
+        &mut self,
+        collision: &Collision,
+        step: Option<f64>,
+        asked: Accuracy,
+    ) -> Result<Found, ContactError> {
+        let punch = self.punch(collision.target_poisson_ratio)?;
+        let impact = collision.growing_disc(&punch);
+        let room = &mut self.workspace;
+        Ok(stepped(
+            room,
+            step,
+            hertz::CONTACT_TIME,
+            asked,
+            |step, room| {
+                room.history = march_growing(&impact, step)?;
+                Ok(())
+            },
+        )?)
+    }
+
+    fn waves(&mut self, ratio: f64) -> Result<Option<Arc<PunchWaves>>, DomainError> {
+        if let Some((bits, waves)) = &self.waves
+            && *bits == ratio.to_bits()
+        {
+            return Ok(waves.clone());
+        }
+        let waves = self.responses.waves(ratio)?;
+        self.waves = Some((ratio.to_bits(), waves.clone()));
+        Ok(waves)
     }
 
     fn punch(&mut self, ratio: f64) -> Result<Arc<PunchResponse>, DomainError> {

@@ -164,7 +164,7 @@ pub const QUANTITIES: [Quantity; 18] = [
     Quantity {
         name: "march_steps",
         unit: "1",
-        meaning: "steps of the march over the contact, 0 without a march",
+        meaning: "steps of the march over the contact, 0 where no uniform step is taken",
         kind: Kind::Count,
         of_contact: |r| r.march_steps as f64,
         of_record: None,
@@ -172,7 +172,7 @@ pub const QUANTITIES: [Quantity; 18] = [
     Quantity {
         name: "march_step_s",
         unit: "s",
-        meaning: "step of the march, 0 without a march",
+        meaning: "step of the march, 0 where no uniform step is taken",
         kind: Kind::Real,
         of_contact: |r| r.march_step_s,
         of_record: None,

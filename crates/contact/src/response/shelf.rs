@@ -3,6 +3,7 @@
 use super::disc::DiscResponse;
 use super::punch::PunchResponse;
 use super::table::ResponseTable;
+use crate::spectral::waves::PunchWaves;
 use halfspace::{Deflection, DomainError, Medium, SurfaceResponse};
 use std::collections::HashMap;
 use std::hash::Hash;
@@ -24,6 +25,12 @@ pub trait Responses {
     /// # Errors
     /// [`DomainError`] for a Poisson's ratio outside (-1, 0.5).
     fn punch(&self, ratio: f64) -> Result<Arc<PunchResponse>, DomainError>;
+
+    /// The waves under a flat punch; none where so many ratios are met that each cannot have its own.
+    ///
+    /// # Errors
+    /// [`DomainError`] for a Poisson's ratio outside (-1, 0.5).
+    fn waves(&self, ratio: f64) -> Result<Option<Arc<PunchWaves>>, DomainError>;
 }
 
 /// Exact responses, made when they are asked for: what a single impact takes.
@@ -46,6 +53,10 @@ impl Responses for Exact {
         let centre = self.disc(ratio, Deflection::Centre)?;
         Ok(Arc::new(PunchResponse::new(&centre)))
     }
+
+    fn waves(&self, ratio: f64) -> Result<Option<Arc<PunchWaves>>, DomainError> {
+        Ok(Some(Arc::new(PunchWaves::new(&Medium::new(ratio)?))))
+    }
 }
 
 /// How many Poisson's ratios are met.
@@ -67,6 +78,7 @@ pub struct Tabulated {
     ratios: Ratios,
     tables: Shelf<(u64, Deflection), ResponseTable>,
     punches: Shelf<u64, PunchResponse>,
+    waves: Shelf<u64, PunchWaves>,
 }
 
 /// Steps of the lattice in sqrt(1/2 - nu), in which every response is smooth.
@@ -83,6 +95,7 @@ impl Tabulated {
             ratios,
             tables: Shelf::default(),
             punches: Shelf::default(),
+            waves: Shelf::default(),
         }
     }
 
@@ -136,6 +149,16 @@ impl Responses for Tabulated {
                 let (near, far) = (exact(near)?, exact(far)?);
                 Ok(Arc::new(PunchResponse::between(&near, &far, fraction)))
             }
+        }
+    }
+
+    fn waves(&self, ratio: f64) -> Result<Option<Arc<PunchWaves>>, DomainError> {
+        match self.ratios {
+            Ratios::Many => Ok(None),
+            Ratios::Few => shelved(&self.waves, ratio.to_bits(), || {
+                Ok(PunchWaves::new(&Medium::new(ratio)?))
+            })
+            .map(Some),
         }
     }
 }

@@ -36,7 +36,7 @@ mod piece;
 mod polynomial;
 mod roots;
 mod size;
-mod solved;
+pub mod solved;
 mod step;
 pub mod waves;
 

@@ -47,6 +47,7 @@ pub struct SolvedContact {
     pieces: Vec<Piece>,
     summary: Summary,
     estimates: Estimates,
+    work: f64,
 }
 
 /// The contact at a time, in collision units.
@@ -125,6 +126,7 @@ impl SolvedContact {
             },
             pieces,
             estimates,
+            work,
         }
     }
 
@@ -132,6 +134,13 @@ impl SolvedContact {
     #[must_use]
     pub fn summary(&self) -> &Summary {
         &self.summary
+    }
+
+    /// Work of the contact on the half-space, relative to the kinetic energy before: the sum of what its waves take,
+    /// independent of the striker's momentum.
+    #[must_use]
+    pub fn work(&self) -> f64 {
+        self.work
     }
 
     /// Their estimated errors.
