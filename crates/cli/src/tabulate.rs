@@ -9,6 +9,7 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use std::io::ErrorKind;
 use std::path::PathBuf;
+use std::str::FromStr;
 use tabulator::{BuildError, Extension, Grid, Summary};
 use tabulator::{build_over, build_shard, extend, refine};
 
@@ -53,7 +54,7 @@ pub(crate) struct Arguments {
     overwrite: Overwrite,
     /// Compute part I of N into the output, which is then a shard for `hertzlamb table merge`.
     #[arg(long, value_name = "I/N", conflicts_with = "force")]
-    shard: Option<String>,
+    shard: Option<Shard>,
     /// Print one JSON object instead of text.
     #[arg(long)]
     json: bool,
@@ -122,8 +123,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let grid = grid(arguments)?;
     let existing = arguments.overwrite.existing_table();
     let progress = Bar::new();
-    if let Some(shard) = &arguments.shard {
-        let (index, count) = parse_shard(shard)?;
+    if let Some(Shard { index, count }) = arguments.shard {
         let blocks =
             build_shard(&grid, index, count, &arguments.output, &progress).map_err(failure)?;
         progress.finish();
@@ -222,14 +222,27 @@ pub(crate) fn print_errors(accuracy: &[Accuracy]) -> Result<(), Failure> {
     Ok(())
 }
 
-fn parse_shard(text: &str) -> Result<(usize, usize), Failure> {
-    text.split_once('/')
-        .and_then(|(index, count)| Some((index.parse().ok()?, count.parse().ok()?)))
-        .ok_or_else(|| {
-            Failure::input(format!(
-                "--shard {text}: give I/N with whole numbers, as in 2/4"
-            ))
-        })
+/// One part of a number of parts, written I/N.
+#[derive(Debug, Clone, Copy)]
+struct Shard {
+    index: usize,
+    count: usize,
+}
+
+impl FromStr for Shard {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let parts = text.split_once('/');
+        parts
+            .and_then(|(index, count)| {
+                Some(Self {
+                    index: index.parse().ok()?,
+                    count: count.parse().ok()?,
+                })
+            })
+            .ok_or_else(|| "give I/N with whole numbers, as in 2/4".to_owned())
+    }
 }
 
 fn shard_report(arguments: &Arguments, blocks: usize) -> Result<(), Failure> {

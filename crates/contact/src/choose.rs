@@ -21,6 +21,8 @@
 //! The coefficients bound the differences from the full memory that were measured over couplings of 1e-3 to 5,
 //! memories of 1e-4 to 0.25 and Poisson's ratios of 0 to 0.48, with a margin of about 1.3.
 //! `tests/auto.rs` repeats the comparison on random scenes.
+//!
+//! Theory: `docs/theory.md` (T58).
 
 use crate::law::quasi_static::quasi_static;
 use crate::law::radiation::LOSS;

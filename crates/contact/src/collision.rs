@@ -1,4 +1,6 @@
 //! A collision of two elastic bodies and its dimensionless groups.
+//!
+//! Theory: `docs/theory.md` (T36, T39, T49).
 
 use crate::bodies::{HalfSpace, Striker};
 use crate::disc::FixedDisc;

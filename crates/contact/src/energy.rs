@@ -1,6 +1,8 @@
 //! The energy ledger: what the striker loses and where it goes.
 //!
 //! Energy is relative to the kinetic energy before, time and force are in collision units.
+//!
+//! Theory: `docs/theory.md` (T56, T57).
 
 use crate::disc::FixedDisc;
 use crate::march::history::History;

@@ -2,6 +2,8 @@
 //!
 //! Hertz's indentation is y^2, a y^3 is what the newest force takes away at once: the striker's own retreat and the
 //! elastic deflection of the half-space.
+//!
+//! Theory: `docs/theory.md` (T42).
 
 /// The smallest y >= 0 of a y^3 + y^2 = b, relative error below 1e-12; zero where b <= 0, nothing where there is none.
 pub(crate) fn force_root(a: f64, b: f64, guess: f64) -> Option<f64> {

@@ -2,6 +2,8 @@
 //!
 //! Inside the crate nothing carries an SI unit: a contact is marched in [`CollisionUnits`],
 //! fields are convolved in [`KernelUnits`].
+//!
+//! Theory: `docs/theory.md` (T37).
 
 /// Units of a collision: what Hertz's closed form reaches.
 ///

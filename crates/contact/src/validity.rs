@@ -1,4 +1,6 @@
 //! Where the model leaves what it was made for: warnings with their numbers.
+//!
+//! Theory: `docs/theory.md` (T57).
 
 use crate::bodies::{HalfSpace, Striker};
 use crate::collision::Collision;

@@ -35,7 +35,10 @@ fn a_force_that_jumps_loads_the_surface_with_its_pressure_at_once() {
     let middle = found.series.time_s.iter().position(|&t| t > 2e-6).unwrap();
     assert!((fields.values[4][0][middle] / -pressure - 1.0).abs() < 1e-3);
     assert!(
-        found.warnings.iter().any(|w| w.contains("miss the force by up to")),
+        found
+            .warnings
+            .iter()
+            .any(|w| w.contains("miss the force by up to")),
         "{:?}",
         found.warnings
     );

@@ -1,4 +1,6 @@
 //! Arrival times of the wave fronts from the loaded disc.
+//!
+//! Theory: `docs/theory.md` (T18, T28).
 
 use crate::domain::check_place;
 use crate::error::DomainError;

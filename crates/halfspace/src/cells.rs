@@ -8,6 +8,8 @@
 //! The difference divides the error of int R dt, whose terms are of order one at any distance, by the width, while R
 //! falls with the distance. Where the cells are short beside the distance, or many, R itself is interpolated, see
 //! [`trace`](crate::trace).
+//!
+//! Theory: `docs/theory.md` (T22, T23).
 
 use crate::domain::{check_place_under, check_time, check_width};
 use crate::error::DomainError;

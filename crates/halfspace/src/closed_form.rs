@@ -9,6 +9,8 @@
 //! E_n' = -E_{n-1}). The chord integral is done in closed form by parts when xi is near the chord,
 //! and by a short Gauss rule when it is far, where the closed form is a difference of large numbers.
 //! B_n is carried as B_n/r, which is smooth at r = 0.
+//!
+//! Theory: `docs/theory.md` (T12 to T14).
 
 use crate::chord_integral::{chord_primitives, from_primitives};
 use crate::complex::{inside, logarithm, reciprocal, root_inside, times_minus_i};

@@ -16,6 +16,8 @@
 //! ```
 //!
 //! and so on. The antiderivatives a4, a5 and b5 are measured so that they vanish before the arrival.
+//!
+//! Theory: `docs/theory.md` (T17).
 
 use crate::chord_integral::chord_primitives;
 use crate::far_front;

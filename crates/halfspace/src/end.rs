@@ -1,4 +1,6 @@
 //! One end of a chord: the antiderivative chains E_n and F_n in closed form.
+//!
+//! Theory: `docs/theory.md` (T13).
 
 use crate::complex::{logarithm, reciprocal, root_with_circle};
 use crate::order::{Order, TimeOrder};

@@ -1,4 +1,6 @@
 //! Slownesses below one: waves that travel as plane fronts, felt only while they pass.
+//!
+//! Theory: `docs/theory.md` (T17).
 
 use crate::compact::{compact, passed};
 use crate::field::{Field, Six};

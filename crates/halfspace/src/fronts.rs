@@ -16,6 +16,8 @@
 //! ```
 //!
 //! Singularities that do not depend on the place are those of [`branch_points`](crate::branch_points).
+//!
+//! Theory: `docs/theory.md` (T18).
 
 use crate::branch_points::Stretch;
 use crate::complex::root;

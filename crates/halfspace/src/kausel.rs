@@ -3,6 +3,8 @@
 //! The surface point-load step response of Kausel (2012), superposed over the Hertz disc.
 //! Kept beside [`SurfaceResponse`](crate::SurfaceResponse), which the programs use, because it shares no
 //! quadrature with it: each checks the other.
+//!
+//! Theory: `docs/theory.md` (T29, T30).
 
 use crate::medium::Medium;
 use num_complex::Complex64;

@@ -5,6 +5,8 @@
 //! ```
 //!
 //! The static part is in closed form, the remainder R is one [`Integral`] over slowness.
+//!
+//! Theory: `docs/theory.md` (T9, T10, T16, T21).
 
 use crate::domain::{check, check_hertz, check_place_under, check_time};
 use crate::error::DomainError;

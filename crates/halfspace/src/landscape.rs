@@ -2,6 +2,8 @@
 //!
 //! The interval [0, 1] is cut at the singularities that lie on it; toward a cut the variable is squared,
 //! which turns square roots into smooth functions. The pieces are integrated by Gauss rules on panels.
+//!
+//! Theory: `docs/theory.md` (T18).
 
 use crate::complex::root;
 use crate::list::{CAPACITY, List};

@@ -1,4 +1,6 @@
 //! The elastic half-space in reduced units: everything that follows from Poisson's ratio.
+//!
+//! Theory: `docs/theory.md` (T1, T11).
 
 use crate::domain::check;
 use crate::double::Double;

@@ -3,6 +3,8 @@
 //! With them a convolution is exact for a force that is a parabola over a cell, where averages alone take
 //! it as linear. Where R is smooth over five cells the moment follows from the averages around it; where a
 //! front crosses them it comes from int R dt and its own integral, and far from the load from R itself, as averages do.
+//!
+//! Theory: `docs/theory.md` (T24).
 
 use crate::domain::{check_hertz, check_place_under, check_time, check_width};
 use crate::error::DomainError;

@@ -9,6 +9,8 @@
 //!
 //! with zeta = xi, M_2j the even moments of the chord function and P_k Legendre polynomials. It takes over
 //! where the closed form becomes a difference of large numbers.
+//!
+//! Theory: `docs/theory.md` (T20).
 
 use crate::complex::{logarithm, reciprocal, root_with_circle};
 use crate::order::{Order, TimeOrder};

@@ -3,6 +3,8 @@
 //! A panel is accepted when every singularity lies outside a Bernstein ellipse large enough for a Gauss rule to reach
 //! the accuracy asked for, else it is halved. So the number of nodes follows from the geometry, and nothing is
 //! evaluated twice.
+//!
+//! Theory: `docs/theory.md` (T18).
 
 use crate::gauss;
 use num_complex::Complex64;

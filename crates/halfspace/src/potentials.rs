@@ -1,4 +1,6 @@
 //! The four potentials that carry the six fields.
+//!
+//! Theory: `docs/theory.md` (T12 to T14).
 
 /// Potentials A_n and B_n/r of two neighbouring orders n.
 ///

@@ -1,4 +1,6 @@
 //! Load profiles: how the force is spread over the disc.
+//!
+//! Theory: `docs/theory.md` (T4).
 
 /// Distribution of a unit force over the surface, with its Hankel transform Z_H(k).
 ///

@@ -1,4 +1,6 @@
 //! The Rayleigh wave near its arrival, just below the surface.
+//!
+//! Theory: `docs/theory.md` (T19).
 
 use crate::chord_integral::{chord_primitives, from_primitives};
 use crate::complex::{logarithm, reciprocal, root_inside, times_minus_i};

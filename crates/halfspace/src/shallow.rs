@@ -7,6 +7,8 @@
 //!
 //! Taken as it stands the difference would be lost to rounding. Away from the singularities of the potentials it is
 //! the step in xi times the mean of the potentials one order lower, by Gauss's rule of two points.
+//!
+//! Theory: `docs/theory.md` (T19).
 
 use crate::closed_form::potentials;
 use crate::compact::compact;

@@ -1,4 +1,6 @@
 //! Slownesses between one and 1/kappa: longitudinal waves bound to the surface, shear waves that travel.
+//!
+//! Theory: `docs/theory.md` (T16).
 
 use crate::closed_form::potentials;
 use crate::field::Six;

@@ -4,6 +4,8 @@
 //! R = (2 x^2 - K)^2 + 4 x^2 p y, the integrand N dw/(i w D) of a wave is amplitude times potential, dx.
 //! Below x = 1 every amplitude is real or imaginary; above it p = -i sqrt(x^2 - 1), R is complex, and every
 //! amplitude is a real number over R or over i R.
+//!
+//! Theory: `docs/theory.md` (T7, T16).
 
 use crate::field::{Field, Six};
 use crate::medium::Medium;

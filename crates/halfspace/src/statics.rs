@@ -6,6 +6,8 @@
 //! ```
 //!
 //! For the Hertz profile this is Huber's solution (1904), which has a form of its own.
+//!
+//! Theory: `docs/theory.md` (T15).
 
 use crate::closed_form::potentials;
 use crate::field::Six;

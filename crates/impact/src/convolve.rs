@@ -7,6 +7,8 @@
 //! Exact for a force that is linear between samples; Rbar_j is the average of the remainder R over
 //! the j-th cell. For a smooth force the cells are corrected by the first moments of R, see [`Smoothness`](lookup::Smoothness).
 //! Everything is in kernel units except the force, whose unit is free.
+//!
+//! Theory: `docs/theory.md` (T22, T24).
 
 use crate::transform::Transform;
 use halfspace::Six;

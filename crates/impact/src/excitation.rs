@@ -2,6 +2,8 @@
 //!
 //! A solved contact, a closed form and a record all become an [`Excitation`]; fields, sections and energy follow from
 //! it in one way.
+//!
+//! Theory: `docs/theory.md` (T55).
 
 use crate::record::ForceRecord;
 use crate::stretch::Departure;

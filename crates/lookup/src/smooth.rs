@@ -4,6 +4,8 @@
 //! over five cells to fourth order. Against them R counts with its average, first and second moment,
 //! exactly, also where a front crosses the cell. Collected by the samples of the force, this is the same
 //! sum with other cells.
+//!
+//! Theory: `docs/theory.md` (T24).
 
 use halfspace::Six;
 

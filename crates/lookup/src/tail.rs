@@ -1,4 +1,6 @@
 //! The decay of the remainder after the last time cell.
+//!
+//! Theory: `docs/theory.md` (T21).
 
 use halfspace::Six;
 

@@ -1,6 +1,8 @@
 //! Hertz's closed form (45)-(47): no waves, restitution 1.
 //!
 //! In collision units everything is a constant.
+//!
+//! Theory: `docs/theory.md` (T38).
 
 /// Hertz's contact time in units of alpha/V0: 2 int_0^1 dx/sqrt(1 - x^(5/2)), the 2.94 of (47).
 ///

@@ -9,6 +9,8 @@
 //! sinks evenly about the turning point, so that the peaks and the duration are those of an impact with the
 //! mean of the energies before and after.
 //! Collision units; sigma = 0 is Hertz's closed form.
+//!
+//! Theory: `docs/theory.md` (T39, T50).
 
 use crate::quadrature::{GAUSS_4, GAUSS_8, find_root};
 use crate::summary::{EndOfContact, Summary};

@@ -10,6 +10,8 @@
 //! To first order in c the striker meets the force p = d^(3/2) + (9/4) c d d', the well-posed form
 //! of the same lag.
 //! The peaks and the duration are the first-order solution of that equation.
+//!
+//! Theory: `docs/theory.md` (T49 to T51, T53).
 
 use super::hertz;
 use super::quasi_static::expected_contact_time;

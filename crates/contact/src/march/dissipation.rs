@@ -10,6 +10,8 @@
 //! and the sum over the samples has the weights of Gregory for its ends.
 //! The work of the march's own deflection, [`work`](crate::work::work), has an error of h^2 log h instead, with
 //! a factor that depends on where in its cell the contact ends.
+//!
+//! Theory: `docs/theory.md` (T46).
 
 use super::edge::Edge;
 use super::history::History;

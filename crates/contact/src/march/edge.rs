@@ -7,6 +7,8 @@
 //! ```text
 //! s = y^2 (1 + a y) G(y),     dp/ds = 3 y/R(y),     ds = y R dy,     R = (2 + 3 a y) G + (y + a y^2) G'
 //! ```
+//!
+//! Theory: `docs/theory.md` (T44).
 
 use super::relaxation::Relaxation;
 use crate::quadrature::{GAUSS_4, gauss};

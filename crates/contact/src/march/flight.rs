@@ -8,6 +8,8 @@
 //! E_0 and E_1 are what the sums of p and t p miss at the touch, where the force starts with the power 3/2 as
 //! y^2 + sigma y^3 = t, p = y^3, on a surface of compliance sigma; without them the error would be of order 5/2.
 //! Everything is in collision units.
+//!
+//! Theory: `docs/theory.md` (T40).
 
 use super::history::History;
 use crate::force_balance::force_root;

@@ -13,6 +13,8 @@
 //! Because du carries phi <= 1 of itself at most, the equation is well posed for every pair of
 //! materials; with increments shaped like Hertz's pressure it would not be for phi > 2/3.
 //! u is nearly linear at the touch, so that no start correction is needed for the deflection.
+//!
+//! Theory: `docs/theory.md` (T47, T48).
 
 use super::budget::Budget;
 use super::error::MarchError;

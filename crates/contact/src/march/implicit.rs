@@ -5,6 +5,8 @@
 //! The striker moves by Numerov's sum with the 3/2-power start taken out, the half-space answers by
 //! product integration that is exact for a force linear in each cell and corrected for its curvature:
 //! the scheme is of an order between 2 and 4 where the force is smooth, and stable at any step.
+//!
+//! Theory: `docs/theory.md` (T42).
 
 use super::budget::Budget;
 use super::edge::Edge;

@@ -1,4 +1,6 @@
 //! The relaxation 1 - W of a disc: deflection still to come after an increment of force.
+//!
+//! Theory: `docs/theory.md` (T45, T46).
 
 use crate::response::disc::DiscResponse;
 

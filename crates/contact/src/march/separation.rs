@@ -11,6 +11,8 @@
 //! ```
 //!
 //! where p(s) is that of an [`Edge`] through the last samples.
+//!
+//! Theory: `docs/theory.md` (T45).
 
 use super::dissipation::dissipated;
 use super::edge::Edge;

@@ -9,6 +9,8 @@
 //! with g_j = 1 - (1/h) int_{jh}^{(j+1)h} W dt for a force that is linear in each cell, and a
 //! correction for its curvature, taken from neighbouring cells, with the first moments of W.
 //! g_j = 0 for cells older than the memory, so the sum is short.
+//!
+//! Theory: `docs/theory.md` (T41, T43).
 
 use crate::disc::FixedDisc;
 use crate::response::disc::DiscResponse;

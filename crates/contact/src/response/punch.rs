@@ -9,6 +9,8 @@
 //! ```text
 //! V_p(t) = V(y)/2 + (y/2) int_y^inf V(x)/x^2 dx,     y = t/2
 //! ```
+//!
+//! Theory: `docs/theory.md` (T31).
 
 use crate::quadrature::GAUSS_4;
 use halfspace::{Deflection, SurfaceResponse};

@@ -14,7 +14,7 @@
 //! For small X the bracket is a a' - X(..): a short memory is no special case, and nothing is summed over a past.
 //! For phi = 1 the equation is algebraic in a, not ill-posed.
 //!
-//! a is analytic in time inside the contact, so it is a few polynomials ([`step`]) of the root of the
+//! a is analytic in time inside the contact, so it is a few polynomials (`step`) of the root of the
 //! time since the touch, then of the root of the time to the expected end; in the last part the time
 //! is a polynomial of the root of the radius, which makes the end of contact a place that is known.
 //! Both ends are layers that scale with themselves (a ~ phi tau); pieces get shorter toward them.

@@ -1,4 +1,6 @@
 //! The chord functions of the two deflections and their overlap with a measure given by its moments.
+//!
+//! Theory: `docs/theory.md` (T27).
 
 use super::Deflection;
 

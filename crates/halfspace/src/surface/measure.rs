@@ -1,4 +1,6 @@
 //! The measure over slowness, with its moments.
+//!
+//! Theory: `docs/theory.md` (T25, T26).
 
 use super::chord::{Moments, POWERS};
 use super::zone::{Zone, panel_ends};

@@ -13,6 +13,8 @@
 //! phi is the chord function of the load: 1 - eta^2 on [0, 1] for the centre of a Hertz disc
 //! and (2 - eta)^3 (eta^2 + 6 eta + 4)/32 on [0, 2] for its pressure-weighted mean.
 //! Since phi has bounded support the response is exactly static after the last Rayleigh wave.
+//!
+//! Theory: `docs/theory.md` (T25 to T28, T32, T34).
 
 mod chord;
 mod curve;
