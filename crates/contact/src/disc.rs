@@ -4,6 +4,10 @@ use crate::response::disc::DiscResponse;
 use crate::settings::StaticShare;
 use halfspace::SurfaceResponse;
 
+/// Coupling up to which the deflection of the centre takes more energy than it gives, for any Poisson's ratio
+/// between 0 and 0.45: its compliance at some frequencies is real and down to -0.14 of the static one.
+pub const CENTRE_COUPLING: f64 = 5.0;
+
 /// An impact on a disc of fixed radius, in dimensionless groups; the response is exact or tabulated.
 #[derive(Debug)]
 pub struct FixedDisc<'a, R> {

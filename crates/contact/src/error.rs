@@ -13,6 +13,18 @@ pub enum ContactError {
     /// A material is outside the physics.
     #[error(transparent)]
     Domain(#[from] DomainError),
+    /// The deflection of the disc's centre has fed energy back.
+    #[error(
+        "the disc gives way {coupling:.1} times as much as the contact, and the deflection of its centre, which is not conjugate to the pressure, feeds energy back: restitution {restitution:.4}, {contacts} contacts; take the mean deflection or a larger disc"
+    )]
+    EnergyFed {
+        /// Coupling of the disc.
+        coupling: f64,
+        /// Restitution found.
+        restitution: f64,
+        /// Contacts found.
+        contacts: usize,
+    },
     /// The radiated loss is not small.
     #[error(
         "model \"radiation\" is a first-order law: it gives a loss of {loss:.3} of the kinetic energy, outside [0, 0.5]; use model \"growing\" or \"wave\""

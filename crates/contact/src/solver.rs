@@ -1,7 +1,7 @@
 //! One contact: its model chosen, its scheme run. Single impacts, sweeps and charts all come through here.
 
 use crate::collision::Collision;
-use crate::disc::FixedDisc;
+use crate::disc::{CENTRE_COUPLING, FixedDisc};
 use crate::energy::radiated;
 use crate::error::ContactError;
 use crate::law::hertz;
@@ -188,6 +188,7 @@ impl<'a, S: Responses> Solver<'a, S> {
             (Model::Wave | Model::Auto, Scheme::Implicit) => {
                 let impact = disc_of(collision, settings, &*disc);
                 let found = solve_disc(&mut self.workspace, &impact, step, asked)?;
+                check_energy(&impact, &found.summary)?;
                 (Some(Scheme::Implicit), found)
             }
             (Model::Wave | Model::Auto, Scheme::Explicit) => {
@@ -314,6 +315,23 @@ pub fn solve_disc(
     stepped(workspace, step, duration, asked, |step, workspace| {
         march_into(impact, step, &mut workspace.weights, &mut workspace.history)
     })
+}
+
+/// Refuses what the deflection of the centre makes of a disc that is much softer than the contact.
+fn check_energy<R: DiscResponse>(
+    impact: &FixedDisc<'_, R>,
+    summary: &Summary,
+) -> Result<(), ContactError> {
+    let may_feed = impact.response.deflection() == Deflection::Centre
+        && impact.static_coupling() > CENTRE_COUPLING;
+    if may_feed && (summary.contacts > 1 || summary.restitution > 1.0) {
+        return Err(ContactError::EnergyFed {
+            coupling: impact.coupling,
+            restitution: summary.restitution,
+            contacts: summary.contacts,
+        });
+    }
+    Ok(())
 }
 
 fn disc_of<'r, R: DiscResponse>(

@@ -4,15 +4,12 @@
 
 use crate::bodies::{HalfSpace, Striker};
 use crate::collision::Collision;
+use crate::disc::CENTRE_COUPLING;
 use crate::plan::fixed_disc_m;
 use crate::results::Results;
 use crate::settings::{Model, Settings, StaticShare};
 use halfspace::Deflection;
 use std::f64::consts::PI;
-
-/// Coupling up to which the deflection of the centre takes more energy than it gives, for any Poisson's ratio
-/// between 0 and 0.45: its compliance at some frequencies is real and down to -0.14 of the static one.
-const CENTRE_COUPLING: f64 = 5.0;
 
 /// alpha_A = sqrt(pi rho r^3/m) (V0/c1)^(3/2): the weight of the super-seismic stage.
 #[must_use]
