@@ -64,18 +64,8 @@ impl<'a> Sampled<'a> {
             (Smoothness::Smooth, Departure::default(), 0.0);
         for (run, force_n) in grid.split(force_n) {
             let to_s = run.start_s + (run.count - 1) as f64 * grid.step_s;
-            let (own, departure) = match excitation.departure(run.start_s, to_s, grid.step_s) {
-                // a record is linear between its rows, and so are its samples
-                Some(departure) => (Smoothness::Linear, departure),
-                None => {
-                    let (smoothness, error_n) = between_samples(force_n);
-                    let departure = Departure {
-                        most_n: error_n,
-                        sum_n: f64::INFINITY,
-                    };
-                    (smoothness, departure)
-                }
-            };
+            let known = excitation.departure(run.start_s, to_s, grid.step_s);
+            let (own, departure) = between_samples(force_n, known);
             if own == Smoothness::Linear {
                 smoothness = own;
             }

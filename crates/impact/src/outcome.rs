@@ -37,7 +37,7 @@ pub struct RecordResults {
     pub peak_deflection_m: f64,
     /// Radius of the disc that it loads in m.
     pub disc_radius_m: f64,
-    /// Largest difference between the force and its samples joined by straight lines, over the largest force.
+    /// The most that the samples leave of the force between them, over the largest force.
     pub relative_error_estimate: f64,
     /// int P dw of the pressure-weighted mean deflection, in J.
     pub radiated_energy_j: f64,

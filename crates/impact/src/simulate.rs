@@ -10,6 +10,7 @@ use crate::outcome::{
 };
 use crate::probes::{ProbeFields, SectionFields, at_probes, method, on_section};
 use crate::record::ForceRecord;
+use crate::samples::between_samples;
 use crate::scene::{Load, Scene, Strike};
 use crate::source::{Chosen, KernelChoice, SourceError, choose_source};
 use contact::work::work_j;
@@ -119,7 +120,7 @@ fn of_record(
     let relative_error = left_n / record.largest_n().max(f64::MIN_POSITIVE);
     if relative_error > scene.settings.tolerance {
         warnings.push(format!(
-            "on the output's step of {:.3e} s, samples joined by straight lines miss the force by up to {left_n:.3e} N, {relative_error:.1e} of its largest: the errors of the fields count it, a smaller step_s lowers it",
+            "on the output's step of {:.3e} s, samples miss the force between them by up to {left_n:.3e} N, {relative_error:.1e} of its largest: the errors of the fields count it, a smaller step_s lowers it",
             computed.grid.step_s
         ));
     }
@@ -202,14 +203,16 @@ impl<'a> Computed<'a> {
         Ok(())
     }
 
-    /// Largest difference in N between the force and its samples joined by straight lines.
+    /// The most in N that the samples leave of a record's force.
     fn left_n(&self) -> f64 {
         let step_s = self.grid.step_s;
-        let runs = self.grid.runs.iter().filter_map(|run| {
+        let parts = self.grid.split(&self.force_n).into_iter();
+        let left = parts.map(|(run, force_n)| {
             let to_s = run.start_s + (run.count - 1) as f64 * step_s;
-            self.excitation.departure(run.start_s, to_s, step_s)
+            let known = self.excitation.departure(run.start_s, to_s, step_s);
+            between_samples(force_n, known).1.most_n
         });
-        runs.fold(0.0, |most, left| most.max(left.most_n))
+        left.fold(0.0, f64::max)
     }
 
     /// What the user should know of the times of the output.

@@ -27,6 +27,14 @@ pub(crate) struct Departure {
 }
 
 impl Departure {
+    /// Of which the largest alone is known.
+    pub(crate) fn at_most(most_n: f64) -> Self {
+        Self {
+            most_n,
+            sum_n: f64::INFINITY,
+        }
+    }
+
     fn add(&mut self, cell_n: f64) {
         self.most_n = self.most_n.max(cell_n);
         self.sum_n += cell_n;
