@@ -119,3 +119,8 @@ pub fn measure(figure: &Figure) -> Result<Measured, FigureError> {
         plots: scene.plots,
     })
 }
+
+/// The README's program runs.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -39,150 +39,40 @@ impl Quantity {
     }
 }
 
-/// All of them, in the order of files and reports.
-pub const QUANTITIES: [Quantity; 18] = [
-    Quantity {
-        name: "peak_force_n",
-        unit: "N",
-        meaning: "largest contact force",
-        kind: Kind::Real,
-        of_contact: |r| r.peak_force_n,
-        of_record: Some(|r| r.peak_force_n),
-    },
-    Quantity {
-        name: "peak_force_time_s",
-        unit: "s",
-        meaning: "when it is reached",
-        kind: Kind::Real,
-        of_contact: |r| r.peak_force_time_s,
-        of_record: Some(|r| r.peak_force_time_s),
-    },
-    Quantity {
-        name: "contact_time_s",
-        unit: "s",
-        meaning: "duration of the first contact; of the record",
-        kind: Kind::Real,
-        of_contact: |r| r.contact_time_s,
-        of_record: Some(|r| r.duration_s),
-    },
-    Quantity {
-        name: "rebound_velocity_m_s",
-        unit: "m/s",
-        meaning: "velocity of departure, positive away from the half-space",
-        kind: Kind::Real,
-        of_contact: |r| r.rebound_velocity_m_s,
-        of_record: None,
-    },
-    Quantity {
-        name: "restitution",
-        unit: "1",
-        meaning: "velocity of departure over velocity of approach",
-        kind: Kind::Real,
-        of_contact: |r| r.restitution,
-        of_record: None,
-    },
-    Quantity {
-        name: "loss",
-        unit: "1",
-        meaning: "kinetic energy lost over kinetic energy before, 1 - restitution^2",
-        kind: Kind::Real,
-        of_contact: |r| r.loss,
-        of_record: None,
-    },
-    Quantity {
-        name: "peak_displacement_m",
-        unit: "m",
-        meaning: "largest displacement of the striker",
-        kind: Kind::Real,
-        of_contact: |r| r.peak_displacement_m,
-        of_record: None,
-    },
-    Quantity {
-        name: "peak_deflection_m",
-        unit: "m",
-        meaning: "largest deflection of the half-space in the contact law",
-        kind: Kind::Real,
-        of_contact: |r| r.peak_deflection_m,
-        of_record: Some(|r| r.peak_deflection_m),
-    },
-    Quantity {
-        name: "impulse_n_s",
-        unit: "N s",
-        meaning: "momentum given to the striker; integral of the record",
-        kind: Kind::Real,
-        of_contact: |r| r.impulse_n_s,
-        of_record: Some(|r| r.impulse_n_s),
-    },
-    Quantity {
-        name: "initial_energy_j",
-        unit: "J",
-        meaning: "kinetic energy before",
-        kind: Kind::Real,
-        of_contact: |r| r.initial_energy_j,
-        of_record: None,
-    },
-    Quantity {
-        name: "radiated_energy_j",
-        unit: "J",
-        meaning: "work that the force leaves in the half-space as waves",
-        kind: Kind::Real,
-        of_contact: |r| r.radiated_energy_j,
-        of_record: Some(|r| r.radiated_energy_j),
-    },
-    Quantity {
-        name: "energy_residual",
-        unit: "1",
-        meaning: "(initial - rebound - radiated)/initial energy",
-        kind: Kind::Real,
-        of_contact: |r| r.energy_residual,
-        of_record: None,
-    },
-    Quantity {
-        name: "contact_radius_m",
-        unit: "m",
-        meaning: "contact radius of Hertz's law at the largest force",
-        kind: Kind::Real,
-        of_contact: |r| r.contact_radius_m,
-        of_record: None,
-    },
-    Quantity {
-        name: "disc_radius_m",
-        unit: "m",
-        meaning: "radius of the disc that loads the half-space",
-        kind: Kind::Real,
-        of_contact: |r| r.disc_radius_m,
-        of_record: Some(|r| r.disc_radius_m),
-    },
-    Quantity {
-        name: "contacts",
-        unit: "1",
-        meaning: "number of contacts",
-        kind: Kind::Count,
-        of_contact: |r| r.contacts as f64,
-        of_record: None,
-    },
-    Quantity {
-        name: "march_steps",
-        unit: "1",
-        meaning: "steps of the march over the contact, 0 where no uniform step is taken",
-        kind: Kind::Count,
-        of_contact: |r| r.march_steps as f64,
-        of_record: None,
-    },
-    Quantity {
-        name: "march_step_s",
-        unit: "s",
-        meaning: "step of the march, 0 where no uniform step is taken",
-        kind: Kind::Real,
-        of_contact: |r| r.march_step_s,
-        of_record: None,
-    },
-    Quantity {
-        name: "relative_error_estimate",
-        unit: "1",
-        meaning: "estimated relative error of peak force, contact time, restitution and displacement",
-        kind: Kind::Real,
-        of_contact: |r| r.relative_error_estimate,
-        of_record: Some(|r| r.relative_error_estimate),
-    },
-];
+macro_rules! quantities {
+    ($($name:ident: $kind:ident $unit:literal of $contact:ident $(, $record:ident)? => $meaning:literal;)*) => {
+        [$(Quantity {
+            name: stringify!($name),
+            unit: $unit,
+            meaning: $meaning,
+            kind: Kind::$kind,
+            of_contact: |r| r.$contact as f64,
+            of_record: quantities!(@record $($record)?),
+        },)*]
+    };
+    (@record) => { None };
+    (@record $field:ident) => { Some(|r| r.$field) };
+}
+
+/// All of them, in the order of files and reports: name, kind, unit, field of a contact's results and, where it has
+/// one, of a record's, and meaning.
+pub const QUANTITIES: [Quantity; 18] = quantities! {
+    peak_force_n: Real "N" of peak_force_n, peak_force_n => "largest contact force";
+    peak_force_time_s: Real "s" of peak_force_time_s, peak_force_time_s => "when it is reached";
+    contact_time_s: Real "s" of contact_time_s, duration_s => "duration of the first contact; of the record";
+    rebound_velocity_m_s: Real "m/s" of rebound_velocity_m_s => "velocity of departure, positive away from the half-space";
+    restitution: Real "1" of restitution => "velocity of departure over velocity of approach";
+    loss: Real "1" of loss => "kinetic energy lost over kinetic energy before, 1 - restitution^2";
+    peak_displacement_m: Real "m" of peak_displacement_m => "largest displacement of the striker";
+    peak_deflection_m: Real "m" of peak_deflection_m, peak_deflection_m => "largest deflection of the half-space in the contact law";
+    impulse_n_s: Real "N s" of impulse_n_s, impulse_n_s => "momentum given to the striker; integral of the record";
+    initial_energy_j: Real "J" of initial_energy_j => "kinetic energy before";
+    radiated_energy_j: Real "J" of radiated_energy_j, radiated_energy_j => "work that the force leaves in the half-space as waves";
+    energy_residual: Real "1" of energy_residual => "(initial - rebound - radiated)/initial energy";
+    contact_radius_m: Real "m" of contact_radius_m => "contact radius of Hertz's law at the largest force";
+    disc_radius_m: Real "m" of disc_radius_m, disc_radius_m => "radius of the disc that loads the half-space";
+    contacts: Count "1" of contacts => "number of contacts";
+    march_steps: Count "1" of march_steps => "steps of the march over the contact, 0 where no uniform step is taken";
+    march_step_s: Real "s" of march_step_s => "step of the march, 0 where no uniform step is taken";
+    relative_error_estimate: Real "1" of relative_error_estimate, relative_error_estimate => "estimated relative error of peak force, contact time, restitution and displacement";
+};
