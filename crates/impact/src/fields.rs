@@ -131,6 +131,8 @@ impl<'a> Sampled<'a> {
             }
         }
         let (variation, steps) = (cells.variation(), cells.largest_step());
+        let (settled, changed_n) = grid.left_out();
+        let rest = cells.averages.get(settled).copied().unwrap_or_default();
         let mut errors = [0.0; 6];
         for (field, samples) in values.iter_mut().enumerate() {
             let unit = if field < 2 {
@@ -144,7 +146,8 @@ impl<'a> Sampled<'a> {
                 largest = largest.max(value.abs());
             }
             let kernel = cells.error[field] * self.half_variation_n
-                + self.left.moves(variation[field], steps[field]);
+                + self.left.moves(variation[field], steps[field])
+                + changed_n * rest[field].abs();
             errors[field] = kernel * unit + excitation.relative_error() * largest;
         }
         Ok(Point {

@@ -94,7 +94,10 @@ impl Wanted {
         })
     }
 
-    /// Time in s after which the fields of a force that has come to rest are static to 1e-6 of their peak or better.
+    /// Time in s after which the fields of a force that has come to rest are taken as static.
+    ///
+    /// What is left of the remainder then is left out: up to 2e-4 of the peak was seen after a lasting change of force,
+    /// far less after a pulse. The errors of the fields count it.
     fn settling_s(&self, excitation: &Excitation) -> f64 {
         let units = excitation.units();
         let slowest = excitation.medium().rayleigh_speed() * units.longitudinal_speed_m_s;
@@ -130,6 +133,10 @@ impl Wanted {
                 runs.push(run(begins_s(i), to_s, stretch.base_n));
             }
         }
+        if runs.is_empty() {
+            // the output ends before the record begins to change
+            runs.push(run(0.0, step_s, 0.0));
+        }
         runs
     }
 }
@@ -162,6 +169,8 @@ pub struct Grid {
     pub runs: Vec<Run>,
     /// Largest step in s that was wanted.
     pub(crate) wanted_s: f64,
+    /// Time in s after which fields are taken as static between runs.
+    settling_s: f64,
 }
 
 impl Grid {
@@ -198,6 +207,7 @@ impl Grid {
             coarsening,
             runs,
             wanted_s,
+            settling_s: wanted.settling_s(excitation),
         })
     }
 
@@ -205,6 +215,16 @@ impl Grid {
     #[must_use]
     pub fn count(&self) -> usize {
         self.runs.iter().map(|run| run.count).sum()
+    }
+
+    /// The cell from which on runs leave out what an earlier one has changed for good, and the sum of these changes in N.
+    pub(crate) fn left_out(&self) -> (usize, f64) {
+        let cell = (self.settling_s / self.step_s) as usize;
+        let changes = self
+            .runs
+            .windows(2)
+            .map(|r| (r[1].base_n - r[0].base_n).abs());
+        (cell.min(self.longest().saturating_sub(1)), changes.sum())
     }
 
     /// Samples of the longest run.

@@ -156,6 +156,38 @@ fn the_fields_are_those_of_exact_superposition_within_their_estimates() {
 }
 
 #[test]
+fn what_a_lasting_change_leaves_beyond_a_gap_is_within_the_errors() {
+    // on, a plateau of 0.9 s, off: the second run takes the fields of the plateau as static
+    let rows = vec![0.0, 1e-6, 0.9, 0.900_001, 1.0];
+    let record = ForceRecord::new(rows, vec![0.0, 500.0, 500.0, 0.0, 0.0]).unwrap();
+    let found = fields(record, None);
+    let times = &found.series.time_s;
+    let gap = (1..times.len())
+        .find(|&i| times[i] - times[i - 1] > 0.1)
+        .unwrap();
+    let probes = found.probes.as_ref().unwrap();
+    for probe in 0..3 {
+        for field in 0..FIELDS.len() {
+            let values = &probes.values[field][probe];
+            let jump = (values[gap] - values[gap - 1]).abs();
+            assert!(
+                jump <= probes.errors[field][probe],
+                "probe {probe}, field {field}: {jump:e} {:e}",
+                probes.errors[field][probe]
+            );
+        }
+    }
+}
+
+#[test]
+fn an_output_that_ends_before_the_pulse_is_still() {
+    let found = fields(record(0.37, 1.0), Some(1e-3));
+    assert_eq!(found.series.time_s.len(), 2);
+    let values = found.probes.unwrap().values;
+    assert!(values.iter().flatten().flatten().all(|&x| x == 0.0));
+}
+
+#[test]
 fn a_constant_force_has_its_static_field() {
     let step = ForceRecord::new(vec![0.0, 1e-6, 1.0], vec![0.0, 500.0, 500.0]).unwrap();
     let found = fields(step, None);
