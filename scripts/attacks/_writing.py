@@ -1,0 +1,73 @@
+"""The commands that write files, small enough to be run hundreds of times."""
+
+import collections
+import os
+
+from common import GRID, SCENE, fresh, well, write
+
+Writing = collections.namedtuple("Writing", "arguments outputs setup")
+"""A command, the files that it writes, and what lies in its folder before."""
+
+SWEEP = """[scene.striker]
+tip_radius_m = 0.005
+material = "mine"
+mass_kg = 0.01
+[scene.target]
+material = "steel"
+[scene.contact]
+model = "hertz"
+[scene.materials]
+file = "mine.toml"
+[product.striker]
+velocity_m_s = { from = 0.1, to = 10.0, count = 70000, spacing = "log" }
+"""
+MATERIALS = '[mine]\nyoungs_modulus_pa = 70e9\npoisson_ratio = 0.22\ndensity_kg_m3 = 2500\nsource = "x"\n'
+
+
+def commands(name):
+    """The folder and the commands in it by name."""
+    folder = fresh(name)
+    at = lambda file: os.path.join(folder, file)
+    table, grid = at("t.h5"), at("g.toml")
+
+    def empty():
+        fresh(name)
+        write(grid, GRID)
+        write(at("s.toml"), SWEEP)
+        write(at("mine.toml"), MATERIALS)
+        write(at("i.toml"), SCENE)
+
+    def with_table(ratio=None):
+        def setup():
+            empty()
+            well(["tabulate", "--grid", grid, *(["--nu", ratio] if ratio else []), "-o", table])
+
+        return setup
+
+    def with_shards():
+        empty()
+        for part in (1, 2):
+            well(["tabulate", "--grid", grid, "--shard", f"{part}/2", "-o", at(f"{part}.shard")])
+
+    def with_old(*files):
+        def setup():
+            empty()
+            for file in files:
+                write(at(file), "old")
+
+        return setup
+
+    sweep = ["sweep", at("s.toml"), "-o", at("s.h5"), "--csv", at("s.csv")]
+    both = [at("s.h5"), at("s.csv")]
+    impact = ["impact", at("i.toml"), "-o", at("i.h5")]
+    return folder, {
+        "tabulate": Writing(["tabulate", "--grid", grid, "-o", table], [table], empty),
+        "tabulate --force": Writing(["tabulate", "--grid", grid, "-o", table, "--force"], [table], with_table("0.2")),
+        "extend": Writing(["tabulate", "--nu", "0.25", "-o", table], [table], with_table()),
+        "shard": Writing(["tabulate", "--grid", grid, "--shard", "1/1", "-o", at("1.shard")], [at("1.shard")], empty),
+        "merge": Writing(["table", "merge", at("1.shard"), at("2.shard"), "-o", table], [table], with_shards),
+        "sweep": Writing(sweep, both, empty),
+        "sweep --force": Writing([*sweep, "--force"], both, with_old("s.h5", "s.csv")),
+        "impact": Writing(impact, [at("i.h5")], empty),
+        "impact --force": Writing([*impact, "--force"], [at("i.h5")], with_old("i.h5")),
+    }
