@@ -1,7 +1,7 @@
 //! The results of an impact as text.
 
 use formats::{choices, kernel_name};
-use impact::{Cause, Outcome, RecordResults, Scene};
+use impact::{Cause, Load, Outcome, RecordResults, Scene, Treated};
 
 /// The results for people.
 pub(crate) fn text_report(scene: &Scene, outcome: &Outcome) -> String {
@@ -18,7 +18,12 @@ pub(crate) fn text_report(scene: &Scene, outcome: &Outcome) -> String {
             ));
             lines.extend(contact_lines(results));
         }
-        Cause::Record(results) => lines.extend(record_lines(results)),
+        Cause::Record(results) => {
+            if let Load::Record(record) = &scene.load {
+                lines.extend(record.treated.iter().map(treated_line));
+            }
+            lines.extend(record_lines(results));
+        }
     }
     lines.extend(output_lines(outcome));
     lines.join("\n")
@@ -47,6 +52,26 @@ fn contact_lines(r: &contact::Results) -> Vec<String> {
         ),
         format!("error estimate {:.1e} relative", r.relative_error_estimate),
     ]
+}
+
+/// What was done to a record.
+fn treated_line(done: &Treated) -> String {
+    let baseline = done.baseline_s.map(|length_s| {
+        format!(
+            "baseline {}, the mean of the first {}, taken away",
+            si(done.baseline_n, "N"),
+            si(length_s, "s")
+        )
+    });
+    let low_pass = done.low_pass_hz.map(|cutoff_hz| {
+        format!(
+            "low pass at {} (Butterworth, fourth order, forwards and backwards), took away {} rms",
+            si(cutoff_hz, "Hz"),
+            si(done.removed_rms_n, "N")
+        )
+    });
+    let parts: Vec<String> = baseline.into_iter().chain(low_pass).collect();
+    format!("treatment      {}", parts.join("; "))
 }
 
 fn record_lines(r: &RecordResults) -> Vec<String> {

@@ -1,5 +1,6 @@
 //! What can be wrong with a scene.
 
+use impact::TreatmentError;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
@@ -116,6 +117,9 @@ pub enum SceneError {
         /// Why.
         reason: &'static str,
     },
+    /// A treatment that the force record cannot have.
+    #[error("force.{0}")]
+    Treatment(#[from] TreatmentError),
     /// A force file with an unusable row.
     #[error("{} line {line}: {reason}", path.display())]
     ForceFile {

@@ -1,8 +1,9 @@
 //! The results of an impact for people and for machines.
 
 use crate::quantities::{Kind, QUANTITIES};
+use crate::results::schema::TREATMENT;
 use contact::Choice;
-use impact::{Cause, KernelsUsed, Outcome, Scene};
+use impact::{Cause, KernelsUsed, Load, Outcome, Scene};
 use serde_json::{Map, Value, json};
 
 /// Names of the choices made.
@@ -48,11 +49,42 @@ pub fn choices<'a>(scene: &Scene, outcome: &'a Outcome) -> Choices<'a> {
     }
 }
 
+/// What was done to a force record, by the names of files: empty where nothing was.
+pub(crate) fn treatment(scene: &Scene) -> Vec<(&'static str, Option<f64>)> {
+    let Load::Record(record) = &scene.load else {
+        return Vec::new();
+    };
+    let Some(done) = record.treated else {
+        return Vec::new();
+    };
+    let low_passed = |value: f64| done.low_pass_hz.map(|_| value);
+    let values = [
+        done.baseline_s,
+        done.baseline_s.map(|_| done.baseline_n),
+        done.low_pass_hz,
+        low_passed(done.removed_rms_n),
+        low_passed(done.before_zero_n_s),
+    ];
+    TREATMENT.into_iter().zip(values).collect()
+}
+
 /// Kernel of the fields: "none", "direct" or "table".
 #[must_use]
 pub fn kernel_name(outcome: &Outcome) -> &'static str {
     let used = outcome.used.as_ref();
     used.map_or("none", |used| used.kernels.name())
+}
+
+/// The same as JSON; null where nothing was done.
+fn treated(scene: &Scene) -> Value {
+    let numbers = treatment(scene);
+    if numbers.is_empty() {
+        return Value::Null;
+    }
+    let pairs = numbers
+        .into_iter()
+        .map(|(name, value)| (name.to_owned(), Value::from(value)));
+    Value::Object(pairs.collect())
 }
 
 /// All that is reported of a scene, with the time that it took in s.
@@ -84,6 +116,7 @@ pub fn json_report(scene: &Scene, outcome: &Outcome, wall_s: f64) -> Value {
         "map": section.map(|s| [s.time_s.len(), s.z_m.len(), s.r_m.len()]),
         "wall_s": wall_s,
         "warnings": outcome.warnings,
+        "force_treatment": treated(scene),
     });
     let quantities = QUANTITIES.iter().map(|quantity| {
         let value = quantity

@@ -20,12 +20,14 @@
 //! ```
 
 // in reading order
+mod condition;
 pub mod convolve;
 pub mod excitation;
 pub mod fields;
 pub mod grid;
 pub mod impact;
 pub mod kernels;
+mod low_pass;
 pub mod outcome;
 mod place;
 pub mod probes;
@@ -38,6 +40,7 @@ mod stretch;
 pub mod sweep;
 mod transform;
 
+pub use condition::{Treatment, TreatmentError};
 pub use contact::{HalfSpace, Material, Settings, Striker};
 pub use excitation::{Excitation, Motion};
 pub use fields::{FieldHistory, Fields, FieldsError, Trace};
@@ -48,7 +51,7 @@ pub use kernels::KernelSource;
 pub use outcome::{Cause, FieldsUsed, KernelsUsed, Outcome, RecordResults, Series, StrikerSeries};
 pub use place::{FieldError, Place};
 pub use probes::{ProbeFields, SectionFields};
-pub use record::{ForceRecord, RecordError};
+pub use record::{ForceRecord, RecordError, Treated};
 pub use scene::{Load, Probe, Scene, Section, Strike};
 pub use simulate::{ImpactError, simulate};
 pub use source::{KernelChoice, SourceError, Tables};

@@ -10,6 +10,23 @@ pub struct ForceRecord {
     force_n: Vec<f64>,
     /// The file that it comes from, if it comes from one.
     pub file: Option<PathBuf>,
+    /// What was done to it; none where nothing was.
+    pub treated: Option<Treated>,
+}
+
+/// What was done to a record, with what it came to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Treated {
+    /// Length of the first part in s, the mean of which was taken away from all of it.
+    pub baseline_s: Option<f64>,
+    /// That mean in N.
+    pub baseline_n: f64,
+    /// Cutoff in Hz of the low pass.
+    pub low_pass_hz: Option<f64>,
+    /// Root mean square over time in N of what the low pass took away.
+    pub removed_rms_n: f64,
+    /// Impulse in N s that the low pass put before the time zero, where it is lost.
+    pub before_zero_n_s: f64,
 }
 
 /// Samples that are no force history; they count from 0.
@@ -87,7 +104,18 @@ impl ForceRecord {
             time_s,
             force_n,
             file: None,
+            treated: None,
         })
+    }
+
+    /// The same record with other rows, which are known to be good.
+    pub(crate) fn with_rows(&self, time_s: Vec<f64>, force_n: Vec<f64>) -> Self {
+        Self {
+            time_s,
+            force_n,
+            file: self.file.clone(),
+            treated: self.treated,
+        }
     }
 
     /// Times of the samples in s.

@@ -124,6 +124,7 @@ fn of_record(
             computed.grid.step_s
         ));
     }
+    warnings.extend(record.lost_before_zero());
     if record.force_n().iter().any(|&p| p < 0.0) {
         warnings.push("the force is negative in places: it pulls there".to_owned());
     }

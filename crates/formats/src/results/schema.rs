@@ -3,11 +3,11 @@
 /// Value of the attribute `file_type`.
 pub const FILE_TYPE: &str = "hertzlamb results";
 /// Version of the format: the first number changes when a reader of the old one would fail.
-pub const FORMAT_VERSION: &str = "1.2";
+pub const FORMAT_VERSION: &str = "1.3";
 /// Datasets in the root, with unit and description.
 pub const SERIES: [(&str, &str, &str); 5] = [
     ("time", "s", "time since the first touch"),
-    ("force", "N", "contact force, positive in compression"),
+    (FORCE, "N", "contact force, positive in compression"),
     (
         "displacement",
         "m",
@@ -23,6 +23,16 @@ pub const SERIES: [(&str, &str, &str); 5] = [
         "m",
         "deflection of the half-space in the contact law, positive inwards",
     ),
+];
+/// The force in [`SERIES`].
+pub const FORCE: &str = "force";
+/// Numbers at `/force` of a record that was treated.
+pub const TREATMENT: [&str; 5] = [
+    "baseline_s",
+    "baseline_n",
+    "low_pass_hz",
+    "removed_rms_n",
+    "before_zero_n_s",
 ];
 /// Group of the probes.
 pub const PROBES: &str = "probes";

@@ -5,7 +5,7 @@ use super::section::write_section;
 use crate::hdf::{attach_scale, first_line, matrix, set_scale, text, vector};
 use crate::output::{Existing, OutputError, write_whole};
 use crate::quantities::QUANTITIES;
-use crate::report::{choices, kernel_name};
+use crate::report::{choices, kernel_name, treatment};
 use crate::scene::resolved;
 use hdf5::{Dataset, File};
 use impact::{KernelsUsed, Outcome, ProbeFields, Scene};
@@ -44,6 +44,9 @@ fn write_file(path: &Path, scene: &Scene, outcome: &Outcome) -> Result<(), hdf5:
             continue;
         };
         let dataset = vector(&file, described, samples)?;
+        if described.0 == schema::FORCE {
+            write_treatment(&dataset, scene)?;
+        }
         match &time {
             None => {
                 set_scale(&dataset, described.0)?;
@@ -60,6 +63,16 @@ fn write_file(path: &Path, scene: &Scene, outcome: &Outcome) -> Result<(), hdf5:
     }
     file.flush()?;
     file.close()
+}
+
+/// What was done to a record, as numbers at its force.
+fn write_treatment(force: &Dataset, scene: &Scene) -> Result<(), hdf5::Error> {
+    for (name, value) in treatment(scene) {
+        if let Some(value) = value {
+            force.new_attr::<f64>().create(name)?.write_scalar(&value)?;
+        }
+    }
+    Ok(())
 }
 
 fn write_probes(file: &File, fields: &ProbeFields, time: &Dataset) -> Result<(), hdf5::Error> {

@@ -7,7 +7,7 @@ use crate::record::read_record;
 use crate::section::{NOT_NEGATIVE, POSITIVE, Section, TOLERANCE, parse};
 use crate::text::read_text;
 use contact::{Choice, Conflict, HalfSpace, Library, Settings, Striker};
-use impact::{Load, Probe, Scene, Section as MeridionalSection, Strike};
+use impact::{Load, Probe, Scene, Section as MeridionalSection, Strike, Treatment};
 use std::path::Path;
 use toml::Table;
 
@@ -174,7 +174,7 @@ fn read_load(
     match (root.section("striker")?, root.section("force")?) {
         (Some(striker), None) => read_strike(&striker, library).map(Load::Strike),
         (None, Some(force)) => {
-            force.allow(&["file"])?;
+            force.allow(&["file", "low_pass_hz", "baseline_s"])?;
             let file = force.text("file")?.ok_or_else(|| {
                 force.missing("file", "name a CSV file with columns time_s,force_n or an HDF5 file with /time and /force")
             })?;
@@ -185,7 +185,12 @@ fn read_load(
                         .to_owned(),
                 });
             }
-            read_record(&directory.join(file)).map(Load::Record)
+            let treatment = Treatment {
+                baseline_s: force.number("baseline_s", POSITIVE)?,
+                low_pass_hz: force.number("low_pass_hz", POSITIVE)?,
+            };
+            let record = read_record(&directory.join(file))?;
+            Ok(Load::Record(record.treat(&treatment)?))
         }
         (Some(_), Some(_)) => Err(SceneError::Conflict {
             first: "[striker]".to_owned(),

@@ -26,6 +26,10 @@ pub fn resolved(scene: &Scene) -> String {
             let mut table = Table::new();
             let file = record.file.as_ref().map(|path| path.display().to_string());
             table.insert("file".into(), file.unwrap_or_default().into());
+            if let Some(treated) = &record.treated {
+                put(&mut table, "baseline_s", treated.baseline_s);
+                put(&mut table, "low_pass_hz", treated.low_pass_hz);
+            }
             root.insert("force".into(), Value::Table(table));
         }
     }

@@ -1,0 +1,199 @@
+//! What may be asked to be done to a record before it loads the half-space: a baseline taken away, a low pass.
+
+use crate::low_pass::{allowed_hz, low_pass};
+use crate::record::{ForceRecord, Treated};
+use thiserror::Error;
+
+/// What is to be done to a record, the baseline first.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Treatment {
+    /// Length in s of the first part of the record whose mean is taken away from all of it.
+    pub baseline_s: Option<f64>,
+    /// Cutoff in Hz of a low pass of zero phase: a gain of 1/(1 + (f/fc)^8), half at the cutoff.
+    pub low_pass_hz: Option<f64>,
+}
+
+/// A treatment that this record cannot have.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[error("{key} = {value} is outside ({least:.4e}, {most:.4e}], {reason}")]
+pub struct TreatmentError {
+    /// Field of [`Treatment`].
+    pub key: &'static str,
+    /// Its value.
+    pub value: f64,
+    /// What it must exceed.
+    pub least: f64,
+    /// The most allowed.
+    pub most: f64,
+    /// Where the limits come from.
+    pub reason: &'static str,
+}
+
+impl ForceRecord {
+    /// The record after a treatment; [`ForceRecord::treated`] says what it came to.
+    ///
+    /// The low pass is exact for lines between rows, however uneven; a force that is smooth on the cutoff's period keeps
+    /// its shape, and every force its impulse. Rows are added where the record has fewer than 64 in a period of the
+    /// cutoff, and beyond both ends, where the filtered force dies.
+    ///
+    /// # Errors
+    /// [`TreatmentError`] with the range that this record allows.
+    pub fn treat(self, asked: &Treatment) -> Result<Self, TreatmentError> {
+        let mut done = Treated {
+            baseline_s: asked.baseline_s,
+            baseline_n: 0.0,
+            low_pass_hz: asked.low_pass_hz,
+            removed_rms_n: 0.0,
+            before_zero_n_s: 0.0,
+        };
+        let mut record = self;
+        if let Some(baseline_s) = asked.baseline_s {
+            done.baseline_n = record.mean_n(baseline_s)?;
+            let above = record.force_n().iter().map(|p| p - done.baseline_n);
+            record = record.with_rows(record.time_s().to_vec(), above.collect());
+        }
+        if let Some(cutoff_hz) = asked.low_pass_hz {
+            let [least, most] = allowed_hz(record.time_s());
+            if !(cutoff_hz > least && cutoff_hz <= most) {
+                return Err(TreatmentError {
+                    key: "low_pass_hz",
+                    value: cutoff_hz,
+                    least,
+                    most,
+                    reason: "one period in the record to rows that memory holds",
+                });
+            }
+            let filtered = low_pass(record.time_s(), record.force_n(), cutoff_hz);
+            done.before_zero_n_s = filtered.before_zero_n_s;
+            let smooth = record.with_rows(filtered.time_s, filtered.force_n);
+            done.removed_rms_n = record.difference_rms_n(&smooth);
+            record = smooth;
+        }
+        if done.baseline_s.is_some() || done.low_pass_hz.is_some() {
+            record.treated = Some(done);
+        }
+        Ok(record)
+    }
+
+    /// What a low pass has put before the time zero, where a thousandth of the impulse or of the force is seen of it.
+    pub(crate) fn lost_before_zero(&self) -> Option<String> {
+        const SEEN: f64 = 1e-3;
+        let done = self.treated?;
+        done.low_pass_hz?;
+        let (lost_n_s, begins_n) = (done.before_zero_n_s, self.force_n()[0]);
+        let seen = lost_n_s.abs() > SEEN * self.impulse_n_s().abs()
+            || begins_n.abs() > SEEN * self.largest_n();
+        seen.then(|| {
+            format!(
+                "the low pass reaches before the time zero, where {lost_n_s:.3e} N s are lost, and the force begins with {begins_n:.3e} N: a record that begins with rest keeps them"
+            )
+        })
+    }
+
+    /// Mean force in N over the first `length_s`.
+    fn mean_n(&self, length_s: f64) -> Result<f64, TreatmentError> {
+        let [start_s, end_s] = self.span_s();
+        let most = end_s - start_s;
+        if !(length_s > 0.0 && length_s <= most) {
+            return Err(TreatmentError {
+                key: "baseline_s",
+                value: length_s,
+                least: 0.0,
+                most,
+                reason: "the length of the record",
+            });
+        }
+        let until_s = start_s + length_s;
+        let rows = self.time_s().iter().zip(self.force_n());
+        let mut before = (start_s, self.force_n()[0]);
+        let mut sum = 0.0;
+        for (&time_s, &force_n) in rows.skip(1) {
+            let end = if time_s < until_s {
+                (time_s, force_n)
+            } else {
+                (until_s, self.at(until_s))
+            };
+            sum += 0.5 * (end.0 - before.0) * (before.1 + end.1);
+            if time_s >= until_s {
+                break;
+            }
+            before = end;
+        }
+        Ok(sum / length_s)
+    }
+
+    /// Root mean square over the time of this record of its difference from one that has its rows.
+    fn difference_rms_n(&self, other: &Self) -> f64 {
+        let mut sum = 0.0;
+        let mut place = 0;
+        let mut before = None;
+        for (&time_s, &force_n) in self.time_s().iter().zip(self.force_n()) {
+            while other.time_s()[place] < time_s {
+                place += 1;
+            }
+            let gap = force_n - other.force_n()[place];
+            if let Some((then_s, then)) = before {
+                // the square of a line, integrated
+                let part: f64 = gap * gap + gap * then + then * then;
+                sum += (time_s - then_s) * part / 3.0;
+            }
+            before = Some((time_s, gap));
+        }
+        let [start_s, end_s] = self.span_s();
+        (sum / (end_s - start_s)).sqrt()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn record(time_s: &[f64], force_n: &[f64]) -> ForceRecord {
+        ForceRecord::new(time_s.to_vec(), force_n.to_vec()).unwrap()
+    }
+
+    #[test]
+    fn the_baseline_is_the_mean_over_time_of_the_first_part() {
+        let uneven = record(&[1.0, 1.1, 3.0, 4.0], &[2.0, 2.0, 4.0, 0.0]);
+        let asked = |baseline_s| Treatment {
+            baseline_s: Some(baseline_s),
+            low_pass_hz: None,
+        };
+        let found = uneven.clone().treat(&asked(2.0)).unwrap();
+        // 0.1 of 2, 1.9 of 3
+        let mean = (0.2 + 1.9 * 3.0) / 2.0;
+        let done = found.treated.unwrap();
+        assert!((done.baseline_n - mean).abs() < 1e-15);
+        assert!((found.at(3.5) - (2.0 - mean)).abs() < 1e-15);
+        let half = uneven.clone().treat(&asked(0.05)).unwrap();
+        assert!((half.treated.unwrap().baseline_n - 2.0).abs() < 1e-14);
+        for bad in [0.0, 3.001, f64::NAN, -1.0] {
+            let message = uneven.clone().treat(&asked(bad)).unwrap_err().to_string();
+            assert!(message.contains("baseline_s"), "{message}");
+        }
+    }
+
+    #[test]
+    fn nothing_asked_is_nothing_done() {
+        let given = record(&[0.0, 1.0], &[1.0, 2.0]);
+        let found = given.clone().treat(&Treatment::default()).unwrap();
+        assert_eq!(found, given);
+        assert_eq!(found.treated, None);
+    }
+
+    #[test]
+    fn cutoffs_beyond_the_record_are_refused_with_their_range() {
+        let given = record(&[0.0, 1.0, 2.0], &[0.0, 2.0, 0.0]);
+        for bad in [0.5, f64::NAN, f64::INFINITY, -1.0, 1e300] {
+            let asked = Treatment {
+                low_pass_hz: Some(bad),
+                ..Treatment::default()
+            };
+            let message = given.clone().treat(&asked).unwrap_err().to_string();
+            assert!(
+                message.starts_with("low_pass_hz = ") && message.contains("(5.0000e-1, "),
+                "{message}"
+            );
+        }
+    }
+}
