@@ -9,6 +9,7 @@ mod impact_command;
 mod materials;
 mod overwrite;
 mod picture;
+mod plot_command;
 mod progress;
 mod report;
 mod sweep;
@@ -32,6 +33,8 @@ enum Command {
     Impact(impact_command::Arguments),
     /// Runs many scenes that differ in some keys and writes them as one table.
     Sweep(sweep::Arguments),
+    /// Draws the results of impacts, sweeps and tables.
+    Plot(plot_command::Arguments),
     /// Runs the paper's case and sets its numbers beside those of this program.
     Demo(demo::Arguments),
     /// Builds a kernel table: once, for every material pair.
@@ -50,6 +53,7 @@ fn main() -> ExitCode {
     let done = match Cli::parse().command {
         Command::Impact(arguments) => impact_command::run(&arguments),
         Command::Sweep(arguments) => sweep::run(&arguments),
+        Command::Plot(arguments) => plot_command::run(&arguments),
         Command::Demo(arguments) => demo::run(&arguments),
         Command::Tabulate(arguments) => tabulate::run(&arguments),
         Command::Table(arguments) => table::run(&arguments),

@@ -154,7 +154,14 @@ fn work_that_fails_has_exit_code_1() {
 #[test]
 fn every_command_has_help_with_an_example() {
     let folder = folder_with(SCENE);
-    for command in ["impact", "sweep", "demo", "materials", "completions"] {
+    for command in [
+        "impact",
+        "sweep",
+        "plot",
+        "demo",
+        "materials",
+        "completions",
+    ] {
         let done = hertzlamb(folder.path(), &[command, "--help"]);
         let text = String::from_utf8(done.stdout).unwrap();
         assert_eq!(done.status.code(), Some(0), "{command}");

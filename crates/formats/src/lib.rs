@@ -24,6 +24,7 @@ mod report;
 pub mod results;
 pub mod scene;
 mod section;
+pub mod stored;
 pub mod sweep;
 mod text;
 

@@ -67,6 +67,18 @@ pub fn scene_of(table: &Table, directory: &Path) -> Result<Scene, SceneError> {
     })
 }
 
+/// The half-space and the striker of a parsed scene; none for a force record, whose file is not read.
+///
+/// # Errors
+/// [`SceneError`].
+pub(crate) fn bodies_of(table: &Table) -> Result<(HalfSpace, Option<Strike>), SceneError> {
+    let (root, library) = (Section::root(table), Library::built_in());
+    let target = read_target(&root, library)?;
+    let striker = root.section("striker")?;
+    let strike = striker.map(|section| read_strike(&section, library));
+    Ok((target, strike.transpose()?))
+}
+
 fn read_target(root: &Section<'_>, library: &Library) -> Result<HalfSpace, SceneError> {
     let target = root
         .section("target")?

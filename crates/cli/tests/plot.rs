@@ -1,0 +1,97 @@
+//! `hertzlamb plot` from outside.
+
+#![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+const SCENE: &str = "\
+[target]
+material = \"granite\"
+[striker]
+material = \"bearing-steel\"
+mass_kg = 1.1e-4
+tip_radius_m = 0.0015
+velocity_m_s = 2.0
+[contact]
+tolerance = 1e-3
+[[probe]]
+r_m = 0.01
+z_m = 0.0
+";
+
+fn hertzlamb(folder: &Path, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_hertzlamb"))
+        .current_dir(folder)
+        .args(arguments)
+        .output()
+        .unwrap()
+}
+
+fn done(folder: &Path, arguments: &[&str]) -> String {
+    let done = hertzlamb(folder, arguments);
+    let message = String::from_utf8_lossy(&done.stderr).into_owned();
+    assert!(done.status.success(), "{arguments:?}: {message}");
+    message
+}
+
+/// Exit code 2 and one sentence with a part.
+fn refused(folder: &Path, arguments: &[&str], part: &str) {
+    let done = hertzlamb(folder, arguments);
+    let message = String::from_utf8_lossy(&done.stderr).into_owned();
+    assert_eq!(done.status.code(), Some(2), "{arguments:?}: {message}");
+    assert!(message.contains(part), "{message}");
+}
+
+#[test]
+fn results_become_svg_png_and_pdf() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    std::fs::write(at.join("scene.toml"), SCENE).unwrap();
+    done(at, &["impact", "scene.toml", "-o", "drop.h5"]);
+    for (name, start) in [
+        ("drop.svg", &b"<svg"[..]),
+        ("drop.png", &b"\x89PNG"[..]),
+        ("drop.PDF", &b"%PDF"[..]),
+    ] {
+        done(at, &["plot", "drop.h5", "-o", name]);
+        assert!(
+            std::fs::read(at.join(name)).unwrap().starts_with(start),
+            "{name}"
+        );
+    }
+    let svg = std::fs::read_to_string(at.join("drop.svg")).unwrap();
+    assert!(svg.contains("force [N]") && svg.contains("Hertz, without waves"));
+    // an existing picture is kept, and the same input gives the same bytes
+    refused(at, &["plot", "drop.h5", "-o", "drop.svg"], "give --force");
+    done(at, &["plot", "drop.h5", "-o", "drop.svg", "--force"]);
+    assert_eq!(std::fs::read_to_string(at.join("drop.svg")).unwrap(), svg);
+}
+
+#[test]
+fn what_is_no_picture_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    std::fs::write(at.join("scene.toml"), SCENE).unwrap();
+    refused(
+        at,
+        &["plot", "scene.toml", "-o", "a.svg"],
+        "scene.toml is text",
+    );
+    refused(
+        at,
+        &["plot", "none.h5", "-o", "a.svg"],
+        "cannot read none.h5",
+    );
+    refused(
+        at,
+        &["plot", "none.h5", "-o", "a.jpg"],
+        "neither in .svg nor in .png nor in .pdf",
+    );
+    refused(
+        at,
+        &["plot", "none.h5", "-o", "a.svg", "--kind", "cake"],
+        "possible values",
+    );
+    assert!(!at.join("a.svg").exists());
+}

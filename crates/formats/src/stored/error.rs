@@ -1,0 +1,60 @@
+//! Why a file cannot be read back.
+
+use super::kind::FileKind;
+use std::path::PathBuf;
+use thiserror::Error;
+
+/// A file that cannot be read back, told in one sentence.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum ReadError {
+    /// The file is not there, or is no regular file, or may not be read.
+    #[error("cannot read {}: {reason}", path.display())]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// The system's reason.
+        reason: String,
+    },
+    /// It is no HDF5 file.
+    #[error("{} is {found}, not a file of results in HDF5", path.display())]
+    NotHdf5 {
+        /// The file.
+        path: PathBuf,
+        /// What it seems to be.
+        found: &'static str,
+    },
+    /// Another program's file.
+    #[error("{} is an HDF5 file, but none of hertzlamb's", path.display())]
+    Foreign {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A file of another kind.
+    #[error("{} is {found}, not {wanted}", path.display())]
+    Kind {
+        /// The file.
+        path: PathBuf,
+        /// What it is.
+        found: FileKind,
+        /// What was wanted.
+        wanted: FileKind,
+    },
+    /// A version that is not known.
+    #[error("{} has the format version {found}; versions {major}.x can be read", path.display())]
+    Version {
+        /// The file.
+        path: PathBuf,
+        /// Its version.
+        found: String,
+        /// The major version that can be read.
+        major: &'static str,
+    },
+    /// Something that every such file has is missing or wrong.
+    #[error("{}: {what}", path.display())]
+    Damaged {
+        /// The file.
+        path: PathBuf,
+        /// What is missing or wrong.
+        what: String,
+    },
+}

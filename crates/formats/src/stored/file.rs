@@ -1,0 +1,63 @@
+//! Opening a file, whatever it is.
+
+use super::error::ReadError;
+use super::kind::FileKind;
+use hdf5::types::{VarLenAscii, VarLenUnicode};
+use hdf5::{File, Location};
+use std::io::Read;
+use std::path::Path;
+
+/// What the file at `path` is.
+///
+/// # Errors
+/// [`ReadError`] for a file that is not one of the program.
+pub fn file_kind(path: &Path) -> Result<FileKind, ReadError> {
+    text_of(&*open_hdf5(path)?, "file_type")
+        .and_then(|found| FileKind::ALL.into_iter().find(|k| k.file_type() == found))
+        .ok_or_else(|| ReadError::Foreign {
+            path: path.to_owned(),
+        })
+}
+
+/// Opens an HDF5 file, whatever is in it.
+pub(super) fn open_hdf5(path: &Path) -> Result<File, ReadError> {
+    let unreadable = |reason: &str| ReadError::Unreadable {
+        path: path.to_owned(),
+        reason: reason.to_owned(),
+    };
+    // looked at before it is opened: a pipe would wait for its other end
+    let data = std::fs::metadata(path).map_err(|error| unreadable(&error.to_string()))?;
+    if !data.is_file() {
+        return Err(unreadable("it is not a file"));
+    }
+    let mut head = Vec::new();
+    std::fs::File::open(path)
+        .and_then(|file| file.take(256).read_to_end(&mut head))
+        .map_err(|error| unreadable(&error.to_string()))?;
+    let not = |found| ReadError::NotHdf5 {
+        path: path.to_owned(),
+        found,
+    };
+    if !head.starts_with(b"\x89HDF\r\n\x1a\n") {
+        let is_text = !head.is_empty() && std::str::from_utf8(&head).is_ok();
+        return Err(not(match head.len() {
+            0 => "empty",
+            _ if is_text => "text",
+            _ => "no HDF5 file",
+        }));
+    }
+    File::open(path).map_err(|_| not("a damaged HDF5 file"))
+}
+
+/// A text attribute of any object.
+pub(super) fn text_of(object: &Location, name: &str) -> Option<String> {
+    let attribute = object.attr(name).ok()?;
+    let unicode = attribute.read_scalar::<VarLenUnicode>();
+    let text = unicode.map(|text| text.to_string());
+    text.or_else(|_| {
+        attribute
+            .read_scalar::<VarLenAscii>()
+            .map(|t| t.to_string())
+    })
+    .ok()
+}

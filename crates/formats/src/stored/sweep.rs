@@ -1,0 +1,144 @@
+//! The results of a sweep, read back.
+
+use super::error::ReadError;
+use super::kind::FileKind;
+use super::open::{Stored, StoredQuantity};
+use crate::sweep::Values;
+use crate::sweep::schema::{AXES, LIST, RESULTS, SAMPLE};
+use std::path::Path;
+
+/// Major version of the sweeps that are read.
+const MAJOR: &str = "1";
+
+/// An open sweep with its axes; results are read when they are asked for.
+#[derive(Debug, Clone)]
+pub struct StoredSweep {
+    stored: Stored,
+    /// The axes; the last runs fastest.
+    pub axes: Vec<StoredAxis>,
+    /// Failed scenes.
+    pub failed: u64,
+}
+
+/// One dimension of a sweep: the keys that vary along it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StoredAxis {
+    /// The name of its only key, `list` or `sample`.
+    pub name: String,
+    /// How many values.
+    pub len: usize,
+    /// The keys.
+    pub columns: Vec<StoredColumn>,
+}
+
+impl StoredAxis {
+    /// Whether it runs over random draws.
+    #[must_use]
+    pub fn is_drawn(&self) -> bool {
+        self.name == SAMPLE
+    }
+}
+
+/// A key that varies.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StoredColumn {
+    /// Full name, such as `striker.velocity_m_s`.
+    pub name: String,
+    /// Unit; `1` for none.
+    pub unit: String,
+    /// Values.
+    pub values: Values,
+}
+
+impl StoredSweep {
+    /// Opens a sweep.
+    ///
+    /// # Errors
+    /// [`ReadError`], which says what the file is instead.
+    pub fn open(path: &Path) -> Result<Self, ReadError> {
+        let stored = Stored::open(path, FileKind::Sweep, MAJOR)?;
+        let axes = read_axes(&stored)?;
+        Ok(Self {
+            failed: stored.number("failed").unwrap_or(0.0) as u64,
+            axes,
+            stored,
+        })
+    }
+
+    /// Where it lies.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        &self.stored.path
+    }
+
+    /// The results of every row.
+    #[must_use]
+    pub fn quantities(&self) -> Vec<StoredQuantity> {
+        let mut found = self.stored.quantities(RESULTS, &self.shape());
+        // scales of a sweep with one axis have the same shape
+        found.retain(|quantity| {
+            !quantity.name.contains('.') && quantity.name != SAMPLE && quantity.name != LIST
+        });
+        found
+    }
+
+    /// A result of all rows; NaN where a scene failed.
+    ///
+    /// # Errors
+    /// [`ReadError`] for a result that is not there.
+    pub fn values(&self, quantity: &str) -> Result<Vec<f64>, ReadError> {
+        self.stored
+            .numbers(&format!("{RESULTS}/{quantity}"), &self.shape())
+    }
+
+    fn shape(&self) -> Vec<usize> {
+        self.axes.iter().map(|axis| axis.len).collect()
+    }
+}
+
+/// The axes in the order of the dimensions: those of the product by their names, then the list's, then the draws'.
+fn read_axes(stored: &Stored) -> Result<Vec<StoredAxis>, ReadError> {
+    let group = stored
+        .group(AXES)
+        .ok_or_else(|| stored.damaged(format!("the group {AXES} is missing")))?;
+    let mut names = group
+        .member_names()
+        .map_err(|_| stored.damaged(format!("the group {AXES} cannot be read")))?;
+    names.sort();
+    let mut axes: Vec<StoredAxis> = Vec::new();
+    for name in names {
+        let path = format!("{AXES}/{name}");
+        let (unit, axis) = stored
+            .labels(&path)
+            .ok_or_else(|| stored.damaged(format!("{path} does not name its axis")))?;
+        let values = if stored.holds_texts(&path) {
+            Values::Texts(stored.texts(&path)?)
+        } else {
+            Values::Numbers(stored.vector(&path)?)
+        };
+        let len = values.len();
+        let column = StoredColumn { name, unit, values };
+        match axes.iter_mut().find(|known| known.name == axis) {
+            Some(known) if known.len == len => known.columns.push(column),
+            Some(_) => {
+                return Err(stored.damaged(format!(
+                    "{path} has {len} values, unlike others of its axis"
+                )));
+            }
+            None => axes.push(StoredAxis {
+                name: axis,
+                len,
+                columns: vec![column],
+            }),
+        }
+    }
+    axes.sort_by_key(|axis| match axis.name.as_str() {
+        LIST => 1,
+        SAMPLE => 2,
+        _ => 0,
+    });
+    if axes.is_empty() {
+        return Err(stored.damaged("it has no axes"));
+    }
+    Ok(axes)
+}

@@ -1,0 +1,74 @@
+//! Why there is no picture.
+
+use crate::kind::Kind;
+use formats::stored::{FileKind, ReadError};
+use impact::FieldsError;
+use std::path::PathBuf;
+use thiserror::Error;
+
+/// A picture that cannot be composed, told in one sentence.
+#[derive(Debug, Error)]
+pub enum PlotError {
+    /// A file cannot be read.
+    #[error(transparent)]
+    Read(#[from] ReadError),
+    /// Files of different kinds.
+    #[error("{} is {first}, and {} is {second}: one picture shows files of one kind", paths[0].display(), paths[1].display())]
+    Mixed {
+        /// The two files.
+        paths: [PathBuf; 2],
+        /// What the first is.
+        first: FileKind,
+        /// What the second is.
+        second: FileKind,
+    },
+    /// A kind of picture that a file does not give.
+    #[error("{} is {found}, which has no picture {kind}; it has {allowed}", path.display())]
+    Unsuitable {
+        /// The file.
+        path: PathBuf,
+        /// What it is.
+        found: FileKind,
+        /// What was asked for.
+        kind: Kind,
+        /// What can be.
+        allowed: String,
+    },
+    /// A kind of picture of one file, asked of several.
+    #[error("the picture {kind} shows one file, and {given} were given")]
+    OneFile {
+        /// What was asked for.
+        kind: Kind,
+        /// Files given.
+        given: usize,
+    },
+    /// What a picture shows is not in the file.
+    #[error("{} has no {what}: {hint}", path.display())]
+    Absent {
+        /// The file.
+        path: PathBuf,
+        /// What is missing.
+        what: &'static str,
+        /// What to do.
+        hint: &'static str,
+    },
+    /// A quantity that is not there.
+    #[error("{quantity} is not in {}{}; it has {allowed}", path.display(), did_you_mean(suggestion.as_deref()))]
+    Quantity {
+        /// The file.
+        path: PathBuf,
+        /// What was asked for.
+        quantity: String,
+        /// The nearest that is there.
+        suggestion: Option<String>,
+        /// What is there.
+        allowed: String,
+    },
+    /// The fields could not be computed.
+    #[error(transparent)]
+    Fields(#[from] FieldsError),
+}
+
+fn did_you_mean(suggestion: Option<&str>) -> String {
+    suggestion.map_or_else(String::new, |word| format!(" (did you mean {word}?)"))
+}

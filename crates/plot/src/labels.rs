@@ -1,0 +1,132 @@
+//! What several impacts are called: by what differs between their scenes.
+
+use crate::number::with_unit;
+use formats::stored::{StoredImpact, StoredValue};
+use std::path::Path;
+
+/// Most keys that a label names.
+const MOST_KEYS: usize = 3;
+
+/// Units that keys carry at their ends, the longest first.
+const UNITS: [(&str, &str); 6] = [
+    ("_kg_m3", "kg/m^3"),
+    ("_m_s", "m/s"),
+    ("_kg", "kg"),
+    ("_pa", "Pa"),
+    ("_m", "m"),
+    ("_s", "s"),
+];
+
+/// Name and unit of a scene key: `striker.tip_radius_m` is "tip radius" in m.
+pub(crate) fn words(key: &str) -> (String, &'static str) {
+    let (section, key) = key.split_once('.').unwrap_or(("", key));
+    let found = UNITS.iter().find(|(ending, _)| key.ends_with(ending));
+    let (name, unit) = found.map_or((key, "1"), |(ending, unit)| {
+        (&key[..key.len() - ending.len()], *unit)
+    });
+    let name = name
+        .replace("youngs_modulus", "Young's modulus")
+        .replace("poisson_ratio", "Poisson's ratio")
+        .replace('_', " ");
+    let name = match section {
+        "target" => format!("{name} of the half-space"),
+        _ => name,
+    };
+    (name, unit)
+}
+
+/// One label an impact.
+pub(crate) fn labels(impacts: &[StoredImpact]) -> Vec<String> {
+    let scenes: Vec<Vec<(String, StoredValue)>> = impacts
+        .iter()
+        .map(|impact| {
+            let mut keys = impact.scene.keys();
+            // what was computed, rather than "auto"
+            keys.retain(|(key, _)| key != "contact.model");
+            let model = StoredValue::Text(impact.model.clone());
+            keys.push(("contact.model".to_owned(), model));
+            keys
+        })
+        .collect();
+    let stems: Vec<String> = impacts.iter().map(|impact| stem(impact.path())).collect();
+    by_difference(&scenes).unwrap_or(stems)
+}
+
+/// Labels from the keys that differ; none where there are none, too many, or two scenes get the same.
+fn by_difference(scenes: &[Vec<(String, StoredValue)>]) -> Option<Vec<String>> {
+    let value = |scene: &[(String, StoredValue)], key: &str| {
+        let found = scene.iter().find(|(known, _)| known == key);
+        found.map(|(_, value)| value.clone())
+    };
+    let mut keys: Vec<&String> = scenes.iter().flatten().map(|(key, _)| key).collect();
+    keys.sort();
+    keys.dedup();
+    keys.retain(|key| {
+        let first = value(&scenes[0], key);
+        scenes.iter().any(|scene| value(scene, key) != first)
+    });
+    if keys.is_empty() || keys.len() > MOST_KEYS {
+        return None;
+    }
+    let label = |scene: &Vec<(String, StoredValue)>| {
+        let parts = keys.iter().map(|key| {
+            let (name, unit) = words(key);
+            match value(scene, key) {
+                Some(StoredValue::Number(x)) => format!("{name} {}", with_unit(x, unit)),
+                Some(StoredValue::Text(text)) => format!("{name} {}", text.replace('_', " ")),
+                None => format!("no {name}"),
+            }
+        });
+        parts.collect::<Vec<_>>().join(", ")
+    };
+    let labels: Vec<String> = scenes.iter().map(label).collect();
+    let mut different = labels.clone();
+    different.sort();
+    different.dedup();
+    (different.len() == labels.len()).then_some(labels)
+}
+
+/// A file's name without its ending.
+pub(crate) fn stem(path: &Path) -> String {
+    path.file_stem()
+        .map_or_else(String::new, |name| name.to_string_lossy().into_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn scene(velocity: f64, model: &str) -> Vec<(String, StoredValue)> {
+        vec![
+            ("striker.mass_kg".into(), StoredValue::Number(3.3e-5)),
+            ("striker.velocity_m_s".into(), StoredValue::Number(velocity)),
+            ("contact.model".into(), StoredValue::Text(model.into())),
+        ]
+    }
+
+    #[test]
+    fn labels_say_what_differs() {
+        let found = by_difference(&[scene(1.0, "hertz"), scene(2.5, "hertz")]);
+        assert_eq!(
+            found,
+            Some(vec!["velocity 1 m/s".into(), "velocity 2.5 m/s".into()])
+        );
+        let found = by_difference(&[scene(1.0, "hertz"), scene(1.0, "quasi_static")]);
+        assert_eq!(
+            found,
+            Some(vec!["model hertz".into(), "model quasi static".into()])
+        );
+        assert_eq!(
+            by_difference(&[scene(1.0, "hertz"), scene(1.0, "hertz")]),
+            None
+        );
+        // three scenes of which two are the same
+        let same = [
+            scene(1.0, "hertz"),
+            scene(1.0, "hertz"),
+            scene(2.0, "hertz"),
+        ];
+        assert_eq!(by_difference(&same), None);
+        assert_eq!(words("target.youngs_modulus_pa").1, "Pa");
+    }
+}

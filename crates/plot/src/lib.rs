@@ -1,0 +1,35 @@
+//! Figures composed from the files of the program.
+//!
+//! [`compose`] takes the paths of results, sweeps or tables and a [`Request`], and gives a [`figure::Figure`]; `figure`
+//! draws it. What is shown is a [`Kind`], by default the one that suits the file.
+//!
+//! ```no_run
+//! use plot::{Kind, Request, compose};
+//!
+//! let request = Request { kind: Some(Kind::Spectrum), ..Request::default() };
+//! let drawn = compose(&["drop.h5".into()], &request)?;
+//! std::fs::write("spectrum.svg", figure::to_svg(&drawn.figure)?)?;
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+// in reading order
+mod compose;
+mod contact_panels;
+mod error;
+mod history;
+mod kind;
+mod labels;
+mod number;
+mod probe_panels;
+mod request;
+mod speeds;
+
+pub use compose::{Drawn, compose};
+pub use error::PlotError;
+pub use kind::Kind;
+pub use request::Request;
+
+/// The README's program compiles.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
