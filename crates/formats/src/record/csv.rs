@@ -1,5 +1,6 @@
 //! A force record as text: the columns time_s and force_n.
 
+use super::size::MOST_SAMPLES;
 use crate::error::SceneError;
 use impact::{ForceRecord, RecordError};
 use std::path::Path;
@@ -49,6 +50,10 @@ pub(super) fn from_csv(text: &str, path: &Path) -> Result<ForceRecord, SceneErro
         let (time, force) = (number("time_s")?, number("force_n")?);
         if let Some(extra) = fields.next() {
             return Err(fault(line, format!("there is a third field, \"{extra}\"")));
+        }
+        if lines.len() == MOST_SAMPLES {
+            let reason = format!("there are more than {MOST_SAMPLES} rows: cut or thin the record");
+            return Err(fault(line, reason));
         }
         lines.push(line);
         time_s.push(time);

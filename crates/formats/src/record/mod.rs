@@ -2,9 +2,10 @@
 
 mod csv;
 mod hdf;
+mod size;
 
 use crate::error::SceneError;
-use crate::text::read_text;
+use crate::text::{MOST_OF_RECORD, read_text_up_to};
 use csv::from_csv;
 use hdf::{from_hdf5, is_hdf5};
 use impact::ForceRecord;
@@ -18,7 +19,7 @@ pub fn read_record(path: &Path) -> Result<ForceRecord, SceneError> {
     let mut record = if is_hdf5(path) {
         from_hdf5(path)?
     } else {
-        from_csv(&read_text(path)?, path)?
+        from_csv(&read_text_up_to(path, MOST_OF_RECORD)?, path)?
     };
     record.file = Some(path.to_owned());
     Ok(record)

@@ -49,6 +49,17 @@ impl Block {
         block
     }
 
+    /// Whether it can have been computed: known models, and a reason within the block for each scene that failed.
+    pub(super) fn holds(&self) -> bool {
+        let rows = self.start..self.start + self.numbers.len();
+        let failed = |model: &u8| *model == NO_MODEL;
+        let known = |model: &u8| usize::from(*model) < Model::ALL.len() || failed(model);
+        self.models.iter().all(known)
+            && self.models.iter().filter(|m| failed(m)).count() == self.failures.len()
+            && self.failures.iter().all(|(row, _)| rows.contains(row))
+            && self.failures.is_sorted_by(|a, b| a.0 < b.0)
+    }
+
     fn push(&mut self, row: usize, done: Result<Collided, String>) {
         match done {
             Ok(found) => {

@@ -69,11 +69,12 @@ impl Journal {
         let mut blocks = Vec::new();
         let mut good = header.len() as u64;
         let mut found = vec![0; header.len()];
+        let length = file.metadata().map_err(io)?.len();
         let mut reader = BufReader::new(&file);
         match reader.read_exact(&mut found) {
             Ok(()) if found == header => {
-                while let Some((block, length)) = read_block(&mut reader) {
-                    good += length;
+                while let Some((block, size)) = read_block(&mut reader, rows, length - good) {
+                    good += size;
                     blocks.push(block);
                 }
                 drop(reader);
@@ -141,7 +142,9 @@ fn record(block: &Block) -> Vec<u8> {
 }
 
 /// The next block and the length of its record; nothing at the end and after damage.
-fn read_block(reader: &mut impl Read) -> Option<(Block, u64)> {
+///
+/// Memory is taken for a record of at most `left` bytes, which the file has, of a sweep of `all` rows.
+fn read_block(reader: &mut impl Read, all: usize, left: u64) -> Option<(Block, u64)> {
     let mut bytes = vec![0; 24];
     reader.read_exact(&mut bytes).ok()?;
     let word = |bytes: &[u8], i: usize| {
@@ -153,7 +156,8 @@ fn read_block(reader: &mut impl Read) -> Option<(Block, u64)> {
     let length = numbers
         .checked_add(rows as usize)?
         .checked_add(text as usize)?;
-    if length > 1 << 32 {
+    let end = (start as usize).checked_add(rows as usize)?;
+    if length as u64 > left.checked_sub(32)? || rows == 0 || end > all {
         return None;
     }
     bytes.resize(24 + length, 0);
@@ -175,13 +179,13 @@ fn read_block(reader: &mut impl Read) -> Option<(Block, u64)> {
         models: body[numbers..numbers + rows as usize].to_vec(),
         failures: failures
             .lines()
-            .filter_map(|line| {
+            .map(|line| {
                 let (row, reason) = line.split_once(' ')?;
                 Some((row.parse().ok()?, reason.to_owned()))
             })
-            .collect(),
+            .collect::<Option<_>>()?,
     };
-    Some((block, 32 + length as u64))
+    block.holds().then_some((block, 32 + length as u64))
 }
 
 /// Fowler, Noll and Vo's hash over words of eight bytes.

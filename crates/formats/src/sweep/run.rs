@@ -54,6 +54,11 @@ pub fn run_sweep(
     let templates = Templates::new(spec)?;
     let responses = Tabulated::new(ratios(spec));
     let (mut journal, mut blocks) = Journal::open(part, identity(spec), rows)?;
+    // a journal that was forged may hold others
+    blocks.retain(|block| {
+        let end = (block.start + BLOCK).min(rows);
+        block.start % BLOCK == 0 && block.start + block.numbers.len() == end
+    });
     blocks.sort_by_key(|block| block.start);
     blocks.dedup_by_key(|block| block.start);
     let mut done: usize = blocks.iter().map(|block| block.numbers.len()).sum();

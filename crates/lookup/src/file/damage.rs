@@ -4,8 +4,7 @@ use super::error::TableError;
 use super::open::open;
 use crate::content::FIELDS;
 use crate::schema;
-use hdf5::Dataset;
-use ndarray::s;
+use hdfread::Dataset;
 use std::ops::Range;
 use std::path::Path;
 
@@ -44,8 +43,11 @@ pub fn damaged_patches(path: &Path) -> Result<Vec<DamagedPatch>, TableError> {
                 continue;
             };
             for (across, down) in patches(&data, r.len(), z.len()) {
-                let selection = s![across.clone(), down.clone(), .., ..];
-                if data.read_slice::<f32, _, ndarray::Ix4>(selection).is_err() {
+                let &[.., fields, last] = data.shape() else {
+                    continue;
+                };
+                let patch = [across.clone(), down.clone(), 0..fields, 0..last];
+                if data.block::<f32>(&patch, u64::MAX).is_err() {
                     found.push(DamagedPatch {
                         poisson_ratio: slice.ratio,
                         dataset,
@@ -62,7 +64,7 @@ pub fn damaged_patches(path: &Path) -> Result<Vec<DamagedPatch>, TableError> {
 /// Rows and columns of each chunk; none where the shape is not that of the axes.
 fn patches(data: &Dataset, rows: usize, columns: usize) -> Vec<(Range<usize>, Range<usize>)> {
     let (shape, chunk) = (data.shape(), data.chunk().unwrap_or_default());
-    let (&[r, z, FIELDS, _], &[high, wide, ..]) = (shape.as_slice(), chunk.as_slice()) else {
+    let (&[r, z, FIELDS, _], &[high, wide, ..]) = (shape, chunk) else {
         return Vec::new();
     };
     if r != rows || z != columns {

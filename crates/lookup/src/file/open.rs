@@ -1,26 +1,24 @@
-//! Opening: what is compared before the HDF5 library is asked, and what is refused before a number is read.
+//! Opening: what is compared before anything else is read.
 
 use super::error::TableError;
 use super::seal::{self, Cover, Verdict};
-use super::source::{Source, first_line};
+use super::source::Source;
 use crate::schema;
 use std::path::Path;
 
 /// Opens the table at `path` for reading.
 ///
-/// In this order: it is a regular file; its seal is right; the HDF5 library opens it, with filter plugins off; its
-/// kind and version are known; all its links are hard ones.
+/// In this order: it is a regular file; its seal is right; it is HDF5; its kind and version are known.
 ///
 /// # Errors
 /// [`TableError`].
 pub(super) fn open(path: &Path) -> Result<Source, TableError> {
     let cover = cover(path)?;
-    let file = plain(|| hdf5::File::open(path)).map_err(|error| TableError::NotHdf5 {
+    let file = hdfread::File::open(path).map_err(|error| TableError::NotHdf5 {
         path: path.to_owned(),
-        detail: first_line(&error),
+        detail: error.to_string(),
     })?;
-    let bytes = std::fs::metadata(path).map_or(0, |data| data.len());
-    let source = Source::new(path, file, bytes, cover);
+    let source = Source::new(path, file, cover);
     let root = source.root()?;
     let found = source.text(&root, schema::FILE_TYPE).unwrap_or_default();
     if found != schema::FILE_TYPE_VALUE {
@@ -67,17 +65,6 @@ fn cover(path: &Path) -> Result<Cover, TableError> {
             detail: detail.to_owned(),
         }),
     }
-}
-
-/// Runs `work` where the HDF5 library loads no filters from shared libraries, in this process from now on.
-fn plain<T>(work: impl FnOnce() -> T) -> T {
-    // SAFETY: a number that the library keeps, set under its lock; the binding takes the mask, 0 for no
-    // plugins, for a pointer. The built-in filters are no plugins.
-    #[allow(unsafe_code)]
-    hdf5::sync::sync(|| unsafe {
-        hdf5_sys::h5pl::H5PLset_loading_state(std::ptr::null_mut());
-    });
-    work()
 }
 
 /// Major and minor number of a version.

@@ -168,7 +168,7 @@ impl Source {
         let needed = [places[0], places[1], content.pulse_lengths.len(), FIELDS];
         let all = self.group(root, schema::BETWEEN)?;
         let mut between = Vec::new();
-        for name in self.members(&all)? {
+        for name in Self::members(&all) {
             let place = self.group(&all, &name)?;
             between.push(Between {
                 poisson_ratio: self.number(&place, schema::POISSON_RATIO)?,
@@ -183,7 +183,7 @@ impl Source {
     pub(super) fn listed(&self, root: &Place) -> Result<Vec<Listed>, TableError> {
         let all = self.group(root, schema::SLICES)?;
         let mut listed = Vec::new();
-        for name in self.members(&all)? {
+        for name in Self::members(&all) {
             let place = self.group(&all, &name)?;
             let role = self.text(&place, schema::ROLE)?;
             listed.push(Listed {

@@ -4,7 +4,6 @@ use super::datasets::{self, Described};
 use super::error::TableError;
 use super::labels::{attach_scale, set_scale, text};
 use super::seal;
-use super::source::first_line;
 use crate::accuracy::Quantiles;
 use crate::content::{Content, FIELDS, Slice, Verification};
 use crate::hash::{content_hash, settings_id};
@@ -36,6 +35,12 @@ pub fn write(path: &Path, content: &Content) -> Result<(), TableError> {
     };
     let chunks = write_file(path, content).map_err(|error| failed(detail(&error)))?;
     seal::append(path, chunks).map_err(|error| failed(error.to_string()))
+}
+
+/// The first line of what the HDF5 library says.
+fn first_line(error: &hdf5::Error) -> String {
+    let text = error.to_string();
+    text.lines().next().unwrap_or_default().to_owned()
 }
 
 /// What the system said, if it did, else the first line of what the library says.

@@ -134,12 +134,19 @@ fn numbers_that_lie_elsewhere_or_nowhere_are_refused() {
             slice.link_soft("remainder", "tail").unwrap();
         });
     });
-    assert_eq!(soft, "/slices/nu_0.3/tail: links are not followed");
+    let link = "a link to another name or file, is not read here";
+    assert!(
+        soft.starts_with(&format!("/slices/nu_0.3: \"tail\", {link}")),
+        "{soft}"
+    );
     let external = item(&|file| {
-        file.unlink("slices").unwrap();
-        file.link_external("t.h5", "slices", "slices").unwrap();
+        let slices = file.group("slices").unwrap();
+        slices.link_external("t.h5", "slices", "other").unwrap();
     });
-    assert_eq!(external, "/slices: links are not followed");
+    assert!(
+        external.starts_with(&format!("/slices: \"other\", {link}")),
+        "{external}"
+    );
     let shape = (15, 12, 6, 40);
     let sparse = item(&|file| {
         replaced(file, "moment", |slice| {
@@ -148,7 +155,10 @@ fn numbers_that_lie_elsewhere_or_nowhere_are_refused() {
             data.create("moment").unwrap();
         });
     });
-    assert_eq!(sparse, "/slices/nu_0.3/moment: 0 of its 4 chunks are there");
+    assert_eq!(
+        sparse,
+        "/slices/nu_0.3/moment: it is damaged: 0 of its 4 chunks are there"
+    );
     let raw = item(&|file| {
         file.unlink("r").unwrap();
         let data = file
@@ -157,7 +167,10 @@ fn numbers_that_lie_elsewhere_or_nowhere_are_refused() {
             .external("/etc/passwd", 0, 120);
         data.create("r").unwrap();
     });
-    assert_eq!(raw, "/r: its numbers are in another file");
+    assert!(
+        raw.starts_with("/r: a dataset whose numbers are in another file is not read here"),
+        "{raw}"
+    );
     let unchecked = item(&|file| {
         replaced(file, "moment", |slice| {
             let zeros = ndarray::Array4::<f32>::zeros(shape);
@@ -178,7 +191,7 @@ fn numbers_that_lie_elsewhere_or_nowhere_are_refused() {
             data.unwrap().write(&zeros).unwrap();
         });
     });
-    assert!(doubled.contains("its type is float64"), "{doubled}");
+    assert!(doubled.contains("its type is 64-bit float"), "{doubled}");
 }
 
 #[test]
@@ -204,5 +217,8 @@ fn sizes_are_compared_before_memory_is_asked_for() {
             .create("r")
             .unwrap();
     });
-    assert!(error.to_string().contains("/r: 0 of its "), "{error}");
+    assert!(
+        error.to_string().contains("/r: it is damaged: 0 of its "),
+        "{error}"
+    );
 }
