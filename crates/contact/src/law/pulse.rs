@@ -368,4 +368,28 @@ mod tests {
             }
         }
     }
+
+    #[test]
+    fn the_closed_form_is_the_limit_of_the_damped_contact() {
+        for lag in [1e-3, 3e-3] {
+            let law = radiation(lag);
+            let damped = Course::new(&damped_force(0.0, lag), 0.0, 1e-3);
+            assert!((damped.peak_force - law.peak_force).abs() < 7.0 * lag * lag);
+            assert!((damped.peak_force_time - law.peak_force_time).abs() < 7.0 * lag * lag);
+            assert!((damped.velocity + law.restitution).abs() < 7.0 * lag * lag);
+        }
+    }
+
+    #[test]
+    fn the_first_order_law_of_two_springs_is_the_limit_of_the_damped_contact() {
+        for coupling in [0.1, 1.0, 4.0] {
+            for lag in [1e-3, 3e-3] {
+                let law = quasi_static_radiation(coupling, lag);
+                let damped = Course::new(&damped_force(coupling, lag), 0.0, 1e-3);
+                assert!((damped.peak_force - law.peak_force).abs() < 7.0 * lag * lag);
+                assert!((damped.peak_force_time - law.peak_force_time).abs() < 7.0 * lag * lag);
+                assert!((damped.velocity + law.restitution).abs() < 7.0 * lag * lag);
+            }
+        }
+    }
 }

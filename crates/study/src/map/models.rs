@@ -211,6 +211,16 @@ pub(crate) fn rows(effort: Effort) -> u64 {
     shape(effort)[1] as u64
 }
 
+/// The lines at which `auto` leaves a rung.
+const LEAVES: [(&str, Rung, Style); 2] = [
+    ("auto leaves hertz", Rung::QuasiStatic, Style::Heavy),
+    (
+        "auto leaves the area dashpot",
+        Rung::AreaDashpot,
+        Style::HeavyDashed,
+    ),
+];
+
 /// A picture a tolerance.
 pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>, StudyError> {
     let plane = Plane::new(0.3)?;
@@ -262,14 +272,7 @@ pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>
                 Some(_) | None => 4,
             },
         );
-        for (label, rung, style) in [
-            ("auto leaves hertz", Rung::QuasiStatic, Style::Heavy),
-            (
-                "auto leaves the area dashpot",
-                Rung::AreaDashpot,
-                Style::HeavyDashed,
-            ),
-        ] {
+        for (label, rung, style) in LEAVES {
             let line = x
                 .cells(40)
                 .into_iter()
