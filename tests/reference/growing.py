@@ -343,13 +343,29 @@ def long_memory(draw):
     return nu, 0.02 + 0.93 * draw.random(), memory * kappa / 2.2
 
 
+def steel_ball(velocity):
+    """A steel ball of 5 mm radius (208 GPa, 0.29, 7800 kg/m3) on steel."""
+    modulus, nu, rho, radius = 208e9, 0.29, 7800.0, 0.005
+    c1 = np.sqrt(modulus * (1 - nu) / (rho * (1 + nu) * (1 - 2 * nu)))
+    mass = 4 / 3 * np.pi * radius**3 * rho
+    plane = modulus / (1 - nu * nu) / 2
+    alpha = (1.25 * mass * velocity**2 / (4 / 3 * plane * np.sqrt(radius))) ** 0.4
+    return nu, 0.5, np.sqrt(radius * alpha) / c1 / (alpha / velocity)
+
+
 def main():
     rows = int(sys.argv[1]) if len(sys.argv) > 1 else 110
     known = FILE.read_text().splitlines()[1:] if FILE.exists() else []
     have = {",".join(line.split(",")[:4]) for line in known}
     if not FILE.exists():
         FILE.write_text(COLUMNS + "\n")
-    for kind, make, seed, wanted in (("scene", groups, 1, rows), ("long", long_memory, 2, rows // 4)):
+    balls = iter((1.0, 20.0, 100.0))
+    kinds = (
+        ("scene", groups, 1, rows),
+        ("long", long_memory, 2, rows // 4),
+        ("ball", lambda _: steel_ball(next(balls)), 3, 3),
+    )
+    for kind, make, seed, wanted in kinds:
         draw = np.random.default_rng(seed)
         for _ in range(wanted):
             nu, phi, tau = (float(f"{x:.12g}") for x in make(draw))

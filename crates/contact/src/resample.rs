@@ -45,6 +45,14 @@ impl Resampler {
         }
     }
 
+    /// The first sample after all contacts, in collision units.
+    #[must_use]
+    pub fn end(&self) -> f64 {
+        let force = &self.history.force;
+        let last = force.iter().rposition(|&p| p > 0.0).unwrap_or(0);
+        (last + 1) as f64 * self.history.step
+    }
+
     /// The state at a time in collision units, from the touch on.
     #[must_use]
     pub fn at(&self, time: f64) -> Instant {
@@ -52,7 +60,7 @@ impl Resampler {
         let place = (time / self.history.step).max(0.0);
         let last = (n - 1) as f64;
         if place >= last || n < 4 {
-            let velocity = self.history.last_velocity();
+            let velocity = self.velocity[n - 1];
             let since = time - last * self.history.step;
             return Instant {
                 force: 0.0,

@@ -25,13 +25,13 @@ pub struct Results {
     pub peak_displacement_m: f64,
     /// Largest deflection that enters the contact law in m.
     pub peak_deflection_m: f64,
-    /// Momentum given to the striker in N s.
+    /// Momentum given to the striker in N s, from the force alone.
     pub impulse_n_s: f64,
     /// Kinetic energy before in J.
     pub initial_energy_j: f64,
     /// Energy radiated into the half-space in J.
     pub radiated_energy_j: f64,
-    /// (initial - rebound - radiated)/initial.
+    /// (initial - rebound - radiated)/initial, rebound the kinetic energy after by the impulse: see [`Ledger`].
     pub energy_residual: f64,
     /// Contact radius of Hertz's law at the largest force in m.
     pub contact_radius_m: f64,
@@ -69,7 +69,7 @@ impl Results {
             impulse_n_s: s.impulse * units.force_n * units.time_s,
             initial_energy_j: collision.energy_j(),
             radiated_energy_j: radiated * collision.energy_j(),
-            energy_residual: Ledger::new(s.restitution, radiated).residual,
+            energy_residual: Ledger::new(s.impulse, radiated).residual,
             contact_radius_m,
             disc_radius_m: fixed_disc_m(solved.plan.model, settings, collision)
                 .unwrap_or(contact_radius_m),

@@ -30,7 +30,8 @@ pub struct Summary {
     pub peak_displacement: f64,
     /// Largest deflection that enters the contact law.
     pub peak_deflection: f64,
-    /// int p dt.
+    /// int p dt over all contacts, from the force alone: what the momentum of the striker changes by, whatever route
+    /// gave the restitution. Closed forms have no other than that of their restitution.
     pub impulse: f64,
     /// Number of contacts: 1 unless the surface strikes again.
     pub contacts: usize,
@@ -96,11 +97,15 @@ impl Summary {
         }
         let (place, peak_force) = peak(force);
         let contacts = count_contacts(force, peak_force);
-        let (velocity, loss) = if contacts == 1 {
-            departure(1.0 - INVERSE_MASS * impulse, history)
+        let by_momentum = if contacts == 1 {
+            1.0 - INVERSE_MASS * impulse
         } else {
-            let velocity = history.last_velocity();
-            (velocity, (1.0 - velocity) * (1.0 + velocity))
+            history.last_velocity()
+        };
+        let (velocity, loss) = if contacts == 1 {
+            departure(by_momentum, history)
+        } else {
+            (by_momentum, (1.0 - by_momentum) * (1.0 + by_momentum))
         };
         Ok(Self {
             peak_force,
@@ -110,7 +115,7 @@ impl Summary {
             loss,
             peak_displacement: peak(&history.displacement).1,
             peak_deflection: peak(&history.deflection).1,
-            impulse: (1.0 - velocity) / INVERSE_MASS,
+            impulse: (1.0 - by_momentum) / INVERSE_MASS,
             contacts,
             end: how,
         })

@@ -109,9 +109,11 @@ fn the_force_takes_the_strikers_momentum() {
         let force = |i: usize| run.excitation().force_n(i as f64 * step_s);
         let impulse = (1..steps).map(force).sum::<f64>() * step_s;
         let momentum = 0.01 * (20.0 + found.rebound_velocity_m_s);
+        // two routes: the force, and for small losses the work that the restitution is taken from
         assert!(
-            (found.impulse_n_s / momentum - 1.0).abs() < 1e-10,
-            "{name:?}"
+            (found.impulse_n_s / momentum - 1.0).abs() < 1e-4,
+            "{name:?}: {} {momentum}",
+            found.impulse_n_s
         );
         assert!(
             (impulse / momentum - 1.0).abs() < 2e-3,

@@ -2,6 +2,5 @@
 
 pub mod area_dashpot;
 pub mod hertz;
-pub(crate) mod pulse;
 pub mod quasi_static;
 pub mod radiation;

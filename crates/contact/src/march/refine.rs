@@ -3,7 +3,6 @@
 use super::error::MarchError;
 use super::history::History;
 use crate::summary::Summary;
-use crate::units::INVERSE_MASS;
 
 /// What the results have to meet.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -85,7 +84,6 @@ impl Accuracy {
         Summary {
             restitution,
             loss,
-            impulse: (1.0 + restitution) / INVERSE_MASS,
             ..*fine
         }
     }

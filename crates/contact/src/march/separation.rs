@@ -94,7 +94,8 @@ impl History {
         };
     }
 
-    /// Work of the force on another deflection of the same disc, where that on its own is known.
+    /// Work of the force on another deflection of the same disc, where that on its own is known and the steps do not
+    /// resolve the memory of either.
     pub(crate) fn work_on(
         &self,
         response: &impl DiscResponse,
@@ -102,10 +103,11 @@ impl History {
         wave_time: f64,
     ) -> Option<f64> {
         self.dissipated?;
-        dissipated(
-            self,
-            &Relaxation::of(response, coupling, wave_time / self.step),
-        )
+        let relaxation = Relaxation::of(response, coupling, wave_time / self.step);
+        // beyond that it knows no more than its memory
+        (relaxation.memory <= RESOLVED)
+            .then(|| dissipated(self, &relaxation))
+            .flatten()
     }
 }
 

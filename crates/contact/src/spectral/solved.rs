@@ -114,7 +114,7 @@ impl SolvedContact {
             loss,
             peak_displacement: travel.value,
             peak_deflection: deflection.value,
-            impulse: (1.0 + restitution) / INVERSE_MASS,
+            impulse: (1.0 - state.velocity) / INVERSE_MASS,
             contacts: 1,
             end: EndOfContact::Layer(0.0),
         };
