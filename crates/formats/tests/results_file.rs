@@ -32,13 +32,8 @@ fn listed(from: &str, to: &str) -> BTreeSet<String> {
         .collect()
 }
 
-#[test]
-fn every_dataset_is_described_and_every_description_is_written() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("out.h5");
-    let (scene, outcome) = outcome();
-    write_results(&path, &scene, &outcome, Existing::Keep).unwrap();
-    let file = hdf5::File::open(&path).unwrap();
+/// Paths of the datasets in a file, each of which is described with its unit.
+fn described_datasets(file: &hdf5::File) -> BTreeSet<String> {
     let mut written = BTreeSet::new();
     let mut groups = vec![(String::new(), file.as_group().unwrap())];
     while let Some((name, group)) = groups.pop() {
@@ -66,6 +61,44 @@ fn every_dataset_is_described_and_every_description_is_written() {
             groups.push((inner.name(), inner));
         }
     }
+    written
+}
+
+/// What a striker has and a record has not, and the other way round.
+const OF_A_STRIKER: [&str; 3] = ["/displacement", "/velocity", "/energy/kinetic"];
+const OF_A_RECORD: [&str; 1] = ["/energy/work"];
+
+#[test]
+fn every_dataset_is_described_and_every_description_is_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let (path, other) = (
+        folder.path().join("out.h5"),
+        folder.path().join("record.h5"),
+    );
+    let (scene, outcome) = outcome();
+    write_results(&path, &scene, &outcome, Existing::Keep).unwrap();
+    let text = include_str!("../../../scenes/prescribed-force.toml");
+    let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
+    let scene = parse_scene(text, &scenes).unwrap();
+    let outcome = simulate(&scene, &KernelChoice::Direct).unwrap();
+    write_results(&other, &scene, &outcome, Existing::Keep).unwrap();
+    let file = hdf5::File::open(&path).unwrap();
+    let striker = described_datasets(&file);
+    let record = described_datasets(&hdf5::File::open(&other).unwrap());
+    for (own, has, has_not) in [
+        (&OF_A_STRIKER[..], &striker, &record),
+        (&OF_A_RECORD[..], &record, &striker),
+    ] {
+        assert!(
+            own.iter()
+                .all(|&path| has.contains(path) && !has_not.contains(path))
+        );
+    }
+    assert_eq!(
+        formats::stored::StoredImpact::open(&other).unwrap().series,
+        outcome.series
+    );
+    let written: BTreeSet<String> = striker.union(&record).cloned().collect();
     assert_eq!(written, listed("## Datasets", "## Attributes"));
     let attributes: BTreeSet<String> = file.attr_names().unwrap().into_iter().collect();
     assert_eq!(attributes, listed("## Attributes", ""));

@@ -166,6 +166,14 @@ impl Excitation {
         }
     }
 
+    /// When the last contact has ended in s, and the units of the collision; none for a record.
+    pub(crate) fn contacts(&self) -> Option<(f64, &CollisionUnits)> {
+        match &self.force {
+            Force::Contact { samples, units, .. } => Some((samples.end() * units.time_s, units)),
+            Force::Record(_) => None,
+        }
+    }
+
     /// Length in s of a pulse that is as steep as the force: its duration for a contact.
     #[must_use]
     pub fn pulse_s(&self) -> f64 {

@@ -22,6 +22,7 @@
 // in reading order
 mod condition;
 pub mod convolve;
+pub mod energy;
 pub mod excitation;
 pub mod fields;
 pub mod grid;
@@ -42,6 +43,7 @@ mod transform;
 
 pub use condition::{Treatment, TreatmentError};
 pub use contact::{HalfSpace, Material, Settings, Striker};
+pub use energy::EnergySeries;
 pub use excitation::{Excitation, Motion};
 pub use fields::{FieldHistory, Fields, FieldsError, Trace};
 pub use grid::{Grid, TooManySamples};

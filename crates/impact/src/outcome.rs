@@ -1,6 +1,7 @@
 //! All that a scene gives.
 
 use crate::convolve::Method;
+use crate::energy::EnergySeries;
 use crate::probes::{ProbeFields, SectionFields};
 use contact::{Model, Results, Scheme};
 
@@ -39,7 +40,7 @@ pub struct RecordResults {
     pub disc_radius_m: f64,
     /// The most that the samples leave of the force between them, over the largest force.
     pub relative_error_estimate: f64,
-    /// int P dw of the pressure-weighted mean deflection, in J.
+    /// Work on the part of the mean deflection that lags behind the force, in J.
     pub radiated_energy_j: f64,
 }
 
@@ -90,6 +91,8 @@ pub struct Series {
     pub deflection_m: Vec<f64>,
     /// The striker, where there is one.
     pub striker: Option<StrikerSeries>,
+    /// Where the energy is.
+    pub energy: Option<EnergySeries>,
 }
 
 /// Motion of the striker over time, in SI units.

@@ -1,5 +1,6 @@
 //! From a scene to all that it gives: an excitation, then series and fields.
 
+use crate::energy::EnergySeries;
 use crate::excitation::Excitation;
 use crate::fields::{FieldsError, Sampled};
 use crate::grid::{Grid, TooManySamples, Wanted};
@@ -13,7 +14,6 @@ use crate::record::ForceRecord;
 use crate::samples::between_samples;
 use crate::scene::{Load, Scene, Strike};
 use crate::source::{Chosen, KernelChoice, SourceError, choose_source};
-use contact::work::work_j;
 use contact::{ContactError, Model, Scheme, StaticShare};
 use halfspace::{Deflection, DomainError};
 use thiserror::Error;
@@ -96,10 +96,11 @@ fn of_strike(
         reason: run.solved.plan.reason(&scene.settings),
         results: run.results,
     };
+    let energy = EnergySeries::of_striker(excitation, &run.solved.plan, &computed.time_s);
     Ok(computed.outcome(
         cause,
         deflection_m.unwrap_or(law_m),
-        Some(striker),
+        (Some(striker), energy),
         warnings,
     ))
 }
@@ -112,9 +113,8 @@ fn of_record(
     let radius_m = scene.settings.disc_radius_m.ok_or(ImpactError::NoDisc)?;
     let excitation = Excitation::of_record(&scene.target, radius_m, record.clone())?;
     let computed = Computed::new(scene, &excitation, kernels)?;
-    let disc = |deflection| computed.disc_deflection_m(deflection, StaticShare::Full);
-    // the work of the pressure is that on the mean deflection, whatever is asked for
-    let (deflection_m, mean_m) = (disc(scene.settings.deflection), disc(Deflection::Mean));
+    let deflection_m = computed.disc_deflection_m(scene.settings.deflection, StaticShare::Full);
+    let energy = EnergySeries::of_record(&excitation, &computed.grid, &computed.force_n);
     let mut warnings = computed.warnings();
     let left_n = computed.left_n();
     let relative_error = left_n / record.largest_n().max(f64::MIN_POSITIVE);
@@ -137,9 +137,9 @@ fn of_record(
         disc_radius_m: radius_m,
         impulse_n_s: record.impulse_n_s(),
         peak_deflection_m: deflection_m.iter().copied().fold(0.0, f64::max),
-        radiated_energy_j: work_j(&computed.force_n, &mean_m),
+        radiated_energy_j: energy.radiated_at_last_j(),
     });
-    Ok(computed.outcome(cause, deflection_m, None, warnings))
+    Ok(computed.outcome(cause, deflection_m, (None, Some(energy)), warnings))
 }
 
 /// What follows from an excitation, whatever has caused it.
@@ -244,7 +244,7 @@ impl<'a> Computed<'a> {
         self,
         cause: Cause,
         deflection_m: Vec<f64>,
-        striker: Option<StrikerSeries>,
+        (striker, energy): (Option<StrikerSeries>, Option<EnergySeries>),
         warnings: Vec<String>,
     ) -> Outcome {
         Outcome {
@@ -255,6 +255,7 @@ impl<'a> Computed<'a> {
                 force_n: self.force_n,
                 deflection_m,
                 striker,
+                energy,
             },
             probes: self.probes,
             section: self.section,

@@ -3,7 +3,7 @@
 /// Value of the attribute `file_type`.
 pub const FILE_TYPE: &str = "hertzlamb results";
 /// Version of the format: the first number changes when a reader of the old one would fail.
-pub const FORMAT_VERSION: &str = "1.3";
+pub const FORMAT_VERSION: &str = "1.4";
 /// Datasets in the root, with unit and description.
 pub const SERIES: [(&str, &str, &str); 5] = [
     ("time", "s", "time since the first touch"),
@@ -33,6 +33,23 @@ pub const TREATMENT: [&str; 5] = [
     "low_pass_hz",
     "removed_rms_n",
     "before_zero_n_s",
+];
+/// Group of the energy over time.
+pub const ENERGY: &str = "energy";
+/// Datasets in it; the first where there is a striker, the second where there is none.
+pub const ENERGIES: [(&str, &str, &str); 4] = [
+    (
+        "kinetic",
+        "J",
+        "kinetic energy of the striker, by its momentum",
+    ),
+    ("work", "J", "work of the force on the half-space"),
+    ("stored", "J", "elastic energy that is given back"),
+    (
+        "radiated",
+        "J",
+        "work on the part of the deflection that lags behind the force",
+    ),
 ];
 /// Group of the probes.
 pub const PROBES: &str = "probes";

@@ -8,7 +8,7 @@ use crate::quantities::QUANTITIES;
 use crate::report::{choices, kernel_name, treatment};
 use crate::scene::resolved;
 use hdf5::{Dataset, File};
-use impact::{KernelsUsed, Outcome, ProbeFields, Scene};
+use impact::{EnergySeries, KernelsUsed, Outcome, ProbeFields, Scene};
 use std::path::Path;
 
 /// Writes the results of a scene.
@@ -55,6 +55,9 @@ fn write_file(path: &Path, scene: &Scene, outcome: &Outcome) -> Result<(), hdf5:
             Some(time) => attach_scale(&dataset, time, 0)?,
         }
     }
+    if let (Some(energy), Some(time)) = (&series.energy, &time) {
+        write_energy(&file, energy, time)?;
+    }
     if let (Some(fields), Some(time)) = (&outcome.probes, &time) {
         write_probes(&file, fields, time)?;
     }
@@ -70,6 +73,22 @@ fn write_treatment(force: &Dataset, scene: &Scene) -> Result<(), hdf5::Error> {
     for (name, value) in treatment(scene) {
         if let Some(value) = value {
             force.new_attr::<f64>().create(name)?.write_scalar(&value)?;
+        }
+    }
+    Ok(())
+}
+
+fn write_energy(file: &File, energy: &EnergySeries, time: &Dataset) -> Result<(), hdf5::Error> {
+    let group = file.create_group(schema::ENERGY)?;
+    let columns = [
+        energy.kinetic_j.as_ref(),
+        energy.work_j.as_ref(),
+        Some(&energy.stored_j),
+        Some(&energy.radiated_j),
+    ];
+    for (described, samples) in schema::ENERGIES.iter().zip(columns) {
+        if let Some(samples) = samples {
+            attach_scale(&vector(&group, described, samples)?, time, 0)?;
         }
     }
     Ok(())

@@ -6,8 +6,8 @@ use super::open::Stored;
 use super::probes::StoredProbes;
 use super::scene::StoredScene;
 use super::section::StoredSection;
-use crate::results::schema::{MAP, PROBES, SERIES};
-use impact::{Series, StrikerSeries};
+use crate::results::schema::{ENERGIES, ENERGY, MAP, PROBES, SERIES};
+use impact::{EnergySeries, Series, StrikerSeries};
 use std::path::Path;
 
 /// Major version of the results that are read.
@@ -54,6 +54,7 @@ impl StoredImpact {
             force_n: column(1)?,
             deflection_m: column(4)?,
             striker,
+            energy: energy_of(&stored, time_s.len())?,
             time_s,
         };
         Ok(Self {
@@ -99,4 +100,20 @@ impl StoredImpact {
             .map(|_| StoredSection::new(self.stored.clone()))
             .transpose()
     }
+}
+
+/// Where the energy is; none in files from before it was written.
+fn energy_of(stored: &Stored, samples: usize) -> Result<Option<EnergySeries>, ReadError> {
+    if stored.group(ENERGY).is_none() {
+        return Ok(None);
+    }
+    let path = |i: usize| format!("{ENERGY}/{}", ENERGIES[i].0);
+    let column = |i: usize| stored.numbers(&path(i), &[samples]);
+    let existing = |i: usize| stored.shape(&path(i)).map(|_| column(i)).transpose();
+    Ok(Some(EnergySeries {
+        kinetic_j: existing(0)?,
+        work_j: existing(1)?,
+        stored_j: column(2)?,
+        radiated_j: column(3)?,
+    }))
 }

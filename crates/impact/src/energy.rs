@@ -1,0 +1,145 @@
+//! Where the energy is over time.
+//!
+//! ```text
+//! kinetic   m v^2/2, v by the momentum of the force
+//! stored    (2/5) P^(5/3)/K^(2/3) in Hertz's spring, and S P^2/2 in the static field where a disc holds one of its own
+//! radiated  int P dw_d, w_d the part of the deflection that lags behind the force
+//! ```
+//!
+//! The three are independent of each other, so that their sum, the energy before, can fail.
+//! S and, where the half-space's memory is followed, w_d belong to the pressure-weighted mean of the disc's deflection,
+//! which does the work of the pressure, whatever deflection is in the contact law.
+//! Before the end of a contact the last term holds energy of the field near the contact that comes back.
+//!
+//! Theory: `docs/theory.md` (T56).
+
+use crate::excitation::Excitation;
+use crate::grid::Grid;
+use contact::choose::Family;
+use contact::plan::Plan;
+use contact::work::work_until_j;
+use contact::{Model, StaticShare};
+use halfspace::{Deflection, SurfaceResponse};
+
+/// Energies in J at the times of the output.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct EnergySeries {
+    /// Kinetic energy of the striker; none for a record.
+    pub kinetic_j: Option<Vec<f64>>,
+    /// Work of a record on the half-space since its first sample; none for a striker, whose spring is shared.
+    pub work_j: Option<Vec<f64>>,
+    /// Elastic energy that is given back: of Hertz's spring and of the disc's static field.
+    pub stored_j: Vec<f64>,
+    /// Work on the deflection that lags; after the contact the energy that is radiated.
+    pub radiated_j: Vec<f64>,
+}
+
+/// Samples over the contacts for the work.
+const SAMPLES: f64 = 1024.0;
+
+impl EnergySeries {
+    /// Of a striker whose contact was planned so, at times in s; none for a record.
+    ///
+    /// The work is within 1e-4 of itself beside the error of the force.
+    pub(crate) fn of_striker(excitation: &Excitation, plan: &Plan, time_s: &[f64]) -> Option<Self> {
+        let (end_s, units) = excitation.contacts()?;
+        let initial_j = 0.4 * units.force_n * units.length_m;
+        let step_s = end_s / SAMPLES;
+        let times = (0..=SAMPLES as usize + 1).map(|i| i as f64 * step_s);
+        let force_n: Vec<f64> = times.clone().map(|t| excitation.force_n(t)).collect();
+        let lag_m: Vec<f64> = match plan.model {
+            Model::Wave | Model::Auto => {
+                let share = StaticShare::Dynamic;
+                excitation.deflection_m(Deflection::Mean, share, step_s, 0.0, &force_n)
+            }
+            // what the contact law's own deflection is more than its static part
+            Model::Hertz
+            | Model::Radiation
+            | Model::QuasiStatic
+            | Model::QuasiStaticRadiation
+            | Model::Growing => {
+                let static_m_per_n = plan.coupling() * units.length_m / units.force_n;
+                let law_m = |t| excitation.motion(t).map_or(0.0, |m| m.deflection_m);
+                let samples = times.zip(&force_n);
+                samples
+                    .map(|(t, p)| law_m(t) - static_m_per_n * p)
+                    .collect()
+            }
+        };
+        let work_j = work_until_j(&force_n, &lag_m);
+        let static_m_per_n = match plan.groups.family {
+            Family::Full => static_mean_m_per_n(excitation),
+            // Hertz's law holds all of it
+            Family::Growing | Family::Dynamic => 0.0,
+        };
+        let stored = |t: f64| {
+            let p = excitation.force_n(t);
+            initial_j * (p / units.force_n).powf(5.0 / 3.0) + 0.5 * static_m_per_n * p * p
+        };
+        let kinetic = |t: f64| {
+            let v = excitation.motion(t).map_or(0.0, |m| m.velocity_m_s);
+            initial_j * (v / units.velocity_m_s()).powi(2)
+        };
+        Some(Self {
+            kinetic_j: Some(time_s.iter().map(|&t| kinetic(t)).collect()),
+            work_j: None,
+            stored_j: time_s.iter().map(|&t| stored(t)).collect(),
+            radiated_j: time_s
+                .iter()
+                .map(|&t| between(&work_j, t / step_s))
+                .collect(),
+        })
+    }
+
+    /// Of a record whose force is sampled at the output's times.
+    pub(crate) fn of_record(excitation: &Excitation, grid: &Grid, force_n: &[f64]) -> Self {
+        let static_m_per_n = static_mean_m_per_n(excitation);
+        let (mut stored_j, mut radiated_j) = (Vec::new(), Vec::new());
+        for (run, force_n) in grid.split(force_n) {
+            let lag_m = excitation.deflection_m(
+                Deflection::Mean,
+                StaticShare::Dynamic,
+                grid.step_s,
+                run.base_n,
+                force_n,
+            );
+            // from the rest before the run, between which and the run before nothing is done
+            let force_n = [&[run.base_n], force_n].concat();
+            let lag_m = [&[0.0], &lag_m[..]].concat();
+            let before: f64 = radiated_j.last().copied().unwrap_or(0.0);
+            let work_j = work_until_j(&force_n, &lag_m);
+            radiated_j.extend(work_j.iter().skip(1).map(|work| before + work));
+            let stored = |p: &f64| 0.5 * static_m_per_n * p * p;
+            stored_j.extend(force_n.iter().skip(1).map(stored));
+        }
+        let parts = stored_j.iter().zip(&radiated_j);
+        let work_j = parts.map(|(stored, radiated)| stored + radiated).collect();
+        Self {
+            kinetic_j: None,
+            work_j: Some(work_j),
+            stored_j,
+            radiated_j,
+        }
+    }
+
+    /// The energy radiated at the last time, in J.
+    #[must_use]
+    pub fn radiated_at_last_j(&self) -> f64 {
+        self.radiated_j.last().copied().unwrap_or(0.0)
+    }
+}
+
+/// Static mean deflection of the disc in m/N.
+fn static_mean_m_per_n(excitation: &Excitation) -> f64 {
+    let response = SurfaceResponse::new(excitation.medium(), Deflection::Mean);
+    response.static_compliance() * excitation.units().displacement_m_per_n()
+}
+
+/// Linear between samples, the last one after them.
+fn between(samples: &[f64], place: f64) -> f64 {
+    let cell = place.max(0.0) as usize;
+    match samples.get(cell..cell.saturating_add(2)) {
+        Some([a, b]) => a + (b - a) * (place - cell as f64),
+        Some(_) | None => samples.last().copied().unwrap_or(0.0),
+    }
+}
