@@ -103,6 +103,7 @@ def check(report):
         1e-2,
     )
     next_term(report)
+    third_order(report)
     balls(report)
 
 
@@ -133,6 +134,47 @@ def next_term(report):
         abs(mp.log(errors[0] / errors[1], 2) - 3),
         0.02,
     )
+
+
+def third_order(report):
+    """(T59): the force law against the expansion in the memory that it solves, along its own motion."""
+    mp.mp.dps = 50
+    q = lambda a, b: mp.mpf(a) / b
+
+    def law(c, b, e):
+        return lambda d, v: (
+            d ** q(3, 2)
+            + q(9, 4) * c * d * v
+            + (q(135, 32) * c**2 - 3 * b) * mp.sqrt(d) * v**2
+            - (q(135, 32) * c**2 - q(15, 4) * b) * d**3
+            + (q(351, 64) * c**3 - q(63, 8) * b * c + q(3, 64) * e) * v**3
+            - (q(6075, 128) * c**3 - q(585, 8) * b * c + q(15, 32) * e) * d ** q(5, 2) * v
+        )
+
+    def rest(size):
+        c, b, e = size, q(7, 10) * size**2, q(13, 10) * size**3
+        force = law(c, b, e)
+        motion = mp.odefun(lambda t, y: [y[1], -q(5, 4) * force(*y)], 0, [q(6, 10), q(7, 10)])
+        pressed = lambda t: force(*motion(t))
+        # slopes at a time inside, by differences of many digits
+        at = q(1, 5)
+        slope = lambda power, n: mp.diff(lambda t: pressed(t) ** power, at, n, h=mp.mpf("1e-8"))
+        value = pressed(at) ** q(2, 3) - c * slope(1, 1) + b * slope(q(4, 3), 2) - e / 60 * slope(q(5, 3), 3)
+        return abs(motion(at)[0] - value)
+
+    order = mp.log(rest(mp.mpf("2e-3")) / rest(mp.mpf("1e-3")), 2)
+    mp.mp.dps = 15
+    report.row("T59", "force law without memory: order of what it leaves of the expansion, against 4", abs(order - 4), 0.02)
+    x, weight = hs.on_panels([0, 1])
+    d = 1 - x**2
+    v2 = -np.expm1(2.5 * np.log1p(-(x**2)))
+    time = weight * 2 * x / np.sqrt(v2)
+    found = 2.5 * 2 * np.sum(time * (3 / 64 * v2**2 - 15 / 32 * d**2.5 * v2))
+    # both second derivatives by the root of d, which the first has below and the second above
+    curved, stored = 0.75 * v2 - 1.875 * d**2.5, 3.75 * v2 - 3.125 * d**2.5
+    exact = -2 * np.sum(time * curved * stored) / 24
+    report.row("T59", "work of its third order against -(1/24) int p'' (p^(5/3))'' dt of Hertz's pulse", abs(found - exact), 1e-6)
+    report.row("T59", "the same against the code's -0.252130892", abs(found + 0.252130892), 1e-8)
 
 
 def balls(report):

@@ -1,8 +1,9 @@
 //! `auto`: the cheapest rung of a family of models that meets the tolerance.
 //!
 //! Within a family (growing contact, fixed disc with the full or the dynamic share) the rungs are
-//! quasi-static, quasi-static with the first-order radiated loss, and full memory; each is the limit
+//! quasi-static, one without memory that radiates, and full memory; each is the limit
 //! of the next as the memory over the contact time goes to zero.
+//! The one that radiates is the area dashpot for a growing contact, the first-order loss for a fixed disc.
 //! What a rung leaves out is estimated from three numbers in collision units: the coupling sigma (zero
 //! unless the share is full), the lag c and the memory T of the half-space.
 //! With l = (5/2) c int p'^2, the first-order loss,
@@ -13,6 +14,8 @@
 //! radiation       the same four        0.4 l^2 + (0.12 + 0.07 sigma) l sqrt(T)       fixed disc
 //!                                      0.4 l^2 + 0.3 l T + 0.06 l sqrt(T)            growing contact
 //!                 loss, relative       0.75 l + 0.8 T^2    and    0.75 l + 0.25 T^2
+//! area dashpot    the same four, and the force at any time      0.11 c T^2           growing contact
+//!                 loss, relative                                0.0052 T^2
 //! ```
 //!
 //! l/2 and the exponents are those of the expansion in the lag, docs/theory.md (T53): the next order of the restitution
@@ -20,10 +23,12 @@
 //! the third derivative of the force.
 //! The coefficients bound the differences from the full memory that were measured over couplings of 1e-3 to 5,
 //! memories of 1e-4 to 0.25 and Poisson's ratios of 0 to 0.48, with a margin of about 1.3.
+//! Those of the area dashpot are [`LeftOut`]'s, over memories up to 0.5.
 //! `tests/auto.rs` repeats the comparison on random scenes.
 //!
 //! Theory: `docs/theory.md` (T58).
 
+use crate::law::area_dashpot::LeftOut;
 use crate::law::quasi_static::quasi_static;
 use crate::law::radiation::LOSS;
 use crate::march::refine::Accuracy;
@@ -33,8 +38,10 @@ use crate::march::refine::Accuracy;
 pub enum Rung {
     /// No waves at all.
     QuasiStatic,
-    /// First-order radiated loss.
+    /// First-order radiated loss, of fixed discs.
     Radiation,
+    /// Dashpot on the contact's area, of contacts that follow the load.
+    AreaDashpot,
     /// Full memory.
     FullMemory,
 }
@@ -75,13 +82,15 @@ pub struct Estimate {
 /// The rung chosen and why.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Choice {
+    /// The family.
+    pub family: Family,
     /// The rung.
     pub rung: Rung,
     /// Estimated relative error of that rung; zero for full memory, whose error is its step's.
     pub error: f64,
     /// What radiation changes, l/2.
     pub radiation: f64,
-    /// What the first order of radiation leaves out.
+    /// What the best rung without memory leaves out.
     pub left_out: Estimate,
 }
 
@@ -123,23 +132,44 @@ impl Groups {
         }
     }
 
+    /// What the area dashpot leaves out of a contact that follows the load.
+    #[must_use]
+    pub fn beyond_dashpot(&self) -> Estimate {
+        let left_out = LeftOut::of(self.lag, self.memory);
+        Estimate {
+            contact: left_out.contact(),
+            loss: left_out.loss,
+        }
+    }
+
+    /// The rung of this family that radiates without memory, and what it leaves out.
+    fn without_memory(&self) -> (Rung, Estimate) {
+        match self.family {
+            Family::Growing => (Rung::AreaDashpot, self.beyond_dashpot()),
+            Family::Full | Family::Dynamic => (Rung::Radiation, self.beyond_radiation()),
+        }
+    }
+
     /// The cheapest rung that meets the accuracy asked for.
     #[must_use]
     pub fn choose(&self, accuracy: &Accuracy) -> Choice {
         let radiation = 0.5 * self.first_order_loss();
-        let left_out = self.beyond_radiation();
+        let first_order = self.beyond_radiation();
+        let (radiating, left_out) = self.without_memory();
         let choice = |rung, error| Choice {
+            family: self.family,
             rung,
             error,
             radiation,
             left_out,
         };
-        if accuracy.loss.is_none() && radiation + left_out.contact <= accuracy.tolerance {
-            return choice(Rung::QuasiStatic, radiation + left_out.contact);
+        let quasi_static = radiation + first_order.contact;
+        if accuracy.loss.is_none() && quasi_static <= accuracy.tolerance {
+            return choice(Rung::QuasiStatic, quasi_static);
         }
         let loss_is_met = accuracy.loss.is_none_or(|asked| left_out.loss <= asked);
         if left_out.contact <= accuracy.tolerance && loss_is_met {
-            return choice(Rung::Radiation, left_out.contact);
+            return choice(radiating, left_out.contact);
         }
         choice(Rung::FullMemory, 0.0)
     }
@@ -162,8 +192,15 @@ impl Choice {
     #[must_use]
     pub fn reason(&self, accuracy: &Accuracy) -> String {
         let (first, tolerance) = (self.radiation, accuracy.tolerance);
-        let second = self.left_out.contact;
+        let Estimate {
+            contact: second,
+            loss,
+        } = self.left_out;
         let change = format!("radiation changes the results by {first:.1e}");
+        let rung = match self.family {
+            Family::Growing => "the area dashpot",
+            Family::Full | Family::Dynamic => "its first order",
+        };
         match self.rung {
             Rung::QuasiStatic => {
                 format!("{change}, below the tolerance {tolerance:.1e}: no waves needed")
@@ -171,13 +208,15 @@ impl Choice {
             Rung::Radiation => format!(
                 "{change}; what its first order leaves out, {second:.1e}, is below the tolerance {tolerance:.1e}"
             ),
+            Rung::AreaDashpot => format!(
+                "{change}; what the area dashpot leaves out, {second:.1e} and {loss:.1e} of the loss, is below the tolerance {tolerance:.1e}: no memory needed"
+            ),
             Rung::FullMemory => match accuracy.loss {
                 Some(asked) if second <= tolerance => format!(
-                    "the first order of radiation would leave out {:.1e} of the loss, above the loss_tolerance {asked:.1e}: full memory",
-                    self.left_out.loss
+                    "{rung} would leave out {loss:.1e} of the loss, above the loss_tolerance {asked:.1e}: full memory"
                 ),
                 Some(_) | None => format!(
-                    "{change}; its first order would leave out {second:.1e}, above the tolerance {tolerance:.1e}: full memory"
+                    "{change}; {rung} would leave out {second:.1e}, above the tolerance {tolerance:.1e}: full memory"
                 ),
             },
         }

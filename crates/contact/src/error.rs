@@ -1,6 +1,7 @@
 //! Why a contact could not be computed.
 
 use crate::march::error::MarchError;
+use crate::spectral::GrowingError;
 use halfspace::DomainError;
 use thiserror::Error;
 
@@ -10,6 +11,9 @@ pub enum ContactError {
     /// The march failed.
     #[error(transparent)]
     March(#[from] MarchError),
+    /// A contact that follows the load could not be solved.
+    #[error(transparent)]
+    Growing(#[from] GrowingError),
     /// A material is outside the physics.
     #[error(transparent)]
     Domain(#[from] DomainError),
@@ -32,5 +36,15 @@ pub enum ContactError {
     LossTooLarge {
         /// The loss 1 - e^2 of the law.
         loss: f64,
+    },
+    /// The memory is too long for an expansion in it.
+    #[error(
+        "model \"area_dashpot\" is an expansion in the memory of the half-space: its lag {lag:.3} and its memory {memory:.3} collision times are outside [0, 0.2] and [0, 0.5]; use model \"growing\""
+    )]
+    BeyondDashpot {
+        /// Lag c in collision times.
+        lag: f64,
+        /// Memory in collision times.
+        memory: f64,
     },
 }

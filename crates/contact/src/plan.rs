@@ -3,6 +3,7 @@
 use crate::choose::{Choice, Family, Groups, Rung};
 use crate::collision::Collision;
 use crate::error::ContactError;
+use crate::law::area_dashpot::AreaDashpot;
 use crate::law::quasi_static::quasi_static_radiation;
 use crate::law::radiation::radiation;
 use crate::march::refine::Accuracy;
@@ -48,6 +49,7 @@ pub fn plan(settings: &Settings, collision: &Collision, surface: &Surface) -> Pl
         (Rung::Radiation, Family::Full) => Model::QuasiStaticRadiation,
         (Rung::QuasiStatic, Family::Growing | Family::Dynamic) => Model::Hertz,
         (Rung::Radiation, Family::Growing | Family::Dynamic) => Model::Radiation,
+        (Rung::AreaDashpot, _) => Model::AreaDashpot,
     };
     Plan {
         model,
@@ -70,7 +72,12 @@ impl Plan {
     pub fn coupling(&self) -> f64 {
         match self.model {
             Model::QuasiStatic | Model::QuasiStaticRadiation => self.groups.coupling,
-            Model::Hertz | Model::Radiation | Model::Wave | Model::Growing | Model::Auto => 0.0,
+            Model::Hertz
+            | Model::Radiation
+            | Model::AreaDashpot
+            | Model::Wave
+            | Model::Growing
+            | Model::Auto => 0.0,
         }
     }
 
@@ -78,7 +85,12 @@ impl Plan {
     pub(crate) fn damping(&self) -> f64 {
         match self.model {
             Model::Radiation | Model::QuasiStaticRadiation => self.groups.lag,
-            Model::Hertz | Model::QuasiStatic | Model::Wave | Model::Growing | Model::Auto => 0.0,
+            Model::Hertz
+            | Model::AreaDashpot
+            | Model::QuasiStatic
+            | Model::Wave
+            | Model::Growing
+            | Model::Auto => 0.0,
         }
     }
 
@@ -97,9 +109,12 @@ impl Plan {
             Model::QuasiStatic | Model::QuasiStaticRadiation => {
                 quasi_static_radiation(coupling, lag)
             }
-            Model::Hertz | Model::Radiation | Model::Wave | Model::Growing | Model::Auto => {
-                radiation(lag)
-            }
+            Model::Hertz
+            | Model::Radiation
+            | Model::AreaDashpot
+            | Model::Wave
+            | Model::Growing
+            | Model::Auto => radiation(lag),
         };
         // what the next rung adds
         let error = if lag > 0.0 {
@@ -108,6 +123,24 @@ impl Plan {
             (0.5 * loss + left_out).min(1.0)
         };
         Ok(ClosedForm { summary, error })
+    }
+
+    /// Results of [`Model::AreaDashpot`].
+    ///
+    /// # Errors
+    /// [`ContactError::BeyondDashpot`] where the expansion in the memory makes no sense.
+    pub(crate) fn dashpot(&self, terms: &AreaDashpot) -> Result<ClosedForm, ContactError> {
+        let left_out = terms.left_out(self.groups.memory);
+        if left_out.contact() >= 1.0 {
+            return Err(ContactError::BeyondDashpot {
+                lag: terms.lag,
+                memory: self.groups.memory,
+            });
+        }
+        Ok(ClosedForm {
+            summary: terms.summary(),
+            error: left_out.contact(),
+        })
     }
 
     /// Why this model, in words.
@@ -141,7 +174,9 @@ pub fn disc_radius_m(settings: &Settings, collision: &Collision) -> f64 {
 #[must_use]
 pub fn fixed_disc_m(model: Model, settings: &Settings, collision: &Collision) -> Option<f64> {
     match model {
-        Model::Growing | Model::Hertz | Model::Radiation => settings.disc_radius_m,
+        Model::Growing | Model::AreaDashpot | Model::Hertz | Model::Radiation => {
+            settings.disc_radius_m
+        }
         Model::Wave | Model::QuasiStatic | Model::QuasiStaticRadiation | Model::Auto => {
             Some(disc_radius_m(settings, collision))
         }
@@ -152,7 +187,7 @@ pub fn fixed_disc_m(model: Model, settings: &Settings, collision: &Collision) ->
 fn groups(settings: &Settings, collision: &Collision, surface: &Surface) -> Groups {
     let fixed = match settings.model {
         Model::Wave | Model::QuasiStatic | Model::QuasiStaticRadiation => true,
-        Model::Hertz | Model::Radiation | Model::Growing => false,
+        Model::Hertz | Model::Radiation | Model::AreaDashpot | Model::Growing => false,
         Model::Auto => settings.disc_radius_m.is_some() || settings.scheme == Scheme::Explicit,
     };
     let lag = collision.lag(surface);

@@ -23,6 +23,8 @@ pub enum Model {
     Hertz,
     /// First-order radiated loss.
     Radiation,
+    /// Radiation to the second order in the memory, with its third: a dashpot on the contact's area.
+    AreaDashpot,
     /// Hertz's spring in series with the disc's static one, no waves.
     QuasiStatic,
     /// The same with the first-order radiated loss.
@@ -43,6 +45,7 @@ impl Choice for Model {
         Self::QuasiStaticRadiation,
         Self::Wave,
         Self::Growing,
+        Self::AreaDashpot,
         Self::Auto,
     ];
 
@@ -50,6 +53,7 @@ impl Choice for Model {
         match self {
             Self::Hertz => "hertz",
             Self::Radiation => "radiation",
+            Self::AreaDashpot => "area_dashpot",
             Self::QuasiStatic => "quasi_static",
             Self::QuasiStaticRadiation => "quasi_static_radiation",
             Self::Wave => "wave",

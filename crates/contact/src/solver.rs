@@ -4,9 +4,11 @@ use crate::collision::Collision;
 use crate::disc::{CENTRE_COUPLING, FixedDisc};
 use crate::energy::radiated;
 use crate::error::ContactError;
+use crate::law::area_dashpot::AreaDashpot;
 use crate::law::hertz;
+use crate::law::pulse::pulse;
 use crate::law::quasi_static::expected_contact_time;
-use crate::law::radiation::march_radiation;
+use crate::law::radiation::damped_force;
 use crate::march::error::MarchError;
 use crate::march::explicit::march_explicit;
 use crate::march::growing::march_growing;
@@ -21,7 +23,7 @@ use crate::response::shelf::Responses;
 use crate::settings::{Model, Scheme, Settings};
 use crate::spectral::solved::SolvedContact;
 use crate::spectral::waves::PunchWaves;
-use crate::spectral::{GrowingContact, solve_growing};
+use crate::spectral::{GrowingContact, GrowingError, solve_growing};
 use crate::summary::Summary;
 use crate::surface::Surface;
 use crate::work::work;
@@ -50,7 +52,7 @@ pub struct Solver<'a, S: Responses> {
     workspace: Workspace,
     disc: Option<(u64, Arc<S::Disc>)>,
     punch: Option<(u64, Arc<PunchResponse>)>,
-    waves: Option<(u64, Option<Arc<PunchWaves>>)>,
+    waves: Option<(u64, Arc<PunchWaves>)>,
     /// The contact solved last, where it was one that follows the load and was not marched.
     growing: Option<SolvedContact>,
 }
@@ -104,11 +106,18 @@ impl<'a, S: Responses> Solver<'a, S> {
         let history = match (&self.growing, solved.scheme) {
             (Some(growing), _) => growing.history(solved.summary.contact_time / SAMPLES),
             (None, Some(_)) => self.workspace.history.clone(),
+            (None, None) if solved.plan.model == Model::AreaDashpot => {
+                let terms = self.dashpot(collision)?;
+                terms.history(solved.summary.contact_time / SAMPLES)
+            }
             (None, None) => {
-                let coupling = solved.plan.coupling();
-                let steps = accuracy(settings).first_steps().max(100.0);
-                let step = expected_contact_time(coupling) / steps;
-                march_radiation(coupling, solved.plan.damping(), step)
+                let force = damped_force(solved.plan.coupling(), solved.plan.damping());
+                pulse(
+                    force,
+                    0.0,
+                    &solved.summary,
+                    solved.summary.contact_time / SAMPLES,
+                )
             }
         };
         Ok((solved, history))
@@ -134,6 +143,7 @@ impl<'a, S: Responses> Solver<'a, S> {
             (
                 Model::Hertz
                 | Model::Radiation
+                | Model::AreaDashpot
                 | Model::QuasiStatic
                 | Model::QuasiStaticRadiation
                 | Model::Wave
@@ -168,6 +178,16 @@ impl<'a, S: Responses> Solver<'a, S> {
                 _,
             ) => {
                 let closed = plan.closed_form()?;
+                let found = Found {
+                    summary: closed.summary,
+                    error: closed.error,
+                    step: None,
+                };
+                (None, found)
+            }
+            (Model::AreaDashpot, _) => {
+                let terms = self.dashpot(collision)?;
+                let closed = plan.dashpot(&terms)?;
                 let found = Found {
                     summary: closed.summary,
                     error: closed.error,
@@ -222,22 +242,31 @@ impl<'a, S: Responses> Solver<'a, S> {
         Ok(disc)
     }
 
-    /// A contact that follows the load by polynomial pieces; nothing where they do not serve: with too many Poisson's
-    /// ratios, a memory as long as the contact, or a second contact.
+    /// The terms of the expansion in the memory of a contact that follows the load.
+    fn dashpot(&mut self, collision: &Collision) -> Result<AreaDashpot, DomainError> {
+        let waves = self.waves(collision.target_poisson_ratio)?;
+        let (target_share, wave_time) = (collision.target_share(), collision.contact_wave_time());
+        Ok(AreaDashpot::new(target_share, wave_time, &waves))
+    }
+
+    /// A contact that follows the load by polynomial pieces; nothing where they do not serve: with a memory as long as
+    /// the contact, or a second contact.
     fn follow(
         &mut self,
         collision: &Collision,
         asked: &Accuracy,
-    ) -> Result<Option<Found>, DomainError> {
-        let Some(waves) = self.waves(collision.target_poisson_ratio)? else {
-            return Ok(None);
-        };
+    ) -> Result<Option<Found>, ContactError> {
+        let waves = self.waves(collision.target_poisson_ratio)?;
         let contact = GrowingContact {
             waves: &waves,
             target_share: collision.target_share(),
             wave_time: collision.contact_wave_time(),
         };
-        self.growing = solve_growing(&contact, asked).ok();
+        self.growing = match solve_growing(&contact, asked) {
+            Ok(solved) => Some(solved),
+            Err(GrowingError::Overtaken { .. } | GrowingError::StrikesAgain { .. }) => None,
+            Err(error) => return Err(error.into()),
+        };
         Ok(self.growing.as_ref().map(|growing| Found {
             summary: *growing.summary(),
             error: growing.estimates().contact(),
@@ -267,14 +296,14 @@ impl<'a, S: Responses> Solver<'a, S> {
         )?)
     }
 
-    fn waves(&mut self, ratio: f64) -> Result<Option<Arc<PunchWaves>>, DomainError> {
+    fn waves(&mut self, ratio: f64) -> Result<Arc<PunchWaves>, DomainError> {
         if let Some((bits, waves)) = &self.waves
             && *bits == ratio.to_bits()
         {
-            return Ok(waves.clone());
+            return Ok(Arc::clone(waves));
         }
         let waves = self.responses.waves(ratio)?;
-        self.waves = Some((ratio.to_bits(), waves.clone()));
+        self.waves = Some((ratio.to_bits(), Arc::clone(&waves)));
         Ok(waves)
     }
 

@@ -266,8 +266,8 @@ fn a_thousand_random_scenes() {
 
 #[test]
 fn the_area_dashpot_keeps_its_bounds() {
-    let count = 300;
-    let ratios: Vec<[f64; 6]> = (0..count)
+    let count = 600;
+    let ratios: Vec<[f64; 7]> = (0..count)
         .into_par_iter()
         .map(|index| {
             let case = random_scene(5000 + index);
@@ -277,6 +277,12 @@ fn the_area_dashpot_keeps_its_bounds() {
             let exact = solve(&case, &Accuracy::of_contact(3e-9, None)).unwrap();
             let (a, b) = (terms.summary(), exact.summary());
             let relative = |x: f64, y: f64| (x / y - 1.0).abs();
+            let step = b.contact_time / 512.0;
+            let history = terms.history(step);
+            let missed = (1..history.force.len()).map(|i| {
+                let at = exact.at(i as f64 * step).map_or(0.0, |now| now.force);
+                (history.force[i] - at).abs() / b.peak_force
+            });
             [
                 relative(a.peak_force, b.peak_force) / bounds.peak_force,
                 (a.peak_force_time - b.peak_force_time).abs()
@@ -286,6 +292,7 @@ fn the_area_dashpot_keeps_its_bounds() {
                 (a.restitution - b.restitution).abs() / bounds.restitution,
                 relative(a.loss, b.loss) / bounds.loss,
                 relative(a.peak_displacement, b.peak_displacement) / bounds.peak_displacement,
+                missed.fold(0.0, f64::max) / bounds.force,
             ]
         })
         .collect();
@@ -296,6 +303,7 @@ fn the_area_dashpot_keeps_its_bounds() {
         "restitution",
         "loss",
         "displacement",
+        "force at any time",
     ]
     .iter()
     .enumerate()
@@ -308,6 +316,6 @@ fn the_area_dashpot_keeps_its_bounds() {
             parts[parts.len() / 2],
             parts[parts.len() - 1]
         );
-        assert!(over * 50 <= parts.len(), "{name}: {over}");
+        assert!(over * 100 <= parts.len(), "{name}: {over}");
     }
 }

@@ -85,7 +85,7 @@ const BAD: [(&str, &str, &[&str]); 34] = [
         "model = \"waves\"",
         &[
             "contact.model = \"waves\"",
-            "hertz, radiation, quasi_static, quasi_static_radiation, wave, growing, auto",
+            "hertz, radiation, quasi_static, quasi_static_radiation, wave, growing, area_dashpot, auto",
         ],
     ),
     (

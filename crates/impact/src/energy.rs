@@ -57,6 +57,7 @@ impl EnergySeries {
             | Model::Radiation
             | Model::QuasiStatic
             | Model::QuasiStaticRadiation
+            | Model::AreaDashpot
             | Model::Growing => {
                 let static_m_per_n = plan.coupling() * units.length_m / units.force_n;
                 let law_m = |t| excitation.motion(t).map_or(0.0, |m| m.deflection_m);

@@ -133,7 +133,9 @@ impl Impact {
     ) -> Option<String> {
         let on_disc = match solved.plan.model {
             Model::Wave | Model::QuasiStatic | Model::QuasiStaticRadiation => true,
-            Model::Hertz | Model::Radiation | Model::Growing | Model::Auto => false,
+            Model::Hertz | Model::Radiation | Model::AreaDashpot | Model::Growing | Model::Auto => {
+                false
+            }
         };
         if !on_disc || self.settings.static_share != StaticShare::Full {
             return None;

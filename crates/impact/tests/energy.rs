@@ -72,7 +72,9 @@ impl Case {
     fn settings(&self, deflection: Deflection) -> Settings {
         let on_disc = match self.model {
             Model::Wave | Model::QuasiStatic | Model::QuasiStaticRadiation => true,
-            Model::Hertz | Model::Radiation | Model::Growing | Model::Auto => false,
+            Model::Hertz | Model::Radiation | Model::AreaDashpot | Model::Growing | Model::Auto => {
+                false
+            }
         };
         Settings {
             model: self.model,

@@ -12,6 +12,9 @@ pub enum StudyError {
     /// A march failed where it must not.
     #[error(transparent)]
     March(#[from] contact::MarchError),
+    /// A contact that follows the load failed where it must not.
+    #[error(transparent)]
+    Growing(#[from] contact::GrowingError),
     /// A body that cannot be made.
     #[error(transparent)]
     Body(#[from] contact::BodyError),

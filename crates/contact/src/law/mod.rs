@@ -2,5 +2,6 @@
 
 pub mod area_dashpot;
 pub mod hertz;
+pub(crate) mod pulse;
 pub mod quasi_static;
 pub mod radiation;

@@ -14,9 +14,7 @@
 //! Theory: `docs/theory.md` (T49 to T51, T53).
 
 use super::hertz;
-use super::quasi_static::expected_contact_time;
 use crate::force_balance::force_root;
-use crate::march::history::History;
 use crate::summary::{EndOfContact, Summary};
 use crate::units::INVERSE_MASS;
 
@@ -57,70 +55,22 @@ pub fn radiation(lag: f64) -> Summary {
 /// max (3/2) sqrt(d (1 - d^(5/2))), at d^(5/2) = 2/7.
 const STEEPEST: f64 = 0.986_765;
 
-/// Samples of d'' = -(5/4) p, p = max(0, F + c F'^2 d'), by the classical Runge-Kutta rule.
+/// The force at a displacement and a velocity, negative in tension: F + c F'^2 d'.
 ///
 /// F is the force of Hertz's spring in series with a linear one of compliance `coupling`; without it
-/// this is p = d^(3/2) + (9/4) c d d'.
-#[must_use]
-pub fn march_radiation(coupling: f64, lag: f64, step: f64) -> History {
-    let force = |d: f64, v: f64| {
-        let y = force_root(coupling, d, 0.0).unwrap_or(0.0);
+/// this is d^(3/2) + (9/4) c d d'.
+pub(crate) fn damped_force(coupling: f64, lag: f64) -> impl Fn(f64, f64) -> f64 {
+    move |d, v| {
+        let y = force_root(coupling, d, d.max(0.0).sqrt()).unwrap_or(0.0);
         let stiffness = 3.0 * y / (2.0 + 3.0 * coupling * y);
-        (y * y * y + lag * stiffness * stiffness * v).max(0.0)
-    };
-    let longest = 2.0 * expected_contact_time(coupling);
-    let mut history = History::at_touch(step, 256);
-    history.velocity.push(1.0);
-    let (mut d, mut v) = (0.0, 1.0);
-    // Twice the contact time at most: the lag prolongs the contact by a fraction of itself.
-    while d >= 0.0 && history.force.len() as f64 * step < longest {
-        let (d1, v1) = (v, -INVERSE_MASS * force(d, v));
-        let half = |a: f64, b: f64| (d + 0.5 * step * a, v + 0.5 * step * b);
-        let (x, y) = half(d1, v1);
-        let (d2, v2) = (y, -INVERSE_MASS * force(x, y));
-        let (x, y) = half(d2, v2);
-        let (d3, v3) = (y, -INVERSE_MASS * force(x, y));
-        let (x, y) = (d + step * d3, v + step * v3);
-        let (d4, v4) = (y, -INVERSE_MASS * force(x, y));
-        d += step * (d1 + 2.0 * (d2 + d3) + d4) / 6.0;
-        v += step * (v1 + 2.0 * (v2 + v3) + v4) / 6.0;
-        let p = if d > 0.0 { force(d, v) } else { 0.0 };
-        history.push(p, d, if p > 0.0 { d - p.cbrt().powi(2) } else { 0.0 });
-        history.velocity.push(v);
+        y * y * y + lag * stiffness * stiffness * v
     }
-    history
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::law::quasi_static::{quasi_static, quasi_static_radiation};
-
-    #[test]
-    fn the_closed_form_is_the_limit_of_the_damped_contact() {
-        for lag in [1e-3, 3e-3] {
-            let law = radiation(lag);
-            let history = march_radiation(0.0, lag, 1e-3);
-            let (place, peak) = crate::quadrature::peak(&history.force);
-            assert!((peak - law.peak_force).abs() < 7.0 * lag * lag);
-            assert!((place * 1e-3 - law.peak_force_time).abs() < 7.0 * lag * lag);
-            assert!((-history.last_velocity() - law.restitution).abs() < 7.0 * lag * lag);
-        }
-    }
-
-    #[test]
-    fn the_first_order_law_of_two_springs_is_the_limit_of_the_damped_contact() {
-        for coupling in [0.1, 1.0, 4.0] {
-            for lag in [1e-3, 3e-3] {
-                let law = quasi_static_radiation(coupling, lag);
-                let history = march_radiation(coupling, lag, 1e-3);
-                let (place, peak) = crate::quadrature::peak(&history.force);
-                assert!((peak - law.peak_force).abs() < 7.0 * lag * lag);
-                assert!((place * 1e-3 - law.peak_force_time).abs() < 7.0 * lag * lag);
-                assert!((-history.last_velocity() - law.restitution).abs() < 7.0 * lag * lag);
-            }
-        }
-    }
 
     #[test]
     fn without_coupling_the_lag_is_that_of_the_radiation_law() {

@@ -26,11 +26,11 @@ pub trait Responses {
     /// [`DomainError`] for a Poisson's ratio outside (-1, 0.5).
     fn punch(&self, ratio: f64) -> Result<Arc<PunchResponse>, DomainError>;
 
-    /// The waves under a flat punch; none where so many ratios are met that each cannot have its own.
+    /// The waves under a flat punch.
     ///
     /// # Errors
     /// [`DomainError`] for a Poisson's ratio outside (-1, 0.5).
-    fn waves(&self, ratio: f64) -> Result<Option<Arc<PunchWaves>>, DomainError>;
+    fn waves(&self, ratio: f64) -> Result<Arc<PunchWaves>, DomainError>;
 }
 
 /// Exact responses, made when they are asked for: what a single impact takes.
@@ -54,8 +54,8 @@ impl Responses for Exact {
         Ok(Arc::new(PunchResponse::new(&centre)))
     }
 
-    fn waves(&self, ratio: f64) -> Result<Option<Arc<PunchWaves>>, DomainError> {
-        Ok(Some(Arc::new(PunchWaves::new(&Medium::new(ratio)?))))
+    fn waves(&self, ratio: f64) -> Result<Arc<PunchWaves>, DomainError> {
+        Ok(Arc::new(PunchWaves::new(&Medium::new(ratio)?)))
     }
 }
 
@@ -152,13 +152,18 @@ impl Responses for Tabulated {
         }
     }
 
-    fn waves(&self, ratio: f64) -> Result<Option<Arc<PunchWaves>>, DomainError> {
-        match self.ratios {
-            Ratios::Many => Ok(None),
-            Ratios::Few => shelved(&self.waves, ratio.to_bits(), || {
-                Ok(PunchWaves::new(&Medium::new(ratio)?))
+    fn waves(&self, ratio: f64) -> Result<Arc<PunchWaves>, DomainError> {
+        let exact = |nu: f64| {
+            shelved(&self.waves, nu.to_bits(), || {
+                Ok(PunchWaves::new(&Medium::new(nu)?))
             })
-            .map(Some),
+        };
+        match self.neighbours(ratio) {
+            None => exact(ratio),
+            Some((near, far, fraction)) => {
+                let (near, far) = (exact(near)?, exact(far)?);
+                Ok(Arc::new(PunchWaves::between(near, far, fraction)))
+            }
         }
     }
 }
@@ -182,6 +187,7 @@ fn shelved<K: Eq + Hash, V>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::spectral::waves::Rule;
 
     #[test]
     fn between_lattice_points_responses_are_good_to_1e_6() {
@@ -205,6 +211,24 @@ mod tests {
                 let t = exact.memory() * f64::from(i) / 300.0;
                 let (a, b) = (exact.relaxation_integral(t), found.relaxation_integral(t));
                 assert!((a / b - 1.0).abs() < 1e-5, "nu = {nu}, t = {t}");
+            }
+            let (exact, found) = (few.waves(nu).unwrap(), many.waves(nu).unwrap());
+            for power in 1..=3 {
+                let (a, b) = (exact.moment(power), found.moment(power));
+                assert!((a / b - 1.0).abs() < 1e-6, "nu = {nu}: moment {power}");
+            }
+            for level in [0, 3, 6] {
+                let (a, b) = (exact.rule(level), found.rule(level));
+                for power in 0..8 {
+                    let sum = |rule: &Rule| -> f64 {
+                        let parts = rule.delays.iter().zip(&rule.rates);
+                        parts.map(|(x, rate)| rate * x * x.powi(power)).sum()
+                    };
+                    assert!(
+                        (sum(a) / sum(b) - 1.0).abs() < 1e-6,
+                        "nu = {nu}: {level}, {power}"
+                    );
+                }
             }
         }
     }

@@ -17,7 +17,7 @@ use super::gauss_rule::gauss_rule;
 use super::legendre::gauss;
 use halfspace::Medium;
 use std::f64::consts::{FRAC_PI_2, PI};
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 /// Nodes of the rules, coarse to fine.
 const SIZES: [usize; 12] = [3, 5, 8, 12, 18, 26, 38, 56, 80, 112, 156, 220];
@@ -29,18 +29,22 @@ pub(super) const LEVELS: usize = SIZES.len();
 #[derive(Debug, Clone)]
 pub struct PunchWaves {
     poisson_ratio: f64,
-    /// Slownesses over the largest, and their masses.
+    /// Slownesses over the largest, and their masses; none between neighbours.
     points: Vec<(f64, f64)>,
     /// Largest delay 2/c in a/c1.
     memory: f64,
+    /// int (X/memory)^n dmu, n = 0 to 3.
+    moments: [f64; 4],
     rules: [OnceLock<Rule>; LEVELS],
+    /// Those of two neighbouring ratios and the place between them, where the rules are interpolated.
+    neighbours: Option<(Arc<PunchWaves>, Arc<PunchWaves>, f64)>,
 }
 
 /// A rule for the measure: delays X in a/c1, ascending, and the mass over the delay of each.
 #[derive(Debug, Clone)]
-pub(super) struct Rule {
-    pub(super) delays: Vec<f64>,
-    pub(super) rates: Vec<f64>,
+pub(crate) struct Rule {
+    pub(crate) delays: Vec<f64>,
+    pub(crate) rates: Vec<f64>,
 }
 
 impl PunchWaves {
@@ -65,9 +69,28 @@ impl PunchWaves {
         points.push((1.0, rayleigh));
         Self {
             poisson_ratio: medium.poisson_ratio(),
+            moments: std::array::from_fn(|n| moment(&points, n as i32)),
             points,
             memory: 2.0 / c,
             rules: Default::default(),
+            neighbours: None,
+        }
+    }
+
+    /// Linear between those of two ratios, `fraction` of the way to the second.
+    ///
+    /// Nodes and masses of the rules are smooth in the ratio.
+    #[must_use]
+    pub fn between(near: Arc<Self>, far: Arc<Self>, fraction: f64) -> Self {
+        let mix = |a: f64, b: f64| a + fraction * (b - a);
+        Self {
+            poisson_ratio: mix(near.poisson_ratio, far.poisson_ratio),
+            moments: std::array::from_fn(|n| mix(near.moments[n], far.moments[n])),
+            points: vec![],
+            // the slowness of Rayleigh's wave grows without bound toward a ratio of one half, its speed is smooth
+            memory: 1.0 / mix(1.0 / near.memory, 1.0 / far.memory),
+            rules: Default::default(),
+            neighbours: Some((near, far, fraction)),
         }
     }
 
@@ -92,30 +115,77 @@ impl PunchWaves {
     /// int X^n dmu.
     #[must_use]
     pub fn moment(&self, n: i32) -> f64 {
-        let sum: f64 = self.points.iter().map(|(x, mass)| mass * x.powi(n)).sum();
-        sum * self.memory.powi(n)
+        self.reduced_moment(n) * self.memory.powi(n)
+    }
+
+    /// The same of X over the memory.
+    fn reduced_moment(&self, n: i32) -> f64 {
+        match usize::try_from(n).ok().and_then(|n| self.moments.get(n)) {
+            Some(known) => *known,
+            None => self.mixed(|waves| moment(&waves.points, n)),
+        }
     }
 
     /// V_p(t), t in a/c1, by summation; the convergence is that of the points.
     #[must_use]
     pub fn relaxation(&self, t: f64) -> f64 {
         let x = t / self.memory;
-        let parts = self.points.iter().filter(|(slowness, _)| *slowness > x);
-        parts
-            .map(|(slowness, mass)| mass * (1.0 - x / slowness))
-            .sum()
+        self.mixed(|waves| {
+            let parts = waves.points.iter().filter(|(slowness, _)| *slowness > x);
+            parts
+                .map(|(slowness, mass)| mass * (1.0 - x / slowness))
+                .sum()
+        })
+    }
+
+    /// What the points give, linear between the neighbours where these waves have none of their own.
+    fn mixed(&self, of: impl Fn(&Self) -> f64) -> f64 {
+        match &self.neighbours {
+            Some((near, far, fraction)) => of(near) + fraction * (of(far) - of(near)),
+            None => of(self),
+        }
     }
 
     /// The rule of a level; made when it is first asked for.
-    pub(super) fn rule(&self, level: usize) -> &Rule {
+    pub(crate) fn rule(&self, level: usize) -> &Rule {
         let level = level.min(LEVELS - 1);
         self.rules[level].get_or_init(|| {
+            if let Some((near, far, fraction)) = &self.neighbours {
+                let one = |waves: &Self| waves.rule(level).scaled(1.0 / waves.memory);
+                return one(near).between(&one(far), *fraction).scaled(self.memory);
+            }
             let (nodes, masses) = gauss_rule(&self.points, SIZES[level]);
             let delays: Vec<f64> = nodes.iter().map(|x| x * self.memory).collect();
             let rates = masses.iter().zip(&delays).map(|(m, x)| m / x).collect();
             Rule { delays, rates }
         })
     }
+}
+
+impl Rule {
+    /// The same in a unit of time that is shorter by a factor.
+    fn scaled(&self, factor: f64) -> Self {
+        Self {
+            delays: self.delays.iter().map(|x| factor * x).collect(),
+            rates: self.rates.iter().map(|x| x / factor).collect(),
+        }
+    }
+
+    fn between(&self, other: &Self, fraction: f64) -> Self {
+        let mix = |a: &[f64], b: &[f64]| {
+            let pairs = a.iter().zip(b);
+            pairs.map(|(a, b)| a + fraction * (b - a)).collect()
+        };
+        Self {
+            delays: mix(&self.delays, &other.delays),
+            rates: mix(&self.rates, &other.rates),
+        }
+    }
+}
+
+/// int x^n over points and their masses.
+fn moment(points: &[(f64, f64)], n: i32) -> f64 {
+    points.iter().map(|(x, mass)| mass * x.powi(n)).sum()
 }
 
 /// Nodes of a panel.

@@ -12,9 +12,10 @@ use crate::record::Error;
 use crate::scenes::{ball, collision};
 use contact::Library;
 use contact::choose::{Rung, choose};
+use contact::law::area_dashpot::AreaDashpot;
 use contact::law::hertz::CONTACT_TIME;
 use contact::law::radiation::{LARGEST_LAG, radiation};
-use contact::{GrowingDisc, MarchError, PunchResponse, Summary, march_growing};
+use contact::{GrowingDisc, MarchError, PunchResponse, PunchWaves, Summary, march_growing};
 use figure::{Axis, Interval, Style};
 use halfspace::{Deflection, Medium, SurfaceResponse};
 use impact::Impact;
@@ -30,6 +31,7 @@ pub const SPEEDS_M_S: [f64; 3] = [1.0, 10.0, 100.0];
 pub struct Plane {
     centre: SurfaceResponse,
     punch: PunchResponse,
+    waves: PunchWaves,
 }
 
 /// Errors of the cheaper models at one place of the plane, largest over peak force, contact time, restitution
@@ -40,6 +42,8 @@ pub struct ModelErrors {
     pub hertz: f64,
     /// First-order radiated loss.
     pub radiation: f64,
+    /// Dashpot on the contact's area.
+    pub dashpot: f64,
     /// Change of the march that they are compared with over the last halving of its step.
     pub march: f64,
 }
@@ -70,9 +74,13 @@ impl Plane {
     /// # Errors
     /// When the ratio is outside (-1, 0.5).
     pub fn new(poisson_ratio: f64) -> Result<Self, StudyError> {
-        let centre = SurfaceResponse::new(&Medium::new(poisson_ratio)?, Deflection::Centre);
-        let punch = PunchResponse::new(&centre);
-        Ok(Self { centre, punch })
+        let medium = Medium::new(poisson_ratio)?;
+        let centre = SurfaceResponse::new(&medium, Deflection::Centre);
+        Ok(Self {
+            punch: PunchResponse::new(&centre),
+            waves: PunchWaves::new(&medium),
+            centre,
+        })
     }
 
     /// a/c1 in collision times for a memory over contact time.
@@ -115,12 +123,20 @@ impl Plane {
             Err(_) => f64::INFINITY,
         };
         let of = |lag: f64| Error::of(&Results::from(&radiation(lag)).errors(&exact)).max;
-        let (lag, _) = self.groups(share, memory);
+        let (lag, length) = self.groups(share, memory);
+        let terms = AreaDashpot::new(share, self.wave_time(memory), &self.waves);
+        let dashpot = Results::from(&terms.summary());
         Ok(ModelErrors {
             hertz: of(0.0),
             // beyond it the program refuses the first-order law
             radiation: if lag <= LARGEST_LAG {
                 of(lag)
+            } else {
+                f64::INFINITY
+            },
+            // and the expansion beyond its own bounds
+            dashpot: if terms.left_out(length).contact() < 1.0 {
+                Error::of(&dashpot.errors(&exact)).max
             } else {
                 f64::INFINITY
             },
@@ -142,7 +158,7 @@ pub(super) fn memory_of_change(low: f64, leaves: Rung, chosen: impl Fn(f64) -> R
         let middle = (low * high).sqrt();
         let cheap = match chosen(middle) {
             Rung::QuasiStatic => true,
-            Rung::Radiation => leaves != Rung::QuasiStatic,
+            Rung::Radiation | Rung::AreaDashpot => leaves != Rung::QuasiStatic,
             Rung::FullMemory => false,
         };
         if cheap {
@@ -195,6 +211,16 @@ pub(crate) fn rows(effort: Effort) -> u64 {
     shape(effort)[1] as u64
 }
 
+/// The lines at which `auto` leaves a rung.
+const LEAVES: [(&str, Rung, Style); 2] = [
+    ("auto leaves hertz", Rung::QuasiStatic, Style::Heavy),
+    (
+        "auto leaves the area dashpot",
+        Rung::AreaDashpot,
+        Style::HeavyDashed,
+    ),
+];
+
 /// A picture a tolerance.
 pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>, StudyError> {
     let plane = Plane::new(0.3)?;
@@ -234,20 +260,19 @@ pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>
             &[
                 "hertz",
                 "radiation",
+                "area dashpot",
                 "growing",
                 "growing, not yet converged to 1e-2",
             ],
             |_, _| match cells.next() {
                 Some(e) if e.hertz <= tolerance => 0,
                 Some(e) if e.radiation <= tolerance => 1,
-                Some(e) if e.march <= UNSETTLED => 2,
-                Some(_) | None => 3,
+                Some(e) if e.dashpot <= tolerance => 2,
+                Some(e) if e.march <= UNSETTLED => 3,
+                Some(_) | None => 4,
             },
         );
-        for (label, rung, style) in [
-            ("auto leaves hertz", Rung::QuasiStatic, Style::Heavy),
-            ("auto leaves radiation", Rung::Radiation, Style::HeavyDashed),
-        ] {
+        for (label, rung, style) in LEAVES {
             let line = x
                 .cells(40)
                 .into_iter()

@@ -8,14 +8,15 @@ use crate::effort::Effort;
 use crate::marching::{Order, Results, march};
 use crate::record::{Error, Question, Record};
 use crate::scenes::{ROD_RADIUS_M, TABLE_1_PA, ball, collision, paper};
+use contact::law::area_dashpot::AreaDashpot;
 use contact::law::hertz::CONTACT_TIME;
 use contact::law::quasi_static::{quasi_static, quasi_static_radiation};
 use contact::law::radiation::radiation;
 use contact::surface::Surface;
 use contact::{
-    Accuracy, ExactDisc, FixedDisc, GrowingDisc, History, MarchError, PunchResponse, ResponseTable,
-    StaticShare, Summary, Workspace, march_explicit, march_growing, march_implicit, refine,
-    solve_disc,
+    Accuracy, ContactError, ExactDisc, FixedDisc, GrowingContact, GrowingDisc, History, MarchError,
+    PunchResponse, PunchWaves, ResponseTable, StaticShare, Summary, Workspace, march_explicit,
+    march_growing, march_implicit, refine, solve_disc, solve_growing,
 };
 use halfspace::{Deflection, Medium, SurfaceResponse};
 use std::cell::{Cell, RefCell};
@@ -27,7 +28,7 @@ pub(crate) const DISC: &str = "copper rod on steel, fixed disc";
 /// A ball whose contact follows the load.
 pub(crate) const BALL: &str = "steel ball on steel at 1 m/s, growing contact";
 
-type Outcome = Result<(Results, u64), MarchError>;
+type Outcome = Result<(Results, u64), ContactError>;
 
 struct Candidate<'a> {
     method: &'static str,
@@ -57,14 +58,20 @@ pub(crate) fn measure(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Record>,
     let response = SurfaceResponse::new(&medium, Deflection::Centre);
     let punch = PunchResponse::new(&response);
     let growing = collision.growing_disc(&punch);
-    let reference = refine(
-        |step| march_growing(&growing, step),
-        0.02,
-        effort.pick(1e-5, 1e-6),
-    )?;
+    let waves = PunchWaves::new(&medium);
+    let pieces = GrowingContact {
+        waves: &waves,
+        target_share: growing.target_share,
+        wave_time: growing.wave_time,
+    };
+    // itself measured against superposition in time (tests/reference/growing.csv)
+    let reference = solve_growing(&pieces, &Accuracy::of_contact(1e-10, None))?;
     let lag = collision.lag(&Surface::of(&response));
-    for candidate in growing_contact(&growing, lag, effort) {
-        records.push(take(effort, BALL, &(&reference.summary).into(), &candidate));
+    let terms = AreaDashpot::new(growing.target_share, growing.wave_time, &waves);
+    let mut candidates = growing_contact(&growing, lag, terms, effort);
+    candidates.extend(by_pieces(pieces, effort));
+    for candidate in candidates {
+        records.push(take(effort, BALL, &reference.summary().into(), &candidate));
     }
     advance();
     Ok(records)
@@ -242,9 +249,26 @@ fn hertz<'a>() -> Candidate<'a> {
     }
 }
 
+/// The growing contact by polynomial pieces: what the program does.
+fn by_pieces(contact: GrowingContact<'_>, effort: Effort) -> Vec<Candidate<'_>> {
+    let digits = effort.pick(vec![4, 6], vec![3, 4, 5, 6, 7, 8]);
+    let at = |digits: i32| Candidate {
+        method: "growing, polynomial pieces",
+        setting: format!("tolerance 1e-{digits}"),
+        default_path: true,
+        run: Box::new(move || {
+            let accuracy = Accuracy::of_contact(10.0_f64.powi(-digits), None);
+            let solved = solve_growing(&contact, &accuracy)?;
+            Ok((solved.summary().into(), solved.pieces() as u64))
+        }),
+    };
+    digits.into_iter().map(at).collect()
+}
+
 fn growing_contact<'a>(
     growing: &'a GrowingDisc<'a>,
     lag: f64,
+    terms: AreaDashpot,
     effort: Effort,
 ) -> Vec<Candidate<'a>> {
     let memory = growing.punch.memory() * growing.wave_time;
@@ -258,6 +282,12 @@ fn growing_contact<'a>(
             setting: "first order".to_owned(),
             default_path: true,
             run: Box::new(move || Ok(((&radiation(black_box(lag))).into(), 1))),
+        },
+        Candidate {
+            method: "area dashpot",
+            setting: "third order in the memory".to_owned(),
+            default_path: true,
+            run: Box::new(move || Ok(((&black_box(terms).summary()).into(), 1))),
         },
     ];
     for n in effort.pick(vec![16, 64], vec![12, 16, 24, 32, 64, 128, 256, 512]) {
@@ -280,6 +310,10 @@ fn growing_contact<'a>(
             (CONTACT_TIME, memory),
             |step| march_growing(growing, step),
         ));
+        if let Some(last) = list.last_mut() {
+            // what is left where the pieces do not serve
+            last.default_path = false;
+        }
     }
     list
 }
