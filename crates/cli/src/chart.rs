@@ -5,7 +5,7 @@ use crate::overwrite::Overwrite;
 use crate::progress::Bar;
 use clap::Args;
 use std::path::PathBuf;
-use study::{Chart, Effort, StudyError, prepare_folder};
+use study::{Chart, Effort, Folder, StudyError};
 
 const EXAMPLES: &str = "Examples:
   hertzlamb chart --quick -o chart-quick
@@ -37,11 +37,12 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     } else {
         Effort::Full
     };
-    prepare_folder(&arguments.output, arguments.overwrite.existing()).map_err(failure)?;
+    let folder =
+        Folder::claim(&arguments.output, arguments.overwrite.existing()).map_err(failure)?;
     let progress = Bar::new();
     let chart = Chart::run(effort, &progress).map_err(failure)?;
     progress.finish();
-    chart.write(&arguments.output).map_err(failure)?;
+    chart.write(&folder).map_err(failure)?;
     print(format!(
         "{}: {} rows, {} pictures, {:.0} s",
         arguments.output.join("report.md").display(),
@@ -63,6 +64,7 @@ fn failure(error: StudyError) -> Failure {
     match error {
         StudyError::Exists { .. } => Failure::input(format!("{error}; give --force to replace it")),
         StudyError::Unwritable { .. } => Failure::input(error),
+        StudyError::Output(error) => error.into(),
         StudyError::Domain(_)
         | StudyError::March(_)
         | StudyError::Body(_)

@@ -1,10 +1,11 @@
 //! `hertzlamb demo`: the paper's case from kernels to picture.
 
 use crate::comparison::Comparison;
-use crate::failure::{Failure, print};
+use crate::failure::{Failure, print, say};
 use crate::impact_command::open_table;
 use crate::picture::draw;
 use crate::progress::Bar;
+use crate::tabulate;
 use clap::Args;
 use formats::{Existing, parse_scene, write_results, write_whole};
 use impact::{KernelChoice, simulate};
@@ -52,9 +53,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         draw(part, scene, &comparison.coupled)
     })?;
     for warning in &comparison.coupled.warnings {
-        eprintln!("warning: {warning}");
+        say(format!("warning: {warning}"));
     }
-    eprintln!(
+    say(format!(
         "the coupled impact with its {} probes took {:.1} ms",
         comparison
             .coupled
@@ -62,7 +63,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
             .as_ref()
             .map_or(0, |f| f.r_m.len()),
         1e3 * wall_s
-    );
+    ));
     print(format!(
         "\ntable    {}\nresults  {}\npicture  {}",
         table_path.display(),
@@ -75,13 +76,16 @@ fn make_table(path: &Path) -> Result<(), Failure> {
     if path.exists() {
         return Ok(());
     }
-    eprintln!("making the demo kernel table {} (once)", path.display());
+    say(format!(
+        "making the demo kernel table {} (once)",
+        path.display()
+    ));
     let bar = Bar::new();
-    let summary = build(&Grid::demo(), path, &bar).map_err(Failure::work)?;
+    let summary = build(&Grid::demo(), path, &bar).map_err(tabulate::failure)?;
     bar.finish();
-    eprintln!(
+    say(format!(
         "{} points in {:.1} s, {} bytes",
         summary.points, summary.wall_s, summary.bytes
-    );
+    ));
     Ok(())
 }

@@ -1,4 +1,4 @@
-//! How a command fails: exit code 2 for bad input, 1 when the work itself failed.
+//! How a command fails: exit code 2 for bad input, 1 when the work itself failed, 75 when it may be tried again.
 
 use std::fmt::Display;
 use std::process::ExitCode;
@@ -10,6 +10,8 @@ pub(crate) enum Failure {
     Input(String),
     /// The work could not be done.
     Work(String),
+    /// The same may succeed later: there is no space left, or another run is at it.
+    Again(String),
 }
 
 impl Failure {
@@ -21,13 +23,25 @@ impl Failure {
         Self::Work(error.to_string())
     }
 
+    /// Standard output does not take what is written.
+    pub(crate) fn unprintable(error: std::io::Error) -> Self {
+        let output::Fault { reason, full } = error.into();
+        let sentence = format!("cannot write to standard output: {reason}");
+        if full {
+            Self::Again(sentence)
+        } else {
+            Self::Work(sentence)
+        }
+    }
+
     /// Prints the sentence on standard error and gives the exit code.
     pub(crate) fn report(&self) -> ExitCode {
         let (message, code) = match self {
             Self::Input(message) => (message, 2),
             Self::Work(message) => (message, 1),
+            Self::Again(message) => (message, 75),
         };
-        eprintln!("error: {message}");
+        say(format!("error: {message}"));
         ExitCode::from(code)
     }
 }
@@ -38,7 +52,9 @@ impl From<formats::OutputError> for Failure {
             exists @ formats::OutputError::Exists { .. } => {
                 Self::input(format!("{exists}; give --force to replace it"))
             }
-            other @ formats::OutputError::Unwritable { .. } => Self::input(other),
+            again if again.may_be_tried_again() => Self::Again(again.to_string()),
+            failed @ formats::OutputError::Failed { .. } => Self::work(failed),
+            other => Self::input(other),
         }
     }
 }
@@ -67,14 +83,18 @@ impl From<impact::ImpactError> for Failure {
     }
 }
 
+/// Writes a line on standard error; where nobody takes it, the work goes on all the same.
+pub(crate) fn say(text: impl Display) {
+    use std::io::Write;
+    let _ = writeln!(std::io::stderr(), "{text}");
+}
+
 /// Writes a line on standard output; a closed pipe ends the program quietly.
 pub(crate) fn print(text: impl Display) -> Result<(), Failure> {
     use std::io::{ErrorKind, Write};
     match writeln!(std::io::stdout(), "{text}") {
         Ok(()) => Ok(()),
         Err(error) if error.kind() == ErrorKind::BrokenPipe => std::process::exit(0),
-        Err(error) => Err(Failure::work(format!(
-            "cannot write to standard output: {error}"
-        ))),
+        Err(error) => Err(Failure::unprintable(error)),
     }
 }

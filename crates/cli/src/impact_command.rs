@@ -1,12 +1,13 @@
 //! `hertzlamb impact`: one scene.
 
-use crate::failure::{Failure, print};
+use crate::failure::{Failure, print, say};
 use crate::overwrite::Overwrite;
 use crate::report::text_report;
 use clap::{Args, ValueEnum};
-use formats::{check, json_report, read_scene, write_results};
+use formats::{inputs, json_report, read_scene, write_results_into};
 use impact::{KernelChoice, simulate};
 use lookup::TableFile;
+use output::{HDF5, Role};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
@@ -47,18 +48,23 @@ pub(crate) struct Arguments {
 
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let start = Instant::now();
-    let existing = arguments.overwrite.existing();
     let scene = read_scene(&arguments.scene).map_err(Failure::input)?;
+    let output = match &arguments.output {
+        Some(path) => {
+            let mut read = inputs(&arguments.scene).map_err(Failure::input)?;
+            let table = arguments.table.iter();
+            read.extend(table.map(|table| Role::new("the kernel table", table)));
+            Some(arguments.overwrite.claim(path, HDF5, &read)?)
+        }
+        None => None,
+    };
     let kernels = kernels(arguments)?;
-    if let Some(path) = &arguments.output {
-        check(path, existing)?;
-    }
     let outcome = simulate(&scene, &kernels)?;
-    if let Some(path) = &arguments.output {
-        write_results(path, &scene, &outcome, existing)?;
+    if let Some(output) = &output {
+        write_results_into(output, &scene, &outcome)?;
     }
     for warning in &outcome.warnings {
-        eprintln!("warning: {warning}");
+        say(format!("warning: {warning}"));
     }
     if arguments.json {
         print(json_report(&scene, &outcome, start.elapsed().as_secs_f64()))

@@ -6,6 +6,7 @@ mod completions;
 mod demo;
 mod failure;
 mod impact_command;
+mod interrupt;
 mod materials;
 mod overwrite;
 mod picture;
@@ -39,7 +40,7 @@ enum Command {
     Demo(demo::Arguments),
     /// Builds a kernel table: once, for every material pair.
     Tabulate(tabulate::Arguments),
-    /// Looks at finished tables: info, verify, diff.
+    /// Looks at finished tables (info, verify, diff) and joins shards (merge).
     Table(table::Arguments),
     /// Charts speed against accuracy of all methods, and where they fail.
     Chart(chart::Arguments),
@@ -50,6 +51,7 @@ enum Command {
 }
 
 fn main() -> ExitCode {
+    interrupt::listen();
     let done = match Cli::parse().command {
         Command::Impact(arguments) => impact_command::run(&arguments),
         Command::Sweep(arguments) => sweep::run(&arguments),

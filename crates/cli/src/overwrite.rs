@@ -1,7 +1,10 @@
 //! What happens to an existing output: one flag, the same in every command.
 
+use crate::failure::Failure;
 use clap::Args;
-use formats::Existing;
+use formats::{Existing, Output};
+use output::{Ending, Role, apart};
+use std::path::Path;
 
 #[derive(Debug, Clone, Copy, Args)]
 pub(crate) struct Overwrite {
@@ -19,11 +22,15 @@ impl Overwrite {
         }
     }
 
-    /// The same for a kernel table.
-    pub(crate) fn existing_table(self) -> tabulator::Existing {
-        match self.existing() {
-            Existing::Replace => tabulator::Existing::Replace,
-            Existing::Keep => tabulator::Existing::Keep,
-        }
+    /// Claims the one output of a command that reads `inputs`, before any work.
+    pub(crate) fn claim(
+        self,
+        path: &Path,
+        ending: Ending,
+        inputs: &[Role],
+    ) -> Result<Output, Failure> {
+        ending.check(path)?;
+        apart(&[path], inputs)?;
+        Ok(Output::claim(path, self.existing())?)
     }
 }

@@ -1,12 +1,12 @@
 //! `hertzlamb plot`: pictures of what was computed.
 
-use crate::failure::{Failure, print};
+use crate::failure::{Failure, print, say};
 use crate::overwrite::Overwrite;
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use contact::Choice;
 use figure::{Figure, RenderError, to_pdf, to_png, to_svg};
-use formats::{check, write_whole};
+use output::{Output, Role, apart};
 use plot::{Kind, PlotError, Request, compose};
 use std::path::{Path, PathBuf};
 
@@ -73,8 +73,10 @@ impl Format {
 
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let format = Format::of(&arguments.output)?;
-    let existing = arguments.overwrite.existing();
-    check(&arguments.output, existing)?;
+    let drawn_from = |path: &PathBuf| Role::new("a file", path);
+    let inputs: Vec<Role> = arguments.files.iter().map(drawn_from).collect();
+    apart(&[&arguments.output], &inputs)?;
+    let output = Output::claim(&arguments.output, arguments.overwrite.existing())?;
     let request = Request {
         kind: arguments.kind.as_deref().and_then(Kind::named),
         quantities: arguments.quantity.clone(),
@@ -85,11 +87,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         drawn.figure = sized(drawn.figure, f64::from(width));
     }
     let bytes = rendered(&drawn.figure, format, arguments.scale).map_err(Failure::work)?;
-    write_whole(&arguments.output, existing, |part| {
-        std::fs::write(part, &bytes).map_err(|error| error.to_string())
-    })?;
+    output.write(|part| std::fs::write(part, &bytes))?;
     for note in &drawn.notes {
-        eprintln!("note: {note}");
+        say(format!("note: {note}"));
     }
     print(arguments.output.display())
 }

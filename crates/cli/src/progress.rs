@@ -1,9 +1,10 @@
 //! How far a long computation is: a bar on a terminal, plain lines elsewhere.
 
+use crate::failure::say;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal;
 use std::sync::{Mutex, MutexGuard, PoisonError};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 use tabulator::Progress;
 
 /// A bar on a terminal, a line for each tenth elsewhere: share, slice, rate, time left.
@@ -12,11 +13,18 @@ pub(crate) struct Bar {
     state: Mutex<State>,
 }
 
+/// Time after which a line is due where there is no terminal.
+const SILENCE: Duration = Duration::from_secs(30);
+
 struct State {
     stage: String,
     total: u64,
     done: u64,
+    /// Units that were done when the stage began.
+    before: u64,
+    begun: bool,
     started: Instant,
+    told: Instant,
     /// Poisson's ratio where the work is, if it is anywhere.
     slice: Option<f64>,
 }
@@ -33,7 +41,10 @@ impl Bar {
             stage: String::new(),
             total: 0,
             done: 0,
+            before: 0,
+            begun: false,
             started: Instant::now(),
+            told: Instant::now(),
             slice: None,
         };
         Self {
@@ -47,9 +58,20 @@ impl Bar {
         Progress::total(self, stage, total);
     }
 
-    /// Says how many units of the stage are done.
+    /// Says how many units of the stage are done; those of the first call were done before.
     pub(crate) fn set(&self, done: u64) {
-        let before = self.lock().done;
+        let before = {
+            let mut state = self.lock();
+            if !state.begun {
+                state.begun = true;
+                (state.done, state.before) = (done, done);
+                if let Some(bar) = &self.bar {
+                    bar.set_position(done);
+                    bar.reset_eta();
+                }
+            }
+            state.done
+        };
         Progress::advance(self, done.saturating_sub(before));
     }
 
@@ -71,7 +93,10 @@ impl Progress for Bar {
             stage: stage.to_owned(),
             total,
             done: 0,
+            before: 0,
+            begun: false,
             started: Instant::now(),
+            told: Instant::now(),
             slice: None,
         };
         if let Some(bar) = &self.bar {
@@ -97,20 +122,23 @@ impl Progress for Bar {
         if let Some(bar) = &self.bar {
             bar.inc(done);
         } else if let Some(line) = state.line(before) {
-            eprintln!("{line}");
+            say(line);
         }
     }
 }
 
 impl State {
-    /// What to say when another tenth is done.
-    fn line(&self, before: u64) -> Option<String> {
+    /// What to say when another tenth is done, or nothing has been said for long.
+    fn line(&mut self, before: u64) -> Option<String> {
         let total = self.total.max(1);
         let tenth = |n: u64| 10 * n / total;
-        if tenth(self.done) == tenth(before) {
+        let silent = self.done == before || self.told.elapsed() < SILENCE;
+        if tenth(self.done) == tenth(before) && silent {
             return None;
         }
-        let rate = self.done as f64 / self.started.elapsed().as_secs_f64().max(1e-9);
+        self.told = Instant::now();
+        let rate =
+            (self.done - self.before) as f64 / self.started.elapsed().as_secs_f64().max(1e-9);
         let left = total.saturating_sub(self.done) as f64 / rate;
         let slice = self
             .slice
@@ -118,7 +146,7 @@ impl State {
         Some(format!(
             "{} {} %{slice}, {rate:.1} a second, {left:.0} s left",
             self.stage,
-            10 * tenth(self.done)
+            100 * self.done / total
         ))
     }
 }

@@ -1,13 +1,21 @@
 //! `hertzlamb sweep`: many scenes.
 
-use crate::failure::{Failure, print};
+use crate::failure::{Failure, print, say};
+use crate::interrupt;
 use crate::overwrite::Overwrite;
 use crate::progress::Bar;
 use clap::Args;
-use formats::check;
-use formats::sweep::{Spec, SweepError, run_sweep, write_csv, write_sweep};
+use formats::sweep::{
+    Block, Done, JournalError, Spec, SweepError, is_computed, print_csv, run_sweep, stage_csv,
+    stage_sweep,
+};
+use formats::{Existing, Output};
+use output::{CSV, HDF5, Role, Staged, apart, behind, is_standard};
 use serde::Serialize;
+use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
 #[derive(Debug, Args)]
@@ -20,7 +28,7 @@ pub(crate) struct Arguments {
     /// Results file (HDF5, see data-schema/sweep.md).
     #[arg(short, long, value_name = "OUT.h5")]
     output: PathBuf,
-    /// Also write the rows as text.
+    /// Also write the rows as text; - is standard output.
     #[arg(long, value_name = "OUT.csv")]
     csv: Option<PathBuf>,
     #[command(flatten)]
@@ -45,39 +53,20 @@ struct Report<'a> {
 
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let start = Instant::now();
-    let existing = arguments.overwrite.existing();
     let spec = Spec::from_file(&arguments.sweep).map_err(Failure::input)?;
-    check(&arguments.output, existing)?;
-    if let Some(csv) = &arguments.csv {
-        check(csv, existing)?;
-    }
-    let progress = Bar::new();
-    progress.start("scenes", spec.rows() as u64);
-    let part = part(&arguments.output);
-    let done = run_sweep(&spec, &part, |rows| {
-        progress.set(rows as u64);
-        true
-    })
-    .map_err(|error| match error {
-        SweepError::Scene(scene) => Failure::input(scene.in_file(&arguments.sweep)),
-        journal @ SweepError::Journal(_) => Failure::input(journal),
-    })?;
-    progress.finish();
-    let Some(done) = done else {
+    let outputs = Outputs::claim(arguments, &spec)?;
+    let Some(done) = compute(arguments, &spec, &outputs)? else {
         return Err(Failure::work("the sweep was stopped"));
     };
     let computing_s = start.elapsed().as_secs_f64();
-    write_sweep(&arguments.output, &spec, &done.blocks, existing)?;
-    if let Some(csv) = &arguments.csv {
-        write_csv(csv, &spec, &done.blocks, existing)?;
-    }
+    outputs.write(&spec, &done.blocks)?;
     done.journal.remove();
     let failed: usize = done.blocks.iter().map(|b| b.failures.len()).sum();
     if let Some((row, reason)) = done.blocks.iter().find_map(|b| b.failures.first()) {
-        eprintln!(
-            "warning: {failed} of {} scenes failed, the first in row {row}: {reason}",
+        say(format!(
+            "warning: {failed} of {} scenes failed, the first in row {row} (rows count from 0): {reason}",
             spec.rows()
-        );
+        ));
     }
     let report = Report {
         output: &arguments.output,
@@ -89,10 +78,116 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         wall_s: start.elapsed().as_secs_f64(),
         computing_s,
     };
+    if outputs.print {
+        say(report.text(&spec));
+        return print_rows(&spec, &done.blocks);
+    }
     if arguments.json {
         print(serde_json::to_string(&report).map_err(Failure::work)?)
     } else {
         print(report.text(&spec))
+    }
+}
+
+/// Computes the rows; what is done is kept from moment to moment.
+fn compute(arguments: &Arguments, spec: &Spec, outputs: &Outputs) -> Result<Option<Done>, Failure> {
+    let kept = Arc::new(AtomicUsize::new(0));
+    let (count, rows, place) = (Arc::clone(&kept), spec.rows(), outputs.part.clone());
+    interrupt::say_then(move || {
+        format!(
+            "{} of {rows} scenes are kept in {}; the same command goes on with them",
+            count.load(Ordering::Relaxed),
+            place.display()
+        )
+    });
+    let progress = Bar::new();
+    progress.start("scenes", rows as u64);
+    let existing = arguments.overwrite.existing();
+    let done = run_sweep(spec, &outputs.part, existing, |rows| {
+        kept.store(rows, Ordering::Relaxed);
+        progress.set(rows as u64);
+        true
+    })
+    .map_err(|error| match error {
+        SweepError::Scene(scene) => Failure::input(scene.in_file(&arguments.sweep)),
+        SweepError::Journal(JournalError::Output(output)) => output.into(),
+        SweepError::Journal(other @ JournalError::Other { .. }) => Failure::input(format!(
+            "{other}; give --force to drop it, or another output to keep it"
+        )),
+        SweepError::Journal(journal) => Failure::input(journal),
+    })?;
+    progress.finish();
+    Ok(done)
+}
+
+/// Where a sweep goes, claimed before any work.
+struct Outputs {
+    results: Output,
+    csv: Option<Output>,
+    /// Whether the rows go to standard output.
+    print: bool,
+    /// Where finished blocks are kept until all are there: beside the results, under their name and `.part`.
+    part: PathBuf,
+}
+
+impl Outputs {
+    fn claim(arguments: &Arguments, spec: &Spec) -> Result<Self, Failure> {
+        let print = arguments.csv.as_deref().is_some_and(is_standard);
+        if print && arguments.json {
+            return Err(Failure::input(
+                "--csv - and --json both go to standard output: give the rows a file",
+            ));
+        }
+        let csv = arguments.csv.as_deref().filter(|_| !print);
+        HDF5.check(&arguments.output)?;
+        let mut part = behind(&arguments.output)?.into_os_string();
+        part.push(".part");
+        let part = PathBuf::from(part);
+        let mut outputs = vec![arguments.output.as_path(), &part];
+        if let Some(csv) = csv {
+            CSV.check(csv)?;
+            outputs.push(csv);
+        }
+        let mut inputs = vec![Role::new("the sweep", &arguments.sweep)];
+        inputs.extend(spec.inputs().iter().cloned());
+        apart(&outputs, &inputs)?;
+        let claim = |path: &Path| Output::claim(path, Existing::KeepUnlessSame);
+        let (results, csv) = (claim(&arguments.output)?, csv.map(claim).transpose()?);
+        // a run that was killed while it gave its outputs their names has left some of them
+        let wanted = arguments.overwrite.existing();
+        let finish = wanted == Existing::Keep && is_computed(spec, &part);
+        let existing = if finish {
+            Existing::KeepUnlessSame
+        } else {
+            wanted
+        };
+        Ok(Self {
+            results: results.over(existing)?,
+            csv: csv.map(|csv| csv.over(existing)).transpose()?,
+            print,
+            part,
+        })
+    }
+
+    /// Writes all outputs, then gives them their names.
+    fn write(&self, spec: &Spec, blocks: &[Block]) -> Result<(), Failure> {
+        let results = stage_sweep(&self.results, spec, blocks)?;
+        let csv = self.csv.as_ref();
+        let csv = csv.map(|csv| stage_csv(csv, spec, blocks)).transpose()?;
+        results.commit()?;
+        csv.map_or(Ok(()), Staged::commit)?;
+        Ok(())
+    }
+}
+
+/// Writes the rows to standard output; a closed pipe ends the program quietly.
+fn print_rows(spec: &Spec, blocks: &[Block]) -> Result<(), Failure> {
+    let mut out = BufWriter::new(std::io::stdout().lock());
+    match print_csv(&mut out, spec, blocks).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
+            Err(Failure::unprintable(error))
+        }
+        Ok(()) | Err(_) => Ok(()),
     }
 }
 
@@ -114,11 +209,4 @@ impl Report<'_> {
             self.output.display()
         )
     }
-}
-
-/// Where finished blocks are kept until all are there: beside the results, under their name and `.part`.
-fn part(output: &Path) -> PathBuf {
-    let mut name = output.as_os_str().to_owned();
-    name.push(".part");
-    PathBuf::from(name)
 }

@@ -1,4 +1,4 @@
-//! `hertzlamb table`: looks at finished tables.
+//! `hertzlamb table`: looks at finished tables and joins shards.
 
 use crate::failure::{Failure, print};
 use crate::overwrite::Overwrite;
@@ -6,6 +6,7 @@ use crate::progress::Bar;
 use crate::tabulate;
 use clap::{Args, Subcommand};
 use lookup::{Content, DamagedPatch, TableError};
+use output::TABLE;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 use tabulator::{BadNode, Difference, check_table, differences, merge};
@@ -285,9 +286,10 @@ fn join(
     overwrite: Overwrite,
     json: bool,
 ) -> Result<(), Failure> {
+    TABLE.check(output)?;
     let progress = Bar::new();
     let summary =
-        merge(shards, output, overwrite.existing_table(), &progress).map_err(tabulate::failure)?;
+        merge(shards, output, overwrite.existing(), &progress).map_err(tabulate::failure)?;
     progress.finish();
     let file = output.display().to_string();
     if json {

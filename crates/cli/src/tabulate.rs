@@ -1,14 +1,14 @@
 //! `hertzlamb tabulate`: builds a kernel table.
 
-use crate::failure::{Failure, print};
+use crate::failure::{Failure, print, say};
 use crate::overwrite::Overwrite;
 use crate::progress::Bar;
 use clap::Args;
 use lookup::{Accuracy, Quantiles, TableError, schema};
+use output::{Role, SHARD, TABLE, apart};
 use serde::Serialize;
 use std::collections::BTreeMap;
-use std::io::ErrorKind;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::str::FromStr;
 use tabulator::{BuildError, Extension, Grid, Summary};
 use tabulator::{build_over, build_shard, extend, refine};
@@ -113,6 +113,16 @@ impl Errors {
 }
 
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let ending = if arguments.shard.is_some() {
+        SHARD
+    } else {
+        TABLE
+    };
+    ending.check(&arguments.output)?;
+    if let Some(grid) = arguments.grid.as_deref().filter(|name| is_file(name)) {
+        let grid = Role::new("the grid", Path::new(grid));
+        apart(&[&arguments.output], &[grid])?;
+    }
     if let Some(extension) = extension(arguments) {
         let progress = Bar::new();
         let summary = extend(&arguments.output, &extension, &progress).map_err(failure)?;
@@ -121,7 +131,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         return tell(&Grid::of(&content).map_err(failure)?, arguments, &summary);
     }
     let grid = grid(arguments)?;
-    let existing = arguments.overwrite.existing_table();
+    let existing = arguments.overwrite.existing();
     let progress = Bar::new();
     if let Some(Shard { index, count }) = arguments.shard {
         let blocks =
@@ -175,10 +185,10 @@ fn grid(arguments: &Arguments) -> Result<Grid, Failure> {
     let (grid, trials) = refine(&grid, tolerance, pulse, &progress).map_err(failure)?;
     progress.finish();
     for trial in trials {
-        eprintln!(
+        say(format!(
             "spacing {:.4} r0: {} nodes a slice, error {:.1e} for pulses of {pulse} r0/c1",
             trial.spacing, trial.nodes, trial.error
-        );
+        ));
     }
     Ok(grid)
 }
@@ -277,7 +287,7 @@ fn resolve(name: &str) -> Result<Grid, Failure> {
     if let Some(grid) = Grid::preset(name).map_err(failure)? {
         return Ok(grid);
     }
-    if !name.ends_with(".toml") {
+    if !is_file(name) {
         return Err(Failure::input(format!(
             "--grid {name}: neither a preset ({}) nor a .toml file",
             tabulator::PRESETS.join(", ")
@@ -286,17 +296,22 @@ fn resolve(name: &str) -> Result<Grid, Failure> {
     Grid::from_file(name.as_ref()).map_err(failure)
 }
 
+/// Whether the name of a grid is that of a file.
+fn is_file(name: &str) -> bool {
+    name.ends_with(".toml")
+}
+
 /// Bad settings and files in the way are the user's, the rest is work that failed.
 pub(crate) fn failure(error: BuildError) -> Failure {
     match error {
-        BuildError::Exists { .. } => Failure::input(format!("{error}; --force replaces it")),
+        BuildError::Output(error) => error.into(),
         BuildError::Setting { .. }
         | BuildError::InFile { .. }
         | BuildError::Shrinks { .. }
         | BuildError::TooFine { .. }
         | BuildError::Settings { .. }
-        | BuildError::Busy { .. }
-        | BuildError::OtherSettings { .. }
+        | BuildError::NotJournal { .. }
+        | BuildError::File { .. }
         | BuildError::NotBlocks { .. }
         | BuildError::Mixed { .. }
         | BuildError::NoShards
@@ -307,12 +322,9 @@ pub(crate) fn failure(error: BuildError) -> Failure {
             | TableError::Foreign { .. }
             | TableError::Version { .. },
         ) => Failure::input(error),
-        BuildError::File { ref source, .. } => match source.kind() {
-            ErrorKind::StorageFull | ErrorKind::QuotaExceeded | ErrorKind::FileTooLarge => {
-                Failure::work(error)
-            }
-            _ => Failure::input(error),
-        },
+        BuildError::OtherSettings { .. } => {
+            Failure::input(format!("{error}; a new table with --force replaces it"))
+        }
         BuildError::Unwritable(_)
         | BuildError::NotFinite { .. }
         | BuildError::Domain(_)

@@ -2,13 +2,7 @@
 
 use hdf5::types::VarLenUnicode;
 use hdf5::{Dataset, Group, H5Type};
-pub(crate) use lookup::labels::{attach_scale, set_scale, text};
-
-/// The first line of a library's error, which has one for each of its own calls.
-pub(crate) fn first_line(error: &hdf5::Error) -> String {
-    let text = error.to_string();
-    text.lines().next().unwrap_or_default().to_owned()
-}
+pub(crate) use lookup::labels::{attach_scale, reason, set_scale, text};
 
 pub(crate) fn vector(
     group: &Group,

@@ -16,8 +16,8 @@
 mod body;
 mod error;
 mod hdf;
+mod inputs;
 mod materials;
-mod output;
 pub mod quantities;
 mod record;
 mod report;
@@ -29,12 +29,13 @@ pub mod sweep;
 mod text;
 
 pub use error::SceneError;
+pub use inputs::inputs;
 pub use materials::{parse_materials, read_materials};
-pub use output::{Existing, OutputError, check, write_whole};
+pub use output::{Existing, Output, OutputError, check, write_whole};
 pub use quantities::{Kind, QUANTITIES, Quantity};
 pub use record::read_record;
 pub use report::{Choices, choices, json_report, kernel_name};
-pub use results::write_results;
+pub use results::{write_results, write_results_into};
 pub use scene::{parse_scene, read_scene, resolved};
 
 /// The README's program runs.

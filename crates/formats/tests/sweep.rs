@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
 use contact::{Choice, Model};
-use formats::sweep::{BLOCK, Block, Spec, run_sweep, schema, write_csv, write_sweep};
+use formats::sweep::{BLOCK, Block, Spec, is_computed, run_sweep, schema, write_csv, write_sweep};
 use formats::{Existing, QUANTITIES, parse_scene};
 use impact::{KernelChoice, simulate};
 use std::collections::BTreeSet;
@@ -29,7 +29,7 @@ fn spec(axes: &str) -> Spec {
 
 fn all(spec: &Spec) -> Vec<Block> {
     let folder = tempfile::tempdir().unwrap();
-    let done = run_sweep(spec, &folder.path().join("part"), |_| true);
+    let done = run_sweep(spec, &folder.path().join("part"), Existing::Keep, |_| true);
     done.unwrap().unwrap().blocks
 }
 
@@ -82,7 +82,7 @@ fn each_row_is_what_its_scene_gives_alone() {
 fn a_failed_scene_is_a_row_with_a_reason() {
     let spec = spec(
         "[scene.contact]\ndisc_radius_m = 0.004\nmodel = \"wave\"\n\
-         [list.striker]\nmass_kg = [0.01, -1.0, 0.01]\n[list.target]\nmaterial = [\"steel\", \"steel\", \"steal\"]\n",
+         [list.striker]\nmass_kg = [0.01, -1.0, 0.01]\ndensity_kg_m3 = [7e3, 7e3, -7e3]\n",
     );
     let blocks = all(&spec);
     let block = &blocks[0];
@@ -95,7 +95,7 @@ fn a_failed_scene_is_a_row_with_a_reason() {
     );
     let reasons: Vec<&str> = block.failures.iter().map(|(_, r)| r.as_str()).collect();
     assert!(reasons[0].contains("striker.mass_kg = -1") && reasons[0].contains("(0, inf)"));
-    assert!(reasons[1].contains("target.material") && reasons[1].contains("did you mean steel"));
+    assert!(reasons[1].contains("striker.density_kg_m3 = -7000"));
     let folder = tempfile::tempdir().unwrap();
     let (h5, csv) = (folder.path().join("s.h5"), folder.path().join("s.csv"));
     write_sweep(&h5, &spec, &blocks, Existing::Keep).unwrap();
@@ -103,7 +103,7 @@ fn a_failed_scene_is_a_row_with_a_reason() {
     let text = std::fs::read_to_string(csv).unwrap();
     let lines: Vec<&str> = text.lines().collect();
     assert_eq!(lines.len(), 4);
-    assert!(lines[0].starts_with("striker.mass_kg,target.material,peak_force_n,"));
+    assert!(lines[0].starts_with("striker.density_kg_m3,striker.mass_kg,peak_force_n,"));
     assert!(lines[2].contains("outside (0, inf)"));
     let columns = lines[0].split(',').count();
     assert_eq!(lines[1].split(',').count(), columns);
@@ -119,6 +119,11 @@ const DRAWS: &str = "[scene.contact]\nmodel = \"wave\"\ndisc_radius_m = 0.002\n\
     poisson_ratio = { distribution = \"normal\", mean = 0.3, deviation = 0.01 }\n[random.striker]\n\
     mass_kg = { distribution = \"log_normal\", median = 0.0122, deviation = 0.05 }\n";
 
+fn bits(blocks: &[Block]) -> Vec<u64> {
+    let numbers = blocks.iter().flat_map(|b| b.numbers.iter().flatten());
+    numbers.map(|x| x.to_bits()).collect()
+}
+
 #[test]
 fn an_interrupted_sweep_goes_on_and_gives_the_same() {
     let spec = spec(DRAWS);
@@ -126,40 +131,100 @@ fn an_interrupted_sweep_goes_on_and_gives_the_same() {
     let folder = tempfile::tempdir().unwrap();
     let part = folder.path().join("part");
     // stops after the first block
-    let stopped = run_sweep(&spec, &part, |done| done == 0).unwrap();
+    let stopped = run_sweep(&spec, &part, Existing::Keep, |done| done == 0).unwrap();
     assert!(stopped.is_none());
-    // a record that is cut short is computed anew
+    assert!(!is_computed(&spec, &part));
+    // a record that is cut short is computed anew, in blocks that begin and end elsewhere
     let length = std::fs::metadata(&part).unwrap().len();
-    let stopped = run_sweep(&spec, &part, |done| done < 2 * BLOCK).unwrap();
-    assert!(stopped.is_none());
+    let mut counts = Vec::new();
+    let stopped = run_sweep(&spec, &part, Existing::Keep, |done| {
+        counts.push(done);
+        done < 2 * BLOCK
+    });
+    assert!(stopped.unwrap().is_none());
     let file = std::fs::OpenOptions::new().write(true).open(&part).unwrap();
     let both = file.metadata().unwrap().len();
     assert!(both > length);
     file.set_len(both - 100).unwrap();
+    let kept = counts[counts.len() - 2];
     let mut first = None;
-    let done = run_sweep(&spec, &part, |rows| {
+    let done = run_sweep(&spec, &part, Existing::Keep, |rows| {
         first.get_or_insert(rows);
         true
     });
     let done = done.unwrap().unwrap();
-    assert_eq!((first, done.resumed), (Some(BLOCK), BLOCK));
+    assert_eq!((first, done.resumed), (Some(kept), kept));
+    assert!(is_computed(&spec, &part));
     let whole = all(&spec);
-    let bits = |blocks: &[Block]| -> Vec<u64> {
-        let numbers = blocks.iter().flat_map(|b| b.numbers.iter().flatten());
-        numbers.map(|x| x.to_bits()).collect()
-    };
     assert!(bits(&done.blocks) == bits(&whole), "resumed rows differ");
     let k = place_of("restitution");
-    let restitutions: BTreeSet<u64> = whole[0].numbers.iter().map(|n| n[k].to_bits()).collect();
+    let numbers = whole.iter().flat_map(|block| &block.numbers);
+    let restitutions: BTreeSet<u64> = numbers.map(|n| n[k].to_bits()).collect();
     assert!(
-        restitutions.len() > BLOCK / 2,
+        restitutions.len() > spec.rows() / 2,
         "draws differ from row to row"
     );
-    // another sweep does not go on with this one's rows
+    // another sweep does not go on with this one's rows, and drops them only when it is told to
     let other = self::spec(&DRAWS.replace("seed = 7", "seed = 8"));
-    run_sweep(&spec, &part, |_| false).unwrap();
-    let message = run_sweep(&other, &part, |_| true).unwrap_err().to_string();
-    assert!(message.contains("another sweep"), "{message}");
+    let before = std::fs::read(&part).unwrap();
+    let refused = run_sweep(&other, &part, Existing::Keep, |_| true).unwrap_err();
+    assert!(refused.to_string().contains("another sweep"), "{refused}");
+    assert!(std::fs::read(&part).unwrap() == before);
+    run_sweep(&other, &part, Existing::Replace, |_| false).unwrap();
+    assert!(std::fs::metadata(&part).unwrap().len() < 100);
+}
+
+#[test]
+fn a_sweep_goes_on_only_with_the_materials_that_it_began_with() {
+    let folder = tempfile::tempdir().unwrap();
+    let (materials, part) = (folder.path().join("m.toml"), folder.path().join("part"));
+    let mine = "[mine]\nyoungs_modulus_pa = 70e9\npoisson_ratio = 0.22\nsource = \"x\"\n";
+    std::fs::write(&materials, mine).unwrap();
+    let text = "[scene.materials]\nfile = \"m.toml\"\n[scene.target]\nmaterial = \"steel\"\n\
+        [scene.striker]\nmaterial = \"mine\"\nmass_kg = 0.01\ntip_radius_m = 0.005\n\
+        [product.striker]\nvelocity_m_s = { from = 1.0, to = 2.0, count = 1000 }\n";
+    let read = || Spec::from_toml(text, folder.path()).unwrap();
+    let spec = read();
+    assert_eq!(spec.inputs()[0].path, materials);
+    run_sweep(&spec, &part, Existing::Keep, |done| done == 0).unwrap();
+    // what was read once is not read again
+    std::fs::write(&materials, mine.replace("70e9", "7e9")).unwrap();
+    let done = run_sweep(&spec, &part, Existing::Keep, |_| true);
+    let done = done.unwrap().unwrap();
+    let alone = folder.path().join("alone");
+    std::fs::write(&materials, mine).unwrap();
+    let whole = run_sweep(&read(), &alone, Existing::Keep, |_| true);
+    assert!(bits(&done.blocks) == bits(&whole.unwrap().unwrap().blocks));
+    // and a later run with the edited file is another sweep
+    std::fs::write(&materials, mine.replace("70e9", "7e9")).unwrap();
+    let refused = run_sweep(&read(), &part, Existing::Keep, |_| true).unwrap_err();
+    assert!(refused.to_string().contains("its files"), "{refused}");
+}
+
+#[test]
+fn a_damaged_journal_takes_no_memory_and_a_strange_one_stays() {
+    let spec = spec("[product.striker]\nvelocity_m_s = { from = 1.0, to = 2.0, count = 100 }\n");
+    let folder = tempfile::tempdir().unwrap();
+    let part = folder.path().join("part");
+    let whole = run_sweep(&spec, &part, Existing::Keep, |_| true);
+    let whole = bits(&whole.unwrap().unwrap().blocks);
+    let good = std::fs::read(&part).unwrap();
+    // first row, number of rows, length of the text of the first record
+    for (place, number) in [(48, u64::MAX), (56, 36_000_000), (56, 0), (64, 1 << 40)] {
+        let mut bad = good.clone();
+        bad[place..place + 8].copy_from_slice(&number.to_le_bytes());
+        std::fs::write(&part, &bad).unwrap();
+        let done = run_sweep(&spec, &part, Existing::Keep, |_| true);
+        assert!(bits(&done.unwrap().unwrap().blocks) == whole);
+    }
+    for strange in ["precious", "hl", "hlswee"] {
+        std::fs::write(&part, strange).unwrap();
+        let done = run_sweep(&spec, &part, Existing::Replace, |_| true);
+        assert_eq!(done.is_ok(), strange.starts_with("hl"), "{strange}");
+    }
+    std::fs::write(&part, "precious").unwrap();
+    run_sweep(&spec, &part, Existing::Keep, |_| true).unwrap_err();
+    assert_eq!(std::fs::read(&part).unwrap(), b"precious");
 }
 
 #[test]
@@ -216,6 +281,22 @@ fn bad_sweeps_are_refused_with_key_and_value() {
             "100000000 is outside [1, 10000000]",
         ),
         (
+            "[product.target]\nmaterial = [\"steel\", \"granite\", \"steal\"]\n",
+            "target.material = \"steal\" is not in the materials library; did you mean steel?",
+        ),
+        (
+            "[product.contact]\nmodel = [\"hertz\", \"wave\", \"hertzz\"]\n",
+            "contact.model = \"hertzz\" is not one of",
+        ),
+        (
+            "[list.striker]\nmass_kg = [0.01, 0.02]\nmaterial = [\"steel\", \"steal\"]\n",
+            "striker.material = \"steal\"",
+        ),
+        (
+            "[product.materials]\nfile = [\"nowhere.toml\"]\n",
+            "cannot read ./nowhere.toml",
+        ),
+        (
             "[[scene.probe]]\nr_m = 0.0\nz_m = 0.0\n[product.striker]\nmass_kg = [1.0]\n",
             "[[probe]]",
         ),
@@ -225,10 +306,12 @@ fn bad_sweeps_are_refused_with_key_and_value() {
         let text = format!("{SCENE}{axes}");
         let message = match Spec::from_toml(&text, Path::new(".")) {
             Err(error) => error.to_string(),
-            Ok(spec) => match run_sweep(&spec, &folder.path().join("part"), |_| true) {
-                Err(error) => error.to_string(),
-                Ok(_) => "no error".to_owned(),
-            },
+            Ok(spec) => {
+                match run_sweep(&spec, &folder.path().join("part"), Existing::Keep, |_| true) {
+                    Err(error) => error.to_string(),
+                    Ok(_) => "no error".to_owned(),
+                }
+            }
         };
         assert!(message.contains(expected), "{axes}\n{message}");
         assert_eq!(message.lines().count(), 1, "{message}");

@@ -30,8 +30,10 @@ pub fn collide(
     })
 }
 
-/// Rows that one thread takes at a time.
+/// Rows that one thread takes at a time, at most.
 const GRAIN: usize = 256;
+/// Such portions for each thread at least, where there are rows enough: none waits long for the last one.
+const PORTIONS: usize = 4;
 
 /// Results of consecutive rows, in parallel; a row that fails has its reason.
 ///
@@ -42,12 +44,13 @@ pub fn collide_rows<M: Default, E: ToString>(
     row: impl Fn(usize, &mut M) -> Result<(Collision, Settings), E> + Sync,
 ) -> Vec<Result<Collided, String>> {
     let end = rows.end;
+    let grain = (rows.len() / (PORTIONS * rayon::current_num_threads())).clamp(1, GRAIN);
     let grains: Vec<Vec<Result<Collided, String>>> = rows
         .into_par_iter()
-        .step_by(GRAIN)
+        .step_by(grain)
         .map(|from| {
             let (mut solver, mut memory) = (Solver::new(responses), M::default());
-            (from..(from + GRAIN).min(end))
+            (from..(from + grain).min(end))
                 .map(|index| {
                     let (collision, settings) =
                         row(index, &mut memory).map_err(|error| error.to_string())?;

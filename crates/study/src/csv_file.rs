@@ -1,7 +1,5 @@
 //! chart.csv: one row a method, setting and scene. Described in data-schema/chart.md.
 
-use crate::StudyError;
-use crate::files::whole;
 use crate::record::Record;
 use std::path::Path;
 
@@ -22,16 +20,14 @@ pub const COLUMNS: [&str; 12] = [
 ];
 
 /// Writes the rows.
-pub(crate) fn write(path: &Path, records: &[Record]) -> Result<(), StudyError> {
-    whole(path, |part| {
-        let words = |error: csv::Error| error.to_string();
-        let mut writer = csv::Writer::from_path(part).map_err(words)?;
-        writer.write_record(COLUMNS).map_err(words)?;
-        for record in records {
-            writer.write_record(row(record)).map_err(words)?;
-        }
-        writer.flush().map_err(|error| error.to_string())
-    })
+pub(crate) fn write(path: &Path, records: &[Record]) -> Result<(), String> {
+    let words = |error: csv::Error| error.to_string();
+    let mut writer = csv::Writer::from_path(path).map_err(words)?;
+    writer.write_record(COLUMNS).map_err(words)?;
+    for record in records {
+        writer.write_record(row(record)).map_err(words)?;
+    }
+    writer.flush().map_err(|error| error.to_string())
 }
 
 fn row(record: &Record) -> [String; 12] {

@@ -45,15 +45,18 @@ pub enum StudyError {
         source: figure::RenderError,
     },
     /// The folder holds something already.
-    #[error("{} exists already", path.display())]
+    #[error("{} exists already and is not replaced", path.display())]
     Exists {
         /// The file in the way.
         path: PathBuf,
     },
-    /// A file could not be written.
+    /// A file could not be written, or is not to be.
+    #[error(transparent)]
+    Output(output::OutputError),
+    /// The folder cannot be written to.
     #[error("cannot write {}: {reason}", path.display())]
     Unwritable {
-        /// The file.
+        /// The folder.
         path: PathBuf,
         /// The reason of the system or a library.
         reason: String,

@@ -1,10 +1,8 @@
 //! chart.h5: the rows of chart.csv and the numbers behind every picture. Described in data-schema/chart.md.
 
-use crate::StudyError;
 use crate::chart::Chart;
 use crate::csv_file::COLUMNS;
 use crate::effort::Effort;
-use crate::files::whole;
 use crate::picture::Picture;
 use crate::record::Record;
 use figure::{Axis, Scale};
@@ -31,13 +29,8 @@ pub const ATTRIBUTES: [&str; 6] = [
 /// Group of the pictures.
 pub const FIGURES: &str = "figures";
 
-pub(crate) fn write(path: &Path, chart: &Chart) -> Result<(), StudyError> {
-    whole(path, |part| {
-        write_file(part, chart).map_err(|error| {
-            let text = error.to_string();
-            text.lines().next().unwrap_or_default().to_owned()
-        })
-    })
+pub(crate) fn write(path: &Path, chart: &Chart) -> Result<(), String> {
+    write_file(path, chart).map_err(|error| lookup::labels::reason(&error))
 }
 
 fn write_file(path: &Path, chart: &Chart) -> Result<(), hdf5::Error> {

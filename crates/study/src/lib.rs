@@ -47,7 +47,7 @@ mod work_precision;
 pub use chart::Chart;
 pub use effort::Effort;
 pub use error::StudyError;
-pub use files::prepare_folder;
+pub use files::Folder;
 pub use machine::Machine;
 pub use measure::Timing;
 pub use picture::Picture;

@@ -4,7 +4,7 @@
 
 use formats::Existing;
 use study::hdf_file::{ATTRIBUTES, FIGURES, FILE_TYPE, FORMAT_VERSION};
-use study::{StudyError, csv_file::COLUMNS, prepare_folder};
+use study::{Folder, StudyError, csv_file::COLUMNS};
 
 const DOCUMENT: &str = include_str!("../../../data-schema/chart.md");
 
@@ -22,13 +22,17 @@ fn every_name_is_described() {
 fn a_folder_that_holds_anything_is_kept() {
     let folder = tempfile::tempdir().unwrap();
     let inside = folder.path().join("chart");
-    prepare_folder(&inside, Existing::Keep).unwrap();
+    drop(Folder::claim(&inside, Existing::Keep).unwrap());
     std::fs::write(inside.join("chart.csv"), "precious").unwrap();
-    let refused = prepare_folder(&inside, Existing::Keep).unwrap_err();
+    let refused = Folder::claim(&inside, Existing::Keep).unwrap_err();
     assert!(matches!(refused, StudyError::Exists { .. }));
     // the command knows how to replace it, the library does not
-    assert!(refused.to_string().ends_with("chart.csv exists already"));
-    prepare_folder(&inside, Existing::Replace).unwrap();
+    assert!(
+        refused
+            .to_string()
+            .ends_with("chart.csv exists already and is not replaced")
+    );
+    drop(Folder::claim(&inside, Existing::Replace).unwrap());
     // nothing is touched before there is something to put in its place
     assert_eq!(
         std::fs::read_to_string(inside.join("chart.csv")).unwrap(),
@@ -36,6 +40,6 @@ fn a_folder_that_holds_anything_is_kept() {
     );
     let file = folder.path().join("file");
     std::fs::write(&file, "").unwrap();
-    let refused = prepare_folder(&file, Existing::Replace).unwrap_err();
+    let refused = Folder::claim(&file, Existing::Replace).unwrap_err();
     assert!(refused.to_string().contains("not a folder"));
 }

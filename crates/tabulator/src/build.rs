@@ -3,11 +3,11 @@
 use crate::block;
 use crate::error::BuildError;
 use crate::grid::Grid;
-use crate::journal::{Journal, Task};
-use crate::output::{Existing, beside, refuse};
+use crate::journal::{self, Journal, Left, Task, journal_of};
 use crate::progress::Progress;
 use crate::rows::{rows, usable};
 use crate::summary::{Summary, complete};
+use output::{Existing, Output, OutputError};
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
@@ -32,21 +32,26 @@ pub fn build_over(
 ) -> Result<Summary, BuildError> {
     let started = Instant::now();
     grid.validate()?;
-    refuse(path, existing)?;
     let work = block::all(grid);
     let text = grid.to_toml()?;
-    let (journal, finished) =
-        Journal::open(&beside(path, ".journal"), Task::Build { grid: &text })?;
-    // Another run may have finished the table before this one had the journal.
-    if let Err(error) = refuse(path, existing) {
-        journal.remove()?;
-        return Err(error);
-    }
+    let task = Task::Build { grid: &text };
+    let output = match Output::claim(path, existing) {
+        Err(exists @ OutputError::Exists { .. }) => {
+            clear(grid, path, &text)?;
+            return Err(exists.into());
+        }
+        claimed => claimed?,
+    };
+    let left = match existing {
+        Existing::Replace => Left::Replaced,
+        Existing::Keep | Existing::KeepUnlessSame => Left::Kept,
+    };
+    let (journal, finished) = Journal::open(&journal_of(&output), task, left)?;
     let finished = usable(grid, &work, finished, None)?;
     let resumed_blocks = finished.len();
     let journal = Mutex::new(journal);
     let rows = rows(grid, &work, finished, Some(&journal), None, progress)?;
-    let summary = complete(grid, &work, rows, path, None, progress)?;
+    let summary = complete(grid, &work, rows, &output, None, progress)?;
     journal
         .into_inner()
         .unwrap_or_else(PoisonError::into_inner)
@@ -56,4 +61,19 @@ pub fn build_over(
         wall_s: started.elapsed().as_secs_f64(),
         ..summary
     })
+}
+
+/// Removes the journal of a finished table: a run that was killed after it had named the table has left it.
+fn clear(grid: &Grid, path: &Path, settings: &str) -> Result<(), BuildError> {
+    let output = Output::claim(path, Existing::Replace)?;
+    let journal = journal_of(&output);
+    let Ok((found, rows)) = journal::read(&journal) else {
+        return Ok(());
+    };
+    let work = block::all(grid);
+    let whole = found == settings && usable(grid, &work, rows, None)?.len() == work.len();
+    if whole && lookup::read(path).is_ok_and(|content| content.origin.grid == settings) {
+        journal::remove(&journal)?;
+    }
+    Ok(())
 }

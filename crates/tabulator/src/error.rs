@@ -2,6 +2,7 @@
 
 use halfspace::DomainError;
 use lookup::{ContentError, TableError};
+use output::OutputError;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
@@ -57,22 +58,21 @@ pub enum BuildError {
         /// The value of the table.
         present: f64,
     },
-    /// There is a file in the way.
-    #[error("{} exists already", path.display())]
-    Exists {
-        /// File in the way.
-        path: PathBuf,
-    },
-    /// Another run is building the same table.
-    #[error("another run is writing {}", path.display())]
-    Busy {
-        /// Its journal.
-        path: PathBuf,
-    },
-    /// An unfinished build or extension of another kind is in the way.
-    #[error("{} belongs to an unfinished build or extension with other settings, from another table or of another version of this program; finish that one or remove the file", path.display())]
+    /// The output cannot be written, or is not to be.
+    #[error(transparent)]
+    Output(#[from] OutputError),
+    /// Something unfinished of another kind is in the way.
+    #[error("{} holds {what}; finish that one, give the output another name, or remove the file", path.display())]
     OtherSettings {
-        /// Its journal.
+        /// Its journal, or a shard.
+        path: PathBuf,
+        /// What is unfinished.
+        what: String,
+    },
+    /// A file of somebody else has the name of a journal or a shard.
+    #[error("{} is not one of this program's unfinished tables and is kept: give the output another name", path.display())]
+    NotJournal {
+        /// The file.
         path: PathBuf,
     },
     /// A file that should hold blocks of a table does not.

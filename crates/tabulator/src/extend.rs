@@ -3,16 +3,16 @@
 use crate::block;
 use crate::error::BuildError;
 use crate::grid::Grid;
-use crate::journal::{Journal, Task};
+use crate::journal::{Journal, Left, Task, journal_of};
 use crate::known::Known;
-use crate::output::beside;
 use crate::progress::Progress;
 use crate::rows::{rows, usable};
 use crate::summary::{Summary, complete};
 use lookup::{Table, TableError};
+use output::{Existing, Output};
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
-use std::time::{Instant, SystemTime};
+use std::time::Instant;
 
 /// What a table is to have in addition.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -42,10 +42,11 @@ pub fn extend(
     progress: &dyn Progress,
 ) -> Result<Summary, BuildError> {
     let started = Instant::now();
-    let seen = state(path);
+    let output = Output::claim(path, Existing::Replace)?;
     let content = lookup::read(path)?;
     lookup::check_hash(path, &content)?;
     let base = lookup::content_hash(&content);
+    let present = content.origin.grid.clone();
     let content = match Table::new(content) {
         Ok(table) => table.into_content(),
         Err(source) => {
@@ -63,14 +64,8 @@ pub fn extend(
         grid: &text,
         base: &base,
     };
-    let (journal, found) = Journal::open(&beside(path, ".journal"), task)?;
-    if state(path) != seen {
-        // Another run replaced the table before this one had the journal.
-        journal.remove()?;
-        return Err(BuildError::Busy {
-            path: path.to_owned(),
-        });
-    }
+    let left = Left::Of { table: &present };
+    let (journal, found) = Journal::open(&journal_of(&output), task, left)?;
     let mut finished = usable(&grid, &work, found, Some(&known))?;
     let resumed_blocks = finished.len();
     for &block in &work {
@@ -81,7 +76,7 @@ pub fn extend(
     let journal = Mutex::new(journal);
     let recorded = Some(&journal);
     let rows = rows(&grid, &work, finished, recorded, Some(&known), progress)?;
-    let summary = complete(&grid, &work, rows, path, Some(&known), progress)?;
+    let summary = complete(&grid, &work, rows, &output, Some(&known), progress)?;
     journal
         .into_inner()
         .unwrap_or_else(PoisonError::into_inner)
@@ -91,12 +86,6 @@ pub fn extend(
         wall_s: started.elapsed().as_secs_f64(),
         ..summary
     })
-}
-
-/// What changes when a file is replaced.
-fn state(path: &Path) -> Option<(u64, SystemTime)> {
-    let data = std::fs::metadata(path).ok()?;
-    Some((data.len(), data.modified().ok()?))
 }
 
 fn apply(grid: &mut Grid, known: &Known, extension: &Extension) -> Result<(), BuildError> {

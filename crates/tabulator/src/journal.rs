@@ -8,15 +8,19 @@
 use crate::block::{Block, Kind, Row};
 use crate::error::BuildError;
 use crate::numbers::NUMBERS_REVISION;
+use output::{Output, OutputError};
 use sha2::{Digest, Sha256};
 use std::collections::HashMap;
 use std::fs::{File, OpenOptions};
 use std::io::{Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
+/// How journals of every version start.
+const FAMILY: &str = "hertzlamb kernel blocks ";
+
 /// How every journal starts: version 4 has blanks where a probe was not computed.
 fn kind() -> String {
-    format!("hertzlamb kernel blocks 4, numbers {NUMBERS_REVISION}, settings ")
+    format!("{FAMILY}4, numbers {NUMBERS_REVISION}, settings ")
 }
 
 /// Bytes before the numbers of a record: seven integers.
@@ -41,7 +45,28 @@ pub(crate) enum Task<'a> {
     },
 }
 
-/// An open journal, locked against other runs.
+/// What happens to something unfinished of another task.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Left<'a> {
+    /// It is kept and reported.
+    Kept,
+    /// It is kept unless it became the table that is there, which has these settings.
+    Of {
+        /// The settings.
+        table: &'a str,
+    },
+    /// It is replaced.
+    Replaced,
+}
+
+/// Where the journal of an output is.
+pub(crate) fn journal_of(output: &Output) -> PathBuf {
+    let mut name = output.real().as_os_str().to_owned();
+    name.push(".journal");
+    PathBuf::from(name)
+}
+
+/// An open journal; whoever opens it has claimed the output.
 #[derive(Debug)]
 pub(crate) struct Journal {
     path: PathBuf,
@@ -53,32 +78,22 @@ impl Journal {
     pub(crate) fn open(
         path: &Path,
         task: Task<'_>,
+        left: Left<'_>,
     ) -> Result<(Self, HashMap<Block, Row>), BuildError> {
         let failed = |action| file_error(action, path);
-        if path.exists() {
-            regular(path)?;
+        let there = std::fs::symlink_metadata(path);
+        if there.as_ref().is_ok_and(|there| !there.is_file()) {
+            return Err(BuildError::NotJournal {
+                path: path.to_owned(),
+            });
         }
         let mut file = OpenOptions::new()
             .read(true)
             .append(true)
-            .create(true)
+            .create(there.is_ok())
+            .create_new(there.is_err())
             .open(path)
             .map_err(failed("write"))?;
-        match file.try_lock() {
-            Ok(()) => {}
-            Err(std::fs::TryLockError::WouldBlock) => {
-                return Err(BuildError::Busy {
-                    path: path.to_owned(),
-                });
-            }
-            Err(std::fs::TryLockError::Error(source)) => return Err(failed("lock")(source)),
-        }
-        // The run that had the lock may have finished and removed the journal in between.
-        if !path.exists() {
-            return Err(BuildError::Busy {
-                path: path.to_owned(),
-            });
-        }
         let mut bytes = Vec::new();
         file.seek(SeekFrom::Start(0)).map_err(failed("read"))?;
         file.read_to_end(&mut bytes).map_err(failed("read"))?;
@@ -87,22 +102,21 @@ impl Journal {
             path: path.to_owned(),
             file,
         };
-        if bytes.len() < title.len() && title.as_bytes().starts_with(&bytes) {
-            // New, or cut short in its first line.
-            journal.cut(0)?;
-            journal.append(title.as_bytes())?;
-            return Ok((journal, HashMap::new()));
+        if bytes.starts_with(title.as_bytes()) {
+            let (rows, good) = records(&bytes, title.len());
+            if good < bytes.len() {
+                journal.cut(good as u64)?;
+            }
+            return Ok((journal, rows));
         }
-        if !bytes.starts_with(title.as_bytes()) {
-            return Err(BuildError::OtherSettings {
-                path: path.to_owned(),
-            });
+        // New, or cut short in its first line: nothing is in it.
+        let empty = bytes.len() < title.len() && title.as_bytes().starts_with(&bytes);
+        if !empty {
+            dispensable(path, &bytes, left)?;
         }
-        let (rows, good) = records(&bytes, title.len());
-        if good < bytes.len() {
-            journal.cut(good as u64)?;
-        }
-        Ok((journal, rows))
+        journal.cut(0)?;
+        journal.append(title.as_bytes())?;
+        Ok((journal, HashMap::new()))
     }
 
     /// Appends a finished block.
@@ -129,20 +143,57 @@ impl Journal {
 
     /// Deletes the journal: the table is complete under its own name.
     pub(crate) fn remove(self) -> Result<(), BuildError> {
-        std::fs::remove_file(&self.path).map_err(file_error("remove", &self.path))
+        remove(&self.path)
     }
 
     fn append(&mut self, bytes: &[u8]) -> Result<(), BuildError> {
         self.file
             .write_all(bytes)
             .and_then(|()| self.file.sync_data())
-            .map_err(file_error("write", &self.path))
+            .map_err(|error| OutputError::writing(&self.path, error).into())
     }
 
     fn cut(&mut self, length: u64) -> Result<(), BuildError> {
         self.file
             .set_len(length)
             .map_err(file_error("shorten", &self.path))
+    }
+}
+
+/// Deletes a journal.
+pub(crate) fn remove(path: &Path) -> Result<(), BuildError> {
+    std::fs::remove_file(path).map_err(file_error("remove", path))
+}
+
+/// Refuses to lose what is not of this task and may be wanted.
+fn dispensable(path: &Path, bytes: &[u8], left: Left<'_>) -> Result<(), BuildError> {
+    let end = bytes.iter().position(|&byte| byte == b'\n');
+    let line = String::from_utf8_lossy(&bytes[..end.unwrap_or(bytes.len()).min(400)]);
+    if !line.starts_with(FAMILY) {
+        return Err(BuildError::NotJournal {
+            path: path.to_owned(),
+        });
+    }
+    let unfinished = |what: &str| BuildError::OtherSettings {
+        path: path.to_owned(),
+        what: what.to_owned(),
+    };
+    let what = match (line.starts_with(&kind()), line.contains(", extends ")) {
+        (false, _) => "an unfinished table of another version of this program",
+        (true, false) => "an unfinished table with other settings",
+        (true, true) => "an unfinished extension, of another table or with other settings",
+    };
+    match left {
+        Left::Replaced => Ok(()),
+        Left::Kept => Err(unfinished(what)),
+        Left::Of { table } => {
+            let own = lookup::settings_id(table);
+            if line.starts_with(&format!("{}{own} ", kind())) {
+                Ok(())
+            } else {
+                Err(unfinished(what))
+            }
+        }
     }
 }
 
@@ -285,7 +336,7 @@ mod tests {
     fn a_journal_cut_anywhere_gives_back_its_whole_records() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("t.journal");
-        let (mut journal, found) = Journal::open(&path, ABC).unwrap();
+        let (mut journal, found) = Journal::open(&path, ABC, Left::Kept).unwrap();
         assert!(found.is_empty());
         for i in 0..3 {
             journal.record(block(i), &row(i as f32)).unwrap();
@@ -295,7 +346,7 @@ mod tests {
         let size = (whole.len() - title(ABC).len()) / 3;
         for length in 0..=whole.len() {
             std::fs::write(&path, &whole[..length]).unwrap();
-            let (_, found) = Journal::open(&path, ABC).unwrap();
+            let (_, found) = Journal::open(&path, ABC, Left::Kept).unwrap();
             let expected = length.saturating_sub(title(ABC).len()) / size;
             assert_eq!(found.len(), expected, "cut at {length}");
             assert!(found.iter().all(|(b, r)| *r == row(b.row as f32)));
@@ -303,18 +354,41 @@ mod tests {
     }
 
     #[test]
-    fn other_settings_and_a_second_run_are_refused() {
+    fn what_is_unfinished_is_kept_until_it_may_go_and_a_strange_file_always() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("t.journal");
-        let (first, _) = Journal::open(&path, ABC).unwrap();
-        assert!(matches!(
-            Journal::open(&path, ABC),
-            Err(BuildError::Busy { .. })
-        ));
-        drop(first);
-        assert!(matches!(
-            Journal::open(&path, Task::Build { grid: "xyz" }),
-            Err(BuildError::OtherSettings { .. })
-        ));
+        let extension = |base| Task::Extension { grid: "xyz", base };
+        let of = |table| Left::Of { table };
+        // what is there, what is wanted, what may go, whether it goes
+        let cases = [
+            (ABC, Task::Build { grid: "xyz" }, Left::Kept, false),
+            (ABC, Task::Build { grid: "xyz" }, Left::Replaced, true),
+            (ABC, extension("1"), of("abc"), true),
+            (ABC, extension("1"), of("abcd"), false),
+            (extension("1"), ABC, of("abc"), false),
+            (extension("1"), extension("2"), of("abc"), false),
+            (extension("1"), ABC, of("xyz"), true),
+            (extension("1"), ABC, Left::Replaced, true),
+        ];
+        for (there, wanted, left, goes) in cases {
+            let _ = std::fs::remove_file(&path);
+            let (mut journal, _) = Journal::open(&path, there, Left::Kept).unwrap();
+            journal.record(block(0), &row(1.0)).unwrap();
+            let before = std::fs::read(&path).unwrap();
+            match Journal::open(&path, wanted, left) {
+                Ok((_, rows)) => assert!(goes && rows.is_empty(), "{there:?} {wanted:?}"),
+                Err(BuildError::OtherSettings { .. }) => {
+                    assert!(!goes, "{there:?} {wanted:?}");
+                    assert_eq!(std::fs::read(&path).unwrap(), before);
+                }
+                Err(other) => panic!("{other}"),
+            }
+        }
+        std::fs::write(&path, "precious").unwrap();
+        for left in [Left::Kept, Left::Replaced, of("abc")] {
+            let refused = Journal::open(&path, ABC, left);
+            assert!(matches!(refused, Err(BuildError::NotJournal { .. })));
+        }
+        assert_eq!(std::fs::read(&path).unwrap(), b"precious");
     }
 }

@@ -3,11 +3,11 @@
 use crate::block::{self, Block, Row};
 use crate::error::BuildError;
 use crate::grid::Grid;
-use crate::journal::{self, Journal, Task};
-use crate::output::{Existing, refuse};
+use crate::journal::{self, Journal, Left, Task};
 use crate::progress::Progress;
 use crate::rows::{rows, usable};
 use crate::summary::{Summary, complete};
+use output::{Existing, Output, Role, apart};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
@@ -41,7 +41,9 @@ pub fn build_shard(
         .step_by(count)
         .collect();
     let text = grid.to_toml()?;
-    let (journal, finished) = Journal::open(path, Task::Build { grid: &text })?;
+    let output = Output::claim(path, Existing::Replace)?;
+    let task = Task::Build { grid: &text };
+    let (journal, finished) = Journal::open(output.real(), task, Left::Kept)?;
     let finished = usable(grid, &work, finished, None)?;
     let journal = Mutex::new(journal);
     rows(grid, &work, finished, Some(&journal), None, progress)?;
@@ -59,7 +61,12 @@ pub fn merge(
     progress: &dyn Progress,
 ) -> Result<Summary, BuildError> {
     let started = Instant::now();
-    refuse(path, existing)?;
+    let inputs: Vec<Role> = parts
+        .iter()
+        .map(|part| Role::new("a shard", part))
+        .collect();
+    apart(&[path], &inputs)?;
+    let output = Output::claim(path, existing)?;
     let (grid, found) = read_all(parts)?;
     let work = block::all(&grid);
     let mut found = usable(&grid, &work, found, None)?;
@@ -79,7 +86,7 @@ pub fn merge(
         .iter()
         .filter_map(|block| found.remove(block))
         .collect();
-    let summary = complete(&grid, &work, rows, path, None, progress)?;
+    let summary = complete(&grid, &work, rows, &output, None, progress)?;
     Ok(Summary {
         wall_s: started.elapsed().as_secs_f64(),
         ..summary

@@ -5,9 +5,9 @@ use crate::block::{Block, Row};
 use crate::error::BuildError;
 use crate::grid::Grid;
 use crate::known::Known;
-use crate::output::finish;
 use crate::progress::Progress;
-use lookup::Accuracy;
+use lookup::{Accuracy, Content, TableError};
+use output::{Fault, Output};
 use std::path::Path;
 
 /// What a build did.
@@ -38,12 +38,12 @@ pub(crate) fn complete(
     grid: &Grid,
     work: &[Block],
     rows: Vec<Row>,
-    path: &Path,
+    output: &Output,
     known: Option<&Known>,
     progress: &dyn Progress,
 ) -> Result<Summary, BuildError> {
     let content = assemble(grid, work, rows, known, progress)?;
-    let bytes = finish(&content, path)?;
+    let bytes = output.write(|part| write_checked(&content, part))?;
     Ok(Summary {
         id: lookup::settings_id(&content.origin.grid),
         content_sha256: lookup::content_hash(&content),
@@ -54,5 +54,18 @@ pub(crate) fn complete(
         accuracy: content.accuracy(),
         pulse_lengths: content.pulse_lengths,
         p99_error: content.origin.accuracy_reached,
+    })
+}
+
+/// Writes a table and reads it back.
+fn write_checked(content: &Content, part: &Path) -> Result<(), Fault> {
+    let done = lookup::write(part, content).and_then(|()| {
+        let back = lookup::read(part)?;
+        lookup::check_hash(part, &back)
+    });
+    done.map_err(|error| match error {
+        // its file is the temporary one, of which nobody should hear
+        TableError::Unwritable { detail, .. } => Fault::from(detail),
+        other => Fault::from(other.to_string()),
     })
 }

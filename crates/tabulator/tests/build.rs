@@ -4,7 +4,7 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
-use tabulator::{Axis, BuildError, Existing, Extension, Grid, Progress, Silent};
+use tabulator::{Axis, BuildError, Existing, Extension, Grid, OutputError, Progress, Silent};
 use tabulator::{build, build_over, build_shard, check_table, differences, extend, merge};
 
 /// Two slices of 8 by 8 nodes and three beyond each outer edge.
@@ -94,8 +94,10 @@ fn a_build_takes_nothing_that_an_interrupted_extension_left() {
     assert!(crash.is_err());
     let mut grid = small();
     grid.z.extended_to = Some(1.0);
+    let fresh = folder.path().join("fresh.h5");
+    std::fs::copy(journal(&path), journal(&fresh)).unwrap();
     assert!(matches!(
-        build_over(&grid, &path, Existing::Replace, &Silent),
+        build(&grid, &fresh, &Silent),
         Err(BuildError::OtherSettings { .. })
     ));
     // Nor does the extension of another table with these settings.
@@ -175,7 +177,7 @@ fn files_in_the_way_are_kept_unless_replaced() {
     std::fs::write(&path, "precious").unwrap();
     assert!(matches!(
         build(&small(), &path, &Silent),
-        Err(BuildError::Exists { .. })
+        Err(BuildError::Output(OutputError::Exists { .. }))
     ));
     assert_eq!(std::fs::read(&path).unwrap(), b"precious");
     build_over(&small(), &path, Existing::Replace, &Silent).unwrap();
@@ -192,18 +194,19 @@ fn files_in_the_way_are_kept_unless_replaced() {
         build(&small(), &other, &Silent),
         Err(BuildError::OtherSettings { .. })
     ));
+    build_over(&small(), &other, Existing::Replace, &Silent).unwrap();
+    assert!(!journal(&other).exists());
 
-    // A link under the name of the unfinished table is not written through.
+    // A link under the name of the journal is not written through.
     #[cfg(unix)]
     {
         let linked = folder.path().join("linked.h5");
         std::fs::write(&path, "precious").unwrap();
-        let part = folder.path().join("linked.h5.part");
-        std::os::unix::fs::symlink(&path, &part).unwrap();
+        std::os::unix::fs::symlink(&path, journal(&linked)).unwrap();
         let message = build(&small(), &linked, &Silent).unwrap_err().to_string();
-        assert!(message.contains("linked.h5.part"), "{message}");
+        assert!(message.contains("linked.h5.journal"), "{message}");
         assert_eq!(std::fs::read(&path).unwrap(), b"precious");
-        assert!(part.is_symlink());
+        assert!(journal(&linked).is_symlink());
     }
 
     let nowhere = folder.path().join("no/such/folder/t.h5");

@@ -7,4 +7,4 @@ pub mod schema;
 mod section;
 mod write;
 
-pub use write::write_results;
+pub use write::{write_results, write_results_into};

@@ -2,13 +2,13 @@
 
 use super::schema;
 use super::section::write_section;
-use crate::hdf::{attach_scale, first_line, matrix, set_scale, text, vector};
-use crate::output::{Existing, OutputError, write_whole};
+use crate::hdf::{attach_scale, matrix, reason, set_scale, text, vector};
 use crate::quantities::QUANTITIES;
 use crate::report::{choices, kernel_name, treatment};
 use crate::scene::resolved;
 use hdf5::{Dataset, File};
 use impact::{EnergySeries, KernelsUsed, Outcome, ProbeFields, Scene};
+use output::{Existing, Output, OutputError};
 use std::path::Path;
 
 /// Writes the results of a scene.
@@ -21,9 +21,21 @@ pub fn write_results(
     outcome: &Outcome,
     existing: Existing,
 ) -> Result<(), OutputError> {
-    write_whole(path, existing, |part| {
-        write_file(part, scene, outcome).map_err(|error| first_line(&error))
-    })
+    write_results_into(&Output::claim(path, existing)?, scene, outcome)
+}
+
+/// Writes the results of a scene into an output that was claimed before the work.
+///
+/// # Errors
+/// [`OutputError`].
+pub fn write_results_into(
+    output: &Output,
+    scene: &Scene,
+    outcome: &Outcome,
+) -> Result<(), OutputError> {
+    output
+        .write(|part| write_file(part, scene, outcome).map_err(|error| reason(&error)))
+        .map(drop)
 }
 
 fn write_file(path: &Path, scene: &Scene, outcome: &Outcome) -> Result<(), hdf5::Error> {

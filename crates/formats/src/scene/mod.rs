@@ -6,5 +6,6 @@ mod read;
 mod write;
 
 pub(crate) use read::bodies_of;
+pub(crate) use read::scene_with;
 pub use read::{parse_scene, read_scene, scene_of};
 pub use write::resolved;

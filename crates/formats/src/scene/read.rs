@@ -48,9 +48,20 @@ pub fn scene_of(table: &Table, directory: &Path) -> Result<Scene, SceneError> {
     let root = Section::root(table);
     root.allow(&SECTIONS)?;
     let library = read_library(&root, directory)?;
-    let target = read_target(&root, &library)?;
+    scene_with(table, directory, &library)
+}
+
+/// Reads a scene whose materials are known already.
+pub(crate) fn scene_with(
+    table: &Table,
+    directory: &Path,
+    library: &Library,
+) -> Result<Scene, SceneError> {
+    let root = Section::root(table);
+    root.allow(&SECTIONS)?;
+    let target = read_target(&root, library)?;
     let settings = read_settings(root.section("contact")?.as_ref())?;
-    let load = read_load(&root, &settings, &library, directory)?;
+    let load = read_load(&root, &settings, library, directory)?;
     let (probes, section) = (read_probes(&root)?, read_section(&root)?);
     let mut duration_s = None;
     if let Some(output) = root.section("output")? {

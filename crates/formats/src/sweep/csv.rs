@@ -4,13 +4,13 @@ use super::axis::{Column, Values, place};
 use super::block::Block;
 use super::schema::{FAILURE, MODEL};
 use super::spec::Spec;
-use crate::output::{Existing, OutputError, write_whole};
 use crate::quantities::QUANTITIES;
 use contact::{Choice, Model};
+use output::{Existing, Output, OutputError, Staged};
 use rayon::prelude::*;
 use std::collections::HashMap;
 use std::fmt::Write as _;
-use std::io::Write as _;
+use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
 /// Writes one line a row: the varied keys, the results, the model, the reason of a failure.
@@ -23,24 +23,43 @@ pub fn write_csv(
     blocks: &[Block],
     existing: Existing,
 ) -> Result<(), OutputError> {
-    write_whole(path, existing, |part| {
-        let written = std::fs::File::create(part).and_then(|file| {
-            let mut file = std::io::BufWriter::new(file);
-            writeln!(file, "{}", header(spec))?;
-            for block in blocks {
-                let parts: Vec<String> = (0..block.numbers.len())
-                    .into_par_iter()
-                    .step_by(1024)
-                    .map(|from| lines(spec, block, from))
-                    .collect();
-                for part in parts {
-                    file.write_all(part.as_bytes())?;
-                }
-            }
-            file.flush()
-        });
-        written.map_err(|error| error.to_string())
+    let output = Output::claim(path, existing)?;
+    stage_csv(&output, spec, blocks)?.commit()
+}
+
+/// The same into an output that was claimed before the work, under its name when it is committed.
+///
+/// # Errors
+/// [`OutputError`].
+pub fn stage_csv<'a>(
+    output: &'a Output,
+    spec: &Spec,
+    blocks: &[Block],
+) -> Result<Staged<'a>, OutputError> {
+    output.stage(|part| {
+        let mut file = BufWriter::new(std::fs::File::create(part)?);
+        print_csv(&mut file, spec, blocks)?;
+        file.flush()
     })
+}
+
+/// The same to something that is open.
+///
+/// # Errors
+/// What the system says.
+pub fn print_csv(file: &mut impl Write, spec: &Spec, blocks: &[Block]) -> io::Result<()> {
+    writeln!(file, "{}", header(spec))?;
+    for block in blocks {
+        let parts: Vec<String> = (0..block.numbers.len())
+            .into_par_iter()
+            .step_by(1024)
+            .map(|from| lines(spec, block, from))
+            .collect();
+        for part in parts {
+            file.write_all(part.as_bytes())?;
+        }
+    }
+    Ok(())
 }
 
 fn header(spec: &Spec) -> String {

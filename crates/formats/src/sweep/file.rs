@@ -4,11 +4,11 @@ use super::axis::{Axis, Values};
 use super::block::Block;
 use super::schema;
 use super::spec::Spec;
-use crate::hdf::{attach_scale, first_line, numbers, set_scale, text, texts};
-use crate::output::{Existing, OutputError, write_whole};
+use crate::hdf::{attach_scale, numbers, reason, set_scale, text, texts};
 use crate::quantities::QUANTITIES;
 use contact::{Choice, Model};
 use hdf5::{Dataset, File, Group};
+use output::{Existing, Output, OutputError, Staged};
 use std::collections::HashMap;
 use std::path::Path;
 
@@ -22,9 +22,20 @@ pub fn write_sweep(
     blocks: &[Block],
     existing: Existing,
 ) -> Result<(), OutputError> {
-    write_whole(path, existing, |part| {
-        write_file(part, spec, blocks).map_err(|error| first_line(&error))
-    })
+    let output = Output::claim(path, existing)?;
+    stage_sweep(&output, spec, blocks)?.commit()
+}
+
+/// The same into an output that was claimed before the work, under its name when it is committed.
+///
+/// # Errors
+/// [`OutputError`].
+pub fn stage_sweep<'a>(
+    output: &'a Output,
+    spec: &Spec,
+    blocks: &[Block],
+) -> Result<Staged<'a>, OutputError> {
+    output.stage(|part| write_file(part, spec, blocks).map_err(|error| reason(&error)))
 }
 
 fn write_file(path: &Path, spec: &Spec, blocks: &[Block]) -> Result<(), hdf5::Error> {

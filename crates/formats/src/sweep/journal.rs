@@ -6,18 +6,44 @@
 
 use super::block::Block;
 use crate::quantities::QUANTITIES;
+use output::{Existing, OutputError};
 use std::fs::{File, OpenOptions};
 use std::io::{BufReader, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
 
 /// First bytes of a journal; the last is its version.
-const MAGIC: &[u8; 8] = b"hlsweep2";
+const MAGIC: &[u8; 8] = b"hlsweep3";
+/// Bytes before the first record.
+const HEADER: usize = 8 + 32 + 8;
+/// Time between two flushes: what a loss of power costs at most, beside the block in work.
+const FLUSH: Duration = Duration::from_secs(10);
+
+/// Which sweep a journal is of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Header {
+    /// SHA-256 of everything that is asked and was read.
+    pub(super) fingerprint: [u8; 32],
+    /// Rows of the sweep.
+    pub(super) rows: usize,
+}
+
+impl Header {
+    fn bytes(&self) -> [u8; HEADER] {
+        let mut bytes = [0; HEADER];
+        bytes[..8].copy_from_slice(MAGIC);
+        bytes[8..40].copy_from_slice(&self.fingerprint);
+        bytes[40..].copy_from_slice(&(self.rows as u64).to_le_bytes());
+        bytes
+    }
+}
 
 /// A journal open for appending.
 #[derive(Debug)]
 pub struct Journal {
     file: File,
     path: PathBuf,
+    flushed: Instant,
 }
 
 /// Why a journal cannot be used.
@@ -25,101 +51,152 @@ pub struct Journal {
 pub enum JournalError {
     /// It was begun by another sweep.
     #[error(
-        "{} holds the beginning of another sweep: finish that one, or remove the file",
+        "{} holds the beginning of another sweep, or of this one before its files or the program changed",
         path.display()
     )]
     Other {
         /// The file.
         path: PathBuf,
     },
-    /// The system refuses.
-    #[error("cannot write {}: {source}", path.display())]
+    /// It is a file of somebody else.
+    #[error("{} is not the beginning of a sweep and is kept: give the output another name", path.display())]
+    Strange {
+        /// The file.
+        path: PathBuf,
+    },
+    /// It cannot be read.
+    #[error("cannot read {}: {source}", path.display())]
     Io {
         /// The file.
         path: PathBuf,
         /// The reason.
         source: std::io::Error,
     },
+    /// It cannot be written.
+    #[error(transparent)]
+    Output(#[from] OutputError),
 }
 
 impl Journal {
-    /// Opens or begins the journal of a sweep and gives the blocks that it holds.
+    /// Opens or begins the journal of a sweep and gives the blocks that it holds, ascending and apart.
     ///
-    /// # Errors
-    /// [`JournalError`].
-    pub fn open(
+    /// Whoever opens it has claimed the output; the beginning of another sweep is replaced where that is asked for.
+    pub(super) fn open(
         path: &Path,
-        fingerprint: u64,
-        rows: usize,
+        header: Header,
+        existing: Existing,
     ) -> Result<(Self, Vec<Block>), JournalError> {
         let io = |source| JournalError::Io {
             path: path.to_owned(),
             source,
         };
+        let there = std::fs::symlink_metadata(path);
+        if there.as_ref().is_ok_and(|there| !there.is_file()) {
+            return Err(JournalError::Strange {
+                path: path.to_owned(),
+            });
+        }
         let mut file = OpenOptions::new()
             .read(true)
             .write(true)
-            .create(true)
-            .truncate(false)
+            .create_new(there.is_err())
             .open(path)
-            .map_err(io)?;
-        let mut header = MAGIC.to_vec();
-        header.extend(fingerprint.to_le_bytes());
-        header.extend((rows as u64).to_le_bytes());
+            .map_err(|error| OutputError::writing(path, error))?;
+        let found = start(&file).map_err(io)?;
         let mut blocks = Vec::new();
-        let mut good = header.len() as u64;
-        let mut found = vec![0; header.len()];
-        let length = file.metadata().map_err(io)?.len();
-        let mut reader = BufReader::new(&file);
-        match reader.read_exact(&mut found) {
-            Ok(()) if found == header => {
-                while let Some((block, size)) = read_block(&mut reader, rows, length - good) {
-                    good += size;
-                    blocks.push(block);
-                }
-                drop(reader);
-                file.set_len(good).map_err(io)?;
-                file.seek(SeekFrom::End(0)).map_err(io)?;
+        if found == header.bytes() {
+            let good;
+            (blocks, good) = read_blocks(&file, header.rows).map_err(io)?;
+            file.set_len(good).map_err(io)?;
+            file.seek(SeekFrom::End(0)).map_err(io)?;
+        } else {
+            let known = found.len().min(MAGIC.len() - 1);
+            if found[..known] != MAGIC[..known] {
+                return Err(JournalError::Strange {
+                    path: path.to_owned(),
+                });
             }
-            Ok(()) => {
+            // one that ends within its header holds nothing
+            if found.len() == HEADER && existing != Existing::Replace {
                 return Err(JournalError::Other {
                     path: path.to_owned(),
                 });
             }
-            // shorter than a header: nothing was done yet
-            Err(_) => {
-                drop(reader);
-                file.set_len(0).map_err(io)?;
-                file.rewind().map_err(io)?;
-                file.write_all(&header).map_err(io)?;
-            }
+            file.set_len(0).map_err(io)?;
+            file.rewind().map_err(io)?;
+            file.write_all(&header.bytes())
+                .map_err(|error| OutputError::writing(path, error))?;
         }
-        Ok((
-            Self {
-                file,
-                path: path.to_owned(),
-            },
-            blocks,
-        ))
+        let journal = Self {
+            file,
+            path: path.to_owned(),
+            flushed: Instant::now(),
+        };
+        Ok((journal, blocks))
+    }
+
+    /// Rows of this sweep that the journal at `path` holds; nothing where there is none of it.
+    pub(super) fn rows_in(path: &Path, header: &Header) -> Option<usize> {
+        if !std::fs::symlink_metadata(path).ok()?.is_file() {
+            return None;
+        }
+        let file = File::open(path).ok()?;
+        if start(&file).ok()? != header.bytes() {
+            return None;
+        }
+        let (blocks, _) = read_blocks(&file, header.rows).ok()?;
+        Some(blocks.iter().map(|block| block.numbers.len()).sum())
     }
 
     /// Appends a finished block.
-    ///
-    /// # Errors
-    /// [`JournalError::Io`].
-    pub fn append(&mut self, block: &Block) -> Result<(), JournalError> {
-        self.file
-            .write_all(&record(block))
-            .map_err(|source| JournalError::Io {
-                path: self.path.clone(),
-                source,
-            })
+    pub(super) fn append(&mut self, block: &Block) -> Result<(), JournalError> {
+        let mut done = self.file.write_all(&record(block));
+        if done.is_ok() && self.flushed.elapsed() > FLUSH {
+            done = self.file.sync_data();
+            self.flushed = Instant::now();
+        }
+        Ok(done.map_err(|error| OutputError::writing(&self.path, error))?)
     }
 
     /// Removes the file once the sweep is written elsewhere.
     pub fn remove(self) {
         let _ = std::fs::remove_file(&self.path);
     }
+}
+
+/// The first bytes of a file, as many as a header has or as there are.
+fn start(file: &File) -> std::io::Result<Vec<u8>> {
+    let mut found = Vec::new();
+    let mut file = file;
+    file.rewind()?;
+    file.take(HEADER as u64).read_to_end(&mut found)?;
+    Ok(found)
+}
+
+/// The blocks of a journal that stands behind its header, and where the last good record ends.
+fn read_blocks(file: &File, rows: usize) -> std::io::Result<(Vec<Block>, u64)> {
+    let length = file.metadata()?.len();
+    let mut reader = BufReader::new(file);
+    let mut good = HEADER as u64;
+    let mut blocks: Vec<Block> = Vec::new();
+    while let Some((block, size)) = read_block(&mut reader, length - good) {
+        let end = block.start.checked_add(block.numbers.len());
+        if end.is_none_or(|end| end > rows) {
+            break;
+        }
+        good += size;
+        blocks.push(block);
+    }
+    blocks.sort_by_key(|block| block.start);
+    let mut end = 0;
+    blocks.retain(|block| {
+        let apart = block.start >= end;
+        if apart {
+            end = block.start + block.numbers.len();
+        }
+        apart
+    });
+    Ok((blocks, good))
 }
 
 fn record(block: &Block) -> Vec<u8> {
@@ -137,14 +214,14 @@ fn record(block: &Block) -> Vec<u8> {
     }
     bytes.extend(&block.models);
     bytes.extend(text.as_bytes());
-    bytes.extend(fingerprint(&bytes).to_le_bytes());
+    bytes.extend(sum(&bytes).to_le_bytes());
     bytes
 }
 
 /// The next block and the length of its record; nothing at the end and after damage.
 ///
-/// Memory is taken for a record of at most `left` bytes, which the file has, of a sweep of `all` rows.
-fn read_block(reader: &mut impl Read, all: usize, left: u64) -> Option<(Block, u64)> {
+/// `left` is what the file still has: no more memory is taken.
+fn read_block(reader: &mut impl Read, left: u64) -> Option<(Block, u64)> {
     let mut bytes = vec![0; 24];
     reader.read_exact(&mut bytes).ok()?;
     let word = |bytes: &[u8], i: usize| {
@@ -152,36 +229,40 @@ fn read_block(reader: &mut impl Read, all: usize, left: u64) -> Option<(Block, u
         Some(u64::from_le_bytes(eight))
     };
     let (start, rows, text) = (word(&bytes, 0)?, word(&bytes, 1)?, word(&bytes, 2)?);
-    let numbers = (rows as usize).checked_mul(8 * QUANTITIES.len())?;
-    let length = numbers
-        .checked_add(rows as usize)?
-        .checked_add(text as usize)?;
-    let end = (start as usize).checked_add(rows as usize)?;
-    if length as u64 > left.checked_sub(32)? || rows == 0 || end > all {
+    let size = rows
+        .checked_mul(8 * QUANTITIES.len() as u64 + 1)?
+        .checked_add(text)?;
+    if rows == 0 || size.checked_add(32)? > left {
         return None;
     }
+    let [start, rows, length] = [start, rows, size].map(usize::try_from);
+    let (start, rows, length) = (start.ok()?, rows.ok()?, length.ok()?);
+    start.checked_add(rows)?;
+    let numbers = rows * 8 * QUANTITIES.len();
     bytes.resize(24 + length, 0);
     reader.read_exact(&mut bytes[24..]).ok()?;
     let mut hash = [0; 8];
     reader.read_exact(&mut hash).ok()?;
-    if fingerprint(&bytes) != u64::from_le_bytes(hash) {
+    if sum(&bytes) != u64::from_le_bytes(hash) {
         return None;
     }
     let body = &bytes[24..];
     let row_numbers = body[..numbers].chunks_exact(8 * QUANTITIES.len());
     let read = |chunk: &[u8], k: usize| word(chunk, k).map_or(f64::NAN, f64::from_bits);
-    let failures = std::str::from_utf8(&body[numbers + rows as usize..]).ok()?;
+    let failures = std::str::from_utf8(&body[numbers + rows..]).ok()?;
+    let models = body[numbers..numbers + rows].to_vec();
     let block = Block {
-        start: start as usize,
+        start,
         numbers: row_numbers
             .map(|chunk| std::array::from_fn(|k| read(chunk, k)))
             .collect(),
-        models: body[numbers..numbers + rows as usize].to_vec(),
+        models,
         failures: failures
             .lines()
             .map(|line| {
                 let (row, reason) = line.split_once(' ')?;
-                Some((row.parse().ok()?, reason.to_owned()))
+                let row = row.parse().ok()?;
+                Some((row, reason.to_owned()))
             })
             .collect::<Option<_>>()?,
     };
@@ -189,7 +270,7 @@ fn read_block(reader: &mut impl Read, all: usize, left: u64) -> Option<(Block, u
 }
 
 /// Fowler, Noll and Vo's hash over words of eight bytes.
-pub(crate) fn fingerprint(bytes: &[u8]) -> u64 {
+fn sum(bytes: &[u8]) -> u64 {
     let mut hash = 0xcbf2_9ce4_8422_2325_u64;
     for chunk in bytes.chunks(8) {
         let mut word = [0; 8];

@@ -1,12 +1,14 @@
 //! The sweep file.
 
 use super::axis::{Axis, Column, Values, rows};
+use super::files::Files;
 use super::random::Distribution;
 use super::schema::{LIST, SAMPLE};
 use crate::error::SceneError;
 use crate::section::{FINITE, POSITIVE, Section, parse};
 use crate::text::read_text;
 use contact::Choice;
+use output::Role;
 use std::path::{Path, PathBuf};
 use toml::{Table, Value};
 
@@ -21,6 +23,8 @@ pub struct Spec {
     pub axes: Vec<Axis>,
     /// Everything spelled out, as TOML.
     pub(crate) resolved: String,
+    /// What was read beside it.
+    pub(crate) files: Files,
 }
 
 /// Rows of a sweep at most: they are held in memory, a hundred bytes each.
@@ -45,7 +49,7 @@ impl Spec {
         let table = parse(text)?;
         let root = Section::root(&table);
         root.allow(&["scene", "product", "list", "random"])?;
-        let (scene, directory) = base(&root, &table, directory)?;
+        let (scene, directory, file) = base(&root, &table, directory)?;
         let mut axes = Vec::new();
         if let Some(product) = root.section("product")? {
             for column in columns(&product, &[])? {
@@ -63,6 +67,8 @@ impl Spec {
             axes.push(drawn(&random)?);
         }
         check(&axes)?;
+        let mut files = Files::read(&scene, &axes, &directory)?;
+        files.inputs.extend(file);
         let mut resolved = table.clone();
         resolved.insert("scene".into(), Value::Table(scene.clone()));
         Ok(Self {
@@ -70,7 +76,14 @@ impl Spec {
             directory,
             axes,
             resolved: resolved.to_string(),
+            files,
         })
+    }
+
+    /// The files that were read beside the sweep itself: its base scene and its materials.
+    #[must_use]
+    pub fn inputs(&self) -> &[Role] {
+        &self.files.inputs
     }
 
     /// Number of scenes.
@@ -80,14 +93,14 @@ impl Spec {
     }
 }
 
-/// The base scene, from a file or in place, and where its own files are.
+/// The base scene, from a file or in place, where its own files are, and the file.
 fn base(
     root: &Section<'_>,
     table: &Table,
     directory: &Path,
-) -> Result<(Table, PathBuf), SceneError> {
+) -> Result<(Table, PathBuf, Option<Role>), SceneError> {
     if let Some(Value::Table(scene)) = table.get("scene") {
-        return Ok((scene.clone(), directory.to_owned()));
+        return Ok((scene.clone(), directory.to_owned(), None));
     }
     let file = root
         .text("scene")?
@@ -95,7 +108,8 @@ fn base(
     let path = directory.join(file);
     let scene = parse(&read_text(&path)?).map_err(|error| error.in_file(&path))?;
     let directory = path.parent().unwrap_or(Path::new(".")).to_owned();
-    Ok((scene, directory))
+    let role = Role::new("the base scene", &path);
+    Ok((scene, directory, Some(role)))
 }
 
 /// The scene keys below a section of the sweep, with their values.

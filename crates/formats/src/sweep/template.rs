@@ -3,10 +3,11 @@
 use super::axis::{Column, Values};
 use super::spec::Spec;
 use crate::error::SceneError;
-use crate::scene::scene_of;
+use crate::scene::scene_with;
 use crate::section::{POISSON, POSITIVE, Range, TOLERANCE};
 use contact::{HalfSpace, Settings, Striker};
 use impact::{Load, Scene, Strike};
+use std::collections::BTreeSet;
 use toml::Value;
 
 /// A key that is a plain number of a parsed scene.
@@ -114,13 +115,12 @@ impl<'a> Templates<'a> {
             Ok(scene) => contact_only(&scene)?,
             Err(
                 error @ (SceneError::OutOfRange { .. }
-                | SceneError::UnknownMaterial { .. }
-                | SceneError::UnknownChoice { .. }
                 | SceneError::Inconsistent { .. }
                 | SceneError::Conflict { .. }),
             ) => drop(error),
             Err(error) => return Err(error),
         }
+        templates.check_words()?;
         let count = templates
             .slow
             .iter()
@@ -132,6 +132,38 @@ impl<'a> Templates<'a> {
                 .collect();
         }
         Ok(templates)
+    }
+
+    /// Refuses a word of any list that is not known: it would be a row that fails, after hours perhaps.
+    fn check_words(&self) -> Result<(), SceneError> {
+        for (index, axis) in self.spec.axes.iter().enumerate() {
+            let mut known = BTreeSet::new();
+            for i in 0..axis.len {
+                let words: Vec<&str> = axis
+                    .columns
+                    .iter()
+                    .filter_map(|column| match &column.values {
+                        Values::Texts(texts) => Some(texts[i].as_str()),
+                        Values::Numbers(_) => None,
+                    })
+                    .collect();
+                if words.is_empty() || !known.insert(words) {
+                    continue;
+                }
+                let mut place = vec![0; self.spec.axes.len()];
+                place[index] = i;
+                let parsed = self.parse(&place);
+                if let Err(
+                    error @ (SceneError::UnknownMaterial { .. }
+                    | SceneError::UnknownChoice { .. }
+                    | SceneError::WrongKind { .. }),
+                ) = parsed
+                {
+                    return Err(error);
+                }
+            }
+        }
+        Ok(())
     }
 
     /// The bodies and settings of a row at a place along all axes.
@@ -190,7 +222,11 @@ impl<'a> Templates<'a> {
                 column.put(&mut table, value)?;
             }
         }
-        scene_of(&table, &self.spec.directory)
+        scene_with(
+            &table,
+            &self.spec.directory,
+            self.spec.files.library(&table),
+        )
     }
 }
 

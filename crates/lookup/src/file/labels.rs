@@ -1,4 +1,4 @@
-//! What labels HDF5 objects in every file of the workspace: text attributes and dimension scales.
+//! What writing HDF5 needs in every file of the workspace: text attributes, dimension scales, reasons of errors.
 //!
 //! Dimension scales are the one piece of the HDF5 interface that no Rust crate offers.
 
@@ -6,6 +6,28 @@ use hdf5::types::VarLenUnicode;
 use hdf5::{Dataset, Location};
 use hdf5_sys::h5i::hid_t;
 use std::ffi::{CString, c_char, c_int, c_uint};
+
+/// What the system said, if it did, else the first line of what the library says.
+#[must_use]
+pub fn reason(error: &hdf5::Error) -> String {
+    let frames: Vec<String> = error
+        .stack()
+        .iter()
+        .flat_map(|stack| stack.iter().map(|frame| frame.desc().to_owned()))
+        .collect();
+    let system = frames
+        .iter()
+        .find_map(|text| text.split_once("error message = '")?.1.split_once('\''));
+    match system {
+        Some((message, _)) => message.to_owned(),
+        None => error
+            .to_string()
+            .lines()
+            .next()
+            .unwrap_or_default()
+            .to_owned(),
+    }
+}
 
 /// Gives an object a text attribute; a NUL, which a file cannot hold, becomes a blank.
 ///

@@ -2,7 +2,7 @@
 
 use super::datasets::{self, Described};
 use super::error::TableError;
-use super::labels::{attach_scale, set_scale, text};
+use super::labels::{attach_scale, reason, set_scale, text};
 use super::seal;
 use crate::accuracy::Quantiles;
 use crate::content::{Content, FIELDS, Slice, Verification};
@@ -33,30 +33,8 @@ pub fn write(path: &Path, content: &Content) -> Result<(), TableError> {
         path: path.to_owned(),
         detail,
     };
-    let chunks = write_file(path, content).map_err(|error| failed(detail(&error)))?;
+    let chunks = write_file(path, content).map_err(|error| failed(reason(&error)))?;
     seal::append(path, chunks).map_err(|error| failed(error.to_string()))
-}
-
-/// The first line of what the HDF5 library says.
-fn first_line(error: &hdf5::Error) -> String {
-    let text = error.to_string();
-    text.lines().next().unwrap_or_default().to_owned()
-}
-
-/// What the system said, if it did, else the first line of what the library says.
-fn detail(error: &hdf5::Error) -> String {
-    let frames: Vec<String> = error
-        .stack()
-        .iter()
-        .flat_map(|stack| stack.iter().map(|frame| frame.desc().to_owned()))
-        .collect();
-    let system = frames
-        .iter()
-        .find_map(|text| text.split_once("error message = '")?.1.split_once('\''));
-    match system {
-        Some((message, _)) => message.to_owned(),
-        None => first_line(error),
-    }
 }
 
 /// Writes the file and says where its chunks with a Fletcher-32 sum are.

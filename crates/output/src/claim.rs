@@ -1,0 +1,238 @@
+//! From a name to the finished file under it.
+
+use crate::error::OutputError;
+use crate::fault::Fault;
+use crate::lock::Lock;
+use crate::place::{behind, folder};
+use crate::temporary::{Temporary, sweep};
+use std::fs::File;
+use std::io::{self, ErrorKind, Read};
+use std::path::{Path, PathBuf};
+
+/// What to do with an existing file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Existing {
+    /// Keep it and report it.
+    Keep,
+    /// Keep it unless it is, byte by byte, what is written: a run that was killed between two outputs goes on.
+    KeepUnlessSame,
+    /// Replace it once the new one is complete.
+    Replace,
+}
+
+/// A name that this run alone writes to, until it is dropped.
+#[derive(Debug)]
+pub struct Output {
+    path: PathBuf,
+    /// The file behind links.
+    real: PathBuf,
+    existing: Existing,
+    _lock: Lock,
+}
+
+impl Output {
+    /// Checks that a file can be written, locks its name and removes what killed runs left beside it.
+    ///
+    /// # Errors
+    /// [`OutputError`] when it exists and is kept, is no file, when its folder cannot take it or another run writes it.
+    pub fn claim(path: &Path, existing: Existing) -> Result<Self, OutputError> {
+        let real = behind(path)?;
+        let exists = || refuse(path, &real, existing);
+        let lock = match Lock::take(&real) {
+            Ok(Some(lock)) => lock,
+            Ok(None) => {
+                return Err(OutputError::Busy {
+                    path: path.to_owned(),
+                });
+            }
+            Err(error) => {
+                exists()?;
+                return Err(OutputError::place(path, error));
+            }
+        };
+        if lock.held {
+            sweep(&real);
+        }
+        exists()?;
+        Ok(Self {
+            path: path.to_owned(),
+            existing,
+            _lock: lock,
+            real,
+        })
+    }
+
+    /// The name that was given.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// The file that is written, behind links.
+    #[must_use]
+    pub fn real(&self) -> &Path {
+        &self.real
+    }
+
+    /// The same name with another answer to what is there already.
+    ///
+    /// # Errors
+    /// [`OutputError::Exists`] when it exists and is kept.
+    pub fn over(self, existing: Existing) -> Result<Self, OutputError> {
+        refuse(&self.path, &self.real, existing)?;
+        Ok(Self { existing, ..self })
+    }
+
+    /// Writes the whole content through a closure that is given the name of an empty file, and flushes it.
+    ///
+    /// # Errors
+    /// [`OutputError`]; the final name is untouched.
+    pub fn stage<E: Into<Fault>>(
+        &self,
+        fill: impl FnOnce(&Path) -> Result<(), E>,
+    ) -> Result<Staged<'_>, OutputError> {
+        let failed = |fault: Fault| OutputError::writing(&self.path, fault);
+        let part = Temporary::beside(&self.real).map_err(|error| failed(error.into()))?;
+        fill(&part.path).map_err(|fault| failed(fault.into()))?;
+        let settled = self.settle(&part.path);
+        let bytes = settled.map_err(|error| failed(error.into()))?;
+        Ok(Staged {
+            output: self,
+            part,
+            bytes,
+        })
+    }
+
+    /// [`Self::stage`] and [`Staged::commit`]; gives the size of the file.
+    ///
+    /// # Errors
+    /// [`OutputError`]; the final name is untouched.
+    pub fn write<E: Into<Fault>>(
+        &self,
+        fill: impl FnOnce(&Path) -> Result<(), E>,
+    ) -> Result<u64, OutputError> {
+        let staged = self.stage(fill)?;
+        let bytes = staged.bytes;
+        staged.commit()?;
+        Ok(bytes)
+    }
+
+    /// Gives a finished file the permissions of the one that it replaces, and flushes it.
+    fn settle(&self, part: &Path) -> io::Result<u64> {
+        let file = File::options().read(true).write(true).open(part)?;
+        if let Ok(old) = std::fs::metadata(&self.real) {
+            #[cfg(unix)]
+            {
+                use std::os::unix::fs::MetadataExt;
+                // for the owner alone to do; a file in his folder is his all the same
+                let _ = std::os::unix::fs::fchown(&file, Some(old.uid()), Some(old.gid()));
+            }
+            file.set_permissions(old.permissions())?;
+        }
+        file.sync_all()?;
+        Ok(file.metadata()?.len())
+    }
+}
+
+/// A whole file that has no name yet; without a commit it is removed.
+#[derive(Debug)]
+pub struct Staged<'a> {
+    output: &'a Output,
+    part: Temporary,
+    bytes: u64,
+}
+
+impl Staged<'_> {
+    /// Gives the file its name and flushes the folder.
+    ///
+    /// # Errors
+    /// [`OutputError`]: it exists by now and is kept, or the system's reason.
+    pub fn commit(self) -> Result<(), OutputError> {
+        let Output {
+            path,
+            real,
+            existing,
+            ..
+        } = self.output;
+        let failed = |error: io::Error| OutputError::writing(path, error);
+        let kept = OutputError::Exists { path: path.clone() };
+        match existing {
+            Existing::Keep if real.exists() => return Err(kept),
+            Existing::KeepUnlessSame if real.exists() => {
+                return match same(&self.part.path, real) {
+                    Ok(true) => Ok(()),
+                    Ok(false) => Err(kept),
+                    Err(error) => Err(failed(error)),
+                };
+            }
+            Existing::Keep | Existing::KeepUnlessSame | Existing::Replace => {}
+        }
+        std::fs::rename(&self.part.path, real).map_err(failed)?;
+        self.part.forget();
+        flush(folder(real)).map_err(failed)
+    }
+}
+
+/// Refuses a file that is there and is kept.
+fn refuse(path: &Path, real: &Path, existing: Existing) -> Result<(), OutputError> {
+    match existing {
+        Existing::Keep if real.exists() => Err(OutputError::Exists {
+            path: path.to_owned(),
+        }),
+        Existing::Keep | Existing::KeepUnlessSame | Existing::Replace => Ok(()),
+    }
+}
+
+/// Flushes a folder; one that cannot be is left to the system.
+fn flush(folder: &Path) -> io::Result<()> {
+    let cannot = |kind| {
+        matches!(
+            kind,
+            ErrorKind::InvalidInput | ErrorKind::Unsupported | ErrorKind::PermissionDenied
+        )
+    };
+    match File::open(folder).and_then(|folder| folder.sync_all()) {
+        Err(error) if !cannot(error.kind()) => Err(error),
+        Ok(()) | Err(_) => Ok(()),
+    }
+}
+
+/// Whether two files hold the same bytes.
+fn same(one: &Path, other: &Path) -> io::Result<bool> {
+    let (one, other) = (File::open(one)?, File::open(other)?);
+    if one.metadata()?.len() != other.metadata()?.len() {
+        return Ok(false);
+    }
+    let (mut one, mut other) = (io::BufReader::new(one), io::BufReader::new(other));
+    let (mut left, mut right) = (vec![0; 1 << 16], vec![0; 1 << 16]);
+    loop {
+        let count = one.read(&mut left)?;
+        if count == 0 {
+            return Ok(true);
+        }
+        other.read_exact(&mut right[..count])?;
+        if left[..count] != right[..count] {
+            return Ok(false);
+        }
+    }
+}
+
+/// Checks, before any work, that a file can be written.
+///
+/// # Errors
+/// As [`Output::claim`].
+pub fn check(path: &Path, existing: Existing) -> Result<(), OutputError> {
+    Output::claim(path, existing).map(drop)
+}
+
+/// Writes a file through a closure that is given a name beside the final one.
+///
+/// # Errors
+/// [`OutputError`]; the final name is untouched.
+pub fn write_whole<E: Into<Fault>>(
+    path: &Path,
+    existing: Existing,
+    write: impl FnOnce(&Path) -> Result<(), E>,
+) -> Result<(), OutputError> {
+    Output::claim(path, existing)?.write(write).map(drop)
+}

@@ -1,0 +1,63 @@
+//! What the end of a name says about the format.
+
+use crate::error::OutputError;
+use std::path::Path;
+
+/// A format and how the names of its files end.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Ending {
+    /// The format in words, such as "an HDF5 file".
+    pub format: &'static str,
+    /// Endings without the dot, the usual one first.
+    pub allowed: &'static [&'static str],
+}
+
+/// HDF5; sections open in ParaView under the last of its endings.
+pub const HDF5: Ending = Ending {
+    format: "an HDF5 file",
+    allowed: &["h5", "hdf5", "hdf", "vtkhdf"],
+};
+
+/// A kernel table.
+pub const TABLE: Ending = Ending {
+    format: "a kernel table (HDF5)",
+    allowed: &["h5", "hdf5", "hdf"],
+};
+
+/// A part of a kernel table.
+pub const SHARD: Ending = Ending {
+    format: "a shard",
+    allowed: &["shard", "part", "blocks"],
+};
+
+/// Text in columns.
+pub const CSV: Ending = Ending {
+    format: "text in columns",
+    allowed: &["csv", "txt"],
+};
+
+impl Ending {
+    /// Refuses a name with the ending of another format; a name without one is accepted.
+    ///
+    /// # Errors
+    /// [`OutputError::Ending`].
+    pub fn check(self, path: &Path) -> Result<(), OutputError> {
+        let Some(found) = path.extension() else {
+            return Ok(());
+        };
+        let found = found.to_string_lossy();
+        if self
+            .allowed
+            .iter()
+            .any(|ending| found.eq_ignore_ascii_case(ending))
+        {
+            return Ok(());
+        }
+        Err(OutputError::Ending {
+            path: path.to_owned(),
+            format: self.format,
+            allowed: self.allowed,
+            found: found.into_owned(),
+        })
+    }
+}

@@ -1,0 +1,126 @@
+//! What can keep a file from being written.
+
+use crate::fault::Fault;
+use std::path::{Path, PathBuf};
+use thiserror::Error;
+
+/// A file that could not be written, or is not to be.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum OutputError {
+    /// The file exists and may not be replaced.
+    #[error("{} exists already and is not replaced", path.display())]
+    Exists {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The place cannot be written to.
+    #[error("cannot write {}: {reason}", path.display())]
+    Unwritable {
+        /// The file.
+        path: PathBuf,
+        /// The system's or a library's reason.
+        reason: String,
+    },
+    /// The content could not be made or written; the file that was there is untouched.
+    #[error("cannot write {}: {reason}", path.display())]
+    Failed {
+        /// The file.
+        path: PathBuf,
+        /// The system's or a library's reason.
+        reason: String,
+    },
+    /// There is no space left; the file that was there is untouched.
+    #[error("cannot write {}: {reason}; what was there is as it was", path.display())]
+    Full {
+        /// The file.
+        path: PathBuf,
+        /// Where there is no space left.
+        reason: String,
+    },
+    /// Another run writes the same file.
+    #[error("another run is writing {}; nothing was changed", path.display())]
+    Busy {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The name ends like another format.
+    #[error("{} is to be {format}: its name ends with {}, not with .{found}", path.display(), endings(.allowed))]
+    Ending {
+        /// The file.
+        path: PathBuf,
+        /// The format written.
+        format: &'static str,
+        /// Endings of that format.
+        allowed: &'static [&'static str],
+        /// The ending found.
+        found: String,
+    },
+    /// The file is one that the same command reads.
+    #[error("{} is {role} that this command reads{}: give the output another name", output.display(), behind(.output, .input))]
+    Input {
+        /// The output.
+        output: PathBuf,
+        /// What the input is, such as "the scene".
+        role: &'static str,
+        /// The input.
+        input: PathBuf,
+    },
+    /// Two outputs of one command are the same file.
+    #[error("{} and {} are the same file: give each output a name of its own", first.display(), second.display())]
+    Twice {
+        /// One of them.
+        first: PathBuf,
+        /// The other.
+        second: PathBuf,
+    },
+}
+
+impl OutputError {
+    /// Whether the same may succeed when it is tried again later.
+    #[must_use]
+    pub fn may_be_tried_again(&self) -> bool {
+        match self {
+            Self::Full { .. } | Self::Busy { .. } => true,
+            Self::Exists { .. }
+            | Self::Unwritable { .. }
+            | Self::Failed { .. }
+            | Self::Ending { .. }
+            | Self::Input { .. }
+            | Self::Twice { .. } => false,
+        }
+    }
+
+    /// A place that cannot be written to.
+    pub(crate) fn place(path: &Path, fault: impl Into<Fault>) -> Self {
+        match Self::writing(path, fault) {
+            Self::Failed { path, reason } => Self::Unwritable { path, reason },
+            full => full,
+        }
+    }
+
+    /// A write that failed.
+    #[must_use]
+    pub fn writing(path: &Path, fault: impl Into<Fault>) -> Self {
+        let Fault { reason, full } = fault.into();
+        let path = path.to_owned();
+        if full {
+            Self::Full { path, reason }
+        } else {
+            Self::Failed { path, reason }
+        }
+    }
+}
+
+fn endings(allowed: &[&str]) -> String {
+    let dotted: Vec<String> = allowed.iter().map(|ending| format!(".{ending}")).collect();
+    dotted.join(" or ")
+}
+
+/// The name under which an input was given, where the output has another one.
+fn behind(output: &Path, input: &Path) -> String {
+    if output == input {
+        String::new()
+    } else {
+        format!(" as {}", input.display())
+    }
+}

@@ -1,0 +1,37 @@
+//! Where a file goes: whole or not at all, never over another one unasked, by one run at a time.
+//!
+//! A writer claims an [`Output`], which checks the place and locks the name against other runs.
+//! It stages the file under a random name beside the final one, flushes it, and commits it: a rename and a flush of
+//! the folder. Whatever moment a run ends at, the final name holds the old file, the new one or nothing.
+//!
+//! - Links are written through: the file behind them is replaced, the link stays.
+//! - Folders, pipes and devices are refused.
+//! - A replaced file keeps its permissions.
+//! - What a killed run leaves beside a name, the next run on that name removes.
+//!
+//! ```
+//! # let folder = std::env::temp_dir().join(format!("hertzlamb-output-{}", std::process::id()));
+//! # std::fs::create_dir_all(&folder).unwrap();
+//! let path = folder.join("numbers.csv");
+//! output::write_whole(&path, output::Existing::Replace, |part| std::fs::write(part, "1,2\n"))?;
+//! assert_eq!(std::fs::read_to_string(&path).unwrap(), "1,2\n");
+//! # std::fs::remove_dir_all(&folder).unwrap();
+//! # Ok::<(), output::OutputError>(())
+//! ```
+
+mod apart;
+mod claim;
+mod ending;
+mod error;
+mod fault;
+mod lock;
+mod place;
+mod temporary;
+
+pub use apart::{Role, apart};
+pub use claim::{Existing, Output, Staged, check, write_whole};
+pub use ending::{CSV, Ending, HDF5, SHARD, TABLE};
+pub use error::OutputError;
+pub use fault::Fault;
+pub use place::{behind, is_standard};
+pub use temporary::abandon;

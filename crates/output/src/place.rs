@@ -1,0 +1,114 @@
+//! The file behind a name.
+
+use crate::error::OutputError;
+use std::ffi::OsStr;
+use std::path::{Path, PathBuf};
+
+/// Links that are followed one after the other.
+const MOST_LINKS: usize = 40;
+
+/// Whether a name stands for standard output.
+#[must_use]
+pub fn is_standard(path: &Path) -> bool {
+    path == Path::new("-")
+}
+
+/// The folder of a path.
+pub(crate) fn folder(path: &Path) -> &Path {
+    match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        Some(_) | None => Path::new("."),
+    }
+}
+
+/// Where a file of this name is, or would be made: links are followed, also one to a file that is not there yet.
+///
+/// # Errors
+/// [`OutputError::Unwritable`] when it is no regular file, or its folder is not there.
+pub fn behind(path: &Path) -> Result<PathBuf, OutputError> {
+    let fault = |reason: String| OutputError::place(path, reason);
+    if is_standard(path) {
+        return Err(fault(
+            "standard output does not take such a file; give a name, ./- for a file that is called so".to_owned(),
+        ));
+    }
+    if path.as_os_str().is_empty() {
+        return Err(fault("the name is empty".to_owned()));
+    }
+    if let Ok(there) = std::fs::metadata(path) {
+        regular(&there.file_type()).map_err(|what| fault(what.to_owned()))?;
+    }
+    let real = follow(path).map_err(fault)?;
+    if real.file_name().is_none() {
+        return Err(fault("it has no file name".to_owned()));
+    }
+    let folder = folder(&real);
+    if folder.starts_with("/proc") {
+        return Err(fault("it is an open file of a process".to_owned()));
+    }
+    match std::fs::metadata(folder) {
+        Ok(data) if data.is_dir() => Ok(real),
+        Ok(_) => Err(fault(format!("{} is not a folder", folder.display()))),
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => Err(fault(format!(
+            "the folder {} does not exist",
+            folder.display()
+        ))),
+        Err(error) => Err(OutputError::place(path, error)),
+    }
+}
+
+/// The path at the end of a chain of links.
+fn follow(path: &Path) -> Result<PathBuf, String> {
+    let mut real = path.to_owned();
+    for _ in 0..MOST_LINKS {
+        match std::fs::symlink_metadata(&real) {
+            Ok(there) if there.is_symlink() => {
+                let target = std::fs::read_link(&real).map_err(|error| error.to_string())?;
+                real = folder(&real).join(target);
+            }
+            Ok(_) | Err(_) => return Ok(real),
+        }
+    }
+    Err("it is a link to itself, or too many links one after the other".to_owned())
+}
+
+/// What keeps something from being a file that can be replaced.
+fn regular(kind: &std::fs::FileType) -> Result<(), &'static str> {
+    if kind.is_file() {
+        return Ok(());
+    }
+    if kind.is_dir() {
+        return Err("it is a folder");
+    }
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::FileTypeExt;
+        if kind.is_fifo() {
+            return Err("it is a pipe, not a file");
+        }
+        if kind.is_char_device() || kind.is_block_device() {
+            return Err("it is a device, not a file");
+        }
+    }
+    Err("it is not a file")
+}
+
+/// `path` with something before and after its name; long names are replaced by a hash, so that there is room for both.
+pub(crate) fn beside(path: &Path, before: &str, after: &str) -> PathBuf {
+    let name = path.file_name().unwrap_or(OsStr::new(""));
+    let mut whole = std::ffi::OsString::from(before);
+    if name.len() > 180 {
+        whole.push(format!("{:016x}", hash(name.as_encoded_bytes())));
+    } else {
+        whole.push(name);
+    }
+    whole.push(after);
+    folder(path).join(whole)
+}
+
+/// Fowler, Noll and Vo's hash.
+fn hash(bytes: &[u8]) -> u64 {
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, &byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+    })
+}

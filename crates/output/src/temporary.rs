@@ -1,0 +1,119 @@
+//! Files that are there while a run is, beside the file that it writes.
+
+use crate::place::{beside, folder};
+use std::collections::BTreeSet;
+use std::fs::File;
+use std::hash::{BuildHasher, Hasher};
+use std::io::{self, ErrorKind};
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+/// The files that this process would leave if it ended now.
+static LIVE: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+
+/// Random hexadecimal digits of a temporary name.
+const DIGITS: usize = 16;
+/// How it ends.
+const SUFFIX: &str = ".part";
+/// Names tried before giving up.
+const ATTEMPTS: usize = 16;
+
+fn live() -> MutexGuard<'static, BTreeSet<PathBuf>> {
+    LIVE.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Removes what this process has not finished; for a handler that ends it.
+pub fn abandon() {
+    for path in std::mem::take(&mut *live()) {
+        let _ = std::fs::remove_file(path);
+    }
+}
+
+/// A file that is removed when it is dropped.
+#[derive(Debug)]
+pub(crate) struct Temporary {
+    pub(crate) path: PathBuf,
+}
+
+impl Temporary {
+    /// A new, empty file under a random name beside `path`.
+    ///
+    /// It is made where nothing was before: neither a file nor a link of that name is written to.
+    pub(crate) fn beside(path: &Path) -> io::Result<Self> {
+        let mut last = io::Error::from(ErrorKind::AlreadyExists);
+        for _ in 0..ATTEMPTS {
+            let name = beside(path, ".", &format!(".{:016x}{SUFFIX}", random()));
+            // before it exists, so that no moment is left at which nobody knows of it
+            let made = Self::known(name);
+            match File::options()
+                .write(true)
+                .create_new(true)
+                .open(&made.path)
+            {
+                Ok(_) => return Ok(made),
+                Err(error) => {
+                    made.forget();
+                    last = error;
+                }
+            }
+            if last.kind() != ErrorKind::AlreadyExists {
+                break;
+            }
+        }
+        Err(last)
+    }
+
+    /// A file of this name, which is there or is about to be.
+    pub(crate) fn known(path: PathBuf) -> Self {
+        live().insert(path.clone());
+        Self { path }
+    }
+
+    /// Leaves the file alone from now on.
+    pub(crate) fn forget(self) {
+        live().remove(&self.path);
+        std::mem::forget(self);
+    }
+}
+
+impl Drop for Temporary {
+    fn drop(&mut self) {
+        if live().remove(&self.path) {
+            let _ = std::fs::remove_file(&self.path);
+        }
+    }
+}
+
+/// Removes temporaries of `path`; the caller holds its lock, so that none belongs to a run.
+pub(crate) fn sweep(path: &Path) {
+    let (prefix, suffix) = (beside(path, ".", "."), SUFFIX);
+    let Some(prefix) = prefix
+        .file_name()
+        .map(|name| name.as_encoded_bytes().to_vec())
+    else {
+        return;
+    };
+    let Ok(entries) = std::fs::read_dir(folder(path)) else {
+        return;
+    };
+    for entry in entries.flatten() {
+        let name = entry.file_name();
+        let random = name
+            .as_encoded_bytes()
+            .strip_prefix(prefix.as_slice())
+            .and_then(|rest| rest.strip_suffix(suffix.as_bytes()));
+        let ours = random.is_some_and(|random| {
+            random.len() == DIGITS && random.iter().all(u8::is_ascii_hexdigit)
+        });
+        if ours && entry.file_type().is_ok_and(|kind| kind.is_file()) {
+            let _ = std::fs::remove_file(entry.path());
+        }
+    }
+}
+
+/// A number that differs from call to call and from process to process.
+fn random() -> u64 {
+    let mut hasher = std::hash::RandomState::new().build_hasher();
+    hasher.write_u32(std::process::id());
+    hasher.finish()
+}
