@@ -69,6 +69,7 @@ fn failure(error: StudyError) -> Failure {
         | StudyError::March(_)
         | StudyError::Body(_)
         | StudyError::Material(_)
+        | StudyError::Growing(_)
         | StudyError::Field(_)
         | StudyError::Build(_)
         | StudyError::Table(_)
