@@ -17,17 +17,16 @@ pub enum ContactError {
     /// A material is outside the physics.
     #[error(transparent)]
     Domain(#[from] DomainError),
-    /// The deflection of the disc's centre has fed energy back.
+    /// The deflection of the disc's centre feeds energy back.
     #[error(
-        "the disc gives way {coupling:.1} times as much as the contact, and the deflection of its centre, which is not conjugate to the pressure, feeds energy back: restitution {restitution:.4}, {contacts} contacts; take the mean deflection or a larger disc"
+        "the disc gives way {coupling:.1} times as much as the contact, and the deflection of its centre, which is not conjugate to the pressure, feeds energy back{}; take the mean deflection or a larger disc",
+        fed_in_words(found.as_ref())
     )]
     EnergyFed {
         /// Coupling of the disc.
         coupling: f64,
-        /// Restitution found.
-        restitution: f64,
-        /// Contacts found.
-        contacts: usize,
+        /// Restitution and contacts, where a march has found them.
+        found: Option<(f64, usize)>,
     },
     /// The radiated loss is not small.
     #[error(
@@ -47,4 +46,10 @@ pub enum ContactError {
         /// Memory in collision times.
         memory: f64,
     },
+}
+
+fn fed_in_words(found: Option<&(f64, usize)>) -> String {
+    found.map_or_else(String::new, |(restitution, contacts)| {
+        format!(": restitution {restitution:.4}, {contacts} contacts")
+    })
 }

@@ -46,6 +46,7 @@ pub mod summary;
 pub mod surface;
 pub mod units;
 pub mod validity;
+mod well_posed;
 pub mod work;
 
 pub use bodies::{HalfSpace, Striker};

@@ -1,7 +1,8 @@
 //! One contact: its model chosen, its scheme run. Single impacts, sweeps and charts all come through here.
 
+use crate::choose::Family;
 use crate::collision::Collision;
-use crate::disc::{CENTRE_COUPLING, FixedDisc};
+use crate::disc::FixedDisc;
 use crate::energy::radiated;
 use crate::error::ContactError;
 use crate::law::area_dashpot::AreaDashpot;
@@ -26,6 +27,7 @@ use crate::spectral::waves::PunchWaves;
 use crate::spectral::{GrowingContact, GrowingError, solve_growing};
 use crate::summary::Summary;
 use crate::surface::Surface;
+use crate::well_posed;
 use crate::work::work;
 use halfspace::{Deflection, DomainError, Medium, SurfaceResponse};
 use std::sync::Arc;
@@ -172,6 +174,12 @@ impl<'a, S: Responses> Solver<'a, S> {
         let time_s = collision.units().time_s;
         let step = settings.step_s.map(|step_s| step_s / time_s);
         self.growing = None;
+        let is_disc = matches!(plan.groups.family, Family::Full | Family::Dynamic);
+        let is_wave = matches!(settings.model, Model::Wave | Model::Auto);
+        if is_disc && is_wave && settings.scheme == Scheme::Implicit {
+            let impact = disc_of(collision, settings, &*disc);
+            well_posed::check(&impact, &mut self.workspace)?;
+        }
         let (scheme, found) = match (plan.model, settings.scheme) {
             (
                 Model::Hertz | Model::Radiation | Model::QuasiStatic | Model::QuasiStaticRadiation,
@@ -209,7 +217,6 @@ impl<'a, S: Responses> Solver<'a, S> {
             (Model::Wave | Model::Auto, Scheme::Implicit) => {
                 let impact = disc_of(collision, settings, &*disc);
                 let found = solve_disc(&mut self.workspace, &impact, step, asked)?;
-                check_energy(&impact, &found.summary)?;
                 (Some(Scheme::Implicit), found)
             }
             (Model::Wave | Model::Auto, Scheme::Explicit) => {
@@ -345,23 +352,6 @@ pub fn solve_disc(
     stepped(workspace, step, duration, asked, |step, workspace| {
         march_into(impact, step, &mut workspace.weights, &mut workspace.history)
     })
-}
-
-/// Refuses what the deflection of the centre makes of a disc that is much softer than the contact.
-fn check_energy<R: DiscResponse>(
-    impact: &FixedDisc<'_, R>,
-    summary: &Summary,
-) -> Result<(), ContactError> {
-    let may_feed = impact.response.deflection() == Deflection::Centre
-        && impact.static_coupling() > CENTRE_COUPLING;
-    if may_feed && (summary.contacts > 1 || summary.restitution > 1.0) {
-        return Err(ContactError::EnergyFed {
-            coupling: impact.coupling,
-            restitution: summary.restitution,
-            contacts: summary.contacts,
-        });
-    }
-    Ok(())
 }
 
 fn disc_of<'r, R: DiscResponse>(

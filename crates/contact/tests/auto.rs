@@ -3,8 +3,8 @@
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
 use contact::{
-    Collision, ContactError, HalfSpace, Library, Material, Model, Ratios, Settings, Solved, Solver,
-    StaticShare, Striker, Tabulated,
+    Collision, ContactError, HalfSpace, Library, MarchError, Material, Model, Ratios, Settings,
+    Solved, Solver, StaticShare, Striker, Tabulated,
 };
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -107,10 +107,19 @@ fn compare(family: Family, index: u64, responses: &Tabulated) -> Option<(Model, 
         loss_tolerance: settings.loss_tolerance.map(|t| 0.1 * t),
         ..settings
     };
-    // the dynamic share has no solution for soft targets: neither has its full memory
-    let exact = collide(&collision, &reference, responses).ok()?;
-    let Ok(found) = collide(&collision, &settings, responses) else {
-        return Some((family.full(), f64::INFINITY, 0.0));
+    let exact = collide(&collision, &reference, responses);
+    let found = collide(&collision, &settings, responses);
+    let (found, exact) = match (found, exact) {
+        (Ok(found), Ok(exact)) => (found, exact),
+        // the model of the disc makes no sense: whatever the rung
+        (
+            Err(ContactError::March(MarchError::NoSolution { .. })),
+            Err(ContactError::March(MarchError::NoSolution { .. })),
+        )
+        | (Err(ContactError::EnergyFed { .. }), Err(ContactError::EnergyFed { .. })) => {
+            return None;
+        }
+        (found, exact) => panic!("{family:?} {index}: {found:?} {exact:?}"),
     };
     let (a, b) = (&found.summary, &exact.summary);
     let loss = settings
@@ -121,10 +130,12 @@ fn compare(family: Family, index: u64, responses: &Tabulated) -> Option<(Model, 
 
 fn check(family: Family) {
     let responses = Tabulated::new(Ratios::Many);
-    let found: Vec<_> = (0..SCENES)
+    let mut found: Vec<_> = (0..2 * SCENES)
         .into_par_iter()
         .filter_map(|index| compare(family, index, &responses))
         .collect();
+    assert!(found.len() >= SCENES as usize, "{}", found.len());
+    found.truncate(SCENES as usize);
     let mut models: BTreeMap<String, usize> = BTreeMap::new();
     for (model, _, _) in &found {
         *models.entry(format!("{model:?}")).or_default() += 1;
@@ -144,7 +155,6 @@ fn check(family: Family) {
             println!("   missed: {rung:?}");
         }
     }
-    assert!(found.len() as u64 > SCENES * 7 / 10, "{}", found.len());
     assert!(models.len() >= 3, "every rung is taken: {models:?}");
     assert!(missed * 100 <= found.len(), "{missed} of {}", found.len());
 }

@@ -164,6 +164,12 @@ pub(crate) struct Halved<T> {
     pub(crate) step: f64,
 }
 
+/// Error over what is allowed up to which the last march counts where a finer one needs too much work.
+///
+/// A memory that is very short beside the contact asks for steps of its own length before the end of contact is known
+/// to the last digits.
+const LENIENT: f64 = 100.0;
+
 /// Halves the step of a march until its results meet `accuracy`.
 pub(crate) fn halve<T>(
     mut march: impl FnMut(f64) -> Result<(Summary, T), MarchError>,
@@ -171,13 +177,15 @@ pub(crate) fn halve<T>(
     accuracy: &Accuracy,
 ) -> Result<Halved<T>, MarchError> {
     let mut coarse: Option<Summary> = None;
-    let mut error = f64::INFINITY;
+    let (mut error, mut ratio, mut last) = (f64::INFINITY, f64::INFINITY, step);
     for attempt in 0..HALVINGS {
         match march(step) {
+            // strongly coupled discs: the scheme itself feeds energy at some steps of a fraction of the memory
+            Ok((summary, _)) if summary.restitution > 1.0 => {}
             Ok((summary, finest)) => {
                 if let Some(coarse) = &coarse {
                     let judged = accuracy.judge(coarse, &summary);
-                    error = judged.error;
+                    (error, ratio) = (judged.error, judged.ratio);
                     if judged.ratio <= 1.0 {
                         return Ok(Halved {
                             finest,
@@ -187,9 +195,19 @@ pub(crate) fn halve<T>(
                         });
                     }
                 }
-                coarse = Some(summary);
+                (coarse, last) = (Some(summary), step);
             }
             Err(error) if may_pass(&error, attempt) => {}
+            Err(MarchError::TooLong { .. }) if ratio <= LENIENT => {
+                // once more, since what the caller keeps is that of the march that failed
+                let (summary, finest) = march(last)?;
+                return Ok(Halved {
+                    finest,
+                    summary,
+                    error,
+                    step: last,
+                });
+            }
             Err(other) => return Err(other),
         }
         step *= 0.5;
