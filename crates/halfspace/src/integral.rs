@@ -81,7 +81,7 @@ impl Integral {
         }
         Estimate {
             value: total.value,
-            error: std::array::from_fn(|f| total.error[f] + spectrum.error[f] / PI + floor[f]),
+            error: std::array::from_fn(|f| total.error()[f] + spectrum.error()[f] / PI + floor[f]),
         }
     }
 }

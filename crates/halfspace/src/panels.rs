@@ -33,11 +33,11 @@ pub(crate) struct Images<'a> {
 pub(crate) struct Rule {
     /// The finite part of an inverse square at zero.
     pub(crate) finite_part: bool,
-    /// The error over what the nearest singularity alone would leave.
+    /// The error over the sum of what the singularities would leave one by one.
     pub(crate) caution: f64,
 }
 
-/// Visits Gauss nodes (s, weight, relative error), at least `least` a panel, on panels of [0, 1] that keep clear of the
+/// Visits Gauss nodes (s, weight, relative error whose squares add up), at least `least` a panel, on panels of [0, 1] that keep clear of the
 /// singularities, to exp(-`digits`) of the integrand.
 pub(crate) fn panels(
     images: &Images<'_>,
@@ -66,8 +66,11 @@ pub(crate) fn panels(
             continue;
         }
         let n = nodes.max(least).min(MOST_NODES);
-        let left = |rate: f64| (-degree * n * rate).exp();
-        let error = rule.caution * (left(rate) + POLE * left(pole_rate)) + ROUNDING;
+        let left = |point: Complex64| half_axes(axis(point, s0, s1)).powf(-degree * n);
+        let all: f64 = images.all.iter().map(|&image| left(image)).sum();
+        // of the whole panel, as if one node had it
+        let of_rule = rule.caution * (all + POLE * left(images.pole)) * n.sqrt();
+        let error = of_rule + ROUNDING;
         let n = n as usize;
         if at_cut {
             let rule = gauss::finite_part_rule(n);

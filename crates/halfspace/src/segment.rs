@@ -14,7 +14,7 @@ const TERMS: usize = 16;
 
 /// Error of an integral over a cell over the mean estimate of the values at the nodes: errors of values are well below
 /// their estimates and of any sign.
-const NOISE: f64 = 0.2;
+const NOISE: f64 = 0.12;
 
 /// An interval of time as one of s.
 #[derive(Debug, Clone, Copy)]
@@ -122,6 +122,8 @@ impl Segment {
     pub(crate) fn add(&self, from: f64, to: f64, centre: f64, sums: &mut [Six; 3]) {
         /// On a part this short, as a fraction of the segment, the series is nearly a cubic.
         const SHORT: f64 = 0.05;
+        /// What is left of a series is of either sign over a segment, and so is the force's rate times it.
+        const OSCILLATES: f64 = 0.5;
         let Piece { anchor, scale, .. } = self.piece;
         let [mut low, mut high] = [from, to].map(|t| self.piece.place(t));
         if low > high {
@@ -146,7 +148,7 @@ impl Segment {
         }
         let truncation = self.truncation();
         for (f, error) in error.iter_mut().enumerate() {
-            *error += (to - from) * (self.error[f] + truncation[f]);
+            *error += (to - from) * (self.error[f] + OSCILLATES * truncation[f]);
         }
     }
 }

@@ -4,13 +4,20 @@ use crate::field::Six;
 use crate::strength::RelativeError;
 
 /// Six fields and their likely errors.
+///
+/// The errors of panels and of rounding are as often positive as negative: their squares add up.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Sum {
     pub(crate) value: Six,
-    pub(crate) error: Six,
+    pub(crate) square: Six,
 }
 
 impl Sum {
+    /// Likely error of each field.
+    pub(crate) fn error(&self) -> Six {
+        self.square.map(f64::sqrt)
+    }
+
     /// Adds `weight` times `term` of a relative error.
     #[inline]
     pub(crate) fn add(&mut self, weight: f64, error: impl Into<RelativeError>, term: Six) {
@@ -22,7 +29,7 @@ impl Sum {
         for (f, relative) in relative.into_iter().enumerate() {
             let x = weight * term[f];
             self.value[f] += x;
-            self.error[f] += relative * x.abs();
+            self.square[f] += (relative * x) * (relative * x);
         }
     }
 }

@@ -13,7 +13,7 @@ use halfspace::gauss::rule;
 use halfspace::{Arrivals, Kernel, Medium, Profile, Six, Trace};
 use std::f64::consts::PI;
 use std::time::Instant;
-use support::{NAMES, heading, line, read_csv};
+use support::{NAMES, Stream, heading, line, read_csv};
 
 /// P = sin^4(pi t/length).
 #[derive(Clone, Copy)]
@@ -196,10 +196,73 @@ fn pulses_far_away_are_accurate_at_any_step() {
             caution.count
         );
         assert!(
-            100 * exceeding <= caution.count && caution.p50 < 1e3,
+            100 * exceeding <= caution.count && caution.p50 <= 200.0,
             "{tolerance:e}: {exceeding}, {caution}"
         );
     }
+}
+
+/// Estimates of the responses of distant places to pulses, at places that calibrated nothing: 99.9 % hold, the median is
+/// within a hundred times of the error. `ESTIMATE_SEED=n` in the environment draws others.
+#[test]
+fn estimates_far_away_hold_and_are_tight() {
+    const PLACES: usize = 180;
+    const CELLS: usize = 200;
+    let seed = std::env::var("ESTIMATE_SEED").map_or(77, |text| text.parse().unwrap());
+    let (mut all, mut exceeding) = (vec![], 0);
+    heading("estimate / error of responses to pulses at 30 to 1000 radii");
+    for tolerance in [1e-4, 1e-6, 1e-8] {
+        let mut random = Stream::new(seed);
+        let mut caution = vec![];
+        for i in 0..PLACES {
+            let medium = Medium::new(random.within(-0.3, 0.48)).unwrap();
+            let distance = 10.0_f64.powf(random.within(1.5, 3.0));
+            let angle = random.within(0.0, 0.5 * PI);
+            let depth = if i % 3 == 0 { 0.0 } else { angle.sin() };
+            let (r, z) = (distance * angle.cos(), distance * depth);
+            let pulse = Pulse {
+                length: 3.0 * 13.0_f64.powf(random.next()),
+            };
+            let arrivals = Arrivals::new(&medium, Profile::Hertz, r, z).unwrap();
+            let t = random.within(arrivals.first(), arrivals.last() + pulse.length);
+            let t = t.max(pulse.length);
+            let [rough, fine] = [tolerance, 1e-11].map(|tolerance| {
+                let kernel = Kernel::new(&medium, Profile::Hertz, tolerance).unwrap();
+                kernel.trace(r, z, t).unwrap()
+            });
+            let (mut error, mut estimate) = (Six::default(), Six::default());
+            let edge = |j: usize| t - pulse.length * (1.0 - j as f64 / CELLS as f64);
+            for j in 0..CELLS {
+                let cell = [edge(j).max(0.0), edge(j + 1).min(t)];
+                let width = cell[1] - cell[0];
+                let [mean, slope] = pulse.line(t, cell);
+                let [a, b] = [&rough, &fine].map(|trace| trace.cell(cell[0], cell[1]).unwrap());
+                for f in 0..6 {
+                    let moved = mean * (a.0.value[f] - b.0.value[f])
+                        + width * slope * (a.1.value[f] - b.1.value[f]);
+                    error[f] += width * moved;
+                    estimate[f] +=
+                        width * (mean.abs() * a.0.error[f] + width * slope.abs() * a.1.error[f]);
+                }
+            }
+            for f in 0..6 {
+                if error[f] != 0.0 {
+                    exceeding += usize::from(error[f].abs() > estimate[f]);
+                    caution.push(estimate[f] / error[f].abs());
+                }
+            }
+        }
+        line(&format!("tolerance {tolerance:e}"), &caution);
+        all.extend(caution);
+    }
+    let found = line("all", &all);
+    println!("{exceeding} of {} exceed their estimate", all.len());
+    assert!(
+        1000 * exceeding <= all.len(),
+        "{exceeding} of {}",
+        all.len()
+    );
+    assert!(found.p50 <= 100.0, "{found}");
 }
 
 /// Short cells by either way: averages and moments by interpolation of R against differences of its integrals near the
