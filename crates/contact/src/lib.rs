@@ -71,7 +71,9 @@ pub use response::table::ResponseTable;
 pub use results::Results;
 pub use settings::{Choice, Conflict, Model, Scheme, Settings, StaticShare};
 pub use solver::{Found, Solved, Solver, solve_disc};
-pub use spectral::{GrowingContact, GrowingError, PunchWaves, SolvedContact, solve_growing};
+pub use spectral::{
+    GrowingContact, GrowingError, PunchWaves, SolvedContact, solve_growing, work_on_half_space,
+};
 pub use summary::Summary;
 
 /// The README's program runs.

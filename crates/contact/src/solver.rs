@@ -24,7 +24,7 @@ use crate::response::shelf::Responses;
 use crate::settings::{Model, Scheme, Settings};
 use crate::spectral::solved::SolvedContact;
 use crate::spectral::waves::PunchWaves;
-use crate::spectral::{GrowingContact, GrowingError, solve_growing};
+use crate::spectral::{GrowingContact, GrowingError, solve_growing, work_on_half_space};
 use crate::summary::Summary;
 use crate::surface::Surface;
 use crate::well_posed;
@@ -127,6 +127,11 @@ impl<'a, S: Responses> Solver<'a, S> {
 
     /// Work that the contact solved last has left in the half-space as waves, relative to the kinetic energy before.
     ///
+    /// Where it was marched or followed it comes from the force and the half-space's waves, not from the momentum:
+    /// on a disc the work on the mean deflection, in a growing contact that on its punches. Within 1e-3 of itself at a
+    /// tolerance of 1e-4, 2e-5 at 1e-6; only a growing contact with a uniform step has the work of its march, of the
+    /// march's order. A closed form has its loss.
+    ///
     /// # Errors
     /// [`DomainError`] for a Poisson's ratio outside the physics.
     pub fn radiated(
@@ -135,13 +140,17 @@ impl<'a, S: Responses> Solver<'a, S> {
         settings: &Settings,
         solved: &Solved,
     ) -> Result<f64, DomainError> {
-        let history = &self.workspace.history;
         Ok(match (solved.plan.model, solved.scheme) {
             (_, None) => solved.summary.loss,
-            (Model::Growing, Some(_)) => match &self.growing {
-                Some(growing) => growing.work(),
-                None => work(&history.force, &history.deflection),
-            },
+            (Model::Growing, Some(_)) => {
+                let waves = self.waves(collision.target_poisson_ratio)?;
+                let contact = following(collision, &waves);
+                let history = &self.workspace.history;
+                match &self.growing {
+                    Some(growing) => work_on_half_space(&contact, growing, settings.tolerance),
+                    None => work(&history.force, &history.deflection),
+                }
+            }
             (
                 Model::Hertz
                 | Model::Radiation
@@ -264,11 +273,7 @@ impl<'a, S: Responses> Solver<'a, S> {
         asked: &Accuracy,
     ) -> Result<Option<Found>, ContactError> {
         let waves = self.waves(collision.target_poisson_ratio)?;
-        let contact = GrowingContact {
-            waves: &waves,
-            target_share: collision.target_share(),
-            wave_time: collision.contact_wave_time(),
-        };
+        let contact = following(collision, &waves);
         self.growing = match solve_growing(&contact, asked) {
             Ok(solved) => Some(solved),
             Err(GrowingError::Overtaken { .. } | GrowingError::StrikesAgain { .. }) => None,
@@ -352,6 +357,14 @@ pub fn solve_disc(
     stepped(workspace, step, duration, asked, |step, workspace| {
         march_into(impact, step, &mut workspace.weights, &mut workspace.history)
     })
+}
+
+fn following<'w>(collision: &Collision, waves: &'w PunchWaves) -> GrowingContact<'w> {
+    GrowingContact {
+        waves,
+        target_share: collision.target_share(),
+        wave_time: collision.contact_wave_time(),
+    }
 }
 
 fn disc_of<'r, R: DiscResponse>(

@@ -5,7 +5,10 @@
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
 use contact::law::area_dashpot::AreaDashpot;
-use contact::{Accuracy, GrowingContact, GrowingError, PunchWaves, SolvedContact, solve_growing};
+use contact::{
+    Accuracy, GrowingContact, GrowingError, PunchWaves, SolvedContact, solve_growing,
+    work_on_half_space,
+};
 use halfspace::Medium;
 use rayon::prelude::*;
 use std::path::Path;
@@ -83,12 +86,11 @@ fn random_scene(index: u64) -> Case {
     }
 }
 
-#[test]
-fn golden_rows() {
+/// Rows of `tests/reference/growing.csv` without their kind: Poisson's ratio, phi, tau, eight results, eight differences.
+fn reference_rows() -> Vec<Vec<f64>> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/reference/growing.csv");
     let text = std::fs::read_to_string(path).unwrap();
-    let rows: Vec<Vec<f64>> = text
-        .lines()
+    text.lines()
         .skip(1)
         .map(|line| {
             line.split(',')
@@ -96,7 +98,12 @@ fn golden_rows() {
                 .map(|x| x.parse().unwrap())
                 .collect()
         })
-        .collect();
+        .collect()
+}
+
+#[test]
+fn golden_rows() {
+    let rows = reference_rows();
     assert!(rows.len() > 125, "{}", rows.len());
     let worst: Vec<(f64, usize)> = rows
         .par_iter()
@@ -127,6 +134,35 @@ fn golden_rows() {
             *error < 1.0,
             "row {k}: result {which} is off by {error} of what is allowed"
         );
+    }
+}
+
+/// The work knows the force and the waves only, the reference's loss is that of the momentum.
+#[test]
+fn the_work_by_superposition_is_the_loss_of_the_momentum() {
+    let rows = reference_rows();
+    for (tolerance, promised) in [(1e-4, 1e-3), (1e-6, 2e-5)] {
+        let errors: Vec<f64> = rows
+            .par_iter()
+            .map(|row| {
+                let waves = PunchWaves::new(&Medium::new(row[0]).unwrap());
+                let contact = GrowingContact {
+                    waves: &waves,
+                    target_share: row[1],
+                    wave_time: row[2],
+                };
+                let accuracy = Accuracy::of_contact(tolerance, None);
+                let solved = solve_growing(&contact, &accuracy).unwrap();
+                let work = work_on_half_space(&contact, &solved, tolerance);
+                (work / row[7] - 1.0).abs()
+            })
+            .collect();
+        let worst = errors.iter().fold(0.0_f64, |m, &e| m.max(e));
+        println!(
+            "{tolerance:e}: work of {} contacts within {worst:.1e}",
+            errors.len()
+        );
+        assert!(worst < promised, "{worst}");
     }
 }
 

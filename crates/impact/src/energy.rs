@@ -16,9 +16,10 @@
 use crate::excitation::Excitation;
 use crate::grid::Grid;
 use contact::choose::Family;
+use contact::march::growing::superposed;
 use contact::plan::Plan;
 use contact::work::work_until_j;
-use contact::{Model, StaticShare};
+use contact::{Collision, Model, PunchResponse, StaticShare};
 use halfspace::{Deflection, SurfaceResponse};
 
 /// Energies in J at the times of the output.
@@ -41,7 +42,12 @@ impl EnergySeries {
     /// Of a striker whose contact was planned so, at times in s; none for a record.
     ///
     /// The work is within 1e-4 of itself beside the error of the force.
-    pub(crate) fn of_striker(excitation: &Excitation, plan: &Plan, time_s: &[f64]) -> Option<Self> {
+    pub(crate) fn of_striker(
+        excitation: &Excitation,
+        collision: &Collision,
+        plan: &Plan,
+        time_s: &[f64],
+    ) -> Option<Self> {
         let (end_s, units) = excitation.contacts()?;
         let initial_j = 0.4 * units.force_n * units.length_m;
         let step_s = end_s / SAMPLES;
@@ -52,13 +58,20 @@ impl EnergySeries {
                 let share = StaticShare::Dynamic;
                 excitation.deflection_m(Deflection::Mean, share, step_s, 0.0, &force_n)
             }
+            // each increment of the load on a punch of its own radius
+            Model::AreaDashpot | Model::Growing => {
+                let centre = SurfaceResponse::new(excitation.medium(), Deflection::Centre);
+                let punch = PunchResponse::new(&centre);
+                let indentation = |p: &f64| (p / units.force_n).cbrt().powi(2);
+                let indentations: Vec<f64> = force_n.iter().map(indentation).collect();
+                let impact = collision.growing_disc(&punch);
+                superposed(&impact, step_s / units.time_s, &indentations)
+                    .iter()
+                    .map(|w| w * units.length_m)
+                    .collect()
+            }
             // what the contact law's own deflection is more than its static part
-            Model::Hertz
-            | Model::Radiation
-            | Model::QuasiStatic
-            | Model::QuasiStaticRadiation
-            | Model::AreaDashpot
-            | Model::Growing => {
+            Model::Hertz | Model::Radiation | Model::QuasiStatic | Model::QuasiStaticRadiation => {
                 let static_m_per_n = plan.coupling() * units.length_m / units.force_n;
                 let law_m = |t| excitation.motion(t).map_or(0.0, |m| m.deflection_m);
                 let samples = times.zip(&force_n);

@@ -14,7 +14,7 @@ use crate::record::ForceRecord;
 use crate::samples::between_samples;
 use crate::scene::{Load, Scene, Strike};
 use crate::source::{Chosen, KernelChoice, SourceError, choose_source};
-use contact::{ContactError, Model, Scheme, StaticShare};
+use contact::{Collision, ContactError, Model, Scheme, StaticShare};
 use halfspace::{Deflection, DomainError};
 use thiserror::Error;
 
@@ -96,7 +96,9 @@ fn of_strike(
         reason: run.solved.plan.reason(&scene.settings),
         results: run.results,
     };
-    let energy = EnergySeries::of_striker(excitation, &run.solved.plan, &computed.time_s);
+    let collision = Collision::new(&scene.target, &strike.striker, strike.velocity_m_s);
+    let plan = &run.solved.plan;
+    let energy = EnergySeries::of_striker(excitation, &collision, plan, &computed.time_s);
     Ok(computed.outcome(
         cause,
         deflection_m.unwrap_or(law_m),

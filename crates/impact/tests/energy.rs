@@ -58,10 +58,12 @@ fn cases() -> Vec<Case> {
         limit,
     };
     vec![
-        case(Model::Hertz, StaticShare::Dynamic, 2e-5),
-        case(Model::Radiation, StaticShare::Dynamic, 2e-5),
-        case(Model::QuasiStatic, StaticShare::Full, 2e-5),
-        case(Model::QuasiStaticRadiation, StaticShare::Full, 2e-5),
+        case(Model::Hertz, StaticShare::Dynamic, 1e-6),
+        case(Model::Radiation, StaticShare::Dynamic, 1e-6),
+        case(Model::QuasiStatic, StaticShare::Full, 1e-6),
+        case(Model::QuasiStaticRadiation, StaticShare::Full, 1e-6),
+        // its waves are those of the growing contact, which it leaves out from the fourth order on
+        case(Model::AreaDashpot, StaticShare::Dynamic, 5e-6),
         case(Model::Growing, StaticShare::Dynamic, 2e-6),
         case(Model::Wave, StaticShare::Full, 1e-5),
         case(Model::Wave, StaticShare::Dynamic, 2e-6),

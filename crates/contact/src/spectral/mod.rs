@@ -38,6 +38,7 @@ mod roots;
 mod size;
 pub mod solved;
 mod step;
+mod superposed;
 pub mod waves;
 
 pub use solved::{Estimates, Instant, SolvedContact};
@@ -199,6 +200,24 @@ pub fn solve_growing(
             estimate: f64::INFINITY,
         }),
     }
+}
+
+/// Work of a contact that was solved on the half-space, relative to the kinetic energy before, by superposition of the
+/// punches that carry its load: independent of the striker's momentum.
+///
+/// Within 1e-3 of itself for tolerances down to 1e-5, within 2e-5 below, beside the error of the force; for memories up
+/// to the length of the contact.
+#[must_use]
+pub fn work_on_half_space(
+    contact: &GrowingContact<'_>,
+    solved: &SolvedContact,
+    tolerance: f64,
+) -> f64 {
+    let groups = Groups {
+        target_share: contact.target_share,
+        wave_time: contact.wave_time,
+    };
+    superposed::superposed_work(solved, groups, contact.waves, tolerance)
 }
 
 /// The largest estimate over what is asked of it.

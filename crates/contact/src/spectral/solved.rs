@@ -47,7 +47,6 @@ pub struct SolvedContact {
     pieces: Vec<Piece>,
     summary: Summary,
     estimates: Estimates,
-    work: f64,
 }
 
 /// The contact at a time, in collision units.
@@ -126,7 +125,6 @@ impl SolvedContact {
             },
             pieces,
             estimates,
-            work,
         }
     }
 
@@ -134,13 +132,6 @@ impl SolvedContact {
     #[must_use]
     pub fn summary(&self) -> &Summary {
         &self.summary
-    }
-
-    /// Work of the contact on the half-space, relative to the kinetic energy before: the sum of what its waves take,
-    /// independent of the striker's momentum.
-    #[must_use]
-    pub fn work(&self) -> f64 {
-        self.work
     }
 
     /// Their estimated errors.
