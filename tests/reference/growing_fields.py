@@ -402,7 +402,7 @@ def case(solid, duration, places, fine, coarse, loads):
 
 def parameters(duration):
     """Bandwidth by duration: a longer contact starts more gently."""
-    wide = {20.0: 320.0, 60.0: 240.0}.get(duration, 160.0)
+    wide = {20.0: 320.0, 60.0: 240.0}.get(duration, 120.0)
     return Settings(wide, 1.9, 23.0, 1.0, 2.6), Settings(wide / 1.43, 2.2, 26.0, 0.7, 2.2)
 
 
