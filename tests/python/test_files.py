@@ -82,6 +82,30 @@ def test_histories_tell_the_summary(impact):
     np.testing.assert_allclose(velocity, VELOCITY_M_S - impulse / MASS_KG, atol=2e-3 * VELOCITY_M_S)
 
 
+def test_energy_over_time(impact):
+    with h5py.File(impact.path, "r") as file:
+        time, force, velocity = (file[name][()] for name in ("time", "force", "velocity"))
+        kinetic, stored, radiated = (file["energy"][name] for name in ("kinetic", "stored", "radiated"))
+        for dataset in (kinetic, stored, radiated):
+            assert units(dataset) == "J" and dataset.shape == time.shape
+            assert scales(dataset) == ["/time"]
+        kinetic, stored, radiated = kinetic[()], stored[()], radiated[()]
+        assert "work" not in file["energy"]
+    np.testing.assert_allclose(kinetic, 0.5 * MASS_KG * velocity**2, rtol=1e-9)
+    modulus = 1 / ((1 - 0.34**2) / 1.23e11 + (1 - 0.3**2) / 2.09e11)
+    stiffness = 4 / 3 * modulus * DISC_RADIUS_M**0.5
+    spring = 0.4 * force ** (5 / 3) / stiffness ** (2 / 3)
+    field = 0.5 * 0.3 * 0.7 / (SHEAR_MODULUS_PA * DISC_RADIUS_M) * force**2
+    np.testing.assert_allclose(stored, spring + field, rtol=1e-9, atol=1e-9)
+    assert radiated[0] == 0.0
+    assert radiated[-1] == pytest.approx(impact.summary["radiated_energy_j"], rel=1e-3)
+    # the centre's deflection, which is in the law, does not do the work of the pressure
+    total = (kinetic + stored + radiated) / impact.summary["initial_energy_j"] - 1
+    assert abs(total[0]) < 1e-9 and abs(total[-1]) < 1e-3
+    middle = np.argmax(force)
+    assert total[middle] == pytest.approx(-0.25 * field[middle] / kinetic[0], rel=0.2)
+
+
 def test_probes(impact):
     with h5py.File(impact.path, "r") as file:
         probes = file["probes"]

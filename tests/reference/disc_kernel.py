@@ -184,20 +184,12 @@ class Admittance:
     """-Im of the mean compliance at an angular frequency in c1/r0, in 1/(mu r0): positive."""
 
     def __init__(self, nu):
-        self.nu = nu
-        k2 = (2 - 2 * nu) / (1 - 2 * nu)  # K
+        self.k2 = k2 = (2 - 2 * nu) / (1 - 2 * nu)  # K
         root = np.sqrt(k2)
         fast, w_fast = graded(0.0, 1.0, "both", 22)
         slow, w_slow = graded(1.0, root, "both", 22)
-        p = fast
-        plane = (2 * p * p - k2) ** 2 + 4 * p * p * np.sqrt((1 - p) * (1 + p)) * np.sqrt(k2 - p * p)
-        of_fast = k2 * p * np.sqrt((1 - p) * (1 + p)) / plane
-        p = slow
-        m2, y = (p - 1) * (p + 1), np.sqrt((root - p) * (root + p))
-        size = (2 * p * p - k2) ** 4 + 16 * p**4 * m2 * y * y
-        of_slow = 4 * k2 * p**3 * m2 * y / size
         self.slowness = np.concatenate([fast, slow])
-        self.parts = np.concatenate([w_fast * of_fast, w_slow * of_slow])
+        self.parts = np.concatenate([w_fast * self.fast(fast), w_slow * self.slow(slow)])
 
         def rayleigh(p):
             return (2 * p * p - k2) ** 2 - 4 * p * p * np.sqrt(p * p - 1) * np.sqrt(p * p - k2)
@@ -210,6 +202,26 @@ class Admittance:
         a, b = np.sqrt(p * p - 1), np.sqrt(p * p - k2)
         slope = 8 * p * (2 * p * p - k2) - 8 * p * a * b - 4 * p**3 * (b / a + a / b)
         self.mass = np.pi * k2 * p * a / -slope
+
+    def fast(self, p):
+        """Density over slowness in (0, 1): P and S waves run."""
+        root = np.sqrt((1 - p) * (1 + p))
+        return self.k2 * p * root / ((2 * p * p - self.k2) ** 2 + 4 * p * p * root * np.sqrt(self.k2 - p * p))
+
+    def slow(self, p):
+        """The same in (1, sqrt(K)): only S waves run."""
+        root = np.sqrt(self.k2)
+        m2, y = (p - 1) * (p + 1), np.sqrt((root - p) * (root + p))
+        return 4 * self.k2 * p**3 * m2 * y / ((2 * p * p - self.k2) ** 4 + 16 * p**4 * m2 * y * y)
+
+    def coarse(self, n):
+        """Slownesses and masses, the pole's too, with n nodes of Gauss in the angle of each interval."""
+        x, w = np.polynomial.legendre.leggauss(n)
+        angle, w = 0.25 * np.pi * (1 + x), 0.25 * np.pi * w
+        fast = np.sin(angle)
+        slow = np.sqrt(1 + (self.k2 - 1) * fast**2)
+        parts = [w * np.cos(angle) * self.fast(fast), w * (self.k2 - 1) * fast * np.cos(angle) / slow * self.slow(slow)]
+        return np.concatenate([fast, slow, [self.pole]]), np.concatenate([*parts, [self.mass]])
 
     def __call__(self, omega):
         sum_ = np.array([np.sum(self.parts * transform(w * self.slowness) ** 2) for w in omega])

@@ -262,3 +262,37 @@ fn end_of_contact(history: &History, end: usize) -> (f64, f64) {
         .sum();
     (contact_time, history.impulse_until(k) + tail * step)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::disc::FixedDisc;
+    use crate::march::implicit::march_implicit;
+    use crate::settings::StaticShare;
+    use halfspace::{Deflection, Medium, SurfaceResponse};
+
+    /// Where the loss is taken from the work, the impulse is still that of the force: the ledger's two sides are two.
+    #[test]
+    fn the_impulse_knows_nothing_of_the_work() {
+        let response = SurfaceResponse::new(&Medium::new(0.3).unwrap(), Deflection::Mean);
+        let impact = FixedDisc {
+            response: &response,
+            coupling: 0.1,
+            wave_time: 0.01,
+            share: StaticShare::Full,
+        };
+        let mut history = march_implicit(&impact, 0.03).unwrap();
+        let found = Summary::new(&history).unwrap();
+        let work = history.dissipated.unwrap();
+        assert!(found.loss == work && work < SMALL_LOSS);
+        let momentum = 1.0 - (1.0 - INVERSE_MASS * found.impulse).powi(2);
+        assert!((momentum / work - 1.0).abs() < 1e-3, "{momentum} {work}");
+        history.dissipated = Some(1.01 * work);
+        let other = Summary::new(&history).unwrap();
+        assert!(other.loss > found.loss && other.impulse == found.impulse);
+        for force in &mut history.force {
+            *force *= 1.001;
+        }
+        assert!(Summary::new(&history).unwrap().impulse > 1.0005 * found.impulse);
+    }
+}

@@ -149,11 +149,21 @@ fn static_mean_m_per_n(excitation: &Excitation) -> f64 {
     response.static_compliance() * excitation.units().displacement_m_per_n()
 }
 
-/// Linear between samples, the last one after them.
+/// Cubic through the four samples around a place; the last one after them.
 fn between(samples: &[f64], place: f64) -> f64 {
-    let cell = place.max(0.0) as usize;
-    match samples.get(cell..cell.saturating_add(2)) {
-        Some([a, b]) => a + (b - a) * (place - cell as f64),
-        Some(_) | None => samples.last().copied().unwrap_or(0.0),
+    let count = samples.len();
+    if count < 4 || place >= (count - 1) as f64 {
+        return samples.last().copied().unwrap_or(0.0);
     }
+    let from = (place.max(0.0) as usize).saturating_sub(1).min(count - 4);
+    let x = place - from as f64;
+    (0..4)
+        .map(|i| {
+            let others = (0..4).filter(|&j| j != i);
+            let basis: f64 = others
+                .map(|j| (x - f64::from(j)) / (f64::from(i) - f64::from(j)))
+                .product();
+            samples[from + i as usize] * basis
+        })
+        .sum()
 }

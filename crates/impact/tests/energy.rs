@@ -218,6 +218,53 @@ fn a_memory_a_little_longer_than_three_steps_of_the_march() {
     }
 }
 
+/// Groups of `tests/reference/disc.csv`: the surface comes back and strikes once more.
+#[test]
+fn the_sum_holds_through_a_second_contact() {
+    let (nu, sigma, theta, again, radiated) = (0.45, 6.774, 1.431, 5.365_393, 0.954_716_0);
+    // a tip that is nearly flat, so that nothing is faster than a wave: sigma of a rigid one is 0.8 a/r0
+    let (disc_m, tip_m) = (1e-3, 100.0);
+    let contact_m = sigma / 0.8 * disc_m;
+    let approach_m = contact_m * contact_m / tip_m;
+    let target = HalfSpace::new(material(70e9, nu)).unwrap();
+    let velocity_m_s = theta * target.longitudinal_speed_m_s() * approach_m / disc_m;
+    let modulus = material(70e9, nu).plane_modulus_pa();
+    let stiffness = 4.0 / 3.0 * modulus * f64::sqrt(tip_m);
+    let mass_kg = stiffness * approach_m.powf(2.5) / (1.25 * velocity_m_s * velocity_m_s);
+    let rigid = material(1e9 * 70e9, 0.3);
+    let load = Load::Strike(Strike {
+        striker: Striker::new(rigid, mass_kg, tip_m).unwrap(),
+        velocity_m_s,
+    });
+    let settings = Settings {
+        model: Model::Wave,
+        disc_radius_m: Some(disc_m),
+        deflection: Deflection::Mean,
+        tolerance: 1e-6,
+        ..Settings::default()
+    };
+    let mut wanted = scene(load, material(70e9, nu), settings);
+    let time_s = approach_m / velocity_m_s;
+    wanted.duration_s = Some(12.0 * time_s);
+    let outcome = simulate(&wanted, &KernelChoice::Direct).unwrap();
+    let found = outcome.results().unwrap();
+    assert_eq!(found.contacts, 2);
+    let force = |time: f64| {
+        let i = outcome
+            .series
+            .time_s
+            .partition_point(|&t| t < time * time_s);
+        outcome.series.force_n[i] / found.peak_force_n
+    };
+    assert!(force(again - 0.1) == 0.0 && force(again + 0.2) > 1e-3);
+    let energy = outcome.series.energy.as_ref().unwrap();
+    let last = energy.radiated_at_last_j() / found.initial_energy_j;
+    let off = imbalance(&outcome, [1.0; 3]);
+    println!("off by {off:.1e}, radiated {last:.6}");
+    assert!(off < 1e-5, "{off}");
+    assert!((last / radiated - 1.0).abs() < 2e-5);
+}
+
 /// Rows of the reference: kind, Poisson's ratio, length in r0/c1, energy in P^2/(mu r0).
 fn pulses() -> Vec<(String, [f64; 3])> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/reference/pulse_energy.csv");
