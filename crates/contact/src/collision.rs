@@ -4,12 +4,17 @@
 
 use crate::bodies::{HalfSpace, Striker};
 use crate::disc::FixedDisc;
+use crate::error::ContactError;
 use crate::march::growing::GrowingDisc;
 use crate::response::disc::DiscResponse;
 use crate::response::punch::PunchResponse;
 use crate::settings::StaticShare;
 use crate::surface::Surface;
 use crate::units::{CollisionUnits, KernelUnits};
+use halfspace::Medium;
+
+/// Range of the numbers of bodies in SI units, whose powers and products stay numbers.
+const PHYSICAL: [f64; 2] = [1e-30, 1e30];
 
 /// A striker with a spherical tip that meets an elastic half-space, in SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -48,6 +53,50 @@ impl Collision {
             target_longitudinal_speed_m_s: half_space.longitudinal_speed_m_s(),
             target_poisson_ratio: two.poisson_ratio,
         }
+    }
+
+    /// Whether the numbers are those of bodies, and the approach slower than the half-space's Rayleigh wave.
+    ///
+    /// # Errors
+    /// [`ContactError::OutOfRange`], [`ContactError::TooFast`], and a Poisson's ratio outside the physics.
+    pub fn check(&self) -> Result<(), ContactError> {
+        for (quantity, value) in [
+            ("mass_kg", self.mass_kg),
+            ("tip_radius_m", self.tip_radius_m),
+            ("the effective modulus in Pa", self.effective_modulus_pa),
+            (
+                "the half-space's plane modulus in Pa",
+                self.target_plane_modulus_pa,
+            ),
+            (
+                "the half-space's wave speed in m/s",
+                self.target_longitudinal_speed_m_s,
+            ),
+        ] {
+            if !(PHYSICAL[0]..=PHYSICAL[1]).contains(&value) {
+                return Err(ContactError::OutOfRange { quantity, value });
+            }
+        }
+        let velocity_m_s = self.velocity_m_s;
+        // Rayleigh's wave has at least 0.68 of the shear wave's speed: the root is only looked for where it matters
+        let nu = self.target_poisson_ratio;
+        let shear = self.target_longitudinal_speed_m_s * ((0.5 - nu) / (1.0 - nu)).sqrt();
+        if velocity_m_s >= 0.5 * shear {
+            let limit_m_s = Medium::new(nu)?.rayleigh_speed() * self.target_longitudinal_speed_m_s;
+            if velocity_m_s >= limit_m_s {
+                return Err(ContactError::TooFast {
+                    velocity_m_s,
+                    limit_m_s,
+                });
+            }
+        }
+        if velocity_m_s >= PHYSICAL[0] {
+            return Ok(());
+        }
+        Err(ContactError::OutOfRange {
+            quantity: "velocity_m_s",
+            value: velocity_m_s,
+        })
     }
 
     /// K = (4/3) E* sqrt(R) in N/m^(3/2), (37).

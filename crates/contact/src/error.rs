@@ -14,6 +14,24 @@ pub enum ContactError {
     /// A contact that follows the load could not be solved.
     #[error(transparent)]
     Growing(#[from] GrowingError),
+    /// An approach that no wave of the surface outruns.
+    #[error(
+        "velocity_m_s = {velocity_m_s:e} is outside (0, {limit_m_s:.4e}): the half-space's Rayleigh wave is no faster, and a contact law for impacts below it says nothing"
+    )]
+    TooFast {
+        /// Velocity of approach in m/s.
+        velocity_m_s: f64,
+        /// Speed of the Rayleigh wave in m/s.
+        limit_m_s: f64,
+    },
+    /// A number that no body has, and whose powers would leave the range of numbers.
+    #[error("{quantity} = {value:e} is outside [1e-30, 1e30]")]
+    OutOfRange {
+        /// The quantity, with its unit.
+        quantity: &'static str,
+        /// Its value.
+        value: f64,
+    },
     /// A material is outside the physics.
     #[error(transparent)]
     Domain(#[from] DomainError),

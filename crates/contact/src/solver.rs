@@ -177,6 +177,7 @@ impl<'a, S: Responses> Solver<'a, S> {
         settings: &Settings,
         asked: Accuracy,
     ) -> Result<Solved, ContactError> {
+        collision.check()?;
         let ratio = collision.target_poisson_ratio;
         let disc = self.disc(ratio, settings.deflection)?;
         let plan = plan(settings, collision, &Surface::of(&*disc));

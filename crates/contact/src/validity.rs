@@ -62,10 +62,14 @@ impl Checked<'_> {
                 "alpha_A = {alpha:.3} is not small against 1: the contact spreads faster than waves for a good part of the impact"
             ));
         }
-        if hertz_radius > 0.5 * self.striker.tip_radius_m {
+        let tip = self.striker.tip_radius_m;
+        if hertz_radius > tip {
             found.push(format!(
-                "the contact radius reaches {hertz_radius:.3e} m, more than half of tip_radius_m = {:.3e} m: Hertz's law is for small contacts",
-                self.striker.tip_radius_m
+                "the contact radius reaches {hertz_radius:.3e} m, more than the limit tip_radius_m = {tip:.3e} m: a sphere is not so wide, and Hertz's law says nothing there"
+            ));
+        } else if hertz_radius > 0.5 * tip {
+            found.push(format!(
+                "the contact radius reaches {hertz_radius:.3e} m, more than half of tip_radius_m = {tip:.3e} m: Hertz's law is for small contacts"
             ));
         }
         if let Some(disc) = disc_radius_m {
@@ -143,6 +147,15 @@ impl Checked<'_> {
         if centre > CENTRE_COUPLING {
             found.push(format!(
                 "the disc gives way {centre:.1} times as much as the contact, more than {CENTRE_COUPLING}: the deflection of its centre is not conjugate to the pressure and may feed energy back; set deflection = \"mean\""
+            ));
+        }
+        let (error, tolerance) = (
+            self.results.relative_error_estimate,
+            self.settings.tolerance,
+        );
+        if error > tolerance && self.results.march_steps > 0 && self.settings.step_s.is_none() {
+            found.push(format!(
+                "the tolerance {tolerance:.1e} is not reached: the error is estimated as {error:.1e}"
             ));
         }
         if self.results.contacts > 1 {
