@@ -84,6 +84,7 @@ fn models(c: &mut Criterion) {
     for model in [
         Model::Hertz,
         Model::Radiation,
+        Model::AreaDashpot,
         Model::Wave,
         Model::Auto,
         Model::Growing,

@@ -21,7 +21,7 @@ use crate::plan::{Plan, accuracy, disc_radius_m, plan};
 use crate::response::disc::DiscResponse;
 use crate::response::punch::PunchResponse;
 use crate::response::shelf::Responses;
-use crate::settings::{Model, Scheme, Settings};
+use crate::settings::{Model, Scheme, Settings, StaticShare};
 use crate::spectral::solved::SolvedContact;
 use crate::spectral::waves::PunchWaves;
 use crate::spectral::{GrowingContact, GrowingError, solve_growing, work_on_half_space};
@@ -300,7 +300,7 @@ impl<'a, S: Responses> Solver<'a, S> {
         Ok(stepped(
             room,
             step,
-            hertz::CONTACT_TIME,
+            (hertz::CONTACT_TIME, 1.0),
             asked,
             |step, room| {
                 room.history = march_growing(&impact, step)?;
@@ -332,6 +332,9 @@ impl<'a, S: Responses> Solver<'a, S> {
     }
 }
 
+/// Times that the last change over a halving counts for the dynamic share.
+const DYNAMIC_CAUTION: f64 = 3.0;
+
 /// Results of a scheme, in collision units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Found {
@@ -355,7 +358,13 @@ pub fn solve_disc(
     asked: Accuracy,
 ) -> Result<Found, MarchError> {
     let duration = expected_contact_time(impact.static_coupling());
-    stepped(workspace, step, duration, asked, |step, workspace| {
+    let caution = match impact.share {
+        StaticShare::Full => 1.0,
+        // the newest force is only just held by the contact law, and errors grow with it
+        StaticShare::Dynamic => DYNAMIC_CAUTION,
+    };
+    let begin = (duration, caution);
+    stepped(workspace, step, begin, asked, |step, workspace| {
         march_into(impact, step, &mut workspace.weights, &mut workspace.history)
     })
 }
@@ -379,11 +388,13 @@ fn disc_of<'r, R: DiscResponse>(
 
 /// A march with a step that is given, judged by one with half of it, or halved until the results are as accurate as asked.
 ///
+/// `duration` and `caution`: of the contact, roughly, and how many times the last change counts.
+///
 /// The workspace keeps the history of the step that counts.
 fn stepped(
     workspace: &mut Workspace,
     step: Option<f64>,
-    duration: f64,
+    (duration, caution): (f64, f64),
     asked: Accuracy,
     march: impl Fn(f64, &mut Workspace) -> Result<(), MarchError>,
 ) -> Result<Found, MarchError> {
@@ -404,6 +415,7 @@ fn stepped(
         |step| Ok((run(step)?, ())),
         duration / asked.first_steps(),
         &asked,
+        caution,
     )?;
     Ok(Found {
         summary: found.summary,
