@@ -5,9 +5,9 @@ use crate::overwrite::Overwrite;
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use contact::Choice;
-use figure::{Figure, RenderError, to_pdf, to_png, to_svg};
+use figure::{Figure, RenderError, to_gif, to_pdf, to_png, to_svg};
 use output::{Output, Role, apart};
-use plot::{Kind, PlotError, Request, compose};
+use plot::{Kind, PlotError, Request, animate, compose};
 use std::path::{Path, PathBuf};
 
 const EXAMPLES: &str = "Examples:
@@ -21,7 +21,7 @@ pub(crate) struct Arguments {
     /// Files of impacts or sweeps, or a kernel table; several impacts are drawn over each other.
     #[arg(required = true, value_name = "FILE.h5")]
     files: Vec<PathBuf>,
-    /// The picture; its ending, .svg, .png or .pdf, says what it becomes.
+    /// The picture; its ending, .svg, .png, .pdf or .gif (an animation), says what it becomes.
     #[arg(short, long, value_name = "PICTURE")]
     output: PathBuf,
     /// What is shown; without it what suits the file.
@@ -30,6 +30,12 @@ pub(crate) struct Arguments {
     /// Quantities by their names in the file, divided by commas.
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     quantity: Vec<String>,
+    /// Times in s at which fields are shown, divided by commas.
+    #[arg(long, value_name = "SECONDS", value_delimiter = ',')]
+    times: Vec<f64>,
+    /// Frames of a section: four in a picture without it, up to 120 in an animation.
+    #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u16).range(1..=2000))]
+    frames: Option<u16>,
     /// Title; without it one that says what strikes.
     #[arg(long)]
     title: Option<String>,
@@ -54,6 +60,7 @@ enum Format {
     Svg,
     Png,
     Pdf,
+    Gif,
 }
 
 impl Format {
@@ -63,8 +70,9 @@ impl Format {
             Some("svg") => Ok(Self::Svg),
             Some("png") => Ok(Self::Png),
             Some("pdf") => Ok(Self::Pdf),
+            Some("gif") => Ok(Self::Gif),
             Some(_) | None => Err(Failure::input(format!(
-                "{} ends neither in .svg nor in .png nor in .pdf",
+                "{} does not end in .svg, .png, .pdf or .gif",
                 path.display()
             ))),
         }
@@ -80,19 +88,36 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let request = Request {
         kind: arguments.kind.as_deref().and_then(Kind::named),
         quantities: arguments.quantity.clone(),
+        times_s: arguments.times.clone(),
+        frames: arguments.frames.map(usize::from),
         title: arguments.title.clone(),
     };
-    let mut drawn = compose(&arguments.files, &request)?;
-    if let Some(width) = arguments.width {
-        drawn.figure = sized(drawn.figure, f64::from(width));
-    }
-    let bytes = rendered(&drawn.figure, format, arguments.scale).map_err(Failure::work)?;
+    let size = |figure: Figure| match arguments.width {
+        Some(width) => sized(figure, f64::from(width)),
+        None => figure,
+    };
+    let (bytes, notes) = match format {
+        Format::Gif => {
+            let (figures, notes) = animate(&arguments.files, &request)?;
+            let figures: Vec<Figure> = figures.into_iter().map(size).collect();
+            (to_gif(&figures, 1.0, FRAME_S), notes)
+        }
+        Format::Svg | Format::Png | Format::Pdf => {
+            let drawn = compose(&arguments.files, &request)?;
+            let figure = size(drawn.figure);
+            (rendered(&figure, format, arguments.scale), drawn.notes)
+        }
+    };
+    let bytes = bytes.map_err(Failure::work)?;
     output.write(|part| std::fs::write(part, &bytes))?;
-    for note in &drawn.notes {
+    for note in notes {
         say(format!("note: {note}"));
     }
     print(arguments.output.display())
 }
+
+/// How long a frame of an animation is shown in s.
+const FRAME_S: f64 = 0.06;
 
 /// Of another width, with text that suits it.
 fn sized(figure: Figure, width: f64) -> Figure {
@@ -103,7 +128,7 @@ fn sized(figure: Figure, width: f64) -> Figure {
 fn rendered(figure: &Figure, format: Format, scale: u8) -> Result<Vec<u8>, RenderError> {
     match format {
         Format::Svg => to_svg(figure).map(String::into_bytes),
-        Format::Png => to_png(figure, f32::from(scale)),
+        Format::Png | Format::Gif => to_png(figure, f32::from(scale)),
         Format::Pdf => to_pdf(figure),
     }
 }

@@ -86,7 +86,7 @@ fn what_is_no_picture_is_refused() {
     refused(
         at,
         &["plot", "none.h5", "-o", "a.jpg"],
-        "neither in .svg nor in .png nor in .pdf",
+        "does not end in .svg, .png, .pdf or .gif",
     );
     refused(
         at,

@@ -99,6 +99,9 @@ pub enum RenderError {
     /// The pixels could not be encoded.
     #[error("the PNG cannot be encoded: {0}")]
     Png(String),
+    /// The frames could not be encoded.
+    #[error("the GIF cannot be encoded: {0}")]
+    Gif(String),
     /// The font could not be cut down to the letters that are used.
     #[error("the font cannot be embedded: {0}")]
     Font(String),

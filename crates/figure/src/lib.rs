@@ -56,7 +56,7 @@ pub use geometry::Rect;
 pub use interval::{Interval, Scale};
 pub use layer::{
     Band, Classes, ColourScale, Gain, Histogram, Image, LabelledPoint, Layer, Limits, Line, Mark,
-    Shading, Style, Trace, Traces,
+    Shading, Style, Symbol, Trace, Traces,
 };
 pub use panel::{Aspect, Legend, Mirror, Panel};
 
@@ -90,6 +90,15 @@ pub fn to_pdf(figure: &Figure) -> Result<Vec<u8>, RenderError> {
 /// [`RenderError`] for what is not SVG, or a picture that is too large.
 pub fn svg_to_png(svg: &str, scale: f32) -> Result<Vec<u8>, RenderError> {
     write::png(svg, scale)
+}
+
+/// Figures as an animated GIF that repeats: a frame each, all of the size of the first, `frame_s` long.
+///
+/// # Errors
+/// [`RenderError`] for a figure that cannot be drawn, or frames that are not of one size.
+pub fn to_gif(figures: &[Figure], scale: f32, frame_s: f64) -> Result<Vec<u8>, RenderError> {
+    let svgs: Vec<String> = figures.iter().map(to_svg).collect::<Result<_, _>>()?;
+    write::gif(&svgs, scale, frame_s)
 }
 
 /// What is known of a drawn figure.

@@ -42,6 +42,12 @@ pub enum PlotError {
         /// Files given.
         given: usize,
     },
+    /// An animation of what does not move.
+    #[error("an animation shows waves, not {kind}: a section over time")]
+    NotMoving {
+        /// What was asked for.
+        kind: Kind,
+    },
     /// What a picture shows is not in the file.
     #[error("{} has no {what}: {hint}", path.display())]
     Absent {
@@ -63,6 +69,16 @@ pub enum PlotError {
         suggestion: Option<String>,
         /// What is there.
         allowed: String,
+    },
+    /// Frames too far apart in time for a velocity.
+    #[error("{quantity} by differences between the frames of {} would be wrong by {percent} %: give [map] more frames, or show displacement_z", path.display())]
+    Coarse {
+        /// The file.
+        path: PathBuf,
+        /// What was asked for.
+        quantity: String,
+        /// Error in per cent, as the root of mean squares.
+        percent: f64,
     },
     /// The fields could not be computed.
     #[error(transparent)]

@@ -11,15 +11,42 @@ pub enum Kind {
     Impact,
     /// Histories at the probes.
     Probes,
+    /// Amplitude spectrum of the force.
+    Spectrum,
+    /// Frames of the section.
+    Waves,
+    /// Largest values over time in the section.
+    Peak,
+    /// Distance along the surface against time.
+    Surface,
+    /// Depth on the axis against time.
+    Depth,
+    /// The section's axis at some instants, beside the static field.
+    Axis,
 }
 
 impl Choice for Kind {
-    const ALL: &'static [Self] = &[Self::Impact, Self::Probes];
+    const ALL: &'static [Self] = &[
+        Self::Impact,
+        Self::Probes,
+        Self::Spectrum,
+        Self::Waves,
+        Self::Peak,
+        Self::Surface,
+        Self::Depth,
+        Self::Axis,
+    ];
 
     fn name(self) -> &'static str {
         match self {
             Self::Impact => "impact",
             Self::Probes => "probes",
+            Self::Spectrum => "spectrum",
+            Self::Waves => "waves",
+            Self::Peak => "peak",
+            Self::Surface => "x-t",
+            Self::Depth => "depth-t",
+            Self::Axis => "axis",
         }
     }
 }
@@ -29,7 +56,14 @@ impl Kind {
     #[must_use]
     pub fn file(self) -> FileKind {
         match self {
-            Self::Impact | Self::Probes => FileKind::Impact,
+            Self::Impact
+            | Self::Probes
+            | Self::Spectrum
+            | Self::Waves
+            | Self::Peak
+            | Self::Surface
+            | Self::Depth
+            | Self::Axis => FileKind::Impact,
         }
     }
 
@@ -46,6 +80,14 @@ impl Kind {
         match self {
             Self::Impact => "force beside Hertz's, displacement, velocity, and the first probes",
             Self::Probes => "histories at the probes with arrivals and error bands",
+            Self::Spectrum => "amplitude spectrum of the force, its corner frequency and its zeros",
+            Self::Waves => {
+                "frames of the section until the first wave leaves it; .gif: all of them"
+            }
+            Self::Peak => "largest value over time at every place of the section",
+            Self::Surface => "distance along the surface against time, with fronts",
+            Self::Depth => "depth on the axis against time, with fronts",
+            Self::Axis => "the section's axis at some instants, beside the static field",
         }
     }
 }

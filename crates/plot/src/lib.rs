@@ -12,22 +12,30 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-// in reading order
+mod axis_profile;
 mod compose;
 mod contact_panels;
+mod difference;
 mod error;
 mod history;
 mod kind;
 mod labels;
 mod number;
+mod of_impacts;
+mod peak;
 mod probe_panels;
+mod quantity;
 mod request;
+mod section;
+mod space_time;
+mod spectrum;
 mod speeds;
+mod waves;
 
-pub use compose::{Drawn, compose};
+pub use compose::{animate, compose};
 pub use error::PlotError;
 pub use kind::Kind;
-pub use request::Request;
+pub use request::{Drawn, Request};
 
 /// The README's program compiles.
 #[cfg(doctest)]

@@ -3,6 +3,7 @@
 use crate::error::PlotError;
 use crate::history::curve;
 use crate::number::with_unit;
+use crate::quantity::words;
 use crate::speeds::{Speeds, onset_s};
 use contact::nearest;
 use figure::{Axis, Legend, Panel, Style};
@@ -195,18 +196,6 @@ fn with_traces(
 fn kind(name: &str) -> String {
     let kind = name.split('_').next().unwrap_or(name);
     kind.to_owned()
-}
-
-/// Name of a quantity in words: `displacement_z` is "axial displacement".
-fn words(name: &str) -> String {
-    let (kind, component) = name.rsplit_once('_').unwrap_or((name, ""));
-    match component {
-        "r" | "rr" => format!("radial {kind}"),
-        "z" | "zz" => format!("axial {kind}"),
-        "tt" => format!("hoop {kind}"),
-        "rz" => format!("shear {kind}"),
-        _ => name.replace('_', " "),
-    }
 }
 
 /// Name of a component for the legend: "axial u_{z}".

@@ -1,6 +1,7 @@
 //! What is asked for.
 
 use crate::kind::Kind;
+use figure::Figure;
 
 /// What is asked for; the default suits every file.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -9,6 +10,19 @@ pub struct Request {
     pub kind: Option<Kind>,
     /// Quantities by their names in the file; none: those that suit the kind.
     pub quantities: Vec<String>,
+    /// Times in s at which fields are shown; none: times at which waves are seen.
+    pub times_s: Vec<f64>,
+    /// Frames of a section; none: four in a picture, and each of the file in an animation.
+    pub frames: Option<usize>,
     /// Title; none: one that says what the scene is.
     pub title: Option<String>,
+}
+
+/// A figure, and what its user should know.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Drawn {
+    /// The figure.
+    pub figure: Figure,
+    /// Sentences: what is not shown, and how to see it.
+    pub notes: Vec<String>,
 }

@@ -20,8 +20,8 @@ pub(super) fn draw(scene: &mut Scene, bar: &BarFit, plot: Rect, faces: &Typeface
         bottom: plot.bottom,
     };
     let body = draw_strip(scene, &bar.colours, strip);
-    let (low, high) = bar.colours.limits;
-    let down = |value: f64| body.bottom - (value - low) / (high - low) * body.height();
+    let limits = bar.colours.limits;
+    let down = |value: f64| body.bottom - limits.fraction(value) * body.height();
     let mut segments = Vec::new();
     for tick in &bar.ticks.major {
         let y = down(tick.value);

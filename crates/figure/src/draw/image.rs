@@ -15,7 +15,7 @@ const MOST: f64 = 2000.0;
 pub(super) fn pixels(image: &Image, frame: &Frame, colours: &Colours, mirror: Mirror) -> Picture {
     let count = |length: f64| (FINE * length).ceil().clamp(1.0, MOST);
     let (columns, rows) = (count(frame.area.width()), count(frame.area.height()));
-    let (low, high) = colours.limits;
+    let limits = colours.limits;
     let at = |column: f64, row: f64| {
         let across = frame.area.left + (column + 0.5) / columns * frame.area.width();
         let down = frame.area.top + (row + 0.5) / rows * frame.area.height();
@@ -25,8 +25,8 @@ pub(super) fn pixels(image: &Image, frame: &Frame, colours: &Colours, mirror: Mi
             Mirror::Even => image.at(x.abs(), y),
             Mirror::Odd => image.at(x.abs(), y) * x.signum(),
         };
-        let fraction = (value - low) / (high - low);
-        (!fraction.is_nan()).then(|| colours.scale.map.at(fraction))
+        let is_shown = limits.scale.shows(value) || value.is_infinite() && value > 0.0;
+        is_shown.then(|| colours.scale.map.at(limits.fraction(value)))
     };
     let (columns, rows) = (columns as u32, rows as u32);
     Picture {

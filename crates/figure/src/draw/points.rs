@@ -3,7 +3,7 @@
 use super::marker;
 use crate::colour::BLACK;
 use crate::geometry::Rect;
-use crate::layer::{LabelledPoint, Layer};
+use crate::layer::{LabelledPoint, Layer, Symbol};
 use crate::layout::{LegendPlace, Placed, Typeface, occupied};
 use crate::scene::{Anchor, Scene, Text};
 use crate::text::{LINE, wrap};
@@ -36,9 +36,12 @@ pub(super) fn draw(scene: &mut Scene, placed: &Placed<'_>, faces: &Typeface) {
         return;
     }
     let curves = occupied(placed.plan.panel, frame);
+    let at = |point: &LabelledPoint| frame.place((point.x, point.y));
+    let is_star = |point: &&&LabelledPoint| point.symbol == Symbol::Star;
     let stars: Vec<(f64, f64)> = points
         .iter()
-        .filter_map(|p| frame.place((p.x, p.y)))
+        .filter(is_star)
+        .filter_map(|p| at(p))
         .collect();
     for &star in &stars {
         marker::star(scene, star, STAR, BLACK);
@@ -54,14 +57,17 @@ pub(super) fn draw(scene: &mut Scene, placed: &Placed<'_>, faces: &Typeface) {
         }
         Some(_) | None => Vec::new(),
     };
-    for (point, &star) in points.iter().zip(&stars) {
+    for point in points {
+        let Some(place) = at(point) else {
+            continue;
+        };
         let cost = |lines: &Vec<Text>| {
             let bounds = bounds(lines);
             let hidden = stars.iter().filter(|&&s| bounds.grown(STAR - 1.0).has(s));
             let crossed = curves.iter().filter(|&&c| bounds.has(c));
             100 * hidden.count() + crossed.count()
         };
-        let best = candidates(&point.label, star, frame.area, faces.tick)
+        let best = candidates(point, place, frame.area, faces.tick)
             .into_iter()
             .filter(|lines| {
                 let bounds = bounds(lines);
@@ -77,20 +83,22 @@ pub(super) fn draw(scene: &mut Scene, placed: &Placed<'_>, faces: &Typeface) {
 }
 
 /// Labels around a point, the nearest first, moved into the plot and broken to its width.
-fn candidates(label: &str, (x, y): (f64, f64), area: Rect, size: f64) -> Vec<Vec<Text>> {
-    let side = STAR + 0.35 * size;
-    let lines = wrap(label, size, area.width() - 4.0);
+fn candidates(point: &LabelledPoint, (x, y): (f64, f64), area: Rect, size: f64) -> Vec<Vec<Text>> {
+    let side = match point.symbol {
+        Symbol::Star => STAR + 0.35 * size,
+        Symbol::Label => 0.5 * size,
+    };
+    let lines = wrap(&point.label, size, area.width() - 4.0);
     let mut found = Vec::new();
     for rise in [0.0, -1.2, 1.2, -2.4, 2.4, -4.0, 4.0, -6.0, 6.0, -9.0, 9.0] {
-        let places = [
-            (x + side, Anchor::Start),
-            (x - side, Anchor::End),
-            (x, Anchor::Middle),
-        ];
+        let above = (x, Anchor::Middle);
+        let beside = [(x + side, Anchor::Start), (x - side, Anchor::End)];
+        let places = match point.symbol {
+            Symbol::Star if rise == 0.0 => beside.to_vec(),
+            Symbol::Star => vec![beside[0], beside[1], above],
+            Symbol::Label => vec![above, beside[0], beside[1]],
+        };
         for (across, anchor) in places {
-            if rise == 0.0 && anchor == Anchor::Middle {
-                continue;
-            }
             let first = y + size * (0.35 + rise - 0.5 * LINE * (lines.len() as f64 - 1.0));
             let block = |dx: f64, dy: f64| -> Vec<Text> {
                 let line = |(i, text): (usize, &String)| {

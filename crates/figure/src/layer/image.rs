@@ -2,6 +2,7 @@
 
 use crate::axis::Unit;
 use crate::colour::ColourMap;
+use crate::interval::Scale;
 
 /// What colours mean.
 #[derive(Debug, Clone, PartialEq)]
@@ -14,6 +15,8 @@ pub struct ColourScale {
     pub map: ColourMap,
     /// Which values get the colours at the ends.
     pub limits: Limits,
+    /// How colours are spread between them; a diverging map is linear always.
+    pub spread: Scale,
 }
 
 impl ColourScale {
@@ -25,7 +28,15 @@ impl ColourScale {
             unit,
             map,
             limits: Limits::All,
+            spread: Scale::Linear,
         }
+    }
+
+    /// With equal steps of colour for equal ratios: magnitudes over decades. What is not positive is left white.
+    #[must_use]
+    pub fn logarithmic(mut self) -> Self {
+        self.spread = Scale::Logarithmic;
+        self
     }
 
     /// With other limits.

@@ -20,25 +20,46 @@ impl Mark {
     }
 }
 
-/// A star with a label beside it.
+/// What stands at a labelled point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Symbol {
+    /// A star, with the label beside it.
+    Star,
+    /// The label itself: the name of a curve or of a region.
+    Label,
+}
+
+/// A point with a label.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LabelledPoint {
     /// Place on the x axis; the point is not drawn outside the axes.
     pub x: f64,
     /// Place on the y axis.
     pub y: f64,
-    /// What is written beside it.
+    /// What is written at it.
     pub label: String,
+    /// What stands there.
+    pub symbol: Symbol,
 }
 
 impl LabelledPoint {
-    /// A point.
+    /// A star with a label beside it.
     #[must_use]
     pub fn new(x: f64, y: f64, label: &str) -> Self {
         Self {
             x,
             y,
             label: label.to_owned(),
+            symbol: Symbol::Star,
+        }
+    }
+
+    /// A label alone, on the point or near it.
+    #[must_use]
+    pub fn text(x: f64, y: f64, label: &str) -> Self {
+        Self {
+            symbol: Symbol::Label,
+            ..Self::new(x, y, label)
         }
     }
 }

@@ -13,7 +13,7 @@ pub use classes::Classes;
 pub use histogram::Histogram;
 pub use image::{ColourScale, Image, Limits, Shading};
 pub use line::{Line, Style};
-pub use mark::{LabelledPoint, Mark};
+pub use mark::{LabelledPoint, Mark, Symbol};
 pub use traces::{Gain, Trace, Traces};
 
 /// One layer of a panel; later ones lie over earlier ones.

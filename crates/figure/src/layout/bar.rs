@@ -2,7 +2,6 @@
 
 use super::plan::Colours;
 use super::typeface::Typeface;
-use crate::interval::Interval;
 use crate::text::{LINE, Rich, wrap};
 use crate::ticks::{Room, Ticks, shown, ticks};
 
@@ -29,7 +28,7 @@ pub(crate) struct BarFit {
 impl BarFit {
     /// Fits a bar of a height.
     pub(crate) fn new(colours: &Colours, height: f64, faces: &Typeface) -> Self {
-        let interval = Interval::linear(colours.limits.0, colours.limits.1);
+        let interval = colours.limits;
         let shown = shown(&colours.scale.quantity, &colours.scale.unit, &interval);
         let needs = |_: &str| LINE * faces.tick;
         let room = Room {

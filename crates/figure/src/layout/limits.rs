@@ -1,11 +1,26 @@
 //! Which values get the colours at the ends of a map.
 
 use crate::colour::ColourMap;
+use crate::interval::{Interval, Scale};
 use crate::layer::{ColourScale, Limits};
 
-/// The limits of a scale over values, low below high; those that are no numbers do not count.
-pub(crate) fn limits<'a>(scale: &ColourScale, values: impl Iterator<Item = &'a f64>) -> (f64, f64) {
-    let mut known: Vec<f64> = values.copied().filter(|v| v.is_finite()).collect();
+/// The interval of a scale over values; those that it cannot show do not count.
+pub(crate) fn limits<'a>(scale: &ColourScale, values: impl Iterator<Item = &'a f64>) -> Interval {
+    let spread = match scale.map {
+        ColourMap::Diverging => Scale::Linear,
+        ColourMap::Sequential => scale.spread,
+    };
+    let (low, high) = ends(scale, values.copied().filter(|&v| spread.shows(v)));
+    Interval {
+        scale: spread,
+        low,
+        high,
+    }
+}
+
+/// The ends of a scale over values, low below high.
+fn ends(scale: &ColourScale, values: impl Iterator<Item = f64>) -> (f64, f64) {
+    let mut known: Vec<f64> = values.collect();
     known.sort_by(f64::total_cmp);
     let found = match (scale.map, scale.limits) {
         (_, Limits::Between(low, high)) => (low.min(high), low.max(high)),
@@ -36,7 +51,11 @@ pub(crate) fn limits<'a>(scale: &ColourScale, values: impl Iterator<Item = &'a f
     if low < high {
         return (low, high);
     }
-    // one value only
+    // one value only, or none
+    if scale.spread == Scale::Logarithmic {
+        let middle = if low > 0.0 { low } else { 1.0 };
+        return (middle / 3.0, middle * 3.0);
+    }
     let half = if low == 0.0 { 1.0 } else { 0.5 * low.abs() };
     (low - half, high + half)
 }
@@ -56,10 +75,17 @@ mod tests {
     use crate::axis::Unit;
 
     fn of(map: ColourMap, which: Limits, values: &[f64]) -> (f64, f64) {
-        limits(
-            &ColourScale::new("", Unit::One, map).limits(which),
-            values.iter(),
-        )
+        let scale = ColourScale::new("", Unit::One, map).limits(which);
+        let found = limits(&scale, values.iter());
+        (found.low, found.high)
+    }
+
+    #[test]
+    fn decades_are_spread_over_what_is_positive() {
+        let scale = ColourScale::new("", Unit::One, ColourMap::Sequential).logarithmic();
+        let found = limits(&scale, [0.0, -3.0, 1e-6, f64::NAN, 10.0].iter());
+        assert_eq!(found, Interval::logarithmic(1e-6, 10.0));
+        assert!(limits(&scale, [0.0].iter()).is_valid());
     }
 
     #[test]

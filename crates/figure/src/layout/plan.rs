@@ -35,7 +35,7 @@ impl AxisPlan {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Colours {
     pub(crate) scale: ColourScale,
-    pub(crate) limits: (f64, f64),
+    pub(crate) limits: Interval,
     /// Whether values lie below and above the limits.
     pub(crate) beyond: [bool; 2],
 }
@@ -192,14 +192,14 @@ fn colours(panels: &[&Panel]) -> Option<Colours> {
     };
     let scale = images().next()?.colours.clone();
     let values = || images().flat_map(|image| &image.values);
-    let (low, high) = limits(&scale, values());
-    let slack = 1e-9 * (high - low);
+    let limits = limits(&scale, values());
+    let place = |value: &f64| limits.scale.shows(*value).then(|| limits.fraction(*value));
     Some(Colours {
         scale,
-        limits: (low, high),
+        limits,
         beyond: [
-            values().any(|&v| v < low - slack),
-            values().any(|&v| v > high + slack),
+            values().filter_map(place).any(|at| at < -1e-9),
+            values().filter_map(place).any(|at| at > 1.0 + 1e-9),
         ],
     })
 }

@@ -35,7 +35,7 @@ pub(crate) struct Shown {
 /// The multiple of a unit that suits the values of an interval.
 ///
 /// A unit of the SI takes a prefix and any other one a power of ten, so that the largest value has one to three
-/// digits before the point; values from 0.1 on keep the unit itself, and so does a logarithmic axis.
+/// digits before the point; values from 0.1 on keep the unit itself unless they are lengths, and so does a logarithmic axis.
 pub(crate) fn shown(quantity: &str, unit: &Unit, interval: &Interval) -> Shown {
     let largest = interval.low.abs().max(interval.high.abs());
     let exponent = match interval.scale {
@@ -52,7 +52,8 @@ pub(crate) fn shown(quantity: &str, unit: &Unit, interval: &Interval) -> Shown {
     };
     match unit {
         Unit::Si(unit) => {
-            let wanted = if exponent == -1 {
+            // tenths are read as they are, but for lengths: 120 mm
+            let wanted = if exponent == -1 && unit != "m" {
                 0
             } else {
                 3 * exponent.div_euclid(3)
@@ -103,6 +104,7 @@ mod tests {
         assert_eq!(si("s", 4e-5).label, "x [\u{b5}s]");
         assert_eq!(si("N", 38_200.0).label, "x [kN]");
         assert_eq!(si("m/s", 0.5).label, "x [m/s]");
+        assert_eq!(si("m", 0.12).label, "x [mm]");
         assert_eq!(si("Pa", 2.1e11).factor, 1e9);
         assert_eq!(si("Pa", 0.0).factor, 1.0);
         // a logarithmic axis has powers of ten already

@@ -23,6 +23,13 @@ fn fonts() -> Arc<usvg::fontdb::Database> {
 
 /// Renders an SVG at so many pixels for each of its own.
 pub(crate) fn png(svg: &str, scale: f32) -> Result<Vec<u8>, RenderError> {
+    rendered(svg, scale)?
+        .encode_png()
+        .map_err(|error| RenderError::Png(error.to_string()))
+}
+
+/// The pixels of an SVG.
+pub(super) fn rendered(svg: &str, scale: f32) -> Result<tiny_skia::Pixmap, RenderError> {
     let options = usvg::Options {
         fontdb: fonts(),
         ..usvg::Options::default()
@@ -34,7 +41,5 @@ pub(crate) fn png(svg: &str, scale: f32) -> Result<Vec<u8>, RenderError> {
         tiny_skia::Pixmap::new(width, height).ok_or(RenderError::Pixels { width, height })?;
     let transform = tiny_skia::Transform::from_scale(scale, scale);
     resvg::render(&tree, transform, &mut pixels.as_mut());
-    pixels
-        .encode_png()
-        .map_err(|error| RenderError::Png(error.to_string()))
+    Ok(pixels)
 }

@@ -1,0 +1,193 @@
+//! A section: its frames, its near field, its fronts.
+
+use crate::error::PlotError;
+use crate::quantity::{Instants, Quantity};
+use crate::speeds::{Speeds, end_s, onset_s};
+use figure::{LabelledPoint, Layer, Line, Style};
+use formats::stored::{ReadError, StoredImpact, StoredSection};
+use impact::FieldsError;
+use std::collections::VecDeque;
+use std::f64::consts::FRAC_PI_2;
+
+/// A section with what its pictures need.
+pub(crate) struct Section {
+    pub(crate) stored: StoredSection,
+    pub(crate) speeds: Speeds,
+    pub(crate) disc_radius_m: f64,
+    /// When the force begins in s.
+    pub(crate) start_s: f64,
+    /// How long it lasts in s.
+    pub(crate) pulse_s: f64,
+    /// Frames read last: a rate needs its neighbours again.
+    known: VecDeque<(String, usize, Vec<f64>)>,
+}
+
+/// Frames that are kept.
+const KEPT: usize = 24;
+
+impl Section {
+    /// The section of a results file.
+    pub(crate) fn of(impact: &StoredImpact) -> Result<Self, PlotError> {
+        let stored = impact.section()?.ok_or_else(|| PlotError::Absent {
+            path: impact.path().to_owned(),
+            what: "section",
+            hint: "give the scene a [map] with r_max_m, z_max_m, points and frames",
+        })?;
+        let (time_s, force_n) = (&impact.series.time_s, &impact.series.force_n);
+        let start_s = onset_s(time_s, force_n);
+        Ok(Self {
+            speeds: Speeds::of(&impact.scene.target).map_err(FieldsError::from)?,
+            disc_radius_m: impact.number("disc_radius_m").unwrap_or(0.0),
+            start_s,
+            pulse_s: end_s(time_s, force_n) - start_s,
+            known: VecDeque::new(),
+            stored,
+        })
+    }
+
+    /// The quantity that is asked for, or the one that shows waves best.
+    pub(crate) fn quantity(
+        &self,
+        impact: &StoredImpact,
+        asked: &[String],
+        usual: &str,
+    ) -> Result<Quantity, PlotError> {
+        let name = asked.first().map_or(usual, String::as_str);
+        Quantity::named(name, &self.stored.quantities(), impact.path())
+    }
+
+    /// Its extents along r and z in m.
+    pub(crate) fn extent_m(&self) -> [f64; 2] {
+        let last = |x: &[f64]| x.iter().copied().fold(0.0, f64::max);
+        [last(&self.stored.r_m), last(&self.stored.z_m)]
+    }
+
+    /// Depths in m, ascending, as images need them.
+    pub(crate) fn depths_m(&self) -> Vec<f64> {
+        self.stored.z_m.iter().rev().copied().collect()
+    }
+
+    /// The values of a frame with depths ascending: r runs fastest.
+    pub(crate) fn image(&self, frame: &[f64]) -> Vec<f64> {
+        let rows = frame.chunks(self.stored.r_m.len()).rev();
+        rows.flatten().copied().collect()
+    }
+
+    /// Whether each place of [`Self::image`] is outside the near field.
+    ///
+    /// The near field, where values grow without bound on the scale of the picture, is everything within an eighth of
+    /// the smaller extent, and within three radii of the disc.
+    pub(crate) fn is_far(&self) -> Vec<bool> {
+        let [r, z] = self.extent_m();
+        let near = (0.125 * r.min(z))
+            .max(3.0 * self.disc_radius_m)
+            .min(0.5 * r.min(z));
+        let depths = self.depths_m();
+        let places = depths
+            .iter()
+            .flat_map(|z| self.stored.r_m.iter().map(move |r| r.hypot(*z)));
+        places.map(|distance| distance > near).collect()
+    }
+
+    /// How much of a frame by differences hangs on the distance of the frames: rms over rms outside the near field.
+    pub(crate) fn doubt(
+        &mut self,
+        quantity: &Quantity,
+        frames: &[usize],
+    ) -> Result<f64, PlotError> {
+        let far = self.is_far();
+        let (mut difference, mut size) = (0.0, 0.0);
+        for &frame in frames {
+            let (fine, coarse) = (quantity.at(self, frame)?, quantity.coarser(self, frame)?);
+            let (fine, coarse) = (self.image(&fine), self.image(&coarse));
+            for ((a, b), _) in fine.iter().zip(&coarse).zip(&far).filter(|(_, far)| **far) {
+                difference += (a - b) * (a - b);
+                size += a * a;
+            }
+        }
+        Ok(if size > 0.0 {
+            (difference / size).sqrt()
+        } else {
+            0.0
+        })
+    }
+
+    /// The fronts at a time as thin lines with their names, in a mirrored panel.
+    pub(crate) fn fronts(&self, time_s: f64) -> Vec<Layer> {
+        let since = time_s - self.start_s;
+        let mut layers = Vec::new();
+        if since <= 0.0 {
+            return layers;
+        }
+        let mut line = |points: Vec<(f64, f64)>| {
+            layers.push(Layer::Line(Line::new("", Style::RimmedDashed, points)));
+        };
+        let [p, s, rayleigh] =
+            [self.speeds.p, self.speeds.s, self.speeds.rayleigh].map(|c| c * since);
+        line(capsule(self.disc_radius_m, p));
+        line(capsule(self.disc_radius_m, s));
+        // a Rayleigh wave is as deep as it is long
+        let depth = self.speeds.rayleigh * self.pulse_s;
+        let edge = self.disc_radius_m + rayleigh;
+        line(vec![(edge, 0.0), (edge, depth.min(0.9 * rayleigh))]);
+        let on = |radius: f64, angle: f64| {
+            (
+                self.disc_radius_m + radius * angle.sin(),
+                radius * angle.cos(),
+            )
+        };
+        let named = [
+            (on(p, 0.75), "P"),
+            (on(s, 0.5), "S"),
+            ((edge, 0.6 * depth.min(0.9 * rayleigh)), "R"),
+        ];
+        layers.extend(named.map(|((x, y), name)| Layer::Point(LabelledPoint::text(x, y, name))));
+        layers
+    }
+}
+
+impl Instants for Section {
+    fn time_s(&self) -> &[f64] {
+        &self.stored.time_s
+    }
+
+    fn at(&mut self, quantity: &str, instant: usize) -> Result<Vec<f64>, ReadError> {
+        let is =
+            |(name, frame, _): &&(String, usize, Vec<f64>)| name == quantity && *frame == instant;
+        if let Some((_, _, values)) = self.known.iter().find(is) {
+            return Ok(values.clone());
+        }
+        let found = self.stored.frame(quantity, instant)?;
+        let values: Vec<f64> = found.into_iter().map(f64::from).collect();
+        if self.known.len() >= KEPT {
+            self.known.pop_front();
+        }
+        self.known
+            .push_back((quantity.to_owned(), instant, values.clone()));
+        Ok(values)
+    }
+}
+
+/// Points at a distance from a disc: a quarter circle around its edge and the plane part below it.
+fn capsule(disc_radius_m: f64, distance_m: f64) -> Vec<(f64, f64)> {
+    const POINTS: u32 = 90;
+    let arc = (0..=POINTS).map(|i| {
+        let angle = FRAC_PI_2 * f64::from(i) / f64::from(POINTS);
+        (
+            disc_radius_m + distance_m * angle.cos(),
+            distance_m * angle.sin(),
+        )
+    });
+    arc.chain([(0.0, distance_m)]).collect()
+}
+
+/// The value below which a fraction of the sizes lies; 0 without values.
+pub(crate) fn quantile_of_sizes(values: impl Iterator<Item = f64>, fraction: f64) -> f64 {
+    let mut sizes: Vec<f64> = values.map(f64::abs).filter(|v| v.is_finite()).collect();
+    if sizes.is_empty() {
+        return 0.0;
+    }
+    let index = (fraction * (sizes.len() - 1) as f64).round() as usize;
+    let (_, found, _) = sizes.select_nth_unstable_by(index, f64::total_cmp);
+    *found
+}

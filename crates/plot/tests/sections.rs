@@ -1,0 +1,157 @@
+//! Pictures of sections, from files that the program has written.
+
+#![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
+
+use figure::{Figure, Layer, measure, to_gif};
+use formats::{Existing, parse_scene, write_results};
+use impact::{KernelChoice, simulate};
+use plot::{Kind, PlotError, Request, animate, compose};
+use std::path::{Path, PathBuf};
+
+/// A section of 40 mm under a steel ball of 0.2 mm on steel, whose pulse is 6 mm long.
+fn section(folder: &Path, frames: usize) -> PathBuf {
+    let text = format!(
+        "[target]\nmaterial = \"steel\"\n[striker]\nmaterial = \"bearing-steel\"\nmass_kg = 3.3e-8\n\
+         tip_radius_m = 1e-4\nvelocity_m_s = 2\n[contact]\ntolerance = 1e-3\n[output]\nduration_s = 7e-6\n\
+         [map]\nr_max_m = 0.04\nz_max_m = 0.04\npoints = [13, 13]\nframes = {frames}\n"
+    );
+    let scene = parse_scene(&text, folder).unwrap();
+    let outcome = simulate(&scene, &KernelChoice::Direct).unwrap();
+    let path = folder.join(format!("{frames}.vtkhdf"));
+    write_results(&path, &scene, &outcome, Existing::Keep).unwrap();
+    path
+}
+
+fn request(kind: Kind, quantity: &str) -> Request {
+    Request {
+        kind: Some(kind),
+        quantities: vec![quantity.to_owned()],
+        ..Request::default()
+    }
+}
+
+/// Every text of a figure, none over another and none outside, at three widths.
+fn texts(figure: &Figure) -> Vec<String> {
+    let mut found = Vec::new();
+    for width in [320.0, 700.0, 1200.0] {
+        let measured = measure(&figure.clone().width(width)).unwrap();
+        for (i, (text, place)) in measured.texts.iter().enumerate() {
+            assert!(measured.canvas.holds(place), "{text} is cut off at {width}");
+            for (other, second) in &measured.texts[..i] {
+                assert!(!place.overlaps(second), "{text} over {other} at {width}");
+            }
+        }
+        found = measured.texts.into_iter().map(|(text, _)| text).collect();
+    }
+    found
+}
+
+fn images(figure: &Figure) -> Vec<&figure::Image> {
+    let mut found = Vec::new();
+    for layer in figure.panels.iter().flat_map(|panel| &panel.layers) {
+        if let Layer::Image(image) = layer {
+            found.push(image);
+        }
+    }
+    found
+}
+
+#[test]
+fn a_section_shows_its_waves_without_being_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = section(folder.path(), 120);
+    let drawn = compose(std::slice::from_ref(&path), &Request::default()).unwrap();
+    assert_eq!(drawn.figure.panels.len(), 4);
+    assert!(drawn.notes.is_empty(), "{:?}", drawn.notes);
+    let texts = texts(&drawn.figure);
+    for wanted in ["P", "S", "R"] {
+        let count = texts.iter().filter(|text| *text == wanted).count();
+        assert_eq!(count, 4, "{wanted}: {texts:?}");
+    }
+    assert!(texts.iter().any(|text| text == "depth [mm]"));
+    // before the first wave there is nothing, at any of the times
+    for (panel, image) in drawn.figure.panels.iter().zip(images(&drawn.figure)) {
+        let front = panel.layers.iter().find_map(|layer| match layer {
+            Layer::Line(line) => Some(line.points[0].0),
+            _ => None,
+        });
+        let largest = image.values.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+        for (i, value) in image.values.iter().enumerate() {
+            let (r, z) = (image.x[i % image.x.len()], image.y[i / image.x.len()]);
+            // differences reach two frames beyond a front
+            if r.hypot(z) > front.unwrap() + 1e-3 {
+                assert!(value.abs() < 1e-6 * largest, "{r} {z}: {value}");
+            }
+        }
+    }
+    let (figures, _) = animate(
+        &[path],
+        &Request {
+            frames: Some(3),
+            ..Request::default()
+        },
+    )
+    .unwrap();
+    let gif = to_gif(&figures, 1.0, 0.1).unwrap();
+    assert!(figures.len() == 3 && gif.starts_with(b"GIF89a"));
+}
+
+#[test]
+fn velocities_by_differences_are_those_of_denser_frames() {
+    let folder = tempfile::tempdir().unwrap();
+    let [coarse, fine] = [120, 477].map(|frames| {
+        let request = Request {
+            times_s: vec![6e-6],
+            ..request(Kind::Waves, "velocity_z")
+        };
+        compose(&[section(folder.path(), frames)], &request).unwrap()
+    });
+    let (coarse, fine) = (images(&coarse.figure)[0], images(&fine.figure)[0]);
+    let rms = |values: &mut dyn Iterator<Item = f64>| values.map(|v| v * v).sum::<f64>().sqrt();
+    let size = rms(&mut fine.values.iter().copied());
+    let gap = rms(&mut fine.values.iter().zip(&coarse.values).map(|(a, b)| a - b));
+    // both have a frame at 6 us, to half a sample of 5 ns
+    assert!(gap < 0.1 * size, "{gap} of {size}");
+}
+
+#[test]
+fn frames_too_far_apart_give_no_velocity() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = section(folder.path(), 9);
+    let refused = compose(
+        std::slice::from_ref(&path),
+        &request(Kind::Waves, "velocity_z"),
+    );
+    assert!(matches!(refused, Err(PlotError::Coarse { .. })));
+    let drawn = compose(&[path], &Request::default()).unwrap();
+    assert!(drawn.notes[0].contains("the displacement is shown"));
+    assert_eq!(
+        images(&drawn.figure)[0].colours.quantity,
+        "axial displacement"
+    );
+}
+
+#[test]
+fn every_kind_of_picture_of_a_section_is_drawn() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = section(folder.path(), 60);
+    for (kind, quantity) in [
+        (Kind::Peak, "von_mises"),
+        (Kind::Peak, "stress_zz"),
+        (Kind::Surface, "displacement_z"),
+        (Kind::Depth, "stress_zz"),
+        (Kind::Axis, "stress_zz"),
+        (Kind::Axis, "displacement_z"),
+        (Kind::Waves, "max_shear"),
+    ] {
+        let drawn = compose(std::slice::from_ref(&path), &request(kind, quantity)).unwrap();
+        assert!(texts(&drawn.figure).len() > 10, "{kind} {quantity}");
+    }
+    let unknown = compose(
+        std::slice::from_ref(&path),
+        &request(Kind::Waves, "stress_zx"),
+    );
+    assert!(unknown.unwrap_err().to_string().contains("did you mean"));
+    let two = compose(&[path.clone(), path], &request(Kind::Waves, "stress_zz"));
+    assert!(matches!(two, Err(PlotError::OneFile { given: 2, .. })));
+}
