@@ -116,7 +116,7 @@ def test_probes(impact):
             assert probes[name].shape == (count, samples), name
             assert units(probes[name]) == unit, name
             assert np.all(np.isfinite(probes[name][()])), name
-            assert probes[name].dims[1][0].name == "/time", name
+            assert scales(probes[name]) == ["/probes/probe", "/probes/time"], name
             errors = probes[name + "_error"]
             assert errors.shape == (count,) and units(errors) == unit, name
             assert np.all(errors[()] >= 0.0) and np.all(np.isfinite(errors[()])), name

@@ -40,10 +40,15 @@ def sweep(tmp_path_factory):
 
 def test_dimensions_are_the_axes(sweep):
     file, _ = sweep
-    for name, dataset in file["results"].items():
+    dimensions = ["striker.material", "striker.velocity_m_s", "sample"]
+    results = {name: data for name, data in file["results"].items() if data.ndim == 3}
+    assert sorted(set(file["results"]) - set(results)) == sorted([*dimensions, "striker.mass_kg"])
+    assert [dimension.label or dimension[0].name for dimension in file["results/striker.mass_kg"].dims] == ["/results/sample"]
+    for name, dataset in results.items():
         assert dataset.shape == (2, 3, 20), name
-        scales = [list(dimension.keys()) for dimension in dataset.dims]
-        assert scales == [["striker.material"], ["striker.velocity_m_s"], ["striker.mass_kg"]], name
+        scales = [[scale.name for scale in dimension.values()] for dimension in dataset.dims]
+        assert scales == [[f"/results/{name}"] for name in dimensions], name
+        assert dataset.attrs["coordinates"] == "striker.mass_kg"
         assert dataset.attrs["units"] and dataset.attrs["long_name"], name
     assert list(file["axes/striker.material"].asstr()[()]) == ["copper", "steel"]
     np.testing.assert_allclose(file["axes/striker.velocity_m_s"][()], [1.0, 10.0, 100.0])

@@ -4,10 +4,10 @@ use crate::failure::{Failure, print, say};
 use crate::overwrite::Overwrite;
 use crate::report::text_report;
 use clap::{Args, ValueEnum};
-use formats::{inputs, json_report, read_scene, write_results_into};
+use formats::{inputs, json_report, read_scene, stage_results_csv, write_results_into};
 use impact::{KernelChoice, simulate};
 use lookup::TableFile;
-use output::{HDF5, Role};
+use output::{CSV, HDF5, Output, Role};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
@@ -39,6 +39,9 @@ pub(crate) struct Arguments {
     /// Results file (HDF5, see data-schema/results.md).
     #[arg(short, long, value_name = "OUT.h5")]
     output: Option<PathBuf>,
+    /// The time series and the traces of the probes as text, one line a sample.
+    #[arg(long, value_name = "OUT.csv")]
+    csv: Option<PathBuf>,
     #[command(flatten)]
     overwrite: Overwrite,
     /// Print one JSON object instead of text.
@@ -49,19 +52,14 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let start = Instant::now();
     let scene = read_scene(&arguments.scene).map_err(Failure::input)?;
-    let output = match &arguments.output {
-        Some(path) => {
-            let mut read = inputs(&arguments.scene).map_err(Failure::input)?;
-            let table = arguments.table.iter();
-            read.extend(table.map(|table| Role::new("the kernel table", table)));
-            Some(arguments.overwrite.claim(path, HDF5, &read)?)
-        }
-        None => None,
-    };
+    let [output, csv] = outputs(arguments)?;
     let kernels = kernels(arguments)?;
     let outcome = simulate(&scene, &kernels)?;
     if let Some(output) = &output {
         write_results_into(output, &scene, &outcome)?;
+    }
+    if let Some(csv) = &csv {
+        stage_results_csv(csv, &scene, &outcome)?.commit()?;
     }
     for warning in &outcome.warnings {
         say(format!("warning: {warning}"));
@@ -71,6 +69,22 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     } else {
         print(text_report(&scene, &outcome))
     }
+}
+
+/// The results file and the table as text, where they are asked for.
+fn outputs(arguments: &Arguments) -> Result<[Option<Output>; 2], Failure> {
+    let wanted = [(&arguments.output, HDF5), (&arguments.csv, CSV)];
+    let mut read = inputs(&arguments.scene).map_err(Failure::input)?;
+    let table = arguments.table.iter();
+    read.extend(table.map(|table| Role::new("the kernel table", table)));
+    let mut claimed = [None, None];
+    for (place, (path, ending)) in claimed.iter_mut().zip(wanted) {
+        if let Some(path) = path {
+            *place = Some(arguments.overwrite.claim(path, ending, &read)?);
+            read.push(Role::new("another output", path));
+        }
+    }
+    Ok(claimed)
 }
 
 fn kernels(arguments: &Arguments) -> Result<KernelChoice, Failure> {

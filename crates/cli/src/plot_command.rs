@@ -13,7 +13,10 @@ use std::path::{Path, PathBuf};
 const EXAMPLES: &str = "Examples:
   hertzlamb plot drop.h5 -o drop.svg
   hertzlamb plot slow.h5 fast.h5 -o both.pdf
-  hertzlamb plot drop.h5 --kind probes --quantity stress_zz -o stress.png";
+  hertzlamb plot drop.h5 --kind probes --quantity stress_zz -o stress.png
+  hertzlamb plot waves.vtkhdf -o waves.gif
+  hertzlamb plot sweep.h5 --kind loss --at target.material=steel -o loss.svg
+  hertzlamb plot kernels.h5 -o errors.svg";
 
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
@@ -36,6 +39,12 @@ pub(crate) struct Arguments {
     /// Frames of a section: four in a picture without it, up to 120 in an animation.
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u16).range(1..=2000))]
     frames: Option<u16>,
+    /// The key of a sweep along x; without it the one with the most numbers.
+    #[arg(long, value_name = "KEY")]
+    along: Option<String>,
+    /// A key of a sweep with the value at which it is held; may be given again.
+    #[arg(long, value_name = "KEY=VALUE", value_parser = held)]
+    at: Vec<(String, String)>,
     /// Title; without it one that says what strikes.
     #[arg(long)]
     title: Option<String>,
@@ -47,6 +56,14 @@ pub(crate) struct Arguments {
     scale: u8,
     #[command(flatten)]
     overwrite: Overwrite,
+}
+
+/// A key and its value.
+fn held(text: &str) -> Result<(String, String), String> {
+    let (key, value) = text
+        .split_once('=')
+        .ok_or_else(|| format!("{text} is not KEY=VALUE, such as target.material=steel"))?;
+    Ok((key.trim().to_owned(), value.trim().to_owned()))
 }
 
 fn kinds() -> PossibleValuesParser {
@@ -90,6 +107,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         quantities: arguments.quantity.clone(),
         times_s: arguments.times.clone(),
         frames: arguments.frames.map(usize::from),
+        along: arguments.along.clone(),
+        at: arguments.at.clone(),
         title: arguments.title.clone(),
     };
     let size = |figure: Figure| match arguments.width {

@@ -52,6 +52,29 @@ pub(crate) fn texts(
     numbers(group, described, &[values.len()], &values)
 }
 
+/// A dimension scale of numbers.
+pub(crate) fn scale<T: H5Type>(
+    group: &Group,
+    described: &(&str, &str, &str),
+    values: &[T],
+) -> Result<Dataset, hdf5::Error> {
+    let dataset = numbers(group, described, &[values.len()], values)?;
+    set_scale(&dataset, described.0)?;
+    Ok(dataset)
+}
+
+/// Attaches scales to the dimensions from `first` on.
+pub(crate) fn attach_all(
+    data: &Dataset,
+    scales: &[&Dataset],
+    first: usize,
+) -> Result<(), hdf5::Error> {
+    for (index, scale) in (first..).zip(scales) {
+        attach_scale(data, scale, index)?;
+    }
+    Ok(())
+}
+
 pub(crate) fn describe(
     dataset: &Dataset,
     described: &(&str, &str, &str),

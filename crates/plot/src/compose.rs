@@ -3,9 +3,11 @@
 use crate::error::PlotError;
 use crate::kind::Kind;
 use crate::of_impacts::{frames_of, of_impacts};
+use crate::of_sweep::of_sweep;
+use crate::of_table::of_table;
 use crate::request::{Drawn, Request};
 use figure::Figure;
-use formats::stored::{FileKind, StoredImpact, file_kind};
+use formats::stored::{FileKind, StoredImpact, StoredSweep, file_kind};
 use std::path::{Path, PathBuf};
 
 /// Composes a figure of one or several files of one kind.
@@ -21,9 +23,9 @@ pub fn compose(paths: &[PathBuf], request: &Request) -> Result<Drawn, PlotError>
     }
     match file {
         FileKind::Impact => of_impacts(&open(paths)?, request),
-        FileKind::Sweep | FileKind::Table | FileKind::Chart => {
-            Err(unsuitable(&paths[0], file, Kind::Impact))
-        }
+        FileKind::Sweep => of_sweep(&StoredSweep::open(only(paths, Kind::Sweep)?)?, request),
+        FileKind::Table => of_table(only(paths, Kind::Errors)?, request),
+        FileKind::Chart => Err(unsuitable(&paths[0], file, Kind::Impact)),
     }
 }
 
@@ -48,6 +50,17 @@ pub fn animate(
         });
     };
     frames_of(impact, request)
+}
+
+/// The only path.
+fn only(paths: &[PathBuf], kind: Kind) -> Result<&Path, PlotError> {
+    match paths {
+        [only] => Ok(only),
+        several => Err(PlotError::OneFile {
+            kind,
+            given: several.len(),
+        }),
+    }
 }
 
 fn open(paths: &[PathBuf]) -> Result<Vec<StoredImpact>, PlotError> {

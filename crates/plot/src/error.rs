@@ -80,6 +80,27 @@ pub enum PlotError {
         /// Error in per cent, as the root of mean squares.
         percent: f64,
     },
+    /// More curves than a picture can show.
+    #[error("{} would give {count} curves, and {most} can be told apart: choose among them, such as by --at {key}=VALUE", path.display())]
+    TooMany {
+        /// The file.
+        path: PathBuf,
+        /// Curves.
+        count: usize,
+        /// Curves that can be shown.
+        most: usize,
+        /// A key that varies.
+        key: String,
+    },
+    /// A key of words along an axis of numbers.
+    #[error("{key} has no numbers to draw along")]
+    NoNumbers {
+        /// The key.
+        key: String,
+    },
+    /// A kernel table cannot be read.
+    #[error(transparent)]
+    Table(#[from] lookup::TableError),
     /// The fields could not be computed.
     #[error(transparent)]
     Fields(#[from] FieldsError),

@@ -23,6 +23,14 @@ pub enum Kind {
     Depth,
     /// The section's axis at some instants, beside the static field.
     Axis,
+    /// Results over the keys of a sweep.
+    Sweep,
+    /// Energy lost over the velocity of approach.
+    Loss,
+    /// Histograms of results.
+    Histogram,
+    /// Measured errors of a kernel table.
+    Errors,
 }
 
 impl Choice for Kind {
@@ -35,6 +43,10 @@ impl Choice for Kind {
         Self::Surface,
         Self::Depth,
         Self::Axis,
+        Self::Sweep,
+        Self::Loss,
+        Self::Histogram,
+        Self::Errors,
     ];
 
     fn name(self) -> &'static str {
@@ -47,6 +59,10 @@ impl Choice for Kind {
             Self::Surface => "x-t",
             Self::Depth => "depth-t",
             Self::Axis => "axis",
+            Self::Sweep => "sweep",
+            Self::Loss => "loss",
+            Self::Histogram => "histogram",
+            Self::Errors => "errors",
         }
     }
 }
@@ -64,6 +80,8 @@ impl Kind {
             | Self::Surface
             | Self::Depth
             | Self::Axis => FileKind::Impact,
+            Self::Sweep | Self::Loss | Self::Histogram => FileKind::Sweep,
+            Self::Errors => FileKind::Table,
         }
     }
 
@@ -88,6 +106,10 @@ impl Kind {
             Self::Surface => "distance along the surface against time, with fronts",
             Self::Depth => "depth on the axis against time, with fronts",
             Self::Axis => "the section's axis at some instants, beside the static field",
+            Self::Sweep => "results of a sweep: lines over one key, a heat map over two",
+            Self::Loss => "energy lost over the velocity of approach, with the slope 3/5",
+            Self::Histogram => "histograms of a sweep's draws with their quantiles",
+            Self::Errors => "errors of a kernel table, measured off its grid",
         }
     }
 }

@@ -22,6 +22,8 @@ mod kind;
 mod labels;
 mod number;
 mod of_impacts;
+mod of_sweep;
+mod of_table;
 mod peak;
 mod probe_panels;
 mod quantity;
@@ -30,6 +32,7 @@ mod section;
 mod space_time;
 mod spectrum;
 mod speeds;
+mod sweep_view;
 mod waves;
 
 pub use compose::{animate, compose};

@@ -13,7 +13,7 @@ use crate::space_time::{Path, space_time};
 use crate::spectrum::spectrum;
 use crate::waves::frames;
 use figure::{Figure, Panel, Sharing};
-use formats::stored::StoredImpact;
+use formats::stored::{FileKind, StoredImpact};
 
 /// Frames of a picture.
 const FRAMES: usize = 4;
@@ -47,6 +47,12 @@ pub(crate) fn of_impacts(impacts: &[StoredImpact], request: &Request) -> Result<
         Kind::Axis => Ok(single(axis_profile(one()?, request)?)),
         Kind::Surface => Ok(single(space_time(one()?, request, Path::Surface)?)),
         Kind::Depth => Ok(single(space_time(one()?, request, Path::Axis)?)),
+        Kind::Sweep | Kind::Loss | Kind::Histogram | Kind::Errors => Err(PlotError::Unsuitable {
+            path: impacts[0].path().to_owned(),
+            found: FileKind::Impact,
+            kind,
+            allowed: Kind::of(FileKind::Impact).join(", "),
+        }),
         Kind::Waves => {
             let found = frames(one()?, request, request.frames.unwrap_or(FRAMES))?;
             let columns = if found.panels.len() > 4 { 3 } else { 2 };

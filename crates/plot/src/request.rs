@@ -14,6 +14,10 @@ pub struct Request {
     pub times_s: Vec<f64>,
     /// Frames of a section; none: four in a picture, and each of the file in an animation.
     pub frames: Option<usize>,
+    /// The key along x of a sweep; none: the one with the most numbers.
+    pub along: Option<String>,
+    /// Keys of a sweep with the values at which they are held.
+    pub at: Vec<(String, String)>,
     /// Title; none: one that says what the scene is.
     pub title: Option<String>,
 }

@@ -1,10 +1,12 @@
-//! The results file: HDF5, as `data-schema/results.md` writes it down.
+//! The results file: HDF5, or its histories as text, as `data-schema/results.md` writes it down.
 //!
 //! Every name on disk is a constant of [`schema`] or of the table of quantities. The file is written beside its final
 //! name and renamed when it is complete.
 
+mod csv;
 pub mod schema;
 mod section;
 mod write;
 
+pub use csv::{print_results_csv, stage_results_csv};
 pub use write::{write_results, write_results_into};

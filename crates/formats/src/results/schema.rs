@@ -3,7 +3,7 @@
 /// Value of the attribute `file_type`.
 pub const FILE_TYPE: &str = "hertzlamb results";
 /// Version of the format: the first number changes when a reader of the old one would fail.
-pub const FORMAT_VERSION: &str = "1.4";
+pub const FORMAT_VERSION: &str = "1.5";
 /// Datasets in the root, with unit and description.
 pub const SERIES: [(&str, &str, &str); 5] = [
     ("time", "s", "time since the first touch"),
@@ -53,6 +53,14 @@ pub const ENERGIES: [(&str, &str, &str); 4] = [
 ];
 /// Group of the probes.
 pub const PROBES: &str = "probes";
+/// Number of each probe, the scale of their dimension.
+pub const PROBE: (&str, &str, &str) = ("probe", "1", "number of the probe, from 1");
+/// Names of the waves, the scale of the arrivals.
+pub const WAVE: (&str, &str, &str) = ("wave", "1", "longitudinal, shear and Rayleigh wave");
+/// The names in it.
+pub const WAVES: [&str; 3] = ["P", "S", "R"];
+/// Attribute that names the coordinates of a dataset beside its scales, as the CF conventions have it.
+pub const COORDINATES: &str = "coordinates";
 /// Coordinates of the probes.
 pub const PLACES: [(&str, &str, &str); 2] = [
     ("r", "m", "distance from the axis"),
@@ -113,3 +121,5 @@ pub const MAP_SCALES: [(&str, &str, &str); 3] = [
 pub const VTK: &str = "VTKHDF";
 /// Group of the fields in it.
 pub const VTK_POINTS: &str = "PointData";
+/// Where in a field of it each step begins.
+pub const VTK_OFFSETS: &str = "PointDataOffsets";

@@ -3,55 +3,64 @@
 //! Both are the same data: the fields in `/map` are hard links to those in `/VTKHDF`.
 
 use super::schema;
-use crate::hdf::{attach_scale, describe, numbers, set_scale, text, vector};
+use crate::hdf::{attach_all, describe, numbers, scale, set_scale, text, texts};
 use hdf5::types::FixedAscii;
 use hdf5::{Dataset, File, Group};
 use impact::SectionFields;
 
 pub(super) fn write_section(file: &File, map: &SectionFields) -> Result<(), hdf5::Error> {
     let group = file.create_group(schema::MAP)?;
-    let (nr, nz) = (map.r_m.len(), map.z_m.len());
-    let scales = [&map.time_s, &map.z_m, &map.r_m];
+    let shape = [map.time_s.len(), map.z_m.len(), map.r_m.len()];
+    let [_, nz, nr] = shape;
     let [time, z, r] = &schema::MAP_SCALES;
-    let mut made = Vec::new();
-    for (described, samples) in [time, z, r].into_iter().zip(scales) {
-        let scale = vector(&group, described, samples)?;
-        set_scale(&scale, described.0)?;
-        made.push(scale);
-    }
+    let time = scale(&group, time, &map.time_s)?;
+    let (z, r) = (scale(&group, z, &map.z_m)?, scale(&group, r, &map.r_m)?);
+    let wave = waves(&group)?;
     let arrivals: Vec<f64> = map.arrival_s.iter().flatten().copied().collect();
     let dataset = numbers(&group, &schema::ARRIVALS, &[3, nz, nr], &arrivals)?;
-    attach_all(&dataset, &made[1..], 1)?;
+    attach_all(&dataset, &[&wave, &z, &r], 0)?;
     let points = vtk_image(file, map)?;
+    // netCDF looks for the scales of a dataset in its group and in those above it
+    for (name, ..) in schema::MAP_SCALES {
+        link(file, &[schema::MAP, name], &[schema::VTK, name])?;
+    }
     for (i, described) in schema::FIELDS.iter().enumerate() {
         let (name, unit, meaning) = *described;
         let dataset = points
             .new_dataset::<f32>()
-            .shape([map.time_s.len(), nz, nr])
+            .shape(shape)
             .chunk([1, nz, nr])
             .obj_track_times(false)
             .create(name)?;
         dataset.write_raw(&map.values[i])?;
         describe(&dataset, described)?;
-        attach_scale(&dataset, &made[0], 0)?;
-        attach_all(&dataset, &made[1..], 1)?;
-        let path = format!("/{}/{}/{name}", schema::VTK, schema::VTK_POINTS);
-        file.link_hard(&path, &format!("/{}/{name}", schema::MAP))?;
+        attach_all(&dataset, &[&time, &z, &r], 0)?;
+        link(
+            file,
+            &[schema::VTK, schema::VTK_POINTS, name],
+            &[schema::MAP, name],
+        )?;
         let error = format!("{name}{}", schema::ERROR_SUFFIX);
         let meaning = format!("estimated absolute error: {meaning}");
         let described = (error.as_str(), unit, meaning.as_str());
         let errors = numbers(&group, &described, &[nz, nr], &map.errors[i])?;
-        attach_all(&errors, &made[1..], 0)?;
+        attach_all(&errors, &[&z, &r], 0)?;
     }
     Ok(())
 }
 
-/// Attaches scales to the dimensions from `first` on.
-fn attach_all(data: &Dataset, scales: &[Dataset], first: usize) -> Result<(), hdf5::Error> {
-    for (index, scale) in (first..).zip(scales) {
-        attach_scale(data, scale, index)?;
-    }
-    Ok(())
+/// The scale of arrivals.
+pub(super) fn waves(group: &Group) -> Result<Dataset, hdf5::Error> {
+    let names = schema::WAVES.map(str::to_owned);
+    let dataset = texts(group, &schema::WAVE, &names)?;
+    set_scale(&dataset, schema::WAVE.0)?;
+    Ok(dataset)
+}
+
+/// A second name for a dataset.
+fn link(file: &File, from: &[&str], to: &[&str]) -> Result<(), hdf5::Error> {
+    let path = |parts: &[&str]| format!("/{}", parts.join("/"));
+    file.link_hard(&path(from), &path(to))
 }
 
 /// The group that VTK reads, as temporal image data; returns the group of its point data.
@@ -86,6 +95,13 @@ fn vtk_image(file: &File, map: &SectionFields) -> Result<Group, hdf5::Error> {
         &map.time_s,
     )?;
     text(&values, "axis", "time")?;
+    // a step of a field begins where the one before it ends; some readers count in 64 bits only
+    let offsets = steps.create_group(schema::VTK_OFFSETS)?;
+    let numbered: Vec<i64> = (0..map.time_s.len() as i64).collect();
+    for (name, _, meaning) in &schema::FIELDS {
+        let described = (*name, "1", *meaning);
+        numbers(&offsets, &described, &[numbered.len()], &numbered)?;
+    }
     vtk.create_group(schema::VTK_POINTS)
 }
 

@@ -1,8 +1,8 @@
 //! Writing results files.
 
 use super::schema;
-use super::section::write_section;
-use crate::hdf::{attach_scale, matrix, reason, set_scale, text, vector};
+use super::section::{waves, write_section};
+use crate::hdf::{attach_all, attach_scale, matrix, reason, scale, set_scale, text, vector};
 use crate::quantities::QUANTITIES;
 use crate::report::{choices, kernel_name, treatment};
 use crate::scene::resolved;
@@ -67,11 +67,11 @@ fn write_file(path: &Path, scene: &Scene, outcome: &Outcome) -> Result<(), hdf5:
             Some(time) => attach_scale(&dataset, time, 0)?,
         }
     }
-    if let (Some(energy), Some(time)) = (&series.energy, &time) {
-        write_energy(&file, energy, time)?;
+    if let Some(energy) = &series.energy {
+        write_energy(&file, energy, &series.time_s)?;
     }
-    if let (Some(fields), Some(time)) = (&outcome.probes, &time) {
-        write_probes(&file, fields, time)?;
+    if let Some(fields) = &outcome.probes {
+        write_probes(&file, fields, &series.time_s)?;
     }
     if let Some(section) = &outcome.section {
         write_section(&file, section)?;
@@ -90,8 +90,9 @@ fn write_treatment(force: &Dataset, scene: &Scene) -> Result<(), hdf5::Error> {
     Ok(())
 }
 
-fn write_energy(file: &File, energy: &EnergySeries, time: &Dataset) -> Result<(), hdf5::Error> {
+fn write_energy(file: &File, energy: &EnergySeries, time_s: &[f64]) -> Result<(), hdf5::Error> {
     let group = file.create_group(schema::ENERGY)?;
+    let time = scale(&group, &schema::SERIES[0], time_s)?;
     let columns = [
         energy.kinetic_j.as_ref(),
         energy.work_j.as_ref(),
@@ -100,29 +101,41 @@ fn write_energy(file: &File, energy: &EnergySeries, time: &Dataset) -> Result<()
     ];
     for (described, samples) in schema::ENERGIES.iter().zip(columns) {
         if let Some(samples) = samples {
-            attach_scale(&vector(&group, described, samples)?, time, 0)?;
+            attach_scale(&vector(&group, described, samples)?, &time, 0)?;
         }
     }
     Ok(())
 }
 
-fn write_probes(file: &File, fields: &ProbeFields, time: &Dataset) -> Result<(), hdf5::Error> {
+fn write_probes(file: &File, fields: &ProbeFields, time_s: &[f64]) -> Result<(), hdf5::Error> {
     let group = file.create_group(schema::PROBES)?;
-    let [r, z] = &schema::PLACES;
-    vector(&group, r, &fields.r_m)?;
-    vector(&group, z, &fields.z_m)?;
-    let arrivals: Vec<f64> = fields.arrival_s.iter().flatten().copied().collect();
     let rows = fields.r_m.len();
-    matrix(&group, &schema::ARRIVALS, [rows, 3], &arrivals)?;
+    let numbered: Vec<i64> = (1..=rows as i64).collect();
+    // scales of its own: a group is opened by itself
+    let probe = scale(&group, &schema::PROBE, &numbered)?;
+    let time = scale(&group, &schema::SERIES[0], time_s)?;
+    let wave = waves(&group)?;
+    let [r, z] = &schema::PLACES;
+    for (described, places) in [(r, &fields.r_m), (z, &fields.z_m)] {
+        attach_scale(&vector(&group, described, places)?, &probe, 0)?;
+    }
+    let placed = |dataset: &Dataset, scales: &[&Dataset]| {
+        attach_all(dataset, scales, 0)?;
+        text(dataset, schema::COORDINATES, &format!("{} {}", r.0, z.0))
+    };
+    let arrivals: Vec<f64> = fields.arrival_s.iter().flatten().copied().collect();
+    let dataset = matrix(&group, &schema::ARRIVALS, [rows, 3], &arrivals)?;
+    placed(&dataset, &[&probe, &wave])?;
     for (i, described) in schema::FIELDS.iter().enumerate() {
         let (name, unit, meaning) = *described;
         let columns = fields.values[i].first().map_or(0, Vec::len);
         let samples: Vec<f64> = fields.values[i].iter().flatten().copied().collect();
         let dataset = matrix(&group, described, [rows, columns], &samples)?;
-        attach_scale(&dataset, time, 1)?;
+        placed(&dataset, &[&probe, &time])?;
         let error = format!("{name}{}", schema::ERROR_SUFFIX);
         let meaning = format!("estimated absolute error: {meaning}");
-        vector(&group, &(&error, unit, &meaning), &fields.errors[i])?;
+        let described = (error.as_str(), unit, meaning.as_str());
+        placed(&vector(&group, &described, &fields.errors[i])?, &[&probe])?;
     }
     Ok(())
 }

@@ -1,11 +1,12 @@
 //! The sweep file: HDF5, as `data-schema/sweep.md` writes it down.
 
-use super::axis::{Axis, Values};
+use super::axis::{Axis, Column, Values};
 use super::block::Block;
 use super::schema;
 use super::spec::Spec;
-use crate::hdf::{attach_scale, numbers, reason, set_scale, text, texts};
+use crate::hdf::{attach_all, attach_scale, numbers, reason, scale, set_scale, text, texts};
 use crate::quantities::QUANTITIES;
+use crate::results::schema::COORDINATES;
 use contact::{Choice, Model};
 use hdf5::{Dataset, File, Group};
 use output::{Existing, Output, OutputError, Staged};
@@ -55,16 +56,17 @@ fn write_file(path: &Path, spec: &Spec, blocks: &[Block]) -> Result<(), hdf5::Er
             .create(name)?
             .write_scalar(&(count as u64))?;
     }
-    let scales = write_axes(&file, &spec.axes)?;
+    write_axes(&file, &spec.axes)?;
     let shape: Vec<usize> = spec.axes.iter().map(|axis| axis.len).collect();
     let group = file.create_group(schema::RESULTS)?;
+    let Scales { scales, beside } = write_scales(&group, &spec.axes)?;
+    let scales: Vec<&Dataset> = scales.iter().collect();
     let attach = |dataset: &Dataset| -> Result<(), hdf5::Error> {
-        for (index, scales) in scales.iter().enumerate() {
-            for scale in scales {
-                attach_scale(dataset, scale, index)?;
-            }
+        attach_all(dataset, &scales, 0)?;
+        if beside.is_empty() {
+            return Ok(());
         }
-        Ok(())
+        text(dataset, COORDINATES, &beside.join(" "))
     };
     for (k, quantity) in QUANTITIES.iter().enumerate() {
         let column: Vec<f64> = blocks
@@ -84,32 +86,70 @@ fn write_file(path: &Path, spec: &Spec, blocks: &[Block]) -> Result<(), hdf5::Er
     attach(&dataset)?;
     let (indices, reasons) = failures(spec.rows(), blocks);
     attach(&numbers(&group, &schema::FAILURE, &shape, &indices)?)?;
-    texts(&file, &schema::FAILURES, &reasons)?;
+    let failures = texts(&file, &schema::FAILURES, &reasons)?;
+    set_scale(&failures, schema::FAILURES.0)?;
     file.flush()?;
     file.close()
 }
 
-/// One scale for each key, in the order of the dimensions.
-fn write_axes(file: &File, axes: &[Axis]) -> Result<Vec<Vec<Dataset>>, hdf5::Error> {
+/// The keys that vary, each with the axis that it belongs to.
+fn write_axes(file: &File, axes: &[Axis]) -> Result<(), hdf5::Error> {
     let group = file.create_group(schema::AXES)?;
-    axes.iter().map(|axis| write_axis(&group, axis)).collect()
+    for axis in axes {
+        for column in &axis.columns {
+            let dataset = write_column(&group, column)?;
+            set_scale(&dataset, &column.name())?;
+            text(&dataset, "axis", &axis.name)?;
+        }
+    }
+    Ok(())
 }
 
-fn write_axis(group: &Group, axis: &Axis) -> Result<Vec<Dataset>, hdf5::Error> {
-    let mut scales = Vec::new();
-    for column in &axis.columns {
-        let name = column.name();
-        let meaning = format!("scene key {name}");
-        let described = (name.as_str(), unit(&column.key), meaning.as_str());
-        let scale = match &column.values {
-            Values::Numbers(values) => numbers(group, &described, &[values.len()], values)?,
-            Values::Texts(values) => texts(group, &described, values)?,
-        };
-        set_scale(&scale, &name)?;
-        text(&scale, "axis", &axis.name)?;
-        scales.push(scale);
+/// The scales of the results.
+struct Scales {
+    /// One a dimension.
+    scales: Vec<Dataset>,
+    /// Names of the keys that vary along a dimension with others.
+    beside: Vec<String>,
+}
+
+/// One scale for each dimension beside the results: a group is opened by itself.
+///
+/// Of keys that vary together the scale is their number, and each of them a list over it.
+fn write_scales(group: &Group, axes: &[Axis]) -> Result<Scales, hdf5::Error> {
+    let mut found = Scales {
+        scales: Vec::new(),
+        beside: Vec::new(),
+    };
+    for axis in axes {
+        if let [only] = axis.columns.as_slice()
+            && only.name() == axis.name
+        {
+            let dataset = write_column(group, only)?;
+            set_scale(&dataset, &axis.name)?;
+            found.scales.push(dataset);
+            continue;
+        }
+        let numbered: Vec<i64> = (0..axis.len as i64).collect();
+        let described = (axis.name.as_str(), "1", schema::NUMBERED);
+        let along = scale(group, &described, &numbered)?;
+        for column in &axis.columns {
+            attach_scale(&write_column(group, column)?, &along, 0)?;
+            found.beside.push(column.name());
+        }
+        found.scales.push(along);
     }
-    Ok(scales)
+    Ok(found)
+}
+
+fn write_column(group: &Group, column: &Column) -> Result<Dataset, hdf5::Error> {
+    let name = column.name();
+    let meaning = format!("scene key {name}");
+    let described = (name.as_str(), unit(&column.key), meaning.as_str());
+    match &column.values {
+        Values::Numbers(values) => numbers(group, &described, &[values.len()], values),
+        Values::Texts(values) => texts(group, &described, values),
+    }
 }
 
 /// The unit that a scene key carries in its name.

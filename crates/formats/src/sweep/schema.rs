@@ -3,13 +3,15 @@
 /// Value of the attribute `file_type`.
 pub const FILE_TYPE: &str = "hertzlamb sweep";
 /// Version of the format: the first number changes when a reader of the old one would fail.
-pub const FORMAT_VERSION: &str = "1.1";
+pub const FORMAT_VERSION: &str = "1.2";
 /// Group of the keys that vary.
 pub const AXES: &str = "axes";
 /// Name of the axis of keys that vary together.
 pub const LIST: &str = "list";
 /// Name of the axis of random draws.
 pub const SAMPLE: &str = "sample";
+/// What the scale of keys that vary together holds.
+pub const NUMBERED: &str = "number of the values that belong together, from 0";
 /// Group of the results.
 pub const RESULTS: &str = "results";
 /// The model that was used, as an index into the attribute `names` of the dataset.

@@ -1,0 +1,97 @@
+//! An impact as text: one table of everything over time.
+
+use super::schema;
+use impact::{Outcome, Scene};
+use output::{Output, OutputError, Staged};
+use std::fmt::Write as _;
+use std::io::{self, BufWriter, Write};
+
+/// A column: its name, which ends with the unit, and its samples.
+type Column<'a> = (String, &'a [f64]);
+
+/// Writes the time series and the traces of the probes, one line a sample, into an output that was claimed.
+///
+/// Lines that begin with `#` say where the probes are. The first line after them names the columns with their units,
+/// such as `time_s`, `force_n` and `probe1_stress_zz_pa`.
+///
+/// # Errors
+/// [`OutputError`].
+pub fn stage_results_csv<'a>(
+    output: &'a Output,
+    scene: &Scene,
+    outcome: &Outcome,
+) -> Result<Staged<'a>, OutputError> {
+    output.stage(|part| {
+        let mut file = BufWriter::new(std::fs::File::create(part)?);
+        print_results_csv(&mut file, scene, outcome)?;
+        file.flush()
+    })
+}
+
+/// The same to something that is open.
+///
+/// # Errors
+/// What the system says.
+pub fn print_results_csv(
+    file: &mut impl Write,
+    scene: &Scene,
+    outcome: &Outcome,
+) -> io::Result<()> {
+    for (i, probe) in scene.probes.iter().enumerate() {
+        writeln!(
+            file,
+            "# probe{}: r = {} m, z = {} m",
+            i + 1,
+            probe.r_m,
+            probe.z_m
+        )?;
+    }
+    let columns = columns(outcome);
+    let names: Vec<&str> = columns.iter().map(|(name, _)| name.as_str()).collect();
+    writeln!(file, "{}", names.join(","))?;
+    let mut line = String::new();
+    for i in 0..outcome.series.time_s.len() {
+        line.clear();
+        for (k, (_, samples)) in columns.iter().enumerate() {
+            let comma = if k == 0 { "" } else { "," };
+            // writing to a string cannot fail
+            let _ = write!(line, "{comma}{:?}", samples[i]);
+        }
+        writeln!(file, "{line}")?;
+    }
+    Ok(())
+}
+
+fn columns(outcome: &Outcome) -> Vec<Column<'_>> {
+    let series = &outcome.series;
+    let striker = series.striker.as_ref();
+    let samples = [
+        Some(&series.time_s),
+        Some(&series.force_n),
+        striker.map(|striker| &striker.displacement_m),
+        striker.map(|striker| &striker.velocity_m_s),
+        Some(&series.deflection_m),
+    ];
+    let mut found = Vec::new();
+    for ((name, unit, _), samples) in schema::SERIES.iter().zip(samples) {
+        if let Some(samples) = samples {
+            found.push((format!("{name}{}", ending(unit)), samples.as_slice()));
+        }
+    }
+    for (field, (name, unit, _)) in schema::FIELDS.iter().enumerate() {
+        let probes = outcome
+            .probes
+            .iter()
+            .flat_map(|fields| &fields.values[field]);
+        for (i, samples) in probes.enumerate() {
+            let name = format!("probe{}_{name}{}", i + 1, ending(unit));
+            found.push((name, samples.as_slice()));
+        }
+    }
+    found
+}
+
+/// A unit as names carry it: `m/s` is `_m_s`.
+fn ending(unit: &str) -> String {
+    format!("_{}", unit.to_lowercase().replace('/', "_"))
+}

@@ -1,0 +1,231 @@
+//! What of a sweep is shown: values over one key, for some settings of the others, with the draws as quantiles.
+
+use crate::error::PlotError;
+use crate::labels::words;
+use crate::number::with_unit;
+use crate::request::Request;
+use contact::nearest;
+use formats::stored::{StoredColumn, StoredSweep};
+use formats::sweep::Values;
+
+/// A choice along every axis but those that are shown.
+#[derive(Debug, Clone)]
+pub(crate) struct Slice {
+    /// What is chosen, in words; empty where there is nothing to choose.
+    pub(crate) label: String,
+    /// Index along each axis; none along those that are shown.
+    pub(crate) fixed: Vec<Option<usize>>,
+}
+
+/// The axes of a sweep and what becomes of each.
+pub(crate) struct View<'a> {
+    pub(crate) sweep: &'a StoredSweep,
+    /// Axis of random draws.
+    pub(crate) drawn: Option<usize>,
+    /// Index along each axis that the request fixes.
+    pub(crate) fixed: Vec<Option<usize>>,
+}
+
+impl<'a> View<'a> {
+    pub(crate) fn new(sweep: &'a StoredSweep, request: &Request) -> Result<Self, PlotError> {
+        let mut fixed = vec![None; sweep.axes.len()];
+        for (key, value) in &request.at {
+            let (axis, column) = find(sweep, key)?;
+            fixed[axis] = Some(nearest_value(sweep, column, key, value)?);
+        }
+        let is_drawn = |(i, axis): &(usize, &formats::stored::StoredAxis)| {
+            axis.is_drawn() && fixed[*i].is_none()
+        };
+        let drawn = sweep.axes.iter().enumerate().find(is_drawn).map(|(i, _)| i);
+        Ok(Self {
+            sweep,
+            drawn,
+            fixed,
+        })
+    }
+
+    /// Axes that vary still, the draws apart.
+    pub(crate) fn free(&self) -> Vec<usize> {
+        let axes = 0..self.sweep.axes.len();
+        axes.filter(|&i| {
+            self.fixed[i].is_none() && Some(i) != self.drawn && self.sweep.axes[i].len > 1
+        })
+        .collect()
+    }
+
+    /// The numbers along an axis: those of the key that is asked for, or of the first that has numbers.
+    pub(crate) fn numbers(
+        &self,
+        axis: usize,
+        asked: Option<&str>,
+    ) -> Option<(&'a StoredColumn, &'a [f64])> {
+        self.sweep.axes[axis]
+            .columns
+            .iter()
+            .find_map(|column| match &column.values {
+                Values::Numbers(values) if asked.is_none_or(|name| name == column.name) => {
+                    Some((column, values.as_slice()))
+                }
+                Values::Numbers(_) | Values::Texts(_) => None,
+            })
+    }
+
+    /// The axis along x: of the key that is asked for, or the longest of numbers.
+    pub(crate) fn along(&self, asked: Option<&str>) -> Result<Option<usize>, PlotError> {
+        if let Some(key) = asked {
+            let (axis, column) = find(self.sweep, key)?;
+            return match &column.values {
+                Values::Numbers(_) => Ok(Some(axis)),
+                Values::Texts(_) => Err(PlotError::NoNumbers {
+                    key: key.to_owned(),
+                }),
+            };
+        }
+        let with_numbers = self
+            .free()
+            .into_iter()
+            .filter(|&i| self.numbers(i, None).is_some());
+        // the first of the longest
+        Ok(with_numbers.rev().max_by_key(|&i| self.sweep.axes[i].len))
+    }
+
+    /// All choices along the free axes that are not shown.
+    pub(crate) fn slices(&self, shown: &[usize]) -> Vec<Slice> {
+        let mut found = vec![Slice {
+            label: String::new(),
+            fixed: self.fixed.clone(),
+        }];
+        for axis in self.free() {
+            if shown.contains(&axis) {
+                continue;
+            }
+            let all = found.into_iter().flat_map(|slice| {
+                (0..self.sweep.axes[axis].len).map(move |index| {
+                    let mut slice = slice.clone();
+                    slice.fixed[axis] = Some(index);
+                    let name = self.name(axis, index);
+                    slice.label = match slice.label.as_str() {
+                        "" => name,
+                        known => format!("{known}, {name}"),
+                    };
+                    slice
+                })
+            });
+            found = all.collect();
+        }
+        found
+    }
+
+    /// What is at a place of an axis, in words: `granite`, `tip radius 2 mm`.
+    fn name(&self, axis: usize, index: usize) -> String {
+        let parts = self.sweep.axes[axis].columns.iter().map(|column| {
+            let (name, unit) = words(&column.name);
+            match &column.values {
+                Values::Numbers(values) => format!("{name} {}", with_unit(values[index], unit)),
+                Values::Texts(values) => values[index].replace('-', " "),
+            }
+        });
+        parts.collect::<Vec<_>>().join(", ")
+    }
+
+    /// The rows of a slice at a place along the axes that are shown, over all draws.
+    pub(crate) fn rows(&self, slice: &Slice, at: &[(usize, usize)]) -> Vec<usize> {
+        let axes = &self.sweep.axes;
+        let index = |i: usize, draw: usize| {
+            let shown = at
+                .iter()
+                .find(|(axis, _)| *axis == i)
+                .map(|(_, index)| *index);
+            let own = (Some(i) == self.drawn).then_some(draw);
+            shown.or(own).or(slice.fixed[i]).unwrap_or(0)
+        };
+        let draws = self.drawn.map_or(1, |axis| axes[axis].len);
+        let row = |draw| (0..axes.len()).fold(0, |row, i| row * axes[i].len + index(i, draw));
+        (0..draws).map(row).collect()
+    }
+}
+
+/// The axis and the column of a key.
+fn find<'a>(sweep: &'a StoredSweep, key: &str) -> Result<(usize, &'a StoredColumn), PlotError> {
+    let all = || {
+        sweep
+            .axes
+            .iter()
+            .enumerate()
+            .flat_map(|(i, axis)| axis.columns.iter().map(move |c| (i, c)))
+    };
+    all().find(|(_, column)| column.name == key).ok_or_else(|| {
+        let names = || all().map(|(_, column)| column.name.as_str());
+        PlotError::Quantity {
+            path: sweep.path().to_owned(),
+            quantity: format!("the key {key}"),
+            suggestion: nearest(key, names()),
+            allowed: names().collect::<Vec<_>>().join(", "),
+        }
+    })
+}
+
+/// The index of a value of a key: that word, or the nearest number.
+fn nearest_value(
+    sweep: &StoredSweep,
+    column: &StoredColumn,
+    key: &str,
+    value: &str,
+) -> Result<usize, PlotError> {
+    let found = match &column.values {
+        Values::Texts(words) => words.iter().position(|word| word == value),
+        Values::Numbers(numbers) => value
+            .parse::<f64>()
+            .ok()
+            .filter(|x| x.is_finite())
+            .and_then(|wanted| {
+                let distance = |x: f64| (x - wanted).abs();
+                let by =
+                    |a: &usize, b: &usize| distance(numbers[*a]).total_cmp(&distance(numbers[*b]));
+                (0..numbers.len()).min_by(by)
+            }),
+    };
+    found.ok_or_else(|| {
+        let words: Vec<&str> = match &column.values {
+            Values::Texts(words) => words.iter().map(String::as_str).collect(),
+            Values::Numbers(_) => vec!["numbers"],
+        };
+        PlotError::Quantity {
+            path: sweep.path().to_owned(),
+            quantity: format!("{key} = {value}"),
+            suggestion: nearest(value, words.iter().copied()),
+            allowed: words.join(", "),
+        }
+    })
+}
+
+/// Lower, middle and upper quantile of values, those that are no numbers apart.
+pub(crate) fn quantiles(values: impl Iterator<Item = f64>, shares: [f64; 3]) -> Option<[f64; 3]> {
+    let mut known: Vec<f64> = values.filter(|v| v.is_finite()).collect();
+    if known.is_empty() {
+        return None;
+    }
+    known.sort_by(f64::total_cmp);
+    let last = (known.len() - 1) as f64;
+    Some(shares.map(|share| {
+        let place = share * last;
+        let (low, part) = (place.floor() as usize, place.fract());
+        let high = (low + 1).min(known.len() - 1);
+        known[low] + part * (known[high] - known[low])
+    }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quantiles_are_between_values() {
+        let found = quantiles(
+            [4.0, f64::NAN, 0.0, 1.0, 2.0, 3.0].into_iter(),
+            [0.05, 0.5, 1.0],
+        );
+        assert_eq!(found, Some([0.2, 2.0, 4.0]));
+        assert_eq!(quantiles([f64::NAN].into_iter(), [0.0, 0.5, 1.0]), None);
+    }
+}

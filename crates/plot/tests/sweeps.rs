@@ -1,0 +1,188 @@
+//! Pictures of sweeps and tables, from files that the program has written.
+
+#![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
+
+use figure::{Figure, Layer, measure};
+use formats::Existing;
+use formats::sweep::{Spec, run_sweep, write_sweep};
+use plot::{Kind, Request, compose};
+use std::path::{Path, PathBuf};
+
+/// The results of a sweep of a steel ball on some targets.
+fn sweep(folder: &Path, name: &str, varies: &str) -> PathBuf {
+    let text = format!(
+        "[scene.target]\nmaterial = \"steel\"\n[scene.striker]\nmaterial = \"bearing-steel\"\nmass_kg = 4.1e-3\n\
+         tip_radius_m = 0.005\nvelocity_m_s = 1.0\n{varies}"
+    );
+    let spec = Spec::from_toml(&text, folder).unwrap();
+    let path = folder.join(name);
+    let part = folder.join("part");
+    let done = run_sweep(&spec, &part, Existing::Replace, |_| true).unwrap();
+    write_sweep(&path, &spec, &done.unwrap().blocks, Existing::Keep).unwrap();
+    path
+}
+
+const VELOCITIES: &str =
+    "[product.striker]\nvelocity_m_s = { from = 0.05, to = 5, count = 9, spacing = \"log\" }\n";
+const TARGETS: &str = "[product.target]\nmaterial = [\"steel\", \"granite\", \"pmma\"]\n";
+const DRAWS: &str = "[random]\nsamples = 60\n[random.striker]\n\
+    tip_radius_m = { distribution = \"normal\", mean = 0.005, deviation = 1e-4 }\n";
+
+fn drawn(path: &Path, request: &Request) -> Figure {
+    compose(&[path.to_owned()], request).unwrap().figure
+}
+
+fn lines(figure: &Figure, panel: usize) -> Vec<(&str, &[(f64, f64)])> {
+    let layers = figure.panels[panel].layers.iter();
+    let found = layers.filter_map(|layer| match layer {
+        Layer::Line(line) => Some((line.name.as_str(), line.points.as_slice())),
+        _ => None,
+    });
+    found.collect()
+}
+
+/// No text over another and none outside, at three widths.
+fn check(figure: &Figure) {
+    for width in [320.0, 700.0, 1200.0] {
+        let measured = measure(&figure.clone().width(width)).unwrap();
+        for (i, (text, place)) in measured.texts.iter().enumerate() {
+            assert!(measured.canvas.holds(place), "{text} is cut off at {width}");
+            for (other, second) in &measured.texts[..i] {
+                assert!(!place.overlaps(second), "{text} over {other} at {width}");
+            }
+        }
+    }
+}
+
+#[test]
+fn one_key_of_numbers_gives_lines_named_by_the_words() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = sweep(folder.path(), "v.h5", &format!("{VELOCITIES}{TARGETS}"));
+    let figure = drawn(&path, &Request::default());
+    check(&figure);
+    let found = lines(&figure, 0);
+    let names: Vec<&str> = found.iter().map(|(name, _)| *name).collect();
+    assert_eq!(names, ["steel", "granite", "pmma"]);
+    assert!(found.iter().all(|(_, points)| points.len() == 9));
+    // Hertz: the force grows as v^(6/5)
+    let [first, last] = [found[0].1[0], found[0].1[8]];
+    let power = (last.1 / first.1).ln() / (last.0 / first.0).ln();
+    assert!((power - 1.2).abs() < 0.01, "{power}");
+    let request = Request {
+        kind: Some(Kind::Loss),
+        at: vec![("target.material".to_owned(), "granite".to_owned())],
+        ..Request::default()
+    };
+    let figure = drawn(&path, &request);
+    check(&figure);
+    let found = lines(&figure, 0);
+    assert_eq!(
+        found.iter().map(|l| l.0).collect::<Vec<_>>(),
+        ["", "slope 3/5"]
+    );
+    let slope = found[1].1;
+    let power = (slope[1].1 / slope[0].1).ln() / (slope[1].0 / slope[0].0).ln();
+    assert!((power - 0.6).abs() < 1e-12, "{power}");
+    assert!(
+        found[0]
+            .1
+            .iter()
+            .all(|(v, loss)| *loss < slope[1].1 * (v / slope[1].0).powf(0.6))
+    );
+}
+
+#[test]
+fn two_keys_of_numbers_give_heat_maps_with_their_values_in_place() {
+    let folder = tempfile::tempdir().unwrap();
+    let masses = "mass_kg = { from = 1e-3, to = 8e-3, count = 8 }\n";
+    let path = sweep(folder.path(), "h.h5", &format!("{VELOCITIES}{masses}"));
+    let figure = drawn(&path, &Request::default());
+    check(&figure);
+    let Layer::Image(image) = &figure.panels[0].layers[0] else {
+        unreachable!("a heat map is an image");
+    };
+    assert_eq!((image.x.len(), image.y.len()), (9, 8));
+    assert_eq!((image.x[8], image.y[7]), (5.0, 8.0));
+    // P grows as v^(6/5) m^(3/5)
+    let at = |i: usize, k: usize| image.values[k * 9 + i];
+    let power = (at(0, 7) / at(0, 0)).ln() / 8_f64.ln();
+    assert!((power - 0.6).abs() < 0.01, "{power}");
+}
+
+#[test]
+fn draws_give_histograms_and_bands() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = sweep(folder.path(), "r.h5", DRAWS);
+    let figure = drawn(&path, &Request::default());
+    check(&figure);
+    let Layer::Histogram(found) = &figure.panels[0].layers[0] else {
+        unreachable!("draws alone give histograms");
+    };
+    assert_eq!(found.counts.iter().sum::<f64>(), 60.0);
+    let marks = figure.panels[0]
+        .layers
+        .iter()
+        .filter(|l| matches!(l, Layer::Mark(_)));
+    assert_eq!(marks.count(), 3);
+    let path = sweep(folder.path(), "rv.h5", &format!("{VELOCITIES}{DRAWS}"));
+    let figure = drawn(&path, &Request::default());
+    check(&figure);
+    let Layer::Band(band) = &figure.panels[0].layers[0] else {
+        unreachable!("draws over a key give a band");
+    };
+    let middle = lines(&figure, 0)[0].1;
+    assert!(
+        band.points
+            .iter()
+            .zip(middle)
+            .all(|(b, m)| b.1 < m.1 && m.1 < b.2)
+    );
+}
+
+#[test]
+fn what_cannot_be_shown_of_a_sweep_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = sweep(folder.path(), "v.h5", &format!("{VELOCITIES}{TARGETS}"));
+    let said = |request: &Request| {
+        compose(std::slice::from_ref(&path), request)
+            .unwrap_err()
+            .to_string()
+    };
+    let kind = |kind| Request {
+        kind: Some(kind),
+        ..Request::default()
+    };
+    assert!(said(&kind(Kind::Impact)).contains("v.h5 is a sweep, which has no picture impact"));
+    let wrong = Request {
+        along: Some("target.material".to_owned()),
+        ..Request::default()
+    };
+    assert!(said(&wrong).contains("target.material has no numbers"));
+    let wrong = Request {
+        along: Some("striker.velocity".to_owned()),
+        ..Request::default()
+    };
+    assert!(said(&wrong).contains("did you mean striker.velocity_m_s?"));
+    let at = vec![("target.material".to_owned(), "granit".to_owned())];
+    assert!(
+        said(&Request {
+            at,
+            ..Request::default()
+        })
+        .contains("did you mean granite?")
+    );
+    let names: Vec<String> = (0..12).map(|i| format!("{}.0", i + 1)).collect();
+    let many = format!(
+        "{VELOCITIES}[list.striker]\ntip_radius_m = [{}]\nmass_kg = [{}]\n",
+        names.join(","),
+        names.join(",")
+    );
+    let path = sweep(folder.path(), "many.h5", &format!("{many}{TARGETS}"));
+    let refused = compose(&[path], &Request::default())
+        .unwrap_err()
+        .to_string();
+    assert!(
+        refused.contains("choose among them, such as by --at"),
+        "{refused}"
+    );
+}
