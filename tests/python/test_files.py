@@ -88,7 +88,7 @@ def test_energy_over_time(impact):
         kinetic, stored, radiated = (file["energy"][name] for name in ("kinetic", "stored", "radiated"))
         for dataset in (kinetic, stored, radiated):
             assert units(dataset) == "J" and dataset.shape == time.shape
-            assert scales(dataset) == ["/time"]
+            assert scales(dataset) == ["/energy/time"]
         kinetic, stored, radiated = kinetic[()], stored[()], radiated[()]
         assert "work" not in file["energy"]
     np.testing.assert_allclose(kinetic, 0.5 * MASS_KG * velocity**2, rtol=1e-9)
