@@ -49,6 +49,10 @@ def commands(name):
         for part in (1, 2):
             well(["tabulate", "--grid", grid, "--shard", f"{part}/2", "-o", at(f"{part}.shard")])
 
+    def with_results():
+        empty()
+        well(["impact", at("i.toml"), "-o", at("i.h5")])
+
     def with_old(*files):
         def setup():
             empty()
@@ -69,5 +73,6 @@ def commands(name):
         "sweep": Writing(sweep, both, empty),
         "sweep --force": Writing([*sweep, "--force"], both, with_old("s.h5", "s.csv")),
         "impact": Writing(impact, [at("i.h5")], empty),
+        "plot": Writing(["plot", at("i.h5"), "-o", at("i.svg")], [at("i.svg")], with_results),
         "impact --force": Writing([*impact, "--force"], [at("i.h5")], with_old("i.h5")),
     }

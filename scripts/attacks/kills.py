@@ -81,5 +81,7 @@ if __name__ == "__main__":
     if shutil.which("strace") is None:
         finish([])
     folder, writings = commands("kills")
-    each = tries(40)
-    finish([attack(name, folder, writing, each) for name, writing in writings.items()])
+    each = tries(12)
+    tallies = [attack(name, folder, writing, each) for name, writing in writings.items()]
+    print(f"kills in all: {sum(tally.counts['kills'] for tally in tallies)}")
+    finish(tallies)
