@@ -2,6 +2,7 @@
 
 use std::fmt::Display;
 use std::process::ExitCode;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// A failure with its sentence for the user.
 #[derive(Debug)]
@@ -41,7 +42,7 @@ impl Failure {
             Self::Work(message) => (message, 1),
             Self::Again(message) => (message, 75),
         };
-        say(format!("error: {message}"));
+        tell(format!("error: {message}"));
         ExitCode::from(code)
     }
 }
@@ -83,8 +84,28 @@ impl From<impact::ImpactError> for Failure {
     }
 }
 
-/// Writes a line on standard error; where nobody takes it, the work goes on all the same.
+/// Whether only errors are told.
+static QUIET: AtomicBool = AtomicBool::new(false);
+
+/// From now on tells only errors.
+pub(crate) fn be_quiet() {
+    QUIET.store(true, Ordering::Relaxed);
+}
+
+/// Whether only errors are told.
+pub(crate) fn is_quiet() -> bool {
+    QUIET.load(Ordering::Relaxed)
+}
+
+/// Writes a warning, a note or how far the work is on standard error, unless only errors are wanted.
 pub(crate) fn say(text: impl Display) {
+    if !is_quiet() {
+        tell(text);
+    }
+}
+
+/// Writes a line on standard error; where nobody takes it, the work goes on all the same.
+pub(crate) fn tell(text: impl Display) {
     use std::io::Write;
     let _ = writeln!(std::io::stderr(), "{text}");
 }

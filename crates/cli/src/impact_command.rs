@@ -2,15 +2,19 @@
 
 use crate::failure::{Failure, print, say};
 use crate::overwrite::Overwrite;
+use crate::progress::Bar;
 use crate::report::text_report;
 use clap::{Args, ValueEnum};
 use formats::{inputs, json_report, read_scene, stage_results_csv, write_results_into};
-use impact::{KernelChoice, simulate};
+use impact::{KernelChoice, simulate_watched};
 use lookup::TableFile;
 use output::{CSV, HDF5, Output, Role};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::time::Instant;
+use std::time::{Duration, Instant};
+
+/// An impact that takes longer says how far it is.
+const PATIENCE: Duration = Duration::from_secs(1);
 
 /// Where the kernels of the fields come from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -54,7 +58,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let scene = read_scene(&arguments.scene).map_err(Failure::input)?;
     let [output, csv] = outputs(arguments)?;
     let kernels = kernels(arguments)?;
-    let outcome = simulate(&scene, &kernels)?;
+    let progress = Bar::after(PATIENCE);
+    let outcome = simulate_watched(&scene, &kernels, &progress)?;
+    progress.finish();
     if let Some(output) = &output {
         write_results_into(output, &scene, &outcome)?;
     }

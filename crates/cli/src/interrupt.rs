@@ -1,6 +1,6 @@
 //! What happens when somebody stops a command: nothing half-done stays, and he hears what is kept.
 
-use crate::failure::say;
+use crate::failure::tell;
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
 use signal_hook::iterator::Signals;
 use signal_hook::low_level::emulate_default_handler;
@@ -36,7 +36,7 @@ pub(crate) fn listen() {
                 let kept = note
                     .as_ref()
                     .map_or_else(|| "nothing was written".to_owned(), |note| note());
-                say(format!("\nstopped: {kept}"));
+                tell(format!("\nstopped: {kept}"));
                 output::abandon();
                 let _ = emulate_default_handler(signal);
             }

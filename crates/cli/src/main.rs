@@ -17,13 +17,16 @@ mod sweep;
 mod table;
 mod tabulate;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use std::process::ExitCode;
 
 /// Impact of a body on an elastic half-space: contact force, rebound and waves.
 #[derive(Debug, Parser)]
 #[command(name = "hertzlamb", version, propagate_version = true)]
 struct Cli {
+    /// Only errors on standard error: no progress, no warnings.
+    #[arg(short, long, global = true)]
+    quiet: bool,
     #[command(subcommand)]
     command: Command,
 }
@@ -52,7 +55,11 @@ enum Command {
 
 fn main() -> ExitCode {
     interrupt::listen();
-    let done = match Cli::parse().command {
+    let cli = parsed();
+    if cli.quiet {
+        failure::be_quiet();
+    }
+    let done = match cli.command {
         Command::Impact(arguments) => impact_command::run(&arguments),
         Command::Sweep(arguments) => sweep::run(&arguments),
         Command::Plot(arguments) => plot_command::run(&arguments),
@@ -67,4 +74,10 @@ fn main() -> ExitCode {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => failure.report(),
     }
+}
+
+/// The command line; every command has the version, and the name, of the program.
+fn parsed() -> Cli {
+    let command = Cli::command().mut_subcommands(|command| command.display_name("hertzlamb"));
+    Cli::from_arg_matches(&command.get_matches()).unwrap_or_else(|error| error.exit())
 }

@@ -1,6 +1,6 @@
 //! How far a long computation is: a bar on a terminal, plain lines elsewhere.
 
-use crate::failure::say;
+use crate::failure::{is_quiet, say};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal;
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -10,6 +10,8 @@ use tabulator::Progress;
 /// A bar on a terminal, a line for each tenth elsewhere: share, slice, rate, time left.
 pub(crate) struct Bar {
     bar: Option<ProgressBar>,
+    /// Time of a stage in which nothing is told: many are over by then.
+    patience: Duration,
     state: Mutex<State>,
 }
 
@@ -23,6 +25,7 @@ struct State {
     /// Units that were done when the stage began.
     before: u64,
     begun: bool,
+    shown: bool,
     started: Instant,
     told: Instant,
     /// Poisson's ratio where the work is, if it is anywhere.
@@ -31,7 +34,13 @@ struct State {
 
 impl Bar {
     pub(crate) fn new() -> Self {
-        let bar = std::io::stderr().is_terminal().then(|| {
+        Self::after(Duration::ZERO)
+    }
+
+    /// One that tells of what takes longer than this.
+    pub(crate) fn after(patience: Duration) -> Self {
+        let shown = std::io::stderr().is_terminal() && !is_quiet();
+        let bar = shown.then(|| {
             let style = "{msg:24} [{bar:40}] {percent:>3} %  {per_sec}  {eta} left";
             let style = ProgressStyle::with_template(style)
                 .unwrap_or_else(|_| ProgressStyle::default_bar());
@@ -43,12 +52,14 @@ impl Bar {
             done: 0,
             before: 0,
             begun: false,
+            shown: false,
             started: Instant::now(),
             told: Instant::now(),
             slice: None,
         };
         Self {
             bar,
+            patience,
             state: Mutex::new(state),
         }
     }
@@ -75,12 +86,24 @@ impl Bar {
         Progress::advance(self, done.saturating_sub(before));
     }
 
+    /// Puts the bar of a stage on the terminal.
+    fn show(&self, state: &mut State) {
+        state.shown = true;
+        if let Some(bar) = &self.bar {
+            bar.set_message(state.stage.clone());
+            bar.set_length(state.total);
+            bar.set_position(state.done);
+            bar.reset_elapsed();
+            bar.reset_eta();
+        }
+    }
+
     fn lock(&self) -> MutexGuard<'_, State> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     pub(crate) fn finish(&self) {
-        if let Some(bar) = &self.bar {
+        if let Some(bar) = self.bar.as_ref().filter(|_| self.lock().shown) {
             bar.finish_and_clear();
         }
     }
@@ -95,15 +118,13 @@ impl Progress for Bar {
             done: 0,
             before: 0,
             begun: false,
+            shown: false,
             started: Instant::now(),
             told: Instant::now(),
             slice: None,
         };
-        if let Some(bar) = &self.bar {
-            bar.set_message(stage.to_owned());
-            bar.set_length(total);
-            bar.set_position(0);
-            bar.reset();
+        if self.patience.is_zero() {
+            self.show(&mut state);
         }
     }
 
@@ -119,11 +140,27 @@ impl Progress for Bar {
         let mut state = self.lock();
         let before = state.done;
         state.done += done;
+        if state.started.elapsed() < self.patience {
+            return;
+        }
+        if !state.shown {
+            self.show(&mut state);
+        }
         if let Some(bar) = &self.bar {
-            bar.inc(done);
+            bar.set_position(state.done);
         } else if let Some(line) = state.line(before) {
             say(line);
         }
+    }
+}
+
+impl impact::Watch for Bar {
+    fn points(&self, total: usize) {
+        self.start("fields", total as u64);
+    }
+
+    fn advance(&self) {
+        Progress::advance(self, 1);
     }
 }
 

@@ -13,7 +13,7 @@ pub(crate) fn text_report(scene: &Scene, outcome: &Outcome) -> String {
     match &outcome.cause {
         Cause::Contact { results, .. } => {
             lines.push(format!(
-                "scheme         {}, {} share, {} deflection",
+                "scheme         {}, static share {}, deflection {}",
                 choices.scheme, choices.static_share, choices.deflection
             ));
             lines.extend(contact_lines(results));
@@ -45,7 +45,7 @@ fn contact_lines(r: &contact::Results) -> Vec<String> {
         format!("displacement   {}", si(r.peak_displacement_m, "m")),
         format!("deflection     {}", si(r.peak_deflection_m, "m")),
         format!(
-            "radiated       {} of {}, ledger residual {:.1e}",
+            "radiated       {} of {}; {:.1e} of it unaccounted for",
             si(r.radiated_energy_j, "J"),
             si(r.initial_energy_j, "J"),
             r.energy_residual

@@ -253,3 +253,59 @@ fn rows_go_to_standard_output() {
         "standard output",
     );
 }
+
+fn output_of(done: &Output) -> (String, String) {
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    (text(&done.stdout), text(&done.stderr))
+}
+
+#[test]
+fn a_table_that_cannot_serve_is_known_before_it_is_loaded() {
+    let folder = folder();
+    let here = folder.path();
+    well(here, &["tabulate", "--grid", "grid.toml", "-o", "table.h5"]);
+    // far outside the table, and too many points to be computed without a look at it
+    let far =
+        format!("{SCENE}[map]\nr_max_m = 2e-3\nz_max_m = 2e-3\npoints = [60, 60]\nframes = 2\n");
+    std::fs::write(here.join("far.toml"), far).unwrap();
+    let done = run(here, &["impact", "far.toml", "--table", "table.h5"]);
+    let (told, said) = output_of(&done);
+    assert_eq!(done.status.code(), Some(0), "{said}");
+    assert!(
+        told.contains("r/r0") && told.contains("is outside the table's range [0, 2]: computed"),
+        "{told}"
+    );
+}
+
+#[test]
+fn words_are_plain() {
+    let folder = folder();
+    let here = folder.path();
+    std::fs::write(
+        here.join("glass.toml"),
+        SCENE.replace("\"steel\"", "\"glass\""),
+    )
+    .unwrap();
+    for (arguments, words) in [
+        (
+            &["impact", "sweep.toml"][..],
+            "this is a sweep, not a scene",
+        ),
+        (&["impact", "glass.toml"], "glass"),
+    ] {
+        refused(here, arguments, 2, words);
+    }
+    let (_, said) = output_of(&run(here, &["impact", "glass.toml"]));
+    assert!(
+        said.contains("did you mean") && said.contains("-glass"),
+        "{said}"
+    );
+    let (told, _) = output_of(&run(here, &["impact", "--version"]));
+    assert!(told.starts_with("hertzlamb "), "{told}");
+    // a radius in mm taken for m
+    std::fs::write(here.join("mm.toml"), SCENE.replace("5e-3", "5.0")).unwrap();
+    let (_, said) = output_of(&run(here, &["impact", "mm.toml"]));
+    assert!(said.contains("is the radius in m"), "{said}");
+    let (told, said) = output_of(&run(here, &["impact", "mm.toml", "-q"]));
+    assert!(told.contains("peak force") && said.is_empty(), "{said}");
+}

@@ -213,10 +213,10 @@ impl Choice {
             ),
             Rung::FullMemory => match accuracy.loss {
                 Some(asked) if second <= tolerance => format!(
-                    "{rung} would leave out {loss:.1e} of the loss, above the loss_tolerance {asked:.1e}: full memory"
+                    "{rung} alone would miss the loss by {loss:.1e} of it, above the loss_tolerance {asked:.1e}: full memory"
                 ),
                 Some(_) | None => format!(
-                    "{change}; {rung} would leave out {second:.1e}, above the tolerance {tolerance:.1e}: full memory"
+                    "{change}; {rung} alone would miss them by {second:.1e}, above the tolerance {tolerance:.1e}: full memory"
                 ),
             },
         }

@@ -64,6 +64,17 @@ impl Library {
         })
     }
 
+    /// Up to three names that contain a word.
+    fn named_like(&self, word: &str) -> Option<String> {
+        let word = word.to_lowercase();
+        let names = self.materials.keys().map(String::as_str);
+        let like: Vec<&str> = names
+            .filter(|name| !word.is_empty() && name.to_lowercase().contains(&word))
+            .take(3)
+            .collect();
+        (!like.is_empty()).then(|| like.join(" or "))
+    }
+
     /// A material by its name, or the error that suggests another.
     ///
     /// # Errors
@@ -71,7 +82,8 @@ impl Library {
     pub fn find(&self, name: &str) -> Result<&Material, UnknownMaterial> {
         self.get(name).ok_or_else(|| UnknownMaterial {
             name: name.to_owned(),
-            suggestion: nearest(name, self.materials.keys().map(String::as_str)),
+            suggestion: nearest(name, self.materials.keys().map(String::as_str))
+                .or_else(|| self.named_like(name)),
         })
     }
 }

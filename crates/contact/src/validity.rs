@@ -18,6 +18,28 @@ pub fn super_seismic(half_space: &HalfSpace, collision: &Collision, radius_m: f6
         * (collision.velocity_m_s / half_space.longitudinal_speed_m_s()).powf(1.5)
 }
 
+/// Mass over that of a ball of the tip's radius below which the two hint at a slip in a unit.
+const LIGHT: f64 = 1e-3;
+
+/// What hints at a slip: a mass that no body with such a tip has, or that of a ball of half the radius.
+fn doubt(striker: &Striker) -> Option<String> {
+    let (mass_kg, radius_m) = (striker.mass_kg, striker.tip_radius_m);
+    let ball_kg = 4.0 / 3.0 * PI * radius_m.powi(3) * striker.material.density_kg_m3?;
+    let share = mass_kg / ball_kg;
+    if share < LIGHT {
+        return Some(format!(
+            "tip_radius_m = {radius_m:.4e} m and mass_kg = {mass_kg:.4e} kg: a ball of that radius weighs {ball_kg:.4e} kg, {:.1e} times as much; is the radius in m and the mass in kg?",
+            1.0 / share
+        ));
+    }
+    ((8.0 * share - 1.0).abs() < 0.02).then(|| {
+        format!(
+            "mass_kg = {mass_kg:.4e} kg is that of a ball of {:.4e} m radius, half of tip_radius_m = {radius_m:.4e} m: is that the diameter?",
+            0.5 * radius_m
+        )
+    })
+}
+
 /// What is checked: the bodies, the settings, the model that was used and what it gave.
 #[derive(Debug, Clone, Copy)]
 pub struct Checked<'a> {
@@ -44,6 +66,7 @@ impl Checked<'_> {
         let mut found = self.of_the_contact();
         found.extend(self.of_the_materials());
         found.extend(self.of_the_bodies());
+        found.extend(doubt(self.striker));
         found.extend(self.of_the_model());
         found
     }
@@ -100,14 +123,19 @@ impl Checked<'_> {
             ] {
                 if let Some(strength) = strength.filter(|&s| stress > s) {
                     found.push(format!(
-                        "the mean contact stress {:.4e} Pa is {:.2} times the {name} {strength:.4e} Pa of the {body} (the ratio Kmax): the impact is not elastic unless the dynamic strength is that high",
-                        stress,
+                        "{:.2} times the {name} of the {body}, {strength:.4e} Pa",
                         stress / strength
                     ));
                 }
             }
         }
-        found
+        if found.is_empty() {
+            return found;
+        }
+        vec![format!(
+            "the mean contact stress {stress:.4e} Pa is {}: the impact is not elastic unless the strength under so short a load is that high",
+            found.join("; ")
+        )]
     }
 
     fn of_the_bodies(&self) -> Vec<String> {
@@ -119,7 +147,7 @@ impl Checked<'_> {
             let ratio = contact_time_s / period;
             if ratio < 10.0 {
                 found.push(format!(
-                    "the contact lasts {ratio:.2} periods {period:.3e} s of the striker's longest free oscillation, less than 10: waves in the striker matter and are not modelled"
+                    "the contact lasts {contact_time_s:.3e} s, {ratio:.2} times the longest period of the striker's own vibrations, {period:.3e} s: below 10 times, waves in the striker matter, and they are not modelled"
                 ));
             }
         }
@@ -165,5 +193,39 @@ impl Checked<'_> {
             ));
         }
         found
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::material::Material;
+
+    #[test]
+    fn slips_in_units_are_told_with_their_numbers() {
+        let doubt = |tip_radius_m: f64, mass_kg: f64| {
+            let material = Material::named("steel").unwrap_or_else(|error| panic!("{error}"));
+            doubt(&Striker {
+                material,
+                mass_kg,
+                tip_radius_m,
+                length_m: None,
+            })
+        };
+        // a ball of 1.2 mm, its radius in mm taken for m, its diameter for the radius
+        let ball_kg = 5.65e-5;
+        assert_eq!(doubt(1.2e-3, ball_kg), None);
+        let metres = doubt(1.2, ball_kg).unwrap_or_default();
+        assert!(
+            metres.contains("1.2000e0 m") && metres.contains("1.0e9 times"),
+            "{metres}"
+        );
+        let diameter = doubt(2.4e-3, ball_kg).unwrap_or_default();
+        assert!(
+            diameter.contains("half of tip_radius_m = 2.4000e-3"),
+            "{diameter}"
+        );
+        // a rod with a round end
+        assert_eq!(doubt(4e-3, 0.0122), None);
     }
 }

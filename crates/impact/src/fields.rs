@@ -7,6 +7,7 @@ use crate::kernels::{CellPlan, KernelSource};
 use crate::place::{FieldError, Place};
 use crate::samples::{between_samples, half_variation};
 use crate::stretch::Departure;
+use crate::watch::{Unwatched, Watch};
 use halfspace::{Arrivals, DomainError, Field, Profile};
 use lookup::Smoothness;
 use std::ops::Index;
@@ -36,6 +37,8 @@ pub(crate) struct Sampled<'a> {
     smoothness: Smoothness,
     /// What the samples leave of the force.
     left: Departure,
+    /// Who is told of each point.
+    watch: &'a dyn Watch,
 }
 
 /// The forces of the runs of a grid, ready to be convolved.
@@ -79,7 +82,13 @@ impl<'a> Sampled<'a> {
             half_variation_n,
             smoothness,
             left,
+            watch: &Unwatched,
         }
+    }
+
+    /// With somebody who is told of each point.
+    pub(crate) fn watched(self, watch: &'a dyn Watch) -> Self {
+        Self { watch, ..self }
     }
 
     /// The forces of the runs for fields at some samples of all, ascending.
@@ -150,6 +159,7 @@ impl<'a> Sampled<'a> {
                 + changed_n * rest[field].abs();
             errors[field] = kernel * unit + excitation.relative_error() * largest;
         }
+        self.watch.advance();
         Ok(Point {
             arrival_s: first.map(|t| t * units.time_s()),
             values,

@@ -31,6 +31,7 @@ pub mod kernels;
 mod low_pass;
 pub mod outcome;
 mod place;
+mod plausible;
 pub mod probes;
 pub mod record;
 mod samples;
@@ -40,6 +41,7 @@ pub mod source;
 mod stretch;
 pub mod sweep;
 mod transform;
+mod watch;
 
 pub use condition::{Treatment, TreatmentError};
 pub use contact::{HalfSpace, Material, Settings, Striker};
@@ -55,8 +57,9 @@ pub use place::{FieldError, Place};
 pub use probes::{ProbeFields, SectionFields};
 pub use record::{ForceRecord, RecordError, Treated};
 pub use scene::{Load, Probe, Scene, Section, Strike};
-pub use simulate::{ImpactError, simulate};
+pub use simulate::{ImpactError, simulate, simulate_watched};
 pub use source::{KernelChoice, SourceError, Tables};
+pub use watch::{Unwatched, Watch};
 
 /// The README's program runs.
 #[cfg(doctest)]

@@ -9,11 +9,13 @@ use crate::kernels::KernelSource;
 use crate::outcome::{
     Cause, FieldsUsed, KernelsUsed, Outcome, RecordResults, Series, StrikerSeries,
 };
+use crate::plausible::doubts;
 use crate::probes::{ProbeFields, SectionFields, at_probes, method, on_section};
 use crate::record::ForceRecord;
 use crate::samples::between_samples;
 use crate::scene::{Load, Scene, Strike};
 use crate::source::{Chosen, KernelChoice, SourceError, choose_source};
+use crate::watch::{Unwatched, Watch};
 use contact::{Collision, ContactError, Model, Scheme, StaticShare};
 use halfspace::{Deflection, DomainError};
 use thiserror::Error;
@@ -46,17 +48,38 @@ pub enum ImpactError {
 /// # Errors
 /// [`ImpactError`].
 pub fn simulate(scene: &Scene, kernels: &KernelChoice) -> Result<Outcome, ImpactError> {
+    simulate_watched(scene, kernels, &Unwatched)
+}
+
+/// [`simulate`], telling `watch` how far the fields are.
+///
+/// # Errors
+/// [`ImpactError`].
+pub fn simulate_watched(
+    scene: &Scene,
+    kernels: &KernelChoice,
+    watch: &dyn Watch,
+) -> Result<Outcome, ImpactError> {
+    let asked = Asked {
+        scene,
+        kernels,
+        watch,
+    };
     match &scene.load {
-        Load::Strike(strike) => of_strike(scene, strike, kernels),
-        Load::Record(record) => of_record(scene, record, kernels),
+        Load::Strike(strike) => of_strike(scene, strike, asked),
+        Load::Record(record) => of_record(scene, record, asked),
     }
 }
 
-fn of_strike(
-    scene: &Scene,
-    strike: &Strike,
-    kernels: &KernelChoice,
-) -> Result<Outcome, ImpactError> {
+/// The fields that are asked for, from which kernels, and who is told of them.
+#[derive(Clone, Copy)]
+struct Asked<'a> {
+    scene: &'a Scene,
+    kernels: &'a KernelChoice,
+    watch: &'a dyn Watch,
+}
+
+fn of_strike(scene: &Scene, strike: &Strike, asked: Asked<'_>) -> Result<Outcome, ImpactError> {
     let impact = Impact {
         half_space: scene.target.clone(),
         striker: strike.striker.clone(),
@@ -65,7 +88,7 @@ fn of_strike(
     };
     let run = impact.solve()?;
     let excitation = run.excitation();
-    let computed = Computed::new(scene, excitation, kernels)?;
+    let computed = Computed::new(asked, excitation)?;
     let marched = (run.solved.plan.model, run.solved.scheme);
     let mut deflection_m = None;
     if marched == (Model::Wave, Some(Scheme::Implicit)) {
@@ -110,14 +133,15 @@ fn of_strike(
 fn of_record(
     scene: &Scene,
     record: &ForceRecord,
-    kernels: &KernelChoice,
+    asked: Asked<'_>,
 ) -> Result<Outcome, ImpactError> {
     let radius_m = scene.settings.disc_radius_m.ok_or(ImpactError::NoDisc)?;
     let excitation = Excitation::of_record(&scene.target, radius_m, record.clone())?;
-    let computed = Computed::new(scene, &excitation, kernels)?;
+    let computed = Computed::new(asked, &excitation)?;
     let deflection_m = computed.disc_deflection_m(scene.settings.deflection, StaticShare::Full);
     let energy = EnergySeries::of_record(&excitation, &computed.grid, &computed.force_n);
     let mut warnings = computed.warnings();
+    warnings.extend(doubts(record));
     let left_n = computed.left_n();
     let relative_error = left_n / record.largest_n().max(f64::MIN_POSITIVE);
     if relative_error > scene.settings.tolerance {
@@ -156,12 +180,9 @@ struct Computed<'a> {
 }
 
 impl<'a> Computed<'a> {
-    fn new(
-        scene: &Scene,
-        excitation: &'a Excitation,
-        kernels: &KernelChoice,
-    ) -> Result<Self, ImpactError> {
-        let chosen = choose_source(scene, kernels, excitation)?;
+    fn new(asked: Asked<'_>, excitation: &'a Excitation) -> Result<Self, ImpactError> {
+        let scene = asked.scene;
+        let chosen = choose_source(scene, asked.kernels, excitation)?;
         let source = chosen.as_ref().map(|chosen| &chosen.source);
         let grid = Grid::new(&Wanted::of(scene), excitation, source)?;
         let time_s: Vec<f64> = grid.times_s().collect();
@@ -176,14 +197,17 @@ impl<'a> Computed<'a> {
             section: None,
         };
         if let Some(chosen) = chosen {
-            computed.add_fields(scene, chosen)?;
+            computed.add_fields(asked, chosen)?;
         }
         Ok(computed)
     }
 
-    fn add_fields(&mut self, scene: &Scene, chosen: Chosen) -> Result<(), FieldsError> {
+    fn add_fields(&mut self, asked: Asked<'_>, chosen: Chosen) -> Result<(), FieldsError> {
         let Chosen { source, reason } = chosen;
-        let sampled = Sampled::new(self.excitation, &source, &self.grid, &self.force_n);
+        let scene = asked.scene;
+        asked.watch.points(scene.points());
+        let sampled =
+            Sampled::new(self.excitation, &source, &self.grid, &self.force_n).watched(asked.watch);
         if !scene.probes.is_empty() {
             self.probes = Some(at_probes(&sampled, &self.force_n, &scene.probes)?);
         }

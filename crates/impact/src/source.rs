@@ -21,6 +21,18 @@ pub trait Tables: fmt::Debug + Send + Sync {
     /// # Errors
     /// Why it cannot be loaded.
     fn part(&self, poisson_ratio: f64, farthest: [f64; 2]) -> Result<Arc<Table>, TableFault>;
+
+    /// Why there is no such table, as far as that is known without loading one.
+    ///
+    /// # Errors
+    /// Why that cannot be told.
+    fn refusal(
+        &self,
+        _poisson_ratio: f64,
+        _farthest: [f64; 2],
+    ) -> Result<Option<LookupError>, TableFault> {
+        Ok(None)
+    }
 }
 
 impl Tables for Arc<Table> {
@@ -33,6 +45,14 @@ impl Tables for Arc<Table> {
 impl Tables for lookup::TableFile {
     fn part(&self, poisson_ratio: f64, farthest: [f64; 2]) -> Result<Arc<Table>, TableFault> {
         Ok(Arc::new(Self::part(self, poisson_ratio, farthest)?))
+    }
+
+    fn refusal(
+        &self,
+        poisson_ratio: f64,
+        farthest: [f64; 2],
+    ) -> Result<Option<LookupError>, TableFault> {
+        Ok(self.serves(poisson_ratio, farthest)?.err())
     }
 }
 
@@ -115,6 +135,10 @@ pub(crate) fn choose_source(
                 format!("{count} points of {cells:.0} cells take about {cost_s:.1e} s to compute");
             if cost_s <= CHEAP_S {
                 return direct(format!("{cost}: computed"));
+            }
+            let refusal = tables.refusal(medium.poisson_ratio(), farthest);
+            if let Some(outside) = refusal.map_err(SourceError::Table)? {
+                return direct(format!("{outside}: computed"));
             }
             let table = load(tables)?;
             let error = match table_error(&table, excitation, &points) {

@@ -7,7 +7,7 @@ use halfspace::{DomainError, Medium};
 /// Slices that take part.
 const POINTS: usize = 8;
 /// Two ratios closer than this are the same slice.
-const SAME: f64 = 1e-12;
+pub(crate) const SAME: f64 = 1e-12;
 /// Poisson's ratio whose cells have the width that a table states.
 const REFERENCE: f64 = 0.3;
 

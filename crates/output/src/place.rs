@@ -2,6 +2,7 @@
 
 use crate::error::OutputError;
 use std::ffi::OsStr;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// Links that are followed one after the other.
@@ -43,17 +44,21 @@ pub fn behind(path: &Path) -> Result<PathBuf, OutputError> {
         return Err(fault("it has no file name".to_owned()));
     }
     let folder = folder(&real);
-    if folder.starts_with("/proc") {
-        return Err(fault("it is an open file of a process".to_owned()));
-    }
     match std::fs::metadata(folder) {
-        Ok(data) if data.is_dir() => Ok(real),
-        Ok(_) => Err(fault(format!("{} is not a folder", folder.display()))),
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => Err(fault(format!(
-            "the folder {} does not exist",
-            folder.display()
-        ))),
-        Err(error) => Err(OutputError::place(path, error)),
+        Ok(data) if data.is_dir() => {}
+        Ok(_) => return Err(fault(format!("{} is not a folder", folder.display()))),
+        Err(error) if error.kind() == ErrorKind::NotFound => {
+            return Err(fault(format!(
+                "the folder {} does not exist",
+                folder.display()
+            )));
+        }
+        Err(error) => return Err(OutputError::place(path, error)),
+    }
+    match std::fs::symlink_metadata(&real) {
+        // a name that is too long, for one
+        Err(error) if error.kind() != ErrorKind::NotFound => Err(OutputError::place(path, error)),
+        Ok(_) | Err(_) => Ok(real),
     }
 }
 
@@ -61,6 +66,9 @@ pub fn behind(path: &Path) -> Result<PathBuf, OutputError> {
 fn follow(path: &Path) -> Result<PathBuf, String> {
     let mut real = path.to_owned();
     for _ in 0..MOST_LINKS {
+        if real.starts_with("/proc") {
+            return Err("it is an open file of a process, such as standard output".to_owned());
+        }
         match std::fs::symlink_metadata(&real) {
             Ok(there) if there.is_symlink() => {
                 let target = std::fs::read_link(&real).map_err(|error| error.to_string())?;

@@ -126,11 +126,14 @@ fn what_is_no_file_is_refused_even_to_be_replaced() {
     let folder = tempfile::tempdir().unwrap();
     let pipe = folder.path().join("pipe.h5");
     let made = std::process::Command::new("mkfifo").arg(&pipe).status();
+    let long = folder.path().join("n".repeat(300));
     let cases = [
         (folder.path(), "folder"),
         (Path::new("/dev/null"), "device"),
         (pipe.as_path(), "pipe"),
         (Path::new("-"), "standard output"),
+        (Path::new("/proc/self/fd/3"), "open file"),
+        (long.as_path(), "too long"),
         (Path::new("/nowhere/at/all.h5"), "does not exist"),
         (Path::new(""), "empty"),
     ];

@@ -46,6 +46,16 @@ pub fn parse_scene(text: &str, directory: &Path) -> Result<Scene, SceneError> {
 /// [`SceneError`].
 pub fn scene_of(table: &Table, directory: &Path) -> Result<Scene, SceneError> {
     let root = Section::root(table);
+    if let Some(key) = ["product", "list", "random"]
+        .into_iter()
+        .find(|key| table.contains_key(*key))
+    {
+        return Err(SceneError::UnknownKey {
+            key: key.to_owned(),
+            suggestion: None,
+            allowed: "this is a sweep, not a scene".to_owned(),
+        });
+    }
     root.allow(&SECTIONS)?;
     let library = read_library(&root, directory)?;
     scene_with(table, directory, &library)

@@ -245,8 +245,8 @@ fn drawn(random: &Section<'_>) -> Result<Axis, SceneError> {
 fn check(axes: &[Axis]) -> Result<(), SceneError> {
     if axes.is_empty() {
         return Err(SceneError::Missing {
-            key: "product".to_owned(),
-            hint: "a sweep varies something: give [product], [list] or [random]".to_owned(),
+            key: "[product], [list] or [random]".to_owned(),
+            hint: "say in one of these sections which keys vary".to_owned(),
         });
     }
     let names: Vec<String> = axes

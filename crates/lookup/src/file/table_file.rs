@@ -5,7 +5,8 @@ use super::error::TableError;
 use super::open::open;
 use super::read::Nodes;
 use super::seal::Cover;
-use crate::content::Content;
+use crate::content::{Content, Role};
+use crate::error::LookupError;
 use crate::ratio::{self, Served};
 use crate::stencil::locate;
 use crate::table::Table;
@@ -46,6 +47,43 @@ impl TableFile {
     #[must_use]
     pub fn path(&self) -> &Path {
         &self.path
+    }
+
+    /// Refuses a Poisson ratio that the table does not serve and places (r, z) in r0 beyond it, without loading numbers.
+    ///
+    /// # Errors
+    /// [`TableError`]; or [`LookupError::Outside`] with the axis and the range.
+    pub fn serves(
+        &self,
+        poisson_ratio: f64,
+        farthest: [f64; 2],
+    ) -> Result<Result<(), LookupError>, TableError> {
+        let (content, listed) = open(&self.path)?.head()?;
+        let outside = |axis, value, min, max| {
+            Ok(Err(LookupError::Outside {
+                axis,
+                value,
+                min,
+                max,
+            }))
+        };
+        let ends = [("r/r0", content.r_max), ("z/r0", content.z_max)];
+        for ((axis, max), value) in ends.into_iter().zip(farthest) {
+            if value > max {
+                return outside(axis, value, 0.0, max);
+            }
+        }
+        let grid = listed.iter().filter(|slice| slice.role == Role::Grid);
+        let (min, max) = grid.fold((f64::NAN, f64::NAN), |(min, max), slice| {
+            (slice.ratio.min(min), slice.ratio.max(max))
+        });
+        let exact = |ratio: f64| (ratio - poisson_ratio).abs() < ratio::SAME;
+        let inside = (min..=max).contains(&poisson_ratio);
+        if inside || listed.iter().any(|slice| exact(slice.ratio)) {
+            Ok(Ok(()))
+        } else {
+            outside("poisson_ratio", poisson_ratio, min, max)
+        }
     }
 
     /// The part for a Poisson ratio and for places (r, z) in r0 no farther than `farthest`.
