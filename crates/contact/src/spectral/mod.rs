@@ -127,6 +127,9 @@ const FINEST: f64 = 1e-11;
 /// Times that the pieces are made finer where the estimate exceeds what is asked.
 const ATTEMPTS: usize = 4;
 
+/// Fraction of the estimate before above which a further attempt is not worth while.
+const STUCK: f64 = 0.5;
+
 /// Estimate over the tolerance up to which a result is returned where nothing finer is found.
 ///
 /// The estimates are several times the errors, hundreds of times where phi is within 1e-4 of one; the result carries
@@ -176,10 +179,12 @@ pub fn solve_growing(
                 if excess <= 1.0 {
                     return Ok(solved);
                 }
-                if best.as_ref().is_none_or(|(before, _)| excess < *before) {
+                let before = best.as_ref().map_or(f64::INFINITY, |(before, _)| *before);
+                if excess < before {
                     best = Some((excess, solved));
                 }
-                if piece <= FINEST {
+                // finer pieces that hardly help cost seconds
+                if piece <= FINEST || excess > STUCK * before {
                     break;
                 }
                 piece = (piece * (0.3 / excess).max(0.1)).max(FINEST);
