@@ -138,8 +138,14 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
 /// How long a frame of an animation is shown in s.
 const FRAME_S: f64 = 0.06;
 
+/// Narrower than this, panels stand below one another.
+const COLUMN: f64 = 480.0;
+
 /// Of another width, with text that suits it.
-fn sized(figure: Figure, width: f64) -> Figure {
+fn sized(mut figure: Figure, width: f64) -> Figure {
+    if width < COLUMN {
+        figure.columns = 1;
+    }
     let text = (figure.text * (width / figure.width).sqrt()).clamp(8.0, 16.0);
     figure.width(width).text(text)
 }

@@ -90,7 +90,13 @@ fn candidates(point: &LabelledPoint, (x, y): (f64, f64), area: Rect, size: f64) 
     };
     let lines = wrap(&point.label, size, area.width() - 4.0);
     let mut found = Vec::new();
-    for rise in [0.0, -1.2, 1.2, -2.4, 2.4, -4.0, 4.0, -6.0, 6.0, -9.0, 9.0] {
+    let rises = [0.0, -1.2, 1.2, -2.4, 2.4, -4.0, 4.0, -6.0, 6.0, -9.0, 9.0];
+    // a name of its own that has moved away names something else
+    let near = match point.symbol {
+        Symbol::Star => rises.len(),
+        Symbol::Label => 3,
+    };
+    for rise in rises.into_iter().take(near) {
         let above = (x, Anchor::Middle);
         let beside = [(x + side, Anchor::Start), (x - side, Anchor::End)];
         let places = match point.symbol {
