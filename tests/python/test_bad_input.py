@@ -106,7 +106,7 @@ def test_probe_coordinates(tmp_path, table, good, bad, named):
 def test_probe_outside_the_table(tmp_path, table):
     out = tmp_path / "out.h5"
     scene = write(tmp_path, SCENE.replace("r_m = 0.004\nz", "r_m = 4.0\nz"))
-    refused("impact", scene, "--kernel", "table", "--table", table, "-o", out, names=["r"])
+    refused("impact", scene, "--kernel", "table", "--table", table, "-o", out, names=["r/r0", "1000", "[0, 6]"])
     assert not out.exists()
 
 

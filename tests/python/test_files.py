@@ -1,5 +1,7 @@
 """Opens what the program writes with h5py, and compares it with what the program says."""
 
+import shutil
+
 import h5py
 import numpy as np
 import pytest
@@ -282,6 +284,17 @@ def test_table_holds_minus_the_static_field_before_the_first_wave(table):
 
 
 def test_table_verifies(table):
-    done = run("table", "info", table)
-    assert done.returncode == 0, done.stderr
-    assert "0.3" in done.stdout
+    found = run_well("table", "verify", table, "--sample", 20)
+    assert found["nodes_checked"] == 20 and found["hash_right"]
+    # single precision, and nothing but: some difference, below what is allowed
+    assert 0 < found["largest_relative_difference"] < 2e-7 + 100 * 1e-8
+
+
+def test_table_with_a_wrong_number_is_found_out(tmp_path, table):
+    wrong = tmp_path / "wrong.h5"
+    shutil.copy(table, wrong)
+    with h5py.File(wrong, "r+") as file:
+        file["slices/nu_0.3/remainder"][3, 3, 4, 40] += 1e-3
+    done = run("table", "verify", wrong)
+    assert done.returncode == 1, done.stdout
+    assert "wrong.h5" in done.stderr

@@ -41,9 +41,9 @@ enum Action {
         /// Nodes to compute again.
         #[arg(long, default_value_t = 50)]
         sample: usize,
-        /// Picks the nodes.
-        #[arg(long, default_value_t = 1)]
-        seed: u64,
+        /// Picks the nodes; another one at each call unless given, and said.
+        #[arg(long)]
+        seed: Option<u64>,
     },
     /// Compares two tables, apart from their creation time; exit code 1 if they differ.
     Diff {
@@ -72,7 +72,12 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
             table,
             sample,
             seed,
-        } => verify(table, *sample, *seed, arguments.json),
+        } => verify(
+            table,
+            *sample,
+            seed.unwrap_or_else(any_seed),
+            arguments.json,
+        ),
         Action::Diff { first, second } => diff(first, second, arguments.json),
         Action::Merge {
             shards,
@@ -169,10 +174,17 @@ fn info(path: &Path, json: bool) -> Result<(), Failure> {
 struct Verified {
     file: String,
     nodes_checked: usize,
+    seed: u64,
     largest_relative_difference: f64,
     hash_right: bool,
     bad_nodes: Vec<String>,
     damaged_patches: Vec<String>,
+}
+
+/// Another seed at each call: the time in seconds.
+fn any_seed() -> u64 {
+    let since = std::time::UNIX_EPOCH.elapsed();
+    since.map_or(1, |time| time.as_secs())
 }
 
 fn verify(path: &Path, sample: usize, seed: u64, json: bool) -> Result<(), Failure> {
@@ -189,6 +201,7 @@ fn verify(path: &Path, sample: usize, seed: u64, json: bool) -> Result<(), Failu
     let verified = Verified {
         file: path.display().to_string(),
         nodes_checked: report.nodes_checked,
+        seed,
         largest_relative_difference: report.largest_difference,
         hash_right: report.hash_right,
         bad_nodes: report.bad.iter().map(bad_node).collect(),
@@ -202,7 +215,7 @@ fn verify(path: &Path, sample: usize, seed: u64, json: bool) -> Result<(), Failu
             Ok(())
         } else {
             print(format!(
-                "{}: complete, checksum right, {} nodes computed again, largest difference {:.1e}",
+                "{}: complete, checksum right, {} nodes of seed {seed} computed again, largest difference {:.1e}",
                 verified.file, verified.nodes_checked, verified.largest_relative_difference
             ))
         };

@@ -13,6 +13,13 @@ use std::ops::Range;
 /// sharp fronts pass it varies within a mesh.
 pub const SAFETY: f64 = 2.3;
 
+/// Further factor on the surface and just below it, [`SHALLOW`] of the first mesh: there the nodes are all on one side,
+/// and what the depth smooths at the centre of a mesh is not smoothed.
+const AT_SURFACE: f64 = 3.0;
+
+/// Fraction of the first mesh below the surface that counts as the surface.
+const SHALLOW: f64 = 0.25;
+
 /// Factor from the error measured in the middle between two slices, at places farther apart than the nodes.
 pub const SAFETY_BETWEEN: f64 = 2.3;
 
@@ -51,7 +58,7 @@ impl Table {
     /// Estimated absolute error of each field, for a force of unit peak and length `pulse_length`.
     ///
     /// The largest of the errors measured at the centres of the mesh that holds the point and of its
-    /// neighbours, times [`SAFETY`]; between slices the larger of the two beside and, times
+    /// neighbours, times [`SAFETY`], three times that at the surface; between slices the larger of the two beside and, times
     /// [`SAFETY_BETWEEN`], what was measured in the middle between them, in proportion to the node
     /// polynomial. Interpolated in the length of the pulse; pulses longer or shorter than any measured take
     /// the value of the nearest one. Units as the fields.
@@ -111,6 +118,9 @@ impl Table {
         }
         if slices.len() > 1 {
             self.add_between(poisson_ratio, point, slices, pulse, &mut error)?;
+        }
+        if point[1] < SHALLOW * content.z[1] {
+            error = error.map(|e| AT_SURFACE * e);
         }
         Ok(error)
     }

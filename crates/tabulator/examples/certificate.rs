@@ -1,10 +1,11 @@
-//! Whether the error estimate is true: random places and pulses against the exact kernels.
+//! Whether the error estimate is true, at random places with random pulses: by the route that built the table, and by
+//! values of R alone, on slices, between them, near the axis and the surface.
 //!
 //! `cargo run --release -p hertzlamb-tabulator --example certificate -- TABLE.h5 [PLACES [PULSES]]`
 
 use lookup::Table;
 use std::path::Path;
-use tabulator::{observe, quantile};
+use tabulator::{Observation, Region, judge, observe, quantile};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -12,20 +13,33 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let number = |i: usize, default| arguments.get(i).map_or(Ok(default), |n| n.parse());
     let (places, pulses) = (number(1, 1250)?, number(2, 8)?);
     let table = Table::open(Path::new(path))?;
-    let found = observe(&table, places, pulses, 1)?;
     println!("{places} places, {pulses} pulses each");
+    report(
+        "anywhere, by the route of the builder",
+        &observe(&table, places, pulses, 1)?,
+    );
+    for region in Region::ALL {
+        let found = judge(&table, region, places, pulses, 2)?;
+        report(&format!("{region:?}, by values of R"), &found);
+    }
+    Ok(())
+}
+
+fn report(title: &str, found: &[Observation]) {
+    println!("\n{title}");
     println!(
         "field            above the estimate   estimate/error 0.1 %, 1 %, 50 %, 99 %   error/peak 50 %, 99 %"
     );
     let mut all = Vec::new();
     for f in 0..6 {
-        let ratios: Vec<f64> = found.iter().map(|o| o.estimate[f] / o.error[f]).collect();
-        let relative = found.iter().map(|o| o.error[f] / o.peak[f]).collect();
+        // a field that is zero throughout says nothing
+        let found = || found.iter().filter(|o| o.peak[f] > 0.0);
+        let ratios: Vec<f64> = found().map(|o| o.estimate[f] / o.error[f]).collect();
+        let relative = found().map(|o| o.error[f] / o.peak[f]).collect();
         print(lookup::schema::FIELD_NAMES[f], ratios.clone(), relative);
         all.extend(ratios);
     }
     print("all", all, vec![f64::NAN]);
-    Ok(())
 }
 
 fn print(name: &str, mut ratios: Vec<f64>, mut relative: Vec<f64>) {
