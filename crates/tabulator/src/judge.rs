@@ -267,7 +267,10 @@ impl Pulse {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Axis, Grid, Silent, build};
+    use crate::axis::Axis;
+    use crate::build::build;
+    use crate::grid::Grid;
+    use crate::progress::Silent;
 
     #[test]
     fn values_of_r_give_the_averages_that_its_integrals_give() {
