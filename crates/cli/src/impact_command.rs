@@ -5,10 +5,10 @@ use crate::overwrite::Overwrite;
 use crate::progress::Bar;
 use crate::report::text_report;
 use clap::{Args, ValueEnum};
-use formats::{inputs, json_report, read_scene, stage_results_csv, write_results_into};
+use formats::{inputs, json_report, read_scene, stage_results, stage_results_csv};
 use impact::{KernelChoice, simulate_watched};
 use lookup::TableFile;
-use output::{CSV, HDF5, Output, Role};
+use output::{CSV, HDF5, Output, Role, Staged};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -61,12 +61,15 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let progress = Bar::after(PATIENCE);
     let outcome = simulate_watched(&scene, &kernels, &progress)?;
     progress.finish();
+    // all of them, or none where one fails
+    let mut staged = Vec::new();
     if let Some(output) = &output {
-        write_results_into(output, &scene, &outcome)?;
+        staged.push(stage_results(output, &scene, &outcome)?);
     }
     if let Some(csv) = &csv {
-        stage_results_csv(csv, &scene, &outcome)?.commit()?;
+        staged.push(stage_results_csv(csv, &scene, &outcome)?);
     }
+    staged.into_iter().try_for_each(Staged::commit)?;
     for warning in &outcome.warnings {
         say(format!("warning: {warning}"));
     }

@@ -35,7 +35,7 @@ pub use output::{Existing, Output, OutputError, check, write_whole};
 pub use quantities::{Kind, QUANTITIES, Quantity};
 pub use record::read_record;
 pub use report::{Choices, choices, json_report, kernel_name};
-pub use results::{print_results_csv, stage_results_csv, write_results, write_results_into};
+pub use results::{print_results_csv, stage_results, stage_results_csv, write_results};
 pub use scene::{parse_scene, read_scene, resolved};
 
 /// The README's program runs.

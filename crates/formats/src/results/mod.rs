@@ -9,4 +9,4 @@ mod section;
 mod write;
 
 pub use csv::{print_results_csv, stage_results_csv};
-pub use write::{write_results, write_results_into};
+pub use write::{stage_results, write_results};

@@ -8,7 +8,7 @@ use crate::report::{choices, kernel_name, treatment};
 use crate::scene::resolved;
 use hdf5::{Dataset, File};
 use impact::{EnergySeries, KernelsUsed, Outcome, ProbeFields, Scene};
-use output::{Existing, Output, OutputError};
+use output::{Existing, Output, OutputError, Staged};
 use std::path::Path;
 
 /// Writes the results of a scene.
@@ -21,21 +21,20 @@ pub fn write_results(
     outcome: &Outcome,
     existing: Existing,
 ) -> Result<(), OutputError> {
-    write_results_into(&Output::claim(path, existing)?, scene, outcome)
+    let output = Output::claim(path, existing)?;
+    stage_results(&output, scene, outcome)?.commit()
 }
 
-/// Writes the results of a scene into an output that was claimed before the work.
+/// The same into an output that was claimed before the work, under its name when it is committed.
 ///
 /// # Errors
 /// [`OutputError`].
-pub fn write_results_into(
-    output: &Output,
+pub fn stage_results<'a>(
+    output: &'a Output,
     scene: &Scene,
     outcome: &Outcome,
-) -> Result<(), OutputError> {
-    output
-        .write(|part| write_file(part, scene, outcome).map_err(|error| reason(&error)))
-        .map(drop)
+) -> Result<Staged<'a>, OutputError> {
+    output.stage(|part| write_file(part, scene, outcome).map_err(|error| reason(&error)))
 }
 
 fn write_file(path: &Path, scene: &Scene, outcome: &Outcome) -> Result<(), hdf5::Error> {
