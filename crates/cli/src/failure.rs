@@ -63,7 +63,7 @@ impl From<formats::OutputError> for Failure {
 impl From<impact::ImpactError> for Failure {
     fn from(error: impact::ImpactError) -> Self {
         use contact::{ContactError as C, MarchError as M};
-        use impact::{FieldError, FieldsError as F, ImpactError as E};
+        use impact::{FieldError, FieldsError as F, ImpactError as E, TooMuch};
         match error {
             E::Contact(C::March(
                 M::NoSolution { .. }
@@ -74,7 +74,12 @@ impl From<impact::ImpactError> for Failure {
             E::Fields(F::Field(FieldError::Table { .. })) => {
                 Self::input(format!("{error}; use --kernel direct or another table"))
             }
-            E::Contact(_)
+            E::TooMuch(TooMuch::Memory(_)) => {
+                Self::input(format!("{error}, or give --max-memory GB"))
+            }
+            E::TooMuch(_)
+            | E::NotFinite(_)
+            | E::Contact(_)
             | E::Source(_)
             | E::Fields(_)
             | E::TooManySamples(_)

@@ -1,12 +1,13 @@
 //! `hertzlamb impact`: one scene.
 
 use crate::failure::{Failure, print, say};
+use crate::memory::MemoryLimit;
 use crate::overwrite::Overwrite;
 use crate::progress::Bar;
 use crate::report::text_report;
 use clap::{Args, ValueEnum};
 use formats::{inputs, json_report, read_scene, stage_results, stage_results_csv};
-use impact::{KernelChoice, simulate_watched};
+use impact::{Allowance, Forecast, KernelChoice, simulate_within};
 use lookup::TableFile;
 use output::{CSV, HDF5, Output, Role, Staged};
 use std::path::{Path, PathBuf};
@@ -48,6 +49,8 @@ pub(crate) struct Arguments {
     csv: Option<PathBuf>,
     #[command(flatten)]
     overwrite: Overwrite,
+    #[command(flatten)]
+    memory: MemoryLimit,
     /// Print one JSON object instead of text.
     #[arg(long)]
     json: bool,
@@ -59,7 +62,12 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let [output, csv] = outputs(arguments)?;
     let kernels = kernels(arguments)?;
     let progress = Bar::after(PATIENCE);
-    let outcome = simulate_watched(&scene, &kernels, &progress)?;
+    let allowance = Allowance {
+        memory_bytes: arguments.memory.bytes(),
+        go_on: &announce,
+        watch: &progress,
+    };
+    let outcome = simulate_within(&scene, &kernels, &allowance)?;
     progress.finish();
     // all of them, or none where one fails
     let mut staged = Vec::new();
@@ -94,6 +102,24 @@ fn outputs(arguments: &Arguments) -> Result<[Option<Output>; 2], Failure> {
         }
     }
     Ok(claimed)
+}
+
+/// Seconds from which on a scene says what it will take.
+const LONG_S: f64 = 5.0;
+
+/// Says what a long scene takes, and that it goes on.
+fn announce(forecast: &Forecast) -> bool {
+    if forecast.seconds > LONG_S {
+        say(format!(
+            "{} points of {:.0} samples: about {:.0} s, {:.3} GB of memory, {:.3} GB in a results file",
+            forecast.points,
+            forecast.samples,
+            forecast.seconds,
+            1e-9 * forecast.memory_bytes,
+            1e-9 * forecast.disk_bytes
+        ));
+    }
+    true
 }
 
 fn kernels(arguments: &Arguments) -> Result<KernelChoice, Failure> {

@@ -8,7 +8,9 @@ mod failure;
 mod impact_command;
 mod interrupt;
 mod materials;
+mod memory;
 mod overwrite;
+mod panic;
 mod picture;
 mod plot_command;
 mod progress;
@@ -54,6 +56,7 @@ enum Command {
 }
 
 fn main() -> ExitCode {
+    panic::in_one_sentence();
     interrupt::listen();
     let cli = parsed();
     if cli.quiet {

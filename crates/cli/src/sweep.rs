@@ -2,6 +2,7 @@
 
 use crate::failure::{Failure, print, say};
 use crate::interrupt;
+use crate::memory::MemoryLimit;
 use crate::overwrite::Overwrite;
 use crate::progress::Bar;
 use clap::Args;
@@ -33,6 +34,8 @@ pub(crate) struct Arguments {
     csv: Option<PathBuf>,
     #[command(flatten)]
     overwrite: Overwrite,
+    #[command(flatten)]
+    memory: MemoryLimit,
     /// Print one JSON object instead of text.
     #[arg(long)]
     json: bool,
@@ -54,6 +57,9 @@ struct Report<'a> {
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let start = Instant::now();
     let spec = Spec::from_file(&arguments.sweep).map_err(Failure::input)?;
+    arguments
+        .memory
+        .check(spec.memory_bytes(), "the sweep", "ask for fewer rows")?;
     let outputs = Outputs::claim(arguments, &spec)?;
     let Some(done) = compute(arguments, &spec, &outputs)? else {
         return Err(Failure::work("the sweep was stopped"));

@@ -1,6 +1,7 @@
 //! `hertzlamb tabulate`: builds a kernel table.
 
 use crate::failure::{Failure, print, say};
+use crate::memory::MemoryLimit;
 use crate::overwrite::Overwrite;
 use crate::progress::Bar;
 use clap::Args;
@@ -52,6 +53,8 @@ pub(crate) struct Arguments {
     output: PathBuf,
     #[command(flatten)]
     overwrite: Overwrite,
+    #[command(flatten)]
+    memory: MemoryLimit,
     /// Compute part I of N into the output, which is then a shard for `hertzlamb table merge`.
     #[arg(long, value_name = "I/N", conflicts_with = "force")]
     shard: Option<Shard>,
@@ -139,6 +142,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         progress.finish();
         return shard_report(arguments, blocks);
     }
+    let needed = grid.memory_bytes().map_err(failure)?;
+    let change = "ask for fewer nodes, fewer slices or wider cells";
+    arguments.memory.check(needed, "the table", change)?;
     let summary = build_over(&grid, &arguments.output, existing, &progress).map_err(failure)?;
     progress.finish();
     tell(&grid, arguments, &summary)

@@ -64,6 +64,34 @@ pub enum ContactError {
         /// Memory in collision times.
         memory: f64,
     },
+    /// A number that floating-point arithmetic does not hold.
+    #[error(
+        "the {quantity} comes out as {value:e}: the numbers of the scene are beyond what floating-point arithmetic holds; check their units"
+    )]
+    NotFinite {
+        /// Which number.
+        quantity: &'static str,
+        /// What it is.
+        value: f64,
+    },
+    /// A step that no march can have.
+    #[error(
+        "step_s = {step_s:e} is outside [1e-9, 1000] times Hertz's contact time, {hertz_s:.3e} s"
+    )]
+    Step {
+        /// The step in s.
+        step_s: f64,
+        /// Hertz's contact time in s.
+        hertz_s: f64,
+    },
+    /// An estimated error that is as large as the results.
+    #[error(
+        "the estimated relative error of the results is {error:.2}, above 0.5: they say nothing; take a smaller step_s or tolerance, or another model"
+    )]
+    Unreliable {
+        /// The estimate.
+        error: f64,
+    },
 }
 
 fn fed_in_words(found: Option<&(f64, usize)>) -> String {

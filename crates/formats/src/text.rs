@@ -5,8 +5,8 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
-/// Bytes of a TOML file at most: a parsed one takes some twenty times its size.
-const MOST_OF_TOML: u64 = 16 << 20;
+/// Bytes of a TOML file at most: a parsed one takes some fifty times its size.
+const MOST_OF_TOML: u64 = 8 << 20;
 /// Bytes of a force record at most.
 pub(crate) const MOST_OF_RECORD: u64 = 256 << 20;
 

@@ -3,7 +3,7 @@
 use crate::bytes::{Cursor, name};
 use crate::error::{HdfError, damaged, unsupported};
 use crate::file::File;
-use crate::heap::text;
+use crate::heap::Texts;
 use crate::kind::{Kind, Number};
 use crate::object::{Object, kind};
 use crate::space::{Space, product};
@@ -78,7 +78,7 @@ impl Attribute {
             return Err(damaged("it is a list, needed one text"));
         }
         let bytes = match self.kind {
-            Kind::Text => text(&self.file, &self.data)?,
+            Kind::Text => Texts::new(&self.file, 2 * self.file.length()).at(&self.data)?,
             Kind::FixedText { .. } => self.data.clone(),
             Kind::Float { .. } | Kind::Integer { .. } | Kind::Other { .. } => {
                 return Err(wrong_type(self.kind, Kind::Text));

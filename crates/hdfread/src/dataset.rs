@@ -1,11 +1,13 @@
 //! Datasets: where their numbers are, and reading them.
 
 use crate::attribute::{Attribute, wrong_type};
-use crate::bytes::Cursor;
+use crate::block::copy;
+use crate::bytes::{Cursor, name};
 use crate::chunks::{self, Chunk};
 use crate::error::{HdfError, damaged, unsupported};
 use crate::file::NOWHERE;
 use crate::filter::{self, Filter};
+use crate::heap::Texts;
 use crate::kind::{Kind, Number, as_f64};
 use crate::object::{Object, kind};
 use crate::space::{MOST_DIMENSIONS, Space, product};
@@ -151,6 +153,31 @@ impl Dataset {
             }
         })?;
         Ok(numbers)
+    }
+
+    /// All its texts, which are UTF-8.
+    ///
+    /// # Errors
+    /// [`HdfError`].
+    pub fn texts(&self, limit: u64) -> Result<Vec<String>, HdfError> {
+        if self.kind != Kind::Text {
+            return Err(wrong_type(self.kind, Kind::Text));
+        }
+        admit(self.count(), self.kind.bytes(), limit)?;
+        let all: Vec<Range<usize>> = self.shape.iter().map(|&n| 0..n).collect();
+        let width = self.kind.bytes();
+        let mut places = vec![0; self.count() * width];
+        self.visit(&all, |from, bytes| {
+            let to = from * width + bytes.len();
+            if let Some(slots) = places.get_mut(from * width..to) {
+                slots.copy_from_slice(bytes);
+            }
+        })?;
+        let mut texts = Texts::new(&self.object.file, limit);
+        let found = places.chunks_exact(width).map(|place| texts.at(place));
+        found
+            .map(|bytes| name(&bytes?).map(str::to_owned))
+            .collect()
     }
 
     /// The numbers of a block of it, which take `limit` bytes of memory at most.
@@ -381,58 +408,4 @@ fn admit(count: usize, width: usize, limit: u64) -> Result<(), HdfError> {
         return Err(HdfError::TooLarge { needed, limit });
     }
     Ok(())
-}
-
-/// Gives the rows of a part, whose first value is `first` of the whole, that lie in a block of the whole.
-fn copy(
-    block: &[Range<usize>],
-    part: &[usize],
-    first: &[usize],
-    whole: &[usize],
-    width: usize,
-    bytes: &[u8],
-    give: &mut impl FnMut(usize, &[u8]),
-) {
-    let Some(last) = block.len().checked_sub(1) else {
-        give(0, bytes);
-        return;
-    };
-    // what part and block share, along each dimension of the whole
-    let shared: Vec<Range<usize>> = (0..=last)
-        .map(|d| {
-            let end = first[d]
-                .saturating_add(part[d])
-                .min(whole[d])
-                .min(block[d].end);
-            first[d].max(block[d].start)..end
-        })
-        .collect();
-    if shared.iter().any(Range::is_empty) {
-        return;
-    }
-    let mut place: Vec<usize> = shared.iter().map(|range| range.start).collect();
-    let row = shared[last].len() * width;
-    loop {
-        let (mut from, mut to) = (0, 0);
-        for d in 0..=last {
-            from = from * part[d] + (place[d] - first[d]);
-            to = to * block[d].len() + (place[d] - block[d].start);
-        }
-        if let Some(values) = bytes.get(from * width..from * width + row) {
-            give(to, values);
-        }
-        // the next row: the last dimension but one runs fastest
-        let mut d = last;
-        loop {
-            if d == 0 {
-                return;
-            }
-            d -= 1;
-            place[d] += 1;
-            if place[d] < shared[d].end {
-                break;
-            }
-            place[d] = shared[d].start;
-        }
-    }
 }

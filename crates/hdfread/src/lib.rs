@@ -23,6 +23,7 @@
 
 // in reading order
 mod attribute;
+mod block;
 mod bytes;
 mod chunks;
 mod dataset;

@@ -201,7 +201,7 @@ impl Excitation {
         force_n: &[f64],
     ) -> Vec<f64> {
         let response = SurfaceResponse::new(&self.medium, deflection);
-        let weights = Weights::of_known_force(&response, step_s, self.units.time_s());
+        let weights = Weights::of_samples(&response, step_s, self.units.time_s(), force_n.len());
         let static_m_per_n = response.static_compliance() * self.units.displacement_m_per_n();
         let factor = share.factor();
         let above_n: Vec<f64> = force_n.iter().map(|p| p - base_n).collect();

@@ -88,10 +88,11 @@ impl Impact {
     pub fn solve(&self) -> Result<Run, ContactError> {
         let settings = &self.settings;
         let collision = Collision::new(&self.half_space, &self.striker, self.velocity_m_s);
+        collision.check_step(settings)?;
         let mut solver = Solver::new(&Exact);
         let (solved, history) = solver.solve_with_history(&collision, settings)?;
         let radiated = solver.radiated(&collision, settings, &solved)?;
-        let results = Results::new(&collision, settings, &solved, radiated);
+        let results = Results::new(&collision, settings, &solved, radiated).checked()?;
         let model = solved.plan.model;
         let mut warnings = Checked {
             half_space: &self.half_space,

@@ -3,6 +3,8 @@
 use crate::energy::EnergySeries;
 use crate::excitation::Excitation;
 use crate::fields::{FieldsError, Sampled};
+use crate::finite::{NotFinite, checked};
+use crate::forecast::{Allowance, Forecast, TooMuch};
 use crate::grid::{Grid, TooManySamples, Wanted};
 use crate::impact::Impact;
 use crate::kernels::KernelSource;
@@ -15,7 +17,7 @@ use crate::record::ForceRecord;
 use crate::samples::between_samples;
 use crate::scene::{Load, Scene, Strike};
 use crate::source::{Chosen, KernelChoice, SourceError, choose_source};
-use crate::watch::{Unwatched, Watch};
+use crate::watch::Watch;
 use contact::{Collision, ContactError, Model, Scheme, StaticShare};
 use halfspace::{Deflection, DomainError};
 use thiserror::Error;
@@ -35,6 +37,12 @@ pub enum ImpactError {
     /// More samples than memory should hold.
     #[error(transparent)]
     TooManySamples(#[from] TooManySamples),
+    /// More memory or work than there is.
+    #[error(transparent)]
+    TooMuch(#[from] TooMuch),
+    /// A result that is no number.
+    #[error(transparent)]
+    NotFinite(#[from] NotFinite),
     /// A number is outside the physics.
     #[error(transparent)]
     Domain(#[from] DomainError),
@@ -48,7 +56,7 @@ pub enum ImpactError {
 /// # Errors
 /// [`ImpactError`].
 pub fn simulate(scene: &Scene, kernels: &KernelChoice) -> Result<Outcome, ImpactError> {
-    simulate_watched(scene, kernels, &Unwatched)
+    simulate_within(scene, kernels, &Allowance::default())
 }
 
 /// [`simulate`], telling `watch` how far the fields are.
@@ -60,23 +68,45 @@ pub fn simulate_watched(
     kernels: &KernelChoice,
     watch: &dyn Watch,
 ) -> Result<Outcome, ImpactError> {
+    let allowance = Allowance {
+        watch,
+        ..Allowance::default()
+    };
+    simulate_within(scene, kernels, &allowance)
+}
+
+/// Computes a scene that takes no more than it may.
+///
+/// What it takes is forecast twice: from the scene alone, before the contact is solved, and before the fields.
+///
+/// # Errors
+/// [`ImpactError`], [`ImpactError::TooMuch`] before anything long is begun.
+pub fn simulate_within(
+    scene: &Scene,
+    kernels: &KernelChoice,
+    allowance: &Allowance<'_>,
+) -> Result<Outcome, ImpactError> {
+    Forecast::least(scene)
+        .check(scene, allowance.memory_bytes)
+        .map_err(TooMuch::Memory)?;
     let asked = Asked {
         scene,
         kernels,
-        watch,
+        allowance,
     };
-    match &scene.load {
-        Load::Strike(strike) => of_strike(scene, strike, asked),
-        Load::Record(record) => of_record(scene, record, asked),
-    }
+    let outcome = match &scene.load {
+        Load::Strike(strike) => of_strike(scene, strike, asked)?,
+        Load::Record(record) => of_record(scene, record, asked)?,
+    };
+    Ok(checked(outcome)?)
 }
 
-/// The fields that are asked for, from which kernels, and who is told of them.
+/// The fields that are asked for, from which kernels, what they may take and who is told of them.
 #[derive(Clone, Copy)]
 struct Asked<'a> {
     scene: &'a Scene,
     kernels: &'a KernelChoice,
-    watch: &'a dyn Watch,
+    allowance: &'a Allowance<'a>,
 }
 
 fn of_strike(scene: &Scene, strike: &Strike, asked: Asked<'_>) -> Result<Outcome, ImpactError> {
@@ -181,10 +211,20 @@ struct Computed<'a> {
 
 impl<'a> Computed<'a> {
     fn new(asked: Asked<'_>, excitation: &'a Excitation) -> Result<Self, ImpactError> {
-        let scene = asked.scene;
+        let Asked {
+            scene, allowance, ..
+        } = asked;
         let chosen = choose_source(scene, asked.kernels, excitation)?;
         let source = chosen.as_ref().map(|chosen| &chosen.source);
         let grid = Grid::new(&Wanted::of(scene), excitation, source)?;
+        let forecast = Forecast::new(scene, excitation, &grid, source)?;
+        forecast
+            .check(scene, allowance.memory_bytes)
+            .map_err(TooMuch::Memory)?;
+        if !(allowance.go_on)(&forecast) {
+            let seconds = forecast.seconds;
+            return Err(TooMuch::GivenUp { seconds }.into());
+        }
         let time_s: Vec<f64> = grid.times_s().collect();
         let force_n = time_s.iter().map(|&t| excitation.force_n(t)).collect();
         let mut computed = Self {
@@ -205,9 +245,9 @@ impl<'a> Computed<'a> {
     fn add_fields(&mut self, asked: Asked<'_>, chosen: Chosen) -> Result<(), FieldsError> {
         let Chosen { source, reason } = chosen;
         let scene = asked.scene;
-        asked.watch.points(scene.points());
-        let sampled =
-            Sampled::new(self.excitation, &source, &self.grid, &self.force_n).watched(asked.watch);
+        asked.allowance.watch.points(scene.points());
+        let sampled = Sampled::new(self.excitation, &source, &self.grid, &self.force_n)
+            .watched(asked.allowance.watch);
         if !scene.probes.is_empty() {
             self.probes = Some(at_probes(&sampled, &self.force_n, &scene.probes)?);
         }

@@ -86,7 +86,7 @@ pub(crate) struct Chosen {
 }
 
 /// Seconds that one cell of six fields takes when it is computed, on one thread.
-const DIRECT_CELL_S: f64 = 8e-6;
+pub(crate) const DIRECT_CELL_S: f64 = 8e-6;
 
 /// Computed fields that cost less are not worth a table's error.
 const CHEAP_S: f64 = 0.2;

@@ -22,11 +22,12 @@ pub fn collide(
     collision: &Collision,
     settings: &Settings,
 ) -> Result<Collided, ContactError> {
+    collision.check_step(settings)?;
     let solved = solver.solve(collision, settings)?;
     let radiated = solver.radiated(collision, settings, &solved)?;
     Ok(Collided {
         model: solved.plan.model,
-        results: Results::new(collision, settings, &solved, radiated),
+        results: Results::new(collision, settings, &solved, radiated).checked()?,
     })
 }
 

@@ -54,7 +54,7 @@ impl Grid {
     /// # Errors
     /// [`BuildError`] when the file cannot be read, has unknown keys or values outside their ranges.
     pub fn from_file(path: &Path) -> Result<Self, BuildError> {
-        let text = std::fs::read_to_string(path).map_err(|source| BuildError::File {
+        let text = crate::text::read(path).map_err(|source| BuildError::File {
             action: "read",
             path: path.to_owned(),
             source,

@@ -7,6 +7,7 @@
 
 use crate::block::{Block, Kind, Row};
 use crate::error::BuildError;
+use crate::grid::Grid;
 use crate::numbers::NUMBERS_REVISION;
 use output::{Output, OutputError};
 use sha2::{Digest, Sha256};
@@ -66,6 +67,15 @@ pub(crate) fn journal_of(output: &Output) -> PathBuf {
     PathBuf::from(name)
 }
 
+impl<'a> Task<'a> {
+    /// The settings.
+    fn grid(self) -> &'a str {
+        match self {
+            Self::Build { grid } | Self::Extension { grid, .. } => grid,
+        }
+    }
+}
+
 /// An open journal; whoever opens it has claimed the output.
 #[derive(Debug)]
 pub(crate) struct Journal {
@@ -94,9 +104,8 @@ impl Journal {
             .create_new(there.is_err())
             .open(path)
             .map_err(failed("write"))?;
-        let mut bytes = Vec::new();
         file.seek(SeekFrom::Start(0)).map_err(failed("read"))?;
-        file.read_to_end(&mut bytes).map_err(failed("read"))?;
+        let bytes = contents(&file, most_bytes(task.grid())).map_err(failed("read"))?;
         let title = title(task);
         let mut journal = Self {
             path: path.to_owned(),
@@ -210,7 +219,11 @@ fn title(task: Task<'_>) -> String {
 /// Reads a journal or a shard without changing it: its settings and its whole records.
 pub(crate) fn read(path: &Path) -> Result<(String, HashMap<Block, Row>), BuildError> {
     regular(path)?;
-    let bytes = std::fs::read(path).map_err(file_error("read", path))?;
+    let failed = || file_error("read", path);
+    let file = File::open(path).map_err(failed())?;
+    let bytes = contents(&file, MOST_OF_TITLE)
+        .or_else(|_| start(&file))
+        .map_err(failed())?;
     let foreign = || BuildError::NotBlocks {
         path: path.to_owned(),
     };
@@ -232,8 +245,38 @@ pub(crate) fn read(path: &Path) -> Result<(String, HashMap<Block, Row>), BuildEr
     if !bytes.starts_with(title(Task::Build { grid }).as_bytes()) {
         return Err(foreign());
     }
-    let (rows, _) = records(&bytes, end + 1 + length);
+    let whole = contents(&file, most_bytes(grid)).map_err(failed())?;
+    let (rows, _) = records(&whole, end + 1 + length);
     Ok((grid.to_owned(), rows))
+}
+
+/// Bytes of the line that names the task and of the settings at most.
+const MOST_OF_TITLE: u64 = 1 << 20;
+
+/// Bytes that a journal of some settings can have: each block once or twice.
+fn most_bytes(grid: &str) -> u64 {
+    let numbers = Grid::parse(grid).and_then(|grid| grid.memory_bytes());
+    MOST_OF_TITLE + numbers.map_or(0, |bytes| bytes as u64)
+}
+
+/// All of a file from its start, which has so many bytes at most.
+fn contents(file: &File, most: u64) -> std::io::Result<Vec<u8>> {
+    let (length, mut file, mut bytes) = (file.metadata()?.len(), file, Vec::new());
+    if length > most {
+        let detail = format!("it has {length} bytes, more than its settings explain, {most}");
+        return Err(std::io::Error::other(detail));
+    }
+    file.seek(SeekFrom::Start(0))?;
+    file.take(most).read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
+/// The first bytes of a long file.
+fn start(file: &File) -> std::io::Result<Vec<u8>> {
+    let (mut file, mut bytes) = (file, Vec::new());
+    file.seek(SeekFrom::Start(0))?;
+    file.take(MOST_OF_TITLE).read_to_end(&mut bytes)?;
+    Ok(bytes)
 }
 
 /// Refuses pipes and devices: they wait for their other end, or never end.

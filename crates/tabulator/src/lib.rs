@@ -51,6 +51,7 @@ mod rows;
 mod sample;
 mod shard;
 mod summary;
+mod text;
 mod verify;
 
 pub use axis::Axis;

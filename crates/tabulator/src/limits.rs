@@ -7,6 +7,9 @@ use crate::grid::Grid;
 /// Bytes that the numbers of a table may take in memory.
 const MOST_BYTES: f64 = 64e9;
 
+/// How often the numbers are in memory while a table is put together.
+const COPIES: f64 = 3.0;
+
 impl Grid {
     /// Checks every setting, and that the numbers of the table fit into 64 GB of memory.
     ///
@@ -39,6 +42,15 @@ impl Grid {
         let range = "64 GB";
         let fits = gigabytes <= 1e-9 * MOST_BYTES;
         setting("size of the table in memory in GB", gigabytes, fits, range)
+    }
+
+    /// Memory in bytes that building the table takes, about: its numbers as rows, as a table and as a file.
+    ///
+    /// # Errors
+    /// As [`validate`](Self::validate).
+    pub fn memory_bytes(&self) -> Result<f64, BuildError> {
+        self.validate()?;
+        Ok(COPIES * self.bytes()?)
     }
 
     /// Bytes of the numbers of the table in memory.

@@ -1,6 +1,10 @@
 //! The work that a march may take.
 
 use super::error::MarchError;
+use crate::law::hertz::CONTACT_TIME;
+
+/// A contact lasts at least this part of Hertz's.
+const SHORTEST: f64 = 0.5;
 
 /// Bounds the work of one march.
 #[derive(Debug)]
@@ -23,6 +27,11 @@ impl Budget {
         let budget = Self::new(cells, memory);
         budget.check(cells)?;
         Ok(budget)
+    }
+
+    /// Refuses a march before it begins.
+    pub(crate) fn before(&self, step: f64) -> Result<(), MarchError> {
+        self.check((SHORTEST * CONTACT_TIME / step).min(1e9) as usize)
     }
 
     pub(crate) fn check(&self, steps: usize) -> Result<(), MarchError> {

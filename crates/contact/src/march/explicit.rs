@@ -31,6 +31,7 @@ pub fn march_explicit(
     let memory_cells = (impact.memory() / step).min(1e9);
     let budget = Budget::new(memory_cells as usize, impact.memory());
     budget.check(memory_cells as usize)?;
+    budget.before(step)?;
     let kernel: Vec<f64> = (0..=memory_cells as usize + 1)
         .map(|i| {
             let t = i as f64 * step / impact.wave_time;

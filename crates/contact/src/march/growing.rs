@@ -48,6 +48,7 @@ const ITERATIONS: usize = 30;
 pub fn march_growing(impact: &GrowingDisc<'_>, step: f64) -> Result<History, MarchError> {
     let memory = impact.punch.memory() * impact.wave_time;
     let budget = Budget::new((memory / step).min(1e9) as usize * 8, memory);
+    budget.before(step)?;
     let start = Start::new(step, 0.0, &starting_roots(step, 0.0));
     let mut flight = Flight::new(step, start);
     let inertia = flight.newest_weight();

@@ -43,6 +43,7 @@ pub(crate) fn march_into(
 ) -> Result<(), MarchError> {
     // before the weights, which need one evaluation a cell
     let budget = Budget::of_memory(impact.memory(), step)?;
+    budget.before(step)?;
     weights.fill_for(impact, impact.response, step);
     history.restart(step);
     let unit = impact.wave_time / step;

@@ -26,8 +26,14 @@ impl Weights {
     /// For a force that is known; `step` and `unit` = r0/c1 in the same unit of time.
     #[must_use]
     pub fn of_known_force(response: &impl DiscResponse, step: f64, unit: f64) -> Self {
+        Self::of_samples(response, step, unit, usize::MAX)
+    }
+
+    /// The same for a force of so many samples, which reach no older weights.
+    #[must_use]
+    pub fn of_samples(response: &impl DiscResponse, step: f64, unit: f64, samples: usize) -> Self {
         let mut weights = Self::default();
-        weights.fill(response, step, unit, f64::INFINITY);
+        weights.fill(response, step, unit, f64::INFINITY, samples);
         weights
     }
 
@@ -50,13 +56,20 @@ impl Weights {
         step: f64,
     ) {
         let slack = slack(impact.coupling, impact.share);
-        self.fill(response, step, impact.wave_time, slack);
+        self.fill(response, step, impact.wave_time, slack, usize::MAX);
     }
 
-    fn fill(&mut self, response: &impl DiscResponse, step: f64, unit: f64, slack: f64) {
+    fn fill(
+        &mut self,
+        response: &impl DiscResponse,
+        step: f64,
+        unit: f64,
+        slack: f64,
+        samples: usize,
+    ) {
         let h = step / unit;
         let mut cell = response.cells(h);
-        let cells = (response.memory() / h).ceil() as usize;
+        let cells = ((response.memory() / h).ceil() as usize).min(samples.saturating_add(1));
         let values = &mut self.values;
         values.clear();
         values.resize(cells + 2, 0.0);

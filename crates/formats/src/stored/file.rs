@@ -2,8 +2,7 @@
 
 use super::error::ReadError;
 use super::kind::FileKind;
-use hdf5::types::{VarLenAscii, VarLenUnicode};
-use hdf5::{File, Location};
+use hdfread::{Attribute, File, HdfError};
 use std::io::Read;
 use std::path::Path;
 
@@ -12,7 +11,8 @@ use std::path::Path;
 /// # Errors
 /// [`ReadError`] for a file that is not one of the program.
 pub fn file_kind(path: &Path) -> Result<FileKind, ReadError> {
-    text_of(&*open_hdf5(path)?, "file_type")
+    let root = open_hdf5(path)?.root().ok();
+    root.and_then(|root| text_of(root.attribute("file_type")))
         .and_then(|found| FileKind::ALL.into_iter().find(|k| k.file_type() == found))
         .ok_or_else(|| ReadError::Foreign {
             path: path.to_owned(),
@@ -49,15 +49,7 @@ pub(super) fn open_hdf5(path: &Path) -> Result<File, ReadError> {
     File::open(path).map_err(|_| not("a damaged HDF5 file"))
 }
 
-/// A text attribute of any object.
-pub(super) fn text_of(object: &Location, name: &str) -> Option<String> {
-    let attribute = object.attr(name).ok()?;
-    let unicode = attribute.read_scalar::<VarLenUnicode>();
-    let text = unicode.map(|text| text.to_string());
-    text.or_else(|_| {
-        attribute
-            .read_scalar::<VarLenAscii>()
-            .map(|t| t.to_string())
-    })
-    .ok()
+/// A text attribute, where it is one.
+pub(super) fn text_of(attribute: Result<Attribute, HdfError>) -> Option<String> {
+    attribute.ok()?.text().ok()
 }

@@ -3,12 +3,11 @@
 use super::error::ReadError;
 use super::file::{file_kind, open_hdf5, text_of};
 use super::kind::FileKind;
-use hdf5::types::VarLenUnicode;
-use hdf5::{File, Group, H5Type, Hyperslab, SliceOrIndex};
+use hdfread::{Dataset, Group, Kind, Number};
 use std::path::{Path, PathBuf};
 
-/// Most values that are read from a dataset at once: 512 MiB of doubles.
-const MOST_VALUES: usize = 1 << 26;
+/// Most bytes of numbers that are read from a dataset at once.
+const MOST_BYTES: u64 = 1 << 29;
 
 /// A dataset of a file: its name, unit and meaning.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -25,7 +24,7 @@ pub struct StoredQuantity {
 #[derive(Debug, Clone)]
 pub(super) struct Stored {
     pub(super) path: PathBuf,
-    file: File,
+    root: Group,
 }
 
 impl Stored {
@@ -43,9 +42,13 @@ impl Stored {
                 wanted,
             });
         }
+        let root = open_hdf5(path)?.root();
         let stored = Self {
             path: path.to_owned(),
-            file: open_hdf5(path)?,
+            root: root.map_err(|error| ReadError::Damaged {
+                path: path.to_owned(),
+                what: error.to_string(),
+            })?,
         };
         let version = stored.text("format_version")?;
         if version.split('.').next() != Some(major) {
@@ -68,35 +71,52 @@ impl Stored {
 
     /// A text of the root.
     pub(super) fn text(&self, name: &str) -> Result<String, ReadError> {
-        text_of(&self.file, name)
+        text_of(self.root.attribute(name))
             .ok_or_else(|| self.damaged(format!("the text attribute {name} is missing")))
     }
 
     /// A number of the root, where it is there.
     pub(super) fn number(&self, name: &str) -> Option<f64> {
-        self.file.attr(name).ok()?.read_scalar().ok()
+        let attribute = self.root.attribute(name).ok()?;
+        let real = attribute.number::<f64>().ok();
+        real.or_else(|| attribute.number::<u64>().ok().map(|count| count as f64))
     }
 
     /// A group, where it is there.
     pub(super) fn group(&self, name: &str) -> Option<Group> {
-        self.file.group(name).ok()
+        let mut group = self.root.clone();
+        for part in name.split('/').filter(|part| !part.is_empty()) {
+            group = group.group(part).ok()?;
+        }
+        Some(group)
+    }
+
+    /// A dataset, where it is there.
+    fn dataset(&self, path: &str) -> Option<Dataset> {
+        let path = path.trim_start_matches('/');
+        match path.rsplit_once('/') {
+            Some((group, name)) => self.group(group)?.dataset(name).ok(),
+            None => self.root.dataset(path).ok(),
+        }
     }
 
     /// The shape of a dataset, where it is there.
     pub(super) fn shape(&self, path: &str) -> Option<Vec<usize>> {
-        Some(self.file.dataset(path).ok()?.shape())
+        Some(self.dataset(path)?.shape().to_vec())
     }
 
     /// Name, unit and meaning of the datasets of a group that have a shape, in the order of the file.
     pub(super) fn quantities(&self, group: &str, shape: &[usize]) -> Vec<StoredQuantity> {
-        let names = self.group(group).and_then(|g| g.member_names().ok());
-        let found = names.unwrap_or_default().into_iter().filter_map(|name| {
-            let dataset = self.file.dataset(&format!("{group}/{name}")).ok()?;
-            let described = |attribute| text_of(&dataset, attribute).unwrap_or_default();
+        let Some(group) = self.group(group) else {
+            return Vec::new();
+        };
+        let found = group.members().filter_map(|name| {
+            let dataset = group.dataset(name).ok()?;
+            let described = |attribute| text_of(dataset.attribute(attribute)).unwrap_or_default();
             (dataset.shape() == shape).then(|| StoredQuantity {
                 unit: described("units"),
                 meaning: described("long_name"),
-                name,
+                name: name.to_owned(),
             })
         });
         found.collect()
@@ -104,8 +124,8 @@ impl Stored {
 
     /// All numbers of a dataset of a shape.
     pub(super) fn numbers(&self, path: &str, shape: &[usize]) -> Result<Vec<f64>, ReadError> {
-        self.check(path, shape)?;
-        self.raw(path)
+        let numbers = self.of_shape(path, shape)?.as_f64(MOST_BYTES);
+        numbers.map_err(|error| self.damaged(format!("{path} cannot be read: {error}")))
     }
 
     /// All numbers of a dataset with one dimension.
@@ -118,80 +138,52 @@ impl Stored {
 
     /// All texts of a list.
     pub(super) fn texts(&self, path: &str) -> Result<Vec<String>, ReadError> {
-        let found: Vec<VarLenUnicode> = match self.shape(path).as_deref() {
-            Some(&[length]) => {
-                self.check(path, &[length])?;
-                self.raw(path)?
-            }
-            _ => return Err(self.damaged(format!("the list {path} is missing"))),
-        };
-        Ok(found.into_iter().map(|text| text.to_string()).collect())
+        match self.dataset(path) {
+            Some(list) if list.shape().len() == 1 => list
+                .texts(MOST_BYTES)
+                .map_err(|error| self.damaged(format!("{path} cannot be read: {error}"))),
+            Some(_) | None => Err(self.damaged(format!("the list {path} is missing"))),
+        }
     }
 
     /// Unit of a dataset and the axis that it belongs to.
     pub(super) fn labels(&self, path: &str) -> Option<(String, String)> {
-        let dataset = self.file.dataset(path).ok()?;
-        let unit = text_of(&dataset, "units").unwrap_or_default();
-        Some((unit, text_of(&dataset, "axis")?))
+        let dataset = self.dataset(path)?;
+        let unit = text_of(dataset.attribute("units")).unwrap_or_default();
+        Some((unit, text_of(dataset.attribute("axis"))?))
     }
 
     /// Whether a list holds texts.
     pub(super) fn holds_texts(&self, path: &str) -> bool {
-        let kind = self.file.dataset(path).and_then(|d| d.dtype());
-        kind.and_then(|kind| kind.to_descriptor())
-            .is_ok_and(|kind| matches!(kind, hdf5::types::TypeDescriptor::VarLenUnicode))
+        self.dataset(path)
+            .is_some_and(|list| list.kind() == Kind::Text)
     }
 
     /// What a dataset holds at one place of its first dimension.
-    pub(super) fn slab<T: H5Type>(
+    pub(super) fn slab<T: Number>(
         &self,
         path: &str,
         shape: &[usize],
         at: usize,
     ) -> Result<Vec<T>, ReadError> {
-        let bound: usize = shape[1..].iter().product();
-        self.bounded(path, bound)?;
-        let all = SliceOrIndex::Unlimited {
-            start: 0,
-            step: 1,
-            block: 1,
-        };
-        let mut slab = vec![SliceOrIndex::Index(at)];
-        slab.resize(shape.len(), all);
-        let dataset = self
-            .file
-            .dataset(path)
-            .ok()
-            .filter(|d| d.shape() == shape)
-            .ok_or_else(|| self.damaged(format!("{path} is missing or not of shape {shape:?}")))?;
-        let read = dataset.read_slice::<T, _, ndarray::IxDyn>(Hyperslab::from(slab));
-        read.map(|found| found.into_iter().collect())
-            .map_err(|_| self.damaged(format!("{path} cannot be read")))
+        let dataset = self.of_shape(path, shape)?;
+        let mut block: Vec<_> = shape.iter().map(|&n| 0..n).collect();
+        if let Some(first) = block.first_mut() {
+            *first = at..at.saturating_add(1);
+        }
+        let numbers = dataset.block(&block, MOST_BYTES);
+        numbers.map_err(|error| self.damaged(format!("{path} cannot be read: {error}")))
     }
 
-    fn check(&self, path: &str, shape: &[usize]) -> Result<(), ReadError> {
-        match self.shape(path) {
-            Some(found) if found == shape => self.bounded(path, shape.iter().product()),
-            Some(found) => {
-                Err(self.damaged(format!("{path} has the shape {found:?}, not {shape:?}")))
-            }
+    /// A dataset that has a shape.
+    fn of_shape(&self, path: &str, shape: &[usize]) -> Result<Dataset, ReadError> {
+        match self.dataset(path) {
+            Some(found) if found.shape() == shape => Ok(found),
+            Some(found) => Err(self.damaged(format!(
+                "{path} has the shape {:?}, not {shape:?}",
+                found.shape()
+            ))),
             None => Err(self.damaged(format!("{path} is missing"))),
         }
-    }
-
-    fn bounded(&self, path: &str, values: usize) -> Result<(), ReadError> {
-        if values <= MOST_VALUES {
-            return Ok(());
-        }
-        Err(self.damaged(format!(
-            "{path} has {values} values, more than the {MOST_VALUES} that are read at once"
-        )))
-    }
-
-    fn raw<T: H5Type>(&self, path: &str) -> Result<Vec<T>, ReadError> {
-        let dataset = self.file.dataset(path);
-        dataset
-            .and_then(|dataset| dataset.read_raw())
-            .map_err(|_| self.damaged(format!("{path} cannot be read")))
     }
 }

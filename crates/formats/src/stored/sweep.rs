@@ -101,9 +101,7 @@ fn read_axes(stored: &Stored) -> Result<Vec<StoredAxis>, ReadError> {
     let group = stored
         .group(AXES)
         .ok_or_else(|| stored.damaged(format!("the group {AXES} is missing")))?;
-    let mut names = group
-        .member_names()
-        .map_err(|_| stored.damaged(format!("the group {AXES} cannot be read")))?;
+    let mut names: Vec<String> = group.members().map(str::to_owned).collect();
     names.sort();
     let mut axes: Vec<StoredAxis> = Vec::new();
     for name in names {

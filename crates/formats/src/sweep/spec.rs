@@ -5,6 +5,7 @@ use super::files::Files;
 use super::random::Distribution;
 use super::schema::{LIST, SAMPLE};
 use crate::error::SceneError;
+use crate::quantities::QUANTITIES;
 use crate::section::{FINITE, POSITIVE, Section, parse};
 use crate::text::read_text;
 use contact::Choice;
@@ -29,6 +30,9 @@ pub struct Spec {
 
 /// Rows of a sweep at most: they are held in memory, a hundred bytes each.
 const MOST_ROWS: usize = 10_000_000;
+
+/// Bytes of a row: its numbers, its model, its reason where it fails, and a column while it is written.
+const ROW_BYTES: usize = 8 * QUANTITIES.len() + 1 + 100 + 12;
 
 impl Spec {
     /// Reads a sweep file; the scene it names is looked for beside it.
@@ -84,6 +88,13 @@ impl Spec {
     #[must_use]
     pub fn inputs(&self) -> &[Role] {
         &self.files.inputs
+    }
+
+    /// Memory in bytes that its results take, about.
+    #[must_use]
+    pub fn memory_bytes(&self) -> f64 {
+        let values: usize = self.axes.iter().map(|a| a.columns.len() * a.len).sum();
+        (self.rows() * ROW_BYTES + values * 8) as f64
     }
 
     /// Number of scenes.
@@ -241,8 +252,19 @@ fn drawn(random: &Section<'_>) -> Result<Axis, SceneError> {
     })
 }
 
-/// No key twice, at least one axis, not too many rows.
+/// No key twice, at least one axis, not too many rows, numbers alone.
 fn check(axes: &[Axis]) -> Result<(), SceneError> {
+    for column in axes.iter().flat_map(|axis| &axis.columns) {
+        if let Values::Numbers(numbers) = &column.values
+            && let Some(&value) = numbers.iter().find(|x| !x.is_finite())
+        {
+            return Err(SceneError::OutOfRange {
+                key: column.name(),
+                value,
+                range: FINITE.name,
+            });
+        }
+    }
     if axes.is_empty() {
         return Err(SceneError::Missing {
             key: "[product], [list] or [random]".to_owned(),
