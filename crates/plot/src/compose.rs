@@ -40,7 +40,11 @@ pub fn animate(
     let file = common_kind(paths)?;
     let kind = request.kind.unwrap_or(Kind::Waves);
     if file != FileKind::Impact || kind != Kind::Waves {
-        return Err(PlotError::NotMoving { kind });
+        return Err(PlotError::NotMoving {
+            path: paths[0].clone(),
+            found: file,
+            kind: request.kind,
+        });
     }
     let impacts = open(paths)?;
     let [impact] = impacts.as_slice() else {

@@ -43,10 +43,14 @@ pub enum PlotError {
         given: usize,
     },
     /// An animation of what does not move.
-    #[error("an animation shows waves, not {kind}: a section over time")]
+    #[error("an animation shows the waves in the section of an impact, and {} is {found}{}", path.display(), shown_as(*kind))]
     NotMoving {
+        /// The file.
+        path: PathBuf,
+        /// What it is.
+        found: FileKind,
         /// What was asked for.
-        kind: Kind,
+        kind: Option<Kind>,
     },
     /// What a picture shows is not in the file.
     #[error("{} has no {what}: {hint}", path.display())]
@@ -104,6 +108,10 @@ pub enum PlotError {
     /// The fields could not be computed.
     #[error(transparent)]
     Fields(#[from] FieldsError),
+}
+
+fn shown_as(kind: Option<Kind>) -> String {
+    kind.map_or_else(String::new, |kind| format!(", shown as {kind}"))
 }
 
 fn did_you_mean(suggestion: Option<&str>) -> String {

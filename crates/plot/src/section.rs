@@ -22,6 +22,9 @@ pub(crate) struct Section {
     known: VecDeque<(String, usize, Vec<f64>)>,
 }
 
+/// Distance of the S front, over the width of the section, from which on fronts are named.
+const APART: f64 = 0.12;
+
 /// Frames that are kept.
 const KEPT: usize = 24;
 
@@ -136,6 +139,10 @@ impl Section {
                 radius * angle.cos(),
             )
         };
+        // names of fronts that are not apart yet would lie over one another
+        if s < APART * self.extent_m()[0] {
+            return layers;
+        }
         let named = [
             (on(p, 0.75), "P"),
             (on(s, 0.5), "S"),

@@ -171,6 +171,8 @@ fn what_cannot_be_shown_of_a_sweep_is_told() {
         })
         .contains("did you mean granite?")
     );
+    let moving = plot::animate(std::slice::from_ref(&path), &Request::default());
+    assert!(moving.unwrap_err().to_string().ends_with("v.h5 is a sweep"));
     let names: Vec<String> = (0..12).map(|i| format!("{}.0", i + 1)).collect();
     let many = format!(
         "{VELOCITIES}[list.striker]\ntip_radius_m = [{}]\nmass_kg = [{}]\n",
