@@ -9,6 +9,8 @@ use crate::quadrature::Local;
 pub struct Instant {
     /// Contact force.
     pub force: f64,
+    /// Its rate.
+    pub rate: f64,
     /// Displacement of the striker.
     pub displacement: f64,
     /// Velocity of the striker.
@@ -64,6 +66,7 @@ impl Resampler {
             let since = time - last * self.history.step;
             return Instant {
                 force: 0.0,
+                rate: 0.0,
                 displacement: self.history.displacement[n - 1] + velocity * since,
                 velocity,
                 deflection: 0.0,
@@ -74,15 +77,24 @@ impl Resampler {
         let read = |samples: &[f64]| Local::<4>::at(samples, from).value(x);
         let cell = place as usize;
         let touching = self.history.force[cell] > 0.0 || self.history.force[cell + 1] > 0.0;
-        let force = if touching {
-            force_root(self.history.compliance, read(&self.smooth), 0.0)
-                .map_or(self.history.force[cell], |y| y * y * y)
+        let (force, rate) = if touching {
+            // a y^3 + y^2 = b, p = y^3
+            let a = self.history.compliance;
+            let (b, slope) = Local::<4>::at(&self.smooth, from).value_and_slope(x);
+            match force_root(a, b, 0.0) {
+                Some(y) => (
+                    y * y * y,
+                    3.0 * y * slope / (self.history.step * (3.0 * a * y + 2.0)),
+                ),
+                None => (self.history.force[cell], 0.0),
+            }
         } else {
-            0.0
+            (0.0, 0.0)
         };
         let displacement = read(&self.history.displacement);
         Instant {
             force,
+            rate,
             displacement,
             velocity: read(&self.velocity),
             // in contact by the law itself, which needs no smoothness of the deflection

@@ -60,7 +60,7 @@ pub struct Solver<'a, S: Responses> {
 }
 
 /// Samples over a contact of a history that was not marched.
-const SAMPLES: f64 = 2048.0;
+const SAMPLES: f64 = 4096.0;
 
 /// Steps over a contact of the explicit scheme when none is given: the paper's ts/200.
 const EXPLICIT_STEPS: f64 = 200.0;

@@ -59,7 +59,7 @@ impl Convolver {
 
     /// The same of a force that was `base` for long before.
     pub(crate) fn from_base(base: f64, force: &[f64], wanted: Vec<usize>) -> Self {
-        let rise = increments(base, force);
+        let rise = rises(base, force);
         let live = rise.iter().rposition(|&d| d != 0.0).map_or(0, |i| i + 1);
         let size = (2 * force.len()).next_power_of_two();
         let direct = PRODUCT_NS * wanted.len() as f64 * live as f64;
@@ -72,6 +72,11 @@ impl Convolver {
             wanted,
             transform,
         }
+    }
+
+    /// P_m - P_{m-1} of the samples.
+    pub(crate) fn rises(&self) -> &[f64] {
+        &self.rise
     }
 
     /// How the sum is done: never [`Method::Chosen`].
@@ -140,7 +145,7 @@ impl Method {
 }
 
 /// P_m - P_{m-1}, with `base` before the first sample.
-fn increments(base: f64, force: &[f64]) -> Vec<f64> {
+pub(crate) fn rises(base: f64, force: &[f64]) -> Vec<f64> {
     let mut before = base;
     force
         .iter()

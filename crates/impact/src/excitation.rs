@@ -5,13 +5,15 @@
 //!
 //! Theory: `docs/theory.md` (T55).
 
+use crate::kernels::Pulse;
+use crate::nodes::{CellNodes, Node};
 use crate::record::ForceRecord;
-use crate::stretch::Departure;
+use crate::run::Run;
 use contact::march::weights::Weights;
 use contact::resample::{Instant, Resampler};
 use contact::units::{CollisionUnits, KernelUnits};
 use contact::{HalfSpace, History, StaticShare};
-use halfspace::{Deflection, DomainError, Medium, SurfaceResponse};
+use halfspace::{Deflection, DomainError, Medium, SurfaceResponse, gauss};
 
 /// A force on a disc of the surface.
 #[derive(Debug, Clone)]
@@ -19,7 +21,41 @@ pub struct Excitation {
     medium: Medium,
     units: KernelUnits,
     force: Force,
+    radius: PressureRadius,
     relative_error: f64,
+}
+
+/// Radius of Hertz's pressure under a force.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum PressureRadius {
+    /// The same throughout, in m: the paper's disc, a record's disc.
+    Fixed(f64),
+    /// Hertz's at every instant, proportional to the cube root of the force.
+    Following {
+        /// Under the largest force, in m.
+        largest_m: f64,
+        /// The largest force in N.
+        largest_n: f64,
+    },
+}
+
+impl PressureRadius {
+    /// The largest in m: the unit of length of the fields.
+    #[must_use]
+    pub fn largest_m(self) -> f64 {
+        match self {
+            Self::Fixed(radius_m) => radius_m,
+            Self::Following { largest_m, .. } => largest_m,
+        }
+    }
+
+    /// Square of the radius over that of the largest, under a force in N.
+    pub(crate) fn square(self, force_n: f64) -> f64 {
+        match self {
+            Self::Fixed(_) => 1.0,
+            Self::Following { largest_n, .. } => (force_n / largest_n).max(0.0).cbrt().powi(2),
+        }
+    }
 }
 
 /// A force history, and the motion that goes with it where a striker has made it.
@@ -47,14 +83,14 @@ pub struct Motion {
 }
 
 impl Excitation {
-    /// Of a contact: its history in collision units, its duration in s and its relative error; `radius_m` is that of the
+    /// Of a contact: its history in collision units, its duration in s and its relative error; `radius` is that of the
     /// pressure.
     ///
     /// # Errors
     /// [`DomainError`] for a Poisson's ratio outside the physics.
     pub fn of_contact(
         half_space: &HalfSpace,
-        radius_m: f64,
+        radius: PressureRadius,
         history: History,
         units: CollisionUnits,
         contact_time_s: f64,
@@ -65,7 +101,7 @@ impl Excitation {
             units,
             contact_time_s,
         };
-        Self::new(half_space, radius_m, force, relative_error)
+        Self::new(half_space, radius, force, relative_error)
     }
 
     /// Of a record on a disc of a radius in m.
@@ -77,23 +113,25 @@ impl Excitation {
         radius_m: f64,
         record: ForceRecord,
     ) -> Result<Self, DomainError> {
-        Self::new(half_space, radius_m, Force::Record(record), 0.0)
+        let radius = PressureRadius::Fixed(radius_m);
+        Self::new(half_space, radius, Force::Record(record), 0.0)
     }
 
     fn new(
         half_space: &HalfSpace,
-        radius_m: f64,
+        radius: PressureRadius,
         force: Force,
         relative_error: f64,
     ) -> Result<Self, DomainError> {
         Ok(Self {
             medium: Medium::new(half_space.material().poisson_ratio)?,
             units: KernelUnits {
-                disc_radius_m: radius_m,
+                disc_radius_m: radius.largest_m(),
                 longitudinal_speed_m_s: half_space.longitudinal_speed_m_s(),
                 shear_modulus_pa: half_space.material().shear_modulus_pa(),
             },
             force,
+            radius,
             relative_error,
         })
     }
@@ -104,7 +142,22 @@ impl Excitation {
         &self.medium
     }
 
-    /// Units of the kernels: radius of the pressure, wave speed, shear modulus.
+    /// The same force with a pressure of a fixed radius in m.
+    #[must_use]
+    pub fn on_disc(&self, radius_m: f64) -> Self {
+        let mut fixed = self.clone();
+        fixed.radius = PressureRadius::Fixed(radius_m);
+        fixed.units.disc_radius_m = radius_m;
+        fixed
+    }
+
+    /// Radius of the pressure.
+    #[must_use]
+    pub fn radius(&self) -> PressureRadius {
+        self.radius
+    }
+
+    /// Units of the kernels: largest radius of the pressure, wave speed, shear modulus.
     #[must_use]
     pub fn units(&self) -> &KernelUnits {
         &self.units
@@ -124,6 +177,77 @@ impl Excitation {
                 samples.at(time_s / units.time_s).force * units.force_n
             }
             Force::Record(record) => record.at(time_s),
+        }
+    }
+
+    /// The force in N and its rate in N/s at a time, for a contact.
+    pub(crate) fn force_and_rate(&self, time_s: f64) -> Option<[f64; 2]> {
+        match &self.force {
+            Force::Contact { samples, units, .. } => {
+                let now = samples.at(time_s / units.time_s);
+                Some([
+                    now.force * units.force_n,
+                    now.rate * units.force_n / units.time_s,
+                ])
+            }
+            Force::Record(_) => None,
+        }
+    }
+
+    /// Places in the cells between the samples of a run where the force is read, with weights that integrate it.
+    pub(crate) fn cell_nodes(&self, run: &Run, step_s: f64) -> CellNodes {
+        let start_s = |cell: usize| run.start_s + cell as f64 * step_s;
+        CellNodes::new(run.count.saturating_sub(1), |cell, nodes| {
+            match &self.force {
+                Force::Contact { .. } => self.contact_nodes(start_s(cell), step_s, nodes),
+                Force::Record(record) => record.nodes(start_s(cell), step_s, nodes),
+            }
+        })
+    }
+
+    /// Nodes of one cell: graded toward a touch or an end of contact, where the force has the power 3/2.
+    fn contact_nodes(&self, from_s: f64, step_s: f64, nodes: &mut Vec<Node>) {
+        /// A force that changes by more than this over a cell is near an end of contact.
+        const STEEP: f64 = 0.5;
+        const PLAIN: usize = 6;
+        const GRADED: usize = 12;
+        let at = |x: f64| self.force_n(from_s + (x + 0.5) * step_s);
+        let ends = [at(-0.5), at(0.5)];
+        let [low, high] = [ends[0].min(ends[1]), ends[0].max(ends[1])];
+        if high <= 0.0 && at(0.0) <= 0.0 {
+            return;
+        }
+        if low > STEEP * high {
+            let plain = gauss::rule(PLAIN).on(-0.5, 0.5);
+            nodes.extend(plain.map(|(x, weight)| Node {
+                x,
+                weight,
+                force: at(x),
+            }));
+            return;
+        }
+        // from where the force is zero, or from the lower end
+        let rising = ends[0] < ends[1];
+        let [mut zero, mut full] = if rising { [-0.5, 0.5] } else { [0.5, -0.5] };
+        let end = full;
+        if low <= 0.0 {
+            for _ in 0..60 {
+                let middle = 0.5 * (zero + full);
+                if at(middle) > 0.0 {
+                    full = middle;
+                } else {
+                    zero = middle;
+                }
+            }
+        }
+        let length = end - zero;
+        for (u, weight) in gauss::rule(GRADED).on(0.0, 1.0) {
+            let x = zero + length * u * u;
+            nodes.push(Node {
+                x,
+                weight: 2.0 * u * weight * length.abs(),
+                force: at(x),
+            });
         }
     }
 
@@ -183,10 +307,13 @@ impl Excitation {
         }
     }
 
-    /// How far the force departs from its samples a step apart from `from_s` to `to_s`, where that is known exactly.
-    pub(crate) fn departure(&self, from_s: f64, to_s: f64, step_s: f64) -> Option<Departure> {
-        let record = self.record()?;
-        Some(record.departure(from_s, to_s, step_s))
+    /// What a table's error depends on, with times in r0/c1 of discs of a radius `over` the largest.
+    pub(crate) fn pulse(&self, over: f64) -> Pulse {
+        let length = self.pulse_s() / (over * self.units.time_s());
+        match self.force {
+            Force::Contact { .. } => Pulse::Contact(length),
+            Force::Record(_) => Pulse::Smooth(length),
+        }
     }
 
     /// Deflection of the disc in m under the force sampled a step apart, with a share of its static part; `base_n` is the

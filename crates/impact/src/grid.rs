@@ -2,6 +2,7 @@
 
 use crate::excitation::Excitation;
 use crate::kernels::KernelSource;
+use crate::run::Run;
 use crate::scene::Scene;
 use thiserror::Error;
 
@@ -75,14 +76,31 @@ impl Wanted {
     /// A step in s that the tolerance asks for.
     fn fitting_step_s(&self, excitation: &Excitation) -> f64 {
         match excitation.record() {
-            // linear between samples: relative error about (1.07 step/duration * pi)^2/8
-            None => excitation.pulse_s() / (1.1 / self.tolerance.sqrt()).clamp(100.0, 4000.0),
+            None => excitation.pulse_s() / self.samples_of_contact(excitation),
             Some(record) => {
                 let stretches = record.stretches(self.settling_s(excitation));
                 let unit_s = excitation.units().time_s();
                 record.step_s(&stretches, self.tolerance, unit_s, MOST_RECORD)
             }
         }
+    }
+
+    /// Samples over a contact.
+    ///
+    /// Between samples the force is followed to third order, but for the cells in which it begins and ends with the power
+    /// 3/2: they leave up to (step/duration)^(3/2) of the largest force, and its fields the less of it the
+    /// shorter the step is beside the time of the waves over the disc.
+    fn samples_of_contact(&self, excitation: &Excitation) -> f64 {
+        let by_force = 1.1 / self.tolerance.sqrt();
+        let by_fields = match self.farthest_m {
+            Some(_) => {
+                let passing = excitation.pulse_s() / excitation.units().time_s();
+                let left = self.tolerance.recip();
+                left.powf(2.0 / 3.0).min((left * passing).powf(0.4))
+            }
+            None => 0.0,
+        };
+        by_force.max(by_fields).clamp(100.0, 10_000.0)
     }
 
     /// Time in s that the last Rayleigh wave takes to pass the farthest point.
@@ -148,24 +166,11 @@ const MOST_RECORD: f64 = 262_144.0;
 /// How many times longer than the passing of the waves the fields are followed before they count as static.
 const SETTLED: f64 = 20.0;
 
-/// Consecutive samples.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Run {
-    /// Time of the first in s.
-    pub start_s: f64,
-    /// Force long before it in N.
-    pub base_n: f64,
-    /// How many.
-    pub count: usize,
-}
-
 /// Times of the output: samples a step apart, in one run from 0 or, where a record is quiet for long, in several.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Grid {
     /// Step in s.
     pub step_s: f64,
-    /// The step is 2^coarsening cells of a table.
-    pub(crate) coarsening: u32,
     /// Consecutive samples, in the order of time.
     pub runs: Vec<Run>,
     /// Largest step in s that was wanted.
@@ -186,13 +191,12 @@ impl Grid {
     ) -> Result<Self, TooManySamples> {
         let (duration_s, wanted_s) = wanted.duration_and_step_s(excitation);
         let unit_s = excitation.units().time_s();
-        let (step_s, coarsening) = match source {
+        let step_s = match source {
             Some(source) => {
                 let ratio = excitation.medium().poisson_ratio();
-                let (step, coarsening) = source.step(ratio, wanted_s / unit_s);
-                (step * unit_s, coarsening)
+                source.step(ratio, wanted_s / unit_s) * unit_s
             }
-            None => (wanted_s, 0),
+            None => wanted_s,
         };
         let runs = wanted.runs(excitation, duration_s, step_s);
         let samples: f64 = runs.iter().map(|run| run.count as f64).sum();
@@ -205,7 +209,6 @@ impl Grid {
         }
         Ok(Self {
             step_s,
-            coarsening,
             runs,
             wanted_s,
             settling_s: wanted.settling_s(excitation),

@@ -1,6 +1,6 @@
 //! A striker and a half-space: from two bodies and a velocity to an excitation.
 
-use crate::excitation::Excitation;
+use crate::excitation::{Excitation, PressureRadius};
 use contact::plan::fixed_disc_m;
 use contact::validity::Checked;
 use contact::{
@@ -105,9 +105,16 @@ impl Impact {
         }
         .warnings();
         warnings.extend(self.counted_twice(&mut solver, &collision, &solved, &results));
+        let radius = match fixed_disc_m(model, settings, &collision) {
+            Some(radius_m) => PressureRadius::Fixed(radius_m),
+            None => PressureRadius::Following {
+                largest_m: results.disc_radius_m,
+                largest_n: results.peak_force_n,
+            },
+        };
         let excitation = Excitation::of_contact(
             &self.half_space,
-            results.disc_radius_m,
+            radius,
             history,
             collision.units(),
             results.contact_time_s,
@@ -155,11 +162,5 @@ impl Impact {
                 100.0 * change
             )
         })
-    }
-
-    /// Whether the pressure of the fields has the radius of a fixed disc, not that of the contact.
-    pub(crate) fn has_fixed_disc(&self, run: &Run) -> bool {
-        let collision = Collision::new(&self.half_space, &self.striker, self.velocity_m_s);
-        fixed_disc_m(run.solved.plan.model, &self.settings, &collision).is_some()
     }
 }

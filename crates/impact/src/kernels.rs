@@ -2,7 +2,8 @@
 
 use crate::place::{FieldError, Place};
 use halfspace::{DomainError, Kernel, Medium, Profile, Six};
-use lookup::{Smoothness, Table, correct_for_curvature};
+use lookup::{BEYOND, LookupError, Moments, Table};
+use std::f64::consts::PI;
 use std::sync::Arc;
 
 /// Where the cell averages come from.
@@ -19,30 +20,36 @@ pub enum KernelSource {
 pub struct Cells {
     /// Static field under unit force.
     pub static_part: Six,
-    /// Averages of the remainder over the cells, corrected for the force's curvature where it is smooth.
-    pub averages: Vec<Six>,
+    /// Averages and moments of the remainder over the cells wanted and [`lookup::BEYOND`] more.
+    pub moments: Moments,
+    /// The cells wanted, with what their moments are worth under a smooth force.
+    pub smooth: Vec<Six>,
     /// Error of the response to a force of unit peak.
     pub error: Six,
+    /// What errors of the moments add, for rises that change by one in all; zero where [`Self::error`] has it.
+    pub moment_error: Six,
 }
 
 impl Cells {
     /// Total variation of the step response: the largest response to a force that is nowhere above one.
     #[must_use]
     pub fn variation(&self) -> Six {
-        std::array::from_fn(|f| {
-            let first = self.averages.first().map_or(0.0, |cell| cell[f]);
-            let steps = self.averages.windows(2).map(|c| (c[1][f] - c[0][f]).abs());
-            (self.static_part[f] + first).abs() + steps.sum::<f64>()
-        })
+        self.steps(0.0, |sum, step| sum + step)
     }
 
     /// Largest change of the step response from one cell to the next.
     #[must_use]
     pub fn largest_step(&self) -> Six {
+        self.steps(0.0, f64::max)
+    }
+
+    /// The changes of the step response from cell to cell, folded.
+    fn steps(&self, none: f64, fold: impl Fn(f64, f64) -> f64) -> Six {
+        let averages = &self.moments.averages;
         std::array::from_fn(|f| {
-            let first = self.averages.first().map_or(0.0, |cell| cell[f]);
-            let steps = self.averages.windows(2).map(|c| (c[1][f] - c[0][f]).abs());
-            steps.fold((self.static_part[f] + first).abs(), f64::max)
+            let first = averages.first().map_or(0.0, |cell| cell[f]);
+            let steps = averages.windows(2).map(|c| (c[1][f] - c[0][f]).abs());
+            steps.fold(fold(none, (self.static_part[f] + first).abs()), &fold)
         })
     }
 }
@@ -63,19 +70,37 @@ impl KernelSource {
         )?)))
     }
 
-    /// Step in r0/c1 not longer than `wanted`, unless the table has none so short; and its coarsening.
+    /// Step in r0/c1 not longer than `wanted`, unless the table has none so short.
     ///
     /// Powers of two also without a table, so that both sources give the same samples.
     #[must_use]
-    pub fn step(&self, poisson_ratio: f64, wanted: f64) -> (f64, u32) {
+    pub fn step(&self, poisson_ratio: f64, wanted: f64) -> f64 {
         match self {
-            Self::Direct(_) => (wanted.log2().floor().exp2(), 0),
+            Self::Direct(_) => wanted.log2().floor().exp2(),
             Self::Table(table) => {
                 // A medium was made of this ratio, so that the width exists.
                 let cell = table.cell_width(poisson_ratio).unwrap_or(wanted);
                 let coarsening = (wanted / cell).log2().floor().clamp(0.0, 20.0) as u32;
-                (cell * f64::from(1_u32 << coarsening), coarsening)
+                cell * f64::from(1_u32 << coarsening)
             }
+        }
+    }
+
+    /// Whether its cells have second moments.
+    #[must_use]
+    pub fn bends(&self) -> bool {
+        match self {
+            Self::Direct(_) => false,
+            Self::Table(_) => true,
+        }
+    }
+
+    /// Largest r and z in radii that it serves.
+    #[must_use]
+    pub fn reach(&self) -> [f64; 2] {
+        match self {
+            Self::Direct(_) => [f64::INFINITY; 2],
+            Self::Table(table) => [table.r_max(), table.z_max()],
         }
     }
 
@@ -89,58 +114,41 @@ impl KernelSource {
         place: Place,
         wanted: CellPlan,
     ) -> Result<Cells, FieldError> {
-        let CellPlan {
-            step,
-            coarsening,
-            count,
-            smoothness,
-            pulse_length,
-        } = wanted;
-        let mut averages = vec![[0.0; 6]; count];
+        let CellPlan { step, count, pulse } = wanted;
         let Place { r, z, .. } = place;
         match self {
             Self::Direct(kernel) => {
                 let domain = |source| place.domain(source);
-                // one more cell than asked for: the correction looks one ahead
-                averages.push([0.0; 6]);
-                let mut error = kernel
-                    .cell_averages(r, z, step, &mut averages)
+                let mut moments = Moments::zero(count + BEYOND);
+                let error = kernel
+                    .cell_averages(r, z, step, &mut moments.averages)
                     .map_err(domain)?;
                 let static_part = kernel.static_field(r, z).map_err(domain)?;
-                match smoothness {
-                    Smoothness::Linear => averages.truncate(count),
-                    Smoothness::Smooth => {
-                        let floor = static_part.map(|s| MOMENT_SHARE * s.abs());
-                        let mut moments = averages.clone();
-                        let of_moments = kernel
-                            .cell_moments(r, z, step, &averages, &floor, &mut moments)
-                            .map_err(domain)?;
-                        for (all, own) in error.iter_mut().zip(of_moments) {
-                            *all += own;
-                        }
-                        averages.truncate(count);
-                        correct_for_curvature(&mut averages, &moments);
-                    }
-                }
+                let floor = static_part.map(|s| MOMENT_SHARE * s.abs());
+                let of_moments = kernel
+                    .cell_moments(r, z, step, &moments.averages, &floor, &mut moments.first)
+                    .map_err(domain)?;
                 Ok(Cells {
                     static_part,
-                    averages,
+                    smooth: moments.absorbed(),
+                    moments,
                     // the force rises and falls once
                     error: error.map(|e| 2.0 * e),
+                    moment_error: of_moments,
                 })
             }
             Self::Table(table) => {
                 let outside = |source| place.outside(source);
-                let info = table
-                    .trace_for(smoothness, poisson_ratio, r, z, coarsening, &mut averages)
+                let (static_part, moments) = table
+                    .moments(poisson_ratio, r, z, step, count + BEYOND)
                     .map_err(outside)?;
-                let error = table
-                    .error(poisson_ratio, r, z, pulse_length)
-                    .map_err(outside)?;
+                let error = table_error(table, poisson_ratio, [r, z], pulse).map_err(outside)?;
                 Ok(Cells {
-                    static_part: info.static_part,
-                    averages,
+                    static_part,
+                    smooth: moments.absorbed(),
+                    moments,
                     error,
+                    moment_error: Six::default(),
                 })
             }
         }
@@ -152,12 +160,47 @@ impl KernelSource {
 pub struct CellPlan {
     /// Width of a cell.
     pub step: f64,
-    /// The step is 2^coarsening cells of the table.
-    pub coarsening: u32,
     /// How many cells.
     pub count: usize,
-    /// How the force is taken within a cell.
-    pub smoothness: Smoothness,
     /// Of the force, for the table's error.
-    pub pulse_length: f64,
+    pub pulse: Pulse,
+}
+
+/// What a table's error depends on of a force; lengths in r0/c1.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Pulse {
+    /// As smooth as sin^4(pi t/T) of this length.
+    Smooth(f64),
+    /// Of a contact of this duration, which begins and ends with the power 3/2.
+    Contact(f64),
+}
+
+/// Estimated absolute error of each field looked up, for a force of unit peak.
+///
+/// Tables are measured with pulses sin^4. Within a time L of its ends a contact of duration T reaches (pi L/T)^(3/2) of its
+/// largest force, as a pulse of that length would: the errors of the shorter pulses count with that share.
+///
+/// # Errors
+/// [`LookupError`] outside the table.
+pub fn table_error(
+    table: &Table,
+    poisson_ratio: f64,
+    [r, z]: [f64; 2],
+    pulse: Pulse,
+) -> Result<Six, LookupError> {
+    let of = |length: f64| table.error(poisson_ratio, r, z, length);
+    match pulse {
+        Pulse::Smooth(length) => of(length),
+        Pulse::Contact(duration) => {
+            let mut error = of(duration)?;
+            let lengths = &table.content().pulse_lengths;
+            for &length in lengths.iter().filter(|&&length| length < duration) {
+                let share = (PI * length / duration).powf(1.5).min(1.0);
+                for (all, own) in error.iter_mut().zip(of(length)?) {
+                    *all += share * own;
+                }
+            }
+            Ok(error)
+        }
+    }
 }

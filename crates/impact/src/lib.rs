@@ -20,23 +20,32 @@
 //! ```
 
 // in reading order
+mod at_rest;
 mod condition;
 pub mod convolve;
+mod discs;
 pub mod energy;
+mod error;
 pub mod excitation;
 pub mod fields;
 mod finite;
+mod following;
 pub mod forecast;
 pub mod grid;
 pub mod impact;
 pub mod kernels;
 mod low_pass;
+mod nodes;
 pub mod outcome;
 mod place;
 mod plausible;
 pub mod probes;
+mod projection;
 pub mod record;
-mod samples;
+mod run;
+mod sampled;
+#[cfg(test)]
+mod sampled_tests;
 pub mod scene;
 pub mod simulate;
 pub mod source;
@@ -48,8 +57,9 @@ mod watch;
 pub use condition::{Treatment, TreatmentError};
 pub use contact::{HalfSpace, Material, Settings, Striker};
 pub use energy::EnergySeries;
-pub use excitation::{Excitation, Motion};
-pub use fields::{FieldHistory, Fields, FieldsError, Trace};
+pub use error::FieldsError;
+pub use excitation::{Excitation, Motion, PressureRadius};
+pub use fields::{FieldHistory, Fields, Trace};
 pub use finite::NotFinite;
 pub use forecast::{Allowance, Forecast, TooMuch, TooMuchMemory};
 pub use grid::{Grid, TooManySamples};

@@ -25,7 +25,7 @@ pub(crate) fn doubts(record: &ForceRecord) -> Vec<String> {
     for (verb, side, force_n) in ends {
         if let Some(force_n) = force_n.filter(|force_n| force_n.abs() > SHARE * largest_n) {
             found.push(format!(
-                "the record {verb} at {force_n:.4} N, {:.0} % of its largest force, which jumps there from or to zero: what was {side} is missing, or a baseline is to be taken away",
+                "the record {verb} at {force_n} N, {:.0} % of its largest force, which jumps there from or to zero: what was {side} is missing, or a baseline is to be taken away",
                 100.0 * force_n.abs() / largest_n
             ));
         }

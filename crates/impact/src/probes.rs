@@ -1,8 +1,7 @@
 //! Fields at the probes of a scene and on its meridional section.
 
-use crate::convolve::{Convolver, Method};
-use crate::fields::{FieldsError, Point, Sampled};
-use crate::grid::Grid;
+use crate::error::FieldsError;
+use crate::sampled::{Point, Sampled};
 use crate::scene::{Probe, Section};
 use rayon::prelude::*;
 
@@ -40,17 +39,14 @@ pub struct SectionFields {
     pub errors: [Vec<f64>; 6],
 }
 
-/// The fields at probes, at all samples of the force.
+/// The fields at probes, at the samples that are wanted.
 pub(crate) fn at_probes(
     sampled: &Sampled<'_>,
-    force_n: &[f64],
     probes: &[Probe],
 ) -> Result<ProbeFields, FieldsError> {
-    let all: Vec<usize> = (0..force_n.len()).collect();
-    let convolvers = sampled.convolvers(force_n, &all);
     let points: Vec<Point> = probes
         .par_iter()
-        .map(|probe| sampled.point(&convolvers, probe.r_m, probe.z_m))
+        .map(|probe| sampled.point(probe.r_m, probe.z_m))
         .collect::<Result<_, _>>()?;
     let mut fields = ProbeFields {
         r_m: probes.iter().map(|p| p.r_m).collect(),
@@ -69,51 +65,41 @@ pub(crate) fn at_probes(
     Ok(fields)
 }
 
-/// How forces are summed, for reports.
-pub(crate) fn method(convolvers: &[Convolver]) -> Method {
-    let transformed = convolvers.iter().any(|c| c.method() == Method::Transform);
-    if transformed {
-        Method::Transform
-    } else {
-        Method::Direct
-    }
+/// The samples of a force nearest to the frames of a section.
+pub(crate) fn frames(section: &Section, samples: usize) -> Vec<usize> {
+    let last = samples.saturating_sub(1) as f64;
+    let gaps = (section.frames as f64 - 1.0).max(1.0);
+    let frame = |i: usize| (i as f64 * last / gaps).round() as usize;
+    (0..section.frames).map(frame).collect()
 }
 
-/// The fields on a section, at the samples nearest to its frames; and how the sum was done.
+/// The fields on a section, at the samples that are wanted.
 pub(crate) fn on_section(
     sampled: &Sampled<'_>,
-    force_n: &[f64],
-    grid: &Grid,
     section: &Section,
-) -> Result<(SectionFields, Method), FieldsError> {
-    let last = force_n.len() - 1;
-    let frame = |i: usize| {
-        (i as f64 * last as f64 / (section.frames as f64 - 1.0).max(1.0)).round() as usize
-    };
-    let wanted: Vec<usize> = (0..section.frames).map(frame).collect();
-    let times_s: Vec<f64> = grid.times_s().collect();
-    let time_s = wanted.iter().map(|&n| times_s[n]).collect();
+) -> Result<SectionFields, FieldsError> {
+    let time_s: Vec<f64> = sampled.times_s().collect();
     let even =
         |end: f64, count: usize| (0..count).map(move |i| end * i as f64 / (count as f64 - 1.0));
     let r_m: Vec<f64> = even(section.r_max_m, section.points[0]).collect();
     let mut z_m: Vec<f64> = even(section.z_max_m, section.points[1]).collect();
     z_m.reverse();
     let (radii, size) = (r_m.len(), r_m.len() * z_m.len());
+    let frames = time_s.len();
     let mut fields = SectionFields {
         time_s,
         arrival_s: Default::default(),
-        values: std::array::from_fn(|_| vec![0.0; section.frames * size]),
+        values: std::array::from_fn(|_| vec![0.0; frames * size]),
         errors: Default::default(),
         r_m,
         z_m,
     };
-    let convolvers = sampled.convolvers(force_n, &wanted);
     for row in 0..fields.z_m.len() {
         let z_m = fields.z_m[row];
         let points: Vec<Point> = fields
             .r_m
             .par_iter()
-            .map(|&r_m| sampled.point(&convolvers, r_m, z_m))
+            .map(|&r_m| sampled.point(r_m, z_m))
             .collect::<Result<_, _>>()?;
         for (column, point) in points.into_iter().enumerate() {
             for (times, time) in fields.arrival_s.iter_mut().zip(point.arrival_s) {
@@ -128,5 +114,5 @@ pub(crate) fn on_section(
             }
         }
     }
-    Ok((fields, method(&convolvers)))
+    Ok(fields)
 }

@@ -1,5 +1,7 @@
 //! A force history that was measured or invented: linear between its samples.
 
+use crate::nodes::Node;
+use halfspace::gauss;
 use std::path::PathBuf;
 use thiserror::Error;
 
@@ -148,6 +150,27 @@ impl ForceRecord {
         let (t0, t1) = (self.time_s[after - 1], self.time_s[after]);
         let fraction = (time_s - t0) / (t1 - t0);
         self.force_n[after - 1] + fraction * (self.force_n[after] - self.force_n[after - 1])
+    }
+
+    /// Nodes in the cell of `step_s` from `from_s`, two between neighbouring samples: their sums are exact.
+    pub(crate) fn nodes(&self, from_s: f64, step_s: f64, nodes: &mut Vec<Node>) {
+        let to_s = from_s + step_s;
+        let inside = self.time_s.partition_point(|&t| t <= from_s)
+            ..self.time_s.partition_point(|&t| t < to_s);
+        let corners = self.time_s[inside]
+            .iter()
+            .map(|&t| (t - from_s) / step_s - 0.5);
+        let mut before = -0.5;
+        for corner in corners.chain([0.5]) {
+            for (x, weight) in gauss::rule(2).on(before, corner) {
+                nodes.push(Node {
+                    x,
+                    weight,
+                    force: self.at(from_s + (x + 0.5) * step_s),
+                });
+            }
+            before = corner;
+        }
     }
 
     /// Times of the first and the last sample in s.

@@ -1,8 +1,9 @@
 //! From a scene to all that it gives: an excitation, then series and fields.
 
+use crate::convolve::{Method, rises};
 use crate::energy::EnergySeries;
+use crate::error::FieldsError;
 use crate::excitation::Excitation;
-use crate::fields::{FieldsError, Sampled};
 use crate::finite::{NotFinite, checked};
 use crate::forecast::{Allowance, Forecast, TooMuch};
 use crate::grid::{Grid, TooManySamples, Wanted};
@@ -12,9 +13,10 @@ use crate::outcome::{
     Cause, FieldsUsed, KernelsUsed, Outcome, RecordResults, Series, StrikerSeries,
 };
 use crate::plausible::doubts;
-use crate::probes::{ProbeFields, SectionFields, at_probes, method, on_section};
+use crate::probes::{ProbeFields, SectionFields, at_probes, frames, on_section};
+use crate::projection::Projection;
 use crate::record::ForceRecord;
-use crate::samples::between_samples;
+use crate::sampled::Sampled;
 use crate::scene::{Load, Scene, Strike};
 use crate::source::{Chosen, KernelChoice, SourceError, choose_source};
 use crate::watch::Watch;
@@ -137,12 +139,6 @@ fn of_strike(scene: &Scene, strike: &Strike, asked: Asked<'_>) -> Result<Outcome
     }
     let mut warnings = run.warnings.clone();
     warnings.extend(computed.warnings());
-    if computed.used.is_some() && !impact.has_fixed_disc(&run) {
-        warnings.push(format!(
-            "the fields are those of a disc of the largest contact radius, {:.3e} m, throughout",
-            excitation.units().disc_radius_m
-        ));
-    }
     let cause = Cause::Contact {
         model: run.solved.plan.model,
         scheme: run.solved.scheme,
@@ -176,7 +172,7 @@ fn of_record(
     let relative_error = left_n / record.largest_n().max(f64::MIN_POSITIVE);
     if relative_error > scene.settings.tolerance {
         warnings.push(format!(
-            "on the output's step of {:.3e} s, samples miss the force between them by up to {left_n:.3e} N, {relative_error:.1e} of its largest: the errors of the fields count it, a smaller step_s lowers it",
+            "on the output's step of {:.3e} s, the cells miss the force by up to {left_n:.3e} N, {relative_error:.1e} of its largest: the errors of the fields count it, a smaller step_s lowers it",
             computed.grid.step_s
         ));
     }
@@ -246,22 +242,24 @@ impl<'a> Computed<'a> {
         let Chosen { source, reason } = chosen;
         let scene = asked.scene;
         asked.allowance.watch.points(scene.points());
-        let sampled = Sampled::new(self.excitation, &source, &self.grid, &self.force_n)
-            .watched(asked.allowance.watch);
-        if !scene.probes.is_empty() {
-            self.probes = Some(at_probes(&sampled, &self.force_n, &scene.probes)?);
-        }
-        let convolution = match &scene.section {
-            Some(section) => {
-                let (fields, method) = on_section(&sampled, &self.force_n, &self.grid, section)?;
-                self.section = Some(fields);
-                method
-            }
-            None => {
-                let all: Vec<usize> = (0..self.force_n.len()).collect();
-                method(&sampled.convolvers(&self.force_n, &all))
-            }
+        let tolerance = scene.settings.tolerance;
+        let sampled = |wanted: &[usize]| {
+            let (excitation, grid) = (self.excitation, &self.grid);
+            Sampled::new(excitation, &source, grid, &self.force_n, wanted, tolerance)
+                .map(|sampled| sampled.watched(asked.allowance.watch))
         };
+        let mut convolution = Method::Direct;
+        if !scene.probes.is_empty() {
+            let all: Vec<usize> = (0..self.force_n.len()).collect();
+            let sampled = sampled(&all)?;
+            convolution = sampled.method();
+            self.probes = Some(at_probes(&sampled, &scene.probes)?);
+        }
+        if let Some(section) = &scene.section {
+            let sampled = sampled(&frames(section, self.force_n.len()))?;
+            convolution = sampled.method();
+            self.section = Some(on_section(&sampled, section)?);
+        }
         self.used = Some(FieldsUsed {
             kernels: used(&source),
             reason,
@@ -270,14 +268,15 @@ impl<'a> Computed<'a> {
         Ok(())
     }
 
-    /// The most in N that the samples leave of a record's force.
+    /// The most in N that the cells leave of the force.
     fn left_n(&self) -> f64 {
         let step_s = self.grid.step_s;
         let parts = self.grid.split(&self.force_n).into_iter();
         let left = parts.map(|(run, force_n)| {
-            let to_s = run.start_s + (run.count - 1) as f64 * step_s;
-            let known = self.excitation.departure(run.start_s, to_s, step_s);
-            between_samples(force_n, known).1.most_n
+            let nodes = self.excitation.cell_nodes(&run, step_s);
+            let rises = rises(run.base_n, force_n);
+            let projection = Projection::new(force_n, &rises, &nodes, |p| p, f64::INFINITY, true);
+            projection.left.most_n
         });
         left.fold(0.0, f64::max)
     }

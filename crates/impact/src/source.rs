@@ -2,7 +2,7 @@
 
 use crate::excitation::Excitation;
 use crate::grid::Wanted;
-use crate::kernels::KernelSource;
+use crate::kernels::{self, KernelSource};
 use crate::scene::Scene;
 use halfspace::DomainError;
 use lookup::{LookupError, Table};
@@ -183,7 +183,7 @@ fn table_error(
     let (mut errors, mut sizes) = ([0.0_f64; 2], [0.0_f64; 2]);
     for &(r_m, z_m) in places {
         let (r, z) = (r_m / units.disc_radius_m, z_m / units.disc_radius_m);
-        let error = table.error(nu, r, z, excitation.pulse_s() / units.time_s())?;
+        let error = kernels::table_error(table, nu, [r, z], excitation.pulse(1.0))?;
         let still = table.trace(nu, r, z, 0, &mut [])?.static_part;
         for field in 0..6 {
             // displacements and stresses

@@ -27,15 +27,8 @@ pub(crate) struct Departure {
 }
 
 impl Departure {
-    /// Of which the largest alone is known.
-    pub(crate) fn at_most(most_n: f64) -> Self {
-        Self {
-            most_n,
-            sum_n: f64::INFINITY,
-        }
-    }
-
-    fn add(&mut self, cell_n: f64) {
+    /// Counts a cell.
+    pub(crate) fn add(&mut self, cell_n: f64) {
         self.most_n = self.most_n.max(cell_n);
         self.sum_n += cell_n;
     }
@@ -80,22 +73,8 @@ impl ForceRecord {
         found
     }
 
-    /// How far the force departs from its samples a step apart from `from_s` to `to_s`, joined by straight lines.
-    pub(crate) fn departure(&self, from_s: f64, to_s: f64, step_s: f64) -> Departure {
-        let mut found = self.departure_at_rows(from_s, to_s, step_s);
-        let force_n = self.force_n();
-        // the force jumps where a record begins or ends with one; a run that begins with a row takes it as a jump
-        let [first_s, last_s] = self.span_s();
-        if from_s < first_s && first_s <= to_s {
-            found.add(force_n[0].abs());
-        }
-        if from_s <= last_s && last_s <= to_s {
-            found.add(force_n[force_n.len() - 1].abs());
-        }
-        found
-    }
-
-    /// The same without the jumps at both ends, which no step lowers.
+    /// How far the force departs from its samples a step apart from `from_s` to `to_s`, joined by straight lines, but for
+    /// the jumps at both ends, which no step lowers.
     ///
     /// Force and samples are linear between the rows and the samples, so that the difference is largest at a row.
     fn departure_at_rows(&self, from_s: f64, to_s: f64, step_s: f64) -> Departure {
@@ -196,7 +175,7 @@ mod tests {
         let step_s = triangle.step_s(&stretches, 1e-3, 1e-12, 1e6);
         assert!(step_s < 1e-6 && step_s > 1e-9, "{step_s}");
         let [from_s, to_s] = stretches[0].span_s;
-        let left = |step_s: f64| triangle.departure(from_s, to_s, step_s);
+        let left = |step_s: f64| triangle.departure_at_rows(from_s, to_s, step_s);
         assert!(left(step_s).most_n <= 1e-3);
         // sampled at its corners it is exact
         assert!(left(1e-6).most_n < 1e-9);

@@ -30,6 +30,38 @@ pub struct Series {
     integrals: Integrals,
 }
 
+/// Averages, first and second moments of the remainder over consecutive cells, see [`Series::moments`].
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Moments {
+    /// Averages.
+    pub averages: Vec<Six>,
+    /// First moments, in cell widths.
+    pub first: Vec<Six>,
+    /// Second moments about a twelfth, in squares of cell widths.
+    pub second: Vec<Six>,
+}
+
+impl Moments {
+    /// Of a field that is zero.
+    #[must_use]
+    pub fn zero(count: usize) -> Self {
+        Self {
+            averages: vec![[0.0; FIELDS]; count],
+            first: vec![[0.0; FIELDS]; count],
+            second: vec![[0.0; FIELDS]; count],
+        }
+    }
+
+    /// The cells but for the last [`smooth::BEYOND`], with what their moments are worth under a smooth force.
+    #[must_use]
+    pub fn absorbed(&self) -> Vec<Six> {
+        let count = self.averages.len().saturating_sub(smooth::BEYOND);
+        let mut cells = self.averages[..count].to_vec();
+        smooth::absorb(&mut cells, &self.first, &self.second);
+        cells
+    }
+}
+
 /// The numbers of a [`Series`], each of shape (field, time) or (field, term).
 ///
 /// Moments and curvatures may be left empty where only [`Smoothness::Linear`] is asked for.
@@ -93,6 +125,81 @@ impl Series {
         }
     }
 
+    /// Averages, first and second moments over `count` cells of any width, in r0/c1.
+    ///
+    /// ```text
+    /// int R ds,   int R s ds,   int R (s^2 - 1/12) ds,   s from -1/2 to 1/2 over a cell
+    /// ```
+    ///
+    /// Where an edge cuts a table cell, R is the parabola of its three numbers there.
+    #[must_use]
+    pub fn moments(&self, width: f64, count: usize) -> Moments {
+        let part = width / self.width;
+        // a width that is a power of two of cells to rounding is exactly that
+        let whole = part.round();
+        let part = if (part - whole).abs() < 1e-9 * part {
+            whole
+        } else {
+            part
+        };
+        let mut found = Moments::zero(count);
+        for (field, tail) in self.tails.iter().enumerate() {
+            let rows =
+                [&self.averages, &self.moments, &self.curvatures].map(|v| self.row(v, field));
+            for j in 0..count {
+                let (from, to) = (j as f64 * part, (j + 1) as f64 * part);
+                let [average, first, second] = self.over(rows, tail, from, to);
+                found.averages[j][field] = average;
+                found.first[j][field] = first;
+                found.second[j][field] = second;
+            }
+        }
+        found
+    }
+
+    /// The three numbers of one field over [from, to], in table cells.
+    fn over(&self, rows: [&[f64]; 3], tail: &Tail, from: f64, to: f64) -> [f64; 3] {
+        let (width, centre) = (to - from, 0.5 * (from + to));
+        let stored = self.stored as f64;
+        let mut sums = [0.0; 3];
+        let mut add = |x: f64, part: f64, [average, moment, bend]: [f64; 3]| {
+            sums[0] += part * average;
+            sums[1] += part * (x * average + part * moment);
+            sums[2] += part
+                * (x * x * average
+                    + 2.0 * x * part * moment
+                    + part * part * (bend + average / 12.0));
+        };
+        let mut k = from.min(stored) as usize;
+        while (k as f64) < to && k < self.stored {
+            let (start, end) = (from.max(k as f64), to.min((k + 1) as f64));
+            let numbers = [rows[0][k], rows[1][k], rows[2][k]];
+            let x = 0.5 * (start + end) - centre;
+            if end - start == 1.0 {
+                add(x, 1.0, numbers);
+            } else if end > start {
+                add(
+                    x,
+                    end - start,
+                    of_part(numbers, start - k as f64, end - k as f64),
+                );
+            }
+            k += 1;
+        }
+        if to > stored {
+            let start = from.max(stored);
+            let edges = thirds(start, to - start, self.width);
+            let [a, b, c] = [0, 1, 2].map(|i| tail.average(edges[i], edges[i + 1]));
+            add(0.5 * (start + to) - centre, to - start, of_thirds(a, b, c));
+        }
+        let average = sums[0] / width;
+        [
+            average,
+            sums[1] / (width * width),
+            sums[2] / (width * width * width) - average / 12.0,
+        ]
+    }
+
     fn correct(&self, fine: usize, cells: &mut [Six]) {
         let count = cells.len() + smooth::BEYOND;
         // Of these cells a part is stored, of those after them none.
@@ -105,7 +212,7 @@ impl Series {
             }
         }
         self.continue_moments(mixed, fine, &mut moments, &mut curvatures);
-        smooth::correct(cells, &moments, &curvatures);
+        smooth::absorb(cells, &moments, &curvatures);
     }
 
     /// Fills the moments of the cells from `first` on, which the tail has whole: all fields at once, each edge once.
@@ -210,6 +317,18 @@ impl Series {
     }
 }
 
+/// The three numbers of the part [from, to] of a cell [0, 1] from those of the whole.
+fn of_part([average, moment, bend]: [f64; 3], from: f64, to: f64) -> [f64; 3] {
+    let (x, width) = (0.5 * (from + to) - 0.5, to - from);
+    // R = average + 12 moment y + 180 bend (y^2 - 1/12)
+    let (slope, curve) = (12.0 * moment, 180.0 * bend);
+    [
+        average + slope * x + curve * (x * x + (width * width - 1.0) / 12.0),
+        (slope + 2.0 * curve * x) * width / 12.0,
+        curve * width * width / 180.0,
+    ]
+}
+
 /// Times of the ends and the thirds of a part of a cell, `start` and `part` in table cells.
 fn thirds(start: f64, part: f64, width: f64) -> [f64; 4] {
     [0.0, 1.0, 2.0, 3.0].map(|i| (start + part * i / 3.0) * width)
@@ -251,6 +370,24 @@ mod tests {
             tail: vec![0.0; FIELDS],
         };
         let series = Series::new(1.0, 16, numbers);
+        // any width, also where edges cut table cells
+        for width in [0.37, 1.0, 1.9, 4.0] {
+            let count = (15.9 / width) as usize;
+            let found = series.moments(width, count);
+            for j in 0..count {
+                let centre = (j as f64 + 0.5) * width;
+                let square = width * width;
+                let exact = [
+                    centre * centre + square / 12.0,
+                    centre * width / 6.0,
+                    square / 180.0,
+                ];
+                let own = [found.averages[j][1], found.first[j][1], found.second[j][1]];
+                for (a, b) in own.iter().zip(exact) {
+                    assert!((a - b).abs() < 1e-10, "{width} {j}: {own:?} {exact:?}");
+                }
+            }
+        }
         for fine in [1, 2, 4, 8] {
             for j in 0..16 / fine {
                 let width = fine as f64;

@@ -12,8 +12,8 @@ use halfspace::Six;
 /// Cells that a slope and a curvature are taken from.
 const REACH: usize = 5;
 
-/// Moments beyond the last cell wanted that the correction needs.
-pub(crate) const BEYOND: usize = 2;
+/// Moments beyond the last cell wanted that [`absorb`] needs.
+pub const BEYOND: usize = 2;
 
 /// Weights of five cell means for the slope and the curvature in cell 0, 1 and 2 of the five: exact for
 /// polynomials of fourth degree, of which they take the Legendre components of first and second degree.
@@ -53,8 +53,8 @@ const CURVATURE: [[f64; REACH]; 3] = [
     ],
 ];
 
-/// Adds to `cells` what the moments of [`BEYOND`] cells more than those are worth.
-pub(crate) fn correct(cells: &mut [Six], moments: &[Six], curvatures: &[Six]) {
+/// Adds to `cells` what the moments of [`BEYOND`] cells more than those are worth under a smooth force.
+pub fn absorb(cells: &mut [Six], moments: &[Six], curvatures: &[Six]) {
     for (j, (moment, curvature)) in moments.iter().zip(curvatures).enumerate() {
         // Cell j sees the force through the five cells around it, the first of all one-sided: the force
         // after the instant of the response is not known.
@@ -72,26 +72,21 @@ pub(crate) fn correct(cells: &mut [Six], moments: &[Six], curvatures: &[Six]) {
     }
 }
 
-/// The third-order correction of averages that have first moments alone; `moments` has one more entry than `cells`.
+/// The slope and half the curvature that [`absorb`] takes a force to have in the cell of its rise `cell`, which may be one
+/// of the two before the first.
 ///
-/// ```text
-/// cell_j = Rbar_j - (M_{j+1} - M_{j-1})/2,   cell_0 = Rbar_0 - M_0 - M_1/2,   cell_1 = Rbar_1 + M_0 - M_2/2
-/// ```
-pub fn correct_for_curvature(cells: &mut [Six], moments: &[Six]) {
-    for f in 0..6 {
-        for (j, cell) in cells.iter_mut().enumerate() {
-            let before = if j == 0 {
-                2.0 * moments[0][f]
-            } else {
-                moments[j - 1][f]
-            };
-            let sign = if j == 0 { -1.0 } else { 1.0 };
-            cell[f] -= 0.5 * (moments[j + 1][f] - sign * before);
-            if j == 1 {
-                cell[f] += 0.5 * moments[0][f];
-            }
-        }
+/// `own` is which of its five cells that cell is: 2, and 1 or 0 for the last two before the instant of the response.
+/// In rises a cell, with s growing into the past: the rate over the cell is rise + slope s + half curvature (s^2 - 1/12).
+#[must_use]
+pub fn absorbed(rises: &[f64], cell: isize, own: usize) -> [f64; 2] {
+    let (mut slope, mut bend) = (0.0, 0.0);
+    for i in 0..REACH {
+        let place = usize::try_from(cell + own as isize - i as isize).ok();
+        let rise = place.and_then(|m| rises.get(m)).copied().unwrap_or(0.0);
+        slope += SLOPE[own][i] * rise;
+        bend += 0.5 * CURVATURE[own][i] * rise;
     }
+    [slope, bend]
 }
 
 #[cfg(test)]
@@ -101,6 +96,32 @@ mod tests {
     /// Mean of s^power over [i - 1/2, i + 1/2].
     fn mean(power: i32, i: f64) -> f64 {
         ((i + 0.5).powi(power + 1) - (i - 0.5).powi(power + 1)) / f64::from(power + 1)
+    }
+
+    #[test]
+    fn what_is_absorbed_is_what_the_cells_were_given() {
+        let rises = [0.3, -1.0, 0.7, 2.0, 0.1, -0.4, 0.9];
+        let cells = 12;
+        let curve = |seed: f64| -> Vec<Six> {
+            (0..cells + BEYOND)
+                .map(|j| std::array::from_fn(|f| (seed * (j * 6 + f) as f64).sin()))
+                .collect()
+        };
+        let (moments, curvatures) = (curve(1.3), curve(0.7));
+        let mut given = vec![[0.0; 6]; cells];
+        absorb(&mut given, &moments, &curvatures);
+        for n in 0..cells {
+            let mut sums = [0.0; 2];
+            for (m, rise) in rises.iter().enumerate().take(n + 1) {
+                sums[0] += rise * given[n - m][4];
+            }
+            for j in 0..n + 3 {
+                let cell = n as isize - j as isize;
+                let [slope, bend] = absorbed(&rises, cell, j.min(2));
+                sums[1] += slope * moments[j][4] + bend * curvatures[j][4];
+            }
+            assert!((sums[0] - sums[1]).abs() < 1e-12, "{n}: {sums:?}");
+        }
     }
 
     #[test]

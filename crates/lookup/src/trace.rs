@@ -3,7 +3,7 @@
 use crate::content::{FIELDS, Slice};
 use crate::error::LookupError;
 use crate::gather::{Node, gather, nodes};
-use crate::series::{Numbers, Series, Smoothness};
+use crate::series::{Moments, Numbers, Series, Smoothness};
 use crate::smooth;
 use crate::stencil::Stencil;
 use crate::table::Table;
@@ -107,6 +107,28 @@ impl Table {
         let plan = self.plan(Smoothness::Smooth, poisson_ratio, 0)?;
         let (across, down) = plan.stencils([r, z])?;
         Ok(plan.series(&across, &down, usize::MAX))
+    }
+
+    /// The static field at a point, and averages and moments of the remainder over `count` cells of any width, in r0/c1.
+    ///
+    /// # Errors
+    /// As [`Self::trace`].
+    pub fn moments(
+        &self,
+        poisson_ratio: f64,
+        r: f64,
+        z: f64,
+        width: f64,
+        count: usize,
+    ) -> Result<(Six, Moments), LookupError> {
+        let plan = self.plan(Smoothness::Smooth, poisson_ratio, 0)?;
+        let (across, down) = plan.stencils([r, z])?;
+        let table_cells = (count as f64 * width / plan.width).ceil() as usize;
+        let series = plan.series(&across, &down, table_cells);
+        Ok((
+            plan.kernel.static_field(r, z)?,
+            series.moments(width, count),
+        ))
     }
 
     fn plan(

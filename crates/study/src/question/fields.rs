@@ -14,7 +14,7 @@ use crate::record::Record;
 use crate::tables::Density;
 use halfspace::{Medium, Six};
 use impact::convolve::{Convolver, Method};
-use impact::kernels::CellPlan;
+use impact::kernels::{CellPlan, Pulse};
 use impact::{KernelSource, Place};
 use lookup::{PulseSum, Smoothness, Table};
 use tabulator::PointPlan;
@@ -81,7 +81,7 @@ fn exact_cells(
             let force = force(reference, width);
             let count = force.len();
             let plan = PointPlan::new(medium.poisson_ratio(), tolerance, width, count + 4, 4)?;
-            let direct = |smoothness| {
+            let direct = || {
                 let place = Place {
                     r,
                     z,
@@ -89,17 +89,15 @@ fn exact_cells(
                 };
                 let plan = CellPlan {
                     step: width,
-                    coarsening: 0,
                     count,
-                    smoothness,
-                    pulse_length: reference.length,
+                    pulse: Pulse::Smooth(reference.length),
                 };
                 source.cells(medium.poisson_ratio(), place, plan)
             };
             let cells = || -> Result<Vec<Six>, StudyError> {
                 match shape {
-                    Shape::Linear => Ok(direct(Smoothness::Linear)?.averages),
-                    Shape::Parabola => Ok(direct(Smoothness::Smooth)?.averages),
+                    Shape::Linear => Ok(direct()?.moments.averages),
+                    Shape::Parabola => Ok(direct()?.smooth),
                     Shape::Cubic => Ok(interpolation::series(&plan.compute(r, z)?, width, count)),
                 }
             };

@@ -1,0 +1,97 @@
+//! Discs of fixed radii whose Hertz pressures stand for one with a radius that follows the load.
+//!
+//! A pressure of unit force and radius a has the transform 3 j1(ka)/(ka), even in a: a polynomial in a^2 through its values
+//! at some radii a_k is as good as waves are long beside their spacing,
+//!
+//! ```text
+//! p(r, t) = P(t) H_a(t)(r) = sum_k P(t) phi_k(a(t)^2) H_k(r),        phi_k the Lagrange polynomials of the nodes a_k^2
+//! ```
+//!
+//! so that the waves under a growing contact are those of a few discs, each with a force of its own. The static field needs
+//! none of it: it is that of the radius of the instant.
+//!
+//! Theory: `docs/theory.md` (T59).
+
+use std::f64::consts::PI;
+
+/// Radii over the largest, with the polynomials that share the load out.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Discs {
+    /// Radii over the largest, descending.
+    pub(crate) radii: Vec<f64>,
+    /// Smallest square of a radius that the nodes cover.
+    least: f64,
+}
+
+impl Discs {
+    /// One disc that takes all.
+    pub(crate) fn one() -> Self {
+        Self {
+            radii: vec![1.0],
+            least: 1.0,
+        }
+    }
+
+    /// Chebyshev's nodes for the squares of radii from `smallest` of the largest up.
+    pub(crate) fn following(count: usize, smallest: f64) -> Self {
+        let least = smallest * smallest;
+        let radii = (0..count).map(|k| {
+            let x = (PI * (2 * k + 1) as f64 / (2 * count) as f64).cos();
+            (0.5 * ((1.0 + least) + (1.0 - least) * x)).sqrt()
+        });
+        Self {
+            radii: radii.collect(),
+            least,
+        }
+    }
+
+    /// The share of disc `k` of a load that has `square` of the largest radius squared, and the part of it that the two
+    /// highest powers bring.
+    pub(crate) fn share(&self, k: usize, square: f64) -> (f64, f64) {
+        let count = self.radii.len();
+        if count == 1 {
+            return (1.0, 0.0);
+        }
+        let x = (2.0 * square - 1.0 - self.least) / (1.0 - self.least);
+        let node = (PI * (2 * k + 1) as f64 / (2 * count) as f64).cos();
+        let ([mut a, mut b], [mut c, mut d]) = ([1.0, x], [1.0, node]);
+        let (mut all, mut last) = (1.0, 0.0);
+        for j in 1..count {
+            let term = 2.0 * b * d;
+            all += term;
+            if j + 2 >= count {
+                last += term;
+            }
+            (a, b) = (b, 2.0 * x * b - a);
+            (c, d) = (d, 2.0 * node * d - c);
+        }
+        (all / count as f64, last / count as f64)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shares_reproduce_powers_of_the_squared_radius() {
+        for (count, smallest) in [(1, 1.0), (2, 0.5), (6, 0.0), (9, 0.2)] {
+            let discs = if count == 1 {
+                Discs::one()
+            } else {
+                Discs::following(count, smallest)
+            };
+            for square in [0.0, 0.1, 0.63, 1.0, 1.01] {
+                for power in 0..count as i32 {
+                    let sum: f64 = (0..count)
+                        .map(|k| discs.share(k, square).0 * discs.radii[k].powi(2 * power))
+                        .sum();
+                    assert!(
+                        (sum - f64::powi(square, power)).abs() < 1e-9,
+                        "{count} {square} {power}"
+                    );
+                }
+            }
+        }
+    }
+}

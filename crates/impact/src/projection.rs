@@ -1,0 +1,214 @@
+//! What a force does within the cells of a convolution.
+//!
+//! Cells of the remainder hold an average, a first and a second moment. Against them the force counts with its rise over a
+//! cell, its slope and its bend, which [`lookup::absorb`] takes from the rises around: exact to fourth order for a smooth
+//! force, wrong where a contact begins and ends with the power 3/2 or a record has corners. Here slope and bend are
+//! projected from the force itself, and what the cells have not absorbed is added:
+//!
+//! ```text
+//! rate over a cell = rise + slope s + bend (s^2 - 1/12) + what is left,     s from -1/2 to 1/2, growing into the past
+//! ```
+//!
+//! Theory: `docs/theory.md` (T24).
+
+use crate::nodes::{CellNodes, Node};
+use crate::stretch::Departure;
+use halfspace::Six;
+use lookup::{Moments, absorbed};
+
+/// A slope and a bend that the cells have not absorbed, of one cell of the force.
+#[derive(Debug, Clone, Copy)]
+struct Unabsorbed {
+    cell: isize,
+    slope: f64,
+    bend: f64,
+}
+
+/// A sampled force beyond its rises.
+#[derive(Debug, Clone)]
+pub(crate) struct Projection {
+    /// For the newest cell, the one before it, and all others: their cells take slopes from other neighbours.
+    unabsorbed: [Vec<Unabsorbed>; 3],
+    /// What rise, slope and bend leave of the force.
+    pub(crate) left: Departure,
+}
+
+/// Cells of the remainder that a cell of the force is seen through by its five neighbours.
+const BEFORE: isize = 2;
+
+impl Projection {
+    /// Of the force `map(P)` with `samples` of P a step apart; what is below `negligible` is left out.
+    ///
+    /// `bends` says whether the cells of the remainder have second moments.
+    pub(crate) fn new(
+        samples: &[f64],
+        rises: &[f64],
+        nodes: &CellNodes,
+        map: impl Fn(f64) -> f64,
+        negligible: f64,
+        bends: bool,
+    ) -> Self {
+        let mut found = Self {
+            unabsorbed: Default::default(),
+            left: Departure::default(),
+        };
+        for cell in -BEFORE..samples.len() as isize {
+            let [slope, bend] = match usize::try_from(cell) {
+                Ok(m) if m > 0 => {
+                    let ends = [map(samples[m - 1]), map(samples[m])];
+                    let own = nodes.of(m - 1);
+                    let numbers = slope_and_bend(ends, own, &map);
+                    let taken = [numbers[0], if bends { numbers[1] } else { 0.0 }];
+                    found.left.add(largest_left(ends, taken, own, &map));
+                    numbers
+                }
+                Ok(_) | Err(_) => [0.0; 2],
+            };
+            for (own, list) in found.unabsorbed.iter_mut().enumerate() {
+                let [taken, bent] = absorbed(rises, cell, own);
+                // time runs against s
+                let missing = Unabsorbed {
+                    cell,
+                    slope: -slope - taken,
+                    bend: bend - bent,
+                };
+                if missing.slope.abs().max(missing.bend.abs()) > negligible {
+                    list.push(missing);
+                }
+            }
+        }
+        found
+    }
+
+    /// Adds to the fields at the samples `wanted` what the cells have not absorbed.
+    pub(crate) fn add(&self, cells: &Moments, wanted: &[usize], out: &mut [Vec<f64>; 6]) {
+        for (place, &n) in wanted.iter().enumerate() {
+            let mut sum = Six::default();
+            let newest = n as isize;
+            for (own, list) in self.unabsorbed.iter().enumerate() {
+                let until = match own {
+                    2 => list.partition_point(|missing| missing.cell <= newest - 2),
+                    _ => list.partition_point(|missing| missing.cell <= newest - own as isize),
+                };
+                let from = match own {
+                    2 => 0,
+                    _ => list.partition_point(|missing| missing.cell < newest - own as isize),
+                };
+                for missing in &list[from..until] {
+                    let Ok(j) = usize::try_from(newest - missing.cell) else {
+                        continue;
+                    };
+                    let (Some(first), Some(second)) = (cells.first.get(j), cells.second.get(j))
+                    else {
+                        continue;
+                    };
+                    for f in 0..6 {
+                        sum[f] += missing.slope * first[f] + missing.bend * second[f];
+                    }
+                }
+            }
+            for (samples, s) in out.iter_mut().zip(sum) {
+                samples[place] += s;
+            }
+        }
+    }
+}
+
+/// Slope in time and bend of a force over a cell, by parts from its mean and first moment.
+///
+/// ```text
+/// slope = 12 [(P0 + P1)/2 - int P dx],     bend = 180 [(P1 - P0)/6 - 2 int P x dx]
+/// ```
+fn slope_and_bend([before, after]: [f64; 2], nodes: &[Node], map: impl Fn(f64) -> f64) -> [f64; 2] {
+    let (mut mean, mut moment) = (0.0, 0.0);
+    for node in nodes {
+        // less the line between the ends, so that little is left to cancel
+        let line = before + (after - before) * (node.x + 0.5);
+        let above = node.weight * (map(node.force) - line);
+        mean += above;
+        moment += node.x * above;
+    }
+    [-12.0 * mean, -360.0 * moment]
+}
+
+/// The most that rise, slope and bend leave of the force inside a cell.
+fn largest_left(
+    [before, after]: [f64; 2],
+    [slope, bend]: [f64; 2],
+    nodes: &[Node],
+    map: impl Fn(f64) -> f64,
+) -> f64 {
+    nodes.iter().fold(0.0, |most: f64, node| {
+        let x = node.x;
+        let followed = before
+            + (after - before) * (x + 0.5)
+            + slope * (0.5 * x * x - 0.125)
+            + bend * (x * x * x / 3.0 - x / 12.0);
+        most.max((map(node.force) - followed).abs())
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use halfspace::gauss;
+
+    /// Polynomials of a force and of the remainder: the projected sum is the convolution.
+    #[test]
+    fn a_force_with_corners_is_convolved_exactly_with_parabolas() {
+        let step = 1.0;
+        let force = |t: f64| if t < 1.3 { t } else { (2.6 - t).max(0.0) };
+        let rest = |t: f64| 0.3 - 0.2 * t + 0.05 * t * t;
+        let count = 9;
+        let samples: Vec<f64> = (0..count).map(|i| force(f64::from(i) * step)).collect();
+        let rises: Vec<f64> = (0..samples.len())
+            .map(|i| samples[i] - if i > 0 { samples[i - 1] } else { 0.0 })
+            .collect();
+        let nodes = CellNodes::new(samples.len() - 1, |m, nodes| {
+            let corners =
+                [m as f64, 1.3, 2.6, (m + 1) as f64].map(|t| t.clamp(m as f64, (m + 1) as f64));
+            for pair in corners.windows(2) {
+                for (t, weight) in gauss::rule(3).on(pair[0], pair[1]) {
+                    nodes.push(Node {
+                        x: t - m as f64 - 0.5,
+                        weight,
+                        force: force(t),
+                    });
+                }
+            }
+        });
+        let cells = samples.len() + lookup::BEYOND;
+        let mut moments = Moments::zero(cells);
+        for j in 0..cells {
+            for (t, weight) in gauss::rule(4).on(j as f64, (j + 1) as f64) {
+                let s = t - j as f64 - 0.5;
+                moments.averages[j][0] += weight * rest(t);
+                moments.first[j][0] += weight * s * rest(t);
+                moments.second[j][0] += weight * (s * s - 1.0 / 12.0) * rest(t);
+            }
+        }
+        let projection = Projection::new(&samples, &rises, &nodes, |p| p, 1e-15, true);
+        let wanted: Vec<usize> = (0..samples.len()).collect();
+        let mut out: [Vec<f64>; 6] = std::array::from_fn(|_| vec![0.0; samples.len()]);
+        let smooth = moments.absorbed();
+        for n in 0..samples.len() {
+            out[0][n] = (0..=n).map(|m| rises[m] * smooth[n - m][0]).sum();
+        }
+        projection.add(&moments, &wanted, &mut out);
+        for n in 0..samples.len() {
+            let t = n as f64;
+            let mut exact = 0.0;
+            let corners = [0.0, 1.3, 2.6].map(|c: f64| c.min(t));
+            for (pair, slope) in corners.windows(2).zip([1.0, -1.0]) {
+                for (at, weight) in gauss::rule(4).on(pair[0], pair[1]) {
+                    exact += weight * slope * rest(t - at);
+                }
+            }
+            assert!(
+                (out[0][n] - exact).abs() < 1e-13,
+                "{n}: {} {exact}",
+                out[0][n]
+            );
+        }
+    }
+}

@@ -1,0 +1,185 @@
+//! Fields under a contact that follows its load beside frequency-wavenumber integrals, `tests/reference/growing_fields.csv`.
+
+#![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
+
+use crate::excitation::{Excitation, PressureRadius};
+use crate::following::Following;
+use crate::grid::{Grid, Wanted};
+use crate::kernels::KernelSource;
+use crate::sampled::Sampled;
+use contact::units::CollisionUnits;
+use contact::{Collision, Exact, HalfSpace, Material, Model, Settings, Solver, Striker};
+use halfspace::Six;
+use std::fs;
+use std::path::Path;
+
+/// Duration of Hertz's contact in collision units.
+const HERTZ: f64 = 2.943_275_184_324_704_7;
+
+struct Row {
+    poisson_ratio: f64,
+    duration: f64,
+    place: [f64; 2],
+    time: f64,
+    fields: Six,
+    peaks: Six,
+    /// Over the peaks.
+    error: f64,
+}
+
+fn rows() -> Vec<Row> {
+    let file =
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/reference/growing_fields.csv");
+    let text = fs::read_to_string(file).unwrap();
+    let lines = text.lines().skip(1);
+    let rows = lines.map(|line| {
+        let x: Vec<f64> = line.split(',').map(|x| x.parse().unwrap()).collect();
+        Row {
+            poisson_ratio: x[0],
+            duration: x[1],
+            place: [x[2], x[3]],
+            time: x[4],
+            fields: x[5..11].try_into().unwrap(),
+            peaks: x[11..17].try_into().unwrap(),
+            error: x[17],
+        }
+    });
+    rows.collect()
+}
+
+/// Hertz's own contact that lasts `duration` A/c1, in a half-space where A = c1 = mu = P = 1.
+fn contact(poisson_ratio: f64, duration: f64) -> Excitation {
+    let density = 2.0 * (1.0 - poisson_ratio) / (1.0 - 2.0 * poisson_ratio);
+    let half_space = HalfSpace::new(Material {
+        name: "unit".to_owned(),
+        youngs_modulus_pa: 2.0 * (1.0 + poisson_ratio),
+        poisson_ratio,
+        density_kg_m3: Some(density),
+        yield_strength_pa: None,
+        tensile_strength_pa: None,
+        group: String::new(),
+        source: String::new(),
+    })
+    .unwrap();
+    assert!((half_space.longitudinal_speed_m_s() - 1.0).abs() < 1e-12);
+    let radius = PressureRadius::Following {
+        largest_m: 1.0,
+        largest_n: 1.0,
+    };
+    // reduced, it is the same for every collision
+    let steel = HalfSpace::new(Material::named("steel").unwrap()).unwrap();
+    let ball = Striker::ball(Material::named("steel").unwrap(), 0.001).unwrap();
+    let settings = Settings {
+        model: Model::Hertz,
+        tolerance: 1e-10,
+        ..Settings::default()
+    };
+    let (_, history) = Solver::new(&Exact)
+        .solve_with_history(&Collision::new(&steel, &ball, 1.0), &settings)
+        .unwrap();
+    let units = CollisionUnits {
+        length_m: 1.0,
+        time_s: duration / HERTZ,
+        force_n: 1.0,
+    };
+    Excitation::of_contact(&half_space, radius, history, units, duration, 0.0).unwrap()
+}
+
+#[test]
+fn sums_over_the_radii_agree_with_frequency_and_wavenumber_integrals() {
+    // on the axis fields are continued from four radii
+    for (axis, allowed) in [(false, 1e-6), (true, 4e-6)] {
+        let mut worst = Six::default();
+        for row in rows()
+            .into_iter()
+            .filter(|row| (row.place[0] == 0.0) == axis)
+        {
+            let excitation = contact(row.poisson_ratio, row.duration);
+            let following = Following::new(&excitation, 1e-8).unwrap();
+            let instant = [row.time, excitation.force_n(row.time)];
+            let found = following.at(row.place, instant).unwrap();
+            for f in 0..6 {
+                if row.peaks[f] > 0.0 {
+                    worst[f] = worst[f].max((found[f] - row.fields[f]).abs() / row.peaks[f]);
+                }
+            }
+        }
+        println!("sums over the radii, on the axis {axis}: error over peak at most {worst:?}");
+        assert!(worst.iter().all(|&error| error < allowed), "{worst:?}");
+    }
+}
+
+#[test]
+fn discs_agree_with_frequency_and_wavenumber_integrals() {
+    for tolerance in [1e-4_f64, 1e-6] {
+        let (mut errors, mut ratios, mut missed) = (vec![], vec![], 0);
+        let every = if tolerance < 1e-4 { 10 } else { 4 };
+        for row in rows()
+            .into_iter()
+            .filter(|row| row.duration < 100.0)
+            .step_by(every)
+        {
+            if tolerance < 1e-4 && (row.place[0] == 0.0 || row.duration > 20.0) {
+                continue;
+            }
+            let excitation = contact(row.poisson_ratio, row.duration);
+            let source =
+                KernelSource::direct(excitation.medium(), (1e-3 * tolerance).min(1e-8)).unwrap();
+            let wanted = Wanted {
+                tolerance,
+                step_s: None,
+                duration_s: Some(row.time),
+                frames: None,
+                farthest_m: Some(1.0),
+            };
+            // the step that would be chosen, less what brings the row's time onto a sample
+            let chosen = Grid::new(&wanted, &excitation, Some(&source)).unwrap();
+            let mut grid = chosen;
+            let last = (row.time / grid.step_s).ceil() as usize;
+            grid.step_s = row.time / last as f64;
+            grid.runs[0].count = last + 1;
+            let force: Vec<f64> = grid.times_s().map(|t| excitation.force_n(t)).collect();
+            let wanted: Vec<usize> = (0..=last)
+                .step_by((last / 20).max(1))
+                .chain([last])
+                .collect();
+            let mut wanted = wanted;
+            wanted.dedup();
+            let sampled =
+                Sampled::new(&excitation, &source, &grid, &force, &wanted, tolerance).unwrap();
+            let point = sampled.point(row.place[0], row.place[1]).unwrap();
+            for f in 0..6 {
+                if row.peaks[f] > 0.0 {
+                    let error = (point.values[f].last().unwrap() - row.fields[f]).abs();
+                    if error > tolerance * row.peaks[f] {
+                        println!(
+                            "T {} nu {} at {:?}, t {}: field {f} {:.1e}, estimated {:.1e}",
+                            row.duration,
+                            row.poisson_ratio,
+                            row.place,
+                            row.time,
+                            error / row.peaks[f],
+                            point.errors[f] / row.peaks[f]
+                        );
+                    }
+                    missed += usize::from(error > point.errors[f] + row.error * row.peaks[f]);
+                    errors.push(error / row.peaks[f]);
+                    ratios.push(point.errors[f] / error.max(1e-300));
+                }
+            }
+        }
+        errors.sort_by(f64::total_cmp);
+        ratios.sort_by(f64::total_cmp);
+        let at = |values: &[f64], q: f64| values[((values.len() - 1) as f64 * q) as usize];
+        println!(
+            "tolerance {tolerance:.0e}: {} errors over peak p50 {:.1e}, p99 {:.1e}, largest {:.1e}; above their estimate {missed}; estimate over error p50 {:.0}",
+            errors.len(),
+            at(&errors, 0.5),
+            at(&errors, 0.99),
+            at(&errors, 1.0),
+            at(&ratios, 0.5)
+        );
+        assert!(at(&errors, 0.99) < tolerance);
+        assert!(missed <= errors.len() / 100);
+    }
+}
