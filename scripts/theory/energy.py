@@ -10,7 +10,7 @@ from .surface import CENTRE, MEAN, PUNCH, measure
 
 
 def superposition(report):
-    """(T48), (T54), (T55)."""
+    """(T48), (T54), (T55), (T60)."""
     error = 0
     for r in (0.0, 0.4, 0.9):
         # a = sqrt(r^2 + s^2): a da = s ds; P = a^3
@@ -55,6 +55,19 @@ def superposition(report):
     report.row(
         "T55", "load of a contact that grows and shrinks: punches against Hertz's pressure, transforms", error, 1e-7
     )
+    worst = []
+    for count, k in ((4, 4.0), (8, 8.0), (8, 12.0)):
+        nodes = np.cos((2 * np.arange(count) + 1) * np.pi / (4 * count))
+        a = np.linspace(0.01, 1, 200)
+        found = np.zeros_like(a)
+        for j, node in enumerate(nodes):
+            others = np.delete(nodes, j)
+            share = np.prod((a[:, None] ** 2 - others**2) / (node**2 - others**2), axis=1)
+            found += share * hs.HANKEL["hertz"](k * node)
+        worst.append(np.max(abs(found - hs.HANKEL["hertz"](k * a))))
+    report.row("T60", "4 discs for all radii at k a = 4, over Z_H(0): off by", worst[0] * 2 * np.pi, 1e-3)
+    report.row("T60", "8 discs at k a = 8", worst[1] * 2 * np.pi, 3e-6)
+    report.row("T60", "8 discs at k a = 12", worst[2] * 2 * np.pi, 1e-3)
     memory = marches.Memory(medium, PUNCH)
     # y = t/(tau sqrt(v t)): d_end = phi v int V_p dt
     t, weight = hs.on_panels([0, 0.5, 2.0, memory.length**2])

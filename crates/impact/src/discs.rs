@@ -10,7 +10,7 @@
 //! so that the waves under a growing contact are those of a few discs, each with a force of its own. The static field needs
 //! none of it: it is that of the radius of the instant.
 //!
-//! Theory: `docs/theory.md` (T59).
+//! Theory: `docs/theory.md` (T60).
 
 use std::f64::consts::PI;
 

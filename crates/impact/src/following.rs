@@ -10,7 +10,7 @@
 //! passes over a point of the surface. Between these instants, and toward them with the square of the variable, Gauss
 //! rules are exact to the accuracy of the punch's kernel.
 //!
-//! Theory: `docs/theory.md` (T60).
+//! Theory: `docs/theory.md` (T55).
 
 use crate::at_rest::static_si;
 use crate::error::FieldsError;

@@ -1,6 +1,6 @@
 //! The sampled force of an excitation, ready to be convolved with the kernels of any number of points.
 //!
-//! Theory: `docs/theory.md` (T24, T55, T59).
+//! Theory: `docs/theory.md` (T24, T55, T60).
 
 use crate::at_rest::static_si;
 use crate::convolve::{Convolver, Method};

@@ -87,8 +87,8 @@ fn contact(poisson_ratio: f64, duration: f64) -> Excitation {
 
 #[test]
 fn sums_over_the_radii_agree_with_frequency_and_wavenumber_integrals() {
-    // on the axis fields are continued from four radii
-    for (axis, allowed) in [(false, 1e-6), (true, 4e-6)] {
+    // on the axis fields are continued from four radii; a punch's stresses lose digits toward its fronts
+    for (axis, allowed) in [(false, [1e-7, 2e-6]), (true, [1e-7, 4e-6])] {
         let mut worst = Six::default();
         for row in rows()
             .into_iter()
@@ -105,7 +105,9 @@ fn sums_over_the_radii_agree_with_frequency_and_wavenumber_integrals() {
             }
         }
         println!("sums over the radii, on the axis {axis}: error over peak at most {worst:?}");
-        assert!(worst.iter().all(|&error| error < allowed), "{worst:?}");
+        let (displacements, stresses) = worst.split_at(2);
+        assert!(displacements.iter().all(|&e| e < allowed[0]), "{worst:?}");
+        assert!(stresses.iter().all(|&e| e < allowed[1]), "{worst:?}");
     }
 }
 
@@ -113,7 +115,7 @@ fn sums_over_the_radii_agree_with_frequency_and_wavenumber_integrals() {
 fn discs_agree_with_frequency_and_wavenumber_integrals() {
     for tolerance in [1e-4_f64, 1e-6] {
         let (mut errors, mut ratios, mut missed) = (vec![], vec![], 0);
-        let every = if tolerance < 1e-4 { 10 } else { 4 };
+        let every = if tolerance < 1e-4 { 15 } else { 9 };
         for row in rows()
             .into_iter()
             .filter(|row| row.duration < 100.0)
