@@ -64,7 +64,8 @@ def test_rows_are_physics(sweep):
     np.testing.assert_allclose(file["results/loss"][()], 1 - restitution**2, atol=1e-12)
     assert np.all((restitution > 0.9) & (restitution <= 1.0))
     momentum = mass * velocity[:, None] * (1 + restitution[0])
-    np.testing.assert_allclose(file["results/impulse_n_s"][0], momentum, rtol=1e-6)
+    # the impulse is the integral of the force, to the tolerance of 1e-4; the restitution comes from elsewhere
+    np.testing.assert_allclose(file["results/impulse_n_s"][0], momentum, rtol=1e-4)
     assert abs(mass.mean() - 0.0122) < 1e-4
 
 

@@ -140,7 +140,8 @@ fn work_that_fails_has_exit_code_1() {
         .replace(
             "model = \"wave\"",
             "model = \"wave\"\nstatic_share = \"dynamic\"",
-        );
+        )
+        .replace("velocity_m_s = 100", "velocity_m_s = 1");
     let folder = folder_with(&soft);
     refused(
         folder.path(),

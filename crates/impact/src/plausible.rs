@@ -14,7 +14,7 @@ pub(crate) fn doubts(record: &ForceRecord) -> Vec<String> {
     let length_s = end_s - start_s;
     if length_s > LONG_S {
         found.push(format!(
-            "the record lasts {length_s:.4} s: an impact lasts microseconds to milliseconds; are its times in s?"
+            "the record lasts {length_s} s: an impact lasts microseconds to milliseconds; are its times in s?"
         ));
     }
     let largest_n = record.largest_n();

@@ -64,6 +64,15 @@ fn main() -> Result<(), Box<dyn Error>> {
         spent[spent.len() - 1]
     );
 
+    let figure = picture(&r, &z, values);
+    if let Some(path) = std::env::args().nth(1) {
+        std::fs::write(path, to_svg(&figure)?)?;
+    }
+    Ok(())
+}
+
+/// Two maps over distance and depth.
+fn picture(r: &[f64], z: &[f64], values: [Vec<f64>; 2]) -> Figure {
     let mut figure = Figure::new("What a disc of the largest radius throughout costs")
         .subtitle("steel ball of 10 mm on steel at 5 m/s: largest difference over time, over the largest value there")
         .sharing(Sharing::Both);
@@ -72,8 +81,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         .zip(["vertical displacement", "vertical stress"])
     {
         let image = Image {
-            x: r.clone(),
-            y: z.clone(),
+            x: r.to_vec(),
+            y: z.to_vec(),
             values,
             shading: Shading::Cells,
             colours: ColourScale::new(
@@ -94,8 +103,5 @@ fn main() -> Result<(), Box<dyn Error>> {
                 .layer(Layer::Image(image)),
         );
     }
-    if let Some(path) = std::env::args().nth(1) {
-        std::fs::write(path, to_svg(&figure.columns(2))?)?;
-    }
-    Ok(())
+    figure.columns(2)
 }
