@@ -40,12 +40,11 @@ pub fn campaign(target: Target, seeds: &Seeds, count: usize, seed: u64) -> Repor
         report.tried += 1;
         report.slowest_s = report.slowest_s.max(took_s);
         match verdict {
-            Ok(verdict) => report.read += usize::from(verdict == Verdict::Read),
             Err(payload) => report.faults.push((input, words(&*payload))),
-        }
-        if took_s > MOST_S {
-            let input = report.faults.pop().map_or_else(Vec::new, |fault| fault.0);
-            report.faults.push((input, format!("took {took_s:.1} s")));
+            Ok(_) if took_s > MOST_S => {
+                report.faults.push((input, format!("took {took_s:.1} s")));
+            }
+            Ok(verdict) => report.read += usize::from(verdict == Verdict::Read),
         }
     }
     report

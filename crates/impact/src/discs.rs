@@ -12,6 +12,7 @@
 //!
 //! Theory: `docs/theory.md` (T60).
 
+use crate::excitation::PressureRadius;
 use std::f64::consts::PI;
 
 /// Radii over the largest, with the polynomials that share the load out.
@@ -23,7 +24,44 @@ pub(crate) struct Discs {
     least: f64,
 }
 
+/// Discs for each digit of the tolerance where kernels are computed: the first of these that serve a point.
+const A_DIGIT: [f64; 4] = [1.0, 2.0, 4.0, 8.0];
+
+/// Discs where kernels are looked up, and the smallest radius that they cover over the largest: the farther a point, the
+/// fewer small discs the table has for it.
+const LOOKED_UP: usize = 4;
+const COVERED: [f64; 4] = [0.0, 0.25, 0.5, 0.75];
+
 impl Discs {
+    /// Those for kernels that are computed, the fewest first.
+    pub(crate) fn computed(radius: PressureRadius, tolerance: f64) -> Vec<Self> {
+        let digits = (-tolerance.log10()).clamp(3.0, 8.0);
+        let count = |a_digit: f64| (a_digit * digits).round() as usize;
+        match radius {
+            PressureRadius::Fixed(_) => vec![Self::one()],
+            PressureRadius::Following { .. } => {
+                A_DIGIT.map(|d| Self::following(count(d), 0.0)).into()
+            }
+        }
+    }
+
+    /// Those for kernels that are looked up, the smallest radii first.
+    pub(crate) fn looked_up(radius: PressureRadius) -> Vec<Self> {
+        match radius {
+            PressureRadius::Fixed(_) => vec![Self::one()],
+            PressureRadius::Following { .. } => COVERED
+                .map(|smallest| Self::following(LOOKED_UP, smallest))
+                .into_iter()
+                .chain([Self::one()])
+                .collect(),
+        }
+    }
+
+    /// How many there are of them for a point, about.
+    pub(crate) fn likely(choices: &[Self]) -> f64 {
+        choices[1.min(choices.len() - 1)].radii.len() as f64
+    }
+
     /// One disc that takes all.
     pub(crate) fn one() -> Self {
         Self {

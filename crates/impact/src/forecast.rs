@@ -1,5 +1,6 @@
 //! What a scene will take, before it is computed: time, memory, disk.
 
+use crate::discs::Discs;
 use crate::excitation::Excitation;
 use crate::grid::Grid;
 use crate::kernels::KernelSource;
@@ -149,8 +150,13 @@ impl Forecast {
         }
         let cell_s = match source {
             None => 0.0,
-            Some(KernelSource::Direct(_)) => DIRECT_CELL_S,
-            Some(KernelSource::Table(_)) => LOOKED_UP_CELL_S,
+            Some(KernelSource::Direct(_)) => {
+                let discs = Discs::computed(excitation.radius(), scene.settings.tolerance);
+                DIRECT_CELL_S * Discs::likely(&discs)
+            }
+            Some(KernelSource::Table(_)) => {
+                LOOKED_UP_CELL_S * Discs::likely(&Discs::looked_up(excitation.radius()))
+            }
         };
         let fields = Self::of(scene, samples, cell_s);
         Ok(Self {

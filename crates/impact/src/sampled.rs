@@ -15,6 +15,8 @@ use crate::projection::Projection;
 use crate::stretch::Departure;
 use crate::watch::{Unwatched, Watch};
 use halfspace::{Arrivals, Kernel, Profile, Six};
+use std::ops::Range;
+use std::sync::OnceLock;
 
 /// The sampled force of an excitation with kernels: all that fields at points need.
 pub(crate) struct Sampled<'a> {
@@ -26,8 +28,11 @@ pub(crate) struct Sampled<'a> {
     kernel: Kernel,
     /// Times in s and forces in N at which the fields are wanted.
     wanted: Vec<[f64; 2]>,
-    /// The loads of points that the source serves under each disc, by the number of discs.
-    loads: Vec<Load>,
+    force_n: &'a [f64],
+    samples: Vec<usize>,
+    /// The discs that may stand for the load, and the loads on them that a point has needed.
+    choices: Vec<Discs>,
+    loads: Vec<OnceLock<Load>>,
     following: Option<Following<'a>>,
     /// Who is told of each point.
     watch: &'a dyn Watch,
@@ -72,14 +77,6 @@ pub(crate) struct Point {
     pub(crate) errors: [f64; 6],
 }
 
-/// Discs that stand for a pressure that follows the load, for each digit of the tolerance: as few as serve a point.
-const DISCS_A_DIGIT: [f64; 3] = [2.0, 4.0, 8.0];
-
-/// Discs where kernels are looked up, and the smallest radius that they cover over the largest: the farther a point, the
-/// fewer small discs the table has for it.
-const LOOKED_UP: usize = 4;
-const COVERED: [f64; 4] = [0.0, 0.25, 0.5, 0.75];
-
 /// Errors of moments that add up at random, in their standard deviations.
 const ROUNDING: f64 = 3.0;
 
@@ -88,6 +85,9 @@ const QUADRATURE: f64 = 0.2;
 
 /// Samples of a point that are integrated over the radii at most.
 const MOST_ANEW: usize = 64;
+
+/// Samples of forces on discs that are held at most.
+const MOST_HELD: usize = 1 << 24;
 
 /// Slopes and bends below this fraction of the largest force are left to the differences of its samples.
 const NEGLIGIBLE: f64 = 1e-9;
@@ -98,30 +98,20 @@ impl<'a> Sampled<'a> {
         excitation: &'a Excitation,
         source: &'a KernelSource,
         grid: &'a Grid,
-        force_n: &[f64],
+        force_n: &'a [f64],
         wanted: &[usize],
         tolerance: f64,
     ) -> Result<Self, FieldsError> {
         let times_s: Vec<f64> = grid.times_s().collect();
-        let choices: Vec<Discs> = match (excitation.radius(), source) {
-            (PressureRadius::Fixed(_), _) => vec![Discs::one()],
-            (PressureRadius::Following { .. }, KernelSource::Direct(_)) => {
-                let digits = (-tolerance.log10()).clamp(3.0, 8.0);
-                let count = |discs: f64| (discs * digits).round() as usize;
-                DISCS_A_DIGIT
-                    .map(|d| Discs::following(count(d), 0.0))
-                    .into()
-            }
-            (PressureRadius::Following { .. }, KernelSource::Table(_)) => COVERED
-                .map(|smallest| Discs::following(LOOKED_UP, smallest))
-                .into_iter()
-                .chain([Discs::one()])
-                .collect(),
+        let mut choices = match source {
+            KernelSource::Direct(_) => Discs::computed(excitation.radius(), tolerance),
+            KernelSource::Table(_) => Discs::looked_up(excitation.radius()),
         };
-        let loads = choices
-            .into_iter()
-            .map(|discs| Load::new(discs, excitation, source, grid, force_n, wanted))
-            .collect();
+        let held = |discs: &Discs| discs.radii.len() * force_n.len() <= MOST_HELD;
+        let kept = choices.iter().filter(|discs| held(discs)).count().max(1);
+        if let KernelSource::Direct(_) = source {
+            choices.truncate(kept);
+        }
         let kernel = Kernel::new(excitation.medium(), Profile::Hertz, 1e-6)?;
         let following = match (excitation.radius(), source) {
             (PressureRadius::Following { .. }, KernelSource::Direct(_)) => {
@@ -136,7 +126,10 @@ impl<'a> Sampled<'a> {
             tolerance,
             kernel,
             wanted: wanted.iter().map(|&n| [times_s[n], force_n[n]]).collect(),
-            loads,
+            force_n,
+            samples: wanted.to_vec(),
+            loads: choices.iter().map(|_| OnceLock::new()).collect(),
+            choices,
             following,
             watch: &Unwatched,
         })
@@ -154,7 +147,8 @@ impl<'a> Sampled<'a> {
 
     /// How forces are summed, for reports.
     pub(crate) fn method(&self) -> Method {
-        let shares = self.loads.iter().flat_map(|load| &load.shares);
+        let loads = self.loads.iter().filter_map(OnceLock::get);
+        let shares = loads.flat_map(|load| &load.shares);
         let mut runs = shares.flat_map(|share| &share.runs);
         if runs.any(|run| run.convolver.method() == Method::Transform) {
             Method::Transform
@@ -183,21 +177,31 @@ impl<'a> Sampled<'a> {
 
     /// The loads whose discs the source serves at a point in largest radii; where none is, the largest disc alone, whose
     /// error names the place.
-    fn serving(&self, r: f64, z: f64) -> &[Load] {
+    fn serving(&self, r: f64, z: f64) -> Range<usize> {
         let reach = self.source.reach();
-        let served = |load: &Load| {
-            let smallest = load.discs.radii[load.discs.radii.len() - 1];
+        let served = |discs: &Discs| {
+            let smallest = discs.radii[discs.radii.len() - 1];
             r <= smallest * reach[0] && z <= smallest * reach[1]
         };
-        let first = self.loads.iter().position(served);
-        &self.loads[first.unwrap_or(self.loads.len() - 1)..]
+        let (first, count) = (self.choices.iter().position(served), self.choices.len());
+        first.unwrap_or(count - 1)..count
     }
 
-    /// The fields under the first of some loads that leaves little to be integrated over the radii.
-    fn under(&self, place_m: [f64; 2], loads: &[Load]) -> Result<Point, FieldsError> {
+    /// The loads on one choice of discs.
+    fn load(&self, choice: usize) -> &Load {
+        self.loads[choice].get_or_init(|| {
+            let discs = self.choices[choice].clone();
+            let (excitation, source, grid) = (self.excitation, self.source, self.grid);
+            Load::new(discs, excitation, source, grid, self.force_n, &self.samples)
+        })
+    }
+
+    /// The fields under the first of some choices that leaves little to be integrated over the radii.
+    fn under(&self, place_m: [f64; 2], choices: Range<usize>) -> Result<Point, FieldsError> {
         let blank = || std::array::from_fn(|_| vec![0.0; self.wanted.len()]);
-        let mut loads = loads.iter().peekable();
-        while let Some(load) = loads.next() {
+        let last = choices.end - 1;
+        for choice in choices {
+            let load = self.load(choice);
             let mut point = Point {
                 arrival_s: [0.0; 3],
                 values: blank(),
@@ -212,7 +216,9 @@ impl<'a> Sampled<'a> {
             };
             self.add_following_static(place_m, &mut point)?;
             let mut anew = self.not_resolved(&point, &lasts);
-            if self.following.is_some() && anew.len() > MOST_ANEW && loads.peek().is_some() {
+            // to integrate a sample costs as much as a disc or two
+            let many = anew.len() > load.discs.radii.len();
+            if self.following.is_some() && many && choice < last {
                 continue;
             }
             if let (Some(following), false) = (&self.following, anew.is_empty()) {

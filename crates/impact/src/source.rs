@@ -1,5 +1,6 @@
 //! Where the kernels of the fields come from: computed, or looked up.
 
+use crate::discs::Discs;
 use crate::excitation::Excitation;
 use crate::grid::Wanted;
 use crate::kernels::{self, KernelSource};
@@ -130,7 +131,11 @@ pub(crate) fn choose_source(
             let cells = Wanted::of(scene).cells(excitation);
             let count = scene.points();
             let threads = rayon::current_num_threads() as f64;
-            let cost_s = count as f64 * cells * DIRECT_CELL_S / threads;
+            let discs = Discs::likely(&Discs::computed(
+                excitation.radius(),
+                scene.settings.tolerance,
+            ));
+            let cost_s = count as f64 * cells * discs * DIRECT_CELL_S / threads;
             let cost =
                 format!("{count} points of {cells:.0} cells take about {cost_s:.1e} s to compute");
             if cost_s <= CHEAP_S {
