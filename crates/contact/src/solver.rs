@@ -277,7 +277,12 @@ impl<'a, S: Responses> Solver<'a, S> {
         let contact = following(collision, &waves);
         self.growing = match solve_growing(&contact, asked) {
             Ok(solved) => Some(solved),
-            Err(GrowingError::Overtaken { .. } | GrowingError::StrikesAgain { .. }) => None,
+            // the march has other limits: a memory far shorter than the contact is one to it
+            Err(
+                GrowingError::Overtaken { .. }
+                | GrowingError::StrikesAgain { .. }
+                | GrowingError::NotConverged { .. },
+            ) => None,
             Err(error) => return Err(error.into()),
         };
         Ok(self.growing.as_ref().map(|growing| Found {
