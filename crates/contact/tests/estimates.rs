@@ -11,7 +11,16 @@ use contact::{
 use halfspace::Deflection;
 use rayon::prelude::*;
 
-const SCENES: u64 = 1000;
+/// Scenes of each kind: `HERTZLAMB_SCENES=1000` draws as many as one case in a hundred needs, and takes ten minutes.
+fn scenes() -> u64 {
+    let asked = std::env::var("HERTZLAMB_SCENES").ok();
+    asked.and_then(|n| n.parse().ok()).unwrap_or(100)
+}
+
+/// Scenes in a hundred that may exceed their estimate, and what chance adds to a few draws.
+fn allowed(count: usize) -> usize {
+    count / 100 + if count < 500 { 2 } else { 0 }
+}
 
 /// Numbers in [0, 1) that depend on the scene and the place of use only (splitmix64).
 struct Draws(u64);
@@ -96,7 +105,7 @@ fn compare(index: u64, model: Model, disc: Disc, responses: &Tabulated) -> Optio
 
 fn check(name: &str, model: Model, disc: Disc) -> usize {
     let responses = Tabulated::new(Ratios::Many);
-    let mut found: Vec<[f64; 2]> = (0..SCENES)
+    let mut found: Vec<[f64; 2]> = (0..scenes())
         .into_par_iter()
         .filter_map(|index| compare(index, model, disc, &responses))
         .collect();
@@ -110,8 +119,8 @@ fn check(name: &str, model: Model, disc: Disc) -> usize {
         found[count * 99 / 100][0],
         found[count - 1][0],
     );
-    assert!(count as u64 > SCENES / 2);
-    usize::from(over * 100 > count)
+    assert!(count as u64 > scenes() / 2);
+    usize::from(over > allowed(count))
 }
 
 #[test]

@@ -38,7 +38,7 @@ fn a_force_that_jumps_loads_the_surface_with_its_pressure_at_once() {
         found
             .warnings
             .iter()
-            .any(|w| w.contains("samples miss the force")),
+            .any(|w| w.contains("cells miss the force")),
         "{:?}",
         found.warnings
     );

@@ -73,7 +73,7 @@ fn same_rows(done: &Done) -> bool {
 }
 
 /// A scene that takes longer is not computed.
-const MOST_S: f64 = 0.05;
+const MOST_S: f64 = 0.25;
 /// Nor one that takes more memory.
 const MOST_BYTES: f64 = 2e8;
 

@@ -120,7 +120,7 @@ fn the_newest_format_is_read_or_refused_by_name() {
         .create(&path)
         .unwrap();
     let force = file.new_dataset_builder().with_data(&[1.0, 2.0]);
-    force.create("force").unwrap();
+    drop(force.create("force").unwrap());
     let one = file.new_dataset::<f64>().shape([4]).chunk([4]).shuffle();
     let one = one.deflate(3).create("one").unwrap();
     one.write(&[1.0, 2.0, 3.0, 4.0]).unwrap();
@@ -128,6 +128,7 @@ fn the_newest_format_is_read_or_refused_by_name() {
     let many = many.create("many").unwrap();
     many.write(&[1.0, 2.0, 3.0, 4.0]).unwrap();
     drop((one, many));
+    file.flush().unwrap();
     file.close().unwrap();
     let root = File::open(&path).unwrap().root().unwrap();
     assert_eq!(

@@ -215,6 +215,7 @@ impl<'a> Sampled<'a> {
                 return Ok(point);
             };
             self.add_following_static(place_m, &mut point)?;
+            self.still_before_arrival(place_m, &mut point, &mut lasts)?;
             let mut anew = self.not_resolved(&point, &lasts);
             // to integrate a sample costs as much as a disc or two
             let many = anew.len() > load.discs.radii.len();
@@ -240,6 +241,28 @@ impl<'a> Sampled<'a> {
             return Ok(point);
         }
         unreachable!("there is a load")
+    }
+
+    /// Sets to zero what the sum over the discs leaves before the first wave from the largest of them has arrived.
+    fn still_before_arrival(
+        &self,
+        [r_m, z_m]: [f64; 2],
+        point: &mut Point,
+        lasts: &mut [Vec<f64>; 6],
+    ) -> Result<(), FieldsError> {
+        let units = self.excitation.units();
+        let (r, z) = (r_m / units.disc_radius_m, z_m / units.disc_radius_m);
+        let arrivals = Arrivals::new(self.excitation.medium(), Profile::Hertz, r, z)?;
+        let first_s = arrivals.first() * units.time_s();
+        let still = self
+            .wanted
+            .iter()
+            .take_while(|&&[time_s, _]| time_s <= first_s);
+        let count = still.count();
+        for samples in point.values.iter_mut().chain(lasts) {
+            samples[..count].fill(0.0);
+        }
+        Ok(())
     }
 
     /// The samples that the discs leave with more than the tolerance of a field's peak, the worst first.
