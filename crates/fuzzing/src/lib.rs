@@ -1,7 +1,7 @@
 //! Gives every reader damaged and invented inputs, and judges what it makes of them.
 //!
 //! A [`Target`] is a reader with what is checked of its answer, [`Seeds`] are good inputs of it, a [`Mutator`] damages
-//! them, and [`campaign`] counts how many are read and refused.
+//! them, and [`campaign()`] counts how many are read and refused.
 //! `fuzz/` gives the same targets to cargo-fuzz.
 
 // in reading order
