@@ -90,7 +90,8 @@ fn picture(r: &[f64], z: &[f64], values: [Vec<f64>; 2]) -> Figure {
                 Unit::Fixed("%".to_owned()),
                 ColourMap::Sequential,
             )
-            .limits(Limits::Percentile(98.0)),
+            .logarithmic()
+            .limits(Limits::Between(0.02, 100.0)),
         };
         let panel = Panel::new(
             Axis::linear("distance from the axis").unit("a"),
