@@ -166,8 +166,8 @@ impl<'a> Sampled<'a> {
         let direct = arrivals.above.unwrap_or([arrivals.p[0], arrivals.s[0]]);
         let first = [direct[0], direct[1], arrivals.rayleigh[0]];
 
-        let mut point = self.under([r_m, z_m], self.serving(r, z))?;
-        point.arrival_s = first.map(|t| t * units.time_s());
+        let arrival_s = first.map(|t| t * units.time_s());
+        let mut point = self.under([r_m, z_m], arrival_s, self.serving(r, z))?;
         for (samples, error) in point.values.iter().zip(&mut point.errors) {
             *error += self.excitation.relative_error() * peak(samples);
         }
@@ -197,13 +197,18 @@ impl<'a> Sampled<'a> {
     }
 
     /// The fields under the first of some choices that leaves little to be integrated over the radii.
-    fn under(&self, place_m: [f64; 2], choices: Range<usize>) -> Result<Point, FieldsError> {
+    fn under(
+        &self,
+        place_m: [f64; 2],
+        arrival_s: [f64; 3],
+        choices: Range<usize>,
+    ) -> Result<Point, FieldsError> {
         let blank = || std::array::from_fn(|_| vec![0.0; self.wanted.len()]);
         let last = choices.end - 1;
         for choice in choices {
             let load = self.load(choice);
             let mut point = Point {
-                arrival_s: [0.0; 3],
+                arrival_s,
                 values: blank(),
                 errors: [0.0; 6],
             };
@@ -215,7 +220,7 @@ impl<'a> Sampled<'a> {
                 return Ok(point);
             };
             self.add_following_static(place_m, &mut point)?;
-            self.still_before_arrival(place_m, &mut point, &mut lasts)?;
+            self.still_before_arrival(&mut point, &mut lasts);
             let mut anew = self.not_resolved(&point, &lasts);
             // to integrate a sample costs as much as a disc or two
             let many = anew.len() > load.discs.radii.len();
@@ -244,35 +249,17 @@ impl<'a> Sampled<'a> {
     }
 
     /// Sets to zero what the sum over the discs leaves before the first wave from the largest of them has arrived.
-    fn still_before_arrival(
-        &self,
-        [r_m, z_m]: [f64; 2],
-        point: &mut Point,
-        lasts: &mut [Vec<f64>; 6],
-    ) -> Result<(), FieldsError> {
-        let units = self.excitation.units();
-        let (r, z) = (r_m / units.disc_radius_m, z_m / units.disc_radius_m);
-        let arrivals = Arrivals::new(self.excitation.medium(), Profile::Hertz, r, z)?;
-        let first_s = arrivals.first() * units.time_s();
-        let still = self
-            .wanted
-            .iter()
-            .take_while(|&&[time_s, _]| time_s <= first_s);
+    fn still_before_arrival(&self, point: &mut Point, lasts: &mut [Vec<f64>; 6]) {
+        let still = self.times_s().take_while(|&t| t <= point.arrival_s[0]);
         let count = still.count();
         for samples in point.values.iter_mut().chain(lasts) {
             samples[..count].fill(0.0);
         }
-        Ok(())
     }
 
     /// The samples that the discs leave with more than the tolerance of a field's peak, the worst first.
     fn not_resolved(&self, point: &Point, lasts: &[Vec<f64>; 6]) -> Vec<(usize, f64)> {
-        let peak = |f: usize| {
-            point.values[f]
-                .iter()
-                .fold(0.0, |most: f64, v| most.max(v.abs()))
-        };
-        let allowed: [f64; 6] = std::array::from_fn(|f| self.tolerance * peak(f));
+        let allowed: [f64; 6] = std::array::from_fn(|f| self.tolerance * peak(&point.values[f]));
         let off = |i: usize| {
             let over = |f: usize| match lasts[f][i].abs() {
                 0.0 => 0.0,
