@@ -6,7 +6,7 @@ use crate::profile::Profile;
 /// Lengths and times up to here: their powers stay in the range of a double.
 pub(crate) const FARTHEST: f64 = 1e20;
 
-/// Least distance from a point force and least width of a cell, for the same reason.
+/// Least distance from a point force, least time after the load and least width of a cell, for the same reason.
 pub(crate) const NEAREST: f64 = 1e-20;
 
 /// `value` if `allowed`, else the error that names it and `range`.

@@ -11,6 +11,7 @@
 
 use crate::axis;
 use crate::closed_form::SMALL_RADIUS;
+use crate::domain::NEAREST;
 use crate::far_front;
 use crate::field::{Estimate, Field, Six};
 use crate::medium::Medium;
@@ -48,6 +49,10 @@ impl Integral {
         let Setting {
             medium, profile, ..
         } = &self.setting;
+        let at = Point {
+            t: at.t.max(NEAREST),
+            ..at
+        };
         let mut estimate = if axis::is_near::<O>(*profile, at) {
             axis::continued(medium, *profile, at, |at| self.integrate::<O>(at))
         } else {

@@ -21,7 +21,7 @@ use crate::statics;
 /// The exact kernels of one half-space under one load profile.
 ///
 /// Reduced units: length r0, time r0/c1, displacement P/(mu r0), stress P/r0^2; z into the half-space,
-/// tension positive. r, z and t may be any numbers from 0 to 1e20.
+/// tension positive. r, z and t may be any numbers from 0 to 1e20; times between 0 and 1e-20 are taken as 1e-20.
 ///
 /// # Accuracy
 ///
