@@ -33,15 +33,15 @@ const LOOKED_UP: usize = 4;
 const COVERED: [f64; 4] = [0.0, 0.25, 0.5, 0.75];
 
 impl Discs {
-    /// Those for kernels that are computed, the fewest first.
-    pub(crate) fn computed(radius: PressureRadius, tolerance: f64) -> Vec<Self> {
+    /// Those for kernels that are computed under forces in N at equal steps, the fewest first.
+    pub(crate) fn computed(radius: PressureRadius, tolerance: f64, force_n: &[f64]) -> Vec<Self> {
         let digits = (-tolerance.log10()).clamp(3.0, 8.0);
         let count = |a_digit: f64| (a_digit * digits).round() as usize;
         match radius {
             PressureRadius::Fixed(_) => vec![Self::one()],
-            PressureRadius::Following { .. } => {
-                A_DIGIT.map(|d| Self::following(count(d), 0.0)).into()
-            }
+            PressureRadius::Following { .. } => std::iter::once(Self::far(radius, force_n))
+                .chain(A_DIGIT.map(|d| Self::following(count(d), 0.0)))
+                .collect(),
         }
     }
 
@@ -57,16 +57,38 @@ impl Discs {
         }
     }
 
-    /// How many there are of them for a point, about.
-    pub(crate) fn likely(choices: &[Self]) -> f64 {
+    /// How many a point takes about, of kernels that are computed.
+    pub(crate) fn likely_computed(radius: PressureRadius, tolerance: f64) -> f64 {
+        let choices = Self::computed(radius, tolerance, &[]);
         choices[1.min(choices.len() - 1)].radii.len() as f64
+    }
+
+    /// How many a point takes, of kernels that are looked up.
+    pub(crate) fn likely_looked_up(radius: PressureRadius) -> f64 {
+        Self::looked_up(radius)[0].radii.len() as f64
     }
 
     /// One disc that takes all.
     pub(crate) fn one() -> Self {
+        Self::alone(1.0)
+    }
+
+    /// One disc whose square is the mean of the squared radius, weighted with the force: far from it only what is short
+    /// beside the wave differs.
+    fn far(radius: PressureRadius, force_n: &[f64]) -> Self {
+        let sum = |weight: &dyn Fn(f64) -> f64| force_n.iter().map(|&p| weight(p)).sum::<f64>();
+        let (all, squares) = (sum(&|p| p), sum(&|p| p * radius.square(p)));
+        Self::alone(if all > 0.0 {
+            (squares / all).clamp(1e-6, 1.0)
+        } else {
+            1.0
+        })
+    }
+
+    fn alone(square: f64) -> Self {
         Self {
-            radii: vec![1.0],
-            least: 1.0,
+            radii: vec![square.sqrt()],
+            least: square,
         }
     }
 

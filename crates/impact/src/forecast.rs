@@ -151,11 +151,11 @@ impl Forecast {
         let cell_s = match source {
             None => 0.0,
             Some(KernelSource::Direct(_)) => {
-                let discs = Discs::computed(excitation.radius(), scene.settings.tolerance);
-                DIRECT_CELL_S * Discs::likely(&discs)
+                DIRECT_CELL_S
+                    * Discs::likely_computed(excitation.radius(), scene.settings.tolerance)
             }
             Some(KernelSource::Table(_)) => {
-                LOOKED_UP_CELL_S * Discs::likely(&Discs::looked_up(excitation.radius()))
+                LOOKED_UP_CELL_S * Discs::likely_looked_up(excitation.radius())
             }
         };
         let fields = Self::of(scene, samples, cell_s);

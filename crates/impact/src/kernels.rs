@@ -57,6 +57,9 @@ impl Cells {
 /// First moments of direct kernels are computed to this fraction of the static field.
 const MOMENT_SHARE: f64 = 1e-7;
 
+/// Distance in radii to which pulses' fields from computed kernels have been shown to hold their tolerance.
+const FARTHEST: f64 = 1e4;
+
 impl KernelSource {
     /// Kernels of a half-space computed to a relative tolerance in [1e-14, 0.1].
     ///
@@ -95,11 +98,11 @@ impl KernelSource {
         }
     }
 
-    /// Largest r and z in radii that it serves.
+    /// Largest r and z in radii at which its values are sure: beyond, computed ones lose digits.
     #[must_use]
     pub fn reach(&self) -> [f64; 2] {
         match self {
-            Self::Direct(_) => [f64::INFINITY; 2],
+            Self::Direct(_) => [FARTHEST; 2],
             Self::Table(table) => [table.r_max(), table.z_max()],
         }
     }

@@ -34,6 +34,7 @@ pub mod forecast;
 pub mod grid;
 pub mod impact;
 pub mod kernels;
+mod loads;
 mod low_pass;
 mod nodes;
 pub mod outcome;

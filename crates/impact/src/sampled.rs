@@ -3,19 +3,17 @@
 //! Theory: `docs/theory.md` (T24, T55, T60).
 
 use crate::at_rest::static_si;
-use crate::convolve::{Convolver, Method};
+use crate::convolve::Method;
 use crate::discs::Discs;
 use crate::error::FieldsError;
 use crate::excitation::{Excitation, PressureRadius};
 use crate::following::Following;
 use crate::grid::Grid;
 use crate::kernels::{CellPlan, Cells, KernelSource};
+use crate::loads::{Load, Share};
 use crate::place::Place;
-use crate::projection::Projection;
-use crate::stretch::Departure;
 use crate::watch::{Unwatched, Watch};
 use halfspace::{Arrivals, Kernel, Profile, Six};
-use std::ops::Range;
 use std::sync::OnceLock;
 
 /// The sampled force of an excitation with kernels: all that fields at points need.
@@ -38,34 +36,6 @@ pub(crate) struct Sampled<'a> {
     watch: &'a dyn Watch,
 }
 
-/// Loads on discs of fixed radii that together are the excitation's.
-struct Load {
-    discs: Discs,
-    /// Of each disc.
-    shares: Vec<Share>,
-}
-
-/// A force on one disc.
-struct Share {
-    /// Of each run of the grid.
-    runs: Vec<RunForce>,
-    /// Half of the force's total variation in N: its peak where it rises and falls once.
-    half_variation_n: f64,
-    /// Root of the sum of the squares of its rises' changes from cell to cell, in N.
-    bending_n: f64,
-    /// What rise, slope and bend of the cells leave of the whole force, counted with the largest disc.
-    left: Departure,
-}
-
-/// A force during one run, on one disc.
-struct RunForce {
-    wanted: Vec<usize>,
-    convolver: Convolver,
-    /// The part that the two highest powers bring.
-    last: Option<Convolver>,
-    projection: Projection,
-}
-
 /// The fields at one point, in SI units.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Point {
@@ -77,20 +47,29 @@ pub(crate) struct Point {
     pub(crate) errors: [f64; 6],
 }
 
+/// The fields under the discs of one choice.
+struct Sum {
+    point: Point,
+    /// What the two highest powers of the radius, or a disc alone, leave out.
+    lasts: [Vec<f64>; 6],
+    /// Samples that are not resolved, the worst first.
+    anew: Vec<(usize, f64)>,
+}
+
 /// Errors of moments that add up at random, in their standard deviations.
 const ROUNDING: f64 = 3.0;
 
 /// Error of an integral over the radii, in tolerances.
 const QUADRATURE: f64 = 0.2;
 
+/// What a disc alone leaves out of the waves besides their travel, as a fraction of them times the squared distance in radii.
+const NEAR: f64 = 2.0;
+
 /// Samples of a point that are integrated over the radii at most.
 const MOST_ANEW: usize = 64;
 
 /// Samples of forces on discs that are held at most.
 const MOST_HELD: usize = 1 << 24;
-
-/// Slopes and bends below this fraction of the largest force are left to the differences of its samples.
-const NEGLIGIBLE: f64 = 1e-9;
 
 impl<'a> Sampled<'a> {
     /// `force_n` holds the samples of the excitation on the grid; the fields are wanted at some of them, ascending.
@@ -104,7 +83,7 @@ impl<'a> Sampled<'a> {
     ) -> Result<Self, FieldsError> {
         let times_s: Vec<f64> = grid.times_s().collect();
         let mut choices = match source {
-            KernelSource::Direct(_) => Discs::computed(excitation.radius(), tolerance),
+            KernelSource::Direct(_) => Discs::computed(excitation.radius(), tolerance, force_n),
             KernelSource::Table(_) => Discs::looked_up(excitation.radius()),
         };
         let held = |discs: &Discs| discs.radii.len() * force_n.len() <= MOST_HELD;
@@ -167,7 +146,7 @@ impl<'a> Sampled<'a> {
         let first = [direct[0], direct[1], arrivals.rayleigh[0]];
 
         let arrival_s = first.map(|t| t * units.time_s());
-        let mut point = self.under([r_m, z_m], arrival_s, self.serving(r, z))?;
+        let mut point = self.under([r_m, z_m], arrival_s, &self.serving(r, z))?;
         for (samples, error) in point.values.iter().zip(&mut point.errors) {
             *error += self.excitation.relative_error() * peak(samples);
         }
@@ -175,16 +154,24 @@ impl<'a> Sampled<'a> {
         Ok(point)
     }
 
-    /// The loads whose discs the source serves at a point in largest radii; where none is, the largest disc alone, whose
-    /// error names the place.
-    fn serving(&self, r: f64, z: f64) -> Range<usize> {
+    /// The loads whose discs the source serves at a point in largest radii, and to which it is far enough for a disc alone;
+    /// where there is none, the last or, of kernels that are computed, the first, whose error names the place.
+    fn serving(&self, r: f64, z: f64) -> Vec<usize> {
         let reach = self.source.reach();
-        let served = |discs: &Discs| {
-            let smallest = discs.radii[discs.radii.len() - 1];
-            r <= smallest * reach[0] && z <= smallest * reach[1]
+        let (count, following) = (self.choices.len(), self.following.is_some());
+        let near = following && NEAR / (r * r + z * z) > self.tolerance;
+        let served = |&choice: &usize| {
+            let radii = &self.choices[choice].radii;
+            let smallest = radii[radii.len() - 1];
+            let reached = r <= smallest * reach[0] && z <= smallest * reach[1];
+            reached && !(near && radii.len() == 1)
         };
-        let (first, count) = (self.choices.iter().position(served), self.choices.len());
-        first.unwrap_or(count - 1)..count
+        let found: Vec<usize> = (0..count).filter(served).collect();
+        match (found.is_empty(), following) {
+            (false, _) => found,
+            (true, true) => vec![0],
+            (true, false) => vec![count - 1],
+        }
     }
 
     /// The loads on one choice of discs.
@@ -196,56 +183,82 @@ impl<'a> Sampled<'a> {
         })
     }
 
-    /// The fields under the first of some choices that leaves little to be integrated over the radii.
+    /// The fields under the first of some choices that leaves little to be integrated over the radii, or under the one before
+    /// where a choice leaves more: the kernels of small discs lose digits far away.
     fn under(
         &self,
         place_m: [f64; 2],
         arrival_s: [f64; 3],
-        choices: Range<usize>,
+        choices: &[usize],
     ) -> Result<Point, FieldsError> {
-        let blank = || std::array::from_fn(|_| vec![0.0; self.wanted.len()]);
-        let last = choices.end - 1;
-        for choice in choices {
-            let load = self.load(choice);
-            let mut point = Point {
-                arrival_s,
-                values: blank(),
-                errors: [0.0; 6],
-            };
-            let mut lasts = blank();
-            for (share, &over) in load.shares.iter().zip(&load.discs.radii) {
-                self.add_disc(share, over, place_m, &mut point, &mut lasts)?;
+        let mut best = self.sum(place_m, arrival_s, choices[0])?;
+        for &choice in &choices[1..] {
+            // to integrate a sample costs as much as a disc or two
+            let many = 2 * best.anew.len() > self.choices[choice].radii.len();
+            if self.following.is_none() || !many {
+                break;
             }
-            let PressureRadius::Following { .. } = self.excitation.radius() else {
-                return Ok(point);
-            };
+            let next = self.sum(place_m, arrival_s, choice)?;
+            if next.anew.len() >= best.anew.len() {
+                break;
+            }
+            best = next;
+        }
+        let Sum {
+            mut point,
+            mut lasts,
+            mut anew,
+        } = best;
+        if let (Some(following), false) = (&self.following, anew.is_empty()) {
+            for (f, error) in point.errors.iter_mut().enumerate() {
+                *error += QUADRATURE * self.tolerance * peak(&point.values[f]);
+            }
+            anew.truncate(MOST_ANEW);
+            for &(i, _) in &anew {
+                let exact = following.at(place_m, self.wanted[i])?;
+                for (f, value) in exact.into_iter().enumerate() {
+                    point.values[f][i] = value;
+                    lasts[f][i] = 0.0;
+                }
+            }
+        }
+        for (error, last) in point.errors.iter_mut().zip(&lasts) {
+            *error += peak(last);
+        }
+        Ok(point)
+    }
+
+    /// The sum over the discs of one choice.
+    fn sum(
+        &self,
+        place_m: [f64; 2],
+        arrival_s: [f64; 3],
+        choice: usize,
+    ) -> Result<Sum, FieldsError> {
+        let blank = || std::array::from_fn(|_| vec![0.0; self.wanted.len()]);
+        let load = self.load(choice);
+        let mut point = Point {
+            arrival_s,
+            values: blank(),
+            errors: [0.0; 6],
+        };
+        let mut lasts = blank();
+        for (share, &over) in load.shares.iter().zip(&load.discs.radii) {
+            self.add_disc(share, over, place_m, &mut point, &mut lasts)?;
+        }
+        let mut anew = Vec::new();
+        if let PressureRadius::Following { largest_m, .. } = self.excitation.radius() {
+            if load.discs.radii.len() == 1 {
+                let near = NEAR * (largest_m / place_m[0].hypot(place_m[1])).powi(2);
+                for (error, samples) in point.errors.iter_mut().zip(&point.values) {
+                    *error += near * peak(samples);
+                }
+            }
             self.add_following_static(place_m, &mut point)?;
             self.still_before_arrival(&mut point, &mut lasts);
-            let mut anew = self.not_resolved(&point, &lasts);
-            // to integrate a sample costs as much as a disc or two
-            let many = anew.len() > load.discs.radii.len();
-            if self.following.is_some() && many && choice < last {
-                continue;
-            }
-            if let (Some(following), false) = (&self.following, anew.is_empty()) {
-                for (f, error) in point.errors.iter_mut().enumerate() {
-                    *error += QUADRATURE * self.tolerance * peak(&point.values[f]);
-                }
-                anew.truncate(MOST_ANEW);
-                for &(i, _) in &anew {
-                    let exact = following.at(place_m, self.wanted[i])?;
-                    for (f, value) in exact.into_iter().enumerate() {
-                        point.values[f][i] = value;
-                        lasts[f][i] = 0.0;
-                    }
-                }
-            }
-            for (error, last) in point.errors.iter_mut().zip(&lasts) {
-                *error += peak(last);
-            }
-            return Ok(point);
+            anew = self.not_resolved(&point, &lasts);
         }
-        unreachable!("there is a load")
+        Ok(Sum { point, lasts, anew })
     }
 
     /// Sets to zero what the sum over the discs leaves before the first wave from the largest of them has arrived.
@@ -367,67 +380,4 @@ impl<'a> Sampled<'a> {
 /// Largest magnitude.
 fn peak(samples: &[f64]) -> f64 {
     samples.iter().fold(0.0, |most, v| most.max(v.abs()))
-}
-
-impl Load {
-    fn new(
-        discs: Discs,
-        excitation: &Excitation,
-        source: &KernelSource,
-        grid: &Grid,
-        force_n: &[f64],
-        wanted: &[usize],
-    ) -> Self {
-        let radius = excitation.radius();
-        let nodes: Vec<_> = grid
-            .runs
-            .iter()
-            .map(|run| excitation.cell_nodes(run, grid.step_s))
-            .collect();
-        let most_n = force_n.iter().fold(0.0, |most: f64, p| most.max(p.abs()));
-        let negligible = most_n * NEGLIGIBLE.max(1e-3 * excitation.relative_error());
-        let share = |k: usize| {
-            let of = |p: f64| discs.share(k, radius.square(p));
-            let (mut first, mut runs) = (0, Vec::new());
-            let (mut half_variation_n, mut bending_n, mut left) = (0.0, 0.0, Departure::default());
-            for ((run, samples), nodes) in grid.split(force_n).into_iter().zip(&nodes) {
-                let own = first..first + run.count;
-                first = own.end;
-                let inside = wanted.iter().filter(|n| own.contains(n));
-                let wanted: Vec<usize> = inside.map(|n| n - own.start).collect();
-                let map = |p: f64| p * of(p).0;
-                let forces: Vec<f64> = samples.iter().map(|&p| map(p)).collect();
-                let convolver = Convolver::from_base(map(run.base_n), &forces, wanted.clone());
-                let last = (discs.radii.len() > 1).then(|| {
-                    let last: Vec<f64> = samples.iter().map(|&p| p * of(p).1).collect();
-                    Convolver::at(&last, wanted.clone())
-                });
-                let rises = convolver.rises();
-                let bends = source.bends();
-                let projection = Projection::new(samples, rises, nodes, map, negligible, bends);
-                if k == 0 {
-                    let whole = crate::convolve::rises(run.base_n, samples);
-                    let of = Projection::new(samples, &whole, nodes, |p| p, f64::INFINITY, bends);
-                    left.join(of.left);
-                }
-                half_variation_n += 0.5 * rises.iter().map(|d| d.abs()).sum::<f64>();
-                let bends = rises.windows(2).map(|d| (d[1] - d[0]).powi(2));
-                bending_n += bends.sum::<f64>().sqrt();
-                runs.push(RunForce {
-                    wanted,
-                    convolver,
-                    last,
-                    projection,
-                });
-            }
-            Share {
-                runs,
-                half_variation_n,
-                bending_n,
-                left,
-            }
-        };
-        let shares = (0..discs.radii.len()).map(share).collect();
-        Self { discs, shares }
-    }
 }

@@ -185,3 +185,62 @@ fn discs_agree_with_frequency_and_wavenumber_integrals() {
         assert!(missed <= errors.len() / 100);
     }
 }
+
+#[test]
+fn far_away_few_discs_are_enough() {
+    let (mut worst, mut least, mut count) = (0.0_f64, f64::INFINITY, 0);
+    for (duration, poisson_ratio) in [(30.0, 0.25), (100.0, 0.4), (500.0, 0.21), (2000.0, 0.3)] {
+        let excitation = contact(poisson_ratio, duration);
+        let exact = Following::new(&excitation, 1e-7).unwrap();
+        for (distance, direction) in [(40.0, 0.3), (110.0, 1.0), (330.0, 1.5), (3000.0, 1.2)] {
+            let place = [
+                distance * f64::sin(direction),
+                distance * f64::cos(direction),
+            ];
+            for tolerance in [1e-3, 1e-4] {
+                let wanted = Wanted {
+                    tolerance,
+                    step_s: None,
+                    duration_s: Some(2.0 * distance + duration),
+                    frames: None,
+                    farthest_m: Some(distance),
+                };
+                let source = KernelSource::direct(
+                    excitation.medium(),
+                    (1e-3 * tolerance).clamp(1e-12, 1e-8),
+                )
+                .unwrap();
+                let grid = Grid::new(&wanted, &excitation, Some(&source)).unwrap();
+                let times: Vec<f64> = grid.times_s().collect();
+                let force: Vec<f64> = times.iter().map(|&t| excitation.force_n(t)).collect();
+                let every = (times.len() / 40).max(1);
+                let wanted: Vec<usize> = (0..times.len()).step_by(every).collect();
+                let sampled =
+                    Sampled::new(&excitation, &source, &grid, &force, &wanted, tolerance).unwrap();
+                let point = sampled.point(place[0], place[1]).unwrap();
+                let fields = |&n: &usize| exact.at(place, [times[n], force[n]]).unwrap();
+                let exact: Vec<Six> = wanted.iter().map(fields).collect();
+                for f in 0..6 {
+                    let peak = exact.iter().fold(0.0_f64, |most, x| most.max(x[f].abs()));
+                    let off = |(x, value): (&Six, &f64)| (value - x[f]).abs() / peak;
+                    let error = exact
+                        .iter()
+                        .zip(&point.values[f])
+                        .map(off)
+                        .fold(0.0, f64::max);
+                    let estimate = point.errors[f] / peak;
+                    worst = worst.max(error / tolerance);
+                    least = least.min(estimate / error);
+                    count += 1;
+                    println!(
+                        "{duration} {place:?} {tolerance:.0e} field {f}: {error:.1e}, estimated {estimate:.1e}"
+                    );
+                }
+            }
+        }
+    }
+    println!(
+        "{count} fields: error over tolerance at most {worst:.2}; estimate over error at least {least:.1}"
+    );
+    assert!(worst < 1.0 && least > 1.0);
+}

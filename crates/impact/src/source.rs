@@ -131,10 +131,7 @@ pub(crate) fn choose_source(
             let cells = Wanted::of(scene).cells(excitation);
             let count = scene.points();
             let threads = rayon::current_num_threads() as f64;
-            let discs = Discs::likely(&Discs::computed(
-                excitation.radius(),
-                scene.settings.tolerance,
-            ));
+            let discs = Discs::likely_computed(excitation.radius(), scene.settings.tolerance);
             let cost_s = count as f64 * cells * discs * DIRECT_CELL_S / threads;
             let cost =
                 format!("{count} points of {cells:.0} cells take about {cost_s:.1e} s to compute");
