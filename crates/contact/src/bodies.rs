@@ -2,7 +2,7 @@
 
 use crate::body_error::{BodyError, positive};
 use crate::material::Material;
-use std::f64::consts::PI;
+use crate::shape::Shape;
 
 /// An elastic half-space: a material with a density, and the block's thickness where it is known.
 #[derive(Debug, Clone, PartialEq)]
@@ -75,6 +75,8 @@ pub struct Striker {
     pub tip_radius_m: f64,
     /// Length in m of a rod, for the check of its free oscillations.
     pub length_m: Option<f64>,
+    /// What mass, tip and length follow from, where they do: see [`Striker::change_shape`].
+    pub shape: Option<Shape>,
 }
 
 impl Striker {
@@ -89,7 +91,66 @@ impl Striker {
             tip_radius_m: positive("tip_radius_m", tip_radius_m)?,
             material,
             length_m: None,
+            shape: None,
         })
+    }
+
+    /// A body of a shape: its mass follows from the density of its material.
+    ///
+    /// # Errors
+    /// [`BodyError`] without a density, or for lengths that make no such body.
+    pub fn of_shape(material: Material, shape: Shape) -> Result<Self, BodyError> {
+        let density = material.density_kg_m3.ok_or_else(|| BodyError::NoDensity {
+            material: material.name.clone(),
+            purpose: "the mass of the striker",
+        })?;
+        match shape {
+            Shape::Ball { diameter_m } => positive("diameter_m", diameter_m)?,
+            Shape::Rod {
+                length_m,
+                diameter_m,
+                ..
+            } => {
+                positive("diameter_m", diameter_m)?;
+                let tip_radius_m = positive("tip_radius_m", shape.tip_radius_m())?;
+                if tip_radius_m < 0.5 * diameter_m {
+                    return Err(BodyError::OutOfRange {
+                        quantity: "tip_radius_m",
+                        value: tip_radius_m,
+                        range: "[diameter_m/2, inf)",
+                    });
+                }
+                if !(length_m >= shape.cap_m() && length_m < f64::INFINITY) {
+                    return Err(BodyError::OutOfRange {
+                        quantity: "length_m",
+                        value: length_m,
+                        range: "[height of the tip's cap, inf)",
+                    });
+                }
+                length_m
+            }
+        };
+        let mass_kg = density * shape.volume_m3();
+        let mut striker = Self::new(material, mass_kg, shape.tip_radius_m())?;
+        striker.length_m = shape.length_m();
+        striker.shape = Some(shape);
+        Ok(striker)
+    }
+
+    /// Changes what mass and tip follow from; without a shape only the material.
+    ///
+    /// # Errors
+    /// [`BodyError`] when the change makes no body; it is not to be used then.
+    pub fn change_shape(
+        &mut self,
+        change: impl FnOnce(&mut Material, Option<&mut Shape>),
+    ) -> Result<(), BodyError> {
+        let mut shape = self.shape;
+        change(&mut self.material, shape.as_mut());
+        if let Some(shape) = shape {
+            *self = Self::of_shape(self.material.clone(), shape)?;
+        }
+        Ok(())
     }
 
     /// A ball of a radius: its mass follows from the density of its material.
@@ -104,15 +165,7 @@ impl Striker {
     /// # Errors
     /// [`BodyError`] without a density or for a radius that is not positive.
     pub fn ball(material: Material, radius_m: f64) -> Result<Self, BodyError> {
-        let density = material.density_kg_m3.ok_or_else(|| BodyError::NoDensity {
-            material: material.name.clone(),
-            purpose: "the mass of a ball",
-        })?;
-        let radius_m = positive("radius_m", radius_m)?;
-        Self::new(
-            material,
-            density * 4.0 / 3.0 * PI * radius_m.powi(3),
-            radius_m,
-        )
+        let diameter_m = 2.0 * positive("radius_m", radius_m)?;
+        Self::of_shape(material, Shape::Ball { diameter_m })
     }
 }

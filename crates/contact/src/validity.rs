@@ -210,6 +210,7 @@ mod tests {
                 mass_kg,
                 tip_radius_m,
                 length_m: None,
+                shape: None,
             })
         };
         // a ball of 1.2 mm, its radius in mm taken for m, its diameter for the radius

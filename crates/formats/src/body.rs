@@ -17,6 +17,11 @@ pub(crate) const ELASTIC_KEYS: [&str; 7] = [
     "tensile_strength_pa",
 ];
 
+/// Those keys after others of a section.
+pub(crate) fn with_elastic(others: &[&'static str]) -> Vec<&'static str> {
+    [others, &ELASTIC_KEYS].concat()
+}
+
 /// Relative difference up to which quantities given twice are taken as rounded, not different.
 const ROUNDING: f64 = 0.02;
 
@@ -147,15 +152,31 @@ pub(crate) fn body(section: &Section<'_>, library: &Library) -> Result<Material,
 /// The numbers of a material as TOML keys, for the resolved scene.
 pub(crate) fn to_table(material: &Material) -> Table {
     let mut table = Table::new();
+    // the numbers replace all of it; where one is unknown, 0 says so
+    let named = Library::built_in().get(&material.name);
+    let known = named.filter(|_| material.density_kg_m3.is_some());
+    if known.is_some() {
+        table.insert("material".to_owned(), material.name.as_str().into());
+    }
     let mut put = |key: &str, value: Option<f64>| {
         if let Some(value) = value {
             table.insert(key.to_owned(), value.into());
         }
     };
+    let strength = |own: Option<f64>, base: fn(&Material) -> Option<f64>| {
+        own.or_else(|| known.and_then(base).map(|_| 0.0))
+    };
     put("youngs_modulus_pa", Some(material.youngs_modulus_pa));
     put("poisson_ratio", Some(material.poisson_ratio));
     put("density_kg_m3", material.density_kg_m3);
-    put("yield_strength_pa", material.yield_strength_pa);
-    put("tensile_strength_pa", material.tensile_strength_pa);
+    let (of_yield, of_tension) = (material.yield_strength_pa, material.tensile_strength_pa);
+    put(
+        "yield_strength_pa",
+        strength(of_yield, |m| m.yield_strength_pa),
+    );
+    put(
+        "tensile_strength_pa",
+        strength(of_tension, |m| m.tensile_strength_pa),
+    );
     table
 }

@@ -49,6 +49,16 @@ pub enum SceneError {
         /// What to give.
         hint: String,
     },
+    /// A key beside another that it follows from, or that excludes it.
+    #[error("{key} cannot be given beside {beside}: {reason}")]
+    Superfluous {
+        /// Full name of the key.
+        key: String,
+        /// What is given already.
+        beside: String,
+        /// Why.
+        reason: &'static str,
+    },
     /// A value of the wrong kind.
     #[error("{key} = {value} is not {expected}")]
     WrongKind {

@@ -65,6 +65,10 @@ fn by_difference(scenes: &[Vec<(String, StoredValue)>]) -> Option<Vec<String>> {
         let first = value(&scenes[0], key);
         scenes.iter().any(|scene| value(scene, key) != first)
     });
+    let named: Vec<String> = (keys.iter().filter_map(|key| key.strip_suffix(".material")))
+        .map(str::to_owned)
+        .collect();
+    keys.retain(|key| !named.iter().any(|section| is_of_material(key, section)));
     if keys.is_empty() || keys.len() > MOST_KEYS {
         return None;
     }
@@ -84,6 +88,15 @@ fn by_difference(scenes: &[Vec<(String, StoredValue)>]) -> Option<Vec<String>> {
     different.sort();
     different.dedup();
     (different.len() == labels.len()).then_some(labels)
+}
+
+/// Whether a key is a number of the material of a section, which its name says.
+fn is_of_material(key: &str, section: &str) -> bool {
+    const NUMBERS: [&str; 4] = ["modulus", "poisson", "density", "strength"];
+    let key = key
+        .strip_prefix(section)
+        .and_then(|key| key.strip_prefix('.'));
+    key.is_some_and(|key| NUMBERS.iter().any(|number| key.contains(number)))
 }
 
 /// A file's name without its ending.
@@ -128,5 +141,20 @@ mod tests {
         ];
         assert_eq!(by_difference(&same), None);
         assert_eq!(words("target.youngs_modulus_pa").1, "Pa");
+        let of = |material: &str, modulus: f64| {
+            let mut scene = scene(1.0, "hertz");
+            let text = StoredValue::Text(material.into());
+            scene.push(("target.material".into(), text));
+            let modulus = StoredValue::Number(modulus);
+            scene.push(("target.youngs_modulus_pa".into(), modulus));
+            scene
+        };
+        assert_eq!(
+            by_difference(&[of("granite", 5.5e10), of("steel", 2.1e11)]),
+            Some(vec![
+                "material of the half-space granite".into(),
+                "material of the half-space steel".into()
+            ])
+        );
     }
 }

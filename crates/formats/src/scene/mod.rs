@@ -3,9 +3,11 @@
 //! The format is written down in `data-schema/scene.md`.
 
 mod read;
+mod striker;
 mod write;
 
 pub(crate) use read::bodies_of;
 pub(crate) use read::scene_with;
 pub use read::{parse_scene, read_scene, scene_of};
+pub(crate) use striker::Form;
 pub use write::resolved;

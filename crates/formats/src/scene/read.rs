@@ -1,12 +1,13 @@
 //! Reading scenes.
 
-use crate::body::{ELASTIC_KEYS, body};
+use crate::body::{body, with_elastic};
 use crate::error::SceneError;
 use crate::materials::read_materials;
 use crate::record::read_record;
+use crate::scene::striker::read_strike;
 use crate::section::{NOT_NEGATIVE, POSITIVE, Section, TOLERANCE, parse};
 use crate::text::read_text;
-use contact::{Choice, Conflict, HalfSpace, Library, Settings, Striker};
+use contact::{Choice, Conflict, HalfSpace, Library, Settings};
 use impact::{Load, Probe, Scene, Section as MeridionalSection, Strike, Treatment};
 use std::path::Path;
 use toml::Table;
@@ -104,7 +105,7 @@ fn read_target(root: &Section<'_>, library: &Library) -> Result<HalfSpace, Scene
     let target = root
         .section("target")?
         .ok_or_else(|| root.missing("target", "describe the half-space in a section [target]"))?;
-    target.allow(&with(&ELASTIC_KEYS, &["material", "thickness_m"]))?;
+    target.allow(&with_elastic(&["material", "thickness_m"]))?;
     let material = body(&target, library)?;
     // the reader has checked the ranges: a density is all that can be missing
     let mut half_space = HalfSpace::new(material).map_err(|_| {
@@ -115,10 +116,6 @@ fn read_target(root: &Section<'_>, library: &Library) -> Result<HalfSpace, Scene
     })?;
     half_space.thickness_m = target.number("thickness_m", POSITIVE)?;
     Ok(half_space)
-}
-
-fn with(keys: &[&'static str], more: &[&'static str]) -> Vec<&'static str> {
-    [more, keys].concat()
 }
 
 fn read_library(root: &Section<'_>, directory: &Path) -> Result<Library, SceneError> {
@@ -235,32 +232,6 @@ fn read_load(
             "give a section [striker], or [force] with a prescribed history",
         )),
     }
-}
-
-fn read_strike(section: &Section<'_>, library: &Library) -> Result<Strike, SceneError> {
-    section.allow(&with(
-        &ELASTIC_KEYS,
-        &[
-            "material",
-            "mass_kg",
-            "tip_radius_m",
-            "velocity_m_s",
-            "length_m",
-        ],
-    ))?;
-    Ok(Strike {
-        striker: Striker {
-            material: body(section, library)?,
-            mass_kg: section.required("mass_kg", POSITIVE, "the mass of the striker")?,
-            tip_radius_m: section.required(
-                "tip_radius_m",
-                POSITIVE,
-                "the radius of the striker's tip",
-            )?,
-            length_m: section.number("length_m", POSITIVE)?,
-        },
-        velocity_m_s: section.required("velocity_m_s", POSITIVE, "the velocity of approach")?,
-    })
 }
 
 fn read_probes(root: &Section<'_>) -> Result<Vec<Probe>, SceneError> {

@@ -1,7 +1,8 @@
 //! Writing scenes.
 
 use crate::body::to_table;
-use contact::{Choice, Settings};
+use crate::scene::striker::Form;
+use contact::{Choice, Settings, Shape, Striker};
 use impact::{Load, Scene};
 use toml::{Table, Value};
 
@@ -16,10 +17,8 @@ pub fn resolved(scene: &Scene) -> String {
         Load::Strike(strike) => {
             let striker = &strike.striker;
             let mut table = to_table(&striker.material);
-            put(&mut table, "mass_kg", Some(striker.mass_kg));
-            put(&mut table, "tip_radius_m", Some(striker.tip_radius_m));
+            put_striker(&mut table, striker);
             put(&mut table, "velocity_m_s", Some(strike.velocity_m_s));
-            put(&mut table, "length_m", striker.length_m);
             root.insert("striker".into(), Value::Table(table));
         }
         Load::Record(record) => {
@@ -58,6 +57,31 @@ pub fn resolved(scene: &Scene) -> String {
         root.insert("output".into(), Value::Table(table));
     }
     root.to_string()
+}
+
+/// What mass and tip follow from, or themselves.
+fn put_striker(table: &mut Table, striker: &Striker) {
+    match striker.shape {
+        None => {
+            put(table, "mass_kg", Some(striker.mass_kg));
+            put(table, "tip_radius_m", Some(striker.tip_radius_m));
+            put(table, "length_m", striker.length_m);
+        }
+        Some(Shape::Ball { diameter_m }) => {
+            table.insert("shape".into(), Form::Ball.name().into());
+            put(table, "diameter_m", Some(diameter_m));
+        }
+        Some(Shape::Rod {
+            length_m,
+            diameter_m,
+            tip_radius_m,
+        }) => {
+            table.insert("shape".into(), Form::Rod.name().into());
+            put(table, "length_m", Some(length_m));
+            put(table, "diameter_m", Some(diameter_m));
+            put(table, "tip_radius_m", tip_radius_m);
+        }
+    }
 }
 
 fn settings(settings: &Settings) -> Table {

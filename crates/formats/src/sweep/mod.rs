@@ -8,6 +8,7 @@
 
 mod axis;
 mod block;
+mod correlation;
 mod csv;
 mod file;
 mod files;

@@ -1,5 +1,6 @@
 //! Random draws: reproducible, and the same whatever the number of threads.
 
+use super::correlation::normal_probability;
 use crate::error::SceneError;
 use crate::section::{FINITE, POSITIVE, Section};
 use contact::Choice;
@@ -82,23 +83,39 @@ impl Distribution {
 
     /// Draw number `index` of a key: a function of its arguments only.
     pub(crate) fn draw(self, seed: u64, key: &str, index: u64) -> f64 {
-        let stream = key
-            .bytes()
-            .fold(mix(seed), |hash, byte| mix(hash ^ u64::from(byte)));
-        let uniform = |which: u64| {
-            let bits = mix(stream ^ mix(2 * index + which));
-            // in (0, 1): never an end
-            ((bits >> 11) as f64 + 0.5) / (1_u64 << 53) as f64
-        };
-        // Box and Muller
-        let normal = || (-2.0 * uniform(0).ln()).sqrt() * (TAU * uniform(1)).cos();
+        let one = || uniform(seed, key, index, 0);
+        self.value(one, || normal(seed, key, index))
+    }
+
+    /// The value at the quantile of a standard normal number.
+    pub(crate) fn at(self, normal: f64) -> f64 {
+        self.value(|| normal_probability(normal), || normal)
+    }
+
+    /// The value at an even or a standard normal number, whichever it is made of.
+    fn value(self, uniform: impl Fn() -> f64, normal: impl Fn() -> f64) -> f64 {
         match self {
-            Self::Uniform { low, high } => low + (high - low) * uniform(0),
-            Self::LogUniform { low, high } => low * (high / low).powf(uniform(0)),
+            Self::Uniform { low, high } => low + (high - low) * uniform(),
+            Self::LogUniform { low, high } => low * (high / low).powf(uniform()),
             Self::Normal { mean, deviation } => mean + deviation * normal(),
             Self::LogNormal { median, deviation } => median * (deviation * normal()).exp(),
         }
     }
+}
+
+/// Even number `which` of a draw of a key, in (0, 1): never an end.
+fn uniform(seed: u64, key: &str, index: u64, which: u64) -> f64 {
+    let stream = key
+        .bytes()
+        .fold(mix(seed), |hash, byte| mix(hash ^ u64::from(byte)));
+    let bits = mix(stream ^ mix(2 * index + which));
+    ((bits >> 11) as f64 + 0.5) / (1_u64 << 53) as f64
+}
+
+/// The standard normal number of a draw of a key, by Box and Muller.
+pub(crate) fn normal(seed: u64, key: &str, index: u64) -> f64 {
+    let [radius, angle] = [0, 1].map(|which| uniform(seed, key, index, which));
+    (-2.0 * radius.ln()).sqrt() * (TAU * angle).cos()
 }
 
 /// The finaliser of splitmix64 after one step of its sequence.

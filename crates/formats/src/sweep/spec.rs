@@ -1,8 +1,9 @@
 //! The sweep file.
 
 use super::axis::{Axis, Column, Values, rows};
+use super::correlation::Correlations;
 use super::files::Files;
-use super::random::Distribution;
+use super::random::{Distribution, normal};
 use super::schema::{LIST, SAMPLE};
 use crate::error::SceneError;
 use crate::quantities::QUANTITIES;
@@ -222,23 +223,36 @@ fn drawn(random: &Section<'_>) -> Result<Axis, SceneError> {
     let seed = random
         .count("seed", 0, usize::MAX, "[0, 2^63)")?
         .unwrap_or(0) as u64;
-    let mut columns = Vec::new();
-    for (name, keys) in random.subsections(&["samples", "seed"])? {
+    let mut drawn: Vec<(String, String, Distribution)> = Vec::new();
+    for (name, keys) in random.subsections(&["samples", "seed", "correlation"])? {
         for key in keys.names() {
             let inner = keys.inner(key).ok_or_else(|| SceneError::Missing {
                 key: format!("{}.distribution", keys.key(key)),
                 hint: "a random key is a table such as { distribution = \"normal\", mean = 1.0, deviation = 0.1 }".to_owned(),
             })?;
-            let distribution = Distribution::read(&inner)?;
-            let full = format!("{name}.{key}");
-            let draws = (0..samples as u64).map(|i| distribution.draw(seed, &full, i));
-            columns.push(Column {
-                section: name.clone(),
-                key: key.to_owned(),
-                values: Values::Numbers(draws.collect()),
-            });
+            drawn.push((name.clone(), key.to_owned(), Distribution::read(&inner)?));
         }
     }
+    let names: Vec<String> = drawn
+        .iter()
+        .map(|(s, key, _)| format!("{s}.{key}"))
+        .collect();
+    let correlations = Correlations::read(random, &names)?;
+    let value = |k: usize, i: u64| {
+        let own = drawn[k].2;
+        if correlations.binds(k) {
+            own.at(correlations.mixed(k, |j| normal(seed, &names[j], i)))
+        } else {
+            own.draw(seed, &names[k], i)
+        }
+    };
+    let columns: Vec<Column> = (drawn.iter().enumerate())
+        .map(|(k, (section, key, _))| Column {
+            section: section.clone(),
+            key: key.clone(),
+            values: Values::Numbers((0..samples as u64).map(|i| value(k, i)).collect()),
+        })
+        .collect();
     if columns.is_empty() {
         return Err(random.missing(
             "striker.velocity_m_s",

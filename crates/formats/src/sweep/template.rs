@@ -3,9 +3,10 @@
 use super::axis::{Column, Values};
 use super::spec::Spec;
 use crate::error::SceneError;
+use crate::scene::Form;
 use crate::scene::scene_with;
 use crate::section::{POISSON, POSITIVE, Range, TOLERANCE};
-use contact::{HalfSpace, Settings, Striker};
+use contact::{Choice, HalfSpace, Settings, Shape, Striker, fall_velocity_m_s};
 use impact::{Load, Scene, Strike};
 use std::collections::BTreeSet;
 use toml::Value;
@@ -14,8 +15,11 @@ use toml::Value;
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Plain {
     Velocity,
+    DropHeight,
     Mass,
     TipRadius,
+    BallDiameter,
+    BallDensity,
     DiscRadius,
     Tolerance,
     LossTolerance,
@@ -26,10 +30,13 @@ enum Plain {
     TargetDensity,
 }
 
-const PLAIN: [(&str, Plain, Range, f64); 11] = [
+const PLAIN: [(&str, Plain, Range, f64); 14] = [
     ("striker.velocity_m_s", Plain::Velocity, POSITIVE, 1.0),
+    ("striker.drop_height_m", Plain::DropHeight, POSITIVE, 1.0),
     ("striker.mass_kg", Plain::Mass, POSITIVE, 1.0),
     ("striker.tip_radius_m", Plain::TipRadius, POSITIVE, 1.0),
+    ("striker.diameter_m", Plain::BallDiameter, POSITIVE, 1.0),
+    ("striker.density_kg_m3", Plain::BallDensity, POSITIVE, 1.0),
     ("contact.disc_radius_m", Plain::DiscRadius, POSITIVE, 1.0),
     ("contact.tolerance", Plain::Tolerance, TOLERANCE, 1e-4),
     (
@@ -259,6 +266,9 @@ fn fast<'a>(spec: &'a Spec, axis: usize, column: &'a Column) -> Option<Fast<'a>>
     let Values::Numbers(numbers) = &column.values else {
         return None;
     };
+    if matches!(plain, Plain::BallDiameter | Plain::BallDensity) && !always_ball(spec) {
+        return None;
+    }
     // wave speeds have to be compared with the moduli, which reading a scene does
     let speed = |key: &str| key.ends_with("_speed_m_s");
     let in_scene = match spec.scene.get(&column.section) {
@@ -279,6 +289,18 @@ fn fast<'a>(spec: &'a Spec, axis: usize, column: &'a Column) -> Option<Fast<'a>>
     })
 }
 
+/// Whether the striker of every row is a ball.
+fn always_ball(spec: &Spec) -> bool {
+    let ball = match spec.scene.get("striker") {
+        Some(Value::Table(striker)) => {
+            striker.get("shape").and_then(Value::as_str) == Some(Form::Ball.name())
+        }
+        Some(_) | None => false,
+    };
+    let mut columns = spec.axes.iter().flat_map(|axis| &axis.columns);
+    ball && columns.all(|column| column.name() != "striker.shape")
+}
+
 impl Fast<'_> {
     fn set(&self, scene: &mut Scene, value: f64) -> Result<(), SceneError> {
         if !(self.range.holds)(value) {
@@ -296,12 +318,44 @@ impl Fast<'_> {
             (Plain::TargetDensity | Plain::TargetModulus | Plain::TargetRatio, _) => {
                 self.of_target(&mut scene.target, value);
             }
-            (Plain::Velocity, Load::Strike(strike)) => strike.velocity_m_s = value,
-            (_, Load::Strike(strike)) => *self.of_striker(&mut strike.striker) = value,
+            (_, Load::Strike(strike)) => return self.of_strike(strike, value),
             // the first template was checked for a striker
             (_, Load::Record(_)) => {}
         }
         Ok(())
+    }
+
+    fn of_strike(&self, strike: &mut Strike, value: f64) -> Result<(), SceneError> {
+        let striker = &mut strike.striker;
+        match self.plain {
+            Plain::Velocity => strike.velocity_m_s = value,
+            Plain::DropHeight => strike.velocity_m_s = fall_velocity_m_s(value),
+            Plain::Mass => striker.mass_kg = value,
+            Plain::TipRadius => striker.tip_radius_m = value,
+            Plain::StrikerModulus => striker.material.youngs_modulus_pa = value,
+            Plain::StrikerRatio => striker.material.poisson_ratio = value,
+            Plain::BallDiameter | Plain::BallDensity => return self.reshape(striker, value),
+            Plain::DiscRadius
+            | Plain::Tolerance
+            | Plain::LossTolerance
+            | Plain::TargetModulus
+            | Plain::TargetRatio
+            | Plain::TargetDensity => {}
+        }
+        Ok(())
+    }
+
+    /// A ball of another diameter or density: its mass follows.
+    fn reshape(&self, striker: &mut Striker, value: f64) -> Result<(), SceneError> {
+        let changed = striker.change_shape(|material, shape| match (self.plain, shape) {
+            (Plain::BallDiameter, Some(Shape::Ball { diameter_m })) => *diameter_m = value,
+            (_, _) => material.density_kg_m3 = Some(value),
+        });
+        changed.map_err(|_| SceneError::OutOfRange {
+            key: self.name.clone(),
+            value,
+            range: "what makes a mass of the ball",
+        })
     }
 
     /// The range has been checked, so that the change is a half-space again.
@@ -311,8 +365,11 @@ impl Fast<'_> {
             Plain::TargetRatio => material.poisson_ratio = value,
             Plain::TargetDensity
             | Plain::Velocity
+            | Plain::DropHeight
             | Plain::Mass
             | Plain::TipRadius
+            | Plain::BallDiameter
+            | Plain::BallDensity
             | Plain::DiscRadius
             | Plain::Tolerance
             | Plain::LossTolerance
@@ -320,21 +377,5 @@ impl Fast<'_> {
             | Plain::StrikerRatio => material.density_kg_m3 = Some(value),
         });
         debug_assert!(changed.is_ok());
-    }
-
-    fn of_striker<'s>(&self, striker: &'s mut Striker) -> &'s mut f64 {
-        match self.plain {
-            Plain::Mass => &mut striker.mass_kg,
-            Plain::TipRadius => &mut striker.tip_radius_m,
-            Plain::StrikerModulus => &mut striker.material.youngs_modulus_pa,
-            Plain::StrikerRatio
-            | Plain::Velocity
-            | Plain::DiscRadius
-            | Plain::Tolerance
-            | Plain::LossTolerance
-            | Plain::TargetModulus
-            | Plain::TargetRatio
-            | Plain::TargetDensity => &mut striker.material.poisson_ratio,
-        }
     }
 }
