@@ -2,13 +2,19 @@
 //!
 //! Theory: `docs/theory.md` (T24, T60).
 
-use crate::convolve::Convolver;
+use crate::convolve::{Convolver, rises};
 use crate::discs::Discs;
+use crate::ends::Rough;
 use crate::excitation::{Excitation, PressureRadius};
 use crate::grid::Grid;
 use crate::kernels::KernelSource;
+use crate::nodes::CellNodes;
 use crate::projection::Projection;
+use crate::run::Run;
 use crate::stretch::Departure;
+
+/// Rates that are left over a cell count from this part of the tolerance of the largest rise on.
+const SMOOTH: f64 = 0.1;
 
 /// Slopes and bends below this fraction of the largest force are left to the differences of its samples.
 const NEGLIGIBLE: f64 = 1e-9;
@@ -39,77 +45,112 @@ pub(crate) struct RunForce {
     /// The part that the two highest powers of the radius bring; of a disc alone what it leaves out.
     pub(crate) last: Option<Convolver>,
     pub(crate) projection: Projection,
+    /// Cells at the ends of a contact.
+    pub(crate) rough: Vec<Rough>,
 }
 
-impl Load {
-    pub(crate) fn new(
-        discs: Discs,
-        excitation: &Excitation,
-        source: &KernelSource,
-        grid: &Grid,
-        force_n: &[f64],
-        wanted: &[usize],
-    ) -> Self {
-        let radius = excitation.radius();
-        let nodes: Vec<_> = grid
-            .runs
+/// What loads are made of.
+pub(crate) struct Recipe<'a> {
+    pub(crate) excitation: &'a Excitation,
+    pub(crate) source: &'a KernelSource,
+    pub(crate) grid: &'a Grid,
+    /// The force in N at the samples of the grid.
+    pub(crate) force_n: &'a [f64],
+    /// Samples at which the fields are wanted, ascending.
+    pub(crate) wanted: &'a [usize],
+    pub(crate) tolerance: f64,
+}
+
+impl Recipe<'_> {
+    /// Loads on the discs.
+    pub(crate) fn load(&self, discs: Discs) -> Load {
+        let (runs, step_s) = (&self.grid.runs, self.grid.step_s);
+        let nodes: Vec<_> = runs
             .iter()
-            .map(|run| excitation.cell_nodes(run, grid.step_s))
+            .map(|run| self.excitation.cell_nodes(run, step_s))
             .collect();
-        let most_n = force_n.iter().fold(0.0, |most: f64, p| most.max(p.abs()));
-        let negligible = most_n * NEGLIGIBLE.max(1e-3 * excitation.relative_error());
-        let share = |k: usize| {
-            let of = |p: f64| discs.share(k, radius.square(p));
-            let (mut first, mut runs) = (0, Vec::new());
-            let (mut half_variation_n, mut bending_n, mut left) = (0.0, 0.0, Departure::default());
-            for ((run, samples), nodes) in grid.split(force_n).into_iter().zip(&nodes) {
-                let own = first..first + run.count;
-                first = own.end;
-                let inside = wanted.iter().filter(|n| own.contains(n));
-                let wanted: Vec<usize> = inside.map(|n| n - own.start).collect();
-                let map = |p: f64| p * of(p).0;
-                let forces: Vec<f64> = samples.iter().map(|&p| map(p)).collect();
-                let convolver = Convolver::from_base(map(run.base_n), &forces, wanted.clone());
-                let last = match radius {
-                    PressureRadius::Fixed(_) => None,
-                    PressureRadius::Following { .. } if discs.radii.len() == 1 => {
-                        let over = |p: f64| p * (radius.square(p) - discs.radii[0].powi(2));
-                        let lag =
-                            excitation.units().time_s() / excitation.medium().rayleigh_speed();
-                        Some(left_out(over, lag / grid.step_s, run.base_n, samples))
-                    }
-                    PressureRadius::Following { .. } => {
-                        Some(samples.iter().map(|&p| p * of(p).1).collect())
-                    }
-                };
-                let last = last.map(|last: Vec<f64>| Convolver::at(&last, wanted.clone()));
-                let rises = convolver.rises();
-                let bends = source.bends();
-                let projection = Projection::new(samples, rises, nodes, map, negligible, bends);
-                if k == 0 {
-                    let whole = crate::convolve::rises(run.base_n, samples);
-                    let of = Projection::new(samples, &whole, nodes, |p| p, f64::INFINITY, bends);
-                    left.join(of.left);
-                }
-                half_variation_n += 0.5 * rises.iter().map(|d| d.abs()).sum::<f64>();
-                let bends = rises.windows(2).map(|d| (d[1] - d[0]).powi(2));
-                bending_n += bends.sum::<f64>().sqrt();
-                runs.push(RunForce {
-                    wanted,
-                    convolver,
-                    last,
-                    projection,
-                });
+        let shares = (0..discs.radii.len()).map(|k| self.share(&discs, k, &nodes));
+        let shares = shares.collect();
+        Load { discs, shares }
+    }
+
+    /// The force on disc `k`.
+    fn share(&self, discs: &Discs, k: usize, nodes: &[CellNodes]) -> Share {
+        let mut share = Share {
+            runs: Vec::new(),
+            half_variation_n: 0.0,
+            bending_n: 0.0,
+            left: Departure::default(),
+        };
+        let bends = self.source.bends();
+        let mut first = 0;
+        let split = self.grid.split(self.force_n);
+        for ((run, samples), nodes) in split.into_iter().zip(nodes) {
+            let own = first..first + run.count;
+            first = own.end;
+            let inside = self.wanted.iter().filter(|n| own.contains(n));
+            let wanted = inside.map(|n| n - own.start).collect();
+            let made = self.run(discs, k, (&run, samples, nodes), wanted);
+            if k == 0 {
+                let whole = rises(run.base_n, samples);
+                let of = Projection::new(samples, &whole, nodes, |p| p, f64::INFINITY, bends);
+                share.left.join(of.left);
             }
-            Share {
-                runs,
-                half_variation_n,
-                bending_n,
-                left,
+            let rises = made.convolver.rises();
+            share.half_variation_n += 0.5 * rises.iter().map(|d| d.abs()).sum::<f64>();
+            let bending = rises.windows(2).map(|d| (d[1] - d[0]).powi(2));
+            share.bending_n += bending.sum::<f64>().sqrt();
+            share.runs.push(made);
+        }
+        share
+    }
+
+    /// The force on disc `k` during one run.
+    fn run(
+        &self,
+        discs: &Discs,
+        k: usize,
+        (run, samples, nodes): (&Run, &[f64], &CellNodes),
+        wanted: Vec<usize>,
+    ) -> RunForce {
+        let (excitation, bends) = (self.excitation, self.source.bends());
+        let radius = excitation.radius();
+        let of = |p: f64| discs.share(k, radius.square(p));
+        let map = |p: f64| p * of(p).0;
+        let forces: Vec<f64> = samples.iter().map(|&p| map(p)).collect();
+        let convolver = Convolver::from_base(map(run.base_n), &forces, wanted.clone());
+        let last = match radius {
+            PressureRadius::Fixed(_) => None,
+            PressureRadius::Following { .. } if discs.radii.len() == 1 => {
+                let over = |p: f64| p * (radius.square(p) - discs.radii[0].powi(2));
+                let lag = excitation.units().time_s() / excitation.medium().rayleigh_speed();
+                Some(left_out(over, lag / self.grid.step_s, run.base_n, samples))
+            }
+            PressureRadius::Following { .. } => {
+                Some(samples.iter().map(|&p| p * of(p).1).collect())
             }
         };
-        let shares = (0..discs.radii.len()).map(share).collect();
-        Self { discs, shares }
+        let largest = |values: &[f64]| values.iter().fold(0.0, |most: f64, p| most.max(p.abs()));
+        let rises = convolver.rises();
+        let rough = match excitation.record() {
+            None => Rough::all(
+                samples,
+                nodes,
+                map,
+                SMOOTH * self.tolerance * largest(rises),
+                bends,
+            ),
+            Some(_) => Vec::new(),
+        };
+        let negligible = NEGLIGIBLE.max(1e-3 * excitation.relative_error());
+        let negligible = negligible * largest(self.force_n);
+        RunForce {
+            projection: Projection::new(samples, rises, nodes, map, negligible, bends),
+            last: last.map(|last: Vec<f64>| Convolver::at(&last, wanted.clone())),
+            wanted,
+            convolver,
+            rough,
+        }
     }
 }
 

@@ -119,7 +119,11 @@ impl Projection {
 /// ```text
 /// slope = 12 [(P0 + P1)/2 - int P dx],     bend = 180 [(P1 - P0)/6 - 2 int P x dx]
 /// ```
-fn slope_and_bend([before, after]: [f64; 2], nodes: &[Node], map: impl Fn(f64) -> f64) -> [f64; 2] {
+pub(crate) fn slope_and_bend(
+    [before, after]: [f64; 2],
+    nodes: &[Node],
+    map: impl Fn(f64) -> f64,
+) -> [f64; 2] {
     let (mut mean, mut moment) = (0.0, 0.0);
     for node in nodes {
         // less the line between the ends, so that little is left to cancel
@@ -131,20 +135,18 @@ fn slope_and_bend([before, after]: [f64; 2], nodes: &[Node], map: impl Fn(f64) -
     [-12.0 * mean, -360.0 * moment]
 }
 
+/// The force at x from -1/2 to 1/2 that has the ends of a cell, its slope and its bend.
+pub(crate) fn followed([before, after]: [f64; 2], [slope, bend]: [f64; 2], x: f64) -> f64 {
+    before
+        + (after - before) * (x + 0.5)
+        + slope * (0.5 * x * x - 0.125)
+        + bend * (x * x * x / 3.0 - x / 12.0)
+}
+
 /// The most that rise, slope and bend leave of the force inside a cell.
-fn largest_left(
-    [before, after]: [f64; 2],
-    [slope, bend]: [f64; 2],
-    nodes: &[Node],
-    map: impl Fn(f64) -> f64,
-) -> f64 {
+fn largest_left(ends: [f64; 2], taken: [f64; 2], nodes: &[Node], map: impl Fn(f64) -> f64) -> f64 {
     nodes.iter().fold(0.0, |most: f64, node| {
-        let x = node.x;
-        let followed = before
-            + (after - before) * (x + 0.5)
-            + slope * (0.5 * x * x - 0.125)
-            + bend * (x * x * x / 3.0 - x / 12.0);
-        most.max((map(node.force) - followed).abs())
+        most.max((map(node.force) - followed(ends, taken, node.x)).abs())
     })
 }
 

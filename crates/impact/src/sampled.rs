@@ -5,13 +5,14 @@
 use crate::at_rest::static_si;
 use crate::convolve::Method;
 use crate::discs::Discs;
+use crate::ends::unresolved;
 use crate::error::FieldsError;
 use crate::excitation::{Excitation, PressureRadius};
-use crate::following::Following;
 use crate::grid::Grid;
 use crate::kernels::{CellPlan, Cells, KernelSource};
-use crate::loads::{Load, Share};
+use crate::loads::{Load, Recipe, Share};
 use crate::place::Place;
+use crate::superposition::Superposition;
 use crate::watch::{Unwatched, Watch};
 use halfspace::{Arrivals, Kernel, Profile, Six};
 use std::sync::OnceLock;
@@ -31,7 +32,8 @@ pub(crate) struct Sampled<'a> {
     /// The discs that may stand for the load, and the loads on them that a point has needed.
     choices: Vec<Discs>,
     loads: Vec<OnceLock<Load>>,
-    following: Option<Following<'a>>,
+    /// For samples that cells and discs do not resolve.
+    superposition: Option<Superposition<'a>>,
     /// Who is told of each point.
     watch: &'a dyn Watch,
 }
@@ -50,7 +52,7 @@ pub(crate) struct Point {
 /// The fields under the discs of one choice.
 struct Sum {
     point: Point,
-    /// What the two highest powers of the radius, or a disc alone, leave out.
+    /// What the two highest powers of the radius, a disc alone, and the cells at the ends of a contact leave out.
     lasts: [Vec<f64>; 6],
     /// Samples that are not resolved, the worst first.
     anew: Vec<(usize, f64)>,
@@ -65,7 +67,10 @@ const QUADRATURE: f64 = 0.2;
 /// What a disc alone leaves out of the waves besides their travel, as a fraction of them times the squared distance in radii.
 const NEAR: f64 = 2.0;
 
-/// Samples of a point that are integrated over the radii at most.
+/// Part of the tolerance up to which what is left of a sample is let be.
+const SURE: f64 = 0.5;
+
+/// Samples of a point that are integrated anew at most.
 const MOST_ANEW: usize = 64;
 
 /// Samples of forces on discs that are held at most.
@@ -92,11 +97,9 @@ impl<'a> Sampled<'a> {
             choices.truncate(kept);
         }
         let kernel = Kernel::new(excitation.medium(), Profile::Hertz, 1e-6)?;
-        let following = match (excitation.radius(), source) {
-            (PressureRadius::Following { .. }, KernelSource::Direct(_)) => {
-                Some(Following::new(excitation, tolerance)?)
-            }
-            (PressureRadius::Following { .. } | PressureRadius::Fixed(_), _) => None,
+        let superposition = match (excitation.record(), source) {
+            (None, KernelSource::Direct(_)) => Some(Superposition::new(excitation, tolerance)?),
+            (Some(_), _) | (_, KernelSource::Table(_)) => None,
         };
         Ok(Self {
             excitation,
@@ -109,7 +112,7 @@ impl<'a> Sampled<'a> {
             samples: wanted.to_vec(),
             loads: choices.iter().map(|_| OnceLock::new()).collect(),
             choices,
-            following,
+            superposition,
             watch: &Unwatched,
         })
     }
@@ -158,8 +161,9 @@ impl<'a> Sampled<'a> {
     /// where there is none, the last or, of kernels that are computed, the first, whose error names the place.
     fn serving(&self, r: f64, z: f64) -> Vec<usize> {
         let reach = self.source.reach();
-        let (count, following) = (self.choices.len(), self.following.is_some());
-        let near = following && NEAR / (r * r + z * z) > self.tolerance;
+        let count = self.choices.len();
+        let computed = matches!(self.source, KernelSource::Direct(_));
+        let near = computed && count > 1 && NEAR / (r * r + z * z) > self.tolerance;
         let served = |&choice: &usize| {
             let radii = &self.choices[choice].radii;
             let smallest = radii[radii.len() - 1];
@@ -167,7 +171,7 @@ impl<'a> Sampled<'a> {
             reached && !(near && radii.len() == 1)
         };
         let found: Vec<usize> = (0..count).filter(served).collect();
-        match (found.is_empty(), following) {
+        match (found.is_empty(), computed) {
             (false, _) => found,
             (true, true) => vec![0],
             (true, false) => vec![count - 1],
@@ -177,9 +181,15 @@ impl<'a> Sampled<'a> {
     /// The loads on one choice of discs.
     fn load(&self, choice: usize) -> &Load {
         self.loads[choice].get_or_init(|| {
-            let discs = self.choices[choice].clone();
-            let (excitation, source, grid) = (self.excitation, self.source, self.grid);
-            Load::new(discs, excitation, source, grid, self.force_n, &self.samples)
+            let recipe = Recipe {
+                excitation: self.excitation,
+                source: self.source,
+                grid: self.grid,
+                force_n: self.force_n,
+                wanted: &self.samples,
+                tolerance: self.tolerance,
+            };
+            recipe.load(self.choices[choice].clone())
         })
     }
 
@@ -193,9 +203,9 @@ impl<'a> Sampled<'a> {
     ) -> Result<Point, FieldsError> {
         let mut best = self.sum(place_m, arrival_s, choices[0])?;
         for &choice in &choices[1..] {
-            // to integrate a sample costs as much as a disc or two
-            let many = 2 * best.anew.len() > self.choices[choice].radii.len();
-            if self.following.is_none() || !many {
+            // to integrate a sample costs less than a disc
+            let many = best.anew.len() > 2 * self.choices[choice].radii.len();
+            if self.superposition.is_none() || !many {
                 break;
             }
             let next = self.sum(place_m, arrival_s, choice)?;
@@ -209,13 +219,13 @@ impl<'a> Sampled<'a> {
             mut lasts,
             mut anew,
         } = best;
-        if let (Some(following), false) = (&self.following, anew.is_empty()) {
+        if let (Some(superposition), false) = (&self.superposition, anew.is_empty()) {
             for (f, error) in point.errors.iter_mut().enumerate() {
                 *error += QUADRATURE * self.tolerance * peak(&point.values[f]);
             }
             anew.truncate(MOST_ANEW);
             for &(i, _) in &anew {
-                let exact = following.at(place_m, self.wanted[i])?;
+                let exact = superposition.at(place_m, self.wanted[i])?;
                 for (f, value) in exact.into_iter().enumerate() {
                     point.values[f][i] = value;
                     lasts[f][i] = 0.0;
@@ -243,10 +253,10 @@ impl<'a> Sampled<'a> {
             errors: [0.0; 6],
         };
         let mut lasts = blank();
+        let mut cells = Vec::with_capacity(load.shares.len());
         for (share, &over) in load.shares.iter().zip(&load.discs.radii) {
-            self.add_disc(share, over, place_m, &mut point, &mut lasts)?;
+            cells.push(self.add_disc(share, over, place_m, &mut point, &mut lasts)?);
         }
-        let mut anew = Vec::new();
         if let PressureRadius::Following { largest_m, .. } = self.excitation.radius() {
             if load.discs.radii.len() == 1 {
                 let near = NEAR * (largest_m / place_m[0].hypot(place_m[1])).powi(2);
@@ -256,8 +266,17 @@ impl<'a> Sampled<'a> {
             }
             self.add_following_static(place_m, &mut point)?;
             self.still_before_arrival(&mut point, &mut lasts);
-            anew = self.not_resolved(&point, &lasts);
         }
+        let mut moved = vec![Six::default(); self.wanted.len()];
+        for (k, cells) in cells.iter().enumerate() {
+            self.add_ends(load, k, cells, &mut moved);
+        }
+        for (i, moved) in moved.into_iter().enumerate() {
+            for f in 0..6 {
+                lasts[f][i] = lasts[f][i].abs() + moved[f];
+            }
+        }
+        let anew = self.not_resolved(&point, &lasts);
         Ok(Sum { point, lasts, anew })
     }
 
@@ -281,7 +300,7 @@ impl<'a> Sampled<'a> {
             (i, (0..6).map(over).fold(0.0, f64::max))
         };
         let mut found: Vec<(usize, f64)> = (0..self.wanted.len()).map(off).collect();
-        found.retain(|&(_, off)| off > 1.0);
+        found.retain(|&(_, off)| off > SURE);
         found.sort_by(|a, b| b.1.total_cmp(&a.1));
         found
     }
@@ -294,15 +313,10 @@ impl<'a> Sampled<'a> {
         [r_m, z_m]: [f64; 2],
         point: &mut Point,
         lasts: &mut [Vec<f64>; 6],
-    ) -> Result<(), FieldsError> {
+    ) -> Result<Cells, FieldsError> {
         let (excitation, grid) = (self.excitation, self.grid);
         let (units, medium) = (excitation.units(), excitation.medium());
-        let radius_m = over * units.disc_radius_m;
-        let place = Place {
-            r: r_m / radius_m,
-            z: z_m / radius_m,
-            disc_radius_m: radius_m,
-        };
+        let place = self.place([r_m, z_m], over);
         let time_s = over * units.time_s();
         let plan = CellPlan {
             step: grid.step_s / time_s,
@@ -310,13 +324,7 @@ impl<'a> Sampled<'a> {
             pulse: excitation.pulse(over),
         };
         let cells = self.source.cells(medium.poisson_ratio(), place, plan)?;
-        let unit = |field: usize| {
-            if field < 2 {
-                units.displacement_m_per_n() / over
-            } else {
-                units.stress_pa_per_n() / (over * over)
-            }
-        };
+        let unit = self.units(over);
         // the static part of a pressure that follows the load is added as a whole
         let rest = match excitation.radius() {
             PressureRadius::Fixed(_) => cells.static_part,
@@ -332,19 +340,65 @@ impl<'a> Sampled<'a> {
                 .map(|last| last.fields(&Six::default(), &cells.smooth));
             for field in 0..6 {
                 for (i, value) in own[field].iter().enumerate() {
-                    point.values[field][first + i] += unit(field) * value;
+                    point.values[field][first + i] += unit[field] * value;
                 }
                 for (i, value) in last.iter().flat_map(|last| last[field].iter().enumerate()) {
-                    lasts[field][first + i] += unit(field) * value;
+                    lasts[field][first + i] += unit[field] * value;
                 }
             }
             first += run.wanted.len();
         }
         let errors = self.errors(share, &cells);
         for (field, error) in errors.into_iter().enumerate() {
-            point.errors[field] += unit(field) * error;
+            point.errors[field] += unit[field] * error;
         }
-        Ok(())
+        Ok(cells)
+    }
+
+    /// A point in radii of a disc of a radius `over` the largest.
+    fn place(&self, [r_m, z_m]: [f64; 2], over: f64) -> Place {
+        let radius_m = over * self.excitation.units().disc_radius_m;
+        Place {
+            r: r_m / radius_m,
+            z: z_m / radius_m,
+            disc_radius_m: radius_m,
+        }
+    }
+
+    /// Units of the fields under that disc, by a force in N.
+    fn units(&self, over: f64) -> Six {
+        let units = self.excitation.units();
+        std::array::from_fn(|field| {
+            if field < 2 {
+                units.displacement_m_per_n() / over
+            } else {
+                units.stress_pa_per_n() / (over * over)
+            }
+        })
+    }
+
+    /// What the ends of a contact may move a sample by, in tolerances of the peaks, where kernels change within a cell under
+    /// disc `k` of a load: added up for each sample that is wanted.
+    fn add_ends(&self, load: &Load, k: usize, cells: &Cells, moved: &mut [Six]) {
+        let share = &load.shares[k];
+        if share.runs.iter().all(|run| run.rough.is_empty()) {
+            return;
+        }
+        let unit = self.units(load.discs.radii[k]);
+        let unresolved = unresolved(&cells.moments);
+        let mut first = 0;
+        for run in &share.runs {
+            for (moved, &n) in moved[first..].iter_mut().zip(&run.wanted) {
+                let before = run.rough.iter().filter(|rough| rough.cell <= n);
+                for rough in before {
+                    let open = &unresolved[n - rough.cell];
+                    for f in 0..6 {
+                        moved[f] += unit[f] * open[f] * rough.rate_n;
+                    }
+                }
+            }
+            first += run.wanted.len();
+        }
     }
 
     /// Errors of the kernels, of the force within the cells and of what the grid leaves out, in kernel units times N.

@@ -1,10 +1,12 @@
-//! The field at one instant under a pressure that follows the load, as a sum over the radii themselves.
+//! The field at one instant as an integral over the force's past, without cells and without discs that stand for others.
 //!
 //! Hertz's pressure of radius a grows by the pressure of a flat punch of that radius: with the radius of the instant t'
 //!
 //! ```text
 //! u(t) = P(t) static(a(t)) + int P'(t') R_punch(t - t'; a(t')) dt'
 //! ```
+//!
+//! On a fixed disc R is that of Hertz's pressure.
 //!
 //! The integrand is smooth but where a front from the punch of an instant t' arrives at t, and where the contact's edge
 //! passes over a point of the surface. Between these instants, and toward them with the square of the variable, Gauss
@@ -14,13 +16,14 @@
 
 use crate::at_rest::static_si;
 use crate::error::FieldsError;
-use crate::excitation::Excitation;
+use crate::excitation::{Excitation, PressureRadius};
 use halfspace::{Arrivals, FIELDS, Kernel, Profile, Six, gauss};
 
-/// Kernels of the punch for one excitation.
-pub(crate) struct Following<'a> {
+/// Kernels for one excitation, a contact.
+pub(crate) struct Superposition<'a> {
     excitation: &'a Excitation,
-    punch: Kernel,
+    /// Of the pressure by which the load grows.
+    growth: Kernel,
     hertz: Kernel,
     /// Nodes of a rule.
     nodes: usize,
@@ -33,16 +36,20 @@ struct Past {
     rate: f64,
 }
 
-impl<'a> Following<'a> {
+impl<'a> Superposition<'a> {
     /// To about `tolerance` of the peaks of the fields.
     pub(crate) fn new(excitation: &'a Excitation, tolerance: f64) -> Result<Self, FieldsError> {
         let medium = excitation.medium();
-        let kernel = (1e-2 * tolerance).clamp(1e-12, 1e-6);
+        let growth = match excitation.radius() {
+            PressureRadius::Fixed(_) => Profile::Hertz,
+            PressureRadius::Following { .. } => Profile::Punch,
+        };
+        let kernel = (1e-6 * tolerance).clamp(1e-12, 1e-10);
         Ok(Self {
             excitation,
-            punch: Kernel::new(medium, Profile::Punch, kernel)?,
+            growth: Kernel::new(medium, growth, kernel)?,
             hertz: Kernel::new(medium, Profile::Hertz, 1e-6)?,
-            nodes: (-2.5 * tolerance.log10()).clamp(8.0, 20.0) as usize,
+            nodes: (-4.0 * tolerance.log10()).clamp(16.0, 24.0) as usize,
             end_s: excitation.end_s(),
         })
     }
@@ -120,7 +127,7 @@ impl<'a> Following<'a> {
         let radius_m = over * units.disc_radius_m;
         let since = (time_s - past_s) / (over * units.time_s());
         let found = self
-            .punch
+            .growth
             .remainder(r_m / radius_m, z_m / radius_m, since)?;
         for (f, value) in found.value.into_iter().enumerate() {
             let unit = if f < 2 {
