@@ -33,6 +33,7 @@ struct Row<'a> {
     shear_speed_m_s: Option<f64>,
     yield_strength_pa: Option<f64>,
     tensile_strength_pa: Option<f64>,
+    fracture_toughness_pa_sqrt_m: Option<f64>,
     source: &'a str,
 }
 
@@ -48,6 +49,7 @@ impl<'a> Row<'a> {
             shear_speed_m_s: m.shear_speed_m_s(),
             yield_strength_pa: m.yield_strength_pa,
             tensile_strength_pa: m.tensile_strength_pa,
+            fracture_toughness_pa_sqrt_m: m.fracture_toughness_pa_sqrt_m,
             source: &m.source,
         }
     }
@@ -57,7 +59,7 @@ impl<'a> Row<'a> {
             value.map_or_else(|| "-".to_owned(), |v| format!("{:.0}", v / scale))
         };
         format!(
-            "{:<24} {:<9} {:>8.3} {:>6.3} {:>6} {:>6} {:>6} {:>6} {:>6}  {}",
+            "{:<24} {:<9} {:>8.3} {:>6.3} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6}  {}",
             self.name,
             self.group,
             self.youngs_modulus_pa / 1e9,
@@ -67,6 +69,8 @@ impl<'a> Row<'a> {
             number(self.shear_speed_m_s, 1.0),
             number(self.yield_strength_pa, 1e6),
             number(self.tensile_strength_pa, 1e6),
+            self.fracture_toughness_pa_sqrt_m
+                .map_or_else(|| "-".to_owned(), |k| format!("{:.2}", k / 1e6)),
             self.source
         )
     }
@@ -89,8 +93,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         return print(serde_json::to_string_pretty(&rows).map_err(Failure::work)?);
     }
     print(format!(
-        "{:<24} {:<9} {:>8} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6}  source",
-        "name", "group", "E [GPa]", "nu", "kg/m3", "c1", "c2", "Ry", "Rm"
+        "{:<24} {:<9} {:>8} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6}  source",
+        "name", "group", "E [GPa]", "nu", "kg/m3", "c1", "c2", "Ry", "Rm", "KIc"
     ))?;
     rows.iter().try_for_each(|row| print(row.text()))
 }

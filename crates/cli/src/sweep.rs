@@ -10,7 +10,7 @@ use formats::sweep::{
     Block, Done, JournalError, Spec, SweepError, is_computed, print_csv, run_sweep, stage_csv,
     stage_sweep,
 };
-use formats::{Existing, Output};
+use formats::{Existing, Output, QUANTITIES};
 use output::{CSV, HDF5, Role, Staged, apart, behind, is_standard};
 use serde::Serialize;
 use std::io::{BufWriter, Write};
@@ -50,6 +50,9 @@ struct Report<'a> {
     rows: usize,
     resumed: usize,
     failed: usize,
+    /// Scenes in which a body yields, and in which one is expected to crack.
+    yielding: usize,
+    cracking: usize,
     wall_s: f64,
     computing_s: f64,
 }
@@ -81,6 +84,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         rows: spec.rows(),
         resumed: done.resumed,
         failed,
+        yielding: beyond(&done.blocks, "yield_onset"),
+        cracking: beyond(&done.blocks, "cone_crack_onset"),
         wall_s: start.elapsed().as_secs_f64(),
         computing_s,
     };
@@ -93,6 +98,13 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     } else {
         print(report.text(&spec))
     }
+}
+
+/// Scenes in which a ratio to what the bodies bear is above 1.
+fn beyond(blocks: &[Block], name: &str) -> usize {
+    let place = QUANTITIES.iter().position(|quantity| quantity.name == name);
+    let rows = blocks.iter().flat_map(|block| &block.numbers);
+    place.map_or(0, |k| rows.filter(|numbers| numbers[k] > 1.0).count())
 }
 
 /// Computes the rows; what is done is kept from moment to moment.
@@ -204,8 +216,14 @@ impl Report<'_> {
             .iter()
             .map(|axis| format!("{} ({})", axis.name, axis.len))
             .collect();
+        let beyond = match (self.yielding, self.cracking) {
+            (0, 0) => String::new(),
+            (yielding, cracking) => format!(
+                "\nnot elastic    {yielding} yield (yield_onset above 1), {cracking} may crack (cone_crack_onset above 1)"
+            ),
+        };
         format!(
-            "axes           {}\nscenes         {}, {} failed, {} resumed\ntime           {:.2} s, {:.2} s of it computing\nwritten        {}",
+            "axes           {}\nscenes         {}, {} failed, {} resumed{beyond}\ntime           {:.2} s, {:.2} s of it computing\nwritten        {}",
             axes.join(" x "),
             self.rows,
             self.failed,

@@ -9,6 +9,7 @@ use crate::march::growing::GrowingDisc;
 use crate::response::disc::DiscResponse;
 use crate::response::punch::PunchResponse;
 use crate::settings::StaticShare;
+use crate::strength::{Strength, strengths};
 use crate::surface::Surface;
 use crate::units::{CollisionUnits, KernelUnits};
 use halfspace::Medium;
@@ -35,6 +36,8 @@ pub struct Collision {
     pub target_longitudinal_speed_m_s: f64,
     /// Poisson's ratio of the half-space.
     pub target_poisson_ratio: f64,
+    /// What the striker and the half-space bear.
+    pub strengths: [Strength; 2],
 }
 
 impl Collision {
@@ -52,6 +55,7 @@ impl Collision {
             target_shear_modulus_pa: two.shear_modulus_pa(),
             target_longitudinal_speed_m_s: half_space.longitudinal_speed_m_s(),
             target_poisson_ratio: two.poisson_ratio,
+            strengths: strengths(half_space, striker),
         }
     }
 

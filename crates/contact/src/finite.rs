@@ -51,6 +51,7 @@ impl Results {
             energy_residual,
             contact_radius_m,
             disc_radius_m,
+            loading,
             contacts: _,
             march_steps: _,
             march_step_s,
@@ -71,6 +72,7 @@ impl Results {
             ("residual of the energy", energy_residual),
             ("contact radius", contact_radius_m),
             ("disc's radius", disc_radius_m),
+            ("mean pressure", loading.mean_pressure_pa),
             ("march's step", march_step_s),
             ("error estimate", relative_error_estimate),
         ];

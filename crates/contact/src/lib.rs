@@ -45,6 +45,7 @@ pub mod settings;
 pub mod shape;
 pub mod solver;
 pub mod spectral;
+pub mod strength;
 pub mod summary;
 pub mod surface;
 pub mod units;
@@ -80,6 +81,7 @@ pub use solver::{Found, Solved, Solver, solve_disc};
 pub use spectral::{
     GrowingContact, GrowingError, PunchWaves, SolvedContact, solve_growing, work_on_half_space,
 };
+pub use strength::{Loading, Strength};
 pub use summary::Summary;
 
 /// The README's program runs.

@@ -125,6 +125,7 @@ fn material(row: &Row) -> Material {
         density_kg_m3: Some(row.density_kg_m3),
         yield_strength_pa: row.yield_strength_pa,
         tensile_strength_pa: row.tensile_strength_pa,
+        fracture_toughness_pa_sqrt_m: row.fracture_toughness_pa_sqrt_m,
         group: row.group.to_owned(),
         source: row.source.to_owned(),
     }

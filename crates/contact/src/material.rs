@@ -17,6 +17,8 @@ pub struct Material {
     pub yield_strength_pa: Option<f64>,
     /// Tensile strength in Pa, where it is known.
     pub tensile_strength_pa: Option<f64>,
+    /// Fracture toughness in Pa m^(1/2) of a brittle material, where it is known.
+    pub fracture_toughness_pa_sqrt_m: Option<f64>,
     /// Group in the library: metal, ceramic, glass, polymer, rock, concrete, soil.
     pub group: String,
     /// Where the numbers come from.

@@ -5,6 +5,7 @@ use crate::energy::Ledger;
 use crate::plan::fixed_disc_m;
 use crate::settings::Settings;
 use crate::solver::Solved;
+use crate::strength::Loading;
 
 /// Scalar results of a contact in SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,6 +38,8 @@ pub struct Results {
     pub contact_radius_m: f64,
     /// Radius of the disc that loads the half-space in m: that of the settings, or the largest contact radius.
     pub disc_radius_m: f64,
+    /// How near the contact comes to what the bodies bear.
+    pub loading: Loading,
     /// Number of contacts.
     pub contacts: usize,
     /// Steps of the march over the contact, 0 without a march.
@@ -54,6 +57,8 @@ impl Results {
         let (s, units) = (&solved.summary, collision.units());
         let peak_force_n = s.peak_force * units.force_n;
         let contact_radius_m = collision.contact_radius_m(peak_force_n);
+        let disc_radius_m =
+            fixed_disc_m(solved.plan.model, settings, collision).unwrap_or(contact_radius_m);
         let steps = solved
             .step
             .map_or(0.0, |step| (s.contact_time / step).ceil());
@@ -71,8 +76,13 @@ impl Results {
             radiated_energy_j: radiated * collision.energy_j(),
             energy_residual: Ledger::new(s.impulse, radiated).residual,
             contact_radius_m,
-            disc_radius_m: fixed_disc_m(solved.plan.model, settings, collision)
-                .unwrap_or(contact_radius_m),
+            disc_radius_m,
+            loading: Loading::new(
+                &collision.strengths,
+                peak_force_n,
+                disc_radius_m,
+                [collision.tip_radius_m, collision.effective_modulus_pa],
+            ),
             contacts: s.contacts,
             march_steps: steps as usize,
             march_step_s: solved.step.map_or(0.0, |step| step * units.time_s),

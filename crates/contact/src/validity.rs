@@ -107,35 +107,50 @@ impl Checked<'_> {
     }
 
     fn of_the_materials(&self) -> Vec<String> {
-        let mut found = Vec::new();
-        let radius = self
-            .disc_radius_m()
-            .unwrap_or(self.results.contact_radius_m);
-        let stress = self.results.peak_force_n / (PI * radius * radius);
+        let loading = &self.results.loading;
+        let stress = loading.mean_pressure_pa;
         let bodies = [
             ("striker", &self.striker.material),
             ("target", self.half_space.material()),
         ];
-        for (body, material) in bodies {
-            for (name, strength) in [
-                ("yield strength", material.yield_strength_pa),
-                ("tensile strength", material.tensile_strength_pa),
-            ] {
-                if let Some(strength) = strength.filter(|&s| stress > s) {
-                    found.push(format!(
-                        "{:.2} times the {name} of the {body}, {strength:.4e} Pa",
-                        stress / strength
-                    ));
-                }
+        let (mut borne, mut found) = (Vec::new(), Vec::new());
+        for ((body, material), strength) in bodies.into_iter().zip(&self.collision.strengths) {
+            let onset = strength.yield_pressure_pa().filter(|&onset| stress > onset);
+            if let (Some(onset), Some(limit)) = (onset, material.yield_strength_pa) {
+                borne.push(format!(
+                    "{:.2} times the yield strength of the {body}, {limit:.4e} Pa (yielding begins at {:.2} times)",
+                    stress / limit,
+                    onset / limit
+                ));
+            }
+            // what is brittle bears more pressure than tension, until it cracks
+            let brittle = material.fracture_toughness_pa_sqrt_m.is_some();
+            let tensile = material.tensile_strength_pa.filter(|_| !brittle);
+            if let Some(limit) = tensile.filter(|&limit| stress > limit) {
+                borne.push(format!(
+                    "{:.2} times the tensile strength of the {body}, {limit:.4e} Pa",
+                    stress / limit
+                ));
+            }
+            let force_n = self.results.peak_force_n;
+            let crack = strength.cone_crack_force_n(
+                self.collision.tip_radius_m,
+                self.collision.effective_modulus_pa,
+            );
+            if let Some(crack_n) = crack.filter(|&crack_n| force_n > crack_n) {
+                found.push(format!(
+                    "the peak force {force_n:.4e} N is {:.2} times {crack_n:.4e} N, where a cone crack in the {body} is expected (Auerbach's law, within a factor of two)",
+                    force_n / crack_n
+                ));
             }
         }
-        if found.is_empty() {
-            return found;
+        if !borne.is_empty() {
+            found.push(format!(
+                "the mean contact stress {stress:.4e} Pa is {}: the impact is not elastic unless the strength under so short a load is that high",
+                borne.join("; ")
+            ));
         }
-        vec![format!(
-            "the mean contact stress {stress:.4e} Pa is {}: the impact is not elastic unless the strength under so short a load is that high",
-            found.join("; ")
-        )]
+        found
     }
 
     fn of_the_bodies(&self) -> Vec<String> {

@@ -72,6 +72,7 @@ impl Row {
             target_shear_modulus_pa: factor * (1.0 - poisson_ratio) * 1.25 / (coupling * DISC_M),
             target_longitudinal_speed_m_s: DISC_M / wave_time,
             target_poisson_ratio: poisson_ratio,
+            strengths: Default::default(),
         }
     }
 

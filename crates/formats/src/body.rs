@@ -7,7 +7,7 @@ use contact::{Library, Material};
 use toml::Table;
 
 /// Keys that describe an elastic body.
-pub(crate) const ELASTIC_KEYS: [&str; 7] = [
+pub(crate) const ELASTIC_KEYS: [&str; 8] = [
     "youngs_modulus_pa",
     "poisson_ratio",
     "density_kg_m3",
@@ -15,6 +15,7 @@ pub(crate) const ELASTIC_KEYS: [&str; 7] = [
     "shear_speed_m_s",
     "yield_strength_pa",
     "tensile_strength_pa",
+    "fracture_toughness_pa_sqrt_m",
 ];
 
 /// Those keys after others of a section.
@@ -50,6 +51,10 @@ pub(crate) fn elastic(
         tensile_strength_pa: strength(
             "tensile_strength_pa",
             base.and_then(|b| b.tensile_strength_pa),
+        )?,
+        fracture_toughness_pa_sqrt_m: strength(
+            "fracture_toughness_pa_sqrt_m",
+            base.and_then(|b| b.fracture_toughness_pa_sqrt_m),
         )?,
         group: base.map_or_else(String::new, |b| b.group.clone()),
         source: base.map_or_else(|| "the scene".to_owned(), |b| b.source.clone()),
@@ -149,6 +154,9 @@ pub(crate) fn body(section: &Section<'_>, library: &Library) -> Result<Material,
     elastic(section, base)
 }
 
+/// A number of a material that may be unknown.
+type Own = fn(&Material) -> Option<f64>;
+
 /// The numbers of a material as TOML keys, for the resolved scene.
 pub(crate) fn to_table(material: &Material) -> Table {
     let mut table = Table::new();
@@ -163,20 +171,21 @@ pub(crate) fn to_table(material: &Material) -> Table {
             table.insert(key.to_owned(), value.into());
         }
     };
-    let strength = |own: Option<f64>, base: fn(&Material) -> Option<f64>| {
-        own.or_else(|| known.and_then(base).map(|_| 0.0))
-    };
     put("youngs_modulus_pa", Some(material.youngs_modulus_pa));
     put("poisson_ratio", Some(material.poisson_ratio));
     put("density_kg_m3", material.density_kg_m3);
-    let (of_yield, of_tension) = (material.yield_strength_pa, material.tensile_strength_pa);
-    put(
-        "yield_strength_pa",
-        strength(of_yield, |m| m.yield_strength_pa),
-    );
-    put(
-        "tensile_strength_pa",
-        strength(of_tension, |m| m.tensile_strength_pa),
-    );
+    let strengths: [(&str, Own); 3] = [
+        ("yield_strength_pa", |m| m.yield_strength_pa),
+        ("tensile_strength_pa", |m| m.tensile_strength_pa),
+        ("fracture_toughness_pa_sqrt_m", |m| {
+            m.fracture_toughness_pa_sqrt_m
+        }),
+    ];
+    for (key, of) in strengths {
+        put(
+            key,
+            of(material).or_else(|| known.and_then(of).map(|_| 0.0)),
+        );
+    }
     table
 }

@@ -22,7 +22,7 @@ pub struct Quantity {
     pub meaning: &'static str,
     /// Whether it is a count.
     pub kind: Kind,
-    /// Of a contact.
+    /// Of a contact; NaN where a strength that it needs is not known.
     pub of_contact: fn(&Results) -> f64,
     /// Of a record, which has no striker.
     pub of_record: Option<fn(&RecordResults) -> f64>,
@@ -33,20 +33,45 @@ impl Quantity {
     #[must_use]
     pub fn of(&self, outcome: &Outcome) -> Option<f64> {
         match &outcome.cause {
-            Cause::Contact { results, .. } => Some((self.of_contact)(results)),
+            Cause::Contact { results, .. } => {
+                Some((self.of_contact)(results)).filter(|value| !value.is_nan())
+            }
             Cause::Record(results) => self.of_record.map(|value| value(results)),
         }
     }
 }
 
+/// A field of the results as a number.
+trait Number {
+    fn number(self) -> f64;
+}
+
+impl Number for f64 {
+    fn number(self) -> f64 {
+        self
+    }
+}
+
+impl Number for usize {
+    fn number(self) -> f64 {
+        self as f64
+    }
+}
+
+impl Number for Option<f64> {
+    fn number(self) -> f64 {
+        self.unwrap_or(f64::NAN)
+    }
+}
+
 macro_rules! quantities {
-    ($($name:ident: $kind:ident $unit:literal of $contact:ident $(, $record:ident)? => $meaning:literal;)*) => {
+    ($($name:ident: $kind:ident $unit:literal of $($contact:ident).+ $(, $record:ident)? => $meaning:literal;)*) => {
         [$(Quantity {
             name: stringify!($name),
             unit: $unit,
             meaning: $meaning,
             kind: Kind::$kind,
-            of_contact: |r| r.$contact as f64,
+            of_contact: |r| r.$($contact).+.number(),
             of_record: quantities!(@record $($record)?),
         },)*]
     };
@@ -56,7 +81,7 @@ macro_rules! quantities {
 
 /// All of them, in the order of files and reports: name, kind, unit, field of a contact's results and, where it has
 /// one, of a record's, and meaning.
-pub const QUANTITIES: [Quantity; 18] = quantities! {
+pub const QUANTITIES: [Quantity; 23] = quantities! {
     peak_force_n: Real "N" of peak_force_n, peak_force_n => "largest contact force";
     peak_force_time_s: Real "s" of peak_force_time_s, peak_force_time_s => "when it is reached";
     contact_time_s: Real "s" of contact_time_s, duration_s => "duration of the first contact; of the record";
@@ -71,6 +96,11 @@ pub const QUANTITIES: [Quantity; 18] = quantities! {
     energy_residual: Real "1" of energy_residual => "(initial - rebound - radiated)/initial energy, the rebound by the impulse";
     contact_radius_m: Real "m" of contact_radius_m => "contact radius of Hertz's law at the largest force";
     disc_radius_m: Real "m" of disc_radius_m, disc_radius_m => "radius of the disc that loads the half-space";
+    mean_pressure_pa: Real "Pa" of loading.mean_pressure_pa => "largest contact force over the area of the loaded disc";
+    yield_onset: Real "1" of loading.yield_onset => "mean_pressure_pa over the pressure at which the first body begins to yield, by von Mises under Hertz's pressure";
+    pressure_over_yield: Real "1" of loading.pressure_over_yield => "mean_pressure_pa over the lower of both yield strengths";
+    pressure_over_tensile: Real "1" of loading.pressure_over_tensile => "mean_pressure_pa over the lower of both tensile strengths, Kmax of the paper";
+    cone_crack_onset: Real "1" of loading.cone_crack_onset => "largest force over that at which a cone crack is expected in the first body, by Auerbach's law";
     contacts: Count "1" of contacts => "number of contacts";
     march_steps: Count "1" of march_steps => "steps of the march over the contact, 0 where no uniform step is taken";
     march_step_s: Real "s" of march_step_s => "step of the march, 0 where no uniform step is taken";

@@ -57,6 +57,7 @@ fn contact(poisson_ratio: f64, duration: f64) -> Excitation {
         density_kg_m3: Some(density),
         yield_strength_pa: None,
         tensile_strength_pa: None,
+        fracture_toughness_pa_sqrt_m: None,
         group: String::new(),
         source: String::new(),
     })

@@ -8,7 +8,8 @@ use std::path::Path;
 const MOST_KEYS: usize = 3;
 
 /// Units that keys carry at their ends, the longest first.
-const UNITS: [(&str, &str); 6] = [
+const UNITS: [(&str, &str); 7] = [
+    ("_pa_sqrt_m", "Pa m^(1/2)"),
     ("_kg_m3", "kg/m^3"),
     ("_m_s", "m/s"),
     ("_kg", "kg"),
@@ -92,7 +93,7 @@ fn by_difference(scenes: &[Vec<(String, StoredValue)>]) -> Option<Vec<String>> {
 
 /// Whether a key is a number of the material of a section, which its name says.
 fn is_of_material(key: &str, section: &str) -> bool {
-    const NUMBERS: [&str; 4] = ["modulus", "poisson", "density", "strength"];
+    const NUMBERS: [&str; 5] = ["modulus", "poisson", "density", "strength", "toughness"];
     let key = key
         .strip_prefix(section)
         .and_then(|key| key.strip_prefix('.'));

@@ -3,7 +3,7 @@
 /// Value of the attribute `file_type`.
 pub const FILE_TYPE: &str = "hertzlamb sweep";
 /// Version of the format: the first number changes when a reader of the old one would fail.
-pub const FORMAT_VERSION: &str = "1.2";
+pub const FORMAT_VERSION: &str = "1.3";
 /// Group of the keys that vary.
 pub const AXES: &str = "axes";
 /// Name of the axis of keys that vary together.
