@@ -1,7 +1,7 @@
 //! The results of an impact as text.
 
 use formats::{choices, kernel_name};
-use impact::{Cause, Load, Outcome, RecordResults, Scene, Treated};
+use impact::{Cause, Load, Outcome, ProbeFields, RecordResults, Scene, Treated};
 
 /// The results for people.
 pub(crate) fn text_report(scene: &Scene, outcome: &Outcome) -> String {
@@ -113,7 +113,52 @@ fn output_lines(outcome: &Outcome) -> Vec<String> {
             used.convolution.name()
         ));
     }
+    if let Some(fields) = &outcome.probes {
+        lines.push(format!("field errors   {}", field_errors(fields)));
+        lines.extend(validity(fields));
+    }
     lines
+}
+
+/// The largest estimated errors at the probes, over the largest value of their kind at the same probe.
+fn field_errors(fields: &ProbeFields) -> String {
+    let of = |kind: &str, range: std::ops::Range<usize>| {
+        let mut worst = (0.0, 0);
+        for probe in 0..fields.r_m.len() {
+            let values = fields.values[range.clone()].iter();
+            let peak = values
+                .flat_map(|rows| &rows[probe])
+                .fold(0.0_f64, |m, v| m.max(v.abs()));
+            let errors = fields.errors[range.clone()].iter();
+            let error = errors.fold(0.0_f64, |m, rows| m.max(rows[probe]));
+            if peak > 0.0 && error / peak > worst.0 {
+                worst = (error / peak, probe);
+            }
+        }
+        format!(
+            "{:.1e} of the largest {kind} at probe {}",
+            worst.0,
+            worst.1 + 1
+        )
+    };
+    format!(
+        "at most {}, {}",
+        of("displacement", 0..2),
+        of("stress", 2..6)
+    )
+}
+
+/// When the first echo comes to the probes, where the block has faces.
+fn validity(fields: &ProbeFields) -> Option<String> {
+    const SHOWN: usize = 4;
+    let known = fields.valid_until_s.iter().enumerate();
+    let known: Vec<String> = known
+        .filter(|(_, valid_s)| valid_s.is_finite())
+        .map(|(i, &valid_s)| format!("{} at probe {}", si(valid_s, "s"), i + 1))
+        .collect();
+    let more = if known.len() > SHOWN { ", ..." } else { "" };
+    let shown = known[..known.len().min(SHOWN)].join(", ");
+    (!known.is_empty()).then(|| format!("valid until    {shown}{more} (first echo)"))
 }
 
 /// A number with seven digits and an SI prefix.

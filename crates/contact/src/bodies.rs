@@ -9,8 +9,10 @@ use crate::shape::Shape;
 pub struct HalfSpace {
     material: Material,
     density_kg_m3: f64,
-    /// Thickness of the block in m, for the check of reflections.
+    /// Thickness of the block in m, where it ends below.
     pub thickness_m: Option<f64>,
+    /// Distance in m from the axis to the nearest side of the block, where it ends there.
+    pub radius_m: Option<f64>,
 }
 
 impl HalfSpace {
@@ -24,6 +26,7 @@ impl HalfSpace {
             density_kg_m3: density(&material)?,
             material,
             thickness_m: None,
+            radius_m: None,
         })
     }
 

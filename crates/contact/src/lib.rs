@@ -50,6 +50,7 @@ pub mod summary;
 pub mod surface;
 pub mod units;
 pub mod validity;
+pub mod waves;
 mod well_posed;
 pub mod work;
 
@@ -83,6 +84,7 @@ pub use spectral::{
 };
 pub use strength::{Loading, Strength};
 pub use summary::Summary;
+pub use waves::WaveSpeeds;
 
 /// The README's program runs.
 #[cfg(doctest)]

@@ -8,6 +8,7 @@ use crate::disc::CENTRE_COUPLING;
 use crate::plan::fixed_disc_m;
 use crate::results::Results;
 use crate::settings::{Model, Settings, StaticShare};
+use crate::waves::WaveSpeeds;
 use halfspace::Deflection;
 use std::f64::consts::PI;
 
@@ -166,13 +167,22 @@ impl Checked<'_> {
                 ));
             }
         }
-        if let Some(thickness) = self.half_space.thickness_m {
-            let echo = 2.0 * thickness / self.half_space.longitudinal_speed_m_s();
-            if echo < contact_time_s {
-                found.push(format!(
-                    "the echo from thickness_m = {thickness:.3e} m returns after {echo:.3e} s, before the contact ends at {contact_time_s:.3e} s: the block is not a half-space"
-                ));
-            }
+        let echo = WaveSpeeds::of(self.half_space)
+            .ok()
+            .and_then(|speeds| speeds.first_echo_s(self.half_space, [0.0; 2], 0.0));
+        if let Some(echo) = echo.filter(|&echo| echo < contact_time_s) {
+            let faces = [
+                ("thickness_m", self.half_space.thickness_m),
+                ("radius_m", self.half_space.radius_m),
+            ];
+            let named = faces
+                .into_iter()
+                .filter_map(|(key, size)| Some((key, size?)));
+            let nearest = named.reduce(|one, other| if other.1 < one.1 { other } else { one });
+            let (key, size) = nearest.unwrap_or(("thickness_m", 0.0));
+            found.push(format!(
+                "the echo from {key} = {size:.3e} m returns after {echo:.3e} s, before the contact ends at {contact_time_s:.3e} s: the block is not a half-space"
+            ));
         }
         found
     }

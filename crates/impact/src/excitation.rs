@@ -12,7 +12,7 @@ use crate::run::Run;
 use contact::march::weights::Weights;
 use contact::resample::{Instant, Resampler};
 use contact::units::{CollisionUnits, KernelUnits};
-use contact::{HalfSpace, History, StaticShare};
+use contact::{HalfSpace, History, StaticShare, WaveSpeeds};
 use halfspace::{Deflection, DomainError, Medium, SurfaceResponse, gauss};
 
 /// A force on a disc of the surface.
@@ -279,6 +279,29 @@ impl Excitation {
             Force::Contact { .. } => None,
             Force::Record(record) => Some(record),
         }
+    }
+
+    /// When the force begins, in s: zero for a contact, the last row before a record leaves zero.
+    #[must_use]
+    pub fn start_s(&self) -> f64 {
+        match &self.force {
+            Force::Contact { .. } => 0.0,
+            Force::Record(record) => record.start_s(),
+        }
+    }
+
+    /// Wave speeds of the half-space.
+    #[must_use]
+    pub fn speeds(&self) -> WaveSpeeds {
+        WaveSpeeds::new(&self.medium, self.units.longitudinal_speed_m_s)
+    }
+
+    /// First arrivals in s of the P, S and Rayleigh wave at a place in m; infinite for a Rayleigh wave where there is
+    /// none.
+    #[must_use]
+    pub fn arrivals_s(&self, [r_m, z_m]: [f64; 2]) -> [f64; 3] {
+        let first = self.speeds().arrivals_s(r_m, z_m, self.units.disc_radius_m);
+        first.map(|t| self.start_s() + t)
     }
 
     /// When the force ends, in s.

@@ -80,11 +80,7 @@ impl Fields<'_> {
             self.tolerance,
         )?;
         let point = sampled.point(r_m, z_m)?;
-        let Point {
-            arrival_s,
-            values,
-            errors,
-        } = point;
+        let Point { values, errors, .. } = point;
         let mut errors = errors.into_iter();
         let traces = values.map(|samples| Trace {
             samples,
@@ -92,7 +88,7 @@ impl Fields<'_> {
         });
         Ok(FieldHistory {
             time_s,
-            arrival_s,
+            arrival_s: self.excitation.arrivals_s([r_m, z_m]),
             traces,
         })
     }
@@ -103,7 +99,7 @@ impl Fields<'_> {
 pub struct FieldHistory {
     /// Times in s.
     pub time_s: Vec<f64>,
-    /// First P, S and Rayleigh arrival in s.
+    /// First P, S and Rayleigh arrival in s; infinite for a Rayleigh wave where there is none.
     pub arrival_s: [f64; 3],
     traces: [Trace; 6],
 }

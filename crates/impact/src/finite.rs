@@ -95,7 +95,7 @@ fn series(series: &Series) -> Result<(), NotFinite> {
 }
 
 fn probes(fields: &ProbeFields) -> Result<(), NotFinite> {
-    let arrivals = fields.arrival_s.iter().flatten().copied();
+    let arrivals = fields.arrival_s.iter().flat_map(|[p, s, _]| [*p, *s]);
     finite(|| "an arrival at a probe".to_owned(), arrivals)?;
     for (field, name) in FIELD_NAMES.iter().enumerate() {
         let values = fields.values[field].iter().flatten().copied();
@@ -107,7 +107,7 @@ fn probes(fields: &ProbeFields) -> Result<(), NotFinite> {
 }
 
 fn section(fields: &SectionFields) -> Result<(), NotFinite> {
-    let arrivals = fields.arrival_s.iter().flatten().copied();
+    let arrivals = fields.arrival_s[..2].iter().flatten().copied();
     finite(|| "an arrival in the section".to_owned(), arrivals)?;
     for (field, name) in FIELD_NAMES.iter().enumerate() {
         let values = fields.values[field].iter().copied().map(f64::from);

@@ -1,8 +1,10 @@
 //! Fields at the probes of a scene and on its meridional section.
 
 use crate::error::FieldsError;
+use crate::excitation::Excitation;
 use crate::sampled::{Point, Sampled};
 use crate::scene::{Probe, Section};
+use contact::HalfSpace;
 use rayon::prelude::*;
 
 /// Fields at the probes in SI units.
@@ -12,8 +14,11 @@ pub struct ProbeFields {
     pub r_m: Vec<f64>,
     /// Depths in m.
     pub z_m: Vec<f64>,
-    /// Times of the first P, S and Rayleigh arrival in s, one row a probe.
+    /// Times of the first P, S and Rayleigh arrival in s, one row a probe; infinite for a Rayleigh wave where there is
+    /// none.
     pub arrival_s: Vec<[f64; 3]>,
+    /// When the first echo from the faces of the block arrives, in s, one a probe; infinite where no face is known.
+    pub valid_until_s: Vec<f64>,
     /// Samples of each field (order of [`halfspace::FIELDS`]), one row a probe.
     pub values: [Vec<Vec<f64>>; 6],
     /// Estimated error of each field, one value a probe.
@@ -31,7 +36,8 @@ pub struct SectionFields {
     pub z_m: Vec<f64>,
     /// Times of the frames in s.
     pub time_s: Vec<f64>,
-    /// Times of the first P, S and Rayleigh arrival in s at each point.
+    /// Times of the first P, S and Rayleigh arrival in s at each point; infinite for a Rayleigh wave where there is
+    /// none.
     pub arrival_s: [Vec<f64>; 3],
     /// Each field (order of [`halfspace::FIELDS`]): frames, depths, radii.
     pub values: [Vec<f32>; 6],
@@ -39,9 +45,33 @@ pub struct SectionFields {
     pub errors: [Vec<f64>; 6],
 }
 
+impl ProbeFields {
+    /// What the user should know of echoes in an output that ends at a time in s.
+    pub(crate) fn echoes(&self, end_s: f64) -> Option<String> {
+        let echoing = self.valid_until_s.iter().enumerate();
+        let echoing: Vec<(usize, f64)> = echoing
+            .map(|(i, &valid_s)| (i, valid_s))
+            .filter(|(_, valid_s)| *valid_s < end_s)
+            .collect();
+        let first = echoing
+            .iter()
+            .copied()
+            .reduce(|a, b| if b.1 < a.1 { b } else { a })?;
+        Some(format!(
+            "echoes from the faces of the block reach {} of {} probes before the output ends at {end_s:.4e} s, probe {} first, at {:.4e} s: what follows there is that of a half-space, not of the block",
+            echoing.len(),
+            self.r_m.len(),
+            first.0 + 1,
+            first.1
+        ))
+    }
+}
+
 /// The fields at probes, at the samples that are wanted.
 pub(crate) fn at_probes(
     sampled: &Sampled<'_>,
+    excitation: &Excitation,
+    block: &HalfSpace,
     probes: &[Probe],
 ) -> Result<ProbeFields, FieldsError> {
     let points: Vec<Point> = probes
@@ -52,11 +82,17 @@ pub(crate) fn at_probes(
         r_m: probes.iter().map(|p| p.r_m).collect(),
         z_m: probes.iter().map(|p| p.z_m).collect(),
         arrival_s: Vec::new(),
+        valid_until_s: Vec::new(),
         values: Default::default(),
         errors: Default::default(),
     };
-    for point in points {
-        fields.arrival_s.push(point.arrival_s);
+    let (speeds, radius_m) = (excitation.speeds(), excitation.units().disc_radius_m);
+    for (point, probe) in points.into_iter().zip(probes) {
+        let place_m = [probe.r_m, probe.z_m];
+        fields.arrival_s.push(excitation.arrivals_s(place_m));
+        let echo_s = speeds.first_echo_s(block, place_m, radius_m);
+        let valid_s = echo_s.map_or(f64::INFINITY, |t| excitation.start_s() + t);
+        fields.valid_until_s.push(valid_s);
         for (field, samples) in point.values.into_iter().enumerate() {
             fields.errors[field].push(point.errors[field]);
             fields.values[field].push(samples);
@@ -76,6 +112,7 @@ pub(crate) fn frames(section: &Section, samples: usize) -> Vec<usize> {
 /// The fields on a section, at the samples that are wanted.
 pub(crate) fn on_section(
     sampled: &Sampled<'_>,
+    excitation: &Excitation,
     section: &Section,
 ) -> Result<SectionFields, FieldsError> {
     let time_s: Vec<f64> = sampled.times_s().collect();
@@ -102,7 +139,8 @@ pub(crate) fn on_section(
             .map(|&r_m| sampled.point(r_m, z_m))
             .collect::<Result<_, _>>()?;
         for (column, point) in points.into_iter().enumerate() {
-            for (times, time) in fields.arrival_s.iter_mut().zip(point.arrival_s) {
+            let arrivals = excitation.arrivals_s([fields.r_m[column], z_m]);
+            for (times, time) in fields.arrival_s.iter_mut().zip(arrivals) {
                 times.push(time);
             }
             let place = row * radii + column;

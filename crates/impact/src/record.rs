@@ -179,6 +179,13 @@ impl ForceRecord {
         [self.time_s[0], self.time_s[self.time_s.len() - 1]]
     }
 
+    /// The last time in s before the force leaves zero.
+    #[must_use]
+    pub fn start_s(&self) -> f64 {
+        let first = self.force_n.iter().position(|&force| force != 0.0);
+        first.map_or(self.time_s[0], |i| self.time_s[i.saturating_sub(1)])
+    }
+
     /// Time in s and force in N of the largest sample; zeros where none is positive.
     #[must_use]
     pub fn peak(&self) -> (f64, f64) {

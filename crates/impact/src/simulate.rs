@@ -253,12 +253,17 @@ impl<'a> Computed<'a> {
             let all: Vec<usize> = (0..self.force_n.len()).collect();
             let sampled = sampled(&all)?;
             convolution = sampled.method();
-            self.probes = Some(at_probes(&sampled, &scene.probes)?);
+            self.probes = Some(at_probes(
+                &sampled,
+                self.excitation,
+                &scene.target,
+                &scene.probes,
+            )?);
         }
         if let Some(section) = &scene.section {
             let sampled = sampled(&frames(section, self.force_n.len()))?;
             convolution = sampled.method();
-            self.section = Some(on_section(&sampled, section)?);
+            self.section = Some(on_section(&sampled, self.excitation, section)?);
         }
         self.used = Some(FieldsUsed {
             kernels: used(&source),
@@ -286,12 +291,14 @@ impl<'a> Computed<'a> {
         let Grid {
             step_s, wanted_s, ..
         } = self.grid;
-        if step_s <= wanted_s {
-            return Vec::new();
-        }
-        vec![format!(
-            "the output's step is {step_s:.3e} s, that of the table's cells, where {wanted_s:.3e} s or less was wanted"
-        )]
+        let coarse = (step_s > wanted_s).then(|| {
+            format!(
+                "the output's step is {step_s:.3e} s, that of the table's cells, where {wanted_s:.3e} s or less was wanted"
+            )
+        });
+        let end_s = self.time_s.last().copied().unwrap_or(0.0);
+        let echoes = self.probes.as_ref().and_then(|probes| probes.echoes(end_s));
+        coarse.into_iter().chain(echoes).collect()
     }
 
     fn disc_deflection_m(&self, deflection: Deflection, share: StaticShare) -> Vec<f64> {

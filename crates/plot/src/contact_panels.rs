@@ -2,7 +2,8 @@
 
 use crate::error::PlotError;
 use crate::history::curve;
-use crate::speeds::{Speeds, end_s, onset_s};
+use crate::span::{end_s, onset_s};
+use contact::WaveSpeeds;
 use contact::{Model, Settings};
 use figure::{Axis, Legend, Panel, Style};
 use formats::stored::StoredImpact;
@@ -115,14 +116,11 @@ fn hertz(impact: &StoredImpact, end_s: f64) -> Result<Option<Vec<(f64, f64)>>, P
     Ok(Some(points.collect()))
 }
 
-/// When the first echo from the lower face of the block reaches the contact, where its thickness is known.
+/// When the first echo from the faces of the block reaches the contact, where they are known.
 fn echo_s(impact: &StoredImpact) -> Result<Option<f64>, PlotError> {
-    let Some(thickness_m) = impact.scene.target.thickness_m else {
-        return Ok(None);
-    };
-    let speeds = Speeds::of(&impact.scene.target).map_err(FieldsError::from)?;
+    let target = &impact.scene.target;
+    let speeds = WaveSpeeds::of(target).map_err(FieldsError::from)?;
     let start_s = onset_s(&impact.series.time_s, &impact.series.force_n);
-    Ok(Some(
-        start_s + speeds.first_echo_s(0.0, 0.0, 0.0, thickness_m),
-    ))
+    let echo_s = speeds.first_echo_s(target, [0.0; 2], 0.0);
+    Ok(echo_s.map(|t| start_s + t))
 }

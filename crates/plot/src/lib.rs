@@ -30,8 +30,8 @@ mod quantity;
 mod request;
 mod section;
 mod space_time;
+mod span;
 mod spectrum;
-mod speeds;
 mod sweep_view;
 mod waves;
 

@@ -4,7 +4,8 @@ use crate::error::PlotError;
 use crate::history::curve;
 use crate::number::with_unit;
 use crate::quantity::words;
-use crate::speeds::{Speeds, onset_s};
+use crate::span::onset_s;
+use contact::WaveSpeeds;
 use contact::nearest;
 use figure::{Axis, Legend, Panel, Style};
 use formats::stored::{StoredImpact, StoredProbes, StoredQuantity};
@@ -133,22 +134,17 @@ fn empty(
         .height(HEIGHT)
         .legend(legend);
     let target = &impact.scene.target;
-    let speeds = Speeds::of(target).map_err(FieldsError::from)?;
+    let speeds = WaveSpeeds::of(target).map_err(FieldsError::from)?;
     let start_s = onset_s(&series.time_s, &series.force_n);
     let radius_m = impact.number("disc_radius_m").unwrap_or(0.0);
-    let edge_m = (r_m - radius_m).max(0.0);
-    let path_m = edge_m.hypot(z_m);
-    if path_m > 0.0 {
-        panel = panel
-            .mark(start_s + path_m / speeds.p, "P")
-            .mark(start_s + path_m / speeds.s, "S");
+    let arrivals_s = speeds.arrivals_s(r_m, z_m, radius_m);
+    for (name, arrival_s) in ["P", "S", "R"].into_iter().zip(arrivals_s) {
+        if arrival_s > 0.0 && arrival_s.is_finite() {
+            panel = panel.mark(start_s + arrival_s, name);
+        }
     }
-    if speeds.has_rayleigh(r_m, z_m, radius_m) {
-        panel = panel.mark(start_s + edge_m / speeds.rayleigh, "R");
-    }
-    if let Some(thickness_m) = target.thickness_m {
-        let echo_s = start_s + speeds.first_echo_s(r_m, z_m, radius_m, thickness_m);
-        panel = panel.mark(echo_s, "valid until the echo");
+    if let Some(echo_s) = speeds.first_echo_s(target, [r_m, z_m], radius_m) {
+        panel = panel.mark(start_s + echo_s, "valid until the echo");
     }
     Ok(panel)
 }

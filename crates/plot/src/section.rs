@@ -2,7 +2,8 @@
 
 use crate::error::PlotError;
 use crate::quantity::{Instants, Quantity};
-use crate::speeds::{Speeds, end_s, onset_s};
+use crate::span::{end_s, onset_s};
+use contact::WaveSpeeds;
 use figure::{LabelledPoint, Layer, Line, Style};
 use formats::stored::{ReadError, StoredImpact, StoredSection};
 use impact::FieldsError;
@@ -12,7 +13,7 @@ use std::f64::consts::FRAC_PI_2;
 /// A section with what its pictures need.
 pub(crate) struct Section {
     pub(crate) stored: StoredSection,
-    pub(crate) speeds: Speeds,
+    pub(crate) speeds: WaveSpeeds,
     pub(crate) disc_radius_m: f64,
     /// When the force begins in s.
     pub(crate) start_s: f64,
@@ -39,7 +40,7 @@ impl Section {
         let (time_s, force_n) = (&impact.series.time_s, &impact.series.force_n);
         let start_s = onset_s(time_s, force_n);
         Ok(Self {
-            speeds: Speeds::of(&impact.scene.target).map_err(FieldsError::from)?,
+            speeds: WaveSpeeds::of(&impact.scene.target).map_err(FieldsError::from)?,
             disc_radius_m: impact.number("disc_radius_m").unwrap_or(0.0),
             start_s,
             pulse_s: end_s(time_s, force_n) - start_s,

@@ -89,7 +89,13 @@ pub const ERROR_SUFFIX: &str = "_error";
 pub const ARRIVALS: (&str, &str, &str) = (
     "arrival",
     "s",
-    "time after the first touch at which the first P, S and Rayleigh wave arrive",
+    "time at which the first P, S and Rayleigh wave arrive; infinite for a Rayleigh wave where there is none",
+);
+/// When the first echo from the faces of the block arrives.
+pub const VALID_UNTIL: (&str, &str, &str) = (
+    "valid_until",
+    "s",
+    "time at which the first echo from the faces of the block arrives; infinite where no face is known",
 );
 /// Text attributes of the root.
 pub const TEXTS: [&str; 15] = [

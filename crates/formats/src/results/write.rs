@@ -125,6 +125,8 @@ fn write_probes(file: &File, fields: &ProbeFields, time_s: &[f64]) -> Result<(),
     let arrivals: Vec<f64> = fields.arrival_s.iter().flatten().copied().collect();
     let dataset = matrix(&group, &schema::ARRIVALS, [rows, 3], &arrivals)?;
     placed(&dataset, &[&probe, &wave])?;
+    let valid = vector(&group, &schema::VALID_UNTIL, &fields.valid_until_s)?;
+    placed(&valid, &[&probe])?;
     for (i, described) in schema::FIELDS.iter().enumerate() {
         let (name, unit, meaning) = *described;
         let columns = fields.values[i].first().map_or(0, Vec::len);

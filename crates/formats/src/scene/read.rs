@@ -74,6 +74,7 @@ pub(crate) fn scene_with(
     let settings = read_settings(root.section("contact")?.as_ref())?;
     let load = read_load(&root, &settings, library, directory)?;
     let (probes, section) = (read_probes(&root)?, read_section(&root)?);
+    inside(&target, &probes, section.as_ref())?;
     let mut duration_s = None;
     if let Some(output) = root.section("output")? {
         output.allow(&["duration_s"])?;
@@ -105,7 +106,7 @@ fn read_target(root: &Section<'_>, library: &Library) -> Result<HalfSpace, Scene
     let target = root
         .section("target")?
         .ok_or_else(|| root.missing("target", "describe the half-space in a section [target]"))?;
-    target.allow(&with_elastic(&["material", "thickness_m"]))?;
+    target.allow(&with_elastic(&["material", "thickness_m", "radius_m"]))?;
     let material = body(&target, library)?;
     // the reader has checked the ranges: a density is all that can be missing
     let mut half_space = HalfSpace::new(material).map_err(|_| {
@@ -115,6 +116,7 @@ fn read_target(root: &Section<'_>, library: &Library) -> Result<HalfSpace, Scene
         )
     })?;
     half_space.thickness_m = target.number("thickness_m", POSITIVE)?;
+    half_space.radius_m = target.number("radius_m", POSITIVE)?;
     Ok(half_space)
 }
 
@@ -232,6 +234,33 @@ fn read_load(
             "give a section [striker], or [force] with a prescribed history",
         )),
     }
+}
+
+/// Refuses what lies outside the block.
+fn inside(
+    block: &HalfSpace,
+    probes: &[Probe],
+    section: Option<&MeridionalSection>,
+) -> Result<(), SceneError> {
+    let within = |key: String, value: f64, limit: Option<f64>, range| match limit {
+        Some(limit) if value > limit => Err(SceneError::OutOfRange { key, value, range }),
+        Some(_) | None => Ok(()),
+    };
+    let at = |name: &str, [r, z]: [(&str, f64); 2]| {
+        let key = |key: &str| format!("{name}.{key}");
+        within(key(z.0), z.1, block.thickness_m, "[0, target.thickness_m]")?;
+        within(key(r.0), r.1, block.radius_m, "[0, target.radius_m]")
+    };
+    for (i, probe) in probes.iter().enumerate() {
+        let place = [("r_m", probe.r_m), ("z_m", probe.z_m)];
+        at(&format!("probe[{}]", i + 1), place)?;
+    }
+    section.map_or(Ok(()), |section| {
+        at(
+            "map",
+            [("r_max_m", section.r_max_m), ("z_max_m", section.z_max_m)],
+        )
+    })
 }
 
 fn read_probes(root: &Section<'_>) -> Result<Vec<Probe>, SceneError> {

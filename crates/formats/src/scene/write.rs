@@ -12,6 +12,7 @@ pub fn resolved(scene: &Scene) -> String {
     let mut root = Table::new();
     let mut target = to_table(scene.target.material());
     put(&mut target, "thickness_m", scene.target.thickness_m);
+    put(&mut target, "radius_m", scene.target.radius_m);
     root.insert("target".into(), Value::Table(target));
     match &scene.load {
         Load::Strike(strike) => {

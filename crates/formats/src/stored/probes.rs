@@ -13,7 +13,8 @@ pub struct StoredProbes {
     pub r_m: Vec<f64>,
     /// Depths in m.
     pub z_m: Vec<f64>,
-    /// Times of the first P, S and Rayleigh wave in s of a load that begins at time zero, one row a probe.
+    /// Times of the first P, S and Rayleigh wave in s, one row a probe; infinite for a
+    /// Rayleigh wave where there is none (files before version 1.6: of a load that begins at time zero, on the surface).
     pub arrival_s: Vec<[f64; 3]>,
 }
 
