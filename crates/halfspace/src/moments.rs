@@ -12,6 +12,40 @@ use crate::field::{Estimate, Six};
 use crate::kernel::Kernel;
 
 impl Kernel {
+    /// [`Self::cell_averages`] and [`Self::cell_moments`] at once, the errors of both: far from the load, where both follow
+    /// from one trace, in half the time.
+    ///
+    /// # Errors
+    /// [`DomainError`] as both.
+    pub fn cells(
+        &self,
+        r: f64,
+        z: f64,
+        width: f64,
+        floor: &Six,
+        (averages, moments): (&mut [Six], &mut [Six]),
+    ) -> Result<[Six; 2], DomainError> {
+        check_hertz(self.profile(), "a cell moment")?;
+        check_place_under(self.profile(), r, z)?;
+        check_width(width)?;
+        let end = moments.len() as f64 * width;
+        check_time(end)?;
+        if averages.len() == moments.len() && self.prefers_trace(r, z, width, end) {
+            let mut errors = [Six::default(); 2];
+            let trace = self.trace(r, z, end)?;
+            trace.for_each_cell(width, moments.len(), |j, average, moment| {
+                averages[j] = average.value;
+                moments[j] = moment.value;
+                raise(&mut errors[0], &average.error);
+                raise(&mut errors[1], &moment.error);
+            })?;
+            return Ok(errors);
+        }
+        let error = self.cell_averages(r, z, width, averages)?;
+        let of_moments = self.cell_moments(r, z, width, averages, floor, moments)?;
+        Ok([error, of_moments])
+    }
+
     /// Fills `moments[j]` with the first moment of R over cell j of `width`; returns an error per field.
     ///
     /// ```text

@@ -123,14 +123,10 @@ impl KernelSource {
             Self::Direct(kernel) => {
                 let domain = |source| place.domain(source);
                 let mut moments = Moments::zero(count + BEYOND);
-                let error = kernel
-                    .cell_averages(r, z, step, &mut moments.averages)
-                    .map_err(domain)?;
                 let static_part = kernel.static_field(r, z).map_err(domain)?;
                 let floor = static_part.map(|s| MOMENT_SHARE * s.abs());
-                let of_moments = kernel
-                    .cell_moments(r, z, step, &moments.averages, &floor, &mut moments.first)
-                    .map_err(domain)?;
+                let both = (&mut moments.averages[..], &mut moments.first[..]);
+                let [error, of_moments] = kernel.cells(r, z, step, &floor, both).map_err(domain)?;
                 Ok(Cells {
                     static_part,
                     smooth: moments.absorbed(),

@@ -62,7 +62,7 @@ struct Sum {
 const ROUNDING: f64 = 3.0;
 
 /// Error of an integral over the radii, in tolerances.
-const QUADRATURE: f64 = 0.2;
+const QUADRATURE: f64 = 0.05;
 
 /// What a disc alone leaves out of the waves besides their travel, as a fraction of them times the squared distance in radii.
 const NEAR: f64 = 2.0;
