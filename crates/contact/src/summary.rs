@@ -55,7 +55,7 @@ pub enum EndOfContact {
 impl EndOfContact {
     /// Fraction of the last change of the contact time that is taken as its error, and what stays at any step.
     ///
-    /// 95 % of the marches on fixed discs leave less.
+    /// Chosen so that the estimates hold: `tests/estimates.rs`.
     pub(crate) fn rest(self) -> (f64, f64) {
         match self {
             Self::Smooth => (1.0, 0.0),

@@ -68,7 +68,7 @@ fn attempt(hard: &Hard, settings: Settings) -> Result<f64, String> {
                 );
             }
             assert!(
-                r.restitution.is_finite() && r.restitution > -1e-2 && r.restitution < 1.0 + 1e-3,
+                r.restitution.is_finite() && r.restitution > 0.0 && r.restitution <= 1.0 + 1e-6,
                 "{r:?}\n{hard:?} {settings:?}"
             );
             assert!(
@@ -88,10 +88,15 @@ fn attempt(hard: &Hard, settings: Settings) -> Result<f64, String> {
     }
 }
 
+/// Prints an answer; only the dynamic share may have none, and says why.
 fn report(name: &str, model: &str, result: &Result<f64, String>) {
     match result {
         Ok(e) => println!("{name:<40} {model:<10} restitution {e:.5}"),
-        Err(message) => println!("{name:<40} {model:<10} {message}"),
+        Err(message) => {
+            println!("{name:<40} {model:<10} {message}");
+            let refused = message.contains("the dynamic static share has no solution");
+            assert!(model == "dynamic" && refused, "{name}, {model}: {message}");
+        }
     }
 }
 
@@ -127,11 +132,7 @@ fn velocities_from_1e_minus_6_to_1e3() {
         for (name, contact) in contacts() {
             let result = attempt(&hard, contact);
             report(&format!("V0 = 1e{exponent}"), name, &result);
-            // slow impacts are the easy ones: each model has an answer
-            assert!(
-                exponent > 0 || result.is_ok() || name == "dynamic",
-                "{result:?}"
-            );
+            assert!(result.is_ok(), "{result:?}");
         }
     }
 }
@@ -179,7 +180,7 @@ fn disc_radius_from_a_hundredth_to_ten_tip_radii() {
             };
             let result = attempt(&STEEL_ON_STEEL, settings);
             report(&format!("r0 = {ratio} R"), share.name(), &result);
-            assert!(result.is_ok() || share == StaticShare::Dynamic);
+            assert!(result.is_ok() || ratio == 0.01, "{result:?}");
         }
     }
 }

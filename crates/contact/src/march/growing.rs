@@ -137,8 +137,7 @@ const THIN: f64 = 0.4;
 /// d = K tau^2 v^2,     K = 2 phi m f(phi),     m = int t V_p dt,     f = 1 - 0.78 phi + 0.08 phi^2
 /// ```
 ///
-/// f is fitted to marches that resolve the layer, within 4 % for phi up to 0.95 and thin layers;
-/// 1 for small phi, where u = v t undisturbed gives int V_p(sqrt(x)) dx = 2 m.
+/// f is fitted to marches that resolve the layer for phi up to 0.95 and thin layers, 1 for small phi, where u = v t undisturbed gives int V_p(sqrt(x)) dx = 2 m.
 fn end_layer(impact: &GrowingDisc<'_>) -> EndLayer {
     let (phi, tau) = (impact.target_share, impact.wave_time);
     let memory = impact.punch.memory() * tau;

@@ -136,6 +136,37 @@ mod tests {
     use super::*;
     use halfspace::Medium;
 
+    /// int_0^t V_p from the centre's V by exchanging the order of integration, y = t/2:
+    /// 3/2 int_0^y V + (y^2/2) int_y^inf V/x^2 dx, by the midpoint rule in the root of x.
+    #[test]
+    fn the_integral_is_good_to_1e_7() {
+        const MIDPOINTS: i32 = 200_000;
+        let mut worst = 0.0_f64;
+        for nu in [-0.5, 0.0, 0.3, 0.49] {
+            let centre = SurfaceResponse::new(&Medium::new(nu).unwrap(), Deflection::Centre);
+            let punch = PunchResponse::new(&centre);
+            let end = punch.memory();
+            for fraction in [1e-4, 0.01, 0.05, 0.2, 0.3, 0.5, 0.9] {
+                let y = 0.5 * fraction * end;
+                let (mut early, mut late) = (0.0, 0.0);
+                let (from, until) = (y.sqrt(), (0.5 * end).sqrt());
+                for i in 0..MIDPOINTS {
+                    let middle = (f64::from(i) + 0.5) / f64::from(MIDPOINTS);
+                    let (s, u) = (from * middle, from + (until - from) * middle);
+                    early += 2.0 * s * (1.0 - centre.step(s * s));
+                    late += 2.0 / u.powi(3) * (1.0 - centre.step(u * u));
+                }
+                early *= from / f64::from(MIDPOINTS);
+                late *= (until - from) / f64::from(MIDPOINTS);
+                let exact = 1.5 * early + 0.5 * y * y * late;
+                let error = punch.relaxation_integral(fraction * end) - exact;
+                worst = worst.max(error.abs() / centre.relaxation_time());
+            }
+        }
+        println!("{worst:.1e} of the relaxation time");
+        assert!(worst < 1e-7, "{worst:e}");
+    }
+
     #[test]
     fn the_punch_relaxes_as_the_hertz_disc() {
         for nu in [-0.5, 0.0, 0.3, 0.49] {
