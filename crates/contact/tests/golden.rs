@@ -2,12 +2,16 @@
 
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
+#[path = "support/solids.rs"]
+mod solids;
+
 use contact::units::CollisionUnits;
 use contact::{
-    Choice, Collision, Exact, ExactDisc, HalfSpace, Material, Model, Results, Settings, Solver,
-    StaticShare, Striker, Summary, march_explicit, march_implicit,
+    Choice, Collision, Exact, ExactDisc, HalfSpace, Model, Results, Settings, Solver, StaticShare,
+    Striker, Summary, march_explicit, march_implicit,
 };
 use halfspace::{Deflection, Medium, SurfaceResponse};
+use solids::material;
 
 struct Row {
     case: String,
@@ -18,15 +22,6 @@ struct Row {
     restitution: f64,
     peak_displacement_m: f64,
     peak_deflection_m: f64,
-}
-
-fn material(youngs_modulus_pa: f64, poisson_ratio: f64, density_kg_m3: f64) -> Material {
-    Material {
-        youngs_modulus_pa,
-        poisson_ratio,
-        density_kg_m3: Some(density_kg_m3),
-        ..Material::named("steel").unwrap()
-    }
 }
 
 fn rows(tolerance: f64) -> Vec<Row> {

@@ -4,6 +4,8 @@
 
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
+mod support;
+
 use contact::law::area_dashpot::AreaDashpot;
 use contact::{
     Accuracy, GrowingContact, GrowingError, PunchWaves, SolvedContact, solve_growing,
@@ -12,6 +14,7 @@ use contact::{
 use halfspace::Medium;
 use rayon::prelude::*;
 use std::path::Path;
+use support::Draws;
 
 /// Poisson's ratio, phi and tau of a contact.
 #[derive(Debug, Clone, Copy)]
@@ -47,23 +50,6 @@ fn results(solved: &SolvedContact) -> [f64; 8] {
         s.peak_deflection,
         s.impulse,
     ]
-}
-
-/// Numbers in [0, 1) that depend on the scene and the place of use only (splitmix64).
-struct Draws(u64);
-
-impl Draws {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn log(&mut self, low: f64, high: f64) -> f64 {
-        low * (high / low).powf(self.next())
-    }
 }
 
 /// A ball of a third to ten times its mass on a half-space, both of moduli of 1 MPa to 400 GPa, at 1e-4 to

@@ -4,41 +4,21 @@
 
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
+#[path = "support/solids.rs"]
+mod solids;
+mod support;
+
 use contact::{
-    Collision, ContactError, HalfSpace, MarchError, Material, Model, Ratios, Settings, Solver,
-    StaticShare, Striker, Tabulated,
+    Collision, ContactError, HalfSpace, MarchError, Model, Ratios, Settings, Solver, StaticShare,
+    Striker, Tabulated,
 };
 use halfspace::Deflection;
 use rayon::prelude::*;
+use solids::material;
+use support::Draws;
 
 const SCENES: u64 = 400;
 const TOLERANCES: [f64; 4] = [1e-3, 1e-4, 1e-6, 1e-8];
-
-/// Numbers in [0, 1) that depend on the scene and the place of use only (splitmix64).
-struct Draws(u64);
-
-impl Draws {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn log(&mut self, low: f64, high: f64) -> f64 {
-        low * (high / low).powf(self.next())
-    }
-}
-
-fn material(youngs_modulus_pa: f64, poisson_ratio: f64, density_kg_m3: f64) -> Material {
-    Material {
-        youngs_modulus_pa,
-        poisson_ratio,
-        density_kg_m3: Some(density_kg_m3),
-        ..Material::named("steel").unwrap()
-    }
-}
 
 /// A ball on a disc of 0.05 to 3 of its contact radius.
 fn random_scene(index: u64) -> (Collision, f64) {

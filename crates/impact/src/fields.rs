@@ -5,7 +5,8 @@ use crate::excitation::Excitation;
 use crate::grid::{Grid, Wanted};
 use crate::kernels::KernelSource;
 use crate::sampled::{Point, Sampled};
-use halfspace::{DomainError, Field};
+use crate::superposition::Superposition;
+use halfspace::{DomainError, Field, Six};
 use std::ops::Index;
 
 /// Fields of an excitation, asked for point by point.
@@ -26,6 +27,29 @@ impl Excitation {
     pub fn fields(&self, tolerance: f64) -> Result<Fields<'_>, DomainError> {
         let source = KernelSource::direct(self.medium(), tolerance)?;
         Ok(self.fields_from(source))
+    }
+
+    /// The six fields at one instant under a contact, in m and Pa: an integral over the force's past to about `tolerance`
+    /// of their peaks, without cells, discs or tables; none for a record.
+    ///
+    /// Slow beside [`Fields::at`]: a millisecond or so an instant, and exact where that is an approximation. Fields are in the
+    /// order of [`halfspace::FIELDS`]; stresses are positive in tension.
+    ///
+    /// # Errors
+    /// [`FieldsError`] for a point outside the half-space.
+    pub fn instant(
+        &self,
+        place_m: [f64; 2],
+        time_s: f64,
+        tolerance: f64,
+    ) -> Result<Option<Six>, FieldsError> {
+        if self.record().is_some() {
+            return Ok(None);
+        }
+        let superposition = Superposition::new(self, tolerance)?;
+        Ok(Some(
+            superposition.at(place_m, [time_s, self.force_n(time_s)])?,
+        ))
     }
 
     /// The fields by kernels of a source, such as a table.
