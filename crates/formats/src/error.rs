@@ -156,6 +156,78 @@ impl SceneError {
     }
 }
 
+/// What a program can use of a scene's error, beside its sentence.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Culprit<'a> {
+    /// Full name of the key at fault.
+    pub key: Option<&'a str>,
+    /// The number found.
+    pub number: Option<f64>,
+    /// The word found.
+    pub word: Option<&'a str>,
+    /// The nearest name that exists.
+    pub suggestion: Option<&'a str>,
+    /// The file at fault.
+    pub file: Option<&'a Path>,
+}
+
+impl SceneError {
+    /// What it is about.
+    #[must_use]
+    pub fn culprit(&self) -> Culprit<'_> {
+        let mut found = Culprit {
+            key: None,
+            number: None,
+            word: None,
+            suggestion: None,
+            file: None,
+        };
+        match self {
+            Self::In { path, error } => {
+                found = error.culprit();
+                found.file = found.file.or(Some(path));
+            }
+            Self::Unreadable { path, .. } | Self::ForceFile { path, .. } => {
+                found.file = Some(path);
+            }
+            Self::Syntax { .. } | Self::Treatment(_) => {}
+            Self::UnknownKey {
+                key, suggestion, ..
+            } => {
+                found.key = Some(key);
+                found.suggestion = suggestion.as_deref();
+            }
+            Self::Missing { key, .. }
+            | Self::Superfluous { key, .. }
+            | Self::Conflict { first: key, .. } => found.key = Some(key),
+            Self::WrongKind { key, value, .. } | Self::UnknownChoice { key, value, .. } => {
+                found.key = Some(key);
+                found.word = Some(value);
+            }
+            Self::OutOfRange { key, value, .. } => {
+                found.key = Some(key);
+                found.number = Some(*value);
+            }
+            Self::UnknownMaterial {
+                key,
+                value,
+                suggestion,
+            } => {
+                found.key = Some(key);
+                found.word = Some(value);
+                found.suggestion = suggestion.as_deref();
+            }
+            Self::Inconsistent {
+                second_key, second, ..
+            } => {
+                found.key = Some(second_key);
+                found.number = Some(*second);
+            }
+        }
+        found
+    }
+}
+
 fn suggested(suggestion: &Option<String>, otherwise: &str) -> String {
     match suggestion {
         Some(name) => format!("; did you mean {name}?"),

@@ -2,7 +2,7 @@
 
 use hdf5::types::VarLenUnicode;
 use hdf5::{Dataset, Group, H5Type};
-pub(crate) use lookup::labels::{attach_scale, reason, set_scale, text};
+pub(crate) use lookup::labels::{attach_scale, new_file, reason, set_scale, text};
 
 pub(crate) fn vector(
     group: &Group,

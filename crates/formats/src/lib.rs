@@ -28,7 +28,7 @@ pub mod stored;
 pub mod sweep;
 mod text;
 
-pub use error::SceneError;
+pub use error::{Culprit, SceneError};
 pub use inputs::inputs;
 pub use materials::{parse_materials, read_materials};
 pub use output::{Existing, Output, OutputError, check, write_whole};

@@ -34,7 +34,7 @@ pub(crate) fn write(path: &Path, chart: &Chart) -> Result<(), String> {
 }
 
 fn write_file(path: &Path, chart: &Chart) -> Result<(), hdf5::Error> {
-    let file = File::create(path)?;
+    let file = lookup::labels::new_file().create(path)?;
     let effort = match chart.effort {
         Effort::Quick => "quick",
         Effort::Full => "full",

@@ -38,12 +38,12 @@ pub(crate) fn rows(
         .with_max_len(1)
         .map(|&block| {
             let [r, z] = &places[block.kind as usize];
+            progress.slice(plans.of(block).kernel().medium().poisson_ratio());
             let row = row(plans.of(block), block.kind, r[block.row], z, known)?;
             if let Some(journal) = journal {
                 let mut journal = journal.lock().unwrap_or_else(PoisonError::into_inner);
                 journal.record(block, &row)?;
             }
-            progress.slice(plans.of(block).kernel().medium().poisson_ratio());
             progress.advance(1);
             Ok((block, row))
         })

@@ -2,7 +2,9 @@
 
 use super::schema;
 use super::section::{waves, write_section};
-use crate::hdf::{attach_all, attach_scale, matrix, reason, scale, set_scale, text, vector};
+use crate::hdf::{
+    attach_all, attach_scale, matrix, new_file, reason, scale, set_scale, text, vector,
+};
 use crate::quantities::QUANTITIES;
 use crate::report::{choices, kernel_name, treatment};
 use crate::scene::resolved;
@@ -38,7 +40,7 @@ pub fn stage_results<'a>(
 }
 
 fn write_file(path: &Path, scene: &Scene, outcome: &Outcome) -> Result<(), hdf5::Error> {
-    let file = File::create(path)?;
+    let file = new_file().create(path)?;
     write_attributes(&file, scene, outcome)?;
     let series = &outcome.series;
     let striker = series.striker.as_ref();

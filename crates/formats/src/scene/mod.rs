@@ -8,6 +8,6 @@ mod write;
 
 pub(crate) use read::bodies_of;
 pub(crate) use read::scene_with;
-pub use read::{parse_scene, read_scene, scene_of};
+pub use read::{parse_scene, read_scene, scene_of, sections_of};
 pub(crate) use striker::Form;
 pub use write::resolved;

@@ -4,7 +4,7 @@ use crate::body::{body, with_elastic};
 use crate::error::SceneError;
 use crate::materials::read_materials;
 use crate::record::read_record;
-use crate::scene::striker::read_strike;
+use crate::scene::striker::{KEYS as STRIKER_KEYS, read_strike};
 use crate::section::{NOT_NEGATIVE, POSITIVE, Section, TOLERANCE, parse};
 use crate::text::read_text;
 use contact::{Choice, Conflict, HalfSpace, Library, Settings};
@@ -22,6 +22,39 @@ const SECTIONS: [&str; 8] = [
     "output",
     "materials",
 ];
+
+/// Keys of the half-space but the elastic ones.
+const TARGET_KEYS: [&str; 3] = ["material", "thickness_m", "radius_m"];
+
+/// Keys of the section on how the contact is computed.
+const CONTACT_KEYS: [&str; 8] = [
+    "disc_radius_m",
+    "model",
+    "scheme",
+    "static_share",
+    "deflection",
+    "tolerance",
+    "loss_tolerance",
+    "step_s",
+];
+
+/// The sections of a contact that have a key of this name.
+///
+/// ```
+/// use formats::scene::sections_of;
+/// assert_eq!(sections_of("velocity_m_s"), ["striker"]);
+/// assert_eq!(sections_of("poisson_ratio"), ["target", "striker"]);
+/// ```
+#[must_use]
+pub fn sections_of(key: &str) -> Vec<&'static str> {
+    let sections = [
+        ("target", with_elastic(&TARGET_KEYS)),
+        ("striker", with_elastic(&STRIKER_KEYS)),
+        ("contact", CONTACT_KEYS.to_vec()),
+    ];
+    let has = sections.into_iter().filter(|(_, keys)| keys.contains(&key));
+    has.map(|(section, _)| section).collect()
+}
 
 /// Reads a scene file; other files it names are found beside it.
 ///
@@ -106,7 +139,7 @@ fn read_target(root: &Section<'_>, library: &Library) -> Result<HalfSpace, Scene
     let target = root
         .section("target")?
         .ok_or_else(|| root.missing("target", "describe the half-space in a section [target]"))?;
-    target.allow(&with_elastic(&["material", "thickness_m", "radius_m"]))?;
+    target.allow(&with_elastic(&TARGET_KEYS))?;
     let material = body(&target, library)?;
     // the reader has checked the ranges: a density is all that can be missing
     let mut half_space = HalfSpace::new(material).map_err(|_| {
@@ -137,16 +170,7 @@ fn read_settings(section: Option<&Section<'_>>) -> Result<Settings, SceneError> 
     let Some(section) = section else {
         return Ok(settings);
     };
-    section.allow(&[
-        "disc_radius_m",
-        "model",
-        "scheme",
-        "static_share",
-        "deflection",
-        "tolerance",
-        "loss_tolerance",
-        "step_s",
-    ])?;
+    section.allow(&CONTACT_KEYS)?;
     settings.disc_radius_m = section.number("disc_radius_m", POSITIVE)?;
     settings.step_s = section.number("step_s", POSITIVE)?;
     settings.loss_tolerance = section.number("loss_tolerance", TOLERANCE)?;

@@ -25,7 +25,7 @@ impl Choice for Form {
 }
 
 /// All keys of the section but the elastic ones.
-const KEYS: [&str; 8] = [
+pub(super) const KEYS: [&str; 8] = [
     "material",
     "shape",
     "diameter_m",

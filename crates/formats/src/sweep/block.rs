@@ -25,16 +25,16 @@ pub struct Block {
 pub const NO_MODEL: u8 = u8::MAX;
 
 impl Block {
-    /// Computes the rows from `start` to `end`.
+    /// Computes the rows from `start` to `end`, of those that `row_of` gives a number in the sweep.
     pub(super) fn compute(
         spec: &Spec,
         templates: &Templates<'_>,
         responses: &Tabulated,
-        start: usize,
-        end: usize,
+        (start, end): (usize, usize),
+        row_of: impl Fn(usize) -> usize + Sync,
     ) -> Self {
         let rows = collide_rows(start..end, responses, |row, memory: &mut Memory| {
-            place(&spec.axes, row, &mut memory.place);
+            place(&spec.axes, row_of(row), &mut memory.place);
             let (target, strike, settings) = templates.scene(&memory.place, &mut memory.scratch)?;
             let collision = Collision::new(target, &strike.striker, strike.velocity_m_s);
             Ok::<_, SceneError>((collision, *settings))
@@ -58,6 +58,13 @@ impl Block {
             && self.models.iter().filter(|m| failed(m)).count() == self.failures.len()
             && self.failures.iter().all(|(row, _)| rows.contains(row))
             && self.failures.is_sorted_by(|a, b| a.0 < b.0)
+    }
+
+    /// Adds a block that follows.
+    pub(super) fn append(&mut self, mut next: Self) {
+        self.numbers.append(&mut next.numbers);
+        self.models.append(&mut next.models);
+        self.failures.append(&mut next.failures);
     }
 
     fn push(&mut self, row: usize, done: Result<Collided, String>) {

@@ -4,7 +4,9 @@ use super::axis::{Axis, Column, Values};
 use super::block::Block;
 use super::schema;
 use super::spec::Spec;
-use crate::hdf::{attach_all, attach_scale, numbers, reason, scale, set_scale, text, texts};
+use crate::hdf::{
+    attach_all, attach_scale, new_file, numbers, reason, scale, set_scale, text, texts,
+};
 use crate::quantities::QUANTITIES;
 use crate::results::schema::COORDINATES;
 use contact::{Choice, Model};
@@ -40,7 +42,7 @@ pub fn stage_sweep<'a>(
 }
 
 fn write_file(path: &Path, spec: &Spec, blocks: &[Block]) -> Result<(), hdf5::Error> {
-    let file = File::create(path)?;
+    let file = new_file().create(path)?;
     let values = [
         schema::FILE_TYPE,
         schema::FORMAT_VERSION,

@@ -24,5 +24,7 @@ pub use block::{Block, NO_MODEL};
 pub use csv::{print_csv, stage_csv, write_csv};
 pub use file::{stage_sweep, write_sweep};
 pub use journal::{Journal, JournalError};
-pub use run::{BLOCK, BLOCK_S, Done, FIRST_BLOCK, SweepError, is_computed, run_sweep};
+pub use run::{
+    BLOCK, BLOCK_S, Done, FIRST_BLOCK, Rows, SweepError, compute_rows, is_computed, run_sweep,
+};
 pub use spec::Spec;

@@ -77,8 +77,8 @@ pub fn run_sweep(
         while start < gap.end {
             let end = (start + size).min(gap.end);
             let began = Instant::now();
-            let block = Block::compute(spec, &templates, &responses, start, end);
-            size = next_size(end - start, began.elapsed().as_secs_f64());
+            let block = Block::compute(spec, &templates, &responses, (start, end), |row| row);
+            size = next_size(end - start, began.elapsed().as_secs_f64(), BLOCK_S);
             journal.append(&block)?;
             done += block.numbers.len();
             blocks.push(block);
@@ -94,6 +94,60 @@ pub fn run_sweep(
         resumed,
         journal,
     }))
+}
+
+/// Some rows of a sweep: `count` of them from `start` on, every `step`-th.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Rows {
+    /// The first.
+    pub start: usize,
+    /// From one to the next.
+    pub step: usize,
+    /// How many.
+    pub count: usize,
+}
+
+/// Time in s between two calls of the watch of [`compute_rows`], about.
+const WATCH_S: f64 = 0.1;
+
+/// Computes some rows without a journal: to the last bit what the whole sweep has there.
+///
+/// Rows of the block, and of its failures, count from the first that was asked for.
+/// `watch` is told how many are done; where it says false, nothing is returned.
+///
+/// # Errors
+/// [`SceneError`] of the sweep, and where it has no such rows.
+pub fn compute_rows(
+    spec: &Spec,
+    rows: Rows,
+    mut watch: impl FnMut(usize) -> bool,
+) -> Result<Option<Block>, SceneError> {
+    let Rows { start, step, count } = rows;
+    let last = step.checked_mul(count.saturating_sub(1));
+    let last = last.and_then(|way| way.checked_add(start));
+    if count > 0 && last.is_none_or(|last| last >= spec.rows()) {
+        return Err(SceneError::OutOfRange {
+            key: "the last row".to_owned(),
+            value: last.map_or(f64::INFINITY, |last| last as f64),
+            range: "the rows of the sweep, which count from 0",
+        });
+    }
+    let templates = Templates::new(spec)?;
+    let responses = Tabulated::new(ratios(spec));
+    let row_of = |index: usize| start + index * step;
+    let (mut all, mut size) = (Block::default(), FIRST_BLOCK);
+    while all.numbers.len() < count {
+        let done = all.numbers.len();
+        let end = (done + size).min(count);
+        let began = Instant::now();
+        let block = Block::compute(spec, &templates, &responses, (done, end), row_of);
+        size = next_size(end - done, began.elapsed().as_secs_f64(), WATCH_S);
+        all.append(block);
+        if !watch(end) && end < count {
+            return Ok(None);
+        }
+    }
+    Ok(Some(all))
 }
 
 /// Whether the journal at `part` holds all rows of this sweep, so that a run may have begun to write its outputs.
@@ -119,8 +173,8 @@ fn gaps(blocks: &[Block], rows: usize) -> Vec<std::ops::Range<usize>> {
 }
 
 /// Rows of the next block, after one of `count` that took this long: no more than eight times as many.
-fn next_size(count: usize, took_s: f64) -> usize {
-    let factor = (BLOCK_S / took_s.max(1e-6)).min(8.0);
+fn next_size(count: usize, took_s: f64, wanted_s: f64) -> usize {
+    let factor = (wanted_s / took_s.max(1e-6)).min(8.0);
     ((count as f64 * factor) as usize).clamp(1, BLOCK)
 }
 
@@ -165,11 +219,11 @@ mod tests {
         for _ in 0..10 {
             let took_s = size as f64 * 1e-3;
             longest = longest.max(took_s);
-            size = next_size(size, took_s);
+            size = next_size(size, took_s, BLOCK_S);
         }
         assert_eq!((size, longest <= BLOCK_S), (2000, true));
-        assert_eq!(next_size(64, 640.0), 1);
-        assert_eq!(next_size(BLOCK, 1e-3), BLOCK);
+        assert_eq!(next_size(64, 640.0, BLOCK_S), 1);
+        assert_eq!(next_size(BLOCK, 1e-3, BLOCK_S), BLOCK);
     }
 
     #[test]

@@ -51,10 +51,17 @@ impl Spec {
     /// # Errors
     /// [`SceneError`].
     pub fn from_toml(text: &str, directory: &Path) -> Result<Self, SceneError> {
-        let table = parse(text)?;
-        let root = Section::root(&table);
+        Self::from_table(&parse(text)?, directory)
+    }
+
+    /// Reads a sweep from a parsed table; the scene it names is looked for in `directory`.
+    ///
+    /// # Errors
+    /// [`SceneError`].
+    pub fn from_table(table: &Table, directory: &Path) -> Result<Self, SceneError> {
+        let root = Section::root(table);
         root.allow(&["scene", "product", "list", "random"])?;
-        let (scene, directory, file) = base(&root, &table, directory)?;
+        let (scene, directory, file) = base(&root, table, directory)?;
         let mut axes = Vec::new();
         if let Some(product) = root.section("product")? {
             for column in columns(&product, &[])? {
@@ -83,6 +90,58 @@ impl Spec {
             resolved: resolved.to_string(),
             files,
         })
+    }
+
+    /// The sweep of a scene some keys of which take values together, as those of a list do.
+    ///
+    /// The values are not spelled out in [`Self::resolved`]: they may be millions.
+    ///
+    /// # Errors
+    /// [`SceneError`].
+    pub fn of_columns(
+        scene: &Table,
+        directory: &Path,
+        columns: Vec<Column>,
+    ) -> Result<Self, SceneError> {
+        let axes = vec![together(columns)?];
+        check(&axes)?;
+        let files = Files::read(scene, &axes, directory)?;
+        Ok(Self {
+            resolved: scene.to_string(),
+            scene: scene.clone(),
+            directory: directory.to_owned(),
+            axes,
+            files,
+        })
+    }
+
+    /// [`Self::of_columns`] of a scene in a text.
+    ///
+    /// # Errors
+    /// [`SceneError`].
+    pub fn of_columns_in_text(
+        text: &str,
+        directory: &Path,
+        columns: Vec<Column>,
+    ) -> Result<Self, SceneError> {
+        Self::of_columns(&parse(text)?, directory, columns)
+    }
+
+    /// [`Self::of_columns`] of a scene in a file.
+    ///
+    /// # Errors
+    /// [`SceneError`].
+    pub fn of_columns_in_file(path: &Path, columns: Vec<Column>) -> Result<Self, SceneError> {
+        let text = read_text(path)?;
+        let directory = path.parent().unwrap_or(Path::new("."));
+        let spec = Self::of_columns_in_text(&text, directory, columns);
+        spec.map_err(|error| error.in_file(path))
+    }
+
+    /// Everything spelled out, as TOML.
+    #[must_use]
+    pub fn resolved(&self) -> &str {
+        &self.resolved
     }
 
     /// The files that were read beside the sweep itself: its base scene and its materials.

@@ -1,11 +1,22 @@
-//! What writing HDF5 needs in every file of the workspace: text attributes, dimension scales, reasons of errors.
+//! What writing HDF5 needs in every file of the workspace: its format, text attributes, dimension scales, reasons of errors.
 //!
 //! Dimension scales are the one piece of the HDF5 interface that no Rust crate offers.
 
 use hdf5::types::VarLenUnicode;
-use hdf5::{Dataset, Location};
+use hdf5::{Dataset, FileBuilder, Location};
 use hdf5_sys::h5i::hid_t;
 use std::ffi::{CString, c_char, c_int, c_uint};
+
+/// A file to be written, in the format that every version of the library reads, whatever the linked one prefers.
+///
+/// Version 2 of the library would write groups and superblocks of a later format, which neither its versions before 1.8
+/// nor [`hdfread`] and the seal of a table know.
+#[must_use]
+pub fn new_file() -> FileBuilder {
+    let mut file = FileBuilder::new();
+    file.with_fapl(|access| access.libver_earliest());
+    file
+}
 
 /// What the system said, if it did, else the first line of what the library says.
 #[must_use]

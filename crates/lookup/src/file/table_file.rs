@@ -7,6 +7,7 @@ use super::read::Nodes;
 use super::seal::Cover;
 use crate::content::{Content, Role};
 use crate::error::LookupError;
+use crate::hash::settings_id;
 use crate::ratio::{self, Served};
 use crate::stencil::locate;
 use crate::table::Table;
@@ -20,6 +21,7 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, Clone)]
 pub struct TableFile {
     path: PathBuf,
+    id: String,
 }
 
 impl TableFile {
@@ -32,15 +34,20 @@ impl TableFile {
     /// [`TableError`]: the file is absent, not a kernel table, of an unknown version, incomplete or damaged.
     pub fn open(path: &Path) -> Result<Self, TableError> {
         let source = open(path)?;
-        match source.cover() {
-            Cover::Sealed => {
-                source.head()?;
-            }
-            Cover::ByContent => source.compare(&source.everything()?)?,
+        let (content, _) = source.head()?;
+        if source.cover() == Cover::ByContent {
+            source.compare(&source.everything()?)?;
         }
         Ok(Self {
             path: path.to_owned(),
+            id: settings_id(&content.origin.grid),
         })
+    }
+
+    /// Identity of the settings that it was made with, when it was opened.
+    #[must_use]
+    pub fn id(&self) -> &str {
+        &self.id
     }
 
     /// Where the file is.

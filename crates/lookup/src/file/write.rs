@@ -2,7 +2,7 @@
 
 use super::datasets::{self, Described};
 use super::error::TableError;
-use super::labels::{attach_scale, reason, set_scale, text};
+use super::labels::{attach_scale, new_file, reason, set_scale, text};
 use super::seal;
 use crate::accuracy::Quantiles;
 use crate::content::{Content, FIELDS, Slice, Verification};
@@ -41,7 +41,7 @@ pub fn write(path: &Path, content: &Content) -> Result<(), TableError> {
 ///
 /// It is not opened again: a process that was started meanwhile may hold its lock.
 fn write_file(path: &Path, content: &Content) -> Result<Vec<Range<u64>>, hdf5::Error> {
-    let file = File::with_options()
+    let file = new_file()
         .with_fcpl(|plan| plan.istore_k(TREE_RANK))
         .create(path)?;
     write_attributes(&file, content)?;

@@ -1,0 +1,41 @@
+//! Arrays of numpy that nobody can write into.
+
+use crate::errors::internal;
+use numpy::ndarray::ArrayD;
+use numpy::{Element, IntoPyArray, PyArrayDyn, PyArrayMethods, PyReadonlyArray1};
+use pyo3::prelude::*;
+
+/// The numbers as an array of some shape, without a copy; read-only, since others may look at the same.
+pub(crate) fn frozen<'py, T: Element>(
+    py: Python<'py>,
+    numbers: Vec<T>,
+    shape: &[usize],
+) -> PyResult<Bound<'py, PyArrayDyn<T>>> {
+    let array = ArrayD::from_shape_vec(shape, numbers).map_err(|error| internal(py, &error))?;
+    let array = array.into_pyarray(py);
+    array.try_readwrite()?.make_nonwriteable();
+    Ok(array)
+}
+
+/// One dimension of [`frozen`].
+pub(crate) fn vector<'py, T: Element>(
+    py: Python<'py>,
+    numbers: Vec<T>,
+) -> PyResult<Bound<'py, PyArrayDyn<T>>> {
+    let length = numbers.len();
+    frozen(py, numbers, &[length])
+}
+
+/// Rows of equal length as an array of two dimensions.
+pub(crate) fn matrix<'py>(
+    py: Python<'py>,
+    rows: &[Vec<f64>],
+) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+    let columns = rows.first().map_or(0, Vec::len);
+    frozen(py, rows.concat(), &[rows.len(), columns])
+}
+
+/// The numbers of an array, in order.
+pub(crate) fn numbers(array: &PyReadonlyArray1<'_, f64>) -> Vec<f64> {
+    array.as_array().iter().copied().collect()
+}

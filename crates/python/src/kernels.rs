@@ -1,0 +1,235 @@
+//! The exact kernels at many places and times, in reduced units.
+
+use crate::arrays::{frozen, numbers, vector};
+use crate::errors;
+use crate::work::{Ticker, Way, run, run_short};
+use halfspace::{
+    Arrivals, Deflection, DomainError, Estimate, Kernel, Medium, Profile, Six, SurfaceResponse,
+    kausel,
+};
+use numpy::{PyArrayDyn, PyReadonlyArray1};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use rayon::prelude::*;
+
+/// A medium, or the exception that names its range.
+fn medium_of(py: Python<'_>, nu: f64) -> PyResult<Medium> {
+    Medium::new(nu).map_err(|error| errors::domain(py, &error))
+}
+
+fn profile_of(py: Python<'_>, name: &str) -> PyResult<Profile> {
+    match name {
+        "hertz" => Ok(Profile::Hertz),
+        "punch" => Ok(Profile::Punch),
+        "point" => Ok(Profile::Point),
+        _ => Err(errors::unknown(
+            py,
+            "profile",
+            name,
+            &["hertz", "punch", "point"],
+        )),
+    }
+}
+
+fn deflection_of(py: Python<'_>, name: &str) -> PyResult<Deflection> {
+    match name {
+        "centre" => Ok(Deflection::Centre),
+        "mean" => Ok(Deflection::Mean),
+        _ => Err(errors::unknown(py, "deflection", name, &["centre", "mean"])),
+    }
+}
+
+/// Which function of time.
+#[derive(Debug, Clone, Copy)]
+enum Order {
+    Step,
+    Remainder,
+    Impulse,
+    Integral,
+}
+
+impl Order {
+    fn named(py: Python<'_>, name: &str) -> PyResult<Self> {
+        match name {
+            "step" => Ok(Self::Step),
+            "remainder" => Ok(Self::Remainder),
+            "impulse" => Ok(Self::Impulse),
+            "step_integral" => Ok(Self::Integral),
+            _ => {
+                let all = ["step", "remainder", "impulse", "step_integral"];
+                Err(errors::unknown(py, "order", name, &all))
+            }
+        }
+    }
+
+    fn at(self, kernel: &Kernel, [r, z, t]: [f64; 3]) -> Result<Estimate, DomainError> {
+        match self {
+            Self::Step => {
+                let rest = kernel.static_field(r, z)?;
+                let found = kernel.remainder(r, z, t)?;
+                Ok(Estimate {
+                    value: std::array::from_fn(|f| rest[f] + found.value[f]),
+                    ..found
+                })
+            }
+            Self::Remainder => kernel.remainder(r, z, t),
+            Self::Impulse => kernel.impulse(r, z, t),
+            Self::Integral => kernel.step_integral(r, z, t),
+        }
+    }
+}
+
+/// Values and errors, one row of six fields a place.
+type Fields<'py> = (Bound<'py, PyArrayDyn<f64>>, Bound<'py, PyArrayDyn<f64>>);
+
+/// Values of kernels and their errors at places of equal number.
+#[pyfunction]
+#[pyo3(signature = (order, nu, r, z, t, profile, tolerance, threads=None, progress=None))]
+#[allow(
+    clippy::too_many_arguments,
+    reason = "the Python layer gives them names"
+)]
+pub(crate) fn kernel<'py>(
+    py: Python<'py>,
+    order: &str,
+    nu: f64,
+    r: PyReadonlyArray1<'py, f64>,
+    z: PyReadonlyArray1<'py, f64>,
+    t: PyReadonlyArray1<'py, f64>,
+    profile: &str,
+    tolerance: f64,
+    threads: Option<usize>,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Fields<'py>> {
+    let (order, profile) = (Order::named(py, order)?, profile_of(py, profile)?);
+    let kernel = Kernel::new(&medium_of(py, nu)?, profile, tolerance);
+    let kernel = kernel.map_err(|error| errors::domain(py, &error))?;
+    let (r, z, t) = (numbers(&r), numbers(&z), numbers(&t));
+    let rows = r.len();
+    let one = move |ticker: &Ticker, i: usize| {
+        ticker.more(1);
+        order.at(&kernel, [r[i], z[i], t[i]])
+    };
+    let found: Result<Vec<Estimate>, DomainError> = if rows < 8 {
+        run_short(py, || {
+            let ticker = Ticker::default();
+            (0..rows).map(|i| one(&ticker, i)).collect()
+        })?
+    } else {
+        run(py, &Way { threads, progress }, move |ticker| {
+            ticker.of(rows as u64);
+            (0..rows).into_par_iter().map(|i| one(ticker, i)).collect()
+        })?
+    };
+    let found = found.map_err(|error| errors::domain(py, &error))?;
+    let values: Vec<f64> = found.iter().flat_map(|e| e.value).collect();
+    let limits: Vec<f64> = found.iter().flat_map(|e| e.error).collect();
+    Ok((
+        frozen(py, values, &[rows, 6])?,
+        frozen(py, limits, &[rows, 6])?,
+    ))
+}
+
+/// The static fields at places of equal number.
+#[pyfunction]
+pub(crate) fn static_field<'py>(
+    py: Python<'py>,
+    nu: f64,
+    r: PyReadonlyArray1<'py, f64>,
+    z: PyReadonlyArray1<'py, f64>,
+    profile: &str,
+) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+    // no quadrature: the tolerance is of no consequence
+    let kernel = Kernel::new(&medium_of(py, nu)?, profile_of(py, profile)?, 1e-6);
+    let kernel = kernel.map_err(|error| errors::domain(py, &error))?;
+    let (r, z) = (numbers(&r), numbers(&z));
+    let rows = r.len();
+    let found: Result<Vec<Six>, DomainError> = run_short(py, || {
+        let places = r.iter().zip(&z);
+        places.map(|(&r, &z)| kernel.static_field(r, z)).collect()
+    })?;
+    let found = found.map_err(|error| errors::domain(py, &error))?;
+    frozen(py, found.into_flattened(), &[rows, 6])
+}
+
+/// The deflection of the loaded surface over its static value, or its integral or impulse response.
+#[pyfunction]
+pub(crate) fn surface<'py>(
+    py: Python<'py>,
+    order: &str,
+    nu: f64,
+    t: PyReadonlyArray1<'py, f64>,
+    deflection: &str,
+) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+    let order = Order::named(py, order)?;
+    let response = SurfaceResponse::new(&medium_of(py, nu)?, deflection_of(py, deflection)?);
+    let t = numbers(&t);
+    let found: Vec<f64> = run_short(py, || {
+        let at = |t: f64| match order {
+            Order::Step => response.step(t),
+            Order::Remainder => response.step(t) - 1.0,
+            Order::Impulse => response.impulse(t),
+            Order::Integral => response.step_integral(t),
+        };
+        t.iter().map(|&t| at(t)).collect()
+    })?;
+    vector(py, found)
+}
+
+/// The closed form of Kausel (2012) for the surface centre; times in r0/c2.
+#[pyfunction]
+pub(crate) fn surface_centre<'py>(
+    py: Python<'py>,
+    nu: f64,
+    t: PyReadonlyArray1<'py, f64>,
+) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+    let (medium, t) = (medium_of(py, nu)?, numbers(&t));
+    let found = run_short(py, || {
+        let values = t.iter().map(|&t| kausel::centre_step(&medium, t));
+        values.collect()
+    })?;
+    vector(py, found)
+}
+
+/// What follows from Poisson's ratio.
+#[pyfunction]
+pub(crate) fn medium(py: Python<'_>, nu: f64) -> PyResult<Bound<'_, PyDict>> {
+    let medium = medium_of(py, nu)?;
+    let found = PyDict::new(py);
+    found.set_item("nu", medium.poisson_ratio())?;
+    found.set_item("shear_speed", medium.kappa())?;
+    found.set_item("rayleigh_speed", medium.rayleigh_speed())?;
+    found.set_item("lambda_over_mu", medium.lambda_over_mu())?;
+    for (name, deflection) in [("centre", Deflection::Centre), ("mean", Deflection::Mean)] {
+        let response = SurfaceResponse::new(&medium, deflection);
+        found.set_item(format!("{name}_compliance"), response.static_compliance())?;
+        found.set_item(format!("{name}_memory"), response.memory())?;
+        found.set_item(
+            format!("{name}_relaxation_time"),
+            response.relaxation_time(),
+        )?;
+    }
+    Ok(found)
+}
+
+/// Arrival times at a place, by wave; none where a wave does not come.
+#[pyfunction]
+pub(crate) fn arrivals<'py>(
+    py: Python<'py>,
+    nu: f64,
+    r: f64,
+    z: f64,
+    profile: &str,
+) -> PyResult<Bound<'py, PyDict>> {
+    let found = Arrivals::new(&medium_of(py, nu)?, profile_of(py, profile)?, r, z);
+    let found = found.map_err(|error| errors::domain(py, &error))?;
+    let waves = PyDict::new(py);
+    waves.set_item("above", found.above)?;
+    waves.set_item("p", found.p)?;
+    waves.set_item("s", found.s)?;
+    waves.set_item("head", found.head)?;
+    waves.set_item("rayleigh", found.rayleigh)?;
+    waves.set_item("first", found.first())?;
+    waves.set_item("last", found.last())?;
+    Ok(waves)
+}

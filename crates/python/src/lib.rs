@@ -1,0 +1,52 @@
+//! `hertzlamb._core`: the library behind the Python package `hertzlamb`.
+//!
+//! Functions take what Python has and give read-only numpy arrays, dictionaries and plain values; names, units and
+//! defaults for people are in `python/hertzlamb`, with the types in `_core.pyi`.
+//! Whatever takes more than a millisecond runs without the interpreter's lock ([`work`]).
+
+#![allow(
+    clippy::needless_pass_by_value,
+    reason = "Python gives arguments by value"
+)]
+#![allow(
+    missing_docs,
+    reason = "the stubs in python/hertzlamb document what Python sees"
+)]
+
+// in reading order
+mod arrays;
+mod convert;
+mod errors;
+mod impact_outcome;
+mod kernels;
+mod library;
+mod scene;
+mod sweep;
+mod table;
+mod tables;
+mod tabulate;
+mod work;
+
+use pyo3::prelude::*;
+
+/// What Python sees.
+#[pymodule]
+mod _core {
+    #[pymodule_export]
+    use crate::impact_outcome::{Outcome, run_impact};
+    #[pymodule_export]
+    use crate::kernels::{arrivals, kernel, medium, static_field, surface, surface_centre};
+    #[pymodule_export]
+    use crate::library::{describe, materials};
+    #[pymodule_export]
+    use crate::scene::{resolved, sections_of};
+    #[pymodule_export]
+    use crate::sweep::{Plan, plan, plan_of_columns};
+    #[pymodule_export]
+    use crate::table::Table;
+    #[pymodule_export]
+    use crate::tabulate::{extend, tabulate};
+
+    #[pymodule_export]
+    const VERSION: &str = env!("CARGO_PKG_VERSION");
+}

@@ -1,0 +1,182 @@
+//! Many impacts: rows of a sweep, and keys that vary together.
+
+use crate::arrays::{frozen, vector};
+use crate::convert::dict;
+use crate::errors;
+use crate::impact_outcome::replace;
+use crate::scene::{Given, here};
+use crate::work::{Way, run};
+use formats::quantities::QUANTITIES;
+use formats::sweep::{Block, Column, Rows, Spec, Values, compute_rows, stage_csv, stage_sweep};
+use formats::{Output, SceneError};
+use numpy::{PyArrayDyn, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
+use output::{CSV, HDF5};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// A sweep: a base scene and what varies.
+#[pyclass(module = "hertzlamb._core", frozen)]
+pub(crate) struct Plan {
+    spec: Arc<Spec>,
+}
+
+/// The sweep of a dictionary, a path or a text.
+#[pyfunction]
+pub(crate) fn plan(given: &Bound<'_, PyAny>) -> PyResult<Plan> {
+    let py = given.py();
+    let given = Given::new(given)?;
+    let spec = run(py, &Way::default(), move |_| match given {
+        Given::Table(table) => Spec::from_table(&table, here()),
+        Given::Text(text) => Spec::from_toml(&text, here()),
+        Given::File(path) => Spec::from_file(&path),
+    })?;
+    wrapped(py, spec)
+}
+
+/// Numbers or words of a key.
+#[derive(FromPyObject)]
+pub(crate) enum Given1<'py> {
+    Numbers(PyReadonlyArray1<'py, f64>),
+    Words(Vec<String>),
+}
+
+/// The sweep of a scene whose keys (section, key) take values together.
+#[pyfunction]
+pub(crate) fn plan_of_columns(
+    given: &Bound<'_, PyAny>,
+    columns: Vec<(String, String, Given1<'_>)>,
+) -> PyResult<Plan> {
+    let py = given.py();
+    let scene = Given::new(given)?;
+    let columns: Vec<Column> = columns
+        .into_iter()
+        .map(|(section, key, values)| Column {
+            section,
+            key,
+            values: match values {
+                Given1::Numbers(array) => Values::Numbers(crate::arrays::numbers(&array)),
+                Given1::Words(words) => Values::Texts(words),
+            },
+        })
+        .collect();
+    let spec = run(py, &Way::default(), move |_| match scene {
+        Given::Table(table) => Spec::of_columns(&table, here(), columns),
+        Given::Text(text) => Spec::of_columns_in_text(&text, here(), columns),
+        Given::File(path) => Spec::of_columns_in_file(&path, columns),
+    })?;
+    wrapped(py, spec)
+}
+
+fn wrapped(py: Python<'_>, spec: Result<Spec, SceneError>) -> PyResult<Plan> {
+    let spec = spec.map_err(|error| errors::scene(py, &error))?;
+    Ok(Plan {
+        spec: Arc::new(spec),
+    })
+}
+
+/// Rows computed: results by row and quantity, models, and failed rows with their reasons.
+type Computed<'py> = (
+    Bound<'py, PyArrayDyn<f64>>,
+    Bound<'py, PyArrayDyn<u8>>,
+    Vec<(usize, String)>,
+);
+
+#[pymethods]
+impl Plan {
+    /// Number of rows.
+    #[getter]
+    fn rows(&self) -> usize {
+        self.spec.rows()
+    }
+
+    /// The axes: name, length, and the keys along it with their values.
+    fn axes<'py>(&self, py: Python<'py>) -> PyResult<Vec<(String, usize, Bound<'py, PyDict>)>> {
+        let mut found = Vec::new();
+        for axis in &self.spec.axes {
+            let columns = PyDict::new(py);
+            for column in &axis.columns {
+                match &column.values {
+                    Values::Numbers(numbers) => {
+                        columns.set_item(column.name(), vector(py, numbers.clone())?)?;
+                    }
+                    Values::Texts(words) => columns.set_item(column.name(), words.clone())?,
+                }
+            }
+            found.push((axis.name.clone(), axis.len, columns));
+        }
+        Ok(found)
+    }
+
+    /// Everything spelled out.
+    fn resolved<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let parsed = self.spec.resolved().parse::<toml::Table>();
+        dict(py, &parsed.map_err(|error| errors::internal(py, &error))?)
+    }
+
+    /// Computes the rows from `start` on, every `step`-th.
+    #[pyo3(signature = (start, step, count, threads=None, progress=None))]
+    fn compute<'py>(
+        &self,
+        py: Python<'py>,
+        start: usize,
+        step: usize,
+        count: usize,
+        threads: Option<usize>,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<Computed<'py>> {
+        let spec = Arc::clone(&self.spec);
+        let rows = Rows { start, step, count };
+        let way = Way { threads, progress };
+        let found = run(py, &way, move |ticker| {
+            ticker.of(count as u64);
+            compute_rows(&spec, rows, |done| {
+                ticker.at(done as u64);
+                !ticker.is_stopped()
+            })
+        })?;
+        let found = found.map_err(|error| errors::scene(py, &error))?;
+        let block = found.ok_or_else(|| errors::failed(py, "the sweep was stopped"))?;
+        let shape = [block.numbers.len(), QUANTITIES.len()];
+        Ok((
+            frozen(py, block.numbers.into_flattened(), &shape)?,
+            vector(py, block.models)?,
+            block.failures,
+        ))
+    }
+
+    /// Writes the command's file of all rows, or its text.
+    fn save(
+        &self,
+        py: Python<'_>,
+        path: PathBuf,
+        numbers: PyReadonlyArray2<'_, f64>,
+        models: PyReadonlyArray1<'_, u8>,
+        failures: Vec<(usize, String)>,
+        overwrite: bool,
+    ) -> PyResult<()> {
+        let numbers = numbers.to_vec()?;
+        let (rows, _) = numbers.as_chunks();
+        let block = Block {
+            start: 0,
+            numbers: rows.to_vec(),
+            models: models.to_vec()?,
+            failures,
+        };
+        let spec = Arc::clone(&self.spec);
+        let written = run(py, &Way::default(), move |_| {
+            let csv = CSV.check(&path).is_ok();
+            if !csv {
+                HDF5.check(&path)?;
+            }
+            let output = Output::claim(&path, replace(overwrite))?;
+            if csv {
+                stage_csv(&output, &spec, &[block])?.commit()
+            } else {
+                stage_sweep(&output, &spec, &[block])?.commit()
+            }
+        })?;
+        written.map_err(|error| errors::of_output(py, &error))
+    }
+}

@@ -1,0 +1,194 @@
+//! Work that takes long: without the interpreter's lock, stopped by Ctrl-C, told to a bar.
+//!
+//! The work runs on a thread of its own while the caller's waits, attaches to the interpreter now and then, looks for
+//! signals, and calls the function that wants to know how far the work is.
+
+use crate::errors;
+use pyo3::prelude::*;
+use std::any::Any;
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicU32, AtomicU64, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::time::{Duration, Instant};
+
+/// Time between two looks for signals.
+const LOOK: Duration = Duration::from_millis(50);
+/// Time between two calls of the function that wants to know.
+const TELL: Duration = Duration::from_millis(100);
+/// Time that stopped work gets to end; what takes longer ends unheard.
+const GRACE: Duration = Duration::from_millis(150);
+
+/// The process that started the threads of the library; 0 while there are none.
+static OWNER: AtomicU32 = AtomicU32::new(0);
+
+/// How far work is, and whether it shall stop.
+#[derive(Debug, Default)]
+pub(crate) struct Ticker {
+    done: AtomicU64,
+    total: AtomicU64,
+    stopped: AtomicBool,
+}
+
+/// What work is stopped with where it cannot return.
+struct Stopped;
+
+impl Ticker {
+    /// So many units follow.
+    pub(crate) fn of(&self, total: u64) {
+        self.done.store(0, Ordering::Relaxed);
+        self.total.store(total, Ordering::Relaxed);
+    }
+
+    /// So many are done.
+    pub(crate) fn at(&self, done: u64) {
+        self.done.store(done, Ordering::Relaxed);
+    }
+
+    /// More are done; work that shall stop ends here.
+    pub(crate) fn more(&self, done: u64) {
+        self.done.fetch_add(done, Ordering::Relaxed);
+        self.or_stop();
+    }
+
+    /// Work that shall stop ends here.
+    fn or_stop(&self) {
+        if self.is_stopped() {
+            // unwinds to `run` without a word: what is half-done is dropped
+            resume_unwind(Box::new(Stopped));
+        }
+    }
+
+    /// Whether the work shall stop.
+    pub(crate) fn is_stopped(&self) -> bool {
+        self.stopped.load(Ordering::Relaxed)
+    }
+}
+
+impl impact::Watch for Ticker {
+    fn points(&self, total: usize) {
+        self.of(total as u64);
+    }
+
+    fn advance(&self) {
+        self.more(1);
+    }
+}
+
+impl tabulator::Progress for Ticker {
+    fn total(&self, _stage: &str, total: u64) {
+        self.of(total);
+    }
+
+    fn advance(&self, done: u64) {
+        self.more(done);
+    }
+
+    fn slice(&self, _poisson_ratio: f64) {
+        self.or_stop();
+    }
+}
+
+/// How work is done.
+#[derive(Debug, Default)]
+pub(crate) struct Way {
+    /// Threads, all processors otherwise.
+    pub(crate) threads: Option<usize>,
+    /// Called with what is done and how much there is.
+    pub(crate) progress: Option<Py<PyAny>>,
+}
+
+/// Does work that takes a millisecond at most.
+pub(crate) fn run_short<T: Send>(py: Python<'_>, work: impl FnOnce() -> T + Send) -> PyResult<T> {
+    own(py)?;
+    Ok(py.detach(work))
+}
+
+/// Does work that may take long.
+pub(crate) fn run<T: Send + 'static>(
+    py: Python<'_>,
+    way: &Way,
+    work: impl FnOnce(&Ticker) -> T + Send + 'static,
+) -> PyResult<T> {
+    own(py)?;
+    let ticker = Arc::new(Ticker::default());
+    let (sender, mut receiver) = channel();
+    let (watched, threads) = (Arc::clone(&ticker), way.threads);
+    let body = move || {
+        let work = AssertUnwindSafe(|| within(threads, || work(&watched)));
+        // nobody may be listening any more
+        let _ = sender.send(catch_unwind(work));
+    };
+    let worker = std::thread::Builder::new().name("hertzlamb".to_owned());
+    worker.spawn(body)?;
+    let mut told = Instant::now();
+    loop {
+        let received;
+        (received, receiver) = py.detach(move || (receiver.recv_timeout(LOOK), receiver));
+        match received {
+            Ok(Ok(Ok(result))) => {
+                tell(py, way, &ticker)?;
+                return Ok(result);
+            }
+            Ok(Ok(Err(reason))) => return Err(errors::failed(py, &reason)),
+            Ok(Err(panic)) => return Err(errors::failed(py, &in_words(&*panic))),
+            Err(RecvTimeoutError::Disconnected) => {
+                return Err(errors::failed(py, "the work ended without a result"));
+            }
+            Err(RecvTimeoutError::Timeout) => {}
+        }
+        let mut heard = py.check_signals();
+        if heard.is_ok() && told.elapsed() >= TELL {
+            told = Instant::now();
+            heard = tell(py, way, &ticker);
+        }
+        if let Err(error) = heard {
+            ticker.stopped.store(true, Ordering::Relaxed);
+            py.detach(move || drop(receiver.recv_timeout(GRACE)));
+            return Err(error);
+        }
+    }
+}
+
+/// The work among so many threads.
+fn within<T: Send>(threads: Option<usize>, work: impl FnOnce() -> T + Send) -> Result<T, String> {
+    match threads {
+        None => Ok(work()),
+        Some(count) => {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build();
+            pool.map(|pool| pool.install(work))
+                .map_err(|error| error.to_string())
+        }
+    }
+}
+
+/// Calls the function that wants to know.
+fn tell(py: Python<'_>, way: &Way, ticker: &Ticker) -> PyResult<()> {
+    let total = ticker.total.load(Ordering::Relaxed);
+    match &way.progress {
+        Some(progress) if total > 0 => {
+            let done = ticker.done.load(Ordering::Relaxed);
+            progress.call1(py, (done, total)).map(drop)
+        }
+        Some(_) | None => Ok(()),
+    }
+}
+
+/// Refuses to work in a process that was forked from one whose threads it would wait for in vain.
+fn own(py: Python<'_>) -> PyResult<()> {
+    let process = std::process::id();
+    match OWNER.compare_exchange(0, process, Ordering::Relaxed, Ordering::Relaxed) {
+        Ok(_) => Ok(()),
+        Err(owner) if owner == process => Ok(()),
+        Err(owner) => Err(errors::forked(py, owner)),
+    }
+}
+
+/// What a panic says.
+fn in_words(panic: &(dyn Any + Send)) -> String {
+    let text = panic
+        .downcast_ref::<String>()
+        .map(String::as_str)
+        .or_else(|| panic.downcast_ref::<&str>().copied());
+    format!("the program is at fault: {}", text.unwrap_or("it gave up"))
+}

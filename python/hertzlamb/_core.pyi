@@ -1,0 +1,118 @@
+"""Types of the compiled part of hertzlamb; its functions have no defaults for people, `hertzlamb` has."""
+
+from collections.abc import Callable
+from os import PathLike
+from typing import Any, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+_Floats = NDArray[np.float64]
+_Tell = Callable[[int, int], object] | None
+_Path = str | PathLike[str]
+
+VERSION: str
+
+@final
+class Outcome:
+    def numbers(self) -> dict[str, Any]: ...
+    def report(self) -> dict[str, Any]: ...
+    def warnings(self) -> list[str]: ...
+    def scene(self) -> dict[str, Any]: ...
+    def series(self) -> dict[str, _Floats]: ...
+    def energy(self) -> dict[str, _Floats] | None: ...
+    def probes(self) -> dict[str, Any] | None: ...
+    def section(self) -> dict[str, Any] | None: ...
+    def save(self, path: _Path, overwrite: bool) -> None: ...
+    def save_csv(self, path: _Path, overwrite: bool) -> None: ...
+
+@final
+class Table:
+    @staticmethod
+    def open(path: _Path) -> Table: ...
+    @property
+    def path(self) -> Any: ...
+    def info(self) -> dict[str, Any]: ...
+    @property
+    def id(self) -> str: ...
+    def trace(
+        self,
+        nu: float,
+        r: _Floats,
+        z: _Floats,
+        coarsening: int,
+        cells: int | None,
+        smooth: bool,
+        threads: int | None = None,
+        progress: _Tell = None,
+    ) -> tuple[_Floats, _Floats, _Floats, float]: ...
+
+@final
+class Plan:
+    @property
+    def rows(self) -> int: ...
+    def axes(self) -> list[tuple[str, int, dict[str, Any]]]: ...
+    def resolved(self) -> dict[str, Any]: ...
+    def compute(
+        self, start: int, step: int, count: int, threads: int | None = None, progress: _Tell = None
+    ) -> tuple[_Floats, NDArray[np.uint8], list[tuple[int, str]]]: ...
+    def save(
+        self,
+        path: _Path,
+        numbers: _Floats,
+        models: NDArray[np.uint8],
+        failures: list[tuple[int, str]],
+        overwrite: bool,
+    ) -> None: ...
+
+def impact(
+    given: Any,
+    table: Table | None,
+    kernel: str,
+    max_memory_bytes: float | None = None,
+    threads: int | None = None,
+    progress: _Tell = None,
+) -> Outcome: ...
+def resolved(given: Any) -> dict[str, Any]: ...
+def sections_of(key: str) -> list[str]: ...
+def plan(given: Any) -> Plan: ...
+def plan_of_columns(given: Any, columns: list[tuple[str, str, Any]]) -> Plan: ...
+def kernel(
+    order: str,
+    nu: float,
+    r: _Floats,
+    z: _Floats,
+    t: _Floats,
+    profile: str,
+    tolerance: float,
+    threads: int | None = None,
+    progress: _Tell = None,
+) -> tuple[_Floats, _Floats]: ...
+def static_field(nu: float, r: _Floats, z: _Floats, profile: str) -> _Floats: ...
+def surface(order: str, nu: float, t: _Floats, deflection: str) -> _Floats: ...
+def surface_centre(nu: float, t: _Floats) -> _Floats: ...
+def medium(nu: float) -> dict[str, float]: ...
+def arrivals(nu: float, r: float, z: float, profile: str) -> dict[str, Any]: ...
+def materials(search: str, file: _Path | None = None) -> list[dict[str, Any]]: ...
+def describe() -> dict[str, Any]: ...
+def tabulate(
+    path: _Path,
+    grid: Any,
+    nu: list[float] | None = None,
+    r_max: float | None = None,
+    z_max: float | None = None,
+    time_factor: float | None = None,
+    accuracy: tuple[float, float] | None = None,
+    overwrite: bool = False,
+    threads: int | None = None,
+    progress: _Tell = None,
+) -> tuple[int, int, float]: ...
+def extend(
+    path: _Path,
+    nu: list[float] | None = None,
+    r_max: float | None = None,
+    z_max: float | None = None,
+    time_factor: float | None = None,
+    threads: int | None = None,
+    progress: _Tell = None,
+) -> tuple[int, int, float]: ...

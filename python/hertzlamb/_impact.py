@@ -1,0 +1,463 @@
+"""One impact."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+import warnings
+from collections.abc import Mapping
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal, Protocol
+
+import numpy as np
+
+from hertzlamb import _core
+from hertzlamb._errors import HertzlambWarning, OutputExists
+from hertzlamb._fields import FIELDS
+from hertzlamb._progress import Progress, told
+from hertzlamb._table import Table
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+    from numpy.typing import NDArray
+
+    Floats = NDArray[np.float64]
+
+Scene = Mapping[str, Any] | str | os.PathLike[str]
+"""A scene: a dictionary with the keys of a scene file, the path of a file, or TOML text."""
+
+QUANTITIES: dict[str, list[str]] = _core.describe()["quantities"]
+"""Unit, meaning and kind of every scalar result."""
+
+
+class _Results(Protocol):
+    """What an impact is made of: `_core.Outcome`, or what a pickle has kept of one."""
+
+    def numbers(self) -> dict[str, Any]: ...
+    def report(self) -> dict[str, Any]: ...
+    def warnings(self) -> list[str]: ...
+    def scene(self) -> dict[str, Any]: ...
+    def series(self) -> dict[str, Floats]: ...
+    def energy(self) -> dict[str, Floats] | None: ...
+    def probes(self) -> dict[str, Any] | None: ...
+    def section(self) -> dict[str, Any] | None: ...
+    def save(self, path: os.PathLike[str] | str, overwrite: bool) -> None: ...
+    def save_csv(self, path: os.PathLike[str] | str, overwrite: bool) -> None: ...
+
+
+class _Kept:
+    """What a pickle has kept: plain arrays, and the files as bytes."""
+
+    def __init__(self, parts: dict[str, Any], files: dict[str, bytes]) -> None:
+        self.parts, self.files = parts, files
+        for part in ("series", "energy", "probes", "section"):
+            for array in (parts[part] or {}).values():
+                array.setflags(write=False)
+
+    def numbers(self) -> dict[str, Any]:
+        return dict(self.parts["numbers"])
+
+    def report(self) -> dict[str, Any]:
+        return dict(self.parts["report"])
+
+    def warnings(self) -> list[str]:
+        return list(self.parts["warnings"])
+
+    def scene(self) -> dict[str, Any]:
+        return dict(self.parts["scene"])
+
+    def series(self) -> dict[str, Floats]:
+        return dict(self.parts["series"])
+
+    def energy(self) -> dict[str, Floats] | None:
+        return None if self.parts["energy"] is None else dict(self.parts["energy"])
+
+    def probes(self) -> dict[str, Any] | None:
+        return None if self.parts["probes"] is None else dict(self.parts["probes"])
+
+    def section(self) -> dict[str, Any] | None:
+        return None if self.parts["section"] is None else dict(self.parts["section"])
+
+    def save(self, path: os.PathLike[str] | str, overwrite: bool) -> None:
+        self._write("impact.h5", path, overwrite)
+
+    def save_csv(self, path: os.PathLike[str] | str, overwrite: bool) -> None:
+        self._write("impact.csv", path, overwrite)
+
+    def _write(self, name: str, path: os.PathLike[str] | str, overwrite: bool) -> None:
+        try:
+            with open(path, "wb" if overwrite else "xb") as file:
+                file.write(self.files[name])
+        except FileExistsError:
+            message = f"{os.fspath(path)} exists already and is not replaced; give overwrite=True to replace it"
+            raise OutputExists(message, file=os.fspath(path)) from None
+
+
+class _Group(Mapping[str, "NDArray[Any]"]):
+    """Arrays by name, also as attributes."""
+
+    def __init__(self, arrays: dict[str, Any]) -> None:
+        self._arrays = arrays
+
+    def __getitem__(self, name: str) -> NDArray[Any]:
+        try:
+            array: NDArray[Any] = self._arrays[name]
+        except KeyError:
+            raise KeyError(f"{name!r} is not one of {', '.join(self._arrays)}") from None
+        return array
+
+    def __iter__(self) -> Any:
+        return iter(self._arrays)
+
+    def __len__(self) -> int:
+        return len(self._arrays)
+
+    def __getattr__(self, name: str) -> NDArray[Any]:
+        if not name.startswith("_") and name in self._arrays:
+            return self[name]
+        raise AttributeError(f"{type(self).__name__} has no {name!r}; there are {', '.join(self._arrays)}")
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *self._arrays]
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {"_arrays": self._arrays}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self._arrays = state["_arrays"]
+
+
+class Energy(_Group):
+    """Where the energy is over time in J: ``kinetic`` or ``work``, ``stored``, ``radiated``, each (time,)."""
+
+
+class Probes(_Group):
+    """Fields over time at the probes of a scene, by name and as attributes.
+
+    ``r`` and ``z`` in m (probe,); ``arrival`` in s (probe, 3) of the first P, S and Rayleigh wave, infinite where there is
+    none; ``valid_until`` in s (probe,), when the first echo from a face of the block arrives;
+    ``displacement_r``, ``displacement_z`` in m and ``stress_rr``, ``stress_tt``, ``stress_zz``, ``stress_rz`` in Pa,
+    each (probe, time), with an estimate of the absolute error under the same name in ``error`` (probe,).
+    """
+
+    def __init__(self, arrays: dict[str, Any], time: Floats) -> None:
+        super().__init__(arrays)
+        self._time = time
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self._arrays, self._time = state["_arrays"], state["_time"]
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {"_arrays": self._arrays, "_time": self._time}
+
+    @property
+    def time(self) -> Floats:
+        """Times in s since the first contact, (time,)."""
+        return self._time
+
+    @property
+    def error(self) -> _Group:
+        """Estimated absolute error of each field, in its unit, (probe,)."""
+        return _Group({name: self._arrays[f"{name}_error"] for name in FIELDS})
+
+    @property
+    def velocity_r(self) -> Floats:
+        """Radial particle velocity in m/s, positive outwards, (probe, time): central differences of the displacement."""
+        return self._rate("velocity_r", "displacement_r")
+
+    @property
+    def velocity_z(self) -> Floats:
+        """Axial particle velocity in m/s, positive into the half-space, (probe, time): central differences."""
+        return self._rate("velocity_z", "displacement_z")
+
+    def _rate(self, name: str, of: str) -> Floats:
+        if name in self._arrays:
+            stored: Floats = self._arrays[name]
+            return stored
+        rate: Floats = np.gradient(self._arrays[of], self._time, axis=1)
+        return rate
+
+
+class Section(_Group):
+    """Fields on a meridional section, by name and as attributes.
+
+    ``time`` (frame,), ``z`` (z,) descending and ``r`` (r,) in s and m; the six fields (frame, z, r) in single precision,
+    their errors (z, r) under ``NAME_error``, and ``arrival`` (3, z, r) of the first P, S and Rayleigh wave.
+    """
+
+    def to_xarray(self) -> xr.Dataset:
+        """The section as a data set with the dimensions time, z and r."""
+        from hertzlamb._xarray import of_section
+
+        return of_section(self)
+
+
+class Impact:
+    """The results of one impact.
+
+    Scalars are in SI units; `hertzlamb.impact` makes it. Arrays are read-only.
+
+    >>> import hertzlamb as hl
+    >>> run = hl.impact({"target": {"material": "granite"}, "striker": {"material": "steel", "mass_kg": 4e-6,
+    ...                  "tip_radius_m": 5e-4, "velocity_m_s": 1.0}})
+    >>> run.force.shape == run.time.shape
+    True
+    """
+
+    peak_force_n: float
+    """Largest contact force in N."""
+    peak_force_time_s: float
+    """When it is reached in s."""
+    contact_time_s: float
+    """Duration of the first contact, or of the force record, in s."""
+    rebound_velocity_m_s: float | None
+    """Velocity of departure in m/s, positive away from the half-space; None for a force record."""
+    restitution: float | None
+    """Velocity of departure over velocity of approach; None for a force record."""
+    loss: float | None
+    """Kinetic energy lost over kinetic energy before, 1 - restitution^2; None for a force record."""
+    peak_displacement_m: float | None
+    """Largest displacement of the striker in m; None for a force record."""
+    peak_deflection_m: float
+    """Largest deflection of the half-space in the contact law in m."""
+    impulse_n_s: float
+    """Momentum given to the striker in N s."""
+    initial_energy_j: float | None
+    """Kinetic energy before in J; None for a force record."""
+    radiated_energy_j: float
+    """Work that the force leaves in the half-space as waves in J."""
+    energy_residual: float | None
+    """(initial - rebound - radiated)/initial energy; None for a force record."""
+    contact_radius_m: float | None
+    """Contact radius of Hertz's law at the largest force in m; None for a force record."""
+    disc_radius_m: float
+    """Radius of the disc that loads the half-space in m: the unit of length of tables."""
+    mean_pressure_pa: float | None
+    """Largest contact force over the area of the loaded disc in Pa; None for a force record."""
+    yield_onset: float | None
+    """`mean_pressure_pa` over the pressure at which the first body begins to yield; None where no strength is known."""
+    pressure_over_yield: float | None
+    """`mean_pressure_pa` over the lower of both yield strengths; None where none is known."""
+    pressure_over_tensile: float | None
+    """`mean_pressure_pa` over the lower of both tensile strengths; None where none is known."""
+    cone_crack_onset: float | None
+    """Largest force over that of a cone crack by Auerbach's law; None where no toughness is known."""
+    contacts: int | None
+    """Number of contacts; None for a force record."""
+    march_steps: int | None
+    """Steps of the march, 0 where no uniform step is taken; None for a force record."""
+    march_step_s: float | None
+    """Step of the march in s; None for a force record."""
+    relative_error_estimate: float
+    """Estimated relative error of peak force, contact time, restitution and displacement."""
+
+    def __init__(self, core: _Results) -> None:
+        self._core = core
+
+    def __getattr__(self, name: str) -> Any:
+        # scalars, looked up once and kept
+        if name in QUANTITIES:
+            self.__dict__.update(self._core.numbers())
+            return self.__dict__[name]
+        raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *QUANTITIES]
+
+    @property
+    def numbers(self) -> dict[str, Any]:
+        """All scalar results by name; None where one does not exist."""
+        return self._core.numbers()
+
+    @property
+    def report(self) -> dict[str, Any]:
+        """What ``hertzlamb impact --json`` prints: model, scheme, kernel, why, and all scalar results."""
+        return self._core.report()
+
+    @property
+    def model(self) -> str:
+        """The contact model that was used."""
+        return str(self.report["model"])
+
+    @property
+    def warnings(self) -> list[str]:
+        """What the user should know."""
+        return self._core.warnings()
+
+    @property
+    def scene(self) -> dict[str, Any]:
+        """The scene with every default and material spelled out."""
+        return self._core.scene()
+
+    @cached_property
+    def _series(self) -> dict[str, Floats]:
+        return self._core.series()
+
+    @property
+    def time(self) -> Floats:
+        """Times in s since the first contact, (time,)."""
+        return self._series["time"]
+
+    @property
+    def force(self) -> Floats:
+        """Contact force in N, positive in compression, (time,)."""
+        return self._series["force"]
+
+    @property
+    def displacement(self) -> Floats | None:
+        """Displacement of the striker in m, positive into the half-space, (time,); None for a force record."""
+        return self._series.get("displacement")
+
+    @property
+    def velocity(self) -> Floats | None:
+        """Velocity of the striker in m/s, positive into the half-space, (time,); None for a force record."""
+        return self._series.get("velocity")
+
+    @property
+    def deflection(self) -> Floats:
+        """Deflection of the half-space in the contact law in m, positive inwards, (time,)."""
+        return self._series["deflection"]
+
+    @cached_property
+    def energy(self) -> Energy | None:
+        """Where the energy is over time."""
+        found = self._core.energy()
+        return None if found is None else Energy(found)
+
+    @cached_property
+    def probes(self) -> Probes | None:
+        """Fields at the probes; None where the scene has none."""
+        found = self._core.probes()
+        return None if found is None else Probes(found, self.time)
+
+    @cached_property
+    def section(self) -> Section | None:
+        """Fields on the section that the scene's ``map`` asks for; None where it does not."""
+        found = self._core.section()
+        return None if found is None else Section(found)
+
+    def to_xarray(self) -> xr.Dataset:
+        """Time series and fields at probes as a data set, with units, coordinates and the scalars as attributes."""
+        from hertzlamb._xarray import of_impact
+
+        return of_impact(self)
+
+    def save(self, path: str | os.PathLike[str], *, overwrite: bool = False) -> None:
+        """Writes the results file of the command, HDF5, byte for byte."""
+        self._core.save(path, overwrite)
+
+    def save_csv(self, path: str | os.PathLike[str], *, overwrite: bool = False) -> None:
+        """Writes the time series and the traces of the probes as text, as ``hertzlamb impact --csv`` does."""
+        self._core.save_csv(path, overwrite)
+
+    def plot(self, *, axes: Axes | None = None) -> Axes:
+        """Draws the force over time (matplotlib)."""
+        from hertzlamb._plot import force
+
+        return force(self, axes)
+
+    def plot_probes(self, quantity: str = "velocity_z") -> Figure:
+        """Draws a field or a velocity at every probe over time, with the arrivals of the waves (matplotlib)."""
+        from hertzlamb._plot import probes
+
+        return probes(self, quantity)
+
+    def plot_section(self, frame: int, quantity: str = "stress_zz", *, axes: Axes | None = None) -> Axes:
+        """Draws a field on the section at a frame, with the fronts of P and S waves (matplotlib)."""
+        from hertzlamb._plot import section
+
+        return section(self, frame, quantity, axes)
+
+    def __repr__(self) -> str:
+        lines = [f"impact, model {self.model} ({self.report['reason']})"]
+        for name in ("peak_force_n", "contact_time_s", "restitution", "radiated_energy_j", "relative_error_estimate"):
+            value = self.numbers[name]
+            if value is not None:
+                lines.append(f"  {name:24} {value:.7g}")
+        lines.append(f"  {'time':24} {len(self.time)} samples to {self.time[-1]:.4g} s")
+        if self.probes is not None:
+            lines.append(f"  {'probes':24} {len(self.probes.r)}, kernels {self.report['kernel']}")
+        if self.section is not None:
+            lines.append(f"  {'section':24} {' x '.join(map(str, self.section.displacement_z.shape))} (frame, z, r)")
+        lines.extend(f"  warning: {warning}" for warning in self.warnings)
+        return "\n".join(lines)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        names = ("numbers", "report", "warnings", "scene", "series", "energy", "probes", "section")
+        parts = {name: getattr(self._core, name)() for name in names}
+        if isinstance(self._core, _Kept):
+            return _restored, (parts, self._core.files)
+        files = {}
+        with tempfile.TemporaryDirectory() as folder:
+            self._core.save(Path(folder, "impact.h5"), False)
+            self._core.save_csv(Path(folder, "impact.csv"), False)
+            files = {path.name: path.read_bytes() for path in Path(folder).iterdir() if path.is_file()}
+        return _restored, (parts, files)
+
+
+def _restored(parts: dict[str, Any], files: dict[str, bytes]) -> Impact:
+    return Impact(_Kept(parts, files))
+
+
+def impact(
+    scene: Scene,
+    table: Table | str | os.PathLike[str] | None = None,
+    *,
+    kernel: Literal["auto", "direct", "table"] = "auto",
+    max_memory_gb: float | None = None,
+    threads: int | None = None,
+    progress: Progress = None,
+) -> Impact:
+    """Computes one impact.
+
+    Parameters
+    ----------
+    scene : dict, path or str
+        The keys of a scene file as nested dictionaries, the path of a file, or TOML text. What a dictionary or a text
+        names, such as a force record, is looked for in the working directory.
+    table : Table or path, optional
+        A kernel table for the fields at probes and on a section.
+    kernel : {"auto", "direct", "table"}
+        Where the kernels of the fields come from: the table or computed, by the estimated cost and error of both;
+        computed; the table.
+    max_memory_gb : float, optional
+        Refuses a scene that needs more.
+    threads : int, optional
+        Threads, all processors otherwise.
+    progress : bool or callable, optional
+        True for a bar; a function is called with the points that are done and how many there are.
+
+    Returns
+    -------
+    Impact
+        Scalars, time series, and fields at the points that the scene asks for, equal to the command's to the last bit.
+
+    Raises
+    ------
+    SceneError
+        With the key, the value and the nearest name that exists.
+    OutsideTable
+        A probe is outside the table and ``kernel="table"``.
+    ImpactError
+        The contact has no results.
+
+    Warns
+    -----
+    HertzlambWarning
+        Physics beyond its validity; also in ``run.warnings``.
+    """
+    opened = Table.open(table) if isinstance(table, (str, os.PathLike)) else table
+    memory = None if max_memory_gb is None else 1e9 * max_memory_gb
+    with told(progress) as tell:
+        core = _core.impact(scene, None if opened is None else opened._core, kernel, memory, threads, tell)
+    for warning in core.warnings():
+        warnings.warn(warning, HertzlambWarning, stacklevel=2)
+    return Impact(core)
+
+
+def resolve(scene: Scene) -> dict[str, Any]:
+    """The scene with every default and material spelled out; a `SceneError` where it is none."""
+    return _core.resolved(scene)

@@ -1,0 +1,125 @@
+"""Results as data sets of xarray, with units, meanings and coordinates."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from hertzlamb import _core
+from hertzlamb._fields import FIELDS
+from hertzlamb._impact import QUANTITIES
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from hertzlamb._impact import Impact, Section
+    from hertzlamb._sweep import Collisions, Sweep
+    from hertzlamb._table import Trace
+
+_DESCRIBED: dict[str, Any] = _core.describe()
+_UNITS = {"_kg_m3": "kg/m^3", "_m_s": "m/s", "_kg": "kg", "_pa": "Pa", "_m": "m", "_s": "s"}
+
+
+def _attributes(part: str, name: str) -> dict[str, str]:
+    unit, meaning = _DESCRIBED[part][name][:2]
+    return {"units": unit, "long_name": meaning}
+
+
+def _error_attributes(name: str) -> dict[str, str]:
+    unit, meaning = _DESCRIBED["fields"][name]
+    return {"units": unit, "long_name": f"estimated absolute error: {meaning}"}
+
+
+def of_impact(run: Impact) -> xr.Dataset:
+    import xarray as xr
+
+    variables: dict[str, Any] = {}
+    for name in ("force", "displacement", "velocity", "deflection"):
+        values = getattr(run, name)
+        if values is not None:
+            variables[name] = ("time", values, _attributes("series", name))
+    for name, values in (run.energy or {}).items():
+        variables[f"energy_{name}"] = ("time", values, _attributes("energy", name))
+    coordinates: dict[str, Any] = {"time": ("time", run.time, _attributes("series", "time"))}
+    if run.probes is not None:
+        probes = run.probes
+        coordinates["probe"] = ("probe", np.arange(1, len(probes.r) + 1), {"long_name": "number of the probe, from 1"})
+        coordinates["wave"] = ("wave", _DESCRIBED["waves"])
+        for name in ("r", "z"):
+            coordinates[name] = ("probe", probes[name], _attributes("places", name))
+        variables["arrival"] = (("probe", "wave"), probes.arrival, _attributes("arrival", "arrival"))
+        variables["valid_until"] = ("probe", probes.valid_until, _attributes("arrival", "valid_until"))
+        for name in FIELDS:
+            variables[name] = (("probe", "time"), probes[name], _attributes("fields", name))
+            variables[f"{name}_error"] = ("probe", probes.error[name], _error_attributes(name))
+    scalars = {name: value for name, value in run.report.items() if isinstance(value, (int, float, str))}
+    return xr.Dataset(variables, coordinates, {**scalars, "warnings": "\n".join(run.warnings)})
+
+
+def of_section(section: Section) -> xr.Dataset:
+    import xarray as xr
+
+    coordinates = {name: (name, section[name], _attributes("map", name)) for name in ("time", "z", "r")}
+    variables: dict[str, Any] = {}
+    arrival = (("wave", "z", "r"), section.arrival, _attributes("arrival", "arrival"))
+    for name in FIELDS:
+        variables[name] = (("time", "z", "r"), section[name], _attributes("fields", name))
+        variables[f"{name}_error"] = (("z", "r"), section[f"{name}_error"], _error_attributes(name))
+    return xr.Dataset({**variables, "arrival": arrival}, {**coordinates, "wave": ("wave", _DESCRIBED["waves"])})
+
+
+def of_trace(trace: Trace) -> xr.Dataset:
+    import xarray as xr
+
+    def unit(name: str) -> str:
+        return "P/(mu r0)" if name.startswith("displacement") else "P/r0^2"
+
+    points = len(np.atleast_1d(trace.r))
+    flat = {name: trace[name].reshape(points, -1) for name in FIELDS}
+    variables: dict[str, Any] = {
+        name: (("point", "time"), values, {"units": unit(name)}) for name, values in flat.items()
+    }
+    for name in FIELDS:
+        variables[f"{name}_static"] = ("point", trace.static[name].reshape(-1), {"units": unit(name)})
+        variables[f"{name}_error"] = ("point", trace.error[name].reshape(-1), {"units": unit(name)})
+    coordinates: dict[str, Any] = {"time": ("time", trace.time, {"units": "r0/c1", "long_name": "middle of the cell"})}
+    for name, values in (("r", trace.r), ("z", trace.z)):
+        coordinates[name] = ("point", np.asarray(values).reshape(-1), {"units": "r0"})
+    return xr.Dataset(variables, coordinates, {"poisson_ratio": trace.nu, "cell_width": trace.cell_width})
+
+
+def _key_attributes(name: str) -> dict[str, str]:
+    unit = next((unit for ending, unit in _UNITS.items() if name.endswith(ending)), "1")
+    return {"units": unit, "long_name": f"scene key {name}"}
+
+
+def of_collisions(out: Collisions) -> xr.Dataset:
+    import xarray as xr
+
+    dims = tuple(f"dim_{i}" for i in range(len(out.shape)))
+    variables: dict[str, Any] = {name: (dims, out[name], _attributes("quantities", name)) for name in QUANTITIES}
+    variables["model"] = (dims, out.model)
+    keys = {name: (dims, values, _key_attributes(name)) for name, values in out._keys.items()}
+    return xr.Dataset(variables, keys)
+
+
+def of_sweep(out: Sweep) -> xr.Dataset:
+    import xarray as xr
+
+    coordinates: dict[str, Any] = {}
+    if out.is_whole:
+        dims, shape = tuple(out.axes), tuple(out.axes.values())
+        for axis, _, columns in out._axes:
+            for name, values in columns.items():
+                coordinates[name] = (axis, values, _key_attributes(name))
+    else:
+        dims, shape = ("row",), (len(out.rows),)
+        coordinates["row"] = ("row", np.asarray(out.rows), {"long_name": "row of the sweep, from 0"})
+        for name, values in out._keys.items():
+            coordinates[name] = ("row", values, _key_attributes(name))
+    variables: dict[str, Any] = {
+        name: (dims, out[name].reshape(shape), _attributes("quantities", name)) for name in QUANTITIES
+    }
+    variables["model"] = (dims, out.model.reshape(shape))
+    return xr.Dataset(variables, coordinates)

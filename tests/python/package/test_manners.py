@@ -1,0 +1,277 @@
+"""How the package behaves: errors, threads, signals, pickles, forks, progress."""
+
+import multiprocessing
+import os
+import pickle
+import signal
+import subprocess
+import sys
+import threading
+import time
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+import pytest
+
+import hertzlamb as hl
+from conftest import ROOT
+
+FORCE = {
+    "target": {"material": "granite"},
+    "striker": {"material": "bearing-steel", "mass_kg": 1.105e-4, "tip_radius_m": 1.5e-3, "velocity_m_s": 0.2},
+}
+LONG = {
+    "scene": {**FORCE, "contact": {"model": "growing", "tolerance": 1e-7}},
+    "random": {"samples": 100_000, "striker": {"velocity_m_s": {"distribution": "uniform", "low": 0.1, "high": 1.0}}},
+}
+
+pytestmark = pytest.mark.filterwarnings("ignore::hertzlamb.HertzlambWarning")
+
+
+def long_works(table):
+    """What takes long, by name."""
+    t = np.linspace(0.1, 9.0, 400_000)
+    field = {"map": {"r_max_m": 0.02, "z_max_m": 0.02, "points": [301, 301], "frames": 20}}
+    return {
+        "kernels": lambda **way: hl.kernels.step(0.3, 0.5, 0.6, t, tolerance=1e-13, **way),
+        "impact": lambda **way: hl.impact({**FORCE, **field}, kernel="direct", **way),
+        "sweep": lambda **way: hl.sweep(LONG, **way),
+        "collide": lambda **way: hl.collide(LONG["scene"], velocity_m_s=np.linspace(0.1, 1, 100_000), **way),
+        "trace": lambda **way: hl.Table.open(table).trace(0.3, np.full(20_000, 0.5), 0.6, coarsening=0, cells=3000, **way),
+    }
+
+
+def test_errors_have_fields(table):
+    with pytest.raises(hl.SceneError, match="did you mean mass_kg") as caught:
+        hl.impact({**FORCE, "striker": {"mas_kg": 1}})
+    assert (caught.value.key, caught.value.suggestion) == ("striker.mas_kg", "mass_kg")
+    with pytest.raises(ValueError) as caught:
+        hl.impact({**FORCE, "target": {"material": "granit"}})
+    assert (caught.value.value, caught.value.suggestion) == ("granit", "granite")
+    with pytest.raises(hl.SceneError) as caught:
+        hl.impact({**FORCE, "contact": {"tolerance": 3}})
+    assert (caught.value.key, caught.value.value) == ("contact.tolerance", 3.0)
+    with pytest.raises(hl.SceneError, match="contact.tolerance") as caught:
+        hl.impact({**FORCE, "contact": {"tolerance": object()}})
+    for wrong in (3, None, [1], {"target": 1}, {1: 2}, "[target", "no-such-file.toml"):
+        with pytest.raises(hl.SceneError):
+            hl.impact(wrong)
+    opened = hl.Table.open(table)
+    with pytest.raises(hl.OutsideTable) as caught:
+        opened.trace(nu=0.3, r=[50.0], z=[0.0])
+    e = caught.value
+    assert (e.axis, e.value, e.low, e.high, e.file) == ("r/r0", 50.0, 0.0, 6.0, str(table))
+    with pytest.raises(hl.OutsideTable) as caught:
+        hl.impact({**FORCE, "probe": [{"r_m": 1.0, "z_m": 0.0}]}, opened, kernel="table")
+    with pytest.raises(hl.BadTable) as caught:
+        hl.Table.open(ROOT / "README.md")
+    assert caught.value.file.endswith("README.md") and isinstance(caught.value, OSError)
+    with pytest.raises(hl.DomainError) as caught:
+        hl.kernels.medium(0.7)
+    assert (caught.value.argument, caught.value.value, caught.value.range) == ("poisson_ratio", 0.7, "(-1, 0.5)")
+    with pytest.raises(hl.DomainError, match="not one of hertz, punch, point"):
+        hl.kernels.static(0.3, 1, 1, profile="hurtz")
+    with pytest.raises(hl.ImpactError, match="Rayleigh"):
+        hl.impact({**FORCE, "striker": {**FORCE["striker"], "velocity_m_s": 1e5}})
+    with pytest.raises(hl.TooMuchMemory):
+        hl.impact({**FORCE, "probe": [{"r_m": 0.01, "z_m": 0.0}] * 100}, max_memory_gb=1e-6)
+    with pytest.raises(hl.TooMuchMemory):
+        opened.trace(0.3, np.zeros(10_000_000), 1.0, cells=10**12)
+    with pytest.raises(TypeError, match="target__poisson_ratio or striker__poisson_ratio"):
+        hl.collide(FORCE, poisson_ratio=[0.2])
+    with pytest.raises(hl.SceneError, match="unknown key speed"):
+        hl.collide(FORCE, speed=[0.2])
+    with pytest.raises(IndexError):
+        hl.sweep(LONG, rows=range(99_999, 100_003))
+
+
+def test_a_failed_row_is_nan_with_its_reason():
+    with pytest.warns(hl.HertzlambWarning, match="1 of 3 impacts failed"):
+        out = hl.collide(FORCE, velocity_m_s=[1.0, -1.0, 2.0])
+    assert np.isnan(out.restitution[1]) and out.model[1] == "" and "velocity_m_s = -1" in out.failures[1]
+    assert np.all(np.isfinite(out.restitution[[0, 2]]))
+
+
+def test_warnings_are_warnings():
+    with pytest.warns(hl.HertzlambWarning, match="yield"):
+        run = hl.impact({**FORCE, "target": {"material": "steel", "yield_strength_pa": 1e6}})
+    assert any("yield" in warning for warning in run.warnings) and "warning:" in repr(run)
+
+
+def test_everything_is_picklable(table, tmp_path):
+    run = hl.impact({**FORCE, "probe": [{"r_m": 0.01, "z_m": 0.0}]})
+    again = pickle.loads(pickle.dumps(pickle.loads(pickle.dumps(run))))
+    assert again.numbers == run.numbers and repr(again) == repr(run)
+    assert (again.probes.stress_rr == run.probes.stress_rr).all() and not again.probes.stress_rr.flags.writeable
+    run.save(tmp_path / "one.h5")
+    again.save(tmp_path / "two.h5")
+    assert (tmp_path / "one.h5").read_bytes() == (tmp_path / "two.h5").read_bytes()
+    with pytest.raises(hl.OutputExists):
+        again.save(tmp_path / "two.h5")
+    out = hl.collide(FORCE, velocity_m_s=[1.0, 2.0])
+    assert (pickle.loads(pickle.dumps(out)).restitution == out.restitution).all()
+    part = hl.sweep(LONG, rows=slice(0, 3))
+    again = pickle.loads(pickle.dumps(part))
+    assert (again.restitution == part.restitution).all() and again.rows == part.rows
+    opened = hl.Table.open(table)
+    again = pickle.loads(pickle.dumps(opened))
+    assert again.id == opened.id
+    u = opened.trace(0.3, [0.5], [0.6], cells=5)
+    v = pickle.loads(pickle.dumps(u))
+    assert (v.array == u.array).all() and (v.error.array == u.error.array).all() and v.cell_width == u.cell_width
+    k = hl.kernels.step(0.3, 0.5, 0.6, [1.0, 2.0])
+    assert (pickle.loads(pickle.dumps(k)).error.array == k.error.array).all()
+    for wrong in (lambda: hl.impact({"target": {}}), lambda: opened.trace(0.3, 9, 0), lambda: hl.Table.open("no")):
+        with pytest.raises(hl.HertzlambError) as caught:
+            wrong()
+        back = pickle.loads(pickle.dumps(caught.value))
+        assert type(back) is type(caught.value) and str(back) == str(caught.value)
+        assert back.__dict__ == caught.value.__dict__ and back.__dict__
+
+
+def test_arrays_are_read_only(table):
+    run = hl.impact({**FORCE, "probe": [{"r_m": 0.01, "z_m": 0.0}]})
+    u = hl.Table.open(table).trace(0.3, [0.5], [0.6], cells=5)
+    arrays = [run.force, run.probes.stress_rr, run.energy.stored, u.stress_zz, u.time, u.error.stress_rr]
+    for array in arrays:
+        with pytest.raises(ValueError, match="read-only"):
+            array[...] = 0
+
+
+def test_threads_at_once_give_serial_bits(table):
+    opened = hl.Table.open(table)
+    scenes = [{**FORCE, "striker": {**FORCE["striker"], "velocity_m_s": 0.1 + 0.1 * i}} for i in range(8)]
+    radii = np.linspace(0.1, 5, 8)
+
+    def work(i):
+        return hl.impact(scenes[i]).force.tobytes() + opened.trace(0.3, [radii[i]], [0.5]).array.tobytes()
+
+    serial = [work(i) for i in range(8)]
+    with ThreadPoolExecutor(8) as pool:
+        assert list(pool.map(work, range(8))) == serial
+
+
+@pytest.mark.parametrize("name", ["kernels", "impact", "sweep", "collide", "trace"])
+def test_the_interpreter_is_free_meanwhile(name, table):
+    done, beats = threading.Event(), []
+
+    def beat():
+        while not done.is_set():
+            beats.append(time.perf_counter())
+            time.sleep(0.005)
+
+    thread = threading.Thread(target=beat)
+    thread.start()
+    try:
+        start = time.perf_counter()
+        with pytest.raises(StopIteration):
+            long_works(table)[name](progress=until(start + 0.7))
+    finally:
+        done.set()
+        thread.join()
+    during = [beat for beat in beats if start < beat < start + 0.5]
+    assert len(during) > 20, "another thread has hardly run"
+
+
+def until(end):
+    """Progress that stops the work after some time, as an exception in it does."""
+
+    def tell(done, total):
+        assert threading.current_thread() is threading.main_thread()
+        assert 0 <= done <= total
+        if time.perf_counter() > end:
+            raise StopIteration("enough")
+
+    return tell
+
+
+@pytest.mark.parametrize("name", ["kernels", "impact", "sweep", "collide", "trace", "tabulate"])
+def test_ctrl_c_is_heard_within_a_third_of_a_second(name, table, tmp_path):
+    works = {**long_works(table), "tabulate": lambda: hl.tabulate(tmp_path / "out.h5", "standard")}
+    sent = []
+
+    def send():
+        sent.append(time.perf_counter())
+        os.kill(os.getpid(), signal.SIGINT)
+
+    timer = threading.Timer(0.4, send)
+    timer.start()
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            works[name]()
+        heard = time.perf_counter()
+    finally:
+        timer.cancel()
+    assert heard - sent[0] < 0.3
+
+
+def test_stopped_work_leaves_the_processors_alone(tmp_path):
+    threading.Timer(0.4, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+    with pytest.raises(KeyboardInterrupt):
+        hl.tabulate(tmp_path / "out.h5", "standard")
+    time.sleep(1.0)
+    before = time.process_time()
+    time.sleep(1.0)
+    assert time.process_time() - before < 0.2
+    # and what was done is kept
+    assert list(tmp_path.glob("*.journal"))
+
+
+def test_progress_ends_at_the_total(capsys):
+    told = []
+    hl.collide(FORCE, velocity_m_s=np.linspace(0.1, 1, 50), progress=lambda *at: told.append(at))
+    assert told[-1] == (50, 50)
+    code = "import sys; sys.modules['tqdm'] = None; sys.modules['tqdm.auto'] = None\nimport hertzlamb as hl\n"
+    code += f"hl.collide({FORCE!r}, velocity_m_s=[1.0, 2.0], progress=True)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert done.returncode == 0 and "2 of 2" in done.stderr, done.stderr
+
+
+def in_child(work):
+    """What a forked process says."""
+    reader, writer = multiprocessing.get_context("fork").Pipe(duplex=False)
+
+    def body():
+        try:
+            work()
+            writer.send("done")
+        except Exception as error:
+            writer.send(f"{type(error).__name__}: {error}")
+
+    child = multiprocessing.get_context("fork").Process(target=body)
+    child.start()
+    said = reader.recv() if reader.poll(20) else "nothing: it hangs"
+    child.kill()
+    child.join()
+    return said
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork here")
+@pytest.mark.filterwarnings("ignore::DeprecationWarning")
+def test_a_forked_process_says_why_it_cannot():
+    hl.impact(FORCE)
+    said = in_child(lambda: hl.impact(FORCE))
+    assert said.startswith("ForkError") and "spawn" in said
+    # a process that was forked before anything was computed works
+    code = f"""
+import os
+import warnings
+import hertzlamb as hl
+warnings.simplefilter("ignore")
+child = os.fork()
+if child == 0:
+    hl.impact({FORCE!r})
+    os._exit(0)
+assert os.waitpid(child, 0)[1] == 0
+"""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)
+    assert done.returncode == 0, done.stderr
+
+
+def test_spawned_processes_work(table):
+    context = multiprocessing.get_context("spawn")
+    with context.Pool(2) as pool:
+        found = pool.map(hl.impact, [FORCE, FORCE])
+        traces = pool.starmap(hl.Table.trace, [(hl.Table.open(table), 0.3, 0.5, 0.6)])
+    assert found[0].numbers == hl.impact(FORCE).numbers
+    assert (traces[0].array == hl.Table.open(table).trace(0.3, 0.5, 0.6).array).all()

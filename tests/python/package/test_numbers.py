@@ -1,0 +1,308 @@
+"""Numbers of the package: those of the command, to the last bit."""
+
+import pickle
+import subprocess
+import sys
+
+import h5py
+import numpy as np
+import pytest
+
+import hertzlamb as hl
+from conftest import ROOT, run, run_well
+
+SCENES = ROOT / "scenes"
+BALL = {
+    "target": {"material": "granite"},
+    "striker": {"material": "bearing-steel", "mass_kg": 1.105e-4, "tip_radius_m": 1.5e-3, "velocity_m_s": 1.98},
+    "probe": [{"r_m": 0.02, "z_m": 0.0}, {"r_m": 0.0, "z_m": 0.02}],
+}
+SECTION = {
+    "target": {"youngs_modulus_pa": 2.09e11, "poisson_ratio": 0.3, "density_kg_m3": 7830},
+    "striker": {"material": "copper", "mass_kg": 0.0122, "tip_radius_m": 0.004, "velocity_m_s": 100.0},
+    "contact": {"model": "wave", "disc_radius_m": 0.004},
+    "map": {"r_max_m": 0.016, "z_max_m": 0.016, "points": [9, 7], "frames": 5},
+}
+FEW = """
+[scene.target]
+material = "granite"
+[scene.striker]
+tip_radius_m = 0.005
+mass_kg = 4.1e-3
+[product.striker]
+material = ["steel", "copper"]
+velocity_m_s = { from = 0.1, to = 10.0, count = 40, spacing = "log" }
+[random]
+samples = 3
+seed = 1
+[random.contact]
+tolerance = { distribution = "uniform", low = 1e-5, high = 1e-3 }
+"""
+
+pytestmark = pytest.mark.filterwarnings("ignore::hertzlamb.HertzlambWarning")
+
+
+def toml(table, name=""):
+    """A nested dictionary as TOML, for the command."""
+    plain = "".join(
+        f"{key} = {value!r}\n".replace("'", '"')
+        for key, value in table.items()
+        if not isinstance(value, dict) and not (isinstance(value, list) and isinstance(value[0], dict))
+    )
+    inner = ""
+    for key, value in table.items():
+        if isinstance(value, dict):
+            inner += f"[{name}{key}]\n" + toml(value, f"{name}{key}.")
+        elif isinstance(value, list) and isinstance(value[0], dict):
+            inner += "".join(f"[[{name}{key}]]\n" + toml(row) for row in value)
+    return plain + inner
+
+
+def same(one, two):
+    """Equal to the last bit, NaN too."""
+    one, two = np.asarray(one), np.asarray(two)
+    return one.shape == two.shape and one.dtype == two.dtype and one.tobytes() == two.tobytes()
+
+
+def compare(run_here, command, path):
+    """Scalars with the JSON object, arrays with the file of the command."""
+    for name, value in run_here.numbers.items():
+        assert command[name] == value, name
+    for name, value in run_here.report.items():
+        assert name == "wall_s" or command[name] == value, name
+    compared = 0
+    with h5py.File(path) as file:
+        for name in ("time", "force", "displacement", "velocity", "deflection"):
+            array = getattr(run_here, name)
+            assert (array is None) == (name not in file)
+            if array is not None:
+                assert same(array, file[name][()]), name
+                compared += 1
+        groups = [("energy", run_here.energy), ("probes", run_here.probes), ("map", run_here.section)]
+        for group, arrays in groups:
+            assert (arrays is None) == (group not in file), group
+            for name, array in (arrays or {}).items():
+                assert same(array, file[group][name][()].astype(array.dtype)), (group, name)
+                compared += 1
+        assert file.attrs["scene"]
+    return compared
+
+
+@pytest.mark.parametrize("name", ["ball-drop", "prescribed-force", "copper-on-steel"])
+def test_a_file_gives_what_the_command_gives(name, tmp_path):
+    path = tmp_path / "out.h5"
+    command = run_well("impact", SCENES / f"{name}.toml", "-o", path)
+    here = hl.impact(SCENES / f"{name}.toml")
+    assert compare(here, command, path) > 10
+
+
+def test_a_dictionary_gives_what_the_command_gives_with_a_table(tmp_path, table):
+    scene = tmp_path / "scene.toml"
+    scene.write_text(toml(SECTION))
+    path = tmp_path / "out.h5"
+    command = run_well("impact", scene, "--table", table, "--kernel", "table", "-o", path)
+    opened = hl.Table.open(table)
+    here = hl.impact(SECTION, opened, kernel="table")
+    assert here.section.stress_zz.shape == (5, 7, 9)
+    assert compare(here, command, path) > 20
+    # the part of the table is kept: the second time, and nearer to the axis, with the same bits
+    again = hl.impact(SECTION, opened, kernel="table")
+    assert same(again.section.stress_zz, here.section.stress_zz)
+    probe = {**SECTION, "map": None, "probe": [{"r_m": 0.004, "z_m": 0.004}]}
+    fresh = hl.impact(probe, table, kernel="table").probes.stress_zz
+    assert same(hl.impact(probe, opened, kernel="table").probes.stress_zz, fresh)
+
+
+def test_dictionary_path_and_text_are_one_scene(tmp_path):
+    path = tmp_path / "ball.toml"
+    path.write_text(toml(BALL))
+    runs = [hl.impact(given) for given in (BALL, path, str(path), path.read_text())]
+    for other in runs[1:]:
+        assert other.numbers == runs[0].numbers
+        assert same(other.probes.stress_rr, runs[0].probes.stress_rr)
+    assert hl.impact(runs[0].scene).numbers == runs[0].numbers
+    assert hl.resolve(BALL) == runs[0].scene
+
+
+def test_every_result_has_an_attribute():
+    described = hl.impact(BALL).numbers
+    assert list(hl.Impact.__annotations__) == list(described)
+
+
+def test_what_is_saved_holds_the_same_numbers(tmp_path):
+    path = tmp_path / "command.h5"
+    scene = tmp_path / "ball.toml"
+    scene.write_text(toml(BALL))
+    run_well("impact", scene, "-o", path, "--csv", tmp_path / "command.csv")
+    here = hl.impact(BALL)
+    here.save(tmp_path / "here.h5")
+    here.save_csv(tmp_path / "here.csv")
+    assert (tmp_path / "here.csv").read_bytes() == (tmp_path / "command.csv").read_bytes()
+    found = []
+    with h5py.File(path) as one, h5py.File(tmp_path / "here.h5") as two:
+        one.visititems(lambda name, item: found.append(name))
+        for name in found:
+            if isinstance(one[name], h5py.Dataset) and one[name].dtype.kind != "O":
+                assert same(one[name][()], two[name][()]), name
+        assert dict(one.attrs) == dict(two.attrs)
+    assert len(found) > 20
+    with pytest.raises(hl.OutputExists):
+        here.save(tmp_path / "here.h5")
+    here.save(tmp_path / "here.h5", overwrite=True)
+
+
+def test_a_sweep_and_any_part_of_it_give_what_the_command_gives(tmp_path):
+    spec = tmp_path / "sweep.toml"
+    spec.write_text(FEW)
+    run_well("sweep", spec, "-o", tmp_path / "sweep.h5", "--csv", tmp_path / "sweep.csv")
+    whole = hl.sweep(spec)
+    assert whole.is_whole and len(whole.rows) == 240
+    with h5py.File(tmp_path / "sweep.h5") as file:
+        for name in [*hl.Impact.__annotations__]:
+            assert same(whole[name].reshape(2, 40, 3), file["results"][name][()].astype(float)), name
+        assert same(whole.to_xarray()["striker.velocity_m_s"].values, file["axes/striker.velocity_m_s"][()])
+    part = hl.sweep(FEW, rows=slice(7, 200, 5), threads=1)
+    assert len(part.rows) == 39
+    assert same(part._numbers, whole._numbers[7:200:5])
+    assert same(part["contact.tolerance"], whole["contact.tolerance"][7:200:5])
+    assert list(part["striker.material"]) == list(whole["striker.material"][7:200:5])
+    whole.save(tmp_path / "here.csv")
+    assert (tmp_path / "here.csv").read_bytes() == (tmp_path / "sweep.csv").read_bytes()
+    whole.save(tmp_path / "here.h5")
+    with h5py.File(tmp_path / "sweep.h5") as one, h5py.File(tmp_path / "here.h5") as two:
+        assert same(one["results/restitution"][()], two["results/restitution"][()])
+    with pytest.raises(ValueError, match="39 of 240 rows"):
+        part.save(tmp_path / "part.h5")
+
+
+def test_collide_gives_what_impact_gives_for_any_key():
+    scene = {"target": {"material": "granite"}, "striker": {"material": "steel", "tip_radius_m": 5e-4}}
+    velocity = np.geomspace(0.1, 10.0, 7)
+    out = hl.collide(scene, velocity_m_s=velocity, mass_kg=[[4e-6], [8e-6]], target__poisson_ratio=0.21)
+    assert out.restitution.shape == (2, 7) and not out.failures
+    for i, mass in enumerate([4e-6, 8e-6]):
+        for j in (0, 3, 6):
+            striker = {**scene["striker"], "mass_kg": mass, "velocity_m_s": velocity[j]}
+            one = hl.impact({"target": {"material": "granite", "poisson_ratio": 0.21}, "striker": striker})
+            for name, value in one.numbers.items():
+                assert out[name][i, j] == value, name
+            assert out.model[i, j] == one.model
+    words = hl.collide(scene, velocity_m_s=1.0, mass_kg=1e-5, striker__material=["copper", "steel"])
+    assert words.shape == (2,) and words.restitution[0] != words.restitution[1]
+    ball = {"target": {"material": "granite"}, "striker": {"material": "steel", "shape": "ball"}}
+    drop = hl.collide(ball, diameter_m=[1e-3, 2e-3], drop_height_m=0.1)
+    one = hl.impact({**ball, "striker": {**ball["striker"], "diameter_m": 2e-3, "drop_height_m": 0.1}})
+    assert drop.restitution[1] == one.restitution
+    assert hl.collide(scene, velocity_m_s=[], mass_kg=1.0).restitution.shape == (0,)
+
+
+def test_threads_change_no_bit(table):
+    opened = hl.Table.open(table)
+    rng = np.random.default_rng(1)
+    r, z = rng.uniform(0, 6, (2, 300))
+    one, all_of_them = (opened.trace(0.3, r, z, threads=n) for n in (1, None))
+    assert same(one.array, all_of_them.array)
+    t = np.linspace(0, 5, 40)
+    assert same(hl.kernels.step(0.3, 0.5, 0.6, t, threads=1).array, hl.kernels.step(0.3, 0.5, 0.6, t).array)
+    assert same(hl.impact(BALL, threads=1).probes.stress_zz, hl.impact(BALL, threads=3).probes.stress_zz)
+
+
+def test_kernels_are_right_and_broadcast():
+    # w = 0.11959942786 from an independent Laplace-Hankel inversion
+    k = hl.kernels.step(nu=0.3, r=0.5, z=0.6, t=2.0)
+    assert k.displacement_z.shape == () and abs(k["displacement_z"] - 0.11959942786) < 1e-10
+    t = np.linspace(0.0, 4.0, 9)
+    k = hl.kernels.step(0.3, r=[[0.5], [1.5]], z=0.6, t=t)
+    assert k.stress_zz.shape == (2, 9) and k.error.stress_zz.shape == (2, 9)
+    assert k["displacement_z"][0, 4] == hl.kernels.step(0.3, 0.5, 0.6, 2.0).displacement_z
+    still = hl.kernels.static(0.3, [0.5, 1.5], 0.6)
+    rest = hl.kernels.remainder(0.3, r=[[0.5], [1.5]], z=0.6, t=t)
+    assert same(k.array, still.array[:, None, :] + rest.array)
+    assert np.all(k.array[:, 0] == 0)
+    assert abs(still.displacement_z[0] - hl.kernels.step(0.3, 0.5, 0.6, 1e4).displacement_z) < 1e-6
+    # Kausel's closed form over r0/c2
+    kappa = hl.kernels.medium(0.3).shear_speed
+    t2 = np.linspace(0, 2, 50)
+    assert np.max(np.abs(hl.kernels.surface_centre(0.3, t2) - hl.kernels.surface_step(0.3, t2 / kappa))) < 1e-12
+    h = 1e-4
+    slope = (hl.kernels.surface_step(0.3, 1.0 + h) - hl.kernels.surface_step(0.3, 1.0 - h)) / (2 * h)
+    assert abs(slope - hl.kernels.surface_impulse(0.3, 1.0)) < 1e-5
+    assert hl.kernels.medium(0.3).arrivals(0.0, 3.0).first == 3.0
+
+
+def test_a_table_answers_as_the_command_says(table, tmp_path):
+    opened = hl.Table.open(table)
+    assert opened.info() == run_well("table", "info", table)
+    u = opened.trace(0.3, r=[0.5, 4.0], z=[0.6, 0.0], cells=40)
+    assert u["stress_zz"].shape == (2, 40) and u.time.shape == (40,)
+    # the response to a pulse of ten cells, beside averages over cells from the exact kernels
+    edges = np.append(u.time - 0.5 * u.cell_width, u.time[-1] + 0.5 * u.cell_width)
+    sums = hl.kernels.step_integral(0.3, r=[[0.5], [4.0]], z=[[0.6], [0.0]], t=np.maximum(edges, 0.0))
+    exact = np.diff(sums.array, axis=1) / u.cell_width + u.static.array[:, None, :]
+    rises = np.diff(np.sin(np.pi * np.arange(11) / 10) ** 2)
+    response = [sum(rise * each[:, 10 - m : 40 - m] for m, rise in enumerate(rises)) for each in (exact, u.array)]
+    assert np.all(np.abs(response[0] - response[1]) <= u.error.array[:, None, :])
+    assert np.max(np.abs(response[0][..., 1])) > 0.04
+    assert opened.trace(0.3, 0.5, 0.6).stress_zz.ndim == 1
+    for piece in (opened.id, "99 %", "0.3", "53 nodes"):
+        assert piece in repr(opened)
+
+
+def test_a_table_is_the_commands(tmp_path):
+    grid = {
+        "poisson_ratios": [0.3],
+        "cell_width": 0.5,
+        "pulse_lengths": [10.0],
+        "tolerance": 1e-6,
+        "r": {"max": 0.875, "spacing": 0.125},
+        "z": {"max": 0.875, "spacing": 0.125},
+    }
+    told = []
+    here = hl.tabulate(tmp_path / "here.h5", grid, progress=lambda done, total: told.append((done, total)))
+    (tmp_path / "grid.toml").write_text(toml(grid))
+    run_well("tabulate", "--grid", tmp_path / "grid.toml", "-o", tmp_path / "command.h5")
+    assert run("table", "diff", tmp_path / "here.h5", tmp_path / "command.h5").returncode == 0
+    assert told and all(0 <= done <= total for done, total in told)
+    with pytest.raises(hl.OutputExists):
+        hl.tabulate(tmp_path / "here.h5", grid)
+    more = here.extend(nu=0.25)
+    assert list(more.poisson_ratios) == [0.25, 0.3] and more.id != here.id
+    stale = pickle.dumps(more)
+    more.extend(nu=0.35)
+    assert more.trace(0.25, 0.5, 0.5).nu == 0.25, "what was loaded stays"
+    unread = hl.Table.open(more.path)
+    more.extend(nu=0.4)
+    for refused in (lambda: unread.trace(0.25, 0.5, 0.5), lambda: pickle.loads(stale)):
+        with pytest.raises(hl.BadTable, match="another table"):
+            refused()
+
+
+def test_materials_are_the_commands():
+    listed = run_well("materials")
+    here = hl.materials()
+    assert [row._asdict() for row in here] == listed
+    assert here["granite"].density_kg_m3 == here[here.names.index("granite")].density_kg_m3
+    assert here.column("poisson_ratio").shape == (len(here),)
+    assert len(hl.materials("rock")) < len(here)
+
+
+@pytest.mark.parametrize("first", ["h5py", "hertzlamb"])
+def test_h5py_is_not_disturbed(first, tmp_path):
+    second = "hertzlamb" if first == "h5py" else "h5py"
+    code = f"""
+import {first}, {second}, warnings
+warnings.simplefilter("ignore")
+import hertzlamb as hl, h5py, numpy as np
+h5py.File("before.h5", "w").create_dataset("x", data=np.arange(5.0), compression="gzip")
+run = hl.impact({BALL!r})
+run.save("run.h5")
+with h5py.File("run.h5") as file:
+    assert (file["force"][()] == run.force).all()
+with h5py.File("before.h5", "a") as file:
+    file["x"].dims[0].label = "n"
+    file.create_dataset("y", data=np.ones(3)).make_scale("y")
+run.save("again.h5")
+print(h5py.version.hdf5_version, sum(file in open("/proc/self/maps").read() for file in ["_core.abi3"]))
+"""
+    done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
