@@ -141,6 +141,27 @@ fn a_pulse_keeps_its_shape_and_its_impulse() {
     }
 }
 
+/// A record that begins in the middle of a force loses to the time before zero what it says.
+#[test]
+fn what_goes_before_zero_is_counted() {
+    let time_s: Vec<f64> = (0..=2000).map(|i| f64::from(i) * 5e-9).collect();
+    let force_n: Vec<f64> = time_s.iter().map(|&t| pulse(t + 1e-5, 0.0)).collect();
+    let cut = ForceRecord::new(time_s, force_n).unwrap();
+    let asked = Treatment {
+        low_pass_hz: Some(5.0 / PULSE_S),
+        ..Treatment::default()
+    };
+    let found = cut.clone().treat(&asked).unwrap();
+    let lost = found.treated.unwrap().before_zero_n_s;
+    let whole = (found.impulse_n_s() + lost) / cut.impulse_n_s();
+    println!(
+        "{:.1e} of the impulse is before zero",
+        lost / cut.impulse_n_s()
+    );
+    assert!(lost > 0.01 * cut.impulse_n_s(), "{lost}");
+    assert!((whole - 1.0).abs() < 1e-4, "{whole}");
+}
+
 #[test]
 fn what_was_done_is_told_everywhere() {
     let folder = tempfile::tempdir().unwrap();
