@@ -1,7 +1,7 @@
-//! The scalar results: one table from which every file, report and document takes them.
+//! Scalar results and fields: one table of each, from which every file, report and document takes them.
 
-use contact::Results;
-use impact::{Cause, Outcome, RecordResults};
+use contact::{Choice, Results};
+use impact::{Cause, Outcome, Quantity as FieldQuantity, RecordResults};
 
 /// What a number is, for files that tell whole numbers from others.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -106,3 +106,103 @@ pub const QUANTITIES: [Quantity; 23] = quantities! {
     march_step_s: Real "s" of march_step_s => "step of the march, 0 where no uniform step is taken";
     relative_error_estimate: Real "1" of relative_error_estimate, relative_error_estimate => "estimated relative error of peak force, contact time, restitution and displacement";
 };
+
+/// Fields at every point, in the order of the kernels: name, unit and meaning.
+pub const FIELDS: [(&str, &str, &str); 6] = [
+    (
+        "displacement_r",
+        "m",
+        "radial displacement, positive outwards",
+    ),
+    (
+        "displacement_z",
+        "m",
+        "axial displacement, positive into the half-space",
+    ),
+    ("stress_rr", "Pa", "radial stress, negative in compression"),
+    ("stress_tt", "Pa", "hoop stress, negative in compression"),
+    ("stress_zz", "Pa", "axial stress, negative in compression"),
+    ("stress_rz", "Pa", "shear stress"),
+];
+
+/// Quantities that a scene may ask for beside them, with unit and meaning; a quantity has its name.
+pub const FIELD_QUANTITIES: [(FieldQuantity, &str, &str); 14] = [
+    (
+        FieldQuantity::VelocityR,
+        "m/s",
+        "radial velocity of the particles, positive outwards",
+    ),
+    (
+        FieldQuantity::VelocityZ,
+        "m/s",
+        "axial velocity of the particles, positive into the half-space",
+    ),
+    (
+        FieldQuantity::AccelerationR,
+        "m/s^2",
+        "radial acceleration of the particles, mean over one step of the output",
+    ),
+    (
+        FieldQuantity::AccelerationZ,
+        "m/s^2",
+        "axial acceleration of the particles, mean over one step of the output",
+    ),
+    (
+        FieldQuantity::StrainRr,
+        "1",
+        "radial strain, negative in compression",
+    ),
+    (
+        FieldQuantity::StrainTt,
+        "1",
+        "hoop strain, negative in compression",
+    ),
+    (
+        FieldQuantity::StrainZz,
+        "1",
+        "axial strain, negative in compression",
+    ),
+    (
+        FieldQuantity::StrainRz,
+        "1",
+        "shear strain of the tensor, half of the change of angle",
+    ),
+    (
+        FieldQuantity::VonMises,
+        "Pa",
+        "von Mises' equivalent stress, sqrt(((s1 - s2)^2 + (s2 - s3)^2 + (s3 - s1)^2)/2)",
+    ),
+    (
+        FieldQuantity::Tresca,
+        "Pa",
+        "Tresca's equivalent stress, s1 - s3",
+    ),
+    (
+        FieldQuantity::MaxShear,
+        "Pa",
+        "largest shear stress, (s1 - s3)/2",
+    ),
+    (
+        FieldQuantity::Principal1,
+        "Pa",
+        "largest principal stress, negative in compression",
+    ),
+    (
+        FieldQuantity::Principal2,
+        "Pa",
+        "middle principal stress, negative in compression",
+    ),
+    (
+        FieldQuantity::Principal3,
+        "Pa",
+        "smallest principal stress, negative in compression",
+    ),
+];
+
+/// Name, unit and meaning of a quantity that a scene may ask for.
+#[must_use]
+pub fn described(quantity: FieldQuantity) -> (&'static str, &'static str, &'static str) {
+    let row = FIELD_QUANTITIES.iter().find(|row| row.0 == quantity);
+    let (unit, meaning) = row.map_or(("", ""), |row| (row.1, row.2));
+    (quantity.name(), unit, meaning)
+}

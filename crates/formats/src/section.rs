@@ -235,7 +235,11 @@ impl<'a> Section<'a> {
         let Some(word) = self.text(key)? else {
             return Ok(None);
         };
-        let found = T::named(word).ok_or_else(|| SceneError::UnknownChoice {
+        self.named(key, word).map(Some)
+    }
+
+    fn named<T: Choice>(&self, key: &str, word: &str) -> Result<T, SceneError> {
+        T::named(word).ok_or_else(|| SceneError::UnknownChoice {
             key: self.key(key),
             value: word.to_owned(),
             allowed: T::ALL
@@ -243,8 +247,41 @@ impl<'a> Section<'a> {
                 .map(|c| c.name())
                 .collect::<Vec<_>>()
                 .join(", "),
-        })?;
-        Ok(Some(found))
+        })
+    }
+
+    /// Different values of a choice, as a list; none where the key is not there.
+    pub(crate) fn choices<T: Choice + PartialEq>(&self, key: &str) -> Result<Vec<T>, SceneError> {
+        let items = match self.table.get(key) {
+            None => return Ok(Vec::new()),
+            Some(Value::Array(items)) => items,
+            Some(other) => return Err(self.wrong_kind(key, other, "a list of words")),
+        };
+        let mut found: Vec<T> = Vec::new();
+        for item in items {
+            let Value::String(word) = item else {
+                return Err(self.wrong_kind(key, item, "a word"));
+            };
+            let choice = self.named(key, word)?;
+            if found.contains(&choice) {
+                return Err(SceneError::Conflict {
+                    first: format!("{} = \"{word}\"", self.key(key)),
+                    second: format!("\"{word}\""),
+                    reason: "each word stands once",
+                });
+            }
+            found.push(choice);
+        }
+        Ok(found)
+    }
+
+    /// Whether a key says true; no where it is not there.
+    pub(crate) fn flag(&self, key: &str) -> Result<bool, SceneError> {
+        match self.table.get(key) {
+            None => Ok(false),
+            Some(Value::Boolean(flag)) => Ok(*flag),
+            Some(other) => Err(self.wrong_kind(key, other, "true or false")),
+        }
     }
 
     pub(crate) fn wrong_kind(

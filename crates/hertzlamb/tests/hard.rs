@@ -47,6 +47,8 @@ fn attempt(hard: &Hard, settings: Settings) -> Result<f64, String> {
         settings,
         probes: Vec::new(),
         section: None,
+        quantities: Vec::new(),
+        peaks: false,
         duration_s: None,
     };
     let started = Instant::now();

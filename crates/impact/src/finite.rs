@@ -2,6 +2,7 @@
 
 use crate::outcome::{Cause, Outcome, RecordResults, Series};
 use crate::probes::{ProbeFields, SectionFields};
+use contact::Choice;
 use lookup::schema::FIELD_NAMES;
 use thiserror::Error;
 
@@ -97,11 +98,19 @@ fn series(series: &Series) -> Result<(), NotFinite> {
 fn probes(fields: &ProbeFields) -> Result<(), NotFinite> {
     let arrivals = fields.arrival_s.iter().flat_map(|[p, s, _]| [*p, *s]);
     finite(|| "an arrival at a probe".to_owned(), arrivals)?;
-    for (field, name) in FIELD_NAMES.iter().enumerate() {
-        let values = fields.values[field].iter().flatten().copied();
+    let own = FIELD_NAMES
+        .iter()
+        .zip(fields.values.iter().zip(&fields.errors));
+    let own = own.map(|(name, (values, errors))| (*name, values, errors));
+    let more = fields.more.iter();
+    let more = more.map(|own| (own.quantity.name(), &own.values, &own.errors));
+    for (name, values, errors) in own.chain(more) {
+        let values = values.iter().flatten().copied();
         finite(|| format!("{name} at a probe"), values)?;
-        let errors = fields.errors[field].iter().copied();
-        finite(|| format!("the error of {name} at a probe"), errors)?;
+        finite(
+            || format!("the error of {name} at a probe"),
+            errors.iter().copied(),
+        )?;
     }
     Ok(())
 }
@@ -109,11 +118,19 @@ fn probes(fields: &ProbeFields) -> Result<(), NotFinite> {
 fn section(fields: &SectionFields) -> Result<(), NotFinite> {
     let arrivals = fields.arrival_s[..2].iter().flatten().copied();
     finite(|| "an arrival in the section".to_owned(), arrivals)?;
-    for (field, name) in FIELD_NAMES.iter().enumerate() {
-        let values = fields.values[field].iter().copied().map(f64::from);
+    let own = FIELD_NAMES
+        .iter()
+        .zip(fields.values.iter().zip(&fields.errors));
+    let own = own.map(|(name, (values, errors))| (*name, values, errors));
+    let more = fields.more.iter();
+    let more = more.map(|own| (own.quantity.name(), &own.values, &own.errors));
+    for (name, values, errors) in own.chain(more) {
+        let values = values.iter().copied().map(f64::from);
         finite(|| format!("{name} in the section"), values)?;
-        let errors = fields.errors[field].iter().copied();
-        finite(|| format!("the error of {name} in the section"), errors)?;
+        finite(
+            || format!("the error of {name} in the section"),
+            errors.iter().copied(),
+        )?;
     }
     Ok(())
 }

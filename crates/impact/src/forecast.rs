@@ -103,6 +103,10 @@ const SAMPLE: f64 = 8.0 * 24.0;
 /// Bytes that a sample of the six fields at a probe takes: kept, and once more while a field is written.
 const PROBE_SAMPLE: f64 = 8.0 * (6.0 + 1.0);
 
+/// Bytes that a sample of a quantity beside them takes, at a probe and at a frame of a section's point.
+const QUANTITY_SAMPLE: f64 = 8.0;
+const QUANTITY_FRAME: f64 = 4.0;
+
 /// Bytes that a sample takes in each thread: averages and moments of the kernels, the convolution's room.
 const CELL: f64 = 8.0 * 6.0 * 6.0;
 
@@ -167,13 +171,18 @@ impl Forecast {
 
     fn of(scene: &Scene, samples: f64, cell_s: f64) -> Self {
         let threads = rayon::current_num_threads() as f64;
-        let probes = scene.probes.len() as f64 * (samples * PROBE_SAMPLE + POINT);
+        let more = scene.quantities.len() as f64;
+        let of_probe = samples * (PROBE_SAMPLE + more * QUANTITY_SAMPLE) + POINT;
+        let probes = scene.probes.len() as f64 * of_probe;
         let (mut section, mut kept) = (0.0, 0.0);
         if let Some(Section { points, frames, .. }) = &scene.section {
             let [r, z] = points.map(|n| n as f64);
-            kept = r * z * (*frames as f64 * FRAME_POINT + POINT);
+            let at_frame = FRAME_POINT + more * QUANTITY_FRAME;
+            let peaks = if scene.peaks { 2.0 * (6.0 + more) } else { 0.0 };
+            kept = r * z * (*frames as f64 * at_frame + POINT + 8.0 * (more + peaks));
             // a row is computed at once, in double precision
-            section = kept + r * *frames as f64 * 2.0 * FRAME_POINT;
+            let wanted = if scene.peaks { samples } else { *frames as f64 };
+            section = kept + r * wanted * 2.0 * at_frame;
         }
         let cells = if scene.points() > 0 {
             threads * CELL
@@ -183,9 +192,11 @@ impl Forecast {
         Self {
             points: scene.points(),
             samples,
-            seconds: scene.points() as f64 * samples * cell_s / threads,
+            // each rate of the displacement takes the kernels once more
+            seconds: (1 + scene.rates()) as f64 * scene.points() as f64 * samples * cell_s
+                / threads,
             memory_bytes: samples * (SAMPLE + cells) + probes + section,
-            disk_bytes: 8.0 * samples * (10.0 + 6.0 * scene.probes.len() as f64) + kept,
+            disk_bytes: 8.0 * samples * (10.0 + (6.0 + more) * scene.probes.len() as f64) + kept,
         }
     }
 

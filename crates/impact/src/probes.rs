@@ -1,8 +1,8 @@
 //! Fields at the probes of a scene and on its meridional section.
 
 use crate::error::FieldsError;
-use crate::excitation::Excitation;
-use crate::sampled::{Point, Sampled};
+use crate::observer::{Observed, Observer};
+use crate::quantity::Quantity;
 use crate::scene::{Probe, Section};
 use contact::HalfSpace;
 use rayon::prelude::*;
@@ -23,6 +23,19 @@ pub struct ProbeFields {
     pub values: [Vec<Vec<f64>>; 6],
     /// Estimated error of each field, one value a probe.
     pub errors: [Vec<f64>; 6],
+    /// The quantities that the scene asks for beside the fields.
+    pub more: Vec<ProbeQuantity>,
+}
+
+/// A quantity at the probes, in its SI unit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ProbeQuantity {
+    /// Which.
+    pub quantity: Quantity,
+    /// Samples, one row a probe.
+    pub values: Vec<Vec<f64>>,
+    /// Estimated error, one value a probe.
+    pub errors: Vec<f64>,
 }
 
 /// Fields on a meridional section in SI units.
@@ -43,6 +56,46 @@ pub struct SectionFields {
     pub values: [Vec<f32>; 6],
     /// Estimated error of each field at each point.
     pub errors: [Vec<f64>; 6],
+    /// The quantities that the scene asks for beside the fields.
+    pub more: Vec<SectionQuantity>,
+    /// Largest values over all samples in time, of each field and then of each quantity, where the scene asks for them.
+    pub peaks: Option<Vec<Peaks>>,
+}
+
+/// A quantity on the section, in its SI unit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SectionQuantity {
+    /// Which.
+    pub quantity: Quantity,
+    /// Frames, depths, radii.
+    pub values: Vec<f32>,
+    /// Estimated error at each point.
+    pub errors: Vec<f64>,
+}
+
+/// Where a history is largest in magnitude.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Peaks {
+    /// The value there, with its sign, at each place.
+    pub values: Vec<f64>,
+    /// When, in s.
+    pub time_s: Vec<f64>,
+}
+
+impl Peaks {
+    /// Adds the peak of the next place.
+    pub fn push(&mut self, time_s: &[f64], samples: &[f64]) {
+        let larger = |most: usize, i: usize| {
+            if samples[i].abs() > samples[most].abs() {
+                i
+            } else {
+                most
+            }
+        };
+        let most = (0..samples.len()).fold(0, larger);
+        self.values.push(samples.get(most).copied().unwrap_or(0.0));
+        self.time_s.push(time_s.get(most).copied().unwrap_or(0.0));
+    }
 }
 
 impl ProbeFields {
@@ -53,10 +106,8 @@ impl ProbeFields {
             .map(|(i, &valid_s)| (i, valid_s))
             .filter(|(_, valid_s)| *valid_s < end_s)
             .collect();
-        let first = echoing
-            .iter()
-            .copied()
-            .reduce(|a, b| if b.1 < a.1 { b } else { a })?;
+        let sooner = |a: (usize, f64), b: (usize, f64)| if b.1 < a.1 { b } else { a };
+        let first = echoing.iter().copied().reduce(sooner)?;
         Some(format!(
             "echoes from the faces of the block reach {} of {} probes before the output ends at {end_s:.4e} s, probe {} first, at {:.4e} s: what follows there is that of a half-space, not of the block",
             echoing.len(),
@@ -69,15 +120,20 @@ impl ProbeFields {
 
 /// The fields at probes, at the samples that are wanted.
 pub(crate) fn at_probes(
-    sampled: &Sampled<'_>,
-    excitation: &Excitation,
+    observer: &Observer<'_>,
     block: &HalfSpace,
+    quantities: &[Quantity],
     probes: &[Probe],
 ) -> Result<ProbeFields, FieldsError> {
-    let points: Vec<Point> = probes
+    let found: Vec<Observed> = probes
         .par_iter()
-        .map(|probe| sampled.point(probe.r_m, probe.z_m))
+        .map(|probe| observer.at(probe.r_m, probe.z_m))
         .collect::<Result<_, _>>()?;
+    let blank = |&quantity: &Quantity| ProbeQuantity {
+        quantity,
+        values: Vec::new(),
+        errors: Vec::new(),
+    };
     let mut fields = ProbeFields {
         r_m: probes.iter().map(|p| p.r_m).collect(),
         z_m: probes.iter().map(|p| p.z_m).collect(),
@@ -85,9 +141,11 @@ pub(crate) fn at_probes(
         valid_until_s: Vec::new(),
         values: Default::default(),
         errors: Default::default(),
+        more: quantities.iter().map(blank).collect(),
     };
+    let excitation = observer.excitation;
     let (speeds, radius_m) = (excitation.speeds(), excitation.units().disc_radius_m);
-    for (point, probe) in points.into_iter().zip(probes) {
+    for (Observed { point, more }, probe) in found.into_iter().zip(probes) {
         let place_m = [probe.r_m, probe.z_m];
         fields.arrival_s.push(excitation.arrivals_s(place_m));
         let echo_s = speeds.first_echo_s(block, place_m, radius_m);
@@ -96,6 +154,10 @@ pub(crate) fn at_probes(
         for (field, samples) in point.values.into_iter().enumerate() {
             fields.errors[field].push(point.errors[field]);
             fields.values[field].push(samples);
+        }
+        for (own, (samples, error)) in fields.more.iter_mut().zip(more) {
+            own.values.push(samples);
+            own.errors.push(error);
         }
     }
     Ok(fields)
@@ -109,48 +171,79 @@ pub(crate) fn frames(section: &Section, samples: usize) -> Vec<usize> {
     (0..section.frames).map(frame).collect()
 }
 
-/// The fields on a section, at the samples that are wanted.
+/// The fields on a section; `frames` are places among the samples that are wanted, all of which count for `peaks`.
 pub(crate) fn on_section(
-    sampled: &Sampled<'_>,
-    excitation: &Excitation,
-    section: &Section,
+    observer: &Observer<'_>,
+    quantities: &[Quantity],
+    (section, frames): (&Section, &[usize]),
+    peaks: bool,
 ) -> Result<SectionFields, FieldsError> {
-    let time_s: Vec<f64> = sampled.times_s().collect();
+    let all_s: Vec<f64> = observer.sampled.times_s().collect();
     let even =
         |end: f64, count: usize| (0..count).map(move |i| end * i as f64 / (count as f64 - 1.0));
     let r_m: Vec<f64> = even(section.r_max_m, section.points[0]).collect();
     let mut z_m: Vec<f64> = even(section.z_max_m, section.points[1]).collect();
     z_m.reverse();
     let (radii, size) = (r_m.len(), r_m.len() * z_m.len());
-    let frames = time_s.len();
+    let blank = |&quantity: &Quantity| SectionQuantity {
+        quantity,
+        values: vec![0.0; frames.len() * size],
+        errors: Vec::new(),
+    };
     let mut fields = SectionFields {
-        time_s,
+        time_s: frames.iter().map(|&n| all_s[n]).collect(),
         arrival_s: Default::default(),
-        values: std::array::from_fn(|_| vec![0.0; frames * size]),
+        values: std::array::from_fn(|_| vec![0.0; frames.len() * size]),
         errors: Default::default(),
+        more: quantities.iter().map(blank).collect(),
+        peaks: peaks.then(|| vec![Peaks::default(); 6 + quantities.len()]),
         r_m,
         z_m,
     };
     for row in 0..fields.z_m.len() {
         let z_m = fields.z_m[row];
-        let points: Vec<Point> = fields
+        let found: Vec<Observed> = fields
             .r_m
             .par_iter()
-            .map(|&r_m| sampled.point(r_m, z_m))
+            .map(|&r_m| observer.at(r_m, z_m))
             .collect::<Result<_, _>>()?;
-        for (column, point) in points.into_iter().enumerate() {
-            let arrivals = excitation.arrivals_s([fields.r_m[column], z_m]);
+        for (column, observed) in found.into_iter().enumerate() {
+            let place_m = [fields.r_m[column], z_m];
+            let arrivals = observer.excitation.arrivals_s(place_m);
             for (times, time) in fields.arrival_s.iter_mut().zip(arrivals) {
                 times.push(time);
             }
             let place = row * radii + column;
-            for (field, samples) in point.values.iter().enumerate() {
-                fields.errors[field].push(point.errors[field]);
-                for (frame, &value) in samples.iter().enumerate() {
-                    fields.values[field][frame * size + place] = value as f32;
-                }
-            }
+            fields.add((&all_s, frames), (place, size), &observed);
         }
     }
     Ok(fields)
+}
+
+impl SectionFields {
+    /// Adds what was found at a place of `size` places.
+    fn add(
+        &mut self,
+        (all_s, frames): (&[f64], &[usize]),
+        (place, size): (usize, usize),
+        Observed { point, more }: &Observed,
+    ) {
+        let put = |values: &mut [f32], samples: &[f64]| {
+            for (frame, &n) in frames.iter().enumerate() {
+                values[frame * size + place] = samples[n] as f32;
+            }
+        };
+        for (field, samples) in point.values.iter().enumerate() {
+            self.errors[field].push(point.errors[field]);
+            put(&mut self.values[field], samples);
+        }
+        for (own, (samples, error)) in self.more.iter_mut().zip(more) {
+            own.errors.push(*error);
+            put(&mut own.values, samples);
+        }
+        let all = point.values.iter().chain(more.iter().map(|own| &own.0));
+        for (peaks, samples) in self.peaks.iter_mut().flatten().zip(all) {
+            peaks.push(all_s, samples);
+        }
+    }
 }

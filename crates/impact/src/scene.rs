@@ -1,5 +1,6 @@
 //! A scene: what loads which half-space, and what is asked.
 
+use crate::quantity::{Origin, Quantity};
 use crate::record::ForceRecord;
 use contact::{HalfSpace, Settings, Striker};
 
@@ -56,6 +57,10 @@ pub struct Scene {
     pub probes: Vec<Probe>,
     /// Section of the field asked for.
     pub section: Option<Section>,
+    /// Quantities asked for beside the fields, at probes and on the section.
+    pub quantities: Vec<Quantity>,
+    /// Whether the largest values over time are asked for on the section, with their instants.
+    pub peaks: bool,
     /// Time in s that the output covers, if the scene says so.
     pub duration_s: Option<f64>,
 }
@@ -67,6 +72,15 @@ impl Scene {
         let probes = self.probes.iter().map(|probe| probe.r_m.hypot(probe.z_m));
         let corner = self.section.iter().map(|s| s.r_max_m.hypot(s.z_max_m));
         probes.chain(corner).fold(0.0, f64::max)
+    }
+
+    /// Rates of the displacement that are asked for: velocity, acceleration.
+    #[must_use]
+    pub fn rates(&self) -> usize {
+        let has = |of: fn(Origin) -> bool| self.quantities.iter().any(|q| of(q.origin()));
+        let velocity = has(|origin| matches!(origin, Origin::Velocity(_)));
+        let acceleration = has(|origin| matches!(origin, Origin::Acceleration(_)));
+        usize::from(velocity) + usize::from(acceleration)
     }
 
     /// Points at which fields are asked for.

@@ -9,12 +9,14 @@ use crate::forecast::{Allowance, Forecast, TooMuch};
 use crate::grid::{Grid, TooManySamples, Wanted};
 use crate::impact::Impact;
 use crate::kernels::KernelSource;
+use crate::observer::Observer;
 use crate::outcome::{
     Cause, FieldsUsed, KernelsUsed, Outcome, RecordResults, Series, StrikerSeries,
 };
 use crate::plausible::doubts;
 use crate::probes::{ProbeFields, SectionFields, at_probes, frames, on_section};
 use crate::projection::Projection;
+use crate::rates::{Rates, Resolved};
 use crate::record::ForceRecord;
 use crate::sampled::Sampled;
 use crate::scene::{Load, Scene, Strike};
@@ -243,27 +245,40 @@ impl<'a> Computed<'a> {
         let scene = asked.scene;
         asked.allowance.watch.points(scene.points());
         let tolerance = scene.settings.tolerance;
-        let sampled = |wanted: &[usize]| {
+        let observer = |wanted: &[usize], resolved: Resolved| {
             let (excitation, grid) = (self.excitation, &self.grid);
-            Sampled::new(excitation, &source, grid, &self.force_n, wanted, tolerance)
-                .map(|sampled| sampled.watched(asked.allowance.watch))
+            let sampled =
+                Sampled::new(excitation, &source, grid, &self.force_n, wanted, tolerance)?;
+            let sampled = sampled.watched(asked.allowance.watch);
+            Observer::new(scene, excitation, sampled, |order| {
+                Rates::new(
+                    (excitation, &source, grid),
+                    wanted,
+                    (order, resolved),
+                    tolerance,
+                )
+            })
         };
         let mut convolution = Method::Direct;
+        let all: Vec<usize> = (0..self.force_n.len()).collect();
         if !scene.probes.is_empty() {
-            let all: Vec<usize> = (0..self.force_n.len()).collect();
-            let sampled = sampled(&all)?;
-            convolution = sampled.method();
-            self.probes = Some(at_probes(
-                &sampled,
-                self.excitation,
-                &scene.target,
-                &scene.probes,
-            )?);
+            let observer = observer(&all, Resolved::Anew)?;
+            let found = at_probes(&observer, &scene.target, &scene.quantities, &scene.probes)?;
+            convolution = observer.sampled.method();
+            self.probes = Some(found);
         }
         if let Some(section) = &scene.section {
-            let sampled = sampled(&frames(section, self.force_n.len()))?;
-            convolution = sampled.method();
-            self.section = Some(on_section(&sampled, self.excitation, section)?);
+            let shown = frames(section, self.force_n.len());
+            let (wanted, shown) = if scene.peaks {
+                (all, shown)
+            } else {
+                let places = (0..shown.len()).collect();
+                (shown, places)
+            };
+            let observer = observer(&wanted, Resolved::Estimated)?;
+            let found = on_section(&observer, &scene.quantities, (section, &shown), scene.peaks)?;
+            convolution = observer.sampled.method();
+            self.section = Some(found);
         }
         self.used = Some(FieldsUsed {
             kernels: used(&source),

@@ -24,6 +24,8 @@ fn scene(load: Load, target: Material, settings: Settings) -> Scene {
         target: HalfSpace::new(target).unwrap(),
         load,
         settings,
+        quantities: Vec::new(),
+        peaks: false,
         duration_s: None,
         probes: Vec::new(),
         section: None,

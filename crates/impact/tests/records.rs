@@ -43,6 +43,8 @@ fn fields(record: ForceRecord, duration_s: Option<f64>) -> Outcome {
         },
         probes: vec![probe(0.0, 0.004), probe(0.004, 0.004), probe(0.02, 0.0)],
         section: None,
+        quantities: Vec::new(),
+        peaks: false,
         duration_s,
     };
     simulate(&scene, &KernelChoice::Direct).unwrap()

@@ -1,6 +1,7 @@
 //! An impact as text: one table of everything over time.
 
 use super::schema;
+use crate::quantities::described;
 use impact::{Outcome, Scene};
 use output::{Output, OutputError, Staged};
 use std::fmt::Write as _;
@@ -78,12 +79,14 @@ fn columns(outcome: &Outcome) -> Vec<Column<'_>> {
             found.push((format!("{name}{}", ending(unit)), samples.as_slice()));
         }
     }
-    for (field, (name, unit, _)) in schema::FIELDS.iter().enumerate() {
-        let probes = outcome
-            .probes
-            .iter()
-            .flat_map(|fields| &fields.values[field]);
-        for (i, samples) in probes.enumerate() {
+    let probes = outcome.probes.iter();
+    let rows = probes.flat_map(|fields| {
+        let own = schema::FIELDS.into_iter().zip(&fields.values);
+        let more = fields.more.iter();
+        own.chain(more.map(|own| (described(own.quantity), &own.values)))
+    });
+    for ((name, unit, _), values) in rows {
+        for (i, samples) in values.iter().enumerate() {
             let name = format!("probe{}_{name}{}", i + 1, ending(unit));
             found.push((name, samples.as_slice()));
         }
@@ -93,5 +96,11 @@ fn columns(outcome: &Outcome) -> Vec<Column<'_>> {
 
 /// A unit as names carry it: `m/s` is `_m_s`.
 fn ending(unit: &str) -> String {
-    format!("_{}", unit.to_lowercase().replace('/', "_"))
+    if unit == "1" {
+        return String::new();
+    }
+    format!(
+        "_{}",
+        unit.to_lowercase().replace('/', "_").replace('^', "")
+    )
 }

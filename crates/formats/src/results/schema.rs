@@ -1,5 +1,7 @@
 //! Names and versions on disk.
 
+pub use crate::quantities::FIELDS;
+
 /// Value of the attribute `file_type`.
 pub const FILE_TYPE: &str = "hertzlamb results";
 /// Version of the format: the first number changes when a reader of the old one would fail.
@@ -66,25 +68,10 @@ pub const PLACES: [(&str, &str, &str); 2] = [
     ("r", "m", "distance from the axis"),
     ("z", "m", "depth below the surface"),
 ];
-/// Fields at the probes, in the order of the kernels.
-pub const FIELDS: [(&str, &str, &str); 6] = [
-    (
-        "displacement_r",
-        "m",
-        "radial displacement, positive outwards",
-    ),
-    (
-        "displacement_z",
-        "m",
-        "axial displacement, positive into the half-space",
-    ),
-    ("stress_rr", "Pa", "radial stress, negative in compression"),
-    ("stress_tt", "Pa", "hoop stress, negative in compression"),
-    ("stress_zz", "Pa", "axial stress, negative in compression"),
-    ("stress_rz", "Pa", "shear stress"),
-];
 /// Appended to the name of a field: the estimate of its error.
 pub const ERROR_SUFFIX: &str = "_error";
+/// Appended to the name of a quantity: its largest value over time, and when it is reached.
+pub const PEAK_SUFFIXES: [&str; 2] = ["_peak", "_peak_time"];
 /// Arrivals of the first P, S and Rayleigh wave.
 pub const ARRIVALS: (&str, &str, &str) = (
     "arrival",

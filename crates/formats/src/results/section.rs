@@ -4,9 +4,10 @@
 
 use super::schema;
 use crate::hdf::{attach_all, describe, numbers, scale, set_scale, text, texts};
+use crate::quantities::described;
 use hdf5::types::FixedAscii;
 use hdf5::{Dataset, File, Group};
-use impact::SectionFields;
+use impact::{Peaks, SectionFields};
 
 pub(super) fn write_section(file: &File, map: &SectionFields) -> Result<(), hdf5::Error> {
     let group = file.create_group(schema::MAP)?;
@@ -24,16 +25,21 @@ pub(super) fn write_section(file: &File, map: &SectionFields) -> Result<(), hdf5
     for (name, ..) in schema::MAP_SCALES {
         link(file, &[schema::MAP, name], &[schema::VTK, name])?;
     }
-    for (i, described) in schema::FIELDS.iter().enumerate() {
-        let (name, unit, meaning) = *described;
+    let own = schema::FIELDS
+        .into_iter()
+        .zip(map.values.iter().zip(&map.errors));
+    let more = map.more.iter();
+    let more = more.map(|own| (described(own.quantity), (&own.values, &own.errors)));
+    for (i, (row, (values, errors))) in own.chain(more).enumerate() {
+        let (name, unit, meaning) = row;
         let dataset = points
             .new_dataset::<f32>()
             .shape(shape)
             .chunk([1, nz, nr])
             .obj_track_times(false)
             .create(name)?;
-        dataset.write_raw(&map.values[i])?;
-        describe(&dataset, described)?;
+        dataset.write_raw(values)?;
+        describe(&dataset, &row)?;
         attach_all(&dataset, &[&time, &z, &r], 0)?;
         link(
             file,
@@ -41,12 +47,35 @@ pub(super) fn write_section(file: &File, map: &SectionFields) -> Result<(), hdf5
             &[schema::MAP, name],
         )?;
         let error = format!("{name}{}", schema::ERROR_SUFFIX);
-        let meaning = format!("estimated absolute error: {meaning}");
-        let described = (error.as_str(), unit, meaning.as_str());
-        let errors = numbers(&group, &described, &[nz, nr], &map.errors[i])?;
+        let of_error = format!("estimated absolute error: {meaning}");
+        let row = (error.as_str(), unit, of_error.as_str());
+        let errors = numbers(&group, &row, &[nz, nr], errors)?;
         attach_all(&errors, &[&z, &r], 0)?;
+        let peaks = map.peaks.as_ref().map(|peaks| &peaks[i]);
+        for (row, found) in peaks
+            .into_iter()
+            .flat_map(|p| peak_rows([name, unit, meaning], p))
+        {
+            let row = (row[0].as_str(), row[1].as_str(), row[2].as_str());
+            let dataset = numbers(&group, &row, &[nz, nr], found)?;
+            attach_all(&dataset, &[&z, &r], 0)?;
+        }
     }
     Ok(())
+}
+
+/// Names, units and meanings of a quantity's largest value over time and of its instant, with their numbers.
+pub(super) fn peak_rows<'p>(
+    [name, unit, meaning]: [&str; 3],
+    peaks: &'p Peaks,
+) -> [([String; 3], &'p [f64]); 2] {
+    let [value, time] = schema::PEAK_SUFFIXES.map(|suffix| format!("{name}{suffix}"));
+    let largest = format!("largest in magnitude over time: {meaning}");
+    let instant = format!("when it is largest in magnitude: {meaning}");
+    [
+        ([value, unit.to_owned(), largest], &peaks.values),
+        ([time, "s".to_owned(), instant], &peaks.time_s),
+    ]
 }
 
 /// The scale of arrivals.
@@ -98,9 +127,10 @@ fn vtk_image(file: &File, map: &SectionFields) -> Result<Group, hdf5::Error> {
     // a step of a field begins where the one before it ends; some readers count in 64 bits only
     let offsets = steps.create_group(schema::VTK_OFFSETS)?;
     let numbered: Vec<i64> = (0..map.time_s.len() as i64).collect();
-    for (name, _, meaning) in &schema::FIELDS {
-        let described = (*name, "1", *meaning);
-        numbers(&offsets, &described, &[numbered.len()], &numbered)?;
+    let more = map.more.iter().map(|own| described(own.quantity));
+    for (name, _, meaning) in schema::FIELDS.into_iter().chain(more) {
+        let row = (name, "1", meaning);
+        numbers(&offsets, &row, &[numbered.len()], &numbered)?;
     }
     vtk.create_group(schema::VTK_POINTS)
 }

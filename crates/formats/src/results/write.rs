@@ -1,15 +1,15 @@
 //! Writing results files.
 
 use super::schema;
-use super::section::{waves, write_section};
+use super::section::{peak_rows, waves, write_section};
 use crate::hdf::{
     attach_all, attach_scale, matrix, new_file, reason, scale, set_scale, text, vector,
 };
-use crate::quantities::QUANTITIES;
+use crate::quantities::{QUANTITIES, described};
 use crate::report::{choices, kernel_name, treatment};
 use crate::scene::resolved;
 use hdf5::{Dataset, File};
-use impact::{EnergySeries, KernelsUsed, Outcome, ProbeFields, Scene};
+use impact::{EnergySeries, KernelsUsed, Outcome, Peaks, ProbeFields, Scene};
 use output::{Existing, Output, OutputError, Staged};
 use std::path::Path;
 
@@ -72,7 +72,7 @@ fn write_file(path: &Path, scene: &Scene, outcome: &Outcome) -> Result<(), hdf5:
         write_energy(&file, energy, &series.time_s)?;
     }
     if let Some(fields) = &outcome.probes {
-        write_probes(&file, fields, &series.time_s)?;
+        write_probes(&file, fields, &series.time_s, scene.peaks)?;
     }
     if let Some(section) = &outcome.section {
         write_section(&file, section)?;
@@ -108,7 +108,12 @@ fn write_energy(file: &File, energy: &EnergySeries, time_s: &[f64]) -> Result<()
     Ok(())
 }
 
-fn write_probes(file: &File, fields: &ProbeFields, time_s: &[f64]) -> Result<(), hdf5::Error> {
+fn write_probes(
+    file: &File,
+    fields: &ProbeFields,
+    time_s: &[f64],
+    peaks: bool,
+) -> Result<(), hdf5::Error> {
     let group = file.create_group(schema::PROBES)?;
     let rows = fields.r_m.len();
     let numbered: Vec<i64> = (1..=rows as i64).collect();
@@ -129,16 +134,30 @@ fn write_probes(file: &File, fields: &ProbeFields, time_s: &[f64]) -> Result<(),
     placed(&dataset, &[&probe, &wave])?;
     let valid = vector(&group, &schema::VALID_UNTIL, &fields.valid_until_s)?;
     placed(&valid, &[&probe])?;
-    for (i, described) in schema::FIELDS.iter().enumerate() {
-        let (name, unit, meaning) = *described;
-        let columns = fields.values[i].first().map_or(0, Vec::len);
-        let samples: Vec<f64> = fields.values[i].iter().flatten().copied().collect();
-        let dataset = matrix(&group, described, [rows, columns], &samples)?;
+    let own = schema::FIELDS
+        .into_iter()
+        .zip(fields.values.iter().zip(&fields.errors));
+    let more = fields.more.iter();
+    let more = more.map(|own| (described(own.quantity), (&own.values, &own.errors)));
+    for ((name, unit, meaning), (values, errors)) in own.chain(more) {
+        let columns = values.first().map_or(0, Vec::len);
+        let samples: Vec<f64> = values.iter().flatten().copied().collect();
+        let dataset = matrix(&group, &(name, unit, meaning), [rows, columns], &samples)?;
         placed(&dataset, &[&probe, &time])?;
         let error = format!("{name}{}", schema::ERROR_SUFFIX);
-        let meaning = format!("estimated absolute error: {meaning}");
-        let described = (error.as_str(), unit, meaning.as_str());
-        placed(&vector(&group, &described, &fields.errors[i])?, &[&probe])?;
+        let of_error = format!("estimated absolute error: {meaning}");
+        let row = (error.as_str(), unit, of_error.as_str());
+        placed(&vector(&group, &row, errors)?, &[&probe])?;
+        if peaks {
+            let mut found = Peaks::default();
+            for samples in values {
+                found.push(time_s, samples);
+            }
+            for (row, numbers) in peak_rows([name, unit, meaning], &found) {
+                let row = (row[0].as_str(), row[1].as_str(), row[2].as_str());
+                placed(&vector(&group, &row, numbers)?, &[&probe])?;
+            }
+        }
     }
     Ok(())
 }

@@ -108,10 +108,13 @@ pub(crate) fn scene_with(
     let load = read_load(&root, &settings, library, directory)?;
     let (probes, section) = (read_probes(&root)?, read_section(&root)?);
     inside(&target, &probes, section.as_ref())?;
-    let mut duration_s = None;
-    if let Some(output) = root.section("output")? {
-        output.allow(&["duration_s"])?;
+    let output = root.section("output")?;
+    let (mut duration_s, mut quantities, mut peaks) = (None, Vec::new(), false);
+    if let Some(output) = &output {
+        output.allow(&["duration_s", "quantities", "peaks"])?;
         duration_s = output.number("duration_s", POSITIVE)?;
+        quantities = output.choices("quantities")?;
+        peaks = output.flag("peaks")?;
     }
     Ok(Scene {
         target,
@@ -119,6 +122,8 @@ pub(crate) fn scene_with(
         settings,
         probes,
         section,
+        quantities,
+        peaks,
         duration_s,
     })
 }

@@ -52,12 +52,24 @@ pub fn resolved(scene: &Scene) -> String {
         table.insert("frames".into(), Value::Integer(section.frames as i64));
         root.insert("map".into(), Value::Table(table));
     }
-    if scene.duration_s.is_some() {
-        let mut table = Table::new();
-        put(&mut table, "duration_s", scene.duration_s);
-        root.insert("output".into(), Value::Table(table));
+    let output = output(scene);
+    if !output.is_empty() {
+        root.insert("output".into(), Value::Table(output));
     }
     root.to_string()
+}
+
+fn output(scene: &Scene) -> Table {
+    let mut table = Table::new();
+    put(&mut table, "duration_s", scene.duration_s);
+    if !scene.quantities.is_empty() {
+        let names = scene.quantities.iter().map(|q| Value::from(q.name()));
+        table.insert("quantities".into(), Value::Array(names.collect()));
+    }
+    if scene.peaks {
+        table.insert("peaks".into(), Value::Boolean(true));
+    }
+    table
 }
 
 /// What mass and tip follow from, or themselves.

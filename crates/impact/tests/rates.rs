@@ -1,0 +1,209 @@
+//! Velocities and accelerations against differences of a much finer output, and identities.
+
+#![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
+
+use contact::{HalfSpace, Material, Settings, Striker};
+use impact::{ForceRecord, KernelChoice, Load, Outcome, Probe, Quantity, Scene, Strike, simulate};
+
+const PLACES: [[f64; 2]; 4] = [[0.0, 0.002], [0.003, 0.004], [0.004, 0.0], [0.0005, 0.0006]];
+
+fn scene(load: Load, disc_radius_m: Option<f64>, tolerance: f64) -> Scene {
+    Scene {
+        target: HalfSpace::new(Material::named("soda-lime-glass").unwrap()).unwrap(),
+        load,
+        settings: Settings {
+            tolerance,
+            disc_radius_m,
+            ..Settings::default()
+        },
+        probes: PLACES.map(|[r_m, z_m]| Probe { r_m, z_m }).to_vec(),
+        section: None,
+        quantities: vec![
+            Quantity::VelocityR,
+            Quantity::VelocityZ,
+            Quantity::AccelerationR,
+            Quantity::AccelerationZ,
+        ],
+        peaks: false,
+        duration_s: Some(1.2e-5),
+    }
+}
+
+fn ball() -> Load {
+    Load::Strike(Strike {
+        striker: Striker::ball(Material::named("bearing-steel").unwrap(), 0.001).unwrap(),
+        velocity_m_s: 1.0,
+    })
+}
+
+/// sin^2 over 6 us, in 600 lines.
+fn record() -> Load {
+    let time_s: Vec<f64> = (0..=600).map(|i| 1e-8 * f64::from(i)).collect();
+    let force = |t: f64| 20.0 * (std::f64::consts::PI * t / 6e-6).sin().powi(2);
+    let force_n = time_s.iter().map(|&t| force(t)).collect();
+    Load::Record(ForceRecord::new(time_s, force_n).unwrap())
+}
+
+fn run(scene: &Scene) -> Outcome {
+    simulate(scene, &KernelChoice::Direct).unwrap()
+}
+
+/// Six-point differences of the displacement of a finer output at the times of a coarser one, of the first order, and
+/// those of the second averaged over a step of it.
+fn differenced(
+    fine: &Outcome,
+    every: usize,
+    [probe, component]: [usize; 2],
+    [time_s, step_s]: [f64; 2],
+) -> [f64; 2] {
+    let thin = |x: &[f64]| -> Vec<f64> { x.iter().step_by(every).copied().collect() };
+    let t = thin(&fine.series.time_s);
+    let u = thin(&fine.probes.as_ref().unwrap().values[component][probe]);
+    let h = t[1] - t[0];
+    let rate = |at_s: f64| {
+        // the slope of a quintic through six samples around
+        let place = at_s / h;
+        let from = (place.floor() as isize - 2).clamp(0, t.len() as isize - 6) as usize;
+        let x = place - from as f64;
+        let mut slope = 0.0;
+        for j in 0..6 {
+            let mut sum = 0.0;
+            for k in (0..6).filter(|&k| k != j) {
+                let others = (0..6).filter(|&m| m != j && m != k);
+                let product: f64 = others
+                    .map(|m| (x - m as f64) / (j as f64 - m as f64))
+                    .product();
+                sum += product / (j as f64 - k as f64);
+            }
+            slope += u[from + j] * sum;
+        }
+        slope / h
+    };
+    if fine.results().is_none() {
+        // a record's are means over a step
+        let at = |at_s: f64| {
+            let place = at_s / h;
+            let from = (place.floor() as isize - 1).clamp(0, t.len() as isize - 4) as usize;
+            let x = place - from as f64;
+            (0..4)
+                .map(|j| {
+                    let others = (0..4).filter(|&m| m != j);
+                    let product: f64 = others
+                        .map(|m| (x - m as f64) / (j as f64 - m as f64))
+                        .product();
+                    u[from + j] * product
+                })
+                .sum::<f64>()
+        };
+        let [a, b, c, d, e] =
+            [-1.0, -0.5, 0.0, 0.5, 1.0].map(|x| at((time_s + x * step_s).max(0.0)));
+        return [(d - b) / step_s, (e - 2.0 * c + a) / (step_s * step_s)];
+    }
+    let (after, before) = (
+        rate(time_s + 0.5 * step_s),
+        rate((time_s - 0.5 * step_s).max(0.0)),
+    );
+    [rate(time_s), (after - before) / step_s]
+}
+
+fn peak(samples: &[f64]) -> f64 {
+    samples.iter().fold(0.0, |most: f64, x| most.max(x.abs()))
+}
+
+/// The largest error over its estimate at the places, and the largest estimate over the peak.
+///
+/// The reference counts with its own errors: those of the displacements over a step of it, and three times the change
+/// when it has every other sample, which shows what differences miss at fronts.
+fn worst(load: &Load, disc: Option<f64>, tolerance: f64, quantities: &[Quantity]) -> [f64; 2] {
+    const FINER: f64 = 16.0;
+    let mut asked = scene(load.clone(), disc, tolerance);
+    asked.quantities = quantities.to_vec();
+    let coarse = run(&asked);
+    let times_s = &coarse.series.time_s;
+    let step_s = times_s[1] - times_s[0];
+    let mut finer = scene(load.clone(), disc, 1e-6);
+    finer.quantities.clear();
+    finer.settings.step_s = Some(step_s / FINER);
+    let fine = run(&finer);
+    let last_s = fine.series.time_s[fine.series.time_s.len() - 1] - 4.0 * step_s;
+    let mut found = [0.0_f64; 2];
+    for own in &coarse.probes.as_ref().unwrap().more {
+        let (component, order) = match own.quantity {
+            Quantity::VelocityR => (0, 0),
+            Quantity::VelocityZ => (1, 0),
+            Quantity::AccelerationR => (0, 1),
+            _ => (1, 1),
+        };
+        for probe in 0..PLACES.len() {
+            let of_finer = fine.probes.as_ref().unwrap().errors[component][probe]
+                / (step_s / FINER)
+                * if order == 0 { 1.0 } else { 1.0 / step_s };
+            let most = peak(&own.values[probe]);
+            if most == 0.0 {
+                continue;
+            }
+            let mut off = 0.0;
+            let inside = times_s.iter().enumerate().skip(1);
+            for (i, &time_s) in inside.take_while(|(_, t)| **t < last_s) {
+                let of = |every| differenced(&fine, every, [probe, component], [time_s, step_s]);
+                let (wanted, thinned) = (of(1)[order], of(2)[order]);
+                let sure = 3.0 * (wanted - thinned).abs() + of_finer;
+                let error = (own.values[probe][i] - wanted).abs() - sure;
+                off = error.max(off);
+            }
+            found[0] = found[0].max(off / own.errors[probe]);
+            found[1] = found[1].max(own.errors[probe] / most);
+        }
+    }
+    found
+}
+
+const VELOCITIES: [Quantity; 2] = [Quantity::VelocityR, Quantity::VelocityZ];
+const ACCELERATIONS: [Quantity; 2] = [Quantity::AccelerationR, Quantity::AccelerationZ];
+
+#[test]
+fn velocities_are_within_their_estimates_of_a_finer_output() {
+    for (load, disc, most) in [
+        (ball(), None, 0.02),
+        (ball(), Some(1e-4), 0.02),
+        (record(), Some(2e-4), 0.05),
+    ] {
+        let [over, estimate] = worst(&load, disc, 1e-3, &VELOCITIES);
+        assert!(over < 1.0 && estimate < most, "{over} {estimate}");
+    }
+}
+
+#[test]
+fn accelerations_are_within_their_estimates_of_a_finer_output() {
+    for (load, disc, most) in [(ball(), Some(1e-4), 0.2), (record(), Some(2e-4), 0.5)] {
+        let [over, estimate] = worst(&load, disc, 1e-3, &ACCELERATIONS);
+        assert!(over < 1.0 && estimate < most, "{over} {estimate}");
+    }
+}
+
+/// The integral of the velocity is the displacement, by the rule of trapezoids.
+#[test]
+fn velocities_integrate_to_displacements() {
+    for (load, disc) in [(ball(), None), (record(), Some(2e-4))] {
+        let mut scene = scene(load, disc, 1e-3);
+        scene.quantities = VELOCITIES.to_vec();
+        let outcome = run(&scene);
+        let (time_s, fields) = (outcome.series.time_s, outcome.probes.unwrap());
+        for component in 0..2 {
+            for probe in 0..PLACES.len() {
+                let (u, v) = (
+                    &fields.values[component][probe],
+                    &fields.more[component].values[probe],
+                );
+                let mut sum = 0.0;
+                for i in 1..time_s.len() {
+                    sum += 0.5 * (time_s[i] - time_s[i - 1]) * (v[i] + v[i - 1]);
+                    assert!(
+                        (sum - u[i]).abs() <= 0.01 * peak(u),
+                        "{component} {probe} {i}"
+                    );
+                }
+            }
+        }
+    }
+}
