@@ -7,7 +7,7 @@
 ... }
 >>> run = hl.impact(scene)
 >>> round(run.restitution, 3)
-0.986
+0.993
 
 What there is
 -------------

@@ -11,6 +11,28 @@ _Floats = NDArray[np.float64]
 _Tell = Callable[[int, int], object] | None
 _Path = str | PathLike[str]
 
+__all__ = [
+    "Outcome",
+    "Plan",
+    "Table",
+    "VERSION",
+    "arrivals",
+    "describe",
+    "extend",
+    "impact",
+    "kernel",
+    "materials",
+    "medium",
+    "plan",
+    "plan_of_columns",
+    "resolved",
+    "sections_of",
+    "static_field",
+    "surface",
+    "surface_centre",
+    "tabulate",
+]
+
 VERSION: str
 
 @final

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, Literal, Protocol
 import numpy as np
 
 from hertzlamb import _core
-from hertzlamb._errors import HertzlambWarning, OutputExists
+from hertzlamb._errors import HertzlambWarning, OutputExists, SceneError
 from hertzlamb._fields import FIELDS
 from hertzlamb._progress import Progress, told
 from hertzlamb._table import Table
@@ -141,6 +141,8 @@ class Probes(_Group):
     none; ``valid_until`` in s (probe,), when the first echo from a face of the block arrives;
     ``displacement_r``, ``displacement_z`` in m and ``stress_rr``, ``stress_tt``, ``stress_zz``, ``stress_rz`` in Pa,
     each (probe, time), with an estimate of the absolute error under the same name in ``error`` (probe,).
+    What ``output.quantities`` of the scene asks for beside them has its own name (``velocity_z``, ``von_mises`` ...), and
+    ``output.peaks`` adds ``NAME_peak`` and ``NAME_peak_time`` (probe,).
     """
 
     def __init__(self, arrays: dict[str, Any], time: Floats) -> None:
@@ -161,16 +163,22 @@ class Probes(_Group):
     @property
     def error(self) -> _Group:
         """Estimated absolute error of each field, in its unit, (probe,)."""
-        return _Group({name: self._arrays[f"{name}_error"] for name in FIELDS})
+        ending = "_error"
+        names = [name.removesuffix(ending) for name in self._arrays if name.endswith(ending)]
+        return _Group({name: self._arrays[name + ending] for name in names})
 
     @property
     def velocity_r(self) -> Floats:
-        """Radial particle velocity in m/s, positive outwards, (probe, time): central differences of the displacement."""
+        """Radial particle velocity in m/s, positive outwards, (probe, time).
+
+        That of the kernels where the scene asks for it (``"output": {"quantities": ["velocity_r"]}``), else central
+        differences of the displacement.
+        """
         return self._rate("velocity_r", "displacement_r")
 
     @property
     def velocity_z(self) -> Floats:
-        """Axial particle velocity in m/s, positive into the half-space, (probe, time): central differences."""
+        """Axial particle velocity in m/s, positive into the half-space, (probe, time); as `velocity_r`."""
         return self._rate("velocity_z", "displacement_z")
 
     def _rate(self, name: str, of: str) -> Floats:
@@ -186,6 +194,8 @@ class Section(_Group):
 
     ``time`` (frame,), ``z`` (z,) descending and ``r`` (r,) in s and m; the six fields (frame, z, r) in single precision,
     their errors (z, r) under ``NAME_error``, and ``arrival`` (3, z, r) of the first P, S and Rayleigh wave.
+    What ``output.quantities`` of the scene asks for beside them has its own name, and ``output.peaks`` adds ``NAME_peak``
+    and ``NAME_peak_time`` (z, r).
     """
 
     def to_xarray(self) -> xr.Dataset:
@@ -213,44 +223,44 @@ class Impact:
     """When it is reached in s."""
     contact_time_s: float
     """Duration of the first contact, or of the force record, in s."""
-    rebound_velocity_m_s: float | None
-    """Velocity of departure in m/s, positive away from the half-space; None for a force record."""
-    restitution: float | None
-    """Velocity of departure over velocity of approach; None for a force record."""
-    loss: float | None
-    """Kinetic energy lost over kinetic energy before, 1 - restitution^2; None for a force record."""
-    peak_displacement_m: float | None
-    """Largest displacement of the striker in m; None for a force record."""
+    rebound_velocity_m_s: float
+    """Velocity of departure in m/s, positive away from the half-space; NaN for a force record."""
+    restitution: float
+    """Velocity of departure over velocity of approach; NaN for a force record."""
+    loss: float
+    """Kinetic energy lost over kinetic energy before, 1 - restitution^2; NaN for a force record."""
+    peak_displacement_m: float
+    """Largest displacement of the striker in m; NaN for a force record."""
     peak_deflection_m: float
     """Largest deflection of the half-space in the contact law in m."""
     impulse_n_s: float
     """Momentum given to the striker in N s."""
-    initial_energy_j: float | None
-    """Kinetic energy before in J; None for a force record."""
+    initial_energy_j: float
+    """Kinetic energy before in J; NaN for a force record."""
     radiated_energy_j: float
     """Work that the force leaves in the half-space as waves in J."""
-    energy_residual: float | None
-    """(initial - rebound - radiated)/initial energy; None for a force record."""
-    contact_radius_m: float | None
-    """Contact radius of Hertz's law at the largest force in m; None for a force record."""
+    energy_residual: float
+    """(initial - rebound - radiated)/initial energy; NaN for a force record."""
+    contact_radius_m: float
+    """Contact radius of Hertz's law at the largest force in m; NaN for a force record."""
     disc_radius_m: float
     """Radius of the disc that loads the half-space in m: the unit of length of tables."""
-    mean_pressure_pa: float | None
-    """Largest contact force over the area of the loaded disc in Pa; None for a force record."""
-    yield_onset: float | None
-    """`mean_pressure_pa` over the pressure at which the first body begins to yield; None where no strength is known."""
-    pressure_over_yield: float | None
-    """`mean_pressure_pa` over the lower of both yield strengths; None where none is known."""
-    pressure_over_tensile: float | None
-    """`mean_pressure_pa` over the lower of both tensile strengths; None where none is known."""
-    cone_crack_onset: float | None
-    """Largest force over that of a cone crack by Auerbach's law; None where no toughness is known."""
-    contacts: int | None
-    """Number of contacts; None for a force record."""
-    march_steps: int | None
-    """Steps of the march, 0 where no uniform step is taken; None for a force record."""
-    march_step_s: float | None
-    """Step of the march in s; None for a force record."""
+    mean_pressure_pa: float
+    """Largest contact force over the area of the loaded disc in Pa; NaN for a force record."""
+    yield_onset: float
+    """`mean_pressure_pa` over the pressure at which the first body begins to yield; NaN where no strength is known."""
+    pressure_over_yield: float
+    """`mean_pressure_pa` over the lower of both yield strengths; NaN where none is known."""
+    pressure_over_tensile: float
+    """`mean_pressure_pa` over the lower of both tensile strengths; NaN where none is known."""
+    cone_crack_onset: float
+    """Largest force over that of a cone crack by Auerbach's law; NaN where no toughness is known."""
+    contacts: int
+    """Number of contacts; 0 for a force record."""
+    march_steps: int
+    """Steps of the march, 0 where no uniform step is taken."""
+    march_step_s: float
+    """Step of the march in s; NaN for a force record."""
     relative_error_estimate: float
     """Estimated relative error of peak force, contact time, restitution and displacement."""
 
@@ -260,7 +270,9 @@ class Impact:
     def __getattr__(self, name: str) -> Any:
         # scalars, looked up once and kept
         if name in QUANTITIES:
-            self.__dict__.update(self._core.numbers())
+            missing = {"real": float("nan"), "count": 0}
+            for each, value in self._core.numbers().items():
+                self.__dict__[each] = missing[QUANTITIES[each][2]] if value is None else value
             return self.__dict__[name]
         raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
 
@@ -307,14 +319,19 @@ class Impact:
         return self._series["force"]
 
     @property
-    def displacement(self) -> Floats | None:
-        """Displacement of the striker in m, positive into the half-space, (time,); None for a force record."""
-        return self._series.get("displacement")
+    def displacement(self) -> Floats:
+        """Displacement of the striker in m, positive into the half-space, (time,)."""
+        return self._of_striker("displacement")
 
     @property
-    def velocity(self) -> Floats | None:
-        """Velocity of the striker in m/s, positive into the half-space, (time,); None for a force record."""
-        return self._series.get("velocity")
+    def velocity(self) -> Floats:
+        """Velocity of the striker in m/s, positive into the half-space, (time,)."""
+        return self._of_striker("velocity")
+
+    def _of_striker(self, name: str) -> Floats:
+        if name not in self._series:
+            raise SceneError(f"there is no {name}: the force is a record, without a striker", key="striker")
+        return self._series[name]
 
     @property
     def deflection(self) -> Floats:
@@ -322,22 +339,34 @@ class Impact:
         return self._series["deflection"]
 
     @cached_property
-    def energy(self) -> Energy | None:
-        """Where the energy is over time."""
-        found = self._core.energy()
-        return None if found is None else Energy(found)
+    def energy(self) -> Energy:
+        """Where the energy is over time; empty where it is not known."""
+        return Energy(self._core.energy() or {})
 
     @cached_property
-    def probes(self) -> Probes | None:
-        """Fields at the probes; None where the scene has none."""
+    def _probes(self) -> Probes | None:
         found = self._core.probes()
         return None if found is None else Probes(found, self.time)
 
     @cached_property
-    def section(self) -> Section | None:
-        """Fields on the section that the scene's ``map`` asks for; None where it does not."""
+    def _section(self) -> Section | None:
         found = self._core.section()
         return None if found is None else Section(found)
+
+    @property
+    def probes(self) -> Probes:
+        """Fields at the probes of the scene; a `SceneError` where it has none."""
+        if self._probes is None:
+            raise SceneError('the scene has no probes: give it some, "probe": [{"r_m": 0.02, "z_m": 0.0}]', key="probe")
+        return self._probes
+
+    @property
+    def section(self) -> Section:
+        """Fields on the section that the scene's ``map`` asks for; a `SceneError` where it asks for none."""
+        if self._section is None:
+            example = '"map": {"r_max_m": 0.02, "z_max_m": 0.02, "points": [41, 41], "frames": 20}'
+            raise SceneError(f"the scene has no section: give it one, {example}", key="map")
+        return self._section
 
     def to_xarray(self) -> xr.Dataset:
         """Time series and fields at probes as a data set, with units, coordinates and the scalars as attributes."""
@@ -378,10 +407,10 @@ class Impact:
             if value is not None:
                 lines.append(f"  {name:24} {value:.7g}")
         lines.append(f"  {'time':24} {len(self.time)} samples to {self.time[-1]:.4g} s")
-        if self.probes is not None:
-            lines.append(f"  {'probes':24} {len(self.probes.r)}, kernels {self.report['kernel']}")
-        if self.section is not None:
-            lines.append(f"  {'section':24} {' x '.join(map(str, self.section.displacement_z.shape))} (frame, z, r)")
+        if self._probes is not None:
+            lines.append(f"  {'probes':24} {len(self._probes.r)}, kernels {self.report['kernel']}")
+        if self._section is not None:
+            lines.append(f"  {'section':24} {' x '.join(map(str, self._section.displacement_z.shape))} (frame, z, r)")
         lines.extend(f"  warning: {warning}" for warning in self.warnings)
         return "\n".join(lines)
 

@@ -187,9 +187,9 @@ class Table:
         """
         points = np.broadcast_arrays(np.asarray(r, dtype=np.float64), np.asarray(z, dtype=np.float64))
         shape = points[0].shape
-        flat = [np.ascontiguousarray(each).reshape(-1) for each in points]
+        flat_r, flat_z = (np.ascontiguousarray(each).reshape(-1) for each in points)
         with told(progress) as tell:
-            array, still, error, width = self._core.trace(nu, *flat, coarsening, cells, smooth, threads, tell)
+            array, still, error, width = self._core.trace(nu, flat_r, flat_z, coarsening, cells, smooth, threads, tell)
         time = (np.arange(array.shape[1]) + 0.5) * width
         time.setflags(write=False)
         return Trace(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -26,9 +27,25 @@ def _attributes(part: str, name: str) -> dict[str, str]:
     return {"units": unit, "long_name": meaning}
 
 
-def _error_attributes(name: str) -> dict[str, str]:
-    unit, meaning = _DESCRIBED["fields"][name]
-    return {"units": unit, "long_name": f"estimated absolute error: {meaning}"}
+_FIELDS: dict[str, list[str]] = {**_DESCRIBED["fields"], **_DESCRIBED["more"]}
+_SUFFIXES = {
+    "_error": "estimated absolute error: ",
+    "_peak": "largest in magnitude over time: ",
+    "_peak_time": "when it is largest in magnitude: ",
+}
+
+
+def _fields(found: Mapping[str, Any], full: tuple[str, ...], place: tuple[str, ...]) -> dict[str, Any]:
+    """Fields over place and time, with their errors and peaks over place."""
+    variables: dict[str, Any] = {}
+    for name, (unit, meaning) in _FIELDS.items():
+        if name in found:
+            variables[name] = (full, found[name], {"units": unit, "long_name": meaning})
+        for suffix, words in _SUFFIXES.items():
+            if name + suffix in found:
+                own = "s" if suffix == "_peak_time" else unit
+                variables[name + suffix] = (place, found[name + suffix], {"units": own, "long_name": words + meaning})
+    return variables
 
 
 def of_impact(run: Impact) -> xr.Dataset:
@@ -36,23 +53,21 @@ def of_impact(run: Impact) -> xr.Dataset:
 
     variables: dict[str, Any] = {}
     for name in ("force", "displacement", "velocity", "deflection"):
-        values = getattr(run, name)
+        values = run._series.get(name)
         if values is not None:
             variables[name] = ("time", values, _attributes("series", name))
-    for name, values in (run.energy or {}).items():
+    for name, values in run.energy.items():
         variables[f"energy_{name}"] = ("time", values, _attributes("energy", name))
     coordinates: dict[str, Any] = {"time": ("time", run.time, _attributes("series", "time"))}
-    if run.probes is not None:
-        probes = run.probes
+    if run._probes is not None:
+        probes = run._probes
         coordinates["probe"] = ("probe", np.arange(1, len(probes.r) + 1), {"long_name": "number of the probe, from 1"})
         coordinates["wave"] = ("wave", _DESCRIBED["waves"])
         for name in ("r", "z"):
             coordinates[name] = ("probe", probes[name], _attributes("places", name))
         variables["arrival"] = (("probe", "wave"), probes.arrival, _attributes("arrival", "arrival"))
         variables["valid_until"] = ("probe", probes.valid_until, _attributes("arrival", "valid_until"))
-        for name in FIELDS:
-            variables[name] = (("probe", "time"), probes[name], _attributes("fields", name))
-            variables[f"{name}_error"] = ("probe", probes.error[name], _error_attributes(name))
+        variables.update(_fields(probes, ("probe", "time"), ("probe",)))
     scalars = {name: value for name, value in run.report.items() if isinstance(value, (int, float, str))}
     return xr.Dataset(variables, coordinates, {**scalars, "warnings": "\n".join(run.warnings)})
 
@@ -61,11 +76,8 @@ def of_section(section: Section) -> xr.Dataset:
     import xarray as xr
 
     coordinates = {name: (name, section[name], _attributes("map", name)) for name in ("time", "z", "r")}
-    variables: dict[str, Any] = {}
+    variables = _fields(section, ("time", "z", "r"), ("z", "r"))
     arrival = (("wave", "z", "r"), section.arrival, _attributes("arrival", "arrival"))
-    for name in FIELDS:
-        variables[name] = (("time", "z", "r"), section[name], _attributes("fields", name))
-        variables[f"{name}_error"] = (("z", "r"), section[f"{name}_error"], _error_attributes(name))
     return xr.Dataset({**variables, "arrival": arrival}, {**coordinates, "wave": ("wave", _DESCRIBED["waves"])})
 
 

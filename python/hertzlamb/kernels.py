@@ -13,7 +13,7 @@ half-space, compression is negative stress.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
@@ -287,7 +287,8 @@ class Medium:
     def arrivals(self, r: float, z: float, *, profile: Profile = "hertz") -> Arrivals:
         """Arrival times at a distance r from the axis and a depth z, in r0."""
         found = _core.arrivals(self.nu, r, z, profile)
-        return Arrivals(**{name: tuple(v) if isinstance(v, list) else v for name, v in found.items()})
+        parts: dict[str, Any] = {name: tuple(v) if isinstance(v, list) else v for name, v in found.items()}
+        return Arrivals(**parts)
 
 
 def medium(nu: float) -> Medium:

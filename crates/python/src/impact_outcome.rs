@@ -1,8 +1,9 @@
 //! One impact: computed, looked at, written.
 
-use crate::arrays::{frozen, matrix, vector};
+use crate::arrays::vector;
 use crate::convert::from_json;
 use crate::errors;
+use crate::fields::{at_probes, on_section};
 use crate::scene::{scene, spelled_out};
 use crate::table::Table;
 use crate::tables::Opened;
@@ -11,7 +12,6 @@ use formats::quantities::{Kind, QUANTITIES};
 use formats::results::schema;
 use formats::{Existing, Output, json_report, stage_results, stage_results_csv};
 use impact::{Allowance, KernelChoice, Outcome as Computed, Scene, simulate_within};
-use numpy::PyArrayDyn;
 use output::{CSV, HDF5};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -154,49 +154,20 @@ impl Outcome {
 
     /// Fields at the probes by name: (probe, time), with errors and places by probe.
     fn probes<'py>(&self, py: Python<'py>) -> Arrays<'py> {
-        let Some(fields) = &self.found.computed.probes else {
-            return Ok(None);
-        };
-        let found = PyDict::new(py);
-        for (place, column) in schema::PLACES.iter().zip([&fields.r_m, &fields.z_m]) {
-            found.set_item(place.0, vector(py, column.clone())?)?;
-        }
-        let arrivals: Vec<f64> = fields.arrival_s.iter().flatten().copied().collect();
-        let shape = [fields.arrival_s.len(), 3];
-        found.set_item(schema::ARRIVALS.0, frozen(py, arrivals, &shape)?)?;
-        let valid = vector(py, fields.valid_until_s.clone())?;
-        found.set_item(schema::VALID_UNTIL.0, valid)?;
-        for (i, (name, _, _)) in schema::FIELDS.iter().enumerate() {
-            found.set_item(name, matrix(py, &fields.values[i])?)?;
-            let error = format!("{name}{}", schema::ERROR_SUFFIX);
-            found.set_item(error, vector(py, fields.errors[i].clone())?)?;
-        }
-        Ok(Some(found))
+        let Found {
+            scene, computed, ..
+        } = &*self.found;
+        let time_s = &computed.series.time_s;
+        let found = computed.probes.as_ref();
+        found
+            .map(|fields| at_probes(py, fields, time_s, scene.peaks))
+            .transpose()
     }
 
     /// Fields on the section by name: (time, z, r), with errors and arrivals by place.
     fn section<'py>(&self, py: Python<'py>) -> Arrays<'py> {
-        let Some(section) = &self.found.computed.section else {
-            return Ok(None);
-        };
-        let found = PyDict::new(py);
-        let scales = [&section.time_s, &section.z_m, &section.r_m];
-        for (scale, column) in schema::MAP_SCALES.iter().zip(scales) {
-            found.set_item(scale.0, vector(py, column.clone())?)?;
-        }
-        let place = [section.z_m.len(), section.r_m.len()];
-        let frames = [section.time_s.len(), place[0], place[1]];
-        let waves = [3, place[0], place[1]];
-        let arrivals = section.arrival_s.concat();
-        found.set_item(schema::ARRIVALS.0, frozen(py, arrivals, &waves)?)?;
-        for (i, (name, _, _)) in schema::FIELDS.iter().enumerate() {
-            let values: Bound<'_, PyArrayDyn<f32>> =
-                frozen(py, section.values[i].clone(), &frames)?;
-            found.set_item(name, values)?;
-            let error = format!("{name}{}", schema::ERROR_SUFFIX);
-            found.set_item(error, frozen(py, section.errors[i].clone(), &place)?)?;
-        }
-        Ok(Some(found))
+        let found = self.found.computed.section.as_ref();
+        found.map(|section| on_section(py, section)).transpose()
     }
 
     /// Writes the command's results file.

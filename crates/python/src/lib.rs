@@ -17,6 +17,7 @@
 mod arrays;
 mod convert;
 mod errors;
+mod fields;
 mod impact_outcome;
 mod kernels;
 mod library;

@@ -3,9 +3,10 @@
 use crate::convert::from_json;
 use crate::errors;
 use contact::{Choice, Library, Model};
-use formats::quantities::{Kind, QUANTITIES};
+use formats::quantities::{Kind, QUANTITIES, described};
 use formats::read_materials;
 use formats::results::schema;
+use impact::Quantity as FieldQuantity;
 use pyo3::prelude::*;
 use serde_json::{Value, json};
 use std::path::PathBuf;
@@ -61,7 +62,9 @@ pub(crate) fn describe(py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
         let row = json!([quantity.unit, quantity.meaning, kind]);
         (quantity.name.to_owned(), row)
     });
+    let more: Vec<(&str, &str, &str)> = FieldQuantity::ALL.iter().map(|&q| described(q)).collect();
     let found = json!({
+        "more": part(&more),
         "quantities": Value::Object(quantities.collect()),
         "series": part(&schema::SERIES),
         "energy": part(&schema::ENERGIES),

@@ -22,6 +22,7 @@ SECTION = {
     "striker": {"material": "copper", "mass_kg": 0.0122, "tip_radius_m": 0.004, "velocity_m_s": 100.0},
     "contact": {"model": "wave", "disc_radius_m": 0.004},
     "map": {"r_max_m": 0.016, "z_max_m": 0.016, "points": [9, 7], "frames": 5},
+    "output": {"quantities": ["velocity_z", "von_mises"], "peaks": True},
 }
 FEW = """
 [scene.target]
@@ -45,7 +46,7 @@ pytestmark = pytest.mark.filterwarnings("ignore::hertzlamb.HertzlambWarning")
 def toml(table, name=""):
     """A nested dictionary as TOML, for the command."""
     plain = "".join(
-        f"{key} = {value!r}\n".replace("'", '"')
+        f"{key} = {value!r}\n".replace("'", '"').replace("True", "true")
         for key, value in table.items()
         if not isinstance(value, dict) and not (isinstance(value, list) and isinstance(value[0], dict))
     )
@@ -73,12 +74,12 @@ def compare(run_here, command, path):
     compared = 0
     with h5py.File(path) as file:
         for name in ("time", "force", "displacement", "velocity", "deflection"):
-            array = getattr(run_here, name)
+            array = run_here._series.get(name)
             assert (array is None) == (name not in file)
             if array is not None:
                 assert same(array, file[name][()]), name
                 compared += 1
-        groups = [("energy", run_here.energy), ("probes", run_here.probes), ("map", run_here.section)]
+        groups = [("energy", run_here.energy), ("probes", run_here._probes), ("map", run_here._section)]
         for group, arrays in groups:
             assert (arrays is None) == (group not in file), group
             for name, array in (arrays or {}).items():
@@ -103,14 +104,20 @@ def test_a_dictionary_gives_what_the_command_gives_with_a_table(tmp_path, table)
     command = run_well("impact", scene, "--table", table, "--kernel", "table", "-o", path)
     opened = hl.Table.open(table)
     here = hl.impact(SECTION, opened, kernel="table")
-    assert here.section.stress_zz.shape == (5, 7, 9)
+    assert here.section.stress_zz.shape == here.section.von_mises.shape == (5, 7, 9)
+    assert here.section.von_mises_peak.shape == (7, 9)
     assert compare(here, command, path) > 20
     # the part of the table is kept: the second time, and nearer to the axis, with the same bits
     again = hl.impact(SECTION, opened, kernel="table")
     assert same(again.section.stress_zz, here.section.stress_zz)
     probe = {**SECTION, "map": None, "probe": [{"r_m": 0.004, "z_m": 0.004}]}
-    fresh = hl.impact(probe, table, kernel="table").probes.stress_zz
-    assert same(hl.impact(probe, opened, kernel="table").probes.stress_zz, fresh)
+    fresh = hl.impact(probe, table, kernel="table")
+    assert same(hl.impact(probe, opened, kernel="table").probes.stress_zz, fresh.probes.stress_zz)
+    assert fresh.to_xarray()["von_mises_peak"].attrs["units"] == "Pa"
+    # the velocity is that of the kernels, about that of differences
+    assert fresh.probes.velocity_z is fresh.probes["velocity_z"]
+    differences = np.gradient(fresh.probes.displacement_z, fresh.time, axis=1)
+    assert np.max(np.abs(differences - fresh.probes.velocity_z)) < 0.05 * np.max(np.abs(differences))
 
 
 def test_dictionary_path_and_text_are_one_scene(tmp_path):
@@ -127,6 +134,17 @@ def test_dictionary_path_and_text_are_one_scene(tmp_path):
 def test_every_result_has_an_attribute():
     described = hl.impact(BALL).numbers
     assert list(hl.Impact.__annotations__) == list(described)
+
+
+def test_what_was_not_asked_for_says_so():
+    record = hl.impact(SCENES / "prescribed-force.toml")
+    assert np.isnan(record.restitution) and record.contacts == 0 and record.numbers["restitution"] is None
+    plain = hl.impact({key: BALL[key] for key in ("target", "striker")})
+    for ask in (lambda: record.velocity, lambda: plain.probes, lambda: plain.section, lambda: plain.plot_probes()):
+        with pytest.raises(hl.SceneError, match="there is no velocity|has no probes|has no section"):
+            ask()
+    with pytest.raises(AttributeError, match="no attribute 'restitutoin'"):
+        plain.restitutoin
 
 
 def test_what_is_saved_holds_the_same_numbers(tmp_path):

@@ -1,0 +1,106 @@
+"""Examples run and are typed: the notebooks, the README's program, the docstrings; stubs are those of the module."""
+
+import doctest
+import importlib
+import json
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import matplotlib
+import pytest
+
+import hertzlamb as hl
+from conftest import ROOT
+
+matplotlib.use("Agg")
+NOTEBOOKS = sorted((ROOT / "docs" / "notebooks").glob("*.ipynb"))
+README = ROOT / "crates" / "python" / "README.md"
+
+pytestmark = pytest.mark.filterwarnings("ignore")
+
+
+@pytest.fixture(autouse=True)
+def demo_table(table, tmp_path_factory, monkeypatch):
+    """The demo table of the session under the name that `Table.demo` looks for."""
+    cache = tmp_path_factory.getbasetemp() / "cache"
+    cache.mkdir(exist_ok=True)
+    place = cache / f"demo-{hl.__version__}.h5"
+    if not place.exists():
+        os.link(table, place)
+    monkeypatch.setenv("HERTZLAMB_CACHE", str(cache))
+
+
+def cells(notebook):
+    """The code of a notebook's cells."""
+    return ["".join(cell["source"]) for cell in json.loads(notebook.read_text())["cells"] if cell["cell_type"] == "code"]
+
+
+def programs(text):
+    return re.findall(r"```python\n(.*?)```", text, re.S)
+
+
+@pytest.mark.parametrize("notebook", NOTEBOOKS, ids=lambda path: path.stem)
+def test_a_notebook_runs(notebook, tmp_path, monkeypatch):
+    import matplotlib.pyplot as plt
+
+    monkeypatch.chdir(tmp_path)
+    names = {}
+    for number, cell in enumerate(cells(notebook)):
+        exec(compile(cell, f"{notebook.name}, cell {number}", "exec"), names)
+    pictures = [plt.figure(number) for number in plt.get_fignums()]
+    folder = os.environ.get("HERTZLAMB_PICTURES")
+    for number, picture in enumerate(pictures):
+        assert any(axes.has_data() for axes in picture.axes)
+        if folder:
+            picture.savefig(Path(folder, f"{notebook.stem}-{number}.png"), dpi=70)
+    plt.close("all")
+    assert pictures, "a notebook without a picture"
+
+
+def test_the_program_of_the_readme_runs(capsys):
+    (program,) = programs(README.read_text())
+    exec(compile(program, "README.md", "exec"), {})
+    assert capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    "module", ["hertzlamb", "hertzlamb.kernels", "hertzlamb._impact", "hertzlamb._sweep", "hertzlamb._table", "hertzlamb._materials"]
+)
+def test_docstrings_say_what_happens(module):
+    found = doctest.testmod(importlib.import_module(module))
+    assert found.failed == 0 and found.attempted > 0
+
+
+def mypy(*arguments, cwd):
+    done = subprocess.run([sys.executable, "-m", *arguments], cwd=cwd, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_package_and_examples_are_typed(tmp_path):
+    for notebook in NOTEBOOKS:
+        (tmp_path / f"{notebook.stem.replace('-', '_')}.py").write_text("\n".join(cells(notebook)))
+    (tmp_path / "readme.py").write_text("\n".join(programs(README.read_text())))
+    examples = sorted(tmp_path.glob("*.py"))
+    assert len(examples) == len(NOTEBOOKS) + 1 > 5
+    mypy("mypy", "--strict", "--config-file", ROOT / "pyproject.toml", ROOT / "python" / "hertzlamb", cwd=tmp_path)
+    mypy("mypy", "--strict", "--config-file", ROOT / "pyproject.toml", *examples, cwd=tmp_path)
+
+
+def test_the_stubs_are_those_of_the_module(tmp_path):
+    mypy("mypy.stubtest", "hertzlamb._core", "--mypy-config-file", ROOT / "pyproject.toml", cwd=tmp_path)
+
+
+def test_everything_is_documented():
+    for name in hl.__all__:
+        thing = getattr(hl, name)
+        if name == "__version__":
+            continue
+        assert thing.__doc__ and len(thing.__doc__) > 20, name
+        members = vars(thing).items() if isinstance(thing, type) and thing.__module__.startswith("hertzlamb") else ()
+        for member, value in members:
+            if not member.startswith("_") and (callable(value) or isinstance(value, property)):
+                assert value.__doc__, f"{name}.{member}"
+    assert set(dir(hl)) == set(hl.__all__)
