@@ -62,6 +62,13 @@ impl Row {
     }
 }
 
+fn heading() -> String {
+    format!(
+        "{:<58} {:>12} {:>12} {:>11}",
+        "", "paper", "this program", "difference"
+    )
+}
+
 fn row(what: &'static str, unit: &'static str, paper: f64, found: f64, digits: usize) -> Row {
     Row {
         what,
@@ -131,6 +138,21 @@ impl Comparison {
     }
 
     /// The whole table as text.
+    /// The numbers that matter most, few enough for a screen.
+    pub(crate) fn short(&self) -> String {
+        let mut lines = vec![heading()];
+        let sections = [
+            ("Hertz", self.numbers.hertz_rows()),
+            ("Coupled with the half-space", self.numbers.coupled_rows()),
+        ];
+        for (title, rows) in sections {
+            lines.push(title.to_owned());
+            lines.extend(rows.iter().map(|row| format!("  {}", row.text())));
+        }
+        lines.join("\n")
+    }
+
+    /// All numbers, with remarks.
     pub(crate) fn text(&self) -> Result<String, Failure> {
         let medium =
             Medium::new(self.table_1.target.material().poisson_ratio).map_err(Failure::work)?;
@@ -151,10 +173,7 @@ impl Comparison {
             ),
             ("Other numbers", self.other_rows(&medium)?),
         ];
-        let mut lines = vec![format!(
-            "{:<58} {:>12} {:>12} {:>11}",
-            "", "paper", "this program", "difference"
-        )];
+        let mut lines = vec![heading()];
         for (title, rows) in sections {
             lines.push(String::new());
             lines.push(title.to_owned());

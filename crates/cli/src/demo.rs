@@ -1,4 +1,4 @@
-//! `hertzlamb demo`: the paper's case from kernels to picture.
+//! `hertzlamb demo`: the paper's case from kernels to picture, and the waves under a ball.
 
 use crate::comparison::Comparison;
 use crate::failure::{Failure, print, say};
@@ -7,8 +7,10 @@ use crate::picture::draw;
 use crate::progress::Bar;
 use crate::tabulate;
 use clap::Args;
+use figure::to_svg;
 use formats::{Existing, parse_scene, write_results, write_whole};
-use impact::{KernelChoice, simulate};
+use impact::{KernelChoice, simulate, simulate_watched};
+use plot::{Request, compose};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
@@ -17,12 +19,15 @@ use tabulator::{Grid, build};
 /// The paper's scene, the same file as in scenes/.
 const SCENE: &str = include_str!("copper-on-steel.toml");
 
+/// A ball on glass, whose waves are seen apart.
+const WAVES: &str = include_str!("waves.toml");
+
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Example:\n  hertzlamb demo -o demo-out\n\nThe kernel table is made when it is missing; results and picture of an earlier demo are replaced."
+    after_help = "Example:\n  hertzlamb demo -o demo-out\n\nThe kernel table is made when it is missing; results and pictures of an earlier demo are replaced."
 )]
 pub(crate) struct Arguments {
-    /// Folder for the table, the results file and the picture.
+    /// Folder for the table, results and pictures.
     #[arg(short, long, value_name = "DIR", default_value = "demo-out")]
     output: PathBuf,
 }
@@ -43,7 +48,12 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let coupled = simulate(&table_1, &KernelChoice::Table(Arc::new(table)))?;
     let wall_s = start.elapsed().as_secs_f64();
     let comparison = Comparison::new(table_1, coupled)?;
-    print(comparison.text()?)?;
+    let numbers = folder.join("numbers.txt");
+    let text = comparison.text()?;
+    write_whole(&numbers, Existing::Replace, |part| {
+        std::fs::write(part, &text)
+    })?;
+    print(comparison.short())?;
 
     let results = folder.join("copper-on-steel.h5");
     let scene = &comparison.table_1;
@@ -52,24 +62,42 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     write_whole(&picture, Existing::Replace, |part| {
         draw(part, scene, &comparison.coupled)
     })?;
-    for warning in &comparison.coupled.warnings {
-        say(format!("warning: {warning}"));
-    }
+    let probes = comparison.coupled.probes.as_ref();
     say(format!(
         "the coupled impact with its {} probes took {:.1} ms",
-        comparison
-            .coupled
-            .probes
-            .as_ref()
-            .map_or(0, |f| f.r_m.len()),
+        probes.map_or(0, |fields| fields.r_m.len()),
         1e3 * wall_s
     ));
+    let waves = waves(folder)?;
     print(format!(
-        "\ntable    {}\nresults  {}\npicture  {}",
-        table_path.display(),
+        "\nall numbers, with reasons  {}\nthe paper's impact         {}, {}\nwaves under a ball         {}, {}",
+        numbers.display(),
         results.display(),
-        picture.display()
+        picture.display(),
+        waves[0].display(),
+        waves[1].display()
     ))
+}
+
+/// The waves that a ball sends into glass: results and picture.
+fn waves(folder: &Path) -> Result<[PathBuf; 2], Failure> {
+    let scene = parse_scene(WAVES, Path::new(".")).map_err(Failure::work)?;
+    say(format!(
+        "waves under a 2 mm steel ball that falls 20 cm on glass, at {} points",
+        scene.points()
+    ));
+    let bar = Bar::new();
+    let outcome = simulate_watched(&scene, &KernelChoice::Direct, &bar)?;
+    bar.finish();
+    let results = folder.join("waves.vtkhdf");
+    write_results(&results, &scene, &outcome, Existing::Replace)?;
+    let drawn = compose(std::slice::from_ref(&results), &Request::default())?;
+    let picture = folder.join("waves.svg");
+    let svg = to_svg(&drawn.figure).map_err(Failure::work)?;
+    write_whole(&picture, Existing::Replace, |part| {
+        std::fs::write(part, svg)
+    })?;
+    Ok([results, picture])
 }
 
 fn make_table(path: &Path) -> Result<(), Failure> {

@@ -49,7 +49,7 @@ pub(crate) fn contact_panels(
                 force = force.line("Hertz, without waves", Style::Plain, hertz);
             }
             if let Some(echo_s) = echo_s(impact)? {
-                force = force.mark(echo_s, "echo from below");
+                force = force.mark(echo_s, "first echo");
             }
         }
         if let Some(StrikerSeries {

@@ -77,6 +77,12 @@ fn by_difference(scenes: &[Vec<(String, StoredValue)>]) -> Option<Vec<String>> {
         let parts = keys.iter().map(|key| {
             let (name, unit) = words(key);
             match value(scene, key) {
+                Some(StoredValue::Text(text)) if key.as_str() == "target.material" => {
+                    format!("on {text}")
+                }
+                Some(StoredValue::Text(text)) if key.as_str() == "striker.material" => {
+                    format!("{text} striker")
+                }
                 Some(StoredValue::Number(x)) => format!("{name} {}", with_unit(x, unit)),
                 Some(StoredValue::Text(text)) => format!("{name} {}", text.replace('_', " ")),
                 None => format!("no {name}"),
@@ -152,10 +158,7 @@ mod tests {
         };
         assert_eq!(
             by_difference(&[of("granite", 5.5e10), of("steel", 2.1e11)]),
-            Some(vec![
-                "material of the half-space granite".into(),
-                "material of the half-space steel".into()
-            ])
+            Some(vec!["on granite".into(), "on steel".into()])
         );
     }
 }

@@ -12,6 +12,7 @@ use crate::request::{Drawn, Request};
 use crate::space_time::{Path, space_time};
 use crate::spectrum::spectrum;
 use crate::waves::frames;
+use contact::Shape;
 use figure::{Figure, Panel, Sharing};
 use formats::stored::{FileKind, StoredImpact};
 
@@ -130,18 +131,34 @@ fn histories(impacts: &[StoredImpact], kind: Kind, request: &Request) -> Result<
     Ok(Drawn { figure, notes })
 }
 
-/// What strikes: `Impact of 110.5 mg at 1.98 m/s, tip radius 1.5 mm`.
+/// What strikes: `A ball of 3 mm strikes at 1.98 m/s`, or its mass and tip.
 fn title(impacts: &[StoredImpact]) -> String {
     if impacts.len() > 1 {
         return format!("{} impacts", impacts.len());
     }
     match &impacts[0].scene.strike {
-        Some(strike) => format!(
-            "Impact of {} at {}, tip radius {}",
-            with_unit(strike.striker.mass_kg, "kg"),
-            with_unit(strike.velocity_m_s, "m/s"),
-            with_unit(strike.striker.tip_radius_m, "m")
-        ),
+        Some(strike) => {
+            let speed = with_unit(strike.velocity_m_s, "m/s");
+            match strike.striker.shape {
+                Some(Shape::Ball { diameter_m }) => {
+                    let size = with_unit(diameter_m, "m");
+                    format!("A ball of {size} strikes at {speed}")
+                }
+                Some(Shape::Rod {
+                    length_m,
+                    diameter_m,
+                    ..
+                }) => {
+                    let (length, width) = (with_unit(length_m, "m"), with_unit(diameter_m, "m"));
+                    format!("A rod of {length}, {width} thick, strikes at {speed}")
+                }
+                None => format!(
+                    "Impact of {} at {speed}, tip radius {}",
+                    with_unit(strike.striker.mass_kg, "kg"),
+                    with_unit(strike.striker.tip_radius_m, "m")
+                ),
+            }
+        }
         None => "A given force on the half-space".to_owned(),
     }
 }

@@ -30,6 +30,8 @@ enum Recipe {
     Displacement,
     /// Length of the velocity, by differences.
     Speed,
+    /// Length of the velocity where it is stored.
+    StoredSpeed,
     /// Von Mises' stress.
     VonMises,
     /// Largest shear stress, half of Tresca's.
@@ -66,6 +68,9 @@ const DERIVED: [(&str, &str, &str, Recipe); 6] = [
     ),
 ];
 
+/// Stored quantities without a sign.
+const UNSIGNED: [&str; 3] = ["von_mises", "tresca", "max_shear"];
+
 /// Samples that a rate is taken from.
 const SAMPLES: usize = 5;
 
@@ -91,6 +96,18 @@ impl Quantity {
                 words: words(name),
                 unit: found.unit.clone(),
                 recipe: Recipe::Stored,
+            });
+        }
+        let velocities = ["velocity_r", "velocity_z"];
+        let stored_both = velocities
+            .iter()
+            .all(|v| stored.iter().any(|q| q.name == *v));
+        if name == "speed" && stored_both {
+            return Ok(Self {
+                name: name.to_owned(),
+                words: "particle speed".to_owned(),
+                unit: "m/s".to_owned(),
+                recipe: Recipe::StoredSpeed,
             });
         }
         if let Some((_, words, unit, recipe)) = DERIVED.iter().find(|row| row.0 == name) {
@@ -119,18 +136,24 @@ impl Quantity {
     pub(crate) fn is_rate(&self) -> bool {
         match self.recipe {
             Recipe::Rate(_) | Recipe::Speed => true,
-            Recipe::Stored | Recipe::Displacement | Recipe::VonMises | Recipe::MaximumShear => {
-                false
-            }
+            Recipe::Stored
+            | Recipe::StoredSpeed
+            | Recipe::Displacement
+            | Recipe::VonMises
+            | Recipe::MaximumShear => false,
         }
     }
 
     /// Whether it has a sign.
     pub(crate) fn has_sign(&self) -> bool {
         match self.recipe {
-            Recipe::Stored => !self.name.starts_with("peak"),
+            Recipe::Stored => !UNSIGNED.contains(&self.name.as_str()),
             Recipe::Rate(_) => true,
-            Recipe::Displacement | Recipe::Speed | Recipe::VonMises | Recipe::MaximumShear => false,
+            Recipe::Displacement
+            | Recipe::Speed
+            | Recipe::StoredSpeed
+            | Recipe::VonMises
+            | Recipe::MaximumShear => false,
         }
     }
 
@@ -180,6 +203,10 @@ impl Quantity {
             Recipe::Speed => length(
                 rate(field, "displacement_r", instant, samples)?,
                 rate(field, "displacement_z", instant, samples)?,
+            ),
+            Recipe::StoredSpeed => length(
+                field.at("velocity_r", instant)?,
+                field.at("velocity_z", instant)?,
             ),
             Recipe::VonMises => stresses(field, instant, von_mises)?,
             Recipe::MaximumShear => stresses(field, instant, maximum_shear)?,
@@ -240,15 +267,31 @@ fn maximum_shear([rr, tt, zz, rz]: [f64; 4]) -> f64 {
     0.5 * (largest - smallest)
 }
 
+/// A velocity or an acceleration is that of the particles, not of a wave.
+fn particle(kind: &str) -> String {
+    match kind {
+        "velocity" | "acceleration" => format!("particle {kind}"),
+        other => other.to_owned(),
+    }
+}
+
 /// Name of a stored quantity in words: `displacement_z` is "axial displacement".
 pub(crate) fn words(name: &str) -> String {
     let (kind, component) = name.rsplit_once('_').unwrap_or((name, ""));
     match component {
-        "r" | "rr" => format!("radial {kind}"),
-        "z" | "zz" => format!("axial {kind}"),
+        "r" | "rr" => format!("radial {}", particle(kind)),
+        "z" | "zz" => format!("axial {}", particle(kind)),
         "tt" => format!("hoop {kind}"),
         "rz" => format!("shear {kind}"),
-        _ => name.replace('_', " "),
+        _ => match name {
+            "von_mises" => "von Mises stress".to_owned(),
+            "tresca" => "Tresca stress".to_owned(),
+            "max_shear" => "largest shear stress".to_owned(),
+            "principal_1" => "largest principal stress".to_owned(),
+            "principal_2" => "middle principal stress".to_owned(),
+            "principal_3" => "smallest principal stress".to_owned(),
+            other => other.replace('_', " "),
+        },
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::error::ReadError;
 use super::open::{Stored, StoredQuantity};
-use crate::results::schema::{MAP, MAP_SCALES};
+use crate::results::schema::{MAP, MAP_SCALES, PEAK_SUFFIXES};
 
 /// The section of a results file: its grid and times; frames are read when they are asked for.
 ///
@@ -54,6 +54,14 @@ impl StoredSection {
         }
         self.stored
             .slab(&format!("{MAP}/{quantity}"), &self.shape(), frame)
+    }
+
+    /// The largest value of a quantity over all samples at each place, where the file has it.
+    #[must_use]
+    pub fn peak(&self, quantity: &str) -> Option<Vec<f64>> {
+        let path = format!("{MAP}/{quantity}{}", PEAK_SUFFIXES[0]);
+        let [_, z, r] = self.shape();
+        self.stored.numbers(&path, &[z, r]).ok()
     }
 
     fn shape(&self) -> [usize; 3] {
