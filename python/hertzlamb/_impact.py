@@ -123,6 +123,10 @@ class _Group(Mapping[str, "NDArray[Any]"]):
     def __dir__(self) -> list[str]:
         return [*super().__dir__(), *self._arrays]
 
+    def __repr__(self) -> str:
+        lines = [f"{name:24} {' x '.join(map(str, array.shape))}" for name, array in self._arrays.items()]
+        return "\n".join([type(self).__name__.lstrip("_"), *lines])
+
     def __getstate__(self) -> dict[str, Any]:
         return {"_arrays": self._arrays}
 

@@ -68,9 +68,9 @@ def force(run: Impact, axes: Axes | None) -> Axes:
 
 def probes(run: Impact, quantity: str) -> Figure:
     """A quantity at every probe over time, each in a panel of its own, with the arrivals."""
+    found = run.probes
     import matplotlib.pyplot as plt
 
-    found = run.probes
     _known(quantity, tuple(name for name in _FIELDS if name in found or name in ("velocity_r", "velocity_z")))
     values = getattr(found, quantity)
     count = len(found.r)

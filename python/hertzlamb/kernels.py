@@ -49,6 +49,10 @@ __all__ = [
 ]
 
 
+def __dir__() -> list[str]:
+    return __all__
+
+
 class Kernel(Fields):
     """Six fields by name, with an estimate of the error of each in ``error``."""
 

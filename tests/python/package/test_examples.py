@@ -60,6 +60,32 @@ def test_a_notebook_runs(notebook, tmp_path, monkeypatch):
     assert pictures, "a notebook without a picture"
 
 
+def test_pictures_show_what_is_asked():
+    scene = {
+        "target": {"material": "steel"},
+        "striker": {"material": "copper", "shape": "ball", "diameter_m": 2e-3, "velocity_m_s": 1.0},
+        "probe": [{"r_m": 0.004, "z_m": 0.0}],
+        "output": {"quantities": ["von_mises"]},
+        "map": {"r_max_m": 0.006, "z_max_m": 0.006, "points": [5, 5], "frames": 3},
+    }
+    run = hl.impact(scene)
+    (line,) = run.plot().get_lines()
+    assert line.get_xdata()[-1] <= 1.1e6 * run.contact_time_s and line.get_ydata().max() == run.force.max()
+    for quantity in ("stress_rr", "velocity_z", "von_mises"):
+        (panel,) = run.plot_probes(quantity).axes
+        shown = panel.get_lines()[0].get_ydata()
+        expected = getattr(run.probes, quantity)[0]
+        assert abs(shown @ expected / ((shown @ shown) * (expected @ expected)) ** 0.5 - 1.0) < 1e-12
+    axes = run.plot_section(2, "von_mises")
+    assert "von Mises" in axes.get_title() and axes.get_ylim()[1] == 0.0
+    with pytest.raises(KeyError, match="not one of displacement_r"):
+        run.plot_probes("speed")
+    spec = {"scene": {k: scene[k] for k in ("target", "striker")}, "product": {"striker": {"velocity_m_s": [0.5, 1.0, 2.0]}}}
+    out = hl.sweep(spec)
+    (line,) = out.plot("loss").get_lines()
+    assert list(line.get_ydata()) == list(out.loss)
+
+
 def test_the_program_of_the_readme_runs(capsys):
     (program,) = programs(README.read_text())
     exec(compile(program, "README.md", "exec"), {})

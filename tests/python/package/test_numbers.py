@@ -214,6 +214,29 @@ def test_collide_gives_what_impact_gives_for_any_key():
     assert hl.collide(scene, velocity_m_s=[], mass_kg=1.0).restitution.shape == (0,)
 
 
+def test_results_are_tables_of_others(table):
+    pd, pa, xr = (pytest.importorskip(name) for name in ("pandas", "pyarrow", "xarray"))
+    out = hl.sweep(FEW, rows=slice(0, 12))
+    frame, arrow = out.to_pandas(), out.to_arrow()
+    assert isinstance(frame, pd.DataFrame) and isinstance(arrow, pa.Table)
+    assert list(frame.columns) == arrow.schema.names == [*out, "failure"]
+    assert same(frame["loss"].to_numpy(), out.loss) and same(arrow["loss"].to_numpy(), out.loss)
+    assert arrow.schema.field("peak_force_n").metadata[b"units"] == b"N"
+    assert arrow["striker.material"].to_pylist() == ["steel"] * 12
+    rows = out.to_xarray()
+    assert rows.sizes == {"row": 12} and rows["peak_force_n"].attrs["units"] == "N"
+    scene = {key: BALL[key] for key in ("target", "striker")}
+    grid = hl.collide(scene, velocity_m_s=[[1.0], [2.0]], mass_kg=[1e-4, 2e-4, 3e-4]).to_xarray()
+    assert grid["loss"].dims == ("dim_0", "dim_1") and grid["striker.mass_kg"].attrs["units"] == "kg"
+    section = hl.impact(SECTION, table).section.to_xarray()
+    assert section["von_mises"].dims == ("time", "z", "r") and section["von_mises_error"].dims == ("z", "r")
+    assert isinstance(hl.materials().to_pandas().loc["granite", "density_kg_m3"], float)
+    trace = hl.Table.open(table).trace(0.3, [0.5, 1.0], 0.6, cells=7).to_xarray()
+    assert trace["stress_zz"].dims == ("point", "time") and isinstance(trace, xr.Dataset)
+    polars = pytest.importorskip("polars")
+    assert out.to_polars()["loss"].to_list() == list(out.loss) and isinstance(out.to_polars(), polars.DataFrame)
+
+
 def test_threads_change_no_bit(table):
     opened = hl.Table.open(table)
     rng = np.random.default_rng(1)
