@@ -300,7 +300,9 @@ impl<'a> Sampled<'a> {
             (i, (0..6).map(over).fold(0.0, f64::max))
         };
         let mut found: Vec<(usize, f64)> = (0..self.wanted.len()).map(off).collect();
-        found.retain(|&(_, off)| off > SURE);
+        // before the first wave nothing moves
+        let first_s = point.arrival_s[0];
+        found.retain(|&(i, off)| off > SURE && self.wanted[i][0] > first_s);
         found.sort_by(|a, b| b.1.total_cmp(&a.1));
         found
     }

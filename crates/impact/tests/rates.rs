@@ -5,7 +5,7 @@
 use contact::{HalfSpace, Material, Settings, Striker};
 use impact::{ForceRecord, KernelChoice, Load, Outcome, Probe, Quantity, Scene, Strike, simulate};
 
-const PLACES: [[f64; 2]; 4] = [[0.0, 0.002], [0.003, 0.004], [0.004, 0.0], [0.0005, 0.0006]];
+const PLACES: [[f64; 2]; 4] = [[0.0, 0.002], [0.003, 0.004], [0.004, 0.0], [6e-5, 1.2e-4]];
 
 fn scene(load: Load, disc_radius_m: Option<f64>, tolerance: f64) -> Scene {
     Scene {
