@@ -56,8 +56,12 @@ def main(calls, program):
         )
     with tempfile.TemporaryDirectory() as folder:
         scene = Path(folder, "scene.toml")
-        scene.write_text("".join(f"[{k}]\n" + "".join(f"{a} = {b!r}\n".replace("'", '"') for a, b in v.items()) for k, v in SCENE.items()))
-        process = median(21, lambda: subprocess.run([program, "impact", scene, "--json"], check=True, capture_output=True))
+        for section, keys in SCENE.items():
+            lines = [f"{key} = {value!r}".replace("'", '"') for key, value in keys.items()]
+            with scene.open("a") as file:
+                print(f"[{section}]", *lines, sep="\n", file=file)
+        command = [program, "impact", scene, "--json"]
+        process = median(21, lambda: subprocess.run(command, check=True, capture_output=True))
         print(f"{'command':8} one process of the same impact {1e3 * process:9.3f} ms")
     million = median(1, lambda: hl.collide(SCENE, velocity_m_s=np.linspace(0.1, 10.0, 1_000_000)))
     print(f"{'collide':8} a million impacts from numpy {million:9.3f} s")
