@@ -103,3 +103,25 @@ def test_the_section_opens_in_vtk(tmp_path):
             for name in ("displacement_z", "stress_rr"):
                 np.testing.assert_array_equal(mesh.point_data[name], file["map"][name][step].ravel())
         np.testing.assert_allclose(mesh.points[-1], [file["map/r"][-1], -file["map/z"][-1], 0.0], atol=1e-12)
+
+
+def test_a_part_has_the_rows_of_the_sweep(sweep):
+    whole, folder = sweep
+    summary = run_well("sweep", folder / "sweep.toml", "--rows", "37:95", "-o", folder / "part.h5")
+    assert (summary["rows"], summary["first_row"], summary["sweep_rows"]) == (58, 37, 120)
+    with h5py.File(folder / "part.h5", "r") as part:
+        assert part.attrs["file_type"] == "hertzlamb sweep part"
+        assert part.attrs["sweep_sha256"] == whole.attrs["sweep_sha256"]
+        assert list(part["results/row"][()]) == list(range(37, 95))
+        for name, data in whole["results"].items():
+            if data.ndim == 3:
+                np.testing.assert_array_equal(part["results"][name][()], data[()].ravel()[37:95], err_msg=name)
+                assert part["results"][name].dims[0][0].name == "/results/row"
+        # keys that vary, row by row
+        place = np.unravel_index(np.arange(37, 95), (2, 3, 20))
+        words = part["words/striker.material"].asstr()[()]
+        material = whole["axes/striker.material"].asstr()[()]
+        assert list(words[part["results/striker.material"][()]]) == list(material[place[0]])
+        for name, axis in {"striker.velocity_m_s": 1, "striker.mass_kg": 2}.items():
+            values = whole[f"axes/{name}"][()][place[axis]]
+            np.testing.assert_array_equal(part["results"][name][()], values)

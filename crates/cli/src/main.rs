@@ -16,6 +16,8 @@ mod plot_command;
 mod progress;
 mod report;
 mod sweep;
+mod sweep_parts;
+mod sweep_plan;
 mod table;
 mod tabulate;
 

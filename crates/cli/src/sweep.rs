@@ -5,33 +5,73 @@ use crate::interrupt;
 use crate::memory::MemoryLimit;
 use crate::overwrite::Overwrite;
 use crate::progress::Bar;
+use crate::sweep_parts::{self, Action};
+use crate::sweep_plan;
 use clap::Args;
+use formats::parts::check_complete;
 use formats::sweep::{
-    Block, Done, JournalError, Spec, SweepError, is_computed, print_csv, run_sweep, stage_csv,
-    stage_sweep,
+    Block, Blocks, JournalError, Kept, Selection, Shard, Spec, SweepError, is_computed, print_csv,
+    run_rows, stage_csv, stage_part, stage_sweep,
 };
-use formats::{Existing, Output, QUANTITIES};
-use output::{CSV, HDF5, Role, Staged, apart, behind, is_standard};
+use formats::{Existing, Output, OutputError, QUANTITIES};
+use output::{CSV, Fault, HDF5, Role, Staged, apart, behind, is_standard};
 use serde::Serialize;
 use std::io::{BufWriter, Write};
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
+const EXAMPLES: &str = "Examples:
+  hertzlamb sweep scenes/sweep.toml -o sweep.h5 --csv sweep.csv
+  hertzlamb sweep scenes/sweep.toml --plan --json
+  hertzlamb sweep scenes/sweep.toml --shard 2/4 --skip-complete -o out/2.h5
+  hertzlamb sweep status out --missing
+  hertzlamb sweep merge out -o sweep.h5
+
+An interrupted sweep goes on where it stopped when the same command is given again.
+Recipes for Slurm, Snakemake and dask are in docs/cluster.md.";
+
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Example:\n  hertzlamb sweep scenes/sweep.toml -o sweep.h5 --csv sweep.csv\n\nAn interrupted sweep goes on where it stopped when the same command is given again."
+    after_help = EXAMPLES,
+    args_conflicts_with_subcommands = true,
+    subcommand_negates_reqs = true
 )]
 pub(crate) struct Arguments {
+    #[command(subcommand)]
+    action: Option<Action>,
+    #[command(flatten)]
+    run: Run,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Run {
     /// Sweep file (TOML, see data-schema/sweep.md).
-    sweep: PathBuf,
+    #[arg(required = true)]
+    sweep: Option<PathBuf>,
     /// Results file (HDF5, see data-schema/sweep.md).
-    #[arg(short, long, value_name = "OUT.h5")]
-    output: PathBuf,
+    #[arg(short, long, value_name = "OUT.h5", required_unless_present = "plan")]
+    output: Option<PathBuf>,
     /// Also write the rows as text; - is standard output.
     #[arg(long, value_name = "OUT.csv")]
     csv: Option<PathBuf>,
+    /// Compute part I of N into the output, which is then a part for `hertzlamb sweep merge`.
+    #[arg(long, value_name = "I/N")]
+    shard: Option<Shard>,
+    /// Compute the rows from A up to B, which is not among them, into the output, which is then a part.
+    #[arg(long, value_name = "A:B", conflicts_with = "shard", value_parser = range)]
+    rows: Option<Range<usize>>,
+    /// Succeed at once where the output is whole and of the same sweep, rows and version; fail with 1 where it is not.
+    #[arg(long, conflicts_with = "force")]
+    skip_complete: bool,
+    /// Compute a few rows and say what the sweep takes, in shards; nothing is written.
+    #[arg(long, conflicts_with_all = ["output", "csv", "shard", "rows", "skip_complete", "force"])]
+    plan: bool,
+    /// Shards of the plan; as many as take five minutes each otherwise.
+    #[arg(long, value_name = "N", requires = "plan", value_parser = clap::value_parser!(u32).range(1..))]
+    shards: Option<u32>,
     #[command(flatten)]
     overwrite: Overwrite,
     #[command(flatten)]
@@ -41,6 +81,17 @@ pub(crate) struct Arguments {
     json: bool,
 }
 
+/// A:B.
+fn range(text: &str) -> Result<Range<usize>, String> {
+    let ends = text.split_once(':');
+    let ends = ends.and_then(|(a, b)| Some((a.parse().ok()?, b.parse().ok()?)));
+    let (start, end) = ends.ok_or("give A:B with whole numbers, as in 0:32768")?;
+    if start > end {
+        return Err(format!("{start} is after {end}"));
+    }
+    Ok(start..end)
+}
+
 /// The JSON object of `sweep --json`.
 #[derive(Debug, Serialize)]
 struct Report<'a> {
@@ -48,6 +99,13 @@ struct Report<'a> {
     csv: Option<&'a Path>,
     shape: Vec<usize>,
     rows: usize,
+    /// Of a part.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    first_row: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    shard: Option<String>,
+    sweep_rows: usize,
+    sweep_sha256: String,
     resumed: usize,
     failed: usize,
     /// Scenes in which a body yields, and in which one is expected to crack.
@@ -58,59 +116,138 @@ struct Report<'a> {
 }
 
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let run = &arguments.run;
+    match (&arguments.action, &run.sweep, &run.output) {
+        (Some(action), _, _) => sweep_parts::run(action),
+        (None, Some(sweep), _) if run.plan => sweep_plan::run(sweep, run.shards, run.json),
+        (None, Some(sweep), Some(output)) => compute(run, sweep, output),
+        (None, _, _) => Err(Failure::input("give a sweep file and -o OUT.h5")),
+    }
+}
+
+fn compute(arguments: &Run, sweep: &Path, output: &Path) -> Result<(), Failure> {
     let start = Instant::now();
-    let spec = Spec::from_file(&arguments.sweep).map_err(Failure::input)?;
+    let spec = Spec::from_file(sweep).map_err(Failure::input)?;
+    let change = "ask for fewer values";
     arguments
         .memory
-        .check(spec.memory_bytes(), "the sweep", "ask for fewer rows")?;
-    let outputs = Outputs::claim(arguments, &spec)?;
-    let Some(done) = compute(arguments, &spec, &outputs)? else {
+        .check(spec.memory_bytes(), "the sweep", change)?;
+    let selection = selection(arguments, &spec)?;
+    let Some(outputs) = Outputs::claim(arguments, sweep, output, &spec, selection)? else {
+        return complete(arguments, output);
+    };
+    let Some(kept) =
+        rows(arguments.overwrite, &spec, &outputs).map_err(|error| failure(sweep, error))?
+    else {
         return Err(Failure::work("the sweep was stopped"));
     };
     let computing_s = start.elapsed().as_secs_f64();
-    outputs.write(&spec, &done.blocks)?;
-    done.journal.remove();
-    let failed: usize = done.blocks.iter().map(|b| b.failures.len()).sum();
-    if let Some((row, reason)) = done.blocks.iter().find_map(|b| b.failures.first()) {
+    let tally = Tally::of(&kept).map_err(|fault| OutputError::writing(&outputs.part, fault))?;
+    if let Some((row, reason)) = &tally.first {
         say(format!(
-            "warning: {failed} of {} scenes failed, the first in row {row} (rows count from 0): {reason}",
-            spec.rows()
+            "warning: {} of {} scenes failed, the first in row {row} (rows count from 0): {reason}",
+            tally.failed, tally.rows
         ));
     }
+    outputs.write(&spec, &kept)?;
+    let selection = outputs.selection.as_ref();
     let report = Report {
-        output: &arguments.output,
+        output,
         csv: arguments.csv.as_deref(),
-        shape: spec.axes.iter().map(|axis| axis.len).collect(),
-        rows: spec.rows(),
-        resumed: done.resumed,
-        failed,
-        yielding: beyond(&done.blocks, "yield_onset"),
-        cracking: beyond(&done.blocks, "cone_crack_onset"),
+        shape: selection.map_or_else(
+            || spec.axes.iter().map(|axis| axis.len).collect(),
+            |selection| vec![selection.rows.len()],
+        ),
+        rows: tally.rows,
+        first_row: selection.map(|selection| selection.rows.start),
+        shard: selection.and_then(|s| Some(s.shard?.to_string())),
+        sweep_rows: spec.rows(),
+        sweep_sha256: spec.sha256(),
+        resumed: kept.resumed,
+        failed: tally.failed,
+        yielding: tally.yielding,
+        cracking: tally.cracking,
         wall_s: start.elapsed().as_secs_f64(),
         computing_s,
     };
-    if outputs.print {
+    let done = if outputs.print {
         say(report.text(&spec));
-        return print_rows(&spec, &done.blocks);
-    }
-    if arguments.json {
+        print_rows(&spec, &kept)
+    } else if arguments.json {
         print(serde_json::to_string(&report).map_err(Failure::work)?)
     } else {
         print(report.text(&spec))
+    };
+    kept.remove();
+    done
+}
+
+/// The rows that are asked for; nothing where they are the whole sweep in its own shape.
+fn selection(arguments: &Run, spec: &Spec) -> Result<Option<Selection>, Failure> {
+    if let Some(shard) = arguments.shard {
+        return Ok(Some(shard.selection(spec.rows())));
+    }
+    let rows = arguments.rows.clone();
+    rows.map(|rows| Selection::of_rows(rows, spec.rows()).map_err(Failure::input))
+        .transpose()
+}
+
+/// What there is to say where nothing is left to do.
+fn complete(arguments: &Run, output: &Path) -> Result<(), Failure> {
+    if arguments.json {
+        return print(serde_json::json!({ "output": output, "complete": true }));
+    }
+    print(format!(
+        "complete       {}, nothing to do",
+        output.display()
+    ))
+}
+
+/// What is counted over all rows.
+#[derive(Debug, Default)]
+struct Tally {
+    rows: usize,
+    failed: usize,
+    first: Option<(usize, String)>,
+    yielding: usize,
+    cracking: usize,
+}
+
+impl Tally {
+    fn of(rows: &impl Blocks) -> Result<Self, Fault> {
+        let mut tally = Self::default();
+        rows.each(&mut |block| {
+            tally.rows += block.numbers.len();
+            tally.failed += block.failures.len();
+            tally.first = tally
+                .first
+                .take()
+                .or_else(|| block.failures.first().cloned());
+            tally.yielding += beyond(block, "yield_onset");
+            tally.cracking += beyond(block, "cone_crack_onset");
+            Ok(())
+        })?;
+        Ok(tally)
     }
 }
 
 /// Scenes in which a ratio to what the bodies bear is above 1.
-fn beyond(blocks: &[Block], name: &str) -> usize {
+fn beyond(block: &Block, name: &str) -> usize {
     let place = QUANTITIES.iter().position(|quantity| quantity.name == name);
-    let rows = blocks.iter().flat_map(|block| &block.numbers);
-    place.map_or(0, |k| rows.filter(|numbers| numbers[k] > 1.0).count())
+    place.map_or(0, |k| {
+        block
+            .numbers
+            .iter()
+            .filter(|numbers| numbers[k] > 1.0)
+            .count()
+    })
 }
 
 /// Computes the rows; what is done is kept from moment to moment.
-fn compute(arguments: &Arguments, spec: &Spec, outputs: &Outputs) -> Result<Option<Done>, Failure> {
+fn rows(overwrite: Overwrite, spec: &Spec, outputs: &Outputs) -> Result<Option<Kept>, SweepError> {
     let kept = Arc::new(AtomicUsize::new(0));
-    let (count, rows, place) = (Arc::clone(&kept), spec.rows(), outputs.part.clone());
+    let range = outputs.rows(spec);
+    let (count, rows, place) = (Arc::clone(&kept), range.len(), outputs.part.clone());
     interrupt::say_then(move || {
         format!(
             "{} of {rows} scenes are kept in {}; the same command goes on with them",
@@ -120,28 +257,33 @@ fn compute(arguments: &Arguments, spec: &Spec, outputs: &Outputs) -> Result<Opti
     });
     let progress = Bar::new();
     progress.start("scenes", rows as u64);
-    let existing = arguments.overwrite.existing();
-    let done = run_sweep(spec, &outputs.part, existing, |rows| {
+    let existing = overwrite.existing();
+    let done = run_rows(spec, range, &outputs.part, existing, |rows| {
         kept.store(rows, Ordering::Relaxed);
         progress.set(rows as u64);
         true
-    })
-    .map_err(|error| match error {
-        SweepError::Scene(scene) => Failure::input(scene.in_file(&arguments.sweep)),
+    })?;
+    progress.finish();
+    Ok(done)
+}
+
+fn failure(sweep: &Path, error: SweepError) -> Failure {
+    match error {
+        SweepError::Scene(scene) => Failure::input(scene.in_file(sweep)),
         SweepError::Journal(JournalError::Output(output)) => output.into(),
         SweepError::Journal(other @ JournalError::Other { .. }) => Failure::input(format!(
             "{other}; give --force to drop it, or another output to keep it"
         )),
         SweepError::Journal(journal) => Failure::input(journal),
-    })?;
-    progress.finish();
-    Ok(done)
+    }
 }
 
 /// Where a sweep goes, claimed before any work.
 struct Outputs {
     results: Output,
     csv: Option<Output>,
+    /// The rows, where they are not the whole sweep in its own shape.
+    selection: Option<Selection>,
     /// Whether the rows go to standard output.
     print: bool,
     /// Where finished blocks are kept until all are there: beside the results, under their name and `.part`.
@@ -149,7 +291,14 @@ struct Outputs {
 }
 
 impl Outputs {
-    fn claim(arguments: &Arguments, spec: &Spec) -> Result<Self, Failure> {
+    /// Claims all outputs; nothing where they are there already and that is enough.
+    fn claim(
+        arguments: &Run,
+        sweep: &Path,
+        output: &Path,
+        spec: &Spec,
+        selection: Option<Selection>,
+    ) -> Result<Option<Self>, Failure> {
         let print = arguments.csv.as_deref().is_some_and(is_standard);
         if print && arguments.json {
             return Err(Failure::input(
@@ -157,39 +306,66 @@ impl Outputs {
             ));
         }
         let csv = arguments.csv.as_deref().filter(|_| !print);
-        HDF5.check(&arguments.output)?;
-        let mut part = behind(&arguments.output)?.into_os_string();
+        HDF5.check(output)?;
+        let mut part = behind(output)?.into_os_string();
         part.push(".part");
         let part = PathBuf::from(part);
-        let mut outputs = vec![arguments.output.as_path(), &part];
+        let mut outputs = vec![output, &part];
         if let Some(csv) = csv {
             CSV.check(csv)?;
             outputs.push(csv);
         }
-        let mut inputs = vec![Role::new("the sweep", &arguments.sweep)];
+        let mut inputs = vec![Role::new("the sweep", sweep)];
         inputs.extend(spec.inputs().iter().cloned());
         apart(&outputs, &inputs)?;
         let claim = |path: &Path| Output::claim(path, Existing::KeepUnlessSame);
-        let (results, csv) = (claim(&arguments.output)?, csv.map(claim).transpose()?);
+        let (results, csv) = (claim(output)?, csv.map(claim).transpose()?);
         // a run that was killed while it gave its outputs their names has left some of them
         let wanted = arguments.overwrite.existing();
-        let finish = wanted == Existing::Keep && is_computed(spec, &part);
+        let rows = selection
+            .as_ref()
+            .map_or(0..spec.rows(), |s| s.rows.clone());
+        let finish = wanted == Existing::Keep && is_computed(spec, rows, &part);
+        if arguments.skip_complete && !finish && results.real().exists() {
+            check_complete(output, spec, selection.as_ref()).map_err(Failure::work)?;
+            return match csv.filter(|csv| !csv.real().exists()) {
+                None if !print => Ok(None),
+                None => Err(Failure::work("--skip-complete has no rows for --csv -")),
+                Some(csv) => Err(Failure::work(format!(
+                    "{} is complete, but {} is not there; give --force to compute both",
+                    output.display(),
+                    csv.path().display()
+                ))),
+            };
+        }
         let existing = if finish {
             Existing::KeepUnlessSame
         } else {
             wanted
         };
-        Ok(Self {
+        Ok(Some(Self {
             results: results.over(existing)?,
             csv: csv.map(|csv| csv.over(existing)).transpose()?,
+            selection,
             print,
             part,
-        })
+        }))
+    }
+
+    fn rows(&self, spec: &Spec) -> Range<usize> {
+        let rows = self
+            .selection
+            .as_ref()
+            .map(|selection| selection.rows.clone());
+        rows.unwrap_or(0..spec.rows())
     }
 
     /// Writes all outputs, then gives them their names.
-    fn write(&self, spec: &Spec, blocks: &[Block]) -> Result<(), Failure> {
-        let results = stage_sweep(&self.results, spec, blocks)?;
+    fn write(&self, spec: &Spec, blocks: &impl Blocks) -> Result<(), Failure> {
+        let results = match &self.selection {
+            Some(selection) => stage_part(&self.results, spec, selection, blocks)?,
+            None => stage_sweep(&self.results, spec, blocks)?,
+        };
         let csv = self.csv.as_ref();
         let csv = csv.map(|csv| stage_csv(csv, spec, blocks)).transpose()?;
         results.commit()?;
@@ -199,7 +375,7 @@ impl Outputs {
 }
 
 /// Writes the rows to standard output; a closed pipe ends the program quietly.
-fn print_rows(spec: &Spec, blocks: &[Block]) -> Result<(), Failure> {
+fn print_rows(spec: &Spec, blocks: &impl Blocks) -> Result<(), Failure> {
     let mut out = BufWriter::new(std::io::stdout().lock());
     match print_csv(&mut out, spec, blocks).and_then(|()| out.flush()) {
         Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
@@ -222,8 +398,19 @@ impl Report<'_> {
                 "\nnot elastic    {yielding} yield (yield_onset above 1), {cracking} may crack (cone_crack_onset above 1)"
             ),
         };
+        let part = self.first_row.map_or_else(String::new, |first| {
+            let shard = self
+                .shard
+                .as_ref()
+                .map_or_else(String::new, |s| format!("shard {s}: "));
+            format!(
+                "\npart           {shard}rows {first}:{} of {}",
+                first + self.rows,
+                self.sweep_rows
+            )
+        });
         format!(
-            "axes           {}\nscenes         {}, {} failed, {} resumed{beyond}\ntime           {:.2} s, {:.2} s of it computing\nwritten        {}",
+            "axes           {}{part}\nscenes         {}, {} failed, {} resumed{beyond}\ntime           {:.2} s, {:.2} s of it computing\nwritten        {}",
             axes.join(" x "),
             self.rows,
             self.failed,

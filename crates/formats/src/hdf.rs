@@ -1,5 +1,6 @@
 //! What the HDF5 library is asked to do: described datasets, texts, dimension scales.
 
+use hdf5::dataset::{AllocTime, FillTime};
 use hdf5::types::VarLenUnicode;
 use hdf5::{Dataset, Group, H5Type};
 pub(crate) use lookup::labels::{attach_scale, new_file, reason, set_scale, text};
@@ -36,6 +37,27 @@ pub(crate) fn numbers<T: H5Type>(
     dataset.write_raw(samples)?;
     describe(&dataset, described)?;
     Ok(dataset)
+}
+
+/// A described dataset whose numbers are written later, and where in the file they stand; nowhere without any.
+pub(crate) fn reserve<T: H5Type>(
+    group: &Group,
+    described: &(&str, &str, &str),
+    shape: &[usize],
+) -> Result<(Dataset, Option<u64>), hdf5::Error> {
+    let dataset = group
+        .new_dataset::<T>()
+        .shape(shape)
+        .alloc_time(Some(AllocTime::Early))
+        .fill_time(FillTime::Never)
+        .obj_track_times(false)
+        .create(described.0)?;
+    describe(&dataset, described)?;
+    let place = dataset.offset();
+    if place.is_none() && dataset.size() > 0 {
+        return Err(hdf5::Error::from("the library reserves no space"));
+    }
+    Ok((dataset, place))
 }
 
 /// A list of texts.

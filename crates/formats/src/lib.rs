@@ -18,6 +18,7 @@ mod error;
 mod hdf;
 mod inputs;
 mod materials;
+pub mod parts;
 pub mod quantities;
 mod record;
 mod report;

@@ -179,6 +179,31 @@ number!(
     }
 );
 
+number!(
+    u32,
+    Kind::Integer {
+        bytes: 4,
+        signed: false,
+        big_endian: false
+    }
+);
+number!(
+    u8,
+    Kind::Integer {
+        bytes: 1,
+        signed: false,
+        big_endian: false
+    }
+);
+number!(
+    i32,
+    Kind::Integer {
+        bytes: 4,
+        signed: true,
+        big_endian: false
+    }
+);
+
 /// Any number as a 64-bit float.
 pub(crate) fn as_f64(kind: Kind, bytes: &[u8]) -> Option<f64> {
     let mut word = [0_u8; 8];

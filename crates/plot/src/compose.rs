@@ -25,6 +25,7 @@ pub fn compose(paths: &[PathBuf], request: &Request) -> Result<Drawn, PlotError>
         FileKind::Impact => of_impacts(&open(paths)?, request),
         FileKind::Sweep => of_sweep(&StoredSweep::open(only(paths, Kind::Sweep)?)?, request),
         FileKind::Table => of_table(only(paths, Kind::Errors)?, request),
+        FileKind::SweepPart => Err(unsuitable(&paths[0], file, Kind::Sweep)),
         FileKind::Chart => Err(unsuitable(&paths[0], file, Kind::Impact)),
     }
 }

@@ -10,6 +10,8 @@ pub enum FileKind {
     Impact,
     /// Results of a sweep.
     Sweep,
+    /// Some rows of a sweep.
+    SweepPart,
     /// A kernel table.
     Table,
     /// A chart.
@@ -18,7 +20,13 @@ pub enum FileKind {
 
 impl FileKind {
     /// All of them.
-    pub(super) const ALL: [Self; 4] = [Self::Impact, Self::Sweep, Self::Table, Self::Chart];
+    pub(super) const ALL: [Self; 5] = [
+        Self::Impact,
+        Self::Sweep,
+        Self::SweepPart,
+        Self::Table,
+        Self::Chart,
+    ];
 
     /// Value of the attribute `file_type`.
     #[must_use]
@@ -26,6 +34,7 @@ impl FileKind {
         match self {
             Self::Impact => results::schema::FILE_TYPE,
             Self::Sweep => sweep::schema::FILE_TYPE,
+            Self::SweepPart => sweep::schema::part::FILE_TYPE,
             Self::Table => lookup::schema::FILE_TYPE_VALUE,
             Self::Chart => "hertzlamb chart",
         }
@@ -37,6 +46,7 @@ impl fmt::Display for FileKind {
         f.write_str(match self {
             Self::Impact => "the results of an impact",
             Self::Sweep => "a sweep",
+            Self::SweepPart => "a part of a sweep",
             Self::Table => "a kernel table",
             Self::Chart => "a chart",
         })

@@ -4,6 +4,7 @@ use super::error::ReadError;
 use super::file::{file_kind, open_hdf5, text_of};
 use super::kind::FileKind;
 use hdfread::{Dataset, Group, Kind, Number};
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 /// Most bytes of numbers that are read from a dataset at once.
@@ -173,6 +174,25 @@ impl Stored {
         }
         let numbers = dataset.block(&block, MOST_BYTES);
         numbers.map_err(|error| self.damaged(format!("{path} cannot be read: {error}")))
+    }
+
+    /// Some numbers of a dataset with one dimension of a length.
+    pub(super) fn some<T: Number>(
+        &self,
+        path: &str,
+        length: usize,
+        rows: Range<usize>,
+    ) -> Result<Vec<T>, ReadError> {
+        let numbers = self.of_shape(path, &[length])?.block(&[rows], MOST_BYTES);
+        numbers.map_err(|error| self.damaged(format!("{path} cannot be read: {error}")))
+    }
+
+    /// Fails where the last number of a dataset of 64-bit floats cannot be read: the file was cut short.
+    pub(super) fn check_end(&self, path: &str, shape: &[usize]) -> Result<(), ReadError> {
+        let last: Vec<_> = shape.iter().map(|&n| n.saturating_sub(1)..n).collect();
+        let end = self.of_shape(path, shape)?.block::<f64>(&last, MOST_BYTES);
+        end.map(drop)
+            .map_err(|error| self.damaged(format!("{path} cannot be read: {error}")))
     }
 
     /// A dataset that has a shape.

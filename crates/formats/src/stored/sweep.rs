@@ -4,7 +4,7 @@ use super::error::ReadError;
 use super::kind::FileKind;
 use super::open::{Stored, StoredQuantity};
 use crate::sweep::Values;
-use crate::sweep::schema::{AXES, LIST, RESULTS, SAMPLE};
+use crate::sweep::schema::{AXES, LIST, RESULTS, SAMPLE, SHA256};
 use std::path::Path;
 
 /// Major version of the sweeps that are read.
@@ -69,6 +69,26 @@ impl StoredSweep {
     #[must_use]
     pub fn path(&self) -> &Path {
         &self.stored.path
+    }
+
+    /// Which sweep it is of; nothing in files of versions before 1.4.
+    #[must_use]
+    pub fn sha256(&self) -> Option<String> {
+        self.stored.text(SHA256).ok()
+    }
+
+    /// Fails where the file was cut short.
+    ///
+    /// # Errors
+    /// [`ReadError::Damaged`].
+    pub fn check_whole(&self) -> Result<(), ReadError> {
+        let found = self.quantities();
+        let numbers = found
+            .iter()
+            .filter(|q| crate::QUANTITIES.iter().any(|k| k.name == q.name));
+        numbers
+            .map(|q| format!("{RESULTS}/{}", q.name))
+            .try_for_each(|path| self.stored.check_end(&path, &self.shape()))
     }
 
     /// The results of every row.

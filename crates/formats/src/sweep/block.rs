@@ -50,7 +50,7 @@ impl Block {
     }
 
     /// Whether it can have been computed: known models, and a reason within the block for each scene that failed.
-    pub(super) fn holds(&self) -> bool {
+    pub(crate) fn holds(&self) -> bool {
         let rows = self.start..self.start + self.numbers.len();
         let failed = |model: &u8| *model == NO_MODEL;
         let known = |model: &u8| usize::from(*model) < Model::ALL.len() || failed(model);

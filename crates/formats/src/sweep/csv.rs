@@ -2,11 +2,12 @@
 
 use super::axis::{Column, Values, place};
 use super::block::Block;
+use super::blocks::Blocks;
 use super::schema::{FAILURE, MODEL};
 use super::spec::Spec;
 use crate::quantities::QUANTITIES;
 use contact::{Choice, Model};
-use output::{Existing, Output, OutputError, Staged};
+use output::{Existing, Fault, Output, OutputError, Staged};
 use rayon::prelude::*;
 use std::collections::HashMap;
 use std::fmt::Write as _;
@@ -20,7 +21,7 @@ use std::path::Path;
 pub fn write_csv(
     path: &Path,
     spec: &Spec,
-    blocks: &[Block],
+    blocks: &(impl Blocks + ?Sized),
     existing: Existing,
 ) -> Result<(), OutputError> {
     let output = Output::claim(path, existing)?;
@@ -34,7 +35,7 @@ pub fn write_csv(
 pub fn stage_csv<'a>(
     output: &'a Output,
     spec: &Spec,
-    blocks: &[Block],
+    blocks: &(impl Blocks + ?Sized),
 ) -> Result<Staged<'a>, OutputError> {
     output.stage(|part| {
         let mut file = BufWriter::new(std::fs::File::create(part)?);
@@ -46,20 +47,32 @@ pub fn stage_csv<'a>(
 /// The same to something that is open.
 ///
 /// # Errors
-/// What the system says.
-pub fn print_csv(file: &mut impl Write, spec: &Spec, blocks: &[Block]) -> io::Result<()> {
+/// What the system says, or why the rows cannot be read.
+pub fn print_csv(
+    file: &mut impl Write,
+    spec: &Spec,
+    blocks: &(impl Blocks + ?Sized),
+) -> io::Result<()> {
     writeln!(file, "{}", header(spec))?;
-    for block in blocks {
+    let mut unwritten = None;
+    let read = blocks.each(&mut |block| {
         let parts: Vec<String> = (0..block.numbers.len())
             .into_par_iter()
             .step_by(1024)
             .map(|from| lines(spec, block, from))
             .collect();
-        for part in parts {
-            file.write_all(part.as_bytes())?;
-        }
+        let mut written = parts.iter().map(|part| file.write_all(part.as_bytes()));
+        written.find_map(Result::err).map_or(Ok(()), |error| {
+            let fault = Fault::from(error.to_string());
+            unwritten = Some(error);
+            Err(fault)
+        })
+    });
+    match (unwritten, read) {
+        (Some(error), _) => Err(error),
+        (None, Err(fault)) => Err(io::Error::other(fault.reason)),
+        (None, Ok(())) => Ok(()),
     }
-    Ok(())
 }
 
 fn header(spec: &Spec) -> String {

@@ -1,7 +1,8 @@
 //! The sweep file: HDF5, as `data-schema/sweep.md` writes it down.
 
 use super::axis::{Axis, Column, Values};
-use super::block::Block;
+use super::blocks::Blocks;
+use super::columns::{Columns, Failures, What};
 use super::schema;
 use super::spec::Spec;
 use crate::hdf::{
@@ -11,9 +12,11 @@ use crate::quantities::QUANTITIES;
 use crate::results::schema::COORDINATES;
 use contact::{Choice, Model};
 use hdf5::{Dataset, File, Group};
-use output::{Existing, Output, OutputError, Staged};
-use std::collections::HashMap;
+use output::{Existing, Fault, Output, OutputError, Staged};
 use std::path::Path;
+
+/// Name, unit and meaning.
+type Described = (&'static str, &'static str, &'static str);
 
 /// Writes the results of a sweep whose blocks are all there, in order.
 ///
@@ -22,7 +25,7 @@ use std::path::Path;
 pub fn write_sweep(
     path: &Path,
     spec: &Spec,
-    blocks: &[Block],
+    blocks: &(impl Blocks + ?Sized),
     existing: Existing,
 ) -> Result<(), OutputError> {
     let output = Output::claim(path, existing)?;
@@ -31,33 +34,37 @@ pub fn write_sweep(
 
 /// The same into an output that was claimed before the work, under its name when it is committed.
 ///
+/// No more than a block is in memory, and the bytes do not depend on how rows are divided into blocks.
+///
 /// # Errors
 /// [`OutputError`].
 pub fn stage_sweep<'a>(
     output: &'a Output,
     spec: &Spec,
-    blocks: &[Block],
+    blocks: &(impl Blocks + ?Sized),
 ) -> Result<Staged<'a>, OutputError> {
-    output.stage(|part| write_file(part, spec, blocks).map_err(|error| reason(&error)))
+    output.stage(|part| {
+        let (file, columns) = begin(part, spec).map_err(|error| reason(&error))?;
+        let failures = columns.fill(part, &(0..spec.rows()), blocks)?;
+        finish(file, &failures).map_err(|error| Fault::from(reason(&error)))
+    })
 }
 
-fn write_file(path: &Path, spec: &Spec, blocks: &[Block]) -> Result<(), hdf5::Error> {
+/// Everything but the rows.
+fn begin<'a>(path: &Path, spec: &'a Spec) -> Result<(File, Columns<'a>), hdf5::Error> {
     let file = new_file().create(path)?;
+    let sha256 = spec.sha256();
     let values = [
         schema::FILE_TYPE,
         schema::FORMAT_VERSION,
         env!("CARGO_PKG_VERSION"),
         &spec.resolved,
+        &sha256,
     ];
     for (name, value) in schema::TEXTS.into_iter().zip(values) {
         text(&file, name, value)?;
     }
-    let failed: usize = blocks.iter().map(|block| block.failures.len()).sum();
-    for (name, count) in schema::COUNTS.into_iter().zip([spec.rows(), failed]) {
-        file.new_attr::<u64>()
-            .create(name)?
-            .write_scalar(&(count as u64))?;
-    }
+    count(&file, schema::ROWS, spec.rows())?;
     write_axes(&file, &spec.axes)?;
     let shape: Vec<usize> = spec.axes.iter().map(|axis| axis.len).collect();
     let group = file.create_group(schema::RESULTS)?;
@@ -70,28 +77,51 @@ fn write_file(path: &Path, spec: &Spec, blocks: &[Block]) -> Result<(), hdf5::Er
         }
         text(dataset, COORDINATES, &beside.join(" "))
     };
-    for (k, quantity) in QUANTITIES.iter().enumerate() {
-        let column: Vec<f64> = blocks
-            .iter()
-            .flat_map(|block| block.numbers.iter().map(|row| row[k]))
-            .collect();
-        let described = (quantity.name, quantity.unit, quantity.meaning);
-        attach(&numbers(&group, &described, &shape, &column)?)?;
+    let mut columns = Columns::new(spec);
+    for (described, what) in results() {
+        let dataset = columns.add(what, &group, &described, &shape)?;
+        if let What::Model = what {
+            text(&dataset, schema::NAMES, &models())?;
+        }
+        attach(&dataset)?;
     }
-    let models: Vec<u8> = blocks
-        .iter()
-        .flat_map(|block| block.models.iter().copied())
-        .collect();
-    let dataset = numbers(&group, &schema::MODEL, &shape, &models)?;
-    let names: Vec<&str> = Model::ALL.iter().map(|m| m.name()).collect();
-    text(&dataset, "names", &names.join(" "))?;
-    attach(&dataset)?;
-    let (indices, reasons) = failures(spec.rows(), blocks);
-    attach(&numbers(&group, &schema::FAILURE, &shape, &indices)?)?;
-    let failures = texts(&file, &schema::FAILURES, &reasons)?;
-    set_scale(&failures, schema::FAILURES.0)?;
+    Ok((file, columns))
+}
+
+/// What is known once all rows are written.
+pub(super) fn finish(file: File, failures: &Failures) -> Result<(), hdf5::Error> {
+    count(&file, schema::FAILED, failures.failed)?;
+    let reasons = texts(&file, &schema::FAILURES, &failures.reasons)?;
+    set_scale(&reasons, schema::FAILURES.0)?;
     file.flush()?;
     file.close()
+}
+
+/// A count of the root.
+pub(super) fn count(file: &File, name: &str, count: usize) -> Result<(), hdf5::Error> {
+    let attribute = file.new_attr::<u64>().create(name)?;
+    attribute.write_scalar(&(count as u64))
+}
+
+/// The columns of results, in the order of the file.
+pub(super) fn results() -> impl Iterator<Item = (Described, What)> {
+    let numbers = QUANTITIES.iter().enumerate().map(|(k, quantity)| {
+        (
+            (quantity.name, quantity.unit, quantity.meaning),
+            What::Number(k),
+        )
+    });
+    let rest = [
+        (schema::MODEL, What::Model),
+        (schema::FAILURE, What::Failure),
+    ];
+    numbers.chain(rest)
+}
+
+/// The models by their indices, divided by blanks.
+pub(super) fn models() -> String {
+    let names: Vec<&str> = Model::ALL.iter().map(|m| m.name()).collect();
+    names.join(" ")
 }
 
 /// The keys that vary, each with the axis that it belongs to.
@@ -155,7 +185,7 @@ fn write_column(group: &Group, column: &Column) -> Result<Dataset, hdf5::Error> 
 }
 
 /// The unit that a scene key carries in its name.
-fn unit(key: &str) -> &'static str {
+pub(super) fn unit(key: &str) -> &'static str {
     const UNITS: [(&str, &str); 6] = [
         ("_kg_m3", "kg/m^3"),
         ("_m_s", "m/s"),
@@ -168,20 +198,4 @@ fn unit(key: &str) -> &'static str {
         .iter()
         .find(|(ending, _)| key.ends_with(ending))
         .map_or("1", |(_, unit)| unit)
-}
-
-/// Index of each row's reason, -1 without one, and the distinct reasons.
-fn failures(rows: usize, blocks: &[Block]) -> (Vec<i32>, Vec<String>) {
-    let mut indices = vec![-1; rows];
-    let mut reasons: Vec<String> = Vec::new();
-    let mut known: HashMap<&str, i32> = HashMap::new();
-    for (row, reason) in blocks.iter().flat_map(|block| &block.failures) {
-        let next = reasons.len() as i32;
-        let index = *known.entry(reason).or_insert(next);
-        if index == next {
-            reasons.push(reason.clone());
-        }
-        indices[*row] = index;
-    }
-    (indices, reasons)
 }

@@ -1,31 +1,32 @@
 //! Finished blocks on disk, so that an interrupted sweep goes on where it stopped.
 //!
-//! A header (magic number, fingerprint of the sweep, rows) and one record a block: first row, rows,
+//! A header (magic number, fingerprint of the sweep, first row and the one behind the last) and one record a block: first row, rows,
 //! length of the failures' text, the numbers, the models, the failures, and a hash of all that.
 //! A record that is cut short or damaged ends the journal; what comes after is computed anew.
 
 use super::block::Block;
 use crate::quantities::QUANTITIES;
-use output::{Existing, OutputError};
+use output::{Existing, Fault, OutputError};
 use std::fs::{File, OpenOptions};
 use std::io::{BufReader, Read, Seek, SeekFrom, Write};
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 /// First bytes of a journal; the last is its version.
-const MAGIC: &[u8; 8] = b"hlsweep3";
+const MAGIC: &[u8; 8] = b"hlsweep4";
 /// Bytes before the first record.
-const HEADER: usize = 8 + 32 + 8;
+const HEADER: usize = 8 + 32 + 16;
 /// Time between two flushes: what a loss of power costs at most, beside the block in work.
 const FLUSH: Duration = Duration::from_secs(10);
 
 /// Which sweep a journal is of.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Header {
     /// SHA-256 of everything that is asked and was read.
     pub(super) fingerprint: [u8; 32],
-    /// Rows of the sweep.
-    pub(super) rows: usize,
+    /// Rows of the sweep that it is to hold.
+    pub(super) rows: Range<usize>,
 }
 
 impl Header {
@@ -33,7 +34,8 @@ impl Header {
         let mut bytes = [0; HEADER];
         bytes[..8].copy_from_slice(MAGIC);
         bytes[8..40].copy_from_slice(&self.fingerprint);
-        bytes[40..].copy_from_slice(&(self.rows as u64).to_le_bytes());
+        bytes[40..48].copy_from_slice(&(self.rows.start as u64).to_le_bytes());
+        bytes[48..].copy_from_slice(&(self.rows.end as u64).to_le_bytes());
         bytes
     }
 }
@@ -44,6 +46,18 @@ pub struct Journal {
     file: File,
     path: PathBuf,
     flushed: Instant,
+    length: u64,
+}
+
+/// Where a journal has a block.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Span {
+    /// First row.
+    pub(super) start: usize,
+    /// Rows.
+    pub(super) count: usize,
+    /// Where its record begins.
+    place: u64,
 }
 
 /// Why a journal cannot be used.
@@ -78,14 +92,14 @@ pub enum JournalError {
 }
 
 impl Journal {
-    /// Opens or begins the journal of a sweep and gives the blocks that it holds, ascending and apart.
+    /// Opens or begins the journal of a sweep and says which blocks it holds, ascending and apart.
     ///
     /// Whoever opens it has claimed the output; the beginning of another sweep is replaced where that is asked for.
     pub(super) fn open(
         path: &Path,
-        header: Header,
+        header: &Header,
         existing: Existing,
-    ) -> Result<(Self, Vec<Block>), JournalError> {
+    ) -> Result<(Self, Vec<Span>), JournalError> {
         let io = |source| JournalError::Io {
             path: path.to_owned(),
             source,
@@ -103,11 +117,10 @@ impl Journal {
             .open(path)
             .map_err(|error| OutputError::writing(path, error))?;
         let found = start(&file).map_err(io)?;
-        let mut blocks = Vec::new();
+        let (mut spans, mut length) = (Vec::new(), HEADER as u64);
         if found == header.bytes() {
-            let good;
-            (blocks, good) = read_blocks(&file, header.rows).map_err(io)?;
-            file.set_len(good).map_err(io)?;
+            (spans, length) = read_spans(&file, &header.rows).map_err(io)?;
+            file.set_len(length).map_err(io)?;
             file.seek(SeekFrom::End(0)).map_err(io)?;
         } else {
             let known = found.len().min(MAGIC.len() - 1);
@@ -131,8 +144,9 @@ impl Journal {
             file,
             path: path.to_owned(),
             flushed: Instant::now(),
+            length,
         };
-        Ok((journal, blocks))
+        Ok((journal, spans))
     }
 
     /// Rows of this sweep that the journal at `path` holds; nothing where there is none of it.
@@ -144,18 +158,38 @@ impl Journal {
         if start(&file).ok()? != header.bytes() {
             return None;
         }
-        let (blocks, _) = read_blocks(&file, header.rows).ok()?;
-        Some(blocks.iter().map(|block| block.numbers.len()).sum())
+        let (spans, _) = read_spans(&file, &header.rows).ok()?;
+        Some(spans.iter().map(|span| span.count).sum())
     }
 
     /// Appends a finished block.
-    pub(super) fn append(&mut self, block: &Block) -> Result<(), JournalError> {
-        let mut done = self.file.write_all(&record(block));
+    pub(super) fn append(&mut self, block: &Block) -> Result<Span, JournalError> {
+        let bytes = record(block);
+        let mut done = self.file.write_all(&bytes);
         if done.is_ok() && self.flushed.elapsed() > FLUSH {
             done = self.file.sync_data();
             self.flushed = Instant::now();
         }
-        Ok(done.map_err(|error| OutputError::writing(&self.path, error))?)
+        done.map_err(|error| OutputError::writing(&self.path, error))?;
+        let place = self.length;
+        self.length += bytes.len() as u64;
+        Ok(Span {
+            start: block.start,
+            count: block.numbers.len(),
+            place,
+        })
+    }
+
+    /// A block that it holds.
+    pub(super) fn block(&self, span: &Span) -> Result<Block, Fault> {
+        let mut file = &self.file;
+        file.seek(SeekFrom::Start(span.place))?;
+        let found = read_block(&mut file, self.length - span.place);
+        let same = |block: &Block| (block.start, block.numbers.len()) == (span.start, span.count);
+        found.map(|(block, _)| block).filter(same).ok_or_else(|| {
+            let path = self.path.display();
+            Fault::from(format!("{path} was changed while it was read"))
+        })
     }
 
     /// Removes the file once the sweep is written elsewhere.
@@ -174,29 +208,34 @@ fn start(file: &File) -> std::io::Result<Vec<u8>> {
 }
 
 /// The blocks of a journal that stands behind its header, and where the last good record ends.
-fn read_blocks(file: &File, rows: usize) -> std::io::Result<(Vec<Block>, u64)> {
+fn read_spans(file: &File, rows: &Range<usize>) -> std::io::Result<(Vec<Span>, u64)> {
     let length = file.metadata()?.len();
     let mut reader = BufReader::new(file);
     let mut good = HEADER as u64;
-    let mut blocks: Vec<Block> = Vec::new();
+    let mut spans: Vec<Span> = Vec::new();
     while let Some((block, size)) = read_block(&mut reader, length - good) {
-        let end = block.start.checked_add(block.numbers.len());
-        if end.is_none_or(|end| end > rows) {
+        let (start, count) = (block.start, block.numbers.len());
+        let end = start.checked_add(count);
+        if start < rows.start || end.is_none_or(|end| end > rows.end) {
             break;
         }
+        spans.push(Span {
+            start,
+            count,
+            place: good,
+        });
         good += size;
-        blocks.push(block);
     }
-    blocks.sort_by_key(|block| block.start);
+    spans.sort_by_key(|span| span.start);
     let mut end = 0;
-    blocks.retain(|block| {
-        let apart = block.start >= end;
+    spans.retain(|span| {
+        let apart = span.start >= end;
         if apart {
-            end = block.start + block.numbers.len();
+            end = span.start + span.count;
         }
         apart
     });
-    Ok((blocks, good))
+    Ok((spans, good))
 }
 
 fn record(block: &Block) -> Vec<u8> {

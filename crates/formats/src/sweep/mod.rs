@@ -4,27 +4,39 @@
 //! list of keys that vary together, and as random draws.
 //! Row by row the contact alone is computed; a scene that fails is a row with a reason.
 //! Rows are computed in blocks that a journal keeps, so that an interrupted sweep goes on where
-//! it stopped, and the file is written when all of them are there.
+//! it stopped, and the file is written from it, block by block, when all of them are there.
+//! A [`Selection`] of the rows, such as a [`Shard`], has a file of its own.
 
 mod axis;
 mod block;
+mod blocks;
+mod columns;
 mod correlation;
 mod csv;
 mod file;
 mod files;
+mod fingerprint;
 mod journal;
+mod part;
 mod random;
 mod run;
 pub mod schema;
+mod shard;
 mod spec;
 mod template;
 
 pub use axis::{Axis, Column, Values};
 pub use block::{Block, NO_MODEL};
+pub use blocks::Blocks;
 pub use csv::{print_csv, stage_csv, write_csv};
 pub use file::{stage_sweep, write_sweep};
+pub(crate) use fingerprint::from_hexadecimal;
 pub use journal::{Journal, JournalError};
+pub use part::{column_names, row_bytes, stage_part};
+pub(crate) use run::gaps;
 pub use run::{
-    BLOCK, BLOCK_S, Done, FIRST_BLOCK, Rows, SweepError, compute_rows, is_computed, run_sweep,
+    BLOCK, BLOCK_S, Done, FIRST_BLOCK, Kept, Rows, SweepError, compute_rows, is_computed, run_rows,
+    run_sweep,
 };
+pub use shard::{Selection, Shard};
 pub use spec::Spec;

@@ -1,14 +1,14 @@
 //! Runs a sweep block by block.
 
 use super::block::Block;
-use super::journal::{Header, Journal, JournalError};
-use super::schema;
+use super::blocks::Blocks;
+use super::journal::{Header, Journal, JournalError, Span};
 use super::spec::Spec;
 use super::template::Templates;
 use crate::error::SceneError;
 use contact::{Ratios, Tabulated};
-use output::Existing;
-use sha2::{Digest, Sha256};
+use output::{Existing, Fault, OutputError};
+use std::ops::Range;
 use std::path::Path;
 use std::time::Instant;
 use thiserror::Error;
@@ -33,26 +33,96 @@ pub enum SweepError {
     Journal(#[from] JournalError),
 }
 
-/// All rows of a sweep.
+/// Computed rows of a sweep, kept in their journal.
+#[derive(Debug)]
+pub struct Kept {
+    /// Blocks in the order of their rows.
+    spans: Vec<Span>,
+    /// Rows that an earlier run had computed.
+    pub resumed: usize,
+    journal: Journal,
+}
+
+impl Kept {
+    /// Removes the journal, once the results are written.
+    pub fn remove(self) {
+        self.journal.remove();
+    }
+}
+
+impl Blocks for Kept {
+    fn each(&self, visit: &mut dyn FnMut(&Block) -> Result<(), Fault>) -> Result<(), Fault> {
+        for span in &self.spans {
+            visit(&self.journal.block(span)?)?;
+        }
+        Ok(())
+    }
+}
+
+/// All rows of a sweep in memory.
 #[derive(Debug)]
 pub struct Done {
     /// Blocks in the order of their rows.
     pub blocks: Vec<Block>,
     /// Rows that an earlier run had computed.
     pub resumed: usize,
-    /// Removed once the results are written.
+    /// Where they are kept too; to be removed once the results are written.
     pub journal: Journal,
 }
 
 /// Distinct Poisson's ratios of targets up to which each has its own response.
 const FEW: usize = 256;
 
-/// Computes all rows that the journal at `part` does not hold yet.
+/// Computes the rows of a range that the journal at `part` does not hold yet; no more than a block is in memory.
 ///
 /// The rows of another sweep are replaced where `existing` says so.
 /// `watch` is told after each block how many rows are done; while it says true the sweep goes on,
 /// otherwise nothing is returned and the journal keeps what is done.
-/// Results do not depend on how rows are divided into blocks.
+/// Results do not depend on how rows are divided into ranges and blocks.
+///
+/// # Errors
+/// [`SweepError`].
+pub fn run_rows(
+    spec: &Spec,
+    rows: Range<usize>,
+    part: &Path,
+    existing: Existing,
+    mut watch: impl FnMut(usize) -> bool,
+) -> Result<Option<Kept>, SweepError> {
+    let templates = Templates::new(spec)?;
+    let (mut journal, mut spans) = Journal::open(part, &header(spec, &rows), existing)?;
+    let responses = Tabulated::new(ratios(spec));
+    let mut done: usize = spans.iter().map(|span| span.count).sum();
+    let resumed = done;
+    if !watch(done) {
+        return Ok(None);
+    }
+    let mut size = FIRST_BLOCK;
+    let held: Vec<_> = spans.iter().map(|s| s.start..s.start + s.count).collect();
+    for gap in gaps(&held, &rows) {
+        let mut start = gap.start;
+        while start < gap.end {
+            let end = (start + size).min(gap.end);
+            let began = Instant::now();
+            let block = Block::compute(spec, &templates, &responses, (start, end), |row| row);
+            size = next_size(end - start, began.elapsed().as_secs_f64(), BLOCK_S);
+            spans.push(journal.append(&block)?);
+            done += block.numbers.len();
+            if !watch(done) && done < rows.len() {
+                return Ok(None);
+            }
+            start = end;
+        }
+    }
+    spans.sort_by_key(|span| span.start);
+    Ok(Some(Kept {
+        spans,
+        resumed,
+        journal,
+    }))
+}
+
+/// [`run_rows`] for all rows of a sweep that fit into memory.
 ///
 /// # Errors
 /// [`SweepError`].
@@ -60,40 +130,38 @@ pub fn run_sweep(
     spec: &Spec,
     part: &Path,
     existing: Existing,
-    mut watch: impl FnMut(usize) -> bool,
+    watch: impl FnMut(usize) -> bool,
 ) -> Result<Option<Done>, SweepError> {
-    let rows = spec.rows();
-    let templates = Templates::new(spec)?;
-    let (mut journal, mut blocks) = Journal::open(part, header(spec), existing)?;
-    let responses = Tabulated::new(ratios(spec));
-    let mut done: usize = blocks.iter().map(|block| block.numbers.len()).sum();
-    let resumed = done;
-    if !watch(done) {
+    admit(spec.rows())?;
+    let Some(kept) = run_rows(spec, 0..spec.rows(), part, existing, watch)? else {
         return Ok(None);
-    }
-    let mut size = FIRST_BLOCK;
-    for gap in gaps(&blocks, rows) {
-        let mut start = gap.start;
-        while start < gap.end {
-            let end = (start + size).min(gap.end);
-            let began = Instant::now();
-            let block = Block::compute(spec, &templates, &responses, (start, end), |row| row);
-            size = next_size(end - start, began.elapsed().as_secs_f64(), BLOCK_S);
-            journal.append(&block)?;
-            done += block.numbers.len();
-            blocks.push(block);
-            if !watch(done) && done < rows {
-                return Ok(None);
-            }
-            start = end;
-        }
-    }
-    blocks.sort_by_key(|block| block.start);
+    };
+    let mut blocks = Vec::new();
+    let read = kept.each(&mut |block| {
+        blocks.push(block.clone());
+        Ok(())
+    });
+    read.map_err(|fault| JournalError::from(OutputError::writing(part, fault)))?;
     Ok(Some(Done {
         blocks,
-        resumed,
-        journal,
+        resumed: kept.resumed,
+        journal: kept.journal,
     }))
+}
+
+/// Rows that are held in memory together, at most: a hundred bytes each.
+const MOST_AT_ONCE: usize = 10_000_000;
+
+/// Refuses more rows than are held in memory.
+fn admit(rows: usize) -> Result<(), SceneError> {
+    if rows <= MOST_AT_ONCE {
+        return Ok(());
+    }
+    Err(SceneError::OutOfRange {
+        key: "the number of rows in memory".to_owned(),
+        value: rows as f64,
+        range: "[0, 10000000]",
+    })
 }
 
 /// Some rows of a sweep: `count` of them from `start` on, every `step`-th.
@@ -123,6 +191,7 @@ pub fn compute_rows(
     mut watch: impl FnMut(usize) -> bool,
 ) -> Result<Option<Block>, SceneError> {
     let Rows { start, step, count } = rows;
+    admit(count)?;
     let last = step.checked_mul(count.saturating_sub(1));
     let last = last.and_then(|way| way.checked_add(start));
     if count > 0 && last.is_none_or(|last| last >= spec.rows()) {
@@ -150,24 +219,25 @@ pub fn compute_rows(
     Ok(Some(all))
 }
 
-/// Whether the journal at `part` holds all rows of this sweep, so that a run may have begun to write its outputs.
+/// Whether the journal at `part` holds these rows of the sweep, so that a run may have begun to write its outputs.
 #[must_use]
-pub fn is_computed(spec: &Spec, part: &Path) -> bool {
-    Journal::rows_in(part, &header(spec)).is_some_and(|rows| rows == spec.rows())
+pub fn is_computed(spec: &Spec, rows: Range<usize>, part: &Path) -> bool {
+    Journal::rows_in(part, &header(spec, &rows)).is_some_and(|found| found == rows.len())
 }
 
-/// The rows that no block has, ascending; blocks ascend and do not overlap.
-fn gaps(blocks: &[Block], rows: usize) -> Vec<std::ops::Range<usize>> {
+/// The rows of a range that are not held, ascending; those that are held ascend.
+pub(crate) fn gaps(held: &[Range<usize>], rows: &Range<usize>) -> Vec<Range<usize>> {
     let mut found = Vec::new();
-    let mut place = 0;
-    for block in blocks {
-        if place < block.start {
-            found.push(place..block.start);
+    let mut place = rows.start;
+    for held in held {
+        let start = held.start.min(rows.end);
+        if place < start {
+            found.push(place..start);
         }
-        place = block.start + block.numbers.len();
+        place = place.max(held.end);
     }
-    if place < rows {
-        found.push(place..rows);
+    if place < rows.end {
+        found.push(place..rows.end);
     }
     found
 }
@@ -178,22 +248,10 @@ fn next_size(count: usize, took_s: f64, wanted_s: f64) -> usize {
     ((count as f64 * factor) as usize).clamp(1, BLOCK)
 }
 
-/// What makes two sweeps the same: everything that is asked and was read, by the same program.
-fn header(spec: &Spec) -> Header {
-    let mut hash = Sha256::new();
-    let parts = [
-        env!("CARGO_PKG_VERSION"),
-        schema::FORMAT_VERSION,
-        &spec.resolved,
-    ];
-    let texts = spec.files.texts.iter().map(String::as_str);
-    for part in parts.into_iter().chain(texts) {
-        hash.update((part.len() as u64).to_le_bytes());
-        hash.update(part);
-    }
+fn header(spec: &Spec, rows: &Range<usize>) -> Header {
     Header {
-        fingerprint: hash.finalize().into(),
-        rows: spec.rows(),
+        fingerprint: spec.fingerprint,
+        rows: rows.clone(),
     }
 }
 
@@ -227,14 +285,14 @@ mod tests {
     }
 
     #[test]
-    fn gaps_lie_between_blocks() {
-        let block = |start: usize, count: usize| Block {
-            start,
-            numbers: vec![[0.0; crate::quantities::QUANTITIES.len()]; count],
-            ..Block::default()
-        };
-        assert_eq!(gaps(&[block(2, 3), block(5, 1)], 9), [0..2, 6..9]);
-        assert_eq!(gaps(&[block(0, 1)], 3).first(), Some(&(1..3)));
-        assert!(gaps(&[block(0, 3)], 3).is_empty());
+    fn gaps_lie_between_what_is_held() {
+        assert_eq!(gaps(&[2..5, 5..6], &(0..9)), [0..2, 6..9]);
+        assert_eq!(gaps(&[0..1, 1..2], &(0..3)).first(), Some(&(2..3)));
+        assert!(gaps(std::slice::from_ref(&(0..3)), &(0..3)).is_empty());
+        assert_eq!(gaps(&[], &(4..7)), std::slice::from_ref(&(4..7)));
+        assert!(gaps(&[], &(4..4)).is_empty());
+        // also of fewer rows than are held
+        assert_eq!(gaps(&[0..2, 3..9], &(1..4)).first(), Some(&(2..3)));
+        assert!(gaps(&[0..2, 3..9], &(0..2)).is_empty());
     }
 }

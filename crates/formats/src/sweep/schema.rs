@@ -3,7 +3,7 @@
 /// Value of the attribute `file_type`.
 pub const FILE_TYPE: &str = "hertzlamb sweep";
 /// Version of the format: the first number changes when a reader of the old one would fail.
-pub const FORMAT_VERSION: &str = "1.3";
+pub const FORMAT_VERSION: &str = "1.4";
 /// Group of the keys that vary.
 pub const AXES: &str = "axes";
 /// Name of the axis of keys that vary together.
@@ -29,6 +29,38 @@ pub const FAILURE: (&str, &str, &str) = (
 /// Reasons of failed scenes.
 pub const FAILURES: (&str, &str, &str) = ("failures", "", "reasons of failed scenes");
 /// Text attributes of the root.
-pub const TEXTS: [&str; 4] = ["file_type", "format_version", "software_version", "sweep"];
+pub const TEXTS: [&str; 5] = [
+    "file_type",
+    "format_version",
+    "software_version",
+    "sweep",
+    SHA256,
+];
+/// The text attribute that says which sweep it is.
+pub const SHA256: &str = "sweep_sha256";
+/// Number attribute of the root: rows.
+pub const ROWS: &str = "rows";
+/// Number attribute of the root: rows that failed.
+pub const FAILED: &str = "failed";
 /// Number attributes of the root.
-pub const COUNTS: [&str; 2] = ["rows", "failed"];
+pub const COUNTS: [&str; 2] = [ROWS, FAILED];
+/// Attribute of the models: their names.
+pub const NAMES: &str = "names";
+
+/// Names and versions of a file that holds some rows of a sweep.
+pub mod part {
+    /// Value of the attribute `file_type`.
+    pub const FILE_TYPE: &str = "hertzlamb sweep part";
+    /// Version of the format: the first number changes when a reader of the old one would fail.
+    pub const FORMAT_VERSION: &str = "1.0";
+    /// Text attribute of the root, beside those of a sweep: I/N of the I-th of N shards, nothing for other rows.
+    pub const SHARD: &str = "shard";
+    /// Number attribute: rows of the whole sweep.
+    pub const SWEEP_ROWS: &str = "sweep_rows";
+    /// Number attribute: the first row.
+    pub const FIRST_ROW: &str = "first_row";
+    /// The one dimension.
+    pub const ROW: (&str, &str, &str) = ("row", "1", "number of the row in the sweep, from 0");
+    /// Group of the words that keys take.
+    pub const WORDS: &str = "words";
+}

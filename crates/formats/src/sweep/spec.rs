@@ -3,10 +3,10 @@
 use super::axis::{Axis, Column, Values, rows};
 use super::correlation::Correlations;
 use super::files::Files;
+use super::fingerprint::{fingerprint, hexadecimal};
 use super::random::{Distribution, normal};
 use super::schema::{LIST, SAMPLE};
 use crate::error::SceneError;
-use crate::quantities::QUANTITIES;
 use crate::section::{FINITE, POSITIVE, Section, parse};
 use crate::text::read_text;
 use contact::Choice;
@@ -27,13 +27,18 @@ pub struct Spec {
     pub(crate) resolved: String,
     /// What was read beside it.
     pub(crate) files: Files,
+    /// What makes two sweeps the same: SHA-256 of everything that is asked and was read, and of the program's version.
+    pub(crate) fingerprint: [u8; 32],
 }
 
-/// Rows of a sweep at most: they are held in memory, a hundred bytes each.
-const MOST_ROWS: usize = 10_000_000;
+/// Rows of a sweep at most: a place in a file of them is counted exactly.
+const MOST_ROWS: usize = 1_000_000_000_000;
 
-/// Bytes of a row: its numbers, its model, its reason where it fails, and a column while it is written.
-const ROW_BYTES: usize = 8 * QUANTITIES.len() + 1 + 100 + 12;
+/// Values of an axis at most: they are held in memory.
+const MOST_VALUES: usize = 10_000_000;
+
+/// Memory in bytes that a run takes beside the values of the axes: a block and the columns made of it, and its tables.
+const RUN_BYTES: usize = 100_000_000;
 
 impl Spec {
     /// Reads a sweep file; the scene it names is looked for beside it.
@@ -62,33 +67,33 @@ impl Spec {
         let root = Section::root(table);
         root.allow(&["scene", "product", "list", "random"])?;
         let (scene, directory, file) = base(&root, table, directory)?;
-        let mut axes = Vec::new();
-        if let Some(product) = root.section("product")? {
-            for column in columns(&product, &[])? {
-                axes.push(Axis {
-                    name: column.name(),
-                    len: column.values.len(),
-                    columns: vec![column],
-                });
-            }
-        }
-        if let Some(list) = root.section("list")? {
-            axes.push(together(columns(&list, &[])?)?);
-        }
-        if let Some(random) = root.section("random")? {
-            axes.push(drawn(&random)?);
-        }
-        check(&axes)?;
+        let axes = axes(&root)?;
         let mut files = Files::read(&scene, &axes, &directory)?;
         files.inputs.extend(file);
         let mut resolved = table.clone();
         resolved.insert("scene".into(), Value::Table(scene.clone()));
+        let resolved = resolved.to_string();
         Ok(Self {
+            fingerprint: fingerprint(&resolved, &files.texts, &[]),
             scene,
             directory,
             axes,
-            resolved: resolved.to_string(),
+            resolved,
             files,
+        })
+    }
+
+    /// The sweep that a file holds, with everything spelled out: its axes and rows, not what computes them.
+    pub(crate) fn of_stored(resolved: &str, fingerprint: [u8; 32]) -> Result<Self, SceneError> {
+        let table = parse(resolved)?;
+        let axes = axes(&Section::root(&table))?;
+        Ok(Self {
+            scene: Table::new(),
+            directory: PathBuf::new(),
+            axes,
+            resolved: resolved.to_owned(),
+            files: Files::default(),
+            fingerprint,
         })
     }
 
@@ -106,8 +111,10 @@ impl Spec {
         let axes = vec![together(columns)?];
         check(&axes)?;
         let files = Files::read(scene, &axes, directory)?;
+        let resolved = scene.to_string();
         Ok(Self {
-            resolved: scene.to_string(),
+            fingerprint: fingerprint(&resolved, &files.texts, &axes),
+            resolved,
             scene: scene.clone(),
             directory: directory.to_owned(),
             axes,
@@ -150,11 +157,18 @@ impl Spec {
         &self.files.inputs
     }
 
-    /// Memory in bytes that its results take, about.
+    /// SHA-256, in hexadecimal, of everything that is asked and was read and of the program's version: two sweeps with
+    /// the same have the same rows.
+    #[must_use]
+    pub fn sha256(&self) -> String {
+        hexadecimal(&self.fingerprint)
+    }
+
+    /// Memory in bytes that a run takes, about: it does not depend on the number of rows.
     #[must_use]
     pub fn memory_bytes(&self) -> f64 {
         let values: usize = self.axes.iter().map(|a| a.columns.len() * a.len).sum();
-        (self.rows() * ROW_BYTES + values * 8) as f64
+        (RUN_BYTES + values * 8) as f64
     }
 
     /// Number of scenes.
@@ -162,6 +176,28 @@ impl Spec {
     pub fn rows(&self) -> usize {
         rows(&self.axes).unwrap_or(0)
     }
+}
+
+/// The axes that the sections of a sweep say.
+fn axes(root: &Section<'_>) -> Result<Vec<Axis>, SceneError> {
+    let mut axes = Vec::new();
+    if let Some(product) = root.section("product")? {
+        for column in columns(&product, &[])? {
+            axes.push(Axis {
+                name: column.name(),
+                len: column.values.len(),
+                columns: vec![column],
+            });
+        }
+    }
+    if let Some(list) = root.section("list")? {
+        axes.push(together(columns(&list, &[])?)?);
+    }
+    if let Some(random) = root.section("random")? {
+        axes.push(drawn(&random)?);
+    }
+    check(&axes)?;
+    Ok(axes)
 }
 
 /// The base scene, from a file or in place, where its own files are, and the file.
@@ -240,7 +276,7 @@ fn spaced(range: &Section<'_>) -> Result<Vec<f64>, SceneError> {
     let from = range.required("from", allowed, "the first value")?;
     let to = range.required("to", allowed, "the last value")?;
     let count = range
-        .count("count", 2, MOST_ROWS, "[2, 10000000]")?
+        .count("count", 2, MOST_VALUES, "[2, 10000000]")?
         .ok_or_else(|| range.missing("count", "how many values"))?;
     let last = (count - 1) as f64;
     Ok((0..count)
@@ -277,7 +313,7 @@ fn together(columns: Vec<Column>) -> Result<Axis, SceneError> {
 /// The axis of random draws.
 fn drawn(random: &Section<'_>) -> Result<Axis, SceneError> {
     let samples = random
-        .count("samples", 1, MOST_ROWS, "[1, 10000000]")?
+        .count("samples", 1, MOST_VALUES, "[1, 10000000]")?
         .ok_or_else(|| random.missing("samples", "how many draws"))?;
     let seed = random
         .count("seed", 0, usize::MAX, "[0, 2^63)")?
@@ -362,7 +398,7 @@ fn check(axes: &[Axis]) -> Result<(), SceneError> {
         rows => Err(SceneError::OutOfRange {
             key: "the number of rows".to_owned(),
             value: rows.map_or(f64::INFINITY, |n| n as f64),
-            range: "[1, 10000000]",
+            range: "[1, 1e12]",
         }),
     }
 }

@@ -1,0 +1,311 @@
+//! Rows of a sweep in several files: what a folder has of them, what it lacks, and all of them in one.
+
+use crate::error::SceneError;
+use crate::stored::{Part, ReadError, StoredPart, StoredSweep};
+use crate::sweep::{Block, Blocks, Selection, Shard, Spec, from_hexadecimal, gaps, stage_sweep};
+use output::{Fault, HDF5, Output, OutputError, Staged};
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use thiserror::Error;
+
+/// Parts that cannot be joined.
+#[derive(Debug, Error)]
+pub enum PartsError {
+    /// The folder cannot be read.
+    #[error("cannot read {}: {reason}", path.display())]
+    Folder {
+        /// The folder.
+        path: PathBuf,
+        /// The system's reason.
+        reason: std::io::Error,
+    },
+    /// There are none.
+    #[error("{} has no part of a sweep", path.display())]
+    None {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// A file that does not belong to the others.
+    #[error("{}", foreign.reason)]
+    Foreign {
+        /// The file.
+        foreign: Foreign,
+    },
+    /// Rows that no part has.
+    #[error("rows {} to {} of the sweep are in no part{}", rows.start, rows.end - 1, others(*.more))]
+    Missing {
+        /// The first of them.
+        rows: Range<usize>,
+        /// Ranges beside these.
+        more: usize,
+    },
+    /// Rows that two parts have.
+    #[error("rows {} to {} are in {} and in {}: remove one of the two", rows.start, rows.end - 1, first.display(), second.display())]
+    Overlap {
+        /// The rows.
+        rows: Range<usize>,
+        /// One file.
+        first: PathBuf,
+        /// The other.
+        second: PathBuf,
+    },
+    /// The sweep that a part names cannot be read.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// A part cannot be read.
+    #[error(transparent)]
+    Read(#[from] ReadError),
+    /// The output cannot be written.
+    #[error(transparent)]
+    Output(#[from] OutputError),
+}
+
+/// A file in a folder of parts that is none of its sweep.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Foreign {
+    /// The file.
+    pub path: PathBuf,
+    /// What it is, in one sentence that names it.
+    pub reason: String,
+}
+
+/// The parts of one sweep in a folder.
+#[derive(Debug)]
+pub struct Parts {
+    /// Which sweep.
+    pub sha256: String,
+    /// Its rows.
+    pub sweep_rows: usize,
+    /// The parts, by their first rows.
+    pub parts: Vec<Part>,
+    /// Files with the ending of HDF5 that are none of them.
+    pub foreign: Vec<Foreign>,
+}
+
+impl Parts {
+    /// Opens the parts in a folder: of the sweep `wanted`, or of that of most of them.
+    ///
+    /// # Errors
+    /// [`PartsError`] for a folder that cannot be read or, where no sweep is wanted, has no parts.
+    pub fn in_folder(folder: &Path, wanted: Option<&Spec>) -> Result<Self, PartsError> {
+        let (mut all, mut foreign) = (Vec::new(), Vec::new());
+        for path in files(folder)? {
+            match StoredPart::open(&path) {
+                Ok(open) => all.push(open.part),
+                Err(error) => foreign.push(Foreign {
+                    reason: error.to_string(),
+                    path,
+                }),
+            }
+        }
+        let (sha256, sweep_rows) = match wanted {
+            Some(spec) => (spec.sha256(), spec.rows()),
+            None => most(&all).ok_or_else(|| PartsError::None {
+                path: folder.to_owned(),
+            })?,
+        };
+        let (mut parts, others): (Vec<_>, Vec<_>) = all
+            .into_iter()
+            .partition(|part| part.sha256 == sha256 && part.sweep_rows == sweep_rows);
+        parts.sort_by_key(|part| (part.selection.rows.start, part.selection.rows.end));
+        foreign.extend(others.iter().map(|part| Foreign {
+            path: part.path.clone(),
+            reason: format!(
+                "{} is a part of another sweep, or of this one before its files or the program changed",
+                part.path.display()
+            ),
+        }));
+        Ok(Self {
+            sha256,
+            sweep_rows,
+            parts,
+            foreign,
+        })
+    }
+
+    /// Rows of the sweep that no part has.
+    #[must_use]
+    pub fn missing(&self) -> Vec<Range<usize>> {
+        gaps(&self.held(), &(0..self.sweep_rows))
+    }
+
+    /// Into how many shards the sweep was divided, where the parts agree on it.
+    #[must_use]
+    pub fn shards(&self) -> Option<usize> {
+        let mut counts = self
+            .parts
+            .iter()
+            .map(|part| part.selection.shard.map(|s| s.count));
+        let first = counts.next()??;
+        counts.all(|count| count == Some(first)).then_some(first)
+    }
+
+    /// The shards, of so many, some rows of which no part has.
+    #[must_use]
+    pub fn missing_shards(&self, count: usize) -> Vec<usize> {
+        let held = self.held();
+        let lacks =
+            |&index: &usize| !gaps(&held, &Shard { index, count }.rows(self.sweep_rows)).is_empty();
+        (1..=count).filter(lacks).collect()
+    }
+
+    /// The first rows that two parts have, if there are any.
+    #[must_use]
+    pub fn overlap(&self) -> Option<PartsError> {
+        let full = self
+            .parts
+            .iter()
+            .filter(|part| !part.selection.rows.is_empty());
+        let mut last: Option<&Part> = None;
+        for part in full {
+            let rows = &part.selection.rows;
+            if let Some(last) = last
+                && last.selection.rows.end > rows.start
+            {
+                return Some(PartsError::Overlap {
+                    rows: rows.start..rows.end.min(last.selection.rows.end),
+                    first: last.path.clone(),
+                    second: part.path.clone(),
+                });
+            }
+            last = Some(part);
+        }
+        None
+    }
+
+    /// Writes the whole sweep, byte by byte as one run would have, into an output that was claimed before.
+    ///
+    /// # Errors
+    /// [`PartsError`] where rows are missing, or twice there, or a file is none of the sweep's parts.
+    pub fn merge<'a>(&self, output: &'a Output) -> Result<Staged<'a>, PartsError> {
+        // what was merged before may lie beside the parts
+        let merged = |path: &Path| StoredSweep::open(path).is_ok();
+        if let Some(foreign) = self.foreign.iter().find(|foreign| !merged(&foreign.path)) {
+            let foreign = foreign.clone();
+            return Err(PartsError::Foreign { foreign });
+        }
+        if let Some(overlap) = self.overlap() {
+            return Err(overlap);
+        }
+        let missing = self.missing();
+        if let Some(rows) = missing.first() {
+            return Err(PartsError::Missing {
+                rows: rows.clone(),
+                more: missing.len() - 1,
+            });
+        }
+        let Some(first) = self.parts.first() else {
+            return Err(PartsError::None {
+                path: output.path().to_owned(),
+            });
+        };
+        let damaged = || ReadError::Damaged {
+            path: first.path.clone(),
+            what: "the hash of its sweep is none".to_owned(),
+        };
+        let fingerprint = from_hexadecimal(&self.sha256).ok_or_else(damaged)?;
+        let spec = Spec::of_stored(&StoredPart::open(&first.path)?.sweep()?, fingerprint)?;
+        Ok(stage_sweep(output, &spec, self)?)
+    }
+
+    fn held(&self) -> Vec<Range<usize>> {
+        let rows = self.parts.iter().map(|part| part.selection.rows.clone());
+        rows.filter(|rows| !rows.is_empty()).collect()
+    }
+}
+
+impl Blocks for Parts {
+    fn each(&self, visit: &mut dyn FnMut(&Block) -> Result<(), Fault>) -> Result<(), Fault> {
+        // one is open at a time: there may be more parts than files that a process may open
+        self.parts.iter().try_for_each(|part| {
+            let open =
+                StoredPart::open(&part.path).map_err(|error| Fault::from(error.to_string()))?;
+            if open.part != *part {
+                let path = part.path.display();
+                return Err(Fault::from(format!("{path} was changed while it was read")));
+            }
+            open.each(visit)
+        })
+    }
+}
+
+/// Why the file at `path` is not the whole result of a sweep or, where one is given, of a selection of its rows.
+///
+/// # Errors
+/// One sentence.
+pub fn check_complete(
+    path: &Path,
+    spec: &Spec,
+    selection: Option<&Selection>,
+) -> Result<(), String> {
+    let told = |error: ReadError| error.to_string();
+    let other = || {
+        format!(
+            "{} is of another sweep, or of this one before its files or the program changed",
+            path.display()
+        )
+    };
+    let Some(selection) = selection else {
+        let found = StoredSweep::open(path).map_err(told)?;
+        if found.sha256() != Some(spec.sha256()) {
+            return Err(other());
+        }
+        return found.check_whole().map_err(told);
+    };
+    let found = StoredPart::open(path).map_err(told)?.part;
+    if found.sha256 != spec.sha256() {
+        return Err(other());
+    }
+    let (rows, asked) = (&found.selection.rows, &selection.rows);
+    if rows != asked {
+        return Err(format!(
+            "{} has the rows {}:{}, not {}:{}",
+            path.display(),
+            rows.start,
+            rows.end,
+            asked.start,
+            asked.end
+        ));
+    }
+    Ok(())
+}
+
+fn others(more: usize) -> String {
+    match more {
+        0 => String::new(),
+        1 => ", and those of another range".to_owned(),
+        more => format!(", and those of {more} other ranges"),
+    }
+}
+
+/// Files of a folder whose names end like HDF5, by name; those that begin with a dot belong to runs.
+fn files(folder: &Path) -> Result<Vec<PathBuf>, PartsError> {
+    let failed = |reason| PartsError::Folder {
+        path: folder.to_owned(),
+        reason,
+    };
+    let mut found = Vec::new();
+    for entry in std::fs::read_dir(folder).map_err(failed)? {
+        let path = entry.map_err(failed)?.path();
+        let hidden = path
+            .file_name()
+            .is_some_and(|name| name.as_encoded_bytes().starts_with(b"."));
+        if path.extension().is_some() && HDF5.check(&path).is_ok() && !hidden {
+            found.push(path);
+        }
+    }
+    found.sort();
+    Ok(found)
+}
+
+/// The sweep that most parts are of, with its rows; the first of several.
+fn most(parts: &[Part]) -> Option<(String, usize)> {
+    let mut counts: BTreeMap<(&str, usize), usize> = BTreeMap::new();
+    for part in parts {
+        *counts.entry((&part.sha256, part.sweep_rows)).or_default() += 1;
+    }
+    let largest = counts.values().max()?;
+    let (&(sha256, rows), _) = counts.iter().find(|(_, count)| *count == largest)?;
+    Some((sha256.to_owned(), rows))
+}

@@ -1,0 +1,139 @@
+//! Some rows of a sweep, read back.
+
+use super::error::ReadError;
+use super::kind::FileKind;
+use super::open::Stored;
+use crate::quantities::QUANTITIES;
+use crate::sweep::schema::{FAILED, FAILURE, FAILURES, MODEL, RESULTS, ROWS, SHA256, part};
+use crate::sweep::{BLOCK, Block, Blocks, Selection};
+use output::Fault;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+/// Major version of the parts that are read.
+const MAJOR: &str = "1";
+
+/// What a part says of itself.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Part {
+    /// Where it lies.
+    pub path: PathBuf,
+    /// Which sweep it is of.
+    pub sha256: String,
+    /// Which rows it has.
+    pub selection: Selection,
+    /// Rows of the whole sweep.
+    pub sweep_rows: usize,
+    /// Failed rows.
+    pub failed: usize,
+}
+
+/// An open part; its rows are read a block at a time.
+#[derive(Debug, Clone)]
+pub struct StoredPart {
+    stored: Stored,
+    /// What it says of itself.
+    pub part: Part,
+    reasons: Vec<String>,
+}
+
+impl StoredPart {
+    /// Opens a part and checks that none of its columns was cut short.
+    ///
+    /// # Errors
+    /// [`ReadError`], which says what the file is instead.
+    pub fn open(path: &Path) -> Result<Self, ReadError> {
+        let stored = Stored::open(path, FileKind::SweepPart, MAJOR)?;
+        let count = |name: &str| {
+            let found = stored.number(name).map(|number| number as usize);
+            found.ok_or_else(|| stored.damaged(format!("the number {name} is missing")))
+        };
+        let (sweep_rows, start) = (count(part::SWEEP_ROWS)?, count(part::FIRST_ROW)?);
+        let end = start.checked_add(count(ROWS)?);
+        let Some(end) = end.filter(|&end| end <= sweep_rows) else {
+            return Err(stored.damaged("it has rows beyond those of its sweep"));
+        };
+        let shard = match stored.text(part::SHARD)?.as_str() {
+            "" => None,
+            text => {
+                let shard = text.parse();
+                Some(shard.map_err(|_| stored.damaged(format!("there is no shard {text}")))?)
+            }
+        };
+        let rows = start..end;
+        for quantity in &QUANTITIES {
+            stored.check_end(&format!("{RESULTS}/{}", quantity.name), &[rows.len()])?;
+        }
+        let part = Part {
+            path: path.to_owned(),
+            sha256: stored.text(SHA256)?,
+            failed: count(FAILED)?,
+            selection: Selection { rows, shard },
+            sweep_rows,
+        };
+        Ok(Self {
+            reasons: stored.texts(FAILURES.0)?,
+            part,
+            stored,
+        })
+    }
+
+    /// The sweep with its base scene, as TOML.
+    ///
+    /// # Errors
+    /// [`ReadError`] where it is missing.
+    pub fn sweep(&self) -> Result<String, ReadError> {
+        self.stored.text("sweep")
+    }
+
+    /// Some of its rows, counted from its first.
+    fn block(&self, rows: Range<usize>) -> Result<Block, ReadError> {
+        let length = self.part.selection.rows.len();
+        let path = |name: &str| format!("{RESULTS}/{name}");
+        let mut block = Block {
+            start: self.part.selection.rows.start + rows.start,
+            numbers: vec![[0.0; QUANTITIES.len()]; rows.len()],
+            models: self.stored.some(&path(MODEL.0), length, rows.clone())?,
+            failures: Vec::new(),
+        };
+        for (k, quantity) in QUANTITIES.iter().enumerate() {
+            let column = self
+                .stored
+                .some::<f64>(&path(quantity.name), length, rows.clone())?;
+            for (row, number) in block.numbers.iter_mut().zip(column) {
+                row[k] = number;
+            }
+        }
+        let indices = self.stored.some::<i32>(&path(FAILURE.0), length, rows)?;
+        for (row, index) in (block.start..).zip(indices) {
+            if index == -1 {
+                continue;
+            }
+            let reason = usize::try_from(index)
+                .ok()
+                .and_then(|i| self.reasons.get(i));
+            let reason = reason.ok_or_else(|| {
+                self.stored
+                    .damaged(format!("row {row} has no reason number {index}"))
+            })?;
+            block.failures.push((row, reason.clone()));
+        }
+        if block.holds() {
+            return Ok(block);
+        }
+        Err(self
+            .stored
+            .damaged("it has models that are not known, or failures without reasons"))
+    }
+}
+
+impl Blocks for StoredPart {
+    fn each(&self, visit: &mut dyn FnMut(&Block) -> Result<(), Fault>) -> Result<(), Fault> {
+        let rows = self.part.selection.rows.len();
+        for start in (0..rows).step_by(BLOCK) {
+            let block = self.block(start..(start + BLOCK).min(rows));
+            visit(&block.map_err(|error| Fault::from(error.to_string()))?)?;
+        }
+        Ok(())
+    }
+}
