@@ -70,6 +70,9 @@ const LONGEST: f64 = 0.45;
 /// Change by the finer rule that is allowed, over the error of a piece: what is left of it is smaller.
 const CORRECTED: f64 = 1.0;
 
+/// Change by the finer rule, over the error of a piece, below which the next piece takes a coarser rule.
+const COARSER: f64 = 1e-2;
+
 impl<'a> March<'a> {
     pub(super) fn new(waves: &'a PunchWaves, groups: Groups, accuracy: f64) -> Self {
         let degree = (1.0 - accuracy.log10()).round().clamp(5.0, 12.0);
@@ -101,6 +104,7 @@ impl<'a> March<'a> {
         given: Polynomial,
         guess: &Values,
     ) -> Option<(Solution, f64)> {
+        let mut guess = *guess;
         loop {
             let rules = [self.level, self.level + 1].map(|level| self.waves.rule(level));
             let start = self.state;
@@ -119,7 +123,7 @@ impl<'a> March<'a> {
                 rules,
                 accuracy,
             }
-            .solve(guess)?;
+            .solve(&guess)?;
             // of the force where the radius is sought
             let weight = match known {
                 Known::Time => 3.0 * solution.widest * solution.widest,
@@ -132,9 +136,10 @@ impl<'a> March<'a> {
             let miss = solution.waves * weight / (CORRECTED * self.accuracy);
             if miss > 1.0 && self.level + 2 < LEVELS {
                 self.level += 1;
+                guess = solution.sought;
                 continue;
             }
-            if miss < 1e-3 && self.level > 0 && known == Known::Time {
+            if miss < COARSER && self.level > 0 && known == Known::Time {
                 self.level -= 1;
             }
             return Some((solution, error));

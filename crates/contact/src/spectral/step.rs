@@ -30,6 +30,8 @@ pub(super) struct Solution {
     pub(super) truncated: f64,
     /// Change of what was sought by the finer rule over the waves.
     pub(super) waves: f64,
+    /// What was sought, at 0 and the nodes.
+    pub(super) sought: Values,
 }
 
 /// The problem of one piece.
@@ -191,6 +193,7 @@ impl Step<'_> {
             dissipated,
             truncated: last_term(&modes[..=n]),
             waves,
+            sought: *sought,
         }
     }
 }
