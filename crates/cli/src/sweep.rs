@@ -10,8 +10,8 @@ use crate::sweep_plan;
 use clap::Args;
 use formats::parts::check_complete;
 use formats::sweep::{
-    Block, Blocks, JournalError, Kept, Selection, Shard, Spec, SweepError, is_computed, print_csv,
-    run_rows, stage_csv, stage_part, stage_sweep,
+    Block, Blocks, Fields, JournalError, Kept, Precision, Selection, Shard, Spec, SweepError,
+    is_computed, print_csv, run_rows, stage_csv, stage_part, stage_sweep,
 };
 use formats::{Existing, Output, OutputError, QUANTITIES};
 use output::{CSV, Fault, HDF5, Role, Staged, apart, behind, is_standard};
@@ -63,6 +63,12 @@ pub(crate) struct Run {
     /// Compute the rows from A up to B, which is not among them, into the output, which is then a part.
     #[arg(long, value_name = "A:B", conflicts_with = "shard", value_parser = range)]
     rows: Option<Range<usize>>,
+    /// Results to write, comma-separated, such as peak_force_n,restitution; all otherwise. Model and failure always are.
+    #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
+    columns: Option<Vec<String>>,
+    /// Write results with 32 bits instead of 64, rounded by up to 6e-8 of themselves.
+    #[arg(long)]
+    float32: bool,
     /// Succeed at once where the output is whole and of the same sweep, rows and version; fail with 1 where it is not.
     #[arg(long, conflicts_with = "force")]
     skip_complete: bool,
@@ -119,7 +125,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let run = &arguments.run;
     match (&arguments.action, &run.sweep, &run.output) {
         (Some(action), _, _) => sweep_parts::run(action),
-        (None, Some(sweep), _) if run.plan => sweep_plan::run(sweep, run.shards, run.json),
+        (None, Some(sweep), _) if run.plan => {
+            sweep_plan::run(sweep, &spec(run, sweep)?, run.shards, run.json)
+        }
         (None, Some(sweep), Some(output)) => compute(run, sweep, output),
         (None, _, _) => Err(Failure::input("give a sweep file and -o OUT.h5")),
     }
@@ -127,7 +135,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
 
 fn compute(arguments: &Run, sweep: &Path, output: &Path) -> Result<(), Failure> {
     let start = Instant::now();
-    let spec = Spec::from_file(sweep).map_err(Failure::input)?;
+    let spec = spec(arguments, sweep)?;
     let change = "ask for fewer values";
     arguments
         .memory
@@ -180,6 +188,18 @@ fn compute(arguments: &Run, sweep: &Path, output: &Path) -> Result<(), Failure> 
     };
     kept.remove();
     done
+}
+
+/// The sweep, and what of its results is written.
+fn spec(arguments: &Run, sweep: &Path) -> Result<Spec, Failure> {
+    let mut spec = Spec::from_file(sweep).map_err(Failure::input)?;
+    if let Some(names) = &arguments.columns {
+        spec.fields = Fields::of_names(names, Precision::Double).map_err(Failure::input)?;
+    }
+    if arguments.float32 {
+        spec.fields.precision = Precision::Single;
+    }
+    Ok(spec)
 }
 
 /// The rows that are asked for; nothing where they are the whole sweep in its own shape.

@@ -35,10 +35,14 @@ struct Plan {
     columns: Vec<String>,
 }
 
-pub(crate) fn run(sweep: &Path, shards: Option<u32>, json: bool) -> Result<(), Failure> {
-    let spec = Spec::from_file(sweep).map_err(Failure::input)?;
+pub(crate) fn run(
+    sweep: &Path,
+    spec: &Spec,
+    shards: Option<u32>,
+    json: bool,
+) -> Result<(), Failure> {
     let (measured_rows, rows_per_second) =
-        measure(&spec).map_err(|error| Failure::input(error.in_file(sweep)))?;
+        measure(spec).map_err(|error| Failure::input(error.in_file(sweep)))?;
     let rows = spec.rows();
     let seconds = rows as f64 / rows_per_second;
     let blocks = rows.div_ceil(BLOCK);
@@ -46,7 +50,7 @@ pub(crate) fn run(sweep: &Path, shards: Option<u32>, json: bool) -> Result<(), F
     let own = wished.clamp(1, MOST_SHARDS).min(blocks);
     let count = shards.map_or(own, |count| count as usize);
     let rows_per_shard = (blocks.div_ceil(count) * BLOCK).min(rows);
-    let (bytes, kept) = row_bytes(&spec);
+    let (bytes, kept) = row_bytes(spec);
     let plan = Plan {
         rows,
         shards: count,
@@ -60,7 +64,7 @@ pub(crate) fn run(sweep: &Path, shards: Option<u32>, json: bool) -> Result<(), F
         threads: std::thread::available_parallelism().map_or(1, usize::from),
         measured_rows,
         sweep_sha256: spec.sha256(),
-        columns: column_names(&spec),
+        columns: column_names(spec),
     };
     if json {
         return print(serde_json::to_string(&plan).map_err(Failure::work)?);

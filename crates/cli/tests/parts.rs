@@ -347,3 +347,75 @@ fn a_plan_says_what_a_billion_rows_take() {
     assert!((b - a).abs_diff(planned) < 4096, "{} {planned}", b - a);
     assert_eq!(plan["columns"][0], "row");
 }
+
+#[test]
+fn chosen_columns_and_single_precision_are_kept_by_parts() {
+    let folder = folder();
+    let here = folder.path();
+    let few = "--columns restitution,peak_force_n --float32";
+    well(here, "sweep s.toml -o all.h5 --csv all.csv");
+    well(here, &format!("sweep s.toml {few} -o few.h5 --csv few.csv"));
+    for shard in 1..=2 {
+        well(
+            here,
+            &format!("sweep s.toml {few} --shard {shard}/2 -o out/{shard}.h5"),
+        );
+    }
+    well(here, "sweep merge out -o merged.h5");
+    assert!(
+        bytes(here, "merged.h5") == bytes(here, "few.h5"),
+        "merged differs"
+    );
+    let table = |name: &str| -> Vec<Vec<String>> {
+        let text = std::fs::read_to_string(here.join(name)).unwrap();
+        let fields = |line: &str| line.splitn(40, ',').map(str::to_owned).collect();
+        text.lines().take(1000).map(fields).collect()
+    };
+    let (all, few_rows) = (table("all.csv"), table("few.csv"));
+    let names: Vec<&str> = few_rows[0].iter().map(String::as_str).collect();
+    // the keys, the results in the order of the program, the model, the reason
+    assert_eq!(
+        names[4..],
+        ["peak_force_n", "restitution", "model", "failure"]
+    );
+    let file = hdf5(here, "few.h5");
+    for (k, name) in names.iter().enumerate().skip(4).take(2) {
+        let place = all[0].iter().position(|other| other == name).unwrap();
+        let stored = file.values(name).unwrap();
+        for (row, (all, few)) in all.iter().zip(&few_rows).skip(1).enumerate() {
+            let number = |text: &str| text.parse::<f64>().unwrap_or(f64::NAN);
+            let (exact, rounded) = (number(&all[place]), number(&few[k]));
+            assert!(exact.is_nan() || exact as f32 == rounded as f32);
+            assert!(exact.is_nan() || f64::from(exact as f32) == stored[row]);
+        }
+    }
+    assert!(file.values("contact_time_s").is_err());
+    let plan = json(
+        here,
+        &format!("sweep s.toml {few} --plan --shards 2 --json"),
+    );
+    let part = std::fs::metadata(here.join("out/1.h5")).unwrap().len();
+    let planned = plan["bytes_per_shard"].as_u64().unwrap();
+    assert!(
+        part > planned && part < planned + 200_000,
+        "{part} {planned}"
+    );
+    refused(
+        here,
+        "sweep s.toml --shard 1/2 --skip-complete -o out/1.h5",
+        1,
+        "other columns, or another precision",
+    );
+    well(here, "sweep s.toml --shard 2/2 --force -o out/2.h5");
+    refused(here, "sweep merge out -o no.h5", 2, "other columns");
+    refused(
+        here,
+        "sweep s.toml --columns restitutions -o no.h5",
+        2,
+        "the column restitutions",
+    );
+}
+
+fn hdf5(folder: &Path, name: &str) -> formats::stored::StoredSweep {
+    formats::stored::StoredSweep::open(&folder.join(name)).unwrap()
+}

@@ -2,7 +2,9 @@
 
 use crate::error::SceneError;
 use crate::stored::{Part, ReadError, StoredPart, StoredSweep};
-use crate::sweep::{Block, Blocks, Selection, Shard, Spec, from_hexadecimal, gaps, stage_sweep};
+use crate::sweep::{
+    Block, Blocks, Fields, Selection, Shard, Spec, from_hexadecimal, gaps, stage_sweep,
+};
 use output::{Fault, HDF5, Output, OutputError, Staged};
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -45,6 +47,14 @@ pub enum PartsError {
     Overlap {
         /// The rows.
         rows: Range<usize>,
+        /// One file.
+        first: PathBuf,
+        /// The other.
+        second: PathBuf,
+    },
+    /// Parts with other results, or of another precision.
+    #[error("{} and {} have other columns, or another precision", first.display(), second.display())]
+    Columns {
         /// One file.
         first: PathBuf,
         /// The other.
@@ -205,7 +215,14 @@ impl Parts {
             what: "the hash of its sweep is none".to_owned(),
         };
         let fingerprint = from_hexadecimal(&self.sha256).ok_or_else(damaged)?;
-        let spec = Spec::of_stored(&StoredPart::open(&first.path)?.sweep()?, fingerprint)?;
+        let mut spec = Spec::of_stored(&StoredPart::open(&first.path)?.sweep()?, fingerprint)?;
+        spec.fields = first.fields.clone();
+        if let Some(other) = self.parts.iter().find(|part| part.fields != spec.fields) {
+            return Err(PartsError::Columns {
+                first: first.path.clone(),
+                second: other.path.clone(),
+            });
+        }
         Ok(stage_sweep(output, &spec, self)?)
     }
 
@@ -246,11 +263,19 @@ pub fn check_complete(
             path.display()
         )
     };
+    let same_fields = |found: &Fields| {
+        if *found == spec.fields {
+            return Ok(());
+        }
+        let path = path.display();
+        Err(format!("{path} has other columns, or another precision"))
+    };
     let Some(selection) = selection else {
         let found = StoredSweep::open(path).map_err(told)?;
         if found.sha256() != Some(spec.sha256()) {
             return Err(other());
         }
+        same_fields(&found.fields().map_err(told)?)?;
         return found.check_whole().map_err(told);
     };
     let found = StoredPart::open(path).map_err(told)?.part;
@@ -268,7 +293,7 @@ pub fn check_complete(
             asked.end
         ));
     }
-    Ok(())
+    same_fields(&found.fields)
 }
 
 fn others(more: usize) -> String {

@@ -3,6 +3,8 @@
 use super::error::ReadError;
 use super::file::{file_kind, open_hdf5, text_of};
 use super::kind::FileKind;
+use crate::quantities::QUANTITIES;
+use crate::sweep::{Fields, Precision};
 use hdfread::{Dataset, Group, Kind, Number};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -187,12 +189,34 @@ impl Stored {
         numbers.map_err(|error| self.damaged(format!("{path} cannot be read: {error}")))
     }
 
-    /// Fails where the last number of a dataset of 64-bit floats cannot be read: the file was cut short.
+    /// Which results a group has as datasets of a shape, and how exactly.
+    pub(super) fn fields(&self, group: &str, shape: &[usize]) -> Result<Fields, ReadError> {
+        let mut fields = Fields::default();
+        let mut kinds = Vec::new();
+        fields.places.retain(|&k| {
+            let path = format!("{group}/{}", QUANTITIES[k].name);
+            let dataset = self.dataset(&path).filter(|found| found.shape() == shape);
+            kinds.extend(dataset.as_ref().map(Dataset::kind));
+            dataset.is_some()
+        });
+        if !kinds.is_empty() && kinds.iter().all(|&kind| kind == f32::KIND) {
+            fields.precision = Precision::Single;
+        } else if kinds.iter().any(|&kind| kind != f64::KIND) {
+            return Err(self.damaged("its results are not of one precision"));
+        }
+        Ok(fields)
+    }
+
+    /// Fails where the last number of a dataset of floats cannot be read: the file was cut short.
     pub(super) fn check_end(&self, path: &str, shape: &[usize]) -> Result<(), ReadError> {
         let last: Vec<_> = shape.iter().map(|&n| n.saturating_sub(1)..n).collect();
-        let end = self.of_shape(path, shape)?.block::<f64>(&last, MOST_BYTES);
-        end.map(drop)
-            .map_err(|error| self.damaged(format!("{path} cannot be read: {error}")))
+        let dataset = self.of_shape(path, shape)?;
+        let end = if dataset.kind() == f32::KIND {
+            dataset.block::<f32>(&last, MOST_BYTES).map(drop)
+        } else {
+            dataset.block::<f64>(&last, MOST_BYTES).map(drop)
+        };
+        end.map_err(|error| self.damaged(format!("{path} cannot be read: {error}")))
     }
 
     /// A dataset that has a shape.

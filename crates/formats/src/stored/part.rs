@@ -5,7 +5,7 @@ use super::kind::FileKind;
 use super::open::Stored;
 use crate::quantities::QUANTITIES;
 use crate::sweep::schema::{FAILED, FAILURE, FAILURES, MODEL, RESULTS, ROWS, SHA256, part};
-use crate::sweep::{BLOCK, Block, Blocks, Selection};
+use crate::sweep::{BLOCK, Block, Blocks, Fields, Precision, Selection};
 use output::Fault;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -26,6 +26,8 @@ pub struct Part {
     pub sweep_rows: usize,
     /// Failed rows.
     pub failed: usize,
+    /// Which results it has.
+    pub fields: Fields,
 }
 
 /// An open part; its rows are read a block at a time.
@@ -61,7 +63,8 @@ impl StoredPart {
             }
         };
         let rows = start..end;
-        for quantity in &QUANTITIES {
+        let fields = stored.fields(RESULTS, &[rows.len()])?;
+        for (_, quantity) in fields.quantities() {
             stored.check_end(&format!("{RESULTS}/{}", quantity.name), &[rows.len()])?;
         }
         let part = Part {
@@ -70,6 +73,7 @@ impl StoredPart {
             failed: count(FAILED)?,
             selection: Selection { rows, shard },
             sweep_rows,
+            fields,
         };
         Ok(Self {
             reasons: stored.texts(FAILURES.0)?,
@@ -92,14 +96,19 @@ impl StoredPart {
         let path = |name: &str| format!("{RESULTS}/{name}");
         let mut block = Block {
             start: self.part.selection.rows.start + rows.start,
-            numbers: vec![[0.0; QUANTITIES.len()]; rows.len()],
+            numbers: vec![[f64::NAN; QUANTITIES.len()]; rows.len()],
             models: self.stored.some(&path(MODEL.0), length, rows.clone())?,
             failures: Vec::new(),
         };
-        for (k, quantity) in QUANTITIES.iter().enumerate() {
-            let column = self
-                .stored
-                .some::<f64>(&path(quantity.name), length, rows.clone())?;
+        for (k, quantity) in self.part.fields.quantities() {
+            let (path, rows) = (path(quantity.name), rows.clone());
+            let column: Vec<f64> = match self.part.fields.precision {
+                Precision::Double => self.stored.some(&path, length, rows)?,
+                Precision::Single => {
+                    let column = self.stored.some::<f32>(&path, length, rows)?;
+                    column.into_iter().map(f64::from).collect()
+                }
+            };
             for (row, number) in block.numbers.iter_mut().zip(column) {
                 row[k] = number;
             }

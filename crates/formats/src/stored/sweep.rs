@@ -3,8 +3,8 @@
 use super::error::ReadError;
 use super::kind::FileKind;
 use super::open::{Stored, StoredQuantity};
-use crate::sweep::Values;
 use crate::sweep::schema::{AXES, LIST, RESULTS, SAMPLE, SHA256};
+use crate::sweep::{Fields, Values};
 use std::path::Path;
 
 /// Major version of the sweeps that are read.
@@ -82,13 +82,19 @@ impl StoredSweep {
     /// # Errors
     /// [`ReadError::Damaged`].
     pub fn check_whole(&self) -> Result<(), ReadError> {
-        let found = self.quantities();
-        let numbers = found
-            .iter()
-            .filter(|q| crate::QUANTITIES.iter().any(|k| k.name == q.name));
-        numbers
-            .map(|q| format!("{RESULTS}/{}", q.name))
-            .try_for_each(|path| self.stored.check_end(&path, &self.shape()))
+        let fields = self.fields()?;
+        fields.quantities().try_for_each(|(_, quantity)| {
+            let path = format!("{RESULTS}/{}", quantity.name);
+            self.stored.check_end(&path, &self.shape())
+        })
+    }
+
+    /// Which results it has, and how exactly.
+    ///
+    /// # Errors
+    /// [`ReadError::Damaged`].
+    pub fn fields(&self) -> Result<Fields, ReadError> {
+        self.stored.fields(RESULTS, &self.shape())
     }
 
     /// The results of every row.

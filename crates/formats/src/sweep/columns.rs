@@ -3,6 +3,7 @@
 use super::axis::Values;
 use super::block::Block;
 use super::blocks::Blocks;
+use super::fields::Precision;
 use super::spec::Spec;
 use crate::hdf::reserve;
 use crate::quantities::QUANTITIES;
@@ -71,7 +72,10 @@ impl<'a> Columns<'a> {
                 Values::Numbers(_) => reserve::<f64>(group, described, shape)?,
                 Values::Texts(_) => reserve::<u32>(group, described, shape)?,
             },
-            What::Number(_) => reserve::<f64>(group, described, shape)?,
+            What::Number(_) => match self.spec.fields.precision {
+                Precision::Double => reserve::<f64>(group, described, shape)?,
+                Precision::Single => reserve::<f32>(group, described, shape)?,
+            },
             What::Model => reserve::<u8>(group, described, shape)?,
             What::Failure => reserve::<i32>(group, described, shape)?,
         };
@@ -97,7 +101,7 @@ impl<'a> Columns<'a> {
             let failed = failures.of(block);
             for (what, place) in &self.places {
                 let Some(place) = place else { continue };
-                let (bytes, width) = self.bytes(*what, block, &failed);
+                let (bytes, width) = self.bytes(*what, block, &failed)?;
                 let before = (block.start - rows.start) * width;
                 file.seek(SeekFrom::Start(place + before as u64))?;
                 file.write_all(&bytes)?;
@@ -116,9 +120,9 @@ impl<'a> Columns<'a> {
     }
 
     /// The bytes of a column's rows, and of one of them.
-    fn bytes(&self, what: What, block: &Block, failed: &[i32]) -> (Vec<u8>, usize) {
+    fn bytes(&self, what: What, block: &Block, failed: &[i32]) -> Result<(Vec<u8>, usize), Fault> {
         let rows = block.start..block.start + block.numbers.len();
-        match what {
+        Ok(match what {
             What::Row => (rows.flat_map(|row| (row as i64).to_ne_bytes()).collect(), 8),
             What::Key {
                 stride,
@@ -132,21 +136,39 @@ impl<'a> Columns<'a> {
                         (places.flat_map(|i| numbers[i].to_ne_bytes()).collect(), 8)
                     }
                     Values::Texts(_) => {
-                        let mut bytes = Vec::with_capacity(4 * block.numbers.len());
-                        places.for_each(|i| bytes.extend((i as u32).to_ne_bytes()));
-                        (bytes, 4)
+                        (places.flat_map(|i| (i as u32).to_ne_bytes()).collect(), 4)
                     }
                 }
             }
             What::Number(k) => {
-                debug_assert!(k < QUANTITIES.len());
-                let numbers = block.numbers.iter();
-                (numbers.flat_map(|row| row[k].to_ne_bytes()).collect(), 8)
+                let width = self.spec.fields.width();
+                let mut bytes = Vec::with_capacity(width * block.numbers.len());
+                for (row, numbers) in rows.zip(&block.numbers) {
+                    match self.spec.fields.precision {
+                        Precision::Double => bytes.extend(numbers[k].to_ne_bytes()),
+                        Precision::Single => {
+                            bytes.extend(single(numbers[k], row, k)?.to_ne_bytes());
+                        }
+                    }
+                }
+                (bytes, width)
             }
             What::Model => (block.models.clone(), 1),
             What::Failure => (failed.iter().flat_map(|i| i.to_ne_bytes()).collect(), 4),
-        }
+        })
     }
+}
+
+/// A number in single precision, where it has one.
+fn single(number: f64, row: usize, k: usize) -> Result<f32, Fault> {
+    let rounded = number as f32;
+    if rounded.is_infinite() && number.is_finite() {
+        let name = QUANTITIES[k].name;
+        return Err(Fault::from(format!(
+            "{name} = {number} in row {row} is outside [-3.4e38, 3.4e38] of single precision"
+        )));
+    }
+    Ok(rounded)
 }
 
 impl Failures {

@@ -3,9 +3,9 @@
 use super::axis::{Column, Values, place};
 use super::block::Block;
 use super::blocks::Blocks;
+use super::fields::Precision;
 use super::schema::{FAILURE, MODEL};
 use super::spec::Spec;
-use crate::quantities::QUANTITIES;
 use contact::{Choice, Model};
 use output::{Existing, Fault, Output, OutputError, Staged};
 use rayon::prelude::*;
@@ -80,7 +80,7 @@ fn header(spec: &Spec) -> String {
         .axes
         .iter()
         .flat_map(|axis| axis.columns.iter().map(Column::name));
-    let numbers = QUANTITIES.iter().map(|q| q.name.to_owned());
+    let numbers = spec.fields.quantities().map(|(_, q)| q.name.to_owned());
     let rest = [MODEL.0, FAILURE.0].map(str::to_owned);
     keys.chain(numbers)
         .chain(rest)
@@ -113,10 +113,14 @@ fn lines(spec: &Spec, block: &Block, from: usize) -> String {
                 }
             }
         }
-        for number in &block.numbers[i] {
+        for &k in &spec.fields.places {
+            let number = block.numbers[i][k];
             // a failed scene has empty fields
             if number.is_finite() {
-                let _ = write!(text, "{number}");
+                let _ = match spec.fields.precision {
+                    Precision::Double => write!(text, "{number}"),
+                    Precision::Single => write!(text, "{}", number as f32),
+                };
             }
             text.push(',');
         }

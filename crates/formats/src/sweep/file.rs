@@ -3,12 +3,12 @@
 use super::axis::{Axis, Column, Values};
 use super::blocks::Blocks;
 use super::columns::{Columns, Failures, What};
+use super::fields::Fields;
 use super::schema;
 use super::spec::Spec;
 use crate::hdf::{
     attach_all, attach_scale, new_file, numbers, reason, scale, set_scale, text, texts,
 };
-use crate::quantities::QUANTITIES;
 use crate::results::schema::COORDINATES;
 use contact::{Choice, Model};
 use hdf5::{Dataset, File, Group};
@@ -78,7 +78,7 @@ fn begin<'a>(path: &Path, spec: &'a Spec) -> Result<(File, Columns<'a>), hdf5::E
         text(dataset, COORDINATES, &beside.join(" "))
     };
     let mut columns = Columns::new(spec);
-    for (described, what) in results() {
+    for (described, what) in results(&spec.fields) {
         let dataset = columns.add(what, &group, &described, &shape)?;
         if let What::Model = what {
             text(&dataset, schema::NAMES, &models())?;
@@ -104,12 +104,10 @@ pub(super) fn count(file: &File, name: &str, count: usize) -> Result<(), hdf5::E
 }
 
 /// The columns of results, in the order of the file.
-pub(super) fn results() -> impl Iterator<Item = (Described, What)> {
-    let numbers = QUANTITIES.iter().enumerate().map(|(k, quantity)| {
-        (
-            (quantity.name, quantity.unit, quantity.meaning),
-            What::Number(k),
-        )
+pub(super) fn results(fields: &Fields) -> impl Iterator<Item = (Described, What)> {
+    let numbers = fields.quantities().map(|(k, quantity)| {
+        let described = (quantity.name, quantity.unit, quantity.meaning);
+        (described, What::Number(k))
     });
     let rest = [
         (schema::MODEL, What::Model),

@@ -43,15 +43,15 @@ pub fn row_bytes(spec: &Spec) -> (usize, usize) {
             Values::Texts(_) => 4,
         })
         .sum();
-    let results = 8 * QUANTITIES.len() + 1;
-    (8 + keys + results + 4, results)
+    let results = spec.fields.width() * spec.fields.places.len() + 1;
+    (8 + keys + results + 4, 8 * QUANTITIES.len() + 1)
 }
 
 /// Names of the columns of such a file.
 #[must_use]
 pub fn column_names(spec: &Spec) -> Vec<String> {
     let keys = spec.axes.iter().flat_map(|axis| &axis.columns);
-    let results = results().map(|((name, ..), _)| name.to_owned());
+    let results = results(&spec.fields).map(|((name, ..), _)| name.to_owned());
     std::iter::once(part::ROW.0.to_owned())
         .chain(keys.map(Column::name))
         .chain(results)
@@ -113,7 +113,7 @@ fn begin<'a>(
             keys.push(name);
         }
     }
-    for (described, what) in results() {
+    for (described, what) in results(&spec.fields) {
         let dataset = columns.add(what, &group, &described, &shape)?;
         if let What::Model = what {
             text(&dataset, schema::NAMES, &models())?;

@@ -2,6 +2,7 @@
 
 use super::axis::{Axis, Column, Values, rows};
 use super::correlation::Correlations;
+use super::fields::Fields;
 use super::files::Files;
 use super::fingerprint::{fingerprint, hexadecimal};
 use super::random::{Distribution, normal};
@@ -29,6 +30,8 @@ pub struct Spec {
     pub(crate) files: Files,
     /// What makes two sweeps the same: SHA-256 of everything that is asked and was read, and of the program's version.
     pub(crate) fingerprint: [u8; 32],
+    /// What of the results is written.
+    pub fields: Fields,
 }
 
 /// Rows of a sweep at most: a place in a file of them is counted exactly.
@@ -80,6 +83,7 @@ impl Spec {
             axes,
             resolved,
             files,
+            fields: Fields::default(),
         })
     }
 
@@ -94,6 +98,7 @@ impl Spec {
             resolved: resolved.to_owned(),
             files: Files::default(),
             fingerprint,
+            fields: Fields::default(),
         })
     }
 
@@ -119,6 +124,7 @@ impl Spec {
             directory: directory.to_owned(),
             axes,
             files,
+            fields: Fields::default(),
         })
     }
 
