@@ -36,6 +36,7 @@ mod library_data;
 pub mod march;
 pub mod material;
 mod nearest;
+pub mod numbers;
 pub mod plan;
 mod quadrature;
 pub mod resample;

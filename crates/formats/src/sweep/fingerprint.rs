@@ -2,9 +2,10 @@
 
 use super::axis::{Axis, Values};
 use super::schema;
+use contact::numbers::NUMBERS_REVISION;
 use sha2::{Digest, Sha256};
 
-/// SHA-256 of the program's version, the format, everything spelled out, the files that were read, and of axes whose
+/// SHA-256 of the program's version, the revision of its numbers, the format, everything spelled out, the files that were read, and of axes whose
 /// values are not spelled out.
 pub(super) fn fingerprint(resolved: &str, files: &[String], axes: &[Axis]) -> [u8; 32] {
     let mut hash = Sha256::new();
@@ -12,7 +13,13 @@ pub(super) fn fingerprint(resolved: &str, files: &[String], axes: &[Axis]) -> [u
         hash.update((part.len() as u64).to_le_bytes());
         hash.update(part);
     };
-    let parts = [env!("CARGO_PKG_VERSION"), schema::FORMAT_VERSION, resolved];
+    let numbers = NUMBERS_REVISION.to_string();
+    let parts = [
+        env!("CARGO_PKG_VERSION"),
+        &numbers,
+        schema::FORMAT_VERSION,
+        resolved,
+    ];
     for part in parts.into_iter().chain(files.iter().map(String::as_str)) {
         add(part.as_bytes());
     }

@@ -28,7 +28,7 @@ pub struct Spec {
     pub(crate) resolved: String,
     /// What was read beside it.
     pub(crate) files: Files,
-    /// What makes two sweeps the same: SHA-256 of everything that is asked and was read, and of the program's version.
+    /// What makes two sweeps the same: SHA-256 of everything that is asked and was read, and of the program's version and numbers.
     pub(crate) fingerprint: [u8; 32],
     /// What of the results is written.
     pub fields: Fields,
@@ -163,7 +163,7 @@ impl Spec {
         &self.files.inputs
     }
 
-    /// SHA-256, in hexadecimal, of everything that is asked and was read and of the program's version: two sweeps with
+    /// SHA-256, in hexadecimal, of everything that is asked and was read and of the program's version and numbers: two sweeps with
     /// the same have the same rows.
     #[must_use]
     pub fn sha256(&self) -> String {
