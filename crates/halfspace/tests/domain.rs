@@ -281,7 +281,7 @@ fn tiny_depths_and_times_are_answered() {
             let found = kernel.remainder(0.5, z, t).unwrap();
             assert!(sound(&found), "{z:e} {t:e}: {found:?}");
             assert!(
-                clock.elapsed() < Duration::from_millis(100),
+                clock.elapsed() < Duration::from_secs(1),
                 "{z:e} {t:e}: {:?}",
                 clock.elapsed()
             );
@@ -310,7 +310,7 @@ fn huge_arguments_are_answered() {
                 let found = kernel.remainder(r, z, t).unwrap();
                 assert!(sound(&found), "{profile:?} {r:e} {z:e} {t:e}: {found:?}");
                 assert!(
-                    clock.elapsed() < Duration::from_millis(100),
+                    clock.elapsed() < Duration::from_secs(1),
                     "{r:e} {z:e} {t:e}: {:?}",
                     clock.elapsed()
                 );

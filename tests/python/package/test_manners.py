@@ -170,7 +170,8 @@ def test_the_interpreter_is_free_meanwhile(name, table):
         done.set()
         thread.join()
     during = [beat for beat in beats if start < beat < start + 0.5]
-    assert len(during) > 20, "another thread has hardly run"
+    # a lock held throughout leaves none, a free one a hundred
+    assert len(during) > 5, "another thread has hardly run"
 
 
 def until(end):
@@ -187,22 +188,26 @@ def until(end):
 
 @pytest.mark.parametrize("name", ["kernels", "impact", "sweep", "collide", "trace", "tabulate"])
 def test_ctrl_c_is_heard_within_a_third_of_a_second(name, table, tmp_path):
-    works = {**long_works(table), "tabulate": lambda: hl.tabulate(tmp_path / "out.h5", "standard")}
-    sent = []
+    delays = []
+    # a busy machine may take longer once; a call that does not listen takes longer each time
+    while len(delays) < 3 and min(delays, default=1.0) >= 0.3:
+        out = tmp_path / f"{len(delays)}.h5"
+        works = {**long_works(table), "tabulate": lambda out=out: hl.tabulate(out, "standard")}
+        sent = []
 
-    def send():
-        sent.append(time.perf_counter())
-        os.kill(os.getpid(), signal.SIGINT)
+        def send(sent=sent):
+            sent.append(time.perf_counter())
+            os.kill(os.getpid(), signal.SIGINT)
 
-    timer = threading.Timer(0.4, send)
-    timer.start()
-    try:
-        with pytest.raises(KeyboardInterrupt):
-            works[name]()
-        heard = time.perf_counter()
-    finally:
-        timer.cancel()
-    assert heard - sent[0] < 0.3
+        timer = threading.Timer(0.4, send)
+        timer.start()
+        try:
+            with pytest.raises(KeyboardInterrupt):
+                works[name]()
+            delays.append(time.perf_counter() - sent[0])
+        finally:
+            timer.cancel()
+    assert min(delays) < 0.3, delays
 
 
 def test_stopped_work_leaves_the_processors_alone(tmp_path):
