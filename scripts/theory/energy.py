@@ -6,6 +6,7 @@ from . import halfspace as hs
 from . import marches
 from .collision import PAPER, TIME, Collision
 from .halfspace import Medium
+from .report import relative
 from .surface import CENTRE, MEAN, PUNCH, measure
 
 
@@ -68,12 +69,54 @@ def superposition(report):
     report.row("T60", "4 discs for all radii at k a = 4, over Z_H(0): off by", worst[0] * 2 * np.pi, 1e-3)
     report.row("T60", "8 discs at k a = 8", worst[1] * 2 * np.pi, 3e-6)
     report.row("T60", "8 discs at k a = 12", worst[2] * 2 * np.pi, 1e-3)
+    rates(report, medium)
     memory = marches.Memory(medium, PUNCH)
     # y = t/(tau sqrt(v t)): d_end = phi v int V_p dt
     t, weight = hs.on_panels([0, 0.5, 2.0, memory.length**2])
     V = np.array([memory.left(v**0.5) for v in t])
     report.row(
         "T48", "int V_p(sqrt(x)) dx against 2 int t V_p dt", abs(np.sum(weight * V) / (2 * memory.moments[1]) - 1), 1e-6
+    )
+
+
+def rates(report, medium):
+    """(T61)."""
+    nodes = np.cos((2 * np.arange(5) + 1) * np.pi / 20)
+    load = lambda t, share: np.sin(t) ** 3 * share(np.sin(t) ** 2)
+    error = 0
+    for j, node in enumerate(nodes):
+        share = np.poly1d(np.poly(np.delete(nodes, j) ** 2))
+        share /= share(node**2)
+        for t in (0.3, 0.8, 1.4, 2.5):
+            a2 = np.sin(t) ** 2
+            found = (share(a2) + 2 / 3 * a2 * share.deriv()(a2)) * 3 * a2 * np.cos(t)
+            exact = load(t + 1e-30j, share).imag / 1e-30
+            error = max(error, abs(found - exact))
+    report.row(
+        "T61", "rate of P phi_j(a^2) at a^3 = P = sin^3 t against a derivative over an imaginary step", error, 1e-12
+    )
+    r, z, t, h = 0.5, 0.6, 2.6, 2e-3
+    fronts = hs.arrivals(medium, r, z)
+    static = hs.static(medium, "hertz", r, z)
+
+    def fields(force, slope, t):
+        """P f_static + int P' R of the displacements."""
+        breaks = [0, *(t - front for front in reversed(fronts) if front < t), t]
+        past, weight = hs.on_panels(breaks, hs.double_exponential(16, 2.8))
+        rest = [hs.remainder(medium, "hertz", r, z, float(t - s)) if t - s > fronts[0] else -static for s in past]
+        return (force(t) * static + (weight * slope(past)) @ np.array(rest))[:2]
+
+    # P = t^3 - t^2/2 + t/5, whose rate begins with a jump
+    cubic = np.poly1d([1, -0.5, 0.2, 0])
+    rate = cubic.deriv()
+    after, before = (fields(cubic, rate, t + x) for x in (h, -h))
+    jump = rate(0) * hs.remainder(medium, "hertz", r, z, t)[:2]
+    found = fields(rate, rate.deriv(), t) + jump
+    report.row(
+        "T61",
+        "u, w: the rate of a cubic force convolved against a difference over 4e-3",
+        relative(found, (after - before) / (2 * h)),
+        1e-5,
     )
 
 
