@@ -36,7 +36,8 @@ impl Strength {
     /// P = A R K^2/E*,   A = 8600
     /// ```
     ///
-    /// Auerbach's law, with the constant that Lawn (1998), J. Am. Ceram. Soc. 81, takes from soda-lime glass.
+    /// Auerbach's law, with the constant for soda-lime glass as it is quoted after Lawn (1998), J. Am. Ceram. Soc. 81,
+    /// 1977; the paper itself was not at hand, so that no more than the order and the first digit is to be trusted.
     /// Onsets scatter by a factor of two and more with the flaws of a surface; a polished one bears more, and in a rock
     /// with grains larger than the contact the law is a hint.
     #[must_use]
