@@ -47,6 +47,8 @@ mod projection;
 pub mod quantity;
 mod rate_loads;
 mod rates;
+#[cfg(test)]
+mod rates_tests;
 pub mod record;
 mod run;
 mod sampled;

@@ -1,6 +1,6 @@
 //! The rate of a force on discs of fixed radii, ready to be convolved.
 //!
-//! Theory: `docs/theory.md` (T24, T60).
+//! Theory: `docs/theory.md` (T24, T60, T61).
 
 use crate::convolve::{Convolver, rises};
 use crate::discs::Discs;
@@ -199,7 +199,7 @@ impl RateRecipe<'_> {
         let (Some((discs, k)), true) = (following, rate != 0.0) else {
             return [rate, 0.0];
         };
-        // phi + (2/3) a^2 phi' of a polynomial in a^2
+        // phi + (2/3) a^2 phi' of a polynomial in a^2 (T61)
         const APART: f64 = 1e-6;
         let square = self.excitation.radius().square(force_n);
         let here = discs.share(k, square);
@@ -253,5 +253,62 @@ impl Share {
                 + ROUNDING * cells.moment_error[f] * self.bending
                 + self.left.moves(variation[f], steps[f])
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::grid::Wanted;
+    use crate::sampled_tests::contact;
+
+    /// Rates of the discs' forces against differences of P phi(a^2), first and second, over steps of 1e-3 and of a sample.
+    #[test]
+    fn rates_of_shares_are_those_of_their_forces() -> Result<(), Box<dyn std::error::Error>> {
+        const APART: f64 = 1e-3;
+        let (duration, tolerance) = (30.0, 1e-3);
+        let excitation = contact(0.29, duration);
+        let source = KernelSource::direct(excitation.medium(), 1e-6)?;
+        let wanted = Wanted {
+            tolerance,
+            step_s: None,
+            duration_s: Some(duration),
+            frames: None,
+            farthest_m: Some(1.0),
+        };
+        let grid = Grid::new(&wanted, &excitation, Some(&source))?;
+        let step_s = grid.step_s;
+        let discs = Discs::following(6, 0.0);
+        for order in [Order::First, Order::Second] {
+            let recipe = RateRecipe {
+                excitation: &excitation,
+                source: &source,
+                grid: &grid,
+                order,
+                tolerance,
+            };
+            for k in 0..discs.radii.len() {
+                let force = |t: f64| {
+                    let force_n = excitation.force_n(t);
+                    force_n * discs.share(k, excitation.radius().square(force_n)).0
+                };
+                let slope = |t: f64| (force(t + APART) - force(t - APART)) / (2.0 * APART);
+                for t in [0.1, 0.23, 0.4, 0.61, 0.9].map(|part| part * duration) {
+                    let exact = match order {
+                        Order::First => slope(t),
+                        Order::Second => {
+                            (slope(t + 0.5 * step_s) - slope(t - 0.5 * step_s)) / step_s
+                        }
+                    };
+                    let found = recipe.rate(Some((&discs, k)), t)[0];
+                    // forces of one over a contact of 30 have rates of 0.1
+                    assert!(
+                        (found - exact).abs() < 1e-5,
+                        "{order:?} {k} {t}: {found} {exact}"
+                    );
+                }
+            }
+        }
+        Ok(())
     }
 }

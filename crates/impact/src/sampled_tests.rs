@@ -48,7 +48,7 @@ fn rows() -> Vec<Row> {
 }
 
 /// Hertz's own contact that lasts `duration` A/c1, in a half-space where A = c1 = mu = P = 1.
-fn contact(poisson_ratio: f64, duration: f64) -> Excitation {
+pub(crate) fn contact(poisson_ratio: f64, duration: f64) -> Excitation {
     let density = 2.0 * (1.0 - poisson_ratio) / (1.0 - 2.0 * poisson_ratio);
     let half_space = HalfSpace::new(Material {
         name: "unit".to_owned(),

@@ -115,7 +115,8 @@ fn peak(samples: &[f64]) -> f64 {
 /// The reference counts with its own errors: those of the displacements over a step of it, and three times the change
 /// when it has every other sample, which shows what differences miss at fronts.
 fn worst(load: &Load, disc: Option<f64>, tolerance: f64, quantities: &[Quantity]) -> [f64; 2] {
-    const FINER: f64 = 16.0;
+    // the end of a growing contact is felt over less than a sixteenth of a step
+    let finer_by = if disc.is_none() { 64.0 } else { 16.0 };
     let mut asked = scene(load.clone(), disc, tolerance);
     asked.quantities = quantities.to_vec();
     let coarse = run(&asked);
@@ -123,7 +124,7 @@ fn worst(load: &Load, disc: Option<f64>, tolerance: f64, quantities: &[Quantity]
     let step_s = times_s[1] - times_s[0];
     let mut finer = scene(load.clone(), disc, 1e-6);
     finer.quantities.clear();
-    finer.settings.step_s = Some(step_s / FINER);
+    finer.settings.step_s = Some(step_s / finer_by);
     let fine = run(&finer);
     let last_s = fine.series.time_s[fine.series.time_s.len() - 1] - 4.0 * step_s;
     let mut found = [0.0_f64; 2];
@@ -136,7 +137,7 @@ fn worst(load: &Load, disc: Option<f64>, tolerance: f64, quantities: &[Quantity]
         };
         for probe in 0..PLACES.len() {
             let of_finer = fine.probes.as_ref().unwrap().errors[component][probe]
-                / (step_s / FINER)
+                / (step_s / finer_by)
                 * if order == 0 { 1.0 } else { 1.0 / step_s };
             let most = peak(&own.values[probe]);
             if most == 0.0 {
@@ -175,7 +176,11 @@ fn velocities_are_within_their_estimates_of_a_finer_output() {
 
 #[test]
 fn accelerations_are_within_their_estimates_of_a_finer_output() {
-    for (load, disc, most) in [(ball(), Some(1e-4), 0.2), (record(), Some(2e-4), 0.5)] {
+    for (load, disc, most) in [
+        (ball(), None, 0.2),
+        (ball(), Some(1e-4), 0.2),
+        (record(), Some(2e-4), 0.5),
+    ] {
         let [over, estimate] = worst(&load, disc, 1e-3, &ACCELERATIONS);
         assert!(over < 1.0 && estimate < most, "{over} {estimate}");
     }
