@@ -213,7 +213,7 @@ class Sweep(_Rows):
         return of_sweep(self)
 
     def save(self, path: str | os.PathLike[str], *, overwrite: bool = False) -> None:
-        """Writes the command's file of a whole sweep: HDF5, or text where the name ends with ``.csv``."""
+        """Writes the command's file of a whole sweep: HDF5; Parquet or text where the name ends with ``.parquet`` or ``.csv``."""
         if not self.is_whole:
             total = int(np.prod([length for _, length, _ in self._axes]))
             raise ValueError(f"these are {len(self._range)} of {total} rows: a sweep file holds all of them")

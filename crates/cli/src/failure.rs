@@ -53,6 +53,9 @@ impl From<formats::OutputError> for Failure {
             exists @ formats::OutputError::Exists { .. } => {
                 Self::input(format!("{exists}; give --force to replace it"))
             }
+            unbuilt @ formats::OutputError::Unbuilt { .. } => Self::input(format!(
+                "{unbuilt}: build it with `cargo build --release --package hertzlamb-cli --features parquet`"
+            )),
             again if again.may_be_tried_again() => Self::Again(again.to_string()),
             failed @ formats::OutputError::Failed { .. } => Self::work(failed),
             other => Self::input(other),

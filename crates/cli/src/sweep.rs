@@ -11,10 +11,10 @@ use clap::Args;
 use formats::parts::check_complete;
 use formats::sweep::{
     Block, Blocks, Fields, JournalError, Kept, Precision, Selection, Shard, Spec, SweepError,
-    is_computed, print_csv, run_rows, stage_csv, stage_part, stage_sweep,
+    check_rows, is_computed, print_csv, run_rows, stage_csv, stage_rows,
 };
 use formats::{Existing, Output, OutputError, QUANTITIES};
-use output::{CSV, Fault, HDF5, Role, Staged, apart, behind, is_standard};
+use output::{CSV, Fault, Role, Staged, apart, behind, is_standard};
 use serde::Serialize;
 use std::io::{BufWriter, Write};
 use std::ops::Range;
@@ -29,6 +29,7 @@ const EXAMPLES: &str = "Examples:
   hertzlamb sweep scenes/sweep.toml --shard 2/4 --skip-complete -o out/2.h5
   hertzlamb sweep status out --missing
   hertzlamb sweep merge out -o sweep.h5
+  hertzlamb sweep scenes/sweep.toml -o sweep.parquet
 
 An interrupted sweep goes on where it stopped when the same command is given again.
 Recipes for Slurm, Snakemake and dask are in docs/cluster.md.";
@@ -51,8 +52,8 @@ pub(crate) struct Run {
     /// Sweep file (TOML, see data-schema/sweep.md).
     #[arg(required = true)]
     sweep: Option<PathBuf>,
-    /// Results file (HDF5, see data-schema/sweep.md).
-    #[arg(short, long, value_name = "OUT.h5", required_unless_present = "plan")]
+    /// Results file: HDF5, or Parquet where the name ends with .parquet (see data-schema/sweep.md).
+    #[arg(short, long, value_name = "OUT", required_unless_present = "plan")]
     output: Option<PathBuf>,
     /// Also write the rows as text; - is standard output.
     #[arg(long, value_name = "OUT.csv")]
@@ -129,7 +130,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
             sweep_plan::run(sweep, &spec(run, sweep)?, run.shards, run.json)
         }
         (None, Some(sweep), Some(output)) => compute(run, sweep, output),
-        (None, _, _) => Err(Failure::input("give a sweep file and -o OUT.h5")),
+        (None, _, _) => Err(Failure::input("give a sweep file and -o OUT")),
     }
 }
 
@@ -326,7 +327,7 @@ impl Outputs {
             ));
         }
         let csv = arguments.csv.as_deref().filter(|_| !print);
-        HDF5.check(output)?;
+        check_rows(output)?;
         let mut part = behind(output)?.into_os_string();
         part.push(".part");
         let part = PathBuf::from(part);
@@ -382,10 +383,7 @@ impl Outputs {
 
     /// Writes all outputs, then gives them their names.
     fn write(&self, spec: &Spec, blocks: &impl Blocks) -> Result<(), Failure> {
-        let results = match &self.selection {
-            Some(selection) => stage_part(&self.results, spec, selection, blocks)?,
-            None => stage_sweep(&self.results, spec, blocks)?,
-        };
+        let results = stage_rows(&self.results, spec, self.selection.as_ref(), blocks)?;
         let csv = self.csv.as_ref();
         let csv = csv.map(|csv| stage_csv(csv, spec, blocks)).transpose()?;
         results.commit()?;

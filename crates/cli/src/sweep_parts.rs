@@ -5,8 +5,8 @@ use crate::overwrite::Overwrite;
 use clap::Subcommand;
 use formats::parts::{Parts, PartsError};
 use formats::stored::Part;
-use formats::sweep::Spec;
-use output::HDF5;
+use formats::sweep::{Spec, check_rows};
+use output::ROWS;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
@@ -33,9 +33,12 @@ pub(crate) enum Action {
     Merge {
         /// The folder of the parts.
         folder: PathBuf,
-        /// Results file (HDF5, see data-schema/sweep.md).
-        #[arg(short, long, value_name = "OUT.h5")]
+        /// Results file: HDF5, or Parquet where the name ends with .parquet, whatever the parts are.
+        #[arg(short, long, value_name = "OUT")]
         output: PathBuf,
+        /// Copy no results: the output (HDF5) refers to the parts (HDF5), which have to stay where they are, seen from it.
+        #[arg(long = "virtual")]
+        refer: bool,
         #[command(flatten)]
         overwrite: Overwrite,
         /// Print one JSON object instead of text.
@@ -64,9 +67,10 @@ pub(crate) fn run(action: &Action) -> Result<(), Failure> {
         Action::Merge {
             folder,
             output,
+            refer,
             overwrite,
             json,
-        } => merge(folder, output, *overwrite, *json),
+        } => merge(folder, output, *refer, *overwrite, *json),
     }
 }
 
@@ -209,8 +213,15 @@ fn ranges(numbers: &[usize]) -> String {
     told.collect::<Vec<_>>().join(",")
 }
 
-fn merge(folder: &Path, output: &Path, overwrite: Overwrite, json: bool) -> Result<(), Failure> {
-    let claimed = overwrite.claim(output, HDF5, &[])?;
+fn merge(
+    folder: &Path,
+    output: &Path,
+    refer: bool,
+    overwrite: Overwrite,
+    json: bool,
+) -> Result<(), Failure> {
+    check_rows(output)?;
+    let claimed = overwrite.claim(output, ROWS, &[])?;
     let mut parts = Parts::in_folder(folder, None).map_err(failure)?;
     // with --force the output itself may be a merged sweep of before
     let own = |path: &Path| path.canonicalize().ok() == claimed.real().canonicalize().ok();
@@ -227,7 +238,12 @@ fn merge(folder: &Path, output: &Path, overwrite: Overwrite, json: bool) -> Resu
     parts
         .foreign
         .retain(|foreign| !own(&foreign.path) || !claimed.real().exists());
-    parts.merge(&claimed).map_err(failure)?.commit()?;
+    let staged = if refer {
+        parts.merge_virtual(&claimed)
+    } else {
+        parts.merge(&claimed)
+    };
+    staged.map_err(failure)?.commit()?;
     let empty = parts
         .parts
         .iter()

@@ -1,11 +1,12 @@
 //! Rows of a sweep in several files: what a folder has of them, what it lacks, and all of them in one.
 
 use crate::error::SceneError;
-use crate::stored::{Part, ReadError, StoredPart, StoredSweep};
+use crate::stored::{FileKind, Part, ReadError, StoredPart, StoredWhole, file_kind};
 use crate::sweep::{
-    Block, Blocks, Fields, Selection, Shard, Spec, from_hexadecimal, gaps, stage_sweep,
+    Block, Blocks, Fields, Selection, Shard, Source, Spec, from_hexadecimal, gaps, stage_rows,
+    stage_virtual,
 };
-use output::{Fault, HDF5, Output, OutputError, Staged};
+use output::{Fault, HDF5, Output, OutputError, ROWS, Staged};
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -60,6 +61,14 @@ pub enum PartsError {
         /// The other.
         second: PathBuf,
     },
+    /// A part that an HDF5 file cannot refer to.
+    #[error("{} cannot be referred to: {reason}", path.display())]
+    Unreferred {
+        /// The file.
+        path: PathBuf,
+        /// Why, in a few words.
+        reason: &'static str,
+    },
     /// The sweep that a part names cannot be read.
     #[error(transparent)]
     Scene(#[from] SceneError),
@@ -89,7 +98,7 @@ pub struct Parts {
     pub sweep_rows: usize,
     /// The parts, by their first rows.
     pub parts: Vec<Part>,
-    /// Files with the ending of HDF5 that are none of them.
+    /// Files with the ending of HDF5 or Parquet that are none of them.
     pub foreign: Vec<Foreign>,
 }
 
@@ -184,13 +193,48 @@ impl Parts {
         None
     }
 
-    /// Writes the whole sweep, byte by byte as one run would have, into an output that was claimed before.
+    /// Writes the whole sweep, byte by byte as one run would have, in the format that the name says, into an output that was claimed before.
     ///
     /// # Errors
     /// [`PartsError`] where rows are missing, or twice there, or a file is none of the sweep's parts.
     pub fn merge<'a>(&self, output: &'a Output) -> Result<Staged<'a>, PartsError> {
+        let spec = self.whole(output)?;
+        Ok(stage_rows(output, &spec, None, self)?)
+    }
+
+    /// Writes an HDF5 file of the whole sweep whose results lie in the parts, which are to stay where they are, seen from it.
+    ///
+    /// # Errors
+    /// Those of [`Self::merge`], and [`PartsError::Unreferred`] for a part that it cannot refer to.
+    pub fn merge_virtual<'a>(&self, output: &'a Output) -> Result<Staged<'a>, PartsError> {
+        HDF5.check(output.path())?;
+        let spec = self.whole(output)?;
+        let full = self
+            .parts
+            .iter()
+            .filter(|part| !part.selection.rows.is_empty());
+        let sources = full.map(|part| {
+            let unreferred = |reason| PartsError::Unreferred {
+                path: part.path.clone(),
+                reason,
+            };
+            if HDF5.check(&part.path).is_err() || StoredPart::open(&part.path)?.failures().is_none()
+            {
+                return Err(unreferred("it is no HDF5 file"));
+            }
+            let path = seen_from(output.real(), &part.path);
+            let rows = part.selection.rows.clone();
+            let path = path.ok_or_else(|| unreferred("its path is no text"))?;
+            Ok(Source { path, rows })
+        });
+        let sources = sources.collect::<Result<Vec<_>, _>>()?;
+        Ok(stage_virtual(output, &spec, &sources, &Failures(self))?)
+    }
+
+    /// The sweep, where all its rows are there, once.
+    fn whole(&self, output: &Output) -> Result<Spec, PartsError> {
         // what was merged before may lie beside the parts
-        let merged = |path: &Path| StoredSweep::open(path).is_ok();
+        let merged = |path: &Path| file_kind(path) == Ok(FileKind::Sweep);
         if let Some(foreign) = self.foreign.iter().find(|foreign| !merged(&foreign.path)) {
             let foreign = foreign.clone();
             return Err(PartsError::Foreign { foreign });
@@ -223,7 +267,23 @@ impl Parts {
                 second: other.path.clone(),
             });
         }
-        Ok(stage_sweep(output, &spec, self)?)
+        Ok(spec)
+    }
+
+    /// Shows each part as it was found; one is open at a time: there may be more than files that a process may open.
+    fn each_part(
+        &self,
+        visit: &mut dyn FnMut(&StoredPart) -> Result<(), Fault>,
+    ) -> Result<(), Fault> {
+        self.parts.iter().try_for_each(|part| {
+            let open = StoredPart::open(&part.path);
+            let open = open.map_err(|error| Fault::from(error.to_string()))?;
+            if open.part != *part {
+                let path = part.path.display();
+                return Err(Fault::from(format!("{path} was changed while it was read")));
+            }
+            visit(&open)
+        })
     }
 
     fn held(&self) -> Vec<Range<usize>> {
@@ -234,17 +294,36 @@ impl Parts {
 
 impl Blocks for Parts {
     fn each(&self, visit: &mut dyn FnMut(&Block) -> Result<(), Fault>) -> Result<(), Fault> {
-        // one is open at a time: there may be more parts than files that a process may open
-        self.parts.iter().try_for_each(|part| {
-            let open =
-                StoredPart::open(&part.path).map_err(|error| Fault::from(error.to_string()))?;
-            if open.part != *part {
-                let path = part.path.display();
-                return Err(Fault::from(format!("{path} was changed while it was read")));
-            }
-            open.each(visit)
+        self.each_part(&mut |part| part.each(visit))
+    }
+}
+
+/// The rows of the parts without their results.
+struct Failures<'a>(&'a Parts);
+
+impl Blocks for Failures<'_> {
+    fn each(&self, visit: &mut dyn FnMut(&Block) -> Result<(), Fault>) -> Result<(), Fault> {
+        self.0.each_part(&mut |part| match part.failures() {
+            Some(rows) => rows.each(visit),
+            None => Ok(()),
         })
     }
+}
+
+/// The path of one file from the folder of another, where it is a text.
+fn seen_from(file: &Path, other: &Path) -> Option<String> {
+    let folder = match file.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        Some(_) | None => Path::new("."),
+    };
+    let (folder, other) = (folder.canonicalize().ok()?, other.canonicalize().ok()?);
+    let (from, to): (Vec<_>, Vec<_>) =
+        (folder.components().collect(), other.components().collect());
+    let common = from.iter().zip(&to).take_while(|(a, b)| a == b).count();
+    let up = from[common..].iter().map(|_| Path::new("..").as_os_str());
+    let down = to[common..].iter().map(|part| part.as_os_str());
+    let path: PathBuf = up.chain(down).collect();
+    path.to_str().map(str::to_owned)
 }
 
 /// Why the file at `path` is not the whole result of a sweep or, where one is given, of a selection of its rows.
@@ -271,12 +350,11 @@ pub fn check_complete(
         Err(format!("{path} has other columns, or another precision"))
     };
     let Some(selection) = selection else {
-        let found = StoredSweep::open(path).map_err(told)?;
-        if found.sha256() != Some(spec.sha256()) {
+        let found = StoredWhole::open(path).map_err(told)?;
+        if found.sha256 != Some(spec.sha256()) {
             return Err(other());
         }
-        same_fields(&found.fields().map_err(told)?)?;
-        return found.check_whole().map_err(told);
+        return same_fields(&found.fields);
     };
     let found = StoredPart::open(path).map_err(told)?.part;
     if found.sha256 != spec.sha256() {
@@ -304,7 +382,7 @@ fn others(more: usize) -> String {
     }
 }
 
-/// Files of a folder whose names end like HDF5, by name; those that begin with a dot belong to runs.
+/// Files of a folder whose names end like HDF5 or Parquet, by name; those that begin with a dot belong to runs.
 fn files(folder: &Path) -> Result<Vec<PathBuf>, PartsError> {
     let failed = |reason| PartsError::Folder {
         path: folder.to_owned(),
@@ -316,7 +394,7 @@ fn files(folder: &Path) -> Result<Vec<PathBuf>, PartsError> {
         let hidden = path
             .file_name()
             .is_some_and(|name| name.as_encoded_bytes().starts_with(b"."));
-        if path.extension().is_some() && HDF5.check(&path).is_ok() && !hidden {
+        if ROWS.is_of(&path) && !hidden {
             found.push(path);
         }
     }

@@ -30,6 +30,18 @@ pub const SHARD: Ending = Ending {
     allowed: &["shard", "part", "blocks"],
 };
 
+/// Rows in columns that are compressed.
+pub const PARQUET: Ending = Ending {
+    format: "a Parquet file",
+    allowed: &["parquet"],
+};
+
+/// Rows: HDF5, or Parquet.
+pub const ROWS: Ending = Ending {
+    format: "an HDF5 or a Parquet file",
+    allowed: &["h5", "hdf5", "hdf", "vtkhdf", "parquet"],
+};
+
 /// Text in columns.
 pub const CSV: Ending = Ending {
     format: "text in columns",
@@ -37,6 +49,12 @@ pub const CSV: Ending = Ending {
 };
 
 impl Ending {
+    /// Whether a name ends so.
+    #[must_use]
+    pub fn is_of(self, path: &Path) -> bool {
+        path.extension().is_some() && self.check(path).is_ok()
+    }
+
     /// Refuses a name with the ending of another format; a name without one is accepted.
     ///
     /// # Errors

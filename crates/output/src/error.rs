@@ -55,6 +55,14 @@ pub enum OutputError {
         /// The ending found.
         found: String,
     },
+    /// The format is one that the program was built without.
+    #[error("{} is to be {format}, which this program was built without", path.display())]
+    Unbuilt {
+        /// The file.
+        path: PathBuf,
+        /// The format.
+        format: &'static str,
+    },
     /// The file is one that the same command reads.
     #[error("{} is {role} that this command reads{}: give the output another name", output.display(), behind(.output, .input))]
     Input {
@@ -85,6 +93,7 @@ impl OutputError {
             | Self::Unwritable { .. }
             | Self::Failed { .. }
             | Self::Ending { .. }
+            | Self::Unbuilt { .. }
             | Self::Input { .. }
             | Self::Twice { .. } => false,
         }

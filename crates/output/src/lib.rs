@@ -30,7 +30,7 @@ mod temporary;
 
 pub use apart::{Role, apart};
 pub use claim::{Existing, Output, Staged, check, write_whole};
-pub use ending::{CSV, Ending, HDF5, SHARD, TABLE};
+pub use ending::{CSV, Ending, HDF5, PARQUET, ROWS, SHARD, TABLE};
 pub use error::OutputError;
 pub use fault::Fault;
 pub use place::{behind, is_standard};

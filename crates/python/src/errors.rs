@@ -177,6 +177,7 @@ pub(crate) fn of_output(py: Python<'_>, error: &OutputError) -> PyErr {
         | E::Full { path, .. }
         | E::Busy { path }
         | E::Ending { path, .. }
+        | E::Unbuilt { path, .. }
         | E::Input { output: path, .. }
         | E::Twice { first: path, .. } => ("OutputError", path),
     };

@@ -7,10 +7,12 @@ use crate::impact_outcome::replace;
 use crate::scene::{Given, here};
 use crate::work::{Way, run};
 use formats::quantities::QUANTITIES;
-use formats::sweep::{Block, Column, Rows, Spec, Values, compute_rows, stage_csv, stage_sweep};
+use formats::sweep::{
+    Block, Column, Rows, Spec, Values, check_rows, compute_rows, stage_csv, stage_rows,
+};
 use formats::{Output, SceneError};
 use numpy::{PyArrayDyn, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
-use output::{CSV, HDF5};
+use output::CSV;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::path::PathBuf;
@@ -168,13 +170,13 @@ impl Plan {
         let written = run(py, &Way::default(), move |_| {
             let csv = CSV.check(&path).is_ok();
             if !csv {
-                HDF5.check(&path)?;
+                check_rows(&path)?;
             }
             let output = Output::claim(&path, replace(overwrite))?;
             if csv {
                 stage_csv(&output, &spec, &[block])?.commit()
             } else {
-                stage_sweep(&output, &spec, &[block])?.commit()
+                stage_rows(&output, &spec, None, &[block])?.commit()
             }
         })?;
         written.map_err(|error| errors::of_output(py, &error))

@@ -189,6 +189,13 @@ def test_a_sweep_and_any_part_of_it_give_what_the_command_gives(tmp_path):
     whole.save(tmp_path / "here.h5")
     with h5py.File(tmp_path / "sweep.h5") as one, h5py.File(tmp_path / "here.h5") as two:
         assert same(one["results/restitution"][()], two["results/restitution"][()])
+    whole.save(tmp_path / "here.parquet")
+    table = pytest.importorskip("pyarrow.parquet").read_table(tmp_path / "here.parquet")
+    assert same(table["restitution"].to_numpy(zero_copy_only=False), whole["restitution"])
+    assert table["striker.material"].to_pylist() == list(whole["striker.material"])
+    done = run("sweep", spec, "-o", tmp_path / "sweep.parquet")
+    if "built without" not in done.stderr:
+        assert table.equals(pytest.importorskip("pyarrow.parquet").read_table(tmp_path / "sweep.parquet"))
     with pytest.raises(ValueError, match="39 of 240 rows"):
         part.save(tmp_path / "part.h5")
 

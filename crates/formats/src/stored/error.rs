@@ -29,6 +29,12 @@ pub enum ReadError {
         /// The file.
         path: PathBuf,
     },
+    /// Another program's file.
+    #[error("{} is a Parquet file, but none of hertzlamb's", path.display())]
+    ForeignParquet {
+        /// The file.
+        path: PathBuf,
+    },
     /// A file of another kind.
     #[error("{} is {found}, not {wanted}", path.display())]
     Kind {
@@ -38,6 +44,12 @@ pub enum ReadError {
         found: FileKind,
         /// What was wanted.
         wanted: FileKind,
+    },
+    /// A sweep whose results lie elsewhere.
+    #[error("{} has the places of its parts, not their results: read the parts, or a copy of them in one file", path.display())]
+    Virtual {
+        /// The file.
+        path: PathBuf,
     },
     /// A version that is not known.
     #[error("{} has the format version {found}; versions {major}.x can be read", path.display())]

@@ -2,6 +2,7 @@
 
 use super::error::ReadError;
 use super::kind::FileKind;
+use super::parquet::{StoredParquet, is_parquet};
 use hdfread::{Attribute, File, HdfError};
 use std::io::Read;
 use std::path::Path;
@@ -11,6 +12,9 @@ use std::path::Path;
 /// # Errors
 /// [`ReadError`] for a file that is not one of the program.
 pub fn file_kind(path: &Path) -> Result<FileKind, ReadError> {
+    if is_parquet(path) {
+        return StoredParquet::open(path).map(|found| found.kind());
+    }
     let root = open_hdf5(path)?.root().ok();
     root.and_then(|root| text_of(root.attribute("file_type")))
         .and_then(|found| FileKind::ALL.into_iter().find(|k| k.file_type() == found))
@@ -42,6 +46,7 @@ pub(super) fn open_hdf5(path: &Path) -> Result<File, ReadError> {
         let is_text = !head.is_empty() && std::str::from_utf8(&head).is_ok();
         return Err(not(match head.len() {
             0 => "empty",
+            _ if head.starts_with(b"PAR1") => "a Parquet file",
             _ if is_text => "text",
             _ => "no HDF5 file",
         }));

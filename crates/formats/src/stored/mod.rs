@@ -5,11 +5,16 @@
 
 mod error;
 mod file;
+#[cfg(feature = "parquet")]
+mod groups;
 mod impact;
 mod kind;
 mod open;
+mod parquet;
 mod part;
+mod part_hdf5;
 mod probes;
+mod rows;
 mod scene;
 mod section;
 mod sweep;
@@ -19,8 +24,10 @@ pub use file::file_kind;
 pub use impact::StoredImpact;
 pub use kind::FileKind;
 pub use open::StoredQuantity;
-pub use part::{Part, StoredPart};
+pub use parquet::StoredParquet;
+pub use part::Part;
 pub use probes::StoredProbes;
+pub use rows::{StoredPart, StoredWhole};
 pub use scene::{StoredScene, StoredValue};
 pub use section::StoredSection;
 pub use sweep::{StoredAxis, StoredColumn, StoredSweep};

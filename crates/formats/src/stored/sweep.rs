@@ -3,6 +3,7 @@
 use super::error::ReadError;
 use super::kind::FileKind;
 use super::open::{Stored, StoredQuantity};
+use crate::sweep::schema::part::PARTS;
 use crate::sweep::schema::{AXES, LIST, RESULTS, SAMPLE, SHA256};
 use crate::sweep::{Fields, Values};
 use std::path::Path;
@@ -57,6 +58,10 @@ impl StoredSweep {
     /// [`ReadError`], which says what the file is instead.
     pub fn open(path: &Path) -> Result<Self, ReadError> {
         let stored = Stored::open(path, FileKind::Sweep, MAJOR)?;
+        if stored.text(PARTS).is_ok() {
+            let path = path.to_owned();
+            return Err(ReadError::Virtual { path });
+        }
         let axes = read_axes(&stored)?;
         Ok(Self {
             failed: stored.number("failed").unwrap_or(0.0) as u64,

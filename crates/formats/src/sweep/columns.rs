@@ -160,7 +160,7 @@ impl<'a> Columns<'a> {
 }
 
 /// A number in single precision, where it has one.
-fn single(number: f64, row: usize, k: usize) -> Result<f32, Fault> {
+pub(super) fn single(number: f64, row: usize, k: usize) -> Result<f32, Fault> {
     let rounded = number as f32;
     if rounded.is_infinite() && number.is_finite() {
         let name = QUANTITIES[k].name;

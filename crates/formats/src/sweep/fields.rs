@@ -53,6 +53,11 @@ impl Fields {
         Ok(Self { places, precision })
     }
 
+    /// Keeps the results whose names are wanted.
+    pub(crate) fn retain(&mut self, mut wanted: impl FnMut(&str) -> bool) {
+        self.places.retain(|&k| wanted(QUANTITIES[k].name));
+    }
+
     /// The results, with their places in [`QUANTITIES`].
     pub(crate) fn quantities(&self) -> impl Iterator<Item = (usize, &'static Quantity)> {
         self.places.iter().map(|&k| (k, &QUANTITIES[k]))

@@ -44,14 +44,23 @@ pub fn stage_sweep<'a>(
     blocks: &(impl Blocks + ?Sized),
 ) -> Result<Staged<'a>, OutputError> {
     output.stage(|part| {
-        let (file, columns) = begin(part, spec).map_err(|error| reason(&error))?;
+        let mut columns = Columns::new(spec);
+        let mut make =
+            |what: What, group: &Group, described: &(&str, &str, &str), shape: &[usize]| {
+                columns.add(what, group, described, shape)
+            };
+        let file = begin(part, spec, &mut make).map_err(|error| reason(&error))?;
         let failures = columns.fill(part, &(0..spec.rows()), blocks)?;
         finish(file, &failures).map_err(|error| Fault::from(reason(&error)))
     })
 }
 
+/// Makes the dataset of a column in a group, by its name, unit and meaning, of a shape.
+type Make<'m> =
+    dyn FnMut(What, &Group, &(&str, &str, &str), &[usize]) -> Result<Dataset, hdf5::Error> + 'm;
+
 /// Everything but the rows.
-fn begin<'a>(path: &Path, spec: &'a Spec) -> Result<(File, Columns<'a>), hdf5::Error> {
+pub(super) fn begin(path: &Path, spec: &Spec, make: &mut Make<'_>) -> Result<File, hdf5::Error> {
     let file = new_file().create(path)?;
     let sha256 = spec.sha256();
     let values = [
@@ -77,15 +86,14 @@ fn begin<'a>(path: &Path, spec: &'a Spec) -> Result<(File, Columns<'a>), hdf5::E
         }
         text(dataset, COORDINATES, &beside.join(" "))
     };
-    let mut columns = Columns::new(spec);
     for (described, what) in results(&spec.fields) {
-        let dataset = columns.add(what, &group, &described, &shape)?;
+        let dataset = make(what, &group, &described, &shape)?;
         if let What::Model = what {
             text(&dataset, schema::NAMES, &models())?;
         }
         attach(&dataset)?;
     }
-    Ok((file, columns))
+    Ok(file)
 }
 
 /// What is known once all rows are written.

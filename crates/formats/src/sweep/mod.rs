@@ -10,6 +10,9 @@
 mod axis;
 mod block;
 mod blocks;
+mod boxes;
+#[cfg(feature = "parquet")]
+mod cells;
 mod columns;
 mod correlation;
 mod csv;
@@ -17,14 +20,22 @@ mod fields;
 mod file;
 mod files;
 mod fingerprint;
+mod footer;
 mod journal;
+#[cfg(feature = "parquet")]
+mod parquet;
 mod part;
 mod random;
 mod run;
 pub mod schema;
+#[cfg(feature = "parquet")]
+mod seal;
 mod shard;
 mod spec;
+mod store;
+mod table;
 mod template;
+mod virtual_file;
 
 pub use axis::{Axis, Column, Values};
 pub use block::{Block, NO_MODEL};
@@ -33,6 +44,8 @@ pub use csv::{print_csv, stage_csv, write_csv};
 pub use fields::{Fields, Precision};
 pub use file::{stage_sweep, write_sweep};
 pub(crate) use fingerprint::from_hexadecimal;
+pub use footer::FORMAT_VERSION as PARQUET_VERSION;
+pub(crate) use footer::{Footer, MAGIC};
 pub use journal::{Journal, JournalError};
 pub use part::{column_names, row_bytes, stage_part};
 pub(crate) use run::gaps;
@@ -42,3 +55,5 @@ pub use run::{
 };
 pub use shard::{Selection, Shard};
 pub use spec::Spec;
+pub use store::{check_rows, stage_rows};
+pub(crate) use virtual_file::{Source, stage_virtual};

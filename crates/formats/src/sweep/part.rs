@@ -1,12 +1,13 @@
 //! The file of some rows of a sweep: HDF5, as `data-schema/sweep.md` writes it down.
 
-use super::axis::{Column, Values};
+use super::axis::Values;
 use super::blocks::Blocks;
 use super::columns::{Columns, What};
-use super::file::{count, finish, models, results, unit};
+use super::file::{count, finish, models};
 use super::schema::{self, part};
 use super::shard::Selection;
 use super::spec::Spec;
+use super::table::row_columns;
 use crate::hdf::{attach_scale, new_file, reason, set_scale, text, texts};
 use crate::quantities::QUANTITIES;
 use crate::results::schema::COORDINATES;
@@ -50,12 +51,8 @@ pub fn row_bytes(spec: &Spec) -> (usize, usize) {
 /// Names of the columns of such a file.
 #[must_use]
 pub fn column_names(spec: &Spec) -> Vec<String> {
-    let keys = spec.axes.iter().flat_map(|axis| &axis.columns);
-    let results = results(&spec.fields).map(|((name, ..), _)| name.to_owned());
-    std::iter::once(part::ROW.0.to_owned())
-        .chain(keys.map(Column::name))
-        .chain(results)
-        .collect()
+    let columns = row_columns(spec).into_iter();
+    columns.map(|column| column.name).collect()
 }
 
 /// Everything but the rows.
@@ -87,39 +84,32 @@ fn begin<'a>(
     let group = file.create_group(schema::RESULTS)?;
     let words = file.create_group(part::WORDS)?;
     let mut columns = Columns::new(spec);
-    let row = columns.add(What::Row, &group, &part::ROW, &shape)?;
-    set_scale(&row, part::ROW.0)?;
-    let mut keys = Vec::new();
-    let mut stride = spec.rows();
-    for (axis, along) in spec.axes.iter().enumerate() {
-        stride /= along.len;
-        for (column, key) in along.columns.iter().enumerate() {
-            let name = key.name();
-            let what = What::Key {
-                stride,
-                axis,
-                column,
-            };
-            let meaning = match &key.values {
-                Values::Numbers(_) => format!("scene key {name}"),
-                Values::Texts(values) => {
-                    texts(&words, &(&name, "1", "words of a scene key"), values)?;
-                    format!("index of the scene key {name} in /{}/{name}", part::WORDS)
-                }
-            };
-            let described = (name.as_str(), unit(&key.key), meaning.as_str());
-            let dataset = columns.add(what, &group, &described, &shape)?;
-            attach_scale(&dataset, &row, 0)?;
-            keys.push(name);
-        }
-    }
-    for (described, what) in results(&spec.fields) {
-        let dataset = columns.add(what, &group, &described, &shape)?;
-        if let What::Model = what {
+    let (mut row, mut keys) = (None, Vec::new());
+    for column in row_columns(spec) {
+        let name = column.name;
+        let meaning = match column.values {
+            Some(Values::Texts(values)) => {
+                texts(&words, &(&name, "1", "words of a scene key"), values)?;
+                format!("index of the {} in /{}/{name}", column.meaning, part::WORDS)
+            }
+            Some(Values::Numbers(_)) | None => column.meaning,
+        };
+        let described = (name.as_str(), column.unit, meaning.as_str());
+        let dataset = columns.add(column.what, &group, &described, &shape)?;
+        let Some(row) = &row else {
+            set_scale(&dataset, part::ROW.0)?;
+            row = Some(dataset);
+            continue;
+        };
+        if let What::Model = column.what {
             text(&dataset, schema::NAMES, &models())?;
         }
-        attach_scale(&dataset, &row, 0)?;
-        text(&dataset, COORDINATES, &keys.join(" "))?;
+        attach_scale(&dataset, row, 0)?;
+        if column.values.is_some() {
+            keys.push(name);
+        } else {
+            text(&dataset, COORDINATES, &keys.join(" "))?;
+        }
     }
     Ok((file, columns))
 }

@@ -59,6 +59,8 @@ pub mod part {
     pub const SWEEP_ROWS: &str = "sweep_rows";
     /// Number attribute: the first row.
     pub const FIRST_ROW: &str = "first_row";
+    /// Text attribute of a sweep whose results lie in its parts: where these are, one a line.
+    pub const PARTS: &str = "parts";
     /// The one dimension.
     pub const ROW: (&str, &str, &str) = ("row", "1", "number of the row in the sweep, from 0");
     /// Group of the words that keys take.

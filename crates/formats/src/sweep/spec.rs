@@ -40,8 +40,9 @@ const MOST_ROWS: usize = 1_000_000_000_000;
 /// Values of an axis at most: they are held in memory.
 const MOST_VALUES: usize = 10_000_000;
 
-/// Memory in bytes that a run takes beside the values of the axes: a block and the columns made of it, and its tables.
-const RUN_BYTES: usize = 100_000_000;
+/// Memory in bytes that a run takes beside the values of the axes: a block and the columns made of it, or a group of
+/// Parquet, and its tables.
+const RUN_BYTES: usize = 120_000_000;
 
 impl Spec {
     /// Reads a sweep file; the scene it names is looked for beside it.
