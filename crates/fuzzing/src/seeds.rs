@@ -1,10 +1,11 @@
 //! Good inputs to start from.
 
 use crate::stand_in::content;
-use crate::target::{Target, sweep};
+use crate::target::{Target, of_sweep, sweep};
+use formats::sweep::{Selection, check_rows, stage_rows};
 use formats::{parse_scene, write_results};
 use impact::{KernelChoice, simulate};
-use output::Existing;
+use output::{Existing, Output};
 use std::error::Error;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -78,6 +79,7 @@ fn made(target: Target, folder: &Path) -> Result<Vec<Vec<u8>>, Box<dyn Error>> {
     match target {
         Target::Results => results(folder),
         Target::Journal => journal(folder),
+        Target::Part => parts(folder),
         Target::Shard => shard(folder),
         Target::Table => tables(folder),
         Target::Sealed => Ok(tables(folder)?.into_iter().take(1).collect()),
@@ -107,6 +109,25 @@ fn journal(folder: &Path) -> Result<Vec<Vec<u8>>, Box<dyn Error>> {
     let _ = fs::remove_file(&path);
     let _ = sweep(&path, folder, usize::MAX)?;
     Ok(vec![fs::read(path)?])
+}
+
+/// The rows of a sweep as parts: HDF5 and, where it is built in, Parquet.
+fn parts(folder: &Path) -> Result<Vec<Vec<u8>>, Box<dyn Error>> {
+    let journal = folder.join("seed.part");
+    let _ = fs::remove_file(&journal);
+    let done = sweep(&journal, folder, usize::MAX)?.ok_or("the sweep was stopped")?;
+    let (spec, names) = (of_sweep(folder)?, ["part.h5", "part.parquet"]);
+    let (rows, shard) = (0..spec.rows(), None);
+    let selection = Selection { rows, shard };
+    let built = names.iter().map(|name| folder.join(name));
+    built
+        .filter(|path| check_rows(path).is_ok())
+        .map(|path| {
+            let output = Output::claim(&path, Existing::Replace)?;
+            stage_rows(&output, &spec, Some(&selection), &done.blocks)?.commit()?;
+            Ok(fs::read(path)?)
+        })
+        .collect()
 }
 
 /// The first of two shards.

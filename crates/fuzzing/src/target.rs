@@ -2,8 +2,9 @@
 
 use crate::seal::renew;
 use crate::stand_in::content;
-use formats::sweep::{Done, Spec, SweepError, run_sweep};
-use formats::{json_report, parse_materials, parse_scene, read_record};
+use formats::stored::StoredPart;
+use formats::sweep::{Block, Blocks, Done, Spec, SweepError, run_sweep};
+use formats::{SceneError, json_report, parse_materials, parse_scene, read_record};
 use impact::{Allowance, Forecast, KernelChoice, Load, simulate_within};
 use lookup::{Content, Table, TableError, TableFile};
 use output::Existing;
@@ -31,6 +32,8 @@ pub enum Target {
     Results,
     /// The journal of a sweep.
     Journal,
+    /// A part of a sweep, in HDF5 or Parquet.
+    Part,
     /// A shard of a kernel table.
     Shard,
     /// A kernel table, sealed anew after damage, or without a seal.
@@ -53,15 +56,21 @@ const SWEEP: &str = "[scene.striker]\ntip_radius_m = 0.005\nmaterial = \"steel\"
     [scene.target]\nmaterial = \"steel\"\n[scene.contact]\nmodel = \"hertz\"\n\
     [product.striker]\nvelocity_m_s = [1.0, -2.0, 3.0]\n";
 
-/// Runs it with the journal at `path`, until so many rows are done.
-pub(crate) fn sweep(path: &Path, folder: &Path, rows: usize) -> Result<Option<Done>, SweepError> {
-    let spec = Spec::from_toml(SWEEP, folder)?;
-    run_sweep(&spec, path, Existing::Replace, |done| done < rows)
+/// What it asks for.
+pub(crate) fn of_sweep(folder: &Path) -> Result<Spec, SceneError> {
+    Spec::from_toml(SWEEP, folder)
 }
 
-/// Whether rows were taken from the journal; all are those of the sweep, wherever they come from.
-fn same_rows(done: &Done) -> bool {
-    let numbers = || done.blocks.iter().flat_map(|block| &block.numbers);
+/// Runs it with the journal at `path`, until so many rows are done.
+pub(crate) fn sweep(path: &Path, folder: &Path, rows: usize) -> Result<Option<Done>, SweepError> {
+    run_sweep(&of_sweep(folder)?, path, Existing::Replace, |done| {
+        done < rows
+    })
+}
+
+/// All rows are those of the sweep, wherever they come from.
+fn same_rows(blocks: &[Block]) {
+    let numbers = || blocks.iter().flat_map(|block| &block.numbers);
     let failed = |row: &[f64; formats::QUANTITIES.len()]| row.iter().all(|x| x.is_nan());
     assert_eq!(numbers().count(), 3);
     let forces: Vec<f64> = numbers().map(|row| row[0]).collect();
@@ -69,7 +78,6 @@ fn same_rows(done: &Done) -> bool {
     let ratio = forces[2] / forces[0] / 3_f64.powf(1.2);
     assert!((ratio - 1.0).abs() < 1e-9, "{forces:?}");
     assert!(numbers().nth(1).is_some_and(failed), "{forces:?}");
-    done.resumed > 0
 }
 
 /// Results that a body without the strength does not have.
@@ -87,7 +95,7 @@ const MOST_BYTES: f64 = 2e8;
 
 impl Target {
     /// All of them.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
         Self::Scene,
         Self::Impact,
         Self::Sweep,
@@ -96,6 +104,7 @@ impl Target {
         Self::Record,
         Self::Results,
         Self::Journal,
+        Self::Part,
         Self::Shard,
         Self::Table,
         Self::Sealed,
@@ -113,6 +122,7 @@ impl Target {
             Self::Record => "record",
             Self::Results => "results",
             Self::Journal => "journal",
+            Self::Part => "part",
             Self::Shard => "shard",
             Self::Table => "table",
             Self::Sealed => "sealed",
@@ -135,7 +145,12 @@ impl Target {
             | Self::Grid
             | Self::Materials
             | Self::Record => true,
-            Self::Results | Self::Journal | Self::Shard | Self::Table | Self::Sealed => false,
+            Self::Results
+            | Self::Journal
+            | Self::Part
+            | Self::Shard
+            | Self::Table
+            | Self::Sealed => false,
         }
     }
 
@@ -176,11 +191,15 @@ impl Target {
             Self::Journal => {
                 let path = file(folder, "x.part", input);
                 match sweep(&path, folder, usize::MAX) {
-                    Ok(Some(done)) => same_rows(&done),
+                    Ok(Some(done)) => {
+                        same_rows(&done.blocks);
+                        done.resumed > 0
+                    }
                     Ok(None) => false,
                     Err(error) => sentence(&error),
                 }
             }
+            Self::Part => part(&file(folder, "x.h5", input)),
             Self::Shard => {
                 let path = file(folder, "x.shard", input);
                 let out = folder.join("joined.h5");
@@ -254,6 +273,30 @@ fn impact(text: &str, folder: &Path) -> bool {
         error.is_some_and(|x| x >= 0.0 && (!struck || x <= 0.5)),
         "{error:?}"
     );
+    true
+}
+
+/// A part: of HDF5 the rows may be any, of Parquet they are those that were written.
+fn part(path: &Path) -> bool {
+    let stored = match StoredPart::open(path) {
+        Ok(stored) => stored,
+        Err(error) => return sentence(&error),
+    };
+    let mut blocks = Vec::new();
+    let read = stored.each(&mut |block| {
+        blocks.push(block.clone());
+        Ok(())
+    });
+    if let Err(fault) = &read {
+        assert!(
+            !fault.reason.is_empty() && !fault.reason.contains('\n'),
+            "{fault:?}"
+        );
+        return false;
+    }
+    if std::fs::read(path).is_ok_and(|bytes| bytes.starts_with(b"PAR1")) {
+        same_rows(&blocks);
+    }
     true
 }
 

@@ -13,7 +13,7 @@ fn corpus() -> PathBuf {
 fn count(target: Target) -> usize {
     match target {
         Target::Impact => 300,
-        Target::Shard | Target::Table | Target::Sealed => 1000,
+        Target::Part | Target::Shard | Target::Table | Target::Sealed => 1000,
         Target::Sweep | Target::Results | Target::Journal => 2000,
         Target::Scene | Target::Grid | Target::Materials | Target::Record => 5000,
     }
