@@ -68,8 +68,9 @@ struct Sum {
     anew: Vec<usize>,
 }
 
-/// Samples of a point that are integrated anew at most.
-const MOST_ANEW: usize = 64;
+/// Samples of a point that are integrated anew at most: under a short contact, or far from it, most of them are beside
+/// fronts, and what is left out makes an estimate of no use.
+const MOST_ANEW: usize = 512;
 
 /// Tolerances that what is left over within the other cells, and samples integrated anew, may take of a velocity; the
 /// square of it of an acceleration.
