@@ -4,8 +4,9 @@ use crate::failure::{Failure, print};
 use crate::overwrite::Overwrite;
 use crate::progress::Bar;
 use clap::Args;
+use output::Folder;
 use std::path::PathBuf;
-use study::{Chart, Effort, Folder, StudyError};
+use study::{Chart, Effort, StudyError};
 
 const EXAMPLES: &str = "Examples:
   hertzlamb chart --quick -o chart-quick
@@ -37,8 +38,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     } else {
         Effort::Full
     };
-    let folder =
-        Folder::claim(&arguments.output, arguments.overwrite.existing()).map_err(failure)?;
+    let folder = Folder::claim(&arguments.output, arguments.overwrite.existing())?;
     let progress = Bar::new();
     let chart = Chart::run(effort, &progress).map_err(failure)?;
     progress.finish();
@@ -59,11 +59,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
 }
 
-/// A folder that cannot be written to is the user's, the rest is work that failed.
+/// Files that cannot be written are told as everywhere, the rest is work that failed.
 fn failure(error: StudyError) -> Failure {
     match error {
-        StudyError::Exists { .. } => Failure::input(format!("{error}; give --force to replace it")),
-        StudyError::Unwritable { .. } => Failure::input(error),
         StudyError::Output(error) => error.into(),
         StudyError::Domain(_)
         | StudyError::March(_)

@@ -1,6 +1,5 @@
 //! Why a chart could not be made.
 
-use std::path::PathBuf;
 use thiserror::Error;
 
 /// Why a chart could not be made.
@@ -44,21 +43,7 @@ pub enum StudyError {
         /// The reason.
         source: figure::RenderError,
     },
-    /// The folder holds something already.
-    #[error("{} exists already and is not replaced", path.display())]
-    Exists {
-        /// The file in the way.
-        path: PathBuf,
-    },
     /// A file could not be written, or is not to be.
     #[error(transparent)]
-    Output(output::OutputError),
-    /// The folder cannot be written to.
-    #[error("cannot write {}: {reason}", path.display())]
-    Unwritable {
-        /// The folder.
-        path: PathBuf,
-        /// The reason of the system or a library.
-        reason: String,
-    },
+    Output(#[from] output::OutputError),
 }

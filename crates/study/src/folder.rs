@@ -2,10 +2,10 @@
 
 use crate::StudyError;
 use crate::chart::Chart;
-use crate::files::{Folder, NewFile};
 use crate::picture::Picture;
 use crate::{csv_file, hdf_file, report};
 use figure::{svg_to_png, to_svg};
+use output::{Folder, NewFile};
 
 /// Pixels of a PNG for each of the SVG's.
 const SCALE: f32 = 1.5;
@@ -24,11 +24,8 @@ impl Chart {
         for picture in self.diagrams.iter().chain(&self.maps) {
             files.extend(draw(picture)?);
         }
-        let text = report::markdown(self);
-        files.push(NewFile::new("report.md", move |part| {
-            std::fs::write(part, &text)
-        }));
-        folder.write(files)
+        files.push(NewFile::of("report.md", report::markdown(self)));
+        Ok(folder.write(files)?)
     }
 }
 
@@ -40,10 +37,7 @@ fn draw(picture: &Picture) -> Result<[NewFile<'static>; 2], StudyError> {
     };
     let svg = to_svg(&picture.figure()).map_err(failed)?;
     let png = svg_to_png(&svg, SCALE).map_err(failed)?;
-    let file = |ending: &str, bytes: Vec<u8>| {
-        NewFile::new(format!("{}.{ending}", picture.name), move |part| {
-            std::fs::write(part, &bytes)
-        })
-    };
+    let file =
+        |ending: &str, bytes: Vec<u8>| NewFile::of(format!("{}.{ending}", picture.name), bytes);
     Ok([file("svg", svg.into_bytes()), file("png", png)])
 }

@@ -1,0 +1,145 @@
+//! A folder of files that belong together: all of them or none.
+
+use crate::claim::{Existing, Output, Staged};
+use crate::error::OutputError;
+use crate::fault::Fault;
+use std::path::{Path, PathBuf};
+
+/// A folder that one run at a time writes into.
+#[derive(Debug)]
+pub struct Folder {
+    path: PathBuf,
+    /// The name that stands for the whole folder.
+    _claim: Output,
+}
+
+impl Folder {
+    /// Makes sure, before any work, that files can be written into a folder, which is made where it is missing.
+    ///
+    /// # Errors
+    /// [`OutputError::Exists`] with a file when the folder holds any and they are to be kept,
+    /// [`OutputError::Unwritable`] when it cannot be made or takes no files, [`OutputError::Busy`] when another run
+    /// writes into it.
+    pub fn claim(path: &Path, existing: Existing) -> Result<Self, OutputError> {
+        if path.exists() && !path.is_dir() {
+            return Err(OutputError::place(path, "it is not a folder".to_owned()));
+        }
+        std::fs::create_dir_all(path).map_err(|error| OutputError::place(path, error))?;
+        // a folder that takes no files is found now, not after minutes
+        let claim = Output::claim(&path.join("folder.lock"), Existing::Replace)?;
+        let mut names: Vec<PathBuf> = std::fs::read_dir(path)
+            .map_err(|error| OutputError::place(path, error))?
+            .filter_map(|entry| Some(entry.ok()?.path()))
+            .filter(|path| !hidden(path))
+            .collect();
+        names.sort();
+        match (existing, names.into_iter().next()) {
+            (Existing::Keep | Existing::KeepUnlessSame, Some(path)) => {
+                Err(OutputError::Exists { path })
+            }
+            (Existing::Keep | Existing::KeepUnlessSame, None) | (Existing::Replace, _) => {
+                Ok(Self {
+                    path: path.to_owned(),
+                    _claim: claim,
+                })
+            }
+        }
+    }
+
+    /// Writes files, each by its own closure: all of them, or none where one fails.
+    ///
+    /// # Errors
+    /// [`OutputError`] with the file that failed.
+    pub fn write(&self, files: Vec<NewFile<'_>>) -> Result<(), OutputError> {
+        let mut claimed = Vec::new();
+        for file in files {
+            let output = Output::claim(&self.path.join(file.name), Existing::Replace)?;
+            claimed.push((output, file.fill));
+        }
+        let mut staged: Vec<Staged<'_>> = Vec::new();
+        for (output, fill) in &claimed {
+            staged.push(output.stage(fill)?);
+        }
+        for file in staged {
+            file.commit()?;
+        }
+        Ok(())
+    }
+}
+
+/// Writes a file under the name given.
+type Fill<'a> = Box<dyn Fn(&Path) -> Result<(), Fault> + 'a>;
+
+/// A file to be written into a folder.
+pub struct NewFile<'a> {
+    /// Its name in the folder.
+    name: String,
+    fill: Fill<'a>,
+}
+
+impl<'a> NewFile<'a> {
+    /// A file that a closure writes under the name given to it.
+    pub fn new<E: Into<Fault>>(
+        name: impl Into<String>,
+        fill: impl Fn(&Path) -> Result<(), E> + 'a,
+    ) -> Self {
+        Self {
+            name: name.into(),
+            fill: Box::new(move |part| fill(part).map_err(Into::into)),
+        }
+    }
+
+    /// A file of these bytes.
+    pub fn of(name: impl Into<String>, bytes: impl AsRef<[u8]> + 'a) -> Self {
+        Self::new(name, move |part| std::fs::write(part, bytes.as_ref()))
+    }
+}
+
+/// What a killed run has left is hidden, and nothing that somebody would miss.
+fn hidden(path: &Path) -> bool {
+    path.file_name()
+        .is_some_and(|name| name.as_encoded_bytes().starts_with(b"."))
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
+
+    use super::*;
+
+    #[test]
+    fn a_folder_that_holds_anything_is_kept() {
+        let folder = tempfile::tempdir().unwrap();
+        let inside = folder.path().join("chart");
+        drop(Folder::claim(&inside, Existing::Keep).unwrap());
+        let precious = inside.join("chart.csv");
+        std::fs::write(&precious, "precious").unwrap();
+        let refused = Folder::claim(&inside, Existing::Keep).unwrap_err();
+        let path = precious.clone();
+        assert_eq!(refused, OutputError::Exists { path });
+        drop(Folder::claim(&inside, Existing::Replace).unwrap());
+        // nothing is touched before there is something to put in its place
+        assert_eq!(std::fs::read_to_string(&precious).unwrap(), "precious");
+        let file = folder.path().join("file");
+        std::fs::write(&file, "").unwrap();
+        let refused = Folder::claim(&file, Existing::Replace).unwrap_err();
+        assert!(refused.to_string().contains("not a folder"));
+    }
+
+    #[test]
+    fn all_files_are_written_or_none() {
+        let parent = tempfile::tempdir().unwrap();
+        let inside = parent.path().join("report");
+        let folder = Folder::claim(&inside, Existing::Keep).unwrap();
+        assert!(matches!(
+            Folder::claim(&inside, Existing::Keep),
+            Err(OutputError::Busy { .. })
+        ));
+        let failing = NewFile::new("b.txt", |_| Err(Fault::from("no".to_owned())));
+        let refused = folder.write(vec![NewFile::of("a.txt", "1"), failing]);
+        assert!(matches!(refused, Err(OutputError::Failed { .. })));
+        assert!(!inside.join("a.txt").exists());
+        folder.write(vec![NewFile::of("a.txt", "1")]).unwrap();
+        assert_eq!(std::fs::read_to_string(inside.join("a.txt")).unwrap(), "1");
+    }
+}
