@@ -1,15 +1,15 @@
 //! `hertzlamb demo`: the paper's case from kernels to picture, and the waves under a ball.
 
-use crate::comparison::Comparison;
 use crate::failure::{Failure, print, say};
 use crate::impact_command::open_table;
-use crate::picture::draw;
+use crate::paper_command;
 use crate::progress::Bar;
 use crate::tabulate;
 use clap::Args;
 use figure::to_svg;
 use formats::{Existing, parse_scene, write_results, write_whole};
 use impact::{KernelChoice, simulate, simulate_watched};
+use paper::Numbers;
 use plot::{Request, compose};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -47,22 +47,17 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let start = Instant::now();
     let coupled = simulate(&table_1, &KernelChoice::Table(Arc::new(table)))?;
     let wall_s = start.elapsed().as_secs_f64();
-    let comparison = Comparison::new(table_1, coupled)?;
+    let found = Numbers::compute().map_err(paper_command::failure)?;
     let numbers = folder.join("numbers.txt");
-    let text = comparison.text()?;
     write_whole(&numbers, Existing::Replace, |part| {
-        std::fs::write(part, &text)
+        std::fs::write(part, found.text())
     })?;
-    print(comparison.short())?;
+    print(found.short())?;
 
     let results = folder.join("copper-on-steel.h5");
-    let scene = &comparison.table_1;
-    write_results(&results, scene, &comparison.coupled, Existing::Replace)?;
-    let picture = folder.join("copper-on-steel.svg");
-    write_whole(&picture, Existing::Replace, |part| {
-        draw(part, scene, &comparison.coupled)
-    })?;
-    let probes = comparison.coupled.probes.as_ref();
+    write_results(&results, &table_1, &coupled, Existing::Replace)?;
+    let picture = drawn(&results, folder.join("copper-on-steel.svg"))?;
+    let probes = coupled.probes.as_ref();
     say(format!(
         "the coupled impact with its {} probes took {:.1} ms",
         probes.map_or(0, |fields| fields.r_m.len()),
@@ -91,13 +86,18 @@ fn waves(folder: &Path) -> Result<[PathBuf; 2], Failure> {
     bar.finish();
     let results = folder.join("waves.vtkhdf");
     write_results(&results, &scene, &outcome, Existing::Replace)?;
-    let drawn = compose(std::slice::from_ref(&results), &Request::default())?;
-    let picture = folder.join("waves.svg");
+    let picture = drawn(&results, folder.join("waves.svg"))?;
+    Ok([results, picture])
+}
+
+/// Draws a results file as `hertzlamb plot` does.
+fn drawn(results: &PathBuf, picture: PathBuf) -> Result<PathBuf, Failure> {
+    let drawn = compose(std::slice::from_ref(results), &Request::default())?;
     let svg = to_svg(&drawn.figure).map_err(Failure::work)?;
     write_whole(&picture, Existing::Replace, |part| {
         std::fs::write(part, svg)
     })?;
-    Ok([results, picture])
+    Ok(picture)
 }
 
 fn make_table(path: &Path) -> Result<(), Failure> {

@@ -1,7 +1,6 @@
 //! The `hertzlamb` command: one file per subcommand.
 
 mod chart;
-mod comparison;
 mod completions;
 mod demo;
 mod failure;
@@ -11,7 +10,7 @@ mod materials;
 mod memory;
 mod overwrite;
 mod panic;
-mod picture;
+mod paper_command;
 mod plot_command;
 mod progress;
 mod report;
@@ -43,8 +42,10 @@ enum Command {
     Sweep(sweep::Arguments),
     /// Draws the results of impacts, sweeps and tables.
     Plot(plot_command::Arguments),
-    /// Runs the paper's case and sets its numbers beside those of this program.
+    /// A first look: the paper's case, its numbers, and the waves under a ball.
     Demo(demo::Arguments),
+    /// Redoes the source paper: every number and Figures 4 to 11 beside ours.
+    Paper(paper_command::Arguments),
     /// Builds a kernel table: once, for every material pair.
     Tabulate(tabulate::Arguments),
     /// Looks at finished tables (info, verify, diff) and joins shards (merge).
@@ -69,6 +70,7 @@ fn main() -> ExitCode {
         Command::Sweep(arguments) => sweep::run(&arguments),
         Command::Plot(arguments) => plot_command::run(&arguments),
         Command::Demo(arguments) => demo::run(&arguments),
+        Command::Paper(arguments) => paper_command::run(&arguments),
         Command::Tabulate(arguments) => tabulate::run(&arguments),
         Command::Table(arguments) => table::run(&arguments),
         Command::Chart(arguments) => chart::run(&arguments),

@@ -62,7 +62,7 @@ pub struct Solver<'a, S: Responses> {
 /// Samples over a contact of a history that was not marched.
 const SAMPLES: f64 = 4096.0;
 
-/// Steps over a contact of the explicit scheme when none is given: the paper's ts/200.
+/// Steps over a contact of the explicit scheme when none is given.
 const EXPLICIT_STEPS: f64 = 200.0;
 
 impl<'a, S: Responses> Solver<'a, S> {

@@ -1,0 +1,54 @@
+//! `hertzlamb paper`: the source paper's numbers and figures beside those of this program.
+
+use crate::failure::{Failure, print};
+use crate::overwrite::Overwrite;
+use clap::Args;
+use output::Folder;
+use paper::{PaperError, Redone};
+use std::path::PathBuf;
+
+const EXAMPLES: &str = "Example:
+  hertzlamb paper -o paper
+
+The folder gets report.md, numbers.csv, claims.csv, and of each of the Figures 4 to 11 an SVG, a PNG and the CSV of
+its curves.";
+
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Arguments {
+    /// Folder for the report.
+    #[arg(short, long, value_name = "DIR")]
+    output: PathBuf,
+    #[command(flatten)]
+    overwrite: Overwrite,
+}
+
+pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let folder = Folder::claim(&arguments.output, arguments.overwrite.existing())?;
+    let redone = Redone::compute().map_err(failure)?;
+    redone.write(&folder).map_err(failure)?;
+    let rows = redone
+        .numbers
+        .sections
+        .iter()
+        .map(|section| section.rows.len());
+    print(format!(
+        "{}: {} numbers, {} figures",
+        arguments.output.join("report.md").display(),
+        rows.sum::<usize>(),
+        redone.figures.len()
+    ))
+}
+
+/// Files that cannot be written are told as everywhere, the rest is work that failed.
+pub(crate) fn failure(error: PaperError) -> Failure {
+    match error {
+        PaperError::Output(error) => error.into(),
+        PaperError::Material(_)
+        | PaperError::Body(_)
+        | PaperError::Contact(_)
+        | PaperError::Domain(_)
+        | PaperError::Fields(_)
+        | PaperError::Picture { .. } => Failure::work(error),
+    }
+}
