@@ -1,0 +1,45 @@
+"""The book: its commands run and print what it says, and every link leads somewhere."""
+
+import sys
+from pathlib import Path
+
+import pytest
+from conftest import PROGRAM, ROOT
+
+sys.path.insert(0, str(ROOT / "scripts"))
+import book  # noqa: E402
+
+
+@pytest.mark.parametrize("chapter", book.CHAPTERS, ids=lambda chapter: chapter.stem)
+def test_a_chapter_runs_as_it_stands(chapter, tmp_path):
+    book.run_chapter(chapter, tmp_path, PROGRAM)
+    for name in book.pictures(chapter):
+        drawn, kept = tmp_path / name, book.PICTURES / name
+        assert drawn.stat().st_size > 5000, name
+        assert kept.exists(), f"{name}: scripts/book --pictures draws it"
+
+
+def test_every_picture_of_a_chapter_is_drawn_by_it():
+    for chapter in book.CHAPTERS:
+        shown = {target for target in book.LINK.findall(chapter.read_text()) if "pictures/" in target}
+        assert {Path(target).name for target in shown} == set(book.pictures(chapter)), chapter
+
+
+def test_links_between_documents_lead_somewhere():
+    assert book.broken_links() == []
+
+
+@pytest.mark.parametrize(
+    ("told", "printed", "agrees"),
+    [
+        ("a 1.000\nb", "a 1.0001\nb\n", True),
+        ("a 1.000", "a 1.002", False),
+        ("a 1...", "a 1 and more", True),
+        ("a\n...", "a\nb\nc", True),
+        ("a", "a\nb", False),
+        ("a\nb", "a", False),
+        ("a", "b", False),
+    ],
+)
+def test_what_is_told_is_compared_with_what_is_printed(told, printed, agrees):
+    assert (book.difference(told, printed) is None) == agrees
