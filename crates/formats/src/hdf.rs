@@ -39,6 +39,34 @@ pub(crate) fn numbers<T: H5Type>(
     Ok(dataset)
 }
 
+/// Numbers of a list that are made and written together.
+const AT_A_TIME: usize = 1 << 20;
+
+/// A list of numbers that need not be in memory together, by their places.
+pub(crate) fn some_at_a_time<T: H5Type>(
+    group: &Group,
+    described: &(&str, &str, &str),
+    length: usize,
+    number: impl Fn(usize) -> T,
+) -> Result<Dataset, hdf5::Error> {
+    if length <= AT_A_TIME {
+        let all: Vec<T> = (0..length).map(number).collect();
+        return numbers(group, described, &[length], &all);
+    }
+    let dataset = group
+        .new_dataset::<T>()
+        .shape([length])
+        .obj_track_times(false)
+        .create(described.0)?;
+    for start in (0..length).step_by(AT_A_TIME) {
+        let end = (start + AT_A_TIME).min(length);
+        let some: Vec<T> = (start..end).map(&number).collect();
+        dataset.write_slice(&some, start..end)?;
+    }
+    describe(&dataset, described)?;
+    Ok(dataset)
+}
+
 /// A described dataset whose numbers are written later, and where in the file they stand; nowhere without any.
 pub(crate) fn reserve<T: H5Type>(
     group: &Group,

@@ -3,7 +3,9 @@
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
 use contact::{Choice, Model};
-use formats::sweep::{BLOCK, Block, Spec, is_computed, run_sweep, schema, write_csv, write_sweep};
+use formats::sweep::{
+    BLOCK, Block, Rows, Spec, compute_rows, is_computed, run_sweep, schema, write_csv, write_sweep,
+};
 use formats::{Existing, QUANTITIES, parse_scene};
 use impact::{KernelChoice, simulate};
 use std::collections::BTreeSet;
@@ -316,6 +318,39 @@ fn bad_sweeps_are_refused_with_key_and_value() {
         assert!(message.contains(expected), "{axes}\n{message}");
         assert_eq!(message.lines().count(), 1, "{message}");
     }
+}
+
+#[test]
+fn draws_take_no_memory_and_are_those_of_a_shorter_sweep() {
+    let text = |samples: usize| {
+        format!(
+            "[random]\nsamples = {samples}\nseed = 5\n[random.striker]\nvelocity_m_s = {{ distribution = \"normal\", mean = 2.0, deviation = 0.7 }}\nmass_kg = {{ distribution = \"log_uniform\", low = 1e-3, high = 1.0 }}\n"
+        )
+    };
+    let (many, few) = (spec(&text(1_000_000_000_000)), spec(&text(1000)));
+    assert!(many.memory_bytes() < 2e8);
+    assert_eq!(many.memory_bytes(), few.memory_bytes());
+    let asked = |start| Rows {
+        start,
+        step: 7,
+        count: 100,
+    };
+    let rows = |spec: &Spec, start| compute_rows(spec, asked(start), |_| true).unwrap().unwrap();
+    assert_eq!(bits(&[rows(&many, 30)]), bits(&[rows(&few, 30)]));
+    let last = rows(&many, 1_000_000_000_000 - 694);
+    assert!(last.failures.len() < 20 && bits(&[last]) != bits(&[rows(&few, 30)]));
+    // numbers of sweeps that were computed before draws were made one by one
+    let number = |key: usize, index| few.axes[0].columns[key].values.number(index);
+    let known = [
+        (0, 0, 0.058_510_761_477_406_78),
+        (0, 999, 0.008_977_711_685_233_05),
+        (1, 0, 2.537_885_776_361_141_8),
+        (1, 999, 1.688_494_095_772_436_6),
+    ];
+    for (key, index, value) in known {
+        assert_eq!(number(key, index), Some(value));
+    }
+    assert_eq!(number(0, 1000), None);
 }
 
 #[test]

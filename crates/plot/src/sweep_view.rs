@@ -66,7 +66,7 @@ impl<'a> View<'a> {
                 Values::Numbers(values) if asked.is_none_or(|name| name == column.name) => {
                     Some((column, values.as_slice()))
                 }
-                Values::Numbers(_) | Values::Texts(_) => None,
+                Values::Numbers(_) | Values::Texts(_) | Values::Drawn(_) => None,
             })
     }
 
@@ -75,7 +75,7 @@ impl<'a> View<'a> {
         if let Some(key) = asked {
             let (axis, column) = find(self.sweep, key)?;
             return match &column.values {
-                Values::Numbers(_) => Ok(Some(axis)),
+                Values::Numbers(_) | Values::Drawn(_) => Ok(Some(axis)),
                 Values::Texts(_) => Err(PlotError::NoNumbers {
                     key: key.to_owned(),
                 }),
@@ -122,6 +122,7 @@ impl<'a> View<'a> {
             let (name, unit) = words(&column.name);
             match &column.values {
                 Values::Numbers(values) => format!("{name} {}", with_unit(values[index], unit)),
+                Values::Drawn(drawn) => format!("{name} {}", with_unit(drawn.at(index), unit)),
                 Values::Texts(values) => values[index].replace('-', " "),
             }
         });
@@ -174,21 +175,23 @@ fn nearest_value(
 ) -> Result<usize, PlotError> {
     let found = match &column.values {
         Values::Texts(words) => words.iter().position(|word| word == value),
-        Values::Numbers(numbers) => value
+        numbers @ (Values::Numbers(_) | Values::Drawn(_)) => value
             .parse::<f64>()
             .ok()
             .filter(|x| x.is_finite())
             .and_then(|wanted| {
-                let distance = |x: f64| (x - wanted).abs();
-                let by =
-                    |a: &usize, b: &usize| distance(numbers[*a]).total_cmp(&distance(numbers[*b]));
+                let distance = |i: usize| {
+                    let number = numbers.number(i).unwrap_or(f64::NAN);
+                    (number - wanted).abs()
+                };
+                let by = |a: &usize, b: &usize| distance(*a).total_cmp(&distance(*b));
                 (0..numbers.len()).min_by(by)
             }),
     };
     found.ok_or_else(|| {
         let words: Vec<&str> = match &column.values {
             Values::Texts(words) => words.iter().map(String::as_str).collect(),
-            Values::Numbers(_) => vec!["numbers"],
+            Values::Numbers(_) | Values::Drawn(_) => vec!["numbers"],
         };
         PlotError::Quantity {
             path: sweep.path().to_owned(),

@@ -71,8 +71,20 @@ pub(crate) fn plan_of_columns(
     wrapped(py, spec)
 }
 
+/// Values of an axis at most.
+const MOST_VALUES: usize = 10_000_000;
+
 fn wrapped(py: Python<'_>, spec: Result<Spec, SceneError>) -> PyResult<Plan> {
     let spec = spec.map_err(|error| errors::scene(py, &error))?;
+    // the axes are handed over as arrays
+    if let Some(axis) = spec.axes.iter().find(|axis| axis.len > MOST_VALUES) {
+        let error = SceneError::OutOfRange {
+            key: format!("the length of the axis {}", axis.name),
+            value: axis.len as f64,
+            range: "[1, 10000000] in Python, which has the values of every axis as an array",
+        };
+        return Err(errors::scene(py, &error));
+    }
     Ok(Plan {
         spec: Arc::new(spec),
     })
@@ -102,6 +114,10 @@ impl Plan {
                 match &column.values {
                     Values::Numbers(numbers) => {
                         columns.set_item(column.name(), vector(py, numbers.clone())?)?;
+                    }
+                    Values::Drawn(drawn) => {
+                        let numbers = (0..drawn.len()).map(|i| drawn.at(i)).collect();
+                        columns.set_item(column.name(), vector(py, numbers)?)?;
                     }
                     Values::Texts(words) => columns.set_item(column.name(), words.clone())?,
                 }

@@ -1,5 +1,6 @@
 //! The keys that vary and their values.
 
+use super::drawn::Drawn;
 use crate::error::SceneError;
 use crate::section::Section;
 use toml::{Table, Value};
@@ -11,6 +12,8 @@ pub enum Values {
     Numbers(Vec<f64>),
     /// Words, such as materials or models.
     Texts(Vec<String>),
+    /// Random numbers, which are not held.
+    Drawn(Drawn),
 }
 
 impl Values {
@@ -20,6 +23,7 @@ impl Values {
         match self {
             Self::Numbers(numbers) => numbers.len(),
             Self::Texts(texts) => texts.len(),
+            Self::Drawn(drawn) => drawn.len(),
         }
     }
 
@@ -27,6 +31,16 @@ impl Values {
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
+    }
+
+    /// One of the numbers; nothing of words.
+    #[must_use]
+    pub fn number(&self, index: usize) -> Option<f64> {
+        match self {
+            Self::Numbers(numbers) => numbers.get(index).copied(),
+            Self::Texts(_) => None,
+            Self::Drawn(drawn) => (index < drawn.len()).then(|| drawn.at(index)),
+        }
     }
 
     /// Those that a key of a section lists.
@@ -57,6 +71,7 @@ impl Values {
         match self {
             Self::Numbers(numbers) => Value::Float(numbers[index]),
             Self::Texts(texts) => Value::String(texts[index].clone()),
+            Self::Drawn(drawn) => Value::Float(drawn.at(index)),
         }
     }
 }

@@ -69,7 +69,7 @@ impl<'a> Columns<'a> {
         let (dataset, place) = match what {
             What::Row => reserve::<i64>(group, described, shape)?,
             What::Key { axis, column, .. } => match self.values(axis, column) {
-                Values::Numbers(_) => reserve::<f64>(group, described, shape)?,
+                Values::Numbers(_) | Values::Drawn(_) => reserve::<f64>(group, described, shape)?,
                 Values::Texts(_) => reserve::<u32>(group, described, shape)?,
             },
             What::Number(_) => match self.spec.fields.precision {
@@ -134,6 +134,9 @@ impl<'a> Columns<'a> {
                 match self.values(axis, column) {
                     Values::Numbers(numbers) => {
                         (places.flat_map(|i| numbers[i].to_ne_bytes()).collect(), 8)
+                    }
+                    Values::Drawn(drawn) => {
+                        (places.flat_map(|i| drawn.at(i).to_ne_bytes()).collect(), 8)
                     }
                     Values::Texts(_) => {
                         (places.flat_map(|i| (i as u32).to_ne_bytes()).collect(), 4)

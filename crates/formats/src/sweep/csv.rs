@@ -107,6 +107,9 @@ fn lines(spec: &Spec, block: &Block, from: usize) -> String {
                     Values::Numbers(numbers) => {
                         let _ = write!(text, "{},", numbers[index]);
                     }
+                    Values::Drawn(drawn) => {
+                        let _ = write!(text, "{},", drawn.at(index));
+                    }
                     Values::Texts(words) => {
                         let _ = write!(text, "{},", quoted(&words[index]));
                     }

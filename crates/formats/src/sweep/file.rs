@@ -7,7 +7,7 @@ use super::fields::Fields;
 use super::schema;
 use super::spec::Spec;
 use crate::hdf::{
-    attach_all, attach_scale, new_file, numbers, reason, scale, set_scale, text, texts,
+    attach_all, attach_scale, new_file, numbers, reason, set_scale, some_at_a_time, text, texts,
 };
 use crate::results::schema::COORDINATES;
 use contact::{Choice, Model};
@@ -168,9 +168,9 @@ fn write_scales(group: &Group, axes: &[Axis]) -> Result<Scales, hdf5::Error> {
             found.scales.push(dataset);
             continue;
         }
-        let numbered: Vec<i64> = (0..axis.len as i64).collect();
         let described = (axis.name.as_str(), "1", schema::NUMBERED);
-        let along = scale(group, &described, &numbered)?;
+        let along = some_at_a_time(group, &described, axis.len, |i| i as i64)?;
+        set_scale(&along, described.0)?;
         for column in &axis.columns {
             attach_scale(&write_column(group, column)?, &along, 0)?;
             found.beside.push(column.name());
@@ -187,6 +187,7 @@ fn write_column(group: &Group, column: &Column) -> Result<Dataset, hdf5::Error> 
     match &column.values {
         Values::Numbers(values) => numbers(group, &described, &[values.len()], values),
         Values::Texts(values) => texts(group, &described, values),
+        Values::Drawn(drawn) => some_at_a_time(group, &described, drawn.len(), |i| drawn.at(i)),
     }
 }
 

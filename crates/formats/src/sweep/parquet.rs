@@ -190,6 +190,7 @@ impl Column<'_> {
                 for place in rows.map(|row| row / stride % len) {
                     match self.values {
                         Some(Values::Numbers(numbers)) => cells.double(numbers[place]),
+                        Some(Values::Drawn(drawn)) => cells.double(drawn.at(place)),
                         Some(Values::Texts(_)) => cells.word(Some(place)),
                         None => {}
                     }
@@ -246,7 +247,9 @@ fn schema(spec: &Spec, columns: &[RowColumn<'_>]) -> Result<TypePtr, ParquetErro
             What::Row => (Physical::INT64, Repetition::REQUIRED),
             What::Key { .. } => match column.values {
                 Some(Values::Texts(_)) => (Physical::BYTE_ARRAY, Repetition::REQUIRED),
-                Some(Values::Numbers(_)) | None => (Physical::DOUBLE, Repetition::REQUIRED),
+                Some(Values::Numbers(_) | Values::Drawn(_)) | None => {
+                    (Physical::DOUBLE, Repetition::REQUIRED)
+                }
             },
             What::Number(_) => match spec.fields.precision {
                 Precision::Double => (Physical::DOUBLE, Repetition::OPTIONAL),

@@ -40,7 +40,7 @@ pub fn row_bytes(spec: &Spec) -> (usize, usize) {
     let keys = spec.axes.iter().flat_map(|axis| &axis.columns);
     let keys: usize = keys
         .map(|key| match key.values {
-            Values::Numbers(_) => 8,
+            Values::Numbers(_) | Values::Drawn(_) => 8,
             Values::Texts(_) => 4,
         })
         .sum();
@@ -92,7 +92,7 @@ fn begin<'a>(
                 texts(&words, &(&name, "1", "words of a scene key"), values)?;
                 format!("index of the {} in /{}/{name}", column.meaning, part::WORDS)
             }
-            Some(Values::Numbers(_)) | None => column.meaning,
+            Some(Values::Numbers(_) | Values::Drawn(_)) | None => column.meaning,
         };
         let described = (name.as_str(), column.unit, meaning.as_str());
         let dataset = columns.add(column.what, &group, &described, &shape)?;

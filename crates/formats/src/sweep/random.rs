@@ -81,10 +81,16 @@ impl Distribution {
         })
     }
 
-    /// Draw number `index` of a key: a function of its arguments only.
-    pub(crate) fn draw(self, seed: u64, key: &str, index: u64) -> f64 {
-        let one = || uniform(seed, key, index, 0);
-        self.value(one, || normal(seed, key, index))
+    /// Draw number `index` of a stream: a function of its arguments only.
+    pub(crate) fn draw(self, stream: u64, index: u64) -> f64 {
+        let one = || uniform(stream, index, 0);
+        self.value(one, || normal(stream, index))
+    }
+
+    /// Values between which all draws are whose normal numbers are at most this far from zero.
+    pub(crate) fn ends(self, normal: f64) -> [f64; 2] {
+        [(f64::EPSILON, -normal), (1.0, normal)]
+            .map(|(uniform, normal)| self.value(|| uniform, || normal))
     }
 
     /// The value at the quantile of a standard normal number.
@@ -103,18 +109,24 @@ impl Distribution {
     }
 }
 
-/// Even number `which` of a draw of a key, in (0, 1): never an end.
-fn uniform(seed: u64, key: &str, index: u64, which: u64) -> f64 {
-    let stream = key
-        .bytes()
-        .fold(mix(seed), |hash, byte| mix(hash ^ u64::from(byte)));
+/// The stream of draws of a key.
+pub(crate) fn stream(seed: u64, key: &str) -> u64 {
+    key.bytes()
+        .fold(mix(seed), |hash, byte| mix(hash ^ u64::from(byte)))
+}
+
+/// Even number `which` of a draw of a stream, in (0, 1): never an end.
+fn uniform(stream: u64, index: u64, which: u64) -> f64 {
     let bits = mix(stream ^ mix(2 * index + which));
     ((bits >> 11) as f64 + 0.5) / (1_u64 << 53) as f64
 }
 
-/// The standard normal number of a draw of a key, by Box and Muller.
-pub(crate) fn normal(seed: u64, key: &str, index: u64) -> f64 {
-    let [radius, angle] = [0, 1].map(|which| uniform(seed, key, index, which));
+/// No standard normal number is farther from zero: the smallest even number is 2^-54.
+pub(crate) const LARGEST_NORMAL: f64 = 8.66;
+
+/// The standard normal number of a draw of a stream, by Box and Muller.
+pub(crate) fn normal(stream: u64, index: u64) -> f64 {
+    let [radius, angle] = [0, 1].map(|which| uniform(stream, index, which));
     (-2.0 * radius.ln()).sqrt() * (TAU * angle).cos()
 }
 
@@ -132,7 +144,8 @@ mod tests {
 
     fn moments(distribution: Distribution, of: impl Fn(f64) -> f64) -> (f64, f64) {
         let n = 100_000_u32;
-        let draws = (0..n).map(|i| of(distribution.draw(7, "striker.mass_kg", u64::from(i))));
+        let draws =
+            (0..n).map(|i| of(distribution.draw(stream(7, "striker.mass_kg"), u64::from(i))));
         let (sum, squares) = draws.fold((0.0, 0.0), |(s, q), x| (s + x, q + x * x));
         let mean = sum / f64::from(n);
         (mean, (squares / f64::from(n) - mean * mean).sqrt())
@@ -174,15 +187,22 @@ mod tests {
     }
 
     #[test]
+    fn no_normal_number_is_beyond_the_largest() {
+        let smallest: f64 = 0.5 / (1_u64 << 53) as f64;
+        let largest = (-2.0 * smallest.ln()).sqrt();
+        assert!(largest < LARGEST_NORMAL && largest > LARGEST_NORMAL - 0.01);
+    }
+
+    #[test]
     fn draws_of_two_keys_and_two_seeds_differ() {
         let even = Distribution::Uniform {
             low: 0.0,
             high: 1.0,
         };
-        let a = even.draw(1, "striker.mass_kg", 3);
-        assert_eq!(a, even.draw(1, "striker.mass_kg", 3));
-        assert_ne!(a, even.draw(2, "striker.mass_kg", 3));
-        assert_ne!(a, even.draw(1, "striker.velocity_m_s", 3));
-        assert_ne!(a, even.draw(1, "striker.mass_kg", 4));
+        let a = even.draw(stream(1, "striker.mass_kg"), 3);
+        assert_eq!(a, even.draw(stream(1, "striker.mass_kg"), 3));
+        assert_ne!(a, even.draw(stream(2, "striker.mass_kg"), 3));
+        assert_ne!(a, even.draw(stream(1, "striker.velocity_m_s"), 3));
+        assert_ne!(a, even.draw(stream(1, "striker.mass_kg"), 4));
     }
 }

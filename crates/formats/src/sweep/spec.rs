@@ -2,10 +2,11 @@
 
 use super::axis::{Axis, Column, Values, rows};
 use super::correlation::Correlations;
+use super::drawn::Drawn;
 use super::fields::Fields;
 use super::files::Files;
 use super::fingerprint::{fingerprint, hexadecimal};
-use super::random::{Distribution, normal};
+use super::random::Distribution;
 use super::schema::{LIST, SAMPLE};
 use crate::error::SceneError;
 use crate::section::{FINITE, POSITIVE, Section, parse};
@@ -37,7 +38,7 @@ pub struct Spec {
 /// Rows of a sweep at most: a place in a file of them is counted exactly.
 const MOST_ROWS: usize = 1_000_000_000_000;
 
-/// Values of an axis at most: they are held in memory.
+/// Values of an axis at most, but for draws: they are held in memory.
 const MOST_VALUES: usize = 10_000_000;
 
 /// Memory in bytes that a run takes beside the values of the axes: a block and the columns made of it, or a group of
@@ -174,7 +175,11 @@ impl Spec {
     /// Memory in bytes that a run takes, about: it does not depend on the number of rows.
     #[must_use]
     pub fn memory_bytes(&self) -> f64 {
-        let values: usize = self.axes.iter().map(|a| a.columns.len() * a.len).sum();
+        let columns = self.axes.iter().flat_map(|axis| &axis.columns);
+        let values: usize = (columns.map(|column| &column.values))
+            .filter(|values| !matches!(values, Values::Drawn(_)))
+            .map(Values::len)
+            .sum();
         (RUN_BYTES + values * 8) as f64
     }
 
@@ -320,39 +325,30 @@ fn together(columns: Vec<Column>) -> Result<Axis, SceneError> {
 /// The axis of random draws.
 fn drawn(random: &Section<'_>) -> Result<Axis, SceneError> {
     let samples = random
-        .count("samples", 1, MOST_VALUES, "[1, 10000000]")?
+        .count("samples", 1, MOST_ROWS, "[1, 1e12]")?
         .ok_or_else(|| random.missing("samples", "how many draws"))?;
     let seed = random
         .count("seed", 0, usize::MAX, "[0, 2^63)")?
         .unwrap_or(0) as u64;
-    let mut drawn: Vec<(String, String, Distribution)> = Vec::new();
+    let (mut places, mut drawn) = (Vec::new(), Vec::new());
     for (name, keys) in random.subsections(&["samples", "seed", "correlation"])? {
         for key in keys.names() {
             let inner = keys.inner(key).ok_or_else(|| SceneError::Missing {
                 key: format!("{}.distribution", keys.key(key)),
                 hint: "a random key is a table such as { distribution = \"normal\", mean = 1.0, deviation = 0.1 }".to_owned(),
             })?;
-            drawn.push((name.clone(), key.to_owned(), Distribution::read(&inner)?));
+            drawn.push((format!("{name}.{key}"), Distribution::read(&inner)?));
+            places.push((name.clone(), key.to_owned()));
         }
     }
-    let names: Vec<String> = drawn
-        .iter()
-        .map(|(s, key, _)| format!("{s}.{key}"))
-        .collect();
+    let names: Vec<String> = drawn.iter().map(|(name, _)| name.clone()).collect();
     let correlations = Correlations::read(random, &names)?;
-    let value = |k: usize, i: u64| {
-        let own = drawn[k].2;
-        if correlations.binds(k) {
-            own.at(correlations.mixed(k, |j| normal(seed, &names[j], i)))
-        } else {
-            own.draw(seed, &names[k], i)
-        }
-    };
-    let columns: Vec<Column> = (drawn.iter().enumerate())
-        .map(|(k, (section, key, _))| Column {
-            section: section.clone(),
-            key: key.clone(),
-            values: Values::Numbers((0..samples as u64).map(|i| value(k, i)).collect()),
+    let draws = Drawn::of(seed, samples, &drawn, correlations);
+    let columns: Vec<Column> = (places.into_iter().zip(draws))
+        .map(|((section, key), drawn)| Column {
+            section,
+            key,
+            values: Values::Drawn(drawn),
         })
         .collect();
     if columns.is_empty() {
@@ -371,9 +367,12 @@ fn drawn(random: &Section<'_>) -> Result<Axis, SceneError> {
 /// No key twice, at least one axis, not too many rows, numbers alone.
 fn check(axes: &[Axis]) -> Result<(), SceneError> {
     for column in axes.iter().flat_map(|axis| &axis.columns) {
-        if let Values::Numbers(numbers) = &column.values
-            && let Some(&value) = numbers.iter().find(|x| !x.is_finite())
-        {
+        let infinite = match &column.values {
+            Values::Numbers(numbers) => numbers.iter().copied().find(|x| !x.is_finite()),
+            Values::Texts(_) => None,
+            Values::Drawn(drawn) => drawn.infinite(),
+        };
+        if let Some(value) = infinite {
             return Err(SceneError::OutOfRange {
                 key: column.name(),
                 value,

@@ -69,7 +69,7 @@ struct Fast<'a> {
     plain: Plain,
     range: Range,
     name: String,
-    numbers: &'a [f64],
+    values: &'a Values,
 }
 
 /// Parsed scenes of a sweep.
@@ -144,17 +144,19 @@ impl<'a> Templates<'a> {
     /// Refuses a word of any list that is not known: it would be a row that fails, after hours perhaps.
     fn check_words(&self) -> Result<(), SceneError> {
         for (index, axis) in self.spec.axes.iter().enumerate() {
+            let lists = axis
+                .columns
+                .iter()
+                .filter_map(|column| match &column.values {
+                    Values::Texts(texts) => Some(texts),
+                    Values::Numbers(_) | Values::Drawn(_) => None,
+                });
+            let lists: Vec<_> = lists.collect();
             let mut known = BTreeSet::new();
-            for i in 0..axis.len {
-                let words: Vec<&str> = axis
-                    .columns
-                    .iter()
-                    .filter_map(|column| match &column.values {
-                        Values::Texts(texts) => Some(texts[i].as_str()),
-                        Values::Numbers(_) => None,
-                    })
-                    .collect();
-                if words.is_empty() || !known.insert(words) {
+            let rows = if lists.is_empty() { 0 } else { axis.len };
+            for i in 0..rows {
+                let words: Vec<&str> = lists.iter().map(|texts| texts[i].as_str()).collect();
+                if !known.insert(words) {
                     continue;
                 }
                 let mut place = vec![0; self.spec.axes.len()];
@@ -196,7 +198,8 @@ impl<'a> Templates<'a> {
             None => unreachable!("it was just put there"),
         };
         for fast in &self.fast {
-            fast.set(scene, fast.numbers[place[fast.axis]])?;
+            let number = fast.values.number(place[fast.axis]);
+            fast.set(scene, number.unwrap_or(f64::NAN))?;
         }
         match &scene.load {
             Load::Strike(strike) => Ok((&scene.target, strike, &scene.settings)),
@@ -263,9 +266,9 @@ fn contacts_only(found: &str) -> SceneError {
 fn fast<'a>(spec: &'a Spec, axis: usize, column: &'a Column) -> Option<Fast<'a>> {
     let name = column.name();
     let &(_, plain, range, _) = PLAIN.iter().find(|p| p.0 == name)?;
-    let Values::Numbers(numbers) = &column.values else {
+    if matches!(column.values, Values::Texts(_)) {
         return None;
-    };
+    }
     if matches!(plain, Plain::BallDiameter | Plain::BallDensity) && !always_ball(spec) {
         return None;
     }
@@ -285,7 +288,7 @@ fn fast<'a>(spec: &'a Spec, axis: usize, column: &'a Column) -> Option<Fast<'a>>
         plain,
         range,
         name,
-        numbers,
+        values: &column.values,
     })
 }
 
