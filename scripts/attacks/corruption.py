@@ -1,7 +1,8 @@
-"""Damaged kernel tables, shards and journals: refused, or the same numbers as before.
+"""Damaged kernel tables, shards, journals and parts of sweeps: refused, or the same numbers as before.
 
 A table is damaged anywhere, in what its seal covers (metadata, attributes, chunk index), or in the seal; an impact
 that reads it and `table info` are run. A shard and the journals of a build and of a sweep are damaged and gone on with.
+A part of a sweep is damaged and merged: in Parquet it is refused; the numbers of HDF5 have no sums, there it ends well.
 """
 
 import os
@@ -162,6 +163,34 @@ def journals(folder):
     return [shards, builds, sweeps]
 
 
+def parts(folder):
+    at = lambda name: os.path.join(folder, name)
+    sweep, merged = write(at("s.toml"), SWEEP), at("merged.h5")
+    os.mkdir(at("parts"))
+    tallies = []
+    for ending in ("h5", "parquet"):
+        part = os.path.join(at("parts"), f"1.{ending}")
+        compute = ["sweep", sweep, "--shard", "1/1", "-o", part]
+        if "built without" in run(compute).err:
+            print("    the program was built without Parquet")
+            continue
+        merge = ["sweep", "merge", at("parts"), "-o", merged, "--force"]
+        well(merge)
+        truth = digest(merged)
+        with open(part, "rb") as file:
+            good = file.read()
+        tally, choice = Tally(f"parts damaged, {ending}"), rng(f"parts {ending}")
+        for _ in range(tries(200)):
+            content, note = damaged(good, choice)
+            write(part, content)
+            judged(tally, run(merge), ending == "h5" or digest(merged) == truth, note)
+            gone(merged)
+        gone(part)
+        tally.show()
+        tallies.append(tally)
+    return tallies
+
+
 def gone(*paths):
     for path in paths:
         if os.path.exists(path):
@@ -199,4 +228,4 @@ def journal_of_sweep(arguments, output):
 
 
 if __name__ == "__main__":
-    finish(tables(fresh("corruption")) + journals(fresh("journals")))
+    finish(tables(fresh("corruption")) + journals(fresh("journals")) + parts(fresh("parts")))
