@@ -1,7 +1,7 @@
 //! `hertzlamb demo`: the paper's case from kernels to picture, and the waves under a ball.
 
 use crate::failure::{Failure, print, say};
-use crate::impact_command::open_table;
+use crate::kernels::open_table;
 use crate::paper_command;
 use crate::progress::Bar;
 use crate::tabulate;

@@ -1,32 +1,20 @@
 //! `hertzlamb impact`: one scene.
 
 use crate::failure::{Failure, print, say};
+use crate::kernels::Kernels;
 use crate::memory::MemoryLimit;
 use crate::overwrite::Overwrite;
 use crate::progress::Bar;
 use crate::report::text_report;
-use clap::{Args, ValueEnum};
+use clap::Args;
 use formats::{inputs, json_report, read_scene, stage_results, stage_results_csv};
-use impact::{Allowance, Forecast, KernelChoice, simulate_within};
-use lookup::TableFile;
+use impact::{Allowance, Forecast, simulate_within};
 use output::{CSV, HDF5, Output, Role, Staged};
-use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 /// An impact that takes longer says how far it is.
 const PATIENCE: Duration = Duration::from_secs(1);
-
-/// Where the kernels of the fields come from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Kernel {
-    /// Computed for each probe, no table.
-    Direct,
-    /// Looked up in the table given with --table.
-    Table,
-    /// The table or computed, by the estimated cost and error of both.
-    Auto,
-}
 
 #[derive(Debug, Args)]
 #[command(
@@ -35,12 +23,8 @@ enum Kernel {
 pub(crate) struct Arguments {
     /// Scene file (TOML, see data-schema/scene.md).
     scene: PathBuf,
-    /// Kernel table for the fields at probes.
-    #[arg(long, value_name = "FILE")]
-    table: Option<PathBuf>,
-    /// Where the kernels of the fields come from.
-    #[arg(long, value_enum, default_value_t = Kernel::Auto)]
-    kernel: Kernel,
+    #[command(flatten)]
+    kernels: Kernels,
     /// Results file (HDF5, see data-schema/results.md).
     #[arg(short, long, value_name = "OUT.h5")]
     output: Option<PathBuf>,
@@ -60,7 +44,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let start = Instant::now();
     let scene = read_scene(&arguments.scene).map_err(Failure::input)?;
     let [output, csv] = outputs(arguments)?;
-    let kernels = kernels(arguments)?;
+    let kernels = arguments.kernels.choice()?;
     let progress = Bar::after(PATIENCE);
     let allowance = Allowance {
         memory_bytes: arguments.memory.bytes(),
@@ -92,8 +76,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
 fn outputs(arguments: &Arguments) -> Result<[Option<Output>; 2], Failure> {
     let wanted = [(&arguments.output, HDF5), (&arguments.csv, CSV)];
     let mut read = inputs(&arguments.scene).map_err(Failure::input)?;
-    let table = arguments.table.iter();
-    read.extend(table.map(|table| Role::new("the kernel table", table)));
+    read.extend(arguments.kernels.inputs());
     let mut claimed = [None, None];
     for (place, (path, ending)) in claimed.iter_mut().zip(wanted) {
         if let Some(path) = path {
@@ -120,24 +103,4 @@ fn announce(forecast: &Forecast) -> bool {
         ));
     }
     true
-}
-
-fn kernels(arguments: &Arguments) -> Result<KernelChoice, Failure> {
-    let table = match &arguments.table {
-        Some(path) => Some(Arc::new(open_table(path)?)),
-        None => None,
-    };
-    match (arguments.kernel, table) {
-        (Kernel::Table, None) => Err(Failure::input(
-            "--kernel table needs a table: give --table FILE, made with hertzlamb tabulate",
-        )),
-        (Kernel::Direct, _) | (Kernel::Auto, None) => Ok(KernelChoice::Direct),
-        (Kernel::Table, Some(table)) => Ok(KernelChoice::Table(table)),
-        (Kernel::Auto, Some(table)) => Ok(KernelChoice::Auto(table)),
-    }
-}
-
-/// The table at `path`.
-pub(crate) fn open_table(path: &Path) -> Result<TableFile, Failure> {
-    TableFile::open(path).map_err(Failure::input)
 }

@@ -6,6 +6,7 @@ mod demo;
 mod failure;
 mod impact_command;
 mod interrupt;
+mod kernels;
 mod materials;
 mod memory;
 mod overwrite;
@@ -17,6 +18,7 @@ mod report;
 mod sweep;
 mod sweep_parts;
 mod sweep_plan;
+mod sweep_report;
 mod table;
 mod tabulate;
 

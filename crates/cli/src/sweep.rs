@@ -2,20 +2,21 @@
 
 use crate::failure::{Failure, print, say};
 use crate::interrupt;
+use crate::kernels::Kernels;
 use crate::memory::MemoryLimit;
 use crate::overwrite::Overwrite;
 use crate::progress::Bar;
 use crate::sweep_parts::{self, Action};
 use crate::sweep_plan;
+use crate::sweep_report::{Report, Tally};
 use clap::Args;
 use formats::parts::check_complete;
 use formats::sweep::{
-    Block, Blocks, Fields, JournalError, Kept, Precision, Selection, Shard, Spec, SweepError,
-    check_rows, is_computed, print_csv, run_rows, stage_csv, stage_rows,
+    Blocks, JournalError, Kept, Precision, Selection, Shard, Spec, SweepError, check_rows,
+    is_computed, print_csv, run_rows, stage_csv, stage_rows,
 };
-use formats::{Existing, Output, OutputError, QUANTITIES};
-use output::{CSV, Fault, Role, Staged, apart, behind, is_standard};
-use serde::Serialize;
+use formats::{Existing, Output, OutputError};
+use output::{CSV, Role, Staged, apart, behind, is_standard};
 use std::io::{BufWriter, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -27,6 +28,7 @@ const EXAMPLES: &str = "Examples:
   hertzlamb sweep scenes/sweep.toml -o sweep.h5 --csv sweep.csv
   hertzlamb sweep scenes/sweep.toml --plan --json
   hertzlamb sweep scenes/sweep.toml --shard 2/4 --skip-complete -o out/2.h5
+  hertzlamb sweep scenes/sweep-probes.toml --table kernels.h5 -o probed.h5
   hertzlamb sweep status out --missing
   hertzlamb sweep merge out -o sweep.h5
   hertzlamb sweep scenes/sweep.toml -o sweep.parquet
@@ -58,6 +60,8 @@ pub(crate) struct Run {
     /// Also write the rows as text; - is standard output.
     #[arg(long, value_name = "OUT.csv")]
     csv: Option<PathBuf>,
+    #[command(flatten)]
+    kernels: Kernels,
     /// Compute part I of N into the output, which is then a part for `hertzlamb sweep merge`.
     #[arg(long, value_name = "I/N")]
     shard: Option<Shard>,
@@ -99,29 +103,6 @@ fn range(text: &str) -> Result<Range<usize>, String> {
     Ok(start..end)
 }
 
-/// The JSON object of `sweep --json`.
-#[derive(Debug, Serialize)]
-struct Report<'a> {
-    output: &'a Path,
-    csv: Option<&'a Path>,
-    shape: Vec<usize>,
-    rows: usize,
-    /// Of a part.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    first_row: Option<usize>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    shard: Option<String>,
-    sweep_rows: usize,
-    sweep_sha256: String,
-    resumed: usize,
-    failed: usize,
-    /// Scenes in which a body yields, and in which one is expected to crack.
-    yielding: usize,
-    cracking: usize,
-    wall_s: f64,
-    computing_s: f64,
-}
-
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let run = &arguments.run;
     match (&arguments.action, &run.sweep, &run.output) {
@@ -151,7 +132,8 @@ fn compute(arguments: &Run, sweep: &Path, output: &Path) -> Result<(), Failure> 
         return Err(Failure::work("the sweep was stopped"));
     };
     let computing_s = start.elapsed().as_secs_f64();
-    let tally = Tally::of(&kept).map_err(|fault| OutputError::writing(&outputs.part, fault))?;
+    let tally =
+        Tally::of(&spec, &kept).map_err(|fault| OutputError::writing(&outputs.part, fault))?;
     if let Some((row, reason)) = &tally.first {
         say(format!(
             "warning: {} of {} scenes failed, the first in row {row} (rows count from 0): {reason}",
@@ -176,6 +158,7 @@ fn compute(arguments: &Run, sweep: &Path, output: &Path) -> Result<(), Failure> 
         failed: tally.failed,
         yielding: tally.yielding,
         cracking: tally.cracking,
+        looked_up: tally.looked_up,
         wall_s: start.elapsed().as_secs_f64(),
         computing_s,
     };
@@ -193,9 +176,10 @@ fn compute(arguments: &Run, sweep: &Path, output: &Path) -> Result<(), Failure> 
 
 /// The sweep, and what of its results is written.
 fn spec(arguments: &Run, sweep: &Path) -> Result<Spec, Failure> {
-    let mut spec = Spec::from_file(sweep).map_err(Failure::input)?;
+    let spec = Spec::from_file(sweep).map_err(Failure::input)?;
+    let mut spec = arguments.kernels.with_fields(spec)?;
     if let Some(names) = &arguments.columns {
-        spec.fields = Fields::of_names(names, Precision::Double).map_err(Failure::input)?;
+        spec.fields = spec.fields.only(names).map_err(Failure::input)?;
     }
     if arguments.float32 {
         spec.fields.precision = Precision::Single;
@@ -222,46 +206,6 @@ fn complete(arguments: &Run, output: &Path) -> Result<(), Failure> {
         "complete       {}, nothing to do",
         output.display()
     ))
-}
-
-/// What is counted over all rows.
-#[derive(Debug, Default)]
-struct Tally {
-    rows: usize,
-    failed: usize,
-    first: Option<(usize, String)>,
-    yielding: usize,
-    cracking: usize,
-}
-
-impl Tally {
-    fn of(rows: &impl Blocks) -> Result<Self, Fault> {
-        let mut tally = Self::default();
-        rows.each(&mut |block| {
-            tally.rows += block.numbers.len();
-            tally.failed += block.failures.len();
-            tally.first = tally
-                .first
-                .take()
-                .or_else(|| block.failures.first().cloned());
-            tally.yielding += beyond(block, "yield_onset");
-            tally.cracking += beyond(block, "cone_crack_onset");
-            Ok(())
-        })?;
-        Ok(tally)
-    }
-}
-
-/// Scenes in which a ratio to what the bodies bear is above 1.
-fn beyond(block: &Block, name: &str) -> usize {
-    let place = QUANTITIES.iter().position(|quantity| quantity.name == name);
-    place.map_or(0, |k| {
-        block
-            .numbers
-            .iter()
-            .filter(|numbers| numbers[k] > 1.0)
-            .count()
-    })
 }
 
 /// Computes the rows; what is done is kept from moment to moment.
@@ -338,6 +282,7 @@ impl Outputs {
         }
         let mut inputs = vec![Role::new("the sweep", sweep)];
         inputs.extend(spec.inputs().iter().cloned());
+        inputs.extend(arguments.kernels.inputs());
         apart(&outputs, &inputs)?;
         let claim = |path: &Path| Output::claim(path, Existing::KeepUnlessSame);
         let (results, csv) = (claim(output)?, csv.map(claim).transpose()?);
@@ -400,42 +345,5 @@ fn print_rows(spec: &Spec, blocks: &impl Blocks) -> Result<(), Failure> {
             Err(Failure::unprintable(error))
         }
         Ok(()) | Err(_) => Ok(()),
-    }
-}
-
-impl Report<'_> {
-    fn text(&self, spec: &Spec) -> String {
-        let axes: Vec<String> = spec
-            .axes
-            .iter()
-            .map(|axis| format!("{} ({})", axis.name, axis.len))
-            .collect();
-        let beyond = match (self.yielding, self.cracking) {
-            (0, 0) => String::new(),
-            (yielding, cracking) => format!(
-                "\nnot elastic    {yielding} yield (yield_onset above 1), {cracking} may crack (cone_crack_onset above 1)"
-            ),
-        };
-        let part = self.first_row.map_or_else(String::new, |first| {
-            let shard = self
-                .shard
-                .as_ref()
-                .map_or_else(String::new, |s| format!("shard {s}: "));
-            format!(
-                "\npart           {shard}rows {first}:{} of {}",
-                first + self.rows,
-                self.sweep_rows
-            )
-        });
-        format!(
-            "axes           {}{part}\nscenes         {}, {} failed, {} resumed{beyond}\ntime           {:.2} s, {:.2} s of it computing\nwritten        {}",
-            axes.join(" x "),
-            self.rows,
-            self.failed,
-            self.resumed,
-            self.wall_s,
-            self.computing_s,
-            self.output.display()
-        )
     }
 }

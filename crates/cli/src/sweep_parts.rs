@@ -1,6 +1,7 @@
 //! `hertzlamb sweep status` and `merge`: what a folder of parts has and lacks, and all of it in one file.
 
 use crate::failure::{Failure, print, say};
+use crate::kernels::Kernels;
 use crate::overwrite::Overwrite;
 use clap::Subcommand;
 use formats::parts::{Parts, PartsError};
@@ -19,6 +20,8 @@ pub(crate) enum Action {
         /// The sweep file; that of most parts otherwise.
         #[arg(long, value_name = "SWEEP.toml")]
         sweep: Option<PathBuf>,
+        #[command(flatten)]
+        kernels: Kernels,
         /// Into how many shards it is divided; as the parts say otherwise.
         #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
         shards: Option<u32>,
@@ -52,12 +55,16 @@ pub(crate) fn run(action: &Action) -> Result<(), Failure> {
         Action::Status {
             folder,
             sweep,
+            kernels,
             shards,
             missing,
             json,
         } => {
-            let spec = sweep.as_deref().map(Spec::from_file).transpose();
-            let spec = spec.map_err(Failure::input)?;
+            let spec = sweep.as_deref().map(|path| {
+                let spec = Spec::from_file(path).map_err(Failure::input)?;
+                kernels.with_fields(spec)
+            });
+            let spec = spec.transpose()?;
             let parts = Parts::in_folder(folder, spec.as_ref()).map_err(failure)?;
             let shards = shards
                 .map(|count| count as usize)

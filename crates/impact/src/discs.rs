@@ -57,6 +57,11 @@ impl Discs {
         }
     }
 
+    /// The smallest radius over the largest.
+    pub(crate) fn smallest(&self) -> f64 {
+        self.radii[self.radii.len() - 1]
+    }
+
     /// How many a point takes about, of kernels that are computed.
     pub(crate) fn likely_computed(radius: PressureRadius, tolerance: f64) -> f64 {
         let choices = Self::computed(radius, tolerance, &[]);

@@ -4,7 +4,7 @@ use crate::excitation::{Excitation, PressureRadius};
 use contact::plan::fixed_disc_m;
 use contact::validity::Checked;
 use contact::{
-    Collision, ContactError, Exact, HalfSpace, Model, Results, Settings, Solved, Solver,
+    Collision, ContactError, Exact, HalfSpace, Model, Responses, Results, Settings, Solved, Solver,
     StaticShare, Striker,
 };
 use std::ops::Deref;
@@ -62,6 +62,46 @@ impl Run {
     }
 }
 
+/// A contact solved, and the excitation that it is.
+pub(crate) struct Struck {
+    pub(crate) solved: Solved,
+    pub(crate) results: Results,
+    pub(crate) excitation: Excitation,
+}
+
+/// Solves a contact with a solver's responses.
+pub(crate) fn struck<S: Responses>(
+    solver: &mut Solver<'_, S>,
+    half_space: &HalfSpace,
+    collision: &Collision,
+    settings: &Settings,
+) -> Result<Struck, ContactError> {
+    collision.check_step(settings)?;
+    let (solved, history) = solver.solve_with_history(collision, settings)?;
+    let radiated = solver.radiated(collision, settings, &solved)?;
+    let results = Results::new(collision, settings, &solved, radiated).checked()?;
+    let radius = match fixed_disc_m(solved.plan.model, settings, collision) {
+        Some(radius_m) => PressureRadius::Fixed(radius_m),
+        None => PressureRadius::Following {
+            largest_m: results.disc_radius_m,
+            largest_n: results.peak_force_n,
+        },
+    };
+    let excitation = Excitation::of_contact(
+        half_space,
+        radius,
+        history,
+        collision.units(),
+        results.contact_time_s,
+        solved.error,
+    )?;
+    Ok(Struck {
+        solved,
+        results,
+        excitation,
+    })
+}
+
 impl Impact {
     /// With the default settings: model `auto` at a tolerance of 1e-4.
     #[must_use]
@@ -88,11 +128,12 @@ impl Impact {
     pub fn solve(&self) -> Result<Run, ContactError> {
         let settings = &self.settings;
         let collision = Collision::new(&self.half_space, &self.striker, self.velocity_m_s);
-        collision.check_step(settings)?;
         let mut solver = Solver::new(&Exact);
-        let (solved, history) = solver.solve_with_history(&collision, settings)?;
-        let radiated = solver.radiated(&collision, settings, &solved)?;
-        let results = Results::new(&collision, settings, &solved, radiated).checked()?;
+        let Struck {
+            solved,
+            results,
+            excitation,
+        } = struck(&mut solver, &self.half_space, &collision, settings)?;
         let model = solved.plan.model;
         let mut warnings = Checked {
             half_space: &self.half_space,
@@ -105,21 +146,6 @@ impl Impact {
         }
         .warnings();
         warnings.extend(self.counted_twice(&mut solver, &collision, &solved, &results));
-        let radius = match fixed_disc_m(model, settings, &collision) {
-            Some(radius_m) => PressureRadius::Fixed(radius_m),
-            None => PressureRadius::Following {
-                largest_m: results.disc_radius_m,
-                largest_n: results.peak_force_n,
-            },
-        };
-        let excitation = Excitation::of_contact(
-            &self.half_space,
-            radius,
-            history,
-            collision.units(),
-            results.contact_time_s,
-            solved.error,
-        )?;
         Ok(Run {
             solved,
             results,

@@ -2,11 +2,14 @@
 
 use crate::error::FieldsError;
 use crate::excitation::Excitation;
+use crate::grid::Grid;
+use crate::kernels::KernelSource;
 use crate::quantity::{Origin, Quantity};
 use crate::rate_loads::Order;
-use crate::rates::{Motion, Rates};
+use crate::rates::{Motion, Rates, Resolved};
 use crate::sampled::{Point, Sampled};
 use crate::scene::Scene;
+use crate::watch::Watch;
 
 /// The fields of a scene at any point.
 pub(crate) struct Observer<'a> {
@@ -26,9 +29,46 @@ pub(crate) struct Observed {
     pub(crate) more: Vec<(Vec<f64>, f64)>,
 }
 
+/// What fields at points are made of.
+#[derive(Clone, Copy)]
+pub(crate) struct Asked<'a> {
+    pub(crate) scene: &'a Scene,
+    pub(crate) excitation: &'a Excitation,
+    pub(crate) source: &'a KernelSource,
+    pub(crate) grid: &'a Grid,
+    /// The force in N at the samples of the grid.
+    pub(crate) force_n: &'a [f64],
+    /// Samples at which the fields are wanted, ascending.
+    pub(crate) wanted: &'a [usize],
+    /// What becomes of samples of rates that cells do not resolve.
+    pub(crate) resolved: Resolved,
+    /// Who is told of each point.
+    pub(crate) watch: &'a dyn Watch,
+}
+
 impl<'a> Observer<'a> {
+    /// Of all that is asked for.
+    pub(crate) fn of(asked: Asked<'a>) -> Result<Self, FieldsError> {
+        let Asked {
+            scene,
+            excitation,
+            source,
+            grid,
+            force_n,
+            wanted,
+            resolved,
+            watch,
+        } = asked;
+        let tolerance = scene.settings.tolerance;
+        let sampled = Sampled::new(excitation, source, grid, force_n, wanted, tolerance)?;
+        Self::new(scene, excitation, sampled.watched(watch), |order| {
+            let of = (excitation, source, grid);
+            Rates::new(of, wanted, (order, resolved), tolerance)
+        })
+    }
+
     /// Of a scene whose fields are sampled; `rates` makes the rates of an order at the same samples.
-    pub(crate) fn new(
+    fn new(
         scene: &'a Scene,
         excitation: &'a Excitation,
         sampled: Sampled<'a>,

@@ -165,10 +165,10 @@ impl<'a> Sampled<'a> {
         let computed = matches!(self.source, KernelSource::Direct(_));
         let near = computed && count > 1 && NEAR / (r * r + z * z) > self.tolerance;
         let served = |&choice: &usize| {
-            let radii = &self.choices[choice].radii;
-            let smallest = radii[radii.len() - 1];
+            let discs = &self.choices[choice];
+            let smallest = discs.smallest();
             let reached = r <= smallest * reach[0] && z <= smallest * reach[1];
-            reached && !(near && radii.len() == 1)
+            reached && !(near && discs.radii.len() == 1)
         };
         let found: Vec<usize> = (0..count).filter(served).collect();
         match (found.is_empty(), computed) {

@@ -9,16 +9,15 @@ use crate::forecast::{Allowance, Forecast, TooMuch};
 use crate::grid::{Grid, TooManySamples, Wanted};
 use crate::impact::Impact;
 use crate::kernels::KernelSource;
-use crate::observer::Observer;
+use crate::observer::{self, Observer};
 use crate::outcome::{
     Cause, FieldsUsed, KernelsUsed, Outcome, RecordResults, Series, StrikerSeries,
 };
 use crate::plausible::doubts;
 use crate::probes::{ProbeFields, SectionFields, at_probes, frames, on_section};
 use crate::projection::Projection;
-use crate::rates::{Rates, Resolved};
+use crate::rates::Resolved;
 use crate::record::ForceRecord;
-use crate::sampled::Sampled;
 use crate::scene::{Load, Scene, Strike};
 use crate::source::{Chosen, KernelChoice, SourceError, choose_source};
 use crate::watch::Watch;
@@ -244,19 +243,16 @@ impl<'a> Computed<'a> {
         let Chosen { source, reason } = chosen;
         let scene = asked.scene;
         asked.allowance.watch.points(scene.points());
-        let tolerance = scene.settings.tolerance;
-        let observer = |wanted: &[usize], resolved: Resolved| {
-            let (excitation, grid) = (self.excitation, &self.grid);
-            let sampled =
-                Sampled::new(excitation, &source, grid, &self.force_n, wanted, tolerance)?;
-            let sampled = sampled.watched(asked.allowance.watch);
-            Observer::new(scene, excitation, sampled, |order| {
-                Rates::new(
-                    (excitation, &source, grid),
-                    wanted,
-                    (order, resolved),
-                    tolerance,
-                )
+        let observer = |wanted, resolved| {
+            Observer::of(observer::Asked {
+                scene,
+                excitation: self.excitation,
+                source: &source,
+                grid: &self.grid,
+                force_n: &self.force_n,
+                wanted,
+                resolved,
+                watch: asked.allowance.watch,
             })
         };
         let mut convolution = Method::Direct;
@@ -268,14 +264,13 @@ impl<'a> Computed<'a> {
             self.probes = Some(found);
         }
         if let Some(section) = &scene.section {
-            let shown = frames(section, self.force_n.len());
+            let at = frames(section, self.force_n.len());
             let (wanted, shown) = if scene.peaks {
-                (all, shown)
+                (&all, at.clone())
             } else {
-                let places = (0..shown.len()).collect();
-                (shown, places)
+                (&at, (0..at.len()).collect())
             };
-            let observer = observer(&wanted, Resolved::Estimated)?;
+            let observer = observer(wanted, Resolved::Estimated)?;
             let found = on_section(&observer, &scene.quantities, (section, &shown), scene.peaks)?;
             convolution = observer.sampled.method();
             self.section = Some(found);

@@ -66,6 +66,9 @@ pub enum KernelChoice {
     Table(Arc<dyn Tables>),
     /// A table's or computed, by the estimated cost and error of both.
     Auto(Arc<dyn Tables>),
+    /// A table's where its estimated error is within the tolerance, else computed: what a row of a sweep has depends on
+    /// the row alone, not on the threads that share the work.
+    Within(Arc<dyn Tables>),
 }
 
 /// Kernels that could not be had.
@@ -105,9 +108,9 @@ pub(crate) fn choose_source(
     if points.is_empty() {
         return Ok(None);
     }
-    let medium = excitation.medium();
+    let (medium, tolerance) = (excitation.medium(), scene.settings.tolerance);
     let direct = |reason: String| -> Result<Option<Chosen>, SourceError> {
-        let tolerance = (1e-3 * scene.settings.tolerance).clamp(1e-12, 1e-8);
+        let tolerance = (1e-3 * tolerance).clamp(1e-12, 1e-8);
         let source = KernelSource::direct(medium, tolerance)?;
         Ok(Some(Chosen { source, reason }))
     };
@@ -116,17 +119,34 @@ pub(crate) fn choose_source(
         Some(Chosen { source, reason })
     };
     let radius = excitation.units().disc_radius_m;
-    let farthest = points.iter().fold([0.0_f64; 2], |far, &(r_m, z_m)| {
-        [far[0].max(r_m / radius), far[1].max(z_m / radius)]
-    });
+    let farthest = farthest(&points, radius);
     let load = |tables: &Arc<dyn Tables>| {
+        // as far as the smallest disc that stands for the load sees the places
+        let smallest = Discs::looked_up(excitation.radius())[0].smallest();
         tables
-            .part(medium.poisson_ratio(), farthest)
+            .part(medium.poisson_ratio(), farthest.map(|far| far / smallest))
             .map_err(SourceError::Table)
     };
     match kernels {
         KernelChoice::Direct => direct("asked for, or no table is given".to_owned()),
         KernelChoice::Table(tables) => Ok(looked_up(load(tables)?, "asked for".to_owned())),
+        KernelChoice::Within(tables) => {
+            let refusal = tables.refusal(medium.poisson_ratio(), farthest);
+            if let Some(outside) = refusal.map_err(SourceError::Table)? {
+                return direct(format!("{outside}: computed"));
+            }
+            let table = load(tables)?;
+            match table_error(&table, excitation, &points) {
+                Err(outside) => direct(format!("{outside}: computed")),
+                Ok(error) if error > tolerance => direct(format!(
+                    "the table's error {error:.1e} is above the tolerance {tolerance:.1e}: computed"
+                )),
+                Ok(error) => Ok(looked_up(
+                    table,
+                    format!("the table's error is {error:.1e}: looked up"),
+                )),
+            }
+        }
         KernelChoice::Auto(tables) => {
             let cells = Wanted::of(scene).cells(excitation);
             let count = scene.points();
@@ -147,7 +167,6 @@ pub(crate) fn choose_source(
                 Err(outside) => return direct(format!("{outside}: computed")),
                 Ok(error) => error,
             };
-            let tolerance = scene.settings.tolerance;
             if error > tolerance && cost_s <= DEAR_S {
                 direct(format!(
                     "{cost}, and the table's error {error:.1e} is above the tolerance {tolerance:.1e}: computed"
@@ -173,6 +192,13 @@ fn places(scene: &Scene) -> Vec<(f64, f64)> {
         (0..5).flat_map(move |i| (0..5).map(move |j| at(i, j)))
     });
     probes.chain(section).collect()
+}
+
+/// The largest r and z of some places, in radii.
+fn farthest(places: &[(f64, f64)], radius: f64) -> [f64; 2] {
+    places.iter().fold([0.0_f64; 2], |far, &(r_m, z_m)| {
+        [far[0].max(r_m / radius), far[1].max(z_m / radius)]
+    })
 }
 
 /// Largest estimated error at some places, over the largest static field of its kind there.

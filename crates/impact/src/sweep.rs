@@ -1,5 +1,10 @@
-//! Many contacts, without histories or fields: what a sweep computes.
+//! Many contacts, without histories: what a sweep computes. Where a scene has probes, their peaks come with it.
 
+use crate::finite::NotFinite;
+use crate::impact::{Struck, struck};
+use crate::peaks::{ProbePeaks, at_probes};
+use crate::scene::{Load, Scene};
+use crate::source::KernelChoice;
 use contact::{Collision, ContactError, Model, Results, Settings, Solver, Tabulated};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -31,6 +36,59 @@ pub fn collide(
     })
 }
 
+/// A contact with the peaks of its fields, or with why it has none.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Observed {
+    /// The contact.
+    pub collided: Collided,
+    /// The peaks at the probes.
+    pub peaks: Result<ProbePeaks, String>,
+}
+
+/// The contact of a scene as [`crate::simulate()`] solves it, with the peaks of the fields at its probes.
+///
+/// # Errors
+/// Why the contact failed, in one sentence; a failure of the fields alone is part of what is returned.
+pub fn observe(
+    solver: &mut Solver<'_, Tabulated>,
+    scene: &Scene,
+    kernels: &KernelChoice,
+) -> Result<Observed, String> {
+    let Load::Strike(strike) = &scene.load else {
+        return Err("a force record has no contact".to_owned());
+    };
+    let (target, settings) = (&scene.target, &scene.settings);
+    let collision = Collision::new(target, &strike.striker, strike.velocity_m_s);
+    let Struck {
+        solved,
+        results,
+        excitation,
+    } = struck(solver, target, &collision, settings).map_err(|error| error.to_string())?;
+    let peaks = at_probes(scene, kernels, &excitation).and_then(|peaks| Ok(finite(peaks)?));
+    Ok(Observed {
+        collided: Collided {
+            model: solved.plan.model,
+            results,
+        },
+        peaks: peaks.map_err(|error| error.to_string()),
+    })
+}
+
+/// Passes on peaks that are numbers.
+fn finite(found: ProbePeaks) -> Result<ProbePeaks, NotFinite> {
+    let numbers = found
+        .peaks
+        .iter()
+        .flat_map(|p| [p.value, p.time_s, p.error]);
+    match numbers.into_iter().find(|number| !number.is_finite()) {
+        None => Ok(found),
+        Some(value) => Err(NotFinite {
+            quantity: "the peak of a field at a probe".to_owned(),
+            value,
+        }),
+    }
+}
+
 /// Rows that one thread takes at a time, at most.
 const GRAIN: usize = 256;
 /// Such portions for each thread at least, where there are rows enough: none waits long for the last one.
@@ -44,19 +102,38 @@ pub fn collide_rows<M: Default, E: ToString>(
     responses: &Tabulated,
     row: impl Fn(usize, &mut M) -> Result<(Collision, Settings), E> + Sync,
 ) -> Vec<Result<Collided, String>> {
+    in_parallel(rows, responses, |index, memory, solver| {
+        let (collision, settings) = row(index, memory).map_err(|error| error.to_string())?;
+        collide(solver, &collision, &settings).map_err(|error| error.to_string())
+    })
+}
+
+/// [`collide_rows`] of scenes, with the peaks at their probes.
+pub fn observe_rows<M: Default, E: ToString>(
+    rows: Range<usize>,
+    (responses, kernels): (&Tabulated, &KernelChoice),
+    row: impl Fn(usize, &mut M) -> Result<Scene, E> + Sync,
+) -> Vec<Result<Observed, String>> {
+    in_parallel(rows, responses, |index, memory, solver| {
+        let scene = row(index, memory).map_err(|error| error.to_string())?;
+        observe(solver, &scene, kernels)
+    })
+}
+
+fn in_parallel<M: Default, T: Send>(
+    rows: Range<usize>,
+    responses: &Tabulated,
+    row: impl Fn(usize, &mut M, &mut Solver<'_, Tabulated>) -> T + Sync,
+) -> Vec<T> {
     let end = rows.end;
     let grain = (rows.len() / (PORTIONS * rayon::current_num_threads())).clamp(1, GRAIN);
-    let grains: Vec<Vec<Result<Collided, String>>> = rows
+    let grains: Vec<Vec<T>> = rows
         .into_par_iter()
         .step_by(grain)
         .map(|from| {
             let (mut solver, mut memory) = (Solver::new(responses), M::default());
             (from..(from + grain).min(end))
-                .map(|index| {
-                    let (collision, settings) =
-                        row(index, &mut memory).map_err(|error| error.to_string())?;
-                    collide(&mut solver, &collision, &settings).map_err(|error| error.to_string())
-                })
+                .map(|index| row(index, &mut memory, &mut solver))
                 .collect()
         })
         .collect();

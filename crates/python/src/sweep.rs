@@ -179,6 +179,7 @@ impl Plan {
         let block = Block {
             start: 0,
             numbers: rows.to_vec(),
+            probed: Vec::new(),
             models: models.to_vec()?,
             failures,
         };

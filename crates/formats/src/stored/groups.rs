@@ -1,7 +1,6 @@
 //! Groups of rows of a Parquet file: nothing is decoded before its hash was compared.
 
 use super::part::Part;
-use crate::quantities::QUANTITIES;
 use crate::sweep::schema::{FAILURE, MODEL};
 use crate::sweep::{Block, Footer, NO_MODEL, Precision};
 use bytes::{Buf, Bytes};
@@ -86,10 +85,10 @@ fn block(
     let columns: Vec<_> = (quantities.par_iter())
         .map(|(_, quantity)| read(quantity.name)?.numbers(part.fields.precision))
         .collect::<Result<_, _>>()?;
-    let mut numbers = vec![[f64::NAN; QUANTITIES.len()]; rows];
+    let mut block = Block::blank(start, rows, part.fields.probed.len());
     for ((k, _), column) in quantities.iter().zip(&columns) {
-        for (row, &number) in numbers.iter_mut().zip(column) {
-            row[*k] = number;
+        for (row, &number) in column.iter().enumerate() {
+            block.set(row, *k, number);
         }
     }
     let models = read(MODEL.0)?.texts()?.into_iter().map(|name| {
@@ -103,19 +102,15 @@ fn block(
             .map(|model| model as u8)
             .ok_or_else(|| wrong("a model is not known"))
     });
-    let mut failures = Vec::new();
+    block.models = models.collect::<Result<_, _>>()?;
     let reasons = read(FAILURE.0)?.texts()?.into_iter();
     for (row, reason) in (start..).zip(reasons) {
         if let Some(reason) = reason {
-            failures.push((row, reason.as_utf8()?.to_owned()));
+            let reason = reason.as_utf8()?.to_owned();
+            block.failures.push((row, reason));
         }
     }
-    Ok(Block {
-        start,
-        numbers,
-        models: models.collect::<Result<_, _>>()?,
-        failures,
-    })
+    Ok(block)
 }
 
 /// A column of a group: for each row, whether it has a value, and these.

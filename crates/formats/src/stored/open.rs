@@ -3,8 +3,9 @@
 use super::error::ReadError;
 use super::file::{file_kind, open_hdf5, text_of};
 use super::kind::FileKind;
-use crate::quantities::QUANTITIES;
-use crate::sweep::{Fields, Precision};
+use crate::section::parse;
+use crate::sweep::schema::{PROBED_VERSION, TEXTS, part};
+use crate::sweep::{Described, Fields, Precision, stored_columns};
 use hdfread::{Dataset, Group, Kind, Number};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -191,20 +192,32 @@ impl Stored {
 
     /// Which results a group has as datasets of a shape, and how exactly.
     pub(super) fn fields(&self, group: &str, shape: &[usize]) -> Result<Fields, ReadError> {
-        let mut fields = Fields::default();
+        let mut fields = Fields::all(self.probed()?);
         let mut kinds = Vec::new();
-        fields.places.retain(|&k| {
-            let path = format!("{group}/{}", QUANTITIES[k].name);
+        let mut places = std::mem::take(&mut fields.places);
+        places.retain(|&k| {
+            let path = format!("{group}/{}", fields.named(k).name);
             let dataset = self.dataset(&path).filter(|found| found.shape() == shape);
             kinds.extend(dataset.as_ref().map(Dataset::kind));
             dataset.is_some()
         });
+        fields.places = places;
         if !kinds.is_empty() && kinds.iter().all(|&kind| kind == f32::KIND) {
             fields.precision = Precision::Single;
         } else if kinds.iter().any(|&kind| kind != f64::KIND) {
             return Err(self.damaged("its results are not of one precision"));
         }
         Ok(fields)
+    }
+
+    /// The columns of the probes of a sweep, or of a part of one.
+    fn probed(&self) -> Result<Vec<Described>, ReadError> {
+        let version = self.text(TEXTS[1])?;
+        if ![PROBED_VERSION, part::PROBED_VERSION].contains(&version.as_str()) {
+            return Ok(Vec::new());
+        }
+        let sweep = parse(&self.text(TEXTS[3])?).and_then(|sweep| stored_columns(&sweep));
+        sweep.map_err(|error| self.damaged(format!("its sweep cannot be read: {error}")))
     }
 
     /// Fails where the last number of a dataset of floats cannot be read: the file was cut short.

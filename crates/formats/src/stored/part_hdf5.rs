@@ -4,7 +4,6 @@ use super::error::ReadError;
 use super::kind::FileKind;
 use super::open::Stored;
 use super::part::Part;
-use crate::quantities::QUANTITIES;
 use crate::sweep::schema::{FAILED, FAILURE, FAILURES, MODEL, RESULTS, ROWS, SHA256, part};
 use crate::sweep::{BLOCK, Block, Blocks, Precision, Selection};
 use output::Fault;
@@ -85,12 +84,9 @@ impl Hdf5Part {
     fn block(&self, rows: Range<usize>) -> Result<Block, ReadError> {
         let length = self.part.selection.rows.len();
         let path = |name: &str| format!("{RESULTS}/{name}");
-        let mut block = Block {
-            start: self.part.selection.rows.start + rows.start,
-            numbers: vec![[f64::NAN; QUANTITIES.len()]; rows.len()],
-            models: self.stored.some(&path(MODEL.0), length, rows.clone())?,
-            failures: Vec::new(),
-        };
+        let start = self.part.selection.rows.start + rows.start;
+        let mut block = Block::blank(start, rows.len(), self.part.fields.probed.len());
+        block.models = self.stored.some(&path(MODEL.0), length, rows.clone())?;
         for (k, quantity) in self.part.fields.quantities() {
             let (path, rows) = (path(quantity.name), rows.clone());
             let column: Vec<f64> = match self.part.fields.precision {
@@ -100,8 +96,8 @@ impl Hdf5Part {
                     column.into_iter().map(f64::from).collect()
                 }
             };
-            for (row, number) in block.numbers.iter_mut().zip(column) {
-                row[k] = number;
+            for (row, number) in column.into_iter().enumerate() {
+                block.set(row, k, number);
             }
         }
         let indices = self.stored.some::<i32>(&path(FAILURE.0), length, rows)?;

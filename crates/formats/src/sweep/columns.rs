@@ -6,7 +6,6 @@ use super::blocks::Blocks;
 use super::fields::Precision;
 use super::spec::Spec;
 use crate::hdf::reserve;
-use crate::quantities::QUANTITIES;
 use hdf5::{Dataset, Group};
 use output::Fault;
 use std::collections::HashMap;
@@ -146,11 +145,13 @@ impl<'a> Columns<'a> {
             What::Number(k) => {
                 let width = self.spec.fields.width();
                 let mut bytes = Vec::with_capacity(width * block.numbers.len());
-                for (row, numbers) in rows.zip(&block.numbers) {
+                for (place, row) in rows.enumerate() {
+                    let number = block.number(place, k);
                     match self.spec.fields.precision {
-                        Precision::Double => bytes.extend(numbers[k].to_ne_bytes()),
+                        Precision::Double => bytes.extend(number.to_ne_bytes()),
                         Precision::Single => {
-                            bytes.extend(single(numbers[k], row, k)?.to_ne_bytes());
+                            let name = self.spec.fields.named(k).name;
+                            bytes.extend(single(number, row, name)?.to_ne_bytes());
                         }
                     }
                 }
@@ -163,10 +164,9 @@ impl<'a> Columns<'a> {
 }
 
 /// A number in single precision, where it has one.
-pub(super) fn single(number: f64, row: usize, k: usize) -> Result<f32, Fault> {
+pub(super) fn single(number: f64, row: usize, name: &str) -> Result<f32, Fault> {
     let rounded = number as f32;
     if rounded.is_infinite() && number.is_finite() {
-        let name = QUANTITIES[k].name;
         return Err(Fault::from(format!(
             "{name} = {number} in row {row} is outside [-3.4e38, 3.4e38] of single precision"
         )));

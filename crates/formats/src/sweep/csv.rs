@@ -117,7 +117,7 @@ fn lines(spec: &Spec, block: &Block, from: usize) -> String {
             }
         }
         for &k in &spec.fields.places {
-            let number = block.numbers[i][k];
+            let number = block.number(i, k);
             // a failed scene has empty fields
             if number.is_finite() {
                 let _ = match spec.fields.precision {

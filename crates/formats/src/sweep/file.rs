@@ -16,7 +16,7 @@ use output::{Existing, Fault, Output, OutputError, Staged};
 use std::path::Path;
 
 /// Name, unit and meaning.
-type Described = (&'static str, &'static str, &'static str);
+type Described<'a> = (&'a str, &'static str, &'a str);
 
 /// Writes the results of a sweep whose blocks are all there, in order.
 ///
@@ -65,7 +65,7 @@ pub(super) fn begin(path: &Path, spec: &Spec, make: &mut Make<'_>) -> Result<Fil
     let sha256 = spec.sha256();
     let values = [
         schema::FILE_TYPE,
-        schema::FORMAT_VERSION,
+        schema::version(&spec.fields),
         env!("CARGO_PKG_VERSION"),
         &spec.resolved,
         &sha256,
@@ -112,7 +112,7 @@ pub(super) fn count(file: &File, name: &str, count: usize) -> Result<(), hdf5::E
 }
 
 /// The columns of results, in the order of the file.
-pub(super) fn results(fields: &Fields) -> impl Iterator<Item = (Described, What)> {
+pub(super) fn results(fields: &Fields) -> impl Iterator<Item = (Described<'_>, What)> {
     let numbers = fields.quantities().map(|(k, quantity)| {
         let described = (quantity.name, quantity.unit, quantity.meaning);
         (described, What::Number(k))

@@ -3,6 +3,7 @@
 use super::axis::{Axis, Values};
 use super::schema;
 use contact::numbers::NUMBERS_REVISION;
+use impact::numbers::FIELDS_REVISION;
 use sha2::{Digest, Sha256};
 
 /// SHA-256 of the program's version, the revision of its numbers, the format, everything spelled out, the files that were read, and of axes whose
@@ -40,6 +41,15 @@ pub(super) fn fingerprint(resolved: &str, files: &[String], axes: &[Axis]) -> [u
             }
         }
     }
+    hash.finalize().into()
+}
+
+/// The same with fields whose kernels have an identity, and with the revision of their numbers.
+pub(super) fn with_fields(fingerprint: &[u8; 32], kernels: &str) -> [u8; 32] {
+    let mut hash = Sha256::new();
+    hash.update(fingerprint);
+    hash.update(FIELDS_REVISION.to_le_bytes());
+    hash.update(kernels.as_bytes());
     hash.finalize().into()
 }
 

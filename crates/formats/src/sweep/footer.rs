@@ -3,8 +3,10 @@
 //! It is found and checked without a reader of Parquet: that trusts what it reads.
 
 use super::fields::{Fields, Precision};
+use super::probed::stored_columns;
 use super::schema::{self, part};
 use super::shard::Selection;
+use crate::section::parse;
 use serde_json::Value;
 use sha2::{Digest, Sha256};
 use std::fs::File;
@@ -14,6 +16,19 @@ use std::path::Path;
 
 /// Version of the format: the first number changes when a reader of the old one would fail.
 pub const FORMAT_VERSION: &str = "1.0";
+/// Version of a file with probes.
+const PROBED_VERSION: &str = "1.1";
+
+/// Version of a file with these results.
+#[cfg(feature = "parquet")]
+pub(super) fn version(fields: &Fields) -> &'static str {
+    if fields.probed.is_empty() {
+        FORMAT_VERSION
+    } else {
+        PROBED_VERSION
+    }
+}
+
 /// How the file begins and ends.
 pub(crate) const MAGIC: &[u8; 4] = b"PAR1";
 /// How the text begins: with the type of the file, whichever it is, and the seal behind it.
@@ -94,7 +109,14 @@ impl Footer {
             shard => Some(shard.parse().ok()?),
         };
         let columns = text.get("columns")?.as_object()?;
-        let mut fields = Fields::default();
+        let sweep = string("sweep")?;
+        let version = string("format_version")?;
+        let probed = if version == PROBED_VERSION {
+            stored_columns(&parse(&sweep).ok()?).ok()?
+        } else {
+            Vec::new()
+        };
+        let mut fields = Fields::all(probed);
         fields.retain(|name| columns.contains_key(name));
         fields.precision = match count("bits")? {
             64 => Precision::Double,
@@ -104,8 +126,8 @@ impl Footer {
         let groups = text.get("row_groups")?.as_array()?.iter();
         Some(Self {
             file_type: string("file_type")?,
-            version: string("format_version")?,
-            sweep: string("sweep")?,
+            version,
+            sweep,
             sha256: string(schema::SHA256)?,
             sweep_rows: count(part::SWEEP_ROWS)?,
             selection: Selection {

@@ -1,7 +1,7 @@
 //! Finished blocks on disk, so that an interrupted sweep goes on where it stopped.
 //!
 //! A header (magic number, fingerprint of the sweep, first row and the one behind the last) and one record a block: first row, rows,
-//! length of the failures' text, the numbers, the models, the failures, and a hash of all that.
+//! length of the failures' text, the numbers, those that probes bring, the models, the failures, and a hash of all that.
 //! A record that is cut short or damaged ends the journal; what comes after is computed anew.
 
 use super::block::Block;
@@ -27,6 +27,8 @@ pub(super) struct Header {
     pub(super) fingerprint: [u8; 32],
     /// Rows of the sweep that it is to hold.
     pub(super) rows: Range<usize>,
+    /// Numbers that probes bring to a row.
+    pub(super) width: usize,
 }
 
 impl Header {
@@ -47,6 +49,8 @@ pub struct Journal {
     path: PathBuf,
     flushed: Instant,
     length: u64,
+    /// Numbers that probes bring to a row.
+    width: usize,
 }
 
 /// Where a journal has a block.
@@ -119,7 +123,7 @@ impl Journal {
         let found = start(&file).map_err(io)?;
         let (mut spans, mut length) = (Vec::new(), HEADER as u64);
         if found == header.bytes() {
-            (spans, length) = read_spans(&file, &header.rows).map_err(io)?;
+            (spans, length) = read_spans(&file, header).map_err(io)?;
             file.set_len(length).map_err(io)?;
             file.seek(SeekFrom::End(0)).map_err(io)?;
         } else {
@@ -145,6 +149,7 @@ impl Journal {
             path: path.to_owned(),
             flushed: Instant::now(),
             length,
+            width: header.width,
         };
         Ok((journal, spans))
     }
@@ -158,7 +163,7 @@ impl Journal {
         if start(&file).ok()? != header.bytes() {
             return None;
         }
-        let (spans, _) = read_spans(&file, &header.rows).ok()?;
+        let (spans, _) = read_spans(&file, header).ok()?;
         Some(spans.iter().map(|span| span.count).sum())
     }
 
@@ -184,7 +189,7 @@ impl Journal {
     pub(super) fn block(&self, span: &Span) -> Result<Block, Fault> {
         let mut file = &self.file;
         file.seek(SeekFrom::Start(span.place))?;
-        let found = read_block(&mut file, self.length - span.place);
+        let found = read_block(&mut file, self.length - span.place, self.width);
         let same = |block: &Block| (block.start, block.numbers.len()) == (span.start, span.count);
         found.map(|(block, _)| block).filter(same).ok_or_else(|| {
             let path = self.path.display();
@@ -208,12 +213,13 @@ fn start(file: &File) -> std::io::Result<Vec<u8>> {
 }
 
 /// The blocks of a journal that stands behind its header, and where the last good record ends.
-fn read_spans(file: &File, rows: &Range<usize>) -> std::io::Result<(Vec<Span>, u64)> {
+fn read_spans(file: &File, header: &Header) -> std::io::Result<(Vec<Span>, u64)> {
+    let (rows, width) = (&header.rows, header.width);
     let length = file.metadata()?.len();
     let mut reader = BufReader::new(file);
     let mut good = HEADER as u64;
     let mut spans: Vec<Span> = Vec::new();
-    while let Some((block, size)) = read_block(&mut reader, length - good) {
+    while let Some((block, size)) = read_block(&mut reader, length - good, width) {
         let (start, count) = (block.start, block.numbers.len());
         let end = start.checked_add(count);
         if start < rows.start || end.is_none_or(|end| end > rows.end) {
@@ -244,11 +250,13 @@ fn record(block: &Block) -> Vec<u8> {
         text.push_str(&format!("{row} {}\n", reason.replace('\n', " ")));
     }
     let rows = block.numbers.len();
-    let mut bytes = Vec::with_capacity(32 + rows * (8 * QUANTITIES.len() + 1) + text.len());
+    let mut bytes = Vec::with_capacity(
+        32 + rows * (8 * QUANTITIES.len() + 1) + 8 * block.probed.len() + text.len(),
+    );
     for number in [block.start, rows, text.len()] {
         bytes.extend((number as u64).to_le_bytes());
     }
-    for number in block.numbers.iter().flatten() {
+    for number in block.numbers.iter().flatten().chain(&block.probed) {
         bytes.extend(number.to_le_bytes());
     }
     bytes.extend(&block.models);
@@ -260,7 +268,7 @@ fn record(block: &Block) -> Vec<u8> {
 /// The next block and the length of its record; nothing at the end and after damage.
 ///
 /// `left` is what the file still has: no more memory is taken.
-fn read_block(reader: &mut impl Read, left: u64) -> Option<(Block, u64)> {
+fn read_block(reader: &mut impl Read, left: u64, width: usize) -> Option<(Block, u64)> {
     let mut bytes = vec![0; 24];
     reader.read_exact(&mut bytes).ok()?;
     let word = |bytes: &[u8], i: usize| {
@@ -269,7 +277,7 @@ fn read_block(reader: &mut impl Read, left: u64) -> Option<(Block, u64)> {
     };
     let (start, rows, text) = (word(&bytes, 0)?, word(&bytes, 1)?, word(&bytes, 2)?);
     let size = rows
-        .checked_mul(8 * QUANTITIES.len() as u64 + 1)?
+        .checked_mul(8 * (QUANTITIES.len() + width) as u64 + 1)?
         .checked_add(text)?;
     if rows == 0 || size.checked_add(32)? > left {
         return None;
@@ -277,7 +285,8 @@ fn read_block(reader: &mut impl Read, left: u64) -> Option<(Block, u64)> {
     let [start, rows, length] = [start, rows, size].map(usize::try_from);
     let (start, rows, length) = (start.ok()?, rows.ok()?, length.ok()?);
     start.checked_add(rows)?;
-    let numbers = rows * 8 * QUANTITIES.len();
+    let contacts = rows * 8 * QUANTITIES.len();
+    let numbers = contacts + rows * 8 * width;
     bytes.resize(24 + length, 0);
     reader.read_exact(&mut bytes[24..]).ok()?;
     let mut hash = [0; 8];
@@ -286,7 +295,8 @@ fn read_block(reader: &mut impl Read, left: u64) -> Option<(Block, u64)> {
         return None;
     }
     let body = &bytes[24..];
-    let row_numbers = body[..numbers].chunks_exact(8 * QUANTITIES.len());
+    let row_numbers = body[..contacts].chunks_exact(8 * QUANTITIES.len());
+    let probed = body[contacts..numbers].chunks_exact(8);
     let read = |chunk: &[u8], k: usize| word(chunk, k).map_or(f64::NAN, f64::from_bits);
     let failures = std::str::from_utf8(&body[numbers + rows..]).ok()?;
     let models = body[numbers..numbers + rows].to_vec();
@@ -295,6 +305,7 @@ fn read_block(reader: &mut impl Read, left: u64) -> Option<(Block, u64)> {
         numbers: row_numbers
             .map(|chunk| std::array::from_fn(|k| read(chunk, k)))
             .collect(),
+        probed: probed.map(|chunk| read(chunk, 0)).collect(),
         models,
         failures: failures
             .lines()

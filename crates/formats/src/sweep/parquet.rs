@@ -197,10 +197,14 @@ impl Column<'_> {
                 }
             }
             What::Number(k) => {
-                for (row, numbers) in rows.zip(&block.numbers[some.clone()]) {
+                for (place, row) in some.clone().zip(rows) {
+                    let number = block.number(place, k);
                     match spec.fields.precision {
-                        Precision::Double => cells.double(numbers[k]),
-                        Precision::Single => cells.single(single(numbers[k], row, k)?),
+                        Precision::Double => cells.double(number),
+                        Precision::Single => {
+                            let name = spec.fields.named(k).name;
+                            cells.single(single(number, row, name)?);
+                        }
                     }
                 }
             }

@@ -45,7 +45,10 @@ pub fn row_bytes(spec: &Spec) -> (usize, usize) {
         })
         .sum();
     let results = spec.fields.width() * spec.fields.places.len() + 1;
-    (8 + keys + results + 4, 8 * QUANTITIES.len() + 1)
+    (
+        8 + keys + results + 4,
+        8 * (QUANTITIES.len() + spec.fields.probed.len()) + 1,
+    )
 }
 
 /// Names of the columns of such a file.
@@ -65,7 +68,7 @@ fn begin<'a>(
     let sha256 = spec.sha256();
     let values = [
         part::FILE_TYPE,
-        part::FORMAT_VERSION,
+        part::version(&spec.fields),
         env!("CARGO_PKG_VERSION"),
         &spec.resolved,
         &sha256,

@@ -3,6 +3,7 @@
 use super::block::Block;
 use super::blocks::Blocks;
 use super::journal::{Header, Journal, JournalError, Span};
+use super::shard::BLOCK;
 use super::spec::Spec;
 use super::template::Templates;
 use crate::error::SceneError;
@@ -12,9 +13,6 @@ use std::ops::Range;
 use std::path::Path;
 use std::time::Instant;
 use thiserror::Error;
-
-/// Rows of a block at most.
-pub const BLOCK: usize = 32_768;
 
 /// Rows of the first block of a run; the following ones have as many as take [`BLOCK_S`].
 pub const FIRST_BLOCK: usize = 64;
@@ -70,9 +68,6 @@ pub struct Done {
     pub journal: Journal,
 }
 
-/// Distinct Poisson's ratios of targets up to which each has its own response.
-const FEW: usize = 256;
-
 /// Computes the rows of a range that the journal at `part` does not hold yet; no more than a block is in memory.
 ///
 /// The rows of another sweep are replaced where `existing` says so.
@@ -105,6 +100,7 @@ pub fn run_rows(
             let end = (start + size).min(gap.end);
             let began = Instant::now();
             let block = Block::compute(spec, &templates, &responses, (start, end), |row| row);
+            spec.check_kernels()?;
             size = next_size(end - start, began.elapsed().as_secs_f64(), BLOCK_S);
             spans.push(journal.append(&block)?);
             done += block.numbers.len();
@@ -210,6 +206,7 @@ pub fn compute_rows(
         let end = (done + size).min(count);
         let began = Instant::now();
         let block = Block::compute(spec, &templates, &responses, (done, end), row_of);
+        spec.check_kernels()?;
         size = next_size(end - done, began.elapsed().as_secs_f64(), WATCH_S);
         all.append(block);
         if !watch(end) && end < count {
@@ -252,18 +249,16 @@ fn header(spec: &Spec, rows: &Range<usize>) -> Header {
     Header {
         fingerprint: spec.fingerprint,
         rows: rows.clone(),
+        width: spec.fields.probed.len(),
     }
 }
 
 fn ratios(spec: &Spec) -> Ratios {
-    let many = spec.axes.iter().any(|axis| {
-        axis.len > FEW
-            && axis.columns.iter().any(|column| {
-                column.section == "target"
-                    && (column.key == "poisson_ratio" || column.key.ends_with("_speed_m_s"))
-            })
-    });
-    if many { Ratios::Many } else { Ratios::Few }
+    if spec.has_many_ratios() {
+        Ratios::Many
+    } else {
+        Ratios::Few
+    }
 }
 
 #[cfg(test)]

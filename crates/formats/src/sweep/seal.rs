@@ -1,7 +1,7 @@
 //! The text in the footer of a Parquet file as it is written, and its seal.
 
 use super::fields::Precision;
-use super::footer::{DIGITS, FORMAT_VERSION, Footer, TAIL, footer_of, seal_in, sum_without};
+use super::footer::{DIGITS, Footer, TAIL, footer_of, seal_in, sum_without, version};
 use super::schema::{self, part};
 use super::shard::Selection;
 use super::spec::Spec;
@@ -57,7 +57,7 @@ impl Footer {
         };
         Self {
             file_type: file_type.to_owned(),
-            version: FORMAT_VERSION.to_owned(),
+            version: version(&spec.fields).to_owned(),
             sweep: spec.resolved.clone(),
             sha256: spec.sha256(),
             sweep_rows: spec.rows(),

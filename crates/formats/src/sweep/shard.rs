@@ -1,10 +1,12 @@
 //! Some rows of a sweep.
 
-use super::run::BLOCK;
 use crate::error::SceneError;
 use std::fmt;
 use std::ops::Range;
 use std::str::FromStr;
+
+/// Rows of a block at most.
+pub const BLOCK: usize = 32_768;
 
 /// The I-th of N shards, written I/N.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

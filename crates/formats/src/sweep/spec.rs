@@ -6,8 +6,11 @@ use super::drawn::Drawn;
 use super::fields::Fields;
 use super::files::Files;
 use super::fingerprint::{fingerprint, hexadecimal};
+use super::kernels::Kernels;
+use super::probed::stored_columns;
 use super::random::Distribution;
 use super::schema::{LIST, SAMPLE};
+use super::shard::BLOCK;
 use crate::error::SceneError;
 use crate::section::{FINITE, POSITIVE, Section, parse};
 use crate::text::read_text;
@@ -33,6 +36,8 @@ pub struct Spec {
     pub(crate) fingerprint: [u8; 32],
     /// What of the results is written.
     pub fields: Fields,
+    /// Where the fields at probes have their kernels from, where they are asked for.
+    pub(crate) kernels: Option<Kernels>,
 }
 
 /// Rows of a sweep at most: a place in a file of them is counted exactly.
@@ -86,6 +91,7 @@ impl Spec {
             resolved,
             files,
             fields: Fields::default(),
+            kernels: None,
         })
     }
 
@@ -93,6 +99,7 @@ impl Spec {
     pub(crate) fn of_stored(resolved: &str, fingerprint: [u8; 32]) -> Result<Self, SceneError> {
         let table = parse(resolved)?;
         let axes = axes(&Section::root(&table))?;
+        let probed = stored_columns(&table)?;
         Ok(Self {
             scene: Table::new(),
             directory: PathBuf::new(),
@@ -100,7 +107,8 @@ impl Spec {
             resolved: resolved.to_owned(),
             files: Files::default(),
             fingerprint,
-            fields: Fields::default(),
+            fields: Fields::all(probed),
+            kernels: None,
         })
     }
 
@@ -127,6 +135,7 @@ impl Spec {
             axes,
             files,
             fields: Fields::default(),
+            kernels: None,
         })
     }
 
@@ -180,7 +189,8 @@ impl Spec {
             .filter(|values| !matches!(values, Values::Drawn(_)))
             .map(Values::len)
             .sum();
-        (RUN_BYTES + values * 8) as f64
+        let probed = 2 * BLOCK * self.fields.probed.len();
+        (RUN_BYTES + (values + probed) * 8) as f64
     }
 
     /// Number of scenes.

@@ -119,7 +119,7 @@ impl<'a> Templates<'a> {
         }
         let origin = vec![0; spec.axes.len()];
         match templates.parse(&origin) {
-            Ok(scene) => contact_only(&scene)?,
+            Ok(scene) => contact_only(&scene, spec.kernels.is_some())?,
             Err(
                 error @ (SceneError::OutOfRange { .. }
                 | SceneError::Inconsistent { .. }
@@ -176,11 +176,24 @@ impl<'a> Templates<'a> {
     }
 
     /// The bodies and settings of a row at a place along all axes.
-    pub(crate) fn scene<'s>(
+    pub(crate) fn contact<'s>(
         &self,
         place: &[usize],
         scratch: &'s mut Scratch,
     ) -> Result<Row<'s>, SceneError> {
+        let scene = self.scene(place, scratch)?;
+        match &scene.load {
+            Load::Strike(strike) => Ok((&scene.target, strike, &scene.settings)),
+            Load::Record(_) => Err(contacts_only("[force]")),
+        }
+    }
+
+    /// The scene of a row at a place along all axes.
+    pub(crate) fn scene<'s>(
+        &self,
+        place: &[usize],
+        scratch: &'s mut Scratch,
+    ) -> Result<&'s Scene, SceneError> {
         let id = self.slow.iter().fold(0_usize, |id, &axis| {
             id.wrapping_mul(self.spec.axes[axis].len)
                 .wrapping_add(place[axis])
@@ -201,10 +214,7 @@ impl<'a> Templates<'a> {
             let number = fast.values.number(place[fast.axis]);
             fast.set(scene, number.unwrap_or(f64::NAN))?;
         }
-        match &scene.load {
-            Load::Strike(strike) => Ok((&scene.target, strike, &scene.settings)),
-            Load::Record(_) => Err(contacts_only("[force]")),
-        }
+        Ok(scene)
     }
 
     /// The place along all axes of a template; zero along the fast ones.
@@ -240,11 +250,11 @@ impl<'a> Templates<'a> {
     }
 }
 
-/// A sweep is about contacts.
-fn contact_only(scene: &Scene) -> Result<(), SceneError> {
+/// A sweep is about contacts, and what probes see of them where their kernels are known.
+fn contact_only(scene: &Scene, observed: bool) -> Result<(), SceneError> {
     let found = if matches!(scene.load, Load::Record(_)) {
         "[force]"
-    } else if !scene.probes.is_empty() {
+    } else if !scene.probes.is_empty() && !observed {
         "[[probe]]"
     } else if scene.section.is_some() {
         "[map]"
