@@ -123,7 +123,7 @@ impl<'a> View<'a> {
             match &column.values {
                 Values::Numbers(values) => format!("{name} {}", with_unit(values[index], unit)),
                 Values::Drawn(drawn) => format!("{name} {}", with_unit(drawn.at(index), unit)),
-                Values::Texts(values) => values[index].replace('-', " "),
+                Values::Texts(values) => values[index].clone(),
             }
         });
         parts.collect::<Vec<_>>().join(", ")
