@@ -1,5 +1,7 @@
 """The book: its commands run and print what it says, and every link leads somewhere."""
 
+import shlex
+import subprocess
 import sys
 from pathlib import Path
 
@@ -43,3 +45,36 @@ def test_links_between_documents_lead_somewhere():
 )
 def test_what_is_told_is_compared_with_what_is_printed(told, printed, agrees):
     assert (book.difference(told, printed) is None) == agrees
+
+
+def commands(document):
+    """The hertzlamb commands in the shell blocks of a document, as lists of words."""
+    for language, body in book.BLOCK.findall(document.read_text()):
+        if language not in ("sh", "bash"):
+            continue
+        for line in body.replace("\\\n", " ").splitlines():
+            words = shlex.split(line, comments=True)
+            if words and Path(words[0]).name == "hertzlamb":
+                yield words[1:]
+
+
+TOO_LONG = ["README.md", "docs/guide.md", "docs/cluster.md", "docs/accuracy-and-speed.md"]
+
+
+@pytest.mark.parametrize("name", TOO_LONG)
+def test_what_takes_too_long_to_run_names_options_and_scenes_that_exist(name):
+    found = list(commands(ROOT / name))
+    assert found
+    for words in found:
+        parts = [words[0], *(word for word in words[1:2] if word in ("info", "verify", "merge", "diff", "status"))]
+        shown = subprocess.run([PROGRAM, *parts, "--help"], capture_output=True, text=True)
+        assert shown.returncode == 0, words
+        for word in words[1:]:
+            option = word.split("=")[0]
+            assert not option.startswith("--") or option in shown.stdout, words
+            assert not word.startswith("scenes/") or (ROOT / word).exists(), words
+
+
+def test_the_readme_has_the_first_scene():
+    text = (ROOT / "README.md").read_text()
+    assert f"```toml\n{(ROOT / 'scenes/first-impact.toml').read_text()}```" in text
