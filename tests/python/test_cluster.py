@@ -166,3 +166,52 @@ def test_a_plan_is_json(folder):
     plan = json.loads(done.stdout)
     assert (plan["rows"], plan["shards"]) == (240_000, 8)
     assert plan["seconds_per_shard"] > 0.0
+
+
+GRID = """
+poisson_ratios = [0.3]
+cell_width = 0.25
+[r]
+max = 5.0
+spacing = 0.25
+[z]
+max = 5.0
+spacing = 0.25
+"""
+
+
+def test_kernel_tables(tmp_path):
+    """Shards killed, run twice at once and out of space; the merged table is that of one uninterrupted build."""
+    (tmp_path / "grid.toml").write_text(GRID)
+    (tmp_path / "bin").mkdir()
+    (tmp_path / "bin/hertzlamb").symlink_to(PROGRAM)
+    text = (ROOT / "docs/cluster.md").read_text().split("## Kernel tables")[1]
+    shard, merge = re.findall(r"```sh\n(.*?)```", text, re.DOTALL)[:2]
+    variables = {"GRID": "grid.toml", "SOURCE_DATE_EPOCH": "1000000000"}
+
+    def task(number, before=""):
+        return ["sh", "-c", f"{before}SLURM_ARRAY_TASK_ID={number}\n{shard}"]
+
+    def codes(*commands):
+        path = f"{tmp_path / 'bin'}{os.pathsep}{os.environ['PATH']}"
+        environment = {**os.environ, **variables, "PATH": path}
+        quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+        running = [subprocess.Popen(c, cwd=tmp_path, env=environment, **quiet) for c in commands]
+        return sorted(process.wait(timeout=300) for process in running)
+
+    run(tmp_path, "hertzlamb", "tabulate", "--grid", "grid.toml", "-o", "whole.h5", **variables)
+    assert codes(task(1)) == [0]
+    # killed as soon as it has begun, then given again
+    kill = "(while [ ! -s shards/2.shard ]; do :; done; pkill -9 -f 'shards/2[.]shard$') & "
+    assert codes(task(2, kill)) == [137]
+    assert codes(task(2)) == [0]
+    assert codes(task(3), task(3)) in ([0, 0], [0, 75])
+    assert codes(task(4, "ulimit -f 8\n")) == [75]
+    assert run(tmp_path, "sh", "-c", merge, check=False, **variables).returncode == 2
+    assert codes(task(4)) == [0]
+    # given again where everything is there
+    before = (tmp_path / "shards/1.shard").read_bytes()
+    assert codes(task(1)) == [0]
+    assert (tmp_path / "shards/1.shard").read_bytes() == before
+    run(tmp_path, "sh", "-c", merge, **variables)
+    assert (tmp_path / "kernels.h5").read_bytes() == (tmp_path / "whole.h5").read_bytes()

@@ -138,6 +138,7 @@ fn a_merge_that_refers_to_its_parts_is_refused_as_a_copy_is_and_by_what_would_re
         here,
         "sweep s.toml --rows 50001:80000 --force -o out/last.h5",
     );
+    #[cfg(feature = "parquet")]
     refused(
         here,
         "sweep merge out -o all.parquet --virtual",
