@@ -1,16 +1,18 @@
 //! `hertzlamb impact`: one scene.
 
 use crate::failure::{Failure, print, say};
-use crate::kernels::Kernels;
+use crate::kernels::{Kernel, Kernels};
 use crate::memory::MemoryLimit;
-use crate::overwrite::Overwrite;
+use crate::overwrite::{Overwrite, say_complete};
 use crate::progress::Bar;
 use crate::report::text_report;
 use clap::Args;
-use formats::{inputs, json_report, read_scene, stage_results, stage_results_csv};
-use impact::{Allowance, Forecast, simulate_within};
+use formats::{
+    Allowed, check_results, inputs, json_report, read_scene, stage_results, stage_results_csv,
+};
+use impact::{Allowance, Forecast, Scene, simulate_within};
 use output::{CSV, HDF5, Output, Role, Staged};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 /// An impact that takes longer says how far it is.
@@ -31,6 +33,9 @@ pub(crate) struct Arguments {
     /// The time series and the traces of the probes as text, one line a sample.
     #[arg(long, value_name = "OUT.csv")]
     csv: Option<PathBuf>,
+    /// Succeed at once where the output is whole and of the same scene, kernels and version; fail with 1 where it is not.
+    #[arg(long, requires = "output", conflicts_with = "force")]
+    skip_complete: bool,
     #[command(flatten)]
     overwrite: Overwrite,
     #[command(flatten)]
@@ -43,6 +48,10 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let start = Instant::now();
     let scene = read_scene(&arguments.scene).map_err(Failure::input)?;
+    if arguments.skip_complete && is_complete(arguments, &scene)? {
+        let output = arguments.output.as_deref().unwrap_or(Path::new(""));
+        return say_complete(output, arguments.json);
+    }
     let [output, csv] = outputs(arguments)?;
     let kernels = arguments.kernels.choice()?;
     let progress = Bar::after(PATIENCE);
@@ -69,6 +78,30 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         print(json_report(&scene, &outcome, start.elapsed().as_secs_f64()))
     } else {
         print(text_report(&scene, &outcome))
+    }
+}
+
+/// Whether the output is there already, as this command would write it.
+fn is_complete(arguments: &Arguments, scene: &Scene) -> Result<bool, Failure> {
+    let there = |path: &&PathBuf| path.exists();
+    let Some(output) = arguments.output.as_ref().filter(there) else {
+        return Ok(false);
+    };
+    HDF5.check(output)?;
+    let allowed = arguments.kernels.allowed()?;
+    let allowed = match &allowed {
+        None => Allowed::Direct,
+        Some((Kernel::Table, id)) => Allowed::Table(id),
+        Some((_, id)) => Allowed::Either(id),
+    };
+    check_results(output, scene, allowed).map_err(Failure::work)?;
+    match &arguments.csv {
+        Some(csv) if !csv.exists() => Err(Failure::work(format!(
+            "{} is whole, but {} is not there: leave --skip-complete out and give --force to compute both",
+            output.display(),
+            csv.display()
+        ))),
+        Some(_) | None => Ok(true),
     }
 }
 

@@ -51,6 +51,17 @@ impl Kernels {
         }
     }
 
+    /// Which kernels a finished result may have.
+    pub(crate) fn allowed(&self) -> Result<Option<(Kernel, String)>, Failure> {
+        match &self.table {
+            Some(path) if self.kernel != Kernel::Direct => {
+                let table = open_table(path)?;
+                Ok(Some((self.kernel, table.id().to_owned())))
+            }
+            Some(_) | None => Ok(None),
+        }
+    }
+
     /// A sweep with its fields, where its base scene has probes.
     pub(crate) fn with_fields(&self, spec: Spec) -> Result<Spec, Failure> {
         if !spec.has_probes() {

@@ -1,6 +1,6 @@
 //! What happens to an existing output: one flag, the same in every command.
 
-use crate::failure::Failure;
+use crate::failure::{Failure, print};
 use clap::Args;
 use formats::{Existing, Output};
 use output::{Ending, Role, apart};
@@ -33,4 +33,15 @@ impl Overwrite {
         apart(&[path], inputs)?;
         Ok(Output::claim(path, self.existing())?)
     }
+}
+
+/// What `--skip-complete` says where nothing is left to do.
+pub(crate) fn say_complete(output: &Path, json: bool) -> Result<(), Failure> {
+    if json {
+        return print(serde_json::json!({ "output": output, "complete": true }));
+    }
+    print(format!(
+        "complete       {}, nothing to do",
+        output.display()
+    ))
 }

@@ -4,7 +4,7 @@ use crate::failure::{Failure, print, say};
 use crate::interrupt;
 use crate::kernels::Kernels;
 use crate::memory::MemoryLimit;
-use crate::overwrite::Overwrite;
+use crate::overwrite::{Overwrite, say_complete};
 use crate::progress::Bar;
 use crate::sweep_parts::{self, Action};
 use crate::sweep_plan;
@@ -124,7 +124,7 @@ fn compute(arguments: &Run, sweep: &Path, output: &Path) -> Result<(), Failure> 
         .check(spec.memory_bytes(), "the sweep", change)?;
     let selection = selection(arguments, &spec)?;
     let Some(outputs) = Outputs::claim(arguments, sweep, output, &spec, selection)? else {
-        return complete(arguments, output);
+        return say_complete(output, arguments.json);
     };
     let Some(kept) =
         rows(arguments.overwrite, &spec, &outputs).map_err(|error| failure(sweep, error))?
@@ -195,17 +195,6 @@ fn selection(arguments: &Run, spec: &Spec) -> Result<Option<Selection>, Failure>
     let rows = arguments.rows.clone();
     rows.map(|rows| Selection::of_rows(rows, spec.rows()).map_err(Failure::input))
         .transpose()
-}
-
-/// What there is to say where nothing is left to do.
-fn complete(arguments: &Run, output: &Path) -> Result<(), Failure> {
-    if arguments.json {
-        return print(serde_json::json!({ "output": output, "complete": true }));
-    }
-    print(format!(
-        "complete       {}, nothing to do",
-        output.display()
-    ))
 }
 
 /// Computes the rows; what is done is kept from moment to moment.

@@ -2,7 +2,7 @@
 
 use crate::failure::{Failure, print, say};
 use crate::memory::MemoryLimit;
-use crate::overwrite::Overwrite;
+use crate::overwrite::{Overwrite, say_complete};
 use crate::progress::Bar;
 use clap::Args;
 use lookup::{Accuracy, Quantiles, TableError, schema};
@@ -51,6 +51,9 @@ pub(crate) struct Arguments {
     /// The table to write.
     #[arg(short, long, value_name = "OUT.h5")]
     output: PathBuf,
+    /// Succeed at once where the output is a whole table of this grid and version; fail with 1 where it is not.
+    #[arg(long, conflicts_with = "force")]
+    skip_complete: bool,
     #[command(flatten)]
     overwrite: Overwrite,
     #[command(flatten)]
@@ -134,6 +137,12 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         return tell(&Grid::of(&content).map_err(failure)?, arguments, &summary);
     }
     let grid = grid(arguments)?;
+    // a shard ends at once where it has all its blocks
+    let is_shard = arguments.shard.is_some();
+    if arguments.skip_complete && !is_shard && arguments.output.exists() {
+        check_complete(&arguments.output, &grid)?;
+        return say_complete(&arguments.output, arguments.json);
+    }
     let existing = arguments.overwrite.existing();
     let progress = Bar::new();
     if let Some(Shard { index, count }) = arguments.shard {
@@ -150,6 +159,23 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     tell(&grid, arguments, &summary)
 }
 
+/// Fails where a file is not the whole table of a grid, made by this version.
+fn check_complete(path: &Path, grid: &Grid) -> Result<(), Failure> {
+    let content = lookup::read(path).map_err(Failure::work)?;
+    let version = &content.origin.software_version;
+    let other = if Grid::of(&content).map_err(Failure::work)? != *grid {
+        "has another grid".to_owned()
+    } else if version != env!("CARGO_PKG_VERSION") {
+        format!("was made by version {version}")
+    } else {
+        return Ok(());
+    };
+    Err(Failure::Work(format!(
+        "{} is a table that {other}",
+        path.display()
+    )))
+}
+
 /// What to add to the output, if it exists and no new table was asked for.
 fn extension(arguments: &Arguments) -> Option<Extension> {
     let more = arguments.nu.is_some()
@@ -158,6 +184,7 @@ fn extension(arguments: &Arguments) -> Option<Extension> {
         || arguments.time_factor.is_some();
     let new = arguments.grid.is_some()
         || arguments.overwrite.force
+        || arguments.skip_complete
         || arguments.shard.is_some()
         || arguments.tol.is_some();
     (more && !new && arguments.output.exists()).then(|| Extension {

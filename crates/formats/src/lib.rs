@@ -14,6 +14,7 @@
 
 // in reading order
 mod body;
+mod complete;
 mod error;
 mod hdf;
 mod inputs;
@@ -29,6 +30,7 @@ pub mod stored;
 pub mod sweep;
 mod text;
 
+pub use complete::{Allowed, check_results};
 pub use error::{Culprit, SceneError};
 pub use inputs::inputs;
 pub use materials::{parse_materials, read_materials};

@@ -4,9 +4,11 @@
 //! name and renamed when it is complete.
 
 mod csv;
+mod identity;
 pub mod schema;
 mod section;
 mod write;
 
 pub use csv::{print_results_csv, stage_results_csv};
+pub use identity::scene_sha256;
 pub use write::{stage_results, write_results};

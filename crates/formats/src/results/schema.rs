@@ -5,7 +5,7 @@ pub use crate::quantities::FIELDS;
 /// Value of the attribute `file_type`.
 pub const FILE_TYPE: &str = "hertzlamb results";
 /// Version of the format: the first number changes when a reader of the old one would fail.
-pub const FORMAT_VERSION: &str = "1.6";
+pub const FORMAT_VERSION: &str = "1.7";
 /// Datasets in the root, with unit and description.
 pub const SERIES: [(&str, &str, &str); 5] = [
     ("time", "s", "time since the first touch"),
@@ -85,7 +85,7 @@ pub const VALID_UNTIL: (&str, &str, &str) = (
     "time at which the first echo from the faces of the block arrives; infinite where no face is known",
 );
 /// Text attributes of the root.
-pub const TEXTS: [&str; 15] = [
+pub const TEXTS: [&str; 16] = [
     "file_type",
     "format_version",
     "software_version",
@@ -101,7 +101,10 @@ pub const TEXTS: [&str; 15] = [
     "table_format_version",
     "warnings",
     "scene",
+    SCENE_SHA256,
 ];
+/// The text attribute that says which scene it is, whatever the kernels.
+pub const SCENE_SHA256: &str = "scene_sha256";
 /// Group of the section.
 pub const MAP: &str = "map";
 /// Scales of the section in the order of its dimensions.

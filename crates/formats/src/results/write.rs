@@ -1,5 +1,6 @@
 //! Writing results files.
 
+use super::identity::scene_sha256;
 use super::schema;
 use super::section::{peak_rows, waves, write_section};
 use crate::hdf::{
@@ -186,6 +187,7 @@ fn write_attributes(file: &File, scene: &Scene, outcome: &Outcome) -> Result<(),
         version,
         &warnings,
         &resolved(scene),
+        &scene_sha256(scene),
     ];
     for (name, value) in schema::TEXTS.into_iter().zip(texts) {
         text(file, name, value)?;

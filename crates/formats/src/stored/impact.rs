@@ -6,7 +6,7 @@ use super::open::Stored;
 use super::probes::StoredProbes;
 use super::scene::StoredScene;
 use super::section::StoredSection;
-use crate::results::schema::{ENERGIES, ENERGY, MAP, PROBES, SERIES};
+use crate::results::schema::{ENERGIES, ENERGY, MAP, PROBES, SCENE_SHA256, SERIES};
 use impact::{EnergySeries, Series, StrikerSeries};
 use std::path::Path;
 
@@ -71,6 +71,36 @@ impl StoredImpact {
     #[must_use]
     pub fn path(&self) -> &Path {
         &self.stored.path
+    }
+
+    /// Which scene it is of, whatever the kernels; nothing in files of versions before 1.7.
+    #[must_use]
+    pub fn scene_sha256(&self) -> Option<String> {
+        self.stored.text(SCENE_SHA256).ok()
+    }
+
+    /// The kernels of its fields, `none` without any, and the id of their table, empty without one.
+    ///
+    /// # Errors
+    /// [`ReadError::Damaged`].
+    pub fn kernels(&self) -> Result<(String, String), ReadError> {
+        Ok((self.stored.text("kernel")?, self.stored.text("table_id")?))
+    }
+
+    /// Fails where the fields were cut short.
+    ///
+    /// # Errors
+    /// [`ReadError`].
+    pub fn check_whole(&self) -> Result<(), ReadError> {
+        let Some(probes) = self.probes()? else {
+            return self.section().map(drop);
+        };
+        for quantity in probes.quantities() {
+            for probe in 0..probes.r_m.len() {
+                probes.trace(&quantity.name, probe)?;
+            }
+        }
+        self.section().map(drop)
     }
 
     /// A scalar result by its name, where the file has it.
