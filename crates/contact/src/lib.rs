@@ -42,6 +42,7 @@ mod quadrature;
 pub mod resample;
 pub mod response;
 pub mod results;
+mod schemes;
 pub mod settings;
 pub mod shape;
 pub mod solver;
@@ -77,9 +78,10 @@ pub use response::punch::PunchResponse;
 pub use response::shelf::{Exact, Ratios, Responses, Tabulated};
 pub use response::table::ResponseTable;
 pub use results::Results;
+pub use schemes::{Found, solve_disc};
 pub use settings::{Choice, Conflict, Model, Scheme, Settings, StaticShare};
 pub use shape::Shape;
-pub use solver::{Found, Solved, Solver, solve_disc};
+pub use solver::{Solved, Solver};
 pub use spectral::{
     GrowingContact, GrowingError, PunchWaves, SolvedContact, solve_growing, work_on_half_space,
 };

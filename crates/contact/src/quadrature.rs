@@ -72,7 +72,7 @@ impl<const N: usize> Local<N> {
     }
 
     /// Value, slope and half the curvature.
-    fn jet(&self, x: f64) -> [f64; 3] {
+    pub(crate) fn jet(&self, x: f64) -> [f64; 3] {
         let mut jet = [self.differences[N - 1], 0.0, 0.0];
         for k in (0..N - 1).rev() {
             let factor = x - k as f64;

@@ -1,16 +1,20 @@
-//! A march read at any time: between samples, and after the striker has left.
+//! A contact read at any time: between samples, within the pieces of a growing contact, after the striker has left.
 
-use crate::force_balance::force_root;
 use crate::march::history::History;
-use crate::quadrature::Local;
+use crate::quadrature::{Local, find_root, hermite};
+use crate::spectral::SolvedContact;
+use crate::units::INVERSE_MASS;
+use std::sync::Arc;
 
 /// The state of an impact at one instant, in collision units.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Instant {
     /// Contact force.
     pub force: f64,
     /// Its rate.
     pub rate: f64,
+    /// The rate's rate; zero at the very ends of a contact, where it has no bound.
+    pub second_rate: f64,
     /// Displacement of the striker.
     pub displacement: f64,
     /// Velocity of the striker.
@@ -19,90 +23,199 @@ pub struct Instant {
     pub deflection: f64,
 }
 
-/// Cubic interpolation of a history.
+impl Instant {
+    /// The force of an indentation u and its rates: p = u^(3/2).
+    fn of_indentation([u, slope, bend]: [f64; 3]) -> Self {
+        if u <= 0.0 {
+            return Self::default();
+        }
+        let y = u.sqrt();
+        Self {
+            force: u * y,
+            rate: 1.5 * y * slope,
+            second_rate: 1.5 * (y * bend + 0.5 * slope * slope / y),
+            ..Self::default()
+        }
+    }
+}
+
+/// A history at any time: the pieces of a growing contact, or samples joined by polynomials of the fifth degree.
 ///
-/// The force is interpolated through b = d - w + A p, which stays smooth where contact begins and
-/// ends while p has the power 3/2 there.
+/// Interpolated is the indentation d - w, which is smooth where contact begins and ends while the force has the power
+/// 3/2 there; force, rate and second rate are those of one function.
 #[derive(Debug, Clone)]
 pub struct Resampler {
-    history: History,
-    velocity: Vec<f64>,
-    smooth: Vec<f64>,
+    source: Source,
+    /// Where contacts begin and end.
+    breaks: Vec<f64>,
+}
+
+#[derive(Debug, Clone)]
+enum Source {
+    Pieces(Arc<SolvedContact>),
+    Samples(Samples),
 }
 
 impl Resampler {
     /// Of a history.
     #[must_use]
     pub fn new(history: History) -> Self {
-        let smooth = (0..history.force.len())
-            .map(|i| {
-                history.displacement[i] - history.deflection[i]
-                    + history.compliance * history.force[i]
-            })
-            .collect();
+        if let Some(solved) = history.pieces {
+            return Self {
+                breaks: vec![0.0, solved.summary().contact_time],
+                source: Source::Pieces(solved),
+            };
+        }
+        let samples = Samples::new(&history);
         Self {
-            velocity: history.velocities(),
-            history,
-            smooth,
+            breaks: samples.breaks(),
+            source: Source::Samples(samples),
         }
     }
 
     /// The first sample after all contacts, in collision units.
     #[must_use]
     pub fn end(&self) -> f64 {
-        let force = &self.history.force;
-        let last = force.iter().rposition(|&p| p > 0.0).unwrap_or(0);
-        (last + 1) as f64 * self.history.step
+        match &self.source {
+            Source::Pieces(solved) => solved.summary().contact_time,
+            Source::Samples(samples) => samples.end(),
+        }
+    }
+
+    /// Instants between which the force is smooth: where each contact begins and ends, in collision units, ascending.
+    #[must_use]
+    pub fn breaks(&self) -> &[f64] {
+        &self.breaks
+    }
+
+    /// Force, rate and second rate at a time in collision units; zero outside the contacts.
+    #[must_use]
+    pub fn force(&self, time: f64) -> [f64; 3] {
+        let now = match &self.source {
+            Source::Pieces(solved) => return solved.force(time),
+            Source::Samples(samples) => match samples.place(time) {
+                Some((cell, x)) => Instant::of_indentation(samples.indentation(cell, x)),
+                None => Instant::default(),
+            },
+        };
+        [now.force, now.rate, now.second_rate]
     }
 
     /// The state at a time in collision units, from the touch on.
     #[must_use]
     pub fn at(&self, time: f64) -> Instant {
-        let n = self.smooth.len();
-        let place = (time / self.history.step).max(0.0);
-        let last = (n - 1) as f64;
-        if place >= last || n < 4 {
-            let velocity = self.velocity[n - 1];
-            let since = time - last * self.history.step;
-            return Instant {
-                force: 0.0,
-                rate: 0.0,
-                displacement: self.history.displacement[n - 1] + velocity * since,
-                velocity,
-                deflection: 0.0,
-            };
+        match &self.source {
+            Source::Pieces(solved) => solved.state(time),
+            Source::Samples(samples) => samples.at(time),
         }
-        let from = (place as usize).saturating_sub(1).min(n - 4);
-        let x = place - from as f64;
-        let read = |samples: &[f64]| Local::<4>::at(samples, from).value(x);
-        let cell = place as usize;
-        let touching = self.history.force[cell] > 0.0 || self.history.force[cell + 1] > 0.0;
-        let (force, rate) = if touching {
-            // a y^3 + y^2 = b, p = y^3
-            let a = self.history.compliance;
-            let (b, slope) = Local::<4>::at(&self.smooth, from).value_and_slope(x);
-            match force_root(a, b, 0.0) {
-                Some(y) => (
-                    y * y * y,
-                    3.0 * y * slope / (self.history.step * (3.0 * a * y + 2.0)),
-                ),
-                None => (self.history.force[cell], 0.0),
-            }
-        } else {
-            (0.0, 0.0)
+    }
+}
+
+/// Equidistant samples.
+#[derive(Debug, Clone)]
+struct Samples {
+    step: f64,
+    /// Indentation with its slope and curvature over a step, at each sample.
+    indentation: Vec<[f64; 3]>,
+    displacement: Vec<f64>,
+    velocity: Vec<f64>,
+}
+
+/// Samples through which slopes and curvatures are taken.
+const POINTS: usize = 5;
+
+impl Samples {
+    fn new(history: &History) -> Self {
+        let (d, w) = (&history.displacement, &history.deflection);
+        let values: Vec<f64> = d.iter().zip(w).map(|(d, w)| d - w).collect();
+        let most = values.len().saturating_sub(POINTS);
+        let jet = |i: usize| {
+            let from = i.saturating_sub(POINTS / 2).min(most);
+            let [_, slope, half] = Local::<POINTS>::at(&values, from).jet((i - from) as f64);
+            [values[i], slope, 2.0 * half]
         };
-        let displacement = read(&self.history.displacement);
-        Instant {
-            force,
-            rate,
-            displacement,
-            velocity: read(&self.velocity),
-            // in contact by the law itself, which needs no smoothness of the deflection
-            deflection: if force > 0.0 {
-                displacement - force.cbrt().powi(2)
-            } else {
-                read(&self.history.deflection)
-            },
+        let enough = values.len() >= POINTS;
+        Self {
+            step: history.step,
+            indentation: (0..values.len()).filter(|_| enough).map(jet).collect(),
+            displacement: d.clone(),
+            velocity: history.velocities(),
         }
+    }
+
+    /// The cell that holds a time, and the place in it; nothing after the last sample.
+    fn place(&self, time: f64) -> Option<(usize, f64)> {
+        let place = (time / self.step).max(0.0);
+        let cell = place as usize;
+        (cell + 1 < self.indentation.len()).then_some((cell, place - cell as f64))
+    }
+
+    /// The indentation, its slope and curvature in time: the polynomial that has all three of both ends.
+    fn indentation(&self, cell: usize, x: f64) -> [f64; 3] {
+        let [u0, a, bend0] = self.indentation[cell];
+        let [u1, slope1, bend1] = self.indentation[cell + 1];
+        let b = 0.5 * bend0;
+        let rise = u1 - u0 - a - b;
+        let tilt = slope1 - a - bend0;
+        let turn = 0.5 * (bend1 - bend0);
+        let c = 10.0 * rise - 4.0 * tilt + turn;
+        let d = -15.0 * rise + 7.0 * tilt - 2.0 * turn;
+        let e = 6.0 * rise - 3.0 * tilt + turn;
+        let per = 1.0 / self.step;
+        [
+            u0 + x * (a + x * (b + x * (c + x * (d + x * e)))),
+            per * (a + x * (2.0 * b + x * (3.0 * c + x * (4.0 * d + x * 5.0 * e)))),
+            per * per * (2.0 * b + x * (6.0 * c + x * (12.0 * d + x * 20.0 * e))),
+        ]
+    }
+
+    fn at(&self, time: f64) -> Instant {
+        let Some((cell, x)) = self.place(time) else {
+            let last = self.displacement.len() - 1;
+            let velocity = self.velocity[last];
+            return Instant {
+                displacement: self.displacement[last] + velocity * (time - last as f64 * self.step),
+                velocity,
+                ..Instant::default()
+            };
+        };
+        let jet = self.indentation(cell, x);
+        let now = Instant::of_indentation(jet);
+        let (d, v, h) = (&self.displacement, &self.velocity, self.step);
+        let displacement = hermite([d[cell], h * v[cell]], [d[cell + 1], h * v[cell + 1]], x);
+        let slope = |i: usize| {
+            let u = self.indentation[i][0].max(0.0);
+            -INVERSE_MASS * h * u * u.sqrt()
+        };
+        Instant {
+            displacement,
+            velocity: hermite([v[cell], slope(cell)], [v[cell + 1], slope(cell + 1)], x),
+            deflection: displacement - jet[0],
+            ..now
+        }
+    }
+
+    fn end(&self) -> f64 {
+        let last = self.indentation.iter().rposition(|u| u[0] > 0.0);
+        (last.unwrap_or(0) + 1) as f64 * self.step
+    }
+
+    fn breaks(&self) -> Vec<f64> {
+        let mut found = vec![0.0];
+        for (cell, pair) in self.indentation.windows(2).enumerate() {
+            let [before, after] = [pair[0][0], pair[1][0]];
+            if cell > 0 && (before > 0.0) != (after > 0.0) {
+                let value = |x: f64| {
+                    let [u, slope, _] = self.indentation(cell, x);
+                    (u, slope * self.step)
+                };
+                found.push((cell as f64 + find_root(value, 0.0, 1.0)) * self.step);
+            }
+        }
+        // the last sample is the end itself
+        if found.len() % 2 == 1 {
+            found.push(self.indentation.len().saturating_sub(1) as f64 * self.step);
+        }
+        found
     }
 }

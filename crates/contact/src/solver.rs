@@ -8,20 +8,18 @@ use crate::error::ContactError;
 use crate::law::area_dashpot::AreaDashpot;
 use crate::law::hertz;
 use crate::law::pulse::pulse;
-use crate::law::quasi_static::expected_contact_time;
 use crate::law::radiation::damped_force;
-use crate::march::error::MarchError;
-use crate::march::explicit::march_explicit;
+use crate::march::fine::march_finely;
 use crate::march::growing::march_growing;
 use crate::march::history::History;
-use crate::march::implicit::march_into;
-use crate::march::refine::{Accuracy, halve};
+use crate::march::refine::Accuracy;
 use crate::march::workspace::Workspace;
 use crate::plan::{Plan, accuracy, disc_radius_m, plan};
 use crate::response::disc::DiscResponse;
 use crate::response::punch::PunchResponse;
 use crate::response::shelf::Responses;
-use crate::settings::{Model, Scheme, Settings, StaticShare};
+use crate::schemes::{Found, explicit, solve_disc, stepped};
+use crate::settings::{Model, Scheme, Settings};
 use crate::spectral::solved::SolvedContact;
 use crate::spectral::waves::PunchWaves;
 use crate::spectral::{GrowingContact, GrowingError, solve_growing, work_on_half_space};
@@ -59,11 +57,9 @@ pub struct Solver<'a, S: Responses> {
     growing: Option<SolvedContact>,
 }
 
-/// Samples over a contact of a history that was not marched.
+/// Samples over a contact of a history that was not marched, and of one that has its pieces too.
 const SAMPLES: f64 = 4096.0;
-
-/// Steps over a contact of the explicit scheme when none is given.
-const EXPLICIT_STEPS: f64 = 200.0;
+const GROWING_SAMPLES: f64 = 256.0;
 
 impl<'a, S: Responses> Solver<'a, S> {
     /// With a shelf of responses.
@@ -91,7 +87,8 @@ impl<'a, S: Responses> Solver<'a, S> {
         self.solve_to(collision, settings, accuracy(settings))
     }
 
-    /// The results and the samples of a contact, the deflection to the tolerance too.
+    /// The results and the history of a contact: the deflection to the tolerance too, and the force at each instant with an
+    /// error of its own, [`History::error`].
     ///
     /// # Errors
     /// [`ContactError`].
@@ -105,23 +102,31 @@ impl<'a, S: Responses> Solver<'a, S> {
             ..accuracy(settings)
         };
         let solved = self.solve_to(collision, settings, asked)?;
-        let history = match (&self.growing, solved.scheme) {
-            (Some(growing), _) => growing.history(solved.summary.contact_time / SAMPLES),
+        let duration = solved.summary.contact_time;
+        let mut history = match (&self.growing, solved.scheme) {
+            (Some(growing), _) => growing.history(duration / GROWING_SAMPLES),
+            (None, Some(Scheme::Implicit))
+                if solved.plan.model == Model::Wave && settings.step_s.is_none() =>
+            {
+                let disc = self.disc(collision.target_poisson_ratio, settings.deflection)?;
+                let impact = disc_of(collision, settings, &*disc);
+                march_finely(&impact, duration, settings.tolerance)
+                    .ok()
+                    .filter(|fine| fine.error <= solved.error.max(settings.tolerance))
+                    .unwrap_or_else(|| self.workspace.history.clone())
+            }
             (None, Some(_)) => self.workspace.history.clone(),
             (None, None) if solved.plan.model == Model::AreaDashpot => {
-                let terms = self.dashpot(collision)?;
-                terms.history(solved.summary.contact_time / SAMPLES)
+                self.dashpot(collision)?.history(duration / SAMPLES)
             }
             (None, None) => {
                 let force = damped_force(solved.plan.coupling(), solved.plan.damping());
-                pulse(
-                    force,
-                    0.0,
-                    &solved.summary,
-                    solved.summary.contact_time / SAMPLES,
-                )
+                pulse(force, 0.0, &solved.summary, duration / SAMPLES)
             }
         };
+        if history.error.is_infinite() {
+            history.error = solved.error;
+        }
         Ok((solved, history))
     }
 
@@ -181,8 +186,9 @@ impl<'a, S: Responses> Solver<'a, S> {
         let ratio = collision.target_poisson_ratio;
         let disc = self.disc(ratio, settings.deflection)?;
         let plan = plan(settings, collision, &Surface::of(&*disc));
-        let time_s = collision.units().time_s;
-        let step = settings.step_s.map(|step_s| step_s / time_s);
+        let step = settings
+            .step_s
+            .map(|step_s| step_s / collision.units().time_s);
         self.growing = None;
         let is_disc = matches!(plan.groups.family, Family::Full | Family::Dynamic);
         let is_wave = matches!(settings.model, Model::Wave | Model::Auto);
@@ -194,24 +200,10 @@ impl<'a, S: Responses> Solver<'a, S> {
             (
                 Model::Hertz | Model::Radiation | Model::QuasiStatic | Model::QuasiStaticRadiation,
                 _,
-            ) => {
-                let closed = plan.closed_form()?;
-                let found = Found {
-                    summary: closed.summary,
-                    error: closed.error,
-                    step: None,
-                };
-                (None, found)
-            }
+            ) => (None, plan.closed_form()?.into()),
             (Model::AreaDashpot, _) => {
                 let terms = self.dashpot(collision)?;
-                let closed = plan.dashpot(&terms)?;
-                let found = Found {
-                    summary: closed.summary,
-                    error: closed.error,
-                    step: None,
-                };
-                (None, found)
+                (None, plan.dashpot(&terms)?.into())
             }
             (Model::Growing, _) => {
                 let followed = match step {
@@ -315,63 +307,28 @@ impl<'a, S: Responses> Solver<'a, S> {
     }
 
     fn waves(&mut self, ratio: f64) -> Result<Arc<PunchWaves>, DomainError> {
-        if let Some((bits, waves)) = &self.waves
-            && *bits == ratio.to_bits()
-        {
-            return Ok(Arc::clone(waves));
-        }
-        let waves = self.responses.waves(ratio)?;
-        self.waves = Some((ratio.to_bits(), Arc::clone(&waves)));
-        Ok(waves)
+        remembered(&mut self.waves, ratio, || self.responses.waves(ratio))
     }
 
     fn punch(&mut self, ratio: f64) -> Result<Arc<PunchResponse>, DomainError> {
-        if let Some((bits, punch)) = &self.punch
-            && *bits == ratio.to_bits()
-        {
-            return Ok(Arc::clone(punch));
-        }
-        let punch = self.responses.punch(ratio)?;
-        self.punch = Some((ratio.to_bits(), Arc::clone(&punch)));
-        Ok(punch)
+        remembered(&mut self.punch, ratio, || self.responses.punch(ratio))
     }
 }
 
-/// Times that the last change over a halving counts for the dynamic share.
-const DYNAMIC_CAUTION: f64 = 3.0;
-
-/// Results of a scheme, in collision units.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Found {
-    /// Results.
-    pub summary: Summary,
-    /// Estimated relative error of peak force, contact time, restitution and displacement.
-    pub error: f64,
-    /// Step of the finest march; none without a march.
-    pub step: Option<f64>,
-}
-
-/// An impact on a disc by the implicit scheme: with a step that is given, or halved until the results are as accurate
-/// as asked.
-///
-/// # Errors
-/// [`MarchError`].
-pub fn solve_disc(
-    workspace: &mut Workspace,
-    impact: &FixedDisc<'_, impl DiscResponse>,
-    step: Option<f64>,
-    asked: Accuracy,
-) -> Result<Found, MarchError> {
-    let duration = expected_contact_time(impact.static_coupling());
-    let caution = match impact.share {
-        StaticShare::Full => 1.0,
-        // the newest force is only just held by the contact law, and errors grow with it
-        StaticShare::Dynamic => DYNAMIC_CAUTION,
-    };
-    let begin = (duration, caution);
-    stepped(workspace, step, begin, asked, |step, workspace| {
-        march_into(impact, step, &mut workspace.weights, &mut workspace.history)
-    })
+/// What belongs to a Poisson's ratio, made where the last one was another.
+fn remembered<T>(
+    last: &mut Option<(u64, Arc<T>)>,
+    ratio: f64,
+    make: impl FnOnce() -> Result<Arc<T>, DomainError>,
+) -> Result<Arc<T>, DomainError> {
+    match last {
+        Some((bits, made)) if *bits == ratio.to_bits() => Ok(Arc::clone(made)),
+        Some(_) | None => {
+            let made = make()?;
+            *last = Some((ratio.to_bits(), Arc::clone(&made)));
+            Ok(made)
+        }
+    }
 }
 
 fn following<'w>(collision: &Collision, waves: &'w PunchWaves) -> GrowingContact<'w> {
@@ -389,60 +346,4 @@ fn disc_of<'r, R: DiscResponse>(
 ) -> FixedDisc<'r, R> {
     let radius_m = disc_radius_m(settings, collision);
     collision.fixed_disc(response, radius_m, settings.static_share)
-}
-
-/// A march with a step that is given, judged by one with half of it, or halved until the results are as accurate as asked.
-///
-/// `duration` and `caution`: of the contact, roughly, and how many times the last change counts.
-///
-/// The workspace keeps the history of the step that counts.
-fn stepped(
-    workspace: &mut Workspace,
-    step: Option<f64>,
-    (duration, caution): (f64, f64),
-    asked: Accuracy,
-    march: impl Fn(f64, &mut Workspace) -> Result<(), MarchError>,
-) -> Result<Found, MarchError> {
-    let mut run = |step: f64| {
-        march(step, workspace)?;
-        Summary::new(&workspace.history)
-    };
-    if let Some(step) = step {
-        let finer = run(0.5 * step)?;
-        let summary = run(step)?;
-        return Ok(Found {
-            summary,
-            error: summary.distance(&finer) * 4.0 / 3.0,
-            step: Some(step),
-        });
-    }
-    let found = halve(
-        |step| Ok((run(step)?, ())),
-        duration / asked.first_steps(),
-        &asked,
-        caution,
-    )?;
-    Ok(Found {
-        summary: found.summary,
-        error: found.error,
-        step: Some(found.step),
-    })
-}
-
-fn explicit(
-    workspace: &mut Workspace,
-    impact: &FixedDisc<'_, SurfaceResponse>,
-    step: Option<f64>,
-) -> Result<Found, MarchError> {
-    let step =
-        step.unwrap_or_else(|| expected_contact_time(impact.static_coupling()) / EXPLICIT_STEPS);
-    let (history, summary) = march_explicit(impact, step)?;
-    let (_, finer) = march_explicit(impact, 0.5 * step)?;
-    workspace.history = history;
-    Ok(Found {
-        summary,
-        // first order: the rest is as large as the change over one halving
-        error: 2.0 * summary.distance(&finer),
-        step: Some(step),
-    })
 }

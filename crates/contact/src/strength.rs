@@ -2,6 +2,7 @@
 
 use crate::bodies::{HalfSpace, Striker};
 use crate::material::Material;
+use crate::quadrature::find_root;
 use std::f64::consts::PI;
 
 /// What one body bears; by default nothing of it is known.
@@ -61,18 +62,18 @@ impl Strength {
 #[must_use]
 pub fn largest_mises(poisson_ratio: f64) -> f64 {
     let nu = poisson_ratio;
-    let at = |s: f64| {
-        let turn = PI / 2.0 - s.atan();
-        (1.5 / (1.0 + s * s) - (1.0 + nu) * (1.0 - s * turn)).abs()
+    let turn = |s: f64| PI / 2.0 - s.atan();
+    // the slope along the axis and its own; one maximum in this stretch
+    let slope = |s: f64| {
+        let r = 1.0 / (1.0 + s * s);
+        (
+            (1.0 + nu) * (turn(s) - s * r) - 3.0 * s * r * r,
+            -r * r * (2.0 * (1.0 + nu) + 3.0 * r * (1.0 - 3.0 * s * s)),
+        )
     };
-    // one maximum in this stretch, by golden sections
-    let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
-    let (mut low, mut high) = (0.0, 1.0);
-    for _ in 0..30 {
-        let (a, b) = (high - golden * (high - low), low + golden * (high - low));
-        if at(a) > at(b) { high = b } else { low = a }
-    }
-    at(0.5 * (low + high)).max((1.0 - 2.0 * nu) / 3.0_f64.sqrt())
+    let s = find_root(slope, 0.0, 1.0);
+    let largest = 1.5 / (1.0 + s * s) - (1.0 + nu) * (1.0 - s * turn(s));
+    largest.max((1.0 - 2.0 * nu) / 3.0_f64.sqrt())
 }
 
 /// The strengths of both bodies of a collision, the striker's first.

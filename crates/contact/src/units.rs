@@ -38,7 +38,7 @@ impl CollisionUnits {
         Self {
             length_m,
             time_s: length_m / velocity_m_s,
-            force_n: stiffness_n_m32 * length_m.powf(1.5),
+            force_n: stiffness_n_m32 * length_m * length_m.sqrt(),
         }
     }
 

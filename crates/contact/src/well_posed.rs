@@ -20,7 +20,7 @@
 
 use crate::disc::FixedDisc;
 use crate::error::ContactError;
-use crate::law::quasi_static::quasi_static;
+use crate::law::quasi_static::{largest_force, quasi_static};
 use crate::march::error::MarchError;
 use crate::march::implicit::march_into;
 use crate::march::workspace::Workspace;
@@ -51,8 +51,8 @@ pub(crate) fn check(
     impact: &FixedDisc<'_, impl DiscResponse>,
     workspace: &mut Workspace,
 ) -> Result<(), ContactError> {
-    let springs = quasi_static(impact.static_coupling());
-    let steepness = 1.5 * impact.coupling * springs.peak_force.cbrt();
+    let still = impact.static_coupling();
+    let steepness = 1.5 * impact.coupling * largest_force(still).cbrt();
     let at_once = 1.0 - impact.share.factor();
     let centre = impact.response.deflection() == Deflection::Centre;
     let bound = if centre { LARGEST_NEGATIVE } else { 0.0 };
@@ -67,6 +67,7 @@ pub(crate) fn check(
     if steepness * (at_once + negative) <= MARGIN {
         return Ok(());
     }
+    let springs = quasi_static(still);
     if impact.memory() < SHORT * springs.contact_time {
         return Err(match impact.share {
             StaticShare::Dynamic => no_solution(impact, 0.5 * springs.contact_time),

@@ -85,9 +85,6 @@ pub enum RenderError {
     /// The figure cannot be drawn.
     #[error(transparent)]
     Figure(#[from] FigureError),
-    /// The drawn SVG was not understood: a mistake of this library.
-    #[error("the drawn SVG is not understood: {0}")]
-    Svg(#[from] resvg::usvg::Error),
     /// More pixels than can be held.
     #[error("a picture of {width} by {height} pixels cannot be made")]
     Pixels {

@@ -73,7 +73,7 @@ pub fn to_svg(figure: &Figure) -> Result<String, RenderError> {
 /// # Errors
 /// [`RenderError`] for a figure that cannot be drawn, or a picture that is too large.
 pub fn to_png(figure: &Figure, scale: f32) -> Result<Vec<u8>, RenderError> {
-    svg_to_png(&to_svg(figure)?, scale)
+    write::png(&draw::draw(figure)?, scale)
 }
 
 /// The figure as PDF: a page of its size, with its font.
@@ -84,21 +84,13 @@ pub fn to_pdf(figure: &Figure) -> Result<Vec<u8>, RenderError> {
     write::pdf(&draw::draw(figure)?)
 }
 
-/// An SVG of [`to_svg`] as PNG, for who needs both.
-///
-/// # Errors
-/// [`RenderError`] for what is not SVG, or a picture that is too large.
-pub fn svg_to_png(svg: &str, scale: f32) -> Result<Vec<u8>, RenderError> {
-    write::png(svg, scale)
-}
-
 /// Figures as an animated GIF that repeats: a frame each, all of the size of the first, `frame_s` long.
 ///
 /// # Errors
 /// [`RenderError`] for a figure that cannot be drawn, or frames that are not of one size.
 pub fn to_gif(figures: &[Figure], scale: f32, frame_s: f64) -> Result<Vec<u8>, RenderError> {
-    let svgs: Vec<String> = figures.iter().map(to_svg).collect::<Result<_, _>>()?;
-    write::gif(&svgs, scale, frame_s)
+    let scenes: Vec<scene::Scene> = figures.iter().map(draw::draw).collect::<Result<_, _>>()?;
+    write::gif(&scenes, scale, frame_s)
 }
 
 /// What is known of a drawn figure.

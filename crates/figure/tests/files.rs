@@ -6,8 +6,8 @@ use figure::{
     Axis, Classes, ColourMap, ColourScale, Figure, FigureError, Histogram, Image, Interval,
     LabelledPoint, Layer, Panel, RenderError, Scale, Style, Unit, to_pdf, to_png, to_svg,
 };
-use resvg::tiny_skia::{Pixmap, PremultipliedColorU8};
 use std::path::Path;
+use tiny_skia::{Pixmap, PremultipliedColorU8};
 
 /// A curve over a band, with a mark.
 fn curve() -> Figure {

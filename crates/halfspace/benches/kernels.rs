@@ -57,7 +57,10 @@ fn is_bench() -> bool {
 
 fn trace(kernel: &Kernel, r: f64, z: f64) -> Vec<Six> {
     let mut cells = vec![Six::default(); CELLS];
-    kernel.cell_averages(r, z, WIDTH, &mut cells).unwrap();
+    let trace = kernel.trace(r, z, CELLS as f64 * WIDTH).unwrap();
+    trace
+        .for_each_cell(WIDTH, CELLS, |j, [average, ..]| cells[j] = average)
+        .unwrap();
     cells
 }
 

@@ -26,12 +26,4 @@ pub enum DomainError {
         /// The profile of the kernel.
         profile: Profile,
     },
-    /// Slices that describe the same cells have different lengths.
-    #[error("{averages} averages for {moments} moments of the same cells")]
-    Lengths {
-        /// Number of cell averages.
-        averages: usize,
-        /// Number of cell moments.
-        moments: usize,
-    },
 }

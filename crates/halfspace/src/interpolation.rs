@@ -7,65 +7,74 @@
 //! ```
 //!
 //! turn the roots at the fronts into smooth functions of s; what is left of logarithms is confined to ever smaller
-//! segments by halving those whose series has not converged.
+//! segments by halving those whose series has not converged. A segment that is short beside the time in which the force
+//! rises counts for little, and has few nodes.
 
 use crate::error::DomainError;
 use crate::field::{Estimate, Six};
 use crate::segment::{Piece, Segment};
 
 /// Segments are halved no more once there are so many, which no place needs; what is left out is in the estimate.
-const MOST: usize = 1000;
+const MOST: usize = 200;
 
-/// Segments from the `first` arrival to `end` that follow `remainder`, to `tolerance` of each field's peak.
+/// Segments from the `first` arrival to `end` that follow `remainder`, so that responses to a force that changes by no more
+/// than `rise` of its peak within a time hold `tolerance` of their peaks.
 ///
 /// `static_field` is minus the remainder before the first arrival.
 pub(crate) fn segments(
     arrivals: &[f64],
     (first, end): (f64, f64),
     static_field: &Six,
-    tolerance: f64,
+    (tolerance, rise): (f64, &dyn Fn(f64) -> f64),
     remainder: impl Fn(f64) -> Result<Estimate, DomainError>,
 ) -> Result<Vec<Segment>, DomainError> {
+    let counts = |segment: &Segment| rise(segment.times[1] - segment.times[0]);
     let mut peak = static_field.map(f64::abs);
-    let fit = |piece: Piece, peak: &mut Six| {
-        Segment::fit(piece, |t| {
-            let found = remainder(t)?;
-            for (f, peak) in peak.iter_mut().enumerate() {
-                *peak = peak.max((found.value[f] + static_field[f]).abs());
-            }
-            Ok(found)
-        })
-    };
     let mut stack = vec![];
     for piece in pieces(arrivals, first, end).into_iter().rev() {
-        stack.push(fit(piece, &mut peak)?);
+        let segment = Segment::fit(piece, &remainder)?;
+        let part = counts(&segment);
+        for (f, peak) in peak.iter_mut().enumerate() {
+            // of a force that begins so, less than the segment's part of it
+            *peak = peak.max(part.powf(1.5) * (segment.middle()[f] + static_field[f]).abs());
+        }
+        stack.push(segment);
+    }
+    /// Fields that are smaller beside their kind are not resolved on their own: just below the surface tractions vanish.
+    const SMALL: f64 = 1e-6;
+    let largest = |kind: &[f64]| kind.iter().copied().fold(0.0, f64::max);
+    let kinds = [largest(&peak[..2]), largest(&peak[2..])];
+    for (f, peak) in peak.iter_mut().enumerate() {
+        *peak = peak.max(SMALL * kinds[usize::from(f >= 2)]);
     }
     let mut done = vec![];
-    while let Some(segment) = stack.pop() {
-        if done.len() + stack.len() >= MOST || is_converged(&segment, tolerance, &peak) {
-            done.push(segment);
-        } else {
-            let (early, late) = segment.piece.halves();
-            stack.push(fit(late, &mut peak)?);
-            stack.push(fit(early, &mut peak)?);
+    while let Some(mut segment) = stack.pop() {
+        let part = counts(&segment);
+        let allowed = peak.map(|peak| tolerance * peak / part);
+        let full = done.len() + stack.len() >= MOST;
+        loop {
+            if full || is_converged(&segment, &allowed) {
+                done.push(segment);
+                break;
+            }
+            if !segment.refine(&remainder)? {
+                let (early, late) = segment.piece.halves();
+                stack.push(Segment::fit(late, &remainder)?);
+                stack.push(Segment::fit(early, &remainder)?);
+                break;
+            }
         }
     }
     Ok(done)
 }
 
-/// Whether a series is as good as its values, or its segment as short as rounding lets it be.
-fn is_converged(segment: &Segment, tolerance: f64, peak: &Six) -> bool {
+/// Whether a series is within what is allowed or as good as its values, or its segment as short as rounding lets it be.
+fn is_converged(segment: &Segment, allowed: &Six) -> bool {
     /// Shortest segment in units of the rounding error of its time.
     const SHORTEST: f64 = 64.0;
     let length = segment.times[1] - segment.times[0];
-    if length <= SHORTEST * f64::EPSILON * segment.times[1] {
-        return true;
-    }
-    let left = segment.truncation();
-    (0..6).all(|f| {
-        // a short segment counts for no more than its length
-        left[f] * length.min(1.0) <= (tolerance * peak[f]).max(segment.error[f])
-    })
+    length <= SHORTEST * f64::EPSILON * segment.times[1]
+        || (0..6).all(|f| segment.truncation[f] <= allowed[f].max(segment.error[f]))
 }
 
 /// The intervals between fronts, halved, in the order of time.

@@ -62,8 +62,6 @@
 mod arrivals;
 mod axis;
 mod branch_points;
-mod cells;
-mod chebyshev;
 mod chord_integral;
 mod closed_form;
 mod compact;
@@ -85,7 +83,6 @@ mod kernel;
 mod landscape;
 mod list;
 mod medium;
-mod moments;
 mod multipole;
 mod order;
 mod panels;
@@ -104,7 +101,6 @@ mod statics;
 mod strength;
 mod sum;
 mod surface;
-mod tail;
 mod trace;
 
 pub use arrivals::Arrivals;

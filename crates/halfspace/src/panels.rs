@@ -66,7 +66,7 @@ pub(crate) fn panels(
             continue;
         }
         let n = nodes.max(least).min(MOST_NODES);
-        let left = |point: Complex64| half_axes(axis(point, s0, s1)).powf(-degree * n);
+        let left = |point: Complex64| half_axes(axis(point, s0, s1)).powi(-(degree * n) as i32);
         let all: f64 = images.all.iter().map(|&image| left(image)).sum();
         // of the whole panel, as if one node had it
         let of_rule = rule.caution * (all + POLE * left(images.pole)) * n.sqrt();

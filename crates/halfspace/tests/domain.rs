@@ -3,8 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
 use halfspace::{
-    Arrivals, Deflection, DomainError, Estimate, Kernel, Medium, Profile, Six, SurfaceResponse,
-    kausel,
+    Arrivals, Deflection, DomainError, Estimate, Kernel, Medium, Profile, SurfaceResponse, kausel,
 };
 use proptest::prelude::*;
 use std::time::{Duration, Instant};
@@ -173,23 +172,21 @@ proptest! {
         medium in any_medium(), profile in any_profile(),
         r in any_number(), z in any_number(), width in any_number(), count in 0..80_usize,
     ) {
-        let kernel = Kernel::new(&medium, profile, 1e-8).unwrap();
-        let mut cells = vec![Six::default(); count];
+        let kernel = Kernel::new(&medium, profile, 1e-4).unwrap();
         let clock = Instant::now();
-        // what is reported as t is the end of the last cell
-        let all = [("r", r), ("z", z), ("width", width), ("t", count as f64 * width)];
-        match kernel.cell_averages(r, z, width, &mut cells) {
-            Ok(error) => {
-                let finite = cells.iter().flatten().chain(&error).all(|v| v.is_finite());
-                prop_assert!(finite, "{all:?} {error:?}");
-            }
-            Err(error) => prop_assert!(names(&error, &all)),
-        }
-        let mut moments = cells.clone();
-        match kernel.cell_moments(r, z, width, &cells, &[1e-8; 6], &mut moments) {
-            Ok(error) => {
-                let finite = moments.iter().flatten().chain(&error).all(|v| v.is_finite());
-                prop_assert!(finite && profile == Profile::Hertz, "{all:?}");
+        // what is reported as t is the end of the trace
+        let end = count as f64 * width;
+        let all = [("r", r), ("z", z), ("width", width), ("t", end)];
+        match kernel.trace(r, z, end) {
+            Ok(trace) => {
+                prop_assert!(profile == Profile::Hertz, "{all:?}");
+                prop_assert!(trace.error().iter().all(|v| v.is_finite()), "{all:?}");
+                let mut finite = true;
+                let done = trace.for_each_cell(width, count, |_, cell| {
+                    finite &= cell.iter().flatten().all(|v| v.is_finite());
+                });
+                prop_assert!(finite, "{all:?}");
+                prop_assert!(done.is_ok() || !(1e-20..=1e20).contains(&width), "{done:?}");
             }
             Err(DomainError::HertzOnly { .. }) => prop_assert!(profile != Profile::Hertz),
             Err(error) => prop_assert!(names(&error, &all)),
@@ -197,18 +194,6 @@ proptest! {
         prop_assert!(clock.elapsed() < Duration::from_secs(1), "{all:?} took {:?}", clock.elapsed());
     }
 
-}
-
-#[test]
-fn moments_of_other_cells_are_refused() {
-    let kernel = Kernel::new(&Medium::new(0.3).unwrap(), Profile::Hertz, 1e-8).unwrap();
-    let (cells, mut moments) = (vec![Six::default(); 3], vec![Six::default(); 4]);
-    let found = kernel.cell_moments(0.5, 0.5, 0.1, &cells, &[1e-8; 6], &mut moments);
-    let expected = DomainError::Lengths {
-        averages: 3,
-        moments: 4,
-    };
-    assert_eq!(found, Err(expected));
 }
 
 proptest! {

@@ -147,6 +147,7 @@ macro_rules! number {
         impl Number for $type {
             const KIND: Kind = $kind;
 
+            #[inline]
             fn read(bytes: &[u8]) -> Self {
                 let mut word = [0; size_of::<Self>()];
                 word.copy_from_slice(bytes);

@@ -5,8 +5,8 @@
 //!
 //! Theory: `docs/theory.md` (T55).
 
+use crate::evaluator::nodes::{CellNodes, Node};
 use crate::kernels::Pulse;
-use crate::nodes::{CellNodes, Node};
 use crate::record::ForceRecord;
 use crate::run::Run;
 use contact::march::weights::Weights;
@@ -66,6 +66,8 @@ enum Force {
         samples: Box<Resampler>,
         units: CollisionUnits,
         contact_time_s: f64,
+        /// When each contact begins and ends, in s.
+        contacts_s: Vec<[f64; 2]>,
     },
     /// Of a record.
     Record(ForceRecord),
@@ -96,8 +98,13 @@ impl Excitation {
         contact_time_s: f64,
         relative_error: f64,
     ) -> Result<Self, DomainError> {
+        let samples = Box::new(Resampler::new(history));
+        let spans = samples.breaks().chunks_exact(2);
         let force = Force::Contact {
-            samples: Box::new(Resampler::new(history)),
+            contacts_s: spans
+                .map(|span| [0, 1].map(|i| span[i] * units.time_s))
+                .collect(),
+            samples,
             units,
             contact_time_s,
         };
@@ -174,23 +181,28 @@ impl Excitation {
     pub fn force_n(&self, time_s: f64) -> f64 {
         match &self.force {
             Force::Contact { samples, units, .. } => {
-                samples.at(time_s / units.time_s).force * units.force_n
+                samples.force(time_s / units.time_s)[0] * units.force_n
             }
             Force::Record(record) => record.at(time_s),
         }
     }
 
-    /// The force in N and its rate in N/s at a time, for a contact.
-    pub(crate) fn force_and_rate(&self, time_s: f64) -> Option<[f64; 2]> {
+    /// When each contact begins and ends, in s; none of a record.
+    pub(crate) fn contacts_s(&self) -> &[[f64; 2]] {
+        match &self.force {
+            Force::Contact { contacts_s, .. } => contacts_s,
+            Force::Record(_) => &[],
+        }
+    }
+
+    /// The force in N and its rate in N/s at a time; NaN for that of a record, which jumps.
+    pub(crate) fn force_and_rate(&self, time_s: f64) -> [f64; 2] {
         match &self.force {
             Force::Contact { samples, units, .. } => {
-                let now = samples.at(time_s / units.time_s);
-                Some([
-                    now.force * units.force_n,
-                    now.rate * units.force_n / units.time_s,
-                ])
+                let [force, rate, _] = samples.force(time_s / units.time_s);
+                [force * units.force_n, rate * units.force_n / units.time_s]
             }
-            Force::Record(_) => None,
+            Force::Record(record) => [record.at(time_s), f64::NAN],
         }
     }
 

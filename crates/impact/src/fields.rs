@@ -1,11 +1,11 @@
 //! Fields of an excitation at points of the half-space.
 
 use crate::error::FieldsError;
+use crate::evaluator::{Asked, Evaluator, Past};
 use crate::excitation::Excitation;
 use crate::grid::{Grid, Wanted};
 use crate::kernels::KernelSource;
-use crate::sampled::{Point, Sampled};
-use crate::superposition::Superposition;
+use crate::watch::Unwatched;
 use halfspace::{DomainError, Field, Six};
 use std::ops::Index;
 
@@ -46,10 +46,7 @@ impl Excitation {
         if self.record().is_some() {
             return Ok(None);
         }
-        let superposition = Superposition::new(self, tolerance)?;
-        Ok(Some(
-            superposition.at(place_m, [time_s, self.force_n(time_s)])?,
-        ))
+        Ok(Some(Past::new(self, tolerance)?.at(place_m, time_s)?))
     }
 
     /// The fields by kernels of a source, such as a table.
@@ -93,27 +90,24 @@ impl Fields<'_> {
         };
         let grid = Grid::new(&wanted, self.excitation, Some(&self.source))?;
         let time_s: Vec<f64> = grid.times_s().collect();
-        let force_n: Vec<f64> = time_s.iter().map(|&t| self.excitation.force_n(t)).collect();
-        let all: Vec<usize> = (0..force_n.len()).collect();
-        let sampled = Sampled::new(
-            self.excitation,
-            &self.source,
-            &grid,
-            &force_n,
-            &all,
-            self.tolerance,
-        )?;
-        let point = sampled.point(r_m, z_m)?;
-        let Point { values, errors, .. } = point;
-        let mut errors = errors.into_iter();
-        let traces = values.map(|samples| Trace {
-            samples,
-            error: errors.next().unwrap_or(f64::NAN),
-        });
+        let all: Vec<usize> = (0..time_s.len()).collect();
+        let evaluator = Evaluator::new(Asked {
+            excitation: self.excitation,
+            source: &self.source,
+            grid: &grid,
+            wanted: &all,
+            quantities: &[],
+            elastic: [f64::NAN; 2],
+            tolerance: self.tolerance,
+            watch: &Unwatched,
+        })?;
+        let found = evaluator.at(r_m, z_m)?;
+        let traces = found.values.into_iter().zip(found.errors);
+        let traces = traces.map(|(samples, error)| Trace { samples, error });
         Ok(FieldHistory {
             time_s,
             arrival_s: self.excitation.arrivals_s([r_m, z_m]),
-            traces,
+            traces: traces.collect(),
         })
     }
 }
@@ -125,7 +119,7 @@ pub struct FieldHistory {
     pub time_s: Vec<f64>,
     /// First P, S and Rayleigh arrival in s; infinite for a Rayleigh wave where there is none.
     pub arrival_s: [f64; 3],
-    traces: [Trace; 6],
+    traces: Vec<Trace>,
 }
 
 impl Index<Field> for FieldHistory {

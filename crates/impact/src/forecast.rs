@@ -1,6 +1,5 @@
 //! What a scene will take, before it is computed: time, memory, disk.
 
-use crate::discs::Discs;
 use crate::excitation::Excitation;
 use crate::grid::Grid;
 use crate::kernels::KernelSource;
@@ -154,13 +153,8 @@ impl Forecast {
         }
         let cell_s = match source {
             None => 0.0,
-            Some(KernelSource::Direct(_)) => {
-                DIRECT_CELL_S
-                    * Discs::likely_computed(excitation.radius(), scene.settings.tolerance)
-            }
-            Some(KernelSource::Table(_)) => {
-                LOOKED_UP_CELL_S * Discs::likely_looked_up(excitation.radius())
-            }
+            Some(KernelSource::Direct(_)) => DIRECT_CELL_S * 4.0,
+            Some(KernelSource::Table(_)) => LOOKED_UP_CELL_S,
         };
         let fields = Self::of(scene, samples, cell_s);
         Ok(Self {

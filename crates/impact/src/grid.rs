@@ -76,7 +76,7 @@ impl Wanted {
     /// A step in s that the tolerance asks for.
     fn fitting_step_s(&self, excitation: &Excitation) -> f64 {
         match excitation.record() {
-            None => excitation.pulse_s() / self.samples_of_contact(excitation),
+            None => excitation.pulse_s() / self.samples_of_contact(),
             Some(record) => {
                 let stretches = record.stretches(self.settling_s(excitation));
                 let unit_s = excitation.units().time_s();
@@ -85,22 +85,10 @@ impl Wanted {
         }
     }
 
-    /// Samples over a contact.
-    ///
-    /// Between samples the force is followed to third order, but for the cells in which it begins and ends with the power
-    /// 3/2: they leave up to (step/duration)^(3/2) of the largest force, and its fields the less of it the
-    /// shorter the step is beside the time of the waves over the disc.
-    fn samples_of_contact(&self, excitation: &Excitation) -> f64 {
-        let by_force = 1.1 / self.tolerance.sqrt();
-        let by_fields = match self.farthest_m {
-            Some(_) => {
-                let passing = excitation.pulse_s() / excitation.units().time_s();
-                let left = self.tolerance.recip();
-                left.powf(2.0 / 3.0).min((left * passing).powf(0.4))
-            }
-            None => 0.0,
-        };
-        by_force.max(by_fields).clamp(100.0, 10_000.0)
+    /// Samples over a contact: between them the force is followed to third order, but for its ends, where the power 3/2
+    /// is integrated.
+    fn samples_of_contact(&self) -> f64 {
+        (1.5 / self.tolerance.sqrt()).clamp(100.0, 10_000.0)
     }
 
     /// Time in s that the last Rayleigh wave takes to pass the farthest point.

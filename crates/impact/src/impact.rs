@@ -87,13 +87,14 @@ pub(crate) fn struck<S: Responses>(
             largest_n: results.peak_force_n,
         },
     };
+    let error = history.error();
     let excitation = Excitation::of_contact(
         half_space,
         radius,
         history,
         collision.units(),
         results.contact_time_s,
-        solved.error,
+        error,
     )?;
     Ok(Struck {
         solved,
@@ -175,7 +176,6 @@ impl Impact {
             return None;
         }
         let following = Settings {
-            model: Model::Growing,
             tolerance: 1e-3,
             ..Settings::default()
         };

@@ -1,8 +1,8 @@
 //! Kernels as cell averages at a point: computed, or looked up.
 
 use crate::place::{FieldError, Place};
-use halfspace::{DomainError, Kernel, Medium, Profile, Six};
-use lookup::{BEYOND, LookupError, Moments, Table};
+use halfspace::{DomainError, Kernel, Medium, Profile, Six, Trace};
+use lookup::{LookupError, Moments, Table};
 use std::f64::consts::PI;
 use std::sync::Arc;
 
@@ -26,8 +26,8 @@ pub struct Cells {
     pub smooth: Vec<Six>,
     /// Error of the response to a force of unit peak.
     pub error: Six,
-    /// What errors of the moments add, for rises that change by one in all; zero where [`Self::error`] has it.
-    pub moment_error: Six,
+    /// The remainder at any instant, where it was computed.
+    pub trace: Option<Trace>,
 }
 
 impl Cells {
@@ -54,8 +54,8 @@ impl Cells {
     }
 }
 
-/// First moments of direct kernels are computed to this fraction of the static field.
-const MOMENT_SHARE: f64 = 1e-7;
+/// Truncation of a trace in tolerances: responses are typically a hundred times nearer.
+const TRACE: f64 = 1.0;
 
 /// Distance in radii to which pulses' fields from computed kernels have been shown to hold their tolerance.
 const FARTHEST: f64 = 1e4;
@@ -89,15 +89,6 @@ impl KernelSource {
         }
     }
 
-    /// Whether its cells have second moments.
-    #[must_use]
-    pub fn bends(&self) -> bool {
-        match self {
-            Self::Direct(_) => false,
-            Self::Table(_) => true,
-        }
-    }
-
     /// Largest r and z in radii at which its values are sure: beyond, computed ones lose digits.
     #[must_use]
     pub fn reach(&self) -> [f64; 2] {
@@ -117,29 +108,43 @@ impl KernelSource {
         place: Place,
         wanted: CellPlan,
     ) -> Result<Cells, FieldError> {
-        let CellPlan { step, count, pulse } = wanted;
+        let CellPlan {
+            step, count, pulse, ..
+        } = wanted;
         let Place { r, z, .. } = place;
         match self {
             Self::Direct(kernel) => {
                 let domain = |source| place.domain(source);
-                let mut moments = Moments::zero(count + BEYOND);
                 let static_part = kernel.static_field(r, z).map_err(domain)?;
-                let floor = static_part.map(|s| MOMENT_SHARE * s.abs());
-                let both = (&mut moments.averages[..], &mut moments.first[..]);
-                let [error, of_moments] = kernel.cells(r, z, step, &floor, both).map_err(domain)?;
+                let rise = |length: f64| pulse.rise(length, wanted.rates);
+                let part = if wanted.rates { 0.004 } else { 1.0 };
+                let accuracy = (
+                    part * TRACE * wanted.tolerance,
+                    &rise as &dyn Fn(f64) -> f64,
+                );
+                // the last cell ends a rounding error before the trace
+                let end = step * count as f64;
+                let trace = kernel.trace_under(r, z, end, accuracy).map_err(domain)?;
+                let mut moments = Moments::zero(count);
+                let keep = |j, [average, first, second]: [Six; 3]| {
+                    moments.averages[j] = average;
+                    moments.first[j] = first;
+                    moments.second[j] = second;
+                };
+                trace.for_each_cell(step, count, keep).map_err(domain)?;
                 Ok(Cells {
                     static_part,
                     smooth: moments.absorbed(),
                     moments,
                     // the force rises and falls once
-                    error: error.map(|e| 2.0 * e),
-                    moment_error: of_moments,
+                    error: trace.error().map(|e| 2.0 * e),
+                    trace: Some(trace),
                 })
             }
             Self::Table(table) => {
                 let outside = |source| place.outside(source);
                 let (static_part, moments) = table
-                    .moments(poisson_ratio, r, z, step, count + BEYOND)
+                    .moments(poisson_ratio, r, z, step, count)
                     .map_err(outside)?;
                 let error = table_error(table, poisson_ratio, [r, z], pulse).map_err(outside)?;
                 Ok(Cells {
@@ -147,7 +152,7 @@ impl KernelSource {
                     smooth: moments.absorbed(),
                     moments,
                     error,
-                    moment_error: Six::default(),
+                    trace: None,
                 })
             }
         }
@@ -159,10 +164,14 @@ impl KernelSource {
 pub struct CellPlan {
     /// Width of a cell.
     pub step: f64,
-    /// How many cells.
+    /// How many cells, [`lookup::BEYOND`] among them.
     pub count: usize,
-    /// Of the force, for the table's error.
+    /// Of the force.
     pub pulse: Pulse,
+    /// Whether rates of the fields are asked for, too.
+    pub rates: bool,
+    /// Relative tolerance on the fields.
+    pub tolerance: f64,
 }
 
 /// What a table's error depends on of a force; lengths in r0/c1.
@@ -172,6 +181,25 @@ pub enum Pulse {
     Smooth(f64),
     /// Of a contact of this duration, which begins and ends with the power 3/2.
     Contact(f64),
+}
+
+impl Pulse {
+    /// The most by which the force, and its rate where `rates`, may change within a time, over its peak.
+    fn rise(self, length: f64, rates: bool) -> f64 {
+        let part = match self {
+            // what is left of R is of either sign, so that the slope in the middle counts for a part
+            Self::Contact(duration) => {
+                const LINE: f64 = 0.6;
+                let power = if rates { 0.5 } else { 1.5 };
+                let part = PI * length / duration;
+                part.powf(power).max(LINE * part)
+            }
+            // lines have rates that jump
+            Self::Smooth(_) if rates => 1.0,
+            Self::Smooth(duration) => 1.3 * PI * length / duration,
+        };
+        part.min(1.0)
+    }
 }
 
 /// Estimated absolute error of each field looked up, for a force of unit peak.

@@ -20,13 +20,10 @@
 //! ```
 
 // in reading order
-mod at_rest;
 mod condition;
-pub mod convolve;
-mod discs;
-mod ends;
 pub mod energy;
 mod error;
+mod evaluator;
 pub mod excitation;
 pub mod fields;
 mod finite;
@@ -35,41 +32,29 @@ pub mod forecast;
 pub mod grid;
 pub mod impact;
 pub mod kernels;
-mod loads;
 mod low_pass;
-mod nodes;
 pub mod numbers;
-mod observer;
 pub mod outcome;
 pub mod peaks;
 mod place;
 mod plausible;
 pub mod probes;
-mod projection;
 pub mod quantity;
-mod rate_loads;
-mod rates;
-#[cfg(test)]
-mod rates_tests;
 pub mod record;
 mod run;
-mod sampled;
-#[cfg(test)]
-mod sampled_tests;
 pub mod scene;
 pub mod shared;
 pub mod simulate;
 pub mod source;
 mod stretch;
-mod superposition;
 pub mod sweep;
-mod transform;
 mod watch;
 
 pub use condition::{Treatment, TreatmentError};
 pub use contact::{HalfSpace, Material, Settings, Striker};
 pub use energy::EnergySeries;
 pub use error::FieldsError;
+pub use evaluator::convolve;
 pub use excitation::{Excitation, Motion, PressureRadius};
 pub use fields::{FieldHistory, Fields, Trace};
 pub use finite::NotFinite;

@@ -1,7 +1,7 @@
 //! All that a scene gives.
 
-use crate::convolve::Method;
 use crate::energy::EnergySeries;
+use crate::evaluator::convolve::Method;
 use crate::probes::{ProbeFields, SectionFields};
 use contact::{Model, Results, Scheme};
 

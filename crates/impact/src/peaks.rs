@@ -1,12 +1,11 @@
 //! Largest values over time at the probes of a scene, without the histories: what a row of a sweep has of its fields.
 
+use crate::evaluator::{Asked, Evaluator};
 use crate::excitation::Excitation;
 use crate::forecast::{Forecast, TooMuch};
 use crate::grid::{Grid, Wanted};
 use crate::kernels::KernelSource;
-use crate::observer::{Asked, Observer};
 use crate::probes::Peaks;
-use crate::rates::Resolved;
 use crate::scene::Scene;
 use crate::simulate::ImpactError;
 use crate::source::{KernelChoice, choose_source};
@@ -58,26 +57,21 @@ pub(crate) fn at_probes(
         .check(scene, MOST_BYTES)
         .map_err(TooMuch::Memory)?;
     let time_s: Vec<f64> = grid.times_s().collect();
-    let force_n: Vec<f64> = time_s.iter().map(|&t| excitation.force_n(t)).collect();
-    let wanted: Vec<usize> = (0..force_n.len()).collect();
-    let observer = Observer::of(Asked {
-        scene,
+    let wanted: Vec<usize> = (0..time_s.len()).collect();
+    let material = scene.target.material();
+    let evaluator = Evaluator::new(Asked {
         excitation,
         source,
         grid: &grid,
-        force_n: &force_n,
         wanted: &wanted,
-        resolved: Resolved::Anew,
+        quantities: &scene.quantities,
+        elastic: [material.youngs_modulus_pa, material.poisson_ratio],
+        tolerance: scene.settings.tolerance,
         watch: &Unwatched,
     })?;
     for probe in &scene.probes {
-        let observed = observer.at(probe.r_m, probe.z_m)?;
-        let fields = observed.point.values.iter().zip(observed.point.errors);
-        let more = observed
-            .more
-            .iter()
-            .map(|(samples, error)| (samples, *error));
-        for (samples, error) in fields.chain(more) {
+        let at_point = evaluator.at(probe.r_m, probe.z_m)?;
+        for (samples, error) in at_point.values.iter().zip(at_point.errors) {
             let mut peaks = Peaks::default();
             peaks.push(&time_s, samples);
             found.peaks.push(Peak {

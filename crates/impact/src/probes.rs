@@ -1,7 +1,7 @@
 //! Fields at the probes of a scene and on its meridional section.
 
 use crate::error::FieldsError;
-use crate::observer::{Observed, Observer};
+use crate::evaluator::{AtPoint, Evaluator};
 use crate::quantity::Quantity;
 use crate::scene::{Probe, Section};
 use contact::HalfSpace;
@@ -120,14 +120,13 @@ impl ProbeFields {
 
 /// The fields at probes, at the samples that are wanted.
 pub(crate) fn at_probes(
-    observer: &Observer<'_>,
+    evaluator: &Evaluator<'_>,
     block: &HalfSpace,
-    quantities: &[Quantity],
     probes: &[Probe],
 ) -> Result<ProbeFields, FieldsError> {
-    let found: Vec<Observed> = probes
+    let found: Vec<AtPoint> = probes
         .par_iter()
-        .map(|probe| observer.at(probe.r_m, probe.z_m))
+        .map(|probe| evaluator.at(probe.r_m, probe.z_m))
         .collect::<Result<_, _>>()?;
     let blank = |&quantity: &Quantity| ProbeQuantity {
         quantity,
@@ -141,23 +140,26 @@ pub(crate) fn at_probes(
         valid_until_s: Vec::new(),
         values: Default::default(),
         errors: Default::default(),
-        more: quantities.iter().map(blank).collect(),
+        more: evaluator.asked.quantities.iter().map(blank).collect(),
     };
-    let excitation = observer.excitation;
+    let excitation = evaluator.asked.excitation;
     let (speeds, radius_m) = (excitation.speeds(), excitation.units().disc_radius_m);
-    for (Observed { point, more }, probe) in found.into_iter().zip(probes) {
+    for (AtPoint { values, errors }, probe) in found.into_iter().zip(probes) {
         let place_m = [probe.r_m, probe.z_m];
         fields.arrival_s.push(excitation.arrivals_s(place_m));
         let echo_s = speeds.first_echo_s(block, place_m, radius_m);
         let valid_s = echo_s.map_or(f64::INFINITY, |t| excitation.start_s() + t);
         fields.valid_until_s.push(valid_s);
-        for (field, samples) in point.values.into_iter().enumerate() {
-            fields.errors[field].push(point.errors[field]);
-            fields.values[field].push(samples);
-        }
-        for (own, (samples, error)) in fields.more.iter_mut().zip(more) {
-            own.values.push(samples);
-            own.errors.push(error);
+        for (i, (samples, error)) in values.into_iter().zip(errors).enumerate() {
+            let (own, own_errors) = match i.checked_sub(6) {
+                None => (&mut fields.values[i], &mut fields.errors[i]),
+                Some(i) => {
+                    let more = &mut fields.more[i];
+                    (&mut more.values, &mut more.errors)
+                }
+            };
+            own.push(samples);
+            own_errors.push(error);
         }
     }
     Ok(fields)
@@ -173,12 +175,12 @@ pub(crate) fn frames(section: &Section, samples: usize) -> Vec<usize> {
 
 /// The fields on a section; `frames` are places among the samples that are wanted, all of which count for `peaks`.
 pub(crate) fn on_section(
-    observer: &Observer<'_>,
-    quantities: &[Quantity],
+    evaluator: &Evaluator<'_>,
     (section, frames): (&Section, &[usize]),
     peaks: bool,
 ) -> Result<SectionFields, FieldsError> {
-    let all_s: Vec<f64> = observer.sampled.times_s().collect();
+    let all_s = evaluator.times_s();
+    let quantities = evaluator.asked.quantities;
     let even =
         |end: f64, count: usize| (0..count).map(move |i| end * i as f64 / (count as f64 - 1.0));
     let r_m: Vec<f64> = even(section.r_max_m, section.points[0]).collect();
@@ -202,19 +204,19 @@ pub(crate) fn on_section(
     };
     for row in 0..fields.z_m.len() {
         let z_m = fields.z_m[row];
-        let found: Vec<Observed> = fields
+        let found: Vec<AtPoint> = fields
             .r_m
             .par_iter()
-            .map(|&r_m| observer.at(r_m, z_m))
+            .map(|&r_m| evaluator.at(r_m, z_m))
             .collect::<Result<_, _>>()?;
-        for (column, observed) in found.into_iter().enumerate() {
+        for (column, at_point) in found.into_iter().enumerate() {
             let place_m = [fields.r_m[column], z_m];
-            let arrivals = observer.excitation.arrivals_s(place_m);
+            let arrivals = evaluator.asked.excitation.arrivals_s(place_m);
             for (times, time) in fields.arrival_s.iter_mut().zip(arrivals) {
                 times.push(time);
             }
             let place = row * radii + column;
-            fields.add((&all_s, frames), (place, size), &observed);
+            fields.add((&all_s, frames), (place, size), &at_point);
         }
     }
     Ok(fields)
@@ -226,23 +228,25 @@ impl SectionFields {
         &mut self,
         (all_s, frames): (&[f64], &[usize]),
         (place, size): (usize, usize),
-        Observed { point, more }: &Observed,
+        AtPoint { values, errors }: &AtPoint,
     ) {
         let put = |values: &mut [f32], samples: &[f64]| {
             for (frame, &n) in frames.iter().enumerate() {
                 values[frame * size + place] = samples[n] as f32;
             }
         };
-        for (field, samples) in point.values.iter().enumerate() {
-            self.errors[field].push(point.errors[field]);
-            put(&mut self.values[field], samples);
+        for (i, (samples, &error)) in values.iter().zip(errors).enumerate() {
+            let (own, own_errors) = match i.checked_sub(6) {
+                None => (&mut self.values[i], &mut self.errors[i]),
+                Some(i) => {
+                    let more = &mut self.more[i];
+                    (&mut more.values, &mut more.errors)
+                }
+            };
+            put(own, samples);
+            own_errors.push(error);
         }
-        for (own, (samples, error)) in self.more.iter_mut().zip(more) {
-            own.errors.push(*error);
-            put(&mut own.values, samples);
-        }
-        let all = point.values.iter().chain(more.iter().map(|own| &own.0));
-        for (peaks, samples) in self.peaks.iter_mut().flatten().zip(all) {
+        for (peaks, samples) in self.peaks.iter_mut().flatten().zip(values) {
             peaks.push(all_s, samples);
         }
     }

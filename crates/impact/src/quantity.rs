@@ -4,6 +4,7 @@
 //! von Mises and Tresca.
 //! Their errors are bounds: each is at most what the errors of the four stresses can move it by, whatever their signs.
 
+use crate::evaluator::forcing::Derivative;
 use contact::Choice;
 
 /// A quantity beside the six fields that every result has.
@@ -80,10 +81,8 @@ impl Choice for Quantity {
 /// How a quantity is had.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Origin {
-    /// A component of the velocity.
-    Velocity(usize),
-    /// A component of the acceleration.
-    Acceleration(usize),
+    /// A component of the velocity or of the acceleration.
+    Rate(Derivative, usize),
     /// From the stresses of the same instant.
     Stress,
 }
@@ -94,10 +93,10 @@ pub type Stresses = [f64; 4];
 impl Quantity {
     pub(crate) fn origin(self) -> Origin {
         match self {
-            Self::VelocityR => Origin::Velocity(0),
-            Self::VelocityZ => Origin::Velocity(1),
-            Self::AccelerationR => Origin::Acceleration(0),
-            Self::AccelerationZ => Origin::Acceleration(1),
+            Self::VelocityR => Origin::Rate(Derivative::First, 0),
+            Self::VelocityZ => Origin::Rate(Derivative::First, 1),
+            Self::AccelerationR => Origin::Rate(Derivative::Second, 0),
+            Self::AccelerationZ => Origin::Rate(Derivative::Second, 1),
             Self::StrainRr
             | Self::StrainTt
             | Self::StrainZz

@@ -1,6 +1,6 @@
 //! A force history that was measured or invented: linear between its samples.
 
-use crate::nodes::Node;
+use crate::evaluator::nodes::Node;
 use halfspace::gauss;
 use std::path::PathBuf;
 use thiserror::Error;

@@ -1,5 +1,6 @@
 //! A scene: what loads which half-space, and what is asked.
 
+use crate::evaluator::forcing::Derivative;
 use crate::quantity::{Origin, Quantity};
 use crate::record::ForceRecord;
 use contact::{HalfSpace, Settings, Striker};
@@ -77,10 +78,11 @@ impl Scene {
     /// Rates of the displacement that are asked for: velocity, acceleration.
     #[must_use]
     pub fn rates(&self) -> usize {
-        let has = |of: fn(Origin) -> bool| self.quantities.iter().any(|q| of(q.origin()));
-        let velocity = has(|origin| matches!(origin, Origin::Velocity(_)));
-        let acceleration = has(|origin| matches!(origin, Origin::Acceleration(_)));
-        usize::from(velocity) + usize::from(acceleration)
+        let has = |derivative| {
+            let of = |origin| matches!(origin, Origin::Rate(own, _) if own == derivative);
+            usize::from(self.quantities.iter().any(|q| of(q.origin())))
+        };
+        has(Derivative::First) + has(Derivative::Second)
     }
 
     /// Points at which fields are asked for.

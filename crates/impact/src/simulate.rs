@@ -1,22 +1,21 @@
 //! From a scene to all that it gives: an excitation, then series and fields.
 
-use crate::convolve::{Method, rises};
 use crate::energy::EnergySeries;
 use crate::error::FieldsError;
+use crate::evaluator::convolve::{Method, rises};
+use crate::evaluator::projection::Projection;
+use crate::evaluator::{self, Evaluator};
 use crate::excitation::Excitation;
 use crate::finite::{NotFinite, checked};
 use crate::forecast::{Allowance, Forecast, TooMuch};
 use crate::grid::{Grid, TooManySamples, Wanted};
 use crate::impact::Impact;
 use crate::kernels::KernelSource;
-use crate::observer::{self, Observer};
 use crate::outcome::{
     Cause, FieldsUsed, KernelsUsed, Outcome, RecordResults, Series, StrikerSeries,
 };
 use crate::plausible::doubts;
 use crate::probes::{ProbeFields, SectionFields, at_probes, frames, on_section};
-use crate::projection::Projection;
-use crate::rates::Resolved;
 use crate::record::ForceRecord;
 use crate::scene::{Load, Scene, Strike};
 use crate::source::{Chosen, KernelChoice, SourceError, choose_source};
@@ -243,25 +242,25 @@ impl<'a> Computed<'a> {
         let Chosen { source, reason } = chosen;
         let scene = asked.scene;
         asked.allowance.watch.points(scene.points());
-        let observer = |wanted, resolved| {
-            Observer::of(observer::Asked {
-                scene,
+        let material = scene.target.material();
+        let evaluator = |wanted| {
+            Evaluator::new(evaluator::Asked {
                 excitation: self.excitation,
                 source: &source,
                 grid: &self.grid,
-                force_n: &self.force_n,
                 wanted,
-                resolved,
+                quantities: &scene.quantities,
+                elastic: [material.youngs_modulus_pa, material.poisson_ratio],
+                tolerance: scene.settings.tolerance,
                 watch: asked.allowance.watch,
             })
         };
         let mut convolution = Method::Direct;
         let all: Vec<usize> = (0..self.force_n.len()).collect();
         if !scene.probes.is_empty() {
-            let observer = observer(&all, Resolved::Anew)?;
-            let found = at_probes(&observer, &scene.target, &scene.quantities, &scene.probes)?;
-            convolution = observer.sampled.method();
-            self.probes = Some(found);
+            let evaluator = evaluator(&all)?;
+            self.probes = Some(at_probes(&evaluator, &scene.target, &scene.probes)?);
+            convolution = evaluator.method();
         }
         if let Some(section) = &scene.section {
             let at = frames(section, self.force_n.len());
@@ -270,10 +269,9 @@ impl<'a> Computed<'a> {
             } else {
                 (&at, (0..at.len()).collect())
             };
-            let observer = observer(wanted, Resolved::Estimated)?;
-            let found = on_section(&observer, &scene.quantities, (section, &shown), scene.peaks)?;
-            convolution = observer.sampled.method();
-            self.section = Some(found);
+            let evaluator = evaluator(wanted)?;
+            self.section = Some(on_section(&evaluator, (section, &shown), scene.peaks)?);
+            convolution = evaluator.method();
         }
         self.used = Some(FieldsUsed {
             kernels: used(&source),
@@ -290,7 +288,7 @@ impl<'a> Computed<'a> {
         let left = parts.map(|(run, force_n)| {
             let nodes = self.excitation.cell_nodes(&run, step_s);
             let rises = rises(run.base_n, force_n);
-            let projection = Projection::new(force_n, &rises, &nodes, |p| p, f64::INFINITY, true);
+            let projection = Projection::new(force_n, &rises, &nodes, f64::INFINITY);
             projection.left.most_n
         });
         left.fold(0.0, f64::max)

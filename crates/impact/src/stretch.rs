@@ -33,6 +33,13 @@ impl Departure {
         self.sum_n += cell_n;
     }
 
+    pub(crate) fn scaled(self, by: f64) -> Self {
+        Self {
+            most_n: by * self.most_n,
+            sum_n: by * self.sum_n,
+        }
+    }
+
     pub(crate) fn join(&mut self, other: Self) {
         self.most_n = self.most_n.max(other.most_n);
         self.sum_n += other.sum_n;

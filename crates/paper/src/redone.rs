@@ -6,7 +6,7 @@ use crate::figures::{self, Redrawn};
 use crate::numbers::Numbers;
 use crate::report;
 use crate::runs::Runs;
-use figure::{svg_to_png, to_svg};
+use figure::{to_png, to_svg};
 use output::{Folder, NewFile, OutputError};
 use std::path::Path;
 
@@ -60,7 +60,7 @@ impl Redone {
             let name = redrawn.name;
             let failed = |source| PaperError::Picture { name, source };
             let svg = to_svg(&redrawn.figure).map_err(failed)?;
-            let png = svg_to_png(&svg, SCALE).map_err(failed)?;
+            let png = to_png(&redrawn.figure, SCALE).map_err(failed)?;
             files.push(NewFile::of(format!("{name}.svg"), svg));
             files.push(NewFile::of(format!("{name}.png"), png));
             files.push(as_text(&format!("{name}.csv"), csv_file::curves(redrawn))?);

@@ -4,7 +4,7 @@ use crate::StudyError;
 use crate::chart::Chart;
 use crate::picture::Picture;
 use crate::{csv_file, hdf_file, report};
-use figure::{svg_to_png, to_svg};
+use figure::{to_png, to_svg};
 use output::{Folder, NewFile};
 
 /// Pixels of a PNG for each of the SVG's.
@@ -35,8 +35,9 @@ fn draw(picture: &Picture) -> Result<[NewFile<'static>; 2], StudyError> {
         name: picture.name,
         source,
     };
-    let svg = to_svg(&picture.figure()).map_err(failed)?;
-    let png = svg_to_png(&svg, SCALE).map_err(failed)?;
+    let figure = picture.figure();
+    let svg = to_svg(&figure).map_err(failed)?;
+    let png = to_png(&figure, SCALE).map_err(failed)?;
     let file =
         |ending: &str, bytes: Vec<u8>| NewFile::of(format!("{}.{ending}", picture.name), bytes);
     Ok([file("svg", svg.into_bytes()), file("png", png)])

@@ -14,10 +14,6 @@ pub fn reason(method: &str) -> Option<&'static str> {
         "table, other nodes or points" => Some(
             "fewer nodes are enough at this place and not at the worst places of a table, for which its nodes are chosen",
         ),
-        "direct, second moments too" => Some(
-            "the second moments of exact cells are the tabulator's, on which impacts do not depend; it is ahead only \
-             where more is asked than a table holds",
-        ),
         "implicit of order 2" => Some(
             "it knows the loss 1 - e^2 from the momentum alone, to the digits of the restitution and not to its own; what \
              the program's march takes longer at 1e-3 goes into the loss and the instant of separation",

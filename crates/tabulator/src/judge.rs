@@ -287,11 +287,10 @@ mod tests {
         for [r, z] in [[0.0, 0.3], [0.5, 0.6], [0.8, 0.01], [0.3, 0.0]] {
             let values = Values::new(&table, [0.3, r, z]).unwrap();
             let kernel = Kernel::new(&Medium::new(0.3).unwrap(), Profile::Hertz, 1e-11).unwrap();
-            let mut cells = vec![[0.0; 6]; values.cells];
-            kernel
-                .cell_averages(r, z, values.width, &mut cells)
-                .unwrap();
-            for (j, cell) in cells.iter().enumerate() {
+            let integral = |t: f64| kernel.step_integral(r, z, t).unwrap().value;
+            for j in 0..values.cells {
+                let [before, after] = [j, j + 1].map(|j| integral(j as f64 * values.width));
+                let cell: [f64; 6] = std::array::from_fn(|f| (after[f] - before[f]) / values.width);
                 let nodes = &values.nodes[values.firsts[j]..values.firsts[j + 1]];
                 for f in 0..6 {
                     let sum: f64 = nodes.iter().map(|(_, weight, six)| weight * six[f]).sum();

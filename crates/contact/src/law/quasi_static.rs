@@ -35,7 +35,13 @@ pub fn quasi_static(coupling: f64) -> QuasiStatic {
     at_energy(coupling, 1.0)
 }
 
-/// The same with a fraction `energy` in (0, 1] of the kinetic energy.
+/// Its largest force alone.
+pub(crate) fn largest_force(coupling: f64) -> f64 {
+    let energy = 1.0;
+    Springs { coupling, energy }.top().powi(3)
+}
+
+/// The results with a fraction `energy` in (0, 1] of the kinetic energy.
 fn at_energy(coupling: f64, energy: f64) -> QuasiStatic {
     let spring = Springs { coupling, energy };
     let top = spring.top();

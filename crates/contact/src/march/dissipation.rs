@@ -13,12 +13,8 @@
 //!
 //! Theory: `docs/theory.md` (T46).
 
-use super::edge::Edge;
 use super::history::History;
 use super::relaxation::Relaxation;
-
-/// How many steps before the end the sum ends at least: two samples further are needed, the last ones are known badly.
-const BEFORE_END: f64 = 2.75;
 
 /// First sample of the sum.
 const FIRST: usize = 3;
@@ -35,28 +31,18 @@ const DERIVATIVES: [[f64; 5]; 4] = [
     [1.0, -4.0, 6.0, -4.0, 1.0],
 ];
 
-/// Work of one contact, relative to the kinetic energy before, where its [`Separation`](super::history::Separation) is known.
-///
-/// Nothing for contacts of few steps, and where the first samples are not those of an edge.
+/// Work of one contact, relative to the kinetic energy before, where its [`Ends`] are known.
 pub(crate) fn dissipated(
     history: &History,
     relaxation: &Relaxation<impl Fn(f64) -> f64>,
 ) -> Option<f64> {
-    let found = history.separation?;
-    let p = &history.force;
-    let steps = found.time / history.step;
-    let last = (steps - BEFORE_END) as usize;
+    let ends = history.ends?;
+    let (p, last) = (&history.force, ends.last);
     if last + 1 < FIRST + NEEDED {
         return None;
     }
-    let rest = steps - last as f64;
-    let root = |n: usize| p[n].cbrt();
-    let touch_roots = [root(1), root(2), root(3)];
-    let touch = Edge::new(history.elastic, touch_roots, [1.0, 2.0, 3.0])?;
-    let end_roots = [root(last + 2), root(last + 1), root(last)];
-    let leave = Edge::new(history.elastic, end_roots, [rest - 2.0, rest - 1.0, rest])?;
-    let edges = touch.taken_at_touch(relaxation, touch_roots[2])
-        + leave.taken_at_end(relaxation, end_roots[2]);
+    let edges = ends.touch.taken_at_touch(relaxation, ends.until[0])
+        + ends.leave.taken_at_end(relaxation, ends.until[1]);
     let delayed = delayed_weights(relaxation);
     let rate = |n: usize| {
         let samples = &p[n - 2..n + 3];

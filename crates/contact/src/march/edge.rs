@@ -14,10 +14,45 @@ use super::relaxation::Relaxation;
 use crate::quadrature::{GAUSS_4, gauss};
 
 /// s(y) with G a parabola; time in steps.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Edge {
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Edge {
     compliance: f64,
     g: [f64; 3],
+}
+
+/// Both ends of a contact in equal steps, and the last sample that is not of them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Ends {
+    pub(super) last: usize,
+    pub(super) touch: Edge,
+    pub(super) leave: Edge,
+    /// Roots of the force at the third sample and at the last.
+    pub(super) until: [f64; 2],
+}
+
+/// How many steps before the end the samples between end at least: two further are needed, the last ones are known badly.
+const BEFORE_END: f64 = 2.75;
+
+impl Ends {
+    /// Of a force that ends after so many steps, on a surface that gives way by `compliance`.
+    ///
+    /// Nothing for contacts of few steps, and where the samples are not those of an edge.
+    pub(super) fn of(force: &[f64], compliance: f64, steps: f64) -> Option<Self> {
+        let last = (steps - BEFORE_END) as usize;
+        let rest = steps - last as f64;
+        let roots = |from: usize| {
+            force
+                .get(from..from + 3)
+                .map(|p| [p[0], p[1], p[2]].map(f64::cbrt))
+        };
+        let (first, [r0, r1, r2]) = (roots(1)?, roots(last)?);
+        Some(Self {
+            last,
+            touch: Edge::new(compliance, first, [1.0, 2.0, 3.0])?,
+            leave: Edge::new(compliance, [r2, r1, r0], [rest - 2.0, rest - 1.0, rest])?,
+            until: [first[2], r0],
+        })
+    }
 }
 
 /// Newton's iterations at most; the function is convex and its bounds need not be sharp.
@@ -72,13 +107,16 @@ impl Edge {
     }
 
     /// dp/ds and its derivative in y.
+    #[inline]
     fn slope(&self, y: f64) -> [f64; 2] {
         let [rate, change] = self.rate(y);
-        let slope = 3.0 / rate;
-        [slope * y, slope * (1.0 - y * change / rate)]
+        let inverse = 1.0 / rate;
+        let slope = 3.0 * inverse;
+        [slope * y, slope * (1.0 - y * change * inverse)]
     }
 
     /// y at the time s, sought from `y`.
+    #[inline]
     fn root(&self, s: f64, mut y: f64) -> f64 {
         for _ in 0..ITERATIONS {
             let change = (self.time(y) - s) / (y * self.rate(y)[0]);
@@ -92,6 +130,11 @@ impl Edge {
             }
         }
         y
+    }
+
+    /// y at a time that is `away` from s, where it is `y`.
+    fn root_beside(&self, s: f64, y: f64, away: f64) -> f64 {
+        self.root(s + away, y * (1.0 + away / s).sqrt())
     }
 
     /// int_0^m K(s) p''(s) ds, K what is left of the memory m.
@@ -137,7 +180,7 @@ impl Edge {
                 return zeroth;
             }
             let s = self.time(y);
-            let oldest = self.root(s + relaxation.memory, y);
+            let oldest = self.root_beside(s, y, relaxation.memory);
             zeroth
                 + gauss(&GAUSS_4, y, oldest, |x| {
                     relaxation.remaining(self.time(x) - s) * self.slope(x)[1]
@@ -163,7 +206,7 @@ impl Edge {
         }
         let s = self.time(y);
         let oldest = if relaxation.memory < s {
-            self.root(s - relaxation.memory, y)
+            self.root_beside(s, y, -relaxation.memory)
         } else {
             0.0
         };

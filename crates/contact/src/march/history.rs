@@ -1,5 +1,9 @@
 //! Samples of a march.
 
+use super::edge::Ends;
+use crate::spectral::SolvedContact;
+use std::sync::Arc;
+
 /// The end of the first contact, as the last samples in contact tell it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Separation {
@@ -14,7 +18,7 @@ pub(crate) struct Separation {
 /// Samples of a march, a step apart, from the first touch until the striker has left for good.
 ///
 /// In collision units.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct History {
     /// Time between samples.
     pub step: f64,
@@ -34,10 +38,16 @@ pub struct History {
     pub(crate) elastic: f64,
     /// End of the first contact where the march finds it itself.
     pub(crate) separation: Option<Separation>,
+    /// Both ends of a contact whose work the march finds itself.
+    pub(crate) ends: Option<Ends>,
     /// Work left in the half-space where the march finds it itself.
     pub(crate) dissipated: Option<f64>,
     /// Layer at the end of a contact that shrinks.
     pub(crate) end_layer: EndLayer,
+    /// The contact itself where it was solved by pieces, of which these are samples.
+    pub(crate) pieces: Option<Arc<SolvedContact>>,
+    /// Estimated error of the force at any instant, over the largest.
+    pub(crate) error: f64,
 }
 
 /// The last instants of a contact whose radius goes to zero, too short for the step.
@@ -84,15 +94,25 @@ impl History {
             compliance: 0.0,
             elastic: 0.0,
             separation: None,
+            ends: None,
             dissipated: None,
             end_layer: EndLayer::default(),
+            pieces: None,
+            error: f64::INFINITY,
         }
     }
 
+    #[inline]
     pub(crate) fn push(&mut self, force: f64, displacement: f64, deflection: f64) {
         self.force.push(force);
         self.displacement.push(displacement);
         self.deflection.push(deflection);
+    }
+
+    /// Estimated error of the force at any instant, over the largest; infinite where nobody has estimated it.
+    #[must_use]
+    pub fn error(&self) -> f64 {
+        self.error
     }
 
     /// Mean velocity over the last step.

@@ -7,6 +7,7 @@ mod dissipation;
 mod edge;
 pub mod error;
 pub mod explicit;
+pub(crate) mod fine;
 mod flight;
 pub mod growing;
 pub mod history;

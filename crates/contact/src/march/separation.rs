@@ -15,7 +15,7 @@
 //! Theory: `docs/theory.md` (T45).
 
 use super::dissipation::dissipated;
-use super::edge::Edge;
+use super::edge::{Edge, Ends};
 use super::history::{History, Separation};
 use super::relaxation::{RESOLVED, Relaxation};
 use crate::quadrature::Local;
@@ -87,11 +87,9 @@ impl History {
         let end = first_separation(&self.force);
         self.separation = separation(self, end, relaxation);
         let again = self.force.iter().skip(end).any(|&p| p > 0.0);
-        self.dissipated = if again {
-            None
-        } else {
-            dissipated(self, relaxation)
-        };
+        let found = self.separation.filter(|_| !again);
+        self.ends = found.and_then(|f| Ends::of(&self.force, self.elastic, f.time / self.step));
+        self.dissipated = dissipated(self, relaxation);
     }
 
     /// Work of the force on another deflection of the same disc, where that on its own is known and the steps do not
@@ -102,7 +100,6 @@ impl History {
         coupling: f64,
         wave_time: f64,
     ) -> Option<f64> {
-        self.dissipated?;
         let relaxation = Relaxation::of(response, coupling, wave_time / self.step);
         // beyond that it knows no more than its memory
         (relaxation.memory <= RESOLVED)

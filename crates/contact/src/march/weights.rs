@@ -94,6 +94,7 @@ impl Weights {
 
     /// sum over all j of g_j (p_{n-j} - p_{n-j-1}), the deflection still to come; `force` holds p_0 = 0 .. p_n.
     #[must_use]
+    #[inline]
     pub fn delayed(&self, force: &[f64]) -> f64 {
         let (newest, past) = match force {
             [past @ .., newest] => (*newest, past),
@@ -104,6 +105,7 @@ impl Weights {
     }
 
     /// sum over j >= 1 of g_j (p_{n-j} - p_{n-j-1}), the part of the past; `past` holds p_0 .. p_{n-1}.
+    #[inline]
     pub(crate) fn past(&self, past: &[f64]) -> f64 {
         let start = match (self.values.get(past.len()), past.first()) {
             (Some(weight), Some(first)) => weight * first,

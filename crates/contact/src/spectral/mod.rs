@@ -118,8 +118,14 @@ pub enum GrowingError {
 /// Least and largest tolerance.
 const TOLERANCES: [f64; 2] = [1e-11, 1e-2];
 
-/// Error of a piece over the tolerance on the results.
-const PIECE: f64 = 0.3;
+/// Error of a piece over the tolerance on the results, from a tolerance of 1e-5 on and below.
+///
+/// Where pieces are few a second attempt costs more than smaller errors.
+const PIECE: [f64; 2] = [0.1, 0.3];
+const COARSE: f64 = 1e-5;
+
+/// Times that error where the first attempt has no end.
+const COARSER: f64 = 3.0;
 
 /// Least error of a piece.
 const FINEST: f64 = 1e-11;
@@ -169,9 +175,9 @@ pub fn solve_growing(
         .flatten()
         .fold(largest, f64::min)
         .max(least);
-    let mut piece = (PIECE * asked).max(FINEST);
+    let mut piece = (PIECE[usize::from(asked < COARSE)] * asked).max(FINEST);
     let mut best: Option<(f64, SolvedContact)> = None;
-    for _ in 0..ATTEMPTS {
+    for attempt in 0..ATTEMPTS {
         let tried = resolve(contact, piece);
         match (tried, &best) {
             (Ok(solved), _) => {
@@ -189,6 +195,8 @@ pub fn solve_growing(
                 }
                 piece = (piece * (0.3 / excess).max(0.1)).max(FINEST);
             }
+            // pieces that are finer than the last instants allow
+            (Err(GrowingError::NotFollowed { .. }), None) if attempt == 0 => piece *= COARSER,
             (Err(error), None) => return Err(error),
             // finer pieces than the last instants of a stiff striker allow
             (Err(_), Some(_)) => break,

@@ -70,6 +70,18 @@ impl Polynomial {
         *slopes = slope.map(|s| 2.0 * s);
     }
 
+    /// Value, slope and curvature.
+    pub(super) fn curve(&self, s: f64) -> [f64; 3] {
+        let x = 2.0 * s - 1.0;
+        let (mut value, mut slope, mut half) = (0.0, 0.0, 0.0);
+        for c in self.powers[..=self.degree].iter().rev() {
+            half = half * x + slope;
+            slope = slope * x + value;
+            value = value * x + c;
+        }
+        [value, 2.0 * slope, 8.0 * half]
+    }
+
     /// Value and slope.
     pub(super) fn jet(&self, s: f64) -> (f64, f64) {
         let x = 2.0 * s - 1.0;
@@ -97,6 +109,9 @@ mod tests {
             found.jets(&[s, 0.5], &mut values, &mut slopes);
             assert_eq!((values[0], slopes[0]), (value, slope));
             assert_eq!(found.value(s), value);
+            let curve = found.curve(s);
+            assert_eq!((curve[0], curve[1]), (value, slope));
+            assert!((curve[2] + 0.08).abs() < 1e-15);
         }
     }
 }

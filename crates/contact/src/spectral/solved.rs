@@ -4,8 +4,10 @@ use super::extrema::{Extremum, largest};
 use super::march::{Errors, March};
 use super::piece::Piece;
 use crate::march::history::History;
+use crate::resample::Instant as State;
 use crate::summary::{EndOfContact, Summary};
 use crate::units::INVERSE_MASS;
+use std::sync::Arc;
 
 /// Estimated errors of the results: relative, but that of the restitution, which is absolute.
 ///
@@ -45,6 +47,8 @@ impl Estimates {
 #[derive(Debug, Clone)]
 pub struct SolvedContact {
     pieces: Vec<Piece>,
+    /// When each piece ends.
+    ends: Vec<f64>,
     summary: Summary,
     estimates: Estimates,
 }
@@ -123,6 +127,7 @@ impl SolvedContact {
                 end: EndOfContact::Layer(estimates.contact_time),
                 ..summary
             },
+            ends: pieces.iter().map(|piece| piece.to.0).collect(),
             pieces,
             estimates,
         }
@@ -156,9 +161,7 @@ impl SolvedContact {
         if !(time >= 0.0 && time <= self.summary.contact_time) {
             return None;
         }
-        let after = self.pieces.partition_point(|piece| piece.to.0 < time);
-        let piece = self.pieces.get(after).or(self.pieces.last())?;
-        let place = place_of(piece, time);
+        let (piece, place) = self.place(time)?;
         let radius = piece.radius.value(place).max(0.0);
         let displacement = piece.displacement.value(place);
         Some(Instant {
@@ -170,7 +173,64 @@ impl SolvedContact {
         })
     }
 
-    /// Samples a step apart up to the first after the contact, as the marches make them.
+    /// The piece that holds a time, and the place in it.
+    fn place(&self, time: f64) -> Option<(&Piece, f64)> {
+        let after = self.ends.partition_point(|&end| end < time);
+        let piece = self.pieces.get(after).or(self.pieces.last())?;
+        Some((piece, place_of(piece, time)))
+    }
+
+    /// Force, rate and second rate at a time; the second zero at the very ends, all outside.
+    #[must_use]
+    pub fn force(&self, time: f64) -> [f64; 3] {
+        if !(time > 0.0 && time < self.summary.contact_time) {
+            return [0.0; 3];
+        }
+        self.place(time).map_or([0.0; 3], |(piece, place)| {
+            let [radius, a1, a2] = piece.radius.curve(place);
+            let [_, t1, t2] = piece.time.curve(place);
+            if radius <= 0.0 || t1 <= 0.0 {
+                return [0.0; 3];
+            }
+            // slopes in the place to those in time
+            let (per, square) = (1.0 / t1, 3.0 * radius * radius);
+            let rate = square * a1 * per;
+            let bend = (6.0 * radius * a1 * a1 + square * a2 - rate * t2) * per * per;
+            [radius.powi(3), rate, bend]
+        })
+    }
+
+    /// The state at any time from the touch on; the deflection is not followed after the contact.
+    #[must_use]
+    pub fn state(&self, time: f64) -> State {
+        let [force, rate, second_rate] = self.force(time);
+        let moved = State {
+            force,
+            rate,
+            second_rate,
+            ..State::default()
+        };
+        let end = self.summary.contact_time;
+        let (Some((piece, place)), true) = (self.place(time.max(0.0)), time < end) else {
+            let velocity = -self.summary.restitution;
+            let last = self.pieces.last();
+            let left = last.map_or(0.0, |piece| piece.displacement.value(1.0));
+            return State {
+                displacement: left + velocity * (time - end),
+                velocity,
+                ..moved
+            };
+        };
+        let displacement = piece.displacement.value(place);
+        State {
+            displacement,
+            velocity: piece.velocity.value(place),
+            deflection: displacement - piece.radius.value(place).max(0.0).powi(2),
+            ..moved
+        }
+    }
+
+    /// Samples a step apart up to the first after the contact, as the marches make them, with the pieces themselves.
     ///
     /// After the contact the deflection is not followed: that sample holds the one at the end.
     #[must_use]
@@ -187,6 +247,8 @@ impl SolvedContact {
             .map_or(0.0, |now| now.displacement);
         let beyond = history.force.len() as f64 * step - self.summary.contact_time;
         history.push(0.0, last - self.summary.restitution * beyond, last);
+        history.error = self.estimates.force;
+        history.pieces = Some(Arc::new(self.clone()));
         history
     }
 }
@@ -204,6 +266,12 @@ fn deflection_slope(piece: &Piece, place: f64) -> f64 {
 
 /// The place of a time in a piece: its time rises.
 fn place_of(piece: &Piece, time: f64) -> f64 {
+    if piece.time.degree == 2 {
+        let [middle, slope, half] = [0, 1, 2].map(|k| piece.time.powers[k]);
+        let away = time - middle;
+        let root = (slope * slope + 4.0 * half * away).max(0.0).sqrt();
+        return (0.5 + away / (slope + root)).clamp(0.0, 1.0);
+    }
     let (mut low, mut high) = (0.0_f64, 1.0_f64);
     let span = piece.to.0 - piece.from.0;
     let mut place = ((time - piece.from.0) / span).clamp(0.0, 1.0);
@@ -216,12 +284,10 @@ fn place_of(piece: &Piece, time: f64) -> f64 {
             high = place;
         }
         let newton = place - miss / slope;
-        let next = if newton >= low && newton <= high {
-            newton
-        } else {
-            0.5 * (low + high)
-        };
-        if (next - place).abs() < 1e-14 {
+        let inside = newton >= low && newton <= high;
+        let next = if inside { newton } else { 0.5 * (low + high) };
+        // Newton's error is squared each time
+        if (next - place).abs() < if inside { 3e-8 } else { 1e-14 } {
             return next;
         }
         place = next;

@@ -6,7 +6,7 @@ mod curves;
 mod fields;
 mod waves;
 
-use figure::{Figure, svg_to_png, to_pdf, to_svg};
+use figure::{Figure, to_pdf, to_png, to_svg};
 use std::error::Error;
 use std::path::PathBuf;
 
@@ -15,10 +15,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     let folder = PathBuf::from(folder);
     std::fs::create_dir_all(&folder)?;
     for (name, figure) in all() {
-        let svg = to_svg(&figure)?;
         let path = |ending: &str| folder.join(format!("{name}.{ending}"));
-        std::fs::write(path("svg"), &svg)?;
-        std::fs::write(path("png"), svg_to_png(&svg, 1.5)?)?;
+        std::fs::write(path("svg"), to_svg(&figure)?)?;
+        std::fs::write(path("png"), to_png(&figure, 1.5)?)?;
         std::fs::write(path("pdf"), to_pdf(&figure)?)?;
         println!("{}", path("png").display());
     }

@@ -1,10 +1,8 @@
 //! The font that comes with the library: Ubuntu Light.
 
-use skrifa::instance::{LocationRef, Size};
-use skrifa::{FontRef, MetadataProvider};
 use std::sync::OnceLock;
-
-pub(crate) use skrifa::GlyphId;
+use tiny_skia::{Path, PathBuilder, Transform};
+use ttf_parser::{Face, GlyphId, OutlineBuilder};
 
 /// Name of the font, and what takes its place in a viewer that does not have it.
 pub(crate) const FAMILY: &str = "Ubuntu, sans-serif";
@@ -21,7 +19,7 @@ pub(crate) fn data() -> &'static [u8] {
 }
 
 struct Font {
-    file: FontRef<'static>,
+    file: Face<'static>,
     /// Widths of the characters of ASCII.
     ascii: [f64; 128],
 }
@@ -31,10 +29,10 @@ impl Font {
         static FONT: OnceLock<Font> = OnceLock::new();
         FONT.get_or_init(|| {
             #[expect(clippy::unwrap_used, reason = "the file is part of the program")]
-            let file = FontRef::new(data()).unwrap();
+            let file = Face::parse(data(), 0).unwrap();
             let width = |i: usize| {
                 let letter = u8::try_from(i).map_or(' ', char::from);
-                width_of(&file, file.charmap().map(letter).unwrap_or_default())
+                width_of(&file, file.glyph_index(letter).unwrap_or_default())
             };
             Self {
                 ascii: std::array::from_fn(width),
@@ -44,21 +42,68 @@ impl Font {
     }
 }
 
-fn width_of(file: &FontRef<'_>, glyph: GlyphId) -> f64 {
-    let at = (Size::unscaled(), LocationRef::default());
-    let units = f64::from(file.metrics(at.0, at.1).units_per_em);
-    let metrics = file.glyph_metrics(at.0, at.1);
-    f64::from(metrics.advance_width(glyph).unwrap_or(0.0)) / units
+fn width_of(file: &Face<'_>, glyph: GlyphId) -> f64 {
+    let width = file.glyph_hor_advance(glyph).unwrap_or(0);
+    f64::from(width) / f64::from(file.units_per_em())
 }
 
 /// The glyph of a letter; glyph 0, an empty box, for one that the font does not have.
 pub(crate) fn glyph(letter: char) -> GlyphId {
-    Font::get().file.charmap().map(letter).unwrap_or_default()
+    Font::get().file.glyph_index(letter).unwrap_or_default()
 }
 
 /// Width of a glyph over the font's size.
 pub(crate) fn glyph_width(glyph: GlyphId) -> f64 {
     width_of(&Font::get().file, glyph)
+}
+
+/// The letters of a text as one outline, from the origin to the right and y downward; None if they are blanks.
+pub(crate) fn outline(text: &str, size: f64) -> Option<Path> {
+    let file = &Font::get().file;
+    let mut pen = Pen {
+        path: PathBuilder::new(),
+        along: 0.0,
+    };
+    for glyph in text.chars().map(glyph) {
+        // None for a blank
+        let _ = file.outline_glyph(glyph, &mut pen);
+        pen.along += f32::from(file.glyph_hor_advance(glyph).unwrap_or(0));
+    }
+    let unit = (size / f64::from(file.units_per_em())) as f32;
+    pen.path
+        .finish()?
+        .transform(Transform::from_scale(unit, -unit))
+}
+
+/// Draws one letter after another, in the font's units.
+struct Pen {
+    path: PathBuilder,
+    /// Where the letter starts.
+    along: f32,
+}
+
+impl OutlineBuilder for Pen {
+    fn move_to(&mut self, x: f32, y: f32) {
+        self.path.move_to(self.along + x, y);
+    }
+
+    fn line_to(&mut self, x: f32, y: f32) {
+        self.path.line_to(self.along + x, y);
+    }
+
+    fn quad_to(&mut self, a: f32, b: f32, x: f32, y: f32) {
+        let along = self.along;
+        self.path.quad_to(along + a, b, along + x, y);
+    }
+
+    fn curve_to(&mut self, a: f32, b: f32, c: f32, d: f32, x: f32, y: f32) {
+        let along = self.along;
+        self.path.cubic_to(along + a, b, along + c, d, along + x, y);
+    }
+
+    fn close(&mut self) {
+        self.path.close();
+    }
 }
 
 /// Width of a text over the font's size, without kerning, which can only narrow it.

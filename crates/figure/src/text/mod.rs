@@ -8,7 +8,7 @@ mod rich;
 mod wrap;
 
 pub(crate) use font::width as text_width;
-pub(crate) use font::{ASCENT, DESCENT, FAMILY, GlyphId, data, glyph, glyph_width};
+pub(crate) use font::{ASCENT, DESCENT, FAMILY, data, glyph, glyph_width, outline};
 pub(crate) use number::{decimal, power_of_ten};
 pub(crate) use rich::Rich;
 pub(crate) use wrap::wrap;

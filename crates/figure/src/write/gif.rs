@@ -1,19 +1,20 @@
-//! An animated GIF, from SVGs.
+//! An animated GIF.
 
 use super::png::rendered;
 use crate::error::RenderError;
+use crate::scene::Scene;
 use gif::{Encoder, Frame, Repeat};
 
 /// How long it takes to find the colours of a frame: 1 is the best, 30 the fastest.
 const SPEED: i32 = 10;
 
 /// The frames as a GIF that repeats, each `frame_s` long, to the hundredth.
-pub(crate) fn gif(svgs: &[String], scale: f32, frame_s: f64) -> Result<Vec<u8>, RenderError> {
+pub(crate) fn gif(scenes: &[Scene], scale: f32, frame_s: f64) -> Result<Vec<u8>, RenderError> {
     let fault = |error: gif::EncodingError| RenderError::Gif(error.to_string());
     let mut encoder: Option<Encoder<Vec<u8>>> = None;
     let mut first = None;
-    for svg in svgs {
-        let pixels = rendered(svg, scale)?;
+    for scene in scenes {
+        let pixels = rendered(scene, scale)?;
         let side = |pixels: u32| {
             u16::try_from(pixels)
                 .map_err(|_| RenderError::Gif(format!("{pixels} pixels is more than 65535")))

@@ -1,11 +1,11 @@
-//! Pixels as PNG, to lie in an SVG.
+//! The pixels of a picture.
 
 use crate::error::RenderError;
 use crate::scene::Picture;
-use resvg::tiny_skia::{ColorU8, Pixmap};
+use tiny_skia::{ColorU8, Pixmap};
 
-/// The pixels of a picture as PNG.
-pub(super) fn encode(picture: &Picture) -> Result<Vec<u8>, RenderError> {
+/// A picture's pixels, transparent where nothing is to be seen.
+pub(super) fn pixels(picture: &Picture) -> Result<Pixmap, RenderError> {
     let (width, height) = (picture.columns, picture.rows);
     let mut map = Pixmap::new(width, height).ok_or(RenderError::Pixels { width, height })?;
     for (to, from) in map.pixels_mut().iter_mut().zip(&picture.pixels) {
@@ -15,6 +15,11 @@ pub(super) fn encode(picture: &Picture) -> Result<Vec<u8>, RenderError> {
         };
         *to = colour.premultiply();
     }
+    Ok(map)
+}
+
+/// Pixels as PNG.
+pub(super) fn encode(map: &Pixmap) -> Result<Vec<u8>, RenderError> {
     map.encode_png()
         .map_err(|error| RenderError::Png(error.to_string()))
 }

@@ -1,45 +1,160 @@
-//! PNG, from SVG, with the library's own font.
+//! PNG.
 
+use super::pixels::{encode, pixels};
+use crate::colour::{BLACK, Colour, WHITE};
 use crate::error::RenderError;
+use crate::geometry::Rect;
+use crate::scene::{Item, Picture, Scene, Segment, Shape, Text, Turn};
 use crate::text;
-use resvg::{tiny_skia, usvg};
-use std::sync::{Arc, OnceLock};
+use tiny_skia::{
+    FillRule, FilterQuality, LineJoin, Mask, Paint, PathBuilder, Pattern, Pixmap, SpreadMode,
+    Stroke, StrokeDash, Transform,
+};
 
-fn fonts() -> Arc<usvg::fontdb::Database> {
-    static FONTS: OnceLock<Arc<usvg::fontdb::Database>> = OnceLock::new();
-    let load = || {
-        let mut fonts = usvg::fontdb::Database::new();
-        fonts.load_font_data(text::data().to_vec());
-        let family = fonts
-            .faces()
-            .find_map(|face| Some(face.families.first()?.0.clone()));
-        if let Some(family) = family {
-            fonts.set_sans_serif_family(family);
+/// A scene at so many pixels for each of its own.
+pub(crate) fn png(scene: &Scene, scale: f32) -> Result<Vec<u8>, RenderError> {
+    encode(&rendered(scene, scale)?)
+}
+
+/// The pixels of a scene.
+pub(super) fn rendered(scene: &Scene, scale: f32) -> Result<Pixmap, RenderError> {
+    // a hundredth of a pixel more is none
+    let [width, height] =
+        [scene.width, scene.height].map(|side| (f64::from(scale) * (side - 0.005)).ceil() as u32);
+    let map = Pixmap::new(width, height).ok_or(RenderError::Pixels { width, height })?;
+    let mut canvas = Canvas {
+        map,
+        place: Transform::from_scale(scale, scale),
+        clip: None,
+    };
+    for item in &scene.items {
+        match item {
+            Item::Shape(shape) => canvas.shape(shape),
+            Item::Picture(picture) => canvas.picture(picture)?,
+            Item::Text(text) => canvas.text(text),
         }
-        Arc::new(fonts)
-    };
-    Arc::clone(FONTS.get_or_init(load))
+    }
+    Ok(canvas.map)
 }
 
-/// Renders an SVG at so many pixels for each of its own.
-pub(crate) fn png(svg: &str, scale: f32) -> Result<Vec<u8>, RenderError> {
-    rendered(svg, scale)?
-        .encode_png()
-        .map_err(|error| RenderError::Png(error.to_string()))
+struct Canvas {
+    map: Pixmap,
+    /// From a scene's pixels to those of the map.
+    place: Transform,
+    /// The last area outside of which nothing was drawn; shapes of a plot follow one another.
+    clip: Option<(Rect, Mask)>,
 }
 
-/// The pixels of an SVG.
-pub(super) fn rendered(svg: &str, scale: f32) -> Result<tiny_skia::Pixmap, RenderError> {
-    let options = usvg::Options {
-        fontdb: fonts(),
-        ..usvg::Options::default()
-    };
-    let tree = usvg::Tree::from_str(svg, &options)?;
-    let size = tree.size();
-    let [width, height] = [size.width(), size.height()].map(|side| (scale * side).ceil() as u32);
-    let mut pixels =
-        tiny_skia::Pixmap::new(width, height).ok_or(RenderError::Pixels { width, height })?;
-    let transform = tiny_skia::Transform::from_scale(scale, scale);
-    resvg::render(&tree, transform, &mut pixels.as_mut());
-    Ok(pixels)
+impl Canvas {
+    fn shape(&mut self, shape: &Shape) {
+        let mut outline = PathBuilder::new();
+        for segment in &shape.segments {
+            match *segment {
+                Segment::Move(x, y) => outline.move_to(x as f32, y as f32),
+                Segment::Line(x, y) => outline.line_to(x as f32, y as f32),
+                Segment::Curve(points) => {
+                    let [a, b, c, d, x, y] = points.map(|p| p as f32);
+                    outline.cubic_to(a, b, c, d, x, y);
+                }
+                Segment::Close => outline.close(),
+            }
+        }
+        let Some(outline) = outline.finish() else {
+            return;
+        };
+        if let Some(area) = shape.clip {
+            self.clip_to(area);
+        }
+        let mask = shape.clip.and(self.clip.as_ref()).map(|(_, mask)| mask);
+        if let Some(fill) = shape.fill {
+            let paint = paint(fill.colour, fill.opacity);
+            let rule = FillRule::Winding;
+            self.map.fill_path(&outline, &paint, rule, self.place, mask);
+        }
+        if let Some(pen) = shape.stroke {
+            let dash = pen.dash.iter().map(|&length| length as f32).collect();
+            let stroke = Stroke {
+                width: pen.width as f32,
+                line_join: LineJoin::Round,
+                dash: StrokeDash::new(dash, 0.0),
+                ..Stroke::default()
+            };
+            let paint = paint(pen.colour, 1.0);
+            self.map
+                .stroke_path(&outline, &paint, &stroke, self.place, mask);
+        }
+    }
+
+    fn clip_to(&mut self, area: Rect) {
+        if self.clip.as_ref().is_some_and(|(known, _)| *known == area) {
+            return;
+        }
+        let mask = Mask::new(self.map.width(), self.map.height());
+        self.clip = mask.zip(rectangle(area)).map(|(mut mask, inside)| {
+            let inside = PathBuilder::from_rect(inside);
+            mask.fill_path(&inside, FillRule::Winding, true, self.place);
+            (area, mask)
+        });
+    }
+
+    fn picture(&mut self, picture: &Picture) -> Result<(), RenderError> {
+        let source = pixels(picture)?;
+        if let Some(area) = rectangle(picture.area) {
+            let size = [source.width(), source.height()].map(|pixels| pixels as f32);
+            let place = Transform::from_translate(area.x(), area.y())
+                .pre_scale(area.width() / size[0], area.height() / size[1]);
+            let quality = FilterQuality::Bicubic;
+            let shader = Pattern::new(source.as_ref(), SpreadMode::Pad, quality, 1.0, place);
+            let paint = Paint {
+                shader,
+                ..Paint::default()
+            };
+            self.map.fill_rect(area, &paint, self.place, None);
+        }
+        Ok(())
+    }
+
+    fn text(&mut self, text: &Text) {
+        let rim = Stroke {
+            width: 3.0,
+            line_join: LineJoin::Round,
+            ..Stroke::default()
+        };
+        for part in text.parts() {
+            let (x, y) = (part.start.0 as f32, part.start.1 as f32);
+            let turned = match text.turn {
+                Turn::Level => Transform::from_translate(x, y),
+                Turn::Upward => Transform::from_translate(x, y).pre_rotate(-90.0),
+            };
+            let place = self.place.pre_concat(turned);
+            let Some(letters) = text::outline(part.text, part.size) else {
+                continue;
+            };
+            if text.rim {
+                let white = paint(WHITE, 1.0);
+                self.map.stroke_path(&letters, &white, &rim, place, None);
+            }
+            let black = paint(BLACK, 1.0);
+            self.map
+                .fill_path(&letters, &black, FillRule::Winding, place, None);
+        }
+    }
+}
+
+fn paint(colour: Colour, opacity: f64) -> Paint<'static> {
+    let Colour { red, green, blue } = colour;
+    let mut paint = Paint::default();
+    paint.set_color_rgba8(red, green, blue, (255.0 * opacity).round() as u8);
+    paint.anti_alias = true;
+    paint
+}
+
+fn rectangle(area: Rect) -> Option<tiny_skia::Rect> {
+    let Rect {
+        left,
+        top,
+        right,
+        bottom,
+    } = area;
+    tiny_skia::Rect::from_ltrb(left as f32, top as f32, right as f32, bottom as f32)
 }

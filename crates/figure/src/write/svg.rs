@@ -1,6 +1,6 @@
 //! SVG.
 
-use super::pixels::encode;
+use super::pixels::{encode, pixels};
 use crate::error::RenderError;
 use crate::geometry::Rect;
 use crate::scene::{Item, Picture, Scene, Segment, Shape, Text, Turn};
@@ -107,7 +107,7 @@ fn outline(segments: &[Segment]) -> String {
 }
 
 fn image(picture: &Picture) -> Result<Image, RenderError> {
-    let png = encode(picture)?;
+    let png = encode(&pixels(picture)?)?;
     let area = picture.area;
     Ok(Image::new()
         .set("x", number(area.left))

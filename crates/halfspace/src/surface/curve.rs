@@ -1,60 +1,70 @@
 //! Functions of time as Chebyshev series on the panels of a zone.
 
-use super::zone::{Zone, panel_ends, panel_of};
+use super::zone::{Zone, panel_of};
 use std::f64::consts::{FRAC_PI_2, PI};
+use std::sync::OnceLock;
 
-/// A function of the angle of a zone: one Chebyshev series a panel.
+/// N functions of the angle of a zone: Chebyshev series of each panel, fitted where the panel is first met.
 #[derive(Debug, Clone)]
-pub(super) struct Curve {
-    pub(super) series: Vec<Vec<f64>>,
+pub(super) struct Curve<const N: usize> {
+    zone: Zone,
+    series: Vec<OnceLock<[Vec<f64>; N]>>,
 }
 
-impl Curve {
-    pub(super) const TERMS: usize = 24;
+const TERMS: usize = 24;
 
-    /// Fits f(panel, angle).
-    pub(super) fn fit(zone: Zone, f: impl Fn(usize, f64) -> f64) -> Self {
-        let n = Self::TERMS;
-        let cosine = |i: usize, k: usize| (PI * k as f64 * (i as f64 + 0.5) / n as f64).cos();
-        let series = panel_ends(zone)
-            .windows(2)
-            .enumerate()
-            .map(|(panel, ends)| {
-                let (mid, half) = (0.5 * (ends[0] + ends[1]), 0.5 * (ends[1] - ends[0]));
-                let values: Vec<f64> = (0..n)
-                    .map(|i| f(panel, mid + half * cosine(i, 1)))
-                    .collect();
-                let mut coefficients: Vec<f64> = (0..n)
-                    .map(|k| {
-                        let sum: f64 = values
-                            .iter()
-                            .enumerate()
-                            .map(|(i, v)| v * cosine(i, k))
-                            .sum();
-                        sum * if k == 0 { 1.0 } else { 2.0 } / n as f64
-                    })
-                    .collect();
-                let size = coefficients[0].abs();
-                while coefficients.len() > 2
-                    && coefficients.last().is_some_and(|c| c.abs() < 1e-17 * size)
-                {
-                    coefficients.pop();
-                }
-                coefficients
-            })
-            .collect();
-        Self { series }
+impl<const N: usize> Curve<N> {
+    /// On a zone of so many panels.
+    pub(super) fn new(zone: Zone, panels: usize) -> Self {
+        Self {
+            zone,
+            series: vec![OnceLock::new(); panels],
+        }
     }
 
-    /// Clenshaw's sum on the panel that holds the angle.
-    pub(super) fn value(&self, zone: Zone, angle: f64) -> f64 {
-        let (panel, from, to) = panel_of(zone, angle / FRAC_PI_2);
+    /// Clenshaw's sum of one of the functions f(panel, angle).
+    pub(super) fn value(
+        &self,
+        which: usize,
+        angle: f64,
+        f: impl Fn(usize, f64) -> [f64; N],
+    ) -> f64 {
+        let (panel, from, to) = panel_of(self.zone, angle / FRAC_PI_2);
         let u = (2.0 * angle / FRAC_PI_2 - from - to) / (to - from);
-        let coefficients = &self.series[panel];
+        let ends = [from, to].map(|fraction| fraction * FRAC_PI_2);
+        let series = self.series[panel].get_or_init(|| fit(ends, |angle| f(panel, angle)));
+        let coefficients = &series[which];
         let (mut b1, mut b2) = (0.0, 0.0);
         for &c in coefficients[1..].iter().rev() {
             (b1, b2) = (2.0 * u * b1 - b2 + c, b1);
         }
         u * b1 - b2 + coefficients[0]
     }
+}
+
+/// The series of functions between two angles.
+fn fit<const N: usize>([from, to]: [f64; 2], f: impl Fn(f64) -> [f64; N]) -> [Vec<f64>; N] {
+    static COSINES: OnceLock<[[f64; TERMS]; TERMS]> = OnceLock::new();
+    let n = TERMS as f64;
+    let cosine = |k: usize, i: usize| (PI * k as f64 * (i as f64 + 0.5) / n).cos();
+    let cosines =
+        COSINES.get_or_init(|| std::array::from_fn(|k| std::array::from_fn(|i| cosine(k, i))));
+    let (mid, half) = (0.5 * (from + to), 0.5 * (to - from));
+    let values: [[f64; N]; TERMS] = cosines[1].map(|x| f(mid + half * x));
+    std::array::from_fn(|which| {
+        let mut coefficients: Vec<f64> = cosines
+            .iter()
+            .enumerate()
+            .map(|(k, row)| {
+                let sum: f64 = values.iter().zip(row).map(|(v, x)| v[which] * x).sum();
+                sum * if k == 0 { 1.0 } else { 2.0 } / n
+            })
+            .collect();
+        let size = coefficients[0].abs();
+        while coefficients.len() > 2 && coefficients.last().is_some_and(|c| c.abs() < 1e-17 * size)
+        {
+            coefficients.pop();
+        }
+        coefficients
+    })
 }

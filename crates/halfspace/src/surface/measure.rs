@@ -9,6 +9,7 @@ use crate::medium::Medium;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// The measure mu with its moments summed panel by panel from the slow end.
+#[derive(Debug, Clone)]
 pub(super) struct Measure {
     pub(super) k: f64,
     pub(super) scale: f64,

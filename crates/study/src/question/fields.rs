@@ -4,7 +4,7 @@
 //! coarser cells are worth what they save; the error is relative to each field's peak, against the exact
 //! convolution.
 
-use super::interpolation::{self, interpolations};
+use super::interpolation::interpolations;
 use super::kernels::POISSON_RATIO;
 use super::pulse_scene::{EVERY, Label, Scene, add, sample_count, scenes};
 use crate::StudyError;
@@ -17,7 +17,6 @@ use impact::convolve::{Convolver, Method};
 use impact::kernels::{CellPlan, Pulse};
 use impact::{KernelSource, Place};
 use lookup::{PulseSum, Smoothness, Table};
-use tabulator::PointPlan;
 
 /// Measures every method in every scene.
 pub(crate) fn measure(
@@ -59,9 +58,7 @@ fn response(convolver: &Convolver, rest: &Six, cells: &[Six]) -> Vec<Six> {
 enum Shape {
     /// A line: averages alone.
     Linear,
-    /// A parabola, by first moments: what the program takes for a smooth force.
-    Parabola,
-    /// A cubic, by first and second moments.
+    /// A cubic, by first and second moments: what the program takes for a smooth force.
     Cubic,
 }
 
@@ -80,7 +77,6 @@ fn exact_cells(
             let width = EVERY * 0.5_f64.powi(halvings);
             let force = force(reference, width);
             let count = force.len();
-            let plan = PointPlan::new(medium.poisson_ratio(), tolerance, width, count + 4, 4)?;
             let direct = || {
                 let place = Place {
                     r,
@@ -89,20 +85,21 @@ fn exact_cells(
                 };
                 let plan = CellPlan {
                     step: width,
-                    count,
+                    count: count + lookup::BEYOND,
                     pulse: Pulse::Smooth(reference.length),
+                    rates: false,
+                    tolerance,
                 };
                 source.cells(medium.poisson_ratio(), place, plan)
             };
             let cells = || -> Result<Vec<Six>, StudyError> {
                 match shape {
                     Shape::Linear => Ok(direct()?.moments.averages),
-                    Shape::Parabola => Ok(direct()?.smooth),
-                    Shape::Cubic => Ok(interpolation::series(&plan.compute(r, z)?, width, count)),
+                    Shape::Cubic => Ok(direct()?.smooth),
                 }
             };
             cells()?;
-            let rest = plan.kernel().static_field(r, z)?;
+            let rest = direct()?.static_part;
             let convolver = Convolver::new(&force);
             let mut run = || match cells() {
                 Ok(cells) => response(&convolver, &rest, &cells),
@@ -113,11 +110,10 @@ fn exact_cells(
                 scene: scene.name,
                 method: match shape {
                     Shape::Linear => "direct, linear cells",
-                    Shape::Parabola => "direct",
-                    Shape::Cubic => "direct, second moments too",
+                    Shape::Cubic => "direct",
                 },
                 setting: format!("step {width}, kernel {tolerance:.0e}"),
-                default_path: shape == Shape::Parabola && tolerance < 1e-7,
+                default_path: shape == Shape::Cubic && tolerance < 1e-7,
             };
             add(records, effort, reference, label, width, &mut run);
         }
@@ -126,29 +122,20 @@ fn exact_cells(
 }
 
 /// Shape, kernel tolerance and halvings of the step of cells computed for a point.
-fn settings(effort: Effort) -> [(Shape, f64, Vec<i32>); 5] {
-    // the program asks for a thousandth of the scene's tolerance, 1e-12 at least and 1e-8 at most
+fn settings(effort: Effort) -> [(Shape, f64, Vec<i32>); 4] {
+    // the program's own tolerance of kernels goes with the scene's
     [
         (
-            Shape::Parabola,
+            Shape::Cubic,
             1e-8,
             effort.pick(vec![1, 3], vec![0, 1, 2, 3, 4, 5]),
         ),
-        (
-            Shape::Parabola,
-            1e-12,
-            effort.pick(vec![], vec![2, 3, 4, 5]),
-        ),
-        (Shape::Parabola, 1e-4, effort.pick(vec![], vec![1, 2, 3])),
+        (Shape::Cubic, 1e-12, effort.pick(vec![], vec![2, 3, 4, 5])),
+        (Shape::Cubic, 1e-4, effort.pick(vec![], vec![1, 2, 3])),
         (
             Shape::Linear,
             1e-8,
             effort.pick(vec![3], vec![0, 1, 2, 3, 4, 5]),
-        ),
-        (
-            Shape::Cubic,
-            1e-8,
-            effort.pick(vec![3], vec![1, 2, 3, 4, 5]),
         ),
     ]
 }

@@ -3,7 +3,7 @@
 use super::LEVEL;
 use crate::error::RenderError;
 use crate::scene::{Item, Scene};
-use crate::text::{self, GlyphId};
+use crate::text;
 use miniz_oxide::deflate::compress_to_vec_zlib;
 use pdf_writer::types::{CidFontType, FontFlags, SystemInfo, UnicodeCmap};
 use pdf_writer::{Filter, Finish, Name, Pdf, Rect, Ref, Str};
@@ -36,9 +36,8 @@ impl Subset {
             Item::Shape(_) | Item::Picture(_) => None,
         });
         for letter in texts.collect::<String>().chars() {
-            let glyph: GlyphId = text::glyph(letter);
-            let number = u16::try_from(glyph.to_u32()).unwrap_or(0);
-            let new = remapper.remap(number);
+            let glyph = text::glyph(letter);
+            let new = remapper.remap(glyph.0);
             letters.insert(letter, (new, text::glyph_width(glyph)));
         }
         let file = subsetter::subset(text::data(), 0, &remapper)

@@ -11,7 +11,7 @@
 //!
 //! Theory: `docs/theory.md` (T24).
 
-use crate::nodes::{CellNodes, Node};
+use super::nodes::{CellNodes, Node};
 use crate::stretch::Departure;
 use halfspace::Six;
 use lookup::{Moments, absorbed};
@@ -37,17 +37,8 @@ pub(crate) struct Projection {
 const BEFORE: isize = 2;
 
 impl Projection {
-    /// Of the force `map(P)` with `samples` of P a step apart; what is below `negligible` is left out.
-    ///
-    /// `bends` says whether the cells of the remainder have second moments.
-    pub(crate) fn new(
-        samples: &[f64],
-        rises: &[f64],
-        nodes: &CellNodes,
-        map: impl Fn(f64) -> f64,
-        negligible: f64,
-        bends: bool,
-    ) -> Self {
+    /// Of a force with `samples` a step apart; what is below `negligible` is left out.
+    pub(crate) fn new(samples: &[f64], rises: &[f64], nodes: &CellNodes, negligible: f64) -> Self {
         let mut found = Self {
             unabsorbed: Default::default(),
             left: Departure::default(),
@@ -55,12 +46,9 @@ impl Projection {
         for cell in -BEFORE..samples.len() as isize {
             let [slope, bend] = match usize::try_from(cell) {
                 Ok(m) if m > 0 => {
-                    let ends = [map(samples[m - 1]), map(samples[m])];
-                    let own = nodes.of(m - 1);
-                    let numbers = slope_and_bend(ends, own, &map);
-                    let taken = [numbers[0], if bends { numbers[1] } else { 0.0 }];
-                    found.left.add(largest_left(ends, taken, own, &map));
-                    numbers
+                    let own = taken(samples, nodes, m);
+                    found.left.add(own.most);
+                    [own.slope, own.bend]
                 }
                 Ok(_) | Err(_) => [0.0; 2],
             };
@@ -114,40 +102,64 @@ impl Projection {
     }
 }
 
-/// Slope in time and bend of a force over a cell, by parts from its mean and first moment.
+/// What a cell takes of a force, and what it leaves.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Taken {
+    pub(crate) rise: f64,
+    /// In time.
+    pub(crate) slope: f64,
+    pub(crate) bend: f64,
+    /// The most that is left of the force, and of its rate over a cell.
+    pub(crate) most: f64,
+    pub(crate) left: f64,
+}
+
+/// Of the cell that ends at sample `m`: slope and bend by parts from the mean and the first moment of the force.
 ///
 /// ```text
 /// slope = 12 [(P0 + P1)/2 - int P dx],     bend = 180 [(P1 - P0)/6 - 2 int P x dx]
 /// ```
-pub(crate) fn slope_and_bend(
-    [before, after]: [f64; 2],
-    nodes: &[Node],
-    map: impl Fn(f64) -> f64,
-) -> [f64; 2] {
+pub(crate) fn taken(samples: &[f64], nodes: &CellNodes, m: usize) -> Taken {
+    let (before, after, nodes) = (samples[m - 1], samples[m], nodes.of(m - 1));
     let (mut mean, mut moment) = (0.0, 0.0);
     for node in nodes {
         // less the line between the ends, so that little is left to cancel
         let line = before + (after - before) * (node.x + 0.5);
-        let above = node.weight * (map(node.force) - line);
+        let above = node.weight * (node.force - line);
         mean += above;
         moment += node.x * above;
     }
-    [-12.0 * mean, -360.0 * moment]
-}
-
-/// The force at x from -1/2 to 1/2 that has the ends of a cell, its slope and its bend.
-pub(crate) fn followed([before, after]: [f64; 2], [slope, bend]: [f64; 2], x: f64) -> f64 {
-    before
-        + (after - before) * (x + 0.5)
-        + slope * (0.5 * x * x - 0.125)
-        + bend * (x * x * x / 3.0 - x / 12.0)
-}
-
-/// The most that rise, slope and bend leave of the force inside a cell.
-fn largest_left(ends: [f64; 2], taken: [f64; 2], nodes: &[Node], map: impl Fn(f64) -> f64) -> f64 {
-    nodes.iter().fold(0.0, |most: f64, node| {
-        most.max((map(node.force) - followed(ends, taken, node.x)).abs())
-    })
+    let (slope, bend) = (-12.0 * mean, -360.0 * moment);
+    let left = |node: &Node| {
+        let x = node.x;
+        let followed = before
+            + (after - before) * (x + 0.5)
+            + slope * (0.5 * x * x - 0.125)
+            + bend * (x * x * x / 3.0 - x / 12.0);
+        node.force - followed
+    };
+    let mut found = Taken {
+        rise: after - before,
+        slope,
+        bend,
+        most: 0.0,
+        left: 0.0,
+    };
+    let (mut place, mut earlier) = (-0.5, 0.0);
+    let last = Node {
+        x: 0.5,
+        weight: 0.0,
+        force: after,
+    };
+    for node in nodes.iter().chain([&last]) {
+        let own = left(node);
+        found.most = found.most.max(own.abs());
+        if node.x > place {
+            found.left = found.left.max(((own - earlier) / (node.x - place)).abs());
+        }
+        (place, earlier) = (node.x, own);
+    }
+    found
 }
 
 #[cfg(test)]
@@ -189,7 +201,7 @@ mod tests {
                 moments.second[j][0] += weight * (s * s - 1.0 / 12.0) * rest(t);
             }
         }
-        let projection = Projection::new(&samples, &rises, &nodes, |p| p, 1e-15, true);
+        let projection = Projection::new(&samples, &rises, &nodes, 1e-15);
         let wanted: Vec<usize> = (0..samples.len()).collect();
         let mut out: [Vec<f64>; 6] = std::array::from_fn(|_| vec![0.0; samples.len()]);
         let smooth = moments.absorbed();

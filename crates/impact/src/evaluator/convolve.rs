@@ -10,7 +10,7 @@
 //!
 //! Theory: `docs/theory.md` (T22, T24).
 
-use crate::transform::Transform;
+use super::transform::Transform;
 use halfspace::Six;
 
 /// A sampled force, ready to be convolved with the cells of any number of points.

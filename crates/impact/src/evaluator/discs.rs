@@ -12,7 +12,7 @@
 //!
 //! Theory: `docs/theory.md` (T60).
 
-use crate::excitation::PressureRadius;
+use crate::excitation::{Excitation, PressureRadius};
 use std::f64::consts::PI;
 
 /// Radii over the largest, with the polynomials that share the load out.
@@ -33,13 +33,14 @@ const LOOKED_UP: usize = 4;
 const COVERED: [f64; 4] = [0.0, 0.25, 0.5, 0.75];
 
 impl Discs {
-    /// Those for kernels that are computed under forces in N at equal steps, the fewest first.
-    pub(crate) fn computed(radius: PressureRadius, tolerance: f64, force_n: &[f64]) -> Vec<Self> {
+    /// Those for kernels that are computed, the fewest first.
+    pub(crate) fn computed(excitation: &Excitation, tolerance: f64) -> Vec<Self> {
+        let radius = excitation.radius();
         let digits = (-tolerance.log10()).clamp(3.0, 8.0);
         let count = |a_digit: f64| (a_digit * digits).round() as usize;
         match radius {
             PressureRadius::Fixed(_) => vec![Self::one()],
-            PressureRadius::Following { .. } => std::iter::once(Self::far(radius, force_n))
+            PressureRadius::Following { .. } => std::iter::once(Self::far(excitation))
                 .chain(A_DIGIT.map(|d| Self::following(count(d), 0.0)))
                 .collect(),
         }
@@ -62,17 +63,6 @@ impl Discs {
         self.radii[self.radii.len() - 1]
     }
 
-    /// How many a point takes about, of kernels that are computed.
-    pub(crate) fn likely_computed(radius: PressureRadius, tolerance: f64) -> f64 {
-        let choices = Self::computed(radius, tolerance, &[]);
-        choices[1.min(choices.len() - 1)].radii.len() as f64
-    }
-
-    /// How many a point takes, of kernels that are looked up.
-    pub(crate) fn likely_looked_up(radius: PressureRadius) -> f64 {
-        Self::looked_up(radius)[0].radii.len() as f64
-    }
-
     /// One disc that takes all.
     pub(crate) fn one() -> Self {
         Self::alone(1.0)
@@ -80,9 +70,15 @@ impl Discs {
 
     /// One disc whose square is the mean of the squared radius, weighted with the force: far from it only what is short
     /// beside the wave differs.
-    fn far(radius: PressureRadius, force_n: &[f64]) -> Self {
-        let sum = |weight: &dyn Fn(f64) -> f64| force_n.iter().map(|&p| weight(p)).sum::<f64>();
-        let (all, squares) = (sum(&|p| p), sum(&|p| p * radius.square(p)));
+    fn far(excitation: &Excitation) -> Self {
+        const SAMPLES: usize = 100;
+        let (mut all, mut squares) = (0.0, 0.0);
+        for i in 0..SAMPLES {
+            let part = (i as f64 + 0.5) / SAMPLES as f64;
+            let force_n = excitation.force_n(part * excitation.end_s());
+            all += force_n;
+            squares += force_n * excitation.radius().square(force_n);
+        }
         Self::alone(if all > 0.0 {
             (squares / all).clamp(1e-6, 1.0)
         } else {
@@ -112,10 +108,10 @@ impl Discs {
 
     /// The share of disc `k` of a load that has `square` of the largest radius squared, and the part of it that the two
     /// highest powers bring.
-    pub(crate) fn share(&self, k: usize, square: f64) -> (f64, f64) {
+    pub(crate) fn share(&self, k: usize, square: f64) -> [f64; 2] {
         let count = self.radii.len();
         if count == 1 {
-            return (1.0, 0.0);
+            return [1.0, 0.0];
         }
         let x = (2.0 * square - 1.0 - self.least) / (1.0 - self.least);
         let node = (PI * (2 * k + 1) as f64 / (2 * count) as f64).cos();
@@ -130,7 +126,7 @@ impl Discs {
             (a, b) = (b, 2.0 * x * b - a);
             (c, d) = (d, 2.0 * node * d - c);
         }
-        (all / count as f64, last / count as f64)
+        [all, last].map(|sum| sum / count as f64)
     }
 }
 
@@ -149,7 +145,7 @@ mod tests {
             for square in [0.0, 0.1, 0.63, 1.0, 1.01] {
                 for power in 0..count as i32 {
                     let sum: f64 = (0..count)
-                        .map(|k| discs.share(k, square).0 * discs.radii[k].powi(2 * power))
+                        .map(|k| discs.share(k, square)[0] * discs.radii[k].powi(2 * power))
                         .sum();
                     assert!(
                         (sum - f64::powi(square, power)).abs() < 1e-9,

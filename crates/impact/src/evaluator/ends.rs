@@ -1,0 +1,298 @@
+//! The parts of a contact that its samples do not resolve: its beginning and its end, where the force has the power 3/2.
+//!
+//! Cells take the rate of the force as a parabola over a step, which is wrong there; it shows where the kernel is not
+//! smooth either, beside fronts. For these samples the cells of a zone are replaced by the integral itself,
+//!
+//! ```text
+//! int F'(t') R(t - t') dt' = int dF/dx R(t - t0 - x^2) dx,      t' = t0 + x^2 after a beginning, t0 - x^2 before an end
+//! ```
+//!
+//! with F a polynomial in x, and R read from the trace of the point between its fronts.
+//!
+//! Theory: `docs/theory.md` (T24).
+
+use super::projection::Taken;
+use crate::excitation::{Excitation, PressureRadius};
+use halfspace::{Six, Trace, gauss};
+use lookup::Moments;
+use std::f64::consts::PI;
+use std::ops::Range;
+use std::sync::LazyLock;
+
+/// Rates that are left over a cell count from this part of the tolerance of the steepest rise on.
+const SMOOTH: f64 = 0.02;
+
+/// Terms of the force in the root of time.
+const DEGREE: usize = 12;
+
+/// Cells that are replaced together.
+pub(crate) struct Zone {
+    /// Each ends at the sample of its number.
+    pub(crate) cells: Range<usize>,
+    /// What the cells took of the force.
+    taken: Vec<Taken>,
+    parts: Vec<Part>,
+}
+
+/// A part of a zone on one side of a beginning or an end.
+struct Part {
+    origin_s: f64,
+    /// Of time from the origin: after a beginning, or before an end.
+    forward: bool,
+    /// Roots of the times in s from the origin between which it lies.
+    roots: [f64; 2],
+    /// dF/dx as a Chebyshev series in x between them.
+    series: [f64; DEGREE],
+}
+
+/// The zones of a force during a run; `steepest` is its largest rise over a step, in tolerances.
+///
+/// Under a load whose radius varies each contact is one: what of it is replaced is up to each sample.
+pub(crate) fn zones(
+    excitation: &Excitation,
+    span_s: &dyn Fn(&Range<usize>) -> [f64; 2],
+    taken: &dyn Fn(usize) -> Taken,
+    (count, steepest): (usize, f64),
+    force: impl Fn(f64) -> f64,
+) -> Vec<Zone> {
+    let mut zones: Vec<Zone> = Vec::new();
+    let sure = SMOOTH * steepest;
+    let contacts = excitation.contacts_s();
+    for cell in 1..count {
+        let own = taken(cell);
+        let inside = match excitation.radius() {
+            PressureRadius::Fixed(_) => own.left > sure,
+            PressureRadius::Following { .. } => {
+                let [from_s, to_s] = span_s(&(cell..cell + 1));
+                contacts
+                    .iter()
+                    .any(|[begin_s, end_s]| from_s < *end_s && to_s > *begin_s)
+            }
+        };
+        if !inside {
+            continue;
+        }
+        match zones.last_mut() {
+            Some(zone) if zone.cells.end == cell => {
+                zone.cells.end = cell + 1;
+                zone.taken.push(own);
+            }
+            Some(_) | None => zones.push(Zone {
+                cells: cell..cell + 1,
+                taken: vec![own],
+                parts: Vec::new(),
+            }),
+        }
+    }
+    if let PressureRadius::Following { .. } = excitation.radius() {
+        return zones;
+    }
+    // of a polynomial in x
+    let allowed = 0.1 * sure;
+    for zone in &mut zones {
+        let [from_s, to_s] = span_s(&zone.cells);
+        for &[begin_s, end_s] in contacts {
+            let [low, high] = [from_s.max(begin_s), to_s.min(end_s)];
+            if low >= high {
+                continue;
+            }
+            let middle = if low == begin_s && high == end_s {
+                0.5 * (low + high)
+            } else if high == end_s {
+                low
+            } else {
+                high
+            };
+            for (origin_s, other_s) in [(low, middle), (high, middle)] {
+                let roots = [0.0, (other_s - origin_s).abs().sqrt()];
+                if roots[1] > 0.0 {
+                    let side = (origin_s, other_s > origin_s);
+                    Part::push(side, roots, &force, allowed, &mut zone.parts);
+                }
+            }
+        }
+    }
+    zones
+}
+
+impl Part {
+    /// Adds what lies on a side of an origin, halved until a polynomial follows the force.
+    fn push(
+        (origin_s, forward): (f64, bool),
+        roots: [f64; 2],
+        force: &impl Fn(f64) -> f64,
+        allowed: f64,
+        parts: &mut Vec<Self>,
+    ) {
+        /// Parts are halved no more once there are so many.
+        const MOST: usize = 16;
+        let (middle, half) = (0.5 * (roots[0] + roots[1]), 0.5 * (roots[1] - roots[0]));
+        let angle = |i: usize| PI * (i as f64 + 0.5) / DEGREE as f64;
+        let values: [f64; DEGREE] = std::array::from_fn(|i| {
+            let x = middle + half * angle(i).cos();
+            force(if forward {
+                origin_s + x * x
+            } else {
+                origin_s - x * x
+            })
+        });
+        let term = |j: usize| {
+            let terms = values.iter().enumerate();
+            let sum: f64 = terms
+                .map(|(i, value)| value * (j as f64 * angle(i)).cos())
+                .sum();
+            2.0 * sum / DEGREE as f64
+        };
+        let left = term(DEGREE - 1).abs() + term(DEGREE - 2).abs();
+        if left > allowed && parts.len() < MOST {
+            for roots in [[roots[0], middle], [middle, roots[1]]] {
+                Self::push((origin_s, forward), roots, force, allowed, parts);
+            }
+            return;
+        }
+        // the derivative of the series, by its recurrence
+        let mut slopes = [0.0; DEGREE + 1];
+        for j in (1..DEGREE).rev() {
+            slopes[j - 1] = slopes[(j + 1).min(DEGREE)] + 2.0 * j as f64 * term(j);
+        }
+        slopes[0] *= 0.5;
+        let sign = if forward { 1.0 } else { -1.0 };
+        parts.push(Self {
+            origin_s,
+            forward,
+            roots,
+            series: std::array::from_fn(|j| sign * slopes[j] / half),
+        });
+    }
+
+    /// dF/dx, in the sense of time.
+    fn slope(&self, x: f64) -> f64 {
+        let [low, high] = self.roots;
+        let y = (2.0 * x - low - high) / (high - low);
+        let (mut b1, mut b2) = (0.0, 0.0);
+        for c in self.series[1..].iter().rev() {
+            (b1, b2) = (2.0 * y * b1 - b2 + c, b1);
+        }
+        y * b1 - b2 + self.series[0]
+    }
+
+    /// Adds the integral at a time; the trace has its times in `unit_s`.
+    fn add(&self, time_s: f64, trace: &Trace, unit_s: f64, sum: &mut Six) {
+        let since_s = time_s - self.origin_s;
+        let x_of = |s: f64| {
+            (if self.forward {
+                since_s - s
+            } else {
+                s - since_s
+            })
+            .max(0.0)
+            .sqrt()
+        };
+        // s = 0 is the instant itself
+        let [mut low, mut high] = self.roots;
+        if self.forward {
+            high = high.min(x_of(0.0));
+        } else {
+            low = low.max(x_of(0.0));
+        }
+        if low >= high {
+            return;
+        }
+        let fronts = trace.fronts().iter().map(|front| x_of(front * unit_s));
+        let mut cuts: Vec<f64> = fronts
+            .filter(|x| low < *x && *x < high)
+            .chain([low, high])
+            .collect();
+        cuts.sort_by(f64::total_cmp);
+        for pair in cuts.windows(2) {
+            let (middle, half) = (0.5 * (pair[0] + pair[1]), 0.5 * (pair[1] - pair[0]));
+            for &(y, weight) in RULE.iter() {
+                let x = middle + half * y;
+                let s = if self.forward {
+                    since_s - x * x
+                } else {
+                    since_s + x * x
+                };
+                let value = trace.at(s / unit_s);
+                let weight = half * weight * self.slope(x);
+                for (sum, value) in sum.iter_mut().zip(value) {
+                    *sum += weight * value;
+                }
+            }
+        }
+    }
+}
+
+/// Gauss's rule on [-1, 1] in the angle: exact beside roots at both ends.
+static RULE: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| {
+    const NODES: usize = 10;
+    let angles = gauss::rule(NODES).on(0.0, PI);
+    angles
+        .map(|(angle, weight)| (-angle.cos(), weight * angle.sin()))
+        .collect()
+});
+
+impl Zone {
+    /// What some of the cells brought to sample n, in kernel units times the force.
+    pub(crate) fn by_cells(&self, n: usize, part: &Range<usize>, cells: &Moments) -> Six {
+        let mut sum = Six::default();
+        for cell in part.start..part.end.min(n + 1) {
+            let taken = &self.taken[cell - self.cells.start];
+            let j = n - cell;
+            for (f, sum) in sum.iter_mut().enumerate() {
+                *sum += taken.rise * cells.averages[j][f] - taken.slope * cells.first[j][f]
+                    + taken.bend * cells.second[j][f];
+            }
+        }
+        sum
+    }
+
+    /// What the integral brings at a time.
+    pub(crate) fn by_trace(&self, time_s: f64, trace: &Trace, unit_s: f64) -> Six {
+        let mut sum = Six::default();
+        for part in &self.parts {
+            part.add(time_s, trace, unit_s, &mut sum);
+        }
+        sum
+    }
+
+    /// The most that the cells may leave of sample n, where the kernel departs by `open` from a parabola within each of its
+    /// cells.
+    pub(crate) fn left(&self, n: usize, open: &[Six]) -> Six {
+        let mut sum = Six::default();
+        for (cell, taken) in self.cells.clone().zip(&self.taken) {
+            if cell > n {
+                break;
+            }
+            for (sum, open) in sum.iter_mut().zip(open[n - cell]) {
+                *sum += open * taken.left;
+            }
+        }
+        sum
+    }
+}
+
+/// How far the kernel may depart within each cell from the parabola that its moments give.
+///
+/// Of a front that passes within a cell it is of the order of the cell's average, of a smooth kernel of that of its third
+/// difference.
+pub(crate) fn open(moments: &Moments) -> Vec<Six> {
+    let Moments {
+        averages,
+        first,
+        second,
+    } = moments;
+    let count = averages.len();
+    let of = |j: usize| -> Six {
+        let [before, after] = [
+            averages[j.saturating_sub(1)],
+            averages[(j + 1).min(count - 1)],
+        ];
+        std::array::from_fn(|f| {
+            let bend = 180.0 * second[j][f] - 0.5 * (after[f] - 2.0 * averages[j][f] + before[f]);
+            let tilt = 12.0 * first[j][f] - 0.5 * (after[f] - before[f]);
+            bend.abs().max(tilt.abs()) / 3.0
+        })
+    };
+    (0..count).map(of).collect()
+}

@@ -1,0 +1,291 @@
+//! What is convolved with the kernels: a force or its rate, sampled on discs that together stand for the load.
+//!
+//! The waves are linear in the force, so that those of its rate are the rates of the waves: velocities are the same sum as
+//! the fields with P' in place of P.
+//! P'' of a contact is infinite where it begins and ends, and P' of a record jumps at each row: accelerations, and the
+//! velocities of records, are means over one step of the output, differences of sums half a step before and after.
+//!
+//! Theory: `docs/theory.md` (T24, T60, T61).
+
+use super::convolve::Convolver;
+use super::discs::Discs;
+use super::ends::{Zone, zones};
+use super::nodes::{CellNodes, Node};
+use super::projection::{Projection, taken};
+use crate::excitation::{Excitation, PressureRadius};
+use crate::grid::Grid;
+use crate::kernels::Cells;
+use crate::run::Run;
+use crate::stretch::Departure;
+use halfspace::Six;
+use std::ops::Range;
+
+/// Which derivative in time of the fields is meant.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Derivative {
+    /// The six fields.
+    Field,
+    /// Velocities.
+    First,
+    /// Accelerations, as means over one step.
+    Second,
+}
+
+/// What is read of an excitation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Reading {
+    /// The force in N.
+    Force,
+    /// Its rate in N/s.
+    Rate,
+}
+
+/// A force or its rate at times a step apart.
+pub(crate) struct Forcing<'a> {
+    pub(crate) excitation: &'a Excitation,
+    pub(crate) reading: Reading,
+    /// How often the sums are differenced over a step.
+    pub(crate) differences: usize,
+    pub(crate) step_s: f64,
+    pub(crate) tolerance: f64,
+    /// Samples, begun half a step earlier for each difference.
+    pub(crate) runs: Vec<Run>,
+    /// Of each run the samples that the outputs need, ascending.
+    pub(crate) needed: Vec<Vec<usize>>,
+    /// The first that each output is made of, among those of all runs.
+    pub(crate) outputs: Vec<usize>,
+    /// The cell from which on the runs leave out what earlier ones have changed for good, and the sum of these changes.
+    pub(crate) left_out: (usize, f64),
+}
+
+/// The force on one disc.
+pub(crate) struct DiscForce {
+    pub(crate) runs: Vec<RunForce>,
+    /// Half of the total variation: the peak where it rises and falls once.
+    half_variation: f64,
+    /// What rise, slope and bend of the cells leave of the whole force, counted with the largest disc.
+    left: Departure,
+}
+
+/// The force on one disc during one run.
+pub(crate) struct RunForce {
+    pub(crate) convolver: Convolver,
+    pub(crate) projection: Projection,
+    /// The part that the two highest powers of the radius bring; of a disc alone what it leaves out.
+    pub(crate) last: Option<Convolver>,
+    /// Cells that the samples do not resolve.
+    pub(crate) zones: Vec<Zone>,
+}
+
+/// Slopes and bends below this fraction of the largest sample are left to the differences of the samples.
+const NEGLIGIBLE: f64 = 1e-9;
+
+impl<'a> Forcing<'a> {
+    /// For a derivative at some samples of a grid, ascending.
+    pub(crate) fn new(
+        excitation: &'a Excitation,
+        grid: &Grid,
+        wanted: &[usize],
+        derivative: Derivative,
+        tolerance: f64,
+    ) -> Self {
+        let (reading, differences) = match (derivative, excitation.record()) {
+            (Derivative::Field, _) => (Reading::Force, 0),
+            (Derivative::First, None) => (Reading::Rate, 0),
+            (Derivative::First, Some(_)) => (Reading::Force, 1),
+            (Derivative::Second, None) => (Reading::Rate, 1),
+            (Derivative::Second, Some(_)) => (Reading::Force, 2),
+        };
+        let (mut runs, mut needed) = (Vec::new(), Vec::new());
+        let (mut outputs, mut first, mut before) = (Vec::new(), 0, 0);
+        for run in &grid.runs {
+            let own = first..first + run.count;
+            first = own.end;
+            let inside = wanted
+                .iter()
+                .filter(|n| own.contains(n))
+                .map(|n| n - own.start);
+            let with_next = inside.clone().flat_map(|n| n..=n + differences);
+            let mut samples: Vec<usize> = with_next.collect();
+            samples.sort_unstable();
+            samples.dedup();
+            outputs.extend(inside.map(|n| before + samples.partition_point(|&m| m < n)));
+            before += samples.len();
+            needed.push(samples);
+            runs.push(Run {
+                start_s: run.start_s - 0.5 * differences as f64 * grid.step_s,
+                base_n: run.base_n,
+                count: run.count + differences,
+            });
+        }
+        Self {
+            excitation,
+            reading,
+            differences,
+            step_s: grid.step_s,
+            tolerance,
+            runs,
+            needed,
+            outputs,
+            left_out: match derivative {
+                Derivative::Field => grid.left_out(),
+                Derivative::First | Derivative::Second => (0, 0.0),
+            },
+        }
+    }
+
+    /// The force on disc `k` at a time, and the part that the two highest powers of the radius bring.
+    pub(crate) fn on_disc(&self, discs: &Discs, k: usize, time_s: f64) -> [f64; 2] {
+        let radius = self.excitation.radius();
+        match self.reading {
+            Reading::Force => {
+                let force_n = self.excitation.force_n(time_s);
+                discs
+                    .share(k, radius.square(force_n))
+                    .map(|part| force_n * part)
+            }
+            Reading::Rate => {
+                let [force_n, rate] = self.excitation.force_and_rate(time_s);
+                if rate == 0.0 || discs.radii.len() == 1 {
+                    return [rate, 0.0];
+                }
+                // phi + (2/3) a^2 phi' of a polynomial in a^2 (T61)
+                const APART: f64 = 1e-6;
+                let square = radius.square(force_n);
+                let [here, above, below] =
+                    [0.0, APART, -APART].map(|apart| discs.share(k, square + apart));
+                [0, 1].map(|i| rate * (here[i] + square / 3.0 * (above[i] - below[i]) / APART))
+            }
+        }
+    }
+
+    /// When some cells of a run begin and end, in s.
+    pub(crate) fn span_s(&self, run: &Run, cells: &Range<usize>) -> [f64; 2] {
+        [cells.start - 1, cells.end - 1].map(|n| run.start_s + n as f64 * self.step_s)
+    }
+
+    /// Times of the samples of a run.
+    fn times_s(&self, run: &Run) -> impl Iterator<Item = f64> {
+        let (start_s, step_s) = (run.start_s, self.step_s);
+        (0..run.count).map(move |n| start_s + n as f64 * step_s)
+    }
+
+    /// Forces on the discs of a choice.
+    pub(crate) fn on_discs(&self, discs: &Discs) -> Vec<DiscForce> {
+        let nodes = |run| self.excitation.cell_nodes(run, self.step_s);
+        let nodes: Vec<CellNodes> = self.runs.iter().map(nodes).collect();
+        let of = |k| {
+            let mut force = DiscForce {
+                runs: Vec::new(),
+                half_variation: 0.0,
+                left: Departure::default(),
+            };
+            for (i, nodes) in nodes.iter().enumerate() {
+                self.add_run(&mut force, (discs, k), i, nodes);
+            }
+            let per_step = self.step_s.recip().powi(self.differences as i32);
+            force.left = force.left.scaled(per_step);
+            force
+        };
+        (0..discs.radii.len()).map(of).collect()
+    }
+
+    fn add_run(
+        &self,
+        force: &mut DiscForce,
+        (discs, k): (&Discs, usize),
+        i: usize,
+        nodes: &CellNodes,
+    ) {
+        let (run, needed) = (&self.runs[i], &self.needed[i]);
+        let radius = self.excitation.radius();
+        let both: Vec<[f64; 2]> = self
+            .times_s(run)
+            .map(|t| self.on_disc(discs, k, t))
+            .collect();
+        let samples: Vec<f64> = both.iter().map(|both| both[0]).collect();
+        let base = match self.reading {
+            Reading::Force => run.base_n * discs.share(k, radius.square(run.base_n))[0],
+            Reading::Rate => 0.0,
+        };
+        let convolver = Convolver::from_base(base, &samples, needed.clone());
+        let nodes = CellNodes::new(run.count.saturating_sub(1), |cell, own| {
+            let middle_s = run.start_s + (cell as f64 + 0.5) * self.step_s;
+            own.extend(nodes.of(cell).iter().map(|node| Node {
+                force: self.on_disc(discs, k, middle_s + node.x * self.step_s)[0],
+                ..*node
+            }));
+        });
+        let largest = samples.iter().fold(0.0, |most: f64, p| most.max(p.abs()));
+        let negligible = NEGLIGIBLE.max(1e-3 * self.excitation.relative_error()) * largest;
+        let projection = Projection::new(&samples, convolver.rises(), &nodes, negligible);
+        // of a contact's rate what is left stands in the zones
+        if k == 0 && self.reading == Reading::Force {
+            force.left.join(projection.left);
+        }
+        let rises = convolver.rises();
+        // of the outputs: differenced as they are
+        let mut changes = rises.to_vec();
+        for _ in 0..self.differences {
+            let next = changes.windows(2).map(|d| (d[1] - d[0]) / self.step_s);
+            changes = next.collect();
+        }
+        force.half_variation += 0.5 * changes.iter().map(|d| d.abs()).sum::<f64>();
+        let last = match radius {
+            PressureRadius::Fixed(_) => None,
+            PressureRadius::Following { .. } if discs.radii.len() == 1 => {
+                Some(self.left_out(discs.radii[0], run))
+            }
+            PressureRadius::Following { .. } => Some(both.iter().map(|both| both[1]).collect()),
+        };
+        let zones = match self.excitation.record() {
+            Some(_) => Vec::new(),
+            None => {
+                let steepest = rises.iter().fold(0.0, |most: f64, d| most.max(d.abs()));
+                let taken = |cell: usize| taken(&samples, &nodes, cell);
+                let force = |t| self.on_disc(discs, k, t)[0];
+                let span_s = |cells: &Range<usize>| self.span_s(run, cells);
+                let counts = (run.count, self.tolerance * steepest);
+                zones(self.excitation, &span_s, &taken, counts, force)
+            }
+        };
+        force.runs.push(RunForce {
+            convolver,
+            projection,
+            last: last.map(|last| Convolver::at(&last, needed.clone())),
+            zones,
+        });
+    }
+
+    /// The force whose waves one disc of radius b leaves out, far from it: (a_max/c_R)^2/10 times the second derivative of
+    /// P (a^2 - b^2)/a_max^2.
+    fn left_out(&self, radius: f64, run: &Run) -> Vec<f64> {
+        let excitation = self.excitation;
+        let lag_s = excitation.units().time_s() / excitation.medium().rayleigh_speed();
+        let steps = lag_s / self.step_s;
+        let over = |t: f64| {
+            let one = |[force_n, value]: [f64; 2]| {
+                value * (excitation.radius().square(force_n) - radius * radius)
+            };
+            match self.reading {
+                Reading::Force => one([excitation.force_n(t); 2]),
+                Reading::Rate => one(excitation.force_and_rate(t)),
+            }
+        };
+        let values: Vec<f64> = (-1..=run.count as isize)
+            .map(|n| over(run.start_s + n as f64 * self.step_s))
+            .collect();
+        let second = values.windows(3).map(|v| v[2] - 2.0 * v[1] + v[0]);
+        second.map(|bend| 0.1 * steps * steps * bend).collect()
+    }
+}
+
+impl DiscForce {
+    /// Errors of the kernels and of the force within the cells, in kernel units times the unit of the force.
+    pub(crate) fn errors(&self, cells: &Cells) -> Six {
+        let (variation, steps) = (cells.variation(), cells.largest_step());
+        std::array::from_fn(|f| {
+            cells.error[f] * self.half_variation + self.left.moves(variation[f], steps[f])
+        })
+    }
+}

@@ -1,0 +1,311 @@
+//! The fields of an excitation at a point, and whatever else is asked there: one sum for all of it.
+//!
+//! ```text
+//! u(t) = F(t) u_static + int F'(t') R(t - t') dt'
+//! ```
+//!
+//! R, the remainder of the kernel at the point, is known as a function of time before anything is summed: as a trace, or as
+//! the cells of a table. Read in this order: [`forcing`] says what F is, [`discs`] which discs stand for a load whose
+//! radius varies, [`convolve`] and [`projection`] sum over cells, [`ends`] integrates where cells do not serve, and
+//! [`past`] where discs do not.
+//!
+//! Theory: `docs/theory.md` (T24, T55, T60, T61).
+
+mod at_rest;
+pub mod convolve;
+pub(crate) mod discs;
+mod ends;
+pub(crate) mod forcing;
+pub(crate) mod nodes;
+mod past;
+pub(crate) mod projection;
+#[cfg(test)]
+mod rate_tests;
+mod sum;
+#[cfg(test)]
+mod tests;
+mod transform;
+
+pub(crate) use past::Past;
+
+use crate::error::FieldsError;
+use crate::excitation::{Excitation, PressureRadius};
+use crate::grid::Grid;
+use crate::kernels::{CellPlan, Cells, KernelSource};
+use crate::place::Place;
+use crate::quantity::{Origin, Quantity};
+use crate::watch::Watch;
+use convolve::Method;
+use discs::Discs;
+use forcing::{Derivative, DiscForce, Forcing};
+use halfspace::{Kernel, Profile};
+use lookup::BEYOND;
+use std::sync::OnceLock;
+use sum::Sum;
+
+/// What is asked at points, of an excitation with kernels.
+#[derive(Clone, Copy)]
+pub(crate) struct Asked<'a> {
+    pub(crate) excitation: &'a Excitation,
+    pub(crate) source: &'a KernelSource,
+    pub(crate) grid: &'a Grid,
+    /// Samples at which it is wanted, ascending.
+    pub(crate) wanted: &'a [usize],
+    /// Beside the six fields.
+    pub(crate) quantities: &'a [Quantity],
+    /// Young's modulus in Pa and Poisson's ratio.
+    pub(crate) elastic: [f64; 2],
+    pub(crate) tolerance: f64,
+    /// Who is told of each point.
+    pub(crate) watch: &'a dyn Watch,
+}
+
+/// What is the same for all points: forces on discs, sampled.
+pub(crate) struct Evaluator<'a> {
+    pub(crate) asked: Asked<'a>,
+    /// For static fields alone.
+    kernel: Kernel,
+    /// Of the fields, and of the velocities and accelerations where they are asked for.
+    forcings: Vec<(Derivative, Forcing<'a>)>,
+    /// The discs that may stand for the load, and the forces on them that a point has needed, of each forcing.
+    choices: Vec<Discs>,
+    forces: Vec<OnceLock<Vec<Vec<DiscForce>>>>,
+    /// Of a contact whose radius follows the load.
+    past: Option<Past<'a>>,
+}
+
+/// All that was asked for at a point, in SI units: the six fields, then the quantities.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct AtPoint {
+    /// Samples of each.
+    pub(crate) values: Vec<Vec<f64>>,
+    /// Estimated absolute error of each.
+    pub(crate) errors: Vec<f64>,
+}
+
+/// Values and errors of the six fields, or of the rates of the first two.
+pub(crate) type Resolved = ([Vec<f64>; 6], [f64; 6]);
+
+/// What a disc alone leaves out of the waves besides their travel, as a fraction of them times the squared distance in radii.
+const NEAR: f64 = 2.0;
+
+/// Tolerances that a part of the past may have, which brings a part of the field.
+const PART_OF_PAST: f64 = 10.0;
+
+/// Samples of forces on discs that are held at most.
+const MOST_HELD: usize = 1 << 24;
+
+impl<'a> Evaluator<'a> {
+    /// Of all that is asked.
+    pub(crate) fn new(asked: Asked<'a>) -> Result<Self, FieldsError> {
+        let Asked {
+            excitation,
+            source,
+            grid,
+            tolerance,
+            ..
+        } = asked;
+        let computed = matches!(source, KernelSource::Direct(_));
+        let radius = excitation.radius();
+        let mut choices = if computed {
+            Discs::computed(excitation, tolerance)
+        } else {
+            Discs::looked_up(radius)
+        };
+        if computed {
+            let held = |discs: &&Discs| discs.radii.len() * grid.count() <= MOST_HELD;
+            let kept = choices.iter().take_while(held).count().max(1);
+            choices.truncate(kept);
+        }
+        let mut derivatives = vec![Derivative::Field];
+        for quantity in asked.quantities {
+            if let Origin::Rate(derivative, _) = quantity.origin()
+                && !derivatives.contains(&derivative)
+            {
+                derivatives.push(derivative);
+            }
+        }
+        let forcing = |derivative| {
+            let of = Forcing::new(excitation, grid, asked.wanted, derivative, tolerance);
+            (derivative, of)
+        };
+        let past = match (radius, excitation.record()) {
+            (PressureRadius::Following { .. }, None) if computed => {
+                Some(Past::new(excitation, PART_OF_PAST * tolerance)?)
+            }
+            (_, _) => None,
+        };
+        Ok(Self {
+            kernel: Kernel::new(excitation.medium(), Profile::Hertz, 1e-6)?,
+            forcings: derivatives.into_iter().map(forcing).collect(),
+            forces: choices.iter().map(|_| OnceLock::new()).collect(),
+            choices,
+            past,
+            asked,
+        })
+    }
+
+    /// Times in s at which the fields are wanted.
+    pub(crate) fn times_s(&self) -> Vec<f64> {
+        let all: Vec<f64> = self.asked.grid.times_s().collect();
+        self.asked.wanted.iter().map(|&n| all[n]).collect()
+    }
+
+    /// How forces are summed, for reports.
+    pub(crate) fn method(&self) -> Method {
+        let forces = self
+            .forces
+            .iter()
+            .filter_map(OnceLock::get)
+            .flatten()
+            .flatten();
+        let mut runs = forces.flat_map(|force| &force.runs);
+        if runs.any(|run| run.convolver.method() == Method::Transform) {
+            Method::Transform
+        } else {
+            Method::Direct
+        }
+    }
+
+    /// All that is asked for at a point.
+    ///
+    /// # Errors
+    /// [`FieldsError`] for a point outside the half-space or the table.
+    pub(crate) fn at(&self, r_m: f64, z_m: f64) -> Result<AtPoint, FieldsError> {
+        let sums = self.sums([r_m, z_m])?;
+        let mut found = AtPoint {
+            values: sums[0].0.to_vec(),
+            errors: sums[0].1.to_vec(),
+        };
+        for &quantity in self.asked.quantities {
+            let (values, error) = match quantity.origin() {
+                Origin::Rate(derivative, component) => {
+                    let place = self.forcings.iter().position(|(own, _)| *own == derivative);
+                    let (values, errors) = &sums[place.unwrap_or(0)];
+                    (values[component].clone(), errors[component])
+                }
+                Origin::Stress => self.of_stresses(quantity, &sums[0]),
+            };
+            found.values.push(values);
+            found.errors.push(error);
+        }
+        self.asked.watch.advance();
+        Ok(found)
+    }
+
+    fn of_stresses(&self, quantity: Quantity, (values, errors): &Resolved) -> (Vec<f64>, f64) {
+        let [_, _, rr, tt, zz, rz] = values;
+        let of = |i: usize| quantity.of([rr[i], tt[i], zz[i], rz[i]], self.asked.elastic);
+        let [_, _, rr_error, tt_error, zz_error, rz_error] = *errors;
+        let error = quantity.error([rr_error, tt_error, zz_error, rz_error], self.asked.elastic);
+        ((0..rr.len()).map(of).collect(), error)
+    }
+
+    /// Values and errors of each forcing, under the first choice of discs that leaves little open, or under the one before
+    /// where a choice leaves more: the kernels of small discs lose digits far away.
+    fn sums(&self, place_m: [f64; 2]) -> Result<Vec<Resolved>, FieldsError> {
+        let serving = self.serving(place_m);
+        let mut best = self.under(place_m, serving[0])?;
+        let open = |sums: &[Sum<'_>]| sums.iter().map(|sum| sum.open.len()).sum::<usize>();
+        for &choice in &serving[1..] {
+            // to integrate a sample costs less than a disc
+            if self.past.is_none() || open(&best.0) <= 2 * self.choices[choice].radii.len() {
+                break;
+            }
+            let next = self.under(place_m, choice)?;
+            if open(&next.0) >= open(&best.0) {
+                break;
+            }
+            best = next;
+        }
+        let (sums, cells) = best;
+        sums.into_iter()
+            .map(|sum| sum.resolved(self.past.as_ref(), &cells))
+            .collect()
+    }
+
+    /// The choices of discs that the source serves at a point in largest radii, and to which it is far enough for a disc
+    /// alone; where there is none, the last or, of kernels that are computed, the first, whose error names the place.
+    fn serving(&self, place_m: [f64; 2]) -> Vec<usize> {
+        let radius_m = self.asked.excitation.units().disc_radius_m;
+        let [r, z] = place_m.map(|x| x / radius_m);
+        let reach = self.asked.source.reach();
+        let count = self.choices.len();
+        let computed = matches!(self.asked.source, KernelSource::Direct(_));
+        let near = computed && count > 1 && NEAR / (r * r + z * z) > self.asked.tolerance;
+        let served = |&choice: &usize| {
+            let discs = &self.choices[choice];
+            let smallest = discs.smallest();
+            let reached = r <= smallest * reach[0] && z <= smallest * reach[1];
+            reached && !(near && discs.radii.len() == 1)
+        };
+        let found: Vec<usize> = (0..count).filter(served).collect();
+        match (found.is_empty(), computed) {
+            (false, _) => found,
+            (true, true) => vec![0],
+            (true, false) => vec![count - 1],
+        }
+    }
+
+    /// The sums of all forcings over the discs of one choice, with the kernels of the discs.
+    fn under(
+        &self,
+        place_m: [f64; 2],
+        choice: usize,
+    ) -> Result<(Vec<Sum<'_>>, Vec<Cells>), FieldsError> {
+        let discs = &self.choices[choice];
+        let cells: Vec<Cells> = (discs.radii.iter())
+            .map(|&over| self.cells(place_m, over))
+            .collect::<Result<_, _>>()?;
+        let forces = self.forces[choice].get_or_init(|| {
+            let of = |(_, forcing): &(_, Forcing<'_>)| forcing.on_discs(discs);
+            self.forcings.iter().map(of).collect()
+        });
+        let sums = self
+            .forcings
+            .iter()
+            .zip(forces)
+            .map(|((derivative, forcing), forces)| {
+                Sum::new(
+                    (*derivative, forcing),
+                    discs,
+                    forces,
+                    &self.kernel,
+                    place_m,
+                    &cells,
+                )
+            });
+        Ok((sums.collect::<Result<_, _>>()?, cells))
+    }
+
+    /// The kernels of a disc of a radius `over` the largest, as far as the outputs need them.
+    fn cells(&self, [r_m, z_m]: [f64; 2], over: f64) -> Result<Cells, FieldsError> {
+        let Asked {
+            excitation,
+            source,
+            grid,
+            ..
+        } = self.asked;
+        let units = excitation.units();
+        let disc_radius_m = over * units.disc_radius_m;
+        let place = Place {
+            r: r_m / disc_radius_m,
+            z: z_m / disc_radius_m,
+            disc_radius_m,
+        };
+        let rates = self.forcings.len() > 1;
+        let more = self
+            .forcings
+            .iter()
+            .map(|(_, forcing)| forcing.differences)
+            .max();
+        let plan = CellPlan {
+            step: grid.step_s / (over * units.time_s()),
+            count: grid.longest() + more.unwrap_or(0) + BEYOND,
+            pulse: excitation.pulse(over),
+            rates,
+            tolerance: self.asked.tolerance,
+        };
+        Ok(source.cells(excitation.medium().poisson_ratio(), place, plan)?)
+    }
+}

@@ -1,0 +1,439 @@
+//! The waves of a contact whose radius follows the load, as an integral over a part of the force's past.
+//!
+//! Hertz's pressure of radius a grows by the pressure of a flat punch of that radius: with the radius of the instant t'
+//!
+//! ```text
+//! u(t) = P(t) static(a(t)) + int P'(t') R_punch(t - t'; a(t')) dt'
+//! ```
+//!
+//! On a fixed disc R is that of Hertz's pressure.
+//!
+//! The integrand is smooth but where a front from the punch of an instant t' arrives at t, and where the contact's edge
+//! passes over a point of the surface. Between these instants Gauss
+//! rules in an angle, which turns roots at both ends into smooth functions, are exact to the accuracy of the punch's kernel.
+//!
+//! Theory: `docs/theory.md` (T55).
+
+use super::at_rest::{static_si, units_si};
+use crate::error::FieldsError;
+use crate::excitation::{Excitation, PressureRadius};
+use halfspace::{FIELDS, Kernel, Profile, Six, gauss};
+use std::f64::consts::PI;
+use std::ops::Range;
+
+/// Distance in largest radii from which on the kernels of the first and last small contacts lose digits.
+const FAR: f64 = 30.0;
+
+/// Kinds of fronts, and the edge of the contact.
+const FAMILIES: usize = 11;
+/// Kernels for one excitation, a contact.
+pub(crate) struct Past<'a> {
+    excitation: &'a Excitation,
+    /// Of the pressure by which the load grows.
+    growth: Kernel,
+    /// The same to fewer digits, for points that are not far.
+    near: Kernel,
+    hertz: Kernel,
+    /// Nodes of a rule, and radii from which the axis is continued.
+    nodes: usize,
+    radii: usize,
+}
+
+/// An instant of the past: the radius of the contact over the largest, and the rate of the force in N/s.
+struct Instant {
+    over: f64,
+    rate: f64,
+}
+
+impl<'a> Past<'a> {
+    /// To about `tolerance` of the peaks of the fields.
+    pub(crate) fn new(excitation: &'a Excitation, tolerance: f64) -> Result<Self, FieldsError> {
+        let medium = excitation.medium();
+        let growth = match excitation.radius() {
+            PressureRadius::Fixed(_) => Profile::Hertz,
+            PressureRadius::Following { .. } => Profile::Punch,
+        };
+        Ok(Self {
+            excitation,
+            near: Kernel::new(medium, growth, (1e-3 * tolerance).clamp(1e-12, 1e-7))?,
+            growth: Kernel::new(medium, growth, (1e-6 * tolerance).clamp(1e-12, 1e-10))?,
+            hertz: Kernel::new(medium, Profile::Hertz, 1e-6)?,
+            nodes: (0.7 * (tolerance.log10() - 1.0).powi(2)).clamp(12.0, 40.0) as usize,
+            radii: if tolerance < 1e-5 { 4 } else { 2 },
+        })
+    }
+
+    /// The six fields in SI units at a point in m, at a time in s.
+    pub(crate) fn at(&self, place_m: [f64; 2], time_s: f64) -> Result<Six, FieldsError> {
+        let force_n = self.excitation.force_n(time_s);
+        let mut sum = static_si(self.excitation, &self.hertz, place_m, force_n)?;
+        // rates that are not smooth inside a contact, as under a disc whose memory has ended, need short spans
+        const PARTS: usize = 16;
+        let graded = |i: usize| {
+            let x = i as f64 / PARTS as f64;
+            x * x * (3.0 - 2.0 * x) * self.excitation.end_s()
+        };
+        for i in 0..PARTS {
+            let span_s = [graded(i), graded(i + 1)];
+            for (sum, waves) in sum.iter_mut().zip(self.between(place_m, time_s, span_s)?) {
+                *sum += waves;
+            }
+        }
+        Ok(sum)
+    }
+
+    /// Times of travel in s between which a wave from the nearest or farthest edge of any contact up to the largest passes.
+    fn windows(&self, [r_m, z_m]: [f64; 2]) -> [[f64; 2]; 4] {
+        let units = self.excitation.units();
+        let farthest_s = self.fronts_s([r_m, z_m], units.disc_radius_m);
+        let nearest_s = self.fronts_s([(r_m - units.disc_radius_m).max(0.0), z_m], 0.0);
+        let margin_s = units.time_s() / self.excitation.medium().rayleigh_speed();
+        std::array::from_fn(|wave| {
+            [
+                nearest_s[2 * wave] - margin_s,
+                farthest_s[2 * wave + 1] + margin_s,
+            ]
+        })
+    }
+
+    /// Whether a wave from the first or last instants of a contact, as long as `span_s`, passes a point at a time.
+    pub(crate) fn begins_or_ends(&self, place_m: [f64; 2], time_s: f64, span_s: f64) -> bool {
+        let windows = self.windows(place_m);
+        self.excitation.contacts_s().iter().flatten().any(|end_s| {
+            let since_s = time_s - end_s;
+            windows
+                .iter()
+                .any(|[from, to]| since_s > from - span_s && since_s < to + span_s)
+        })
+    }
+
+    /// The cells of a contact whose waves reach a point at a time from near its beginning and its end, where a sum over
+    /// discs does not serve, as far as any front is among them.
+    ///
+    /// They are cut where no front passes: there the discs and the integral agree instant by instant.
+    pub(crate) fn parts(
+        &self,
+        place_m: [f64; 2],
+        time_s: f64,
+        cells: &Range<usize>,
+        span_s: impl Fn(&Range<usize>) -> [f64; 2],
+    ) -> Vec<Range<usize>> {
+        /// Discs do not serve for this many times that a Rayleigh wave takes over the radius, and for as many cells.
+        const SPREAD: f64 = 6.0;
+        const NEAR: f64 = 2.0;
+        const FEWEST: usize = 6;
+        let units = self.excitation.units();
+        let margin_s = units.time_s() / self.excitation.medium().rayleigh_speed();
+        let windows = self.windows(place_m);
+        // how far a time of travel is from all fronts, negative where one passes
+        let clear = |s: f64| {
+            let distances = windows.iter().map(|[from, to]| (from - s).max(s - to));
+            distances.fold(f64::INFINITY, f64::min)
+        };
+        let [begin_s, end_s] = span_s(cells);
+        let cell_s = (end_s - begin_s) / cells.len() as f64;
+        let least = ((SPREAD * margin_s / cell_s).ceil() as usize).max(FEWEST);
+        // where the contact's edge passes over the point, fields are not smooth in its radius
+        let near = place_m.iter().all(|x| *x < NEAR * units.disc_radius_m);
+        if near || 2 * least >= cells.len() {
+            return vec![cells.clone()];
+        }
+        // the first clear cut, or the one that is clearest
+        let cut_s = |cut: usize| span_s(&(cells.start..cut))[1];
+        let best = |cuts: &mut dyn Iterator<Item = usize>| {
+            let mut best = (0, f64::NEG_INFINITY);
+            for cut in cuts {
+                let own = clear(time_s - cut_s(cut));
+                if own > best.1 {
+                    best = (cut, own);
+                }
+                if own >= 0.0 {
+                    break;
+                }
+            }
+            best.0
+        };
+        // an output may end before the contact does
+        let ends = self
+            .excitation
+            .contacts_s()
+            .iter()
+            .any(|span| span[1] <= end_s);
+        let half = if ends {
+            cells.start + cells.len() / 2
+        } else {
+            cells.end
+        };
+        let first = cells.start..best(&mut (cells.start + least..=half));
+        let last = if ends {
+            best(&mut (half..=cells.end - least).rev())
+        } else {
+            cells.end
+        };
+        let passed = |part: &Range<usize>| {
+            let [from_s, to_s] = span_s(part).map(|t| time_s - t);
+            windows
+                .iter()
+                .any(|[near, far]| *near < from_s && *far > to_s)
+        };
+        [first, last..cells.end]
+            .into_iter()
+            .filter(passed)
+            .collect()
+    }
+
+    /// The rate of the waves from a part of the past, by a difference over a small part of a step: behind a Rayleigh wave
+    /// it varies over the time in which a contact that has just begun outgrows it, which is far shorter than a step.
+    pub(crate) fn rate_between(
+        &self,
+        place_m: [f64; 2],
+        time_s: f64,
+        span_s: [f64; 2],
+        step_s: f64,
+    ) -> Result<Six, FieldsError> {
+        const PART: f64 = 0.002;
+        let from_s = (time_s - PART * step_s).max(0.0);
+        let to_s = time_s + PART * step_s;
+        let after = self.between(place_m, to_s, span_s)?;
+        let before = self.between(place_m, from_s, span_s)?;
+        let mut rate: Six = std::array::from_fn(|f| (after[f] - before[f]) / (to_s - from_s));
+        // what leaves the span at its ends is not lost: the sum over the cells has the rate of the force inside it
+        for (at_s, sign) in [(span_s[0], -1.0), (span_s[1], 1.0)] {
+            if at_s < time_s {
+                self.add(place_m, time_s, at_s, sign, &mut rate)?;
+            }
+        }
+        Ok(rate)
+    }
+
+    /// The waves from a part of the past.
+    ///
+    /// Near the axis of a punch, where fronts from opposite edges meet and it has no kernel of its own, fields are r to
+    /// their parity times a function of r^2, which their values at a few larger radii continue.
+    pub(crate) fn between(
+        &self,
+        [r_m, z_m]: [f64; 2],
+        time_s: f64,
+        span_s: [f64; 2],
+    ) -> Result<Six, FieldsError> {
+        /// Radii below this fraction of the distance from the largest edge are continued.
+        const NEAR: f64 = 0.031;
+        let step_m = NEAR * z_m.hypot(self.excitation.units().disc_radius_m);
+        if r_m >= step_m || self.growth.profile() == Profile::Hertz {
+            return self.off_axis([r_m, z_m], time_s, span_s);
+        }
+        let radii: Vec<f64> = (1..=self.radii).map(|i| step_m * i as f64).collect();
+        let mut sum = Six::default();
+        for (i, &radius) in radii.iter().enumerate() {
+            let others = radii.iter().enumerate().filter(|&(j, _)| j != i);
+            let weight: f64 = others
+                .map(|(_, x)| (r_m * r_m - x * x) / (radius * radius - x * x))
+                .product();
+            let found = self.off_axis([radius, z_m], time_s, span_s)?;
+            for (f, field) in FIELDS.into_iter().enumerate() {
+                let parity = if field.is_odd_in_r() {
+                    r_m / radius
+                } else {
+                    1.0
+                };
+                sum[f] += weight * parity * found[f];
+            }
+        }
+        Ok(sum)
+    }
+
+    fn off_axis(
+        &self,
+        place_m: [f64; 2],
+        time_s: f64,
+        [from_s, to_s]: [f64; 2],
+    ) -> Result<Six, FieldsError> {
+        let mut sum = Six::default();
+        let span_s = [
+            from_s.max(0.0),
+            to_s.min(time_s).min(self.excitation.end_s()),
+        ];
+        if span_s[0] >= span_s[1] {
+            return Ok(sum);
+        }
+        // far away fields nearly cancel
+        const LEAST_FAR: usize = 24;
+        let far = place_m[0].max(place_m[1]) > FAR * self.excitation.units().disc_radius_m;
+        let nodes = if far {
+            self.nodes.max(LEAST_FAR)
+        } else {
+            self.nodes
+        };
+        let cuts = self.cuts(place_m, time_s, span_s);
+        for pair in cuts.windows(2) {
+            let (middle, half) = (0.5 * (pair[0] + pair[1]), 0.5 * (pair[1] - pair[0]));
+            for (angle, weight) in gauss::rule(nodes).on(0.0, PI) {
+                let past_s = middle - half * angle.cos();
+                self.add(
+                    place_m,
+                    time_s,
+                    past_s,
+                    half * weight * angle.sin(),
+                    &mut sum,
+                )?;
+            }
+        }
+        Ok(sum)
+    }
+
+    fn past(&self, past_s: f64) -> Option<Instant> {
+        let [force_n, rate] = self.excitation.force_and_rate(past_s);
+        let over = self.excitation.radius().square(force_n).sqrt();
+        (over > 0.0).then_some(Instant { over, rate })
+    }
+
+    fn add(
+        &self,
+        [r_m, z_m]: [f64; 2],
+        time_s: f64,
+        past_s: f64,
+        weight: f64,
+        sum: &mut Six,
+    ) -> Result<(), FieldsError> {
+        let Some(Instant { over, rate }) = self.past(past_s) else {
+            return Ok(());
+        };
+        let units = self.excitation.units();
+        let radius_m = over * units.disc_radius_m;
+        let since = (time_s - past_s) / (over * units.time_s());
+        let far = r_m.max(z_m) > FAR * units.disc_radius_m;
+        let growth = if far { &self.growth } else { &self.near };
+        let found = growth.remainder(r_m / radius_m, z_m / radius_m, since)?;
+        let unit = units_si(self.excitation, over);
+        for (f, value) in found.value.into_iter().enumerate() {
+            sum[f] += weight * rate * unit[f] * value;
+        }
+        Ok(())
+    }
+
+    /// Instants of a span of the past between which the integrand is smooth, ascending.
+    fn cuts(&self, place_m: [f64; 2], time_s: f64, [from_s, until_s]: [f64; 2]) -> Vec<f64> {
+        /// Instants between which crossings are looked for, dense toward both ends.
+        const TRIALS: usize = 40;
+        let last_s = self.last_s(place_m);
+        /// Parts of a contact at which it is cut, so that rules follow the rate of its force.
+        const PARTS: [f64; 8] = [0.02, 0.1, 0.25, 0.4, 0.6, 0.75, 0.9, 0.98];
+        let mut cuts = vec![from_s, until_s];
+        let parts_s = PARTS.map(|part| part * self.excitation.end_s());
+        cuts.extend(parts_s.iter().filter(|s| from_s < **s && **s < until_s));
+        // within the passing of the waves, and before it
+        let passing_s = (time_s - 1.01 * last_s).clamp(from_s, until_s);
+        for [low, high] in [[from_s, passing_s], [passing_s, until_s]] {
+            if low >= high {
+                continue;
+            }
+            let graded = |i: usize| {
+                let x = i as f64 / TRIALS as f64;
+                let from_end = if 2 * i < TRIALS { x } else { 1.0 - x };
+                let part = 8.0 * from_end.powi(4);
+                low + (high - low) * if 2 * i < TRIALS { part } else { 1.0 - part }
+            };
+            let mut before = (low, self.ahead(place_m, time_s, low));
+            for past_s in (1..=TRIALS).map(graded) {
+                let after = (past_s, self.ahead(place_m, time_s, past_s));
+                for family in 0..FAMILIES {
+                    let signs = [before.1[family], after.1[family]];
+                    if (signs[0] < 0.0) != (signs[1] < 0.0) {
+                        let span = [(before.0, signs[0]), (after.0, signs[1])];
+                        cuts.push(self.crossing(place_m, time_s, span, family));
+                    }
+                }
+                before = after;
+            }
+        }
+        // the tail of the waves falls as a power of the time since the last front
+        let mut since_s = last_s;
+        while since_s > 0.0 && time_s - since_s > from_s {
+            if time_s - since_s < until_s {
+                cuts.push(time_s - since_s);
+            }
+            since_s *= 2.0;
+        }
+        cuts.sort_by(f64::total_cmp);
+        let shortest = 1e-12 * until_s;
+        cuts.dedup_by(|later, earlier| *later - *earlier < shortest);
+        cuts
+    }
+
+    /// Time in s after which the last front from the largest contact has passed.
+    fn last_s(&self, place_m: [f64; 2]) -> f64 {
+        let units = self.excitation.units();
+        let times = self.fronts_s(place_m, units.disc_radius_m);
+        times.into_iter().fold(0.0, f64::max)
+    }
+
+    /// Times in s that each kind of front takes from a disc of a radius in m.
+    fn fronts_s(&self, [r_m, z_m]: [f64; 2], radius_m: f64) -> [f64; FAMILIES - 1] {
+        let medium = self.excitation.medium();
+        let kappa = medium.kappa();
+        let span = (1.0 / (kappa * kappa) - 1.0).sqrt();
+        let [near, far] = [(r_m - radius_m).abs(), r_m + radius_m];
+        let (short, long) = (near.hypot(z_m), far.hypot(z_m));
+        let slowest = medium.rayleigh_speed();
+        // the plane fronts do not depend on the radius; head waves are followed where there are none, too
+        let lengths = [
+            short,
+            long,
+            short / kappa,
+            long / kappa,
+            near / slowest,
+            far / slowest,
+            near + z_m * span,
+            far + z_m * span,
+            z_m,
+            z_m / kappa,
+        ];
+        lengths.map(|length| length / self.excitation.units().longitudinal_speed_m_s)
+    }
+
+    /// How far in s each kind of front from the contact of an instant has gone beyond the point, and the edge of the contact
+    /// beyond it.
+    fn ahead(&self, place_m: [f64; 2], time_s: f64, past_s: f64) -> [f64; FAMILIES] {
+        let units = self.excitation.units();
+        let over = self.past(past_s).map_or(0.0, |instant| instant.over);
+        let radius_m = over * units.disc_radius_m;
+        let fronts_s = self.fronts_s(place_m, radius_m);
+        let since_s = time_s - past_s;
+        std::array::from_fn(|family| match fronts_s.get(family) {
+            Some(front_s) => since_s - front_s,
+            None => (radius_m - place_m[0]) / units.longitudinal_speed_m_s,
+        })
+    }
+
+    /// Where one of the distances of [`Self::ahead`] changes its sign, by false position (Illinois).
+    fn crossing(
+        &self,
+        place_m: [f64; 2],
+        time_s: f64,
+        [(mut low, mut at_low), (mut high, mut at_high)]: [(f64, f64); 2],
+        family: usize,
+    ) -> f64 {
+        const MOST: usize = 40;
+        let enough = 1e-13 * high;
+        for _ in 0..MOST {
+            if high - low < enough || at_low == at_high {
+                break;
+            }
+            let middle = low + (high - low) * at_low / (at_low - at_high);
+            let value = self.ahead(place_m, time_s, middle)[family];
+            if value == 0.0 {
+                return middle;
+            }
+            if (value < 0.0) == (at_low < 0.0) {
+                (low, at_low, at_high) = (middle, value, 0.5 * at_high);
+            } else {
+                (high, at_high, at_low) = (middle, value, 0.5 * at_low);
+            }
+        }
+        if at_low.abs() < at_high.abs() {
+            low
+        } else {
+            high
+        }
+    }
+}
