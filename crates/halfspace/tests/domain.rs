@@ -172,7 +172,7 @@ proptest! {
         medium in any_medium(), profile in any_profile(),
         r in any_number(), z in any_number(), width in any_number(), count in 0..80_usize,
     ) {
-        let kernel = Kernel::new(&medium, profile, 1e-4).unwrap();
+        let kernel = Kernel::new(&medium, profile, 1e-8).unwrap();
         let clock = Instant::now();
         // what is reported as t is the end of the trace
         let end = count as f64 * width;
