@@ -100,7 +100,6 @@ fn domain_in(py: Python<'_>, error: &DomainError, message: &str) -> PyErr {
             range,
         } => json!({"argument": argument, "value": value, "range": range}),
         DomainError::HertzOnly { function, .. } => json!({"argument": function}),
-        DomainError::Lengths { .. } => json!({}),
     };
     exception(py, "DomainError", message, &fields)
 }
