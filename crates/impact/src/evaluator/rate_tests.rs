@@ -2,7 +2,8 @@
 
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
-use crate::evaluator::forcing::Derivative;
+use crate::evaluator::discs::Discs;
+use crate::evaluator::forcing::{Derivative, Forcing};
 use crate::evaluator::tests::contact;
 use crate::evaluator::{Asked, Evaluator, Past};
 use crate::grid::{Grid, Wanted};
@@ -156,5 +157,35 @@ fn rates_of_growing_contacts_are_within_their_estimates() {
             "{order:?} T {duration} {place:?}: error over estimate {over:.2}, estimate over peak {estimate:.1e}"
         );
         assert!(over < 1.0 && estimate < most, "{order:?} {place:?}");
+    }
+}
+
+/// Rates of the discs' forces against differences of P phi(a^2).
+#[test]
+fn rates_of_shares_are_those_of_their_forces() {
+    const APART: f64 = 1e-3;
+    let (duration, tolerance) = (30.0, 1e-3);
+    let excitation = contact(0.29, duration);
+    let wanted = Wanted {
+        tolerance,
+        step_s: None,
+        duration_s: Some(duration),
+        frames: None,
+        farthest_m: Some(1.0),
+    };
+    let grid = Grid::new(&wanted, &excitation, None).unwrap();
+    let [forces, rates] = [Derivative::Field, Derivative::First]
+        .map(|derivative| Forcing::new(&excitation, &grid, &[], derivative, tolerance));
+    let discs = Discs::following(6, 0.0);
+    for k in 0..discs.radii.len() {
+        for t in [0.1, 0.23, 0.4, 0.61, 0.9].map(|part| part * duration) {
+            let [after, before] = [t + APART, t - APART].map(|t| forces.on_disc(&discs, k, t)[0]);
+            let (found, exact) = (
+                rates.on_disc(&discs, k, t)[0],
+                (after - before) / (2.0 * APART),
+            );
+            // forces of one over a contact of 30 have rates of 0.1
+            assert!((found - exact).abs() < 1e-5, "{k} {t}: {found} {exact}");
+        }
     }
 }
