@@ -1,11 +1,11 @@
-//! Cell averages against quadrature of the remainder, and the second integral against the first.
+//! Averages and moments of cells against quadrature of the remainder, and the second integral against the first.
 
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
 use halfspace::{Arrivals, Kernel, Medium, Profile, Six};
 
 #[test]
-fn averages_are_averages_of_the_remainder() {
+fn averages_and_moments_are_those_of_the_remainder() {
     // Gauss-Legendre with 5 nodes on cells that hold no arrival
     let nodes = [
         (0.0, 0.568_888_888_888_888_9),
@@ -27,9 +27,9 @@ fn averages_are_averages_of_the_remainder() {
             .unwrap()
             .sorted();
         let width = 0.05;
-        let mut cells = vec![Six::default(); 400];
+        let mut cells = vec![[Six::default(); 3]; 400];
         let trace = kernel.trace(r, z, 400.0 * width).unwrap();
-        let done = trace.for_each_cell(width, 400, |j, [average, ..]| cells[j] = average);
+        let done = trace.for_each_cell(width, 400, |j, cell| cells[j] = cell);
         done.unwrap();
         let mut checked = 0;
         for (j, cell) in cells.iter().enumerate() {
@@ -41,23 +41,24 @@ fn averages_are_averages_of_the_remainder() {
                 continue;
             }
             checked += 1;
-            let mut mean = Six::default();
+            let mut sums = [Six::default(); 3];
             for (x, w) in nodes {
-                let value = kernel
-                    .remainder(r, z, from + 0.5 * width * (1.0 + x))
-                    .unwrap()
-                    .value;
-                for f in 0..6 {
-                    mean[f] += 0.5 * w * value[f];
+                let s = 0.5 * x;
+                let time = from + width * (0.5 + s);
+                let value = kernel.remainder(r, z, time).unwrap().value;
+                for (sum, power) in sums.iter_mut().zip([1.0, s, s * s - 1.0 / 12.0]) {
+                    for (sum, value) in sum.iter_mut().zip(value) {
+                        *sum += 0.5 * w * power * value;
+                    }
                 }
             }
-            for f in 0..6 {
-                let gap = (cell[f] - mean[f]).abs();
+            let found = cell.as_flattened().iter().zip(sums.as_flattened());
+            for (i, (found, sum)) in found.enumerate() {
+                let gap = (found - sum).abs();
+                let (moment, f) = (i / 6, i % 6);
                 assert!(
                     gap < 2e-9,
-                    "nu {nu} r {r} z {z} cell {j} field {f}: {} {}",
-                    cell[f],
-                    mean[f]
+                    "nu {nu} r {r} z {z} cell {j} moment {moment} field {f}: {found} {sum}"
                 );
             }
         }
