@@ -39,7 +39,6 @@ pub struct Trace {
     end: f64,
     static_field: Six,
     segments: Vec<Segment>,
-    fronts: Vec<f64>,
     error: Six,
 }
 
@@ -88,6 +87,7 @@ impl Kernel {
             (tolerance, rise),
             |t| self.remainder(r, z, t),
         )?;
+        if std::env::var("HL").is_ok() { eprintln!("trace r {r:.2} z {z:.2} end {end:.1} segments {} kernels {}", segments.len(), segments.iter().map(|s| s.terms).sum::<usize>()); }
         let mut error = static_field.map(|s| f64::EPSILON * s.abs());
         for segment in &segments {
             let part = rise(segment.times[1] - segment.times[0]);
@@ -100,17 +100,15 @@ impl Kernel {
             end,
             static_field,
             segments,
-            fronts,
             error,
         })
     }
 }
 
 impl Trace {
-    /// Arrivals of all fronts, ascending: between them R is smooth.
-    #[must_use]
-    pub fn fronts(&self) -> &[f64] {
-        &self.fronts
+    /// Times between which R is a polynomial in the root of the time from a front, ascending, fronts among them.
+    pub fn breaks(&self) -> impl Iterator<Item = f64> {
+        self.segments.iter().map(|segment| segment.times[0])
     }
 
     /// Estimated error of a response to the force that the trace is for, over the peak of the force.

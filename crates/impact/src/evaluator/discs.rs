@@ -12,7 +12,7 @@
 //!
 //! Theory: `docs/theory.md` (T60).
 
-use crate::excitation::{Excitation, PressureRadius};
+use crate::excitation::PressureRadius;
 use std::f64::consts::PI;
 
 /// Radii over the largest, with the polynomials that share the load out.
@@ -24,7 +24,7 @@ pub(crate) struct Discs {
     least: f64,
 }
 
-/// Discs for each digit of the tolerance where kernels are computed: the first of these that serve a point.
+/// Discs for each digit of the tolerance where kernels are computed: more of them near the load.
 const A_DIGIT: [f64; 4] = [1.0, 2.0, 4.0, 8.0];
 
 /// Discs where kernels are looked up, and the smallest radius that they cover over the largest: the farther a point, the
@@ -34,14 +34,14 @@ const COVERED: [f64; 4] = [0.0, 0.25, 0.5, 0.75];
 
 impl Discs {
     /// Those for kernels that are computed, the fewest first.
-    pub(crate) fn computed(excitation: &Excitation, tolerance: f64) -> Vec<Self> {
-        let radius = excitation.radius();
+    pub(crate) fn computed(radius: PressureRadius, tolerance: f64) -> Vec<Self> {
         let digits = (-tolerance.log10()).clamp(3.0, 8.0);
         let count = |a_digit: f64| (a_digit * digits).round() as usize;
         match radius {
             PressureRadius::Fixed(_) => vec![Self::one()],
-            PressureRadius::Following { .. } => std::iter::once(Self::far(excitation))
-                .chain(A_DIGIT.map(|d| Self::following(count(d), 0.0)))
+            PressureRadius::Following { .. } => A_DIGIT
+                .map(|d| Self::following(count(d), 0.0))
+                .into_iter()
                 .collect(),
         }
     }
@@ -65,31 +65,9 @@ impl Discs {
 
     /// One disc that takes all.
     pub(crate) fn one() -> Self {
-        Self::alone(1.0)
-    }
-
-    /// One disc whose square is the mean of the squared radius, weighted with the force: far from it only what is short
-    /// beside the wave differs.
-    fn far(excitation: &Excitation) -> Self {
-        const SAMPLES: usize = 100;
-        let (mut all, mut squares) = (0.0, 0.0);
-        for i in 0..SAMPLES {
-            let part = (i as f64 + 0.5) / SAMPLES as f64;
-            let force_n = excitation.force_n(part * excitation.end_s());
-            all += force_n;
-            squares += force_n * excitation.radius().square(force_n);
-        }
-        Self::alone(if all > 0.0 {
-            (squares / all).clamp(1e-6, 1.0)
-        } else {
-            1.0
-        })
-    }
-
-    fn alone(square: f64) -> Self {
         Self {
-            radii: vec![square.sqrt()],
-            least: square,
+            radii: vec![1.0],
+            least: 1.0,
         }
     }
 

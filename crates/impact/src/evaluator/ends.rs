@@ -11,8 +11,7 @@
 //!
 //! Theory: `docs/theory.md` (T24).
 
-use super::projection::Taken;
-use crate::excitation::{Excitation, PressureRadius};
+use super::projection::Projection;
 use halfspace::{Six, Trace, gauss};
 use lookup::Moments;
 use std::f64::consts::PI;
@@ -29,8 +28,6 @@ const DEGREE: usize = 12;
 pub(crate) struct Zone {
     /// Each ends at the sample of its number.
     pub(crate) cells: Range<usize>,
-    /// What the cells took of the force.
-    taken: Vec<Taken>,
     parts: Vec<Part>,
 }
 
@@ -41,54 +38,32 @@ struct Part {
     forward: bool,
     /// Roots of the times in s from the origin between which it lies.
     roots: [f64; 2],
-    /// dF/dx as a Chebyshev series in x between them.
-    series: [f64; DEGREE],
+    /// dF/dx as Chebyshev series in x between them, of each of a pair of forces.
+    series: [[f64; DEGREE]; 2],
 }
 
-/// The zones of a force during a run; `steepest` is its largest rise over a step, in tolerances.
-///
-/// Under a load whose radius varies each contact is one: what of it is replaced is up to each sample.
+/// The zones of a force during a run, with those of another beside it; `steepest` is its largest rise over a step, in
+/// tolerances.
 pub(crate) fn zones(
-    excitation: &Excitation,
+    contacts: &[[f64; 2]],
     span_s: &dyn Fn(&Range<usize>) -> [f64; 2],
-    taken: &dyn Fn(usize) -> Taken,
+    projection: &Projection,
     (count, steepest): (usize, f64),
-    force: impl Fn(f64) -> f64,
+    force: impl Fn(f64) -> [f64; 2],
 ) -> Vec<Zone> {
     let mut zones: Vec<Zone> = Vec::new();
     let sure = SMOOTH * steepest;
-    let contacts = excitation.contacts_s();
-    for cell in 1..count {
-        let own = taken(cell);
-        let inside = match excitation.radius() {
-            PressureRadius::Fixed(_) => own.left > sure,
-            PressureRadius::Following { .. } => {
-                let [from_s, to_s] = span_s(&(cell..cell + 1));
-                contacts
-                    .iter()
-                    .any(|[begin_s, end_s]| from_s < *end_s && to_s > *begin_s)
-            }
-        };
-        if !inside {
-            continue;
-        }
+    for cell in (1..count).filter(|&cell| projection.taken(cell).left > sure) {
         match zones.last_mut() {
-            Some(zone) if zone.cells.end == cell => {
-                zone.cells.end = cell + 1;
-                zone.taken.push(own);
-            }
+            Some(zone) if zone.cells.end == cell => zone.cells.end = cell + 1,
             Some(_) | None => zones.push(Zone {
                 cells: cell..cell + 1,
-                taken: vec![own],
                 parts: Vec::new(),
             }),
         }
     }
-    if let PressureRadius::Following { .. } = excitation.radius() {
-        return zones;
-    }
     // of a polynomial in x
-    let allowed = 0.1 * sure;
+    let allowed = sure;
     for zone in &mut zones {
         let [from_s, to_s] = span_s(&zone.cells);
         for &[begin_s, end_s] in contacts {
@@ -120,7 +95,7 @@ impl Part {
     fn push(
         (origin_s, forward): (f64, bool),
         roots: [f64; 2],
-        force: &impl Fn(f64) -> f64,
+        force: &impl Fn(f64) -> [f64; 2],
         allowed: f64,
         parts: &mut Vec<Self>,
     ) {
@@ -128,7 +103,7 @@ impl Part {
         const MOST: usize = 16;
         let (middle, half) = (0.5 * (roots[0] + roots[1]), 0.5 * (roots[1] - roots[0]));
         let angle = |i: usize| PI * (i as f64 + 0.5) / DEGREE as f64;
-        let values: [f64; DEGREE] = std::array::from_fn(|i| {
+        let values: [[f64; 2]; DEGREE] = std::array::from_fn(|i| {
             let x = middle + half * angle(i).cos();
             force(if forward {
                 origin_s + x * x
@@ -136,48 +111,53 @@ impl Part {
                 origin_s - x * x
             })
         });
-        let term = |j: usize| {
+        let term = |k: usize, j: usize| {
             let terms = values.iter().enumerate();
             let sum: f64 = terms
-                .map(|(i, value)| value * (j as f64 * angle(i)).cos())
+                .map(|(i, value)| value[k] * (j as f64 * angle(i)).cos())
                 .sum();
             2.0 * sum / DEGREE as f64
         };
-        let left = term(DEGREE - 1).abs() + term(DEGREE - 2).abs();
-        if left > allowed && parts.len() < MOST {
+        let left = |k| term(k, DEGREE - 1).abs() + term(k, DEGREE - 2).abs();
+        if left(0).max(left(1)) > allowed && parts.len() < MOST {
             for roots in [[roots[0], middle], [middle, roots[1]]] {
                 Self::push((origin_s, forward), roots, force, allowed, parts);
             }
             return;
         }
-        // the derivative of the series, by its recurrence
-        let mut slopes = [0.0; DEGREE + 1];
-        for j in (1..DEGREE).rev() {
-            slopes[j - 1] = slopes[(j + 1).min(DEGREE)] + 2.0 * j as f64 * term(j);
-        }
-        slopes[0] *= 0.5;
         let sign = if forward { 1.0 } else { -1.0 };
+        // the derivative of each series, by its recurrence
+        let series = [0, 1].map(|k| {
+            let mut slopes = [0.0; DEGREE + 1];
+            for j in (1..DEGREE).rev() {
+                slopes[j - 1] = slopes[(j + 1).min(DEGREE)] + 2.0 * j as f64 * term(k, j);
+            }
+            slopes[0] *= 0.5;
+            std::array::from_fn(|j| sign * slopes[j] / half)
+        });
         parts.push(Self {
             origin_s,
             forward,
             roots,
-            series: std::array::from_fn(|j| sign * slopes[j] / half),
+            series,
         });
     }
 
     /// dF/dx, in the sense of time.
-    fn slope(&self, x: f64) -> f64 {
+    fn slopes(&self, x: f64) -> [f64; 2] {
         let [low, high] = self.roots;
         let y = (2.0 * x - low - high) / (high - low);
-        let (mut b1, mut b2) = (0.0, 0.0);
-        for c in self.series[1..].iter().rev() {
-            (b1, b2) = (2.0 * y * b1 - b2 + c, b1);
-        }
-        y * b1 - b2 + self.series[0]
+        self.series.map(|series| {
+            let (mut b1, mut b2) = (0.0, 0.0);
+            for c in series[1..].iter().rev() {
+                (b1, b2) = (2.0 * y * b1 - b2 + c, b1);
+            }
+            y * b1 - b2 + series[0]
+        })
     }
 
-    /// Adds the integral at a time; the trace has its times in `unit_s`.
-    fn add(&self, time_s: f64, trace: &Trace, unit_s: f64, sum: &mut Six) {
+    /// Adds the integrals at a time; the trace has its times in `unit_s`.
+    fn add(&self, time_s: f64, trace: &Trace, unit_s: f64, sums: &mut [Six; 2]) {
         let since_s = time_s - self.origin_s;
         let x_of = |s: f64| {
             (if self.forward {
@@ -198,8 +178,8 @@ impl Part {
         if low >= high {
             return;
         }
-        let fronts = trace.fronts().iter().map(|front| x_of(front * unit_s));
-        let mut cuts: Vec<f64> = fronts
+        let mut cuts: Vec<f64> = (trace.breaks())
+            .map(|at| x_of(at * unit_s))
             .filter(|x| low < *x && *x < high)
             .chain([low, high])
             .collect();
@@ -214,9 +194,10 @@ impl Part {
                     since_s + x * x
                 };
                 let value = trace.at(s / unit_s);
-                let weight = half * weight * self.slope(x);
-                for (sum, value) in sum.iter_mut().zip(value) {
-                    *sum += weight * value;
+                for (sum, slope) in sums.iter_mut().zip(self.slopes(x)) {
+                    for (sum, value) in sum.iter_mut().zip(value) {
+                        *sum += half * weight * slope * value;
+                    }
                 }
             }
         }
@@ -233,42 +214,13 @@ static RULE: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| {
 });
 
 impl Zone {
-    /// What some of the cells brought to sample n, in kernel units times the force.
-    pub(crate) fn by_cells(&self, n: usize, part: &Range<usize>, cells: &Moments) -> Six {
-        let mut sum = Six::default();
-        for cell in part.start..part.end.min(n + 1) {
-            let taken = &self.taken[cell - self.cells.start];
-            let j = n - cell;
-            for (f, sum) in sum.iter_mut().enumerate() {
-                *sum += taken.rise * cells.averages[j][f] - taken.slope * cells.first[j][f]
-                    + taken.bend * cells.second[j][f];
-            }
-        }
-        sum
-    }
-
-    /// What the integral brings at a time.
-    pub(crate) fn by_trace(&self, time_s: f64, trace: &Trace, unit_s: f64) -> Six {
-        let mut sum = Six::default();
+    /// What the integrals bring at a time.
+    pub(crate) fn by_trace(&self, time_s: f64, trace: &Trace, unit_s: f64) -> [Six; 2] {
+        let mut sums = [Six::default(); 2];
         for part in &self.parts {
-            part.add(time_s, trace, unit_s, &mut sum);
+            part.add(time_s, trace, unit_s, &mut sums);
         }
-        sum
-    }
-
-    /// The most that the cells may leave of sample n, where the kernel departs by `open` from a parabola within each of its
-    /// cells.
-    pub(crate) fn left(&self, n: usize, open: &[Six]) -> Six {
-        let mut sum = Six::default();
-        for (cell, taken) in self.cells.clone().zip(&self.taken) {
-            if cell > n {
-                break;
-            }
-            for (sum, open) in sum.iter_mut().zip(open[n - cell]) {
-                *sum += open * taken.left;
-            }
-        }
-        sum
+        sums
     }
 }
 

@@ -11,7 +11,7 @@ use super::convolve::Convolver;
 use super::discs::Discs;
 use super::ends::{Zone, zones};
 use super::nodes::{CellNodes, Node};
-use super::projection::{Projection, taken};
+use super::projection::Projection;
 use crate::excitation::{Excitation, PressureRadius};
 use crate::grid::Grid;
 use crate::kernels::Cells;
@@ -69,12 +69,31 @@ pub(crate) struct DiscForce {
 
 /// The force on one disc during one run.
 pub(crate) struct RunForce {
-    pub(crate) convolver: Convolver,
-    pub(crate) projection: Projection,
+    pub(crate) force: Sampled,
     /// The part that the two highest powers of the radius bring; of a disc alone what it leaves out.
-    pub(crate) last: Option<Convolver>,
+    pub(crate) last: Option<Sampled>,
     /// Cells that the samples do not resolve.
     pub(crate) zones: Vec<Zone>,
+}
+
+/// A force for sums over cells.
+pub(crate) struct Sampled {
+    pub(crate) convolver: Convolver,
+    pub(crate) projection: Projection,
+}
+
+impl Sampled {
+    /// The fields at the samples wanted.
+    pub(crate) fn fields(
+        &self,
+        fixed: &Six,
+        cells: &Cells,
+        wanted: &[usize],
+    ) -> [Vec<f64>; 6] {
+        let mut found = self.convolver.fields(fixed, &cells.smooth);
+        self.projection.add(&cells.moments, wanted, &mut found);
+        found
+    }
 }
 
 /// Slopes and bends below this fraction of the largest sample are left to the differences of the samples.
@@ -203,27 +222,47 @@ impl<'a> Forcing<'a> {
             .times_s(run)
             .map(|t| self.on_disc(discs, k, t))
             .collect();
-        let samples: Vec<f64> = both.iter().map(|both| both[0]).collect();
         let base = match self.reading {
-            Reading::Force => run.base_n * discs.share(k, radius.square(run.base_n))[0],
-            Reading::Rate => 0.0,
+            Reading::Force => discs
+                .share(k, radius.square(run.base_n))
+                .map(|share| run.base_n * share),
+            Reading::Rate => [0.0; 2],
         };
-        let convolver = Convolver::from_base(base, &samples, needed.clone());
-        let nodes = CellNodes::new(run.count.saturating_sub(1), |cell, own| {
-            let middle_s = run.start_s + (cell as f64 + 0.5) * self.step_s;
-            own.extend(nodes.of(cell).iter().map(|node| Node {
-                force: self.on_disc(discs, k, middle_s + node.x * self.step_s)[0],
-                ..*node
-            }));
-        });
-        let largest = samples.iter().fold(0.0, |most: f64, p| most.max(p.abs()));
-        let negligible = NEGLIGIBLE.max(1e-3 * self.excitation.relative_error()) * largest;
-        let projection = Projection::new(&samples, convolver.rises(), &nodes, negligible);
+        let in_cells: Vec<(Node, [f64; 2])> = (0..run.count.saturating_sub(1))
+            .flat_map(|cell| {
+                let middle_s = run.start_s + (cell as f64 + 0.5) * self.step_s;
+                let own = nodes.of(cell).iter();
+                own.map(move |node| {
+                    let time_s = middle_s + node.x * self.step_s;
+                    (*node, self.on_disc(discs, k, time_s))
+                })
+            })
+            .collect();
+        let of = |i: usize, least: f64| {
+            let samples: Vec<f64> = both.iter().map(|both| both[i]).collect();
+            let convolver = Convolver::from_base(base[i], &samples, needed.clone());
+            let mut in_cells = in_cells.iter();
+            let nodes = CellNodes::new(run.count.saturating_sub(1), |cell, own| {
+                let taken = in_cells.by_ref().take(nodes.of(cell).len());
+                own.extend(taken.map(|(node, both)| Node {
+                    force: both[i],
+                    ..*node
+                }));
+            });
+            let largest = samples.iter().fold(0.0, |most: f64, p| most.max(p.abs()));
+            let negligible = NEGLIGIBLE.max(least) * largest;
+            let projection = Projection::new(&samples, convolver.rises(), &nodes, negligible);
+            Sampled {
+                convolver,
+                projection,
+            }
+        };
+        let own = of(0, 1e-3 * self.excitation.relative_error());
         // of a contact's rate what is left stands in the zones
         if k == 0 && self.reading == Reading::Force {
-            force.left.join(projection.left);
+            force.left.join(own.projection.left);
         }
-        let rises = convolver.rises();
+        let rises = own.convolver.rises();
         // of the outputs: differenced as they are
         let mut changes = rises.to_vec();
         for _ in 0..self.differences {
@@ -233,28 +272,39 @@ impl<'a> Forcing<'a> {
         force.half_variation += 0.5 * changes.iter().map(|d| d.abs()).sum::<f64>();
         let last = match radius {
             PressureRadius::Fixed(_) => None,
-            PressureRadius::Following { .. } if discs.radii.len() == 1 => {
-                Some(self.left_out(discs.radii[0], run))
-            }
-            PressureRadius::Following { .. } => Some(both.iter().map(|both| both[1]).collect()),
+            PressureRadius::Following { .. } if discs.radii.len() == 1 => Some(Sampled {
+                convolver: Convolver::at(&self.left_out(discs.radii[0], run), needed.clone()),
+                projection: Projection::default(),
+            }),
+            PressureRadius::Following { .. } => Some(of(1, 1e-3)),
         };
         let zones = match self.excitation.record() {
             Some(_) => Vec::new(),
             None => {
                 let steepest = rises.iter().fold(0.0, |most: f64, d| most.max(d.abs()));
-                let taken = |cell: usize| taken(&samples, &nodes, cell);
-                let force = |t| self.on_disc(discs, k, t)[0];
+                let force = |t| self.on_disc(discs, k, t);
                 let span_s = |cells: &Range<usize>| self.span_s(run, cells);
                 let counts = (run.count, self.tolerance * steepest);
-                zones(self.excitation, &span_s, &taken, counts, force)
+                let contacts = self.excitation.contacts_s();
+                zones(contacts, &span_s, &own.projection, counts, force)
             }
         };
         force.runs.push(RunForce {
-            convolver,
-            projection,
-            last: last.map(|last| Convolver::at(&last, needed.clone())),
+            force: own,
+            last,
             zones,
         });
+    }
+
+    /// The cells of each contact during a run.
+    pub(crate) fn contacts(&self, run: &Run) -> Vec<Range<usize>> {
+        let cell = |at_s: f64| (at_s - run.start_s) / self.step_s;
+        let of = |[begin_s, end_s]: &[f64; 2]| {
+            let from = cell(*begin_s).floor().max(0.0) as usize + 1;
+            from..(cell(*end_s).ceil().max(0.0) as usize + 1).min(run.count)
+        };
+        let found = self.excitation.contacts_s().iter().map(of);
+        found.filter(|cells| !cells.is_empty()).collect()
     }
 
     /// The force whose waves one disc of radius b leaves out, far from it: (a_max/c_R)^2/10 times the second derivative of

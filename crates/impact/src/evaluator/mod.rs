@@ -21,6 +21,8 @@ mod past;
 pub(crate) mod projection;
 #[cfg(test)]
 mod rate_tests;
+#[cfg(test)]
+mod experiment;
 mod sum;
 #[cfg(test)]
 mod tests;
@@ -108,7 +110,7 @@ impl<'a> Evaluator<'a> {
         let computed = matches!(source, KernelSource::Direct(_));
         let radius = excitation.radius();
         let mut choices = if computed {
-            Discs::computed(excitation, tolerance)
+            Discs::computed(radius, tolerance)
         } else {
             Discs::looked_up(radius)
         };
@@ -160,7 +162,7 @@ impl<'a> Evaluator<'a> {
             .flatten()
             .flatten();
         let mut runs = forces.flat_map(|force| &force.runs);
-        if runs.any(|run| run.convolver.method() == Method::Transform) {
+        if runs.any(|run| run.force.convolver.method() == Method::Transform) {
             Method::Transform
         } else {
             Method::Direct
@@ -207,37 +209,43 @@ impl<'a> Evaluator<'a> {
         let serving = self.serving(place_m);
         let mut best = self.under(place_m, serving[0])?;
         let open = |sums: &[Sum<'_>]| sums.iter().map(|sum| sum.open.len()).sum::<usize>();
+        // far away the kernels of the smallest discs lose digits
+        const NEAR: f64 = 4.0;
+        let near = place_m[0].hypot(place_m[1]) < NEAR * self.asked.excitation.units().disc_radius_m;
         for &choice in &serving[1..] {
             // to integrate a sample costs less than a disc
-            if self.past.is_none() || open(&best.0) <= 2 * self.choices[choice].radii.len() {
+            if self.past.is_none()
+                || open(&best.0) <= 2 * self.choices[choice].radii.len()
+                || !near
+            {
                 break;
             }
             let next = self.under(place_m, choice)?;
+            if std::env::var("HL").is_ok() {eprintln!("tried {} from open {} to {}", self.choices[choice].radii.len(), open(&best.0), open(&next.0));}
             if open(&next.0) >= open(&best.0) {
                 break;
             }
             best = next;
         }
         let (sums, cells) = best;
-        sums.into_iter()
+        if std::env::var("HL").is_ok() { eprintln!("place {place_m:?} discs {:?} open {:?} cells {} samples {}", sums[0].discs.radii.len(), sums[0].open.len(), cells[0].moments.averages.len(), sums[0].values[0].len());}
+        let now = std::time::Instant::now();
+ let x=sums.into_iter()
             .map(|sum| sum.resolved(self.past.as_ref(), &cells))
-            .collect()
+            .collect(); if std::env::var("HL").is_ok() { eprintln!("T past {:.2} ms", now.elapsed().as_secs_f64()*1e3); } x
     }
 
-    /// The choices of discs that the source serves at a point in largest radii, and to which it is far enough for a disc
-    /// alone; where there is none, the last or, of kernels that are computed, the first, whose error names the place.
+    /// The choices of discs that the source serves at a point in largest radii; where there is none, the last or, of
+    /// kernels that are computed, the first, whose error names the place.
     fn serving(&self, place_m: [f64; 2]) -> Vec<usize> {
         let radius_m = self.asked.excitation.units().disc_radius_m;
         let [r, z] = place_m.map(|x| x / radius_m);
         let reach = self.asked.source.reach();
         let count = self.choices.len();
         let computed = matches!(self.asked.source, KernelSource::Direct(_));
-        let near = computed && count > 1 && NEAR / (r * r + z * z) > self.asked.tolerance;
         let served = |&choice: &usize| {
-            let discs = &self.choices[choice];
-            let smallest = discs.smallest();
-            let reached = r <= smallest * reach[0] && z <= smallest * reach[1];
-            reached && !(near && discs.radii.len() == 1)
+            let smallest = self.choices[choice].smallest();
+            r <= smallest * reach[0] && z <= smallest * reach[1]
         };
         let found: Vec<usize> = (0..count).filter(served).collect();
         match (found.is_empty(), computed) {
@@ -254,9 +262,12 @@ impl<'a> Evaluator<'a> {
         choice: usize,
     ) -> Result<(Vec<Sum<'_>>, Vec<Cells>), FieldsError> {
         let discs = &self.choices[choice];
+        let now = std::time::Instant::now();
         let cells: Vec<Cells> = (discs.radii.iter())
             .map(|&over| self.cells(place_m, over))
             .collect::<Result<_, _>>()?;
+        if std::env::var("HL").is_ok() { eprintln!("T cells {:.2} ms", now.elapsed().as_secs_f64()*1e3); }
+        let now = std::time::Instant::now();
         let forces = self.forces[choice].get_or_init(|| {
             let of = |(_, forcing): &(_, Forcing<'_>)| forcing.on_discs(discs);
             self.forcings.iter().map(of).collect()
@@ -275,7 +286,10 @@ impl<'a> Evaluator<'a> {
                     &cells,
                 )
             });
-        Ok((sums.collect::<Result<_, _>>()?, cells))
+        if std::env::var("HL").is_ok() { eprintln!("T forces {:.2} ms", now.elapsed().as_secs_f64()*1e3); }
+        let now = std::time::Instant::now();
+ let x = sums.collect::<Result<_, _>>()?; if std::env::var("HL").is_ok() { eprintln!("T sums {:.2} ms", now.elapsed().as_secs_f64()*1e3); }
+        Ok((x, cells))
     }
 
     /// The kernels of a disc of a radius `over` the largest, as far as the outputs need them.

@@ -58,7 +58,7 @@ impl<'a> Past<'a> {
             near: Kernel::new(medium, growth, (1e-3 * tolerance).clamp(1e-12, 1e-7))?,
             growth: Kernel::new(medium, growth, (1e-6 * tolerance).clamp(1e-12, 1e-10))?,
             hertz: Kernel::new(medium, Profile::Hertz, 1e-6)?,
-            nodes: (0.7 * (tolerance.log10() - 1.0).powi(2)).clamp(12.0, 40.0) as usize,
+            nodes: (-7.5 * tolerance.log10() - 12.0).clamp(12.0, 40.0) as usize,
             radii: if tolerance < 1e-5 { 4 } else { 2 },
         })
     }
@@ -93,17 +93,6 @@ impl<'a> Past<'a> {
                 nearest_s[2 * wave] - margin_s,
                 farthest_s[2 * wave + 1] + margin_s,
             ]
-        })
-    }
-
-    /// Whether a wave from the first or last instants of a contact, as long as `span_s`, passes a point at a time.
-    pub(crate) fn begins_or_ends(&self, place_m: [f64; 2], time_s: f64, span_s: f64) -> bool {
-        let windows = self.windows(place_m);
-        self.excitation.contacts_s().iter().flatten().any(|end_s| {
-            let since_s = time_s - end_s;
-            windows
-                .iter()
-                .any(|[from, to]| since_s > from - span_s && since_s < to + span_s)
         })
     }
 
@@ -188,12 +177,16 @@ impl<'a> Past<'a> {
         &self,
         place_m: [f64; 2],
         time_s: f64,
-        span_s: [f64; 2],
+        mut span_s: [f64; 2],
         step_s: f64,
     ) -> Result<Six, FieldsError> {
         const PART: f64 = 0.002;
         let from_s = (time_s - PART * step_s).max(0.0);
         let to_s = time_s + PART * step_s;
+        // what ends with the sample goes on with it
+        if span_s[1] > from_s {
+            span_s[1] = f64::INFINITY;
+        }
         let after = self.between(place_m, to_s, span_s)?;
         let before = self.between(place_m, from_s, span_s)?;
         let mut rate: Six = std::array::from_fn(|f| (after[f] - before[f]) / (to_s - from_s));
@@ -257,7 +250,7 @@ impl<'a> Past<'a> {
             return Ok(sum);
         }
         // far away fields nearly cancel
-        const LEAST_FAR: usize = 24;
+        const LEAST_FAR: usize = 12;
         let far = place_m[0].max(place_m[1]) > FAR * self.excitation.units().disc_radius_m;
         let nodes = if far {
             self.nodes.max(LEAST_FAR)
@@ -265,6 +258,7 @@ impl<'a> Past<'a> {
             self.nodes
         };
         let cuts = self.cuts(place_m, time_s, span_s);
+        if std::env::var("HL").is_ok() { eprintln!("  past {} kernels", nodes * (cuts.len() - 1)); }
         for pair in cuts.windows(2) {
             let (middle, half) = (0.5 * (pair[0] + pair[1]), 0.5 * (pair[1] - pair[0]));
             for (angle, weight) in gauss::rule(nodes).on(0.0, PI) {
@@ -375,7 +369,9 @@ impl<'a> Past<'a> {
         let [near, far] = [(r_m - radius_m).abs(), r_m + radius_m];
         let (short, long) = (near.hypot(z_m), far.hypot(z_m));
         let slowest = medium.rayleigh_speed();
-        // the plane fronts do not depend on the radius; head waves are followed where there are none, too
+        // where there is no such front: at the time of another
+        let head = |r: f64, body: f64| if r * span > z_m { r + z_m * span } else { body / kappa };
+        let plane = if r_m > radius_m { short } else { z_m };
         let lengths = [
             short,
             long,
@@ -383,10 +379,10 @@ impl<'a> Past<'a> {
             long / kappa,
             near / slowest,
             far / slowest,
-            near + z_m * span,
-            far + z_m * span,
-            z_m,
-            z_m / kappa,
+            head(near, short),
+            head(far, long),
+            plane,
+            plane / kappa,
         ];
         lengths.map(|length| length / self.excitation.units().longitudinal_speed_m_s)
     }

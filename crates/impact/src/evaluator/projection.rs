@@ -15,6 +15,7 @@ use super::nodes::{CellNodes, Node};
 use crate::stretch::Departure;
 use halfspace::Six;
 use lookup::{Moments, absorbed};
+use std::ops::Range;
 
 /// A slope and a bend that the cells have not absorbed, of one cell of the force.
 #[derive(Debug, Clone, Copy)]
@@ -25,12 +26,14 @@ struct Unabsorbed {
 }
 
 /// A sampled force beyond its rises.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(crate) struct Projection {
     /// For the newest cell, the one before it, and all others: their cells take slopes from other neighbours.
     unabsorbed: [Vec<Unabsorbed>; 3],
     /// What rise, slope and bend leave of the force.
     pub(crate) left: Departure,
+    /// What each cell takes of the force; the first ends at sample 1.
+    taken: Vec<Taken>,
 }
 
 /// Cells of the remainder that a cell of the force is seen through by its five neighbours.
@@ -42,12 +45,14 @@ impl Projection {
         let mut found = Self {
             unabsorbed: Default::default(),
             left: Departure::default(),
+            taken: Vec::with_capacity(samples.len()),
         };
         for cell in -BEFORE..samples.len() as isize {
             let [slope, bend] = match usize::try_from(cell) {
                 Ok(m) if m > 0 => {
                     let own = taken(samples, nodes, m);
                     found.left.add(own.most);
+                    found.taken.push(own);
                     [own.slope, own.bend]
                 }
                 Ok(_) | Err(_) => [0.0; 2],
@@ -102,6 +107,38 @@ impl Projection {
     }
 }
 
+impl Projection {
+    /// What the cell takes that ends at sample `m`, from 1 on.
+    pub(crate) fn taken(&self, m: usize) -> &Taken {
+        &self.taken[m - 1]
+    }
+
+    /// What some of the cells brought to sample n, in kernel units times the force.
+    pub(crate) fn by_cells(&self, n: usize, part: &Range<usize>, cells: &Moments) -> Six {
+        let mut sum = Six::default();
+        for cell in part.start..part.end.min(n + 1) {
+            let (taken, j) = (self.taken(cell), n - cell);
+            for (f, sum) in sum.iter_mut().enumerate() {
+                *sum += taken.rise * cells.averages[j][f] - taken.slope * cells.first[j][f]
+                    + taken.bend * cells.second[j][f];
+            }
+        }
+        sum
+    }
+
+    /// The most that some of the cells may leave of sample n, where the kernel departs by `open` from a parabola within
+    /// each of its cells.
+    pub(crate) fn left_by(&self, n: usize, part: &Range<usize>, open: &[Six]) -> Six {
+        let mut sum = Six::default();
+        for cell in part.start..part.end.min(n + 1) {
+            for (sum, open) in sum.iter_mut().zip(open[n - cell]) {
+                *sum += open * self.taken(cell).left;
+            }
+        }
+        sum
+    }
+}
+
 /// What a cell takes of a force, and what it leaves.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Taken {
@@ -110,7 +147,7 @@ pub(crate) struct Taken {
     pub(crate) slope: f64,
     pub(crate) bend: f64,
     /// The most that is left of the force, and of its rate over a cell.
-    pub(crate) most: f64,
+    most: f64,
     pub(crate) left: f64,
 }
 
@@ -119,7 +156,7 @@ pub(crate) struct Taken {
 /// ```text
 /// slope = 12 [(P0 + P1)/2 - int P dx],     bend = 180 [(P1 - P0)/6 - 2 int P x dx]
 /// ```
-pub(crate) fn taken(samples: &[f64], nodes: &CellNodes, m: usize) -> Taken {
+fn taken(samples: &[f64], nodes: &CellNodes, m: usize) -> Taken {
     let (before, after, nodes) = (samples[m - 1], samples[m], nodes.of(m - 1));
     let (mut mean, mut moment) = (0.0, 0.0);
     for node in nodes {

@@ -3,33 +3,39 @@
 use super::NEAR;
 use super::at_rest::{static_si, units_si};
 use super::discs::Discs;
-use super::ends::open;
+use super::ends::{Zone, open};
 use super::forcing::{Derivative, DiscForce, Forcing, Reading};
 use super::past::Past;
 use crate::error::FieldsError;
 use crate::excitation::PressureRadius;
 use crate::kernels::Cells;
 use halfspace::{Kernel, Six};
+use std::ops::Range;
 
 /// Samples of six fields, or of the rates of the first two, with what the samples leave open.
 pub(crate) struct Sum<'a> {
     derivative: Derivative,
     forcing: &'a Forcing<'a>,
-    discs: &'a Discs,
+    pub(crate) discs: &'a Discs,
     forces: &'a [DiscForce],
     place_m: [f64; 2],
     /// At the samples that the forcing needs, of all runs.
     times_s: Vec<f64>,
-    values: [Vec<f64>; 6],
+    pub(crate) values: [Vec<f64>; 6],
     errors: Six,
-    /// What discs and cells may leave of each sample.
+    /// What the discs may leave of each sample.
     left: [Vec<f64>; 6],
-    /// Samples in which more than the tolerance may be left.
+    /// What the cells may leave.
+    rough: [Vec<f64>; 6],
+    /// Samples whose zones are integrated.
+    integrated: Vec<bool>,
+    /// Samples in which the discs may leave more than the tolerance.
     pub(crate) open: Vec<usize>,
 }
 
 /// Part of the tolerance up to which what is left of a sample is let be; a tenth of it for each difference.
 const SURE: f64 = 0.3;
+const SURE_CELLS: f64 = 1.0;
 
 /// Samples of a point for which a whole contact is integrated at most, of fields and of rates: those that the discs leave
 /// open in its middle.
@@ -65,6 +71,8 @@ impl<'a> Sum<'a> {
             values: blank(),
             errors: Six::default(),
             left: blank(),
+            rough: blank(),
+            integrated: vec![false; times_s.len()],
             open: Vec::new(),
             times_s,
         };
@@ -81,7 +89,17 @@ impl<'a> Sum<'a> {
             sum.add_following_static(kernel)?;
             sum.still_before_arrival();
         }
-        sum.open = sum.not_resolved();
+        if cells.iter().all(|cells| cells.trace.is_some()) {
+            for i in sum.not_resolved(&sum.rough, SURE_CELLS) {
+                sum.integrate_zones(i, cells);
+            }
+            for i in sum.not_resolved(&sum.left, SURE) {
+                if !sum.integrated[i] {
+                    sum.integrate_zones(i, cells);
+                }
+            }
+        }
+        sum.open = sum.not_resolved(&sum.left, SURE);
         Ok(sum)
     }
 
@@ -110,12 +128,9 @@ impl<'a> Sum<'a> {
         };
         let mut first = 0;
         for (run, needed) in force.runs.iter().zip(&self.forcing.needed) {
-            let mut own = run.convolver.fields(&rest, &cells.smooth);
-            run.projection.add(&cells.moments, needed, &mut own);
-            let last = run
-                .last
-                .as_ref()
-                .map(|last| last.fields(&Six::default(), &cells.smooth));
+            let own = run.force.fields(&rest, cells, needed);
+            let last = run.last.as_ref();
+            let last = last.map(|last| last.fields(&Six::default(), cells, needed));
             for f in 0..self.components() {
                 for (i, value) in own[f].iter().enumerate() {
                     self.values[f][first + i] += unit[f] * value;
@@ -126,10 +141,9 @@ impl<'a> Sum<'a> {
             }
             for zone in &run.zones {
                 for (i, &n) in needed.iter().enumerate() {
-                    let left = zone.left(n, &open);
+                    let rough = run.force.projection.left_by(n, &zone.cells, &open);
                     for f in 0..self.components() {
-                        let own = &mut self.left[f][first + i];
-                        *own += unit[f] * left[f] * if *own < 0.0 { -1.0 } else { 1.0 };
+                        self.rough[f][first + i] += unit[f] * rough[f];
                     }
                 }
             }
@@ -171,26 +185,23 @@ impl<'a> Sum<'a> {
     fn still_before_arrival(&mut self) {
         let first_s = self.forcing.excitation.arrivals_s(self.place_m)[0];
         let still = self.times_s.iter().filter(|&&t| t <= first_s).count();
-        for samples in self.values.iter_mut().chain(&mut self.left) {
+        let all = self.values.iter_mut().chain(&mut self.left);
+        for samples in all.chain(&mut self.rough) {
             samples[..still].fill(0.0);
         }
     }
 
-    /// The samples that are left with more than the tolerance of a field's peak, the worst first.
-    fn not_resolved(&self) -> Vec<usize> {
-        let sure = SURE * self.forcing.tolerance * 0.1_f64.powi(self.forcing.differences as i32);
-        let allowed: Vec<f64> = (self.values.iter())
-            .take(self.components())
-            .map(|samples| sure * peak(samples))
-            .collect();
-        let off = |i: usize| {
-            let parts = allowed.iter().zip(&self.left);
-            let over = parts.map(|(allowed, left)| match left[i].abs() {
-                0.0 => 0.0,
-                left => left / allowed,
-            });
-            (i, over.fold(0.0, f64::max))
-        };
+    /// What may be left of a sample of each field, as a part `sure` of the tolerance.
+    fn allowed(&self, sure: f64) -> Vec<f64> {
+        let part = sure * self.forcing.tolerance * 0.1_f64.powi(self.forcing.differences as i32);
+        let fields = self.values.iter().take(self.components());
+        fields.map(|samples| part * peak(samples)).collect()
+    }
+
+    /// The samples that are left with more than is allowed, the worst first.
+    fn not_resolved(&self, left: &[Vec<f64>; 6], sure: f64) -> Vec<usize> {
+        let allowed = self.allowed(sure);
+        let off = |i: usize| (i, over(&allowed, |f| left[f][i]));
         let mut found: Vec<(usize, f64)> = (0..self.times_s.len()).map(off).collect();
         found.retain(|&(_, off)| off > 1.0);
         found.sort_by(|a, b| b.1.total_cmp(&a.1));
@@ -203,29 +214,30 @@ impl<'a> Sum<'a> {
         past: Option<&Past<'_>>,
         cells: &[Cells],
     ) -> Result<([Vec<f64>; 6], [f64; 6]), FieldsError> {
-        let traced = cells.iter().all(|cells| cells.trace.is_some());
-        if let PressureRadius::Following { .. } = self.forcing.excitation.radius() {
+        let following = matches!(
+            self.forcing.excitation.radius(),
+            PressureRadius::Following { .. }
+        );
+        if following || self.integrated.contains(&true) {
             for f in 0..6 {
                 self.errors[f] += QUADRATURE * self.forcing.tolerance * peak(&self.values[f]);
             }
         }
-        if traced && !self.open.is_empty() {
+        if let Some(past) = past
+            && !self.open.is_empty()
+        {
             for f in 0..6 {
                 self.errors[f] += QUADRATURE * self.forcing.tolerance * peak(&self.values[f]);
             }
-            if let (Some(past), 1) = (past, self.discs.radii.len()) {
-                // a disc alone has waves where the contact has just begun or ended
-                let span_s = 2.0 * self.forcing.step_s;
-                let touched =
-                    |&i: &usize| past.begins_or_ends(self.place_m, self.times_s[i], span_s);
-                let more: Vec<usize> = (0..self.times_s.len())
-                    .filter(|i| touched(i) && !self.open.contains(i))
-                    .collect();
-                self.open.extend(more);
-            }
+        let allowed = self.allowed(SURE);
             let mut whole = MOST_WHOLE[usize::from(self.derivative != Derivative::Field)];
             for i in std::mem::take(&mut self.open) {
-                self.integrate(i, past, cells, &mut whole)?;
+                self.integrate_past(i, past, cells, (&allowed, &mut whole))?;
+            }
+        }
+        for (left, rough) in self.left.iter_mut().zip(&self.rough) {
+            for (left, rough) in left.iter_mut().zip(rough) {
+                *left = left.abs() + rough;
             }
         }
         for (error, left) in self.errors.iter_mut().zip(&self.left) {
@@ -248,76 +260,140 @@ impl<'a> Sum<'a> {
         Ok((values, self.errors))
     }
 
-    /// Replaces the cells of the zones in one sample by the integral.
-    fn integrate(
-        &mut self,
-        i: usize,
-        past: Option<&Past<'_>>,
-        cells: &[Cells],
-        whole: &mut usize,
-    ) -> Result<(), FieldsError> {
-        let excitation = self.forcing.excitation;
-        let time_s = self.times_s[i];
+    /// The run of a sample and its number there.
+    fn in_run(&self, i: usize) -> (usize, usize) {
         let (mut place, mut run) = (i, 0);
         while place >= self.forcing.needed[run].len() {
             place -= self.forcing.needed[run].len();
             run += 1;
         }
-        let n = self.forcing.needed[run][place];
-        let grid = &self.forcing.runs[run];
-        let (mut change, mut replaced) = (Six::default(), false);
-        for (z, zone) in self.forces[0].runs[run].zones.iter().enumerate() {
-            let parts = match past {
-                None => vec![zone.cells.clone()],
-                // of the waves of a disc alone no instant is that of the contact
-                Some(_) if self.discs.radii.len() == 1 => vec![zone.cells.clone()],
-                Some(past) => past.parts(self.place_m, time_s, &zone.cells, |cells| {
-                    self.forcing.span_s(grid, cells)
-                }),
+        (run, self.forcing.needed[run][place])
+    }
+
+    /// What the integrals over the zones of a disc change in one sample, of the force and of the part that is the last,
+    /// as far as the zones are among some cells.
+    fn by_zones(&self, i: usize, k: usize, cells: &Cells, among: Option<&Range<usize>>) -> [Six; 2] {
+        let (run, n) = self.in_run(i);
+        let over = self.discs.radii[k];
+        let unit = units_si(self.forcing.excitation, over);
+        let unit_s = over * self.forcing.excitation.units().time_s();
+        let own = &self.forces[k].runs[run];
+        let inside = |zone: &&Zone| {
+            among.is_none_or(|all| all.start <= zone.cells.start && zone.cells.end <= all.end)
+        };
+        let mut change = [Six::default(); 2];
+        for zone in own.zones.iter().filter(inside) {
+            let Some(trace) = &cells.trace else {
+                break;
             };
-            let parts = if parts.is_empty() && *whole > 0 {
-                *whole -= 1;
-                vec![zone.cells.clone()]
-            } else {
-                parts
-            };
-            replaced |= !parts.is_empty();
-            for part in &parts {
-                if let Some(past) = past {
-                    let span_s = self.forcing.span_s(grid, part);
-                    let exact = match self.forcing.reading {
-                        Reading::Force => past.between(self.place_m, time_s, span_s)?,
-                        Reading::Rate => {
-                            past.rate_between(self.place_m, time_s, span_s, self.forcing.step_s)?
-                        }
-                    };
-                    for f in 0..6 {
-                        change[f] += exact[f];
-                    }
-                }
-                for (k, cells) in cells.iter().enumerate() {
-                    let over = self.discs.radii[k];
-                    let unit = units_si(excitation, over);
-                    let unit_s = over * excitation.units().time_s();
-                    let zone = &self.forces[k].runs[run].zones[z];
-                    let by_cells = zone.by_cells(n, part, &cells.moments);
-                    let exact = match (past, &cells.trace) {
-                        (None, Some(trace)) => zone.by_trace(time_s, trace, unit_s),
-                        (_, _) => Six::default(),
-                    };
-                    for f in 0..6 {
-                        change[f] += unit[f] * (exact[f] - by_cells[f]);
-                    }
+            let exact = zone.by_trace(self.times_s[i], trace, unit_s);
+            let last = own.last.as_ref().filter(|_| self.discs.radii.len() > 1);
+            for (part, force) in [Some(&own.force), last].into_iter().enumerate() {
+                let Some(force) = force else {
+                    continue;
+                };
+                let by_cells = force.projection.by_cells(n, &zone.cells, &cells.moments);
+                for f in 0..6 {
+                    change[part][f] += unit[f] * (exact[part][f] - by_cells[f]);
                 }
             }
         }
-        for (f, change) in change.into_iter().enumerate().take(self.components()) {
-            self.values[f][i] += change;
-            if replaced {
-                self.left[f][i] = 0.0;
+        change
+    }
+
+    /// Replaces the cells of the zones in one sample by integrals.
+    fn integrate_zones(&mut self, i: usize, cells: &[Cells]) {
+        self.integrated[i] = true;
+        for (k, cells) in cells.iter().enumerate() {
+            let [change, last] = self.by_zones(i, k, cells, None);
+            for f in 0..self.components() {
+                self.values[f][i] += change[f];
+                self.left[f][i] += last[f];
+                self.rough[f][i] = 0.0;
             }
+        }
+    }
+
+    /// Replaces the discs for parts of the past in one sample by the integral over the radii: where the waves of the first
+    /// and the last instants pass, and the whole contact where that leaves too much and a budget allows it.
+    fn integrate_past(
+        &mut self,
+        i: usize,
+        past: &Past<'_>,
+        cells: &[Cells],
+        (allowed, whole): (&[f64], &mut usize),
+    ) -> Result<(), FieldsError> {
+        let time_s = self.times_s[i];
+        let (run, _) = self.in_run(i);
+        let grid = &self.forcing.runs[run];
+        let span_s = |cells: &Range<usize>| self.forcing.span_s(grid, cells);
+        let contacts = self.forcing.contacts(grid);
+        let mut parts: Vec<Range<usize>> = Vec::new();
+        for contact in &contacts {
+            parts.extend(past.parts(self.place_m, time_s, contact, span_s));
+        }
+        // a zone is replaced as a whole
+        let zones = self.forces.iter().flat_map(|force| &force.runs[run].zones);
+        for Zone { cells, .. } in zones {
+            for part in &mut parts {
+                if cells.start < part.end && cells.end > part.start {
+                    *part = part.start.min(cells.start)..part.end.max(cells.end);
+                }
+            }
+        }
+        let mut by_discs = self.by_discs(i, &parts, cells);
+        if over(allowed, |f| self.left[f][i] - by_discs[1][f]) > 1.0 && *whole > 0 {
+            *whole -= 1;
+            parts = contacts;
+            by_discs = self.by_discs(i, &parts, cells);
+            for f in 0..6 {
+                (self.left[f][i], self.rough[f][i]) = (by_discs[1][f], 0.0);
+            }
+        }
+        let mut exact = Six::default();
+        for part in &parts {
+            let found = match self.forcing.reading {
+                Reading::Force => past.between(self.place_m, time_s, span_s(part))?,
+                Reading::Rate => {
+                    let step_s = self.forcing.step_s;
+                    past.rate_between(self.place_m, time_s, span_s(part), step_s)?
+                }
+            };
+            for (sum, found) in exact.iter_mut().zip(found) {
+                *sum += found;
+            }
+        }
+        for f in 0..self.components() {
+            self.values[f][i] += exact[f] - by_discs[0][f];
+            self.left[f][i] -= by_discs[1][f];
         }
         Ok(())
+    }
+
+    /// What the discs brought to one sample from some cells, and what the last of it is.
+    fn by_discs(&self, i: usize, parts: &[Range<usize>], cells: &[Cells]) -> [Six; 2] {
+        let (run, n) = self.in_run(i);
+        let mut sums = [Six::default(); 2];
+        for part in parts {
+            for (k, cells) in cells.iter().enumerate() {
+                let unit = units_si(self.forcing.excitation, self.discs.radii[k]);
+                let force = &self.forces[k].runs[run];
+                let zones = match self.integrated[i] {
+                    true => self.by_zones(i, k, cells, Some(part)),
+                    false => [Six::default(); 2],
+                };
+                let both = [Some(&force.force), force.last.as_ref()];
+                for ((sum, zones), force) in sums.iter_mut().zip(zones).zip(both) {
+                    let by_cells = force.map_or(Six::default(), |force| {
+                        force.projection.by_cells(n, part, &cells.moments)
+                    });
+                    for f in 0..6 {
+                        sum[f] += unit[f] * by_cells[f] + zones[f];
+                    }
+                }
+            }
+        }
+        sums
     }
 
     /// Samples of the outputs from those that the forcing needs.
@@ -330,6 +406,16 @@ impl<'a> Sum<'a> {
         };
         self.forcing.outputs.iter().map(of).collect()
     }
+}
+
+/// The largest of what is left of the fields over what is allowed.
+fn over(allowed: &[f64], left: impl Fn(usize) -> f64) -> f64 {
+    let each = allowed.iter().enumerate();
+    each.map(|(f, allowed)| match left(f).abs() {
+        0.0 => 0.0,
+        left => left / allowed,
+    })
+    .fold(0.0, f64::max)
 }
 
 /// Largest magnitude.

@@ -240,6 +240,11 @@ fn far_away_few_discs_are_enough() {
                         .fold(0.0, f64::max);
                     let estimate = point.errors[f] / peak;
                     errors.push(error / tolerance);
+                    if error > estimate {
+                        println!(
+                            "T {duration} nu {poisson_ratio} at {place:?} to {tolerance:.0e}: field {f} {error:.1e}, estimated {estimate:.1e}"
+                        );
+                    }
                     least = least.min(estimate / error);
                 }
             }
