@@ -136,7 +136,7 @@ pub(crate) struct Segment {
     pub(crate) piece: Piece,
     /// Coefficients of Chebyshev's polynomials.
     series: [Six; MOST],
-    pub(crate) terms: usize,
+    terms: usize,
     /// Likely error of the mean of R over a part of the segment, but for the truncation of the series.
     pub(crate) error: Six,
     /// Truncation error of the polynomial, from its last terms.

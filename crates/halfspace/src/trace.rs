@@ -87,7 +87,6 @@ impl Kernel {
             (tolerance, rise),
             |t| self.remainder(r, z, t),
         )?;
-        if std::env::var("HL").is_ok() { eprintln!("trace r {r:.2} z {z:.2} end {end:.1} segments {} kernels {}", segments.len(), segments.iter().map(|s| s.terms).sum::<usize>()); }
         let mut error = static_field.map(|s| f64::EPSILON * s.abs());
         for segment in &segments {
             let part = rise(segment.times[1] - segment.times[0]);

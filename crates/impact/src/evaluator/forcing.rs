@@ -84,12 +84,7 @@ pub(crate) struct Sampled {
 
 impl Sampled {
     /// The fields at the samples wanted.
-    pub(crate) fn fields(
-        &self,
-        fixed: &Six,
-        cells: &Cells,
-        wanted: &[usize],
-    ) -> [Vec<f64>; 6] {
+    pub(crate) fn fields(&self, fixed: &Six, cells: &Cells, wanted: &[usize]) -> [Vec<f64>; 6] {
         let mut found = self.convolver.fields(fixed, &cells.smooth);
         self.projection.add(&cells.moments, wanted, &mut found);
         found

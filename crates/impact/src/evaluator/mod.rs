@@ -21,8 +21,6 @@ mod past;
 pub(crate) mod projection;
 #[cfg(test)]
 mod rate_tests;
-#[cfg(test)]
-mod experiment;
 mod sum;
 #[cfg(test)]
 mod tests;
@@ -211,28 +209,24 @@ impl<'a> Evaluator<'a> {
         let open = |sums: &[Sum<'_>]| sums.iter().map(|sum| sum.open.len()).sum::<usize>();
         // far away the kernels of the smallest discs lose digits
         const NEAR: f64 = 4.0;
-        let near = place_m[0].hypot(place_m[1]) < NEAR * self.asked.excitation.units().disc_radius_m;
+        let near =
+            place_m[0].hypot(place_m[1]) < NEAR * self.asked.excitation.units().disc_radius_m;
         for &choice in &serving[1..] {
             // to integrate a sample costs less than a disc
-            if self.past.is_none()
-                || open(&best.0) <= 2 * self.choices[choice].radii.len()
-                || !near
+            if self.past.is_none() || open(&best.0) <= 2 * self.choices[choice].radii.len() || !near
             {
                 break;
             }
             let next = self.under(place_m, choice)?;
-            if std::env::var("HL").is_ok() {eprintln!("tried {} from open {} to {}", self.choices[choice].radii.len(), open(&best.0), open(&next.0));}
             if open(&next.0) >= open(&best.0) {
                 break;
             }
             best = next;
         }
         let (sums, cells) = best;
-        if std::env::var("HL").is_ok() { eprintln!("place {place_m:?} discs {:?} open {:?} cells {} samples {}", sums[0].discs.radii.len(), sums[0].open.len(), cells[0].moments.averages.len(), sums[0].values[0].len());}
-        let now = std::time::Instant::now();
- let x=sums.into_iter()
+        sums.into_iter()
             .map(|sum| sum.resolved(self.past.as_ref(), &cells))
-            .collect(); if std::env::var("HL").is_ok() { eprintln!("T past {:.2} ms", now.elapsed().as_secs_f64()*1e3); } x
+            .collect()
     }
 
     /// The choices of discs that the source serves at a point in largest radii; where there is none, the last or, of
@@ -262,12 +256,9 @@ impl<'a> Evaluator<'a> {
         choice: usize,
     ) -> Result<(Vec<Sum<'_>>, Vec<Cells>), FieldsError> {
         let discs = &self.choices[choice];
-        let now = std::time::Instant::now();
         let cells: Vec<Cells> = (discs.radii.iter())
             .map(|&over| self.cells(place_m, over))
             .collect::<Result<_, _>>()?;
-        if std::env::var("HL").is_ok() { eprintln!("T cells {:.2} ms", now.elapsed().as_secs_f64()*1e3); }
-        let now = std::time::Instant::now();
         let forces = self.forces[choice].get_or_init(|| {
             let of = |(_, forcing): &(_, Forcing<'_>)| forcing.on_discs(discs);
             self.forcings.iter().map(of).collect()
@@ -286,10 +277,7 @@ impl<'a> Evaluator<'a> {
                     &cells,
                 )
             });
-        if std::env::var("HL").is_ok() { eprintln!("T forces {:.2} ms", now.elapsed().as_secs_f64()*1e3); }
-        let now = std::time::Instant::now();
- let x = sums.collect::<Result<_, _>>()?; if std::env::var("HL").is_ok() { eprintln!("T sums {:.2} ms", now.elapsed().as_secs_f64()*1e3); }
-        Ok((x, cells))
+        Ok((sums.collect::<Result<_, _>>()?, cells))
     }
 
     /// The kernels of a disc of a radius `over` the largest, as far as the outputs need them.

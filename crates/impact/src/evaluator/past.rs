@@ -58,7 +58,7 @@ impl<'a> Past<'a> {
             near: Kernel::new(medium, growth, (1e-3 * tolerance).clamp(1e-12, 1e-7))?,
             growth: Kernel::new(medium, growth, (1e-6 * tolerance).clamp(1e-12, 1e-10))?,
             hertz: Kernel::new(medium, Profile::Hertz, 1e-6)?,
-            nodes: (-7.5 * tolerance.log10() - 12.0).clamp(12.0, 40.0) as usize,
+            nodes: (-7.5 * tolerance.log10() - 10.5).clamp(8.0, 40.0) as usize,
             radii: if tolerance < 1e-5 { 4 } else { 2 },
         })
     }
@@ -249,30 +249,35 @@ impl<'a> Past<'a> {
         if span_s[0] >= span_s[1] {
             return Ok(sum);
         }
-        // far away fields nearly cancel
+        /// Power of the radius with which waves grow, nodes for a digit, and nodes at least.
+        const FALLS: f64 = 1.5;
+        const NODES_A_DIGIT: f64 = 2.0;
+        const FEWEST: f64 = 6.0;
+        /// Nodes at least where fields nearly cancel.
         const LEAST_FAR: usize = 12;
-        let far = place_m[0].max(place_m[1]) > FAR * self.excitation.units().disc_radius_m;
-        let nodes = if far {
-            self.nodes.max(LEAST_FAR)
-        } else {
-            self.nodes
-        };
-        let cuts = self.cuts(place_m, time_s, span_s);
-        if std::env::var("HL").is_ok() { eprintln!("  past {} kernels", nodes * (cuts.len() - 1)); }
-        for pair in cuts.windows(2) {
+        let far = self.is_far(place_m);
+        let over = |t: f64| self.past(t).map_or(0.0, |instant| instant.over);
+        for pair in self.cuts(place_m, time_s, span_s).windows(2) {
             let (middle, half) = (0.5 * (pair[0] + pair[1]), 0.5 * (pair[1] - pair[0]));
+            // small contacts bring little
+            let digits = FALLS * over(pair[0]).max(over(pair[1])).max(1e-3).log10();
+            let nodes = if far {
+                self.nodes.max(LEAST_FAR)
+            } else {
+                (self.nodes as f64 + NODES_A_DIGIT * digits).max(FEWEST) as usize
+            };
             for (angle, weight) in gauss::rule(nodes).on(0.0, PI) {
                 let past_s = middle - half * angle.cos();
-                self.add(
-                    place_m,
-                    time_s,
-                    past_s,
-                    half * weight * angle.sin(),
-                    &mut sum,
-                )?;
+                let weight = half * weight * angle.sin();
+                self.add(place_m, time_s, past_s, weight, &mut sum)?;
             }
         }
         Ok(sum)
+    }
+
+    /// Whether fields nearly cancel over a contact.
+    pub(crate) fn is_far(&self, [r_m, z_m]: [f64; 2]) -> bool {
+        r_m.max(z_m) > FAR * self.excitation.units().disc_radius_m
     }
 
     fn past(&self, past_s: f64) -> Option<Instant> {
@@ -295,7 +300,7 @@ impl<'a> Past<'a> {
         let units = self.excitation.units();
         let radius_m = over * units.disc_radius_m;
         let since = (time_s - past_s) / (over * units.time_s());
-        let far = r_m.max(z_m) > FAR * units.disc_radius_m;
+        let far = self.is_far([r_m, z_m]);
         let growth = if far { &self.growth } else { &self.near };
         let found = growth.remainder(r_m / radius_m, z_m / radius_m, since)?;
         let unit = units_si(self.excitation, over);
@@ -370,7 +375,13 @@ impl<'a> Past<'a> {
         let (short, long) = (near.hypot(z_m), far.hypot(z_m));
         let slowest = medium.rayleigh_speed();
         // where there is no such front: at the time of another
-        let head = |r: f64, body: f64| if r * span > z_m { r + z_m * span } else { body / kappa };
+        let head = |r: f64, body: f64| {
+            if r * span > z_m {
+                r + z_m * span
+            } else {
+                body / kappa
+            }
+        };
         let plane = if r_m > radius_m { short } else { z_m };
         let lengths = [
             short,

@@ -16,12 +16,12 @@ use std::ops::Range;
 pub(crate) struct Sum<'a> {
     derivative: Derivative,
     forcing: &'a Forcing<'a>,
-    pub(crate) discs: &'a Discs,
+    discs: &'a Discs,
     forces: &'a [DiscForce],
     place_m: [f64; 2],
     /// At the samples that the forcing needs, of all runs.
     times_s: Vec<f64>,
-    pub(crate) values: [Vec<f64>; 6],
+    values: [Vec<f64>; 6],
     errors: Six,
     /// What the discs may leave of each sample.
     left: [Vec<f64>; 6],
@@ -34,8 +34,7 @@ pub(crate) struct Sum<'a> {
 }
 
 /// Part of the tolerance up to which what is left of a sample is let be; a tenth of it for each difference.
-const SURE: f64 = 0.3;
-const SURE_CELLS: f64 = 1.0;
+const SURE: f64 = 0.5;
 
 /// Samples of a point for which a whole contact is integrated at most, of fields and of rates: those that the discs leave
 /// open in its middle.
@@ -90,7 +89,7 @@ impl<'a> Sum<'a> {
             sum.still_before_arrival();
         }
         if cells.iter().all(|cells| cells.trace.is_some()) {
-            for i in sum.not_resolved(&sum.rough, SURE_CELLS) {
+            for i in sum.not_resolved(&sum.rough, SURE) {
                 sum.integrate_zones(i, cells);
             }
             for i in sum.not_resolved(&sum.left, SURE) {
@@ -229,8 +228,12 @@ impl<'a> Sum<'a> {
             for f in 0..6 {
                 self.errors[f] += QUADRATURE * self.forcing.tolerance * peak(&self.values[f]);
             }
-        let allowed = self.allowed(SURE);
-            let mut whole = MOST_WHOLE[usize::from(self.derivative != Derivative::Field)];
+            let allowed = self.allowed(SURE);
+            let mut whole = if past.is_far(self.place_m) {
+                0
+            } else {
+                MOST_WHOLE[usize::from(self.derivative != Derivative::Field)]
+            };
             for i in std::mem::take(&mut self.open) {
                 self.integrate_past(i, past, cells, (&allowed, &mut whole))?;
             }
@@ -272,7 +275,13 @@ impl<'a> Sum<'a> {
 
     /// What the integrals over the zones of a disc change in one sample, of the force and of the part that is the last,
     /// as far as the zones are among some cells.
-    fn by_zones(&self, i: usize, k: usize, cells: &Cells, among: Option<&Range<usize>>) -> [Six; 2] {
+    fn by_zones(
+        &self,
+        i: usize,
+        k: usize,
+        cells: &Cells,
+        among: Option<&Range<usize>>,
+    ) -> [Six; 2] {
         let (run, n) = self.in_run(i);
         let over = self.discs.radii[k];
         let unit = units_si(self.forcing.excitation, over);
