@@ -181,14 +181,16 @@ impl<'a> Past<'a> {
         step_s: f64,
     ) -> Result<Six, FieldsError> {
         const PART: f64 = 0.002;
+        /// Of a rule at least.
+        const NODES: usize = 12;
         let from_s = (time_s - PART * step_s).max(0.0);
         let to_s = time_s + PART * step_s;
         // what ends with the sample goes on with it
         if span_s[1] > from_s {
             span_s[1] = f64::INFINITY;
         }
-        let after = self.between(place_m, to_s, span_s)?;
-        let before = self.between(place_m, from_s, span_s)?;
+        let after = self.with_nodes(NODES, place_m, to_s, span_s)?;
+        let before = self.with_nodes(NODES, place_m, from_s, span_s)?;
         let mut rate: Six = std::array::from_fn(|f| (after[f] - before[f]) / (to_s - from_s));
         // what leaves the span at its ends is not lost: the sum over the cells has the rate of the force inside it
         for (at_s, sign) in [(span_s[0], -1.0), (span_s[1], 1.0)] {
@@ -205,6 +207,17 @@ impl<'a> Past<'a> {
     /// their parity times a function of r^2, which their values at a few larger radii continue.
     pub(crate) fn between(
         &self,
+        place_m: [f64; 2],
+        time_s: f64,
+        span_s: [f64; 2],
+    ) -> Result<Six, FieldsError> {
+        const NODES: usize = 6;
+        self.with_nodes(NODES, place_m, time_s, span_s)
+    }
+
+    fn with_nodes(
+        &self,
+        least: usize,
         [r_m, z_m]: [f64; 2],
         time_s: f64,
         span_s: [f64; 2],
@@ -213,7 +226,7 @@ impl<'a> Past<'a> {
         const NEAR: f64 = 0.031;
         let step_m = NEAR * z_m.hypot(self.excitation.units().disc_radius_m);
         if r_m >= step_m || self.growth.profile() == Profile::Hertz {
-            return self.off_axis([r_m, z_m], time_s, span_s);
+            return self.off_axis(least, [r_m, z_m], time_s, span_s);
         }
         let radii: Vec<f64> = (1..=self.radii).map(|i| step_m * i as f64).collect();
         let mut sum = Six::default();
@@ -222,7 +235,7 @@ impl<'a> Past<'a> {
             let weight: f64 = others
                 .map(|(_, x)| (r_m * r_m - x * x) / (radius * radius - x * x))
                 .product();
-            let found = self.off_axis([radius, z_m], time_s, span_s)?;
+            let found = self.off_axis(least, [radius, z_m], time_s, span_s)?;
             for (f, field) in FIELDS.into_iter().enumerate() {
                 let parity = if field.is_odd_in_r() {
                     r_m / radius
@@ -237,6 +250,7 @@ impl<'a> Past<'a> {
 
     fn off_axis(
         &self,
+        least: usize,
         place_m: [f64; 2],
         time_s: f64,
         [from_s, to_s]: [f64; 2],
@@ -249,10 +263,9 @@ impl<'a> Past<'a> {
         if span_s[0] >= span_s[1] {
             return Ok(sum);
         }
-        /// Power of the radius with which waves grow, nodes for a digit, and nodes at least.
+        /// Power of the radius with which waves grow, and nodes for a digit.
         const FALLS: f64 = 1.5;
         const NODES_A_DIGIT: f64 = 2.0;
-        const FEWEST: f64 = 6.0;
         /// Nodes at least where fields nearly cancel.
         const LEAST_FAR: usize = 12;
         let far = self.is_far(place_m);
@@ -264,7 +277,7 @@ impl<'a> Past<'a> {
             let nodes = if far {
                 self.nodes.max(LEAST_FAR)
             } else {
-                (self.nodes as f64 + NODES_A_DIGIT * digits).max(FEWEST) as usize
+                (self.nodes as f64 + NODES_A_DIGIT * digits).max(least as f64) as usize
             };
             for (angle, weight) in gauss::rule(nodes).on(0.0, PI) {
                 let past_s = middle - half * angle.cos();
