@@ -87,12 +87,18 @@ impl Kernel {
             (tolerance, rise),
             |t| self.remainder(r, z, t),
         )?;
+        // each counts as far as the force changes during the segment
         let mut error = static_field.map(|s| f64::EPSILON * s.abs());
+        let mut truncation = Six::default();
         for segment in &segments {
             let part = rise(segment.times[1] - segment.times[0]);
-            for (f, error) in error.iter_mut().enumerate() {
-                *error = error.max(segment.error[f] + OSCILLATES * part * segment.truncation[f]);
+            for f in 0..6 {
+                error[f] += part * segment.error[f];
+                truncation[f] = truncation[f].max(OSCILLATES * part * segment.truncation[f]);
             }
+        }
+        for (error, truncation) in error.iter_mut().zip(truncation) {
+            *error += truncation;
         }
         Ok(Trace {
             first_arrival,

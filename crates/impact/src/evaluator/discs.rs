@@ -35,7 +35,7 @@ const COVERED: [f64; 4] = [0.0, 0.25, 0.5, 0.75];
 impl Discs {
     /// Those for kernels that are computed, the fewest first.
     pub(crate) fn computed(radius: PressureRadius, tolerance: f64) -> Vec<Self> {
-        let digits = (-tolerance.log10()).clamp(3.0, 8.0);
+        let digits = (-tolerance.log10()).clamp(2.0, 8.0);
         let count = |a_digit: f64| (a_digit * digits).round() as usize;
         match radius {
             PressureRadius::Fixed(_) => vec![Self::one()],
