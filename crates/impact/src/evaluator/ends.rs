@@ -156,8 +156,14 @@ impl Part {
         })
     }
 
-    /// Adds the integrals at a time; the trace has its times in `unit_s`.
-    fn add(&self, time_s: f64, trace: &Trace, unit_s: f64, sums: &mut [Six; 2]) {
+    /// Adds the integrals over some of the past at a time; the trace has its times in `unit_s`.
+    fn add(
+        &self,
+        time_s: f64,
+        [from_s, to_s]: [f64; 2],
+        (trace, unit_s): (&Trace, f64),
+        sums: &mut [Six; 2],
+    ) {
         let since_s = time_s - self.origin_s;
         let x_of = |s: f64| {
             (if self.forward {
@@ -168,13 +174,10 @@ impl Part {
             .max(0.0)
             .sqrt()
         };
-        // s = 0 is the instant itself
-        let [mut low, mut high] = self.roots;
-        if self.forward {
-            high = high.min(x_of(0.0));
-        } else {
-            low = low.max(x_of(0.0));
-        }
+        // nothing after the instant itself
+        let ends = [from_s, to_s.min(time_s)].map(|t| x_of(time_s - t));
+        let low = self.roots[0].max(ends[0].min(ends[1]));
+        let high = self.roots[1].min(ends[0].max(ends[1]));
         if low >= high {
             return;
         }
@@ -214,11 +217,16 @@ static RULE: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| {
 });
 
 impl Zone {
-    /// What the integrals bring at a time.
-    pub(crate) fn by_trace(&self, time_s: f64, trace: &Trace, unit_s: f64) -> [Six; 2] {
+    /// What the integrals over some of the past bring at a time.
+    pub(crate) fn by_trace(
+        &self,
+        time_s: f64,
+        past_s: [f64; 2],
+        (trace, unit_s): (&Trace, f64),
+    ) -> [Six; 2] {
         let mut sums = [Six::default(); 2];
         for part in &self.parts {
-            part.add(time_s, trace, unit_s, &mut sums);
+            part.add(time_s, past_s, (trace, unit_s), &mut sums);
         }
         sums
     }

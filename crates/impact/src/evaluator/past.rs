@@ -108,9 +108,9 @@ impl<'a> Past<'a> {
         span_s: impl Fn(&Range<usize>) -> [f64; 2],
     ) -> Vec<Range<usize>> {
         /// Discs do not serve for this many times that a Rayleigh wave takes over the radius, and for as many cells.
-        const SPREAD: f64 = 6.0;
+        const SPREAD: f64 = 2.0;
         const NEAR: f64 = 2.0;
-        const FEWEST: usize = 6;
+        const FEWEST: usize = 2;
         let units = self.excitation.units();
         let margin_s = units.time_s() / self.excitation.medium().rayleigh_speed();
         let windows = self.windows(place_m);

@@ -3,7 +3,7 @@
 use super::NEAR;
 use super::at_rest::{static_si, units_si};
 use super::discs::Discs;
-use super::ends::{Zone, open};
+use super::ends::open;
 use super::forcing::{Derivative, DiscForce, Forcing, Reading};
 use super::past::Past;
 use crate::error::FieldsError;
@@ -273,37 +273,29 @@ impl<'a> Sum<'a> {
         (run, self.forcing.needed[run][place])
     }
 
-    /// What the integrals over the zones of a disc change in one sample, of the force and of the part that is the last,
-    /// as far as the zones are among some cells.
-    fn by_zones(
-        &self,
-        i: usize,
-        k: usize,
-        cells: &Cells,
-        among: Option<&Range<usize>>,
-    ) -> [Six; 2] {
+    /// What the integrals over the zones of a disc change in one sample, as far as they are among some cells, of the force
+    /// and of the part that is the last.
+    fn by_zones(&self, i: usize, k: usize, cells: &Cells, among: &Range<usize>) -> [Six; 2] {
         let (run, n) = self.in_run(i);
         let over = self.discs.radii[k];
         let unit = units_si(self.forcing.excitation, over);
         let unit_s = over * self.forcing.excitation.units().time_s();
         let own = &self.forces[k].runs[run];
-        let inside = |zone: &&Zone| {
-            among.is_none_or(|all| all.start <= zone.cells.start && zone.cells.end <= all.end)
-        };
+        let both = [Some(&own.force), own.last.as_ref()];
         let mut change = [Six::default(); 2];
-        for zone in own.zones.iter().filter(inside) {
-            let Some(trace) = &cells.trace else {
-                break;
+        for zone in &own.zones {
+            let part = zone.cells.start.max(among.start)..zone.cells.end.min(among.end);
+            let (Some(trace), false) = (&cells.trace, part.is_empty()) else {
+                continue;
             };
-            let exact = zone.by_trace(self.times_s[i], trace, unit_s);
-            let last = own.last.as_ref().filter(|_| self.discs.radii.len() > 1);
-            for (part, force) in [Some(&own.force), last].into_iter().enumerate() {
-                let Some(force) = force else {
-                    continue;
-                };
-                let by_cells = force.projection.by_cells(n, &zone.cells, &cells.moments);
+            let past_s = self.forcing.span_s(&self.forcing.runs[run], &part);
+            let exact = zone.by_trace(self.times_s[i], past_s, (trace, unit_s));
+            for ((change, exact), force) in change.iter_mut().zip(exact).zip(both) {
+                let by_cells = force.map_or(Six::default(), |force| {
+                    force.projection.by_cells(n, &part, &cells.moments)
+                });
                 for f in 0..6 {
-                    change[part][f] += unit[f] * (exact[part][f] - by_cells[f]);
+                    change[f] += unit[f] * (exact[f] - by_cells[f]);
                 }
             }
         }
@@ -314,7 +306,7 @@ impl<'a> Sum<'a> {
     fn integrate_zones(&mut self, i: usize, cells: &[Cells]) {
         self.integrated[i] = true;
         for (k, cells) in cells.iter().enumerate() {
-            let [change, last] = self.by_zones(i, k, cells, None);
+            let [change, last] = self.by_zones(i, k, cells, &(0..usize::MAX));
             for f in 0..self.components() {
                 self.values[f][i] += change[f];
                 self.left[f][i] += last[f];
@@ -341,22 +333,13 @@ impl<'a> Sum<'a> {
         for contact in &contacts {
             parts.extend(past.parts(self.place_m, time_s, contact, span_s));
         }
-        // a zone is replaced as a whole
-        let zones = self.forces.iter().flat_map(|force| &force.runs[run].zones);
-        for Zone { cells, .. } in zones {
-            for part in &mut parts {
-                if cells.start < part.end && cells.end > part.start {
-                    *part = part.start.min(cells.start)..part.end.max(cells.end);
-                }
-            }
-        }
         let mut by_discs = self.by_discs(i, &parts, cells);
         if over(allowed, |f| self.left[f][i] - by_discs[1][f]) > 1.0 && *whole > 0 {
             *whole -= 1;
             parts = contacts;
             by_discs = self.by_discs(i, &parts, cells);
-            for f in 0..6 {
-                (self.left[f][i], self.rough[f][i]) = (by_discs[1][f], 0.0);
+            for (f, last) in by_discs[1].into_iter().enumerate() {
+                (self.left[f][i], self.rough[f][i]) = (last, 0.0);
             }
         }
         let mut exact = Six::default();
@@ -372,9 +355,10 @@ impl<'a> Sum<'a> {
                 *sum += found;
             }
         }
-        for f in 0..self.components() {
-            self.values[f][i] += exact[f] - by_discs[0][f];
-            self.left[f][i] -= by_discs[1][f];
+        let [by_discs, last] = by_discs;
+        for (f, exact) in exact.into_iter().enumerate().take(self.components()) {
+            self.values[f][i] += exact - by_discs[f];
+            self.left[f][i] -= last[f];
         }
         Ok(())
     }
@@ -388,7 +372,7 @@ impl<'a> Sum<'a> {
                 let unit = units_si(self.forcing.excitation, self.discs.radii[k]);
                 let force = &self.forces[k].runs[run];
                 let zones = match self.integrated[i] {
-                    true => self.by_zones(i, k, cells, Some(part)),
+                    true => self.by_zones(i, k, cells, part),
                     false => [Six::default(); 2],
                 };
                 let both = [Some(&force.force), force.last.as_ref()];
