@@ -10,7 +10,7 @@
 use super::convolve::Convolver;
 use super::discs::Discs;
 use super::ends::{Zone, zones};
-use super::nodes::{CellNodes, Node};
+use super::nodes::CellNodes;
 use super::projection::Projection;
 use crate::excitation::{Excitation, PressureRadius};
 use crate::grid::Grid;
@@ -83,6 +83,23 @@ pub(crate) struct Sampled {
 }
 
 impl Sampled {
+    /// Of samples and of the forces within the cells, after a force that was `base` for long; what is below `least` of the
+    /// largest is left out.
+    fn new(
+        base: f64,
+        samples: &[f64],
+        nodes: &CellNodes,
+        (needed, least): (&[usize], f64),
+    ) -> Self {
+        let convolver = Convolver::from_base(base, samples, needed.to_vec());
+        let largest = samples.iter().fold(0.0, |most: f64, p| most.max(p.abs()));
+        let negligible = NEGLIGIBLE.max(least) * largest;
+        Self {
+            projection: Projection::new(samples, convolver.rises(), nodes, negligible),
+            convolver,
+        }
+    }
+
     /// The fields at the samples wanted.
     pub(crate) fn fields(&self, fixed: &Six, cells: &Cells, wanted: &[usize]) -> [Vec<f64>; 6] {
         let mut found = self.convolver.fields(fixed, &cells.smooth);
@@ -213,44 +230,20 @@ impl<'a> Forcing<'a> {
     ) {
         let (run, needed) = (&self.runs[i], &self.needed[i]);
         let radius = self.excitation.radius();
-        let both: Vec<[f64; 2]> = self
-            .times_s(run)
-            .map(|t| self.on_disc(discs, k, t))
-            .collect();
+        let both = |t: f64| self.on_disc(discs, k, t);
+        let samples: Vec<[f64; 2]> = self.times_s(run).map(both).collect();
+        let in_cells = nodes.places().map(|x| both(run.start_s + x * self.step_s));
+        let in_cells: Vec<[f64; 2]> = in_cells.collect();
         let base = match self.reading {
             Reading::Force => discs
                 .share(k, radius.square(run.base_n))
                 .map(|share| run.base_n * share),
             Reading::Rate => [0.0; 2],
         };
-        let in_cells: Vec<(Node, [f64; 2])> = (0..run.count.saturating_sub(1))
-            .flat_map(|cell| {
-                let middle_s = run.start_s + (cell as f64 + 0.5) * self.step_s;
-                let own = nodes.of(cell).iter();
-                own.map(move |node| {
-                    let time_s = middle_s + node.x * self.step_s;
-                    (*node, self.on_disc(discs, k, time_s))
-                })
-            })
-            .collect();
         let of = |i: usize, least: f64| {
-            let samples: Vec<f64> = both.iter().map(|both| both[i]).collect();
-            let convolver = Convolver::from_base(base[i], &samples, needed.clone());
-            let mut in_cells = in_cells.iter();
-            let nodes = CellNodes::new(run.count.saturating_sub(1), |cell, own| {
-                let taken = in_cells.by_ref().take(nodes.of(cell).len());
-                own.extend(taken.map(|(node, both)| Node {
-                    force: both[i],
-                    ..*node
-                }));
-            });
-            let largest = samples.iter().fold(0.0, |most: f64, p| most.max(p.abs()));
-            let negligible = NEGLIGIBLE.max(least) * largest;
-            let projection = Projection::new(&samples, convolver.rises(), &nodes, negligible);
-            Sampled {
-                convolver,
-                projection,
-            }
+            let samples: Vec<f64> = samples.iter().map(|both| both[i]).collect();
+            let nodes = nodes.with(|node| in_cells[node][i]);
+            Sampled::new(base[i], &samples, &nodes, (needed, least))
         };
         let own = of(0, 1e-3 * self.excitation.relative_error());
         // of a contact's rate what is left stands in the zones
@@ -277,11 +270,10 @@ impl<'a> Forcing<'a> {
             Some(_) => Vec::new(),
             None => {
                 let steepest = rises.iter().fold(0.0, |most: f64, d| most.max(d.abs()));
-                let force = |t| self.on_disc(discs, k, t);
                 let span_s = |cells: &Range<usize>| self.span_s(run, cells);
                 let counts = (run.count, self.tolerance * steepest);
                 let contacts = self.excitation.contacts_s();
-                zones(contacts, &span_s, &own.projection, counts, force)
+                zones(contacts, &span_s, &own.projection, counts, both)
             }
         };
         force.runs.push(RunForce {

@@ -13,6 +13,7 @@
 
 mod at_rest;
 pub mod convolve;
+mod cuts;
 pub(crate) mod discs;
 mod ends;
 pub(crate) mod forcing;
@@ -85,9 +86,6 @@ pub(crate) struct AtPoint {
 
 /// Values and errors of the six fields, or of the rates of the first two.
 pub(crate) type Resolved = ([Vec<f64>; 6], [f64; 6]);
-
-/// What a disc alone leaves out of the waves besides their travel, as a fraction of them times the squared distance in radii.
-const NEAR: f64 = 2.0;
 
 /// Tolerances that a part of the past may have, which brings a part of the field.
 const PART_OF_PAST: f64 = 10.0;

@@ -28,6 +28,29 @@ impl CellNodes {
         found
     }
 
+    /// The same places with other forces, by their number.
+    pub(crate) fn with(&self, force: impl Fn(usize) -> f64) -> Self {
+        let nodes = self.nodes.iter().enumerate();
+        Self {
+            starts: self.starts.clone(),
+            nodes: nodes
+                .map(|(i, node)| Node {
+                    force: force(i),
+                    ..*node
+                })
+                .collect(),
+        }
+    }
+
+    /// All places as times in cells from the start of the first.
+    pub(crate) fn places(&self) -> impl Iterator<Item = f64> {
+        let cells = self.starts.windows(2).enumerate();
+        cells.flat_map(|(cell, ends)| {
+            let own = self.nodes[ends[0]..ends[1]].iter();
+            own.map(move |node| cell as f64 + 0.5 + node.x)
+        })
+    }
+
     /// Those of one cell.
     pub(crate) fn of(&self, cell: usize) -> &[Node] {
         &self.nodes[self.starts[cell]..self.starts[cell + 1]]

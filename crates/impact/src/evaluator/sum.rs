@@ -1,6 +1,5 @@
 //! The sum of one forcing over the discs of a choice, at one point.
 
-use super::NEAR;
 use super::at_rest::{static_si, units_si};
 use super::discs::Discs;
 use super::ends::open;
@@ -33,12 +32,15 @@ pub(crate) struct Sum<'a> {
     pub(crate) open: Vec<usize>,
 }
 
+/// What a disc alone leaves out of the waves besides their travel, as a fraction of them times the squared distance in radii.
+const NEAR: f64 = 2.0;
+
 /// Part of the tolerance up to which what is left of a sample is let be; a tenth of it for each difference.
 const SURE: f64 = 0.5;
 
 /// Samples of a point for which a whole contact is integrated at most, of fields and of rates: those that the discs leave
 /// open in its middle.
-const MOST_WHOLE: [usize; 2] = [64, 512];
+const MOST_WHOLE: [usize; 2] = [24, 192];
 
 /// Error of an integral over a zone, in tolerances.
 const QUADRATURE: f64 = 0.7;
