@@ -252,7 +252,7 @@ impl Excitation {
                 }
             }
         }
-        let length = end - zero;
+        let (length, first) = (end - zero, nodes.len());
         for (u, weight) in gauss::rule(GRADED).on(0.0, 1.0) {
             let x = zero + length * u * u;
             nodes.push(Node {
@@ -260,6 +260,9 @@ impl Excitation {
                 weight: 2.0 * u * weight * length.abs(),
                 force: at(x),
             });
+        }
+        if length < 0.0 {
+            nodes[first..].reverse();
         }
     }
 

@@ -150,6 +150,12 @@ fn worst(load: &Load, disc: Option<f64>, tolerance: f64, quantities: &[Quantity]
                 let (wanted, thinned) = (of(1)[order], of(2)[order]);
                 let sure = 3.0 * (wanted - thinned).abs() + of_finer;
                 let error = (own.values[probe][i] - wanted).abs() - sure;
+                if error > own.errors[probe] {
+                    println!(
+                        "{:?} at probe {probe}, {time_s:.4e} s, disc {disc:?}: {:.4e} for {wanted:.4e}, estimated {:.1e}",
+                        own.quantity, own.values[probe][i], own.errors[probe]
+                    );
+                }
                 off = error.max(off);
             }
             found[0] = found[0].max(off / own.errors[probe]);

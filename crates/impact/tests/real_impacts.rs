@@ -88,6 +88,19 @@ impl Found {
             let off = |(&n, x): (&usize, &[f64; 6])| (trace.samples[n] - x[field.index()]).abs();
             let error = instants.iter().zip(&exact).map(off).fold(0.0, f64::max);
             self.errors[class].push(error / peak);
+            if error > TOLERANCE * peak {
+                println!(
+                    "{place:?} m, {} of {:.1} a/c1, contact of {:.1}: {field:?} off by {:.1e}",
+                    if matches!(excitation.radius(), impact::PressureRadius::Fixed(_)) {
+                        "disc"
+                    } else {
+                        "growing"
+                    },
+                    place[0].hypot(place[1]) / excitation.units().disc_radius_m,
+                    excitation.end_s() / excitation.units().time_s(),
+                    error / peak
+                );
+            }
             self.warned += usize::from(trace.error > TOLERANCE * peak);
             // what the reference itself may be off
             self.over_estimate += usize::from(error > trace.error + 1e-6 * peak);

@@ -95,7 +95,7 @@ impl<'a> Past<'a> {
     }
 
     /// The cells of a contact whose waves reach a point at a time from near its beginning and its end, where a sum over
-    /// discs does not serve, as far as any front is among them.
+    /// discs does not serve, as far as any front is among them; none where all of the contact is near.
     ///
     /// They are cut where no front passes: there the discs and the integral agree instant by instant.
     pub(crate) fn parts(
@@ -123,7 +123,7 @@ impl<'a> Past<'a> {
         // where the contact's edge passes over the point, fields are not smooth in its radius
         let near = place_m.iter().all(|x| *x < NEAR * units.disc_radius_m);
         if near || 2 * least >= cells.len() {
-            return vec![cells.clone()];
+            return Vec::new();
         }
         // the first clear cut, or the one that is clearest
         let cut_s = |cut: usize| span_s(&(cells.start..cut))[1];
