@@ -111,7 +111,7 @@ pub(crate) fn choose_source(
     let (medium, tolerance) = (excitation.medium(), scene.settings.tolerance);
     let direct = |reason: String| -> Result<Option<Chosen>, SourceError> {
         // far away the waves of a slow contact nearly cancel
-        let tolerance = (2e-3 * tolerance).clamp(1e-12, 1e-5);
+        let tolerance = (1e-1 * tolerance).clamp(1e-12, 1e-3);
         let source = KernelSource::direct(medium, tolerance)?;
         Ok(Some(Chosen { source, reason }))
     };

@@ -53,7 +53,7 @@ impl<'a> Past<'a> {
         };
         Ok(Self {
             excitation,
-            near: Kernel::new(medium, growth, (1e-3 * tolerance).clamp(1e-12, 1e-7))?,
+            near: Kernel::new(medium, growth, (1e-3 * tolerance).clamp(1e-12, 1e-6))?,
             growth: Kernel::new(medium, growth, (1e-6 * tolerance).clamp(1e-12, 1e-10))?,
             hertz: Kernel::new(medium, Profile::Hertz, 1e-6)?,
             nodes: (-7.5 * tolerance.log10() - 10.5).clamp(8.0, 40.0) as usize,

@@ -67,7 +67,7 @@ impl Reference<'_> {
 /// The largest error over its estimate at a place, and the estimate over the peak, the worse of both components.
 fn worst(order: Derivative, duration: f64, place: [f64; 2], tolerance: f64) -> [f64; 2] {
     let excitation = contact(0.29, duration);
-    let source = KernelSource::direct(excitation.medium(), 2e-3 * tolerance).unwrap();
+    let source = KernelSource::direct(excitation.medium(), 1e-1 * tolerance).unwrap();
     // deep below the surface there is no Rayleigh wave
     let arrivals: Vec<f64> = (excitation.arrivals_s(place).into_iter())
         .filter(|at| at.is_finite())

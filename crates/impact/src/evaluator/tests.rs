@@ -146,7 +146,7 @@ fn discs_agree_with_frequency_and_wavenumber_integrals() {
                 continue;
             }
             let excitation = contact(row.poisson_ratio, row.duration);
-            let source = KernelSource::direct(excitation.medium(), 2e-3 * tolerance).unwrap();
+            let source = KernelSource::direct(excitation.medium(), 1e-1 * tolerance).unwrap();
             let wanted = Wanted {
                 tolerance,
                 step_s: None,
@@ -224,7 +224,7 @@ fn far_away_few_discs_are_enough() {
                     frames: None,
                     farthest_m: Some(distance),
                 };
-                let source = KernelSource::direct(excitation.medium(), 2e-3 * tolerance).unwrap();
+                let source = KernelSource::direct(excitation.medium(), 1e-1 * tolerance).unwrap();
                 let grid = Grid::new(&wanted, &excitation, Some(&source)).unwrap();
                 let times: Vec<f64> = grid.times_s().collect();
                 let every = (times.len() / 40).max(1);
