@@ -1,10 +1,10 @@
 //! What a scene will take, before it is computed: time, memory, disk.
 
+use crate::cost::Cost;
 use crate::excitation::Excitation;
 use crate::grid::Grid;
 use crate::kernels::KernelSource;
 use crate::scene::{Probe, Scene, Section};
-use crate::source::DIRECT_CELL_S;
 use crate::watch::{Unwatched, Watch};
 use halfspace::{Deflection, SurfaceResponse};
 use thiserror::Error;
@@ -119,14 +119,11 @@ const POINT: f64 = 8.0 * 9.0;
 const MOST_PRODUCTS: f64 = 1e11;
 const PRODUCT_S: f64 = 1e-9;
 
-/// Seconds that one cell of six fields takes when it is looked up and convolved, on one thread.
-const LOOKED_UP_CELL_S: f64 = 2e-7;
-
 impl Forecast {
     /// The least that a scene takes, before its force is known.
     #[must_use]
     pub fn least(scene: &Scene) -> Self {
-        Self::of(scene, FEWEST, 0.0)
+        Self::of(scene, FEWEST)
     }
 
     /// Of a scene whose force and times are known.
@@ -151,19 +148,19 @@ impl Forecast {
                 samples,
             });
         }
-        let cell_s = match source {
+        let cost = Cost::new(scene, excitation.radius(), samples);
+        let fields_s = match source {
             None => 0.0,
-            Some(KernelSource::Direct(_)) => DIRECT_CELL_S * 4.0,
-            Some(KernelSource::Table(_)) => LOOKED_UP_CELL_S,
+            Some(KernelSource::Direct(_)) => cost.computed_s(excitation),
+            Some(KernelSource::Table(_)) => cost.looked_up_s(excitation),
         };
-        let fields = Self::of(scene, samples, cell_s);
         Ok(Self {
-            seconds: fields.seconds + products * PRODUCT_S,
-            ..fields
+            seconds: fields_s / rayon::current_num_threads() as f64 + products * PRODUCT_S,
+            ..Self::of(scene, samples)
         })
     }
 
-    fn of(scene: &Scene, samples: f64, cell_s: f64) -> Self {
+    fn of(scene: &Scene, samples: f64) -> Self {
         let threads = rayon::current_num_threads() as f64;
         let more = scene.quantities.len() as f64;
         let of_probe = samples * (PROBE_SAMPLE + more * QUANTITY_SAMPLE) + POINT;
@@ -186,9 +183,7 @@ impl Forecast {
         Self {
             points: scene.points(),
             samples,
-            // each rate of the displacement takes the kernels once more
-            seconds: (1 + scene.rates()) as f64 * scene.points() as f64 * samples * cell_s
-                / threads,
+            seconds: 0.0,
             memory_bytes: samples * (SAMPLE + cells) + probes + section,
             disk_bytes: 8.0 * samples * (10.0 + (6.0 + more) * scene.probes.len() as f64) + kept,
         }

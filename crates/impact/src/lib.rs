@@ -21,6 +21,7 @@
 
 // in reading order
 mod condition;
+mod cost;
 pub mod energy;
 mod error;
 mod evaluator;

@@ -1,5 +1,6 @@
 //! Where the kernels of the fields come from: computed, or looked up.
 
+use crate::cost::Cost;
 use crate::evaluator::discs::Discs;
 use crate::excitation::Excitation;
 use crate::grid::Wanted;
@@ -89,9 +90,6 @@ pub(crate) struct Chosen {
     pub(crate) reason: String,
 }
 
-/// Seconds that one cell of six fields takes when it is computed, on one thread.
-pub(crate) const DIRECT_CELL_S: f64 = 8e-6;
-
 /// Computed fields that cost less are not worth a table's error.
 const CHEAP_S: f64 = 0.2;
 
@@ -152,8 +150,8 @@ pub(crate) fn choose_source(
             let cells = Wanted::of(scene).cells(excitation);
             let count = scene.points();
             let threads = rayon::current_num_threads() as f64;
-            let discs = 4.0;
-            let cost_s = count as f64 * cells * discs * DIRECT_CELL_S / threads;
+            let cost = Cost::new(scene, excitation.radius(), cells);
+            let cost_s = cost.computed_s(excitation) / threads;
             let cost =
                 format!("{count} points of {cells:.0} cells take about {cost_s:.1e} s to compute");
             if cost_s <= CHEAP_S {

@@ -1,0 +1,98 @@
+//! What fields take in time: the one model by which kernels are chosen and a forecast is made.
+//!
+//! Its constants are seconds of one thread, measured with the jobs of `scripts/time-impacts`.
+
+use crate::evaluator::discs::Discs;
+use crate::excitation::{Excitation, PressureRadius};
+use crate::scene::{Scene, Section};
+
+/// A kernel beside a disc, and one of the smaller discs of a contact that follows its load, which are farther.
+const KERNEL_S: f64 = 5e-6;
+const SMALL_DISC: f64 = 1.5;
+
+/// Kernels of a trace whatever its tolerance, and for each digit; for fields with rates so many times more.
+const KERNELS: f64 = 20.0;
+const KERNELS_A_DIGIT: f64 = 30.0;
+const WITH_RATES: f64 = 1.5;
+
+/// Moments of a cell, and what it takes to look it up.
+const CELL_S: f64 = 2e-7;
+const LOOKED_UP_S: f64 = 1.2e-6;
+
+/// A product of the sum for six fields, and a cell of the transforms that take its place where they are cheaper.
+const PRODUCT_S: f64 = 3e-9;
+const TRANSFORMED_S: f64 = 5e-7;
+
+/// Samples of a point that are integrated over the radii, over the square of the digits, and kernels of each.
+const OPEN: f64 = 0.8;
+const KERNELS_OF_OPEN: f64 = 100.0;
+
+/// What the rates of a contact that follows its load take beside its fields.
+const FOLLOWING_RATES: f64 = 2.0;
+
+/// What the fields of a scene depend on.
+pub(crate) struct Cost {
+    points: [f64; 2],
+    /// Samples at a probe and at a point of the section.
+    wanted: [f64; 2],
+    cells: f64,
+    digits: f64,
+    rates: f64,
+    following: bool,
+}
+
+impl Cost {
+    /// Of a scene whose output has so many samples.
+    pub(crate) fn new(scene: &Scene, radius: PressureRadius, samples: f64) -> Self {
+        let frames = match &scene.section {
+            Some(Section { frames, .. }) if !scene.peaks => *frames as f64,
+            Some(_) | None => samples,
+        };
+        let probes = scene.probes.len();
+        Self {
+            points: [probes, scene.points() - probes].map(|n| n as f64),
+            wanted: [samples, frames.min(samples)],
+            cells: samples,
+            digits: -scene.settings.tolerance.log10(),
+            rates: scene.rates() as f64,
+            following: matches!(radius, PressureRadius::Following { .. }),
+        }
+    }
+
+    /// Seconds of one thread with kernels that are computed.
+    pub(crate) fn computed_s(&self, excitation: &Excitation) -> f64 {
+        let discs = Discs::computed(excitation.radius(), 0.1_f64.powf(self.digits))[0].count();
+        let kernels = KERNELS + KERNELS_A_DIGIT * self.digits;
+        let more = if self.rates > 0.0 { WITH_RATES } else { 1.0 };
+        let small = if self.following { SMALL_DISC } else { 1.0 };
+        let trace_s = kernels * more * small * KERNEL_S + self.cells * CELL_S;
+        self.sum(|wanted| {
+            let past_s = if self.following {
+                let open = OPEN * self.digits.powi(2) * wanted / self.cells;
+                open * KERNELS_OF_OPEN * SMALL_DISC * KERNEL_S
+            } else {
+                0.0
+            };
+            let each = discs as f64 * self.convolved_s(wanted) + past_s;
+            let rates = if self.following { FOLLOWING_RATES } else { 1.0 };
+            discs as f64 * trace_s + each * (1.0 + rates * self.rates)
+        })
+    }
+
+    /// The same with kernels that are looked up.
+    pub(crate) fn looked_up_s(&self, excitation: &Excitation) -> f64 {
+        let discs = Discs::looked_up(excitation.radius())[0].count() as f64;
+        self.sum(|wanted| {
+            discs * (self.cells * LOOKED_UP_S + (1.0 + self.rates) * self.convolved_s(wanted))
+        })
+    }
+
+    fn convolved_s(&self, wanted: f64) -> f64 {
+        self.cells * (PRODUCT_S * wanted).min(TRANSFORMED_S)
+    }
+
+    fn sum(&self, of_point: impl Fn(f64) -> f64) -> f64 {
+        let each = self.points.iter().zip(self.wanted);
+        each.map(|(points, wanted)| points * of_point(wanted)).sum()
+    }
+}
