@@ -88,8 +88,8 @@ impl<'a> Sum<'a> {
                 }
             }
             sum.add_following_static(kernel)?;
-            sum.still_before_arrival();
         }
+        sum.still_before_arrival();
         if cells.iter().all(|cells| cells.trace.is_some()) {
             for i in sum.not_resolved(&sum.rough, SURE) {
                 sum.integrate_zones(i, cells);
@@ -182,10 +182,10 @@ impl<'a> Sum<'a> {
         Ok(())
     }
 
-    /// Sets to zero what the sum over the discs leaves before the first wave from the largest of them has arrived.
+    /// Sets to zero what the sum leaves before the first wave from the largest disc has arrived.
     fn still_before_arrival(&mut self) {
         let first_s = self.forcing.excitation.arrivals_s(self.place_m)[0];
-        let still = self.times_s.iter().filter(|&&t| t <= first_s).count();
+        let still = self.times_s.iter().filter(|&&t| t < first_s).count();
         let all = self.values.iter_mut().chain(&mut self.left);
         for samples in all.chain(&mut self.rough) {
             samples[..still].fill(0.0);
