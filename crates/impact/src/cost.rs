@@ -6,8 +6,12 @@ use crate::evaluator::discs::Discs;
 use crate::excitation::{Excitation, PressureRadius};
 use crate::scene::{Scene, Section};
 
+/// What any output takes, and the opening of a table.
+const OUTPUT_S: f64 = 7e-3;
+const TABLE_S: f64 = 6e-2;
+
 /// A kernel beside a disc, and one of the smaller discs of a contact that follows its load, which are farther.
-const KERNEL_S: f64 = 5e-6;
+const KERNEL_S: f64 = 1e-5;
 const SMALL_DISC: f64 = 1.5;
 
 /// Kernels of a trace whatever its tolerance, and for each digit; for fields with rates so many times more.
@@ -16,8 +20,8 @@ const KERNELS_A_DIGIT: f64 = 30.0;
 const WITH_RATES: f64 = 1.5;
 
 /// Moments of a cell, and what it takes to look it up.
-const CELL_S: f64 = 2e-7;
-const LOOKED_UP_S: f64 = 1.2e-6;
+const CELL_S: f64 = 4e-7;
+const LOOKED_UP_S: f64 = 1e-6;
 
 /// A product of the sum for six fields, and a cell of the transforms that take its place where they are cheaper.
 const PRODUCT_S: f64 = 3e-9;
@@ -66,7 +70,7 @@ impl Cost {
         let more = if self.rates > 0.0 { WITH_RATES } else { 1.0 };
         let small = if self.following { SMALL_DISC } else { 1.0 };
         let trace_s = kernels * more * small * KERNEL_S + self.cells * CELL_S;
-        self.sum(|wanted| {
+        let points_s = self.sum(|wanted| {
             let past_s = if self.following {
                 let open = OPEN * self.digits.powi(2) * wanted / self.cells;
                 open * KERNELS_OF_OPEN * SMALL_DISC * KERNEL_S
@@ -76,15 +80,17 @@ impl Cost {
             let each = discs as f64 * self.convolved_s(wanted) + past_s;
             let rates = if self.following { FOLLOWING_RATES } else { 1.0 };
             discs as f64 * trace_s + each * (1.0 + rates * self.rates)
-        })
+        });
+        OUTPUT_S + points_s
     }
 
     /// The same with kernels that are looked up.
     pub(crate) fn looked_up_s(&self, excitation: &Excitation) -> f64 {
         let discs = Discs::looked_up(excitation.radius())[0].count() as f64;
-        self.sum(|wanted| {
+        let points_s = self.sum(|wanted| {
             discs * (self.cells * LOOKED_UP_S + (1.0 + self.rates) * self.convolved_s(wanted))
-        })
+        });
+        TABLE_S + points_s
     }
 
     fn convolved_s(&self, wanted: f64) -> f64 {
