@@ -2,6 +2,7 @@
 //!
 //! Its constants are seconds of one thread, measured with the jobs of `scripts/time-impacts`.
 
+use crate::evaluator::convolve::{direct_ns, transform_ns};
 use crate::evaluator::discs::Discs;
 use crate::excitation::{Excitation, PressureRadius};
 use crate::scene::{Scene, Section};
@@ -23,10 +24,6 @@ const WITH_RATES: f64 = 1.5;
 const CELL_S: f64 = 4e-7;
 const LOOKED_UP_S: f64 = 1e-6;
 
-/// A product of the sum for six fields, and a cell of the transforms that take its place where they are cheaper.
-const PRODUCT_S: f64 = 3e-9;
-const TRANSFORMED_S: f64 = 5e-7;
-
 /// Samples of a point that are integrated over the radii, over the square of the digits, and kernels of each.
 const OPEN: f64 = 0.8;
 const KERNELS_OF_OPEN: f64 = 100.0;
@@ -35,58 +32,61 @@ const KERNELS_OF_OPEN: f64 = 100.0;
 const FOLLOWING_RATES: f64 = 2.0;
 
 /// What the fields of a scene depend on.
-pub(crate) struct Cost {
+pub(crate) struct Cost<'a> {
+    excitation: &'a Excitation,
     points: [f64; 2],
     /// Samples at a probe and at a point of the section.
     wanted: [f64; 2],
     cells: f64,
-    digits: f64,
+    tolerance: f64,
     rates: f64,
-    following: bool,
 }
 
-impl Cost {
+impl<'a> Cost<'a> {
     /// Of a scene whose output has so many samples.
-    pub(crate) fn new(scene: &Scene, radius: PressureRadius, samples: f64) -> Self {
+    pub(crate) fn new(scene: &Scene, excitation: &'a Excitation, samples: f64) -> Self {
         let frames = match &scene.section {
             Some(Section { frames, .. }) if !scene.peaks => *frames as f64,
             Some(_) | None => samples,
         };
         let probes = scene.probes.len();
         Self {
+            excitation,
             points: [probes, scene.points() - probes].map(|n| n as f64),
             wanted: [samples, frames.min(samples)],
             cells: samples,
-            digits: -scene.settings.tolerance.log10(),
+            tolerance: scene.settings.tolerance,
             rates: scene.rates() as f64,
-            following: matches!(radius, PressureRadius::Following { .. }),
         }
     }
 
     /// Seconds of one thread with kernels that are computed.
-    pub(crate) fn computed_s(&self, excitation: &Excitation) -> f64 {
-        let discs = Discs::computed(excitation.radius(), 0.1_f64.powf(self.digits))[0].count();
-        let kernels = KERNELS + KERNELS_A_DIGIT * self.digits;
+    pub(crate) fn computed_s(&self) -> f64 {
+        let radius = self.excitation.radius();
+        let following = matches!(radius, PressureRadius::Following { .. });
+        let discs = Discs::computed(radius, self.tolerance)[0].radii.len() as f64;
+        let digits = -self.tolerance.log10();
+        let kernels = KERNELS + KERNELS_A_DIGIT * digits;
         let more = if self.rates > 0.0 { WITH_RATES } else { 1.0 };
-        let small = if self.following { SMALL_DISC } else { 1.0 };
+        let small = if following { SMALL_DISC } else { 1.0 };
         let trace_s = kernels * more * small * KERNEL_S + self.cells * CELL_S;
         let points_s = self.sum(|wanted| {
-            let past_s = if self.following {
-                let open = OPEN * self.digits.powi(2) * wanted / self.cells;
+            let past_s = if following {
+                let open = OPEN * digits.powi(2) * wanted / self.cells;
                 open * KERNELS_OF_OPEN * SMALL_DISC * KERNEL_S
             } else {
                 0.0
             };
-            let each = discs as f64 * self.convolved_s(wanted) + past_s;
-            let rates = if self.following { FOLLOWING_RATES } else { 1.0 };
-            discs as f64 * trace_s + each * (1.0 + rates * self.rates)
+            let each = discs * self.convolved_s(wanted) + past_s;
+            let rates = if following { FOLLOWING_RATES } else { 1.0 };
+            discs * trace_s + each * (1.0 + rates * self.rates)
         });
         OUTPUT_S + points_s
     }
 
     /// The same with kernels that are looked up.
-    pub(crate) fn looked_up_s(&self, excitation: &Excitation) -> f64 {
-        let discs = Discs::looked_up(excitation.radius())[0].count() as f64;
+    pub(crate) fn looked_up_s(&self) -> f64 {
+        let discs = Discs::looked_up(self.excitation.radius())[0].radii.len() as f64;
         let points_s = self.sum(|wanted| {
             discs * (self.cells * LOOKED_UP_S + (1.0 + self.rates) * self.convolved_s(wanted))
         });
@@ -94,7 +94,7 @@ impl Cost {
     }
 
     fn convolved_s(&self, wanted: f64) -> f64 {
-        self.cells * (PRODUCT_S * wanted).min(TRANSFORMED_S)
+        1e-9 * direct_ns(wanted, self.cells).min(transform_ns(2.0 * self.cells))
     }
 
     fn sum(&self, of_point: impl Fn(f64) -> f64) -> f64 {

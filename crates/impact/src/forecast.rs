@@ -148,11 +148,11 @@ impl Forecast {
                 samples,
             });
         }
-        let cost = Cost::new(scene, excitation.radius(), samples);
+        let cost = Cost::new(scene, excitation, samples);
         let fields_s = match source {
             None => 0.0,
-            Some(KernelSource::Direct(_)) => cost.computed_s(excitation),
-            Some(KernelSource::Table(_)) => cost.looked_up_s(excitation),
+            Some(KernelSource::Direct(_)) => cost.computed_s(),
+            Some(KernelSource::Table(_)) => cost.looked_up_s(),
         };
         Ok(Self {
             seconds: fields_s / rayon::current_num_threads() as f64 + products * PRODUCT_S,

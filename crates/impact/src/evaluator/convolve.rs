@@ -30,6 +30,16 @@ pub struct Convolver {
 const PRODUCT_NS: f64 = 2.5;
 const STAGE_NS: f64 = 9.0;
 
+/// Nanoseconds of the direct sum for six fields at the samples wanted.
+pub(crate) fn direct_ns(wanted: f64, live: f64) -> f64 {
+    PRODUCT_NS * wanted * live
+}
+
+/// Nanoseconds of the transforms that take its place, of a size.
+pub(crate) fn transform_ns(size: f64) -> f64 {
+    STAGE_NS * size * size.log2()
+}
+
 impl Convolver {
     /// Fields are wanted at all samples.
     #[must_use]
@@ -61,10 +71,9 @@ impl Convolver {
     pub(crate) fn from_base(base: f64, force: &[f64], wanted: Vec<usize>) -> Self {
         let rise = rises(base, force);
         let live = rise.iter().rposition(|&d| d != 0.0).map_or(0, |i| i + 1);
+        let direct = direct_ns(wanted.len() as f64, live as f64);
         let size = (2 * force.len()).next_power_of_two();
-        let direct = PRODUCT_NS * wanted.len() as f64 * live as f64;
-        let stages = STAGE_NS * size as f64 * f64::from(size.trailing_zeros());
-        let transform = (stages < direct).then(|| Transform::new(&rise, size));
+        let transform = (transform_ns(size as f64) < direct).then(|| Transform::new(&rise, size));
         Self {
             force: force.to_vec(),
             rise,

@@ -58,10 +58,6 @@ impl Discs {
         }
     }
 
-    pub(crate) fn count(&self) -> usize {
-        self.radii.len()
-    }
-
     /// The smallest radius over the largest.
     pub(crate) fn smallest(&self) -> f64 {
         self.radii[self.radii.len() - 1]

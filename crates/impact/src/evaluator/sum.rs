@@ -91,16 +91,16 @@ impl<'a> Sum<'a> {
         }
         sum.still_before_arrival();
         if cells.iter().all(|cells| cells.trace.is_some()) {
-            for i in sum.not_resolved(&sum.rough, SURE) {
+            for i in sum.not_resolved(&sum.rough) {
                 sum.integrate_zones(i, cells);
             }
-            for i in sum.not_resolved(&sum.left, SURE) {
+            for i in sum.not_resolved(&sum.left) {
                 if !sum.integrated[i] {
                     sum.integrate_zones(i, cells);
                 }
             }
         }
-        sum.open = sum.not_resolved(&sum.left, SURE);
+        sum.open = sum.not_resolved(&sum.left);
         Ok(sum)
     }
 
@@ -192,16 +192,16 @@ impl<'a> Sum<'a> {
         }
     }
 
-    /// What may be left of a sample of each field, as a part `sure` of the tolerance.
-    fn allowed(&self, sure: f64) -> Vec<f64> {
-        let part = sure * self.forcing.tolerance * 0.1_f64.powi(self.forcing.differences as i32);
+    /// What may be left of a sample of each field.
+    fn allowed(&self) -> Vec<f64> {
+        let part = SURE * self.forcing.tolerance * 0.1_f64.powi(self.forcing.differences as i32);
         let fields = self.values.iter().take(self.components());
         fields.map(|samples| part * peak(samples)).collect()
     }
 
     /// The samples that are left with more than is allowed, the worst first.
-    fn not_resolved(&self, left: &[Vec<f64>; 6], sure: f64) -> Vec<usize> {
-        let allowed = self.allowed(sure);
+    fn not_resolved(&self, left: &[Vec<f64>; 6]) -> Vec<usize> {
+        let allowed = self.allowed();
         let off = |i: usize| (i, over(&allowed, |f| left[f][i]));
         let mut found: Vec<(usize, f64)> = (0..self.times_s.len()).map(off).collect();
         found.retain(|&(_, off)| off > 1.0);
@@ -230,7 +230,7 @@ impl<'a> Sum<'a> {
             for f in 0..6 {
                 self.errors[f] += QUADRATURE * self.forcing.tolerance * peak(&self.values[f]);
             }
-            let allowed = self.allowed(SURE);
+            let allowed = self.allowed();
             let mut whole = if past.is_far(self.place_m) {
                 0
             } else {
