@@ -4,9 +4,13 @@
 //! slow interval in a stretched one.
 
 use crate::complex::{logarithm, root};
+use crate::lanes::Pair;
 use crate::medium::Medium;
 use crate::panels::smallest_ellipse;
+use crate::points::Map;
+use crate::scalar::{Real, Scalar};
 use num_complex::Complex64;
+use pulp::Simd;
 
 /// Singularities of the amplitudes, fixed for a medium.
 #[derive(Debug, Clone)]
@@ -61,14 +65,14 @@ impl Stretch {
     }
 
     /// q and dq/ds at s.
-    #[inline]
-    pub(crate) fn half_angle(&self, s: f64) -> (f64, f64) {
-        let e = (self.rate * s - self.shift).exp();
+    #[inline(always)]
+    pub(crate) fn half_angle<T: Real>(&self, s: T) -> (T, T) {
+        let e = (s * self.rate - self.shift).exp();
         let half = 0.5 * self.width;
-        let inverse = 1.0 / e;
+        let inverse = e.constant(1.0) / e;
         (
-            self.centre + half * (e - inverse),
-            half * self.rate * (e + inverse),
+            (e - inverse) * half + self.centre,
+            (e + inverse) * (half * self.rate),
         )
     }
 
@@ -78,6 +82,29 @@ impl Stretch {
         let (right, sign) = if w.re < 0.0 { (-w, -1.0) } else { (w, 1.0) };
         let sinh = logarithm(right + root(right * right + 1.0));
         (sign * sinh + self.shift) / self.rate
+    }
+}
+
+impl Map for Stretch {
+    /// As [`Self::variable`].
+    #[inline(always)]
+    fn at<S: Simd>(&self, q: Pair<S>) -> Pair<S> {
+        let w = (q - self.centre) * (1.0 / self.width);
+        let zero = w.re.constant(0.0);
+        let right = Pair {
+            re: w.re.abs(),
+            im: w.re.where_below(zero, -w.im, w.im),
+        };
+        let sum = right + (right * right + 1.0).root();
+        let sinh = Pair {
+            re: sum.norm_sqr().ln() * 0.5,
+            im: sum.im.angle_over(sum.re),
+        };
+        let signed = Pair {
+            re: w.re.where_below(zero, -sinh.re, sinh.re),
+            im: w.re.where_below(zero, -sinh.im, sinh.im),
+        };
+        (signed + self.shift) * (1.0 / self.rate)
     }
 }
 

@@ -15,7 +15,7 @@ use std::f64::consts::PI;
 /// Any pair of functions with phi' = 1/q, q' = -s/q, q^2 = r^2 - s^2 may stand for phi and q: the result is
 /// linear in them. With real eta and the held values it is the compact part, with complex eta,
 /// phi = -i log(zeta + rho) and q = rho it is the whole potential up to a polynomial.
-#[inline]
+#[inline(always)]
 pub(crate) fn chord_primitives<O: TimeOrder, T: Scalar>(
     eta: T,
     r: f64,
@@ -25,9 +25,8 @@ pub(crate) fn chord_primitives<O: TimeOrder, T: Scalar>(
     let r2 = r * r;
     let scale = 0.375 / PI;
     let ring = scale / r2;
-    let one = T::from(1.0);
-    let s = [eta - one, eta + one];
-    let inside = (one - eta) * (one + eta);
+    let s = [eta - 1.0, eta + 1.0];
+    let inside = s[0] * s[1] * -1.0;
     let sq = [s[0] * q[0], s[1] * q[1]];
     // int ds {1, s, s^2, s^3}/q
     let m0 = phi[1] - phi[0];

@@ -36,12 +36,7 @@ pub(crate) fn potentials<O: TimeOrder>(
     if profile == Profile::Point {
         return end_orders::<O>(xi, r).map(|v| v / (2.0 * PI));
     }
-    // Farther out the closed forms lose digits, those of the time integral sooner.
-    let nearest = match O::ORDER {
-        Order::Step if r > 0.3 => 10.0,
-        Order::Impulse | Order::Step | Order::StepIntegral | Order::SecondIntegral => 7.0,
-    };
-    match multipole::terms(xi, r, nearest) {
+    match multipole::terms(xi, r, multipole::nearest::<O>(r)) {
         Some(terms) => multipole::multipole::<O>(profile, terms, xi, r),
         None if O::ORDER == Order::Step && profile == Profile::Hertz && r > far_front::FAR => {
             at_far_front(xi, r)

@@ -10,9 +10,11 @@ use crate::order::{Order, StepIntegral, TimeOrder};
 use crate::panels::ROUNDING;
 use crate::point::{Point, Sense};
 use crate::potentials::Potentials;
+use crate::scalar::Real;
 use crate::setting::Setting;
 use crate::shallow;
-use crate::spectrum::{self, Wave};
+use crate::side_by_side;
+use crate::spectrum::{self, Wave, half_angle};
 use crate::strength::Strength;
 use crate::sum::Sum;
 use num_complex::Complex64;
@@ -53,15 +55,17 @@ impl Setting {
             let eta = self.eta(at, wave, sense, x, p);
             let at_surface = sense.sign() * at.t / x;
             if eta.abs() < limit || shallow && at_surface.abs() < limit {
-                landscape.visit(
-                    interval,
-                    self.digits(at, shallow),
-                    &mut |u, weight, error| {
-                        let (x, p, jacobian) = half_angle(u);
+                landscape.visit(interval, self.digits(at, shallow), &mut |nodes| {
+                    if side_by_side::applies::<O>(self.profile, at, shallow) {
+                        side_by_side::add(self, at, wave, Some(sense), nodes, sum);
+                        return;
+                    }
+                    for node in nodes {
+                        let (x, p, jacobian) = half_angle(node.place);
                         let term = self.fast_term::<O>(at, wave, sense, (x, p), shallow);
-                        sum.add(weight * jacobian, error, term);
-                    },
-                );
+                        sum.add(node.weight * jacobian, node.error, term);
+                    }
+                });
             } else if eta < 0.0 {
                 match O::ORDER {
                     Order::Impulse | Order::Step => {}
@@ -82,8 +86,12 @@ impl Setting {
         shallow: bool,
     ) -> Landscape {
         let strength = Strength::of::<O>(self.profile);
-        let mut landscape = Landscape::new(&self.fixed.fast, ORIGIN, strength, Fold::Upper)
-            .with_rounding(self.front_rounding(at));
+        let mut landscape = Landscape::new(
+            &self.fixed.fast,
+            ORIGIN,
+            strength,
+            (Fold::Upper, self.front_rounding(at)),
+        );
         let radius = self.profile.radius();
         fronts::add_fast(&mut landscape, at, radius, self.k, wave, sense);
         if shallow {
@@ -134,23 +142,26 @@ impl Setting {
 
     /// Adds an outgoing wave that has passed on an interval.
     fn add_passed<O: TimeOrder>(&self, at: Point, wave: Wave, interval: (f64, f64), sum: &mut Sum) {
-        let mut landscape = Landscape::new(
+        let landscape = Landscape::new(
             &self.fixed.fast,
             Complex64::i(),
             Strength::Bounded,
-            Fold::Upper,
+            (Fold::Upper, 1.0),
         );
-        landscape.visit(interval, self.digits(at, false), &mut |u, weight, error| {
-            let (x, p, jacobian) = half_angle(u);
-            let eta = self.eta(at, wave, Sense::Outgoing, x, p);
-            let step = match O::ORDER {
-                Order::Impulse | Order::Step => return,
-                Order::StepIntegral => -x,
-                Order::SecondIntegral => x * x,
-            };
-            let psi = passed::<O>(eta).map(|v| step * v);
-            let amplitudes = spectrum::fast(wave, self.k, x, p);
-            sum.add(weight * jacobian, error, amplitudes.fields(&psi, at.r));
+        landscape.visit(interval, self.digits(at, false), &mut |nodes| {
+            for node in nodes {
+                let (x, p, jacobian) = half_angle(node.place);
+                let eta = self.eta(at, wave, Sense::Outgoing, x, p);
+                let step = match O::ORDER {
+                    Order::Impulse | Order::Step => return,
+                    Order::StepIntegral => -x,
+                    Order::SecondIntegral => x * x,
+                };
+                let psi = passed::<O>(eta).map(|v| step * v);
+                let amplitudes = spectrum::fast(wave, self.k, x, p);
+                let term = amplitudes.fields(&psi, at.r);
+                sum.add(node.weight * jacobian, node.error, term);
+            }
         });
     }
 
@@ -174,23 +185,15 @@ impl Setting {
     }
 
     /// eta = (z gamma^ -+ t)/x, accurate where the difference is small and x too.
-    #[inline]
-    fn eta(&self, at: Point, wave: Wave, sense: Sense, x: f64, p: f64) -> f64 {
+    #[inline(always)]
+    pub(crate) fn eta<T: Real>(&self, at: Point, wave: Wave, sense: Sense, x: T, p: T) -> T {
         let (vertical, root) = match wave {
             Wave::P => (1.0, p),
-            Wave::S => (self.k.sqrt(), (self.k - x * x).sqrt()),
+            Wave::S => (self.k.sqrt(), (-(x * x) + self.k).sqrt()),
         };
         // gamma^ = vertical - x^2/(vertical + gamma^)
-        (at.z * vertical + sense.sign() * at.t) / x - at.z * x / (vertical + root)
+        x.constant(at.z * vertical + sense.sign() * at.t) / x - x * at.z / (root + vertical)
     }
-}
-
-/// x, p and dx/du at the half-angle u.
-#[inline]
-fn half_angle(u: f64) -> (f64, f64, f64) {
-    let inverse = 1.0 / (1.0 + u * u);
-    let p = (1.0 - u) * (1.0 + u) * inverse;
-    (2.0 * u * inverse, p, 2.0 * p * inverse)
 }
 
 /// Derivatives and integrals in t of functions of eta = (z gamma^ -+ t)/x, from those in eta.

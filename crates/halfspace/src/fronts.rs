@@ -23,6 +23,7 @@ use crate::branch_points::Stretch;
 use crate::complex::root;
 use crate::landscape::Landscape;
 use crate::point::{Point, Sense};
+use crate::points::Points;
 use crate::spectrum::Wave;
 use num_complex::Complex64;
 
@@ -61,9 +62,10 @@ pub(crate) fn add_slow(
     wave: Wave,
 ) {
     let span = (k - 1.0).sqrt();
+    let mut points = Points::new();
     let mut add = |q: Complex64| {
-        with_mirror(q, |q| landscape.add(stretch.variable(q)));
-        with_reciprocal(q, |q| landscape.add(stretch.variable(q)));
+        with_mirror(q, |q| points.push(q));
+        with_reciprocal(q, |q| points.push(q));
     };
     // On the surface the roots of a pair are reciprocal and stand for the same two fronts.
     let twin = |v: Complex64| at.z == 0.0 && v.norm_sqr() > 1.0 && v.im == 0.0;
@@ -78,6 +80,10 @@ pub(crate) fn add_slow(
             add(root(1.0 - c * c) / (1.0 + c));
         }
     });
+    points.map(stretch);
+    for point in points.iter() {
+        landscape.add(point);
+    }
 }
 
 /// Passes on a point and its negative: the one on the right, and the other where it is near enough to matter.

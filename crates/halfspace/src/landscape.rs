@@ -6,10 +6,13 @@
 //! Theory: `docs/theory.md` (T18).
 
 use crate::complex::root;
-use crate::list::{CAPACITY, List};
-use crate::panels::{Images, ROUNDING, Rule, panels};
-use crate::strength::{RelativeError, Strength};
+use crate::lanes::Pair;
+use crate::panels::{Images, Node, ROUNDING, Rule, panels};
+use crate::points::{Map, Points};
+use crate::strength::Strength;
+use arrayvec::ArrayVec;
 use num_complex::Complex64;
+use pulp::Simd;
 
 /// Power of the variable toward a cut of a single singularity.
 const SQUARE: i32 = 2;
@@ -28,13 +31,14 @@ fn same(a: f64, b: f64) -> bool {
     (a - b).abs() <= SAME * a.max(b).max(SMALLEST)
 }
 
+/// Most cuts or singularities that an integrand of this crate has.
+const CAPACITY: usize = 64;
+
 /// The interval [0, 1] of a smooth variable with everything that is not smooth near it.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub(crate) struct Landscape {
-    cuts: List<f64>,
-    singularities: List<Complex64>,
-    /// What the rule at hand keeps away from, in its own variable.
-    images: List<Complex64>,
+    cuts: ArrayVec<f64, CAPACITY>,
+    singularities: ArrayVec<Complex64, CAPACITY>,
     /// Where the integrand grows as a pole of high order.
     pole: Complex64,
     strength: Strength,
@@ -51,31 +55,26 @@ pub(crate) enum Fold {
 
 impl Landscape {
     /// An interval with nothing but a pole and the given singularities, none of them on it.
+    ///
+    /// Unbounded integrands have a rounding error of `times` the usual one.
     pub(crate) fn new(
         fixed: &[Complex64],
         pole: Complex64,
         strength: Strength,
-        fold: Fold,
+        (fold, times): (Fold, f64),
     ) -> Self {
         let mut landscape = Self {
-            cuts: List::new(),
-            singularities: List::new(),
-            images: List::new(),
+            cuts: ArrayVec::new(),
+            singularities: ArrayVec::new(),
             pole,
             strength,
             fold,
-            rounding: ROUNDING,
+            rounding: times * ROUNDING,
         };
         for &point in fixed {
             landscape.add(point);
         }
         landscape
-    }
-
-    /// Multiplies the assumed rounding error of unbounded integrands by `times`.
-    pub(crate) fn with_rounding(mut self, times: f64) -> Self {
-        self.rounding *= times;
-        self
     }
 
     /// Adds a singularity: a cut if it lies on the interval, a point to keep away from otherwise.
@@ -101,7 +100,7 @@ impl Landscape {
 
     /// The cuts in order, between the ends of the interval.
     pub(crate) fn intervals(&mut self) -> impl Iterator<Item = (f64, f64)> + use<> {
-        let cuts = self.cuts.as_mut_slice();
+        let cuts = &mut self.cuts;
         cuts.sort_unstable_by(f64::total_cmp);
         let mut ends = [0.0; CAPACITY + 2];
         let mut last = 0;
@@ -118,23 +117,22 @@ impl Landscape {
         (0..last).map(move |i| (ends[i], ends[i + 1]))
     }
 
-    /// Visits nodes (v, weight, relative error) of a rule on one interval, accurate to exp(-`digits`) of the size of
-    /// the integrand.
-    pub(crate) fn visit(
-        &mut self,
-        (from, to): (f64, f64),
-        digits: f64,
-        f: &mut impl FnMut(f64, f64, RelativeError),
-    ) {
+    /// Passes on the nodes of a rule on one interval a panel at a time, accurate to exp(-`digits`) of the size of the
+    /// integrand.
+    pub(crate) fn visit(&self, (from, to): (f64, f64), digits: f64, f: &mut impl FnMut(&[Node])) {
         match (self.power(from), self.power(to)) {
             (None, None) => {
                 let rule = Rule {
                     finite_part: false,
                     caution: self.strength.caution(),
                 };
-                let images = self.images(|_| false, |v| (v - from) / (to - from));
-                panels(&images, digits, 3.0, rule, &mut |s, weight, error| {
-                    f(from + (to - from) * s, weight * (to - from), error.into());
+                let images = self.images(from, to - from, 0.0);
+                panels(&images, digits, 3.0, rule, &mut |nodes| {
+                    for node in nodes.iter_mut() {
+                        node.place = from + (to - from) * node.place;
+                        node.weight *= to - from;
+                    }
+                    f(nodes);
                 });
             }
             (Some(power), None) => self.visit_power(from, to, power, digits, f),
@@ -149,7 +147,7 @@ impl Landscape {
 
     /// The power of the variable that smooths the end of an interval, if it is a cut.
     fn power(&self, end: f64) -> Option<i32> {
-        let cuts = self.cuts.as_slice().iter();
+        let cuts = self.cuts.iter();
         match cuts.filter(|&&cut| same(cut, end)).count() {
             0 => None,
             1 => Some(SQUARE),
@@ -159,26 +157,18 @@ impl Landscape {
 
     /// v = cut + (end - cut) s^power.
     fn visit_power(
-        &mut self,
+        &self,
         cut: f64,
         end: f64,
         power: i32,
         digits: f64,
-        f: &mut impl FnMut(f64, f64, RelativeError),
+        f: &mut impl FnMut(&[Node]),
     ) {
         let scale = end - cut;
-        // the singularity of the cut itself is what the power is for
-        let reach = (SAME * scale).powi(2);
-        let own = |v: Complex64| (v - cut).norm_sqr() <= reach;
         let (blur, strength) = (self.blur(cut), self.strength);
-        let images = self.images(own, |v| {
-            let distance = (v - cut) / scale;
-            if power == SQUARE {
-                root(distance)
-            } else {
-                distance.powf(1.0 / f64::from(power))
-            }
-        });
+        // the singularity of the cut itself is what the power is for
+        let mut images = self.images(cut, scale, SAME);
+        images.toward(power);
         // A power of a logarithm is left at s = 0: Gauss's rule gains 2 power digits a doubling there.
         let least = if power == SQUARE { 3.0 } else { 0.7 * digits };
         panels(
@@ -189,15 +179,30 @@ impl Landscape {
                 finite_part: strength == Strength::FinitePart,
                 caution: strength.caution(),
             },
-            &mut |s, weight, error| {
-                let v = cut + scale * s.powi(power);
-                if v != cut {
-                    f(
-                        v,
-                        weight * scale.abs() * f64::from(power) * s.powi(power - 1),
-                        strength.at_front(error, blur, (v - cut).abs(), s),
-                    );
+            &mut |nodes| {
+                let mut count = 0;
+                for i in 0..nodes.len() {
+                    let Node {
+                        place: s,
+                        weight,
+                        error,
+                    } = nodes[i];
+                    let below = if power == SQUARE {
+                        s
+                    } else {
+                        (s * s) * (s * s) * s
+                    };
+                    let v = cut + scale * (below * s);
+                    if v != cut {
+                        nodes[count] = Node {
+                            place: v,
+                            weight: weight * scale.abs() * f64::from(power) * below,
+                            error: strength.at_front(error, blur, (v - cut).abs(), s),
+                        };
+                        count += 1;
+                    }
                 }
+                f(&nodes[..count]);
             },
         );
     }
@@ -218,7 +223,7 @@ impl Landscape {
         let by = |distance: f64| self.rounding / distance.max(self.rounding.sqrt());
         let mut nearest = 1.0_f64;
         let mut own = 0;
-        for &other in self.cuts.as_slice() {
+        for &other in &self.cuts {
             if same(other, cut) {
                 own += 1;
                 if other != cut {
@@ -231,7 +236,7 @@ impl Landscape {
         if own > 1 {
             return MERGED;
         }
-        for point in self.singularities.as_slice() {
+        for point in &self.singularities {
             let distance = (point - cut).norm();
             if distance > SAME * cut.max(SMALLEST) {
                 nearest = nearest.min(distance);
@@ -255,24 +260,49 @@ impl Landscape {
         self.rounding * place + twin + fold.min(cut)
     }
 
-    /// Singularities in another variable, but for those that `drop` names.
-    fn images(
-        &mut self,
-        drop: impl Fn(Complex64) -> bool,
-        to_variable: impl Fn(Complex64) -> Complex64,
-    ) -> Images<'_> {
-        self.images.clear();
-        let cuts = self.cuts.as_slice().iter().map(|&c| Complex64::new(c, 0.0));
-        let others = self.singularities.as_slice().iter().copied();
-        for point in cuts.chain(others) {
-            if !drop(point) {
-                self.images.push(to_variable(point));
+    /// Singularities and pole in the variable (v - `from`)/`scale`, but for those nearer than `least`.
+    fn images(&self, from: f64, scale: f64, least: f64) -> Images {
+        let to_variable = |v: Complex64| (v - from) / scale;
+        let mut all = Points::new();
+        let cuts = self.cuts.iter().map(|&c| Complex64::new(c, 0.0));
+        for point in cuts.chain(self.singularities.iter().copied()) {
+            let image = to_variable(point);
+            if image.norm_sqr() > least * least || least == 0.0 {
+                all.push(image);
             }
         }
         Images {
-            all: self.images.as_slice(),
+            all,
             pole: to_variable(self.pole),
         }
+    }
+}
+
+impl Images {
+    /// In the variable of which this one is a power.
+    fn toward(&mut self, power: i32) {
+        if power == SQUARE {
+            self.all.map(&Root);
+            self.pole = root(self.pole);
+        } else {
+            let exponent = 1.0 / f64::from(power);
+            let mut all = Points::new();
+            for point in self.all.iter() {
+                all.push(point.powf(exponent));
+            }
+            self.all = all;
+            self.pole = self.pole.powf(exponent);
+        }
+    }
+}
+
+/// The principal square root.
+struct Root;
+
+impl Map for Root {
+    #[inline(always)]
+    fn at<S: Simd>(&self, v: Pair<S>) -> Pair<S> {
+        v.root()
     }
 }
 
@@ -283,12 +313,17 @@ mod tests {
     const NOWHERE: Complex64 = Complex64::new(1e99, 0.0);
 
     fn integral(singularity: Complex64, f: impl Fn(f64) -> f64) -> (f64, usize) {
-        let mut landscape = Landscape::new(&[singularity], NOWHERE, Strength::Bounded, Fold::Upper);
+        let mut landscape = Landscape::new(
+            &[singularity],
+            NOWHERE,
+            Strength::Bounded,
+            (Fold::Upper, 1.0),
+        );
         let (mut sum, mut count) = (0.0, 0);
         for interval in landscape.intervals() {
-            landscape.visit(interval, 28.0, &mut |v, w, _| {
-                sum += w * f(v);
-                count += 1;
+            landscape.visit(interval, 28.0, &mut |nodes| {
+                sum += nodes.iter().map(|n| n.weight * f(n.place)).sum::<f64>();
+                count += nodes.len();
             });
         }
         (sum, count)
@@ -308,12 +343,13 @@ mod tests {
             &[0.3.into(), 0.3.into()],
             NOWHERE,
             Strength::Bounded,
-            Fold::Upper,
+            (Fold::Upper, 1.0),
         );
         let mut sum = 0.0;
         for interval in landscape.intervals() {
-            landscape.visit(interval, 28.0, &mut |v, w, _| {
-                sum += w * (v - 0.3).abs().ln();
+            landscape.visit(interval, 28.0, &mut |nodes| {
+                let terms = nodes.iter().map(|n| n.weight * (n.place - 0.3).abs().ln());
+                sum += terms.sum::<f64>();
             });
         }
         let exact = 0.3 * 0.3_f64.ln() + 0.7 * 0.7_f64.ln() - 1.0;

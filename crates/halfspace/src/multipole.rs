@@ -23,6 +23,15 @@ use std::f64::consts::{FRAC_PI_2, PI};
 /// Most terms of the series.
 const MOST_TERMS: usize = 8;
 
+/// Distance from which on the series is taken: farther out the closed forms lose digits, those of the time integral sooner.
+#[inline(always)]
+pub(crate) fn nearest<O: TimeOrder>(r: f64) -> f64 {
+    match O::ORDER {
+        Order::Step if r > 0.3 => 10.0,
+        Order::Impulse | Order::Step | Order::StepIntegral | Order::SecondIntegral => 7.0,
+    }
+}
+
 /// Number of terms that reach 1e-13 of the first, or nothing when xi is too near.
 ///
 /// The distance is half the sum of the distances of the singularities sigma = -i xi +- r from the ends of
@@ -36,20 +45,20 @@ pub(crate) fn terms(xi: Complex64, r: f64, nearest: f64) -> Option<usize> {
     let y2 = xi.re * xi.re;
     let sum = ((gap - 1.0).powi(2) + y2).sqrt() + ((gap + 1.0).powi(2) + y2).sqrt();
     let distance = 0.5 * sum;
-    [
-        (60.0, 4),
-        (25.0, 5),
-        (14.0, 6),
-        (9.5, 7),
-        (nearest, MOST_TERMS),
-    ]
-    .into_iter()
-    .find_map(|(least, n)| (distance >= least).then_some(n))
+    (distance >= nearest).then(|| terms_at(distance))
+}
+
+/// The same at a distance from which on the series is taken.
+#[inline]
+pub(crate) fn terms_at(distance: f64) -> usize {
+    let terms = [(60.0, 4), (25.0, 5), (14.0, 6), (9.5, 7)];
+    let found = terms.into_iter().find(|(least, _)| distance >= *least);
+    found.map_or(MOST_TERMS, |(_, n)| n)
 }
 
 /// Even moments M_2j of the chord function.
-#[inline]
-fn moment(profile: Profile, j: usize) -> f64 {
+#[inline(always)]
+pub(crate) fn moment(profile: Profile, j: usize) -> f64 {
     let odd = (2 * j + 1) as f64;
     match profile {
         Profile::Hertz => 1.5 / (PI * odd * (odd + 2.0)),
@@ -62,8 +71,8 @@ fn moment(profile: Profile, j: usize) -> f64 {
 /// The series of the two orders without the terms in M_0 that are not Q_0, Q_1 or V_1.
 ///
 /// `alternate` is the factor from one j to the next, `over` is zeta/rho^2, `inverse2` 1/rho^2, `q0` 1/rho.
-#[inline]
-fn sums<O: TimeOrder, T: Scalar>(
+#[inline(always)]
+pub(crate) fn sums<O: TimeOrder, T: Scalar>(
     profile: Profile,
     terms: usize,
     alternate: f64,
@@ -71,7 +80,7 @@ fn sums<O: TimeOrder, T: Scalar>(
     inverse2: T,
     q0: T,
 ) -> Potentials<T> {
-    let zero = T::from(0.0);
+    let zero = q0.constant(0.0);
     let mut sum = Potentials {
         a_upper: zero,
         a_lower: zero,

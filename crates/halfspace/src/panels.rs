@@ -7,13 +7,21 @@
 //! Theory: `docs/theory.md` (T18).
 
 use crate::gauss;
+use crate::points::Points;
+use crate::strength::RelativeError;
 use num_complex::Complex64;
 
 /// Panels are halved rather than given more nodes than this.
-const MOST_NODES: f64 = 24.0;
+const MOST_NODES: usize = 24;
 
 /// A panel narrower than this fraction of its piece is not halved.
 const NARROWEST: f64 = 1e-9;
+
+/// Axis of the ellipse through what is left out as too far to matter.
+const FARTHEST: f64 = 7.0;
+
+/// Singularities on ellipses so many times larger than the smallest leave nothing beside what that leaves.
+const NEAR: f64 = 2.0;
 
 /// The error at a pole of third order over that at a simple one.
 const POLE: f64 = 30.0;
@@ -22,9 +30,9 @@ const POLE: f64 = 30.0;
 pub(crate) const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// What a rule has to keep away from, in its own variable.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Images<'a> {
-    pub(crate) all: &'a [Complex64],
+#[derive(Debug, Clone)]
+pub(crate) struct Images {
+    pub(crate) all: Points,
     pub(crate) pole: Complex64,
 }
 
@@ -37,58 +45,78 @@ pub(crate) struct Rule {
     pub(crate) caution: f64,
 }
 
-/// Visits Gauss nodes (s, weight, relative error whose squares add up), at least `least` a panel, on panels of [0, 1] that keep clear of the
-/// singularities, to exp(-`digits`) of the integrand.
+/// A node of a rule.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Node {
+    pub(crate) place: f64,
+    pub(crate) weight: f64,
+    /// Of the integrand; squares add up.
+    pub(crate) error: RelativeError,
+}
+
+/// Passes on the Gauss nodes of each panel, at least `least`; the panels of [0, 1] keep clear of the singularities, to
+/// exp(-`digits`) of the integrand.
 pub(crate) fn panels(
-    images: &Images<'_>,
+    images: &Images,
     digits: f64,
     least: f64,
     rule: Rule,
-    f: &mut impl FnMut(f64, f64, f64),
+    f: &mut impl FnMut(&mut [Node]),
 ) {
     let mut stack = [(0.0, 1.0); 64];
     let mut depth = 1;
     while depth > 0 {
         depth -= 1;
         let (s0, s1) = stack[depth];
-        let rate = smallest_ellipse(images.all, s0, s1).ln();
-        let pole_rate = half_axes(axis(images.pole, s0, s1)).ln();
+        let axes = images.all.axes(s0, s1);
+        let smallest = axes.iter().fold(FARTHEST, f64::min);
+        let pole = half_axes(axis(images.pole, s0, s1));
+        let (rate, pole_rate) = (half_axes(smallest).ln(), pole.ln());
         let at_cut = s0 == 0.0 && rule.finite_part;
         // Gauss's rule has twice the degree of one that only interpolates.
         let degree = if at_cut { 1.0 } else { 2.0 };
         let least_nodes = (digits / rate).max((digits + POLE.ln()) / pole_rate);
         let nodes = (least_nodes / degree).ceil() + 1.0;
-        if nodes > MOST_NODES && s1 - s0 > NARROWEST {
+        if nodes > MOST_NODES as f64 && s1 - s0 > NARROWEST {
             let middle = 0.5 * (s0 + s1);
             stack[depth] = (middle, s1);
             stack[depth + 1] = (s0, middle);
             depth += 2;
             continue;
         }
-        let n = nodes.max(least).min(MOST_NODES);
-        let left = |point: Complex64| half_axes(axis(point, s0, s1)).powi(-(degree * n) as i32);
-        let all: f64 = images.all.iter().map(|&image| left(image)).sum();
+        let n = (nodes.max(least) as usize).min(MOST_NODES);
+        let left = |half_axes: f64| half_axes.powi(-(degree * n as f64) as i32);
+        let near = axes.iter().filter(|&axis| axis <= NEAR * smallest);
+        let all: f64 = near.map(|axis| left(half_axes(axis))).sum();
         // of the whole panel, as if one node had it
-        let of_rule = rule.caution * (all + POLE * left(images.pole)) * n.sqrt();
-        let error = of_rule + ROUNDING;
-        let n = n as usize;
+        let of_rule = rule.caution * (all + POLE * left(pole)) * (n as f64).sqrt();
+        let error = (of_rule + ROUNDING).into();
+        let mut found = [Node::default(); MOST_NODES];
+        let fill = |found: &mut [Node], nodes: &mut dyn Iterator<Item = (f64, f64)>| {
+            for (node, (place, weight)) in found.iter_mut().zip(nodes) {
+                *node = Node {
+                    place,
+                    weight,
+                    error,
+                };
+            }
+        };
         if at_cut {
             let rule = gauss::finite_part_rule(n);
-            for (s, weight) in rule.nodes.iter().zip(&rule.weights) {
-                f(s1 * s, s1 * weight, error);
-            }
+            let nodes = rule.nodes.iter().zip(&rule.weights);
+            fill(
+                &mut found,
+                &mut nodes.map(|(s, weight)| (s1 * s, s1 * weight)),
+            );
         } else {
-            for (s, weight) in gauss::rule(n).on(s0, s1) {
-                f(s, weight, error);
-            }
+            fill(&mut found, &mut gauss::rule(n).on(s0, s1));
         }
+        f(&mut found[..n]);
     }
 }
 
 /// Sum of half axes of the smallest ellipse with foci s0, s1 through a singularity, focal distance 2.
 pub(crate) fn smallest_ellipse(images: &[Complex64], s0: f64, s1: f64) -> f64 {
-    // what was left out as too far to matter
-    const FARTHEST: f64 = 7.0;
     let axes = images.iter().map(|&image| axis(image, s0, s1));
     half_axes(axes.fold(FARTHEST, f64::min))
 }

@@ -18,6 +18,19 @@ pub(crate) struct Potentials<T> {
     pub(crate) g_lower: T,
 }
 
+impl<T: Copy> Potentials<T> {
+    /// Four times the same.
+    #[inline(always)]
+    pub(crate) fn all(value: T) -> Self {
+        Self {
+            a_upper: value,
+            a_lower: value,
+            g_upper: value,
+            g_lower: value,
+        }
+    }
+}
+
 impl<T> Potentials<T> {
     /// The same with every potential replaced.
     #[inline]

@@ -1,18 +1,56 @@
-//! Real or complex numbers: the closed forms of the potentials hold for both.
+//! Real or complex numbers, one or several side by side: the closed forms hold for all of them.
 
 use num_complex::Complex64;
-use std::ops::{Add, Mul, Sub};
+use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// A real or complex number.
 pub(crate) trait Scalar:
     Copy
-    + From<f64>
     + Add<Output = Self>
     + Sub<Output = Self>
     + Mul<Output = Self>
+    + Add<f64, Output = Self>
+    + Sub<f64, Output = Self>
     + Mul<f64, Output = Self>
 {
+    /// A constant of the same kind.
+    fn constant(self, value: f64) -> Self;
 }
 
-impl Scalar for f64 {}
-impl Scalar for Complex64 {}
+/// A real number.
+pub(crate) trait Real: Scalar + Div<Output = Self> + Neg<Output = Self> {
+    fn sqrt(self) -> Self;
+    fn exp(self) -> Self;
+    fn at_least(self, least: f64) -> Self;
+}
+
+impl Scalar for f64 {
+    #[inline(always)]
+    fn constant(self, value: f64) -> Self {
+        value
+    }
+}
+
+impl Real for f64 {
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        f64::sqrt(self)
+    }
+
+    #[inline(always)]
+    fn exp(self) -> Self {
+        f64::exp(self)
+    }
+
+    #[inline(always)]
+    fn at_least(self, least: f64) -> Self {
+        self.max(least)
+    }
+}
+
+impl Scalar for Complex64 {
+    #[inline(always)]
+    fn constant(self, value: f64) -> Self {
+        value.into()
+    }
+}

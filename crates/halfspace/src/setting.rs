@@ -49,7 +49,8 @@ impl Setting {
         let radius = self.profile.radius();
         match self.profile {
             Profile::Hertz | Profile::Punch => {
-                3.0 * (at.r + radius) / (at.r - radius).hypot(at.z).max(f64::EPSILON)
+                let gap = at.r - radius;
+                3.0 * (at.r + radius) / (gap * gap + at.z * at.z).sqrt().max(f64::EPSILON)
             }
             Profile::Point => 30.0,
         }

@@ -11,6 +11,7 @@ use crate::point::Point;
 use crate::potentials::Potentials;
 use crate::setting::Setting;
 use crate::shallow::{self, Difference};
+use crate::side_by_side;
 use crate::spectrum::{self, Wave};
 use crate::strength::Strength;
 use crate::sum::Sum;
@@ -33,11 +34,13 @@ impl Setting {
         let shallow = shallow::applies::<O>(self.profile, at);
         let mut landscape = self.slow_landscape::<O>(at, wave, shallow);
         for interval in landscape.intervals() {
-            landscape.visit(
-                interval,
-                self.digits(at, shallow),
-                &mut |s, weight, error| {
-                    let (q, dq) = self.fixed.stretch.half_angle(s);
+            landscape.visit(interval, self.digits(at, shallow), &mut |nodes| {
+                if side_by_side::applies::<O>(self.profile, at, shallow) {
+                    side_by_side::add(self, at, wave, None, nodes, sum);
+                    return;
+                }
+                for node in nodes {
+                    let (q, dq) = self.fixed.stretch.half_angle(node.place);
                     let inverse = 1.0 / (1.0 + q * q);
                     let p_abs = span * 2.0 * q * inverse;
                     let y = span * (1.0 - q) * (1.0 + q) * inverse;
@@ -45,9 +48,9 @@ impl Setting {
                     let term = self.slow_term::<O>(at, wave, (x, p_abs, y), shallow);
                     // dx = p^ dp^/x, dp^ = 2 y/(1 + q^2) dq
                     let jacobian = p_abs * 2.0 * y * inverse / x * dq;
-                    sum.add(weight * jacobian, error, term);
-                },
-            );
+                    sum.add(node.weight * jacobian, node.error, term);
+                }
+            });
         }
     }
 
@@ -55,8 +58,12 @@ impl Setting {
     fn slow_landscape<O: TimeOrder>(&self, at: Point, wave: Wave, shallow: bool) -> Landscape {
         let fixed = &self.fixed;
         let strength = Strength::of::<O>(self.profile);
-        let mut landscape = Landscape::new(&fixed.slow, fixed.slow_pole, strength, Fold::Both)
-            .with_rounding(self.front_rounding(at));
+        let mut landscape = Landscape::new(
+            &fixed.slow,
+            fixed.slow_pole,
+            strength,
+            (Fold::Both, self.front_rounding(at)),
+        );
         let radius = self.profile.radius();
         fronts::add_slow(&mut landscape, at, radius, self.k, &fixed.stretch, wave);
         if shallow {

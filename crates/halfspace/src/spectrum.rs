@@ -10,6 +10,7 @@
 use crate::field::{Field, Six};
 use crate::medium::Medium;
 use crate::potentials::Potentials;
+use crate::scalar::Real;
 
 /// The two body waves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -37,11 +38,11 @@ pub(crate) struct Amplitudes<T> {
     pub(crate) tt: T,
 }
 
-impl Amplitudes<f64> {
+impl<T: Real> Amplitudes<T> {
     /// The six fields from real amplitudes and potentials.
-    #[inline]
-    pub(crate) fn fields(&self, psi: &Potentials<f64>, r: f64) -> Six {
-        let hoop = 2.0 * self.u * psi.g_upper;
+    #[inline(always)]
+    pub(crate) fn fields(&self, psi: &Potentials<T>, r: f64) -> [T; 6] {
+        let hoop = self.u * psi.g_upper * 2.0;
         [
             self.u * psi.g_upper * r,
             self.w * psi.a_upper,
@@ -51,7 +52,9 @@ impl Amplitudes<f64> {
             self.rz * psi.g_lower * r,
         ]
     }
+}
 
+impl Amplitudes<f64> {
     /// Replaces sigma_zz and sigma_rz by those of A_2 and B_2/r less their values at the surface, `a` and `g`.
     pub(crate) fn set_traction(&self, term: &mut Six, a: f64, g: f64, r: f64) {
         term[Field::StressZz.index()] = self.zz * a;
@@ -59,17 +62,26 @@ impl Amplitudes<f64> {
     }
 }
 
+/// x, p and dx/du at the half-angle u.
+#[inline(always)]
+pub(crate) fn half_angle<T: Real>(u: T) -> (T, T, T) {
+    let one = u.constant(1.0);
+    let inverse = one / (u * u + 1.0);
+    let p = (one - u) * (one + u) * inverse;
+    (u * inverse * 2.0, p, p * inverse * 2.0)
+}
+
 /// Floor of the Rayleigh function, which vanishes with the numerators at slowness one when nu = 0.
 const SMALLEST: f64 = 1e-280;
 
 /// Amplitudes at slowness x = sin(theta) < 1, p = cos(theta).
-#[inline]
-pub(crate) fn fast(wave: Wave, k: f64, x: f64, p: f64) -> Amplitudes<f64> {
+#[inline(always)]
+pub(crate) fn fast<T: Real>(wave: Wave, k: f64, x: T, p: T) -> Amplitudes<T> {
     let x2 = x * x;
-    let y = (k - x2).sqrt();
-    let g = 2.0 * x2 - k;
-    let both = 4.0 * x2 * p * y;
-    let inverse = 1.0 / (g * g + both).max(SMALLEST);
+    let y = (-x2 + k).sqrt();
+    let g = x2 * 2.0 - k;
+    let both = x2 * p * y * 4.0;
+    let inverse = x.constant(1.0) / (g * g + both).at_least(SMALLEST);
     match wave {
         Wave::P => {
             let over_x = g * inverse / x;
@@ -77,42 +89,43 @@ pub(crate) fn fast(wave: Wave, k: f64, x: f64, p: f64) -> Amplitudes<f64> {
                 w: p * g * inverse,
                 u: x2 * over_x,
                 zz: -g * over_x,
-                rz: -2.0 * p * g * inverse,
-                rr: (2.0 * x2 + k - 2.0) * over_x,
-                tt: (k - 2.0) * over_x,
+                rz: p * g * inverse * -2.0,
+                rr: (x2 * 2.0 + (k - 2.0)) * over_x,
+                tt: over_x * (k - 2.0),
             }
         }
         Wave::S => {
-            let cross = 4.0 * x * p * y * inverse;
+            let cross = x * p * y * inverse * 4.0;
             Amplitudes {
-                w: -2.0 * p * x2 * inverse,
-                u: 0.5 * cross,
+                w: p * x2 * inverse * -2.0,
+                u: cross * 0.5,
                 zz: -cross,
-                rz: 2.0 * p * g * inverse,
+                rz: p * g * inverse * 2.0,
                 rr: cross,
-                tt: 0.0,
+                tt: x.constant(0.0),
             }
         }
     }
 }
 
 /// 1/R = re + i im at slowness 1 < x < 1/kappa, where p = -i `p_abs`.
-#[inline]
-pub(crate) fn inverse_rayleigh(k: f64, x: f64, p_abs: f64, y: f64) -> (f64, f64) {
+#[inline(always)]
+pub(crate) fn inverse_rayleigh<T: Real>(k: f64, x: T, p_abs: T, y: T) -> (T, T) {
     let x2 = x * x;
-    let square = (2.0 * x2 - k) * (2.0 * x2 - k);
-    let both = 4.0 * x2 * p_abs * y;
-    let scale = 1.0 / (square * square + both * both).max(SMALLEST);
+    let g = x2 * 2.0 - k;
+    let square = g * g;
+    let both = x2 * p_abs * y * 4.0;
+    let scale = x.constant(1.0) / (square * square + both * both).at_least(SMALLEST);
     (square * scale, both * scale)
 }
 
 /// Amplitudes at slowness 1 < x < 1/kappa over 1/R or -i/R: every one is real up to that factor.
 ///
 /// For P the factor is -i/R throughout; for S it is -i/R of `w` and `rz` and 1/R of the others.
-#[inline]
-pub(crate) fn slow(wave: Wave, k: f64, x: f64, p_abs: f64, y: f64) -> Amplitudes<f64> {
+#[inline(always)]
+pub(crate) fn slow<T: Real>(wave: Wave, k: f64, x: T, p_abs: T, y: T) -> Amplitudes<T> {
     let x2 = x * x;
-    let g = 2.0 * x2 - k;
+    let g = x2 * 2.0 - k;
     match wave {
         Wave::P => {
             let over_x = g / x;
@@ -120,20 +133,20 @@ pub(crate) fn slow(wave: Wave, k: f64, x: f64, p_abs: f64, y: f64) -> Amplitudes
                 w: p_abs * g,
                 u: over_x * x2,
                 zz: -over_x * g,
-                rz: -2.0 * p_abs * g,
-                rr: over_x * (2.0 * x2 + k - 2.0),
+                rz: p_abs * g * -2.0,
+                rr: over_x * (x2 * 2.0 + (k - 2.0)),
                 tt: over_x * (k - 2.0),
             }
         }
         Wave::S => {
-            let cross = -4.0 * x * p_abs * y;
+            let cross = x * p_abs * y * -4.0;
             Amplitudes {
-                w: -2.0 * p_abs * x2,
-                u: 0.5 * cross,
+                w: p_abs * x2 * -2.0,
+                u: cross * 0.5,
                 zz: -cross,
-                rz: 2.0 * p_abs * g,
+                rz: p_abs * g * 2.0,
                 rr: cross,
-                tt: 0.0,
+                tt: x.constant(0.0),
             }
         }
     }

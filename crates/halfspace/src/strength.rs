@@ -34,20 +34,26 @@ impl Strength {
     ///
     /// `rule` is that of the quadrature rule, `blur` the rounding error of the place of the cut, `distance` the distance
     /// from it in slowness and `s` in the variable that smooths the singularity.
-    pub(crate) fn at_front(self, rule: f64, blur: f64, distance: f64, s: f64) -> RelativeError {
+    pub(crate) fn at_front(
+        self,
+        rule: RelativeError,
+        blur: f64,
+        distance: f64,
+        s: f64,
+    ) -> RelativeError {
         /// All nodes beside a front share the error of its place: their errors add up, where squares are added.
         const SHARED: f64 = 5.0;
         let front = SHARED * blur / distance;
         match self {
-            Self::Bounded => rule.into(),
+            Self::Bounded => rule,
             // displacements have a root there
             Self::InverseRoot => RelativeError {
-                displacement: rule + front * s,
-                stress: rule + front,
+                displacement: rule.displacement + front * s,
+                stress: rule.stress + front,
             },
             Self::FinitePart => RelativeError {
-                displacement: rule + front,
-                stress: rule + 3.0 * front,
+                displacement: rule.displacement + front,
+                stress: rule.stress + 3.0 * front,
             },
         }
     }
@@ -66,7 +72,7 @@ impl Strength {
 }
 
 /// Likely error of a term over its size.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct RelativeError {
     pub(crate) displacement: f64,
     pub(crate) stress: f64,

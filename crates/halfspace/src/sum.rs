@@ -1,6 +1,7 @@
 //! A running sum of six fields that carries its own error estimate.
 
 use crate::field::Six;
+use crate::lanes::WIDTH;
 use crate::strength::RelativeError;
 
 /// Six fields and their likely errors.
@@ -31,5 +32,19 @@ impl Sum {
             self.value[f] += x;
             self.square[f] += (relative * x) * (relative * x);
         }
+    }
+
+    /// Adds what lanes have summed of one field, terms and their squares, of one relative error.
+    #[inline(always)]
+    pub(crate) fn add_lanes(
+        &mut self,
+        field: usize,
+        terms: [f64; WIDTH],
+        squares: [f64; WIDTH],
+        error: f64,
+    ) {
+        self.value[field] += (terms[0] + terms[1]) + (terms[2] + terms[3]);
+        self.square[field] +=
+            error * error * ((squares[0] + squares[1]) + (squares[2] + squares[3]));
     }
 }

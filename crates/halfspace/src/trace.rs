@@ -6,7 +6,7 @@
 //! the cells.
 
 use crate::arrivals::Arrivals;
-use crate::domain::{check, check_hertz, check_place_under, check_time, check_width};
+use crate::domain::{NEAREST, check, check_hertz, check_place_under, check_time, check_width};
 use crate::error::DomainError;
 use crate::field::Six;
 use crate::interpolation::segments;
@@ -77,6 +77,8 @@ impl Kernel {
         check_place_under(self.profile(), r, z)?;
         check_time(end)?;
         check_hertz(self.profile(), "a trace")?;
+        // the depth of a rounding error is none
+        let z = if z < NEAREST { 0.0 } else { z };
         let fronts = Arrivals::new(self.medium(), self.profile(), r, z)?.sorted();
         let static_field = self.static_field(r, z)?;
         let first_arrival = self.first_arrival(r, z);

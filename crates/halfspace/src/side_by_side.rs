@@ -1,0 +1,478 @@
+//! The integrands of the step response of the Hertz load for several nodes at once.
+//!
+//! The same formulas as in [`fast`](crate::fast) and [`slow`](crate::slow), in vector registers, where most points lie:
+//! off the axis, off the shallow layer, and not so far out that the closed forms lose digits.
+
+use crate::chord_integral::chord_primitives;
+use crate::closed_form::SMALL_RADIUS;
+use crate::far_front::{self, C, Chord, FAR};
+use crate::lanes::{Lanes, Pair, WIDTH, dispatch};
+use crate::multipole;
+use crate::order::{Order, Step, TimeOrder};
+use crate::panels::Node;
+use crate::point::{Point, Sense};
+use crate::potentials::Potentials;
+use crate::profile::Profile;
+use crate::scalar::{Real, Scalar};
+use crate::setting::Setting;
+use crate::spectrum::{self, Wave, half_angle};
+use crate::sum::Sum;
+use pulp::{Simd, WithSimd};
+use std::f64::consts::PI;
+
+/// Whether the integrands at a point may be taken here.
+pub(crate) fn applies<O: TimeOrder>(profile: Profile, at: Point, shallow: bool) -> bool {
+    O::ORDER == Order::Step && profile == Profile::Hertz && !shallow && at.r > SMALL_RADIUS
+}
+
+/// Adds the nodes of one panel; a wave below slowness one has one sense, above it both.
+pub(crate) fn add(
+    setting: &Setting,
+    at: Point,
+    wave: Wave,
+    sense: Option<Sense>,
+    nodes: &[Node],
+    sum: &mut Sum,
+) {
+    dispatch(Panel {
+        setting,
+        at,
+        wave,
+        sense,
+        nodes,
+        sum,
+    });
+}
+
+struct Panel<'a> {
+    setting: &'a Setting,
+    at: Point,
+    wave: Wave,
+    sense: Option<Sense>,
+    nodes: &'a [Node],
+    sum: &'a mut Sum,
+}
+
+impl WithSimd for Panel<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Some(last) = self.nodes.last() else {
+            return;
+        };
+        let zero = Lanes::all(simd, 0.0);
+        let (mut value, mut square) = ([zero; 6], [zero; 6]);
+        for chunk in self.nodes.chunks(WIDTH) {
+            let node = |i: usize| chunk.get(i).unwrap_or(last);
+            let place = Lanes::new(simd, std::array::from_fn(|i| node(i).place));
+            let weight = Lanes::new(
+                simd,
+                std::array::from_fn(|i| chunk.get(i).map_or(0.0, |node| node.weight)),
+            );
+            let (jacobian, term) = match self.sense {
+                Some(sense) => fast(self.setting, self.at, (self.wave, sense), place),
+                None => slow(self.setting, self.at, self.wave, place),
+            };
+            let weight = weight * jacobian;
+            for f in 0..6 {
+                let x = weight * term[f];
+                value[f] = value[f] + x;
+                square[f] = square[f] + x * x;
+            }
+        }
+        for f in 0..6 {
+            self.sum.add_lanes(
+                f,
+                value[f].into_array(),
+                square[f].into_array(),
+                last.error.stress,
+            );
+        }
+    }
+}
+
+/// dx/du and the integrand at the half-angle u.
+#[inline(always)]
+fn fast<S: Simd>(
+    setting: &Setting,
+    at: Point,
+    (wave, sense): (Wave, Sense),
+    u: Lanes<S>,
+) -> (Lanes<S>, [Lanes<S>; 6]) {
+    let (x, p, jacobian) = half_angle(u);
+    let eta = setting.eta(at, wave, sense, x, p);
+    let psi = compact(eta, at.r);
+    let amplitudes = spectrum::fast(wave, setting.k, x, p);
+    (jacobian, amplitudes.fields(&psi, at.r))
+}
+
+/// dx/ds and the integrand at the stretched half-angle s.
+#[inline(always)]
+fn slow<S: Simd>(
+    setting: &Setting,
+    at: Point,
+    wave: Wave,
+    s: Lanes<S>,
+) -> (Lanes<S>, [Lanes<S>; 6]) {
+    let k = setting.k;
+    let span = (k - 1.0).sqrt();
+    let (q, dq) = setting.fixed.stretch.half_angle(s);
+    let one = s.constant(1.0);
+    let inverse = one / (q * q + 1.0);
+    let p_abs = q * inverse * (2.0 * span);
+    let y = (one - q) * (one + q) * inverse * span;
+    let x = (p_abs * p_abs + 1.0).sqrt();
+    let over_x = one / x;
+    let (re, im) = spectrum::inverse_rayleigh(k, x, p_abs, y);
+    let psi = match wave {
+        Wave::P => {
+            let xi = Pair {
+                re: p_abs * over_x * at.z,
+                im: over_x * -at.t,
+            };
+            let psi = if at.z == 0.0 {
+                on_imaginary_axis(xi.im, at.r)
+            } else {
+                potentials(xi, at.r)
+            };
+            let factor = im * 2.0;
+            Potentials {
+                a_upper: factor * psi.a_upper.re,
+                a_lower: factor * psi.a_lower.re,
+                g_upper: factor * psi.g_upper.re,
+                g_lower: factor * psi.g_lower.re,
+            }
+        }
+        Wave::S => {
+            let minus = on_imaginary_axis((y * at.z - at.t) * over_x, at.r);
+            let plus = on_imaginary_axis((y * at.z + at.t) * over_x, at.r);
+            // the upper ones of A and the lower ones of B over i R, the others over R
+            let inverse = Pair { re, im };
+            Potentials {
+                a_upper: ((minus.a_upper + plus.a_upper) * inverse).im,
+                a_lower: ((minus.a_lower + plus.a_lower) * inverse).re,
+                g_upper: ((minus.g_upper + plus.g_upper) * inverse).re,
+                g_lower: ((minus.g_lower + plus.g_lower) * inverse).im,
+            }
+        }
+    };
+    let amplitudes = spectrum::slow(wave, k, x, p_abs, y);
+    // dx = p^ dp^/x, dp^ = 2 y/(1 + q^2) dq
+    let jacobian = p_abs * y * inverse * over_x * dq * 2.0;
+    (jacobian, amplitudes.fields(&psi, at.r))
+}
+
+/// (r - s)(r + s) at the ends s = eta -+ 1 of the chord, exact at the edge of the disc.
+#[inline(always)]
+fn inside<S: Simd>(eta: Lanes<S>, r: f64) -> [Lanes<S>; 2] {
+    let (inner, outer) = (r - 1.0, r + 1.0);
+    [
+        (-eta + outer) * (eta + inner),
+        (-eta + inner) * (eta + outer),
+    ]
+}
+
+/// The chord primitives with phi and q held beyond the circle.
+#[inline(always)]
+fn held_primitives<S: Simd>(eta: Lanes<S>, r: f64, inside: [Lanes<S>; 2]) -> Potentials<Lanes<S>> {
+    let zero = eta.constant(0.0);
+    let s = [eta - 1.0, eta + 1.0];
+    let q = [inside[0].max(zero).sqrt(), inside[1].max(zero).sqrt()];
+    // only the difference of the two angles counts
+    let angle = (s[1] * q[0] - s[0] * q[1]).angle_over(q[0] * q[1] + s[0] * s[1]);
+    chord_primitives::<Step, Lanes<S>>(eta, r, [zero, angle], q)
+}
+
+/// Where the closed forms hold and where the multipole series takes over.
+struct Reach<S: Simd> {
+    distance: Lanes<S>,
+    /// Terms that the series needs; none where no lane is far.
+    terms: usize,
+    some_near: bool,
+}
+
+impl<S: Simd> Reach<S> {
+    #[inline(always)]
+    fn new(xi: Pair<S>, r: f64) -> Self {
+        let nearest = multipole::nearest::<Step>(r);
+        let gap = (xi.im.abs() - r).abs();
+        let mut reach = Self {
+            distance: gap,
+            terms: 0,
+            some_near: true,
+        };
+        if (gap + xi.re).largest() + 1.0 < nearest {
+            return reach;
+        }
+        let square = xi.re * xi.re;
+        let (inner, outer) = (gap - 1.0, gap + 1.0);
+        reach.distance = ((inner * inner + square).sqrt() + (outer * outer + square).sqrt()) * 0.5;
+        let mut least = f64::INFINITY;
+        reach.some_near = false;
+        for d in reach.distance.into_array() {
+            if d >= nearest {
+                least = least.min(d);
+            } else {
+                reach.some_near = true;
+            }
+        }
+        if least.is_finite() {
+            reach.terms = multipole::terms_at(least);
+        }
+        reach
+    }
+
+    #[inline(always)]
+    fn pick(
+        &self,
+        near: Potentials<Pair<S>>,
+        far: Potentials<Pair<S>>,
+        r: f64,
+    ) -> Potentials<Pair<S>> {
+        let (distance, limit) = (
+            self.distance,
+            self.distance.constant(multipole::nearest::<Step>(r)),
+        );
+        Potentials {
+            a_upper: Pair::where_below(distance, limit, near.a_upper, far.a_upper),
+            a_lower: Pair::where_below(distance, limit, near.a_lower, far.a_lower),
+            g_upper: Pair::where_below(distance, limit, near.g_upper, far.g_upper),
+            g_lower: Pair::where_below(distance, limit, near.g_lower, far.g_lower),
+        }
+    }
+}
+
+/// The potentials at xi off the imaginary axis.
+#[inline(always)]
+fn potentials<S: Simd>(xi: Pair<S>, r: f64) -> Potentials<Pair<S>> {
+    let reach = Reach::new(xi, r);
+    let nothing = Potentials::all(xi.constant(0.0));
+    let near = match (reach.some_near, r > FAR) {
+        (false, _) => nothing,
+        (true, true) => at_far_front(xi, r),
+        (true, false) => by_primitives(xi, r),
+    };
+    if reach.terms == 0 {
+        return near;
+    }
+    reach.pick(near, by_series(xi, r, reach.terms), r)
+}
+
+/// The potentials on the imaginary axis, where real and imaginary part are apart.
+#[inline(always)]
+fn on_imaginary_axis<S: Simd>(eta: Lanes<S>, r: f64) -> Potentials<Pair<S>> {
+    let zero = eta.constant(0.0);
+    let xi = Pair { re: zero, im: eta };
+    let reach = Reach::new(xi, r);
+    let nothing = Potentials::all(xi.constant(0.0));
+    let near = match (reach.some_near, r > FAR) {
+        (false, _) => nothing,
+        (true, true) => at_far_front(xi, r),
+        (true, false) => primitives_on_imaginary_axis(eta, r),
+    };
+    if reach.terms == 0 {
+        return near;
+    }
+    reach.pick(near, series_on_imaginary_axis(eta, r, reach.terms), r)
+}
+
+/// The compact parts.
+#[inline(always)]
+fn compact<S: Simd>(eta: Lanes<S>, r: f64) -> Potentials<Lanes<S>> {
+    if r <= FAR {
+        return held_primitives(eta, r, inside(eta, r));
+    }
+    let zero = eta.constant(0.0);
+    let pair = |re, im| Pair { re, im };
+    let distance = eta.abs();
+    let reach = Reach::new(pair(zero, distance), r);
+    let mut psi = Potentials::all(pair(zero, zero));
+    if reach.some_near {
+        let (delta, terms) = far_delta(eta, r);
+        let root = [delta[0].max(zero).sqrt(), delta[1].max(zero).sqrt()];
+        let near = far_front::compact_of(far_front::chord(delta, root, terms, r), r);
+        psi = Potentials {
+            a_upper: pair(near.a_upper, zero),
+            a_lower: pair(zero, near.a_lower),
+            g_upper: pair(zero, near.g_upper),
+            g_lower: pair(near.g_lower, zero),
+        };
+    }
+    if reach.terms > 0 {
+        psi = reach.pick(psi, series_on_imaginary_axis(distance, r, reach.terms), r);
+    }
+    // a2 and b3 are odd
+    Potentials {
+        a_upper: psi.a_upper.re,
+        a_lower: eta.where_below(zero, -psi.a_lower.im, psi.a_lower.im),
+        g_upper: eta.where_below(zero, -psi.g_upper.im, psi.g_upper.im),
+        g_lower: psi.g_lower.re,
+    }
+}
+
+/// The multipole series.
+#[inline(always)]
+fn by_series<S: Simd>(xi: Pair<S>, r: f64, terms: usize) -> Potentials<Pair<S>> {
+    let inside = (-xi.im + r) * (xi.im + r);
+    let rho = root_inside(xi, inside);
+    let inverse = rho.reciprocal();
+    let square = inverse * inverse;
+    let sum = (rho + xi).reciprocal();
+    let mut psi =
+        multipole::sums::<Step, Pair<S>>(Profile::Hertz, terms, -1.0, xi * square, square, inverse);
+    let mass = multipole::moment(Profile::Hertz, 0);
+    psi.g_upper = psi.g_upper + inverse * sum * mass;
+    psi
+}
+
+/// The multipole series at zeta = i s, where Q_k is i^k/rho and V_k is i^{k-1}/rho times a real number.
+#[inline(always)]
+fn series_on_imaginary_axis<S: Simd>(s: Lanes<S>, r: f64, terms: usize) -> Potentials<Pair<S>> {
+    let zero = s.constant(0.0);
+    let xi = Pair { re: zero, im: s };
+    let square = (-s + r) * (s + r);
+    let rho = root_inside(xi, square);
+    let (inverse, inverse2) = (rho.reciprocal(), s.constant(1.0) / square);
+    let sum = multipole::sums::<Step, Lanes<S>>(
+        Profile::Hertz,
+        terms,
+        1.0,
+        s * inverse2,
+        -inverse2,
+        s.constant(1.0),
+    );
+    let mass = multipole::moment(Profile::Hertz, 0);
+    Potentials {
+        a_upper: inverse.times(sum.a_upper),
+        a_lower: inverse.times(sum.a_lower).times_i(),
+        g_upper: inverse.times(sum.g_upper).times_i() + inverse * (rho + xi).reciprocal() * mass,
+        g_lower: inverse.times(-sum.g_lower),
+    }
+}
+
+/// sqrt(d^2 + inside + 2 i d s) for zeta = d + i s, d >= 0.
+#[inline(always)]
+fn root_inside<S: Simd>(zeta: Pair<S>, inside: Lanes<S>) -> Pair<S> {
+    let Pair { re: d, im: s } = zeta;
+    let root = Pair {
+        re: d * d + inside,
+        im: d * s * 2.0,
+    }
+    .root();
+    // on the axis the side is that of s
+    Pair {
+        im: root.im.abs().copysign(s),
+        ..root
+    }
+}
+
+/// The chord primitives at complex xi, phi = -i L and q = rho in the variable eta = -i xi.
+#[inline(always)]
+fn by_primitives<S: Simd>(xi: Pair<S>, r: f64) -> Potentials<Pair<S>> {
+    let zeta = [
+        Pair {
+            im: xi.im - 1.0,
+            ..xi
+        },
+        Pair {
+            im: xi.im + 1.0,
+            ..xi
+        },
+    ];
+    let inside = inside(xi.im, r);
+    let rho = [
+        root_inside(zeta[0], inside[0]),
+        root_inside(zeta[1], inside[1]),
+    ];
+    let sum = [zeta[0] + rho[0], zeta[1] + rho[1]];
+    // the logarithm of the ratio of the sums
+    let ratio = sum[1] * sum[0].conj();
+    let log = Pair {
+        re: (sum[1].norm_sqr() / sum[0].norm_sqr()).ln() * 0.5,
+        im: ratio.im.angle_over(ratio.re),
+    };
+    let phi = [log.constant(0.0), log.times_minus_i()];
+    let psi = chord_primitives::<Step, Pair<S>>(xi.times_minus_i(), r, phi, rho);
+    from_primitives(psi, r)
+}
+
+/// The same on the imaginary axis.
+#[inline(always)]
+fn primitives_on_imaginary_axis<S: Simd>(eta: Lanes<S>, r: f64) -> Potentials<Pair<S>> {
+    let zero = eta.constant(0.0);
+    let s = [eta - 1.0, eta + 1.0];
+    let inside = inside(eta, r);
+    let re = held_primitives(eta, r, inside);
+    let w = [(-inside[0]).max(zero).sqrt(), (-inside[1]).max(zero).sqrt()];
+    let modulus = [s[0].abs().at_least(r) + w[0], s[1].abs().at_least(r) + w[1]];
+    let log = [zero, (modulus[0] / modulus[1]).ln()];
+    let w = [w[0].copysign(s[0]), w[1].copysign(s[1])];
+    let im = chord_primitives::<Step, Lanes<S>>(eta, r, log, w);
+    let pair = |re, im| Pair { re, im };
+    from_primitives(
+        Potentials {
+            a_upper: pair(re.a_upper, im.a_upper),
+            a_lower: pair(re.a_lower, im.a_lower),
+            g_upper: pair(re.g_upper, im.g_upper),
+            g_lower: pair(re.g_lower, im.g_lower),
+        },
+        r,
+    )
+}
+
+/// delta = r - |eta| -+ 1 of a distant point, and the number of terms that the lanes next to the front need.
+#[inline(always)]
+fn far_delta<S: Simd>(eta: Lanes<S>, r: f64) -> ([Lanes<S>; 2], usize) {
+    /// Farther from the front the multipole series is taken.
+    const LARGEST: f64 = 12.0;
+    let distance = eta.abs();
+    let delta = [-distance + (r - 1.0), -distance + (r + 1.0)];
+    let size = delta[0].abs().max(delta[1].abs()).largest();
+    (delta, far_front::terms(size.min(LARGEST), r))
+}
+
+/// The potentials of a distant point.
+#[inline(always)]
+fn at_far_front<S: Simd>(xi: Pair<S>, r: f64) -> Potentials<Pair<S>> {
+    let zero = xi.re.constant(0.0);
+    let (real, terms) = far_delta(xi.im, r);
+    let delta = [
+        Pair {
+            re: real[0],
+            im: xi.re,
+        },
+        Pair {
+            re: real[1],
+            im: xi.re,
+        },
+    ];
+    let root = [delta[0].root(), delta[1].root()];
+    let Chord { i, k } = far_front::chord(delta, root, terms, r);
+    let ring = C / (r * r);
+    let psi = Potentials {
+        a_upper: i[0] * C,
+        a_lower: k[0].times_minus_i() * (2.0 * C),
+        g_upper: ((i[0] * r - i[1]).times_minus_i() + 4.0 / 3.0) * ring,
+        g_lower: (k[0] * r - k[1]) * (-2.0 * ring),
+    };
+    // the conjugate where xi is below the real axis
+    Potentials {
+        a_upper: Pair::where_below(xi.im, zero, psi.a_upper.conj(), psi.a_upper),
+        a_lower: Pair::where_below(xi.im, zero, psi.a_lower.conj(), psi.a_lower),
+        g_upper: Pair::where_below(xi.im, zero, psi.g_upper.conj(), psi.g_upper),
+        g_lower: Pair::where_below(xi.im, zero, psi.g_lower.conj(), psi.g_lower),
+    }
+}
+
+/// Powers of i from the change of variable, and the part that is free of roots.
+#[inline(always)]
+fn from_primitives<S: Simd>(psi: Potentials<Pair<S>>, r: f64) -> Potentials<Pair<S>> {
+    let force = 0.5 / (PI * r * r);
+    Potentials {
+        a_upper: psi.a_upper,
+        a_lower: psi.a_lower.times_i(),
+        g_upper: psi.g_upper.times_i() + force,
+        g_lower: psi.g_lower,
+    }
+}
