@@ -1,4 +1,4 @@
-//! The integrands of the step response of the Hertz load for several nodes at once.
+//! The integrands of the step responses of the Hertz load and of the punch for several nodes at once.
 //!
 //! The same formulas as in [`fast`](crate::fast) and [`slow`](crate::slow), in vector registers, where most points lie:
 //! off the axis, off the shallow layer, and not so far out that the closed forms lose digits.
@@ -22,7 +22,12 @@ use std::f64::consts::PI;
 
 /// Whether the integrands at a point may be taken here.
 pub(crate) fn applies<O: TimeOrder>(profile: Profile, at: Point, shallow: bool) -> bool {
-    O::ORDER == Order::Step && profile == Profile::Hertz && !shallow && at.r > SMALL_RADIUS
+    O::ORDER == Order::Step
+        && match profile {
+            Profile::Hertz => !shallow && at.r > SMALL_RADIUS,
+            Profile::Punch => at.r > 0.0,
+            Profile::Point => false,
+        }
 }
 
 /// Adds the nodes of one panel; a wave below slowness one has one sense, above it both.
@@ -75,19 +80,19 @@ impl WithSimd for Panel<'_> {
                 None => slow(self.setting, self.at, self.wave, place),
             };
             let weight = weight * jacobian;
+            let displacement =
+                Lanes::new(simd, std::array::from_fn(|i| node(i).error.displacement));
+            let stress = Lanes::new(simd, std::array::from_fn(|i| node(i).error.stress));
             for f in 0..6 {
                 let x = weight * term[f];
+                let error = if f < 2 { displacement } else { stress } * x;
                 value[f] = value[f] + x;
-                square[f] = square[f] + x * x;
+                square[f] = square[f] + error * error;
             }
         }
         for f in 0..6 {
-            self.sum.add_lanes(
-                f,
-                value[f].into_array(),
-                square[f].into_array(),
-                last.error.stress,
-            );
+            self.sum
+                .add_lanes(f, value[f].into_array(), square[f].into_array());
         }
     }
 }
@@ -102,7 +107,7 @@ fn fast<S: Simd>(
 ) -> (Lanes<S>, [Lanes<S>; 6]) {
     let (x, p, jacobian) = half_angle(u);
     let eta = setting.eta(at, wave, sense, x, p);
-    let psi = compact(eta, at.r);
+    let psi = compact(setting.profile, eta, at.r);
     let amplitudes = spectrum::fast(wave, setting.k, x, p);
     (jacobian, amplitudes.fields(&psi, at.r))
 }
@@ -115,7 +120,7 @@ fn slow<S: Simd>(
     wave: Wave,
     s: Lanes<S>,
 ) -> (Lanes<S>, [Lanes<S>; 6]) {
-    let k = setting.k;
+    let (k, profile) = (setting.k, setting.profile);
     let span = (k - 1.0).sqrt();
     let (q, dq) = setting.fixed.stretch.half_angle(s);
     let one = s.constant(1.0);
@@ -132,9 +137,9 @@ fn slow<S: Simd>(
                 im: over_x * -at.t,
             };
             let psi = if at.z == 0.0 {
-                on_imaginary_axis(xi.im, at.r)
+                on_imaginary_axis(profile, xi.im, at.r)
             } else {
-                potentials(xi, at.r)
+                potentials(profile, xi, at.r)
             };
             let factor = im * 2.0;
             Potentials {
@@ -145,8 +150,8 @@ fn slow<S: Simd>(
             }
         }
         Wave::S => {
-            let minus = on_imaginary_axis((y * at.z - at.t) * over_x, at.r);
-            let plus = on_imaginary_axis((y * at.z + at.t) * over_x, at.r);
+            let minus = on_imaginary_axis(profile, (y * at.z - at.t) * over_x, at.r);
+            let plus = on_imaginary_axis(profile, (y * at.z + at.t) * over_x, at.r);
             // the upper ones of A and the lower ones of B over i R, the others over R
             let inverse = Pair { re, im };
             Potentials {
@@ -179,9 +184,91 @@ fn held_primitives<S: Simd>(eta: Lanes<S>, r: f64, inside: [Lanes<S>; 2]) -> Pot
     let zero = eta.constant(0.0);
     let s = [eta - 1.0, eta + 1.0];
     let q = [inside[0].max(zero).sqrt(), inside[1].max(zero).sqrt()];
-    // only the difference of the two angles counts
-    let angle = (s[1] * q[0] - s[0] * q[1]).angle_over(q[0] * q[1] + s[0] * s[1]);
-    chord_primitives::<Step, Lanes<S>>(eta, r, [zero, angle], q)
+    chord_primitives::<Step, Lanes<S>>(eta, r, [zero, angle_between(s, q)], q)
+}
+
+/// The difference of the angles of the vectors (q, s).
+#[inline(always)]
+fn angle_between<S: Simd>(s: [Lanes<S>; 2], q: [Lanes<S>; 2]) -> Lanes<S> {
+    (s[1] * q[0] - s[0] * q[1]).angle_over(q[0] * q[1] + s[0] * s[1])
+}
+
+/// The compact parts of a punch.
+#[inline(always)]
+fn compact_punch<S: Simd>(eta: Lanes<S>, r: f64) -> Potentials<Lanes<S>> {
+    let scale = 0.25 / PI;
+    let ring = scale / (r * r);
+    let (zero, one) = (eta.constant(0.0), eta.constant(1.0));
+    let s = [eta - 1.0, eta + 1.0];
+    let inside = inside(eta, r);
+    let q = [inside[0].max(zero).sqrt(), inside[1].max(zero).sqrt()];
+    let inverse = [
+        zero.where_below(q[0], one / q[0], zero),
+        zero.where_below(q[1], one / q[1], zero),
+    ];
+    Potentials {
+        a_upper: angle_between(s, q) * scale,
+        a_lower: (inverse[1] - inverse[0]) * scale,
+        g_upper: (q[1] - q[0]) * ring,
+        g_lower: (s[1] * inverse[1] - s[0] * inverse[0]) * ring,
+    }
+}
+
+/// The potentials of a punch.
+#[inline(always)]
+fn punch<S: Simd>(xi: Pair<S>, r: f64) -> Potentials<Pair<S>> {
+    let Ends { rho, sum, log } = Ends::new(xi, r);
+    // a node that rounds to the very front: as near as rounding lets it be
+    let least = xi.re.constant(f64::MIN_POSITIVE);
+    let held = xi.constant(f64::EPSILON.sqrt() * r);
+    let rho = [
+        Pair::where_below(rho[0].norm_sqr(), least, held, rho[0]),
+        Pair::where_below(rho[1].norm_sqr(), least, held, rho[1]),
+    ];
+    let inverse = [rho[0].reciprocal(), rho[1].reciprocal()];
+    let over = [sum[0].reciprocal(), sum[1].reciprocal()];
+    let scale = 0.25 / PI;
+    Potentials {
+        a_upper: log.times_minus_i() * scale,
+        a_lower: (inverse[0] - inverse[1]).times_minus_i() * scale,
+        g_upper: (over[0] - over[1]).times_minus_i() * scale,
+        g_lower: (inverse[0] * over[0] - inverse[1] * over[1]).times_minus_i() * scale,
+    }
+}
+
+/// The ends of the chord: rho, zeta + rho, and the logarithm of the ratio of the sums.
+struct Ends<S: Simd> {
+    rho: [Pair<S>; 2],
+    sum: [Pair<S>; 2],
+    log: Pair<S>,
+}
+
+impl<S: Simd> Ends<S> {
+    #[inline(always)]
+    fn new(xi: Pair<S>, r: f64) -> Self {
+        let zeta = [
+            Pair {
+                im: xi.im - 1.0,
+                ..xi
+            },
+            Pair {
+                im: xi.im + 1.0,
+                ..xi
+            },
+        ];
+        let inside = inside(xi.im, r);
+        let rho = [
+            root_inside(zeta[0], inside[0]),
+            root_inside(zeta[1], inside[1]),
+        ];
+        let sum = [zeta[0] + rho[0], zeta[1] + rho[1]];
+        let ratio = sum[1] * sum[0].conj();
+        let log = Pair {
+            re: (sum[1].norm_sqr() / sum[0].norm_sqr()).ln() * 0.5,
+            im: ratio.im.angle_over(ratio.re),
+        };
+        Self { rho, sum, log }
+    }
 }
 
 /// Where the closed forms hold and where the multipole series takes over.
@@ -245,41 +332,50 @@ impl<S: Simd> Reach<S> {
 
 /// The potentials at xi off the imaginary axis.
 #[inline(always)]
-fn potentials<S: Simd>(xi: Pair<S>, r: f64) -> Potentials<Pair<S>> {
+fn potentials<S: Simd>(profile: Profile, xi: Pair<S>, r: f64) -> Potentials<Pair<S>> {
     let reach = Reach::new(xi, r);
     let nothing = Potentials::all(xi.constant(0.0));
-    let near = match (reach.some_near, r > FAR) {
-        (false, _) => nothing,
-        (true, true) => at_far_front(xi, r),
-        (true, false) => by_primitives(xi, r),
+    let near = match profile {
+        _ if !reach.some_near => nothing,
+        Profile::Hertz if r > FAR => at_far_front(xi, r),
+        Profile::Hertz => by_primitives(xi, r),
+        Profile::Punch | Profile::Point => punch(xi, r),
     };
     if reach.terms == 0 {
         return near;
     }
-    reach.pick(near, by_series(xi, r, reach.terms), r)
+    reach.pick(near, by_series(profile, xi, r, reach.terms), r)
 }
 
 /// The potentials on the imaginary axis, where real and imaginary part are apart.
 #[inline(always)]
-fn on_imaginary_axis<S: Simd>(eta: Lanes<S>, r: f64) -> Potentials<Pair<S>> {
+fn on_imaginary_axis<S: Simd>(profile: Profile, eta: Lanes<S>, r: f64) -> Potentials<Pair<S>> {
     let zero = eta.constant(0.0);
     let xi = Pair { re: zero, im: eta };
     let reach = Reach::new(xi, r);
     let nothing = Potentials::all(xi.constant(0.0));
-    let near = match (reach.some_near, r > FAR) {
-        (false, _) => nothing,
-        (true, true) => at_far_front(xi, r),
-        (true, false) => primitives_on_imaginary_axis(eta, r),
+    let near = match profile {
+        _ if !reach.some_near => nothing,
+        Profile::Hertz if r > FAR => at_far_front(xi, r),
+        Profile::Hertz => primitives_on_imaginary_axis(eta, r),
+        Profile::Punch | Profile::Point => punch(xi, r),
     };
     if reach.terms == 0 {
         return near;
     }
-    reach.pick(near, series_on_imaginary_axis(eta, r, reach.terms), r)
+    reach.pick(
+        near,
+        series_on_imaginary_axis(profile, eta, r, reach.terms),
+        r,
+    )
 }
 
 /// The compact parts.
 #[inline(always)]
-fn compact<S: Simd>(eta: Lanes<S>, r: f64) -> Potentials<Lanes<S>> {
+fn compact<S: Simd>(profile: Profile, eta: Lanes<S>, r: f64) -> Potentials<Lanes<S>> {
+    if profile != Profile::Hertz {
+        return compact_punch(eta, r);
+    }
     if r <= FAR {
         return held_primitives(eta, r, inside(eta, r));
     }
@@ -300,7 +396,11 @@ fn compact<S: Simd>(eta: Lanes<S>, r: f64) -> Potentials<Lanes<S>> {
         };
     }
     if reach.terms > 0 {
-        psi = reach.pick(psi, series_on_imaginary_axis(distance, r, reach.terms), r);
+        psi = reach.pick(
+            psi,
+            series_on_imaginary_axis(Profile::Hertz, distance, r, reach.terms),
+            r,
+        );
     }
     // a2 and b3 are odd
     Potentials {
@@ -313,36 +413,41 @@ fn compact<S: Simd>(eta: Lanes<S>, r: f64) -> Potentials<Lanes<S>> {
 
 /// The multipole series.
 #[inline(always)]
-fn by_series<S: Simd>(xi: Pair<S>, r: f64, terms: usize) -> Potentials<Pair<S>> {
+fn by_series<S: Simd>(profile: Profile, xi: Pair<S>, r: f64, terms: usize) -> Potentials<Pair<S>> {
     let inside = (-xi.im + r) * (xi.im + r);
     let rho = root_inside(xi, inside);
     let inverse = rho.reciprocal();
     let square = inverse * inverse;
     let sum = (rho + xi).reciprocal();
     let mut psi =
-        multipole::sums::<Step, Pair<S>>(Profile::Hertz, terms, -1.0, xi * square, square, inverse);
-    let mass = multipole::moment(Profile::Hertz, 0);
+        multipole::sums::<Step, Pair<S>>(profile, terms, -1.0, xi * square, square, inverse);
+    let mass = multipole::moment(profile, 0);
     psi.g_upper = psi.g_upper + inverse * sum * mass;
     psi
 }
 
 /// The multipole series at zeta = i s, where Q_k is i^k/rho and V_k is i^{k-1}/rho times a real number.
 #[inline(always)]
-fn series_on_imaginary_axis<S: Simd>(s: Lanes<S>, r: f64, terms: usize) -> Potentials<Pair<S>> {
+fn series_on_imaginary_axis<S: Simd>(
+    profile: Profile,
+    s: Lanes<S>,
+    r: f64,
+    terms: usize,
+) -> Potentials<Pair<S>> {
     let zero = s.constant(0.0);
     let xi = Pair { re: zero, im: s };
     let square = (-s + r) * (s + r);
     let rho = root_inside(xi, square);
     let (inverse, inverse2) = (rho.reciprocal(), s.constant(1.0) / square);
     let sum = multipole::sums::<Step, Lanes<S>>(
-        Profile::Hertz,
+        profile,
         terms,
         1.0,
         s * inverse2,
         -inverse2,
         s.constant(1.0),
     );
-    let mass = multipole::moment(Profile::Hertz, 0);
+    let mass = multipole::moment(profile, 0);
     Potentials {
         a_upper: inverse.times(sum.a_upper),
         a_lower: inverse.times(sum.a_lower).times_i(),
@@ -370,28 +475,7 @@ fn root_inside<S: Simd>(zeta: Pair<S>, inside: Lanes<S>) -> Pair<S> {
 /// The chord primitives at complex xi, phi = -i L and q = rho in the variable eta = -i xi.
 #[inline(always)]
 fn by_primitives<S: Simd>(xi: Pair<S>, r: f64) -> Potentials<Pair<S>> {
-    let zeta = [
-        Pair {
-            im: xi.im - 1.0,
-            ..xi
-        },
-        Pair {
-            im: xi.im + 1.0,
-            ..xi
-        },
-    ];
-    let inside = inside(xi.im, r);
-    let rho = [
-        root_inside(zeta[0], inside[0]),
-        root_inside(zeta[1], inside[1]),
-    ];
-    let sum = [zeta[0] + rho[0], zeta[1] + rho[1]];
-    // the logarithm of the ratio of the sums
-    let ratio = sum[1] * sum[0].conj();
-    let log = Pair {
-        re: (sum[1].norm_sqr() / sum[0].norm_sqr()).ln() * 0.5,
-        im: ratio.im.angle_over(ratio.re),
-    };
+    let Ends { rho, log, .. } = Ends::new(xi, r);
     let phi = [log.constant(0.0), log.times_minus_i()];
     let psi = chord_primitives::<Step, Pair<S>>(xi.times_minus_i(), r, phi, rho);
     from_primitives(psi, r)

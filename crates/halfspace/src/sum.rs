@@ -34,17 +34,10 @@ impl Sum {
         }
     }
 
-    /// Adds what lanes have summed of one field, terms and their squares, of one relative error.
+    /// Adds what lanes have summed of one field, and the squares of the errors.
     #[inline(always)]
-    pub(crate) fn add_lanes(
-        &mut self,
-        field: usize,
-        terms: [f64; WIDTH],
-        squares: [f64; WIDTH],
-        error: f64,
-    ) {
+    pub(crate) fn add_lanes(&mut self, field: usize, terms: [f64; WIDTH], squares: [f64; WIDTH]) {
         self.value[field] += (terms[0] + terms[1]) + (terms[2] + terms[3]);
-        self.square[field] +=
-            error * error * ((squares[0] + squares[1]) + (squares[2] + squares[3]));
+        self.square[field] += (squares[0] + squares[1]) + (squares[2] + squares[3]);
     }
 }
