@@ -29,7 +29,7 @@ use num_complex::Complex64;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Radius below which a point is on the axis as far as rounding goes.
-const AXIS: f64 = 1e-13;
+pub(crate) const AXIS: f64 = 1e-13;
 
 /// Why two orders are not met here.
 const HERTZ_ONLY: &str =

@@ -5,6 +5,7 @@
 
 use crate::chord_integral::chord_primitives;
 use crate::closed_form::SMALL_RADIUS;
+use crate::compact::AXIS;
 use crate::far_front::{self, C, Chord, FAR};
 use crate::lanes::{Lanes, Pair, WIDTH, dispatch};
 use crate::multipole;
@@ -24,7 +25,7 @@ use std::f64::consts::PI;
 pub(crate) fn applies<O: TimeOrder>(profile: Profile, at: Point, shallow: bool) -> bool {
     O::ORDER == Order::Step
         && match profile {
-            Profile::Hertz => !shallow && at.r > SMALL_RADIUS,
+            Profile::Hertz => !shallow,
             Profile::Punch => at.r > 0.0,
             Profile::Point => false,
         }
@@ -193,6 +194,73 @@ fn angle_between<S: Simd>(s: [Lanes<S>; 2], q: [Lanes<S>; 2]) -> Lanes<S> {
     (s[1] * q[0] - s[0] * q[1]).angle_over(q[0] * q[1] + s[0] * s[1])
 }
 
+/// The limit r = 0, where the circle shrinks to a point of the chord.
+#[inline(always)]
+fn compact_on_axis<S: Simd>(eta: Lanes<S>) -> Potentials<Lanes<S>> {
+    let (zero, one) = (eta.constant(0.0), eta.constant(1.0));
+    let within = eta.abs();
+    let eta = within.where_below(one, eta, zero);
+    Potentials {
+        a_upper: within.where_below(one, (one - eta * eta) * 0.375, zero),
+        a_lower: eta * -0.75,
+        g_upper: eta * -0.375,
+        g_lower: within.where_below(one, one * 0.375, zero),
+    }
+}
+
+/// The potentials near the axis, of both ends of the chord, E_1 to E_3 and F_1 to F_3.
+#[inline(always)]
+fn by_parts<S: Simd>(xi: Pair<S>, r: f64) -> Potentials<Pair<S>> {
+    let Ends { zeta, rho, sum, .. } = Ends::new(xi, r);
+    let [upper, lower] = [
+        end(zeta[0], rho[0], sum[0], r),
+        end(zeta[1], rho[1], sum[1], r),
+    ];
+    Potentials {
+        a_upper: chord_of_ends([upper.e[2], lower.e[2]], [upper.e[1], lower.e[1]]),
+        a_lower: chord_of_ends([upper.e[1], lower.e[1]], [upper.e[0], lower.e[0]]),
+        g_upper: chord_of_ends([upper.f[2], lower.f[2]], [upper.f[1], lower.f[1]]),
+        g_lower: chord_of_ends([upper.f[1], lower.f[1]], [upper.f[0], lower.f[0]]),
+    }
+}
+
+/// The chord function of the Hertz load times a potential of a point force, of the antiderivatives at both ends.
+#[inline(always)]
+fn chord_of_ends<S: Simd>(outer: [Pair<S>; 2], inner: [Pair<S>; 2]) -> Pair<S> {
+    ((outer[0] - outer[1]).times_minus_i() - (inner[0] + inner[1])) * (0.75 / PI)
+}
+
+/// E_1 to E_3 and F_1/r to F_3/r at one end of the chord.
+struct End<S: Simd> {
+    e: [Pair<S>; 3],
+    f: [Pair<S>; 3],
+}
+
+#[inline(always)]
+fn end<S: Simd>(zeta: Pair<S>, rho: Pair<S>, sum: Pair<S>, r: f64) -> End<S> {
+    let log = Pair {
+        re: sum.norm_sqr().at_least(f64::MIN_POSITIVE).ln() * 0.5,
+        im: sum.im.angle_over(sum.re),
+    };
+    let least = sum.re.constant(f64::MIN_POSITIVE);
+    // at the very singularity on the axis any finite value will do
+    let held = Pair::where_below(sum.norm_sqr(), least, sum.constant(1e-100), sum);
+    let over = held.reciprocal();
+    let square = zeta * zeta;
+    End {
+        e: [
+            log * -1.0,
+            zeta * log - rho,
+            zeta * rho * 0.75 + (square * -0.5 + 0.25 * r * r) * log,
+        ],
+        f: [
+            over,
+            (zeta * over + log) * -0.5,
+            ((rho * sum + square) * over * (1.0 / 3.0) + zeta * log - rho) * 0.5,
+        ],
+    }
+}
+
 /// The compact parts of a punch.
 #[inline(always)]
 fn compact_punch<S: Simd>(eta: Lanes<S>, r: f64) -> Potentials<Lanes<S>> {
@@ -217,7 +285,7 @@ fn compact_punch<S: Simd>(eta: Lanes<S>, r: f64) -> Potentials<Lanes<S>> {
 /// The potentials of a punch.
 #[inline(always)]
 fn punch<S: Simd>(xi: Pair<S>, r: f64) -> Potentials<Pair<S>> {
-    let Ends { rho, sum, log } = Ends::new(xi, r);
+    let Ends { rho, sum, log, .. } = Ends::new(xi, r);
     // a node that rounds to the very front: as near as rounding lets it be
     let least = xi.re.constant(f64::MIN_POSITIVE);
     let held = xi.constant(f64::EPSILON.sqrt() * r);
@@ -238,6 +306,7 @@ fn punch<S: Simd>(xi: Pair<S>, r: f64) -> Potentials<Pair<S>> {
 
 /// The ends of the chord: rho, zeta + rho, and the logarithm of the ratio of the sums.
 struct Ends<S: Simd> {
+    zeta: [Pair<S>; 2],
     rho: [Pair<S>; 2],
     sum: [Pair<S>; 2],
     log: Pair<S>,
@@ -267,7 +336,12 @@ impl<S: Simd> Ends<S> {
             re: (sum[1].norm_sqr() / sum[0].norm_sqr()).ln() * 0.5,
             im: ratio.im.angle_over(ratio.re),
         };
-        Self { rho, sum, log }
+        Self {
+            zeta,
+            rho,
+            sum,
+            log,
+        }
     }
 }
 
@@ -338,6 +412,7 @@ fn potentials<S: Simd>(profile: Profile, xi: Pair<S>, r: f64) -> Potentials<Pair
     let near = match profile {
         _ if !reach.some_near => nothing,
         Profile::Hertz if r > FAR => at_far_front(xi, r),
+        Profile::Hertz if r <= SMALL_RADIUS => by_parts(xi, r),
         Profile::Hertz => by_primitives(xi, r),
         Profile::Punch | Profile::Point => punch(xi, r),
     };
@@ -357,6 +432,7 @@ fn on_imaginary_axis<S: Simd>(profile: Profile, eta: Lanes<S>, r: f64) -> Potent
     let near = match profile {
         _ if !reach.some_near => nothing,
         Profile::Hertz if r > FAR => at_far_front(xi, r),
+        Profile::Hertz if r <= SMALL_RADIUS => by_parts(xi, r),
         Profile::Hertz => primitives_on_imaginary_axis(eta, r),
         Profile::Punch | Profile::Point => punch(xi, r),
     };
@@ -375,6 +451,9 @@ fn on_imaginary_axis<S: Simd>(profile: Profile, eta: Lanes<S>, r: f64) -> Potent
 fn compact<S: Simd>(profile: Profile, eta: Lanes<S>, r: f64) -> Potentials<Lanes<S>> {
     if profile != Profile::Hertz {
         return compact_punch(eta, r);
+    }
+    if r < AXIS {
+        return compact_on_axis(eta);
     }
     if r <= FAR {
         return held_primitives(eta, r, inside(eta, r));
