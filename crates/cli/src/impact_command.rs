@@ -10,8 +10,10 @@ use clap::Args;
 use formats::{
     Allowed, check_results, inputs, json_report, read_scene, stage_results, stage_results_csv,
 };
-use impact::{Allowance, Forecast, Scene, simulate_within};
+use impact::{Allowance, Forecast, ImpactError, KernelChoice, Scene, TooMuch, simulate_within};
 use output::{CSV, HDF5, Output, Role, Staged};
+use serde::Serialize;
+use std::cell::Cell;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -40,9 +42,23 @@ pub(crate) struct Arguments {
     overwrite: Overwrite,
     #[command(flatten)]
     memory: MemoryLimit,
+    /// Say what the scene takes, once its force is known, and compute no more.
+    #[arg(long, conflicts_with_all = ["output", "csv"])]
+    dry_run: bool,
     /// Print one JSON object instead of text.
     #[arg(long)]
     json: bool,
+}
+
+/// The JSON object of `impact --dry-run --json`.
+#[derive(Debug, Serialize)]
+struct Plan {
+    points: usize,
+    samples: f64,
+    seconds: f64,
+    memory_bytes: f64,
+    disk_bytes: f64,
+    threads: usize,
 }
 
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
@@ -54,6 +70,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     let [output, csv] = outputs(arguments)?;
     let kernels = arguments.kernels.choice()?;
+    if arguments.dry_run {
+        return dry_run(arguments, &scene, &kernels);
+    }
     let progress = Bar::after(PATIENCE);
     let allowance = Allowance {
         memory_bytes: arguments.memory.bytes(),
@@ -79,6 +98,36 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     } else {
         print(text_report(&scene, &outcome))
     }
+}
+
+/// Says what a scene takes.
+fn dry_run(arguments: &Arguments, scene: &Scene, kernels: &KernelChoice) -> Result<(), Failure> {
+    let found = Cell::new(None);
+    let allowance = Allowance {
+        memory_bytes: arguments.memory.bytes(),
+        go_on: &|forecast| {
+            found.set(Some(*forecast));
+            false
+        },
+        ..Allowance::default()
+    };
+    match simulate_within(scene, kernels, &allowance) {
+        Ok(_) | Err(ImpactError::TooMuch(TooMuch::GivenUp { .. })) => {}
+        Err(error) => return Err(error.into()),
+    }
+    let forecast = found.get().unwrap_or(Forecast::least(scene));
+    if !arguments.json {
+        return print(takes(&forecast));
+    }
+    let plan = Plan {
+        points: forecast.points,
+        samples: forecast.samples,
+        seconds: forecast.seconds,
+        memory_bytes: forecast.memory_bytes,
+        disk_bytes: forecast.disk_bytes,
+        threads: std::thread::available_parallelism().map_or(1, usize::from),
+    };
+    print(serde_json::to_string(&plan).map_err(Failure::work)?)
 }
 
 /// Whether the output is there already, as this command would write it.
@@ -126,14 +175,18 @@ const LONG_S: f64 = 5.0;
 /// Says what a long scene takes, and that it goes on.
 fn announce(forecast: &Forecast) -> bool {
     if forecast.seconds > LONG_S {
-        say(format!(
-            "{} points of {:.0} samples: about {:.0} s, {:.3} GB of memory, {:.3} GB in a results file",
-            forecast.points,
-            forecast.samples,
-            forecast.seconds,
-            1e-9 * forecast.memory_bytes,
-            1e-9 * forecast.disk_bytes
-        ));
+        say(takes(forecast));
     }
     true
+}
+
+fn takes(forecast: &Forecast) -> String {
+    format!(
+        "{} points of {:.0} samples: about {:.2} s, {:.3} GB of memory, {:.3} GB in a results file",
+        forecast.points,
+        forecast.samples,
+        forecast.seconds,
+        1e-9 * forecast.memory_bytes,
+        1e-9 * forecast.disk_bytes
+    )
 }

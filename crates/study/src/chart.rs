@@ -52,6 +52,8 @@ impl Chart {
         records.extend(question::force::measure(effort, &advance)?);
         progress.total("fields", effort.pick(3, 9));
         records.extend(question::fields::measure(effort, &densities, &advance)?);
+        progress.total("impacts", 4);
+        records.extend(question::impacts::measure(effort, &densities, &advance)?);
         progress.total("inversions", 21);
         let mut maps = inversions::figures(effort, &advance)?;
         progress.total("marches", 3);

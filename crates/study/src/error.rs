@@ -14,6 +14,12 @@ pub enum StudyError {
     /// A contact that follows the load failed where it must not.
     #[error(transparent)]
     Growing(#[from] contact::GrowingError),
+    /// A contact failed where it must not.
+    #[error(transparent)]
+    Contact(#[from] contact::ContactError),
+    /// Fields of an impact that could not be computed.
+    #[error(transparent)]
+    Fields(#[from] impact::FieldsError),
     /// A body that cannot be made.
     #[error(transparent)]
     Body(#[from] contact::BodyError),

@@ -2,7 +2,7 @@
 
 use crate::measure::Timing;
 
-/// The three questions of the chart.
+/// The four questions of the chart.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Question {
     /// How to compute a kernel: the fields at a point and time after a unit step of force.
@@ -11,11 +11,13 @@ pub enum Question {
     Force,
     /// How to compute fields under a given force history.
     Fields,
+    /// How to compute the fields of a whole impact at a probe.
+    Impacts,
 }
 
 impl Question {
     /// All of them.
-    pub const ALL: [Self; 3] = [Self::Kernels, Self::Force, Self::Fields];
+    pub const ALL: [Self; 4] = [Self::Kernels, Self::Force, Self::Fields, Self::Impacts];
 
     /// Its name in files.
     #[must_use]
@@ -24,6 +26,7 @@ impl Question {
             Self::Kernels => "kernels",
             Self::Force => "force",
             Self::Fields => "fields",
+            Self::Impacts => "impacts",
         }
     }
 
@@ -34,6 +37,7 @@ impl Question {
             Self::Kernels => "six fields at one point and time",
             Self::Force => "one impact",
             Self::Fields => "six fields at one point over r0/c1 of time",
+            Self::Impacts => "one impact with six fields at one point",
         }
     }
 
@@ -44,6 +48,7 @@ impl Question {
             Self::Kernels => "integrand evaluations per value",
             Self::Force => "steps times cells of memory per impact",
             Self::Fields => "cells of kernels per value",
+            Self::Impacts => "nothing",
         }
     }
 }

@@ -46,6 +46,10 @@ fn write_report(out: &mut String, chart: &Chart) -> std::fmt::Result {
         (Question::Kernels, "How to compute a kernel"),
         (Question::Force, "How to compute an impact"),
         (Question::Fields, "How to compute fields"),
+        (
+            Question::Impacts,
+            "How to compute the fields of a whole impact",
+        ),
     ] {
         writeln!(out, "## {title}\n")?;
         let mine: Vec<&Standing<'_>> = all.iter().filter(|s| s.question == question).collect();
@@ -53,11 +57,7 @@ fn write_report(out: &mut String, chart: &Chart) -> std::fmt::Result {
             writeln!(out, "{sentence}")?;
         }
         writeln!(out)?;
-        let names = match question {
-            Question::Kernels => "kernels",
-            Question::Force => "force",
-            Question::Fields => "fields",
-        };
+        let names = question.name();
         not_adopted(out, &mine)?;
         for picture in chart.diagrams.iter().filter(|f| f.name.starts_with(names)) {
             show(out, picture)?;

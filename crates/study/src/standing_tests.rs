@@ -210,3 +210,18 @@ fn a_table_knows_its_errors_near_the_edge_and_for_short_pulses() {
     // what the map shows: slow pulses are hundreds of times better
     assert!(largest[0] > 100.0 * largest[1], "{largest:?}");
 }
+
+#[test]
+fn whole_impacts_hold_their_tolerance_and_cells_alone_do_not() {
+    let records = question::impacts::measure(Effort::Quick, &[], &|| ()).unwrap();
+    for r in &records {
+        println!("{} {} {} {:.1e}", r.scene, r.method, r.setting, r.error.max);
+    }
+    for record in records.iter().filter(|r| r.method == "computed") {
+        let tolerance: f64 = record.setting.replace("tolerance ", "").parse().unwrap();
+        assert!(record.error.max <= 3.0 * tolerance, "{record:?}");
+    }
+    let alone = records.iter().filter(|r| r.method == "cells alone");
+    let least = alone.map(|r| r.error.max).fold(f64::INFINITY, f64::min);
+    assert!(least > 1e-5, "{least:e}");
+}

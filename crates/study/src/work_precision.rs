@@ -5,7 +5,7 @@ use crate::record::{Question, Record, distinct, pareto_front};
 use figure::{Axis, Style};
 
 /// File names of the diagrams, in the order in which the scenes appear.
-const NAMES: [(Question, &[&str]); 3] = [
+const NAMES: [(Question, &[&str]); 4] = [
     (
         Question::Kernels,
         &[
@@ -25,6 +25,15 @@ const NAMES: [(Question, &[&str]); 3] = [
             "fields-interpolation-40",
             "fields-edge",
             "fields-interpolation-edge",
+        ],
+    ),
+    (
+        Question::Impacts,
+        &[
+            "impacts-disc-near",
+            "impacts-disc-far",
+            "impacts-growing-near",
+            "impacts-growing-far",
         ],
     ),
 ];
@@ -69,7 +78,7 @@ fn diagram(question: Question, scene: &str, name: &'static str, rows: &[&Record]
     figure.caption = caption(question, scene).to_owned();
     // settings of fields vary in several ways at once: no line orders them
     let style = match question {
-        Question::Kernels | Question::Force => Style::Marked,
+        Question::Kernels | Question::Force | Question::Impacts => Style::Marked,
         Question::Fields => Style::Points,
     };
     for method in distinct(rows.iter().map(|r| r.method)) {
@@ -119,6 +128,10 @@ fn caption(question: Question, scene: &str) -> &'static str {
         Question::Force => {
             "The marches at a given number of steps are the scheme alone; those with a tolerance halve the step until the \
              results stand still, and pay for the coarser marches as well."
+        }
+        Question::Impacts => {
+            "The contact is solved anew for each value, to the same tolerance as its fields. The reference is an integral over \
+             the past of a force solved to 1e-9. Cells alone do not integrate the ends of the contact apart."
         }
         Question::Fields if scene.starts_with("whole") => {
             "Both by the same stencils over the same exact kernels in double precision: the static part, which is exact and \

@@ -1,0 +1,242 @@
+//! Question 4: how to compute the fields of a whole impact at a probe.
+//!
+//! One value is the contact and its six fields at one point; the error is the largest over time and fields, over each
+//! field's peak, against an integral over the past of a force that was solved to 1e-9.
+
+use super::kernels::POISSON_RATIO;
+use crate::StudyError;
+use crate::effort::Effort;
+use crate::record::{Error, Question, Record};
+use crate::scenes::ROD_RADIUS_M;
+use crate::tables::Density;
+use contact::{Model, Settings};
+use halfspace::{FIELDS, Medium, Six};
+use impact::convolve::Convolver;
+use impact::kernels::{CellPlan, Pulse};
+use impact::{Excitation, HalfSpace, Impact, KernelSource, Material, Place, Striker};
+use lookup::Table;
+use std::hint::black_box;
+use std::sync::Arc;
+
+/// An impact and a point.
+struct Scene {
+    name: &'static str,
+    impact: Impact,
+    place_m: [f64; 2],
+    /// Solved to [`CONVERGED`].
+    reference: Excitation,
+    /// Peak of each field at the point.
+    peaks: Six,
+}
+
+/// Tolerance of the force of the reference, and of its fields.
+const CONVERGED: f64 = 1e-9;
+const FIELDS_CONVERGED: f64 = 1e-8;
+
+/// Times in s with the fields in m and Pa.
+type Histories = Vec<(f64, Six)>;
+
+/// Measures every way in every scene.
+pub(crate) fn measure(
+    effort: Effort,
+    densities: &[Density],
+    advance: &dyn Fn(),
+) -> Result<Vec<Record>, StudyError> {
+    let mut records = Vec::new();
+    for scene in scenes()? {
+        for tolerance in effort.pick(vec![1e-3, 1e-5], vec![1e-2, 1e-3, 1e-4, 1e-5, 1e-6]) {
+            let run = || scene.computed(tolerance);
+            let setting = format!("tolerance {tolerance:.0e}");
+            records.push(scene.record(effort, "computed", setting, true, &run)?);
+        }
+        if scene.impact.settings.model == Model::Wave {
+            for halvings in effort.pick(vec![3], vec![1, 3, 5, 7]) {
+                let width = 0.5_f64.powi(halvings);
+                let run = || scene.cells_alone(width);
+                let setting = format!("step {width} r0/c1");
+                records.push(scene.record(effort, "cells alone", setting, false, &run)?);
+            }
+        }
+        if let Some(density) = densities.iter().find(|d| d.is_default(Density::points())) {
+            let table = Arc::new(density.with_stencil(Density::points())?);
+            let tolerances = effort.pick(vec![1e-3], vec![1e-2, 1e-3, 1e-4]);
+            for tolerance in tolerances.into_iter().filter(|_| scene.is_within(&table)) {
+                let source = KernelSource::Table(table.clone());
+                let run = || scene.fields(tolerance, source.clone());
+                let setting = format!("tolerance {tolerance:.0e}");
+                records.push(scene.record(effort, "looked up", setting, true, &run)?);
+            }
+        }
+        advance();
+    }
+    Ok(records)
+}
+
+/// A copper rod with a round tip on steel, on a fixed disc and with a contact that grows, near it and far away.
+fn scenes() -> Result<Vec<Scene>, StudyError> {
+    let steel = Material {
+        poisson_ratio: POISSON_RATIO,
+        ..Material::named("steel")?
+    };
+    let block = HalfSpace::new(steel)?;
+    let rod = Striker::new(Material::named("copper")?, 0.0122, ROD_RADIUS_M)?;
+    let fixed = Settings {
+        model: Model::Wave,
+        disc_radius_m: Some(ROD_RADIUS_M),
+        ..Settings::default()
+    };
+    let growing = Settings {
+        model: Model::Growing,
+        ..Settings::default()
+    };
+    [
+        ("fixed disc, near", 100.0, &fixed, [0.004, 0.003]),
+        ("fixed disc, far", 100.0, &fixed, [0.08, 0.06]),
+        ("growing contact, near", 10.0, &growing, [0.0008, 0.0006]),
+        ("growing contact, far", 10.0, &growing, [0.08, 0.06]),
+    ]
+    .into_iter()
+    .map(|(name, velocity_m_s, settings, place_m)| {
+        let mut impact = Impact::new(block.clone(), rod.clone(), velocity_m_s);
+        impact.settings = settings.clone();
+        Scene::new(name, impact, place_m)
+    })
+    .collect()
+}
+
+impl Scene {
+    fn new(name: &'static str, impact: Impact, place_m: [f64; 2]) -> Result<Self, StudyError> {
+        let run = impact.clone().to_tolerance(CONVERGED).solve()?;
+        let mut scene = Self {
+            name,
+            impact,
+            place_m,
+            reference: run.excitation().clone(),
+            peaks: [0.0; 6],
+        };
+        for (_, fields) in scene.computed(1e-5)? {
+            for (peak, value) in scene.peaks.iter_mut().zip(fields) {
+                *peak = peak.max(value.abs());
+            }
+        }
+        Ok(scene)
+    }
+
+    fn is_within(&self, table: &Table) -> bool {
+        let radius_m = self.reference.units().disc_radius_m;
+        let [r, z] = self.place_m.map(|x| x / radius_m);
+        r <= table.r_max() && z <= table.z_max()
+    }
+
+    /// The program's own way by kernels computed for the point.
+    fn computed(&self, tolerance: f64) -> Result<Histories, StudyError> {
+        let medium = Medium::new(POISSON_RATIO)?;
+        // as the program itself takes them
+        let source = KernelSource::direct(&medium, 0.1 * tolerance)?;
+        self.fields(tolerance, source)
+    }
+
+    /// The program's own way.
+    fn fields(&self, tolerance: f64, source: KernelSource) -> Result<Histories, StudyError> {
+        let run = self.impact.clone().to_tolerance(tolerance).solve()?;
+        let fields = run.excitation().fields_from(source).to_tolerance(tolerance);
+        let history = fields.at(self.place_m[0], self.place_m[1])?;
+        let at = |n: usize| FIELDS.map(|field| history[field].samples[n]);
+        let times = history.time_s.iter().enumerate();
+        Ok(times.map(|(n, &time)| (time, at(n))).collect())
+    }
+
+    /// Cells of a kernel computed for the point under samples of the force: no integration where the contact begins and
+    /// ends.
+    fn cells_alone(&self, width: f64) -> Result<Histories, StudyError> {
+        let run = self.impact.clone().to_tolerance(1e-6).solve()?;
+        let excitation = run.excitation();
+        let units = *excitation.units();
+        let [r_m, z_m] = self.place_m;
+        let step_s = width * units.time_s();
+        let end_s = self.end_s(excitation);
+        let count = (end_s / step_s).ceil() as usize;
+        let force: Vec<f64> = (0..count)
+            .map(|n| excitation.force_n(n as f64 * step_s))
+            .collect();
+        let place = Place {
+            r: r_m / units.disc_radius_m,
+            z: z_m / units.disc_radius_m,
+            disc_radius_m: units.disc_radius_m,
+        };
+        let plan = CellPlan {
+            step: width,
+            count: count + lookup::BEYOND,
+            pulse: Pulse::Smooth(excitation.end_s() / units.time_s()),
+            rates: false,
+            tolerance: 1e-8,
+        };
+        let source = KernelSource::direct(excitation.medium(), 1e-8)?;
+        let cells = source.cells(POISSON_RATIO, place, plan)?;
+        let found = Convolver::new(&force).fields(&cells.static_part, &cells.smooth);
+        let scale = [units.displacement_m_per_n(), units.stress_pa_per_n()];
+        let at = |n: usize| std::array::from_fn(|f| scale[usize::from(f >= 2)] * found[f][n]);
+        Ok((0..count).map(|n| (n as f64 * step_s, at(n))).collect())
+    }
+
+    /// When the slowest wave of the contact has passed.
+    fn end_s(&self, excitation: &Excitation) -> f64 {
+        let arrivals = excitation.arrivals_s(self.place_m);
+        let last = arrivals.into_iter().filter(|t| t.is_finite());
+        last.fold(0.0, f64::max) + 1.2 * excitation.end_s()
+    }
+
+    fn record(
+        &self,
+        effort: Effort,
+        method: &'static str,
+        setting: String,
+        default_path: bool,
+        run: &dyn Fn() -> Result<Histories, StudyError>,
+    ) -> Result<Record, StudyError> {
+        let (error, refusal) = match run() {
+            Ok(found) => (Error::of(&self.errors(effort, &found)?), None),
+            Err(error) => (Error::of(&[f64::NAN]), Some(error.to_string())),
+        };
+        let cost = effort.clock().time(1.0, || {
+            let _ = black_box(run());
+        });
+        Ok(Record {
+            question: Question::Impacts,
+            scene: self.name,
+            method,
+            setting,
+            default_path,
+            cost,
+            error,
+            work: None,
+            refusal,
+        })
+    }
+
+    /// Largest error of each field over its peak, at instants from the first arrival on.
+    fn errors(&self, effort: Effort, found: &[(f64, Six)]) -> Result<Vec<f64>, StudyError> {
+        let count = effort.pick(12, 40);
+        let [first, ..] = self.reference.arrivals_s(self.place_m);
+        let end = self.end_s(&self.reference);
+        let mut errors = vec![0.0_f64; 6];
+        for i in 0..count {
+            // denser after the arrival
+            let x = (f64::from(i) + 0.5) / f64::from(count);
+            let time = first + (end - first) * x * x;
+            let after = found.partition_point(|(t, _)| *t < time);
+            let Some((time, fields)) = found.get(after) else {
+                continue;
+            };
+            let exact = self
+                .reference
+                .instant(self.place_m, *time, FIELDS_CONVERGED)?
+                .unwrap_or([f64::NAN; 6]);
+            for f in 0..6 {
+                let error = (fields[f] - exact[f]).abs() / self.peaks[f].max(f64::MIN_POSITIVE);
+                errors[f] = errors[f].max(error);
+            }
+        }
+        Ok(errors)
+    }
+}
