@@ -8,11 +8,11 @@ use crate::excitation::{Excitation, PressureRadius};
 use crate::scene::{Scene, Section};
 
 /// What any output takes, and the opening of a table.
-const OUTPUT_S: f64 = 7e-3;
+const OUTPUT_S: f64 = 1.4e-2;
 const TABLE_S: f64 = 6e-2;
 
 /// A kernel beside a disc, and one of the smaller discs of a contact that follows its load, which are farther.
-const KERNEL_S: f64 = 1e-5;
+const KERNEL_S: f64 = 7e-6;
 const SMALL_DISC: f64 = 1.5;
 
 /// Kernels of a trace whatever its tolerance, and for each digit; for fields with rates so many times more.

@@ -7,6 +7,10 @@ pub fn reason(method: &str) -> Option<&'static str> {
         "table, sums for this pulse only" => {
             Some("its sums know that this pulse is two exponentials, which no computed force is")
         }
+        "cells alone" => Some(
+            "its step is known beforehand, many times finer than that of the output; the program does not know how fine is \
+             enough, and integrates the ends of the contact instead",
+        ),
         "table, linear cells" => Some(
             "it reads a third of the numbers and needs a step many times finer as soon as more is asked; the program \
              takes it for forces with corners",
