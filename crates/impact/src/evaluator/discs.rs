@@ -25,7 +25,7 @@ pub(crate) struct Discs {
 }
 
 /// Discs for each digit of the tolerance where kernels are computed: more of them near the load.
-const A_DIGIT: [f64; 4] = [1.0, 2.0, 4.0, 8.0];
+const A_DIGIT: [f64; 4] = [0.75, 2.0, 4.0, 8.0];
 
 /// Discs where kernels are looked up, and the smallest radius that they cover over the largest: the farther a point, the
 /// fewer small discs the table has for it.
@@ -84,8 +84,8 @@ impl Discs {
         }
     }
 
-    /// The share of disc `k` of a load that has `square` of the largest radius squared, and the part of it that the two
-    /// highest powers bring.
+    /// The share of disc `k` of a load that has `square` of the largest radius squared, and the part of it that the
+    /// highest power brings.
     pub(crate) fn share(&self, k: usize, square: f64) -> [f64; 2] {
         let count = self.radii.len();
         if count == 1 {
@@ -98,8 +98,8 @@ impl Discs {
         for j in 1..count {
             let term = 2.0 * b * d;
             all += term;
-            if j + 2 >= count {
-                last += term;
+            if j + 1 == count {
+                last = term;
             }
             (a, b) = (b, 2.0 * x * b - a);
             (c, d) = (d, 2.0 * node * d - c);

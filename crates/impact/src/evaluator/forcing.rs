@@ -70,7 +70,7 @@ pub(crate) struct DiscForce {
 /// The force on one disc during one run.
 pub(crate) struct RunForce {
     pub(crate) force: Sampled,
-    /// The part that the two highest powers of the radius bring; of a disc alone what it leaves out.
+    /// The part that the highest power of the radius brings; of a disc alone what it leaves out.
     pub(crate) last: Option<Sampled>,
     /// Cells that the samples do not resolve.
     pub(crate) zones: Vec<Zone>,
@@ -165,7 +165,7 @@ impl<'a> Forcing<'a> {
         }
     }
 
-    /// The force on disc `k` at a time, and the part that the two highest powers of the radius bring.
+    /// The force on disc `k` at a time, and the part that the highest power of the radius brings.
     pub(crate) fn on_disc(&self, discs: &Discs, k: usize, time_s: f64) -> [f64; 2] {
         let radius = self.excitation.radius();
         match self.reading {

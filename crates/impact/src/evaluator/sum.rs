@@ -38,6 +38,9 @@ const NEAR: f64 = 2.0;
 /// Part of the tolerance up to which what is left of a sample is let be; a tenth of it for each difference.
 const SURE: f64 = 0.5;
 
+/// What is left has a sign: a sample beside one that is left with more may have met a zero of it, and counts with a part.
+const BESIDE: f64 = 0.5;
+
 /// Samples of a point for which a whole contact is integrated at most, of fields and of rates: those that the discs leave
 /// open in its middle.
 const MOST_WHOLE: [usize; 2] = [24, 192];
@@ -202,8 +205,18 @@ impl<'a> Sum<'a> {
     /// The samples that are left with more than is allowed, the worst first.
     fn not_resolved(&self, left: &[Vec<f64>; 6]) -> Vec<usize> {
         let allowed = self.allowed();
-        let off = |i: usize| (i, over(&allowed, |f| left[f][i]));
-        let mut found: Vec<(usize, f64)> = (0..self.times_s.len()).map(off).collect();
+        let each = |i: usize| over(&allowed, |f| left[f][i]);
+        let each: Vec<f64> = (0..self.times_s.len()).map(each).collect();
+        let beside = |i: usize, j: usize| {
+            let step_s = (self.times_s[i] - self.times_s[j]).abs();
+            BESIDE * f64::from(step_s < 1.5 * self.forcing.step_s) * each[j]
+        };
+        let off = |i: usize| {
+            let before = i.saturating_sub(1);
+            let after = (i + 1).min(each.len() - 1);
+            (i, each[i].max(beside(i, before)).max(beside(i, after)))
+        };
+        let mut found: Vec<(usize, f64)> = (0..each.len()).map(off).collect();
         found.retain(|&(_, off)| off > 1.0);
         found.sort_by(|a, b| b.1.total_cmp(&a.1));
         found.into_iter().map(|(i, _)| i).collect()
