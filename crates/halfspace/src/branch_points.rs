@@ -4,10 +4,10 @@
 //! slow interval in a stretched one.
 
 use crate::complex::{logarithm, root};
+use crate::lanes::Map;
 use crate::lanes::Pair;
 use crate::medium::Medium;
 use crate::panels::smallest_ellipse;
-use crate::points::Map;
 use crate::scalar::{Real, Scalar};
 use num_complex::Complex64;
 use pulp::Simd;

@@ -22,8 +22,8 @@
 use crate::branch_points::Stretch;
 use crate::complex::root;
 use crate::landscape::Landscape;
+use crate::lanes::Points;
 use crate::point::{Point, Sense};
-use crate::points::Points;
 use crate::spectrum::Wave;
 use num_complex::Complex64;
 

@@ -7,8 +7,8 @@
 
 use crate::complex::root;
 use crate::lanes::Pair;
+use crate::lanes::{Map, Points};
 use crate::panels::{Images, Node, ROUNDING, Rule, panels};
-use crate::points::{Map, Points};
 use crate::strength::Strength;
 use arrayvec::ArrayVec;
 use num_complex::Complex64;

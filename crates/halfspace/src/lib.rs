@@ -87,7 +87,6 @@ mod multipole;
 mod order;
 mod panels;
 mod point;
-mod points;
 mod potentials;
 mod profile;
 mod rayleigh_front;

@@ -7,7 +7,7 @@
 //! Theory: `docs/theory.md` (T18).
 
 use crate::gauss;
-use crate::points::Points;
+use crate::lanes::Points;
 use crate::strength::RelativeError;
 use num_complex::Complex64;
 

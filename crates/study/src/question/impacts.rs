@@ -98,7 +98,7 @@ fn scenes() -> Result<Vec<Scene>, StudyError> {
     .into_iter()
     .map(|(name, velocity_m_s, settings, place_m)| {
         let mut impact = Impact::new(block.clone(), rod.clone(), velocity_m_s);
-        impact.settings = settings.clone();
+        impact.settings = *settings;
         Scene::new(name, impact, place_m)
     })
     .collect()

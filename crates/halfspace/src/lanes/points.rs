@@ -1,6 +1,6 @@
 //! Points of a complex plane, of which a function is taken four at a time.
 
-use crate::lanes::{Lanes, Pair, WIDTH, dispatch};
+use super::{Lanes, Pair, WIDTH, dispatch};
 use crate::scalar::Real;
 use num_complex::Complex64;
 use pulp::{Simd, WithSimd};
