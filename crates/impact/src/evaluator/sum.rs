@@ -216,7 +216,9 @@ impl<'a> Sum<'a> {
             let after = (i + 1).min(each.len() - 1);
             (i, each[i].max(beside(i, before)).max(beside(i, after)))
         };
-        let mut found: Vec<(usize, f64)> = (0..each.len()).map(off).collect();
+        // nothing is left before the first wave
+        let left = (0..each.len()).filter(|&i| each[i] > 0.0);
+        let mut found: Vec<(usize, f64)> = left.map(off).collect();
         found.retain(|&(_, off)| off > 1.0);
         found.sort_by(|a, b| b.1.total_cmp(&a.1));
         found.into_iter().map(|(i, _)| i).collect()
