@@ -181,8 +181,9 @@ fn announce(forecast: &Forecast) -> bool {
 }
 
 fn takes(forecast: &Forecast) -> String {
+    let decimals = if forecast.seconds > LONG_S { 0 } else { 2 };
     format!(
-        "{} points of {:.0} samples: about {:.2} s, {:.3} GB of memory, {:.3} GB in a results file",
+        "{} points of {:.0} samples: about {:.decimals$} s, {:.3} GB of memory, {:.3} GB in a results file",
         forecast.points,
         forecast.samples,
         forecast.seconds,

@@ -6,8 +6,7 @@
 //! Theory: `docs/theory.md` (T18).
 
 use crate::complex::root;
-use crate::lanes::Pair;
-use crate::lanes::{Map, Points};
+use crate::lanes::{Map, Pair, Points};
 use crate::panels::{Images, Node, ROUNDING, Rule, panels};
 use crate::strength::Strength;
 use arrayvec::ArrayVec;

@@ -91,25 +91,18 @@ pub(crate) fn panels(
         // of the whole panel, as if one node had it
         let of_rule = rule.caution * (all + POLE * left(pole)) * (n as f64).sqrt();
         let error = (of_rule + ROUNDING).into();
-        let mut found = [Node::default(); MOST_NODES];
-        let fill = |found: &mut [Node], nodes: &mut dyn Iterator<Item = (f64, f64)>| {
-            for (node, (place, weight)) in found.iter_mut().zip(nodes) {
-                *node = Node {
-                    place,
-                    weight,
-                    error,
-                };
-            }
-        };
-        if at_cut {
-            let rule = gauss::finite_part_rule(n);
-            let nodes = rule.nodes.iter().zip(&rule.weights);
-            fill(
-                &mut found,
-                &mut nodes.map(|(s, weight)| (s1 * s, s1 * weight)),
-            );
+        let (rule, middle, half) = if at_cut {
+            (gauss::finite_part_rule(n), 0.0, s1)
         } else {
-            fill(&mut found, &mut gauss::rule(n).on(s0, s1));
+            (gauss::rule(n), 0.5 * (s0 + s1), 0.5 * (s1 - s0))
+        };
+        let mut found = [Node::default(); MOST_NODES];
+        for ((node, x), weight) in found.iter_mut().zip(&rule.nodes).zip(&rule.weights) {
+            *node = Node {
+                place: middle + half * x,
+                weight: half * weight,
+                error,
+            };
         }
         f(&mut found[..n]);
     }

@@ -8,6 +8,10 @@ use crate::scalar::{Real, Scalar};
 use pulp::{Simd, cast};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, LOG2_E, PI};
 
+/// ln 2 in two parts, the first of few digits.
+const LN_2_HIGH: f64 = 6.931_471_803_691_238e-1;
+const LN_2_LOW: f64 = 1.908_214_929_270_587_7e-10;
+
 impl<S: Simd> Lanes<S> {
     /// The angle of the vector (`x`, self), in [-pi, pi]; of nothing it is zero.
     #[inline(always)]
@@ -48,8 +52,6 @@ impl<S: Simd> Lanes<S> {
     /// The natural logarithm of positive numbers that are not subnormal.
     #[inline(always)]
     pub(crate) fn ln(self) -> Self {
-        const LN_2_HIGH: f64 = 6.931_471_803_691_238e-1;
-        const LN_2_LOW: f64 = 1.908_214_929_270_587_7e-10;
         // of 2^52 the last bit counts one
         const MAGIC: f64 = 4_503_599_627_370_496.0;
         let simd = self.simd;
@@ -89,8 +91,6 @@ impl<S: Simd> Lanes<S> {
     /// The exponential of numbers between -700 and 700.
     #[inline(always)]
     pub(super) fn exponential(self) -> Self {
-        const LN_2_HIGH: f64 = 6.931_471_803_691_238e-1;
-        const LN_2_LOW: f64 = 1.908_214_929_270_587_7e-10;
         // to this the nearest integer is added in the last bits
         const ROUND: f64 = 6_755_399_441_055_744.0;
         let simd = self.simd;

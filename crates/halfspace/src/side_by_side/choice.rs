@@ -75,50 +75,29 @@ impl<S: Simd> Reach<S> {
     }
 }
 
-/// The potentials at xi off the imaginary axis.
+/// The potentials at xi; on the imaginary axis real and imaginary part are apart.
 #[inline(always)]
-pub(super) fn potentials<S: Simd>(profile: Profile, xi: Pair<S>, r: f64) -> Potentials<Pair<S>> {
+pub(super) fn potentials<S: Simd>(
+    profile: Profile,
+    xi: Pair<S>,
+    r: f64,
+    on_axis: bool,
+) -> Potentials<Pair<S>> {
     let reach = Reach::new(xi, r);
-    let nothing = Potentials::all(xi.constant(0.0));
     let near = match profile {
-        _ if !reach.some_near => nothing,
+        _ if !reach.some_near => Potentials::all(xi.constant(0.0)),
         Profile::Hertz if r > FAR => at_far_front(xi, r),
         Profile::Hertz if r <= SMALL_RADIUS => by_parts(xi, r),
+        Profile::Hertz if on_axis => primitives_on_imaginary_axis(xi.im, r),
         Profile::Hertz => by_primitives(xi, r),
         Profile::Punch | Profile::Point => punch(xi, r),
     };
-    if reach.terms == 0 {
-        return near;
-    }
-    reach.pick(near, by_series(profile, xi, r, reach.terms), r)
-}
-
-/// The potentials on the imaginary axis, where real and imaginary part are apart.
-#[inline(always)]
-pub(super) fn on_imaginary_axis<S: Simd>(
-    profile: Profile,
-    eta: Lanes<S>,
-    r: f64,
-) -> Potentials<Pair<S>> {
-    let zero = eta.constant(0.0);
-    let xi = Pair { re: zero, im: eta };
-    let reach = Reach::new(xi, r);
-    let nothing = Potentials::all(xi.constant(0.0));
-    let near = match profile {
-        _ if !reach.some_near => nothing,
-        Profile::Hertz if r > FAR => at_far_front(xi, r),
-        Profile::Hertz if r <= SMALL_RADIUS => by_parts(xi, r),
-        Profile::Hertz => primitives_on_imaginary_axis(eta, r),
-        Profile::Punch | Profile::Point => punch(xi, r),
+    let far = match reach.terms {
+        0 => return near,
+        terms if on_axis => series_on_imaginary_axis(profile, xi.im, r, terms),
+        terms => by_series(profile, xi, r, terms),
     };
-    if reach.terms == 0 {
-        return near;
-    }
-    reach.pick(
-        near,
-        series_on_imaginary_axis(profile, eta, r, reach.terms),
-        r,
-    )
+    reach.pick(near, far, r)
 }
 
 /// The compact parts.

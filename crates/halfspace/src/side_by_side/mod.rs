@@ -17,7 +17,7 @@ use crate::scalar::{Real, Scalar};
 use crate::setting::Setting;
 use crate::spectrum::{self, Wave, half_angle};
 use crate::sum::Sum;
-use choice::{compact, on_imaginary_axis, potentials};
+use choice::{compact, potentials};
 use pulp::{Simd, WithSimd};
 
 /// Whether the integrands at a point may be taken here.
@@ -136,11 +136,7 @@ fn slow<S: Simd>(
                 re: p_abs * over_x * at.z,
                 im: over_x * -at.t,
             };
-            let psi = if at.z == 0.0 {
-                on_imaginary_axis(profile, xi.im, at.r)
-            } else {
-                potentials(profile, xi, at.r)
-            };
+            let psi = potentials(profile, xi, at.r, at.z == 0.0);
             let factor = im * 2.0;
             Potentials {
                 a_upper: factor * psi.a_upper.re,
@@ -150,8 +146,17 @@ fn slow<S: Simd>(
             }
         }
         Wave::S => {
-            let minus = on_imaginary_axis(profile, (y * at.z - at.t) * over_x, at.r);
-            let plus = on_imaginary_axis(profile, (y * at.z + at.t) * over_x, at.r);
+            let re_xi = s.constant(0.0);
+            let minus = Pair {
+                re: re_xi,
+                im: (y * at.z - at.t) * over_x,
+            };
+            let plus = Pair {
+                re: re_xi,
+                im: (y * at.z + at.t) * over_x,
+            };
+            let minus = potentials(profile, minus, at.r, true);
+            let plus = potentials(profile, plus, at.r, true);
             // the upper ones of A and the lower ones of B over i R, the others over R
             let inverse = Pair { re, im };
             Potentials {

@@ -94,16 +94,16 @@ impl<'a> Sum<'a> {
         }
         sum.still_before_arrival();
         if cells.iter().all(|cells| cells.trace.is_some()) {
-            for i in sum.not_resolved(&sum.rough) {
+            for i in sum.not_resolved(&sum.rough, 0.0) {
                 sum.integrate_zones(i, cells);
             }
-            for i in sum.not_resolved(&sum.left) {
+            for i in sum.not_resolved(&sum.left, BESIDE) {
                 if !sum.integrated[i] {
                     sum.integrate_zones(i, cells);
                 }
             }
         }
-        sum.open = sum.not_resolved(&sum.left);
+        sum.open = sum.not_resolved(&sum.left, BESIDE);
         Ok(sum)
     }
 
@@ -202,23 +202,22 @@ impl<'a> Sum<'a> {
         fields.map(|samples| part * peak(samples)).collect()
     }
 
-    /// The samples that are left with more than is allowed, the worst first.
-    fn not_resolved(&self, left: &[Vec<f64>; 6]) -> Vec<usize> {
+    /// The samples that are left with more than is allowed, the worst first; what is left of those beside counts with a
+    /// part.
+    fn not_resolved(&self, left: &[Vec<f64>; 6], beside: f64) -> Vec<usize> {
         let allowed = self.allowed();
         let each = |i: usize| over(&allowed, |f| left[f][i]);
         let each: Vec<f64> = (0..self.times_s.len()).map(each).collect();
-        let beside = |i: usize, j: usize| {
-            let step_s = (self.times_s[i] - self.times_s[j]).abs();
-            BESIDE * f64::from(step_s < 1.5 * self.forcing.step_s) * each[j]
-        };
         let off = |i: usize| {
-            let before = i.saturating_sub(1);
-            let after = (i + 1).min(each.len() - 1);
-            (i, each[i].max(beside(i, before)).max(beside(i, after)))
+            let next = [i.saturating_sub(1), (i + 1).min(each.len() - 1)];
+            let near =
+                |&j: &usize| (self.times_s[i] - self.times_s[j]).abs() < 1.5 * self.forcing.step_s;
+            let next = next.into_iter().filter(near);
+            (i, next.fold(each[i], |most, j| most.max(beside * each[j])))
         };
         // nothing is left before the first wave
-        let left = (0..each.len()).filter(|&i| each[i] > 0.0);
-        let mut found: Vec<(usize, f64)> = left.map(off).collect();
+        let waves = (0..each.len()).filter(|&i| each[i] > 0.0);
+        let mut found: Vec<(usize, f64)> = waves.map(off).collect();
         found.retain(|&(_, off)| off > 1.0);
         found.sort_by(|a, b| b.1.total_cmp(&a.1));
         found.into_iter().map(|(i, _)| i).collect()
