@@ -75,8 +75,6 @@ fn a_million_noisy_rows_are_read_and_filtered() {
     let treated = scene(folder.path(), &keys).unwrap();
     let both = clock.elapsed().saturating_sub(read);
     println!("1e6 rows: read in {read:.2?}, read and treated in {both:.2?}");
-    // linear time: a second or two, far from the hours of a sum over all pairs
-    assert!(both.as_secs() < 20, "{both:?}");
 
     let (raw, found) = (record(&raw), record(&treated));
     let done = found.treated.unwrap();

@@ -6,7 +6,6 @@ use contact::{Choice, HalfSpace, Material, Model, Scheme, Settings, StaticShare,
 use halfspace::Deflection;
 use hertzlamb::{contact, halfspace, impact};
 use impact::{KernelChoice, Load, Scene, Strike, simulate};
-use std::time::Instant;
 
 #[derive(Debug)]
 struct Hard {
@@ -51,11 +50,7 @@ fn attempt(hard: &Hard, settings: Settings) -> Result<f64, String> {
         peaks: false,
         duration_s: None,
     };
-    let started = Instant::now();
-    let done = simulate(&scene, &KernelChoice::Direct);
-    let wall = started.elapsed().as_secs_f64();
-    assert!(wall < 30.0, "{wall} s for\n{hard:?} {settings:?}");
-    match done {
+    match simulate(&scene, &KernelChoice::Direct) {
         Ok(found) => {
             let r = *found.results().unwrap();
             for value in [
