@@ -5,13 +5,13 @@ use crate::memory::MemoryLimit;
 use crate::overwrite::{Overwrite, say_complete};
 use crate::progress::Bar;
 use clap::Args;
-use lookup::{Accuracy, Quantiles, TableError, schema};
+use lookup::{Accuracy, Origin, Quantiles, TableError, schema};
 use output::{Role, SHARD, TABLE, apart};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
-use tabulator::{BuildError, Extension, Grid, Summary};
+use tabulator::{BuildError, Extension, Grid, NUMBERS_REVISION, Summary};
 use tabulator::{build_over, build_shard, extend, refine};
 
 const EXAMPLES: &str = "Examples:
@@ -162,11 +162,19 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
 /// Fails where a file is not the whole table of a grid, made by this version.
 fn check_complete(path: &Path, grid: &Grid) -> Result<(), Failure> {
     let content = lookup::read(path).map_err(Failure::work)?;
-    let version = &content.origin.software_version;
+    let Origin {
+        software_version: version,
+        numbers_revision: revision,
+        ..
+    } = &content.origin;
     let other = if Grid::of(&content).map_err(Failure::work)? != *grid {
         "has another grid".to_owned()
     } else if version != env!("CARGO_PKG_VERSION") {
         format!("was made by version {version}")
+    } else if *revision != NUMBERS_REVISION {
+        format!(
+            "has numbers of revision {revision}, where this version computes revision {NUMBERS_REVISION}"
+        )
     } else {
         return Ok(());
     };

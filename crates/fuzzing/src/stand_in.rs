@@ -36,6 +36,7 @@ pub(crate) fn content() -> Content {
             grid: "stand_in = true\n".to_owned(),
             format_version: schema::FORMAT_VERSION_VALUE.to_owned(),
             software_version: "0".to_owned(),
+            numbers_revision: 1,
             git_revision: "unknown".to_owned(),
             created_unix_s: 0,
             accuracy_asked: 1e-9,

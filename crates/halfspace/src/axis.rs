@@ -23,12 +23,11 @@ const NODES: usize = 6;
 /// Whether the fields at a point are continued from larger radii.
 pub(crate) fn is_near<O: TimeOrder>(profile: Profile, at: Point) -> bool {
     match (profile, O::ORDER) {
-        (Profile::Hertz, Order::Step | Order::StepIntegral | Order::SecondIntegral) => false,
+        (Profile::Hertz, Order::Step | Order::StepIntegral) => false,
         (Profile::Hertz, Order::Impulse)
-        | (
-            Profile::Punch | Profile::Point,
-            Order::Impulse | Order::Step | Order::StepIntegral | Order::SecondIntegral,
-        ) => at.r < NEAR * at.z.hypot(profile.radius()),
+        | (Profile::Punch | Profile::Point, Order::Impulse | Order::Step | Order::StepIntegral) => {
+            at.r < NEAR * at.z.hypot(profile.radius())
+        }
     }
 }
 

@@ -49,7 +49,7 @@ pub(crate) fn chord_primitives<O: TimeOrder, T: Scalar>(
                 g_lower: (m2 - eta * m1) * (2.0 * ring),
             };
         }
-        Order::StepIntegral | Order::SecondIntegral => {}
+        Order::StepIntegral => {}
     }
     // int ds {1, s, s^2} phi, and int ds {1, s, s^2} q
     let sphi = [s[0] * phi[0], s[1] * phi[1]];
@@ -63,28 +63,11 @@ pub(crate) fn chord_primitives<O: TimeOrder, T: Scalar>(
     let c2 = (c0 * r2 - scube[1] + scube[0]) * 0.25;
     let a4 = (inside * p0 + twice * p1 - p2) * scale;
     let b4 = (inside * c0 - twice * cubes - c2) * ring;
-    if O::ORDER == Order::StepIntegral {
-        return Potentials {
-            a_upper: a4,
-            a_lower: a3,
-            g_upper: b4,
-            g_lower: b3,
-        };
-    }
-    // int phi = s phi + q and int q = (s q + r^2 phi)/2, once more
-    let s2q = [s[0] * sq[0], s[1] * sq[1]];
-    let m4 = (m2 * (3.0 * r2) - s[1] * s2q[1] + s[0] * s2q[0]) * 0.25;
-    let p3 = (s[1] * cubic_phi[1] - s[0] * cubic_phi[0] - m4) * 0.25;
-    let c1 = (cube[0] - cube[1]) * (1.0 / 3.0);
-    // q^5 = q^3 (r^2 - s^2)
-    let fifth = [0, 1].map(|i| cube[i] * r2 - s[i] * scube[i]);
-    let c3 = ((fifth[0] - fifth[1]) * 0.4 - s[1] * scube[1] + s[0] * scube[0]) * (1.0 / 3.0);
-    let (d0, d1, d2) = (c1 + p0 * r2, c2 + p1 * r2, c3 + p2 * r2);
     Potentials {
-        a_upper: (inside * (p1 + c0) + twice * (p2 + c1) - (p3 + c2)) * scale,
-        a_lower: a4,
-        g_upper: (inside * d0 + twice * d1 - d2) * (0.5 * ring),
-        g_lower: b4,
+        a_upper: a4,
+        a_lower: a3,
+        g_upper: b4,
+        g_lower: b3,
     }
 }
 
@@ -114,15 +97,5 @@ pub(crate) fn from_primitives<O: TimeOrder>(
             g_upper: psi.g_upper - times_i(eta) * force,
             g_lower: times_i(psi.g_lower) + force,
         },
-        Order::SecondIntegral => {
-            // the second moment of the chord function over its integral
-            const SPREAD: f64 = 0.2;
-            Potentials {
-                a_upper: -psi.a_upper,
-                a_lower: -times_i(psi.a_lower),
-                g_upper: -times_i(psi.g_upper) - (eta * eta + SPREAD) * (0.5 * force),
-                g_lower: psi.g_lower - times_i(eta) * force,
-            }
-        }
     }
 }

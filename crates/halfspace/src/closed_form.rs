@@ -151,7 +151,7 @@ fn by_parts<O: TimeOrder>(profile: Profile, xi: Complex64, r: f64) -> Potentials
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::order::{Impulse, SecondIntegral, Step, StepIntegral};
+    use crate::order::{Impulse, Step, StepIntegral};
 
     /// d/dxi of order n + 1 is minus order n: A_{n+1}(xi + h) - A_{n+1}(xi - h) = -2 h A_n.
     #[test]
@@ -182,15 +182,6 @@ mod tests {
                     check(ahead.a_lower, behind.a_lower, here.a_lower);
                     check(ahead.g_upper, behind.g_upper, here.g_upper);
                     check(ahead.g_lower, behind.g_lower, here.g_lower);
-                    if profile == Profile::Hertz {
-                        let here = potentials::<StepIntegral>(profile, xi, r);
-                        let ahead = potentials::<SecondIntegral>(profile, xi + h, r);
-                        let behind = potentials::<SecondIntegral>(profile, xi - h, r);
-                        check(ahead.a_upper, behind.a_upper, here.a_upper);
-                        check(ahead.a_lower, behind.a_lower, here.a_lower);
-                        check(ahead.g_upper, behind.g_upper, here.g_upper);
-                        check(ahead.g_lower, behind.g_lower, here.g_lower);
-                    }
                 }
             }
         }
@@ -217,10 +208,6 @@ mod tests {
                     (
                         potentials::<StepIntegral>(Profile::Hertz, xi, r),
                         by_parts::<StepIntegral>(Profile::Hertz, xi, r),
-                    ),
-                    (
-                        potentials::<SecondIntegral>(Profile::Hertz, xi, r),
-                        by_parts::<SecondIntegral>(Profile::Hertz, xi, r),
                     ),
                 ];
                 for (a, b) in pairs {
@@ -254,10 +241,6 @@ mod tests {
                         (
                             by_parts::<Impulse>(profile, xi, r),
                             multipole::multipole::<Impulse>(profile, 9, xi, r),
-                        ),
-                        (
-                            by_parts::<SecondIntegral>(Profile::Hertz, xi, r),
-                            multipole::multipole::<SecondIntegral>(Profile::Hertz, 9, xi, r),
                         ),
                     ];
                     for (order, (closed, series)) in pairs.into_iter().enumerate() {

@@ -31,24 +31,20 @@ use std::f64::consts::{FRAC_PI_2, PI};
 /// Radius below which a point is on the axis as far as rounding goes.
 pub(crate) const AXIS: f64 = 1e-13;
 
-/// Why two orders are not met here.
-const HERTZ_ONLY: &str =
-    "impulse responses and second integrals are refused for other profiles than Hertz";
+/// Why an order is not met here.
+const HERTZ_ONLY: &str = "impulse responses are refused for other profiles than Hertz";
 
 /// The compact parts at eta: (a3, a2, b3/r, b2/r) of the step response, (a4, a3, b4/r, b3/r) of its integral.
 ///
-/// Of the Hertz profile also (a5, a4, b5/r, b4/r) of the second integral, and of the impulse response the derivatives of
-/// those of the step response.
+/// Of the Hertz profile also the derivatives of those of the step response, for the impulse response.
 #[inline]
 pub(crate) fn compact<O: TimeOrder>(profile: Profile, eta: f64, r: f64) -> Potentials<f64> {
     match profile {
         Profile::Hertz => match O::ORDER {
             Order::Impulse => hertz_impulse(eta, r),
-            Order::Step | Order::StepIntegral | Order::SecondIntegral if r < AXIS => {
-                hertz_on_axis::<O>(eta)
-            }
+            Order::Step | Order::StepIntegral if r < AXIS => hertz_on_axis::<O>(eta),
             Order::Step if r > far_front::FAR => hertz_far(eta, r),
-            Order::Step | Order::StepIntegral | Order::SecondIntegral => hertz::<O>(eta, r),
+            Order::Step | Order::StepIntegral => hertz::<O>(eta, r),
         },
         Profile::Punch => punch::<O>(eta, r),
         Profile::Point => point::<O>(eta, r),
@@ -79,11 +75,6 @@ fn hertz<O: TimeOrder>(eta: f64, r: f64) -> Potentials<f64> {
     match O::ORDER {
         Order::Impulse | Order::Step => {}
         Order::StepIntegral => psi.a_upper -= 0.25,
-        Order::SecondIntegral => {
-            psi.a_upper -= 0.25 * eta;
-            psi.a_lower -= 0.25;
-            psi.g_upper -= 0.125;
-        }
     }
     psi
 }
@@ -116,20 +107,14 @@ fn hertz_far(eta: f64, r: f64) -> Potentials<f64> {
     }
 }
 
-/// The compact parts after the wave has passed, eta below minus the reach of the disc.
+/// The compact parts after the wave has passed, below minus the reach of the disc.
 #[inline]
-pub(crate) fn passed<O: TimeOrder>(eta: f64) -> Potentials<f64> {
+pub(crate) fn passed<O: TimeOrder>() -> Potentials<f64> {
     match O::ORDER {
         Order::Impulse | Order::Step => Potentials::default(),
         Order::StepIntegral => Potentials {
             a_upper: -0.5,
             ..Potentials::default()
-        },
-        Order::SecondIntegral => Potentials {
-            a_upper: -0.5 * eta,
-            a_lower: -0.5,
-            g_upper: -0.25,
-            g_lower: 0.0,
         },
     }
 }
@@ -159,7 +144,7 @@ fn hertz_on_axis<O: TimeOrder>(eta: f64) -> Potentials<f64> {
         return Potentials::default();
     }
     if eta <= -1.0 {
-        return passed::<O>(eta);
+        return passed::<O>();
     }
     let square = eta * eta;
     let inside = 1.0 - square;
@@ -180,12 +165,6 @@ fn hertz_on_axis<O: TimeOrder>(eta: f64) -> Potentials<f64> {
             a_lower: a3,
             g_upper: b4,
             g_lower: b3,
-        },
-        Order::SecondIntegral => Potentials {
-            a_upper: 0.1875 * square * (1.0 - square / 6.0) - 0.25 * eta + 0.09375,
-            a_lower: a4,
-            g_upper: 0.1875 * eta * (1.0 - square / 3.0) - 0.125,
-            g_lower: b4,
         },
     }
 }
@@ -218,7 +197,7 @@ fn punch<O: TimeOrder>(eta: f64, r: f64) -> Potentials<f64> {
                 g_lower: b3,
             }
         }
-        Order::Impulse | Order::SecondIntegral => unreachable!("{HERTZ_ONLY}"),
+        Order::Impulse => unreachable!("{HERTZ_ONLY}"),
     }
 }
 
@@ -246,7 +225,7 @@ fn point<O: TimeOrder>(eta: f64, r: f64) -> Potentials<f64> {
             g_upper: ring * q,
             g_lower: b3,
         },
-        Order::Impulse | Order::SecondIntegral => unreachable!("{HERTZ_ONLY}"),
+        Order::Impulse => unreachable!("{HERTZ_ONLY}"),
     }
 }
 

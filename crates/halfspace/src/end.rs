@@ -42,7 +42,6 @@ pub(crate) fn end_orders<O: TimeOrder>(zeta: Complex64, r: f64) -> Potentials<Co
                 g_lower: inverse * sum,
             }
         }
-        Order::SecondIntegral => by_end(End::new(zeta, r)),
     }
 }
 
@@ -84,7 +83,7 @@ impl End {
         }
     }
 
-    /// E_n(zeta), -2 <= n <= 5.
+    /// E_n(zeta), -2 <= n <= 4.
     #[inline]
     pub(crate) fn e(&self, n: i32) -> Complex64 {
         let Self { zeta, rho, log, r } = *self;
@@ -100,16 +99,11 @@ impl End {
                 let z2 = zeta * zeta;
                 zeta * (z2 / 6.0 - 0.25 * r2) * log + (r2 / 9.0 - 11.0 / 36.0 * z2) * rho
             }
-            5 => {
-                let z2 = zeta * zeta;
-                (z2 * (0.125 * r2 - z2 / 24.0) - r2 * r2 / 64.0) * log
-                    + zeta * (25.0 / 288.0 * z2 - 55.0 / 576.0 * r2) * rho
-            }
-            _ => unreachable!("potentials use orders -2 to 5"),
+            _ => unreachable!("potentials use orders -2 to 4"),
         }
     }
 
-    /// F_n(zeta)/r with F_n = int k^{-n} J1(kr) e^{-k zeta} dk, -2 <= n <= 5; smooth at r = 0.
+    /// F_n(zeta)/r with F_n = int k^{-n} J1(kr) e^{-k zeta} dk, -2 <= n <= 4; smooth at r = 0.
     #[inline]
     pub(crate) fn f(&self, n: i32) -> Complex64 {
         let Self { zeta, rho, log, r } = *self;
@@ -129,14 +123,7 @@ impl End {
                 let cubic = zeta * (rho * sum + zeta * zeta) / (12.0 * sum);
                 0.5 * (0.625 * zeta * rho - cubic + (0.125 * r * r - 0.5 * zeta * zeta) * log)
             }
-            5 => {
-                let (z2, rho2, r2) = (zeta * zeta, rho * rho, r * r);
-                // (rho^5 - zeta^5)/r^2
-                let fifth = (rho2 * rho2 + rho * zeta * (rho2 + rho * zeta + z2) + z2 * z2) / sum;
-                let cubic = (5.0 / 24.0 + 1.0 / 18.0) * rho2 * rho - zeta * z2 * log / 6.0;
-                -0.5 * (cubic - fifth / 60.0 + 0.125 * r2 * (zeta * log - rho) - r2 * rho / 6.0)
-            }
-            _ => unreachable!("potentials use orders -2 to 5"),
+            _ => unreachable!("potentials use orders -2 to 4"),
         }
     }
 }

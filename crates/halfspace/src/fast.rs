@@ -41,7 +41,6 @@ impl Setting {
                     Order::StepIntegral => {
                         sum.add(1.0, ROUNDING, [0.0, passed, 0.0, 0.0, 0.0, 0.0]);
                     }
-                    Order::SecondIntegral => self.add_passed::<O>(at, wave, (0.0, 1.0), sum),
                 }
                 return;
             }
@@ -69,8 +68,8 @@ impl Setting {
             } else if eta < 0.0 {
                 match O::ORDER {
                     Order::Impulse | Order::Step => {}
-                    Order::StepIntegral | Order::SecondIntegral => {
-                        self.add_passed::<O>(at, wave, interval, sum);
+                    Order::StepIntegral => {
+                        self.add_passed(at, wave, interval, sum);
                     }
                 }
             }
@@ -136,12 +135,12 @@ impl Setting {
             z: 0.0,
             t: 0.0,
         };
-        self.add_passed::<StepIntegral>(anywhere, wave, (0.0, 1.0), &mut sum);
+        self.add_passed(anywhere, wave, (0.0, 1.0), &mut sum);
         sum.value[Field::DisplacementZ.index()]
     }
 
-    /// Adds an outgoing wave that has passed on an interval.
-    fn add_passed<O: TimeOrder>(&self, at: Point, wave: Wave, interval: (f64, f64), sum: &mut Sum) {
+    /// Adds the time integral of an outgoing wave that has passed on an interval.
+    fn add_passed(&self, at: Point, wave: Wave, interval: (f64, f64), sum: &mut Sum) {
         let landscape = Landscape::new(
             &self.fixed.fast,
             Complex64::i(),
@@ -151,15 +150,8 @@ impl Setting {
         landscape.visit(interval, self.digits(at, false), &mut |nodes| {
             for node in nodes {
                 let (x, p, jacobian) = half_angle(node.place);
-                let eta = self.eta(at, wave, Sense::Outgoing, x, p);
-                let step = match O::ORDER {
-                    Order::Impulse | Order::Step => return,
-                    Order::StepIntegral => -x,
-                    Order::SecondIntegral => x * x,
-                };
-                let psi = passed::<O>(eta).map(|v| step * v);
-                let amplitudes = spectrum::fast(wave, self.k, x, p);
-                let term = amplitudes.fields(&psi, at.r);
+                let psi = passed::<StepIntegral>().map(|v| -x * v);
+                let term = spectrum::fast(wave, self.k, x, p).fields(&psi, at.r);
                 sum.add(node.weight * jacobian, node.error, term);
             }
         });
@@ -206,11 +198,6 @@ fn in_time<O: TimeOrder>(psi: Potentials<f64>, sense: Sense, x: f64) -> Potentia
             // int dt = -+x int d eta; the order below b3 is -b2
             let step = sense.sign() * x;
             let mut psi = psi.map(|v| step * v);
-            psi.g_lower = -psi.g_lower;
-            psi
-        }
-        Order::SecondIntegral => {
-            let mut psi = psi.map(|v| x * x * v);
             psi.g_lower = -psi.g_lower;
             psi
         }

@@ -13,7 +13,7 @@ use crate::error::DomainError;
 use crate::field::{Estimate, Six};
 use crate::integral::Integral;
 use crate::medium::Medium;
-use crate::order::{Impulse, SecondIntegral, Step, StepIntegral};
+use crate::order::{Impulse, Step, StepIntegral};
 use crate::point::Point;
 use crate::profile::Profile;
 use crate::statics;
@@ -180,32 +180,6 @@ impl Kernel {
             let rest = self.static_field(r, z)?;
             for (value, s) in estimate.value.iter_mut().zip(rest) {
                 *value += s * (arrival - t);
-            }
-        }
-        Ok(estimate)
-    }
-
-    /// int dt of [`Self::step_integral`] up to t: differences of it give first moments over time cells.
-    ///
-    /// # Errors
-    /// [`DomainError`] for r, z or t outside [0, 1e20], and for a profile other than Hertz.
-    pub fn second_integral(&self, r: f64, z: f64, t: f64) -> Result<Estimate, DomainError> {
-        check_place_under(self.profile(), r, z)?;
-        check_time(t)?;
-        check_hertz(self.profile(), "the second time integral")?;
-        let arrival = self.first_arrival(r, z);
-        let mut estimate = self.integral.evaluate::<SecondIntegral>(Point {
-            r,
-            z,
-            t: t.max(arrival),
-        });
-        if t < arrival {
-            let gap = arrival - t;
-            let rest = self.static_field(r, z)?;
-            let slope = self.step_integral(r, z, arrival)?;
-            for (f, rest) in rest.iter().enumerate() {
-                estimate.value[f] -= gap * (slope.value[f] + 0.5 * gap * rest);
-                estimate.error[f] += gap * slope.error[f];
             }
         }
         Ok(estimate)

@@ -28,7 +28,7 @@ const MOST_TERMS: usize = 8;
 pub(crate) fn nearest<O: TimeOrder>(r: f64) -> f64 {
     match O::ORDER {
         Order::Step if r > 0.3 => 10.0,
-        Order::Impulse | Order::Step | Order::StepIntegral | Order::SecondIntegral => 7.0,
+        Order::Impulse | Order::Step | Order::StepIntegral => 7.0,
     }
 }
 
@@ -90,8 +90,6 @@ pub(crate) fn sums<O: TimeOrder, T: Scalar>(
     // Q_{2j-1}, Q_{2j}, V_{2j-1}, V_{2j}
     let (mut q_odd, mut q_even) = (zero, q0);
     let (mut v_odd, mut v_even) = (zero, zero);
-    // Q_{2j-2}, V_{2j-2}
-    let (mut q_before, mut v_before) = (zero, zero);
     let mut sign = 1.0;
     for j in 0..terms {
         let k = 2.0 * j as f64;
@@ -119,19 +117,7 @@ pub(crate) fn sums<O: TimeOrder, T: Scalar>(
                     sum.g_lower = sum.g_lower + v_even * (m / k);
                 }
             }
-            Order::SecondIntegral => {
-                if j > 0 {
-                    let pair = k * (k - 1.0);
-                    sum.a_upper = sum.a_upper + q_before * (m / pair);
-                    sum.a_lower = sum.a_lower + q_odd * (m / k);
-                    sum.g_lower = sum.g_lower + v_odd * (m / pair);
-                }
-                if j > 1 {
-                    sum.g_upper = sum.g_upper + v_before * (m / (k * (k - 1.0) * (k - 2.0)));
-                }
-            }
         }
-        (q_before, v_before) = (q_even, v_even);
         q_even =
             (over * q_next * (2.0 * k + 3.0) - inverse2 * q_even * (k + 1.0)) * (1.0 / (k + 2.0));
         q_odd = q_next;
@@ -170,14 +156,6 @@ pub(crate) fn multipole<O: TimeOrder>(
             psi.g_upper += mass * sum;
             psi.g_lower += mass * inverse * sum;
         }
-        Order::SecondIntegral => {
-            let log = logarithm(rho + xi);
-            psi.a_upper += mass * (xi * log - rho);
-            psi.a_lower -= mass * log;
-            // F_2/r and, from the second moment, F_0/r
-            psi.g_upper -= 0.5 * (mass * (xi * sum + log) + moment(profile, 1) * inverse * sum);
-            psi.g_lower += mass * sum;
-        }
     }
     psi
 }
@@ -212,21 +190,5 @@ fn on_imaginary_axis<O: TimeOrder>(
             g_upper: imaginary(-psi.g_upper - mass * side * sum),
             g_lower: real(-psi.g_lower - mass * inverse * sum),
         },
-        Order::SecondIntegral => {
-            let (log, angle) = (-sum.ln(), side * FRAC_PI_2);
-            let spread = 0.5 * moment(profile, 1) * inverse * sum;
-            Potentials {
-                a_upper: Complex64::new(
-                    -mass * s * angle,
-                    psi.a_upper + mass * (s * log - side * w2 * inverse),
-                ),
-                a_lower: Complex64::new(psi.a_lower - mass * log, -mass * angle),
-                g_upper: Complex64::new(
-                    psi.g_upper + spread - 0.5 * mass * (far * sum + log),
-                    -0.5 * mass * angle,
-                ),
-                g_lower: imaginary(-psi.g_lower - mass * side * sum),
-            }
-        }
     }
 }

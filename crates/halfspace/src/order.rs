@@ -2,7 +2,7 @@
 //!
 //! The integral over slowness is the same for all of them: one more integration in time raises the order of every
 //! potential by one. The order is a type so that each instance is compiled for itself, and an enum so that a `match`
-//! names all four.
+//! names all three.
 
 /// Derivative or integral in time of the step response.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -13,8 +13,6 @@ pub(crate) enum Order {
     Step,
     /// int dt.
     StepIntegral,
-    /// int int dt dt.
-    SecondIntegral,
 }
 
 impl Order {
@@ -24,7 +22,6 @@ impl Order {
             Self::Impulse => -1,
             Self::Step => 0,
             Self::StepIntegral => 1,
-            Self::SecondIntegral => 2,
         }
     }
 }
@@ -43,9 +40,6 @@ pub(crate) struct Step;
 /// [`Order::StepIntegral`].
 pub(crate) struct StepIntegral;
 
-/// [`Order::SecondIntegral`].
-pub(crate) struct SecondIntegral;
-
 impl TimeOrder for Impulse {
     const ORDER: Order = Order::Impulse;
 }
@@ -56,8 +50,4 @@ impl TimeOrder for Step {
 
 impl TimeOrder for StepIntegral {
     const ORDER: Order = Order::StepIntegral;
-}
-
-impl TimeOrder for SecondIntegral {
-    const ORDER: Order = Order::SecondIntegral;
 }

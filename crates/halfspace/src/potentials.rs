@@ -4,7 +4,7 @@
 
 /// Potentials A_n and B_n/r of two neighbouring orders n.
 ///
-/// With m the number of integrations in time, -1 of the impulse response to 2, see [`Order`](crate::order::Order),
+/// With m the number of integrations in time, -1 of the impulse response to 1, see [`Order`](crate::order::Order),
 /// the upper order is 3 + m and the lower 2 + m.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Potentials<T> {

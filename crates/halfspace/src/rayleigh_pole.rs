@@ -34,7 +34,6 @@ impl Setting {
                 Order::Impulse => psi = psi.map(|v| v * Complex64::new(0.0, c)),
                 Order::Step => {}
                 Order::StepIntegral => psi = psi.map(|v| v * Complex64::new(0.0, -1.0 / c)),
-                Order::SecondIntegral => psi = psi.map(|v| v * (-1.0 / (c * c))),
             }
             let mut term = pole.amplitudes.fields(&psi.map(|v| v.re), at.r);
             if shallow {

@@ -118,7 +118,6 @@ impl Setting {
             Order::Impulse => -factor * inverse * v.im,
             Order::Step => factor * v.re,
             Order::StepIntegral => factor * n.x * v.im,
-            Order::SecondIntegral => -factor * n.x * n.x * v.re,
         })
     }
 
@@ -134,7 +133,6 @@ impl Setting {
             Order::Impulse => Complex64::new(inverse * (p.im - m.im), inverse * (m.re - p.re)),
             Order::Step => m + p,
             Order::StepIntegral => Complex64::new(n.x * (m.im - p.im), n.x * (p.re - m.re)),
-            Order::SecondIntegral => -n.x * n.x * (m + p),
         };
         // Re[(re + i im) v] and Re[-i (re + i im) v]
         let over_r = |v: Complex64| n.re * v.re - n.im * v.im;

@@ -22,11 +22,11 @@ impl Strength {
     pub(crate) fn of<O: TimeOrder>(profile: Profile) -> Self {
         match (profile, O::ORDER) {
             (Profile::Point, Order::Impulse | Order::Step) => Self::FinitePart,
-            (Profile::Hertz, Order::Step | Order::StepIntegral | Order::SecondIntegral)
-            | (Profile::Punch, Order::StepIntegral | Order::SecondIntegral) => Self::Bounded,
+            (Profile::Hertz, Order::Step | Order::StepIntegral)
+            | (Profile::Punch, Order::StepIntegral) => Self::Bounded,
             (Profile::Hertz, Order::Impulse)
             | (Profile::Punch, Order::Impulse | Order::Step)
-            | (Profile::Point, Order::StepIntegral | Order::SecondIntegral) => Self::InverseRoot,
+            | (Profile::Point, Order::StepIntegral) => Self::InverseRoot,
         }
     }
 

@@ -1,4 +1,4 @@
-//! Averages and moments of cells against quadrature of the remainder, and the second integral against the first.
+//! Averages and moments of cells against quadrature of the remainder.
 
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
@@ -63,40 +63,5 @@ fn averages_and_moments_are_those_of_the_remainder() {
             }
         }
         assert!(checked > 100, "only {checked} cells clear of arrivals");
-    }
-}
-
-#[test]
-fn the_second_integral_is_the_integral_of_the_first() {
-    let h = 1e-3;
-    for nu in [-0.3, 0.0, 0.3, 0.45] {
-        let medium = Medium::new(nu).unwrap();
-        let kernel = Kernel::new(&medium, Profile::Hertz, 1e-12).unwrap();
-        for (r, z) in [
-            (0.0, 0.3),
-            (0.02, 0.9),
-            (0.7, 0.0),
-            (1.0, 1.5),
-            (4.0, 0.2),
-            (3.0, 5.0),
-        ] {
-            for i in 1..120 {
-                // also across fronts: the first integral is continuous, and the cells are short
-                let t = 0.17 * f64::from(i);
-                let at = |t: f64| kernel.second_integral(r, z, t).unwrap().value;
-                let first = |t: f64| kernel.step_integral(r, z, t).unwrap().value;
-                let (before, after) = (at(t - h), at(t + h));
-                let (left, middle, right) = (first(t - h), first(t), first(t + h));
-                for f in 0..6 {
-                    let area = h / 3.0 * (left[f] + 4.0 * middle[f] + right[f]);
-                    let gap = (after[f] - before[f] - area).abs();
-                    assert!(
-                        gap < 1e-6,
-                        "nu {nu} r {r} z {z} t {t} field {f}: {gap:e} {} {area}",
-                        after[f] - before[f]
-                    );
-                }
-            }
-        }
     }
 }

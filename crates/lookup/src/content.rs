@@ -42,6 +42,8 @@ pub struct Origin {
     pub format_version: String,
     /// Version of the program.
     pub software_version: String,
+    /// Revision of the numbers that the program computes; 1 where a file does not say.
+    pub numbers_revision: u64,
     /// Git revision of the program, or `unknown`.
     pub git_revision: String,
     /// Creation time in seconds since 1970; not part of the content hash.

@@ -48,6 +48,7 @@
 //!         grid: String::new(),
 //!         format_version: lookup::schema::FORMAT_VERSION_VALUE.to_owned(),
 //!         software_version: String::new(),
+//!         numbers_revision: 1,
 //!         git_revision: String::new(),
 //!         created_unix_s: 0,
 //!         accuracy_asked: 1e-8,

@@ -5,7 +5,7 @@
 /// Value of [`FILE_TYPE`] in every kernel table.
 pub const FILE_TYPE_VALUE: &str = "hertzlamb kernel table";
 /// Version of the format that this program writes: major.minor.
-pub const FORMAT_VERSION_VALUE: &str = "2.2";
+pub const FORMAT_VERSION_VALUE: &str = "2.3";
 /// Major versions that this program reads.
 pub const MAJOR_READ: u32 = 2;
 
@@ -15,6 +15,8 @@ pub const FILE_TYPE: &str = "file_type";
 pub const FORMAT_VERSION: &str = "format_version";
 /// Root attribute: version of the program that wrote the file.
 pub const SOFTWARE_VERSION: &str = "software_version";
+/// Root attribute: revision of the numbers, 1 where it is missing.
+pub const NUMBERS_REVISION: &str = "numbers_revision";
 /// Root attribute: git revision of that program, or `unknown`.
 pub const GIT_REVISION: &str = "git_revision";
 /// Root attribute: creation time, seconds since 1970 (UTC). Not part of the content hash.
@@ -105,10 +107,11 @@ pub const FIELD_NAMES: [&str; 6] = [
 ];
 
 /// Root attributes.
-pub const ROOT_ATTRIBUTES: [&str; 16] = [
+pub const ROOT_ATTRIBUTES: [&str; 17] = [
     FILE_TYPE,
     FORMAT_VERSION,
     SOFTWARE_VERSION,
+    NUMBERS_REVISION,
     GIT_REVISION,
     CREATED,
     ID,

@@ -4,6 +4,7 @@ use crate::block::{self, Block, Kind, Row};
 use crate::error::BuildError;
 use crate::grid::Grid;
 use crate::known::Known;
+use crate::numbers::NUMBERS_REVISION;
 use crate::progress::Progress;
 use crate::verify;
 use lookup::{Between, Content, Origin, Slice, Table, Verification, schema};
@@ -21,7 +22,7 @@ pub(crate) fn assemble(
     progress: &dyn Progress,
 ) -> Result<Content, BuildError> {
     let (slices, exact) = sorted(grid, work, rows)?;
-    let table = Table::new(unmeasured(grid, slices)?)?;
+    let table = Table::new(unmeasured(grid, slices, known)?)?;
     let steps = exact.probes.len() + exact.between.len();
     progress.total("verification", steps as u64);
     let measure = |kind: Kind, poisson_ratio: f64, rows: &[Row]| {
@@ -107,7 +108,11 @@ fn sorted(grid: &Grid, work: &[Block], rows: Vec<Row>) -> Result<(Vec<Slice>, Ex
 }
 
 /// The content before anything is measured.
-fn unmeasured(grid: &Grid, slices: Vec<Slice>) -> Result<Content, BuildError> {
+fn unmeasured(
+    grid: &Grid,
+    slices: Vec<Slice>,
+    known: Option<&Known>,
+) -> Result<Content, BuildError> {
     let [r, z] = grid.nodes();
     let [between_r, between_z] = if grid.intervals() > 0 {
         block::positions(Kind::Between, grid)
@@ -119,6 +124,7 @@ fn unmeasured(grid: &Grid, slices: Vec<Slice>) -> Result<Content, BuildError> {
             grid: grid.to_toml()?,
             format_version: schema::FORMAT_VERSION_VALUE.to_owned(),
             software_version: env!("CARGO_PKG_VERSION").to_owned(),
+            numbers_revision: known.map_or(NUMBERS_REVISION, Known::numbers_revision),
             git_revision: env!("HERTZLAMB_GIT_REVISION").to_owned(),
             created_unix_s: creation_time(),
             accuracy_asked: grid.tolerance,

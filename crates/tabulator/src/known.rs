@@ -3,8 +3,8 @@
 use crate::block::{Block, Kind, Row, positions};
 use crate::error::BuildError;
 use crate::grid::Grid;
-use crate::point::KnownPoint;
-use halfspace::Six;
+use crate::numbers::NUMBERS_REVISION;
+use crate::point::PointKernels;
 use lookup::{Content, Role, Slice, Verification};
 
 /// The content of the older table, which is valid.
@@ -15,6 +15,11 @@ pub(crate) struct Known {
 impl Known {
     pub(crate) fn new(content: Content) -> Self {
         Self { content }
+    }
+
+    /// Revision of the numbers of a table that goes on from this one.
+    pub(crate) fn numbers_revision(&self) -> u64 {
+        NUMBERS_REVISION.min(self.content.origin.numbers_revision)
     }
 
     fn slice(&self, poisson_ratio: f64) -> Option<&Slice> {
@@ -57,24 +62,29 @@ impl Known {
         })
     }
 
-    /// The numbers of a node, if it is there.
-    pub(crate) fn point(&self, poisson_ratio: f64, r: f64, z: f64) -> Option<KnownPoint> {
+    /// Puts the cells of a node that are there in place of those computed.
+    pub(crate) fn keep(&self, poisson_ratio: f64, [r, z]: [f64; 2], point: &mut PointKernels) {
         let content = &self.content;
-        let slice = self.slice(poisson_ratio)?;
-        let i = content.r.iter().position(|&x| x == r)?;
-        let k = content.z.iter().position(|&x| x == z)?;
-        let node = i * content.z.len() + k;
-        let part = |values: &[f32]| -> Vec<Six> {
-            let stored = &values[node * 6 * slice.cells..(node + 1) * 6 * slice.cells];
-            (0..slice.cells)
-                .map(|j| std::array::from_fn(|f| f64::from(stored[f * slice.cells + j])))
-                .collect()
+        let place = |nodes: &[f64], x: f64| nodes.iter().position(|&node| node == x);
+        let places = [place(&content.r, r), place(&content.z, z)];
+        let (Some(slice), [Some(i), Some(k)]) = (self.slice(poisson_ratio), places) else {
+            return;
         };
-        Some(KnownPoint {
-            averages: part(&slice.remainder),
-            moments: part(&slice.moment),
-            curvatures: part(&slice.curvature),
-        })
+        let (node, cells) = (i * content.z.len() + k, slice.cells);
+        for (values, stored) in [
+            (&mut point.averages, &slice.remainder),
+            (&mut point.moments, &slice.moment),
+            (&mut point.curvatures, &slice.curvature),
+        ] {
+            for (f, list) in stored[node * 6 * cells..][..6 * cells]
+                .chunks(cells)
+                .enumerate()
+            {
+                for (six, &x) in values.iter_mut().zip(list) {
+                    six[f] = f64::from(x);
+                }
+            }
+        }
     }
 
     /// Whether errors were measured at a probe of a slice or between slices.

@@ -55,7 +55,7 @@ pub(crate) fn rows(
         .collect())
 }
 
-/// Computes one row of points (`r`, `depths`), going on from what is known of them.
+/// Computes one row of points (`r`, `depths`), of which known cells keep their numbers.
 ///
 /// Probes whose errors are known are left blank.
 fn row(
@@ -72,10 +72,12 @@ fn row(
             (Kind::Probes | Kind::Between, Some(known)) if known.measured(kind, nu, [r, z]) => {
                 plan.blank()
             }
-            (Kind::Nodes, Some(known)) => plan.go_on(r, z, known.point(nu, r, z).as_ref())?,
             (Kind::Nodes | Kind::Probes | Kind::Between, _) => plan.compute(r, z)?,
         };
         round(&mut point);
+        if let (Kind::Nodes, Some(known)) = (kind, known) {
+            known.keep(nu, [r, z], &mut point);
+        }
         for field in 0..6 {
             for (list, values) in [
                 (&mut row.remainder, &point.averages),

@@ -43,6 +43,7 @@ pub fn table() -> Table {
             grid: "bench = true\n".to_owned(),
             format_version: lookup::schema::FORMAT_VERSION_VALUE.to_owned(),
             software_version: "0".to_owned(),
+            numbers_revision: 1,
             git_revision: "unknown".to_owned(),
             created_unix_s: 0,
             accuracy_asked: 1e-8,

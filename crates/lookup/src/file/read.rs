@@ -155,6 +155,7 @@ impl Source {
             grid: self.text(root, schema::GRID)?,
             format_version: self.text(root, schema::FORMAT_VERSION)?,
             software_version: self.text(root, schema::SOFTWARE_VERSION)?,
+            numbers_revision: self.number(root, schema::NUMBERS_REVISION).unwrap_or(1),
             git_revision: self.text(root, schema::GIT_REVISION)?,
             created_unix_s: self.number(root, schema::CREATED)?,
             accuracy_asked: self.number(root, schema::ACCURACY_ASKED)?,

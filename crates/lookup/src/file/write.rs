@@ -173,9 +173,13 @@ fn write_attributes(file: &File, content: &Content) -> Result<(), hdf5::Error> {
     text(file, schema::FORMAT_VERSION, schema::FORMAT_VERSION_VALUE)?;
     text(file, schema::SOFTWARE_VERSION, &origin.software_version)?;
     text(file, schema::GIT_REVISION, &origin.git_revision)?;
-    file.new_attr::<u64>()
-        .create(schema::CREATED)?
-        .write_scalar(&origin.created_unix_s)?;
+    for (name, value) in [
+        (schema::NUMBERS_REVISION, origin.numbers_revision),
+        (schema::CREATED, origin.created_unix_s),
+        (schema::STENCIL_POINTS, content.stencil_points as u64),
+    ] {
+        file.new_attr::<u64>().create(name)?.write_scalar(&value)?;
+    }
     text(file, schema::ID, &settings_id(&origin.grid))?;
     text(file, schema::GRID, &origin.grid)?;
     text(file, schema::CONTENT_SHA256, &content_hash(content))?;
@@ -187,9 +191,6 @@ fn write_attributes(file: &File, content: &Content) -> Result<(), hdf5::Error> {
     ] {
         number(file, name, value)?;
     }
-    file.new_attr::<u64>()
-        .create(schema::STENCIL_POINTS)?
-        .write_scalar(&(content.stencil_points as u64))?;
     let reached = &origin.accuracy_reached;
     file.new_attr::<f64>()
         .shape([reached.len()])
