@@ -13,8 +13,8 @@ use crate::error::DomainError;
 use crate::field::{Estimate, Six};
 use crate::integral::Integral;
 use crate::medium::Medium;
-use crate::order::{Impulse, Step, StepIntegral};
 use crate::point::Point;
+use crate::potentials::order::{Impulse, Step, StepIntegral};
 use crate::profile::Profile;
 use crate::statics;
 

@@ -3,8 +3,8 @@
 //! Theory: `docs/theory.md` (T1, T11).
 
 use crate::domain::check;
-use crate::double::Double;
 use crate::error::DomainError;
+use crate::numeric::double::Double;
 use num_complex::Complex64;
 
 /// An isotropic elastic half-space, reduced by its longitudinal wave speed c1 and shear modulus mu.

@@ -9,11 +9,11 @@
 //!
 //! Theory: `docs/theory.md` (T15).
 
-use crate::closed_form::potentials;
 use crate::field::Six;
 use crate::huber;
 use crate::medium::Medium;
-use crate::order::{Impulse, Step};
+use crate::potentials::closed_form::potentials;
+use crate::potentials::order::{Impulse, Step};
 use crate::profile::Profile;
 use num_complex::Complex64;
 

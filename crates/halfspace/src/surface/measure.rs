@@ -4,8 +4,8 @@
 
 use super::chord::{Moments, POWERS};
 use super::zone::{Zone, panel_ends};
-use crate::gauss;
 use crate::medium::Medium;
+use crate::numeric::gauss;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// The measure mu with its moments summed panel by panel from the slow end.

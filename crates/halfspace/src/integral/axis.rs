@@ -1,0 +1,103 @@
+//! The axis under a point force or a punch, and under the impulse of any load.
+//!
+//! There the fronts of opposite edges meet and the compact potentials become delta functions. Off the axis
+//! nothing is special: each field is r to its parity times a smooth function of r^2 between fronts, so its
+//! values at a few small radii continue it to the axis.
+
+use crate::arrivals::Arrivals;
+use crate::field::{Estimate, FIELDS, Six};
+use crate::medium::Medium;
+use crate::point::Point;
+use crate::potentials::order::{Order, TimeOrder};
+use crate::profile::Profile;
+
+/// Radii below this fraction of the distance from the edge of the disc are continued.
+const NEAR: f64 = 0.03;
+
+/// Across a front nothing is known: the error over the size of what is combined.
+const ACROSS: f64 = 30.0;
+
+/// Number of radii used.
+const NODES: usize = 6;
+
+/// Whether the fields at a point are continued from larger radii.
+pub(crate) fn is_near<O: TimeOrder>(profile: Profile, at: Point) -> bool {
+    match (profile, O::ORDER) {
+        (Profile::Hertz, Order::Step | Order::StepIntegral) => false,
+        (Profile::Hertz, Order::Impulse)
+        | (Profile::Punch | Profile::Point, Order::Impulse | Order::Step | Order::StepIntegral) => {
+            at.r < NEAR * at.z.hypot(profile.radius())
+        }
+    }
+}
+
+/// The value at `at` from `evaluate` at radii h, 2h, ..., by interpolation in r^2.
+pub(crate) fn continued(
+    medium: &Medium,
+    profile: Profile,
+    at: Point,
+    evaluate: impl Fn(Point) -> Estimate,
+) -> Estimate {
+    let (step, is_clear) = step(medium, profile, at);
+    let radii: [f64; NODES] = std::array::from_fn(|i| step * (i + 1) as f64);
+    let values = radii.map(|r| evaluate(Point { r, ..at }));
+    let (value, error) = combine(at.r, &radii, &values);
+    let (coarse, _) = combine(at.r, &radii[..NODES - 1], &values[..NODES - 1]);
+    let sizes = values.map(|estimate| Estimate {
+        error: estimate.value.map(f64::abs),
+        ..estimate
+    });
+    let (_, size) = combine(at.r, &radii, &sizes);
+    Estimate {
+        value,
+        error: std::array::from_fn(|f| {
+            let left = (value[f] - coarse[f]).abs();
+            let across = if is_clear { 0.0 } else { ACROSS * size[f] };
+            error[f] + left + across
+        }),
+    }
+}
+
+/// A spacing that keeps all radii on one side of every front, and whether there is one.
+///
+/// Off the axis a front from the edge of a disc arrives earlier or later by at most r, one from a point by r^2/(2 z).
+fn step(medium: &Medium, profile: Profile, at: Point) -> (f64, bool) {
+    /// Widest and least spacing over the distance from the edge of the disc.
+    const WIDEST: f64 = 0.05;
+    const LEAST: f64 = 1e-4;
+    let radius = profile.radius();
+    let distance = at.z.hypot(radius);
+    let arrivals = Arrivals::new(medium, profile, 0.0, at.z);
+    let times = arrivals.map_or(vec![], |arrivals| arrivals.sorted());
+    let gap = times.iter().map(|a| (at.t - a).abs()).fold(at.t, f64::min);
+    let reach = medium.kappa() * gap;
+    let widest = if radius > 0.0 {
+        reach
+    } else {
+        (reach * at.z).sqrt()
+    };
+    let step = widest / (NODES + 1) as f64;
+    let least = LEAST * distance;
+    (step.clamp(least, WIDEST * distance), step >= least)
+}
+
+/// Lagrange interpolation of the fields, divided by r where odd, in r^2.
+fn combine(r: f64, radii: &[f64], values: &[Estimate]) -> (Six, Six) {
+    let (mut sum, mut error) = (Six::default(), Six::default());
+    for (i, estimate) in values.iter().enumerate() {
+        let others = radii.iter().enumerate().filter(|&(j, _)| j != i);
+        let weight: f64 = others
+            .map(|(_, other)| (r * r - other * other) / (radii[i] * radii[i] - other * other))
+            .product();
+        for (f, field) in FIELDS.into_iter().enumerate() {
+            let parity = if field.is_odd_in_r() {
+                r / radii[i]
+            } else {
+                1.0
+            };
+            sum[f] += weight * parity * estimate.value[f];
+            error[f] += (weight * parity).abs() * estimate.error[f];
+        }
+    }
+    (sum, error)
+}

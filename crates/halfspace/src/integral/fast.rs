@@ -1,0 +1,205 @@
+//! Slownesses below one: waves that travel as plane fronts, felt only while they pass.
+//!
+//! Theory: `docs/theory.md` (T17).
+
+use crate::field::{Field, Six};
+use crate::integral::fronts;
+use crate::integral::landscape::{Fold, Landscape};
+use crate::integral::panels::ROUNDING;
+use crate::integral::setting::Setting;
+use crate::integral::side_by_side;
+use crate::integral::spectrum::{self, Wave, half_angle};
+use crate::integral::strength::Strength;
+use crate::integral::sum::Sum;
+use crate::numeric::scalar::Real;
+use crate::point::{Point, Sense};
+use crate::potentials::Potentials;
+use crate::potentials::compact::{compact, passed};
+use crate::potentials::order::{Order, StepIntegral, TimeOrder};
+use crate::potentials::shallow;
+use num_complex::Complex64;
+
+/// Slowness zero, where the argument of the potentials is infinite.
+const ORIGIN: Complex64 = Complex64::new(0.0, 0.0);
+
+impl Setting {
+    /// Adds one wave in one sense over 0 < x < 1; `passed` is its time integral once it has passed.
+    pub(crate) fn fast<O: TimeOrder>(
+        &self,
+        at: Point,
+        wave: Wave,
+        sense: Sense,
+        passed: f64,
+        sum: &mut Sum,
+    ) {
+        let limit = at.r + self.profile.radius();
+        let shallow = shallow::applies::<O>(self.profile, at);
+        match sense {
+            Sense::Outgoing if at.t >= self.last_fast(at, wave, limit) => {
+                match O::ORDER {
+                    Order::Impulse | Order::Step => {}
+                    Order::StepIntegral => {
+                        sum.add(1.0, ROUNDING, [0.0, passed, 0.0, 0.0, 0.0, 0.0]);
+                    }
+                }
+                return;
+            }
+            Sense::Image if at.t >= limit => return,
+            Sense::Image if !shallow && at.t + at.z * self.vertical_at_one(wave) >= limit => return,
+            Sense::Outgoing | Sense::Image => {}
+        }
+        let mut landscape = self.fast_landscape::<O>(at, wave, sense, shallow);
+        for interval in landscape.intervals() {
+            let (x, p, _) = half_angle(0.5 * (interval.0 + interval.1));
+            let eta = self.eta(at, wave, sense, x, p);
+            let at_surface = sense.sign() * at.t / x;
+            if eta.abs() < limit || shallow && at_surface.abs() < limit {
+                landscape.visit(interval, self.digits(at, shallow), &mut |nodes| {
+                    if side_by_side::applies::<O>(self.profile, at, shallow) {
+                        side_by_side::add(self, at, wave, Some(sense), nodes, sum);
+                        return;
+                    }
+                    for node in nodes {
+                        let (x, p, jacobian) = half_angle(node.place);
+                        let term = self.fast_term::<O>(at, wave, sense, (x, p), shallow);
+                        sum.add(node.weight * jacobian, node.error, term);
+                    }
+                });
+            } else if eta < 0.0 {
+                match O::ORDER {
+                    Order::Impulse | Order::Step => {}
+                    Order::StepIntegral => {
+                        self.add_passed(at, wave, interval, sum);
+                    }
+                }
+            }
+        }
+    }
+
+    /// The singularities of one wave in one sense.
+    fn fast_landscape<O: TimeOrder>(
+        &self,
+        at: Point,
+        wave: Wave,
+        sense: Sense,
+        shallow: bool,
+    ) -> Landscape {
+        let strength = Strength::of::<O>(self.profile);
+        let mut landscape = Landscape::new(
+            &self.fixed.fast,
+            ORIGIN,
+            strength,
+            (Fold::Upper, self.front_rounding(at)),
+        );
+        let radius = self.profile.radius();
+        fronts::add_fast(&mut landscape, at, radius, self.k, wave, sense);
+        if shallow {
+            let above = shallow::above(at);
+            fronts::add_fast(&mut landscape, above, radius, self.k, wave, sense);
+        }
+        landscape
+    }
+
+    /// The integrand at slowness x, p = sqrt(1 - x^2).
+    #[inline]
+    fn fast_term<O: TimeOrder>(
+        &self,
+        at: Point,
+        wave: Wave,
+        sense: Sense,
+        (x, p): (f64, f64),
+        shallow: bool,
+    ) -> Six {
+        let eta = self.eta(at, wave, sense, x, p);
+        let psi = in_time::<O>(compact::<O>(self.profile, eta, at.r), sense, x);
+        let amplitudes = spectrum::fast(wave, self.k, x, p);
+        let mut term = amplitudes.fields(&psi, at.r);
+        if shallow {
+            let root = match wave {
+                Wave::P => p,
+                Wave::S => (self.k - x * x).sqrt(),
+            };
+            let (surface, step) = (sense.sign() * at.t / x, at.z * root / x);
+            let difference = shallow::compact_difference(surface, step, eta, at.r);
+            amplitudes.set_traction(&mut term, difference.a, difference.g, at.r);
+        }
+        term
+    }
+
+    /// int of the amplitude of w times x/2 dx over the whole fast interval: the time integral of a wave
+    /// that has passed.
+    pub(crate) fn passed_whole(&self, wave: Wave) -> f64 {
+        let mut sum = Sum::default();
+        let anywhere = Point {
+            r: 1.0,
+            z: 0.0,
+            t: 0.0,
+        };
+        self.add_passed(anywhere, wave, (0.0, 1.0), &mut sum);
+        sum.value[Field::DisplacementZ.index()]
+    }
+
+    /// Adds the time integral of an outgoing wave that has passed on an interval.
+    fn add_passed(&self, at: Point, wave: Wave, interval: (f64, f64), sum: &mut Sum) {
+        let landscape = Landscape::new(
+            &self.fixed.fast,
+            Complex64::i(),
+            Strength::Bounded,
+            (Fold::Upper, 1.0),
+        );
+        landscape.visit(interval, self.digits(at, false), &mut |nodes| {
+            for node in nodes {
+                let (x, p, jacobian) = half_angle(node.place);
+                let psi = passed::<StepIntegral>().map(|v| -x * v);
+                let term = spectrum::fast(wave, self.k, x, p).fields(&psi, at.r);
+                sum.add(node.weight * jacobian, node.error, term);
+            }
+        });
+    }
+
+    /// Time after which the outgoing wave has passed at every slowness below one.
+    fn last_fast(&self, at: Point, wave: Wave, limit: f64) -> f64 {
+        let slowness = self.slowness(wave);
+        let reach = at.z.hypot(limit);
+        if limit * slowness <= reach {
+            slowness * reach
+        } else {
+            at.z * self.vertical_at_one(wave) + limit
+        }
+    }
+
+    /// gamma^ at x = 1.
+    fn vertical_at_one(&self, wave: Wave) -> f64 {
+        match wave {
+            Wave::P => 0.0,
+            Wave::S => (self.k - 1.0).sqrt(),
+        }
+    }
+
+    /// eta = (z gamma^ -+ t)/x, accurate where the difference is small and x too.
+    #[inline(always)]
+    pub(crate) fn eta<T: Real>(&self, at: Point, wave: Wave, sense: Sense, x: T, p: T) -> T {
+        let (vertical, root) = match wave {
+            Wave::P => (1.0, p),
+            Wave::S => (self.k.sqrt(), (-(x * x) + self.k).sqrt()),
+        };
+        // gamma^ = vertical - x^2/(vertical + gamma^)
+        x.constant(at.z * vertical + sense.sign() * at.t) / x - x * at.z / (root + vertical)
+    }
+}
+
+/// Derivatives and integrals in t of functions of eta = (z gamma^ -+ t)/x, from those in eta.
+#[inline]
+fn in_time<O: TimeOrder>(psi: Potentials<f64>, sense: Sense, x: f64) -> Potentials<f64> {
+    match O::ORDER {
+        Order::Impulse => psi.map(|v| sense.sign() / x * v),
+        Order::Step => psi,
+        Order::StepIntegral => {
+            // int dt = -+x int d eta; the order below b3 is -b2
+            let step = sense.sign() * x;
+            let mut psi = psi.map(|v| step * v);
+            psi.g_lower = -psi.g_lower;
+            psi
+        }
+    }
+}

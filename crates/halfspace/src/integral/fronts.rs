@@ -1,0 +1,163 @@
+//! Where the integrands of the kernels are singular, in closed form.
+//!
+//! A wave is felt at slowness x when its plane front from an edge of the disc passes:
+//!
+//! ```text
+//! z gamma^ + sense t = e x,     e = +-1 +- r
+//! ```
+//!
+//! With x = 2u/(1 + u^2) and gamma^ = (1 - u^2)/(1 + u^2), scaled by the slowness of the wave, this is a
+//! quadratic in u. The integrals run over such half-angle variables, in which every square root of the
+//! problem is rational or analytic:
+//!
+//! ```text
+//! fast  0 < x < 1           x = 2u/(1 + u^2)      p = (1 - u^2)/(1 + u^2)
+//! slow  1 < x < sqrt(K)     sqrt(x^2 - 1) = sqrt(K - 1) 2q/(1 + q^2)     y = sqrt(K - 1) (1 - q^2)/(1 + q^2)
+//! ```
+//!
+//! Singularities that do not depend on the place are those of [`branch_points`](crate::integral::branch_points).
+//!
+//! Theory: `docs/theory.md` (T18).
+
+use crate::integral::branch_points::Stretch;
+use crate::integral::landscape::Landscape;
+use crate::integral::spectrum::Wave;
+use crate::numeric::complex::root;
+use crate::numeric::lanes::Points;
+use crate::point::{Point, Sense};
+use num_complex::Complex64;
+
+/// Adds the fronts of one wave in one sense to a landscape of the fast interval.
+pub(crate) fn add_fast(
+    landscape: &mut Landscape,
+    at: Point,
+    radius: f64,
+    k: f64,
+    wave: Wave,
+    sense: Sense,
+) {
+    for_each_front(at, radius, k, wave, sense, |v| match wave {
+        Wave::P => with_mirror(v, |u| landscape.add(u)),
+        Wave::S => {
+            let (x, y) = (k.sqrt() * sine(v), cosine(v));
+            if y.re > 0.0 {
+                let u = x / (1.0 + root(1.0 - x * x));
+                with_mirror(u, |u| landscape.add(u));
+                with_reciprocal(u, |u| landscape.add(u));
+            }
+        }
+    });
+}
+
+/// Adds the fronts of one wave in both senses to a landscape of the slow interval.
+///
+/// Reversing time turns q into its reciprocal, and the other sheet of the root that a wave does not
+/// contain turns it into its negative.
+pub(crate) fn add_slow(
+    landscape: &mut Landscape,
+    at: Point,
+    radius: f64,
+    k: f64,
+    stretch: &Stretch,
+    wave: Wave,
+) {
+    let span = (k - 1.0).sqrt();
+    let mut points = Points::new();
+    let mut add = |q: Complex64| {
+        with_mirror(q, |q| points.push(q));
+        with_reciprocal(q, |q| points.push(q));
+    };
+    // On the surface the roots of a pair are reciprocal and stand for the same two fronts.
+    let twin = |v: Complex64| at.z == 0.0 && v.norm_sqr() > 1.0 && v.im == 0.0;
+    for_each_front(at, radius, k, wave, Sense::Outgoing, |v| match wave {
+        Wave::P | Wave::S if twin(v) => {}
+        Wave::P => {
+            let s = Complex64::i() * cosine(v) / span;
+            add(s / (1.0 + root(1.0 - s * s)));
+        }
+        Wave::S => {
+            let c = cosine(v) * (k.sqrt() / span);
+            add(root(1.0 - c * c) / (1.0 + c));
+        }
+    });
+    points.map(stretch);
+    for point in points.iter() {
+        landscape.add(point);
+    }
+}
+
+/// Passes on a point and its negative: the one on the right, and the other where it is near enough to matter.
+fn with_mirror(point: Complex64, mut add: impl FnMut(Complex64)) {
+    const NEAR_ZERO: f64 = 0.3;
+    /// Beyond this a half-angle costs no node.
+    const FAR: f64 = 2.5;
+    let right = if point.re < 0.0 { -point } else { point };
+    if right.norm_sqr() > FAR * FAR {
+        return;
+    }
+    add(right);
+    if right.norm_sqr() < NEAR_ZERO * NEAR_ZERO {
+        add(-right);
+    }
+}
+
+/// Passes on the reciprocal of a point, or its negative, where it is near enough to matter.
+fn with_reciprocal(point: Complex64, mut add: impl FnMut(Complex64)) {
+    const NEAR_ONE: f64 = 0.4;
+    if point.norm_sqr() > NEAR_ONE * NEAR_ONE {
+        let reciprocal = 1.0 / point;
+        add(if reciprocal.re < 0.0 {
+            -reciprocal
+        } else {
+            reciprocal
+        });
+    }
+}
+
+fn sine(u: Complex64) -> Complex64 {
+    2.0 * u / (1.0 + u * u)
+}
+
+fn cosine(u: Complex64) -> Complex64 {
+    let square = u * u;
+    (1.0 - square) / (1.0 + square)
+}
+
+/// The distances |e| of the front equation: two, or one for a point force.
+fn edges(r: f64, radius: f64) -> impl Iterator<Item = f64> {
+    let nearest = (radius > 0.0).then_some((radius - r).abs());
+    [radius + r].into_iter().chain(nearest)
+}
+
+/// Roots u of (sense t - z) u^2 - 2 e u + (z + sense t) = 0, t in units of the slowness of the wave, for
+/// both e > 0; those for -e are their negatives. Of a conjugate pair one is given.
+fn for_each_front(
+    at: Point,
+    radius: f64,
+    k: f64,
+    wave: Wave,
+    sense: Sense,
+    mut f: impl FnMut(Complex64),
+) {
+    let slowness = match wave {
+        Wave::P => 1.0,
+        Wave::S => k.sqrt(),
+    };
+    let (z, t) = (at.z, sense.sign() * at.t / slowness);
+    let mut emit = |u: Complex64| {
+        if u.is_finite() {
+            f(u);
+        }
+    };
+    for e in edges(at.r, radius) {
+        let reach = z.hypot(e);
+        let discriminant = (reach - t) * (reach + t);
+        if discriminant >= 0.0 {
+            let w = e + discriminant.sqrt();
+            emit((w / (t - z)).into());
+            emit(((z + t) / w).into());
+        } else {
+            emit(Complex64::new(e, (-discriminant).sqrt()) / (t - z));
+        }
+    }
+}

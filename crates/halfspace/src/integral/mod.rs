@@ -1,0 +1,136 @@
+//! The single integral over slowness, put together from its parts.
+//!
+//! ```text
+//! R = 2/(c D'(c)) Re sum_{P,S} N Psi(gamma z - i c t)
+//!     + (1/pi) Re int_0^{1/kappa} dx sum_{P,S} amplitude(x) [ Psi(xi-) + Psi(xi+) ],   xi-+ = i (z gamma^ -+ t)/x
+//! ```
+//!
+//! with gamma^ = sqrt(1 - x^2) for P and sqrt(1/kappa^2 - x^2) for S. Below x = 1 only the compact parts of
+//! the potentials enter, so each wave and each direction of travel has an interval of its own; above it the
+//! potentials are taken whole.
+//!
+//! In reading order: the integrand (`spectrum`, `setting`), its two parts below and above slowness 1/c1 (`fast`, `slow`) and
+//! the Rayleigh wave (`rayleigh_pole`, `rayleigh_front`); where it is singular and how strongly (`fronts`, `branch_points`,
+//! `strength`), and the intervals with their Gauss rules that follow (`landscape`, `panels`, `sum`); four nodes at a time
+//! (`side_by_side`), and the axis (`axis`).
+
+pub(crate) mod axis;
+pub(crate) mod branch_points;
+pub(crate) mod fast;
+pub(crate) mod fronts;
+pub(crate) mod landscape;
+pub(crate) mod panels;
+pub(crate) mod rayleigh_front;
+pub(crate) mod rayleigh_pole;
+pub(crate) mod setting;
+pub(crate) mod side_by_side;
+pub(crate) mod slow;
+pub(crate) mod spectrum;
+pub(crate) mod strength;
+pub(crate) mod sum;
+
+use crate::domain::NEAREST;
+use crate::field::{Estimate, Field, Six};
+use crate::medium::Medium;
+use crate::point::{Point, Sense};
+use crate::potentials::closed_form::SMALL_RADIUS;
+use crate::potentials::far_front;
+use crate::potentials::order::{Order, TimeOrder};
+use crate::potentials::shallow;
+use crate::profile::Profile;
+use setting::Setting;
+use spectrum::{Pole, Wave};
+use std::f64::consts::PI;
+use sum::Sum;
+
+/// The integral of one half-space under one profile.
+#[derive(Debug, Clone)]
+pub(crate) struct Integral {
+    pub(crate) setting: Setting,
+    poles: [Pole; 2],
+    /// int of the amplitude of w over the fast interval, times x/2, for P and S: a wave that has passed.
+    passed: [f64; 2],
+}
+
+impl Integral {
+    pub(crate) fn new(medium: &Medium, profile: Profile, tolerance: f64) -> Self {
+        let setting = Setting::new(medium, profile, tolerance);
+        Self {
+            poles: [Wave::P, Wave::S].map(|wave| spectrum::pole(wave, medium)),
+            passed: [Wave::P, Wave::S].map(|wave| setting.passed_whole(wave)),
+            setting,
+        }
+    }
+
+    /// The remainder or one of its time integrals, continued to the axis where the fronts of a point force or a punch
+    /// meet there.
+    pub(crate) fn evaluate<O: TimeOrder>(&self, at: Point) -> Estimate {
+        let Setting {
+            medium, profile, ..
+        } = &self.setting;
+        let at = Point {
+            t: at.t.max(NEAREST),
+            ..at
+        };
+        let mut estimate = if axis::is_near::<O>(*profile, at) {
+            axis::continued(medium, *profile, at, |at| self.integrate::<O>(at))
+        } else {
+            self.integrate::<O>(at)
+        };
+        if at.z == 0.0 {
+            impose_surface(&mut estimate);
+        }
+        estimate
+    }
+
+    fn integrate<O: TimeOrder>(&self, at: Point) -> Estimate {
+        /// Outside the disc the pressure is zero, and at a distance from the edge so are its rounding errors.
+        const CLEAR_OF_EDGE: f64 = 1.01;
+        let mut total = self.setting.rayleigh_wave::<O>(&self.poles, at);
+        let mut spectrum = Sum::default();
+        for wave in [Wave::P, Wave::S] {
+            for sense in [Sense::Outgoing, Sense::Image] {
+                let passed = self.passed[wave as usize];
+                self.setting
+                    .fast::<O>(at, wave, sense, passed, &mut spectrum);
+            }
+            self.setting.slow::<O>(at, wave, &mut spectrum);
+        }
+        total.add(1.0 / PI, 0.0, spectrum.value);
+        let mut floor = rounding_floor::<O>(self.setting.profile, at.r);
+        if at.r > CLEAR_OF_EDGE && shallow::applies::<O>(self.setting.profile, at) {
+            for field in [Field::StressZz, Field::StressRz] {
+                floor[field.index()] *= 8.0 * at.z.sqrt();
+            }
+        }
+        Estimate {
+            value: total.value,
+            error: std::array::from_fn(|f| total.error()[f] + spectrum.error()[f] / PI + floor[f]),
+        }
+    }
+}
+
+/// On the surface sigma_zz is the load and sigma_rz is zero from the start: both remainders vanish.
+fn impose_surface(estimate: &mut Estimate) {
+    for field in [Field::StressZz, Field::StressRz] {
+        estimate.value[field.index()] = 0.0;
+        estimate.error[field.index()] = 0.0;
+    }
+}
+
+/// Rounding errors of what cancels within the potentials.
+///
+/// The terms of the closed forms grow with the radius; those of the step response at a distant front do not, and fall as
+/// its inverse root.
+fn rounding_floor<O: TimeOrder>(profile: Profile, r: f64) -> Six {
+    const UNIT: f64 = 2.0 * f64::EPSILON;
+    let [displacement, stress] =
+        if O::ORDER == Order::Step && profile == Profile::Hertz && r > far_front::FAR {
+            [UNIT / r.sqrt(); 2]
+        } else {
+            // the primitives are divided by r^2
+            let near = if r > SMALL_RADIUS { 8.0 / (r * r) } else { 0.0 };
+            [UNIT * (64.0 + r * r), UNIT * (64.0 + r + near)]
+        };
+    [displacement, displacement, stress, stress, stress, stress]
+}

@@ -1,0 +1,130 @@
+//! Gauss rules on panels that keep clear of singularities.
+//!
+//! A panel is accepted when every singularity lies outside a Bernstein ellipse large enough for a Gauss rule to reach
+//! the accuracy asked for, else it is halved. So the number of nodes follows from the geometry, and nothing is
+//! evaluated twice.
+//!
+//! Theory: `docs/theory.md` (T18).
+
+use crate::integral::strength::RelativeError;
+use crate::numeric::gauss;
+use crate::numeric::lanes::Points;
+use num_complex::Complex64;
+
+/// Panels are halved rather than given more nodes than this.
+const MOST_NODES: usize = 24;
+
+/// A panel narrower than this fraction of its piece is not halved.
+const NARROWEST: f64 = 1e-9;
+
+/// Axis of the ellipse through what is left out as too far to matter.
+const FARTHEST: f64 = 7.0;
+
+/// Singularities on ellipses so many times larger than the smallest leave nothing beside what that leaves.
+const NEAR: f64 = 2.0;
+
+/// The error at a pole of third order over that at a simple one.
+const POLE: f64 = 30.0;
+
+/// Relative rounding error of a term.
+pub(crate) const ROUNDING: f64 = 4.0 * f64::EPSILON;
+
+/// What a rule has to keep away from, in its own variable.
+#[derive(Debug, Clone)]
+pub(crate) struct Images {
+    pub(crate) all: Points,
+    pub(crate) pole: Complex64,
+}
+
+/// How a piece is integrated.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Rule {
+    /// The finite part of an inverse square at zero.
+    pub(crate) finite_part: bool,
+    /// The error over the sum of what the singularities would leave one by one.
+    pub(crate) caution: f64,
+}
+
+/// A node of a rule.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Node {
+    pub(crate) place: f64,
+    pub(crate) weight: f64,
+    /// Of the integrand; squares add up.
+    pub(crate) error: RelativeError,
+}
+
+/// Passes on the Gauss nodes of each panel, at least `least`; the panels of [0, 1] keep clear of the singularities, to
+/// exp(-`digits`) of the integrand.
+pub(crate) fn panels(
+    images: &Images,
+    digits: f64,
+    least: f64,
+    rule: Rule,
+    f: &mut impl FnMut(&mut [Node]),
+) {
+    let mut stack = [(0.0, 1.0); 64];
+    let mut depth = 1;
+    while depth > 0 {
+        depth -= 1;
+        let (s0, s1) = stack[depth];
+        let axes = images.all.axes(s0, s1);
+        let smallest = axes.iter().fold(FARTHEST, f64::min);
+        let pole = half_axes(axis(images.pole, s0, s1));
+        let (rate, pole_rate) = (half_axes(smallest).ln(), pole.ln());
+        let at_cut = s0 == 0.0 && rule.finite_part;
+        // Gauss's rule has twice the degree of one that only interpolates.
+        let degree = if at_cut { 1.0 } else { 2.0 };
+        let least_nodes = (digits / rate).max((digits + POLE.ln()) / pole_rate);
+        let nodes = (least_nodes / degree).ceil() + 1.0;
+        if nodes > MOST_NODES as f64 && s1 - s0 > NARROWEST {
+            let middle = 0.5 * (s0 + s1);
+            stack[depth] = (middle, s1);
+            stack[depth + 1] = (s0, middle);
+            depth += 2;
+            continue;
+        }
+        let n = (nodes.max(least) as usize).min(MOST_NODES);
+        let left = |half_axes: f64| half_axes.powi(-(degree * n as f64) as i32);
+        let near = axes.iter().filter(|&axis| axis <= NEAR * smallest);
+        let all: f64 = near.map(|axis| left(half_axes(axis))).sum();
+        // of the whole panel, as if one node had it
+        let of_rule = rule.caution * (all + POLE * left(pole)) * (n as f64).sqrt();
+        let error = (of_rule + ROUNDING).into();
+        let (rule, middle, half) = if at_cut {
+            (gauss::finite_part_rule(n), 0.0, s1)
+        } else {
+            (gauss::rule(n), 0.5 * (s0 + s1), 0.5 * (s1 - s0))
+        };
+        let mut found = [Node::default(); MOST_NODES];
+        for ((node, x), weight) in found.iter_mut().zip(&rule.nodes).zip(&rule.weights) {
+            *node = Node {
+                place: middle + half * x,
+                weight: half * weight,
+                error,
+            };
+        }
+        f(&mut found[..n]);
+    }
+}
+
+/// Sum of half axes of the smallest ellipse with foci s0, s1 through a singularity, focal distance 2.
+pub(crate) fn smallest_ellipse(images: &[Complex64], s0: f64, s1: f64) -> f64 {
+    let axes = images.iter().map(|&image| axis(image, s0, s1));
+    half_axes(axes.fold(FARTHEST, f64::min))
+}
+
+/// Major axis of the ellipse with foci s0, s1 through a point, focal distance 2.
+#[inline]
+fn axis(point: Complex64, s0: f64, s1: f64) -> f64 {
+    let (middle, inverse) = (0.5 * (s0 + s1), 2.0 / (s1 - s0));
+    let (x, y) = ((point.re - middle) * inverse, point.im * inverse);
+    let (square, twice) = (x * x + y * y + 1.0, 2.0 * x);
+    (square - twice).max(0.0).sqrt() + (square + twice).max(0.0).sqrt()
+}
+
+/// Sum of half axes from the major axis.
+fn half_axes(axis: f64) -> f64 {
+    let half = 0.5 * axis.max(2.0);
+    half + (half * half - 1.0).sqrt().max(1e-9)
+}

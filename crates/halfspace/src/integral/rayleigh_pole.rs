@@ -1,0 +1,80 @@
+//! The residue of the Rayleigh pole: the wave bound to the surface.
+//!
+//! ```text
+//! 2/(c D'(c)) Re sum_{P,S} N Psi(gamma z - i c t)
+//! ```
+
+use crate::integral::panels::ROUNDING;
+use crate::integral::rayleigh_front::Front;
+use crate::integral::setting::Setting;
+use crate::integral::spectrum::Pole;
+use crate::integral::strength::{RelativeError, Strength};
+use crate::integral::sum::Sum;
+use crate::point::Point;
+use crate::potentials::closed_form::potentials;
+use crate::potentials::order::{Order, TimeOrder};
+use crate::potentials::shallow::{self, Difference};
+use num_complex::Complex64;
+
+impl Setting {
+    /// The Rayleigh wave at a point: the residues of P and S.
+    pub(crate) fn rayleigh_wave<O: TimeOrder>(&self, poles: &[Pole; 2], at: Point) -> Sum {
+        let c = self.medium.rayleigh_speed();
+        let mut sum = Sum::default();
+        let shallow = shallow::applies::<O>(self.profile, at);
+        let front = Front::near::<O>(&self.medium, self.profile, at);
+        for pole in poles {
+            let xi = Complex64::new(pole.decay * at.z, -c * at.t);
+            let mut psi = match &front {
+                Some(front) => front.potentials(xi),
+                None => potentials::<O>(self.profile, xi, at.r),
+            };
+            // d/dt of order n + 1 is i c times order n
+            match O::ORDER {
+                Order::Impulse => psi = psi.map(|v| v * Complex64::new(0.0, c)),
+                Order::Step => {}
+                Order::StepIntegral => psi = psi.map(|v| v * Complex64::new(0.0, -1.0 / c)),
+            }
+            let mut term = pole.amplitudes.fields(&psi.map(|v| v.re), at.r);
+            if shallow {
+                let surface = Complex64::new(0.0, xi.im);
+                let Difference { a, g } = match &front {
+                    Some(front) => front.difference(surface, xi.re),
+                    None => shallow::difference(surface, xi.re.into(), at.r),
+                };
+                pole.amplitudes.set_traction(&mut term, a.re, g.re, at.r);
+            }
+            sum.add(1.0, self.error_at_front::<O>(at, xi, shallow), term);
+        }
+        sum
+    }
+
+    /// Relative error of the Rayleigh wave from rounding of its distance to the edges of the disc.
+    fn error_at_front<O: TimeOrder>(
+        &self,
+        at: Point,
+        xi: Complex64,
+        shallow: bool,
+    ) -> RelativeError {
+        let radius = self.profile.radius();
+        let height = xi.im.abs();
+        let gap = [at.r + radius, (at.r - radius).abs()]
+            .map(|edge| (height - edge).hypot(xi.re))
+            .into_iter()
+            .fold(f64::INFINITY, f64::min);
+        let size = height + at.r + radius;
+        let front = ROUNDING * size / gap.max(f64::EPSILON * size);
+        match Strength::of::<O>(self.profile) {
+            Strength::Bounded if shallow => (ROUNDING + front).into(),
+            Strength::Bounded => ROUNDING.into(),
+            Strength::InverseRoot => RelativeError {
+                displacement: ROUNDING + ROUNDING.sqrt() * front.sqrt(),
+                stress: ROUNDING + front,
+            },
+            Strength::FinitePart => RelativeError {
+                displacement: ROUNDING + front,
+                stress: ROUNDING + 3.0 * front,
+            },
+        }
+    }
+}

@@ -1,0 +1,71 @@
+//! What one integral over slowness depends on besides the point: half-space, profile, tolerance.
+
+use crate::integral::branch_points::FixedSingularities;
+use crate::integral::spectrum::Wave;
+use crate::medium::Medium;
+use crate::point::Point;
+use crate::profile::Profile;
+
+/// Half-space, load profile and accuracy, with what follows from them for every point.
+#[derive(Debug, Clone)]
+pub(crate) struct Setting {
+    pub(crate) medium: Medium,
+    pub(crate) profile: Profile,
+    pub(crate) tolerance: f64,
+    /// 1/kappa^2.
+    pub(crate) k: f64,
+    pub(crate) fixed: FixedSingularities,
+}
+
+impl Setting {
+    pub(crate) fn new(medium: &Medium, profile: Profile, tolerance: f64) -> Self {
+        Self {
+            medium: medium.clone(),
+            profile,
+            tolerance,
+            k: medium.shear_slowness_squared(),
+            fixed: FixedSingularities::new(medium),
+        }
+    }
+
+    /// Relative accuracy of each quadrature rule, as minus its natural logarithm.
+    ///
+    /// The rules are a little better than the tolerance because the waves cancel in the sum.
+    /// Just below the surface (`shallow`) the terms are of order z/t and the peak of the field is of order sqrt(z).
+    pub(crate) fn digits(&self, at: Point, shallow: bool) -> f64 {
+        const MARGIN: f64 = 0.1;
+        // beyond the last digit of a double, and what 24 nodes reach beside a finite part
+        const MOST: f64 = 40.0;
+        let peak = if shallow {
+            (at.t / at.z.sqrt()).min(1.0)
+        } else {
+            1.0
+        };
+        (-(MARGIN * self.tolerance * peak).ln()).min(MOST)
+    }
+
+    /// Rounding of the distance to the nearest edge, in units of that of the distance itself.
+    pub(crate) fn front_rounding(&self, at: Point) -> f64 {
+        let radius = self.profile.radius();
+        match self.profile {
+            Profile::Hertz | Profile::Punch => {
+                let gap = at.r - radius;
+                3.0 * (at.r + radius) / (gap * gap + at.z * at.z).sqrt().max(f64::EPSILON)
+            }
+            Profile::Point => 30.0,
+        }
+    }
+
+    /// Slowness of a body wave: 1 for P, 1/kappa for S.
+    pub(crate) fn slowness(&self, wave: Wave) -> f64 {
+        match wave {
+            Wave::P => 1.0,
+            Wave::S => self.k.sqrt(),
+        }
+    }
+
+    /// Time of the first arrival at (r, z): the distance to the nearest point of the disc.
+    pub(crate) fn first_arrival(&self, r: f64, z: f64) -> f64 {
+        (r - self.profile.radius()).max(0.0).hypot(z)
+    }
+}

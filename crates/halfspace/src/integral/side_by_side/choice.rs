@@ -1,0 +1,145 @@
+//! The potentials, each four by the forms that hold for them.
+
+use super::far::{at_far_front, by_series, far_delta, series_on_imaginary_axis};
+use super::near::{
+    by_parts, by_primitives, compact_on_axis, compact_punch, held_primitives, inside,
+    primitives_on_imaginary_axis, punch,
+};
+use crate::numeric::lanes::{Lanes, Pair};
+use crate::numeric::scalar::{Real, Scalar};
+use crate::potentials::Potentials;
+use crate::potentials::closed_form::SMALL_RADIUS;
+use crate::potentials::compact::AXIS;
+use crate::potentials::far_front::{self, FAR};
+use crate::potentials::multipole;
+use crate::potentials::order::Step;
+use crate::profile::Profile;
+use pulp::Simd;
+
+/// Where the closed forms hold and where the multipole series takes over.
+struct Reach<S: Simd> {
+    distance: Lanes<S>,
+    /// Terms that the series needs; none where no lane is far.
+    terms: usize,
+    some_near: bool,
+}
+
+impl<S: Simd> Reach<S> {
+    #[inline(always)]
+    fn new(xi: Pair<S>, r: f64) -> Self {
+        let nearest = multipole::nearest::<Step>(r);
+        let gap = (xi.im.abs() - r).abs();
+        let mut reach = Self {
+            distance: gap,
+            terms: 0,
+            some_near: true,
+        };
+        if (gap + xi.re).largest() + 1.0 < nearest {
+            return reach;
+        }
+        let square = xi.re * xi.re;
+        let (inner, outer) = (gap - 1.0, gap + 1.0);
+        reach.distance = ((inner * inner + square).sqrt() + (outer * outer + square).sqrt()) * 0.5;
+        let mut least = f64::INFINITY;
+        reach.some_near = false;
+        for d in reach.distance.into_array() {
+            if d >= nearest {
+                least = least.min(d);
+            } else {
+                reach.some_near = true;
+            }
+        }
+        if least.is_finite() {
+            reach.terms = multipole::terms_at(least);
+        }
+        reach
+    }
+
+    #[inline(always)]
+    fn pick(
+        &self,
+        near: Potentials<Pair<S>>,
+        far: Potentials<Pair<S>>,
+        r: f64,
+    ) -> Potentials<Pair<S>> {
+        let (distance, limit) = (
+            self.distance,
+            self.distance.constant(multipole::nearest::<Step>(r)),
+        );
+        Potentials {
+            a_upper: Pair::where_below(distance, limit, near.a_upper, far.a_upper),
+            a_lower: Pair::where_below(distance, limit, near.a_lower, far.a_lower),
+            g_upper: Pair::where_below(distance, limit, near.g_upper, far.g_upper),
+            g_lower: Pair::where_below(distance, limit, near.g_lower, far.g_lower),
+        }
+    }
+}
+
+/// The potentials at xi; on the imaginary axis real and imaginary part are apart.
+#[inline(always)]
+pub(super) fn potentials<S: Simd>(
+    profile: Profile,
+    xi: Pair<S>,
+    r: f64,
+    on_axis: bool,
+) -> Potentials<Pair<S>> {
+    let reach = Reach::new(xi, r);
+    let near = match profile {
+        _ if !reach.some_near => Potentials::all(xi.constant(0.0)),
+        Profile::Hertz if r > FAR => at_far_front(xi, r),
+        Profile::Hertz if r <= SMALL_RADIUS => by_parts(xi, r),
+        Profile::Hertz if on_axis => primitives_on_imaginary_axis(xi.im, r),
+        Profile::Hertz => by_primitives(xi, r),
+        Profile::Punch | Profile::Point => punch(xi, r),
+    };
+    let far = match reach.terms {
+        0 => return near,
+        terms if on_axis => series_on_imaginary_axis(profile, xi.im, r, terms),
+        terms => by_series(profile, xi, r, terms),
+    };
+    reach.pick(near, far, r)
+}
+
+/// The compact parts.
+#[inline(always)]
+pub(super) fn compact<S: Simd>(profile: Profile, eta: Lanes<S>, r: f64) -> Potentials<Lanes<S>> {
+    if profile != Profile::Hertz {
+        return compact_punch(eta, r);
+    }
+    if r < AXIS {
+        return compact_on_axis(eta);
+    }
+    if r <= FAR {
+        return held_primitives(eta, r, inside(eta, r));
+    }
+    let zero = eta.constant(0.0);
+    let pair = |re, im| Pair { re, im };
+    let distance = eta.abs();
+    let reach = Reach::new(pair(zero, distance), r);
+    let mut psi = Potentials::all(pair(zero, zero));
+    if reach.some_near {
+        let (delta, terms) = far_delta(eta, r);
+        let root = [delta[0].max(zero).sqrt(), delta[1].max(zero).sqrt()];
+        let near = far_front::compact_of(far_front::chord(delta, root, terms, r), r);
+        psi = Potentials {
+            a_upper: pair(near.a_upper, zero),
+            a_lower: pair(zero, near.a_lower),
+            g_upper: pair(zero, near.g_upper),
+            g_lower: pair(near.g_lower, zero),
+        };
+    }
+    if reach.terms > 0 {
+        psi = reach.pick(
+            psi,
+            series_on_imaginary_axis(Profile::Hertz, distance, r, reach.terms),
+            r,
+        );
+    }
+    // a2 and b3 are odd
+    Potentials {
+        a_upper: psi.a_upper.re,
+        a_lower: eta.where_below(zero, -psi.a_lower.im, psi.a_lower.im),
+        g_upper: eta.where_below(zero, -psi.g_upper.im, psi.g_upper.im),
+        g_lower: psi.g_lower.re,
+    }
+}

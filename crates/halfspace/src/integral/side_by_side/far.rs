@@ -1,0 +1,105 @@
+//! The potentials far from the chord: the multipole series, and the front of a distant point.
+
+use super::near::root_inside;
+use crate::numeric::lanes::{Lanes, Pair};
+use crate::numeric::scalar::Scalar;
+use crate::potentials::Potentials;
+use crate::potentials::far_front::{self, C, Chord};
+use crate::potentials::multipole;
+use crate::potentials::order::Step;
+use crate::profile::Profile;
+use pulp::Simd;
+
+/// The multipole series.
+#[inline(always)]
+pub(super) fn by_series<S: Simd>(
+    profile: Profile,
+    xi: Pair<S>,
+    r: f64,
+    terms: usize,
+) -> Potentials<Pair<S>> {
+    let inside = (-xi.im + r) * (xi.im + r);
+    let rho = root_inside(xi, inside);
+    let inverse = rho.reciprocal();
+    let square = inverse * inverse;
+    let sum = (rho + xi).reciprocal();
+    let mut psi =
+        multipole::sums::<Step, Pair<S>>(profile, terms, -1.0, xi * square, square, inverse);
+    let mass = multipole::moment(profile, 0);
+    psi.g_upper = psi.g_upper + inverse * sum * mass;
+    psi
+}
+
+/// The multipole series at zeta = i s, where Q_k is i^k/rho and V_k is i^{k-1}/rho times a real number.
+#[inline(always)]
+pub(super) fn series_on_imaginary_axis<S: Simd>(
+    profile: Profile,
+    s: Lanes<S>,
+    r: f64,
+    terms: usize,
+) -> Potentials<Pair<S>> {
+    let zero = s.constant(0.0);
+    let xi = Pair { re: zero, im: s };
+    let square = (-s + r) * (s + r);
+    let rho = root_inside(xi, square);
+    let (inverse, inverse2) = (rho.reciprocal(), s.constant(1.0) / square);
+    let sum = multipole::sums::<Step, Lanes<S>>(
+        profile,
+        terms,
+        1.0,
+        s * inverse2,
+        -inverse2,
+        s.constant(1.0),
+    );
+    let mass = multipole::moment(profile, 0);
+    Potentials {
+        a_upper: inverse.times(sum.a_upper),
+        a_lower: inverse.times(sum.a_lower).times_i(),
+        g_upper: inverse.times(sum.g_upper).times_i() + inverse * (rho + xi).reciprocal() * mass,
+        g_lower: inverse.times(-sum.g_lower),
+    }
+}
+
+/// delta = r - |eta| -+ 1 of a distant point, and the number of terms that the lanes next to the front need.
+#[inline(always)]
+pub(super) fn far_delta<S: Simd>(eta: Lanes<S>, r: f64) -> ([Lanes<S>; 2], usize) {
+    /// Farther from the front the multipole series is taken.
+    const LARGEST: f64 = 12.0;
+    let distance = eta.abs();
+    let delta = [-distance + (r - 1.0), -distance + (r + 1.0)];
+    let size = delta[0].abs().max(delta[1].abs()).largest();
+    (delta, far_front::terms(size.min(LARGEST), r))
+}
+
+/// The potentials of a distant point.
+#[inline(always)]
+pub(super) fn at_far_front<S: Simd>(xi: Pair<S>, r: f64) -> Potentials<Pair<S>> {
+    let zero = xi.re.constant(0.0);
+    let (real, terms) = far_delta(xi.im, r);
+    let delta = [
+        Pair {
+            re: real[0],
+            im: xi.re,
+        },
+        Pair {
+            re: real[1],
+            im: xi.re,
+        },
+    ];
+    let root = [delta[0].root(), delta[1].root()];
+    let Chord { i, k } = far_front::chord(delta, root, terms, r);
+    let ring = C / (r * r);
+    let psi = Potentials {
+        a_upper: i[0] * C,
+        a_lower: k[0].times_minus_i() * (2.0 * C),
+        g_upper: ((i[0] * r - i[1]).times_minus_i() + 4.0 / 3.0) * ring,
+        g_lower: (k[0] * r - k[1]) * (-2.0 * ring),
+    };
+    // the conjugate where xi is below the real axis
+    Potentials {
+        a_upper: Pair::where_below(xi.im, zero, psi.a_upper.conj(), psi.a_upper),
+        a_lower: Pair::where_below(xi.im, zero, psi.a_lower.conj(), psi.a_lower),
+        g_upper: Pair::where_below(xi.im, zero, psi.g_upper.conj(), psi.g_upper),
+        g_lower: Pair::where_below(xi.im, zero, psi.g_lower.conj(), psi.g_lower),
+    }
+}

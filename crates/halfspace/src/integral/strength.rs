@@ -1,0 +1,88 @@
+//! How singular an integrand is at the fronts, and the relative error that follows from it.
+
+use crate::potentials::order::{Order, TimeOrder};
+use crate::profile::Profile;
+
+/// How strong the singularities at the cuts of an integration interval are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Strength {
+    /// The integrand stays finite.
+    Bounded,
+    /// The inverse square root.
+    InverseRoot,
+    /// The power -3/2, taken as Hadamard's finite part.
+    FinitePart,
+}
+
+impl Strength {
+    /// Of a profile and an order in time.
+    ///
+    /// The step response of stress to a point force has fronts of power -3/2, to a punch of power -1/2, and each
+    /// derivative takes one off.
+    pub(crate) fn of<O: TimeOrder>(profile: Profile) -> Self {
+        match (profile, O::ORDER) {
+            (Profile::Point, Order::Impulse | Order::Step) => Self::FinitePart,
+            (Profile::Hertz, Order::Step | Order::StepIntegral)
+            | (Profile::Punch, Order::StepIntegral) => Self::Bounded,
+            (Profile::Hertz, Order::Impulse)
+            | (Profile::Punch, Order::Impulse | Order::Step)
+            | (Profile::Point, Order::StepIntegral) => Self::InverseRoot,
+        }
+    }
+
+    /// Relative error of a term near a cut.
+    ///
+    /// `rule` is that of the quadrature rule, `blur` the rounding error of the place of the cut, `distance` the distance
+    /// from it in slowness and `s` in the variable that smooths the singularity.
+    pub(crate) fn at_front(
+        self,
+        rule: RelativeError,
+        blur: f64,
+        distance: f64,
+        s: f64,
+    ) -> RelativeError {
+        /// All nodes beside a front share the error of its place: their errors add up, where squares are added.
+        const SHARED: f64 = 5.0;
+        let front = SHARED * blur / distance;
+        match self {
+            Self::Bounded => rule,
+            // displacements have a root there
+            Self::InverseRoot => RelativeError {
+                displacement: rule.displacement + front * s,
+                stress: rule.stress + front,
+            },
+            Self::FinitePart => RelativeError {
+                displacement: rule.displacement + front,
+                stress: rule.stress + 3.0 * front,
+            },
+        }
+    }
+
+    /// Error of a Gauss rule over the sum of rho^(-2n) of all singularities near it.
+    ///
+    /// Calibrated on the random points of `tests/estimate.rs`, judged at others by `tests/estimate_by_region.rs`.
+    pub(crate) fn caution(self) -> f64 {
+        const BOUNDED: f64 = 56.0;
+        match self {
+            Self::Bounded => BOUNDED,
+            Self::InverseRoot => 3.0 * BOUNDED,
+            Self::FinitePart => 60.0 * BOUNDED,
+        }
+    }
+}
+
+/// Likely error of a term over its size.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct RelativeError {
+    pub(crate) displacement: f64,
+    pub(crate) stress: f64,
+}
+
+impl From<f64> for RelativeError {
+    fn from(error: f64) -> Self {
+        Self {
+            displacement: error,
+            stress: error,
+        }
+    }
+}

@@ -1,0 +1,173 @@
+//! Angle, logarithm and exponential of four numbers.
+//!
+//! The polynomials are those of fdlibm (logarithm, exponential; Sun Microsystems, 1993) and of Cephes (arc tangent; Moshier,
+//! 1989): within two units in the last place.
+
+use super::Lanes;
+use crate::numeric::scalar::{Real, Scalar};
+use pulp::{Simd, cast};
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, LOG2_E, PI};
+
+/// ln 2 in two parts, the first of few digits.
+const LN_2_HIGH: f64 = 6.931_471_803_691_238e-1;
+const LN_2_LOW: f64 = 1.908_214_929_270_587_7e-10;
+
+impl<S: Simd> Lanes<S> {
+    /// The angle of the vector (`x`, self), in [-pi, pi]; of nothing it is zero.
+    #[inline(always)]
+    pub(crate) fn angle_over(self, x: Self) -> Self {
+        const TAN_PI_8: f64 = 0.414_213_562_373_095_03;
+        const FRAC_PI_4_LOW: f64 = 3.061_616_997_868_383e-17;
+        let zero = self.constant(0.0);
+        let (across, along) = (self.abs(), x.abs());
+        let small = across.min(along);
+        let large = across.max(along).at_least(f64::MIN_POSITIVE);
+        // atan(small/large), or pi/4 less atan of the rest
+        let limit = large * TAN_PI_8;
+        let t = small.where_below(limit, small, small - large)
+            / small.where_below(limit, large, small + large);
+        let low = small.where_below(limit, zero, self.constant(FRAC_PI_4_LOW));
+        let high = small.where_below(limit, zero, self.constant(FRAC_PI_4));
+        let z = t * t;
+        let upper = z.polynomial([
+            -8.750_608_600_031_904e-1,
+            -1.615_753_718_733_365e1,
+            -7.500_855_792_314_705e1,
+            -1.228_866_684_490_136_1e2,
+            -6.485_021_904_942_025e1,
+        ]);
+        let lower = z.polynomial([
+            1.0,
+            2.485_846_490_142_306_3e1,
+            1.650_270_098_316_988_5e2,
+            4.328_810_604_912_903e2,
+            4.853_903_996_359_137e2,
+            1.945_506_571_482_614e2,
+        ]);
+        let first = high + (t + (t * z * (upper / lower) + low));
+        let octant = along.where_below(across, -first + FRAC_PI_2, first);
+        x.where_below(zero, -octant + PI, octant).copysign(self)
+    }
+
+    /// The natural logarithm of positive numbers that are not subnormal.
+    #[inline(always)]
+    pub(crate) fn ln(self) -> Self {
+        // of 2^52 the last bit counts one
+        const MAGIC: f64 = 4_503_599_627_370_496.0;
+        let simd = self.simd;
+        let bits = simd.add_u64s(
+            simd.transmute_u64s_f64s(self.four),
+            simd.splat_u64s((0x3ff0_0000 - 0x3fe6_a09e) << 32),
+        );
+        let fraction = simd.add_u64s(
+            simd.and_u64s(bits, simd.splat_u64s(0x000f_ffff_ffff_ffff)),
+            simd.splat_u64s(0x3fe6_a09e << 32),
+        );
+        let shifted = simd.wrapping_dyn_shr_u32s(cast(bits), simd.splat_u32s(20));
+        let exponent = simd.or_u64s(
+            simd.and_u64s(cast(shifted), simd.splat_u64s(0xfff << 32)),
+            simd.splat_u64s(MAGIC.to_bits()),
+        );
+        let k = (self.with(simd.transmute_f64s_u64s(exponent)) - MAGIC) * 0.5_f64.powi(32) - 1023.0;
+        let f = self.with(simd.transmute_f64s_u64s(fraction)) - 1.0;
+        let s = f / (f + 2.0);
+        let z = s * s;
+        let w = z * z;
+        let even = w * w.polynomial([
+            0.153_138_376_992_093_73,
+            0.222_221_984_321_497_84,
+            0.399_999_999_994_094_2,
+        ]);
+        let odd = z * w.polynomial([
+            0.147_981_986_051_165_86,
+            0.181_835_721_616_180_5,
+            0.285_714_287_436_623_9,
+            0.666_666_666_666_673_5,
+        ]);
+        let half_square = f * f * 0.5;
+        s * (half_square + (odd + even)) + k * LN_2_LOW - half_square + f + k * LN_2_HIGH
+    }
+
+    /// The exponential of numbers between -700 and 700.
+    #[inline(always)]
+    pub(super) fn exponential(self) -> Self {
+        // to this the nearest integer is added in the last bits
+        const ROUND: f64 = 6_755_399_441_055_744.0;
+        let simd = self.simd;
+        let k = (self * LOG2_E + ROUND) - ROUND;
+        let low = k * LN_2_LOW;
+        let high = self - k * LN_2_HIGH;
+        let x = high - low;
+        let z = x * x;
+        let c = x - z * z.polynomial([
+            4.138_136_797_057_238_5e-8,
+            -1.653_390_220_546_525_2e-6,
+            6.613_756_321_437_934e-5,
+            -2.777_777_777_701_559_3e-3,
+            0.166_666_666_666_666_02,
+        ]);
+        let y = (x * c / (-c + 2.0) - low) + high + 1.0;
+        // the exponent of 2^k, shifted out of the last bits of 2^52 + (k + 1023) 2^32
+        let biased = (k + 1023.0) * 2.0_f64.powi(32) + 2.0_f64.powi(52);
+        let power = simd.wrapping_dyn_shl_u32s(cast(biased.four), simd.splat_u32s(20));
+        y * self.with(cast(power))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::numeric::lanes::dispatch;
+    use pulp::WithSimd;
+
+    /// Largest difference of the four functions from those of the standard library, in units of the last place.
+    struct Differences;
+
+    fn units(found: f64, exact: f64) -> f64 {
+        (found - exact).abs() / (f64::EPSILON * exact.abs().max(f64::MIN_POSITIVE))
+    }
+
+    impl WithSimd for Differences {
+        type Output = [f64; 3];
+
+        #[inline(always)]
+        fn with_simd<S: Simd>(self, simd: S) -> [f64; 3] {
+            let mut worst = [0.0_f64; 3];
+            for i in 0..4000 {
+                let angle = -3.2 + 6.4 * f64::from(i) / 3999.0;
+                for exponent in [-8, -1, 0, 3] {
+                    let size = 10.0_f64.powi(exponent) * 1.7;
+                    let (y, x) = (size * angle.sin(), size * angle.cos());
+                    let [found, ..] = Lanes::all(simd, y)
+                        .angle_over(Lanes::all(simd, x))
+                        .into_array();
+                    worst[0] = worst[0].max(units(found, y.atan2(x)));
+                    let value = size * (1.0 + f64::from(i) / 1000.0);
+                    let [found, ..] = Lanes::all(simd, value).ln().into_array();
+                    worst[1] = worst[1].max((found - value.ln()).abs() / f64::EPSILON);
+                    let value = angle * f64::from(exponent);
+                    let [found, ..] = Lanes::all(simd, value).exp().into_array();
+                    worst[2] = worst[2].max(units(found, value.exp()));
+                }
+            }
+            worst
+        }
+    }
+
+    #[test]
+    fn functions_are_those_of_the_standard_library() {
+        let [angle, logarithm, exponential] = dispatch(Differences);
+        assert!(angle < 2.5, "{angle}");
+        // near one the logarithm is small: absolute, and 20 is the largest
+        assert!(logarithm < 25.0, "{logarithm}");
+        assert!(exponential < 2.5, "{exponential}");
+    }
+
+    #[test]
+    fn bits_do_not_depend_on_the_machine() {
+        assert_eq!(
+            dispatch(Differences),
+            Simd::vectorize(pulp::Scalar256b, Differences)
+        );
+    }
+}

@@ -1,0 +1,75 @@
+//! The four potentials that carry the six fields.
+//!
+//! Theory: `docs/theory.md` (T12 to T14).
+//!
+//! In reading order: which time integral is meant (`order`), the closed forms of a chord and of its ends (`closed_form`,
+//! `chord_integral`, `end`), the real parts that begin and end with a wave (`compact`), and what takes their place far from
+//! the disc (`multipole`), at a distant front (`far_front`) and just below the surface (`shallow`).
+
+pub(crate) mod chord_integral;
+pub(crate) mod closed_form;
+pub(crate) mod compact;
+pub(crate) mod end;
+pub(crate) mod far_front;
+pub(crate) mod multipole;
+pub(crate) mod order;
+pub(crate) mod shallow;
+
+/// Potentials A_n and B_n/r of two neighbouring orders n.
+///
+/// With m the number of integrations in time, -1 of the impulse response to 1, see [`Order`](crate::potentials::order::Order),
+/// the upper order is 3 + m and the lower 2 + m.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Potentials<T> {
+    /// A_{3 + m}, carries w.
+    pub(crate) a_upper: T,
+    /// A_{2 + m}, carries the normal stresses.
+    pub(crate) a_lower: T,
+    /// B_{3 + m}/r, carries u and the hoop terms.
+    pub(crate) g_upper: T,
+    /// B_{2 + m}/r, carries the shear stress.
+    pub(crate) g_lower: T,
+}
+
+impl<T: Copy> Potentials<T> {
+    /// Four times the same.
+    #[inline(always)]
+    pub(crate) fn all(value: T) -> Self {
+        Self {
+            a_upper: value,
+            a_lower: value,
+            g_upper: value,
+            g_lower: value,
+        }
+    }
+}
+
+impl<T> Potentials<T> {
+    /// The same with every potential replaced.
+    #[inline]
+    pub(crate) fn map<U>(self, f: impl Fn(T) -> U) -> Potentials<U> {
+        Potentials {
+            a_upper: f(self.a_upper),
+            a_lower: f(self.a_lower),
+            g_upper: f(self.g_upper),
+            g_lower: f(self.g_lower),
+        }
+    }
+
+    /// Each potential joined with its counterpart.
+    #[inline]
+    pub(crate) fn zip<U, V>(self, other: Potentials<U>, f: impl Fn(T, U) -> V) -> Potentials<V> {
+        Potentials {
+            a_upper: f(self.a_upper, other.a_upper),
+            a_lower: f(self.a_lower, other.a_lower),
+            g_upper: f(self.g_upper, other.g_upper),
+            g_lower: f(self.g_lower, other.g_lower),
+        }
+    }
+
+    /// The four in the order in which they are declared.
+    #[cfg(test)]
+    pub(crate) fn into_array(self) -> [T; 4] {
+        [self.a_upper, self.a_lower, self.g_upper, self.g_lower]
+    }
+}

@@ -1,0 +1,194 @@
+//! The potentials far from the disc: the multipole series.
+//!
+//! Expanding the chord integral about its centre,
+//!
+//! ```text
+//! A_3 = sum_j (-1)^j M_2j Q_2j                 Q_k = P_k(zeta/rho)/rho^{k+1} = E_{-k}/k!
+//! B_3/r = M_0/(rho (rho + zeta)) + sum_{j>0} (-1)^j M_2j V_2j/(2j)      V_k = P_k'(zeta/rho)/rho^{k+2}
+//! ```
+//!
+//! with zeta = xi, M_2j the even moments of the chord function and P_k Legendre polynomials. It takes over
+//! where the closed form becomes a difference of large numbers.
+//!
+//! Theory: `docs/theory.md` (T20).
+
+use crate::numeric::complex::{logarithm, reciprocal, root_with_circle};
+use crate::numeric::scalar::Scalar;
+use crate::potentials::Potentials;
+use crate::potentials::order::{Order, TimeOrder};
+use crate::profile::Profile;
+use num_complex::Complex64;
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// Most terms of the series.
+const MOST_TERMS: usize = 8;
+
+/// Distance from which on the series is taken: farther out the closed forms lose digits, those of the time integral sooner.
+#[inline(always)]
+pub(crate) fn nearest<O: TimeOrder>(r: f64) -> f64 {
+    match O::ORDER {
+        Order::Step if r > 0.3 => 10.0,
+        Order::Impulse | Order::Step | Order::StepIntegral => 7.0,
+    }
+}
+
+/// Number of terms that reach 1e-13 of the first, or nothing when xi is too near.
+///
+/// The distance is half the sum of the distances of the singularities sigma = -i xi +- r from the ends of
+/// the chord.
+#[inline]
+pub(crate) fn terms(xi: Complex64, r: f64, nearest: f64) -> Option<usize> {
+    let gap = (xi.im.abs() - r).abs();
+    if gap + xi.re + 1.0 < nearest {
+        return None;
+    }
+    let y2 = xi.re * xi.re;
+    let sum = ((gap - 1.0).powi(2) + y2).sqrt() + ((gap + 1.0).powi(2) + y2).sqrt();
+    let distance = 0.5 * sum;
+    (distance >= nearest).then(|| terms_at(distance))
+}
+
+/// The same at a distance from which on the series is taken.
+#[inline]
+pub(crate) fn terms_at(distance: f64) -> usize {
+    let terms = [(60.0, 4), (25.0, 5), (14.0, 6), (9.5, 7)];
+    let found = terms.into_iter().find(|(least, _)| distance >= *least);
+    found.map_or(MOST_TERMS, |(_, n)| n)
+}
+
+/// Even moments M_2j of the chord function.
+#[inline(always)]
+pub(crate) fn moment(profile: Profile, j: usize) -> f64 {
+    let odd = (2 * j + 1) as f64;
+    match profile {
+        Profile::Hertz => 1.5 / (PI * odd * (odd + 2.0)),
+        Profile::Punch => 0.5 / (PI * odd),
+        Profile::Point if j == 0 => 0.5 / PI,
+        Profile::Point => 0.0,
+    }
+}
+
+/// The series of the two orders without the terms in M_0 that are not Q_0, Q_1 or V_1.
+///
+/// `alternate` is the factor from one j to the next, `over` is zeta/rho^2, `inverse2` 1/rho^2, `q0` 1/rho.
+#[inline(always)]
+pub(crate) fn sums<O: TimeOrder, T: Scalar>(
+    profile: Profile,
+    terms: usize,
+    alternate: f64,
+    over: T,
+    inverse2: T,
+    q0: T,
+) -> Potentials<T> {
+    let zero = q0.constant(0.0);
+    let mut sum = Potentials {
+        a_upper: zero,
+        a_lower: zero,
+        g_upper: zero,
+        g_lower: zero,
+    };
+    // Q_{2j-1}, Q_{2j}, V_{2j-1}, V_{2j}
+    let (mut q_odd, mut q_even) = (zero, q0);
+    let (mut v_odd, mut v_even) = (zero, zero);
+    let mut sign = 1.0;
+    for j in 0..terms {
+        let k = 2.0 * j as f64;
+        let m = sign * moment(profile, j);
+        let q_next = (over * q_even * (2.0 * k + 1.0) - inverse2 * q_odd * k) * (1.0 / (k + 1.0));
+        let v_next = (v_odd + q_even * (2.0 * k + 1.0)) * inverse2;
+        match O::ORDER {
+            Order::Impulse => {
+                sum.a_upper = sum.a_upper + q_next * (m * (k + 1.0));
+                sum.g_upper = sum.g_upper + v_next * m;
+            }
+            Order::Step => {
+                sum.a_upper = sum.a_upper + q_even * m;
+                sum.a_lower = sum.a_lower + q_next * (m * (k + 1.0));
+                sum.g_lower = sum.g_lower + v_next * m;
+                if j > 0 {
+                    sum.g_upper = sum.g_upper + v_even * (m / k);
+                }
+            }
+            Order::StepIntegral => {
+                sum.a_lower = sum.a_lower + q_even * m;
+                if j > 0 {
+                    sum.a_upper = sum.a_upper + q_odd * (m / k);
+                    sum.g_upper = sum.g_upper + v_odd * (m / (k * (k - 1.0)));
+                    sum.g_lower = sum.g_lower + v_even * (m / k);
+                }
+            }
+        }
+        q_even =
+            (over * q_next * (2.0 * k + 3.0) - inverse2 * q_even * (k + 1.0)) * (1.0 / (k + 2.0));
+        q_odd = q_next;
+        v_even = (v_even + q_next * (2.0 * k + 3.0)) * inverse2;
+        v_odd = v_next;
+        if O::ORDER == Order::Impulse {
+            sum.a_lower = sum.a_lower + q_even * (m * (k + 1.0) * (k + 2.0));
+            sum.g_lower = sum.g_lower + v_even * (m * (k + 1.0));
+        }
+        sign *= alternate;
+    }
+    sum
+}
+
+/// The potentials by `terms` terms of the series.
+pub(crate) fn multipole<O: TimeOrder>(
+    profile: Profile,
+    terms: usize,
+    xi: Complex64,
+    r: f64,
+) -> Potentials<Complex64> {
+    if O::ORDER != Order::Impulse && xi.re == 0.0 && xi.im.abs() > r {
+        return on_imaginary_axis::<O>(profile, terms, xi.im, r);
+    }
+    let rho = root_with_circle(xi, r);
+    let inverse = reciprocal(rho);
+    let square = inverse * inverse;
+    let sum = reciprocal(rho + xi);
+    let mass = moment(profile, 0);
+    let mut psi = sums::<O, Complex64>(profile, terms, -1.0, xi * square, square, inverse);
+    match O::ORDER {
+        Order::Impulse => {}
+        Order::Step => psi.g_upper += mass * inverse * sum,
+        Order::StepIntegral => {
+            psi.a_upper -= mass * logarithm(rho + xi);
+            psi.g_upper += mass * sum;
+            psi.g_lower += mass * inverse * sum;
+        }
+    }
+    psi
+}
+
+/// At zeta = i s with |s| > r all is real up to powers of i: Q_k = (-i)^{k+1} q_k, V_k = (-i)^{k+2} v_k.
+fn on_imaginary_axis<O: TimeOrder>(
+    profile: Profile,
+    terms: usize,
+    s: f64,
+    r: f64,
+) -> Potentials<Complex64> {
+    let far = s.abs();
+    let side = 1.0_f64.copysign(s);
+    let w2 = (far - r) * (far + r);
+    let inverse = 1.0 / w2.sqrt();
+    let square = inverse * inverse;
+    let sum = 1.0 / (w2 * inverse + far);
+    let mass = moment(profile, 0);
+    let psi = sums::<O, f64>(profile, terms, 1.0, s * square, square, side * inverse);
+    let (real, imaginary) = (|v| Complex64::new(v, 0.0), |v| Complex64::new(0.0, v));
+    match O::ORDER {
+        Order::Impulse => unreachable!("the impulse response takes the complex series"),
+        Order::Step => Potentials {
+            a_upper: imaginary(-psi.a_upper),
+            a_lower: real(-psi.a_lower),
+            g_upper: real(-psi.g_upper - mass * inverse * sum),
+            g_lower: imaginary(psi.g_lower),
+        },
+        Order::StepIntegral => Potentials {
+            a_upper: Complex64::new(psi.a_upper + mass * sum.ln(), -mass * side * FRAC_PI_2),
+            a_lower: imaginary(-psi.a_lower),
+            g_upper: imaginary(-psi.g_upper - mass * side * sum),
+            g_lower: real(-psi.g_lower - mass * inverse * sum),
+        },
+    }
+}

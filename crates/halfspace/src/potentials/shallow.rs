@@ -1,0 +1,104 @@
+//! Just below the surface, where the traction is a small difference of the two waves.
+//!
+//! At z = 0 the arguments of P and S are the same, xi0 = -+ i t/x, and the waves cancel: for the normal stress
+//! their amplitudes add up to -i/x at every slowness, whichever sense, and the two senses cancel; for the
+//! shear stress the amplitudes cancel by themselves; at the Rayleigh pole they add up to -D(c) = 0. So each potential
+//! Psi(xi) may be replaced by Psi(xi) - Psi(xi0), and what is left under the integral is of the order of the depth.
+//!
+//! Taken as it stands the difference would be lost to rounding. Away from the singularities of the potentials it is
+//! the step in xi times the mean of the potentials one order lower, by Gauss's rule of two points.
+//!
+//! Theory: `docs/theory.md` (T19).
+
+use crate::point::Point;
+use crate::potentials::closed_form::potentials;
+use crate::potentials::compact::compact;
+use crate::potentials::order::{Impulse, Order, Step, TimeOrder};
+use crate::profile::Profile;
+use num_complex::Complex64;
+
+/// Depth from which on the stresses have digits to spare.
+pub(crate) const DEEPEST: f64 = 1e-4;
+
+/// Radius down to which the compact parts of every order hold: nearer the axis sigma_rz vanishes as r.
+const NEAREST: f64 = 1e-6;
+
+/// Longest step over the distance to a singularity: the rule errs by its fourth power over 4320.
+const SHORT: f64 = 1e-3;
+
+/// Places of the two points of Gauss's rule on [0, 1].
+const PLACES: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
+
+/// A_2 and B_2/r less their values at the surface.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Difference<T> {
+    pub(crate) a: T,
+    pub(crate) g: T,
+}
+
+/// Whether sigma_zz and sigma_rz are taken from differences.
+pub(crate) fn applies<O: TimeOrder>(profile: Profile, at: Point) -> bool {
+    O::ORDER == Order::Step
+        && profile == Profile::Hertz
+        && at.z > 0.0
+        && at.z < DEEPEST
+        && at.r > NEAREST
+}
+
+/// The same point on the surface.
+pub(crate) fn above(at: Point) -> Point {
+    Point { z: 0.0, ..at }
+}
+
+/// Distance of an imaginary number from the singularities, which lie at +-i (1 +- r).
+pub(crate) fn gap(xi: Complex64, r: f64) -> f64 {
+    let height = xi.im.abs();
+    (height - (1.0 + r))
+        .abs()
+        .min((height - (1.0 - r).abs()).abs())
+}
+
+/// Whether a step from imaginary xi is short enough for the mean of derivatives.
+pub(crate) fn is_short(xi: Complex64, step: f64, r: f64) -> bool {
+    step < SHORT * gap(xi, r)
+}
+
+/// The difference between xi + step and xi.
+pub(crate) fn difference(xi: Complex64, step: Complex64, r: f64) -> Difference<Complex64> {
+    if is_short(xi, step.norm(), r) {
+        let [first, second] =
+            PLACES.map(|place| potentials::<Impulse>(Profile::Hertz, xi + place * step, r));
+        Difference {
+            a: -0.5 * step * (first.a_lower + second.a_lower),
+            g: -0.5 * step * (first.g_lower + second.g_lower),
+        }
+    } else {
+        let from = potentials::<Step>(Profile::Hertz, xi, r);
+        let to = potentials::<Step>(Profile::Hertz, xi + step, r);
+        Difference {
+            a: to.a_lower - from.a_lower,
+            g: to.g_lower - from.g_lower,
+        }
+    }
+}
+
+/// The same of the compact parts, between eta = surface + step and the surface.
+///
+/// Just after the plane front both are large and eta is not, so it is not taken from their sum.
+pub(crate) fn compact_difference(surface: f64, step: f64, eta: f64, r: f64) -> Difference<f64> {
+    if is_short(Complex64::new(0.0, surface), step.abs(), r) {
+        let [first, second] =
+            PLACES.map(|place| compact::<Impulse>(Profile::Hertz, surface + place * step, r));
+        Difference {
+            a: 0.5 * step * (first.a_lower + second.a_lower),
+            g: 0.5 * step * (first.g_lower + second.g_lower),
+        }
+    } else {
+        let from = compact::<Step>(Profile::Hertz, surface, r);
+        let to = compact::<Step>(Profile::Hertz, eta, r);
+        Difference {
+            a: to.a_lower - from.a_lower,
+            g: to.g_lower - from.g_lower,
+        }
+    }
+}

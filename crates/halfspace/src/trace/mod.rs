@@ -1,0 +1,239 @@
+//! The remainder at one place as a function of time: polynomials on segments that halve toward the fronts.
+//!
+//! A cell average taken as a difference of int R dt carries the rounding of int R dt over the width of the cell; far from
+//! the load, where R is small and cells are short beside the time of travel, nothing is left of it. Here R itself is
+//! interpolated on segments that halve toward the fronts. Their number depends on the fronts and on the accuracy, not on
+//! the cells.
+//!
+//! The segments are found by `interpolation`; one of them is a `segment`.
+
+mod interpolation;
+mod segment;
+
+use crate::arrivals::Arrivals;
+use crate::domain::{NEAREST, check, check_hertz, check_place_under, check_time, check_width};
+use crate::error::DomainError;
+use crate::field::Six;
+use crate::kernel::Kernel;
+use crate::trace::interpolation::segments;
+use crate::trace::segment::Segment;
+
+/// What is left of a polynomial is of either sign, and so is the rate of the force times it.
+const OSCILLATES: f64 = 0.22;
+
+/// R(t) at one place up to an end: at instants, and its moments over any intervals.
+///
+/// Made by [`Kernel::trace`]. Its cost depends on the place and the tolerance, not on what is read: an instant takes some
+/// tens of nanoseconds, an interval some hundreds.
+///
+/// ```
+/// use halfspace::{Field, Kernel, Medium, Profile};
+/// let kernel = Kernel::new(&Medium::new(0.3)?, Profile::Hertz, 1e-8)?;
+/// // 200 radii out on the surface, where the Rayleigh wave passes at t = 402
+/// let trace = kernel.trace(200.0, 0.0, 420.0)?;
+/// let [average, _first, _second] = trace.cell(400.0, 400.1)?;
+/// let middle = kernel.remainder(200.0, 0.0, 400.05)?;
+/// let w = Field::DisplacementZ.index();
+/// assert!((average[w] - middle.value[w]).abs() < 1e-6);
+/// assert!((trace.at(400.05)[w] - middle.value[w]).abs() < 1e-7);
+/// # Ok::<(), halfspace::DomainError>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Trace {
+    first_arrival: f64,
+    end: f64,
+    static_field: Six,
+    segments: Vec<Segment>,
+    error: Six,
+}
+
+impl Kernel {
+    /// R(t) at (r, z) for t from 0 to `end`.
+    ///
+    /// Accuracy: the kernel's tolerance, as a fraction of each field's peak over the time of the trace, at any distance
+    /// to 1e4.
+    ///
+    /// # Errors
+    /// [`DomainError`] for r, z or end outside [0, 1e20], and for a profile other than Hertz, whose stresses are infinite
+    /// at fronts.
+    pub fn trace(&self, r: f64, z: f64, end: f64) -> Result<Trace, DomainError> {
+        self.trace_under(
+            r,
+            z,
+            end,
+            (self.tolerance(), &|length: f64| length.min(1.0)),
+        )
+    }
+
+    /// R(t) as far as a force needs it that changes by no more than `rise` of its peak within a time.
+    ///
+    /// Accuracy: responses to that force are within `tolerance` of their peaks, and typically a hundredth of it: beside
+    /// fronts, in times in which the force hardly changes, R itself is known to fewer digits.
+    ///
+    /// # Errors
+    /// As [`Self::trace`].
+    pub fn trace_under(
+        &self,
+        r: f64,
+        z: f64,
+        end: f64,
+        (tolerance, rise): (f64, &dyn Fn(f64) -> f64),
+    ) -> Result<Trace, DomainError> {
+        check_place_under(self.profile(), r, z)?;
+        check_time(end)?;
+        check_hertz(self.profile(), "a trace")?;
+        // the depth of a rounding error is none
+        let z = if z < NEAREST { 0.0 } else { z };
+        let fronts = Arrivals::new(self.medium(), self.profile(), r, z)?.sorted();
+        let static_field = self.static_field(r, z)?;
+        let first_arrival = self.first_arrival(r, z);
+        let segments = segments(
+            &fronts,
+            (first_arrival, end),
+            &static_field,
+            (tolerance, rise),
+            |t| self.remainder(r, z, t),
+        )?;
+        // each counts as far as the force changes during the segment
+        let mut error = static_field.map(|s| f64::EPSILON * s.abs());
+        let mut truncation = Six::default();
+        for segment in &segments {
+            let part = rise(segment.times[1] - segment.times[0]);
+            for f in 0..6 {
+                error[f] += part * segment.error[f];
+                truncation[f] = truncation[f].max(OSCILLATES * part * segment.truncation[f]);
+            }
+        }
+        for (error, truncation) in error.iter_mut().zip(truncation) {
+            *error += truncation;
+        }
+        Ok(Trace {
+            first_arrival,
+            end,
+            static_field,
+            segments,
+            error,
+        })
+    }
+}
+
+impl Trace {
+    /// Times between which R is a polynomial in the root of the time from a front, ascending, fronts among them.
+    pub fn breaks(&self) -> impl Iterator<Item = f64> {
+        self.segments.iter().map(|segment| segment.times[0])
+    }
+
+    /// Estimated error of a response to the force that the trace is for, over the peak of the force.
+    #[must_use]
+    pub fn error(&self) -> &Six {
+        &self.error
+    }
+
+    /// R at a time; after the end of the trace, its value there.
+    #[must_use]
+    pub fn at(&self, t: f64) -> Six {
+        let after = self.segments.partition_point(|s| s.times[1] < t);
+        match self.segments.get(after).or(self.segments.last()) {
+            Some(segment) if t > self.first_arrival => segment.at(t),
+            Some(_) | None => self.static_field.map(|v| -v),
+        }
+    }
+
+    /// Average, first and second moment of R over a cell from `from` to `to`.
+    ///
+    /// ```text
+    /// 1/width int R dt          1/width int s R dt          1/width int (s^2 - 1/12) R dt,     s = (t - centre)/width
+    /// ```
+    ///
+    /// # Errors
+    /// [`DomainError`] for a cell that is empty or reaches beyond the trace.
+    pub fn cell(&self, from: f64, to: f64) -> Result<[Six; 3], DomainError> {
+        check(from >= 0.0, "from", from, "[0, to)")?;
+        check(to > from, "to", to, "(from, end of the trace]")?;
+        check(to <= self.end, "to", to, "(from, end of the trace]")?;
+        let next = self
+            .segments
+            .partition_point(|segment| segment.times[1] <= from);
+        Ok(self.cell_from(next, from, to))
+    }
+
+    /// Estimated error of the average over a cell; half of it is that of the first moment.
+    #[must_use]
+    pub fn cell_error(&self, from: f64, to: f64) -> Six {
+        let before = self.first_arrival.clamp(from, to) - from;
+        let mut error = self.static_field.map(|s| f64::EPSILON * s.abs() * before);
+        let first = self.segments.partition_point(|s| s.times[1] <= from);
+        for segment in self.segments[first..]
+            .iter()
+            .take_while(|s| s.times[0] < to)
+        {
+            let length = to.min(segment.times[1]) - from.max(segment.times[0]);
+            for (f, error) in error.iter_mut().enumerate() {
+                *error += length * (segment.error[f] + OSCILLATES * segment.truncation[f]);
+            }
+        }
+        error.map(|e| e / (to - from))
+    }
+
+    /// The same from a segment known to be the first that the cell meets.
+    fn cell_from(&self, first: usize, from: f64, to: f64) -> [Six; 3] {
+        /// A cell this short in units of the rounding error of its time is an instant.
+        const INSTANT: f64 = 1e4;
+        let (width, centre) = (to - from, 0.5 * (from + to));
+        if width < INSTANT * f64::EPSILON * to {
+            return [self.at(centre), Six::default(), Six::default()];
+        }
+        let mut sums = [Six::default(); 3];
+        if from < self.first_arrival {
+            let until = to.min(self.first_arrival);
+            let (length, arm) = (until - from, 0.5 * (until + from) - centre);
+            for (f, s) in self.static_field.into_iter().enumerate() {
+                let area = -length * s;
+                sums[0][f] += area;
+                sums[1][f] += arm * area;
+                sums[2][f] += (arm * arm + length * length / 12.0) * area;
+            }
+        }
+        for segment in &self.segments[first..] {
+            if segment.times[0] >= to {
+                break;
+            }
+            let part = [from.max(segment.times[0]), to.min(segment.times[1])];
+            if part[1] > part[0] {
+                segment.add(part[0], part[1], centre, &mut sums);
+            }
+        }
+        let [area, moment, second] = sums;
+        let average = area.map(|v| v / width);
+        [
+            average,
+            moment.map(|v| v / (width * width)),
+            std::array::from_fn(|f| second[f] / width.powi(3) - average[f] / 12.0),
+        ]
+    }
+
+    /// Calls `f` with the index and the average, first and second moment of each of `count` cells of `width`, from time
+    /// zero.
+    ///
+    /// # Errors
+    /// [`DomainError`] for a width outside [1e-20, 1e20] and for cells that reach beyond the trace.
+    pub fn for_each_cell(
+        &self,
+        width: f64,
+        count: usize,
+        mut f: impl FnMut(usize, [Six; 3]),
+    ) -> Result<(), DomainError> {
+        check_width(width)?;
+        let end = count as f64 * width;
+        check(end <= self.end, "t", end, "[0, end of the trace]")?;
+        let mut first = 0;
+        for j in 0..count {
+            let (from, to) = (j as f64 * width, (j + 1) as f64 * width);
+            while first < self.segments.len() && self.segments[first].times[1] <= from {
+                first += 1;
+            }
+            f(j, self.cell_from(first, from, to));
+        }
+        Ok(())
+    }
+}
