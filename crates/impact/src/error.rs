@@ -1,7 +1,7 @@
 //! Why fields could not be computed.
 
 use crate::grid::TooManySamples;
-use crate::place::FieldError;
+use crate::kernels::place::FieldError;
 use halfspace::DomainError;
 use thiserror::Error;
 

@@ -8,12 +8,22 @@
 use crate::evaluator::nodes::{CellNodes, Node};
 use crate::kernels::Pulse;
 use crate::record::ForceRecord;
-use crate::run::Run;
 use contact::march::weights::Weights;
 use contact::resample::{Instant, Resampler};
 use contact::units::{CollisionUnits, KernelUnits};
 use contact::{HalfSpace, History, StaticShare, WaveSpeeds};
 use halfspace::{Deflection, DomainError, Medium, SurfaceResponse, gauss};
+
+/// Consecutive samples.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Run {
+    /// Time of the first in s.
+    pub start_s: f64,
+    /// Force long before it in N.
+    pub base_n: f64,
+    /// How many.
+    pub count: usize,
+}
 
 /// A force on a disc of the surface.
 #[derive(Debug, Clone)]

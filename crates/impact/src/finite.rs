@@ -1,7 +1,7 @@
 //! Results are numbers: none that is not finite leaves the crate.
 
+use crate::fields::probes::{ProbeFields, SectionFields};
 use crate::outcome::{Cause, Outcome, RecordResults, Series};
-use crate::probes::{ProbeFields, SectionFields};
 use contact::Choice;
 use lookup::schema::FIELD_NAMES;
 use thiserror::Error;

@@ -1,8 +1,7 @@
 //! Times of the output.
 
-use crate::excitation::Excitation;
+use crate::excitation::{Excitation, Run};
 use crate::kernels::KernelSource;
-use crate::run::Run;
 use crate::scene::Scene;
 use thiserror::Error;
 

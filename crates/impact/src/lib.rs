@@ -19,61 +19,48 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-// in reading order
-mod condition;
 mod cost;
 pub mod energy;
 mod error;
 mod evaluator;
 pub mod excitation;
-pub mod fields;
+mod fields;
 mod finite;
-
-pub mod forecast;
 pub mod grid;
 pub mod impact;
 pub mod kernels;
-mod low_pass;
 pub mod numbers;
 pub mod outcome;
-pub mod peaks;
-mod place;
-mod plausible;
-pub mod probes;
-pub mod quantity;
 pub mod record;
-mod run;
 pub mod scene;
 pub mod shared;
 pub mod simulate;
-pub mod source;
-mod stretch;
 pub mod sweep;
 mod watch;
 
-pub use condition::{Treatment, TreatmentError};
 pub use contact::{HalfSpace, Material, Settings, Striker};
+pub use cost::forecast::{Allowance, Forecast, TooMuch, TooMuchMemory};
 pub use energy::EnergySeries;
 pub use error::FieldsError;
 pub use evaluator::convolve;
 pub use excitation::{Excitation, Motion, PressureRadius};
+pub use fields::peaks::{Peak, ProbePeaks};
+pub use fields::probes::{Peaks, ProbeFields, ProbeQuantity, SectionFields, SectionQuantity};
+pub use fields::quantity::Quantity;
 pub use fields::{FieldHistory, Fields, Trace};
 pub use finite::NotFinite;
-pub use forecast::{Allowance, Forecast, TooMuch, TooMuchMemory};
 pub use grid::{Grid, TooManySamples};
 pub use halfspace::Field;
 pub use impact::{Impact, Run};
 pub use kernels::KernelSource;
+pub use kernels::place::{FieldError, Place};
+pub use kernels::source::{self, KernelChoice, SourceError, Tables};
 pub use outcome::{Cause, FieldsUsed, KernelsUsed, Outcome, RecordResults, Series, StrikerSeries};
-pub use peaks::{Peak, ProbePeaks};
-pub use place::{FieldError, Place};
-pub use probes::{Peaks, ProbeFields, ProbeQuantity, SectionFields, SectionQuantity};
-pub use quantity::Quantity;
+pub use record::condition::{Treatment, TreatmentError};
 pub use record::{ForceRecord, RecordError, Treated};
 pub use scene::{Load, Probe, Scene, Section, Strike};
 pub use shared::Shared;
 pub use simulate::{ImpactError, simulate, simulate_watched, simulate_within};
-pub use source::{KernelChoice, SourceError, Tables};
 pub use watch::{Unwatched, Watch};
 
 /// The README's program runs.

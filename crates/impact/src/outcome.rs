@@ -2,7 +2,7 @@
 
 use crate::energy::EnergySeries;
 use crate::evaluator::convolve::Method;
-use crate::probes::{ProbeFields, SectionFields};
+use crate::fields::probes::{ProbeFields, SectionFields};
 use contact::{Model, Results, Scheme};
 
 /// What loaded the half-space, with the results that go with it.

@@ -1,7 +1,7 @@
 //! A scene: what loads which half-space, and what is asked.
 
-use crate::evaluator::forcing::Derivative;
-use crate::quantity::{Origin, Quantity};
+use crate::fields::quantity::Derivative;
+use crate::fields::quantity::{Origin, Quantity};
 use crate::record::ForceRecord;
 use contact::{HalfSpace, Settings, Striker};
 

@@ -1,6 +1,6 @@
 //! Tables for many excitations: each part is loaded once, and shared by all threads.
 
-use crate::source::{TableFault, Tables};
+use crate::kernels::source::{TableFault, Tables};
 use lookup::{LookupError, Table};
 use std::collections::HashMap;
 use std::fmt;

@@ -1,24 +1,24 @@
 //! From a scene to all that it gives: an excitation, then series and fields.
 
+use crate::cost::forecast::{Allowance, Forecast, TooMuch};
 use crate::energy::EnergySeries;
 use crate::error::FieldsError;
 use crate::evaluator::convolve::{Method, rises};
 use crate::evaluator::projection::Projection;
 use crate::evaluator::{self, Evaluator};
 use crate::excitation::Excitation;
+use crate::fields::probes::{ProbeFields, SectionFields, at_probes, frames, on_section};
 use crate::finite::{NotFinite, checked};
-use crate::forecast::{Allowance, Forecast, TooMuch};
 use crate::grid::{Grid, TooManySamples, Wanted};
 use crate::impact::Impact;
 use crate::kernels::KernelSource;
+use crate::kernels::source::{Chosen, KernelChoice, SourceError, choose_source};
 use crate::outcome::{
     Cause, FieldsUsed, KernelsUsed, Outcome, RecordResults, Series, StrikerSeries,
 };
-use crate::plausible::doubts;
-use crate::probes::{ProbeFields, SectionFields, at_probes, frames, on_section};
 use crate::record::ForceRecord;
+use crate::record::plausible::doubts;
 use crate::scene::{Load, Scene, Strike};
-use crate::source::{Chosen, KernelChoice, SourceError, choose_source};
 use crate::watch::Watch;
 use contact::{Collision, ContactError, Model, Scheme, StaticShare};
 use halfspace::{Deflection, DomainError};

@@ -1,10 +1,10 @@
 //! Many contacts, without histories: what a sweep computes. Where a scene has probes, their peaks come with it.
 
+use crate::fields::peaks::{ProbePeaks, at_probes};
 use crate::finite::NotFinite;
 use crate::impact::{Struck, struck};
-use crate::peaks::{ProbePeaks, at_probes};
+use crate::kernels::source::KernelChoice;
 use crate::scene::{Load, Scene};
-use crate::source::KernelChoice;
 use contact::{Collision, ContactError, Model, Results, Settings, Solver, Tabulated};
 use rayon::prelude::*;
 use std::ops::Range;

@@ -1,7 +1,7 @@
 //! Interpolation across Poisson's ratio.
 
 use crate::content::{Between, Content, Role};
-use crate::stencil::{Stencil, locate};
+use crate::series::stencil::{Stencil, locate};
 use halfspace::{DomainError, Medium};
 
 /// Slices that take part.

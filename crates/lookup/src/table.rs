@@ -3,7 +3,7 @@
 use crate::content::{Between, Content, Role};
 use crate::error::{ContentError, LookupError};
 use crate::ratio::{self, Served, cell_scale};
-use crate::stencil::locate;
+use crate::series::stencil::locate;
 use crate::{hash, validate};
 use halfspace::{Kernel, Medium, Profile};
 

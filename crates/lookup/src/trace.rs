@@ -2,10 +2,10 @@
 
 use crate::content::{FIELDS, Slice};
 use crate::error::LookupError;
-use crate::gather::{Node, gather, nodes};
+use crate::series::gather::{Node, gather, nodes};
+use crate::series::smooth;
+use crate::series::stencil::Stencil;
 use crate::series::{Moments, Numbers, Series, Smoothness};
-use crate::smooth;
-use crate::stencil::Stencil;
 use crate::table::Table;
 use halfspace::{Kernel, Medium, Profile, Six};
 

@@ -3,7 +3,7 @@
 use crate::content::{Content, FIELDS, Slice, Verification, centres};
 use crate::error::ContentError;
 use crate::schema;
-use crate::stencil::MAX_POINTS;
+use crate::series::stencil::MAX_POINTS;
 
 /// Cells outside this are those of no table.
 const CELL_WIDTHS: [f64; 2] = [1e-4, 1e2];

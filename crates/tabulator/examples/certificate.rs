@@ -3,9 +3,14 @@
 //!
 //! `cargo run --release -p hertzlamb-tabulator --example certificate -- TABLE.h5 [PLACES [PULSES]]`
 
+#[path = "../tests/measuring/mod.rs"]
+mod measuring;
+
 use lookup::Table;
+use measuring::judge::{Region, judge};
+use measuring::observe::{Observation, observe};
 use std::path::Path;
-use tabulator::{Observation, Region, judge, observe, quantile};
+use tabulator::quantile;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();

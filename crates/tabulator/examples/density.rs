@@ -2,12 +2,15 @@
 //!
 //! `cargo run --release -p hertzlamb-tabulator --example density > density.csv`; `scripts/plot_table_density.py` draws it.
 
+#[path = "../tests/measuring/mod.rs"]
+mod measuring;
+
 use lookup::{Content, Table};
+use measuring::observe::observe_lengths;
+use measuring::sample::{Storage, sample_errors};
 use std::path::Path;
 use std::time::Instant;
-use tabulator::{
-    Axis, Existing, Grid, Silent, Storage, build_over, observe_lengths, quantile, sample_errors,
-};
+use tabulator::{Axis, Existing, Grid, Silent, build_over, quantile};
 
 type Failure = Box<dyn std::error::Error>;
 

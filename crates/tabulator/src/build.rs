@@ -1,12 +1,12 @@
 //! From a grid to a complete, verified file.
 
+use crate::assemble::{Summary, complete};
 use crate::block;
 use crate::error::BuildError;
 use crate::grid::Grid;
 use crate::journal::{self, Journal, Left, Task, journal_of};
 use crate::progress::Progress;
 use crate::rows::{rows, usable};
-use crate::summary::{Summary, complete};
 use output::{Existing, Output, OutputError};
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};

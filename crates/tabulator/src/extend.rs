@@ -1,5 +1,6 @@
 //! Adds slices, places and times to a finished table, computing only what it lacks.
 
+use crate::assemble::{Summary, complete};
 use crate::block;
 use crate::error::BuildError;
 use crate::grid::Grid;
@@ -7,7 +8,6 @@ use crate::journal::{Journal, Left, Task, journal_of};
 use crate::known::Known;
 use crate::progress::Progress;
 use crate::rows::{rows, usable};
-use crate::summary::{Summary, complete};
 use lookup::{Table, TableError};
 use output::{Existing, Output};
 use std::path::Path;

@@ -1,6 +1,7 @@
 //! All numbers of one point: cell averages, first moments and tail.
 
 use crate::error::BuildError;
+use crate::grid::Grid;
 use halfspace::{Kernel, Medium, Profile, Six};
 use std::f64::consts::PI;
 
@@ -32,6 +33,18 @@ const MOMENT_ACCURACY: f64 = 1e-5;
 /// Tolerance of the trace over that of the kernels: most errors of averages are a hundredth of what is promised, so that
 /// at 30 times 1e-8 they stay below the rounding to single precision.
 const TRACE: f64 = 30.0;
+
+impl Grid {
+    /// What is computed at every point of one slice.
+    ///
+    /// # Errors
+    /// [`BuildError::Domain`] when the exact kernels refuse the ratio.
+    pub fn point(&self, poisson_ratio: f64) -> Result<PointPlan, BuildError> {
+        let width = self.cell_width * lookup::cell_scale(poisson_ratio)?;
+        let (cells, terms) = (self.cells()?, self.tail_terms);
+        PointPlan::new(poisson_ratio, self.tolerance, width, cells, terms)
+    }
+}
 
 impl PointPlan {
     /// Plan for `cells` cells of `width` at one Poisson ratio.
@@ -158,6 +171,40 @@ fn quantum(averages: &[Six], rest: &Six) -> Six {
         let scale = most[f].min(if f < 2 { displacement } else { stress });
         (MOMENT_ACCURACY * scale).log2().floor().exp2()
     })
+}
+
+impl PointKernels {
+    /// Rounds the numbers of a point to what a table holds.
+    pub fn round(&mut self) {
+        for field in 0..6 {
+            let quantum = resolution(&self.averages, field);
+            for six in &mut self.averages {
+                six[field] = (six[field] / quantum).round() * quantum;
+            }
+        }
+        for values in [
+            &mut self.averages,
+            &mut self.moments,
+            &mut self.curvatures,
+            &mut self.tail,
+        ] {
+            for value in values.iter_mut().flatten() {
+                *value = f64::from(*value as f32);
+            }
+        }
+    }
+}
+
+/// Step to which averages are stored: that of single precision at the largest of the field in time.
+///
+/// All averages share the absolute resolution of the largest and so compress better.
+fn resolution(averages: &[Six], field: usize) -> f64 {
+    /// Bits after the leading one.
+    const BITS: i32 = 24;
+    let most = averages
+        .iter()
+        .fold(0.0_f64, |most, six| most.max(six[field].abs()));
+    most.max(f64::from(f32::MIN_POSITIVE)).log2().floor().exp2() * 0.5_f64.powi(BITS)
 }
 
 #[cfg(test)]

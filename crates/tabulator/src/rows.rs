@@ -5,10 +5,8 @@ use crate::error::BuildError;
 use crate::grid::Grid;
 use crate::journal::Journal;
 use crate::known::Known;
-use crate::plans::Plans;
 use crate::point::PointPlan;
 use crate::progress::Progress;
-use crate::rounding::round;
 use rayon::prelude::*;
 use std::collections::HashMap;
 use std::sync::{Mutex, PoisonError};
@@ -55,6 +53,34 @@ pub(crate) fn rows(
         .collect())
 }
 
+/// What is computed in each slice and between them.
+struct Plans {
+    slices: Vec<PointPlan>,
+    between: Vec<PointPlan>,
+}
+
+impl Plans {
+    fn new(grid: &Grid) -> Result<Self, BuildError> {
+        let slices = grid.slices();
+        Ok(Self {
+            slices: slices
+                .iter()
+                .map(|&(nu, _)| grid.point(nu))
+                .collect::<Result<_, _>>()?,
+            between: (0..grid.intervals())
+                .map(|interval| grid.point(grid.between(interval)?))
+                .collect::<Result<_, _>>()?,
+        })
+    }
+
+    fn of(&self, block: Block) -> &PointPlan {
+        match block.kind {
+            Kind::Nodes | Kind::Probes => &self.slices[block.slice],
+            Kind::Between => &self.between[block.slice],
+        }
+    }
+}
+
 /// Computes one row of points (`r`, `depths`), of which known cells keep their numbers.
 ///
 /// Probes whose errors are known are left blank.
@@ -74,7 +100,7 @@ fn row(
             }
             (Kind::Nodes | Kind::Probes | Kind::Between, _) => plan.compute(r, z)?,
         };
-        round(&mut point);
+        point.round();
         if let (Kind::Nodes, Some(known)) = (kind, known) {
             known.keep(nu, [r, z], &mut point);
         }

@@ -1,12 +1,12 @@
 //! A table in parts: shards computed apart, joined into one.
 
+use crate::assemble::{Summary, complete};
 use crate::block::{self, Block, Row};
 use crate::error::BuildError;
 use crate::grid::Grid;
 use crate::journal::{self, Journal, Left, Task};
 use crate::progress::Progress;
 use crate::rows::{rows, usable};
-use crate::summary::{Summary, complete};
 use output::{Existing, Output, Role, apart};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};

@@ -2,9 +2,13 @@
 
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
+mod measuring;
+
 use lookup::Table;
+use measuring::judge::{Region, judge};
+use measuring::observe::observe;
 use std::path::Path;
-use tabulator::{Axis, Grid, Region, Silent, build, judge, observe, quantile};
+use tabulator::{Axis, Grid, Silent, build, quantile};
 
 /// 10,000 random (Poisson ratio, r, z, pulse length) on a table of seven slices about the disc.
 /// `scripts/measure-tables` does the same with `standard`.

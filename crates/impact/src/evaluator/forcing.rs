@@ -12,24 +12,14 @@ use super::discs::Discs;
 use super::ends::{Zone, zones};
 use super::nodes::CellNodes;
 use super::projection::Projection;
+use crate::excitation::Run;
 use crate::excitation::{Excitation, PressureRadius};
+use crate::fields::quantity::Derivative;
 use crate::grid::Grid;
 use crate::kernels::Cells;
-use crate::run::Run;
-use crate::stretch::Departure;
+use crate::record::stretch::Departure;
 use halfspace::Six;
 use std::ops::Range;
-
-/// Which derivative in time of the fields is meant.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Derivative {
-    /// The six fields.
-    Field,
-    /// Velocities.
-    First,
-    /// Accelerations, as means over one step.
-    Second,
-}
 
 /// What is read of an excitation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -31,14 +31,14 @@ pub(crate) use past::Past;
 
 use crate::error::FieldsError;
 use crate::excitation::{Excitation, PressureRadius};
+use crate::fields::quantity::{Derivative, Origin, Quantity};
 use crate::grid::Grid;
+use crate::kernels::place::Place;
 use crate::kernels::{CellPlan, Cells, KernelSource};
-use crate::place::Place;
-use crate::quantity::{Origin, Quantity};
 use crate::watch::Watch;
 use convolve::Method;
 use discs::Discs;
-use forcing::{Derivative, DiscForce, Forcing};
+use forcing::{DiscForce, Forcing};
 use halfspace::{Kernel, Profile};
 use lookup::BEYOND;
 use std::sync::OnceLock;

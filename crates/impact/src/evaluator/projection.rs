@@ -12,7 +12,7 @@
 //! Theory: `docs/theory.md` (T24).
 
 use super::nodes::{CellNodes, Node};
-use crate::stretch::Departure;
+use crate::record::stretch::Departure;
 use halfspace::Six;
 use lookup::{Moments, absorbed};
 use std::ops::Range;

@@ -3,12 +3,13 @@
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
 use crate::evaluator::discs::Discs;
-use crate::evaluator::forcing::{Derivative, Forcing};
+use crate::evaluator::forcing::Forcing;
 use crate::evaluator::tests::contact;
 use crate::evaluator::{Asked, Evaluator, Past};
+use crate::fields::quantity::Derivative;
+use crate::fields::quantity::Quantity;
 use crate::grid::{Grid, Wanted};
 use crate::kernels::KernelSource;
-use crate::quantity::Quantity;
 use crate::watch::Unwatched;
 
 /// A displacement's rate at an instant, from the sum over the radii, and how sure it is.

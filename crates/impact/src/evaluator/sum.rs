@@ -3,10 +3,11 @@
 use super::at_rest::{static_si, units_si};
 use super::discs::Discs;
 use super::ends::open;
-use super::forcing::{Derivative, DiscForce, Forcing, Reading};
+use super::forcing::{DiscForce, Forcing, Reading};
 use super::past::Past;
 use crate::error::FieldsError;
 use crate::excitation::PressureRadius;
+use crate::fields::quantity::Derivative;
 use crate::kernels::Cells;
 use halfspace::{Kernel, Six};
 use std::ops::Range;

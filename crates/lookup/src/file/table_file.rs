@@ -9,7 +9,7 @@ use crate::content::{Content, Role};
 use crate::error::LookupError;
 use crate::hash::settings_id;
 use crate::ratio::{self, Served};
-use crate::stencil::locate;
+use crate::series::stencil::locate;
 use crate::table::Table;
 use std::path::{Path, PathBuf};
 

@@ -4,7 +4,7 @@ use crate::assemble::assemble;
 use crate::block;
 use crate::error::BuildError;
 use crate::grid::Grid;
-use crate::limits::within;
+use crate::grid::within;
 use crate::progress::Progress;
 use crate::rows::rows;
 use std::collections::HashMap;

@@ -1,29 +1,27 @@
 //! Whether the error estimate of a table is true: random places and pulses against the exact kernels.
 
-use crate::error::BuildError;
-use crate::grid::Grid;
-use crate::plans::plan;
-use crate::random::uniform;
+use super::uniform;
 use lookup::{Numbers, PulseSum, Series, Smoothness, Table};
 use rayon::prelude::*;
+use tabulator::{BuildError, Grid};
 
 /// Error and estimate at one place for one pulse, field by field, in the units of the field.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Observation {
+pub(crate) struct Observation {
     /// Poisson's ratio.
-    pub poisson_ratio: f64,
+    pub(crate) poisson_ratio: f64,
     /// Radius in r0.
-    pub r: f64,
+    pub(crate) r: f64,
     /// Depth in r0.
-    pub z: f64,
+    pub(crate) z: f64,
     /// Length of the pulse in r0/c1.
-    pub pulse_length: f64,
+    pub(crate) pulse_length: f64,
     /// Largest magnitude in time of the exact response to a pulse of unit peak.
-    pub peak: [f64; 6],
+    pub(crate) peak: [f64; 6],
     /// Largest difference in time between looked-up and exact response.
-    pub error: [f64; 6],
+    pub(crate) error: [f64; 6],
     /// What [`Table::error`] says.
-    pub estimate: [f64; 6],
+    pub(crate) estimate: [f64; 6],
 }
 
 /// Observes `places` random places of `table`, each with `pulses` random pulses of 1 to 100 r0/c1.
@@ -33,7 +31,7 @@ pub struct Observation {
 ///
 /// # Errors
 /// [`BuildError`] when the table's settings cannot be read or the exact kernels fail.
-pub fn observe(
+pub(crate) fn observe(
     table: &Table,
     places: usize,
     pulses: usize,
@@ -51,7 +49,7 @@ pub fn observe(
 ///
 /// # Errors
 /// As [`observe`].
-pub fn observe_lengths(
+pub(crate) fn observe_lengths(
     table: &Table,
     places: usize,
     lengths: &[f64],
@@ -90,7 +88,7 @@ fn at(
 }
 
 fn exact(table: &Table, grid: &Grid, nu: f64, r: f64, z: f64) -> Result<Series, BuildError> {
-    let point = plan(grid, nu)?.compute(r, z)?;
+    let point = grid.point(nu)?.compute(r, z)?;
     let flat = |values: &[[f64; 6]]| {
         (0..6)
             .flat_map(|f| values.iter().map(move |six| six[f]))

@@ -1,4 +1,11 @@
 //! Fields of an excitation at points of the half-space.
+//!
+//! At the probes of a scene and on its section (`probes`), their largest values (`peaks`), and what follows from them
+//! (`quantity`).
+
+pub(crate) mod peaks;
+pub(crate) mod probes;
+pub(crate) mod quantity;
 
 use crate::error::FieldsError;
 use crate::evaluator::{Asked, Evaluator, Past};

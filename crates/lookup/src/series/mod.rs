@@ -1,8 +1,14 @@
 //! The remainder at one point in time: table cells with their moments, wider cells, the tail.
+//!
+//! Between nodes (`stencil`, `gather`), between samples (`smooth`), after the last cell (`tail`).
+
+pub(crate) mod gather;
+pub(crate) mod smooth;
+pub(crate) mod stencil;
+pub(crate) mod tail;
 
 use crate::content::FIELDS;
-use crate::smooth;
-use crate::tail::{Integrals, Tail};
+use crate::series::tail::{Integrals, Tail};
 use halfspace::Six;
 
 /// What is assumed of the force between samples one cell apart.

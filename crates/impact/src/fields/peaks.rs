@@ -1,14 +1,14 @@
 //! Largest values over time at the probes of a scene, without the histories: what a row of a sweep has of its fields.
 
+use crate::cost::forecast::{Forecast, TooMuch};
 use crate::evaluator::{Asked, Evaluator};
 use crate::excitation::Excitation;
-use crate::forecast::{Forecast, TooMuch};
+use crate::fields::probes::Peaks;
 use crate::grid::{Grid, Wanted};
 use crate::kernels::KernelSource;
-use crate::probes::Peaks;
+use crate::kernels::source::{KernelChoice, choose_source};
 use crate::scene::Scene;
 use crate::simulate::ImpactError;
-use crate::source::{KernelChoice, choose_source};
 use crate::watch::Unwatched;
 
 /// Fields at the probes of a scene, each by its peak.

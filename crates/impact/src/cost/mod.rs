@@ -1,6 +1,10 @@
 //! What fields take in time: the one model by which kernels are chosen and a forecast is made.
 //!
 //! Its constants are seconds of one thread, measured with the jobs of `scripts/time-impacts`.
+//!
+//! What a whole scene takes is a `forecast`.
+
+pub(crate) mod forecast;
 
 use crate::evaluator::convolve::{direct_ns, transform_ns};
 use crate::evaluator::discs::Discs;

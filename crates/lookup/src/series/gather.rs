@@ -1,7 +1,7 @@
 //! The sum over the nodes of a stencil: where the time of a lookup goes.
 
 use crate::content::FIELDS;
-use crate::stencil::Stencil;
+use crate::series::stencil::Stencil;
 use halfspace::Field;
 
 /// Rows of numbers that are added at a time, so that the sums are loaded and stored a fourth as often.

@@ -1,10 +1,19 @@
-//! The settings that a table's numbers depend on.
+//! The settings that a table's numbers depend on: axes (`axis`), ranges (`limits`), grids with names (`presets`).
 
-use crate::axis::Axis;
+mod axis;
+mod limits;
+mod presets;
+
+pub use axis::Axis;
+pub(crate) use limits::within;
+pub use presets::PRESETS;
+
 use crate::error::BuildError;
 use halfspace::Medium;
 use lookup::{Content, Role};
 use serde::{Deserialize, Serialize};
+use std::fs::File;
+use std::io::{self, Read};
 use std::path::Path;
 
 /// Lengths of the verification pulses in r0/c1, unless a grid has others.
@@ -54,7 +63,7 @@ impl Grid {
     /// # Errors
     /// [`BuildError`] when the file cannot be read, has unknown keys or values outside their ranges.
     pub fn from_file(path: &Path) -> Result<Self, BuildError> {
-        let text = crate::text::read(path).map_err(|source| BuildError::File {
+        let text = read(path).map_err(|source| BuildError::File {
             action: "read",
             path: path.to_owned(),
             source,
@@ -143,6 +152,21 @@ impl Grid {
         let middle = 0.5 * (lookup::ratio_coordinate(low)? + lookup::ratio_coordinate(high)?);
         bisect(low, high, middle)
     }
+}
+
+/// The text of a regular file: a pipe would wait for its other end, a device never ends.
+fn read(path: &Path) -> io::Result<String> {
+    /// Bytes at most.
+    const MOST: u64 = 1 << 20;
+    if !std::fs::metadata(path)?.is_file() {
+        return Err(io::Error::other("it is not a regular file"));
+    }
+    let mut text = String::new();
+    File::open(path)?.take(MOST + 1).read_to_string(&mut text)?;
+    if text.len() as u64 > MOST {
+        return Err(io::Error::other("it has more than 1 MB"));
+    }
+    Ok(text)
 }
 
 /// The ratio in [`low`, `high`] whose coordinate is `wanted`.

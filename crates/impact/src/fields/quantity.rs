@@ -4,8 +4,18 @@
 //! von Mises and Tresca.
 //! Their errors are bounds: each is at most what the errors of the four stresses can move it by, whatever their signs.
 
-use crate::evaluator::forcing::Derivative;
 use contact::Choice;
+
+/// Which derivative in time of the fields is meant.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Derivative {
+    /// The six fields.
+    Field,
+    /// Velocities.
+    First,
+    /// Accelerations, as means over one step.
+    Second,
+}
 
 /// A quantity beside the six fields that every result has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -88,7 +98,7 @@ pub(crate) enum Origin {
 }
 
 /// Stresses of one instant in Pa: radial, hoop, axial, shear.
-pub type Stresses = [f64; 4];
+pub(crate) type Stresses = [f64; 4];
 
 impl Quantity {
     pub(crate) fn origin(self) -> Origin {

@@ -1,6 +1,6 @@
 //! What may be asked to be done to a record before it loads the half-space: a baseline taken away, a low pass.
 
-use crate::low_pass::{allowed_hz, low_pass};
+use crate::record::low_pass::{allowed_hz, low_pass};
 use crate::record::{ForceRecord, Treated};
 use thiserror::Error;
 

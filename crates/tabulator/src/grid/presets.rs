@@ -1,7 +1,7 @@
 //! Grids with names.
 
-use crate::axis::Axis;
 use crate::error::BuildError;
+use crate::grid::Axis;
 use crate::grid::{Grid, bisect, defaults};
 
 /// Names that [`Grid::preset`] knows.

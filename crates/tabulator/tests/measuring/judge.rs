@@ -8,18 +8,18 @@
 //! u(t) = P(t) u_static + int P'(t - s) R(s) ds
 //! ```
 
-use crate::error::BuildError;
-use crate::observe::Observation;
-use crate::random::uniform;
+use super::observe::Observation;
+use super::uniform;
 use halfspace::gauss::rule;
 use halfspace::{Arrivals, Kernel, Medium, Profile, Six};
 use lookup::{Numbers, Series, Smoothness, Table};
 use rayon::prelude::*;
 use std::f64::consts::PI;
+use tabulator::BuildError;
 
 /// Where places are drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Region {
+pub(crate) enum Region {
     /// Anywhere in the table, between its slices.
     Between,
     /// Anywhere, on its slices.
@@ -32,7 +32,7 @@ pub enum Region {
 
 impl Region {
     /// All of them.
-    pub const ALL: [Self; 4] = [Self::Between, Self::Slices, Self::Axis, Self::Surface];
+    pub(crate) const ALL: [Self; 4] = [Self::Between, Self::Slices, Self::Axis, Self::Surface];
 
     /// (nu, r, z) from five numbers in [0, 1).
     fn place(self, table: &Table, draws: [f64; 5]) -> [f64; 3] {
@@ -68,7 +68,7 @@ impl Region {
 ///
 /// # Errors
 /// [`BuildError`] where the exact kernels or the table refuse a place.
-pub fn judge(
+pub(crate) fn judge(
     table: &Table,
     region: Region,
     places: usize,
@@ -267,10 +267,7 @@ impl Pulse {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::axis::Axis;
-    use crate::build::build;
-    use crate::grid::Grid;
-    use crate::progress::Silent;
+    use tabulator::{Axis, Grid, Silent, build};
 
     #[test]
     fn values_of_r_give_the_averages_that_its_integrals_give() {

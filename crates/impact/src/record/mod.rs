@@ -1,4 +1,12 @@
 //! A force history that was measured or invented: linear between its samples.
+//!
+//! How it is treated (`condition`, `low_pass`), in which stretches it changes (`stretch`), and what hints at a slip
+//! (`plausible`).
+
+pub(crate) mod condition;
+mod low_pass;
+pub(crate) mod plausible;
+pub(crate) mod stretch;
 
 use crate::evaluator::nodes::Node;
 use halfspace::gauss;

@@ -1,21 +1,17 @@
 //! Errors at some places off a grid, with nodes stored in 32 or 64 bits, without a table.
 
-use crate::error::BuildError;
-use crate::grid::Grid;
-use crate::plans::plan;
-use crate::point::{PointKernels, PointPlan};
-use crate::random::uniform;
-use crate::rounding::round;
+use super::uniform;
 use halfspace::FIELDS;
 use lookup::{Numbers, PulseSum, Series, Smoothness, Stencil, locate};
 use rayon::prelude::*;
+use tabulator::{BuildError, Grid, PointKernels, PointPlan};
 
 /// Places: half of them anywhere, half near the disc edge or the surface.
 const PLACES: u64 = 28;
 
 /// How the numbers of a node are stored.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Storage {
+pub(crate) enum Storage {
     /// In 32 bits, rounded as in a table.
     Single,
     /// In 64 bits, not rounded.
@@ -26,13 +22,13 @@ pub enum Storage {
 ///
 /// # Errors
 /// What the exact kernels say.
-pub fn sample_errors(
+pub(crate) fn sample_errors(
     grid: &Grid,
     pulse_lengths: &[f64],
     storage: Storage,
 ) -> Result<Vec<Vec<f64>>, BuildError> {
     let nu = grid.poisson_ratios[grid.poisson_ratios.len() - 1];
-    let plan = plan(grid, nu)?;
+    let plan = grid.point(nu)?;
     let errors: Vec<Vec<[f64; 6]>> = (0..PLACES)
         .into_par_iter()
         .map(|i| {
@@ -79,7 +75,7 @@ fn errors_at(
         for (&k, &weight) in down.nodes().iter().zip(down.even()) {
             let mut node = plan.compute(r_nodes[i], z_nodes[k])?;
             match storage {
-                Storage::Single => round(&mut node),
+                Storage::Single => node.round(),
                 Storage::Double => {}
             }
             found = found.added(&node, [even * weight, odd * weight]);

@@ -1,7 +1,7 @@
 //! Which settings make a grid.
 
-use crate::axis::Axis;
 use crate::error::BuildError;
+use crate::grid::Axis;
 use crate::grid::Grid;
 
 /// Bytes that the numbers of a table may take in memory.

@@ -2,7 +2,7 @@
 
 use crate::error::FieldsError;
 use crate::evaluator::{AtPoint, Evaluator};
-use crate::quantity::Quantity;
+use crate::fields::quantity::Quantity;
 use crate::scene::{Probe, Section};
 use contact::HalfSpace;
 use rayon::prelude::*;

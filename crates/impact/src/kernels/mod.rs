@@ -1,6 +1,11 @@
 //! Kernels as cell averages at a point: computed, or looked up.
+//!
+//! Where a point is in their units (`place`), and which kernels a scene takes (`source`).
 
-use crate::place::{FieldError, Place};
+pub(crate) mod place;
+pub mod source;
+
+use crate::kernels::place::{FieldError, Place};
 use halfspace::{DomainError, Kernel, Medium, Profile, Six, Trace};
 use lookup::{LookupError, Moments, Table};
 use std::f64::consts::PI;
