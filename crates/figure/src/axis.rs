@@ -25,6 +25,7 @@ pub enum Direction {
 }
 
 /// One axis.
+#[must_use]
 #[derive(Debug, Clone, PartialEq)]
 pub struct Axis {
     /// What it shows: "contact force".
@@ -41,7 +42,6 @@ pub struct Axis {
 
 impl Axis {
     /// A linear axis of a number without unit, over the values of the panel's layers.
-    #[must_use]
     pub fn linear(quantity: &str) -> Self {
         Self {
             quantity: quantity.to_owned(),
@@ -53,7 +53,6 @@ impl Axis {
     }
 
     /// The same, logarithmic.
-    #[must_use]
     pub fn logarithmic(quantity: &str) -> Self {
         Self {
             scale: Scale::Logarithmic,
@@ -62,7 +61,6 @@ impl Axis {
     }
 
     /// An axis of a given interval.
-    #[must_use]
     pub fn over(interval: Interval, quantity: &str) -> Self {
         Self {
             scale: interval.scale,
@@ -72,35 +70,30 @@ impl Axis {
     }
 
     /// With a unit that takes SI prefixes.
-    #[must_use]
     pub fn si(mut self, unit: &str) -> Self {
         self.unit = Unit::Si(unit.to_owned());
         self
     }
 
     /// With a unit that is shown as it stands.
-    #[must_use]
     pub fn unit(mut self, unit: &str) -> Self {
         self.unit = Unit::Fixed(unit.to_owned());
         self
     }
 
     /// From and to given values.
-    #[must_use]
     pub fn range(mut self, low: f64, high: f64) -> Self {
         self.range = Some((low, high));
         self
     }
 
     /// Growing downward or to the left.
-    #[must_use]
     pub fn reversed(mut self) -> Self {
         self.direction = Direction::Reversed;
         self
     }
 
     /// Its interval, where it is given.
-    #[must_use]
     pub fn interval(&self) -> Option<Interval> {
         self.range.map(|(low, high)| Interval {
             scale: self.scale,
@@ -110,7 +103,6 @@ impl Axis {
     }
 
     /// Quantity and unit without a prefix: "time \[s\]".
-    #[must_use]
     pub fn label(&self) -> String {
         match &self.unit {
             Unit::One => self.quantity.clone(),

@@ -13,14 +13,12 @@ pub struct Colour {
 
 impl Colour {
     /// From its hexadecimal number, such as `0x0b5394`.
-    #[must_use]
     pub const fn new(hex: u32) -> Self {
         let [_, red, green, blue] = hex.to_be_bytes();
         Self { red, green, blue }
     }
 
     /// As SVG writes it: `#0b5394`.
-    #[must_use]
     pub fn hex(self) -> String {
         format!("#{:02x}{:02x}{:02x}", self.red, self.green, self.blue)
     }
@@ -28,7 +26,6 @@ impl Colour {
     /// Relative luminance after Rec. 709: 0 is black, 1 is white.
     ///
     /// It is what a print in grey shows.
-    #[must_use]
     pub fn luminance(self) -> f64 {
         let linear = |channel: u8| {
             let x = f64::from(channel) / 255.0;
@@ -100,7 +97,6 @@ const DIVERGING: [Colour; 11] = [
 
 impl ColourMap {
     /// The colour at a fraction of the way from the lower limit to the upper one; beyond them that of the end.
-    #[must_use]
     pub fn at(self, fraction: f64) -> Colour {
         let stations = match self {
             Self::Sequential => &SEQUENTIAL,

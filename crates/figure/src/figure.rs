@@ -28,6 +28,7 @@ pub enum ColourBar {
 }
 
 /// A picture: panels in rows.
+#[must_use]
 #[derive(Debug, Clone, PartialEq)]
 pub struct Figure {
     /// Title; may be empty.
@@ -50,7 +51,6 @@ pub struct Figure {
 
 impl Figure {
     /// A picture without panels.
-    #[must_use]
     pub fn new(title: &str) -> Self {
         Self {
             title: title.to_owned(),
@@ -65,49 +65,42 @@ impl Figure {
     }
 
     /// With a line below the title.
-    #[must_use]
     pub fn subtitle(mut self, subtitle: &str) -> Self {
         subtitle.clone_into(&mut self.subtitle);
         self
     }
 
     /// With one more panel.
-    #[must_use]
     pub fn panel(mut self, panel: Panel) -> Self {
         self.panels.push(panel);
         self
     }
 
     /// With so many panels in a row.
-    #[must_use]
     pub fn columns(mut self, columns: usize) -> Self {
         self.columns = columns;
         self
     }
 
     /// With axes in common.
-    #[must_use]
     pub fn sharing(mut self, sharing: Sharing) -> Self {
         self.sharing = sharing;
         self
     }
 
     /// With one colour bar for all panels.
-    #[must_use]
     pub fn common_colour_bar(mut self) -> Self {
         self.colour_bar = ColourBar::Common;
         self
     }
 
     /// With another width in pixels.
-    #[must_use]
     pub fn width(mut self, pixels: f64) -> Self {
         self.width = pixels;
         self
     }
 
     /// With text of another height in pixels.
-    #[must_use]
     pub fn text(mut self, pixels: f64) -> Self {
         self.text = pixels;
         self
@@ -204,8 +197,6 @@ fn check_layer(panel: usize, layer: &Layer) -> Result<(), FigureError> {
             histogram.counts.len() + 1,
             histogram.edges.len(),
         ),
-        Layer::Line(_) | Layer::Band(_) | Layer::Traces(_) | Layer::Mark(_) | Layer::Point(_) => {
-            Ok(())
-        }
+        Layer::Line(_) | Layer::Band(_) | Layer::Mark(_) | Layer::Point(_) => Ok(()),
     }
 }

@@ -15,7 +15,6 @@ pub struct Rect {
 
 impl Rect {
     /// From its upper left corner and its size.
-    #[must_use]
     pub fn new(left: f64, top: f64, width: f64, height: f64) -> Self {
         Self {
             left,
@@ -26,19 +25,16 @@ impl Rect {
     }
 
     /// Its width.
-    #[must_use]
     pub fn width(&self) -> f64 {
         self.right - self.left
     }
 
     /// Its height.
-    #[must_use]
     pub fn height(&self) -> f64 {
         self.bottom - self.top
     }
 
     /// Whether both have a point in common.
-    #[must_use]
     pub fn overlaps(&self, other: &Self) -> bool {
         self.left < other.right
             && other.left < self.right
@@ -47,7 +43,6 @@ impl Rect {
     }
 
     /// Whether the other one lies in it.
-    #[must_use]
     pub fn holds(&self, other: &Self) -> bool {
         self.left <= other.left
             && self.right >= other.right

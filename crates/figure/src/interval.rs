@@ -11,7 +11,6 @@ pub enum Scale {
 
 impl Scale {
     /// Whether a value has a place on such an axis: finite, and positive on a logarithmic one.
-    #[must_use]
     pub fn shows(self, value: f64) -> bool {
         match self {
             Self::Linear => value.is_finite(),
@@ -33,7 +32,6 @@ pub struct Interval {
 
 impl Interval {
     /// A linear interval.
-    #[must_use]
     pub fn linear(low: f64, high: f64) -> Self {
         Self {
             scale: Scale::Linear,
@@ -43,7 +41,6 @@ impl Interval {
     }
 
     /// A logarithmic interval.
-    #[must_use]
     pub fn logarithmic(low: f64, high: f64) -> Self {
         Self {
             scale: Scale::Logarithmic,
@@ -53,7 +50,6 @@ impl Interval {
     }
 
     /// Whether an axis can show it: ends finite, in order, and positive where logarithmic, and its length finite.
-    #[must_use]
     pub fn is_valid(&self) -> bool {
         let is_long = match self.scale {
             Scale::Linear => (self.high - self.low).is_finite(),
@@ -64,7 +60,6 @@ impl Interval {
     }
 
     /// Place of a value: 0 at the low end, 1 at the high one.
-    #[must_use]
     pub fn fraction(&self, value: f64) -> f64 {
         match self.scale {
             Scale::Linear => (value - self.low) / (self.high - self.low),
@@ -73,7 +68,6 @@ impl Interval {
     }
 
     /// The value at a place.
-    #[must_use]
     pub fn value(&self, fraction: f64) -> f64 {
         match self.scale {
             Scale::Linear => self.low + fraction * (self.high - self.low),
@@ -82,13 +76,11 @@ impl Interval {
     }
 
     /// Whether a value lies in it, up to a billionth of its length.
-    #[must_use]
     pub fn contains(&self, value: f64) -> bool {
         self.scale.shows(value) && (-1e-9..=1.0 + 1e-9).contains(&self.fraction(value))
     }
 
     /// Centres of `count` equal cells.
-    #[must_use]
     pub fn cells(&self, count: usize) -> Vec<f64> {
         (0..count)
             .map(|i| self.value((i as f64 + 0.5) / count as f64))

@@ -55,8 +55,8 @@ pub use figure::{ColourBar, Figure, Sharing};
 pub use geometry::Rect;
 pub use interval::{Interval, Scale};
 pub use layer::{
-    Band, Classes, ColourScale, Gain, Histogram, Image, LabelledPoint, Layer, Limits, Line, Mark,
-    Shading, Style, Symbol, Trace, Traces,
+    Band, Classes, ColourScale, Histogram, Image, LabelledPoint, Layer, Limits, Line, Mark,
+    Shading, Style, Symbol,
 };
 pub use panel::{Aspect, Legend, Mirror, Panel};
 

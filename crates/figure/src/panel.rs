@@ -35,6 +35,7 @@ pub enum Legend {
 }
 
 /// One panel.
+#[must_use]
 #[derive(Debug, Clone, PartialEq)]
 pub struct Panel {
     /// Written above it; may be empty.
@@ -57,7 +58,6 @@ pub struct Panel {
 
 impl Panel {
     /// A panel without layers.
-    #[must_use]
     pub fn new(x: Axis, y: Axis) -> Self {
         Self {
             title: String::new(),
@@ -72,61 +72,52 @@ impl Panel {
     }
 
     /// With a title.
-    #[must_use]
     pub fn title(mut self, title: &str) -> Self {
         title.clone_into(&mut self.title);
         self
     }
 
     /// With a plot of another height in pixels.
-    #[must_use]
     pub fn height(mut self, pixels: f64) -> Self {
         self.height = pixels;
         self
     }
 
     /// With its legend elsewhere.
-    #[must_use]
     pub fn legend(mut self, legend: Legend) -> Self {
         self.legend = legend;
         self
     }
 
     /// With lengths that are equal along both axes.
-    #[must_use]
     pub fn equal_lengths(mut self) -> Self {
         self.aspect = Aspect::Equal;
         self
     }
 
     /// Mirrored at x = 0.
-    #[must_use]
     pub fn mirrored(mut self, mirror: Mirror) -> Self {
         self.mirror = mirror;
         self
     }
 
     /// With one more layer, over the others.
-    #[must_use]
     pub fn layer(mut self, layer: Layer) -> Self {
         self.layers.push(layer);
         self
     }
 
     /// With one more curve.
-    #[must_use]
     pub fn line(self, name: &str, style: Style, points: Vec<(f64, f64)>) -> Self {
         self.layer(Layer::Line(Line::new(name, style, points)))
     }
 
     /// With one more band between two curves: place, lower and upper value.
-    #[must_use]
     pub fn band(self, name: &str, points: Vec<(f64, f64, f64)>) -> Self {
         self.layer(Layer::Band(Band::new(name, points)))
     }
 
     /// With one more vertical line.
-    #[must_use]
     pub fn mark(self, x: f64, label: &str) -> Self {
         self.layer(Layer::Mark(Mark::new(x, label)))
     }

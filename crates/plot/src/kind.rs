@@ -69,7 +69,6 @@ impl Choice for Kind {
 
 impl Kind {
     /// The file that it shows.
-    #[must_use]
     pub fn file(self) -> FileKind {
         match self {
             Self::Impact
@@ -86,14 +85,12 @@ impl Kind {
     }
 
     /// Names of all kinds that show a file.
-    #[must_use]
     pub fn of(file: FileKind) -> Vec<&'static str> {
         let kinds = Self::ALL.iter().filter(|kind| kind.file() == file);
         kinds.map(|kind| kind.name()).collect()
     }
 
     /// What it shows, in a few words.
-    #[must_use]
     pub fn meaning(self) -> &'static str {
         match self {
             Self::Impact => "force beside Hertz's, displacement, velocity, and the first probes",

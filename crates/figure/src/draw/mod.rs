@@ -15,8 +15,8 @@ use crate::colour::{BLACK, WHITE};
 use crate::error::FigureError;
 use crate::figure::Figure;
 use crate::geometry::Rect;
-use crate::layer::{Layer, Style};
-use crate::layout::{Layout, Look, PAD, Placed, Slot, Typeface, lay_out, look};
+use crate::layer::Layer;
+use crate::layout::{Layout, PAD, Placed, Slot, Typeface, lay_out, look};
 use crate::panel::Mirror;
 use crate::scene::{Anchor, Fill, Item, Scene, Shape, Stroke, Text};
 
@@ -87,16 +87,6 @@ fn draw_layer(scene: &mut Scene, placed: &Placed<'_>, layer: &Layer, slot: Slot)
         }
         Layer::Band(band) => curve::band(scene, frame, band, slot, mirror),
         Layer::Histogram(bars) => histogram::draw(scene, frame, bars, slot),
-        Layer::Traces(traces) => {
-            let look = Look {
-                dash: &[],
-                width: 1.1,
-                ..look(slot, Style::Plain)
-            };
-            for points in traces.curves() {
-                curve::draw(scene, frame, &points, look);
-            }
-        }
         Layer::Image(field) => {
             if let Some(colours) = &placed.plan.colours {
                 let picture = image::pixels(field, frame, colours, mirror);

@@ -25,7 +25,6 @@ pub(super) fn draw(scene: &mut Scene, placed: &Placed<'_>, faces: &Typeface) {
             Layer::Line(_)
             | Layer::Band(_)
             | Layer::Histogram(_)
-            | Layer::Traces(_)
             | Layer::Image(_)
             | Layer::Classes(_)
             | Layer::Mark(_) => None,

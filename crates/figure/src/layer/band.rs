@@ -13,7 +13,6 @@ pub struct Band {
 
 impl Band {
     /// A band.
-    #[must_use]
     pub fn new(name: &str, points: Vec<(f64, f64, f64)>) -> Self {
         Self {
             name: name.to_owned(),

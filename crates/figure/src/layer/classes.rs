@@ -15,7 +15,6 @@ pub struct Classes {
 
 impl Classes {
     /// The class of each cell from its centre.
-    #[must_use]
     pub fn of(
         [x, y]: [Interval; 2],
         shape: [usize; 2],

@@ -17,7 +17,6 @@ impl Histogram {
     /// Counts values over `bins` bins that are equally long on an axis of the given scale.
     ///
     /// Values that such an axis cannot show (NaN, or negative on a logarithmic one) are not counted.
-    #[must_use]
     pub fn of(name: &str, values: &[f64], bins: usize, scale: Scale) -> Self {
         let bins = bins.max(1);
         let interval = Interval::around(scale, values.iter().copied()).map_or(

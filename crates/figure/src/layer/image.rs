@@ -5,6 +5,7 @@ use crate::colour::ColourMap;
 use crate::interval::Scale;
 
 /// What colours mean.
+#[must_use]
 #[derive(Debug, Clone, PartialEq)]
 pub struct ColourScale {
     /// What is shown: "axial stress".
@@ -21,7 +22,6 @@ pub struct ColourScale {
 
 impl ColourScale {
     /// A scale from the smallest value to the largest.
-    #[must_use]
     pub fn new(quantity: &str, unit: Unit, map: ColourMap) -> Self {
         Self {
             quantity: quantity.to_owned(),
@@ -33,14 +33,12 @@ impl ColourScale {
     }
 
     /// With equal steps of colour for equal ratios: magnitudes over decades. What is not positive is left white.
-    #[must_use]
     pub fn logarithmic(mut self) -> Self {
         self.spread = Scale::Logarithmic;
         self
     }
 
     /// With other limits.
-    #[must_use]
     pub fn limits(mut self, limits: Limits) -> Self {
         self.limits = limits;
         self
@@ -85,7 +83,6 @@ pub struct Image {
 
 impl Image {
     /// A smoothly shaded field, from a function of x and y.
-    #[must_use]
     pub fn of(
         x: Vec<f64>,
         y: Vec<f64>,
@@ -108,7 +105,6 @@ impl Image {
     }
 
     /// The field at a place; NaN outside its grid.
-    #[must_use]
     pub fn at(&self, x: f64, y: f64) -> f64 {
         let (Some((i, a)), Some((k, b))) = (
             locate(&self.x, x, self.shading),

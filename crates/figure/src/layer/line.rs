@@ -39,7 +39,6 @@ pub struct Line {
 
 impl Line {
     /// A curve.
-    #[must_use]
     pub fn new(name: &str, style: Style, points: Vec<(f64, f64)>) -> Self {
         Self {
             name: name.to_owned(),

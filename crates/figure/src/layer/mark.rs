@@ -11,7 +11,6 @@ pub struct Mark {
 
 impl Mark {
     /// A vertical line.
-    #[must_use]
     pub fn new(x: f64, label: &str) -> Self {
         Self {
             x,
@@ -44,7 +43,6 @@ pub struct LabelledPoint {
 
 impl LabelledPoint {
     /// A star with a label beside it.
-    #[must_use]
     pub fn new(x: f64, y: f64, label: &str) -> Self {
         Self {
             x,
@@ -55,7 +53,6 @@ impl LabelledPoint {
     }
 
     /// A label alone, on the point or near it.
-    #[must_use]
     pub fn text(x: f64, y: f64, label: &str) -> Self {
         Self {
             symbol: Symbol::Label,

@@ -6,7 +6,6 @@ mod histogram;
 mod image;
 mod line;
 mod mark;
-mod traces;
 
 pub use band::Band;
 pub use classes::Classes;
@@ -14,7 +13,6 @@ pub use histogram::Histogram;
 pub use image::{ColourScale, Image, Limits, Shading};
 pub use line::{Line, Style};
 pub use mark::{LabelledPoint, Mark, Symbol};
-pub use traces::{Gain, Trace, Traces};
 
 /// One layer of a panel; later ones lie over earlier ones.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,8 +23,6 @@ pub enum Layer {
     Band(Band),
     /// Counts over bins.
     Histogram(Histogram),
-    /// Histories, each at its own height: a seismogram section.
-    Traces(Traces),
     /// A field as colours.
     Image(Image),
     /// A few classes on a regular grid of cells.
@@ -39,13 +35,11 @@ pub enum Layer {
 
 impl Layer {
     /// Its name in the legend; empty for none.
-    #[must_use]
     pub fn name(&self) -> &str {
         match self {
             Self::Line(line) => &line.name,
             Self::Band(band) => &band.name,
             Self::Histogram(histogram) => &histogram.name,
-            Self::Traces(traces) => &traces.name,
             Self::Image(_) | Self::Classes(_) | Self::Mark(_) | Self::Point(_) => "",
         }
     }
@@ -60,7 +54,6 @@ impl Layer {
                 .flat_map(|&(x, low, high)| [(x, low), (x, high)])
                 .collect(),
             Self::Histogram(histogram) => histogram.outline(),
-            Self::Traces(traces) => traces.curves().into_iter().flatten().collect(),
             Self::Image(image) => image.corners().to_vec(),
             Self::Mark(mark) => vec![(mark.x, f64::NAN)],
             Self::Point(point) => vec![(point.x, point.y)],
@@ -73,12 +66,9 @@ impl Layer {
     pub(crate) fn fills(&self) -> bool {
         match self {
             Self::Image(_) | Self::Classes(_) => true,
-            Self::Line(_)
-            | Self::Band(_)
-            | Self::Histogram(_)
-            | Self::Traces(_)
-            | Self::Mark(_)
-            | Self::Point(_) => false,
+            Self::Line(_) | Self::Band(_) | Self::Histogram(_) | Self::Mark(_) | Self::Point(_) => {
+                false
+            }
         }
     }
 }

@@ -182,7 +182,6 @@ fn marks(plan: &PanelPlan<'_>, width: f64, faces: &Typeface) -> (Vec<PlacedMark>
             | Layer::Line(_)
             | Layer::Band(_)
             | Layer::Histogram(_)
-            | Layer::Traces(_)
             | Layer::Image(_)
             | Layer::Classes(_)
             | Layer::Point(_) => None,

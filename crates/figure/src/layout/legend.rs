@@ -78,13 +78,6 @@ fn entries(plan: &PanelPlan<'_>, looks: &Looks) -> Vec<Entry> {
                 continue;
             }
             Layer::Line(line) => curve(line.style),
-            Layer::Traces(_) => Swatch::Curve {
-                line: Some(Look {
-                    dash: &[],
-                    ..look(slot, Style::Plain)
-                }),
-                band: None,
-            },
             Layer::Band(_) => Swatch::Curve {
                 line: None,
                 band: Some(colour),

@@ -190,7 +190,7 @@ impl Looks {
 fn coloured(layers: &[Layer]) -> impl Iterator<Item = (usize, String)> + '_ {
     let own = |layer: &Layer| match layer {
         Layer::Line(line) => matches!(line.style, Style::Marked | Style::Plain | Style::Points),
-        Layer::Band(_) | Layer::Histogram(_) | Layer::Traces(_) => true,
+        Layer::Band(_) | Layer::Histogram(_) => true,
         Layer::Image(_) | Layer::Classes(_) | Layer::Mark(_) | Layer::Point(_) => false,
     };
     let layers = layers.iter().enumerate().filter(move |(_, l)| own(l));

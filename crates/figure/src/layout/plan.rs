@@ -184,7 +184,6 @@ fn colours(panels: &[&Panel]) -> Option<Colours> {
             Layer::Line(_)
             | Layer::Band(_)
             | Layer::Histogram(_)
-            | Layer::Traces(_)
             | Layer::Classes(_)
             | Layer::Mark(_)
             | Layer::Point(_) => None,

@@ -39,7 +39,6 @@ fn curves(layer: &Layer, frame: &Frame) -> Vec<Vec<(f64, f64)>> {
             all.extend(bars.map(|(x, y)| vec![(x, base), (x, y.max(frame.y.low))]));
             all
         }
-        Layer::Traces(traces) => traces.curves(),
         Layer::Mark(mark) => vec![vec![(mark.x, frame.y.low), (mark.x, frame.y.high)]],
         Layer::Point(point) => vec![vec![(point.x, point.y)]],
         Layer::Image(_) | Layer::Classes(_) => Vec::new(),
