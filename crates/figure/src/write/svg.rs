@@ -1,10 +1,10 @@
 //! SVG.
 
-use super::pixels::{encode, pixels};
+use super::png::{encode, pixels};
 use crate::error::RenderError;
+use crate::font::FAMILY;
 use crate::geometry::Rect;
 use crate::scene::{Item, Picture, Scene, Segment, Shape, Text, Turn};
-use crate::text::FAMILY;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use svg::Document;

@@ -1,4 +1,7 @@
-//! Labels in a panel: vertical lines and single points.
+//! What is only labelled: vertical lines and single points. They are drawn over all other layers.
+
+use super::Kind;
+use crate::geometry::{Frame, Point};
 
 /// A vertical line with a label above the panel: an arrival, the end of validity.
 #[derive(Debug, Clone, PartialEq)]
@@ -12,10 +15,18 @@ pub struct Mark {
 impl Mark {
     /// A vertical line.
     pub fn new(x: f64, label: &str) -> Self {
-        Self {
-            x,
-            label: label.to_owned(),
-        }
+        let label = label.to_owned();
+        Self { x, label }
+    }
+}
+
+impl Kind for Mark {
+    fn places(&self) -> Vec<Point> {
+        vec![(self.x, f64::NAN)]
+    }
+
+    fn curves(&self, frame: &Frame) -> Vec<Vec<Point>> {
+        vec![vec![(self.x, frame.y.low), (self.x, frame.y.high)]]
     }
 }
 
@@ -58,5 +69,11 @@ impl LabelledPoint {
             symbol: Symbol::Label,
             ..Self::new(x, y, label)
         }
+    }
+}
+
+impl Kind for LabelledPoint {
+    fn places(&self) -> Vec<Point> {
+        vec![(self.x, self.y)]
     }
 }

@@ -1,61 +1,11 @@
 //! A field as colours.
 
-use crate::axis::Unit;
-use crate::colour::ColourMap;
-use crate::interval::Scale;
-
-/// What colours mean.
-#[must_use]
-#[derive(Debug, Clone, PartialEq)]
-pub struct ColourScale {
-    /// What is shown: "axial stress".
-    pub quantity: String,
-    /// Its unit.
-    pub unit: Unit,
-    /// Colours.
-    pub map: ColourMap,
-    /// Which values get the colours at the ends.
-    pub limits: Limits,
-    /// How colours are spread between them; a diverging map is linear always.
-    pub spread: Scale,
-}
-
-impl ColourScale {
-    /// A scale from the smallest value to the largest.
-    pub fn new(quantity: &str, unit: Unit, map: ColourMap) -> Self {
-        Self {
-            quantity: quantity.to_owned(),
-            unit,
-            map,
-            limits: Limits::All,
-            spread: Scale::Linear,
-        }
-    }
-
-    /// With equal steps of colour for equal ratios: magnitudes over decades. What is not positive is left white.
-    pub fn logarithmic(mut self) -> Self {
-        self.spread = Scale::Logarithmic;
-        self
-    }
-
-    /// With other limits.
-    pub fn limits(mut self, limits: Limits) -> Self {
-        self.limits = limits;
-        self
-    }
-}
-
-/// Which values get the colours at the ends of a map; a diverging map's limits are always equal in size.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Limits {
-    /// The smallest and the largest value.
-    All,
-    /// All but the largest values: this percentage of the sizes is below the limit (of a sequential map: of the
-    /// values, and the same at the low end), so that one singular place does not leave the rest white.
-    Percentile(f64),
-    /// These.
-    Between(f64, f64),
-}
+use super::{ColourScale, Colours, Kind, Plot, count};
+use crate::axis::Mirror;
+use crate::error::{FigureError, Side};
+use crate::geometry::{Frame, Point};
+use crate::look::Slot;
+use crate::scene::{Item, Picture, Scene};
 
 /// How colours change between the nodes of a field.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -91,9 +41,7 @@ impl Image {
     ) -> Self {
         let mut values = Vec::with_capacity(x.len() * y.len());
         for &b in &y {
-            for &a in &x {
-                values.push(value(a, b));
-            }
+            values.extend(x.iter().map(|&a| value(a, b)));
         }
         Self {
             x,
@@ -117,10 +65,65 @@ impl Image {
         blend(row(k), b, || row(k + 1))
     }
 
+    /// A pixel for every place of the plot, so that uneven grids, logarithmic axes and mirrors need nothing else.
+    fn pixels(&self, frame: &Frame, colours: &Colours) -> Picture {
+        /// Pixels of the image for each pixel of the canvas.
+        const FINE: f64 = 2.0;
+        /// Most pixels along a side.
+        const MOST: f64 = 2000.0;
+        let count = |length: f64| (FINE * length).ceil().clamp(1.0, MOST);
+        let (columns, rows) = (count(frame.area.width()), count(frame.area.height()));
+        let at = |column: u32, row: u32| {
+            let across = (f64::from(column) + 0.5) / columns * frame.area.width();
+            let down = (f64::from(row) + 0.5) / rows * frame.area.height();
+            let (x, y) = frame.values((frame.area.left + across, frame.area.top + down));
+            colours.of_value(match frame.mirror {
+                Mirror::Off => self.at(x, y),
+                Mirror::Even => self.at(x.abs(), y),
+                Mirror::Odd => self.at(x.abs(), y) * x.signum(),
+            })
+        };
+        let places = (0..rows as u32).flat_map(|row| (0..columns as u32).map(move |i| (i, row)));
+        Picture {
+            area: frame.area,
+            columns: columns as u32,
+            rows: rows as u32,
+            pixels: places.map(|(column, row)| at(column, row)).collect(),
+        }
+    }
+}
+
+impl Kind for Image {
+    fn check(&self, panel: usize) -> Result<(), FigureError> {
+        for (side, nodes) in [(Side::X, &self.x), (Side::Y, &self.y)] {
+            let rising = nodes.windows(2).all(|pair| pair[0] < pair[1]);
+            if nodes.is_empty() || !rising || nodes.iter().any(|n| !n.is_finite()) {
+                return Err(FigureError::Nodes { panel, side });
+            }
+        }
+        let expected = self.x.len() * self.y.len();
+        count(panel, "values of an image", expected, self.values.len())
+    }
+
     /// Two opposite corners of what it covers.
-    pub(crate) fn corners(&self) -> [(f64, f64); 2] {
-        let [x, y] = [extent(&self.x, self.shading), extent(&self.y, self.shading)];
-        [(x.0, y.0), (x.1, y.1)]
+    fn places(&self) -> Vec<Point> {
+        let [x, y] = [&self.x, &self.y].map(|nodes| extent(nodes, self.shading));
+        vec![(x.0, y.0), (x.1, y.1)]
+    }
+
+    fn fills(&self) -> bool {
+        true
+    }
+
+    fn curves(&self, _: &Frame) -> Vec<Vec<Point>> {
+        Vec::new()
+    }
+
+    fn draw(&self, scene: &mut Scene, plot: &Plot<'_>, _: Slot) {
+        if let Some(colours) = plot.colours {
+            let picture = self.pixels(plot.frame, colours);
+            scene.items.push(Item::Picture(picture));
+        }
     }
 }
 
@@ -169,6 +172,8 @@ fn locate(nodes: &[f64], at: f64, shading: Shading) -> Option<(usize, f64)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::axis::Unit;
+    use crate::colour::ColourMap;
 
     fn plane(shading: Shading) -> Image {
         let scale = ColourScale::new("", Unit::One, ColourMap::Sequential);
@@ -186,13 +191,13 @@ mod tests {
             assert!((image.at(x, y) - (x + 10.0 * y)).abs() < 1e-12, "{x} {y}");
         }
         assert!(image.at(3.1, 0.0).is_nan() && image.at(0.0, -0.1).is_nan());
-        assert_eq!(image.corners(), [(0.0, 0.0), (3.0, 2.0)]);
+        assert_eq!(image.places(), [(0.0, 0.0), (3.0, 2.0)]);
     }
 
     #[test]
     fn cells_reach_half_way_to_their_neighbours() {
         let image = plane(Shading::Cells);
-        assert_eq!(image.corners(), [(-0.5, -1.0), (4.0, 3.0)]);
+        assert_eq!(image.places(), [(-0.5, -1.0), (4.0, 3.0)]);
         for (x, node) in [
             (-0.4, 0.0),
             (0.4, 0.0),

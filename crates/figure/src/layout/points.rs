@@ -1,72 +1,54 @@
 //! Single points with labels beside them.
 
-use super::marker;
-use crate::colour::BLACK;
-use crate::geometry::Rect;
-use crate::layer::{LabelledPoint, Layer, Symbol};
-use crate::layout::{LegendPlace, Placed, Typeface, occupied};
+use super::plan::PanelPlan;
+use super::room::occupied;
+use crate::geometry::{Frame, Point, Rect};
+use crate::layers::{LabelledPoint, Layer, Symbol};
+use crate::look::star;
 use crate::scene::{Anchor, Scene, Text};
 use crate::text::{LINE, wrap};
 
 /// Half of a star's width.
 const STAR: f64 = 7.0;
 
-/// Draws the points of a panel, each label where it covers least.
-pub(super) fn draw(scene: &mut Scene, placed: &Placed<'_>, faces: &Typeface) {
-    let frame = &placed.frame;
-    let shown = |point: &&LabelledPoint| frame.x.contains(point.x) && frame.y.contains(point.y);
-    let points: Vec<&LabelledPoint> = placed
-        .plan
-        .panel
-        .layers
-        .iter()
-        .filter_map(|layer| match layer {
-            Layer::Point(point) => Some(point),
-            Layer::Line(_)
-            | Layer::Band(_)
-            | Layer::Histogram(_)
-            | Layer::Image(_)
-            | Layer::Classes(_)
-            | Layer::Mark(_) => None,
-        })
-        .filter(shown)
-        .collect();
+/// Draws the points of a panel, each label where it covers least and no place that is taken, such as by the legend.
+pub(crate) fn draw(
+    scene: &mut Scene,
+    plan: &PanelPlan<'_>,
+    frame: &Frame,
+    taken: Option<Rect>,
+    size: f64,
+) {
+    let mut points: Vec<(&LabelledPoint, Point)> = Vec::new();
+    for layer in &plan.panel.layers {
+        if let Layer::Point(point) = layer
+            && frame.x.contains(point.x)
+            && frame.y.contains(point.y)
+            && let Some(place) = frame.place((point.x, point.y))
+        {
+            points.push((point, place));
+        }
+    }
     if points.is_empty() {
         return;
     }
-    let curves = occupied(placed.plan.panel, frame);
-    let at = |point: &LabelledPoint| frame.place((point.x, point.y));
-    let is_star = |point: &&&LabelledPoint| point.symbol == Symbol::Star;
-    let stars: Vec<(f64, f64)> = points
+    let curves = occupied(plan.panel, frame);
+    let stars = points
         .iter()
-        .filter(is_star)
-        .filter_map(|p| at(p))
-        .collect();
-    for &star in &stars {
-        marker::star(scene, star, STAR, BLACK);
+        .filter(|(point, _)| point.symbol == Symbol::Star);
+    let stars: Vec<Point> = stars.map(|(_, place)| *place).collect();
+    for &at in &stars {
+        star(scene, at, STAR);
     }
-    let mut written: Vec<Rect> = match &placed.fitted.legend {
-        Some((_, LegendPlace::Inside(found))) => {
-            vec![Rect {
-                left: found.left + frame.area.left,
-                right: found.right + frame.area.left,
-                top: found.top + frame.area.top,
-                bottom: found.bottom + frame.area.top,
-            }]
-        }
-        Some(_) | None => Vec::new(),
-    };
-    for point in points {
-        let Some(place) = at(point) else {
-            continue;
-        };
+    let mut written: Vec<Rect> = taken.into_iter().collect();
+    for (point, place) in points {
         let cost = |lines: &Vec<Text>| {
             let bounds = bounds(lines);
             let hidden = stars.iter().filter(|&&s| bounds.grown(STAR - 1.0).has(s));
             let crossed = curves.iter().filter(|&&c| bounds.has(c));
             100 * hidden.count() + crossed.count()
         };
-        let best = candidates(point, place, frame.area, faces.tick)
+        let best = candidates(point, place, frame.area, size)
             .into_iter()
             .filter(|lines| {
                 let bounds = bounds(lines);
@@ -82,18 +64,14 @@ pub(super) fn draw(scene: &mut Scene, placed: &Placed<'_>, faces: &Typeface) {
 }
 
 /// Labels around a point, the nearest first, moved into the plot and broken to its width.
-fn candidates(point: &LabelledPoint, (x, y): (f64, f64), area: Rect, size: f64) -> Vec<Vec<Text>> {
-    let side = match point.symbol {
-        Symbol::Star => STAR + 0.35 * size,
-        Symbol::Label => 0.5 * size,
-    };
+fn candidates(point: &LabelledPoint, (x, y): Point, area: Rect, size: f64) -> Vec<Vec<Text>> {
     let lines = wrap(&point.label, size, area.width() - 4.0);
     let mut found = Vec::new();
     let rises = [0.0, -1.2, 1.2, -2.4, 2.4, -4.0, 4.0, -6.0, 6.0, -9.0, 9.0];
-    // a name of its own that has moved away names something else
-    let near = match point.symbol {
-        Symbol::Star => rises.len(),
-        Symbol::Label => 3,
+    let (side, near) = match point.symbol {
+        Symbol::Star => (STAR + 0.35 * size, rises.len()),
+        // a name of its own that has moved away names something else
+        Symbol::Label => (0.5 * size, 3),
     };
     for rise in rises.into_iter().take(near) {
         let above = (x, Anchor::Middle);
@@ -129,11 +107,6 @@ fn candidates(point: &LabelledPoint, (x, y): (f64, f64), area: Rect, size: f64) 
 /// The rectangle around all lines.
 fn bounds(lines: &[Text]) -> Rect {
     let all = lines.iter().map(Text::bounds);
-    all.reduce(|a, b| Rect {
-        left: a.left.min(b.left),
-        top: a.top.min(b.top),
-        right: a.right.max(b.right),
-        bottom: a.bottom.max(b.bottom),
-    })
-    .unwrap_or(Rect::new(0.0, 0.0, 0.0, 0.0))
+    all.reduce(Rect::union)
+        .unwrap_or(Rect::new(0.0, 0.0, 0.0, 0.0))
 }

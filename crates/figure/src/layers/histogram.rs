@@ -1,6 +1,11 @@
 //! Counts over bins.
 
-use crate::interval::{Interval, Scale};
+use super::{Kind, Plot, Swatch, count};
+use crate::axis::{Interval, Scale};
+use crate::error::FigureError;
+use crate::geometry::{Frame, Point, Rect};
+use crate::look::{Look, Slot, Style};
+use crate::scene::{Scene, Shape};
 
 /// Counts over bins.
 #[derive(Debug, Clone, PartialEq)]
@@ -19,32 +24,26 @@ impl Histogram {
     /// Values that such an axis cannot show (NaN, or negative on a logarithmic one) are not counted.
     pub fn of(name: &str, values: &[f64], bins: usize, scale: Scale) -> Self {
         let bins = bins.max(1);
-        let interval = Interval::around(scale, values.iter().copied()).map_or(
-            Interval::linear(0.0, 1.0),
-            |found| {
-                if found.low < found.high {
-                    found
-                } else {
-                    found.with_air(0.0)
-                }
-            },
-        );
+        let interval = match Interval::around(scale, values.iter().copied()) {
+            Some(found) if found.low < found.high => found,
+            Some(single) => single.with_air(0.0),
+            None => Interval::linear(0.0, 1.0),
+        };
         let mut counts = vec![0.0; bins];
         for &value in values.iter().filter(|&&v| scale.shows(v)) {
             let bin = (interval.fraction(value) * bins as f64) as usize;
             counts[bin.min(bins - 1)] += 1.0;
         }
+        let edges = (0..=bins).map(|i| interval.value(i as f64 / bins as f64));
         Self {
             name: name.to_owned(),
-            edges: (0..=bins)
-                .map(|i| interval.value(i as f64 / bins as f64))
-                .collect(),
+            edges: edges.collect(),
             counts,
         }
     }
 
     /// The curve along the tops of the bars, from zero to zero.
-    pub(crate) fn outline(&self) -> Vec<(f64, f64)> {
+    fn outline(&self) -> Vec<Point> {
         let mut points = Vec::with_capacity(2 * self.counts.len() + 2);
         for (pair, &count) in self.edges.windows(2).zip(&self.counts) {
             points.extend([(pair[0], count), (pair[1], count)]);
@@ -54,6 +53,58 @@ impl Histogram {
             points.push((last, 0.0));
         }
         points
+    }
+
+    /// The same on the axes of a plot: a logarithmic axis has no zero, bars stand on its end.
+    fn standing(&self, frame: &Frame) -> Vec<Point> {
+        let above = |(x, y): Point| (x, y.max(frame.y.low));
+        self.outline().into_iter().map(above).collect()
+    }
+
+    /// Bars as one outline, lightly filled, so that several lie over one another.
+    pub(crate) fn draw_outline(scene: &mut Scene, points: &[Point], look: &Look, clip: Rect) {
+        let fill = Shape::polygon(points).filled(look.stroke.colour, 0.18);
+        scene.shape(fill.clipped(clip));
+        scene.shape(Shape::polyline(points, look.stroke).clipped(clip));
+    }
+}
+
+impl Kind for Histogram {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn check(&self, panel: usize) -> Result<(), FigureError> {
+        let expected = self.counts.len() + 1;
+        count(panel, "edges of a histogram", expected, self.edges.len())
+    }
+
+    fn places(&self) -> Vec<Point> {
+        self.outline()
+    }
+
+    fn is_coloured(&self) -> bool {
+        true
+    }
+
+    /// Whole bars, not only their tops.
+    fn curves(&self, frame: &Frame) -> Vec<Vec<Point>> {
+        let base = frame.y.low.max(0.0);
+        let top = self.standing(frame);
+        let bars = top.iter().map(|&(x, y)| vec![(x, base), (x, y)]);
+        bars.chain([top.clone()]).collect()
+    }
+
+    fn swatches(&self, slot: Slot) -> Vec<(&str, Swatch)> {
+        vec![(&self.name, Swatch::Bars(Look::new(slot, Style::Plain)))]
+    }
+
+    fn draw(&self, scene: &mut Scene, plot: &Plot<'_>, slot: Slot) {
+        let (frame, look) = (plot.frame, Look::new(slot, Style::Plain));
+        let runs = frame.runs(&self.standing(frame));
+        for run in runs.iter().filter(|run| run.len() > 1) {
+            Self::draw_outline(scene, run, &look, frame.area);
+        }
     }
 }
 
