@@ -1,11 +1,8 @@
 //! The error map of a kernel table.
 
 use crate::error::PlotError;
-use crate::labels::stem;
-use crate::number::digits;
-use crate::quantity::words;
 use crate::request::{Drawn, Request};
-use contact::nearest;
+use crate::words::{digits, of_quantity, stem};
 use figure::{Axis, ColourMap, ColourScale, Figure, Image, Layer, Panel, Shading, Sharing, Unit};
 use formats::results::schema::FIELDS;
 use lookup::{Content, Slice};
@@ -32,7 +29,7 @@ pub(crate) fn of_table(path: &Path, request: &Request) -> Result<Drawn, PlotErro
             hint: "hertzlamb table verify says what is wrong with it",
         })?;
     let what = match fields.as_slice() {
-        [one] => words(FIELDS[*one].0),
+        [one] => of_quantity(FIELDS[*one].0),
         _ => "worst field".to_owned(),
     };
     let colours = ColourScale::new(
@@ -41,10 +38,8 @@ pub(crate) fn of_table(path: &Path, request: &Request) -> Result<Drawn, PlotErro
         ColourMap::Sequential,
     )
     .logarithmic();
-    let title = request
-        .title
-        .clone()
-        .unwrap_or_else(|| format!("Errors of the kernel table {}", stem(path)));
+    let usual = || format!("Errors of the kernel table {}", stem(path));
+    let title = request.title.clone().unwrap_or_else(usual);
     let mut figure = Figure::new(&title)
         .subtitle(&format!(
             "Poisson's ratio {}, at the centres of the meshes, by the length of the pulse",
@@ -66,18 +61,9 @@ pub(crate) fn of_table(path: &Path, request: &Request) -> Result<Drawn, PlotErro
 /// Indices of the fields that are asked for; of all without.
 fn fields(path: &Path, request: &Request) -> Result<Vec<usize>, PlotError> {
     let find = |name: &String| {
-        FIELDS
-            .iter()
-            .position(|field| field.0 == name)
-            .ok_or_else(|| {
-                let all = || FIELDS.iter().map(|field| field.0);
-                PlotError::Quantity {
-                    path: path.to_owned(),
-                    quantity: name.clone(),
-                    suggestion: nearest(name, all()),
-                    allowed: all().collect::<Vec<_>>().join(", "),
-                }
-            })
+        let mut all = FIELDS.iter().map(|field| field.0);
+        let found = all.clone().position(|field| field == name);
+        found.ok_or_else(|| PlotError::unknown(path, name, name, &mut all))
     };
     if request.quantities.is_empty() {
         return Ok((0..FIELDS.len()).collect());
@@ -98,10 +84,8 @@ fn panel(
     let error = |i: usize, k: usize| {
         let place = ((i * z.len() + k) * pulses + pulse) * FIELDS.len();
         let of = |field: &usize| {
-            let (error, exact) = (
-                measured.error.get(place + field)?,
-                measured.direct.get(place + field)?,
-            );
+            let error = measured.error.get(place + field)?;
+            let exact = measured.direct.get(place + field)?;
             // where a field is zero throughout it says nothing
             (*exact != 0.0).then(|| f64::from(*error) / f64::from(exact.abs()))
         };
@@ -111,26 +95,17 @@ fn panel(
     for k in 0..z.len() {
         values.extend((0..r.len()).map(|i| error(i, k)));
     }
-    let [r_end, z_end] = [content.r_max, content.z_max];
-    Panel::new(
-        Axis::linear("distance from the axis")
-            .unit("r_{0}")
-            .range(0.0, r_end),
-        Axis::linear("depth")
-            .unit("r_{0}")
-            .range(0.0, z_end)
-            .reversed(),
-    )
-    .title(&format!(
-        "pulse of {} r_{{0}}/c_{{1}}",
-        digits(content.pulse_lengths[pulse])
-    ))
-    .height(280.0)
-    .layer(Layer::Image(Image {
-        x: r,
-        y: z,
-        values,
-        shading: Shading::Cells,
-        colours: colours.clone(),
-    }))
+    let axis = |name, end| Axis::linear(name).unit("r_{0}").range(0.0, end);
+    let distance = axis("distance from the axis", content.r_max);
+    let length = digits(content.pulse_lengths[pulse]);
+    Panel::new(distance, axis("depth", content.z_max).reversed())
+        .title(&format!("pulse of {length} r_{{0}}/c_{{1}}"))
+        .height(280.0)
+        .layer(Layer::Image(Image {
+            x: r,
+            y: z,
+            values,
+            shading: Shading::Cells,
+            colours: colours.clone(),
+        }))
 }

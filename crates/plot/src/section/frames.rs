@@ -1,24 +1,26 @@
-//! A section: its frames, its near field, its fronts.
+//! The frames of a section, its near field and its fronts.
 
+use super::quantity::{Instants, Quantity, SAMPLES};
 use crate::error::PlotError;
-use crate::quantity::{Instants, Quantity};
-use crate::span::{end_s, onset_s};
+use crate::series::{end_s, waves_of};
 use contact::WaveSpeeds;
-use figure::{LabelledPoint, Layer, Line, Style};
+use figure::{Axis, ColourScale, Image, LabelledPoint, Layer, Line, Mirror, Panel, Shading, Style};
 use formats::stored::{ReadError, StoredImpact, StoredSection};
-use impact::FieldsError;
 use std::collections::VecDeque;
 use std::f64::consts::FRAC_PI_2;
 
+/// Share of the values outside the near field that the colours hold.
+pub(super) const SHARE: f64 = 0.985;
+
 /// A section with what its pictures need.
-pub(crate) struct Section {
-    pub(crate) stored: StoredSection,
-    pub(crate) speeds: WaveSpeeds,
-    pub(crate) disc_radius_m: f64,
+pub(super) struct Section {
+    pub(super) stored: StoredSection,
+    pub(super) speeds: WaveSpeeds,
+    pub(super) disc_radius_m: f64,
     /// When the force begins in s.
-    pub(crate) start_s: f64,
+    pub(super) start_s: f64,
     /// How long it lasts in s.
-    pub(crate) pulse_s: f64,
+    pub(super) pulse_s: f64,
     /// Frames read last: a rate needs its neighbours again.
     known: VecDeque<(String, usize, Vec<f64>)>,
 }
@@ -31,26 +33,25 @@ const KEPT: usize = 24;
 
 impl Section {
     /// The section of a results file.
-    pub(crate) fn of(impact: &StoredImpact) -> Result<Self, PlotError> {
+    pub(super) fn of(impact: &StoredImpact) -> Result<Self, PlotError> {
         let stored = impact.section()?.ok_or_else(|| PlotError::Absent {
             path: impact.path().to_owned(),
             what: "section",
             hint: "give the scene a [map] with r_max_m, z_max_m, points and frames",
         })?;
-        let (time_s, force_n) = (&impact.series.time_s, &impact.series.force_n);
-        let start_s = onset_s(time_s, force_n);
+        let (speeds, start_s) = waves_of(impact)?;
         Ok(Self {
-            speeds: WaveSpeeds::of(&impact.scene.target).map_err(FieldsError::from)?,
+            speeds,
             disc_radius_m: impact.number("disc_radius_m").unwrap_or(0.0),
             start_s,
-            pulse_s: end_s(time_s, force_n) - start_s,
+            pulse_s: end_s(&impact.series.time_s, &impact.series.force_n) - start_s,
             known: VecDeque::new(),
             stored,
         })
     }
 
     /// The quantity that is asked for, or the one that shows waves best.
-    pub(crate) fn quantity(
+    pub(super) fn quantity(
         &self,
         impact: &StoredImpact,
         asked: &[String],
@@ -61,40 +62,71 @@ impl Section {
     }
 
     /// Its extents along r and z in m.
-    pub(crate) fn extent_m(&self) -> [f64; 2] {
+    pub(super) fn extent_m(&self) -> [f64; 2] {
         let last = |x: &[f64]| x.iter().copied().fold(0.0, f64::max);
         [last(&self.stored.r_m), last(&self.stored.z_m)]
     }
 
     /// Depths in m, ascending, as images need them.
-    pub(crate) fn depths_m(&self) -> Vec<f64> {
+    pub(super) fn depths_m(&self) -> Vec<f64> {
         self.stored.z_m.iter().rev().copied().collect()
     }
 
     /// The values of a frame with depths ascending: r runs fastest.
-    pub(crate) fn image(&self, frame: &[f64]) -> Vec<f64> {
+    pub(super) fn turned(&self, frame: &[f64]) -> Vec<f64> {
         let rows = frame.chunks(self.stored.r_m.len()).rev();
         rows.flatten().copied().collect()
     }
 
-    /// Whether each place of [`Self::image`] is outside the near field.
-    ///
-    /// The near field, where values grow without bound on the scale of the picture, is everything within an eighth of
-    /// the smaller extent, and within three radii of the disc.
-    pub(crate) fn is_far(&self) -> Vec<bool> {
-        let [r, z] = self.extent_m();
-        let near = (0.125 * r.min(z))
+    /// A quantity in a frame, [turned](Self::turned).
+    pub(super) fn values(
+        &mut self,
+        quantity: &Quantity,
+        frame: usize,
+    ) -> Result<Vec<f64>, PlotError> {
+        let values = quantity.at(self, frame, SAMPLES)?;
+        Ok(self.turned(&values))
+    }
+
+    /// Where the near field ends in m, in which values grow without bound on the scale of the picture: an eighth of
+    /// the extent, and three radii of the disc.
+    pub(super) fn near_m(&self, extent_m: f64) -> f64 {
+        (0.125 * extent_m)
             .max(3.0 * self.disc_radius_m)
-            .min(0.5 * r.min(z));
+            .min(0.5 * extent_m)
+    }
+
+    /// Whether each place of [`Self::values`] is outside the near field.
+    pub(super) fn is_far(&self) -> Vec<bool> {
+        let [r, z] = self.extent_m();
+        let near_m = self.near_m(r.min(z));
         let depths = self.depths_m();
         let places = depths
             .iter()
             .flat_map(|z| self.stored.r_m.iter().map(move |r| r.hypot(*z)));
-        places.map(|distance| distance > near).collect()
+        places.map(|distance| distance > near_m).collect()
     }
 
-    /// How much of a frame by differences hangs on the distance of the frames: rms over rms outside the near field.
-    pub(crate) fn doubt(
+    /// Values over the section, mirrored at the axis.
+    pub(super) fn map(&self, values: Vec<f64>, colours: ColourScale) -> Panel {
+        let [r_max_m, z_max_m] = self.extent_m();
+        let image = Image {
+            x: self.stored.r_m.clone(),
+            y: self.depths_m(),
+            values,
+            shading: Shading::Smooth,
+            colours,
+        };
+        let distance = Axis::linear("distance from the axis").si("m");
+        let depth = Axis::linear("depth").si("m").reversed();
+        Panel::new(distance.range(0.0, r_max_m), depth.range(0.0, z_max_m))
+            .equal_lengths()
+            .mirrored(Mirror::Even)
+            .layer(Layer::Image(image))
+    }
+
+    /// How much of a frame by differences depends on the distance of the frames: rms over rms outside the near field.
+    pub(super) fn doubt(
         &mut self,
         quantity: &Quantity,
         frames: &[usize],
@@ -102,8 +134,9 @@ impl Section {
         let far = self.is_far();
         let (mut difference, mut size) = (0.0, 0.0);
         for &frame in frames {
-            let (fine, coarse) = (quantity.at(self, frame)?, quantity.coarser(self, frame)?);
-            let (fine, coarse) = (self.image(&fine), self.image(&coarse));
+            let fine = self.values(quantity, frame)?;
+            let coarse = quantity.at(self, frame, SAMPLES - 2)?;
+            let coarse = self.turned(&coarse);
             for ((a, b), _) in fine.iter().zip(&coarse).zip(&far).filter(|(_, far)| **far) {
                 difference += (a - b) * (a - b);
                 size += a * a;
@@ -117,7 +150,7 @@ impl Section {
     }
 
     /// The fronts at a time as thin lines with their names, in a mirrored panel.
-    pub(crate) fn fronts(&self, time_s: f64) -> Vec<Layer> {
+    pub(super) fn fronts(&self, time_s: f64) -> Vec<Layer> {
         let since = time_s - self.start_s;
         let mut layers = Vec::new();
         if since <= 0.0 {
@@ -135,10 +168,8 @@ impl Section {
         let edge = self.disc_radius_m + rayleigh;
         line(vec![(edge, 0.0), (edge, depth.min(0.9 * rayleigh))]);
         let on = |radius: f64, angle: f64| {
-            (
-                self.disc_radius_m + radius * angle.sin(),
-                radius * angle.cos(),
-            )
+            let across = self.disc_radius_m + radius * angle.sin();
+            (across, radius * angle.cos())
         };
         // names of fronts that are not apart yet would lie over one another
         if s < APART * self.extent_m()[0] {
@@ -181,16 +212,14 @@ fn capsule(disc_radius_m: f64, distance_m: f64) -> Vec<(f64, f64)> {
     const POINTS: u32 = 90;
     let arc = (0..=POINTS).map(|i| {
         let angle = FRAC_PI_2 * f64::from(i) / f64::from(POINTS);
-        (
-            disc_radius_m + distance_m * angle.cos(),
-            distance_m * angle.sin(),
-        )
+        let across = disc_radius_m + distance_m * angle.cos();
+        (across, distance_m * angle.sin())
     });
     arc.chain([(0.0, distance_m)]).collect()
 }
 
 /// The value below which a fraction of the sizes lies; 0 without values.
-pub(crate) fn quantile_of_sizes(values: impl Iterator<Item = f64>, fraction: f64) -> f64 {
+pub(super) fn quantile_of_sizes(values: impl Iterator<Item = f64>, fraction: f64) -> f64 {
     let mut sizes: Vec<f64> = values.map(f64::abs).filter(|v| v.is_finite()).collect();
     if sizes.is_empty() {
         return 0.0;

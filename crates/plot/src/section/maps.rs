@@ -1,15 +1,12 @@
-//! Frames of a section, chosen so that waves are seen.
+//! Maps of a section: frames, chosen so that waves are seen, and the largest value over time at every place.
 
+use super::frames::{SHARE, Section, quantile_of_sizes};
+use super::quantity::Quantity;
 use crate::error::PlotError;
-use crate::number::with_unit;
-use crate::quantity::Quantity;
 use crate::request::Request;
-use crate::section::{Section, quantile_of_sizes};
-use figure::{Axis, ColourScale, Image, Layer, Legend, Limits, Mirror, Panel, Shading, Unit};
+use crate::words::with_unit;
+use figure::{ColourMap, ColourScale, Legend, Limits, Panel, Unit};
 use formats::stored::StoredImpact;
-
-/// Share of the values outside the near field that the colours hold.
-pub(crate) const SHARE: f64 = 0.985;
 
 /// Frames from which on a picture is a whole history.
 const FEW: usize = 9;
@@ -17,24 +14,20 @@ const FEW: usize = 9;
 /// Largest error of a velocity by differences that is shown, over its size.
 const DOUBT: f64 = 0.1;
 
-/// Panels of frames, and what their user should know.
-pub(crate) struct Frames {
-    pub(crate) panels: Vec<Panel>,
-    pub(crate) notes: Vec<String>,
-}
-
-/// Frames of a section at the times that are asked for, or `count` until the longitudinal wave leaves it.
+/// Frames of a section at the times that are asked for, or `count` until the longitudinal wave leaves it; and
+/// what their user should know.
 pub(crate) fn frames(
     impact: &StoredImpact,
     request: &Request,
     count: usize,
-) -> Result<Frames, PlotError> {
+) -> Result<(Vec<Panel>, Vec<String>), PlotError> {
     let mut section = Section::of(impact)?;
     let mut notes = Vec::new();
     let chosen = instants(&section, &request.times_s, count, &mut notes);
     let mut quantity = section.quantity(impact, &request.quantities, "velocity_z")?;
     if quantity.is_rate() {
-        let doubt = section.doubt(&quantity, few(&chosen))?;
+        let last = chosen.len().saturating_sub(4);
+        let doubt = section.doubt(&quantity, &chosen[last..])?;
         if doubt > DOUBT && !request.quantities.is_empty() {
             return Err(PlotError::Coarse {
                 path: impact.path().to_owned(),
@@ -54,57 +47,24 @@ pub(crate) fn frames(
     let far = section.is_far();
     let mut images = Vec::new();
     for &frame in &chosen {
-        let values = quantity.at(&mut section, frame)?;
-        images.push(section.image(&values));
+        images.push(section.values(&quantity, frame)?);
     }
     let outside = images.iter().flat_map(|image| {
         let pairs = image.iter().zip(&far).filter(|(_, far)| **far);
         pairs.map(|(value, _)| *value)
     });
-    let largest = quantile_of_sizes(outside, SHARE);
-    let limits = if quantity.has_sign() {
-        Limits::Between(-largest, largest)
-    } else {
-        Limits::Between(0.0, largest)
+    let colours = quantity.colours(quantile_of_sizes(outside, SHARE));
+    let panel = |(&frame, values): (&usize, Vec<f64>)| {
+        let time_s = section.stored.time_s[frame];
+        let mut panel = section
+            .map(values, colours.clone())
+            .title(&with_unit(time_s, "s"))
+            .legend(Legend::Off);
+        panel.layers.extend(section.fronts(time_s));
+        panel
     };
-    let colours = ColourScale::new(
-        &quantity.words,
-        Unit::Si(quantity.unit.clone()),
-        quantity.colours(),
-    )
-    .limits(limits);
-    let panels = chosen
-        .iter()
-        .zip(images)
-        .map(|(&frame, values)| panel(&section, frame, values, &colours))
-        .collect();
-    Ok(Frames { panels, notes })
-}
-
-/// A frame, mirrored at the axis, with its fronts.
-fn panel(section: &Section, frame: usize, values: Vec<f64>, colours: &ColourScale) -> Panel {
-    let [r_max_m, z_max_m] = section.extent_m();
-    let time_s = section.stored.time_s[frame];
-    let image = Image {
-        x: section.stored.r_m.clone(),
-        y: section.depths_m(),
-        values,
-        shading: Shading::Smooth,
-        colours: colours.clone(),
-    };
-    let mut panel = Panel::new(
-        Axis::linear("distance from the axis")
-            .si("m")
-            .range(0.0, r_max_m),
-        Axis::linear("depth").si("m").range(0.0, z_max_m).reversed(),
-    )
-    .title(&with_unit(time_s, "s"))
-    .equal_lengths()
-    .mirrored(Mirror::Even)
-    .legend(Legend::Off)
-    .layer(Layer::Image(image));
-    panel.layers.extend(section.fronts(time_s));
-    panel
+    let panels = chosen.iter().zip(images).map(panel).collect();
+    Ok((panels, notes))
 }
 
 /// Frames at given times, or evenly until the longitudinal wave leaves the section.
@@ -160,8 +120,45 @@ fn shown_s(section: &Section, notes: &mut Vec<String>) -> f64 {
     (section.start_s + crossing_s).min(last_s)
 }
 
-/// A few of many frames.
-fn few(frames: &[usize]) -> &[usize] {
-    let from = frames.len().saturating_sub(4);
-    &frames[from..]
+/// The map of the largest sizes over time, in decades of colour.
+pub(crate) fn peak(impact: &StoredImpact, request: &Request) -> Result<Panel, PlotError> {
+    /// Lower end of the colours, over the upper one.
+    const DECADES: f64 = 1e-4;
+    let mut section = Section::of(impact)?;
+    let quantity = section.quantity(impact, &request.quantities, "von_mises")?;
+    let mut values: Vec<f64> = match section.stored.peak(&quantity.name) {
+        Some(stored) => section.turned(&stored).into_iter().map(f64::abs).collect(),
+        None => over_frames(&mut section, &quantity)?,
+    };
+    let positive = || values.iter().copied().filter(|v| *v > 0.0);
+    let [low, high] = [0.05, 0.999].map(|share| quantile_of_sizes(positive(), share));
+    // where no wave has come there is rounding, or nothing: the colour of the lower end
+    let ends = [low.max(DECADES * high), high];
+    for value in &mut values {
+        *value = value.max(ends[0]);
+    }
+    let colours = ColourScale::new(
+        &format!("{}, largest over time", quantity.words),
+        Unit::Si(quantity.unit.clone()),
+        ColourMap::Sequential,
+    )
+    .logarithmic()
+    .limits(Limits::Between(ends[0], ends[1]));
+    Ok(section.map(values, colours))
+}
+
+/// The largest sizes over the frames, for a file that has none over all samples.
+fn over_frames(section: &mut Section, quantity: &Quantity) -> Result<Vec<f64>, PlotError> {
+    /// Frames that are looked at, at most.
+    const MOST_FRAMES: usize = 2000;
+    let frames = section.stored.time_s.len();
+    let mut peaks: Vec<f64> = Vec::new();
+    for frame in (0..frames).step_by(frames.div_ceil(MOST_FRAMES)) {
+        let values = section.values(quantity, frame)?;
+        peaks.resize(values.len(), 0.0);
+        for (peak, value) in peaks.iter_mut().zip(values) {
+            *peak = peak.max(value.abs());
+        }
+    }
+    Ok(peaks)
 }

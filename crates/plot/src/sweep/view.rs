@@ -1,33 +1,34 @@
 //! What of a sweep is shown: values over one key, for some settings of the others, with the draws as quantiles.
 
 use crate::error::PlotError;
-use crate::labels::words;
-use crate::number::with_unit;
 use crate::request::Request;
-use contact::nearest;
+use crate::words::{of_key, with_unit};
 use formats::stored::{StoredColumn, StoredSweep};
 use formats::sweep::Values;
 
+/// Shares of draws below the band, at its middle and below its upper end.
+pub(super) const SHARES: [f64; 3] = [0.05, 0.5, 0.95];
+
 /// A choice along every axis but those that are shown.
 #[derive(Debug, Clone)]
-pub(crate) struct Slice {
+pub(super) struct Slice {
     /// What is chosen, in words; empty where there is nothing to choose.
-    pub(crate) label: String,
+    pub(super) label: String,
     /// Index along each axis; none along those that are shown.
-    pub(crate) fixed: Vec<Option<usize>>,
+    pub(super) fixed: Vec<Option<usize>>,
 }
 
 /// The axes of a sweep and what becomes of each.
-pub(crate) struct View<'a> {
-    pub(crate) sweep: &'a StoredSweep,
+pub(super) struct View<'a> {
+    pub(super) sweep: &'a StoredSweep,
     /// Axis of random draws.
-    pub(crate) drawn: Option<usize>,
+    pub(super) drawn: Option<usize>,
     /// Index along each axis that the request fixes.
-    pub(crate) fixed: Vec<Option<usize>>,
+    pub(super) fixed: Vec<Option<usize>>,
 }
 
 impl<'a> View<'a> {
-    pub(crate) fn new(sweep: &'a StoredSweep, request: &Request) -> Result<Self, PlotError> {
+    pub(super) fn new(sweep: &'a StoredSweep, request: &Request) -> Result<Self, PlotError> {
         let mut fixed = vec![None; sweep.axes.len()];
         for (key, value) in &request.at {
             let (axis, column) = find(sweep, key)?;
@@ -45,7 +46,7 @@ impl<'a> View<'a> {
     }
 
     /// Axes that vary still, the draws apart.
-    pub(crate) fn free(&self) -> Vec<usize> {
+    pub(super) fn free(&self) -> Vec<usize> {
         let axes = 0..self.sweep.axes.len();
         axes.filter(|&i| {
             self.fixed[i].is_none() && Some(i) != self.drawn && self.sweep.axes[i].len > 1
@@ -54,7 +55,7 @@ impl<'a> View<'a> {
     }
 
     /// The numbers along an axis: those of the key that is asked for, or of the first that has numbers.
-    pub(crate) fn numbers(
+    pub(super) fn numbers(
         &self,
         axis: usize,
         asked: Option<&str>,
@@ -71,7 +72,7 @@ impl<'a> View<'a> {
     }
 
     /// The axis along x: of the key that is asked for, or the longest of numbers.
-    pub(crate) fn along(&self, asked: Option<&str>) -> Result<Option<usize>, PlotError> {
+    pub(super) fn along(&self, asked: Option<&str>) -> Result<Option<usize>, PlotError> {
         if let Some(key) = asked {
             let (axis, column) = find(self.sweep, key)?;
             return match &column.values {
@@ -90,7 +91,7 @@ impl<'a> View<'a> {
     }
 
     /// All choices along the free axes that are not shown.
-    pub(crate) fn slices(&self, shown: &[usize]) -> Vec<Slice> {
+    pub(super) fn slices(&self, shown: &[usize]) -> Vec<Slice> {
         let mut found = vec![Slice {
             label: String::new(),
             fixed: self.fixed.clone(),
@@ -119,7 +120,7 @@ impl<'a> View<'a> {
     /// What is at a place of an axis, in words: `granite`, `tip radius 2 mm`.
     fn name(&self, axis: usize, index: usize) -> String {
         let parts = self.sweep.axes[axis].columns.iter().map(|column| {
-            let (name, unit) = words(&column.name);
+            let (name, unit) = of_key(&column.name);
             match &column.values {
                 Values::Numbers(values) => format!("{name} {}", with_unit(values[index], unit)),
                 Values::Drawn(drawn) => format!("{name} {}", with_unit(drawn.at(index), unit)),
@@ -129,14 +130,24 @@ impl<'a> View<'a> {
         parts.collect::<Vec<_>>().join(", ")
     }
 
+    /// Quantiles of the draws of a slice at a place along the axes that are shown; those of a single value without
+    /// draws.
+    pub(super) fn quantiles(
+        &self,
+        slice: &Slice,
+        at: &[(usize, usize)],
+        values: &[f64],
+    ) -> Option<[f64; 3]> {
+        let rows = self.rows(slice, at).into_iter();
+        quantiles(rows.map(|row| values[row]), SHARES)
+    }
+
     /// The rows of a slice at a place along the axes that are shown, over all draws.
-    pub(crate) fn rows(&self, slice: &Slice, at: &[(usize, usize)]) -> Vec<usize> {
+    pub(super) fn rows(&self, slice: &Slice, at: &[(usize, usize)]) -> Vec<usize> {
         let axes = &self.sweep.axes;
         let index = |i: usize, draw: usize| {
-            let shown = at
-                .iter()
-                .find(|(axis, _)| *axis == i)
-                .map(|(_, index)| *index);
+            let shown = at.iter().find(|(axis, _)| *axis == i);
+            let shown = shown.map(|(_, index)| *index);
             let own = (Some(i) == self.drawn).then_some(draw);
             shown.or(own).or(slice.fixed[i]).unwrap_or(0)
         };
@@ -148,22 +159,11 @@ impl<'a> View<'a> {
 
 /// The axis and the column of a key.
 fn find<'a>(sweep: &'a StoredSweep, key: &str) -> Result<(usize, &'a StoredColumn), PlotError> {
-    let all = || {
-        sweep
-            .axes
-            .iter()
-            .enumerate()
-            .flat_map(|(i, axis)| axis.columns.iter().map(move |c| (i, c)))
-    };
-    all().find(|(_, column)| column.name == key).ok_or_else(|| {
-        let names = || all().map(|(_, column)| column.name.as_str());
-        PlotError::Quantity {
-            path: sweep.path().to_owned(),
-            quantity: format!("the key {key}"),
-            suggestion: nearest(key, names()),
-            allowed: names().collect::<Vec<_>>().join(", "),
-        }
-    })
+    let axes = sweep.axes.iter().enumerate();
+    let mut all = axes.flat_map(|(i, axis)| axis.columns.iter().map(move |c| (i, c)));
+    let names = all.clone().map(|(_, column)| column.name.as_str());
+    let found = all.find(|(_, column)| column.name == key);
+    found.ok_or_else(|| PlotError::unknown(sweep.path(), format!("the key {key}"), key, names))
 }
 
 /// The index of a value of a key: that word, or the nearest number.
@@ -173,37 +173,26 @@ fn nearest_value(
     key: &str,
     value: &str,
 ) -> Result<usize, PlotError> {
-    let found = match &column.values {
-        Values::Texts(words) => words.iter().position(|word| word == value),
-        numbers @ (Values::Numbers(_) | Values::Drawn(_)) => value
-            .parse::<f64>()
-            .ok()
-            .filter(|x| x.is_finite())
-            .and_then(|wanted| {
-                let distance = |i: usize| {
-                    let number = numbers.number(i).unwrap_or(f64::NAN);
-                    (number - wanted).abs()
-                };
-                let by = |a: &usize, b: &usize| distance(*a).total_cmp(&distance(*b));
-                (0..numbers.len()).min_by(by)
-            }),
-    };
-    found.ok_or_else(|| {
-        let words: Vec<&str> = match &column.values {
-            Values::Texts(words) => words.iter().map(String::as_str).collect(),
-            Values::Numbers(_) | Values::Drawn(_) => vec!["numbers"],
-        };
-        PlotError::Quantity {
-            path: sweep.path().to_owned(),
-            quantity: format!("{key} = {value}"),
-            suggestion: nearest(value, words.iter().copied()),
-            allowed: words.join(", "),
+    let (found, known) = match &column.values {
+        Values::Texts(words) => {
+            let found = words.iter().position(|word| word == value);
+            (found, words.iter().map(String::as_str).collect())
         }
-    })
+        numbers @ (Values::Numbers(_) | Values::Drawn(_)) => {
+            let wanted = value.parse::<f64>().ok().filter(|x| x.is_finite());
+            let nearest = |wanted: f64| {
+                let distance = |i: &usize| (numbers.number(*i).unwrap_or(f64::NAN) - wanted).abs();
+                (0..numbers.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)))
+            };
+            (wanted.and_then(nearest), vec!["numbers"])
+        }
+    };
+    let said = || format!("{key} = {value}");
+    found.ok_or_else(|| PlotError::unknown(sweep.path(), said(), value, known))
 }
 
 /// Lower, middle and upper quantile of values, those that are no numbers apart.
-pub(crate) fn quantiles(values: impl Iterator<Item = f64>, shares: [f64; 3]) -> Option<[f64; 3]> {
+pub(super) fn quantiles(values: impl Iterator<Item = f64>, shares: [f64; 3]) -> Option<[f64; 3]> {
     let mut known: Vec<f64> = values.filter(|v| v.is_finite()).collect();
     if known.is_empty() {
         return None;

@@ -1,43 +1,13 @@
 //! What several impacts are called: by what differs between their scenes.
 
-use crate::number::with_unit;
+use crate::words::{of_key, stem, with_unit};
 use formats::stored::{StoredImpact, StoredValue};
-use std::path::Path;
 
 /// Most keys that a label names.
 const MOST_KEYS: usize = 3;
 
-/// Units that keys carry at their ends, the longest first.
-const UNITS: [(&str, &str); 7] = [
-    ("_pa_sqrt_m", "Pa m^(1/2)"),
-    ("_kg_m3", "kg/m^3"),
-    ("_m_s", "m/s"),
-    ("_kg", "kg"),
-    ("_pa", "Pa"),
-    ("_m", "m"),
-    ("_s", "s"),
-];
-
-/// Name and unit of a scene key: `striker.tip_radius_m` is "tip radius" in m.
-pub(crate) fn words(key: &str) -> (String, &'static str) {
-    let (section, key) = key.split_once('.').unwrap_or(("", key));
-    let found = UNITS.iter().find(|(ending, _)| key.ends_with(ending));
-    let (name, unit) = found.map_or((key, "1"), |(ending, unit)| {
-        (&key[..key.len() - ending.len()], *unit)
-    });
-    let name = name
-        .replace("youngs_modulus", "Young's modulus")
-        .replace("poisson_ratio", "Poisson's ratio")
-        .replace('_', " ");
-    let name = match section {
-        "target" => format!("{name} of the half-space"),
-        _ => name,
-    };
-    (name, unit)
-}
-
 /// One label an impact.
-pub(crate) fn labels(impacts: &[StoredImpact]) -> Vec<String> {
+pub(super) fn labels(impacts: &[StoredImpact]) -> Vec<String> {
     let scenes: Vec<Vec<(String, StoredValue)>> = impacts
         .iter()
         .map(|impact| {
@@ -75,7 +45,7 @@ fn by_difference(scenes: &[Vec<(String, StoredValue)>]) -> Option<Vec<String>> {
     }
     let label = |scene: &Vec<(String, StoredValue)>| {
         let parts = keys.iter().map(|key| {
-            let (name, unit) = words(key);
+            let (name, unit) = of_key(key);
             match value(scene, key) {
                 Some(StoredValue::Text(text)) if key.as_str() == "target.material" => {
                     format!("on {text}")
@@ -104,12 +74,6 @@ fn is_of_material(key: &str, section: &str) -> bool {
         .strip_prefix(section)
         .and_then(|key| key.strip_prefix('.'));
     key.is_some_and(|key| NUMBERS.iter().any(|number| key.contains(number)))
-}
-
-/// A file's name without its ending.
-pub(crate) fn stem(path: &Path) -> String {
-    path.file_stem()
-        .map_or_else(String::new, |name| name.to_string_lossy().into_owned())
 }
 
 #[cfg(test)]
@@ -147,7 +111,6 @@ mod tests {
             scene(2.0, "hertz"),
         ];
         assert_eq!(by_difference(&same), None);
-        assert_eq!(words("target.youngs_modulus_pa").1, "Pa");
         let of = |material: &str, modulus: f64| {
             let mut scene = scene(1.0, "hertz");
             let text = StoredValue::Text(material.into());

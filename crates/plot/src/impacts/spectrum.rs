@@ -1,7 +1,7 @@
 //! The amplitude spectrum of a force.
 
 use crate::error::PlotError;
-use crate::number::with_unit;
+use crate::words::with_unit;
 use figure::{Axis, LabelledPoint, Layer, Panel, Style};
 use formats::stored::StoredImpact;
 use std::f64::consts::PI;
@@ -13,7 +13,7 @@ const FREQUENCIES: usize = 1200;
 const MOST_SAMPLES: usize = 20_000;
 
 /// Spectra of forces, one curve an impact; a single one with its corner frequency and its zeros.
-pub(crate) fn spectrum(impacts: &[StoredImpact], labels: &[String]) -> Result<Panel, PlotError> {
+pub(super) fn spectrum(impacts: &[StoredImpact], labels: &[String]) -> Result<Panel, PlotError> {
     let mut panel = Panel::new(
         Axis::logarithmic("frequency").si("Hz"),
         Axis::logarithmic("amplitude of the force").si("N s"),
