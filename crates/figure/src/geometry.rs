@@ -3,7 +3,7 @@
 use crate::axis::{Direction, Interval, Mirror};
 
 /// A rectangle; `top < bottom`.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Rect {
     /// Left side.
     pub left: f64,

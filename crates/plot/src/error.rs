@@ -125,6 +125,12 @@ impl PlotError {
         }
     }
 
+    /// What a picture shows is not in the file.
+    pub(crate) fn absent(path: &Path, what: &'static str, hint: &'static str) -> Self {
+        let path = path.to_owned();
+        Self::Absent { path, what, hint }
+    }
+
     /// A word that is none of those that a file has: `said` is what was asked for, of which `word` may be misspelt.
     pub(crate) fn unknown<'a>(
         path: &Path,

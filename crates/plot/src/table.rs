@@ -23,10 +23,9 @@ pub(crate) fn of_table(path: &Path, request: &Request) -> Result<Drawn, PlotErro
         .slices
         .iter()
         .min_by(|a, b| distance(a).total_cmp(&distance(b)))
-        .ok_or_else(|| PlotError::Absent {
-            path: path.to_owned(),
-            what: "slice",
-            hint: "hertzlamb table verify says what is wrong with it",
+        .ok_or_else(|| {
+            let hint = "hertzlamb table verify says what is wrong with it";
+            PlotError::absent(path, "slice", hint)
         })?;
     let what = match fields.as_slice() {
         [one] => of_quantity(FIELDS[*one].0),

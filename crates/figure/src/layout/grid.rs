@@ -122,9 +122,7 @@ fn plots(panels: &[Placed<'_>]) -> Rect {
         right: panel.frame.area.right + panel.fitted.needs.right,
         ..panel.frame.area
     });
-    areas
-        .reduce(Rect::union)
-        .unwrap_or(Rect::new(0.0, 0.0, 0.0, 0.0))
+    areas.reduce(Rect::union).unwrap_or_default()
 }
 
 /// Distance from the sides of the canvas.

@@ -107,6 +107,5 @@ fn candidates(point: &LabelledPoint, (x, y): Point, area: Rect, size: f64) -> Ve
 /// The rectangle around all lines.
 fn bounds(lines: &[Text]) -> Rect {
     let all = lines.iter().map(Text::bounds);
-    all.reduce(Rect::union)
-        .unwrap_or(Rect::new(0.0, 0.0, 0.0, 0.0))
+    all.reduce(Rect::union).unwrap_or_default()
 }

@@ -16,11 +16,16 @@ pub(crate) fn png(scene: &Scene, scale: f32) -> Result<Vec<u8>, RenderError> {
     encode(&rendered(scene, scale)?)
 }
 
+/// Width and height in pixels.
+fn size(scene: &Scene, scale: f32) -> [u32; 2] {
+    // a hundredth of a pixel more is none
+    let pixels = |side: f64| (f64::from(scale) * (side - 0.005)).ceil() as u32;
+    [scene.width, scene.height].map(pixels)
+}
+
 /// The pixels of a scene.
 fn rendered(scene: &Scene, scale: f32) -> Result<Pixmap, RenderError> {
-    // a hundredth of a pixel more is none
-    let [width, height] =
-        [scene.width, scene.height].map(|side| (f64::from(scale) * (side - 0.005)).ceil() as u32);
+    let [width, height] = size(scene, scale);
     let map = Pixmap::new(width, height).ok_or(RenderError::Pixels { width, height })?;
     let mut canvas = Canvas {
         map,
@@ -43,37 +48,27 @@ const SPEED: i32 = 10;
 /// The frames as a GIF that repeats, each `frame_s` long, to the hundredth.
 pub(crate) fn gif(scenes: &[Scene], scale: f32, frame_s: f64) -> Result<Vec<u8>, RenderError> {
     let fault = |error: gif::EncodingError| RenderError::Gif(error.to_string());
-    let mut encoder: Option<Encoder<Vec<u8>>> = None;
-    let mut first = None;
+    let side = |pixels: u32| {
+        u16::try_from(pixels)
+            .map_err(|_| RenderError::Gif(format!("{pixels} pixels is more than 65535")))
+    };
+    let first = size(scenes.first().ok_or(FigureError::NoPanels)?, scale);
+    let (width, height) = (side(first[0])?, side(first[1])?);
+    let mut encoder = Encoder::new(Vec::new(), width, height, &[]).map_err(fault)?;
+    encoder.set_repeat(Repeat::Infinite).map_err(fault)?;
     for scene in scenes {
-        let pixels = rendered(scene, scale)?;
-        let side = |pixels: u32| {
-            u16::try_from(pixels)
-                .map_err(|_| RenderError::Gif(format!("{pixels} pixels is more than 65535")))
-        };
-        let (width, height) = (side(pixels.width())?, side(pixels.height())?);
-        if *first.get_or_insert((width, height)) != (width, height) {
+        if size(scene, scale) != first {
             let fault = "its frames are not of one size";
             return Err(RenderError::Gif(fault.to_owned()));
         }
-        let encoder = match &mut encoder {
-            Some(known) => known,
-            none => {
-                let mut made = Encoder::new(Vec::new(), width, height, &[]).map_err(fault)?;
-                made.set_repeat(Repeat::Infinite).map_err(fault)?;
-                none.insert(made)
-            }
-        };
         // the page is white throughout: no pixel is transparent
-        let mut rgba = pixels.take();
+        let mut rgba = rendered(scene, scale)?.take();
         let mut frame = Frame::from_rgba_speed(width, height, &mut rgba, SPEED);
         frame.delay = (100.0 * frame_s).round().clamp(2.0, 6000.0) as u16;
         encoder.write_frame(&frame).map_err(fault)?;
     }
-    encoder
-        .ok_or(RenderError::Figure(FigureError::NoPanels))?
-        .into_inner()
-        .map_err(|error| RenderError::Gif(error.to_string()))
+    let bytes = encoder.into_inner();
+    bytes.map_err(|error| RenderError::Gif(error.to_string()))
 }
 
 /// A picture's pixels, transparent where nothing is to be seen.

@@ -84,11 +84,8 @@ fn histories(impacts: &[StoredImpact], kind: Kind, request: &Request) -> Result<
     let most = if is_all { usize::MAX } else { FEW };
     let (probes, left_out) = probe_panels(impacts, &labels, &request.quantities, most)?;
     if is_all && probes.is_empty() {
-        return Err(PlotError::Absent {
-            path: impacts[0].path().to_owned(),
-            what: "probes",
-            hint: "give the scene a [[probe]] with r_m and z_m",
-        });
+        let hint = "give the scene a [[probe]] with r_m and z_m";
+        return Err(PlotError::absent(impacts[0].path(), "probes", hint));
     }
     let notes = match left_out {
         0 => Vec::new(),

@@ -2,6 +2,7 @@
 
 use super::quantity::{Instants, Quantity, SAMPLES};
 use crate::error::PlotError;
+use crate::request::Request;
 use crate::series::{end_s, waves_of};
 use contact::WaveSpeeds;
 use figure::{Axis, ColourScale, Image, LabelledPoint, Layer, Line, Mirror, Panel, Shading, Style};
@@ -9,11 +10,9 @@ use formats::stored::{ReadError, StoredImpact, StoredSection};
 use std::collections::VecDeque;
 use std::f64::consts::FRAC_PI_2;
 
-/// Share of the values outside the near field that the colours hold.
-pub(super) const SHARE: f64 = 0.985;
-
 /// A section with what its pictures need.
-pub(super) struct Section {
+pub(super) struct Section<'a> {
+    pub(super) impact: &'a StoredImpact,
     pub(super) stored: StoredSection,
     pub(super) speeds: WaveSpeeds,
     pub(super) disc_radius_m: f64,
@@ -31,16 +30,15 @@ const APART: f64 = 0.12;
 /// Frames that are kept.
 const KEPT: usize = 24;
 
-impl Section {
+impl<'a> Section<'a> {
     /// The section of a results file.
-    pub(super) fn of(impact: &StoredImpact) -> Result<Self, PlotError> {
-        let stored = impact.section()?.ok_or_else(|| PlotError::Absent {
-            path: impact.path().to_owned(),
-            what: "section",
-            hint: "give the scene a [map] with r_max_m, z_max_m, points and frames",
-        })?;
+    pub(super) fn of(impact: &'a StoredImpact) -> Result<Self, PlotError> {
+        let hint = "give the scene a [map] with r_max_m, z_max_m, points and frames";
+        let stored = impact.section()?;
+        let stored = stored.ok_or_else(|| PlotError::absent(impact.path(), "section", hint))?;
         let (speeds, start_s) = waves_of(impact)?;
         Ok(Self {
+            impact,
             speeds,
             disc_radius_m: impact.number("disc_radius_m").unwrap_or(0.0),
             start_s,
@@ -51,14 +49,9 @@ impl Section {
     }
 
     /// The quantity that is asked for, or the one that shows waves best.
-    pub(super) fn quantity(
-        &self,
-        impact: &StoredImpact,
-        asked: &[String],
-        usual: &str,
-    ) -> Result<Quantity, PlotError> {
-        let name = asked.first().map_or(usual, String::as_str);
-        Quantity::named(name, &self.stored.quantities(), impact.path())
+    pub(super) fn quantity(&self, request: &Request, usual: &str) -> Result<Quantity, PlotError> {
+        let name = request.quantities.first().map_or(usual, String::as_str);
+        Quantity::named(name, &self.stored.quantities(), self.impact.path())
     }
 
     /// Its extents along r and z in m.
@@ -185,15 +178,15 @@ impl Section {
     }
 }
 
-impl Instants for Section {
+impl Instants for Section<'_> {
     fn time_s(&self) -> &[f64] {
         &self.stored.time_s
     }
 
     fn at(&mut self, quantity: &str, instant: usize) -> Result<Vec<f64>, ReadError> {
-        let is =
-            |(name, frame, _): &&(String, usize, Vec<f64>)| name == quantity && *frame == instant;
-        if let Some((_, _, values)) = self.known.iter().find(is) {
+        let mut known = self.known.iter();
+        let found = known.find(|(name, frame, _)| name == quantity && *frame == instant);
+        if let Some((_, _, values)) = found {
             return Ok(values.clone());
         }
         let found = self.stored.frame(quantity, instant)?;
@@ -201,8 +194,8 @@ impl Instants for Section {
         if self.known.len() >= KEPT {
             self.known.pop_front();
         }
-        self.known
-            .push_back((quantity.to_owned(), instant, values.clone()));
+        let kept = (quantity.to_owned(), instant, values.clone());
+        self.known.push_back(kept);
         Ok(values)
     }
 }
@@ -216,6 +209,16 @@ fn capsule(disc_radius_m: f64, distance_m: f64) -> Vec<(f64, f64)> {
         (across, distance_m * angle.sin())
     });
     arc.chain([(0.0, distance_m)]).collect()
+}
+
+/// Colours of a quantity up to a size below which nearly all values outside the near field lie, of some rows of values
+/// at the same places.
+pub(super) fn colours(quantity: &Quantity, rows: &[Vec<f64>], is_far: &[bool]) -> ColourScale {
+    let outside = rows.iter().flat_map(|row| {
+        let pairs = row.iter().zip(is_far).filter(|(_, far)| **far);
+        pairs.map(|(value, _)| *value)
+    });
+    quantity.colours(quantile_of_sizes(outside, 0.985))
 }
 
 /// The value below which a fraction of the sizes lies; 0 without values.

@@ -1,7 +1,7 @@
 //! What is seen along the surface and down the axis of a section: distance against time, and the axis beside the static
 //! field.
 
-use super::frames::{SHARE, Section, quantile_of_sizes};
+use super::frames::{Section, colours};
 use super::quantity::Quantity;
 use crate::error::PlotError;
 use crate::request::Request;
@@ -33,20 +33,16 @@ pub(crate) fn space_time(
     path: Path,
 ) -> Result<Panel, PlotError> {
     let mut section = Section::of(impact)?;
-    let usual = match path {
-        Path::Surface => "velocity_z",
-        Path::Axis => "stress_zz",
-    };
-    let quantity = section.quantity(impact, &request.quantities, usual)?;
     let frames = section.stored.time_s.len();
     let chosen: Vec<usize> = (0..frames)
         .step_by(frames.div_ceil(MOST_INSTANTS))
         .collect();
-    let distances = match path {
-        Path::Surface => section.stored.r_m.clone(),
-        Path::Axis => section.depths_m(),
+    let (usual, distances) = match path {
+        Path::Surface => ("velocity_z", section.stored.r_m.clone()),
+        Path::Axis => ("stress_zz", section.depths_m()),
     };
-    let mut rows = Vec::new();
+    let quantity = section.quantity(request, usual)?;
+    let mut rows: Vec<Vec<f64>> = Vec::new();
     for &frame in &chosen {
         let image = section.values(&quantity, frame)?;
         let width = section.stored.r_m.len();
@@ -56,11 +52,8 @@ pub(crate) fn space_time(
         });
     }
     let near_m = section.near_m(distances[distances.len() - 1]);
-    let far = rows.iter().flat_map(|row: &Vec<f64>| {
-        let pairs = row.iter().zip(&distances).filter(|(_, d)| **d > near_m);
-        pairs.map(|(value, _)| *value)
-    });
-    let colours = quantity.colours(quantile_of_sizes(far, SHARE));
+    let is_far: Vec<bool> = distances.iter().map(|d| *d > near_m).collect();
+    let colours = colours(&quantity, &rows, &is_far);
     let times = chosen.iter().map(|&frame| section.stored.time_s[frame]);
     let along = distances.len();
     let image = Image {
@@ -75,7 +68,7 @@ pub(crate) fn space_time(
     Ok(panel(&section, image, path))
 }
 
-fn panel(section: &Section, image: Image, path: Path) -> Panel {
+fn panel(section: &Section<'_>, image: Image, path: Path) -> Panel {
     let (first_s, last_s) = (image.x[0], image.x[image.x.len() - 1]);
     let most = image.y[image.y.len() - 1];
     let time = Axis::linear("time").si("s").range(first_s, last_s);
@@ -121,7 +114,7 @@ const DECADES: f64 = 1e-6;
 /// Sizes on logarithmic axes: the static field falls with the square of the depth, and waves run ahead of it.
 pub(crate) fn axis_profile(impact: &StoredImpact, request: &Request) -> Result<Panel, PlotError> {
     let mut section = Section::of(impact)?;
-    let quantity = section.quantity(impact, &request.quantities, "stress_zz")?;
+    let quantity = section.quantity(request, "stress_zz")?;
     let times_s = match request.times_s.as_slice() {
         [] => SHARES
             .map(|share| section.start_s + share * section.pulse_s)
@@ -153,7 +146,7 @@ pub(crate) fn axis_profile(impact: &StoredImpact, request: &Request) -> Result<P
         let points = curve(&depths_mm, &sizes, f64::INFINITY);
         panel = panel.line(&name, Style::Plain, points);
     }
-    if let Some(points) = static_points(impact, &section, &quantity)? {
+    if let Some(points) = static_points(&section, &quantity)? {
         let shown = points.iter().filter(|(z_mm, _)| *z_mm >= 1e3 * first_m);
         largest = shown.map(|(_, size)| *size).fold(largest, f64::max);
         panel = panel.line("static, largest force", Style::HeavyDashed, points);
@@ -166,18 +159,17 @@ pub(crate) fn axis_profile(impact: &StoredImpact, request: &Request) -> Result<P
 
 /// Sizes of the static field on the axis under the largest force, over depths in mm; none for what is not one of the six fields.
 fn static_points(
-    impact: &StoredImpact,
-    section: &Section,
+    section: &Section<'_>,
     quantity: &Quantity,
 ) -> Result<Option<Vec<(f64, f64)>>, PlotError> {
     let field = FIELDS.iter().position(|field| field.0 == quantity.name);
-    let (Some(field), Some(force_n)) = (field, impact.number("peak_force_n")) else {
+    let (Some(field), Some(force_n)) = (field, section.impact.number("peak_force_n")) else {
         return Ok(None);
     };
     if section.disc_radius_m <= 0.0 {
         return Ok(None);
     }
-    let target = &impact.scene.target;
+    let target = &section.impact.scene.target;
     let fault = |error| PlotError::Fields(FieldsError::Domain(error));
     let medium = Medium::new(target.material().poisson_ratio).map_err(fault)?;
     let kernel = Kernel::new(&medium, Profile::Hertz, 1e-10).map_err(fault)?;

@@ -1,6 +1,6 @@
 //! Maps of a section: frames, chosen so that waves are seen, and the largest value over time at every place.
 
-use super::frames::{SHARE, Section, quantile_of_sizes};
+use super::frames::{Section, colours, quantile_of_sizes};
 use super::quantity::Quantity;
 use crate::error::PlotError;
 use crate::request::Request;
@@ -24,7 +24,7 @@ pub(crate) fn frames(
     let mut section = Section::of(impact)?;
     let mut notes = Vec::new();
     let chosen = instants(&section, &request.times_s, count, &mut notes);
-    let mut quantity = section.quantity(impact, &request.quantities, "velocity_z")?;
+    let mut quantity = section.quantity(request, "velocity_z")?;
     if quantity.is_rate() {
         let last = chosen.len().saturating_sub(4);
         let doubt = section.doubt(&quantity, &chosen[last..])?;
@@ -37,11 +37,7 @@ pub(crate) fn frames(
         }
         if doubt > DOUBT {
             notes.push("the frames are too far apart for velocities, the displacement is shown: give [map] more frames".to_owned());
-            quantity = Quantity::named(
-                "displacement_z",
-                &section.stored.quantities(),
-                impact.path(),
-            )?;
+            quantity = section.quantity(request, "displacement_z")?;
         }
     }
     let far = section.is_far();
@@ -49,11 +45,7 @@ pub(crate) fn frames(
     for &frame in &chosen {
         images.push(section.values(&quantity, frame)?);
     }
-    let outside = images.iter().flat_map(|image| {
-        let pairs = image.iter().zip(&far).filter(|(_, far)| **far);
-        pairs.map(|(value, _)| *value)
-    });
-    let colours = quantity.colours(quantile_of_sizes(outside, SHARE));
+    let colours = colours(&quantity, &images, &far);
     let panel = |(&frame, values): (&usize, Vec<f64>)| {
         let time_s = section.stored.time_s[frame];
         let mut panel = section
@@ -69,7 +61,7 @@ pub(crate) fn frames(
 
 /// Frames at given times, or evenly until the longitudinal wave leaves the section.
 fn instants(
-    section: &Section,
+    section: &Section<'_>,
     times_s: &[f64],
     count: usize,
     notes: &mut Vec<String>,
@@ -78,11 +70,8 @@ fn instants(
     let nearest = |time_s: f64| {
         let after = known.partition_point(|&t| t < time_s).min(known.len() - 1);
         let before = after.saturating_sub(1);
-        if time_s - known[before] < known[after] - time_s {
-            before
-        } else {
-            after
-        }
+        let is_before = time_s - known[before] < known[after] - time_s;
+        if is_before { before } else { after }
     };
     let wanted: Vec<f64> = if times_s.is_empty() {
         let end_s = shown_s(section, notes);
@@ -103,7 +92,7 @@ fn instants(
 }
 
 /// Until when frames are shown: while the longitudinal wave is in the section; of a pulse longer than that, all.
-fn shown_s(section: &Section, notes: &mut Vec<String>) -> f64 {
+fn shown_s(section: &Section<'_>, notes: &mut Vec<String>) -> f64 {
     let [r_m, z_m] = section.extent_m();
     let last_s = section.stored.time_s[section.stored.time_s.len() - 1];
     let crossing_s = r_m.min(z_m) / section.speeds.p;
@@ -125,7 +114,7 @@ pub(crate) fn peak(impact: &StoredImpact, request: &Request) -> Result<Panel, Pl
     /// Lower end of the colours, over the upper one.
     const DECADES: f64 = 1e-4;
     let mut section = Section::of(impact)?;
-    let quantity = section.quantity(impact, &request.quantities, "von_mises")?;
+    let quantity = section.quantity(request, "von_mises")?;
     let mut values: Vec<f64> = match section.stored.peak(&quantity.name) {
         Some(stored) => section.turned(&stored).into_iter().map(f64::abs).collect(),
         None => over_frames(&mut section, &quantity)?,
@@ -137,18 +126,16 @@ pub(crate) fn peak(impact: &StoredImpact, request: &Request) -> Result<Panel, Pl
     for value in &mut values {
         *value = value.max(ends[0]);
     }
-    let colours = ColourScale::new(
-        &format!("{}, largest over time", quantity.words),
-        Unit::Si(quantity.unit.clone()),
-        ColourMap::Sequential,
-    )
-    .logarithmic()
-    .limits(Limits::Between(ends[0], ends[1]));
+    let (words, unit) = (&quantity.words, Unit::Si(quantity.unit.clone()));
+    let words = format!("{words}, largest over time");
+    let colours = ColourScale::new(&words, unit, ColourMap::Sequential)
+        .logarithmic()
+        .limits(Limits::Between(ends[0], ends[1]));
     Ok(section.map(values, colours))
 }
 
 /// The largest sizes over the frames, for a file that has none over all samples.
-fn over_frames(section: &mut Section, quantity: &Quantity) -> Result<Vec<f64>, PlotError> {
+fn over_frames(section: &mut Section<'_>, quantity: &Quantity) -> Result<Vec<f64>, PlotError> {
     /// Frames that are looked at, at most.
     const MOST_FRAMES: usize = 2000;
     let frames = section.stored.time_s.len();

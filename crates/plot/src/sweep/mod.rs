@@ -65,11 +65,9 @@ pub(crate) fn of_sweep(sweep: &StoredSweep, request: &Request) -> Result<Drawn, 
             Kind::Histogram => histogram(&view, &shown)?,
             Kind::Loss => loss(&view, &shown)?,
             _ => {
-                let along = along.ok_or_else(|| PlotError::Absent {
-                    path: sweep.path().to_owned(),
-                    what: "key of numbers that varies",
-                    hint: "a sweep over words alone has no axis to draw along; sweep --csv writes its rows",
-                })?;
+                let hint = "a sweep over words alone has no axis to draw along; sweep --csv writes its rows";
+                let what = "key of numbers that varies";
+                let along = along.ok_or_else(|| PlotError::absent(sweep.path(), what, hint))?;
                 over_keys(&view, along, request, &shown)?
             }
         };

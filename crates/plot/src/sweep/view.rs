@@ -34,13 +34,10 @@ impl<'a> View<'a> {
             let (axis, column) = find(sweep, key)?;
             fixed[axis] = Some(nearest_value(sweep, column, key, value)?);
         }
-        let is_drawn = |(i, axis): &(usize, &formats::stored::StoredAxis)| {
-            axis.is_drawn() && fixed[*i].is_none()
-        };
-        let drawn = sweep.axes.iter().enumerate().find(is_drawn).map(|(i, _)| i);
+        let is_drawn = |i: &usize| sweep.axes[*i].is_drawn() && fixed[*i].is_none();
         Ok(Self {
             sweep,
-            drawn,
+            drawn: (0..sweep.axes.len()).find(is_drawn),
             fixed,
         })
     }
@@ -60,15 +57,12 @@ impl<'a> View<'a> {
         axis: usize,
         asked: Option<&str>,
     ) -> Option<(&'a StoredColumn, &'a [f64])> {
-        self.sweep.axes[axis]
-            .columns
-            .iter()
-            .find_map(|column| match &column.values {
-                Values::Numbers(values) if asked.is_none_or(|name| name == column.name) => {
-                    Some((column, values.as_slice()))
-                }
-                Values::Numbers(_) | Values::Texts(_) | Values::Drawn(_) => None,
-            })
+        let columns = self.sweep.axes[axis].columns.iter();
+        let mut asked = columns.filter(|column| asked.is_none_or(|name| name == column.name));
+        asked.find_map(|column| match &column.values {
+            Values::Numbers(values) => Some((column, values.as_slice())),
+            Values::Texts(_) | Values::Drawn(_) => None,
+        })
     }
 
     /// The axis along x: of the key that is asked for, or the longest of numbers.
@@ -82,10 +76,8 @@ impl<'a> View<'a> {
                 }),
             };
         }
-        let with_numbers = self
-            .free()
-            .into_iter()
-            .filter(|&i| self.numbers(i, None).is_some());
+        let free = self.free().into_iter();
+        let with_numbers = free.filter(|&i| self.numbers(i, None).is_some());
         // the first of the longest
         Ok(with_numbers.rev().max_by_key(|&i| self.sweep.axes[i].len))
     }
