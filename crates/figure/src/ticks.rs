@@ -1,7 +1,7 @@
 //! Ticks: round values whose labels fit beside one another, in a suitable multiple of the unit.
 
 use crate::axis::{Interval, Scale, Unit};
-use crate::text::{decimal, power_of_ten};
+use crate::text::{LINE, decimal, power_of_ten};
 
 /// A tick with a label, as markup.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,10 +36,19 @@ pub(crate) struct Room<'a> {
     /// Wished distance of two labels in pixels.
     pub(crate) distance: f64,
     /// Pixels that a label needs along the axis, with a gap.
-    pub(crate) needs: &'a dyn Fn(&str) -> f64,
+    pub(crate) needs: Box<dyn Fn(&str) -> f64 + 'a>,
 }
 
 impl Room<'_> {
+    /// For labels above one another, of a size.
+    pub(crate) fn of_lines(length: f64, distance: f64, size: f64) -> Self {
+        Self {
+            length,
+            distance,
+            needs: Box::new(move |_| LINE * size),
+        }
+    }
+
     /// The first candidate whose labels fit beside one another, with what belongs to it; without one the coarsest
     /// with a single label.
     fn first_that_fits<T>(
@@ -237,7 +246,7 @@ mod tests {
         let room = Room {
             length,
             distance: 70.0,
-            needs: &needs,
+            needs: Box::new(needs),
         };
         Ticks::new(interval, factor, &room)
     }

@@ -36,21 +36,6 @@ pub(crate) struct Axes {
     y_numbers: f64,
 }
 
-/// Ticks whose numbers stand above one another, the wished distance in heights of the numbers.
-pub(super) fn upright(
-    interval: &crate::axis::Interval,
-    factor: f64,
-    length: f64,
-    [distance, size]: [f64; 2],
-) -> Ticks {
-    let room = Room {
-        length,
-        distance: distance * size,
-        needs: &|_: &str| LINE * size,
-    };
-    Ticks::new(interval, factor, &room)
-}
-
 /// Width of the widest number of some ticks.
 pub(super) fn widest(ticks: &Ticks, size: f64) -> f64 {
     let widths = ticks
@@ -81,19 +66,16 @@ pub(super) fn lengths(ticks: &Ticks, faces: &Typeface) -> Vec<(f64, f64)> {
 impl FittedAxis {
     fn new(plan: &AxisPlan<'_>, side: Side, length: f64, faces: &Typeface) -> Self {
         let (label, factor) = shown(&plan.axis.quantity, &plan.axis.unit, &plan.interval);
-        let ticks = match side {
-            Side::X => {
-                let room = Room {
-                    length,
-                    distance: 6.6 * faces.tick,
-                    needs: &|label: &str| Rich::new(label).width(faces.tick) + 0.9 * faces.tick,
-                };
-                Ticks::new(&plan.interval, factor, &room)
-            }
-            Side::Y => upright(&plan.interval, factor, length, [3.6, faces.tick]),
+        let room = match side {
+            Side::X => Room {
+                length,
+                distance: 6.6 * faces.tick,
+                needs: Box::new(|text| Rich::new(text).width(faces.tick) + 0.9 * faces.tick),
+            },
+            Side::Y => Room::of_lines(length, 3.6 * faces.tick, faces.tick),
         };
         Self {
-            ticks,
+            ticks: Ticks::new(&plan.interval, factor, &room),
             label: match plan.labelled {
                 true => wrap(&label, faces.label, length),
                 false => Vec::new(),

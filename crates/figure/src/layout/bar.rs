@@ -1,11 +1,11 @@
 //! The colour bar beside a panel or beside all of them, fitted and drawn.
 
-use super::axes::{lengths, thin, upright, widest};
+use super::axes::{lengths, thin, widest};
 use crate::geometry::Rect;
 use crate::layers::Colours;
 use crate::scene::{Anchor, Item, Picture, Scene, Shape, Text};
 use crate::text::{LINE, Typeface, wrap};
-use crate::ticks::{Ticks, shown};
+use crate::ticks::{Room, Ticks, shown};
 
 /// Width of the strip of colours in pixels.
 const STRIP: f64 = 14.0;
@@ -35,7 +35,8 @@ impl Bar {
     pub(super) fn new(colours: &Colours, height: f64, faces: &Typeface) -> Self {
         let interval = colours.limits;
         let (label, factor) = shown(&colours.scale.quantity, &colours.scale.unit, &interval);
-        let ticks = upright(&interval, factor, height, [3.4, faces.tick]);
+        let room = Room::of_lines(height, 3.4 * faces.tick, faces.tick);
+        let ticks = Ticks::new(&interval, factor, &room);
         let label = wrap(&label, faces.label, height);
         let left = 1.2 * faces.tick;
         let numbers = left + STRIP + faces.tick_length() + 0.3 * faces.tick;

@@ -160,7 +160,7 @@ pub(super) fn probe_panels(
                 let at = |i: &usize| [other.r_m[*i], other.z_m[*i]] == place;
                 if let Some(found) = (0..other.r_m.len()).find(at) {
                     let label = (files.len() > 1).then_some(label.as_str());
-                    panel = with_traces(panel, impact, (other, found), of_unit, label)?;
+                    panel = with_traces(panel, impact, other, found, of_unit, label)?;
                 }
             }
             panels.push(panel);
@@ -212,7 +212,8 @@ fn place(r_m: f64, z_m: f64) -> String {
 fn with_traces(
     mut panel: Panel,
     impact: &StoredImpact,
-    (probes, probe): (&StoredProbes, usize),
+    probes: &StoredProbes,
+    probe: usize,
     shown: &[&StoredQuantity],
     label: Option<&str>,
 ) -> Result<Panel, PlotError> {

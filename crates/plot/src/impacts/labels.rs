@@ -2,58 +2,53 @@
 
 use crate::words::{of_key, stem, with_unit};
 use formats::stored::{StoredImpact, StoredValue};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Most keys that a label names.
 const MOST_KEYS: usize = 3;
 
+/// Keys of a scene with their values.
+type Keys = BTreeMap<String, StoredValue>;
+
 /// One label an impact.
 pub(super) fn labels(impacts: &[StoredImpact]) -> Vec<String> {
-    let scenes: Vec<Vec<(String, StoredValue)>> = impacts
-        .iter()
-        .map(|impact| {
-            let mut keys = impact.scene.keys();
-            // what was computed, rather than "auto"
-            keys.retain(|(key, _)| key != "contact.model");
-            let model = StoredValue::Text(impact.model.clone());
-            keys.push(("contact.model".to_owned(), model));
-            keys
-        })
-        .collect();
-    let stems: Vec<String> = impacts.iter().map(|impact| stem(impact.path())).collect();
-    by_difference(&scenes).unwrap_or(stems)
+    let keys = |impact: &StoredImpact| {
+        let mut keys: Keys = impact.scene.keys().into_iter().collect();
+        // what was computed, rather than "auto"
+        let model = StoredValue::Text(impact.model.clone());
+        keys.insert("contact.model".to_owned(), model);
+        keys
+    };
+    let scenes: Vec<Keys> = impacts.iter().map(keys).collect();
+    let stems = || impacts.iter().map(|impact| stem(impact.path())).collect();
+    by_difference(&scenes).unwrap_or_else(stems)
 }
 
 /// Labels from the keys that differ; none where there are none, too many, or two scenes get the same.
-fn by_difference(scenes: &[Vec<(String, StoredValue)>]) -> Option<Vec<String>> {
-    let value = |scene: &[(String, StoredValue)], key: &str| {
-        let found = scene.iter().find(|(known, _)| known == key);
-        found.map(|(_, value)| value.clone())
-    };
-    let mut keys: Vec<&String> = scenes.iter().flatten().map(|(key, _)| key).collect();
-    keys.sort();
-    keys.dedup();
-    keys.retain(|key| {
-        let first = value(&scenes[0], key);
-        scenes.iter().any(|scene| value(scene, key) != first)
+fn by_difference(scenes: &[Keys]) -> Option<Vec<String>> {
+    let mut keys: BTreeSet<&String> = scenes.iter().flatten().map(|(key, _)| key).collect();
+    keys.retain(|&key| {
+        scenes
+            .iter()
+            .any(|scene| scene.get(key) != scenes[0].get(key))
     });
-    let named: Vec<String> = (keys.iter().filter_map(|key| key.strip_suffix(".material")))
-        .map(str::to_owned)
-        .collect();
+    let named = keys.iter().filter_map(|key| key.strip_suffix(".material"));
+    let named: Vec<&str> = named.collect();
     keys.retain(|key| !named.iter().any(|section| is_of_material(key, section)));
     if keys.is_empty() || keys.len() > MOST_KEYS {
         return None;
     }
-    let label = |scene: &Vec<(String, StoredValue)>| {
-        let parts = keys.iter().map(|key| {
+    let label = |scene: &Keys| {
+        let parts = keys.iter().map(|&key| {
             let (name, unit) = of_key(key);
-            match value(scene, key) {
-                Some(StoredValue::Text(text)) if key.as_str() == "target.material" => {
+            match scene.get(key) {
+                Some(StoredValue::Text(text)) if key == "target.material" => {
                     format!("on {text}")
                 }
-                Some(StoredValue::Text(text)) if key.as_str() == "striker.material" => {
+                Some(StoredValue::Text(text)) if key == "striker.material" => {
                     format!("{text} striker")
                 }
-                Some(StoredValue::Number(x)) => format!("{name} {}", with_unit(x, unit)),
+                Some(StoredValue::Number(x)) => format!("{name} {}", with_unit(*x, unit)),
                 Some(StoredValue::Text(text)) => format!("{name} {}", text.replace('_', " ")),
                 None => format!("no {name}"),
             }
@@ -61,10 +56,9 @@ fn by_difference(scenes: &[Vec<(String, StoredValue)>]) -> Option<Vec<String>> {
         parts.collect::<Vec<_>>().join(", ")
     };
     let labels: Vec<String> = scenes.iter().map(label).collect();
-    let mut different = labels.clone();
-    different.sort();
-    different.dedup();
-    (different.len() == labels.len()).then_some(labels)
+    let different: BTreeSet<&String> = labels.iter().collect();
+    let is_told = different.len() == labels.len();
+    is_told.then_some(labels)
 }
 
 /// Whether a key is a number of the material of a section, which its name says.
@@ -80,12 +74,12 @@ fn is_of_material(key: &str, section: &str) -> bool {
 mod tests {
     use super::*;
 
-    fn scene(velocity: f64, model: &str) -> Vec<(String, StoredValue)> {
-        vec![
+    fn scene(velocity: f64, model: &str) -> Keys {
+        Keys::from([
             ("striker.mass_kg".into(), StoredValue::Number(3.3e-5)),
             ("striker.velocity_m_s".into(), StoredValue::Number(velocity)),
             ("contact.model".into(), StoredValue::Text(model.into())),
-        ]
+        ])
     }
 
     #[test]
@@ -114,9 +108,9 @@ mod tests {
         let of = |material: &str, modulus: f64| {
             let mut scene = scene(1.0, "hertz");
             let text = StoredValue::Text(material.into());
-            scene.push(("target.material".into(), text));
+            scene.insert("target.material".into(), text);
             let modulus = StoredValue::Number(modulus);
-            scene.push(("target.youngs_modulus_pa".into(), modulus));
+            scene.insert("target.youngs_modulus_pa".into(), modulus);
             scene
         };
         assert_eq!(
