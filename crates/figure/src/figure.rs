@@ -28,7 +28,6 @@ pub enum ColourBar {
 }
 
 /// A picture: panels in rows.
-#[must_use]
 #[derive(Debug, Clone, PartialEq)]
 pub struct Figure {
     /// Title; may be empty.
