@@ -1,6 +1,4 @@
-//! One axis: what it shows, in which unit, over which values.
-
-use crate::interval::{Interval, Scale};
+//! Axes: what one shows, in which unit, over which values, and the places of these along it.
 
 /// In which unit an axis or a colour bar shows its values.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -24,7 +22,29 @@ pub enum Direction {
     Reversed,
 }
 
+impl Direction {
+    /// The fraction of the way from the left or from below, of that from the low end to the high one.
+    pub(crate) fn turned(self, fraction: f64) -> f64 {
+        match self {
+            Self::Usual => fraction,
+            Self::Reversed => 1.0 - fraction,
+        }
+    }
+}
+
+/// Whether a panel shows its layers at -x as well.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Mirror {
+    /// Only where they are.
+    Off,
+    /// The same at x and -x: what does not depend on the angle, such as a pressure over r.
+    Even,
+    /// As `Even`, images with the other sign at -x: the horizontal component of a radial displacement.
+    Odd,
+}
+
 /// One axis.
+#[must_use]
 #[derive(Debug, Clone, PartialEq)]
 pub struct Axis {
     /// What it shows: "contact force".
@@ -41,7 +61,6 @@ pub struct Axis {
 
 impl Axis {
     /// A linear axis of a number without unit, over the values of the panel's layers.
-    #[must_use]
     pub fn linear(quantity: &str) -> Self {
         Self {
             quantity: quantity.to_owned(),
@@ -53,7 +72,6 @@ impl Axis {
     }
 
     /// The same, logarithmic.
-    #[must_use]
     pub fn logarithmic(quantity: &str) -> Self {
         Self {
             scale: Scale::Logarithmic,
@@ -62,7 +80,6 @@ impl Axis {
     }
 
     /// An axis of a given interval.
-    #[must_use]
     pub fn over(interval: Interval, quantity: &str) -> Self {
         Self {
             scale: interval.scale,
@@ -72,49 +89,163 @@ impl Axis {
     }
 
     /// With a unit that takes SI prefixes.
-    #[must_use]
     pub fn si(mut self, unit: &str) -> Self {
         self.unit = Unit::Si(unit.to_owned());
         self
     }
 
     /// With a unit that is shown as it stands.
-    #[must_use]
     pub fn unit(mut self, unit: &str) -> Self {
         self.unit = Unit::Fixed(unit.to_owned());
         self
     }
 
     /// From and to given values.
-    #[must_use]
     pub fn range(mut self, low: f64, high: f64) -> Self {
         self.range = Some((low, high));
         self
     }
 
     /// Growing downward or to the left.
-    #[must_use]
     pub fn reversed(mut self) -> Self {
         self.direction = Direction::Reversed;
         self
     }
 
     /// Its interval, where it is given.
-    #[must_use]
     pub fn interval(&self) -> Option<Interval> {
-        self.range.map(|(low, high)| Interval {
-            scale: self.scale,
-            low,
-            high,
-        })
+        let (low, high) = self.range?;
+        Some(Interval::new(self.scale, low, high))
     }
 
     /// Quantity and unit without a prefix: "time \[s\]".
-    #[must_use]
     pub fn label(&self) -> String {
         match &self.unit {
             Unit::One => self.quantity.clone(),
             Unit::Si(unit) | Unit::Fixed(unit) => format!("{} [{unit}]", self.quantity),
+        }
+    }
+}
+
+/// How values are spread along an axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Scale {
+    /// Equal differences are equally long.
+    Linear,
+    /// Equal ratios are equally long.
+    Logarithmic,
+}
+
+impl Scale {
+    /// Whether a value has a place on such an axis: finite, and positive on a logarithmic one.
+    pub fn shows(self, value: f64) -> bool {
+        match self {
+            Self::Linear => value.is_finite(),
+            Self::Logarithmic => value.is_finite() && value > 0.0,
+        }
+    }
+}
+
+/// The values from `low` to `high`, `low < high`; both positive where logarithmic.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Interval {
+    /// How values are spread over it.
+    pub scale: Scale,
+    /// Lower end.
+    pub low: f64,
+    /// Upper end.
+    pub high: f64,
+}
+
+impl Interval {
+    /// From one value to another.
+    pub fn new(scale: Scale, low: f64, high: f64) -> Self {
+        Self { scale, low, high }
+    }
+
+    /// A linear interval.
+    pub fn linear(low: f64, high: f64) -> Self {
+        Self::new(Scale::Linear, low, high)
+    }
+
+    /// A logarithmic interval.
+    pub fn logarithmic(low: f64, high: f64) -> Self {
+        Self::new(Scale::Logarithmic, low, high)
+    }
+
+    /// Whether an axis can show it: ends finite, in order, and positive where logarithmic, and its length finite.
+    pub fn is_valid(&self) -> bool {
+        let is_long = match self.scale {
+            Scale::Linear => (self.high - self.low).is_finite(),
+            Scale::Logarithmic => (self.high / self.low).is_finite(),
+        };
+        let is_shown = self.scale.shows(self.low) && self.scale.shows(self.high);
+        is_shown && is_long && self.low < self.high
+    }
+
+    /// Place of a value: 0 at the low end, 1 at the high one.
+    pub fn fraction(&self, value: f64) -> f64 {
+        match self.scale {
+            Scale::Linear => (value - self.low) / (self.high - self.low),
+            Scale::Logarithmic => (value / self.low).ln() / (self.high / self.low).ln(),
+        }
+    }
+
+    /// The value at a place.
+    pub fn value(&self, fraction: f64) -> f64 {
+        match self.scale {
+            Scale::Linear => self.low + fraction * (self.high - self.low),
+            Scale::Logarithmic => self.low * (self.high / self.low).powf(fraction),
+        }
+    }
+
+    /// Whether a value lies in it, up to a billionth of its length.
+    pub fn contains(&self, value: f64) -> bool {
+        self.scale.shows(value) && (-1e-9..=1.0 + 1e-9).contains(&self.fraction(value))
+    }
+
+    /// Centres of `count` equal cells.
+    pub fn cells(&self, count: usize) -> Vec<f64> {
+        (0..count)
+            .map(|i| self.value((i as f64 + 0.5) / count as f64))
+            .collect()
+    }
+
+    /// The smallest interval of a scale that holds all values that it can show; none for no such value.
+    pub(crate) fn around(scale: Scale, values: impl Iterator<Item = f64>) -> Option<Self> {
+        let mut found: Option<(f64, f64)> = None;
+        for value in values.filter(|&v| scale.shows(v)) {
+            let (low, high) = found.unwrap_or((value, value));
+            found = Some((low.min(value), high.max(value)));
+        }
+        found.map(|(low, high)| Self::new(scale, low, high))
+    }
+
+    /// The smallest interval that holds both.
+    pub(crate) fn union(self, other: Self) -> Self {
+        let (low, high) = (self.low.min(other.low), self.high.max(other.high));
+        Self::new(self.scale, low, high)
+    }
+
+    /// Longer by a fraction of its length at both ends; a single value becomes an interval around it.
+    ///
+    /// A linear end at zero stays there: an axis of a force that begins at zero begins at zero.
+    pub(crate) fn with_air(self, air: f64) -> Self {
+        if self.low < self.high {
+            let end = |end: f64, aired: f64| match self.scale {
+                Scale::Linear if end == 0.0 => 0.0,
+                Scale::Linear | Scale::Logarithmic => aired,
+            };
+            let low = end(self.low, self.value(-air));
+            return Self::new(self.scale, low, end(self.high, self.value(1.0 + air)));
+        }
+        match self.scale {
+            Scale::Linear => {
+                let size = 0.5 * self.low.abs();
+                let half = if size == 0.0 { 1.0 } else { size };
+                Self::linear(self.low - half, self.high + half)
+            }
+            Scale::Logarithmic => Self::logarithmic(self.low / 3.0, self.high * 3.0),
         }
     }
 }
@@ -130,5 +261,41 @@ mod tests {
         let axis = Axis::over(Interval::logarithmic(1.0, 9.0), "length").unit("r0");
         assert_eq!(axis.interval(), Some(Interval::logarithmic(1.0, 9.0)));
         assert_eq!(axis.label(), "length [r0]");
+    }
+
+    #[test]
+    fn places_and_values_are_inverse() {
+        for interval in [
+            Interval::linear(-2.0, 6.0),
+            Interval::logarithmic(1e-9, 30.0),
+        ] {
+            for fraction in [0.0, 0.2, 0.5, 1.0] {
+                let back = interval.fraction(interval.value(fraction));
+                assert!((back - fraction).abs() < 1e-12);
+            }
+            assert!(interval.contains(interval.high) && !interval.contains(40.0));
+        }
+        assert!((Interval::logarithmic(1.0, 100.0).fraction(10.0) - 0.5).abs() < 1e-15);
+        assert_eq!(Interval::linear(0.0, 4.0).cells(4), [0.5, 1.5, 2.5, 3.5]);
+    }
+
+    #[test]
+    fn what_no_axis_can_show_is_not_valid() {
+        assert!(!Interval::linear(1.0, 1.0).is_valid());
+        assert!(!Interval::linear(0.0, f64::NAN).is_valid());
+        assert!(!Interval::logarithmic(0.0, 1.0).is_valid());
+        assert!(Interval::logarithmic(1e-150, 1e150).is_valid());
+        assert!(!Interval::logarithmic(1e-300, 1e300).is_valid());
+    }
+
+    #[test]
+    fn values_that_cannot_be_shown_do_not_count() {
+        let values = [f64::NAN, 3.0, -1.0, 0.0, f64::INFINITY, 30.0];
+        let found = Interval::around(Scale::Logarithmic, values.into_iter());
+        assert_eq!(found, Some(Interval::logarithmic(3.0, 30.0)));
+        assert_eq!(Interval::around(Scale::Linear, std::iter::empty()), None);
+        let air = Interval::linear(0.0, 10.0).with_air(0.1);
+        assert_eq!((air.low, air.high), (0.0, 11.0));
+        assert!(Interval::linear(2.0, 2.0).with_air(0.1).is_valid());
     }
 }

@@ -13,14 +13,12 @@ pub struct Colour {
 
 impl Colour {
     /// From its hexadecimal number, such as `0x0b5394`.
-    #[must_use]
     pub const fn new(hex: u32) -> Self {
         let [_, red, green, blue] = hex.to_be_bytes();
         Self { red, green, blue }
     }
 
     /// As SVG writes it: `#0b5394`.
-    #[must_use]
     pub fn hex(self) -> String {
         format!("#{:02x}{:02x}{:02x}", self.red, self.green, self.blue)
     }
@@ -28,7 +26,6 @@ impl Colour {
     /// Relative luminance after Rec. 709: 0 is black, 1 is white.
     ///
     /// It is what a print in grey shows.
-    #[must_use]
     pub fn luminance(self) -> f64 {
         let linear = |channel: u8| {
             let x = f64::from(channel) / 255.0;
@@ -43,8 +40,8 @@ impl Colour {
 
     fn between(self, other: Self, fraction: f64) -> Self {
         let mix = |a: u8, b: u8| {
-            let value = f64::from(a) + fraction * (f64::from(b) - f64::from(a));
-            value.round() as u8
+            let (a, b) = (f64::from(a), f64::from(b));
+            (a + fraction * (b - a)).round() as u8
         };
         Self {
             red: mix(self.red, other.red),
@@ -69,38 +66,19 @@ pub enum ColourMap {
 }
 
 /// Viridis by Smith and van der Walt (CC0), eleven stations.
-const SEQUENTIAL: [Colour; 11] = [
-    Colour::new(0x44_01_54),
-    Colour::new(0x48_24_75),
-    Colour::new(0x41_44_87),
-    Colour::new(0x35_5f_8d),
-    Colour::new(0x2a_78_8e),
-    Colour::new(0x21_91_8c),
-    Colour::new(0x22_a8_84),
-    Colour::new(0x44_bf_70),
-    Colour::new(0x7a_d1_51),
-    Colour::new(0xbd_df_26),
-    Colour::new(0xfd_e7_25),
+const SEQUENTIAL: [u32; 11] = [
+    0x44_01_54, 0x48_24_75, 0x41_44_87, 0x35_5f_8d, 0x2a_78_8e, 0x21_91_8c, 0x22_a8_84, 0x44_bf_70,
+    0x7a_d1_51, 0xbd_df_26, 0xfd_e7_25,
 ];
 
 /// Blue to red with pure white in the middle; both ends are equally dark.
-const DIVERGING: [Colour; 11] = [
-    Colour::new(0x05_30_61),
-    Colour::new(0x21_66_ac),
-    Colour::new(0x43_93_c3),
-    Colour::new(0x92_c5_de),
-    Colour::new(0xd1_e5_f0),
-    WHITE,
-    Colour::new(0xfd_db_c7),
-    Colour::new(0xf4_a5_82),
-    Colour::new(0xd6_60_4d),
-    Colour::new(0xb2_18_2b),
-    Colour::new(0x67_00_1f),
+const DIVERGING: [u32; 11] = [
+    0x05_30_61, 0x21_66_ac, 0x43_93_c3, 0x92_c5_de, 0xd1_e5_f0, 0xff_ff_ff, 0xfd_db_c7, 0xf4_a5_82,
+    0xd6_60_4d, 0xb2_18_2b, 0x67_00_1f,
 ];
 
 impl ColourMap {
     /// The colour at a fraction of the way from the lower limit to the upper one; beyond them that of the end.
-    #[must_use]
     pub fn at(self, fraction: f64) -> Colour {
         let stations = match self {
             Self::Sequential => &SEQUENTIAL,
@@ -108,7 +86,8 @@ impl ColourMap {
         };
         let place = fraction.clamp(0.0, 1.0) * (stations.len() - 1) as f64;
         let lower = (place as usize).min(stations.len() - 2);
-        stations[lower].between(stations[lower + 1], place - lower as f64)
+        let [from, to] = [stations[lower], stations[lower + 1]].map(Colour::new);
+        from.between(to, place - lower as f64)
     }
 }
 

@@ -1,9 +1,9 @@
-//! A picture as data.
+//! A picture as data: panels in rows, each with two axes and layers.
 
+use crate::axis::{Axis, Interval, Mirror, Scale};
 use crate::error::{FigureError, Side};
-use crate::interval::Scale;
-use crate::layer::Layer;
-use crate::panel::{Aspect, Mirror, Panel};
+use crate::layers::{Band, Layer, Line, Mark};
+use crate::look::Style;
 
 /// Whether panels have one axis in common.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -50,7 +50,6 @@ pub struct Figure {
 
 impl Figure {
     /// A picture without panels.
-    #[must_use]
     pub fn new(title: &str) -> Self {
         Self {
             title: title.to_owned(),
@@ -65,49 +64,42 @@ impl Figure {
     }
 
     /// With a line below the title.
-    #[must_use]
     pub fn subtitle(mut self, subtitle: &str) -> Self {
         subtitle.clone_into(&mut self.subtitle);
         self
     }
 
     /// With one more panel.
-    #[must_use]
     pub fn panel(mut self, panel: Panel) -> Self {
         self.panels.push(panel);
         self
     }
 
     /// With so many panels in a row.
-    #[must_use]
     pub fn columns(mut self, columns: usize) -> Self {
         self.columns = columns;
         self
     }
 
     /// With axes in common.
-    #[must_use]
     pub fn sharing(mut self, sharing: Sharing) -> Self {
         self.sharing = sharing;
         self
     }
 
     /// With one colour bar for all panels.
-    #[must_use]
     pub fn common_colour_bar(mut self) -> Self {
         self.colour_bar = ColourBar::Common;
         self
     }
 
     /// With another width in pixels.
-    #[must_use]
     pub fn width(mut self, pixels: f64) -> Self {
         self.width = pixels;
         self
     }
 
     /// With text of another height in pixels.
-    #[must_use]
     pub fn text(mut self, pixels: f64) -> Self {
         self.text = pixels;
         self
@@ -131,6 +123,115 @@ impl Figure {
     }
 }
 
+/// Whether lengths along both axes are equal.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Aspect {
+    /// Each axis fills its side.
+    Free,
+    /// One unit is equally long on both axes: a section through the body. Both axes are linear.
+    Equal,
+}
+
+/// Where a panel's legend is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Legend {
+    /// In a corner that no curve enters; outside where there is none.
+    Auto,
+    /// At the right of the panel, or below where that is too narrow.
+    Outside,
+    /// Nowhere.
+    Off,
+}
+
+/// One panel.
+#[must_use]
+#[derive(Debug, Clone, PartialEq)]
+pub struct Panel {
+    /// Written above it; may be empty.
+    pub title: String,
+    /// Horizontal axis.
+    pub x: Axis,
+    /// Vertical axis.
+    pub y: Axis,
+    /// What it shows, from the bottom to the top.
+    pub layers: Vec<Layer>,
+    /// Whether lengths along both axes are equal.
+    pub aspect: Aspect,
+    /// Whether it shows its layers at -x as well.
+    pub mirror: Mirror,
+    /// Where the legend is.
+    pub legend: Legend,
+    /// Height of the plot in pixels; of no effect where lengths are equal.
+    pub height: f64,
+}
+
+impl Panel {
+    /// A panel without layers.
+    pub fn new(x: Axis, y: Axis) -> Self {
+        Self {
+            title: String::new(),
+            x,
+            y,
+            layers: Vec::new(),
+            aspect: Aspect::Free,
+            mirror: Mirror::Off,
+            legend: Legend::Auto,
+            height: 260.0,
+        }
+    }
+
+    /// With a title.
+    pub fn title(mut self, title: &str) -> Self {
+        title.clone_into(&mut self.title);
+        self
+    }
+
+    /// With a plot of another height in pixels.
+    pub fn height(mut self, pixels: f64) -> Self {
+        self.height = pixels;
+        self
+    }
+
+    /// With its legend elsewhere.
+    pub fn legend(mut self, legend: Legend) -> Self {
+        self.legend = legend;
+        self
+    }
+
+    /// With lengths that are equal along both axes.
+    pub fn equal_lengths(mut self) -> Self {
+        self.aspect = Aspect::Equal;
+        self
+    }
+
+    /// Mirrored at x = 0.
+    pub fn mirrored(mut self, mirror: Mirror) -> Self {
+        self.mirror = mirror;
+        self
+    }
+
+    /// With one more layer, over the others.
+    pub fn layer(mut self, layer: Layer) -> Self {
+        self.layers.push(layer);
+        self
+    }
+
+    /// With one more curve.
+    pub fn line(self, name: &str, style: Style, points: Vec<(f64, f64)>) -> Self {
+        self.layer(Layer::Line(Line::new(name, style, points)))
+    }
+
+    /// With one more band between two curves: place, lower and upper value.
+    pub fn band(self, name: &str, points: Vec<(f64, f64, f64)>) -> Self {
+        self.layer(Layer::Band(Band::new(name, points)))
+    }
+
+    /// With one more vertical line.
+    pub fn mark(self, x: f64, label: &str) -> Self {
+        self.layer(Layer::Mark(Mark::new(x, label)))
+    }
+}
+
 /// Largest side of a picture in pixels: a PNG of it at twice the size still has a size.
 pub(crate) const LARGEST_PX: f64 = 16_384.0;
 
@@ -149,14 +250,13 @@ fn check_size(name: &'static str, pixels: f64) -> Result<(), FigureError> {
 fn check_panel(i: usize, panel: &Panel) -> Result<(), FigureError> {
     check_size("panel height", panel.height)?;
     for (side, axis) in [(Side::X, &panel.x), (Side::Y, &panel.y)] {
-        if let Some(interval) = axis.interval()
-            && !interval.is_valid()
+        if let Some(Interval { low, high, .. }) = axis.interval().filter(|given| !given.is_valid())
         {
             return Err(FigureError::Range {
                 panel: i,
                 side,
-                low: interval.low,
-                high: interval.high,
+                low,
+                high,
             });
         }
         let needs_linear =
@@ -165,47 +265,6 @@ fn check_panel(i: usize, panel: &Panel) -> Result<(), FigureError> {
             return Err(FigureError::NotLinear { panel: i, side });
         }
     }
-    panel
-        .layers
-        .iter()
-        .try_for_each(|layer| check_layer(i, layer))
-}
-
-fn check_layer(panel: usize, layer: &Layer) -> Result<(), FigureError> {
-    let counts = |what, expected, found| {
-        if expected == found {
-            Ok(())
-        } else {
-            Err(FigureError::Count {
-                panel,
-                what,
-                expected,
-                found,
-            })
-        }
-    };
-    match layer {
-        Layer::Image(image) => {
-            for (side, nodes) in [(Side::X, &image.x), (Side::Y, &image.y)] {
-                let rising = nodes.windows(2).all(|pair| pair[0] < pair[1]);
-                if nodes.is_empty() || !rising || nodes.iter().any(|n| !n.is_finite()) {
-                    return Err(FigureError::Nodes { panel, side });
-                }
-            }
-            let expected = image.x.len() * image.y.len();
-            counts("values of an image", expected, image.values.len())
-        }
-        Layer::Classes(classes) => {
-            let [columns, rows] = classes.shape;
-            counts("cells of classes", columns * rows, classes.class.len())
-        }
-        Layer::Histogram(histogram) => counts(
-            "edges of a histogram",
-            histogram.counts.len() + 1,
-            histogram.edges.len(),
-        ),
-        Layer::Line(_) | Layer::Band(_) | Layer::Traces(_) | Layer::Mark(_) | Layer::Point(_) => {
-            Ok(())
-        }
-    }
+    let mut layers = panel.layers.iter();
+    layers.try_for_each(|layer| layer.kind().check(i))
 }

@@ -1,7 +1,9 @@
-//! Places on the canvas, in pixels from its upper left corner.
+//! Places on the canvas, in pixels from its upper left corner; and from values to them.
+
+use crate::axis::{Direction, Interval, Mirror};
 
 /// A rectangle; `top < bottom`.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Rect {
     /// Left side.
     pub left: f64,
@@ -15,7 +17,6 @@ pub struct Rect {
 
 impl Rect {
     /// From its upper left corner and its size.
-    #[must_use]
     pub fn new(left: f64, top: f64, width: f64, height: f64) -> Self {
         Self {
             left,
@@ -26,37 +27,29 @@ impl Rect {
     }
 
     /// Its width.
-    #[must_use]
     pub fn width(&self) -> f64 {
         self.right - self.left
     }
 
     /// Its height.
-    #[must_use]
     pub fn height(&self) -> f64 {
         self.bottom - self.top
     }
 
     /// Whether both have a point in common.
-    #[must_use]
     pub fn overlaps(&self, other: &Self) -> bool {
-        self.left < other.right
-            && other.left < self.right
-            && self.top < other.bottom
-            && other.top < self.bottom
+        let across = self.left < other.right && other.left < self.right;
+        across && self.top < other.bottom && other.top < self.bottom
     }
 
     /// Whether the other one lies in it.
-    #[must_use]
     pub fn holds(&self, other: &Self) -> bool {
-        self.left <= other.left
-            && self.right >= other.right
-            && self.top <= other.top
-            && self.bottom >= other.bottom
+        let across = self.left <= other.left && self.right >= other.right;
+        across && self.top <= other.top && self.bottom >= other.bottom
     }
 
     /// Whether a point lies in it.
-    pub(crate) fn has(&self, (x, y): (f64, f64)) -> bool {
+    pub(crate) fn has(&self, (x, y): Point) -> bool {
         (self.left..=self.right).contains(&x) && (self.top..=self.bottom).contains(&y)
     }
 
@@ -70,11 +63,133 @@ impl Rect {
         }
     }
 
+    /// The smallest one that holds both.
+    pub(crate) fn union(self, other: Self) -> Self {
+        Self {
+            left: self.left.min(other.left),
+            top: self.top.min(other.top),
+            right: self.right.max(other.right),
+            bottom: self.bottom.max(other.bottom),
+        }
+    }
+
     /// The middle.
-    pub(crate) fn centre(&self) -> (f64, f64) {
-        (
-            0.5 * (self.left + self.right),
-            0.5 * (self.top + self.bottom),
-        )
+    pub(crate) fn centre(&self) -> Point {
+        let middle = |a: f64, b: f64| 0.5 * (a + b);
+        (middle(self.left, self.right), middle(self.top, self.bottom))
+    }
+}
+
+/// x and y, of values or of pixels.
+pub(crate) type Point = (f64, f64);
+
+/// The area of a plot and the values that it shows.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Frame {
+    pub(crate) area: Rect,
+    pub(crate) x: Interval,
+    pub(crate) y: Interval,
+    pub(crate) directions: [Direction; 2],
+    pub(crate) mirror: Mirror,
+}
+
+impl Frame {
+    /// Pixel along x of a value.
+    pub(crate) fn across(&self, x: f64) -> f64 {
+        let fraction = self.directions[0].turned(self.x.fraction(x));
+        self.area.left + fraction * self.area.width()
+    }
+
+    /// Pixel along y of a value.
+    pub(crate) fn down(&self, y: f64) -> f64 {
+        let fraction = match self.directions[1] {
+            Direction::Usual => 1.0 - self.y.fraction(y),
+            Direction::Reversed => self.y.fraction(y),
+        };
+        self.area.top + fraction * self.area.height()
+    }
+
+    /// Pixels of a point; none for one that the axes cannot show.
+    ///
+    /// What is far outside is brought nearer, so that no format meets a number it cannot write.
+    pub(crate) fn place(&self, (x, y): Point) -> Option<Point> {
+        let near = |pixel: f64| pixel.clamp(-1e5, 1e5);
+        let is_shown = self.x.scale.shows(x) && self.y.scale.shows(y);
+        is_shown.then(|| (near(self.across(x)), near(self.down(y))))
+    }
+
+    /// The values at a pixel.
+    pub(crate) fn values(&self, (across, down): Point) -> Point {
+        let x = (across - self.area.left) / self.area.width();
+        let y = (self.area.bottom - down) / self.area.height();
+        let [along_x, along_y] = self.directions;
+        let (x, y) = (along_x.turned(x), along_y.turned(y));
+        (self.x.value(x), self.y.value(y))
+    }
+
+    /// Runs of points that can be shown, in pixels: a curve breaks at the others.
+    pub(crate) fn runs(&self, points: &[Point]) -> Vec<Vec<Point>> {
+        points
+            .iter()
+            .map(|&point| self.place(point))
+            .collect::<Vec<_>>()
+            .split(Option::is_none)
+            .filter(|run| !run.is_empty())
+            .map(|run| run.iter().copied().flatten().collect())
+            .collect()
+    }
+
+    /// A curve, and where the panel is mirrored also its other half.
+    pub(crate) fn sides(&self, points: &[Point]) -> Vec<Vec<Point>> {
+        let own = points.to_vec();
+        match self.mirror {
+            Mirror::Off => vec![own],
+            Mirror::Even | Mirror::Odd => {
+                let other = own.iter().map(|&(x, y)| (-x, y)).collect();
+                vec![own, other]
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn frame(y: Interval, direction: Direction) -> Frame {
+        Frame {
+            area: Rect::new(50.0, 10.0, 200.0, 100.0),
+            x: Interval::linear(0.0, 4.0),
+            y,
+            directions: [Direction::Usual, direction],
+            mirror: Mirror::Off,
+        }
+    }
+
+    #[test]
+    fn places_run_over_the_area_and_back() {
+        let usual = frame(Interval::logarithmic(1.0, 100.0), Direction::Usual);
+        assert_eq!(usual.place((0.0, 1.0)), Some((50.0, 110.0)));
+        assert_eq!(usual.place((4.0, 100.0)), Some((250.0, 10.0)));
+        assert_eq!(usual.place((1.0, 0.0)), None);
+        let (x, y) = usual.values((150.0, 60.0));
+        assert!((x - 2.0).abs() < 1e-12 && (y - 10.0).abs() < 1e-12);
+        let depth = frame(Interval::linear(0.0, 1.0), Direction::Reversed);
+        assert_eq!(depth.place((0.0, 0.0)), Some((50.0, 10.0)));
+        assert_eq!(depth.values((50.0, 110.0)), (0.0, 1.0));
+    }
+
+    #[test]
+    fn a_curve_breaks_where_nothing_can_be_shown() {
+        let frame = frame(Interval::logarithmic(1.0, 100.0), Direction::Usual);
+        let runs = frame.runs(&[
+            (0.0, 1.0),
+            (1.0, 2.0),
+            (f64::NAN, 2.0),
+            (2.0, 0.0),
+            (3.0, 5.0),
+        ]);
+        assert_eq!(runs.iter().map(Vec::len).collect::<Vec<_>>(), [2, 1]);
+        assert!(frame.place((1e300, 1.0)).unwrap().0 <= 1e5);
     }
 }

@@ -38,27 +38,26 @@ mod colour;
 mod draw;
 mod error;
 mod figure;
+mod font;
 mod geometry;
-mod interval;
-mod layer;
+mod layers;
 mod layout;
-mod panel;
+mod look;
 mod scene;
 mod text;
 mod ticks;
 mod write;
 
-pub use axis::{Axis, Direction, Unit};
+pub use axis::{Axis, Direction, Interval, Mirror, Scale, Unit};
 pub use colour::{Colour, ColourMap};
 pub use error::{FigureError, RenderError, Side};
-pub use figure::{ColourBar, Figure, Sharing};
+pub use figure::{Aspect, ColourBar, Figure, Legend, Panel, Sharing};
 pub use geometry::Rect;
-pub use interval::{Interval, Scale};
-pub use layer::{
-    Band, Classes, ColourScale, Gain, Histogram, Image, LabelledPoint, Layer, Limits, Line, Mark,
-    Shading, Style, Symbol, Trace, Traces,
+pub use layers::{
+    Band, Classes, ColourScale, Histogram, Image, LabelledPoint, Layer, Limits, Line, Mark,
+    Shading, Symbol,
 };
-pub use panel::{Aspect, Legend, Mirror, Panel};
+pub use look::Style;
 
 /// The figure as SVG.
 ///

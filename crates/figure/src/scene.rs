@@ -1,8 +1,9 @@
 //! What is drawn, as a list: shapes, pictures and texts with their places. Every format is written from it.
 
 use crate::colour::{BLACK, Colour};
-use crate::geometry::Rect;
-use crate::text::{Rich, text_width};
+use crate::font;
+use crate::geometry::{Point, Rect};
+use crate::text::Rich;
 
 /// A part of an outline.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,12 +25,16 @@ pub(crate) struct Stroke {
 }
 
 impl Stroke {
-    pub(crate) fn solid(colour: Colour, width: f64) -> Self {
+    pub(crate) fn new(colour: Colour, width: f64, dash: &'static [f64]) -> Self {
         Self {
             colour,
             width,
-            dash: &[],
+            dash,
         }
+    }
+
+    pub(crate) fn solid(colour: Colour, width: f64) -> Self {
+        Self::new(colour, width, &[])
     }
 }
 
@@ -39,15 +44,6 @@ pub(crate) struct Fill {
     pub(crate) colour: Colour,
     /// 1 hides what is below.
     pub(crate) opacity: f64,
-}
-
-impl Fill {
-    pub(crate) fn solid(colour: Colour) -> Self {
-        Self {
-            colour,
-            opacity: 1.0,
-        }
-    }
 }
 
 /// An outline, filled or drawn.
@@ -61,21 +57,32 @@ pub(crate) struct Shape {
 }
 
 impl Shape {
-    /// Straight lines through points.
-    pub(crate) fn polyline(points: &[(f64, f64)], stroke: Stroke) -> Self {
-        let segments = points.iter().enumerate().map(|(i, &(x, y))| match i {
-            0 => Segment::Move(x, y),
-            _ => Segment::Line(x, y),
-        });
+    fn new(segments: Vec<Segment>) -> Self {
         Self {
-            segments: segments.collect(),
-            stroke: Some(stroke),
+            segments,
             ..Self::default()
         }
     }
 
+    /// Straight lines through points.
+    pub(crate) fn polyline(points: &[Point], stroke: Stroke) -> Self {
+        let segments = points.iter().enumerate().map(|(i, &(x, y))| match i {
+            0 => Segment::Move(x, y),
+            _ => Segment::Line(x, y),
+        });
+        Self::new(segments.collect()).stroked(stroke)
+    }
+
+    /// Straight lines, each from one point to another.
+    pub(crate) fn lines(ends: impl IntoIterator<Item = [Point; 2]>) -> Self {
+        let segments = ends
+            .into_iter()
+            .flat_map(|[from, to]| [Segment::Move(from.0, from.1), Segment::Line(to.0, to.1)]);
+        Self::new(segments.collect())
+    }
+
     /// A closed outline through points.
-    pub(crate) fn polygon(points: &[(f64, f64)]) -> Self {
+    pub(crate) fn polygon(points: &[Point]) -> Self {
         let mut shape = Self::polyline(points, Stroke::solid(BLACK, 0.0));
         shape.segments.push(Segment::Close);
         shape.stroke = None;
@@ -91,24 +98,21 @@ impl Shape {
         ])
     }
 
-    pub(crate) fn circle((x, y): (f64, f64), radius: f64) -> Self {
+    pub(crate) fn circle((x, y): Point, radius: f64) -> Self {
         // a cubic's distance from the circle is below 3e-4 of the radius
         let (r, c) = (radius, 0.552_284_75 * radius);
-        Self {
-            segments: vec![
-                Segment::Move(x + r, y),
-                Segment::Curve([x + r, y + c, x + c, y + r, x, y + r]),
-                Segment::Curve([x - c, y + r, x - r, y + c, x - r, y]),
-                Segment::Curve([x - r, y - c, x - c, y - r, x, y - r]),
-                Segment::Curve([x + c, y - r, x + r, y - c, x + r, y]),
-                Segment::Close,
-            ],
-            ..Self::default()
-        }
+        Self::new(vec![
+            Segment::Move(x + r, y),
+            Segment::Curve([x + r, y + c, x + c, y + r, x, y + r]),
+            Segment::Curve([x - c, y + r, x - r, y + c, x - r, y]),
+            Segment::Curve([x - r, y - c, x - c, y - r, x, y - r]),
+            Segment::Curve([x + c, y - r, x + r, y - c, x + r, y]),
+            Segment::Close,
+        ])
     }
 
-    pub(crate) fn filled(mut self, fill: Fill) -> Self {
-        self.fill = Some(fill);
+    pub(crate) fn filled(mut self, colour: Colour, opacity: f64) -> Self {
+        self.fill = Some(Fill { colour, opacity });
         self
     }
 
@@ -155,7 +159,7 @@ pub(crate) enum Anchor {
 pub(crate) struct Text {
     rich: Rich,
     /// Its start on the line on which letters stand.
-    pub(crate) start: (f64, f64),
+    pub(crate) start: Point,
     pub(crate) size: f64,
     pub(crate) turn: Turn,
     /// Whether it has a white rim, to be read over lines.
@@ -164,7 +168,7 @@ pub(crate) struct Text {
 
 impl Text {
     /// A text at a place on the line on which letters stand.
-    pub(crate) fn new(markup: &str, (x, y): (f64, f64), size: f64, anchor: Anchor) -> Self {
+    pub(crate) fn new(markup: &str, (x, y): Point, size: f64, anchor: Anchor) -> Self {
         let rich = Rich::new(markup);
         let back = match anchor {
             Anchor::Start => 0.0,
@@ -181,15 +185,11 @@ impl Text {
     }
 
     /// A text that runs upward, its middle at a place.
-    pub(crate) fn upward(markup: &str, (x, y): (f64, f64), size: f64) -> Self {
-        let rich = Rich::new(markup);
-        Self {
-            start: (x, y + 0.5 * rich.width(size)),
-            rich,
-            size,
-            turn: Turn::Upward,
-            rim: false,
-        }
+    pub(crate) fn upward(markup: &str, (x, y): Point, size: f64) -> Self {
+        let mut text = Self::new(markup, (x, y), size, Anchor::Start);
+        text.start.1 += 0.5 * text.rich.width(size);
+        text.turn = Turn::Upward;
+        text
     }
 
     /// With a white rim.
@@ -204,7 +204,7 @@ impl Text {
         let mut parts = Vec::with_capacity(self.rich.0.len());
         for run in &self.rich.0 {
             let text = run.text.trim();
-            let width = |text: &str| self.size * run.size * text_width(text);
+            let width = |text: &str| self.size * run.size * font::width(text);
             let indent = width(&run.text[..run.text.len() - run.text.trim_start().len()]);
             let (x, y) = self.start;
             let up = self.size * run.rise;
@@ -226,12 +226,9 @@ impl Text {
     /// The rectangle that it covers.
     pub(crate) fn bounds(&self) -> Rect {
         let (x, y) = self.start;
+        let width = self.rich.width(self.size);
         let (above, below) = self.rich.extent();
-        let (width, above, below) = (
-            self.rich.width(self.size),
-            above * self.size,
-            below * self.size,
-        );
+        let (above, below) = (above * self.size, below * self.size);
         match self.turn {
             Turn::Level => Rect::new(x, y - above, width, above + below),
             Turn::Upward => Rect::new(x - above, y - width, above + below, width),
@@ -249,7 +246,7 @@ impl Text {
 pub(crate) struct Part<'a> {
     pub(crate) text: &'a str,
     pub(crate) size: f64,
-    pub(crate) start: (f64, f64),
+    pub(crate) start: Point,
     pub(crate) width: f64,
 }
 

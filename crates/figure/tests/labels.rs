@@ -21,7 +21,6 @@ fn gallery() -> Vec<(&'static str, Figure)> {
         ("section", fields::section()),
         ("frames", fields::frames()),
         ("magnitude", fields::magnitude()),
-        ("seismogram", fields::seismogram()),
         ("column", curves::column()),
     ]
 }

@@ -62,7 +62,6 @@ pub(crate) fn curves(redrawn: &Redrawn) -> Result<Vec<u8>, Error> {
                 Layer::Band(_)
                 | Layer::Classes(_)
                 | Layer::Histogram(_)
-                | Layer::Traces(_)
                 | Layer::Image(_)
                 | Layer::Mark(_) => continue,
             };

@@ -1,14 +1,13 @@
 //! From files to a figure.
 
-use crate::error::PlotError;
-use crate::kind::Kind;
-use crate::of_impacts::{frames_of, of_impacts};
-use crate::of_sweep::of_sweep;
-use crate::of_table::of_table;
-use crate::request::{Drawn, Request};
+use crate::error::{PlotError, only};
+use crate::impacts::{frames_of, of_impacts};
+use crate::request::{Drawn, Kind, Request};
+use crate::sweep::of_sweep;
+use crate::table::of_table;
 use figure::Figure;
 use formats::stored::{FileKind, StoredImpact, StoredSweep, file_kind};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Composes a figure of one or several files of one kind.
 ///
@@ -19,14 +18,14 @@ pub fn compose(paths: &[PathBuf], request: &Request) -> Result<Drawn, PlotError>
     if let Some(kind) = request.kind
         && kind.file() != file
     {
-        return Err(unsuitable(&paths[0], file, kind));
+        return Err(PlotError::unsuitable(&paths[0], file, kind));
     }
     match file {
         FileKind::Impact => of_impacts(&open(paths)?, request),
         FileKind::Sweep => of_sweep(&StoredSweep::open(only(paths, Kind::Sweep)?)?, request),
         FileKind::Table => of_table(only(paths, Kind::Errors)?, request),
-        FileKind::SweepPart => Err(unsuitable(&paths[0], file, Kind::Sweep)),
-        FileKind::Chart => Err(unsuitable(&paths[0], file, Kind::Impact)),
+        FileKind::SweepPart => Err(PlotError::unsuitable(&paths[0], file, Kind::Sweep)),
+        FileKind::Chart => Err(PlotError::unsuitable(&paths[0], file, Kind::Impact)),
     }
 }
 
@@ -47,25 +46,7 @@ pub fn animate(
             kind: request.kind,
         });
     }
-    let impacts = open(paths)?;
-    let [impact] = impacts.as_slice() else {
-        return Err(PlotError::OneFile {
-            kind,
-            given: impacts.len(),
-        });
-    };
-    frames_of(impact, request)
-}
-
-/// The only path.
-fn only(paths: &[PathBuf], kind: Kind) -> Result<&Path, PlotError> {
-    match paths {
-        [only] => Ok(only),
-        several => Err(PlotError::OneFile {
-            kind,
-            given: several.len(),
-        }),
-    }
+    frames_of(only(&open(paths)?, kind)?, request)
 }
 
 fn open(paths: &[PathBuf]) -> Result<Vec<StoredImpact>, PlotError> {
@@ -73,29 +54,12 @@ fn open(paths: &[PathBuf]) -> Result<Vec<StoredImpact>, PlotError> {
     paths.iter().map(open).collect()
 }
 
-fn unsuitable(path: &Path, found: FileKind, kind: Kind) -> PlotError {
-    PlotError::Unsuitable {
-        path: path.to_owned(),
-        found,
-        kind,
-        allowed: match Kind::of(found).as_slice() {
-            [] => "none".to_owned(),
-            names => names.join(", "),
-        },
-    }
-}
-
 /// What all files are.
 fn common_kind(paths: &[PathBuf]) -> Result<FileKind, PlotError> {
-    let mut kinds = paths
-        .iter()
-        .map(|path| file_kind(path).map(|kind| (path, kind)));
-    let Some(first) = kinds.next() else {
-        return Ok(FileKind::Impact);
-    };
-    let (first_path, first) = first?;
-    for found in kinds {
-        let (path, second) = found?;
+    let mut common: Option<(&PathBuf, FileKind)> = None;
+    for path in paths {
+        let second = file_kind(path)?;
+        let (first_path, first) = *common.get_or_insert((path, second));
         if second != first {
             return Err(PlotError::Mixed {
                 paths: [first_path.clone(), path.clone()],
@@ -104,5 +68,5 @@ fn common_kind(paths: &[PathBuf]) -> Result<FileKind, PlotError> {
             });
         }
     }
-    Ok(first)
+    Ok(common.map_or(FileKind::Impact, |(_, kind)| kind))
 }

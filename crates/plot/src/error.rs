@@ -1,9 +1,10 @@
-//! Why there is no picture.
+//! Why there is no picture; and what is looked for by its name, with the error that it is not there.
 
-use crate::kind::Kind;
-use formats::stored::{FileKind, ReadError};
+use crate::request::Kind;
+use contact::nearest;
+use formats::stored::{FileKind, ReadError, StoredQuantity};
 use impact::FieldsError;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 /// A picture that cannot be composed, told in one sentence.
@@ -108,6 +109,70 @@ pub enum PlotError {
     /// The fields could not be computed.
     #[error(transparent)]
     Fields(#[from] FieldsError),
+}
+
+impl PlotError {
+    /// A kind of picture that a file of another kind does not give.
+    pub(crate) fn unsuitable(path: &Path, found: FileKind, kind: Kind) -> Self {
+        Self::Unsuitable {
+            path: path.to_owned(),
+            found,
+            kind,
+            allowed: match Kind::of(found).as_slice() {
+                [] => "none".to_owned(),
+                names => names.join(", "),
+            },
+        }
+    }
+
+    /// What a picture shows is not in the file.
+    pub(crate) fn absent(path: &Path, what: &'static str, hint: &'static str) -> Self {
+        let path = path.to_owned();
+        Self::Absent { path, what, hint }
+    }
+
+    /// A word that is none of those that a file has: `said` is what was asked for, of which `word` may be misspelt.
+    pub(crate) fn unknown<'a>(
+        path: &Path,
+        said: impl Into<String>,
+        word: &str,
+        known: impl IntoIterator<Item = &'a str>,
+    ) -> Self {
+        let known: Vec<&str> = known.into_iter().collect();
+        Self::Quantity {
+            path: path.to_owned(),
+            quantity: said.into(),
+            suggestion: nearest(word, known.iter().copied()),
+            allowed: known.join(", "),
+        }
+    }
+}
+
+/// The only one of some files or paths.
+pub(crate) fn only<T>(given: &[T], kind: Kind) -> Result<&T, PlotError> {
+    match given {
+        [only] => Ok(only),
+        several => Err(PlotError::OneFile {
+            kind,
+            given: several.len(),
+        }),
+    }
+}
+
+/// The quantities of some names among those of a file.
+pub(crate) fn chosen(
+    path: &Path,
+    known: &[StoredQuantity],
+    names: &[impl AsRef<str>],
+) -> Result<Vec<StoredQuantity>, PlotError> {
+    let find = |name: &str| {
+        let found = known.iter().find(|quantity| quantity.name == name);
+        let all = || known.iter().map(|quantity| quantity.name.as_str());
+        found
+            .cloned()
+            .ok_or_else(|| PlotError::unknown(path, name, name, all()))
+    };
+    names.iter().map(|name| find(name.as_ref())).collect()
 }
 
 fn shown_as(kind: Option<Kind>) -> String {

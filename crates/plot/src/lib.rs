@@ -12,33 +12,19 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod axis_profile;
 mod compose;
-mod contact_panels;
-mod difference;
 mod error;
-mod history;
-mod kind;
-mod labels;
-mod number;
-mod of_impacts;
-mod of_sweep;
-mod of_table;
-mod peak;
-mod probe_panels;
-mod quantity;
+mod impacts;
 mod request;
 mod section;
-mod space_time;
-mod span;
-mod spectrum;
-mod sweep_view;
-mod waves;
+mod series;
+mod sweep;
+mod table;
+mod words;
 
 pub use compose::{animate, compose};
 pub use error::PlotError;
-pub use kind::Kind;
-pub use request::{Drawn, Request};
+pub use request::{Drawn, Kind, Request};
 
 /// The README's program compiles.
 #[cfg(doctest)]

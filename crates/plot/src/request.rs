@@ -1,7 +1,69 @@
-//! What is asked for.
+//! What can be shown, what is asked for, and what is given.
 
-use crate::kind::Kind;
+use contact::Choice;
 use figure::Figure;
+use formats::stored::FileKind;
+use std::fmt;
+
+macro_rules! kinds {
+    ($($kind:ident $name:literal of $file:ident => $meaning:literal;)*) => {
+        /// What a picture shows.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+        pub enum Kind {
+            $(#[doc = $meaning] $kind,)*
+        }
+
+        impl Choice for Kind {
+            const ALL: &'static [Self] = &[$(Self::$kind),*];
+
+            fn name(self) -> &'static str {
+                match self { $(Self::$kind => $name),* }
+            }
+        }
+
+        impl Kind {
+            /// The file that it shows.
+            pub fn file(self) -> FileKind {
+                match self { $(Self::$kind => FileKind::$file),* }
+            }
+
+            /// What it shows, in a few words.
+            pub fn meaning(self) -> &'static str {
+                match self { $(Self::$kind => $meaning),* }
+            }
+        }
+    };
+}
+
+// kind, its name, the file that it shows, and what it shows
+kinds! {
+    Impact "impact" of Impact => "force beside Hertz's, displacement, velocity, and the first probes";
+    Probes "probes" of Impact => "histories at the probes with arrivals and error bands";
+    Spectrum "spectrum" of Impact => "amplitude spectrum of the force, its corner frequency and its zeros";
+    Waves "waves" of Impact => "frames of the section until the first wave leaves it; .gif: all of them";
+    Peak "peak" of Impact => "largest value over time at every place of the section";
+    Surface "x-t" of Impact => "distance along the surface against time, with fronts";
+    Depth "depth-t" of Impact => "depth on the axis against time, with fronts";
+    Axis "axis" of Impact => "the section's axis at some instants, beside the static field";
+    Sweep "sweep" of Sweep => "results of a sweep: lines over one key, a heat map over two";
+    Loss "loss" of Sweep => "energy lost over the velocity of approach, with the slope 3/5";
+    Histogram "histogram" of Sweep => "histograms of a sweep's draws with their quantiles";
+    Errors "errors" of Table => "errors of a kernel table, measured off its grid";
+}
+
+impl Kind {
+    /// Names of all kinds that show a file.
+    pub fn of(file: FileKind) -> Vec<&'static str> {
+        let kinds = Self::ALL.iter().filter(|kind| kind.file() == file);
+        kinds.map(|kind| kind.name()).collect()
+    }
+}
+
+impl fmt::Display for Kind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
 
 /// What is asked for; the default suits every file.
 #[derive(Debug, Clone, Default, PartialEq)]

@@ -79,7 +79,6 @@ impl Picture {
             Layer::Line(_)
             | Layer::Band(_)
             | Layer::Histogram(_)
-            | Layer::Traces(_)
             | Layer::Image(_)
             | Layer::Mark(_)
             | Layer::Point(_) => None,
@@ -93,7 +92,6 @@ impl Picture {
             Layer::Classes(_)
             | Layer::Band(_)
             | Layer::Histogram(_)
-            | Layer::Traces(_)
             | Layer::Image(_)
             | Layer::Mark(_)
             | Layer::Point(_) => None,

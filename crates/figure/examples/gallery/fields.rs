@@ -1,9 +1,9 @@
-//! Fields: sections, frames, magnitudes, seismograms.
+//! Fields: sections, frames, magnitudes.
 
-use crate::waves::{SPEEDS, even, ricker, velocity};
+use crate::waves::{SPEEDS, even, velocity};
 use figure::{
-    Axis, ColourMap, ColourScale, Figure, Gain, Image, Layer, Legend, Limits, Mirror, Panel,
-    Sharing, Style, Trace, Traces, Unit,
+    Axis, ColourMap, ColourScale, Figure, Image, Layer, Legend, Limits, Mirror, Panel, Sharing,
+    Style, Unit,
 };
 
 fn depth() -> Axis {
@@ -87,44 +87,4 @@ pub(crate) fn magnitude() -> Figure {
         .layer(Layer::Image(Image::of(r, z, colours, stress)))
         .mark(1.0, "edge of the disc"),
     )
-}
-
-/// Traces at their distances, with travel-time curves.
-pub(crate) fn seismogram() -> Figure {
-    let times = even(0.0, 40e-6, 500);
-    let offsets = even(0.01, 0.1, 19);
-    let trace = |&offset: &f64| Trace {
-        offset,
-        points: times
-            .iter()
-            .map(|&t| {
-                let arrive = |i: usize, f: f64| ricker(t - 2e-6 - offset / SPEEDS[i], f);
-                let near = 0.01 / offset;
-                (
-                    t,
-                    near * (0.3 * arrive(0, 5e5) + 0.4 * arrive(1, 4e5))
-                        + near.sqrt() * arrive(2, 3e5),
-                )
-            })
-            .collect(),
-    };
-    let arrival = |i: usize| -> Vec<(f64, f64)> {
-        offsets.iter().map(|&r| (2e-6 + r / SPEEDS[i], r)).collect()
-    };
-    Figure::new("Surface velocity after a ball drop")
-        .width(720.0)
-        .panel(
-            Panel::new(
-                Axis::linear("time").si("s"),
-                Axis::linear("distance from the impact").si("m"),
-            )
-            .height(460.0)
-            .layer(Layer::Traces(Traces::new(
-                "vertical velocity, each trace to its largest value",
-                Gain::Each,
-                offsets.iter().map(trace).collect(),
-            )))
-            .line("P", Style::HeavyDashed, arrival(0))
-            .line("Rayleigh", Style::Dotted, arrival(2)),
-        )
 }

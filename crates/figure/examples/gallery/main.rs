@@ -35,7 +35,6 @@ pub(crate) fn all() -> Vec<(&'static str, Figure)> {
         ("section", fields::section()),
         ("frames", fields::frames()),
         ("magnitude", fields::magnitude()),
-        ("seismogram", fields::seismogram()),
         ("column", curves::column()),
     ]
 }

@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 pub(crate) const SPEEDS: [f64; 3] = [5950.0, 3240.0, 3000.0];
 
 /// Ricker's wavelet of a frequency in Hz.
-pub(crate) fn ricker(t: f64, frequency: f64) -> f64 {
+fn ricker(t: f64, frequency: f64) -> f64 {
     let x = (PI * frequency * t).powi(2);
     (1.0 - 2.0 * x) * (-x).exp()
 }

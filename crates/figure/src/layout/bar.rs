@@ -1,51 +1,46 @@
-//! The colour bar beside a panel or beside all of them.
+//! The colour bar beside a panel or beside all of them, fitted and drawn.
 
-use super::plan::Colours;
-use super::typeface::Typeface;
-use crate::text::{LINE, Rich, wrap};
-use crate::ticks::{Room, Ticks, shown, ticks};
+use super::axes::{lengths, thin, widest};
+use crate::geometry::Rect;
+use crate::layers::Colours;
+use crate::scene::{Anchor, Item, Picture, Scene, Shape, Text};
+use crate::text::{LINE, Typeface, wrap};
+use crate::ticks::{Room, Ticks, shown};
 
 /// Width of the strip of colours in pixels.
 const STRIP: f64 = 14.0;
 
+/// Colours of the strip from its bottom to its top.
+const STEPS: u32 = 256;
+
 /// A colour bar of a known height; x from the right side of the plot.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct BarFit {
-    pub(crate) colours: Colours,
-    pub(crate) ticks: Ticks,
+pub(crate) struct Bar {
+    colours: Colours,
+    ticks: Ticks,
     /// Lines of the label, which runs upward at the right.
-    pub(crate) label: Vec<String>,
+    label: Vec<String>,
     /// Left and right side of the strip.
-    pub(crate) strip: [f64; 2],
+    strip: [f64; 2],
     /// Where the numbers start.
-    pub(crate) numbers: f64,
+    numbers: f64,
     /// Middle of the label's first line.
-    pub(crate) text: f64,
+    text: f64,
     /// Everything, from the side of the plot on.
-    pub(crate) width: f64,
+    pub(super) width: f64,
 }
 
-impl BarFit {
+impl Bar {
     /// Fits a bar of a height.
-    pub(crate) fn new(colours: &Colours, height: f64, faces: &Typeface) -> Self {
+    pub(super) fn new(colours: &Colours, height: f64, faces: &Typeface) -> Self {
         let interval = colours.limits;
-        let shown = shown(&colours.scale.quantity, &colours.scale.unit, &interval);
-        let needs = |_: &str| LINE * faces.tick;
-        let room = Room {
-            length: height,
-            distance: 3.4 * faces.tick,
-            needs: &needs,
-        };
-        let ticks = ticks(&interval, shown.factor, &room);
-        let widest = ticks
-            .major
-            .iter()
-            .map(|tick| Rich::new(&tick.label).width(faces.tick))
-            .fold(0.0, f64::max);
-        let label = wrap(&shown.label, faces.label, height);
+        let (label, factor) = shown(&colours.scale.quantity, &colours.scale.unit, &interval);
+        let room = Room::of_lines(height, 3.4 * faces.tick, faces.tick);
+        let ticks = Ticks::new(&interval, factor, &room);
+        let label = wrap(&label, faces.label, height);
         let left = 1.2 * faces.tick;
         let numbers = left + STRIP + faces.tick_length() + 0.3 * faces.tick;
-        let text = numbers + widest + faces.gap() + 0.5 * LINE * faces.label;
+        let text = numbers + widest(&ticks, faces.tick) + faces.gap() + 0.5 * LINE * faces.label;
         Self {
             colours: colours.clone(),
             ticks,
@@ -57,8 +52,78 @@ impl BarFit {
         }
     }
 
-    /// Height of the arrow at an end beyond which there are values.
-    pub(crate) fn arrow() -> f64 {
-        0.8 * STRIP
+    /// Draws it at the right of a plot, or of all plots.
+    pub(crate) fn draw(&self, scene: &mut Scene, plot: Rect, faces: &Typeface) {
+        let [left, right] = self.strip.map(|x| plot.right + x);
+        let strip = Rect {
+            left,
+            right,
+            ..plot
+        };
+        let body = self.draw_strip(scene, strip);
+        let down = |value: f64| body.bottom - self.colours.limits.fraction(value) * body.height();
+        for tick in &self.ticks.major {
+            let start = (
+                plot.right + self.numbers,
+                down(tick.value) + 0.35 * faces.tick,
+            );
+            scene.text(Text::new(&tick.label, start, faces.tick, Anchor::Start));
+        }
+        let ticks = lengths(&self.ticks, faces)
+            .into_iter()
+            .map(|(value, length)| {
+                let y = down(value);
+                [(right, y), (right + length, y)]
+            });
+        scene.shape(Shape::lines(ticks).stroked(thin()));
+        let mut line = plot.right + self.text + 0.3 * faces.label;
+        for label in &self.label {
+            scene.text(Text::upward(label, (line, plot.centre().1), faces.label));
+            line += LINE * faces.label;
+        }
+    }
+
+    /// The strip of colours with arrows where values go on beyond its limits; gives the strip between the arrows.
+    fn draw_strip(&self, scene: &mut Scene, strip: Rect) -> Rect {
+        let at = |fraction: f64| self.colours.scale.map.at(fraction);
+        let Rect { left, right, .. } = strip;
+        let beyond = self.colours.beyond;
+        // within the height of the plot
+        let [below, above] = beyond.map(|is| if is { 0.8 * STRIP } else { 0.0 });
+        let body = Rect {
+            top: strip.top + above,
+            bottom: strip.bottom - below,
+            ..strip
+        };
+        let middle_of = |i: u32| (f64::from(i) + 0.5) / f64::from(STEPS);
+        scene.items.push(Item::Picture(Picture {
+            area: body,
+            columns: 1,
+            rows: STEPS,
+            pixels: (0..STEPS).rev().map(|i| Some(at(middle_of(i)))).collect(),
+        }));
+        let middle = body.centre().0;
+        for (is, fraction, base, tip) in [
+            (beyond[0], 0.0, body.bottom, strip.bottom),
+            (beyond[1], 1.0, body.top, strip.top),
+        ] {
+            if is {
+                let triangle = Shape::polygon(&[(left, base), (right, base), (middle, tip)]);
+                scene.shape(triangle.filled(at(fraction), 1.0));
+            }
+        }
+        let outline = match beyond {
+            [false, false] => Shape::rectangle(strip),
+            [true, _] | [_, true] => Shape::polygon(&[
+                (left, body.top),
+                (middle, strip.top),
+                (right, body.top),
+                (right, body.bottom),
+                (middle, strip.bottom),
+                (left, body.bottom),
+            ]),
+        };
+        scene.shape(outline.stroked(thin()));
+        body
     }
 }

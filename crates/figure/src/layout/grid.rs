@@ -1,15 +1,11 @@
 //! The areas of all panels on the canvas.
 
-use super::bar::BarFit;
-use super::columns::{Columns, PAD, size};
+use super::bar::Bar;
 use super::fit::{Context, Fitted};
-use super::frame::Frame;
-use super::looks::Looks;
-use super::plan::{PanelPlan, plan};
-use super::typeface::Typeface;
-use crate::figure::{ColourBar, Figure};
-use crate::geometry::Rect;
-use crate::text::wrap;
+use super::plan::{AxisPlan, PanelPlan, plan};
+use crate::figure::{Aspect, ColourBar, Figure};
+use crate::geometry::{Frame, Rect};
+use crate::text::{Typeface, wrap};
 
 /// A panel with its area.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,13 +21,12 @@ pub(crate) struct Layout<'a> {
     pub(crate) width: f64,
     pub(crate) height: f64,
     pub(crate) faces: Typeface,
-    pub(crate) looks: Looks,
     /// Lines of the title and of the line below it.
     pub(crate) title: Vec<String>,
     pub(crate) subtitle: Vec<String>,
     pub(crate) panels: Vec<Placed<'a>>,
     /// The common colour bar and the area of all plots at its left.
-    pub(crate) bar: Option<(BarFit, Rect)>,
+    pub(crate) bar: Option<(Bar, Rect)>,
 }
 
 /// Lays a figure out.
@@ -48,7 +43,7 @@ pub(crate) fn lay_out(figure: &Figure) -> Layout<'_> {
     let mut reserved = 0.0;
     loop {
         let plots = plots(&layout.panels);
-        let bar = BarFit::new(&colours, plots.height(), &layout.faces);
+        let bar = Bar::new(&colours, plots.height(), &layout.faces);
         if bar.width <= reserved {
             layout.width += reserved;
             layout.bar = Some((bar, plots));
@@ -62,12 +57,10 @@ pub(crate) fn lay_out(figure: &Figure) -> Layout<'_> {
 /// Lays everything out but the common colour bar, which gets a width at the right.
 fn arrange(figure: &Figure, bar: f64) -> Layout<'_> {
     let faces = Typeface::new(figure.text);
-    let looks = Looks::of(figure);
     let plans = plan(figure);
     let count = figure.columns.min(plans.len());
     let context = Context {
         faces: &faces,
-        looks: &looks,
         own_bars: figure.colour_bar == ColourBar::Each,
         legend_width: (0.34 * figure.width / count as f64).min(22.0 * faces.tick),
     };
@@ -87,7 +80,6 @@ fn arrange(figure: &Figure, bar: f64) -> Layout<'_> {
         width,
         height: bottom + PAD,
         faces,
-        looks,
         title,
         subtitle,
         panels,
@@ -114,7 +106,7 @@ fn rows<'a>(
             let [width, height] = size(plan, columns.plot);
             let area = Rect::new(columns.start(plan.column), top, width, height);
             panels.push(Placed {
-                frame: Frame::new(area, &plan.x, &plan.y),
+                frame: plan.frame(area),
                 plan: plan.clone(),
                 fitted: fitted.clone(),
             });
@@ -126,21 +118,101 @@ fn rows<'a>(
 
 /// From the first plot to the last, with what the last column needs at its right.
 fn plots(panels: &[Placed<'_>]) -> Rect {
-    panels.iter().fold(
-        Rect {
-            left: f64::INFINITY,
-            top: f64::INFINITY,
-            right: 0.0,
-            bottom: 0.0,
-        },
-        |all, panel| {
-            let area = panel.frame.area;
-            Rect {
-                left: all.left.min(area.left),
-                top: all.top.min(area.top),
-                right: all.right.max(area.right + panel.fitted.needs.right),
-                bottom: all.bottom.max(area.bottom),
+    let areas = panels.iter().map(|panel| Rect {
+        right: panel.frame.area.right + panel.fitted.needs.right,
+        ..panel.frame.area
+    });
+    areas.reduce(Rect::union).unwrap_or_default()
+}
+
+/// Distance from the sides of the canvas.
+pub(crate) const PAD: f64 = 14.0;
+
+/// Narrowest plot.
+const NARROWEST: f64 = 60.0;
+
+/// The columns of a figure: all plots are equally wide.
+#[derive(Debug, Clone, PartialEq)]
+struct Columns {
+    /// Width of a plot.
+    plot: f64,
+    /// Needed at the left of each column.
+    left: Vec<f64>,
+    /// Needed at the right of each column.
+    right: Vec<f64>,
+    gap: f64,
+}
+
+impl Columns {
+    /// Fits panels into columns within a width, which is exceeded rather than that plots vanish.
+    fn fit(
+        plans: &[PanelPlan<'_>],
+        count: usize,
+        width: f64,
+        context: &Context<'_>,
+    ) -> (Self, Vec<Fitted>) {
+        let mut columns = Self {
+            plot: width / count as f64,
+            left: vec![0.0; count],
+            right: vec![0.0; count],
+            gap: 1.4 * context.faces.tick,
+        };
+        // what is reserved at the sides only grows, so that it is enough for the plots at the end
+        loop {
+            let fitted: Vec<Fitted> = plans
+                .iter()
+                .map(|plan| Fitted::new(plan, size(plan, columns.plot), context))
+                .collect();
+            let mut is_enough = true;
+            for (plan, fitted) in plans.iter().zip(&fitted) {
+                for (side, needed) in [
+                    (&mut columns.left[plan.column], fitted.needs.left),
+                    (&mut columns.right[plan.column], fitted.needs.right),
+                ] {
+                    is_enough &= needed <= *side;
+                    *side = side.max(needed);
+                }
             }
-        },
-    )
+            let plot = ((width - columns.sides()) / count as f64).max(NARROWEST);
+            if is_enough && plot == columns.plot {
+                return (columns, fitted);
+            }
+            columns.plot = plot;
+        }
+    }
+
+    /// Width of everything beside the plots.
+    fn sides(&self) -> f64 {
+        let needed: f64 = self.left.iter().chain(&self.right).sum();
+        needed + self.gap * (self.left.len() - 1) as f64 + 2.0 * PAD
+    }
+
+    /// Width of the canvas.
+    fn width(&self) -> f64 {
+        self.sides() + self.plot * self.left.len() as f64
+    }
+
+    /// Left side of the plots of a column.
+    fn start(&self, column: usize) -> f64 {
+        let before = (0..column).map(|k| self.left[k] + self.plot + self.right[k] + self.gap);
+        PAD + before.sum::<f64>() + self.left[column]
+    }
+}
+
+/// Size of the plot of a panel in a column of plots of a width.
+///
+/// Equal lengths give the height; a section that is much deeper than wide is narrower than its column.
+fn size(plan: &PanelPlan<'_>, width: f64) -> [f64; 2] {
+    const TALLEST: f64 = 1.5;
+    match plan.panel.aspect {
+        Aspect::Free => [width, plan.panel.height],
+        Aspect::Equal => {
+            let length = |of: &AxisPlan<'_>| of.interval.high - of.interval.low;
+            let ratio = length(&plan.y) / length(&plan.x);
+            match ratio > TALLEST {
+                true => [TALLEST * width / ratio, TALLEST * width],
+                false => [width, ratio * width],
+            }
+        }
+    }
 }

@@ -1,54 +1,32 @@
-//! The legend of a panel: its entries, broken into lines and columns.
+//! The legend of a panel: its entries, broken into lines and columns, in the plot or beside it.
 
-use super::looks::{Look, Looks, fills, look};
+use super::axes::Needs;
 use super::plan::PanelPlan;
-use super::typeface::{SWATCH, Typeface};
-use crate::colour::Colour;
-use crate::geometry::Rect;
-use crate::layer::{Layer, Style};
-use crate::text::{LINE, Rich, wrap};
+use super::room::{free, occupied};
+use crate::axis::Mirror;
+use crate::colour::{Colour, MARK, WHITE};
+use crate::figure::Legend as Wish;
+use crate::geometry::{Point, Rect};
+use crate::layers::{Band, Histogram, Swatch};
+use crate::scene::{Anchor, Scene, Shape, Stroke, Text};
+use crate::text::{LINE, Rich, Typeface, wrap};
 
-/// The sample beside a name.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Swatch {
-    /// A class.
-    Fill(Colour),
-    /// The bars of a histogram.
-    Bars(Look),
-    /// A curve, a band of its colour, or both.
-    Curve {
-        line: Option<Look>,
-        band: Option<Colour>,
-    },
-}
+/// Width of the sample of a curve.
+const SWATCH: f64 = 30.0;
 
-/// A name with its sample.
+/// A name with its sample, and their place from the upper left corner of the legend.
 #[derive(Debug, Clone, PartialEq)]
 struct Entry {
-    name: String,
     swatch: Swatch,
-}
-
-/// An entry with its place from the upper left corner of the legend.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct PlacedEntry {
-    pub(crate) swatch: Swatch,
-    pub(crate) lines: Vec<String>,
-    pub(crate) left: f64,
-    pub(crate) top: f64,
-}
-
-/// A legend of a known size.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Block {
-    pub(crate) entries: Vec<PlacedEntry>,
-    pub(crate) width: f64,
-    pub(crate) height: f64,
+    /// Lines of the name.
+    lines: Vec<String>,
+    left: f64,
+    top: f64,
 }
 
 /// Where a legend is.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) enum LegendPlace {
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Place {
     /// In the plot, which starts at 0, 0.
     Inside(Rect),
     /// At its right, so far from the side of the plot.
@@ -57,105 +35,73 @@ pub(crate) enum LegendPlace {
     Below(f64),
 }
 
-/// Names of a panel; a band and a line of the same name are one.
-fn entries(plan: &PanelPlan<'_>, looks: &Looks) -> Vec<Entry> {
-    let mut found: Vec<Entry> = Vec::new();
-    let slots = looks.slots(&plan.panel.layers);
-    for (layer, &slot) in plan.panel.layers.iter().zip(&slots) {
-        let curve = |style| Swatch::Curve {
-            line: Some(look(slot, style)),
-            band: None,
-        };
-        let colour = look(slot, Style::Plain).colour;
-        let swatch = match layer {
-            Layer::Classes(classes) => {
-                let fills = fills(classes.names.len());
-                let named = classes.names.iter().zip(fills);
-                found.extend(named.map(|(name, &fill)| Entry {
-                    name: name.clone(),
-                    swatch: Swatch::Fill(fill),
-                }));
-                continue;
-            }
-            Layer::Line(line) => curve(line.style),
-            Layer::Traces(_) => Swatch::Curve {
-                line: Some(Look {
-                    dash: &[],
-                    ..look(slot, Style::Plain)
-                }),
-                band: None,
-            },
-            Layer::Band(_) => Swatch::Curve {
-                line: None,
-                band: Some(colour),
-            },
-            Layer::Histogram(_) => Swatch::Bars(look(slot, Style::Plain)),
-            Layer::Image(_) | Layer::Mark(_) | Layer::Point(_) => continue,
-        };
-        let name = layer.name();
-        if name.is_empty() {
-            continue;
-        }
-        match (found.iter_mut().find(|e| e.name == name), swatch) {
-            (
-                Some(Entry {
-                    swatch: Swatch::Curve { line, band },
-                    ..
-                }),
-                Swatch::Curve {
-                    line: more_line,
-                    band: more_band,
-                },
-            ) => {
-                *line = line.or(more_line);
-                *band = band.or(more_band);
-            }
-            (Some(_), _) => {}
-            (None, swatch) => found.push(Entry {
-                name: name.to_owned(),
-                swatch,
-            }),
-        }
-    }
-    found
+/// A legend with its place.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Legend {
+    entries: Vec<Entry>,
+    pub(super) width: f64,
+    pub(super) height: f64,
+    pub(super) place: Place,
 }
 
-impl Block {
-    /// The names of a panel in columns within a width; none for a panel without names.
+impl Legend {
+    /// The legend around a plot that has the given needs without it, at its right no wider than `most_right`.
     pub(super) fn new(
         plan: &PanelPlan<'_>,
-        looks: &Looks,
-        width: f64,
-        most_columns: usize,
+        [width, height]: [f64; 2],
         faces: &Typeface,
+        needs: &Needs,
+        most_right: f64,
     ) -> Option<Self> {
-        let entries = entries(plan, looks);
-        if entries.is_empty() {
+        let named = named(plan);
+        if named.is_empty() || plan.panel.legend == Wish::Off {
             return None;
         }
-        let size = faces.legend;
+        // the other half of a mirrored section is full as well
+        let may_be_inside = !plan.is_filled() && plan.panel.mirror == Mirror::Off;
+        if plan.panel.legend == Wish::Auto && may_be_inside {
+            let mut legend = Self::block(&named, 0.62 * width, 1, faces.legend);
+            let air = 0.7 * faces.tick;
+            let area = Rect::new(0.0, 0.0, width, height);
+            let taken = occupied(plan.panel, &plan.frame(area));
+            let size = (legend.width + air, legend.height + 0.6 * air);
+            if let Some(found) = free(area, size, air, &taken) {
+                legend.place = Place::Inside(found);
+                return Some(legend);
+            }
+        }
+        let mut legend = Self::block(&named, most_right, 1, faces.legend);
+        if most_right >= 14.0 * faces.tick && legend.height < 1.6 * height {
+            legend.place = Place::Right(needs.right + 1.3 * faces.tick);
+            return Some(legend);
+        }
+        legend = Self::block(&named, width, 6, faces.legend);
+        legend.place = Place::Below(needs.bottom + faces.gap());
+        Some(legend)
+    }
+
+    /// Names in columns within a width, without a place.
+    fn block(named: &[(&str, Swatch)], width: f64, most_columns: usize, size: f64) -> Self {
         let indent = SWATCH + 0.5 * size;
         let room = (width - indent).max(2.0 * size);
-        let natural = entries
-            .iter()
-            .map(|e| Rich::new(&e.name).width(size))
-            .fold(0.0, f64::max);
+        let long = |name: &str| Rich::new(name).width(size);
+        let natural = named.iter().map(|(name, _)| long(name)).fold(0.0, f64::max);
         let text = natural.min(room);
         let gap = 1.4 * size;
         let columns = (((width + gap) / (indent + text + gap)) as usize)
-            .clamp(1, most_columns.min(entries.len()));
-        let mut placed = Vec::new();
+            .clamp(1, most_columns.min(named.len()));
+        let mut entries = Vec::new();
         let (mut top, mut widest) = (0.0, 0.0_f64);
-        for row in entries.chunks(columns) {
+        for row in named.chunks(columns) {
             let mut lines_in_row = 1;
-            for (i, entry) in row.iter().enumerate() {
-                let lines = wrap(&entry.name, size, text);
-                let found = lines.iter().map(|l| Rich::new(l).width(size));
+            for (i, (name, swatch)) in row.iter().enumerate() {
+                let lines = wrap(name, size, text);
                 let left = i as f64 * (indent + text + gap);
-                widest = widest.max(left + indent + found.fold(0.0, f64::max));
+                let longest = lines.iter().map(|line| long(line)).fold(0.0, f64::max);
+                widest = widest.max(left + indent + longest);
                 lines_in_row = lines_in_row.max(lines.len());
-                placed.push(PlacedEntry {
-                    swatch: entry.swatch.clone(),
+                entries.push(Entry {
+                    swatch: swatch.clone(),
                     lines,
                     left,
                     top,
@@ -163,10 +109,101 @@ impl Block {
             }
             top += size * (LINE * lines_in_row as f64 + 0.25);
         }
-        Some(Self {
-            entries: placed,
+        Self {
+            entries,
             width: widest,
             height: top,
-        })
+            place: Place::Below(0.0),
+        }
+    }
+
+    /// What it covers of a plot.
+    pub(crate) fn covered(&self, plot: Rect) -> Option<Rect> {
+        let Place::Inside(found) = self.place else {
+            return None;
+        };
+        let (left, top) = (plot.left + found.left, plot.top + found.top);
+        Some(Rect::new(left, top, found.width(), found.height()))
+    }
+
+    /// Draws it around a plot.
+    pub(crate) fn draw(&self, scene: &mut Scene, plot: Rect, size: f64) {
+        if let Some(back) = self.covered(plot) {
+            let edge = Stroke::solid(Colour::new(0xcc_cc_cc), 0.8);
+            scene.shape(Shape::rectangle(back).filled(WHITE, 0.85).stroked(edge));
+        }
+        let (left, top) = match self.place {
+            Place::Inside(found) => (
+                plot.left + found.left + 0.5 * (found.width() - self.width),
+                plot.top + found.top + 0.5 * (found.height() - self.height),
+            ),
+            Place::Right(from) => (plot.right + from, plot.top),
+            Place::Below(from) => (plot.left, plot.bottom + from),
+        };
+        for entry in &self.entries {
+            let (x, mut line) = (left + entry.left, top + entry.top + size);
+            sample(scene, &entry.swatch, (x, line - 0.33 * size), size);
+            for text in &entry.lines {
+                let at = (x + SWATCH + 0.5 * size, line);
+                scene.text(Text::new(text, at, size, Anchor::Start));
+                line += LINE * size;
+            }
+        }
+    }
+}
+
+/// Names of a panel with their samples; a band and a line of the same name are one.
+fn named<'a>(plan: &PanelPlan<'a>) -> Vec<(&'a str, Swatch)> {
+    let mut found: Vec<(&str, Swatch)> = Vec::new();
+    let layers = plan.panel.layers.iter().zip(&plan.slots);
+    let all = layers.flat_map(|(layer, &slot)| layer.kind().swatches(slot));
+    for (name, swatch) in all.filter(|(name, _)| !name.is_empty()) {
+        let known = found.iter_mut().find(|(known, _)| *known == name);
+        match (known, swatch) {
+            (
+                Some((_, Swatch::Curve { line, band })),
+                Swatch::Curve {
+                    line: more,
+                    band: wider,
+                },
+            ) => {
+                *line = line.or(more);
+                *band = band.or(wider);
+            }
+            (None, swatch) | (Some(_), swatch @ Swatch::Fill(_)) => found.push((name, swatch)),
+            (Some(_), Swatch::Bars(_) | Swatch::Curve { .. }) => {}
+        }
+    }
+    found
+}
+
+/// Draws the sample of an entry, from a place at its left to the right.
+fn sample(scene: &mut Scene, swatch: &Swatch, (x, y): Point, size: f64) {
+    let patch = Rect::new(x + 2.0, y - 0.45 * size, SWATCH - 4.0, 0.9 * size);
+    match swatch {
+        Swatch::Fill(colour) => {
+            let edge = Stroke::solid(MARK, 0.8);
+            scene.shape(Shape::rectangle(patch).filled(*colour, 1.0).stroked(edge));
+        }
+        Swatch::Bars(look) => {
+            let bar = [
+                (patch.left, patch.bottom),
+                (patch.left, patch.top),
+                (patch.right, patch.top),
+                (patch.right, patch.bottom),
+            ];
+            Histogram::draw_outline(scene, &bar, look, patch.grown(2.0));
+        }
+        Swatch::Curve { line, band } => {
+            if let Some(colour) = *band {
+                scene.shape(Shape::rectangle(patch).filled(colour, Band::OPACITY));
+            }
+            if let Some(look) = line {
+                if look.line {
+                    scene.shape(Shape::polyline(&[(x, y), (x + SWATCH, y)], look.stroke));
+                }
+                look.mark(scene, (x + 0.5 * SWATCH, y));
+            }
+        }
     }
 }

@@ -1,58 +1,80 @@
-//! Labels of vertical lines, side by side above the panel.
+//! Vertical lines and their labels, side by side above the panel, placed and drawn.
 
-use super::typeface::Typeface;
-use crate::text::{Rich, wrap};
+use super::plan::PanelPlan;
+use crate::colour::{MARK, WHITE};
+use crate::geometry::{Frame, Rect};
+use crate::layers::{Layer, Mark};
+use crate::scene::{Anchor, Scene, Shape, Stroke, Text};
+use crate::text::{LINE, Rich, Typeface, wrap};
 
-/// A vertical line and its label.
+/// The label of a vertical line.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct PlacedMark {
+pub(crate) struct Label {
     /// The line, from the left side of the plot.
-    pub(crate) line: f64,
+    line: f64,
     /// Middle of the label.
-    pub(crate) centre: f64,
+    centre: f64,
     /// Row of the label, 0 the nearest to the plot.
-    pub(crate) row: usize,
+    row: usize,
     /// One line of text.
-    pub(crate) label: String,
+    text: String,
 }
 
-/// Labels over an axis of a width, in as few rows as hold them, none over another; and the number of rows.
+/// The vertical lines of a panel.
+fn lines<'a>(plan: &PanelPlan<'a>) -> impl Iterator<Item = &'a Mark> {
+    let interval = plan.x.interval;
+    plan.panel
+        .layers
+        .iter()
+        .filter_map(move |layer| match layer {
+            Layer::Mark(mark) if interval.contains(mark.x) => Some(mark),
+            _ => None,
+        })
+}
+
+/// Labels over a plot of a width, in as few rows as hold them, none over another; and the number of rows.
+pub(super) fn labels(plan: &PanelPlan<'_>, width: f64, faces: &Typeface) -> (Vec<Label>, usize) {
+    let frame = plan.frame(Rect::new(0.0, 0.0, width, 1.0));
+    let named = lines(plan).filter(|mark| !mark.label.trim().is_empty());
+    let mut found: Vec<(f64, &str)> = named
+        .map(|mark| (frame.across(mark.x), mark.label.as_str()))
+        .collect();
+    found.sort_by(|a, b| a.0.total_cmp(&b.0));
+    placed(&found, width, faces)
+}
+
+/// Labels of lines from the left side, rising.
 ///
-/// `marks` are lines from the left side, rising, with their labels. A label that has no room above its line is
-/// moved aside; one wider than the plot is broken, its lines one above the other.
-pub(crate) fn place_marks(
-    marks: &[(f64, String)],
-    width: f64,
-    faces: &Typeface,
-) -> (Vec<PlacedMark>, usize) {
+/// A label that has no room above its line is moved aside; one wider than the plot is broken, its lines one above
+/// the other.
+fn placed(marks: &[(f64, &str)], width: f64, faces: &Typeface) -> (Vec<Label>, usize) {
     let gap = 0.7 * faces.mark;
     let size = |label: &str| Rich::new(label).width(faces.mark) + gap;
-    if let Some((line, label)) = marks.iter().find(|(_, label)| size(label) > width) {
-        // too narrow for rows: one line of text after another
-        let _ = (line, label);
+    if marks.iter().any(|(_, label)| size(label) > width) {
         return stacked(marks, width - gap, faces);
     }
     let total: f64 = marks.iter().map(|(_, label)| size(label)).sum();
     let mut rows = ((total / width).ceil() as usize).max(usize::from(!marks.is_empty()));
-    loop {
-        let members = |row: usize| marks.iter().skip(row).step_by(rows);
-        let fits = |row: usize| members(row).map(|(_, l)| size(l)).sum::<f64>() <= width;
-        if (0..rows).all(fits) {
-            break;
-        }
+    let members = |row: usize, rows: usize| marks.iter().skip(row).step_by(rows);
+    let length = |row, rows| {
+        members(row, rows)
+            .map(|(_, label)| size(label))
+            .sum::<f64>()
+    };
+    while !(0..rows).all(|row| length(row, rows) <= width) {
         rows += 1;
     }
     let mut placed = Vec::with_capacity(marks.len());
     for row in 0..rows {
-        let members: Vec<&(f64, String)> = marks.iter().skip(row).step_by(rows).collect();
-        let widths: Vec<f64> = members.iter().map(|(_, label)| size(label)).collect();
-        let wishes: Vec<f64> = members.iter().map(|(line, _)| *line).collect();
-        for ((line, label), centre) in members.iter().zip(spread(&wishes, &widths, width)) {
-            placed.push(PlacedMark {
+        let widths: Vec<f64> = members(row, rows).map(|(_, label)| size(label)).collect();
+        let wishes: Vec<f64> = members(row, rows).map(|(line, _)| *line).collect();
+        let centres = spread(&wishes, &widths, width);
+        for ((line, label), centre) in members(row, rows).zip(centres) {
+            placed.push(Label {
                 line: *line,
                 centre,
                 row,
-                label: label.clone(),
+                text: (*label).to_owned(),
             });
         }
     }
@@ -60,20 +82,53 @@ pub(crate) fn place_marks(
 }
 
 /// One below the other, each broken to the width of the plot.
-fn stacked(marks: &[(f64, String)], width: f64, faces: &Typeface) -> (Vec<PlacedMark>, usize) {
+fn stacked(marks: &[(f64, &str)], width: f64, faces: &Typeface) -> (Vec<Label>, usize) {
     let mut placed = Vec::new();
     for (line, label) in marks.iter().rev() {
         for text in wrap(label, faces.mark, width).into_iter().rev() {
-            placed.push(PlacedMark {
+            placed.push(Label {
                 line: *line,
                 centre: 0.5 * width,
                 row: placed.len(),
-                label: text,
+                text,
             });
         }
     }
     let rows = placed.len();
     (placed, rows)
+}
+
+/// Draws the lines of a panel and their labels.
+pub(crate) fn draw(
+    scene: &mut Scene,
+    plan: &PanelPlan<'_>,
+    frame: &Frame,
+    labels: &[Label],
+    faces: &Typeface,
+) {
+    let area = frame.area;
+    for mark in lines(plan) {
+        let x = frame.across(mark.x);
+        let mut line = |stroke| {
+            let ends = [(x, area.bottom), (x, area.top)];
+            scene.shape(Shape::polyline(&ends, stroke));
+        };
+        if plan.is_filled() {
+            line(Stroke::solid(WHITE, 2.2));
+        }
+        line(Stroke::new(MARK, 1.0, &[3.0, 3.0]));
+    }
+    for label in labels {
+        let rise = faces.gap() + (label.row as f64 + 0.2) * LINE * faces.mark;
+        let at = (area.left + label.centre, area.top - rise);
+        scene.text(Text::new(&label.text, at, faces.mark, Anchor::Middle));
+        if label.row == 0 {
+            // from the line to its label, which may have moved aside
+            let from = (area.left + label.line, area.top);
+            let foot = (at.0, area.top - 0.8 * faces.gap());
+            scene.shape(Shape::polyline(&[from, foot], Stroke::solid(MARK, 1.0)));
+        }
+    }
 }
 
 /// Centres of boxes side by side, as near their wishes as they get, within 0 to `width`.
@@ -99,8 +154,7 @@ fn spread(wishes: &[f64], widths: &[f64], width: f64) -> Vec<f64> {
     let mut centres = Vec::with_capacity(wishes.len());
     for group in &groups {
         let mut at = left(group);
-        for _ in 0..group.0 {
-            let size = widths[centres.len()];
+        for size in &widths[centres.len()..][..group.0] {
             centres.push(at + 0.5 * size);
             at += size;
         }
@@ -112,9 +166,8 @@ fn spread(wishes: &[f64], widths: &[f64], width: f64) -> Vec<f64> {
 mod tests {
     use super::*;
 
-    fn boxes(marks: &[(f64, &str)], width: f64) -> (Vec<PlacedMark>, usize) {
-        let marks: Vec<(f64, String)> = marks.iter().map(|(x, l)| (*x, (*l).to_owned())).collect();
-        place_marks(&marks, width, &Typeface::new(12.0))
+    fn boxes(marks: &[(f64, &str)], width: f64) -> (Vec<Label>, usize) {
+        placed(marks, width, &Typeface::new(12.0))
     }
 
     #[test]
@@ -136,7 +189,7 @@ mod tests {
             let (placed, rows) = boxes(&near, width);
             assert!(rows >= 1);
             for (i, a) in placed.iter().enumerate() {
-                let half = |m: &PlacedMark| 0.5 * Rich::new(&m.label).width(0.95 * 12.0);
+                let half = |m: &Label| 0.5 * Rich::new(&m.text).width(0.95 * 12.0);
                 assert!(a.centre - half(a) > -1e-9 && a.centre + half(a) < width + 1e-9);
                 for b in &placed[..i] {
                     let apart = (a.centre - b.centre).abs() >= half(a) + half(b);

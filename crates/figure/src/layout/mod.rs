@@ -1,24 +1,16 @@
-//! Where everything is: ranges, ticks, legends and the areas of the panels.
+//! Where everything is, and the parts around a plot: axes, legends, colour bars, labels.
+//!
+//! `plan` has what is known of a panel without its size, `fit` what it needs around a plot of a size, `grid` the areas
+//! of all panels. A part (`axes`, `legend`, `bar`, `marks`, `points`) is fitted and drawn in its own file.
 
+mod axes;
 mod bar;
-mod columns;
 mod fit;
-mod frame;
 mod grid;
 mod legend;
-mod limits;
-mod looks;
-mod marks;
+pub(crate) mod marks;
 mod plan;
+pub(crate) mod points;
 mod room;
-mod typeface;
 
-pub(crate) use bar::BarFit;
-pub(crate) use columns::PAD;
-pub(crate) use frame::Frame;
-pub(crate) use grid::{Layout, Placed, lay_out};
-pub(crate) use legend::{Block, LegendPlace, Swatch};
-pub(crate) use looks::{Look, Marker, Slot, fills, look};
-pub(crate) use plan::{AxisPlan, Colours};
-pub(crate) use room::occupied;
-pub(crate) use typeface::{SWATCH, Typeface};
+pub(crate) use grid::{Layout, PAD, Placed, lay_out};

@@ -1,12 +1,9 @@
-//! From a scene to a file, one format a file.
+//! From a scene to a file, one format a file; `png` writes the frames of a GIF too.
 
-mod gif;
 mod pdf;
-mod pixels;
 mod png;
 mod svg;
 
-pub(crate) use gif::gif;
 pub(crate) use pdf::pdf;
-pub(crate) use png::png;
+pub(crate) use png::{gif, png};
 pub(crate) use svg::svg;

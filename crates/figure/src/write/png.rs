@@ -1,14 +1,14 @@
-//! PNG.
+//! Pixels: PNG, and GIF of several scenes.
 
-use super::pixels::{encode, pixels};
 use crate::colour::{BLACK, Colour, WHITE};
-use crate::error::RenderError;
+use crate::error::{FigureError, RenderError};
+use crate::font;
 use crate::geometry::Rect;
 use crate::scene::{Item, Picture, Scene, Segment, Shape, Text, Turn};
-use crate::text;
+use gif::{Encoder, Frame, Repeat};
 use tiny_skia::{
-    FillRule, FilterQuality, LineJoin, Mask, Paint, PathBuilder, Pattern, Pixmap, SpreadMode,
-    Stroke, StrokeDash, Transform,
+    ColorU8, FillRule, FilterQuality, LineJoin, Mask, Paint, PathBuilder, Pattern, Pixmap,
+    SpreadMode, Stroke, StrokeDash, Transform,
 };
 
 /// A scene at so many pixels for each of its own.
@@ -16,11 +16,16 @@ pub(crate) fn png(scene: &Scene, scale: f32) -> Result<Vec<u8>, RenderError> {
     encode(&rendered(scene, scale)?)
 }
 
-/// The pixels of a scene.
-pub(super) fn rendered(scene: &Scene, scale: f32) -> Result<Pixmap, RenderError> {
+/// Width and height in pixels.
+fn size(scene: &Scene, scale: f32) -> [u32; 2] {
     // a hundredth of a pixel more is none
-    let [width, height] =
-        [scene.width, scene.height].map(|side| (f64::from(scale) * (side - 0.005)).ceil() as u32);
+    let pixels = |side: f64| (f64::from(scale) * (side - 0.005)).ceil() as u32;
+    [scene.width, scene.height].map(pixels)
+}
+
+/// The pixels of a scene.
+fn rendered(scene: &Scene, scale: f32) -> Result<Pixmap, RenderError> {
+    let [width, height] = size(scene, scale);
     let map = Pixmap::new(width, height).ok_or(RenderError::Pixels { width, height })?;
     let mut canvas = Canvas {
         map,
@@ -35,6 +40,54 @@ pub(super) fn rendered(scene: &Scene, scale: f32) -> Result<Pixmap, RenderError>
         }
     }
     Ok(canvas.map)
+}
+
+/// How long it takes to find the colours of a frame: 1 is the best, 30 the fastest.
+const SPEED: i32 = 10;
+
+/// The frames as a GIF that repeats, each `frame_s` long, to the hundredth.
+pub(crate) fn gif(scenes: &[Scene], scale: f32, frame_s: f64) -> Result<Vec<u8>, RenderError> {
+    let fault = |error: gif::EncodingError| RenderError::Gif(error.to_string());
+    let side = |pixels: u32| {
+        u16::try_from(pixels)
+            .map_err(|_| RenderError::Gif(format!("{pixels} pixels is more than 65535")))
+    };
+    let first = size(scenes.first().ok_or(FigureError::NoPanels)?, scale);
+    let (width, height) = (side(first[0])?, side(first[1])?);
+    let mut encoder = Encoder::new(Vec::new(), width, height, &[]).map_err(fault)?;
+    encoder.set_repeat(Repeat::Infinite).map_err(fault)?;
+    for scene in scenes {
+        if size(scene, scale) != first {
+            let fault = "its frames are not of one size";
+            return Err(RenderError::Gif(fault.to_owned()));
+        }
+        // the page is white throughout: no pixel is transparent
+        let mut rgba = rendered(scene, scale)?.take();
+        let mut frame = Frame::from_rgba_speed(width, height, &mut rgba, SPEED);
+        frame.delay = (100.0 * frame_s).round().clamp(2.0, 6000.0) as u16;
+        encoder.write_frame(&frame).map_err(fault)?;
+    }
+    let bytes = encoder.into_inner();
+    bytes.map_err(|error| RenderError::Gif(error.to_string()))
+}
+
+/// A picture's pixels, transparent where nothing is to be seen.
+pub(super) fn pixels(picture: &Picture) -> Result<Pixmap, RenderError> {
+    let (width, height) = (picture.columns, picture.rows);
+    let mut map = Pixmap::new(width, height).ok_or(RenderError::Pixels { width, height })?;
+    for (to, from) in map.pixels_mut().iter_mut().zip(&picture.pixels) {
+        *to = match from {
+            Some(c) => ColorU8::from_rgba(c.red, c.green, c.blue, 255).premultiply(),
+            None => ColorU8::from_rgba(0, 0, 0, 0).premultiply(),
+        };
+    }
+    Ok(map)
+}
+
+/// Pixels as PNG.
+pub(super) fn encode(map: &Pixmap) -> Result<Vec<u8>, RenderError> {
+    map.encode_png()
+        .map_err(|error| RenderError::Png(error.to_string()))
 }
 
 struct Canvas {
@@ -127,7 +180,7 @@ impl Canvas {
                 Turn::Upward => Transform::from_translate(x, y).pre_rotate(-90.0),
             };
             let place = self.place.pre_concat(turned);
-            let Some(letters) = text::outline(part.text, part.size) else {
+            let Some(letters) = font::outline(part.text, part.size) else {
                 continue;
             };
             if text.rim {

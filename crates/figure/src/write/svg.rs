@@ -1,24 +1,31 @@
 //! SVG.
 
-use super::pixels::{encode, pixels};
+use super::png::{encode, pixels};
 use crate::error::RenderError;
+use crate::font::FAMILY;
 use crate::geometry::Rect;
 use crate::scene::{Item, Picture, Scene, Segment, Shape, Text, Turn};
-use crate::text::FAMILY;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use svg::Document;
 use svg::node::element::{ClipPath, Definitions, Group, Image, Path, Rectangle, Text as Label};
+use svg::{Document, Node};
 
 /// Writes a scene.
 ///
 /// Every text says how long it is, so that a viewer without the font keeps it in its place.
 pub(crate) fn svg(scene: &Scene) -> Result<String, RenderError> {
-    let clips = clips(scene);
+    // the different areas outside of which something is not drawn
+    let mut clips: Vec<Rect> = Vec::new();
     let mut definitions = Definitions::new();
-    for (i, clip) in clips.iter().enumerate() {
-        let area = rectangle(clip);
-        definitions = definitions.add(ClipPath::new().set("id", format!("plot{i}")).add(area));
+    for item in &scene.items {
+        if let Item::Shape(shape) = item
+            && let Some(area) = shape.clip
+            && !clips.contains(&area)
+        {
+            let clip = ClipPath::new().set("id", format!("plot{}", clips.len()));
+            definitions = definitions.add(clip.add(placed(Rectangle::new(), area)));
+            clips.push(area);
+        }
     }
     let (width, height) = (number(scene.width), number(scene.height));
     let mut document = Document::new()
@@ -40,27 +47,21 @@ pub(crate) fn svg(scene: &Scene) -> Result<String, RenderError> {
     Ok(document.to_string())
 }
 
-/// The different areas outside of which something is not drawn.
-fn clips(scene: &Scene) -> Vec<Rect> {
-    let mut found = Vec::new();
-    for item in &scene.items {
-        if let Item::Shape(Shape {
-            clip: Some(area), ..
-        }) = item
-            && !found.contains(area)
-        {
-            found.push(*area);
-        }
+/// An element with numbers to a hundredth of a pixel.
+fn with_numbers<N: Node, const M: usize>(mut node: N, numbers: [(&str, f64); M]) -> N {
+    for (name, value) in numbers {
+        node.assign(name, number(value));
     }
-    found
+    node
 }
 
-fn rectangle(area: &Rect) -> Rectangle {
-    Rectangle::new()
-        .set("x", number(area.left))
-        .set("y", number(area.top))
-        .set("width", number(area.width()))
-        .set("height", number(area.height()))
+/// An element that covers an area.
+fn placed<N: Node>(node: N, area: Rect) -> N {
+    let size = [("width", area.width()), ("height", area.height())];
+    with_numbers(
+        with_numbers(node, [("x", area.left), ("y", area.top)]),
+        size,
+    )
 }
 
 fn path(shape: &Shape, clips: &[Rect]) -> Path {
@@ -82,9 +83,7 @@ fn path(shape: &Shape, clips: &[Rect]) -> Path {
             path = path.set("stroke-dasharray", dashes.join(" "));
         }
     }
-    let clip = shape
-        .clip
-        .and_then(|area| clips.iter().position(|c| *c == area));
+    let clip = clips.iter().position(|area| shape.clip == Some(*area));
     match clip {
         Some(i) => path.set("clip-path", format!("url(#plot{i})")),
         None => path,
@@ -108,17 +107,10 @@ fn outline(segments: &[Segment]) -> String {
 
 fn image(picture: &Picture) -> Result<Image, RenderError> {
     let png = encode(&pixels(picture)?)?;
-    let area = picture.area;
-    Ok(Image::new()
-        .set("x", number(area.left))
-        .set("y", number(area.top))
-        .set("width", number(area.width()))
-        .set("height", number(area.height()))
+    let data = format!("data:image/png;base64,{}", STANDARD.encode(png));
+    Ok(placed(Image::new(), picture.area)
         .set("preserveAspectRatio", "none")
-        .set(
-            "href",
-            format!("data:image/png;base64,{}", STANDARD.encode(png)),
-        ))
+        .set("href", data))
 }
 
 /// A text, its raised and lowered parts each on its own.
@@ -133,18 +125,14 @@ fn label(text: &Text) -> Group {
     }
     for part in text.parts() {
         let (x, y) = part.start;
-        let mut label = Label::new(part.text)
-            .set("x", number(x))
-            .set("y", number(y))
-            .set("font-size", number(part.size))
-            .set("textLength", number(part.width))
+        let lengths = [("font-size", part.size), ("textLength", part.width)];
+        let label = with_numbers(Label::new(part.text), [("x", x), ("y", y)]);
+        let mut label = with_numbers(label, lengths)
             .set("lengthAdjust", "spacingAndGlyphs")
             .set("fill", "#111111");
         if text.turn == Turn::Upward {
-            label = label.set(
-                "transform",
-                format!("rotate(-90 {} {})", number(x), number(y)),
-            );
+            let turn = format!("rotate(-90 {} {})", number(x), number(y));
+            label = label.set("transform", turn);
         }
         group = group.add(label);
     }

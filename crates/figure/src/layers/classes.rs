@@ -1,0 +1,95 @@
+//! A map of a few classes.
+
+use super::{Kind, Plot, Swatch, count};
+use crate::axis::Interval;
+use crate::error::FigureError;
+use crate::geometry::{Point, Rect};
+use crate::look::{Slot, fills};
+use crate::scene::{Scene, Shape};
+
+/// A few classes on a regular grid of cells that fills the panel, at most five.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Classes {
+    /// Cells along x and y.
+    pub shape: [usize; 2],
+    /// Class of each cell from the low end of both axes, x runs fastest.
+    pub class: Vec<usize>,
+    /// Names of the classes, from light to dark.
+    pub names: Vec<String>,
+}
+
+impl Classes {
+    /// The class of each cell from its centre.
+    pub fn of(
+        [x, y]: [Interval; 2],
+        shape: [usize; 2],
+        names: &[&str],
+        mut class: impl FnMut(f64, f64) -> usize,
+    ) -> Self {
+        let xs = x.cells(shape[0]);
+        let mut classes = Vec::with_capacity(shape[0] * shape[1]);
+        for y in y.cells(shape[1]) {
+            classes.extend(xs.iter().map(|&x| class(x, y)));
+        }
+        Self {
+            shape,
+            class: classes,
+            names: names.iter().map(|&name| name.to_owned()).collect(),
+        }
+    }
+}
+
+impl Kind for Classes {
+    fn check(&self, panel: usize) -> Result<(), FigureError> {
+        let [columns, rows] = self.shape;
+        count(panel, "cells of classes", columns * rows, self.class.len())
+    }
+
+    /// None: they fill whatever the panel shows.
+    fn places(&self) -> Vec<Point> {
+        Vec::new()
+    }
+
+    fn fills(&self) -> bool {
+        true
+    }
+
+    fn swatches(&self, _: Slot) -> Vec<(&str, Swatch)> {
+        let fills = fills(self.names.len()).map(Swatch::Fill);
+        self.names.iter().map(String::as_str).zip(fills).collect()
+    }
+
+    /// One shape a class, each over the lighter ones: it covers the cells of its own class and of all darker ones, so
+    /// that no background shines through where two classes meet.
+    fn draw(&self, scene: &mut Scene, plot: &Plot<'_>, _: Slot) {
+        let [columns, rows] = self.shape;
+        if columns == 0 || rows == 0 {
+            return;
+        }
+        let area = plot.frame.area;
+        let (width, height) = (area.width() / columns as f64, area.height() / rows as f64);
+        for (least, colour) in fills(self.names.len()).enumerate() {
+            let mut shape = Shape::default();
+            for (row, cells) in self.class.chunks(columns).enumerate() {
+                let bottom = area.bottom - height * row as f64;
+                let mut start = 0;
+                for run in cells.chunk_by(|&a, &b| (a >= least) == (b >= least)) {
+                    if run[0] >= least {
+                        let left = area.left + width * start as f64;
+                        let cells = Rect {
+                            left,
+                            top: bottom - height,
+                            right: left + width * run.len() as f64,
+                            bottom,
+                        };
+                        shape.segments.extend(Shape::rectangle(cells).segments);
+                    }
+                    start += run.len();
+                }
+            }
+            if !shape.segments.is_empty() {
+                scene.shape(shape.filled(colour, 1.0));
+            }
+        }
+    }
+}

@@ -1,0 +1,209 @@
+//! How curves and classes look: colours, dashes and markers that differ in more than hue.
+
+use crate::colour::{BLACK, Colour, WHITE};
+use crate::geometry::Point;
+use crate::scene::{Scene, Shape, Stroke};
+
+/// How a curve is drawn.
+///
+/// Colour, dash and marker follow from the order in which names first appear in the figure: curves of the same
+/// name look the same in all panels, and curves of different names differ in more than colour.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Style {
+    /// Line with markers, coloured.
+    Marked,
+    /// Line, coloured and dashed by turns.
+    Plain,
+    /// Markers alone.
+    Points,
+    /// Heavy black line: a boundary given by theory.
+    Heavy,
+    /// Heavy black dashed line.
+    HeavyDashed,
+    /// Black dotted line.
+    Dotted,
+    /// Small black dots: a region given by theory.
+    Dots,
+    /// Black line with a white rim, readable over an image: a wave front.
+    Rimmed,
+    /// The same, dashed.
+    RimmedDashed,
+}
+
+/// Colours of curves; neighbours differ in lightness as well as in hue.
+const COLOURS: [u32; 10] = [
+    0x0b_53_94, 0xc1_27_2d, 0xe6_9f_00, 0x1b_7f_5c, 0x7a_3b_9a, 0x56_b4_e9, 0xb5_89_6f, 0x7f_7f_7f,
+    0xd5_5e_8e, 0x3b_3b_00,
+];
+
+const DASHES: [&[f64]; 5] = [
+    &[],
+    &[8.0, 3.0],
+    &[2.0, 3.0],
+    &[10.0, 3.0, 2.0, 3.0],
+    &[5.0, 2.0],
+];
+
+/// Fills of classes, from light to dark, by their number.
+const FILLS: [&[u32]; 5] = [
+    &[0xff_ff_ff],
+    &[0xf4_f6_f8, 0x82_99_ad],
+    &[0xf7_f8_f9, 0xbc_ca_d6, 0x70_8a_a1],
+    &[0xf7_f8_f9, 0xc9_d4_dd, 0x8e_a4_b7, 0x4c_63_77],
+    &[0xf7_f8_f9, 0xd3_dc_e4, 0xa9_ba_c9, 0x70_89_a0, 0x3d_52_65],
+];
+
+/// Fills of so many classes.
+pub(crate) fn fills(classes: usize) -> impl Iterator<Item = Colour> {
+    let fills = FILLS[classes.clamp(1, FILLS.len()) - 1];
+    fills.iter().map(|&hex| Colour::new(hex))
+}
+
+/// Numbers of a name that has a colour.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) struct Slot {
+    /// In the figure, by order of first appearance: colour and marker.
+    pub(crate) figure: usize,
+    /// The least number that no other name has in any panel where it appears: its dash, so that the first curve
+    /// of a panel is a whole line.
+    pub(crate) panel: usize,
+}
+
+/// What a curve is drawn with.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Look {
+    pub(crate) stroke: Stroke,
+    pub(crate) line: bool,
+    pub(crate) marker: Marker,
+    /// Whether it has a white rim.
+    pub(crate) rim: bool,
+}
+
+/// What is drawn at the points of a curve.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Marker {
+    None,
+    /// A small dot.
+    Dot,
+    /// The n-th symbol.
+    Symbol(usize),
+}
+
+impl Look {
+    /// The look of a name in a style.
+    pub(crate) fn new(slot: Slot, style: Style) -> Self {
+        let line = |colour, width, dash| Self {
+            stroke: Stroke::new(colour, width, dash),
+            line: true,
+            marker: Marker::None,
+            rim: false,
+        };
+        let colour = Colour::new(COLOURS[slot.figure % COLOURS.len()]);
+        let marked = Self {
+            marker: Marker::Symbol(slot.figure),
+            ..line(colour, 1.6, &[])
+        };
+        let rimmed = |dash| Self {
+            rim: true,
+            ..line(BLACK, 1.4, dash)
+        };
+        match style {
+            Style::Marked => marked,
+            Style::Plain => line(colour, 1.6, DASHES[slot.panel % DASHES.len()]),
+            Style::Points => Self {
+                line: false,
+                ..marked
+            },
+            Style::Heavy => line(BLACK, 2.6, &[]),
+            Style::HeavyDashed => line(BLACK, 2.2, &[9.0, 5.0]),
+            Style::Dotted => line(BLACK, 2.2, &[2.0, 4.0]),
+            Style::Dots => Self {
+                line: false,
+                marker: Marker::Dot,
+                ..line(BLACK, 2.2, &[])
+            },
+            Style::Rimmed => rimmed(&[]),
+            Style::RimmedDashed => rimmed(&[6.0, 4.0]),
+        }
+    }
+
+    /// Draws its marker at a point.
+    pub(crate) fn mark(&self, scene: &mut Scene, at: Point) {
+        let colour = self.stroke.colour;
+        match self.marker {
+            Marker::None => {}
+            Marker::Dot => scene.shape(Shape::circle(at, 1.6).filled(colour, 1.0)),
+            Marker::Symbol(index) => {
+                // every other round of symbols is filled
+                let is_open = (index / SYMBOLS).is_multiple_of(2);
+                let fill = if is_open { WHITE } else { colour };
+                symbol(scene, index % SYMBOLS, at, 4.2, [colour, fill]);
+            }
+        }
+    }
+}
+
+/// Symbols before they come again, filled; the last is a star.
+const SYMBOLS: usize = 7;
+
+/// Draws a star of half a width.
+pub(crate) fn star(scene: &mut Scene, at: Point, size: f64) {
+    symbol(scene, SYMBOLS - 1, at, size, [BLACK, WHITE]);
+}
+
+/// Draws a symbol of half a width, with the colours of its outline and of its inside.
+fn symbol(scene: &mut Scene, index: usize, (x, y): Point, size: f64, [edge, fill]: [Colour; 2]) {
+    let at = |(dx, dy): Point| (x + dx * size, y + dy * size);
+    let polygon = |corners: &[Point]| {
+        let corners = corners.iter().copied().map(at);
+        Shape::polygon(&corners.collect::<Vec<_>>())
+    };
+    let shape = match index {
+        0 => Shape::circle((x, y), 0.95 * size),
+        1 => polygon(&[(-0.9, -0.9), (0.9, -0.9), (0.9, 0.9), (-0.9, 0.9)]),
+        2 => polygon(&[(0.0, -1.2), (1.1, 0.8), (-1.1, 0.8)]),
+        3 => polygon(&[(0.0, -1.3), (1.0, 0.0), (0.0, 1.3), (-1.0, 0.0)]),
+        4 => polygon(&[(0.0, 1.2), (1.1, -0.8), (-1.1, -0.8)]),
+        5 => Shape::lines(
+            [[(-1.0, -1.0), (1.0, 1.0)], [(-1.0, 1.0), (1.0, -1.0)]].map(|ends| ends.map(at)),
+        ),
+        _ => {
+            let corner = |i: usize| {
+                let angle = std::f64::consts::PI * (i as f64 / 5.0 - 0.5);
+                let radius = if i.is_multiple_of(2) { 1.3 } else { 0.55 };
+                (radius * angle.cos(), radius * angle.sin())
+            };
+            polygon(&(0..10).map(corner).collect::<Vec<_>>())
+        }
+    };
+    scene.shape(shape.stroked(Stroke::solid(edge, 1.5)).filled(fill, 1.0));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn curves_differ_in_grey() {
+        let nth = |n: usize, style: Style| {
+            let slot = Slot {
+                figure: n,
+                panel: n,
+            };
+            Look::new(slot, style)
+        };
+        for i in 0..COLOURS.len() {
+            for k in 0..i {
+                let (a, b) = (nth(i, Style::Plain).stroke, nth(k, Style::Plain).stroke);
+                let apart = (a.colour.luminance() - b.colour.luminance()).abs();
+                assert!(a.dash != b.dash || apart > 0.02, "{i} and {k}: {apart}");
+                assert_ne!(nth(i, Style::Marked).marker, nth(k, Style::Marked).marker);
+            }
+        }
+        // classes grow darker
+        for classes in 1..=FILLS.len() {
+            let light: Vec<f64> = fills(classes).map(Colour::luminance).collect();
+            assert!(light.windows(2).all(|pair| pair[1] < 0.8 * pair[0]));
+        }
+    }
+}

@@ -1,0 +1,250 @@
+//! Text whose size is known before it is drawn: lines with raised and lowered parts, numbers, sizes.
+//!
+//! Labels may hold raised and lowered parts: `10^{-6}`, `r_{0}/c_{1}`. Everything else stands for itself.
+
+use crate::font;
+
+/// Height of a line of text over the height of its letters.
+pub(crate) const LINE: f64 = 1.25;
+
+/// A part of a line, at one size and height.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Run {
+    pub(crate) text: String,
+    /// Size over that of the line.
+    pub(crate) size: f64,
+    /// How far it is raised over the line's size; lowered where negative.
+    pub(crate) rise: f64,
+}
+
+impl Run {
+    /// Width over the size of the line.
+    fn width(&self) -> f64 {
+        self.size * font::width(&self.text)
+    }
+}
+
+/// A line of text.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Rich(pub(crate) Vec<Run>);
+
+const SMALL: f64 = 0.72;
+const RAISED: f64 = 0.38;
+const LOWERED: f64 = -0.16;
+
+impl Rich {
+    /// Reads `^{...}` as raised and `_{...}` as lowered; a brace that is not closed stands for itself.
+    pub(crate) fn new(markup: &str) -> Self {
+        let mut runs: Vec<Run> = Vec::new();
+        let mut push = |text: &str, size: f64, rise: f64| {
+            if !text.is_empty() {
+                runs.push(Run {
+                    text: text.to_owned(),
+                    size,
+                    rise,
+                });
+            }
+        };
+        let mut rest = markup;
+        let mut from = 0;
+        while let Some(at) = rest[from..].find(['^', '_']).map(|i| from + i) {
+            let part = rest[at + 1..]
+                .strip_prefix('{')
+                .and_then(|inner| inner.split_once('}'));
+            let Some((inner, after)) = part else {
+                from = at + 1;
+                continue;
+            };
+            push(&rest[..at], 1.0, 0.0);
+            let rise = if rest[at..].starts_with('^') {
+                RAISED
+            } else {
+                LOWERED
+            };
+            push(inner, SMALL, rise);
+            (rest, from) = (after, 0);
+        }
+        push(rest, 1.0, 0.0);
+        Self(runs)
+    }
+
+    /// Width in pixels at a size.
+    pub(crate) fn width(&self, size: f64) -> f64 {
+        size * self.0.iter().map(Run::width).sum::<f64>()
+    }
+
+    /// Top above the line and bottom below it over the size, for the letters of the font.
+    pub(crate) fn extent(&self) -> (f64, f64) {
+        let runs = self.0.iter();
+        runs.fold((0.0, 0.0), |(top, bottom): (f64, f64), run| {
+            (
+                top.max(run.rise + run.size * font::ASCENT),
+                bottom.max(run.size * font::DESCENT - run.rise),
+            )
+        })
+    }
+}
+
+/// Lines no wider than `width` pixels at a size, broken between words; a word that is too wide alone is broken
+/// between letters, unless parts of it are raised or lowered.
+pub(crate) fn wrap(text: &str, size: f64, width: f64) -> Vec<String> {
+    let fits = |line: &str| Rich::new(line).width(size) <= width;
+    let mut lines = Vec::new();
+    let mut line = String::new();
+    for word in text.split_whitespace() {
+        let longer = format!("{line} {word}").trim_start().to_owned();
+        if fits(&longer) {
+            line = longer;
+            continue;
+        }
+        if !line.is_empty() {
+            lines.push(std::mem::take(&mut line));
+        }
+        if fits(word) || word.contains('{') {
+            word.clone_into(&mut line);
+            continue;
+        }
+        for letter in word.chars() {
+            line.push(letter);
+            if !fits(&line) && line.chars().count() > 1 {
+                line.pop();
+                lines.push(std::mem::replace(&mut line, letter.to_string()));
+            }
+        }
+    }
+    if !line.is_empty() {
+        lines.push(line);
+    }
+    lines
+}
+
+/// A sign that is as wide as a plus.
+const MINUS: &str = "\u{2212}";
+
+/// A number with so many decimal places.
+pub(crate) fn decimal(value: f64, places: usize) -> String {
+    let text = format!("{value:.places$}");
+    match text.strip_prefix('-') {
+        // no minus zero
+        Some(digits) if digits.chars().all(|c| c == '0' || c == '.') => digits.to_owned(),
+        Some(digits) => format!("{MINUS}{digits}"),
+        None => text,
+    }
+}
+
+/// A factor times a power of ten: `10^{-6}`, `2·10^{3}`.
+pub(crate) fn power_of_ten(factor: u32, exponent: i32) -> String {
+    let sign = if exponent < 0 { MINUS } else { "" };
+    let power = format!("10^{{{sign}{}}}", exponent.abs());
+    match factor {
+        1 => power,
+        factor => format!("{factor}\u{b7}{power}"),
+    }
+}
+
+/// Sizes of all texts, from that at the ticks.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Typeface {
+    pub(crate) tick: f64,
+    pub(crate) label: f64,
+    pub(crate) legend: f64,
+    pub(crate) mark: f64,
+    pub(crate) panel: f64,
+    pub(crate) subtitle: f64,
+    pub(crate) title: f64,
+}
+
+impl Typeface {
+    pub(crate) fn new(tick: f64) -> Self {
+        Self {
+            tick,
+            label: 1.15 * tick,
+            legend: 1.04 * tick,
+            mark: 0.95 * tick,
+            panel: 1.15 * tick,
+            subtitle: 1.1 * tick,
+            title: 1.4 * tick,
+        }
+    }
+
+    /// Height of so many lines of a size.
+    pub(crate) fn lines(size: f64, count: usize) -> f64 {
+        LINE * size * count as f64
+    }
+
+    /// Length of a tick with a label.
+    pub(crate) fn tick_length(&self) -> f64 {
+        0.42 * self.tick
+    }
+
+    /// Length of a tick without one.
+    pub(crate) fn minor_length(&self) -> f64 {
+        0.23 * self.tick
+    }
+
+    /// A small distance.
+    pub(crate) fn gap(&self) -> f64 {
+        0.5 * self.tick
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn texts(markup: &str) -> Vec<String> {
+        Rich::new(markup)
+            .0
+            .into_iter()
+            .map(|run| run.text)
+            .collect()
+    }
+
+    #[test]
+    fn parts_are_raised_and_lowered() {
+        let rich = Rich::new("time [r_{0}/c_{1}]");
+        assert_eq!(
+            texts("time [r_{0}/c_{1}]"),
+            ["time [r", "0", "/c", "1", "]"]
+        );
+        assert!(rich.0[1].rise < 0.0 && rich.0[2].rise == 0.0);
+        assert!(Rich::new("10^{-6}").0[1].rise > 0.0);
+        assert!(Rich::new("10^{-6}").extent().0 > Rich::new("10").extent().0);
+    }
+
+    #[test]
+    fn everything_else_stands_for_itself() {
+        for text in ["|xi|^3 ln|xi|", "a_b", "open ^{", "", "^", "x^{2"] {
+            assert_eq!(texts(text).concat(), text);
+        }
+        assert_eq!(texts("a^2 b^{3}"), ["a^2 b", "3"]);
+    }
+
+    #[test]
+    fn long_names_are_broken_between_words() {
+        let name = "wave implicit, step halved to tolerance, and then some more";
+        let lines = wrap(name, 12.0, 150.0);
+        assert!(lines.len() > 2);
+        assert!(lines.iter().all(|l| Rich::new(l).width(12.0) <= 150.0));
+        assert_eq!(lines.join(" "), name);
+        assert!(wrap("  ", 12.0, 50.0).is_empty());
+    }
+
+    #[test]
+    fn a_word_that_is_too_long_is_broken_too() {
+        let lines = wrap("incompressibility of it", 12.0, 40.0);
+        assert!(lines.iter().all(|l| Rich::new(l).width(12.0) <= 40.0));
+        assert!(lines.len() >= 3);
+        assert_eq!(lines.concat().replace(' ', ""), "incompressibilityofit");
+        assert_eq!(wrap("x^{22}", 12.0, 1.0), ["x^{22}"]);
+    }
+
+    #[test]
+    fn signs_are_wide_and_zero_has_none() {
+        assert_eq!(decimal(-1.25, 2), "\u{2212}1.25");
+        assert_eq!(decimal(-1e-9, 1), "0.0");
+        assert_eq!(decimal(3.0, 0), "3");
+        assert_eq!(power_of_ten(1, -6), "10^{\u{2212}6}");
+        assert_eq!(power_of_ten(5, 3), "5\u{b7}10^{3}");
+    }
+}

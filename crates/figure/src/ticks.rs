@@ -1,0 +1,376 @@
+//! Ticks: round values whose labels fit beside one another, in a suitable multiple of the unit.
+
+use crate::axis::{Interval, Scale, Unit};
+use crate::text::{LINE, decimal, power_of_ten};
+
+/// A tick with a label, as markup.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Tick {
+    pub(crate) value: f64,
+    pub(crate) label: String,
+}
+
+/// Ticks of an axis.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct Ticks {
+    /// Those with labels.
+    pub(crate) major: Vec<Tick>,
+    /// Shorter ones between them.
+    pub(crate) minor: Vec<f64>,
+}
+
+impl Ticks {
+    /// Ticks over an interval whose labels are values over `factor`.
+    pub(crate) fn new(interval: &Interval, factor: f64, room: &Room<'_>) -> Self {
+        match interval.scale {
+            Scale::Linear => linear(interval, factor, room),
+            Scale::Logarithmic => logarithmic(interval, factor, room),
+        }
+    }
+}
+
+/// How much room ticks have.
+pub(crate) struct Room<'a> {
+    /// Length of the axis in pixels.
+    pub(crate) length: f64,
+    /// Wished distance of two labels in pixels.
+    pub(crate) distance: f64,
+    /// Pixels that a label needs along the axis, with a gap.
+    pub(crate) needs: Box<dyn Fn(&str) -> f64 + 'a>,
+}
+
+impl Room<'_> {
+    /// For labels above one another, of a size.
+    pub(crate) fn of_lines(length: f64, distance: f64, size: f64) -> Self {
+        Self {
+            length,
+            distance,
+            needs: Box::new(move |_| LINE * size),
+        }
+    }
+
+    /// The first candidate whose labels fit beside one another, with what belongs to it; without one the coarsest
+    /// with a single label.
+    fn first_that_fits<T>(
+        &self,
+        interval: &Interval,
+        candidates: impl Iterator<Item = (Vec<Tick>, T)>,
+    ) -> Option<(Vec<Tick>, T)> {
+        let fits = |ticks: &[Tick]| {
+            ticks.windows(2).all(|pair| {
+                let distance = interval.fraction(pair[1].value) - interval.fraction(pair[0].value);
+                let needed = 0.5 * ((self.needs)(&pair[0].label) + (self.needs)(&pair[1].label));
+                distance.abs() * self.length >= needed
+            })
+        };
+        let mut coarsest = None;
+        for candidate in candidates {
+            if fits(&candidate.0) {
+                return Some(candidate);
+            }
+            coarsest = Some(candidate);
+        }
+        let (mut major, rest) = coarsest?;
+        major.truncate(1);
+        Some((major, rest))
+    }
+}
+
+/// Ticks at multiples of 1, 2 or 5 times a power of ten: the finest that fit at about the wished distance.
+fn linear(interval: &Interval, factor: f64, room: &Room<'_>) -> Ticks {
+    /// Steps tried, from a tenth of the wished distance on, which is never wanted.
+    const TRIED: usize = 24;
+    let (low, high) = (interval.low / factor, interval.high / factor);
+    let wished = (high - low) * room.distance / room.length;
+    let exponent = wished.log10().floor() as i32 - 1;
+    let steps = (0..TRIED).map(|i| {
+        let (digit, parts) = [(1.0, 5), (2.0, 4), (5.0, 5)][i % 3];
+        let exponent = exponent + (i / 3) as i32;
+        (exponent, digit * 10.0_f64.powi(exponent), parts)
+    });
+    let candidates = steps
+        .filter(|(_, step, _)| *step >= 0.72 * wished)
+        .map(|(exponent, step, parts)| {
+            let places = usize::try_from(-exponent).unwrap_or(0);
+            let tick = |shown| Tick {
+                value: shown * factor,
+                label: decimal(shown, places),
+            };
+            let major: Vec<Tick> = multiples(low, high, step).map(tick).collect();
+            (major, (step, parts))
+        })
+        .take_while(|(major, _)| !major.is_empty());
+    let Some((major, (step, parts))) = room.first_that_fits(interval, candidates) else {
+        return Ticks::default();
+    };
+    let minor = minor(low, high, step, parts);
+    Ticks {
+        major,
+        minor: minor.map(|shown| shown * factor).collect(),
+    }
+}
+
+/// Multiples of a step from `low` to `high`, the ends included up to rounding.
+fn multiples(low: f64, high: f64, step: f64) -> impl Iterator<Item = f64> {
+    let first = (low / step - 1e-9).ceil();
+    let count = (high / step + 1e-9).floor() - first;
+    (0..=count.clamp(-1.0, 1e4) as i64).map(move |i| (first + i as f64) * step)
+}
+
+fn minor(low: f64, high: f64, step: f64, parts: u32) -> impl Iterator<Item = f64> {
+    let fine = step / f64::from(parts);
+    multiples(low, high, fine).filter(move |value| {
+        let place = value / step;
+        (place - place.round()).abs() * f64::from(parts) > 0.5
+    })
+}
+
+/// Ticks at powers of ten, and at multiples of them where there are few.
+fn logarithmic(interval: &Interval, factor: f64, room: &Room<'_>) -> Ticks {
+    let (low, high) = (interval.low / factor, interval.high / factor);
+    let decades = (high / low).log10();
+    if decades < 0.5 {
+        // hardly bent: equal differences
+        return linear(interval, factor, room);
+    }
+    let first = (low.log10() - 1e-9).floor() as i32;
+    let last = (high.log10() + 1e-9).ceil() as i32;
+    let inside = |value: f64| interval.contains(value * factor);
+    // plain numbers where all are short
+    let plain = low > 0.9e-3 && high < 1.1e4;
+    let tick = |digit: u32, exponent: i32| Tick {
+        value: f64::from(digit) * ten(exponent) * factor,
+        label: if plain {
+            let places = usize::try_from(-exponent).unwrap_or(0);
+            decimal(f64::from(digit) * ten(exponent), places)
+        } else {
+            power_of_ten(digit, exponent)
+        },
+    };
+    let at = |(digits, stride): (&[u32], i32)| {
+        let major: Vec<Tick> = (first..=last)
+            .filter(|exponent| exponent.rem_euclid(stride) == 0)
+            .flat_map(|exponent| digits.iter().map(move |&d| (d, exponent)))
+            .map(|(digit, exponent)| tick(digit, exponent))
+            .filter(|t| inside(t.value / factor))
+            .collect();
+        (major, stride)
+    };
+    let dense: &[&[u32]] = &[&[1, 2, 3, 5], &[1, 2, 5], &[1, 3]];
+    let dense = dense.iter().filter(|_| decades < 2.5);
+    let candidates = dense
+        .map(|digits| (*digits, 1))
+        .chain((1..=last - first + 1).map(|stride| (&[1_u32][..], stride)))
+        .map(at)
+        .filter(|(major, _)| !major.is_empty());
+    let found = room.first_that_fits(interval, candidates);
+    let (major, stride) = found.unwrap_or((Vec::new(), 1));
+    let labelled = |value: f64| major.iter().any(|t| (t.value / value - 1.0).abs() < 1e-6);
+    // multiples where a decade is long enough, the decades themselves where labels skip some
+    let fine = room.length / decades >= 40.0 && stride == 1;
+    let digits = if fine { 1..=9 } else { 1..=1 };
+    let minor = (first..=last)
+        .flat_map(|exponent| digits.clone().map(move |d| f64::from(d) * ten(exponent)))
+        .filter(|&value| inside(value) && !labelled(value * factor))
+        .map(|value| value * factor)
+        .collect();
+    Ticks { major, minor }
+}
+
+/// A power of ten to the last bit.
+fn ten(exponent: i32) -> f64 {
+    format!("1e{exponent}").parse().unwrap_or(f64::NAN)
+}
+
+/// SI prefixes from 1e-24 to 1e24, a thousand apart.
+const PREFIXES: [&str; 17] = [
+    "y", "z", "a", "f", "p", "n", "\u{b5}", "m", "", "k", "M", "G", "T", "P", "E", "Z", "Y",
+];
+
+/// Label and factor of the multiple of a unit that suits the values of an interval: values are shown over the factor.
+///
+/// A unit of the SI takes a prefix and any other one a power of ten, so that the largest value has one to three
+/// digits before the point; values from 0.1 on keep the unit itself unless they are lengths, and so does a logarithmic axis.
+pub(crate) fn shown(quantity: &str, unit: &Unit, interval: &Interval) -> (String, f64) {
+    let largest = interval.low.abs().max(interval.high.abs());
+    let exponent = match interval.scale {
+        Scale::Linear if largest > 0.0 => largest.log10().floor() as i32,
+        Scale::Linear | Scale::Logarithmic => 0,
+    };
+    let thousands = 3 * exponent.div_euclid(3);
+    let (exponent, unit) = match unit {
+        Unit::Si(unit) => {
+            // tenths are read as they are, but for lengths: 120 mm
+            let is_tenth = exponent == -1 && unit != "m";
+            let exponent = if is_tenth {
+                0
+            } else {
+                thousands.clamp(-24, 24)
+            };
+            let prefix = PREFIXES[((exponent + 24) / 3) as usize];
+            (exponent, format!("{prefix}{unit}"))
+        }
+        Unit::One | Unit::Fixed(_) => {
+            let exponent = if (-3..5).contains(&exponent) {
+                0
+            } else {
+                thousands
+            };
+            let power = if exponent == 0 {
+                String::new()
+            } else {
+                power_of_ten(1, exponent)
+            };
+            let unit = match unit {
+                Unit::Fixed(unit) | Unit::Si(unit) => unit,
+                Unit::One => "",
+            };
+            (exponent, format!("{power} {unit}").trim().to_owned())
+        }
+    };
+    let unit = if unit.is_empty() {
+        unit
+    } else {
+        format!(" [{unit}]")
+    };
+    let label = format!("{quantity}{unit}").trim_start().to_owned();
+    (label, 10.0_f64.powi(exponent))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn found(interval: &Interval, factor: f64, length: f64) -> Ticks {
+        let needs = |label: &str| 6.0 * label.chars().count() as f64 + 8.0;
+        let room = Room {
+            length,
+            distance: 70.0,
+            needs: Box::new(needs),
+        };
+        Ticks::new(interval, factor, &room)
+    }
+
+    fn labels(low: f64, high: f64, factor: f64, length: f64) -> Vec<String> {
+        let found = found(&Interval::linear(low, high), factor, length);
+        found.major.into_iter().map(|t| t.label).collect()
+    }
+
+    #[test]
+    fn labels_are_round_and_have_equal_places() {
+        assert_eq!(
+            labels(0.0, 2.0, 1.0, 300.0),
+            ["0.0", "0.5", "1.0", "1.5", "2.0"]
+        );
+        assert_eq!(
+            labels(-3e-6, 3.1e-6, 1e-6, 300.0).first().unwrap(),
+            "\u{2212}2"
+        );
+        assert_eq!(labels(0.98, 0.9804, 1.0, 300.0)[1], "0.9801");
+        assert_eq!(labels(0.0, 1e5, 1.0, 400.0).last().unwrap(), "100000");
+    }
+
+    #[test]
+    fn short_axes_have_few_labels_and_never_too_many() {
+        for length in [20.0, 60.0, 200.0, 1000.0, 4000.0] {
+            for (low, high) in [(0.0, 1.0), (-1e-3, 7e-3), (1e6, 1e6 + 3.0), (-2.0, 999.0)] {
+                let found = labels(low, high, 1.0, length);
+                assert!(
+                    found.len() as f64 <= 1.0 + length / 22.0,
+                    "{length}: {found:?}"
+                );
+                assert!(
+                    length < 200.0 || found.len() >= 2,
+                    "{length} {low}: {found:?}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn minor_ticks_lie_between_the_major_ones() {
+        let found: Vec<f64> = minor(0.0, 2.0, 1.0, 5).collect();
+        assert_eq!(found.len(), 8);
+        assert!(found.iter().all(|v| (v - v.round()).abs() > 0.1));
+    }
+
+    #[test]
+    fn ticks_are_round_inside_and_two_at_least() {
+        for (low, high) in [
+            (1e-16, 10.0),
+            (1.0, 100.0),
+            (3.0, 1e6),
+            (0.4, 30.0),
+            (1e-3, 0.2),
+            (30.0, 45.0),
+            (1e-150, 1e150),
+        ] {
+            let interval = Interval::logarithmic(low, high);
+            let found = found(&interval, 1.0, 500.0);
+            assert!(
+                (2..=12).contains(&found.major.len()),
+                "{low} {high}: {found:?}"
+            );
+            let all = found.major.iter().map(|t| &t.value).chain(&found.minor);
+            assert!(all.clone().all(|&v| interval.contains(v)));
+        }
+    }
+
+    #[test]
+    fn plain_numbers_where_all_are_short() {
+        let labels: Vec<String> = found(&Interval::logarithmic(0.01, 100.0), 1.0, 500.0)
+            .major
+            .into_iter()
+            .map(|t| t.label)
+            .collect();
+        assert_eq!(labels, ["0.01", "0.1", "1", "10", "100"]);
+        assert_eq!(
+            found(&Interval::logarithmic(1e-9, 1.0), 1.0, 900.0).major[0].label,
+            "10^{\u{2212}9}"
+        );
+    }
+
+    #[test]
+    fn multiples_are_minor_ticks() {
+        let ticks = found(&Interval::logarithmic(1e-3, 1e3), 1.0, 400.0);
+        assert_eq!(ticks.major.len(), 7);
+        assert_eq!(ticks.minor.len(), 48);
+        // too narrow for them: at least the decades without label
+        let narrow = found(&Interval::logarithmic(1e-16, 1e4), 1.0, 200.0);
+        assert_eq!(narrow.major.len() + narrow.minor.len(), 21);
+    }
+
+    #[test]
+    fn units_of_the_si_take_prefixes() {
+        let si = |unit: &str, high: f64| {
+            shown(
+                "x",
+                &Unit::Si(unit.to_owned()),
+                &Interval::linear(0.0, high),
+            )
+        };
+        assert_eq!(si("s", 4e-5).0, "x [\u{b5}s]");
+        assert_eq!(si("N", 38_200.0).0, "x [kN]");
+        assert_eq!(si("m/s", 0.5).0, "x [m/s]");
+        assert_eq!(si("m", 0.12).0, "x [mm]");
+        assert_eq!(si("Pa", 2.1e11).1, 1e9);
+        assert_eq!(si("Pa", 0.0).1, 1.0);
+        // a logarithmic axis has powers of ten already
+        let long = Interval::logarithmic(1e-9, 1e-3);
+        assert_eq!(shown("t", &Unit::Si("s".to_owned()), &long).0, "t [s]");
+    }
+
+    #[test]
+    fn other_units_take_powers_of_ten_where_needed() {
+        let fixed = Unit::Fixed("r0".to_owned());
+        assert_eq!(shown("u", &fixed, &Interval::linear(0.0, 20.0)).0, "u [r0]");
+        let small = shown("u", &fixed, &Interval::linear(-2e-5, 1e-5));
+        assert_eq!(small.0, "u [10^{\u{2212}6} r0]");
+        assert_eq!(small.1, 1e-6);
+        assert_eq!(
+            shown("n", &Unit::One, &Interval::linear(0.0, 2e6)).0,
+            "n [10^{6}]"
+        );
+        assert_eq!(shown("n", &Unit::One, &Interval::linear(0.0, 12.0)).0, "n");
+    }
+}

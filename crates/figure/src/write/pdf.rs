@@ -1,0 +1,283 @@
+//! PDF: one page, shapes as shapes and text as text in an embedded font.
+
+use crate::colour::{BLACK, Colour, WHITE};
+use crate::error::RenderError;
+use crate::font;
+use crate::scene::{Item, Picture, Scene, Segment, Shape, Text, Turn};
+use miniz_oxide::deflate::compress_to_vec_zlib;
+use pdf_writer::types::{
+    CidFontType, FontFlags, LineJoinStyle, SystemInfo, TextRenderingMode, UnicodeCmap,
+};
+use pdf_writer::{Content, Filter, Finish, Name, Pdf, Rect, Ref, Str};
+use std::collections::BTreeMap;
+use subsetter::GlyphRemapper;
+
+/// Points over pixels: 96 pixels and 72 points are an inch.
+const POINT: f32 = 0.75;
+
+/// Name of the font in the page's resources.
+const FONT: Name<'_> = Name(b"F");
+
+/// Marked as a part of a font by the six letters that the format asks for.
+const FONT_NAME: Name<'_> = Name(b"FIGURE+Ubuntu-Light");
+
+const SYSTEM: SystemInfo<'_> = SystemInfo {
+    registry: Str(b"Adobe"),
+    ordering: Str(b"Identity"),
+    supplement: 0,
+};
+
+/// Writes a scene.
+pub(crate) fn pdf(scene: &Scene) -> Result<Vec<u8>, RenderError> {
+    let mut next = 0;
+    let mut new = || {
+        next += 1;
+        Ref::new(next)
+    };
+    let (catalog, tree, page, content) = (new(), new(), new(), new());
+    let subset = Subset::of(scene)?;
+    let font = new();
+    let font_parts = [new(), new(), new(), new()];
+    let mut pictures: Vec<(Ref, &Picture)> = Vec::new();
+    let mut opacities: Vec<f64> = Vec::new();
+    for item in &scene.items {
+        match item {
+            Item::Picture(picture) => pictures.push((new(), picture)),
+            Item::Shape(shape) => {
+                let opacity = shape.fill.map_or(1.0, |fill| fill.opacity);
+                if opacity < 1.0 && !opacities.contains(&opacity) {
+                    opacities.push(opacity);
+                }
+            }
+            Item::Text(_) => {}
+        }
+    }
+    let mut pdf = Pdf::new();
+    pdf.catalog(catalog).pages(tree);
+    pdf.pages(tree).kids([page]).count(1);
+    let (width, height) = (scene.width as f32, scene.height as f32);
+    let mut sheet = pdf.page(page);
+    sheet.media_box(Rect::new(0.0, 0.0, POINT * width, POINT * height));
+    sheet.parent(tree);
+    sheet.contents(content);
+    let mut resources = sheet.resources();
+    resources.fonts().pair(FONT, font);
+    let mut objects = resources.x_objects();
+    for (i, (id, _)) in pictures.iter().enumerate() {
+        objects.pair(Name(picture_name(i).as_bytes()), *id);
+    }
+    objects.finish();
+    let mut states = resources.ext_g_states();
+    for opacity in opacities {
+        let mut state = states.insert(Name(state_name(opacity).as_bytes())).dict();
+        state.pair(Name(b"ca"), opacity as f32);
+        state.finish();
+    }
+    states.finish();
+    resources.finish();
+    sheet.finish();
+
+    let mut painted = Content::new();
+    // pixels from the upper left corner
+    painted.transform([POINT, 0.0, 0.0, -POINT, 0.0, POINT * height]);
+    paint(&mut painted, scene, &subset);
+    let stream = compressed(&painted.finish());
+    pdf.stream(content, &stream).filter(Filter::FlateDecode);
+    subset.write(&mut pdf, font, font_parts);
+    for (id, picture) in pictures {
+        write_picture(&mut pdf, id, picture);
+    }
+    Ok(pdf.finish())
+}
+
+fn compressed(bytes: &[u8]) -> Vec<u8> {
+    compress_to_vec_zlib(bytes, 6)
+}
+
+/// Name of the n-th picture.
+fn picture_name(n: usize) -> String {
+    format!("I{n}")
+}
+
+/// Name of the state with an opacity.
+fn state_name(opacity: f64) -> String {
+    format!("G{:.0}", 1000.0 * opacity)
+}
+
+/// The pixels of a picture; white where there is nothing.
+fn write_picture(pdf: &mut Pdf, id: Ref, picture: &Picture) {
+    let colours = picture.pixels.iter().map(|pixel| pixel.unwrap_or(WHITE));
+    let bytes: Vec<u8> = colours.flat_map(|c| [c.red, c.green, c.blue]).collect();
+    let stream = compressed(&bytes);
+    let mut image = pdf.image_xobject(id, &stream);
+    image.filter(Filter::FlateDecode);
+    image.width(picture.columns.cast_signed());
+    image.height(picture.rows.cast_signed());
+    image.color_space().device_rgb();
+    image.bits_per_component(8);
+    image.finish();
+}
+
+/// The letters of the font that a scene uses, embedded.
+struct Subset {
+    file: Vec<u8>,
+    /// Number of each letter in the part, and its width over the font's size.
+    letters: BTreeMap<char, (u16, f64)>,
+}
+
+impl Subset {
+    fn of(scene: &Scene) -> Result<Self, RenderError> {
+        let mut remapper = GlyphRemapper::new();
+        let mut letters = BTreeMap::new();
+        for item in &scene.items {
+            if let Item::Text(text) = item {
+                for letter in text.plain().chars() {
+                    let glyph = font::glyph(letter);
+                    let new = remapper.remap(glyph.0);
+                    letters.insert(letter, (new, font::glyph_width(glyph)));
+                }
+            }
+        }
+        let file = subsetter::subset(font::data(), 0, &remapper)
+            .map_err(|error| RenderError::Font(error.to_string()))?;
+        Ok(Self { file, letters })
+    }
+
+    /// A text as numbers of letters, two bytes each.
+    fn encode(&self, text: &str) -> Vec<u8> {
+        let number = |letter| self.letters.get(&letter).map_or(0, |l| l.0);
+        text.chars()
+            .map(number)
+            .flat_map(u16::to_be_bytes)
+            .collect()
+    }
+
+    fn write(&self, pdf: &mut Pdf, id: Ref, [cid, descriptor, map, file]: [Ref; 4]) {
+        pdf.type0_font(id)
+            .base_font(FONT_NAME)
+            .encoding_predefined(Name(b"Identity-H"))
+            .descendant_font(cid)
+            .to_unicode(map);
+        let mut part = pdf.cid_font(cid);
+        part.subtype(CidFontType::Type2);
+        part.base_font(FONT_NAME);
+        part.system_info(SYSTEM);
+        part.font_descriptor(descriptor);
+        part.default_width(0.0);
+        part.cid_to_gid_map_predefined(Name(b"Identity"));
+        let mut widths = part.widths();
+        for &(number, width) in self.letters.values() {
+            widths.same(number, number, (1000.0 * width) as f32);
+        }
+        widths.finish();
+        part.finish();
+        pdf.font_descriptor(descriptor)
+            .name(FONT_NAME)
+            .flags(FontFlags::SYMBOLIC)
+            .bbox(Rect::new(-200.0, -250.0, 2000.0, 1000.0))
+            .italic_angle(0.0)
+            .ascent((1000.0 * font::ASCENT) as f32)
+            .descent((-1000.0 * font::DESCENT) as f32)
+            .cap_height(693.0)
+            .stem_v(60.0)
+            .font_file2(file);
+        let mut codes = UnicodeCmap::new(Name(b"Letters"), SYSTEM);
+        for (&letter, &(number, _)) in &self.letters {
+            codes.pair(number, letter);
+        }
+        let codes = compressed(&codes.finish());
+        pdf.cmap(map, &codes).filter(Filter::FlateDecode);
+        let data = compressed(&self.file);
+        pdf.stream(file, &data).filter(Filter::FlateDecode);
+    }
+}
+
+/// Paints everything, in pixels from the upper left corner.
+fn paint(content: &mut Content, scene: &Scene, font: &Subset) {
+    let mut pictures = 0;
+    for item in &scene.items {
+        content.save_state();
+        match item {
+            Item::Shape(shape) => draw_shape(content, shape),
+            Item::Picture(Picture { area, .. }) => {
+                // a picture stands on its lower side in a unit square
+                let (width, height) = (area.width() as f32, area.height() as f32);
+                let place = [area.left as f32, area.bottom as f32];
+                content.transform([width, 0.0, 0.0, -height, place[0], place[1]]);
+                content.x_object(Name(picture_name(pictures).as_bytes()));
+                pictures += 1;
+            }
+            Item::Text(text) => draw_text(content, text, font),
+        }
+        content.restore_state();
+    }
+}
+
+fn rgb(colour: Colour) -> [f32; 3] {
+    [colour.red, colour.green, colour.blue].map(|c| f32::from(c) / 255.0)
+}
+
+fn draw_shape(content: &mut Content, shape: &Shape) {
+    if let Some(area) = shape.clip {
+        let corner = [area.left, area.top, area.width(), area.height()];
+        let [left, top, width, height] = corner.map(|x| x as f32);
+        content.rect(left, top, width, height);
+        content.clip_nonzero().end_path();
+    }
+    if let Some(fill) = shape.fill {
+        let [r, g, b] = rgb(fill.colour);
+        content.set_fill_rgb(r, g, b);
+        if fill.opacity < 1.0 {
+            content.set_parameters(Name(state_name(fill.opacity).as_bytes()));
+        }
+    }
+    if let Some(stroke) = shape.stroke {
+        let [r, g, b] = rgb(stroke.colour);
+        content.set_stroke_rgb(r, g, b);
+        content.set_line_width(stroke.width as f32);
+        content.set_line_join(LineJoinStyle::RoundJoin);
+        content.set_dash_pattern(stroke.dash.iter().map(|&d| d as f32), 0.0);
+    }
+    for segment in &shape.segments {
+        match *segment {
+            Segment::Move(x, y) => content.move_to(x as f32, y as f32),
+            Segment::Line(x, y) => content.line_to(x as f32, y as f32),
+            Segment::Curve(points) => {
+                let [a, b, c, d, e, f] = points.map(|p| p as f32);
+                content.cubic_to(a, b, c, d, e, f)
+            }
+            Segment::Close => content.close_path(),
+        };
+    }
+    match (shape.fill, shape.stroke) {
+        (Some(_), Some(_)) => content.fill_nonzero_and_stroke(),
+        (Some(_), None) => content.fill_nonzero(),
+        (None, Some(_)) => content.stroke(),
+        (None, None) => content.end_path(),
+    };
+}
+
+fn draw_text(content: &mut Content, text: &Text, font: &Subset) {
+    let [r, g, b] = rgb(BLACK);
+    content.set_fill_rgb(r, g, b);
+    let [r, g, b] = rgb(WHITE);
+    content.set_stroke_rgb(r, g, b);
+    content.set_line_width(3.0);
+    content.set_line_join(LineJoinStyle::RoundJoin);
+    // the rim below, then the letters
+    let rim = text.rim.then_some(TextRenderingMode::Stroke);
+    for pass in rim.into_iter().chain([TextRenderingMode::Fill]) {
+        content.begin_text();
+        content.set_text_rendering_mode(pass);
+        for part in text.parts() {
+            content.set_font(FONT, part.size as f32);
+            let (x, y) = (part.start.0 as f32, part.start.1 as f32);
+            content.set_text_matrix(match text.turn {
+                Turn::Level => [1.0, 0.0, 0.0, -1.0, x, y],
+                Turn::Upward => [0.0, -1.0, -1.0, 0.0, x, y],
+            });
+            content.show(Str(&font.encode(part.text)));
+        }
+        content.end_text();
+    }
+}

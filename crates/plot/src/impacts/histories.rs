@@ -1,0 +1,239 @@
+//! Panels over time: the contact, and what happens at the probes.
+
+use crate::error::{PlotError, chosen};
+use crate::series::{curve, end_s, waves_of};
+use crate::words::{component, of_quantity, with_unit};
+use contact::{Model, Settings};
+use figure::{Axis, Legend, Panel, Style};
+use formats::stored::{StoredImpact, StoredProbes, StoredQuantity};
+use impact::Impact;
+
+/// Probes that are shown beside a contact.
+pub(super) const FEW: usize = 3;
+
+/// An empty panel over time.
+fn over_time(quantity: &str, unit: &str, end_s: f64, legend: Legend) -> Panel {
+    let time = Axis::linear("time").si("s").range(0.0, end_s);
+    Panel::new(time, Axis::linear(quantity).si(unit))
+        .height(210.0)
+        .legend(legend)
+}
+
+/// Panels of the contacts, one curve an impact; a single one has Hertz's force beside its own.
+pub(super) fn contact_panels(
+    impacts: &[StoredImpact],
+    labels: &[String],
+) -> Result<Vec<Panel>, PlotError> {
+    let ends = impacts.iter().map(|impact| {
+        let series = &impact.series;
+        end_s(&series.time_s, &series.force_n)
+    });
+    let end_s = 1.1 * ends.fold(0.0, f64::max);
+    let single = match impacts {
+        [only] => Some(only),
+        _ => None,
+    };
+    // several impacts have the same colours in all panels, and one legend
+    let legend = single.map_or(Legend::Off, |_| Legend::Auto);
+    let empty = |quantity, unit| over_time(quantity, unit, end_s, legend);
+    let with_all = |mut panel: Panel, name, samples: fn(&StoredImpact) -> Option<&Vec<f64>>| {
+        for (impact, label) in impacts.iter().zip(labels) {
+            if let Some(samples) = samples(impact) {
+                let name = single.map_or(label.as_str(), |_| name);
+                let points = curve(&impact.series.time_s, samples, end_s);
+                panel = panel.line(name, Style::Plain, points);
+            }
+        }
+        panel
+    };
+    let force = empty("force", "N").legend(Legend::Auto);
+    let mut force = with_all(force, "contact force", |i| Some(&i.series.force_n));
+    let displacement = match single {
+        Some(_) => empty("displacement", "m"),
+        None => empty("displacement of the striker", "m"),
+    };
+    let mut displacement = with_all(displacement, "striker", |i| {
+        Some(&i.series.striker.as_ref()?.displacement_m)
+    });
+    let velocity = with_all(empty("velocity of the striker", "m/s"), "", |i| {
+        Some(&i.series.striker.as_ref()?.velocity_m_s)
+    });
+    let has_striker = !velocity.layers.is_empty();
+    if let Some(only) = single {
+        if let Some(hertz) = hertz(only, end_s) {
+            force = force.line("Hertz, without waves", Style::Plain, hertz);
+        }
+        let (speeds, start_s) = waves_of(only)?;
+        // of the faces of the block, where they are known
+        if let Some(echo_s) = speeds.first_echo_s(&only.scene.target, [0.0; 2], 0.0) {
+            force = force.mark(start_s + echo_s, "first echo");
+        }
+        let points = curve(&only.series.time_s, &only.series.deflection_m, end_s);
+        displacement = displacement.line(deflection_name(only), Style::Plain, points);
+    }
+    let mut panels = vec![force];
+    if has_striker || single.is_some() {
+        panels.push(displacement);
+    }
+    if single.is_none() {
+        let deflection = empty("deflection of the half-space", "m");
+        panels.push(with_all(deflection, "", |i| Some(&i.series.deflection_m)));
+    }
+    if has_striker {
+        panels.push(velocity);
+    }
+    Ok(panels)
+}
+
+/// What the deflection of a file is: Hertz's law may hold the static part of it.
+fn deflection_name(impact: &StoredImpact) -> &'static str {
+    match (impact.model.as_str(), impact.static_share.as_str()) {
+        ("prescribed", _) => "disc",
+        ("hertz" | "radiation" | "growing", _) | (_, "dynamic") => "half-space, dynamic part",
+        _ => "half-space",
+    }
+}
+
+/// Hertz's force for the same bodies: no waves and no disc. None where the file is it, or has no striker.
+fn hertz(impact: &StoredImpact, end_s: f64) -> Option<Vec<(f64, f64)>> {
+    const POINTS: u32 = 400;
+    let strike = impact.scene.strike.as_ref()?;
+    if impact.model == "hertz" {
+        return None;
+    }
+    let target = impact.scene.target.clone();
+    let mut alone = Impact::new(target, strike.striker.clone(), strike.velocity_m_s);
+    alone.settings = Settings {
+        model: Model::Hertz,
+        ..Settings::default()
+    };
+    let run = alone.solve().ok()?;
+    let time = |i: u32| end_s * f64::from(i) / f64::from(POINTS);
+    let points = (0..=POINTS).map(|i| (time(i), run.excitation().force_n(time(i))));
+    Some(points.collect())
+}
+
+/// One panel a probe of the first file, `most` at most, and how many there is no panel of; other files add their
+/// traces at the same place.
+///
+/// Without names of quantities both displacements of a single file are shown, and the axial one of several.
+pub(super) fn probe_panels(
+    impacts: &[StoredImpact],
+    labels: &[String],
+    quantities: &[String],
+    most: usize,
+) -> Result<(Vec<Panel>, usize), PlotError> {
+    let mut files = Vec::new();
+    for (impact, label) in impacts.iter().zip(labels) {
+        if let Some(probes) = impact.probes()? {
+            files.push((impact, label, probes));
+        }
+    }
+    let Some((first, _, probes)) = files.first() else {
+        return Ok((Vec::new(), 0));
+    };
+    let known = probes.quantities();
+    let shown = match (quantities, files.len()) {
+        ([], 1) => chosen(first.path(), &known, &["displacement_z", "displacement_r"])?,
+        ([], _) => chosen(first.path(), &known, &["displacement_z"])?,
+        (given, _) => chosen(first.path(), &known, given)?,
+    };
+    // one axis has one unit
+    let mut by_unit: Vec<Vec<&StoredQuantity>> = Vec::new();
+    for quantity in &shown {
+        match by_unit.iter_mut().find(|of| of[0].unit == quantity.unit) {
+            Some(of_unit) => of_unit.push(quantity),
+            None => by_unit.push(vec![quantity]),
+        }
+    }
+    let count = probes.r_m.len().min(most);
+    let mut panels = Vec::new();
+    for of_unit in &by_unit {
+        for probe in 0..count {
+            let place = [probes.r_m[probe], probes.z_m[probe]];
+            // beside a contact its legend says which impact is which
+            let is_told =
+                files.len() > 1 && of_unit.len() == 1 && (most == FEW || !panels.is_empty());
+            let legend = if is_told { Legend::Off } else { Legend::Auto };
+            let mut panel = probe_panel(first, place, of_unit, legend)?;
+            for (impact, label, other) in &files {
+                let at = |i: &usize| [other.r_m[*i], other.z_m[*i]] == place;
+                if let Some(found) = (0..other.r_m.len()).find(at) {
+                    let label = (files.len() > 1).then_some(label.as_str());
+                    panel = with_traces(panel, impact, other, found, of_unit, label)?;
+                }
+            }
+            panels.push(panel);
+        }
+    }
+    Ok((panels, probes.r_m.len() - count))
+}
+
+/// A panel of a place with its arrivals.
+fn probe_panel(
+    impact: &StoredImpact,
+    [r_m, z_m]: [f64; 2],
+    shown: &[&StoredQuantity],
+    legend: Legend,
+) -> Result<Panel, PlotError> {
+    let quantity = match shown {
+        [single] => of_quantity(&single.name),
+        // "displacement" of `displacement_z`
+        several => several[0].name.split('_').take(1).collect(),
+    };
+    let last_s = impact.series.time_s[impact.series.time_s.len() - 1];
+    let mut panel = over_time(&quantity, &shown[0].unit, last_s, legend).title(&place(r_m, z_m));
+    let (speeds, start_s) = waves_of(impact)?;
+    let radius_m = impact.number("disc_radius_m").unwrap_or(0.0);
+    let arrivals_s = speeds.arrivals_s(r_m, z_m, radius_m);
+    for (name, arrival_s) in ["P", "S", "R"].into_iter().zip(arrivals_s) {
+        if arrival_s > 0.0 && arrival_s.is_finite() {
+            panel = panel.mark(start_s + arrival_s, name);
+        }
+    }
+    if let Some(echo_s) = speeds.first_echo_s(&impact.scene.target, [r_m, z_m], radius_m) {
+        panel = panel.mark(start_s + echo_s, "valid until the echo");
+    }
+    Ok(panel)
+}
+
+/// Where a probe is.
+fn place(r_m: f64, z_m: f64) -> String {
+    let (r, z) = (with_unit(r_m, "m"), with_unit(z_m, "m"));
+    match (r_m > 0.0, z_m > 0.0) {
+        (false, false) => "at the centre of the contact".to_owned(),
+        (true, false) => format!("on the surface, r = {r}"),
+        (false, true) => format!("on the axis, z = {z}"),
+        (true, true) => format!("r = {r}, z = {z}"),
+    }
+}
+
+/// A panel with the traces of a file at a probe.
+fn with_traces(
+    mut panel: Panel,
+    impact: &StoredImpact,
+    probes: &StoredProbes,
+    probe: usize,
+    shown: &[&StoredQuantity],
+    label: Option<&str>,
+) -> Result<Panel, PlotError> {
+    for quantity in shown {
+        let name = match (label, shown.len()) {
+            (None, _) => component(&quantity.name),
+            (Some(label), 1) => label.to_owned(),
+            (Some(label), _) => format!("{}, {label}", component(&quantity.name)),
+        };
+        let samples = probes.trace(&quantity.name, probe)?;
+        if shown.len() > 1 && samples.iter().all(|&x| x == 0.0) {
+            // on the axis, where nothing is radial
+            continue;
+        }
+        let points = curve(&impact.series.time_s, &samples, f64::INFINITY);
+        if let Some(error) = probes.error(&quantity.name, probe) {
+            let band = points.iter().map(|&(t, y)| (t, y - error, y + error));
+            panel = panel.band(&name, band.collect());
+        }
+        panel = panel.line(&name, Style::Plain, points);
+    }
+    Ok(panel)
+}

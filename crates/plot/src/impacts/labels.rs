@@ -1,0 +1,121 @@
+//! What several impacts are called: by what differs between their scenes.
+
+use crate::words::{of_key, stem, with_unit};
+use formats::stored::{StoredImpact, StoredValue};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Most keys that a label names.
+const MOST_KEYS: usize = 3;
+
+/// Keys of a scene with their values.
+type Keys = BTreeMap<String, StoredValue>;
+
+/// One label an impact.
+pub(super) fn labels(impacts: &[StoredImpact]) -> Vec<String> {
+    let keys = |impact: &StoredImpact| {
+        let mut keys: Keys = impact.scene.keys().into_iter().collect();
+        // what was computed, rather than "auto"
+        let model = StoredValue::Text(impact.model.clone());
+        keys.insert("contact.model".to_owned(), model);
+        keys
+    };
+    let scenes: Vec<Keys> = impacts.iter().map(keys).collect();
+    let stems = || impacts.iter().map(|impact| stem(impact.path())).collect();
+    by_difference(&scenes).unwrap_or_else(stems)
+}
+
+/// Labels from the keys that differ; none where there are none, too many, or two scenes get the same.
+fn by_difference(scenes: &[Keys]) -> Option<Vec<String>> {
+    let mut keys: BTreeSet<&String> = scenes.iter().flatten().map(|(key, _)| key).collect();
+    keys.retain(|&key| {
+        scenes
+            .iter()
+            .any(|scene| scene.get(key) != scenes[0].get(key))
+    });
+    let named = keys.iter().filter_map(|key| key.strip_suffix(".material"));
+    let named: Vec<&str> = named.collect();
+    keys.retain(|key| !named.iter().any(|section| is_of_material(key, section)));
+    if keys.is_empty() || keys.len() > MOST_KEYS {
+        return None;
+    }
+    let label = |scene: &Keys| {
+        let parts = keys.iter().map(|&key| {
+            let (name, unit) = of_key(key);
+            match scene.get(key) {
+                Some(StoredValue::Text(text)) if key == "target.material" => {
+                    format!("on {text}")
+                }
+                Some(StoredValue::Text(text)) if key == "striker.material" => {
+                    format!("{text} striker")
+                }
+                Some(StoredValue::Number(x)) => format!("{name} {}", with_unit(*x, unit)),
+                Some(StoredValue::Text(text)) => format!("{name} {}", text.replace('_', " ")),
+                None => format!("no {name}"),
+            }
+        });
+        parts.collect::<Vec<_>>().join(", ")
+    };
+    let labels: Vec<String> = scenes.iter().map(label).collect();
+    let different: BTreeSet<&String> = labels.iter().collect();
+    let is_told = different.len() == labels.len();
+    is_told.then_some(labels)
+}
+
+/// Whether a key is a number of the material of a section, which its name says.
+fn is_of_material(key: &str, section: &str) -> bool {
+    const NUMBERS: [&str; 5] = ["modulus", "poisson", "density", "strength", "toughness"];
+    let key = key
+        .strip_prefix(section)
+        .and_then(|key| key.strip_prefix('.'));
+    key.is_some_and(|key| NUMBERS.iter().any(|number| key.contains(number)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn scene(velocity: f64, model: &str) -> Keys {
+        Keys::from([
+            ("striker.mass_kg".into(), StoredValue::Number(3.3e-5)),
+            ("striker.velocity_m_s".into(), StoredValue::Number(velocity)),
+            ("contact.model".into(), StoredValue::Text(model.into())),
+        ])
+    }
+
+    #[test]
+    fn labels_say_what_differs() {
+        let found = by_difference(&[scene(1.0, "hertz"), scene(2.5, "hertz")]);
+        assert_eq!(
+            found,
+            Some(vec!["velocity 1 m/s".into(), "velocity 2.5 m/s".into()])
+        );
+        let found = by_difference(&[scene(1.0, "hertz"), scene(1.0, "quasi_static")]);
+        assert_eq!(
+            found,
+            Some(vec!["model hertz".into(), "model quasi static".into()])
+        );
+        assert_eq!(
+            by_difference(&[scene(1.0, "hertz"), scene(1.0, "hertz")]),
+            None
+        );
+        // three scenes of which two are the same
+        let same = [
+            scene(1.0, "hertz"),
+            scene(1.0, "hertz"),
+            scene(2.0, "hertz"),
+        ];
+        assert_eq!(by_difference(&same), None);
+        let of = |material: &str, modulus: f64| {
+            let mut scene = scene(1.0, "hertz");
+            let text = StoredValue::Text(material.into());
+            scene.insert("target.material".into(), text);
+            let modulus = StoredValue::Number(modulus);
+            scene.insert("target.youngs_modulus_pa".into(), modulus);
+            scene
+        };
+        assert_eq!(
+            by_difference(&[of("granite", 5.5e10), of("steel", 2.1e11)]),
+            Some(vec!["on granite".into(), "on steel".into()])
+        );
+    }
+}

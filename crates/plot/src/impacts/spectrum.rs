@@ -1,0 +1,203 @@
+//! The amplitude spectrum of a force.
+
+use crate::error::PlotError;
+use crate::words::with_unit;
+use figure::{Axis, LabelledPoint, Layer, Panel, Style};
+use formats::stored::StoredImpact;
+use std::f64::consts::PI;
+
+/// Frequencies of a spectrum.
+const FREQUENCIES: usize = 1200;
+
+/// Samples that a spectrum is taken from, at most.
+const MOST_SAMPLES: usize = 20_000;
+
+/// Spectra of forces, one curve an impact; a single one with its corner frequency and its zeros.
+pub(super) fn spectrum(impacts: &[StoredImpact], labels: &[String]) -> Result<Panel, PlotError> {
+    let mut panel = Panel::new(
+        Axis::logarithmic("frequency").si("Hz"),
+        Axis::logarithmic("amplitude of the force").si("N s"),
+    )
+    .height(380.0);
+    let mut plateau = 0.0_f64;
+    for (impact, label) in impacts.iter().zip(labels) {
+        let pulse = Pulse::new(&impact.series.time_s, &impact.series.force_n);
+        let points = pulse.spectrum();
+        plateau = points.iter().map(|p| p.1).fold(plateau, f64::max);
+        let name = if impacts.len() == 1 { "" } else { label };
+        panel = panel.line(name, Style::Plain, points.clone());
+        if impacts.len() > 1 {
+            continue;
+        }
+        if let Some((corner, amplitude)) = pulse.corner(&points) {
+            let text = format!("corner {}", with_unit(corner, "Hz"));
+            let point = LabelledPoint::new(corner, amplitude, &text);
+            panel = panel.layer(Layer::Point(point));
+        }
+        for (i, zero) in pulse.zeros(&points).into_iter().take(4).enumerate() {
+            let text = if i == 0 {
+                format!("zero {}", with_unit(zero, "Hz"))
+            } else {
+                with_unit(zero, "Hz")
+            };
+            panel = panel.mark(zero, &text);
+        }
+    }
+    panel.y = panel.y.range(1e-5 * plateau, 2.0 * plateau);
+    Ok(panel)
+}
+
+/// A force that is linear between samples, from its first sample that is not zero to its last.
+struct Pulse {
+    time_s: Vec<f64>,
+    force_n: Vec<f64>,
+}
+
+impl Pulse {
+    fn new(time_s: &[f64], force_n: &[f64]) -> Self {
+        let loaded = |force: &f64| *force != 0.0;
+        let first = force_n.iter().position(loaded).unwrap_or(0);
+        let last = force_n.iter().rposition(loaded).unwrap_or(0);
+        let range = first.saturating_sub(1)..(last + 2).min(time_s.len());
+        let step = range.len().div_ceil(MOST_SAMPLES).max(1);
+        let thin = |x: &[f64]| x[range.clone()].iter().step_by(step).copied().collect();
+        Self {
+            time_s: thin(time_s),
+            force_n: thin(force_n),
+        }
+    }
+
+    /// |int P(t) exp(-2 pi i f t) dt|, exact for what is linear between samples.
+    ///
+    /// ```text
+    /// over a step from t of length h, with x = pi f h:  h exp(-2 pi i f (t + h/2)) [mean sinc x + i change/2 (cos x - sinc x)/x]
+    /// ```
+    fn amplitude(&self, frequency: f64) -> f64 {
+        let (mut re, mut im) = (0.0, 0.0);
+        for (t, p) in self.time_s.windows(2).zip(self.force_n.windows(2)) {
+            let h = t[1] - t[0];
+            let x = PI * frequency * h;
+            let (mean, half) = (0.5 * (p[0] + p[1]), 0.5 * (p[1] - p[0]));
+            let (sinc, odd) = if x < 1e-3 {
+                (1.0 - x * x / 6.0, -x / 3.0)
+            } else {
+                (x.sin() / x, (x.cos() - x.sin() / x) / x)
+            };
+            let (sine, cosine) =
+                (2.0 * PI * frequency * (t[0] - self.time_s[0] + 0.5 * h)).sin_cos();
+            let (a, b) = (h * mean * sinc, h * half * odd);
+            re += a * cosine + b * sine;
+            im += b * cosine - a * sine;
+        }
+        re.hypot(im)
+    }
+
+    /// Amplitudes over frequencies, from far below the corner to where samples can tell.
+    fn spectrum(&self) -> Vec<(f64, f64)> {
+        let length_s = self.time_s[self.time_s.len() - 1] - self.time_s[0];
+        if length_s <= 0.0 {
+            return Vec::new();
+        }
+        let samples = self.time_s.len() as f64;
+        let (low, high) = (0.02 / length_s, (0.1 * samples).clamp(4.0, 20.0) / length_s);
+        let last = (FREQUENCIES - 1) as f64;
+        (0..FREQUENCIES)
+            .map(|i| low * (high / low).powf(i as f64 / last))
+            .map(|frequency| (frequency, self.amplitude(frequency)))
+            .collect()
+    }
+
+    /// The frequency at which the amplitude has fallen to half of the impulse.
+    fn corner(&self, points: &[(f64, f64)]) -> Option<(f64, f64)> {
+        let half = 0.5 * points.first()?.1;
+        let below = points.iter().position(|p| p.1 < half)?;
+        let (mut low, mut high) = (points[below.checked_sub(1)?].0, points[below].0);
+        for _ in 0..40 {
+            let middle = 0.5 * (low + high);
+            if self.amplitude(middle) < half {
+                high = middle;
+            } else {
+                low = middle;
+            }
+        }
+        Some((low, half))
+    }
+
+    /// Frequencies at which the amplitude is smallest, and so small that it is a zero in a picture.
+    fn zeros(&self, points: &[(f64, f64)]) -> Vec<f64> {
+        let is_least = |p: &&[(f64, f64)]| p[1].1 < p[0].1 && p[1].1 < p[2].1;
+        let triples = points.windows(3).filter(is_least);
+        let refined = triples.filter_map(|p| {
+            let (mut low, mut high) = (p[0].0, p[2].0);
+            for _ in 0..60 {
+                let (a, b) = (low + (high - low) / 3.0, high - (high - low) / 3.0);
+                if self.amplitude(a) < self.amplitude(b) {
+                    high = b;
+                } else {
+                    low = a;
+                }
+            }
+            let side = points.iter().filter(|q| q.0 > p[2].0 && q.0 < 1.5 * p[2].0);
+            let lobe = side.map(|q| q.1).fold(0.0, f64::max);
+            (self.amplitude(low) < 0.2 * lobe).then_some(low)
+        });
+        refined.collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn pulse(force: impl Fn(f64) -> f64, samples: usize) -> Pulse {
+        let time_s: Vec<f64> = (0..=samples)
+            .map(|i| 5e-6 * i as f64 / samples as f64)
+            .collect();
+        let force_n: Vec<f64> = time_s.iter().map(|t| force(t / 5e-6)).collect();
+        Pulse { time_s, force_n }
+    }
+
+    #[test]
+    fn a_triangle_has_the_spectrum_of_a_triangle() {
+        // 10 N high: impulse times sinc^2 of half its length
+        let triangle = pulse(|x| 10.0 * (1.0 - (2.0 * x - 1.0).abs()), 2);
+        for frequency in [1.0, 3e4, 2e5, 7.3e5] {
+            let x = PI * frequency * 2.5e-6;
+            let exact = 2.5e-5 * (x.sin() / x).powi(2);
+            assert!(
+                (triangle.amplitude(frequency) - exact).abs() < 1e-14,
+                "{frequency}"
+            );
+        }
+    }
+
+    #[test]
+    fn hertz_pulse_has_its_zeros_at_seven_quarters_and_on() {
+        // sin^1.5: 1/(Gamma(7/4 + x) Gamma(7/4 - x)) with x = f tc vanishes at 7/4, 11/4, ...
+        let pulse = pulse(|x| (PI * x).sin().max(0.0).powf(1.5), 2000);
+        let points = pulse.spectrum();
+        let zeros = pulse.zeros(&points);
+        for (zero, exact) in zeros.iter().zip([1.75, 2.75, 3.75]) {
+            assert!((zero * 5e-6 / exact - 1.0).abs() < 1e-3, "{zero}");
+        }
+        assert!(zeros.len() >= 3);
+        // where Gamma(7/4)^2/(Gamma(7/4 + x) Gamma(7/4 - x)) is one half
+        let corner = pulse.corner(&points).map_or(0.0, |c| c.0);
+        let gamma = |x: f64| stirling(x);
+        let x = corner * 5e-6;
+        let share = gamma(1.75).powi(2) / (gamma(1.75 + x) * gamma(1.75 - x));
+        assert!((share - 0.5).abs() < 1e-3, "{x}: {share}");
+    }
+
+    /// Gamma(x) for x > 0.5 to 1e-9, by recurrence and Stirling's series.
+    fn stirling(x: f64) -> f64 {
+        let mut product = 1.0;
+        let mut x = x;
+        while x < 10.0 {
+            product *= x;
+            x += 1.0;
+        }
+        let series = 1.0 / (12.0 * x) - 1.0 / (360.0 * x.powi(3)) + 1.0 / (1260.0 * x.powi(5));
+        ((x - 0.5) * x.ln() - x + 0.5 * (2.0 * PI).ln() + series).exp() / product
+    }
+}

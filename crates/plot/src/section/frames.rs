@@ -1,0 +1,233 @@
+//! The frames of a section, its near field and its fronts.
+
+use super::quantity::{Instants, Quantity, SAMPLES};
+use crate::error::PlotError;
+use crate::request::Request;
+use crate::series::{end_s, waves_of};
+use contact::WaveSpeeds;
+use figure::{Axis, ColourScale, Image, LabelledPoint, Layer, Line, Mirror, Panel, Shading, Style};
+use formats::stored::{ReadError, StoredImpact, StoredSection};
+use std::collections::VecDeque;
+use std::f64::consts::FRAC_PI_2;
+
+/// A section with what its pictures need.
+pub(super) struct Section<'a> {
+    pub(super) impact: &'a StoredImpact,
+    pub(super) stored: StoredSection,
+    pub(super) speeds: WaveSpeeds,
+    pub(super) disc_radius_m: f64,
+    /// When the force begins in s.
+    pub(super) start_s: f64,
+    /// How long it lasts in s.
+    pub(super) pulse_s: f64,
+    /// Frames read last: a rate needs its neighbours again.
+    known: VecDeque<(String, usize, Vec<f64>)>,
+}
+
+/// Distance of the S front, over the width of the section, from which on fronts are named.
+const APART: f64 = 0.12;
+
+/// Frames that are kept.
+const KEPT: usize = 24;
+
+impl<'a> Section<'a> {
+    /// The section of a results file.
+    pub(super) fn of(impact: &'a StoredImpact) -> Result<Self, PlotError> {
+        let hint = "give the scene a [map] with r_max_m, z_max_m, points and frames";
+        let stored = impact.section()?;
+        let stored = stored.ok_or_else(|| PlotError::absent(impact.path(), "section", hint))?;
+        let (speeds, start_s) = waves_of(impact)?;
+        Ok(Self {
+            impact,
+            speeds,
+            disc_radius_m: impact.number("disc_radius_m").unwrap_or(0.0),
+            start_s,
+            pulse_s: end_s(&impact.series.time_s, &impact.series.force_n) - start_s,
+            known: VecDeque::new(),
+            stored,
+        })
+    }
+
+    /// The quantity that is asked for, or the one that shows waves best.
+    pub(super) fn quantity(&self, request: &Request, usual: &str) -> Result<Quantity, PlotError> {
+        let name = request.quantities.first().map_or(usual, String::as_str);
+        Quantity::named(name, &self.stored.quantities(), self.impact.path())
+    }
+
+    /// Its extents along r and z in m.
+    pub(super) fn extent_m(&self) -> [f64; 2] {
+        let last = |x: &[f64]| x.iter().copied().fold(0.0, f64::max);
+        [last(&self.stored.r_m), last(&self.stored.z_m)]
+    }
+
+    /// Depths in m, ascending, as images need them.
+    pub(super) fn depths_m(&self) -> Vec<f64> {
+        self.stored.z_m.iter().rev().copied().collect()
+    }
+
+    /// The values of a frame with depths ascending: r runs fastest.
+    pub(super) fn turned(&self, frame: &[f64]) -> Vec<f64> {
+        let rows = frame.chunks(self.stored.r_m.len()).rev();
+        rows.flatten().copied().collect()
+    }
+
+    /// A quantity in a frame, [turned](Self::turned).
+    pub(super) fn values(
+        &mut self,
+        quantity: &Quantity,
+        frame: usize,
+    ) -> Result<Vec<f64>, PlotError> {
+        let values = quantity.at(self, frame, SAMPLES)?;
+        Ok(self.turned(&values))
+    }
+
+    /// Where the near field ends in m, in which values grow without bound on the scale of the picture: an eighth of
+    /// the extent, and three radii of the disc.
+    pub(super) fn near_m(&self, extent_m: f64) -> f64 {
+        (0.125 * extent_m)
+            .max(3.0 * self.disc_radius_m)
+            .min(0.5 * extent_m)
+    }
+
+    /// Whether each place of [`Self::values`] is outside the near field.
+    pub(super) fn is_far(&self) -> Vec<bool> {
+        let [r, z] = self.extent_m();
+        let near_m = self.near_m(r.min(z));
+        let depths = self.depths_m();
+        let places = depths
+            .iter()
+            .flat_map(|z| self.stored.r_m.iter().map(move |r| r.hypot(*z)));
+        places.map(|distance| distance > near_m).collect()
+    }
+
+    /// Values over the section, mirrored at the axis.
+    pub(super) fn map(&self, values: Vec<f64>, colours: ColourScale) -> Panel {
+        let [r_max_m, z_max_m] = self.extent_m();
+        let image = Image {
+            x: self.stored.r_m.clone(),
+            y: self.depths_m(),
+            values,
+            shading: Shading::Smooth,
+            colours,
+        };
+        let distance = Axis::linear("distance from the axis").si("m");
+        let depth = Axis::linear("depth").si("m").reversed();
+        Panel::new(distance.range(0.0, r_max_m), depth.range(0.0, z_max_m))
+            .equal_lengths()
+            .mirrored(Mirror::Even)
+            .layer(Layer::Image(image))
+    }
+
+    /// How much of a frame by differences depends on the distance of the frames: rms over rms outside the near field.
+    pub(super) fn doubt(
+        &mut self,
+        quantity: &Quantity,
+        frames: &[usize],
+    ) -> Result<f64, PlotError> {
+        let far = self.is_far();
+        let (mut difference, mut size) = (0.0, 0.0);
+        for &frame in frames {
+            let fine = self.values(quantity, frame)?;
+            let coarse = quantity.at(self, frame, SAMPLES - 2)?;
+            let coarse = self.turned(&coarse);
+            for ((a, b), _) in fine.iter().zip(&coarse).zip(&far).filter(|(_, far)| **far) {
+                difference += (a - b) * (a - b);
+                size += a * a;
+            }
+        }
+        Ok(if size > 0.0 {
+            (difference / size).sqrt()
+        } else {
+            0.0
+        })
+    }
+
+    /// The fronts at a time as thin lines with their names, in a mirrored panel.
+    pub(super) fn fronts(&self, time_s: f64) -> Vec<Layer> {
+        let since = time_s - self.start_s;
+        let mut layers = Vec::new();
+        if since <= 0.0 {
+            return layers;
+        }
+        let mut line = |points: Vec<(f64, f64)>| {
+            layers.push(Layer::Line(Line::new("", Style::RimmedDashed, points)));
+        };
+        let [p, s, rayleigh] =
+            [self.speeds.p, self.speeds.s, self.speeds.rayleigh].map(|c| c * since);
+        line(capsule(self.disc_radius_m, p));
+        line(capsule(self.disc_radius_m, s));
+        // a Rayleigh wave is as deep as it is long
+        let depth = self.speeds.rayleigh * self.pulse_s;
+        let edge = self.disc_radius_m + rayleigh;
+        line(vec![(edge, 0.0), (edge, depth.min(0.9 * rayleigh))]);
+        let on = |radius: f64, angle: f64| {
+            let across = self.disc_radius_m + radius * angle.sin();
+            (across, radius * angle.cos())
+        };
+        // names of fronts that are not apart yet would lie over one another
+        if s < APART * self.extent_m()[0] {
+            return layers;
+        }
+        let named = [
+            (on(p, 0.75), "P"),
+            (on(s, 0.5), "S"),
+            ((edge, 0.6 * depth.min(0.9 * rayleigh)), "R"),
+        ];
+        layers.extend(named.map(|((x, y), name)| Layer::Point(LabelledPoint::text(x, y, name))));
+        layers
+    }
+}
+
+impl Instants for Section<'_> {
+    fn time_s(&self) -> &[f64] {
+        &self.stored.time_s
+    }
+
+    fn at(&mut self, quantity: &str, instant: usize) -> Result<Vec<f64>, ReadError> {
+        let mut known = self.known.iter();
+        let found = known.find(|(name, frame, _)| name == quantity && *frame == instant);
+        if let Some((_, _, values)) = found {
+            return Ok(values.clone());
+        }
+        let found = self.stored.frame(quantity, instant)?;
+        let values: Vec<f64> = found.into_iter().map(f64::from).collect();
+        if self.known.len() >= KEPT {
+            self.known.pop_front();
+        }
+        let kept = (quantity.to_owned(), instant, values.clone());
+        self.known.push_back(kept);
+        Ok(values)
+    }
+}
+
+/// Points at a distance from a disc: a quarter circle around its edge and the plane part below it.
+fn capsule(disc_radius_m: f64, distance_m: f64) -> Vec<(f64, f64)> {
+    const POINTS: u32 = 90;
+    let arc = (0..=POINTS).map(|i| {
+        let angle = FRAC_PI_2 * f64::from(i) / f64::from(POINTS);
+        let across = disc_radius_m + distance_m * angle.cos();
+        (across, distance_m * angle.sin())
+    });
+    arc.chain([(0.0, distance_m)]).collect()
+}
+
+/// Colours of a quantity up to a size below which nearly all values outside the near field lie, of some rows of values
+/// at the same places.
+pub(super) fn colours(quantity: &Quantity, rows: &[Vec<f64>], is_far: &[bool]) -> ColourScale {
+    let outside = rows.iter().flat_map(|row| {
+        let pairs = row.iter().zip(is_far).filter(|(_, far)| **far);
+        pairs.map(|(value, _)| *value)
+    });
+    quantity.colours(quantile_of_sizes(outside, 0.985))
+}
+
+/// The value below which a fraction of the sizes lies; 0 without values.
+pub(super) fn quantile_of_sizes(values: impl Iterator<Item = f64>, fraction: f64) -> f64 {
+    let mut sizes: Vec<f64> = values.map(f64::abs).filter(|v| v.is_finite()).collect();
+    if sizes.is_empty() {
+        return 0.0;
+    }
+    let index = (fraction * (sizes.len() - 1) as f64).round() as usize;
+    let (_, found, _) = sizes.select_nth_unstable_by(index, f64::total_cmp);
+    *found
+}

@@ -1,0 +1,140 @@
+//! Samples over time: curves thin enough to draw, begin and end of a force, rates, and when waves arrive.
+
+use crate::error::PlotError;
+use contact::WaveSpeeds;
+use formats::stored::StoredImpact;
+use impact::FieldsError;
+
+/// Points of a curve that is drawn: with more, parts of it are drawn by their extremes.
+const MOST_POINTS: usize = 4000;
+
+/// A curve over times up to an end, with its extremes kept where there are too many samples.
+pub(crate) fn curve(time_s: &[f64], samples: &[f64], end_s: f64) -> Vec<(f64, f64)> {
+    let count = time_s.partition_point(|&t| t <= end_s);
+    let points = time_s[..count].iter().copied();
+    let points: Vec<(f64, f64)> = points.zip(samples.iter().copied()).collect();
+    if points.len() <= MOST_POINTS {
+        return points;
+    }
+    let part = points.len().div_ceil(MOST_POINTS / 4);
+    let mut kept = Vec::with_capacity(MOST_POINTS + 4);
+    for points in points.chunks(part) {
+        let by = |a: &&(f64, f64), b: &&(f64, f64)| a.1.total_cmp(&b.1);
+        let extremes = [points.iter().min_by(by), points.iter().max_by(by)];
+        let mut few = vec![points[0], points[points.len() - 1]];
+        few.extend(extremes.into_iter().flatten().copied());
+        few.sort_by(|a, b| a.0.total_cmp(&b.0));
+        few.dedup();
+        kept.extend(few);
+    }
+    kept
+}
+
+/// When a force begins: the last time before it is not zero any more.
+fn onset_s(time_s: &[f64], force_n: &[f64]) -> f64 {
+    let first = force_n.iter().position(|&force| force != 0.0);
+    first.map_or(0.0, |i| time_s[i.saturating_sub(1)])
+}
+
+/// When a force ends: the first time from which on it is zero; the last time where it is not.
+pub(crate) fn end_s(time_s: &[f64], force_n: &[f64]) -> f64 {
+    let last = force_n.iter().rposition(|&force| force != 0.0).unwrap_or(0);
+    time_s[(last + 1).min(time_s.len() - 1)]
+}
+
+/// Speeds of the waves in the half-space of an impact, and when its force begins in s.
+pub(crate) fn waves_of(impact: &StoredImpact) -> Result<(WaveSpeeds, f64), PlotError> {
+    let speeds = WaveSpeeds::of(&impact.scene.target).map_err(FieldsError::from)?;
+    Ok((
+        speeds,
+        onset_s(&impact.series.time_s, &impact.series.force_n),
+    ))
+}
+
+/// Weights of the first derivative at `at` of the polynomial through values at some places.
+///
+/// Fornberg, Mathematics of Computation 51 (1988), 699, for the first derivative.
+pub(crate) fn weights(at: f64, places: &[f64]) -> Vec<f64> {
+    // columns: value and first derivative
+    let mut found = vec![[0.0; 2]; places.len()];
+    let (mut c1, mut c4) = (1.0, places[0] - at);
+    found[0][0] = 1.0;
+    for i in 1..places.len() {
+        let (mut c2, c5) = (1.0, c4);
+        c4 = places[i] - at;
+        for j in 0..i {
+            let c3 = places[i] - places[j];
+            c2 *= c3;
+            if j == i - 1 {
+                found[i][1] = c1 * (found[i - 1][0] - c5 * found[i - 1][1]) / c2;
+                found[i][0] = -c1 * c5 * found[i - 1][0] / c2;
+            }
+            found[j][1] = (c4 * found[j][1] - found[j][0]) / c3;
+            found[j][0] = c4 * found[j][0] / c3;
+        }
+        c1 = c2;
+    }
+    found.into_iter().map(|pair| pair[1]).collect()
+}
+
+/// The `count` samples nearest to the one at `index` of `samples`, as their first index and their number.
+pub(crate) fn window(index: usize, count: usize, samples: usize) -> (usize, usize) {
+    let count = count.min(samples);
+    let start = index.saturating_sub(count / 2).min(samples - count);
+    (start, count)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_curves_keep_their_extremes() {
+        let time: Vec<f64> = (0..100_000).map(f64::from).collect();
+        let mut samples: Vec<f64> = time.iter().map(|t| (0.01 * t).sin()).collect();
+        samples[54_321] = 7.0;
+        let found = curve(&time, &samples, 90_000.0);
+        assert!(found.len() <= MOST_POINTS + 4 && found.contains(&(54_321.0, 7.0)));
+        assert!(found.windows(2).all(|pair| pair[0].0 < pair[1].0));
+        assert_eq!(found.last().map(|p| p.0), Some(90_000.0));
+        assert_eq!(curve(&time[..10], &samples, 4.0).len(), 5);
+    }
+
+    #[test]
+    fn a_force_begins_where_it_leaves_zero() {
+        let time = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0];
+        let force = [0.0, 0.0, 3.0, 1.0, 0.0, 0.0];
+        assert_eq!((onset_s(&time, &force), end_s(&time, &force)), (1.0, 4.0));
+        assert_eq!(onset_s(&time, &[2.0; 6]), 0.0);
+        assert_eq!(end_s(&time, &[2.0; 6]), 5.0);
+    }
+
+    #[test]
+    fn polynomials_of_one_degree_less_are_exact() {
+        let places = [0.0, 0.7, 1.1, 2.0, 3.3];
+        for at in [0.0, 1.1, 3.3] {
+            let w = weights(at, &places);
+            for power in 0..5_i32 {
+                let sum: f64 = w.iter().zip(places).map(|(w, x)| w * x.powi(power)).sum();
+                let exact = if power == 0 {
+                    0.0
+                } else {
+                    f64::from(power) * at.powi(power - 1)
+                };
+                assert!(
+                    (sum - exact).abs() < 1e-10 * exact.abs().max(1.0),
+                    "{at} {power}: {sum}"
+                );
+            }
+        }
+        assert_eq!(weights(0.0, &[-1.0, 0.0, 1.0]), [-0.5, 0.0, 0.5]);
+    }
+
+    #[test]
+    fn windows_stay_inside() {
+        assert_eq!(window(0, 5, 100), (0, 5));
+        assert_eq!(window(50, 5, 100), (48, 5));
+        assert_eq!(window(99, 5, 100), (95, 5));
+        assert_eq!(window(1, 5, 3), (0, 3));
+    }
+}

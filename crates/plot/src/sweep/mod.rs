@@ -1,0 +1,339 @@
+//! Figures of a sweep: lines, heat maps, losses, histograms; `view` has what of it is shown.
+
+mod view;
+
+use crate::error::{PlotError, chosen};
+use crate::request::{Drawn, Kind, Request};
+use crate::words::{of_key, stem};
+use figure::{
+    Axis, ColourMap, ColourScale, Figure, Histogram, Image, Layer, Legend, Panel, Scale, Shading,
+    Style, Unit,
+};
+use formats::stored::{StoredQuantity, StoredSweep};
+use view::{SHARES, Slice, View, quantiles};
+
+/// Results that are shown when none is asked for.
+const USUAL: [&str; 4] = [
+    "peak_force_n",
+    "contact_time_s",
+    "loss",
+    "peak_displacement_m",
+];
+
+/// Curves in a panel, at most.
+const MOST_CURVES: usize = 10;
+
+/// Histograms in a panel, at most.
+const MOST_HISTOGRAMS: usize = 4;
+
+/// Values along a second axis from which on it is a heat map.
+const MANY: usize = 7;
+
+/// The key on the x axis of a picture of losses.
+const VELOCITY: &str = "striker.velocity_m_s";
+
+/// A result of all rows.
+struct Shown<'a> {
+    words: String,
+    unit: &'a str,
+    values: Vec<f64>,
+}
+
+/// The figure of a sweep.
+pub(crate) fn of_sweep(sweep: &StoredSweep, request: &Request) -> Result<Drawn, PlotError> {
+    let view = View::new(sweep, request)?;
+    let along = view.along(request.along.as_deref())?;
+    let suits = match (along, view.drawn) {
+        (None, Some(_)) => Kind::Histogram,
+        (Some(_), _) | (None, None) => Kind::Sweep,
+    };
+    let kind = request.kind.unwrap_or(suits);
+    let known = sweep.quantities();
+    let quantities = match (request.quantities.as_slice(), kind) {
+        ([], Kind::Loss) => chosen(sweep.path(), &known, &["loss"])?,
+        ([], _) => chosen(sweep.path(), &known, &USUAL)?,
+        (given, _) => chosen(sweep.path(), &known, given)?,
+    };
+    let mut panels = Vec::new();
+    for quantity in &quantities {
+        let shown = Shown {
+            words: result_words(quantity),
+            unit: &quantity.unit,
+            values: sweep.values(&quantity.name)?,
+        };
+        let mut panel = match kind {
+            Kind::Histogram => histogram(&view, &shown)?,
+            Kind::Loss => loss(&view, &shown)?,
+            _ => {
+                let hint = "a sweep over words alone has no axis to draw along; sweep --csv writes its rows";
+                let what = "key of numbers that varies";
+                let along = along.ok_or_else(|| PlotError::absent(sweep.path(), what, hint))?;
+                over_keys(&view, along, request, &shown)?
+            }
+        };
+        if !panels.is_empty() {
+            // a name has one look in all panels
+            panel.legend = Legend::Off;
+        }
+        panels.push(panel);
+    }
+    let usual = || format!("Sweep {}", stem(sweep.path()));
+    let title = request.title.clone().unwrap_or_else(usual);
+    let mut figure = Figure::new(&title).subtitle(&subtitle(&view, kind));
+    figure = match panels.len() {
+        1 => figure.width(760.0),
+        _ => figure.columns(2).width(1040.0),
+    };
+    figure.panels = panels;
+    Ok(Drawn {
+        figure,
+        notes: Vec::new(),
+    })
+}
+
+/// How many scenes, and what bands are.
+fn subtitle(view: &View<'_>, kind: Kind) -> String {
+    let rows: usize = view.sweep.axes.iter().map(|axis| axis.len).product();
+    let mut text = format!("{rows} scenes");
+    if view.sweep.failed > 0 {
+        text.push_str(&format!(", {} of them failed", view.sweep.failed));
+    }
+    if let Some(axis) = view.drawn
+        && kind != Kind::Histogram
+    {
+        let draws = view.sweep.axes[axis].len;
+        text.push_str(&format!(
+            "; median of {draws} draws, and where 90 % of them lie"
+        ));
+    }
+    text
+}
+
+/// A result in words: `peak_force_n` is "peak force".
+fn result_words(quantity: &StoredQuantity) -> String {
+    if quantity.name == "loss" {
+        return "energy lost, 1 \u{2212} e^{2}".to_owned();
+    }
+    let ending = format!("_{}", quantity.unit.to_lowercase().replace(['/', ' '], "_"));
+    let name = quantity.name.as_str();
+    name.strip_suffix(&ending).unwrap_or(name).replace('_', " ")
+}
+
+/// Whether numbers are shown better by their ratios: all positive, and over a decade and a half.
+fn scale_of(values: &[f64]) -> Scale {
+    let known = || values.iter().copied().filter(|v| v.is_finite());
+    let low = known().fold(f64::INFINITY, f64::min);
+    match low > 0.0 && known().fold(0.0, f64::max) > 30.0 * low {
+        true => Scale::Logarithmic,
+        false => Scale::Linear,
+    }
+}
+
+fn axis(name: &str, unit: &str, scale: Scale) -> Axis {
+    let mut axis = Axis::linear(name);
+    axis.scale = scale;
+    match unit {
+        "1" | "" => axis,
+        "kg" => axis.si("g"),
+        "kg/m^3" => axis.unit("kg/m^{3}"),
+        unit => axis.si(unit),
+    }
+}
+
+/// The numbers of a key along an axis.
+struct Nodes {
+    axis: Axis,
+    /// In the unit of the axis.
+    places: Vec<f64>,
+    /// Indices of the places, rising: values of a list or of a product need not rise.
+    order: Vec<usize>,
+}
+
+impl Nodes {
+    /// Along an axis of a sweep, those of the key that is asked for.
+    fn along(view: &View<'_>, number: usize, asked: Option<&str>) -> Result<Self, PlotError> {
+        let Some((column, values)) = view.numbers(number, asked) else {
+            return Err(PlotError::NoNumbers {
+                key: view.sweep.axes[number].name.clone(),
+            });
+        };
+        let (name, unit) = of_key(&column.name);
+        // grams for kilograms, which have a prefix already
+        let factor = if unit == "kg" { 1e3 } else { 1.0 };
+        let places: Vec<f64> = values.iter().map(|x| factor * x).collect();
+        let mut order: Vec<usize> = (0..places.len()).collect();
+        order.sort_by(|&a, &b| places[a].total_cmp(&places[b]));
+        Ok(Self {
+            axis: axis(&name, unit, scale_of(&places)),
+            places,
+            order,
+        })
+    }
+
+    /// The places, each once.
+    fn distinct(&mut self) -> Vec<f64> {
+        let places = &self.places;
+        self.order.dedup_by(|a, b| places[*a] == places[*b]);
+        self.order.iter().map(|&i| places[i]).collect()
+    }
+}
+
+/// Lines over a key, or a heat map where a second key has many values.
+fn over_keys(
+    view: &View<'_>,
+    along: usize,
+    request: &Request,
+    shown: &Shown<'_>,
+) -> Result<Panel, PlotError> {
+    let others = view.free().into_iter().filter(|&i| i != along);
+    let second = others
+        .filter(|&i| view.sweep.axes[i].len >= MANY && view.numbers(i, None).is_some())
+        .max_by_key(|&i| view.sweep.axes[i].len);
+    if let Some(second) = second
+        && let [slice] = view.slices(&[along, second]).as_slice()
+    {
+        return heat_map(view, [along, second], slice, shown);
+    }
+    let scale = scale_of(&shown.values);
+    lines(view, along, request.along.as_deref(), shown, scale)
+}
+
+fn lines(
+    view: &View<'_>,
+    along: usize,
+    asked: Option<&str>,
+    shown: &Shown<'_>,
+    scale: Scale,
+) -> Result<Panel, PlotError> {
+    let slices = few(view, view.slices(&[along]), MOST_CURVES)?;
+    let Nodes {
+        axis: x,
+        places,
+        order,
+    } = Nodes::along(view, along, asked)?;
+    let mut panel = Panel::new(x, axis(&shown.words, shown.unit, scale));
+    let style = match places.len() {
+        ..=12 => Style::Marked,
+        _ => Style::Plain,
+    };
+    for slice in &slices {
+        let at = |&i: &usize| {
+            let found = view.quantiles(slice, &[(along, i)], &shown.values)?;
+            Some((places[i], found))
+        };
+        let found: Vec<(f64, [f64; 3])> = order.iter().filter_map(at).collect();
+        if view.drawn.is_some() {
+            let band = found.iter().map(|&(x, q)| (x, q[0], q[2])).collect();
+            panel = panel.band(&slice.label, band);
+        }
+        let middle = found.iter().map(|&(x, q)| (x, q[1])).collect();
+        panel = panel.line(&slice.label, style, middle);
+    }
+    Ok(panel)
+}
+
+fn heat_map(
+    view: &View<'_>,
+    [along, second]: [usize; 2],
+    slice: &Slice,
+    shown: &Shown<'_>,
+) -> Result<Panel, PlotError> {
+    let (mut x, mut y) = (
+        Nodes::along(view, along, None)?,
+        Nodes::along(view, second, None)?,
+    );
+    let (columns, rows) = (x.distinct(), y.distinct());
+    let mut values = Vec::new();
+    for &j in &y.order {
+        for &i in &x.order {
+            let found = view.quantiles(slice, &[(along, i), (second, j)], &shown.values);
+            values.push(found.map_or(f64::NAN, |q| q[1]));
+        }
+    }
+    let unit = match shown.unit {
+        "1" | "" => Unit::One,
+        unit => Unit::Si(unit.to_owned()),
+    };
+    let mut colours = ColourScale::new(&shown.words, unit, ColourMap::Sequential);
+    colours.spread = scale_of(&values);
+    let image = Image {
+        x: columns,
+        y: rows,
+        values,
+        shading: Shading::Smooth,
+        colours,
+    };
+    let panel = Panel::new(x.axis, y.axis).height(280.0);
+    Ok(panel.layer(Layer::Image(image)))
+}
+
+/// Losses over the velocity of approach on logarithmic axes, with the slope of Hunter's law beside them.
+fn loss(view: &View<'_>, shown: &Shown<'_>) -> Result<Panel, PlotError> {
+    let along = view.along(Some(VELOCITY))?.unwrap_or(0);
+    let mut panel = lines(view, along, Some(VELOCITY), shown, Scale::Logarithmic)?;
+    let (name, unit) = of_key(VELOCITY);
+    panel.x = axis(&format!("{name} of approach"), unit, Scale::Logarithmic);
+    let mut points: Vec<(f64, f64)> = Vec::new();
+    for layer in &panel.layers {
+        if let Layer::Line(line) = layer {
+            points.extend(line.points.iter().filter(|p| p.1 > 0.0));
+        }
+    }
+    let first = points.iter().map(|p| p.0).fold(f64::INFINITY, f64::min);
+    let last = points.iter().map(|p| p.0).fold(0.0, f64::max);
+    // above all curves, so that it crosses none of them
+    let above = points.iter().map(|p| p.1 / p.0.powf(0.6));
+    let highest = above.fold(0.0, f64::max);
+    if highest > 0.0 {
+        let on = |v: f64| (v, 1.3 * highest * v.powf(0.6));
+        panel = panel.line("slope 3/5", Style::HeavyDashed, vec![on(first), on(last)]);
+    }
+    Ok(panel.height(380.0))
+}
+
+/// How often values occur, with their quantiles.
+fn histogram(view: &View<'_>, shown: &Shown<'_>) -> Result<Panel, PlotError> {
+    let slices = match view.drawn {
+        Some(_) => few(view, view.slices(&[]), MOST_HISTOGRAMS)?,
+        None => Vec::new(),
+    };
+    let scale = scale_of(&shown.values);
+    let values = axis(&shown.words, shown.unit, scale);
+    let mut panel = Panel::new(values, Axis::linear("scenes")).height(240.0);
+    let of = |slice: Slice| {
+        let rows = view.rows(&slice, &[]).into_iter();
+        (slice.label, rows.map(|row| shown.values[row]).collect())
+    };
+    let mut groups: Vec<(String, Vec<f64>)> = slices.into_iter().map(of).collect();
+    if groups.is_empty() {
+        // without draws all scenes are counted
+        groups.push((String::new(), shown.values.clone()));
+    }
+    for (label, found) in &groups {
+        let bins = (2.0 * (found.len() as f64).cbrt()).ceil().clamp(5.0, 60.0) as usize;
+        panel = panel.layer(Layer::Histogram(Histogram::of(label, found, bins, scale)));
+    }
+    if let [(_, found)] = groups.as_slice()
+        && let Some(quantiles) = quantiles(found.iter().copied(), SHARES)
+    {
+        for (place, name) in quantiles.into_iter().zip(["5 %", "median", "95 %"]) {
+            panel = panel.mark(place, name);
+        }
+    }
+    Ok(panel)
+}
+
+/// Slices if they are few enough for one panel.
+fn few(view: &View<'_>, slices: Vec<Slice>, most: usize) -> Result<Vec<Slice>, PlotError> {
+    if slices.len() <= most {
+        return Ok(slices);
+    }
+    let mut free = view.free().into_iter();
+    let key = free.find_map(|i| view.sweep.axes[i].columns.first());
+    Err(PlotError::TooMany {
+        path: view.sweep.path().to_owned(),
+        count: slices.len(),
+        most,
+        key: key.map_or_else(String::new, |column| column.name.clone()),
+    })
+}

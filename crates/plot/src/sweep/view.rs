@@ -1,0 +1,215 @@
+//! What of a sweep is shown: values over one key, for some settings of the others, with the draws as quantiles.
+
+use crate::error::PlotError;
+use crate::request::Request;
+use crate::words::{of_key, with_unit};
+use formats::stored::{StoredColumn, StoredSweep};
+use formats::sweep::Values;
+
+/// Shares of draws below the band, at its middle and below its upper end.
+pub(super) const SHARES: [f64; 3] = [0.05, 0.5, 0.95];
+
+/// A choice along every axis but those that are shown.
+#[derive(Debug, Clone)]
+pub(super) struct Slice {
+    /// What is chosen, in words; empty where there is nothing to choose.
+    pub(super) label: String,
+    /// Index along each axis; none along those that are shown.
+    pub(super) fixed: Vec<Option<usize>>,
+}
+
+/// The axes of a sweep and what becomes of each.
+pub(super) struct View<'a> {
+    pub(super) sweep: &'a StoredSweep,
+    /// Axis of random draws.
+    pub(super) drawn: Option<usize>,
+    /// Index along each axis that the request fixes.
+    pub(super) fixed: Vec<Option<usize>>,
+}
+
+impl<'a> View<'a> {
+    pub(super) fn new(sweep: &'a StoredSweep, request: &Request) -> Result<Self, PlotError> {
+        let mut fixed = vec![None; sweep.axes.len()];
+        for (key, value) in &request.at {
+            let (axis, column) = find(sweep, key)?;
+            fixed[axis] = Some(nearest_value(sweep, column, key, value)?);
+        }
+        let is_drawn = |i: &usize| sweep.axes[*i].is_drawn() && fixed[*i].is_none();
+        Ok(Self {
+            sweep,
+            drawn: (0..sweep.axes.len()).find(is_drawn),
+            fixed,
+        })
+    }
+
+    /// Axes that vary still, the draws apart.
+    pub(super) fn free(&self) -> Vec<usize> {
+        let axes = 0..self.sweep.axes.len();
+        axes.filter(|&i| {
+            self.fixed[i].is_none() && Some(i) != self.drawn && self.sweep.axes[i].len > 1
+        })
+        .collect()
+    }
+
+    /// The numbers along an axis: those of the key that is asked for, or of the first that has numbers.
+    pub(super) fn numbers(
+        &self,
+        axis: usize,
+        asked: Option<&str>,
+    ) -> Option<(&'a StoredColumn, &'a [f64])> {
+        let columns = self.sweep.axes[axis].columns.iter();
+        let mut asked = columns.filter(|column| asked.is_none_or(|name| name == column.name));
+        asked.find_map(|column| match &column.values {
+            Values::Numbers(values) => Some((column, values.as_slice())),
+            Values::Texts(_) | Values::Drawn(_) => None,
+        })
+    }
+
+    /// The axis along x: of the key that is asked for, or the longest of numbers.
+    pub(super) fn along(&self, asked: Option<&str>) -> Result<Option<usize>, PlotError> {
+        if let Some(key) = asked {
+            let (axis, column) = find(self.sweep, key)?;
+            return match &column.values {
+                Values::Numbers(_) | Values::Drawn(_) => Ok(Some(axis)),
+                Values::Texts(_) => Err(PlotError::NoNumbers {
+                    key: key.to_owned(),
+                }),
+            };
+        }
+        let free = self.free().into_iter();
+        let with_numbers = free.filter(|&i| self.numbers(i, None).is_some());
+        // the first of the longest
+        Ok(with_numbers.rev().max_by_key(|&i| self.sweep.axes[i].len))
+    }
+
+    /// All choices along the free axes that are not shown.
+    pub(super) fn slices(&self, shown: &[usize]) -> Vec<Slice> {
+        let mut found = vec![Slice {
+            label: String::new(),
+            fixed: self.fixed.clone(),
+        }];
+        for axis in self.free() {
+            if shown.contains(&axis) {
+                continue;
+            }
+            let all = found.into_iter().flat_map(|slice| {
+                (0..self.sweep.axes[axis].len).map(move |index| {
+                    let mut slice = slice.clone();
+                    slice.fixed[axis] = Some(index);
+                    let name = self.name(axis, index);
+                    slice.label = match slice.label.as_str() {
+                        "" => name,
+                        known => format!("{known}, {name}"),
+                    };
+                    slice
+                })
+            });
+            found = all.collect();
+        }
+        found
+    }
+
+    /// What is at a place of an axis, in words: `granite`, `tip radius 2 mm`.
+    fn name(&self, axis: usize, index: usize) -> String {
+        let parts = self.sweep.axes[axis].columns.iter().map(|column| {
+            let (name, unit) = of_key(&column.name);
+            match &column.values {
+                Values::Numbers(values) => format!("{name} {}", with_unit(values[index], unit)),
+                Values::Drawn(drawn) => format!("{name} {}", with_unit(drawn.at(index), unit)),
+                Values::Texts(values) => values[index].clone(),
+            }
+        });
+        parts.collect::<Vec<_>>().join(", ")
+    }
+
+    /// Quantiles of the draws of a slice at a place along the axes that are shown; those of a single value without
+    /// draws.
+    pub(super) fn quantiles(
+        &self,
+        slice: &Slice,
+        at: &[(usize, usize)],
+        values: &[f64],
+    ) -> Option<[f64; 3]> {
+        let rows = self.rows(slice, at).into_iter();
+        quantiles(rows.map(|row| values[row]), SHARES)
+    }
+
+    /// The rows of a slice at a place along the axes that are shown, over all draws.
+    pub(super) fn rows(&self, slice: &Slice, at: &[(usize, usize)]) -> Vec<usize> {
+        let axes = &self.sweep.axes;
+        let index = |i: usize, draw: usize| {
+            let shown = at.iter().find(|(axis, _)| *axis == i);
+            let shown = shown.map(|(_, index)| *index);
+            let own = (Some(i) == self.drawn).then_some(draw);
+            shown.or(own).or(slice.fixed[i]).unwrap_or(0)
+        };
+        let draws = self.drawn.map_or(1, |axis| axes[axis].len);
+        let row = |draw| (0..axes.len()).fold(0, |row, i| row * axes[i].len + index(i, draw));
+        (0..draws).map(row).collect()
+    }
+}
+
+/// The axis and the column of a key.
+fn find<'a>(sweep: &'a StoredSweep, key: &str) -> Result<(usize, &'a StoredColumn), PlotError> {
+    let axes = sweep.axes.iter().enumerate();
+    let mut all = axes.flat_map(|(i, axis)| axis.columns.iter().map(move |c| (i, c)));
+    let names = all.clone().map(|(_, column)| column.name.as_str());
+    let found = all.find(|(_, column)| column.name == key);
+    found.ok_or_else(|| PlotError::unknown(sweep.path(), format!("the key {key}"), key, names))
+}
+
+/// The index of a value of a key: that word, or the nearest number.
+fn nearest_value(
+    sweep: &StoredSweep,
+    column: &StoredColumn,
+    key: &str,
+    value: &str,
+) -> Result<usize, PlotError> {
+    let (found, known) = match &column.values {
+        Values::Texts(words) => {
+            let found = words.iter().position(|word| word == value);
+            (found, words.iter().map(String::as_str).collect())
+        }
+        numbers @ (Values::Numbers(_) | Values::Drawn(_)) => {
+            let wanted = value.parse::<f64>().ok().filter(|x| x.is_finite());
+            let nearest = |wanted: f64| {
+                let distance = |i: &usize| (numbers.number(*i).unwrap_or(f64::NAN) - wanted).abs();
+                (0..numbers.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)))
+            };
+            (wanted.and_then(nearest), vec!["numbers"])
+        }
+    };
+    let said = || format!("{key} = {value}");
+    found.ok_or_else(|| PlotError::unknown(sweep.path(), said(), value, known))
+}
+
+/// Lower, middle and upper quantile of values, those that are no numbers apart.
+pub(super) fn quantiles(values: impl Iterator<Item = f64>, shares: [f64; 3]) -> Option<[f64; 3]> {
+    let mut known: Vec<f64> = values.filter(|v| v.is_finite()).collect();
+    if known.is_empty() {
+        return None;
+    }
+    known.sort_by(f64::total_cmp);
+    let last = (known.len() - 1) as f64;
+    Some(shares.map(|share| {
+        let place = share * last;
+        let (low, part) = (place.floor() as usize, place.fract());
+        let high = (low + 1).min(known.len() - 1);
+        known[low] + part * (known[high] - known[low])
+    }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quantiles_are_between_values() {
+        let found = quantiles(
+            [4.0, f64::NAN, 0.0, 1.0, 2.0, 3.0].into_iter(),
+            [0.05, 0.5, 1.0],
+        );
+        assert_eq!(found, Some([0.2, 2.0, 4.0]));
+        assert_eq!(quantiles([f64::NAN].into_iter(), [0.0, 0.5, 1.0]), None);
+    }
+}

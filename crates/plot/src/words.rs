@@ -1,0 +1,159 @@
+//! Numbers, keys and quantities in words, for titles, axes and legends.
+
+use std::path::Path;
+
+/// A value in its unit with an SI prefix, to four digits: `5.764 µs`, `33 mg`, `0.98`.
+pub(crate) fn with_unit(value: f64, unit: &str) -> String {
+    let (value, unit) = match unit {
+        "kg" => (1e3 * value, "g"),
+        other => (value, other),
+    };
+    if unit.is_empty() || unit == "1" {
+        return digits(value);
+    }
+    // a power in the unit would raise the prefix as well
+    let exponent = if value == 0.0 || !value.is_finite() || unit.contains('^') {
+        0
+    } else {
+        // what is shown as 1000 takes the next prefix
+        let shown: f64 = format!("{:.3e}", value.abs()).parse().unwrap_or(0.0);
+        (3 * (shown.log10().floor() as i32).div_euclid(3)).clamp(-15, 12)
+    };
+    const PREFIXES: [&str; 10] = ["f", "p", "n", "\u{b5}", "m", "", "k", "M", "G", "T"];
+    let prefix = PREFIXES[((exponent + 15) / 3) as usize];
+    format!("{} {prefix}{unit}", digits(value / 10_f64.powi(exponent)))
+}
+
+/// Four digits without zeros at the end.
+pub(crate) fn digits(value: f64) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return format!("{value}");
+    }
+    let size = value.abs().log10().floor() as i32;
+    if !(-4..6).contains(&size) {
+        let text = format!("{value:.3e}");
+        let (mantissa, power) = text.split_once('e').unwrap_or((&text, "0"));
+        let mantissa = trimmed(mantissa);
+        return format!("{mantissa}\u{b7}10^{{{}}}", power.replace('-', "\u{2212}"));
+    }
+    let places = (3 - size).max(0) as usize;
+    trimmed(&format!("{value:.places$}"))
+}
+
+fn trimmed(text: &str) -> String {
+    let text = if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.')
+    } else {
+        text
+    };
+    text.replace('-', "\u{2212}")
+}
+
+/// Units that keys carry at their ends, the longest first.
+const UNITS: [(&str, &str); 7] = [
+    ("_pa_sqrt_m", "Pa m^(1/2)"),
+    ("_kg_m3", "kg/m^3"),
+    ("_m_s", "m/s"),
+    ("_kg", "kg"),
+    ("_pa", "Pa"),
+    ("_m", "m"),
+    ("_s", "s"),
+];
+
+/// Name and unit of a scene key: `striker.tip_radius_m` is "tip radius" in m.
+pub(crate) fn of_key(key: &str) -> (String, &'static str) {
+    let (section, key) = key.split_once('.').unwrap_or(("", key));
+    let found = UNITS.iter().find(|(ending, _)| key.ends_with(ending));
+    let (name, unit) = found.map_or((key, "1"), |(ending, unit)| {
+        (&key[..key.len() - ending.len()], *unit)
+    });
+    let name = name
+        .replace("youngs_modulus", "Young's modulus")
+        .replace("poisson_ratio", "Poisson's ratio")
+        .replace('_', " ");
+    let name = match section {
+        "target" => format!("{name} of the half-space"),
+        _ => name,
+    };
+    (name, unit)
+}
+
+/// Name of a stored quantity in words: `displacement_z` is "axial displacement".
+pub(crate) fn of_quantity(name: &str) -> String {
+    let (kind, component) = name.rsplit_once('_').unwrap_or((name, ""));
+    // that of the particles, not of a wave
+    let kind = match kind {
+        "velocity" | "acceleration" => format!("particle {kind}"),
+        other => other.to_owned(),
+    };
+    let words = match (component, name) {
+        ("r" | "rr", _) => return format!("radial {kind}"),
+        ("z" | "zz", _) => return format!("axial {kind}"),
+        ("tt", _) => return format!("hoop {kind}"),
+        ("rz", _) => return format!("shear {kind}"),
+        (_, "von_mises") => "von Mises stress",
+        (_, "tresca") => "Tresca stress",
+        (_, "max_shear") => "largest shear stress",
+        (_, "principal_1") => "largest principal stress",
+        (_, "principal_2") => "middle principal stress",
+        (_, "principal_3") => "smallest principal stress",
+        (_, "speed") => "particle speed",
+        (_, "displacement") => "length of the displacement",
+        (_, other) => other,
+    };
+    words.replace('_', " ")
+}
+
+/// Name of a component for the legend: "axial u_{z}".
+pub(crate) fn component(name: &str) -> String {
+    let (kind, component) = name.rsplit_once('_').unwrap_or((name, ""));
+    let symbol = match kind {
+        "displacement" => "u",
+        "velocity" => "v",
+        "acceleration" => "a",
+        "stress" => "σ",
+        _ => return name.replace('_', " "),
+    };
+    let direction = match component {
+        "r" | "rr" => "radial",
+        "z" | "zz" => "axial",
+        "tt" => "hoop",
+        "rz" => "shear",
+        _ => return name.replace('_', " "),
+    };
+    format!("{direction} {symbol}_{{{component}}}")
+}
+
+/// A file's name without its ending.
+pub(crate) fn stem(path: &Path) -> String {
+    path.file_stem()
+        .map_or_else(String::new, |name| name.to_string_lossy().into_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_take_prefixes_and_keep_four_digits() {
+        for (value, unit, text) in [
+            (5.7641e-6, "s", "5.764 \u{b5}s"),
+            (3.3e-5, "kg", "33 mg"),
+            (0.0122, "kg", "12.2 g"),
+            (159_053.2, "N", "159.1 kN"),
+            (0.98123, "1", "0.9812"),
+            (999.99, "m", "1 km"),
+            (7830.0, "kg/m^3", "7830 kg/m^3"),
+            (0.0, "m", "0 m"),
+            (-2.5e-3, "m", "\u{2212}2.5 mm"),
+            (1.25e-7, "1", "1.25\u{b7}10^{\u{2212}7}"),
+        ] {
+            assert_eq!(with_unit(value, unit), text);
+        }
+    }
+
+    #[test]
+    fn keys_say_their_unit() {
+        assert_eq!(of_key("target.youngs_modulus_pa").1, "Pa");
+    }
+}
