@@ -1,9 +1,9 @@
 //! The whole chart: what is measured and drawn.
 
 use crate::StudyError;
-use crate::effort::Effort;
 use crate::machine::Machine;
 use crate::map::{disc_models, dynamic, inversions, kernels, lookups, marches, models};
+use crate::measure::Effort;
 use crate::picture::Picture;
 use crate::question;
 use crate::record::Record;

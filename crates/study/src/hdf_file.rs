@@ -2,7 +2,7 @@
 
 use crate::chart::Chart;
 use crate::csv_file::COLUMNS;
-use crate::effort::Effort;
+use crate::measure::Effort;
 use crate::picture::Picture;
 use crate::record::Record;
 use figure::{Axis, Scale};

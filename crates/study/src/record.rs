@@ -1,7 +1,5 @@
 //! What is measured of one method at one setting in one scene.
 
-use crate::measure::Timing;
-
 /// The four questions of the chart.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Question {
@@ -51,6 +49,15 @@ impl Question {
             Self::Impacts => "nothing",
         }
     }
+}
+
+/// Nanoseconds per value on one core.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Timing {
+    /// Median over the runs.
+    pub median_ns: f64,
+    /// Half the distance between the quartiles of the runs.
+    pub spread_ns: f64,
 }
 
 /// Error of a method against the converged reference, relative to the largest value of each quantity.

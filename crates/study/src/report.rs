@@ -1,7 +1,7 @@
 //! report.md: the pictures with an answer to each question, generated from the rows.
 
 use crate::chart::Chart;
-use crate::effort::Effort;
+use crate::measure::Effort;
 use crate::picture::Picture;
 use crate::reasons::reason;
 use crate::record::{Question, Record, distinct};

@@ -133,8 +133,8 @@ fn standing<'a>(rows: &[&'a Record], measure: Measure, level: f64) -> Option<Sta
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::measure::Timing;
     use crate::record::Error;
+    use crate::record::Timing;
 
     fn record(method: &'static str, default_path: bool, cost: f64, error: f64) -> Record {
         Record {

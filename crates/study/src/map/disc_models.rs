@@ -2,9 +2,9 @@
 
 use super::models::{TOLERANCES, memory_of_change};
 use crate::StudyError;
-use crate::effort::Effort;
-use crate::marching::Results;
+use crate::measure::Effort;
 use crate::picture::Picture;
+use crate::question::marching::Results;
 use crate::record::Error;
 use crate::scenes::{ROD_RADIUS_M, TABLE_1_PA, paper};
 use contact::choose::{Family, Groups, Rung};

@@ -5,7 +5,7 @@ use super::marches::{
 };
 use super::recurrence::linear_growth;
 use crate::StudyError;
-use crate::effort::Effort;
+use crate::measure::Effort;
 use crate::picture::Picture;
 use contact::law::hertz::CONTACT_TIME;
 use contact::{ExactDisc, MarchError, StaticShare, march_implicit, memory_weights};

@@ -1,10 +1,9 @@
 //! Error of every inversion over time, from before the first arrival to long after the last.
 
 use crate::StudyError;
-use crate::effort::Effort;
-use crate::inversion::ExtendedWeights;
+use crate::inversion::{ExtendedWeights, Inversion};
+use crate::measure::Effort;
 use crate::picture::Picture;
-use crate::question::inversions::Inversion;
 use crate::question::kernels::{KernelScene, POISSON_RATIO};
 use figure::{Axis, Style};
 use halfspace::{Kernel, Medium, Profile, Six};
@@ -59,24 +58,10 @@ fn over_scene(
             .range(scene.times[0], last),
         Axis::logarithmic("largest error over the largest value").range(1e-16, 10.0),
     );
-    let methods: &[Inversion] = match effort {
-        Effort::Quick => &[
-            Inversion::Talbot(16),
-            Inversion::Stehfest(14),
-            Inversion::Euler(10),
-            Inversion::Cme(20),
-            Inversion::Durbin(200),
-            Inversion::Crump(41),
-            Inversion::DeHoog(81),
-        ],
-        Effort::Full => &Inversion::best(),
-    };
-    for method in methods {
-        let (values, _) = method
-            .prepare()
-            .run(medium, scene.place, method.digits(), &scene.times);
+    for method in Inversion::pictured(effort) {
+        let (values, _) = method.run(medium, scene.place, &scene.times);
         figure.curve(
-            &format!("{}, {}", method.name(), method.setting()),
+            &format!("{}, {}", method.name, method.setting),
             Style::Plain,
             over_time(scene, &values),
         );
@@ -94,11 +79,11 @@ fn over_scene(
             over_time(&few, &values),
         );
     }
-    let kernel = single(medium, scene)?;
+    let kernel = Kernel::new(medium, Profile::Hertz, 1e-10)?;
     figure.curve(
         "single integral, 1e-10",
         Style::Heavy,
-        over_time(scene, &kernel),
+        over_time(scene, &scene.by_kernel(&kernel)?),
     );
     for (arrival, label) in [
         (scene.arrivals.first(), "first front"),
@@ -121,22 +106,4 @@ fn over_time(scene: &KernelScene, values: &[Six]) -> Vec<(f64, f64)> {
         .copied()
         .zip(errors.into_iter().map(clamp))
         .collect()
-}
-
-/// The program's kernel at the times of a scene.
-fn single(medium: &Medium, scene: &KernelScene) -> Result<Vec<Six>, StudyError> {
-    let [r, z] = scene.place;
-    let kernel = Kernel::new(medium, Profile::Hertz, 1e-10)?;
-    let rest = kernel.static_field(r, z)?;
-    let unit = if z > 0.0 {
-        1.0
-    } else {
-        1.0 / (0.375 * (1.0 - medium.poisson_ratio()))
-    };
-    let mut values = Vec::new();
-    for &t in &scene.times {
-        let value = kernel.remainder(r, z, t)?.value;
-        values.push(std::array::from_fn(|f| (value[f] + rest[f]) * unit));
-    }
-    Ok(values)
 }

@@ -1,9 +1,9 @@
 //! Where the kernels' formulas lose digits: potentials far away, coalescing roots, incompressible solids.
 
 use crate::StudyError;
-use crate::effort::Effort;
+use crate::measure::Effort;
 use crate::picture::Picture;
-use crate::single_integral::closed_potentials;
+use crate::question::single_integral::closed_potentials;
 use figure::{Axis, Interval, Style};
 use halfspace::gauss::Rule;
 use halfspace::{Deflection, Kernel, Medium, Profile, SurfaceResponse, kausel};

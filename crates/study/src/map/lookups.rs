@@ -4,7 +4,7 @@
 //! between its nodes.
 
 use crate::StudyError;
-use crate::effort::Effort;
+use crate::measure::Effort;
 use crate::picture::Picture;
 use crate::question::kernels::POISSON_RATIO;
 use crate::tables::{Density, Spacing};

@@ -17,7 +17,7 @@
 
 use super::recurrence::linear_growth;
 use crate::StudyError;
-use crate::effort::Effort;
+use crate::measure::Effort;
 use crate::picture::Picture;
 use crate::scenes::{HERTZ_PA, ROD_RADIUS_M, paper};
 use contact::law::hertz::CONTACT_TIME;

@@ -5,9 +5,9 @@
 //! contact, over Hertz's contact time.
 
 use crate::StudyError;
-use crate::effort::Effort;
-use crate::marching::Results;
+use crate::measure::Effort;
 use crate::picture::Picture;
+use crate::question::marching::Results;
 use crate::record::Error;
 use crate::scenes::{ball, collision};
 use contact::Library;

@@ -1,6 +1,6 @@
 //! Where the default path stands, by errors and work counts.
 
-use crate::effort::Effort;
+use crate::measure::Effort;
 use crate::question;
 use crate::record::{Question, Record, distinct};
 use crate::standing::{LEVELS, Measure, standings};
