@@ -7,31 +7,27 @@
 //! [`map`]s show where each method works, with the boundary that theory gives.
 //!
 //! Used by the command `hertzlamb chart` and by tests, by no other crate.
+//!
+//! In reading order: `chart`; `measure` (a method at a setting, timed) and `record` (its row); the questions, with
+//! `scenes`, `tables` and `inversion` for them; the maps; `ranking`, `diagrams`, `picture` and `report`.
 
 mod chart;
-pub mod csv_file;
+mod diagrams;
 mod error;
-mod folder;
-pub mod hdf_file;
 mod inversion;
-mod machine;
 pub mod map;
 mod measure;
 mod picture;
 mod question;
-mod reasons;
+mod ranking;
 mod record;
 mod report;
 mod scenes;
-mod standing;
 mod tables;
-mod work_precision;
 
 pub use chart::Chart;
 pub use error::StudyError;
-pub use machine::Machine;
 pub use measure::Effort;
 pub use picture::Picture;
-pub use reasons::reason;
-pub use record::{Error, FAILED, Question, Record, Timing, pareto_front};
-pub use standing::{EQUAL, LEVELS, Measure, Standing, standings};
+pub use record::{Error, Question, Record, Timing};
+pub use report::PICTURE_COLUMNS;

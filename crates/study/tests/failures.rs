@@ -9,17 +9,19 @@ use contact::{
 };
 use halfspace::Medium;
 use std::f64::consts::PI;
-use study::map::disc_models::{disc_at, disc_chosen, disc_errors};
 use study::map::dynamic::{dynamic_growth_limit, dynamic_is_solved, dynamic_limit};
 use study::map::kernels::{
     closed_form_error, deep_static_error, double_root_error, double_root_own_error,
     incompressible_error, incompressible_surface,
 };
 use study::map::marches::{
-    Fate, admittance, converged, explicit_fate, implicit_fate, paper_disc, paper_response,
+    Outcome, admittance, converged, explicit_outcome, implicit_outcome, linear_growth, paper_disc,
+    paper_response,
 };
-use study::map::models::{Plane, SPEEDS_M_S, TOLERANCES, place_of, targets};
-use study::map::recurrence::linear_growth;
+use study::map::models::{
+    Plane, SPEEDS_M_S, TOLERANCES, ball_impact, disc_at, disc_chosen, disc_errors, place_of,
+    targets,
+};
 
 #[test]
 fn the_published_restitution_is_the_explicit_schemes_step() {
@@ -76,14 +78,17 @@ fn the_explicit_march_blows_up_beyond_its_boundary_and_not_well_below() {
             ..paper
         };
         let exact = converged(&disc).unwrap();
-        let beyond = explicit_fate(&disc, &exact, 2.0 * exact.stable_step(&disc));
+        let beyond = explicit_outcome(&disc, &exact, 2.0 * exact.stable_step(&disc));
         assert!(
-            matches!(beyond, Fate::BlownUp | Fate::Oscillates),
+            matches!(beyond, Outcome::BlownUp | Outcome::Oscillates),
             "{scale}: {beyond:?}"
         );
-        let below = explicit_fate(&disc, &exact, 0.5 * exact.smooth_step(&disc));
+        let below = explicit_outcome(&disc, &exact, 0.5 * exact.smooth_step(&disc));
         assert!(
-            matches!(below, Fate::Accurate | Fate::Lossy | Fate::GainsEnergy),
+            matches!(
+                below,
+                Outcome::Accurate | Outcome::Lossy | Outcome::GainsEnergy
+            ),
             "{scale}: {below:?}"
         );
     }
@@ -100,10 +105,10 @@ fn the_implicit_march_is_stable_on_the_papers_plane_and_gains_no_energy() {
         };
         let exact = converged(&disc).unwrap();
         for step in [2e-3, 8e-3, 0.03, 0.08] {
-            let fate = implicit_fate(&disc, &exact, step * CONTACT_TIME);
+            let outcome = implicit_outcome(&disc, &exact, step * CONTACT_TIME);
             assert!(
-                matches!(fate, Fate::Accurate | Fate::Lossy),
-                "{scale} {step}: {fate:?}"
+                matches!(outcome, Outcome::Accurate | Outcome::Lossy),
+                "{scale} {step}: {outcome:?}"
             );
             assert!(linear_growth(&disc, 1.5, step * CONTACT_TIME) < 1.0);
         }
@@ -123,10 +128,10 @@ fn on_a_very_soft_half_space_steps_near_the_memory_settle() {
     for step in [0.01, 0.02, 0.04, 0.08] {
         let step = step * CONTACT_TIME;
         assert!(linear_growth(&disc, 1.5 * exact.summary.peak_force.cbrt(), step) < 1.0);
-        let fate = implicit_fate(&disc, &exact, step);
+        let outcome = implicit_outcome(&disc, &exact, step);
         assert!(
-            matches!(fate, Fate::Accurate | Fate::Lossy),
-            "{step}: {fate:?}"
+            matches!(outcome, Outcome::Accurate | Outcome::Lossy),
+            "{step}: {outcome:?}"
         );
     }
 }
@@ -251,7 +256,7 @@ fn auto_never_takes_a_model_that_misses_the_map() {
                 let allowed = 1.05 * tolerance + 2e-5;
                 match plane.chosen(share, memory, tolerance) {
                     Rung::QuasiStatic => assert!(
-                        errors.hertz <= allowed,
+                        errors.quasi_static <= allowed,
                         "{share} {memory} {tolerance}: {errors:?}"
                     ),
                     Rung::Radiation | Rung::AreaDashpot => assert!(
@@ -261,7 +266,7 @@ fn auto_never_takes_a_model_that_misses_the_map() {
                     Rung::FullMemory => {
                         // not chosen where hertz is twice as good as asked
                         assert!(
-                            errors.hertz > 0.5 * tolerance,
+                            errors.quasi_static > 0.5 * tolerance,
                             "{share} {memory} {tolerance}: {errors:?}"
                         );
                         continue;
@@ -307,7 +312,7 @@ fn auto_leaves_a_model_not_long_before_the_map_does() {
                 }
                 let errors = plane.errors(share, 2.5 * memory, 128).unwrap();
                 let error = match rung {
-                    Rung::QuasiStatic => errors.hertz,
+                    Rung::QuasiStatic => errors.quasi_static,
                     Rung::Radiation | Rung::AreaDashpot | Rung::FullMemory => errors.dashpot,
                 };
                 assert!(error > tolerance, "{share} {tolerance} {rung:?}: {error:e}");
@@ -333,13 +338,13 @@ fn auto_agrees_with_the_map_of_the_papers_disc() {
                 match disc_chosen(&disc, tolerance) {
                     Rung::QuasiStatic => {
                         cheap[0] += 1;
-                        assert!(errors.springs <= allowed, "{found}");
+                        assert!(errors.quasi_static <= allowed, "{found}");
                     }
                     Rung::Radiation | Rung::AreaDashpot => {
                         cheap[1] += 1;
                         assert!(errors.radiation <= allowed, "{found}");
                     }
-                    Rung::FullMemory => assert!(errors.springs > 0.5 * tolerance, "{found}"),
+                    Rung::FullMemory => assert!(errors.quasi_static > 0.5 * tolerance, "{found}"),
                 }
             }
         }
@@ -360,7 +365,7 @@ fn built_in_materials_lie_where_auto_finds_them() {
             "steel on steel shares evenly: {share}"
         );
         for tolerance in TOLERANCES {
-            let impact = study::map::models::ball_impact("steel", speed, tolerance).unwrap();
+            let impact = ball_impact("steel", speed, tolerance).unwrap();
             let model = impact.solve().unwrap().solved.plan.model;
             let expected = match plane.chosen(share, memory, tolerance) {
                 Rung::QuasiStatic => Model::Hertz,

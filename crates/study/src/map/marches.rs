@@ -15,7 +15,6 @@
 //! by half a step, which feeds h (25/16) int p^2 into the striker, and w by a step, which takes
 //! h (5/2) int p' w' out again.
 
-use super::recurrence::linear_growth;
 use crate::StudyError;
 use crate::measure::Effort;
 use crate::picture::Picture;
@@ -23,13 +22,14 @@ use crate::scenes::{HERTZ_PA, ROD_RADIUS_M, paper};
 use contact::law::hertz::CONTACT_TIME;
 use contact::{
     ExactDisc, History, MarchError, StaticShare, Summary, march_explicit, march_implicit,
+    memory_weights,
 };
 use figure::{Axis, Interval, Style};
 use halfspace::{Deflection, Medium, SurfaceResponse};
 
 /// What a march made of an impact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Fate {
+pub enum Outcome {
     /// Restitution within 1e-3 of the converged one.
     Accurate,
     /// It loses energy, though not the right amount.
@@ -42,7 +42,7 @@ pub enum Fate {
     BlownUp,
 }
 
-const FATES: [&str; 5] = [
+const OUTCOMES: [&str; 5] = [
     "restitution within 1e-3",
     "loses energy, off by more",
     "gains energy: restitution above 1",
@@ -125,37 +125,37 @@ fn disc_at<'a>(like: &ExactDisc<'a>, stiffness_over_impedance: f64) -> ExactDisc
 
 /// What the explicit scheme makes of an impact at a step.
 #[must_use]
-pub fn explicit_fate(disc: &ExactDisc<'_>, exact: &Converged, step: f64) -> Fate {
+pub fn explicit_outcome(disc: &ExactDisc<'_>, exact: &Converged, step: f64) -> Outcome {
     match march_explicit(disc, step) {
-        Ok((history, summary)) => fate(&history, &summary, exact),
-        Err(_) => Fate::BlownUp,
+        Ok((history, summary)) => outcome(&history, &summary, exact),
+        Err(_) => Outcome::BlownUp,
     }
 }
 
 /// What the implicit scheme makes of it.
 #[must_use]
-pub fn implicit_fate(disc: &ExactDisc<'_>, exact: &Converged, step: f64) -> Fate {
+pub fn implicit_outcome(disc: &ExactDisc<'_>, exact: &Converged, step: f64) -> Outcome {
     let done = march_implicit(disc, step)
         .and_then(|history| Summary::new(&history).map(|summary| (history, summary)));
     match done {
-        Ok((history, summary)) => fate(&history, &summary, exact),
-        Err(_) => Fate::BlownUp,
+        Ok((history, summary)) => outcome(&history, &summary, exact),
+        Err(_) => Outcome::BlownUp,
     }
 }
 
-fn fate(history: &History, summary: &Summary, exact: &Converged) -> Fate {
+fn outcome(history: &History, summary: &Summary, exact: &Converged) -> Outcome {
     let real = exact.summary;
     let early = summary.contact_time < 0.8 * real.contact_time;
     if early || !summary.restitution.is_finite() {
-        Fate::BlownUp
+        Outcome::BlownUp
     } else if maxima(&history.force) > exact.maxima {
-        Fate::Oscillates
+        Outcome::Oscillates
     } else if (summary.restitution - real.restitution).abs() <= 1e-3 {
-        Fate::Accurate
+        Outcome::Accurate
     } else if summary.restitution > 1.0 {
-        Fate::GainsEnergy
+        Outcome::GainsEnergy
     } else {
-        Fate::Lossy
+        Outcome::Lossy
     }
 }
 
@@ -193,80 +193,99 @@ pub fn paper_response() -> Result<SurfaceResponse, StudyError> {
 /// Steps over the paper's contact at which its scheme is looked at: the second gives its restitution.
 const PAPER_STEPS: [f64; 2] = [54.0, 200.0];
 
-/// Cells of a map of marches.
-pub(super) fn map_shape(effort: Effort) -> [usize; 2] {
-    effort.pick([16, 14], [48, 40])
-}
-
-/// The plane of both maps: contact stiffness over impedance, step over Hertz's contact time.
-struct MarchPlane<'a> {
+/// A plane of a disc against the step over Hertz's contact time, with what is known of the disc of each column.
+pub(super) struct MarchPlane<C> {
     x: Interval,
     y: Interval,
     shape: [usize; 2],
-    /// Disc and converged impact of each column.
-    columns: Vec<(ExactDisc<'a>, Converged)>,
-    paper: &'a ExactDisc<'a>,
-    /// The converged impact of the paper's disc.
-    own: Converged,
+    columns: Vec<C>,
 }
 
-impl<'a> MarchPlane<'a> {
-    fn new(paper: &'a ExactDisc<'a>, effort: Effort) -> Result<Self, StudyError> {
-        let x = Interval::logarithmic(0.1, 100.0);
-        let shape = map_shape(effort);
-        let mut columns = Vec::new();
-        for stiffness in x.cells(shape[0]) {
-            let disc = disc_at(paper, stiffness);
-            let exact = converged(&disc)?;
-            columns.push((disc, exact));
-        }
+impl<C> MarchPlane<C> {
+    pub(super) fn new(
+        x: Interval,
+        effort: Effort,
+        column: impl FnMut(f64) -> Result<C, StudyError>,
+    ) -> Result<Self, StudyError> {
+        let shape = effort.pick([16, 14], [48, 40]);
         Ok(Self {
             x,
             y: Interval::logarithmic(1e-3, 0.2),
             shape,
-            columns,
-            paper,
-            own: converged(paper)?,
+            columns: x
+                .cells(shape[0])
+                .into_iter()
+                .map(column)
+                .collect::<Result<_, _>>()?,
         })
     }
 
-    /// A picture of what a scheme makes of every cell.
-    fn map(
+    /// A picture of the class of every cell, from its column and step.
+    pub(super) fn map(
         &self,
         name: &'static str,
         title: &str,
-        fate: impl Fn(&ExactDisc<'_>, &Converged, f64) -> Fate,
+        quantity: &str,
+        classes: &[&str],
+        class: impl Fn(&C, f64) -> usize,
     ) -> Picture {
-        let stiffness = "contact stiffness over impedance, k/Z, per collision time";
-        let mut figure = Picture::new(
-            name,
-            title,
-            Axis::over(self.x, stiffness),
-            Axis::over(self.y, "step over Hertz's contact time"),
-        );
-        figure.map([self.x, self.y], self.shape, &FATES, |x, y| {
+        let x = Axis::over(self.x, quantity);
+        let y = Axis::over(self.y, "step over Hertz's contact time");
+        let mut figure = Picture::new(name, title, x, y);
+        figure.map([self.x, self.y], self.shape, classes, |x, y| {
             let column = (self.x.fraction(x) * self.shape[0] as f64) as usize;
-            let (disc, exact) = &self.columns[column.min(self.shape[0] - 1)];
-            fate(disc, exact, y * CONTACT_TIME) as usize
+            class(&self.columns[column], y * CONTACT_TIME)
         });
         figure
     }
 
-    /// A step of each column as a curve.
-    fn line(&self, step: impl Fn(&ExactDisc<'_>, &Converged) -> f64) -> Vec<(f64, f64)> {
-        let columns = self.columns.iter().zip(self.x.cells(self.shape[0]));
-        columns
-            .map(|((disc, exact), x)| (x, step(disc, exact) / CONTACT_TIME))
-            .collect()
+    /// A curve of steps, as long as it stays in the plane: x of each.
+    pub(super) fn limit(&self, count: usize, x: impl Fn(f64) -> f64) -> Vec<(f64, f64)> {
+        let points = self
+            .y
+            .cells(count)
+            .into_iter()
+            .map(|y| (x(y * CONTACT_TIME), y));
+        points.filter(|(x, _)| *x < self.x.high).collect()
     }
 
-    /// Marks the paper's case at its steps, with something to say of each.
-    fn mark_paper(&self, figure: &mut Picture, says: impl Fn(f64) -> String) {
-        for n in PAPER_STEPS {
-            let step = self.own.summary.contact_time / n;
-            let place = (1.5 * admittance(self.paper), step / CONTACT_TIME);
-            figure.point(place, &format!("paper's case, ts/{n}{}", says(step)));
-        }
+    /// The columns at their places.
+    fn placed(&self) -> impl Iterator<Item = (f64, &C)> {
+        self.x.cells(self.shape[0]).into_iter().zip(&self.columns)
+    }
+}
+
+/// Disc and converged impact of a column.
+type Column<'a> = (ExactDisc<'a>, Converged);
+
+impl MarchPlane<Column<'_>> {
+    /// What a scheme makes of every cell, by contact stiffness over impedance.
+    fn outcomes(
+        &self,
+        name: &'static str,
+        title: &str,
+        outcome: impl Fn(&ExactDisc<'_>, &Converged, f64) -> Outcome,
+    ) -> Picture {
+        let stiffness = "contact stiffness over impedance, k/Z, per collision time";
+        self.map(name, title, stiffness, &OUTCOMES, |(disc, exact), step| {
+            outcome(disc, exact, step) as usize
+        })
+    }
+
+    /// A step of each column as a curve.
+    fn line(&self, step: impl Fn(&ExactDisc<'_>, &Converged) -> f64) -> Vec<(f64, f64)> {
+        self.placed()
+            .map(|(x, (disc, exact))| (x, step(disc, exact) / CONTACT_TIME))
+            .collect()
+    }
+}
+
+/// Marks the paper's case at its steps, with something to say of each.
+fn mark_paper(figure: &mut Picture, (disc, own): &Column<'_>, says: impl Fn(f64) -> String) {
+    for n in PAPER_STEPS {
+        let step = own.summary.contact_time / n;
+        let place = (1.5 * admittance(disc), step / CONTACT_TIME);
+        figure.point(place, &format!("paper's case, ts/{n}{}", says(step)));
     }
 }
 
@@ -274,17 +293,21 @@ impl<'a> MarchPlane<'a> {
 pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>, StudyError> {
     let response = paper_response()?;
     let paper = paper_disc(&response)?;
-    let plane = MarchPlane::new(&paper, effort)?;
-    let explicit = explicit(&plane);
+    let plane = MarchPlane::new(Interval::logarithmic(0.1, 100.0), effort, |stiffness| {
+        let disc = disc_at(&paper, stiffness);
+        Ok((disc, converged(&disc)?))
+    })?;
+    let own = (paper, converged(&paper)?);
+    let explicit = explicit(&plane, &own);
     advance();
-    let implicit = implicit(&plane);
+    let implicit = implicit(&plane, &own);
     advance();
     Ok(vec![explicit, implicit])
 }
 
-fn explicit(plane: &MarchPlane<'_>) -> Picture {
+fn explicit(plane: &MarchPlane<Column<'_>>, own: &Column<'_>) -> Picture {
     let title = "Explicit march (the paper's scheme)";
-    let mut figure = plane.map("march-explicit", title, explicit_fate);
+    let mut figure = plane.outcomes("march-explicit", title, explicit_outcome);
     figure.curve(
         "theory: h k/Z = 2",
         Style::Heavy,
@@ -300,22 +323,22 @@ fn explicit(plane: &MarchPlane<'_>) -> Picture {
         Style::HeavyDashed,
         plane.line(|_, exact| exact.energy_step()),
     );
-    plane.mark_paper(&mut figure, |step| {
-        match march_explicit(plane.paper, step) {
+    mark_paper(&mut figure, own, |step| {
+        match march_explicit(&own.0, step) {
             Ok((_, summary)) => format!(": e = {:.4}", summary.restitution),
             Err(_) => String::new(),
         }
     });
-    figure.caption = explain(plane.paper, &plane.own);
+    figure.caption = explain(own);
     figure
 }
 
-fn implicit(plane: &MarchPlane<'_>) -> Picture {
+fn implicit(plane: &MarchPlane<Column<'_>>, own: &Column<'_>) -> Picture {
     let title = "Implicit march (the default)";
-    let mut figure = plane.map("march-implicit", title, implicit_fate);
+    let mut figure = plane.outcomes("march-implicit", title, implicit_outcome);
     let steps = plane.y.cells(4 * plane.shape[1]);
     let mut growing = Vec::new();
-    for ((disc, exact), x) in plane.columns.iter().zip(plane.x.cells(plane.shape[0])) {
+    for (x, (disc, exact)) in plane.placed() {
         let stiffness = 1.5 * exact.summary.peak_force.cbrt();
         let grows = |y: &&f64| linear_growth(disc, stiffness, **y * CONTACT_TIME) > 1.0;
         growing.extend(steps.iter().filter(grows).map(|&y| (x, y)));
@@ -330,10 +353,12 @@ fn implicit(plane: &MarchPlane<'_>) -> Picture {
         Style::Dotted,
         plane.line(|_, exact| exact.summary.contact_time / 8.0),
     );
-    let classes = figure.classes().into_iter().flat_map(|c| &c.class);
-    let gains = classes.filter(|&&class| class == Fate::GainsEnergy as usize);
-    let gains = gains.count();
-    plane.mark_paper(&mut figure, |_| String::new());
+    let cells = figure.points();
+    let gains = cells
+        .iter()
+        .filter(|(class, ..)| *class == OUTCOMES[2])
+        .count();
+    mark_paper(&mut figure, own, |_| String::new());
     figure.caption = format!(
         "The implicit march gains energy in {gains} cells of this plane, and with fewer than eight samples in \
         contact it refuses with a sentence that asks for a smaller step. The curvature of the newest cell, an \
@@ -345,7 +370,7 @@ fn implicit(plane: &MarchPlane<'_>) -> Picture {
 }
 
 /// The restitution of 0.991 in numbers.
-fn explain(paper: &ExactDisc<'_>, own: &Converged) -> String {
+fn explain((paper, own): &Column<'_>) -> String {
     let at = |n: f64| own.summary.contact_time / n;
     let found = |n: f64| match march_explicit(paper, at(n)) {
         Ok((_, summary)) => format!("{:.4}", summary.restitution),
@@ -361,4 +386,44 @@ fn explain(paper: &ExactDisc<'_>, own: &Converged) -> String {
         own.explicit_restitution(at(200.0)),
         own.explicit_restitution(at(54.0)),
     )
+}
+
+/// Growth per step of the implicit scheme's newest samples at a frozen contact stiffness k.
+///
+/// The largest root, in modulus, of p_n/k + coupling [p_n - sum_j g_j (p_{n-j} - p_{n-j-1})] = 0, for the dynamic
+/// share without the first p_n in brackets, from a long run of the recurrence; below one the samples settle.
+#[must_use]
+pub fn linear_growth(disc: &ExactDisc<'_>, stiffness: f64, step: f64) -> f64 {
+    const STEPS: usize = 400;
+    let lag = memory_weights(disc, step);
+    let still = match disc.share {
+        StaticShare::Full => 1.0,
+        StaticShare::Dynamic => 0.0,
+    };
+    let own = 1.0 / stiffness + disc.coupling * (still - lag[0]);
+    let mut p = vec![0.0; lag.len() + 1];
+    p.push(1.0);
+    // rescaled so that nothing overflows; the logarithm of the scale is kept
+    let mut growth = 0.0;
+    for n in 0..STEPS {
+        let m = p.len();
+        let past: f64 = lag[1..]
+            .iter()
+            .enumerate()
+            .map(|(j, g)| g * (p[m - 1 - j] - p[m - 2 - j]))
+            .sum();
+        p.push(disc.coupling * (past - lag[0] * p[m - 1]) / own);
+        p.remove(0);
+        let size = p.iter().fold(0.0_f64, |a, v| a.max(v.abs()));
+        if size == 0.0 {
+            return 0.0;
+        }
+        for v in &mut p {
+            *v /= size;
+        }
+        if n >= STEPS / 2 {
+            growth += size.ln();
+        }
+    }
+    (growth / (STEPS / 2) as f64).exp()
 }
