@@ -110,20 +110,8 @@ pub struct Record {
 
 impl Record {
     /// Names of the columns of chart.csv.
-    pub const COLUMNS: [&str; 12] = [
-        "question",
-        "scene",
-        "method",
-        "setting",
-        "default_path",
-        "cost_ns",
-        "cost_spread_ns",
-        "error_max",
-        "error_rms",
-        "work",
-        "failed",
-        "refusal",
-    ];
+    pub const COLUMNS: &str = "question scene method setting default_path cost_ns cost_spread_ns \
+        error_max error_rms work failed refusal";
 
     /// Its columns.
     pub(crate) fn row(&self) -> [String; 12] {
@@ -194,29 +182,28 @@ pub(crate) fn distinct<'a>(items: impl Iterator<Item = &'a str>) -> Vec<&'a str>
 }
 
 #[cfg(test)]
-impl Record {
-    /// A row of a question with one scene.
-    pub(crate) fn of(method: &'static str, default_path: bool, cost: f64, error: f64) -> Self {
-        Self {
-            question: Question::Fields,
-            scene: "a scene",
-            method,
-            setting: String::new(),
-            default_path,
-            cost: Timing {
-                median_ns: cost,
-                spread_ns: 0.0,
-            },
-            error: Error::of(&[error]),
-            work: None,
-            refusal: None,
-        }
-    }
-}
-
-#[cfg(test)]
 mod tests {
     use super::*;
+
+    impl Record {
+        /// A row of a question with one scene.
+        pub(crate) fn of(method: &'static str, default_path: bool, cost: f64, error: f64) -> Self {
+            Self {
+                question: Question::Fields,
+                scene: "a scene",
+                method,
+                setting: String::new(),
+                default_path,
+                cost: Timing {
+                    median_ns: cost,
+                    spread_ns: 0.0,
+                },
+                error: Error::of(&[error]),
+                work: None,
+                refusal: None,
+            }
+        }
+    }
 
     #[test]
     fn the_front_holds_what_nothing_beats() {

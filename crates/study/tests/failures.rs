@@ -15,8 +15,7 @@ use study::map::kernels::{
     incompressible_error, incompressible_surface,
 };
 use study::map::marches::{
-    Outcome, admittance, converged, explicit_outcome, implicit_outcome, linear_growth, paper_disc,
-    paper_response,
+    Converged, Outcome, admittance, linear_growth, paper_disc, paper_response,
 };
 use study::map::models::{
     Plane, SPEEDS_M_S, TOLERANCES, ball_impact, disc_at, disc_chosen, disc_errors, place_of,
@@ -27,7 +26,7 @@ use study::map::models::{
 fn the_published_restitution_is_the_explicit_schemes_step() {
     let response = paper_response().unwrap();
     let disc = paper_disc(&response).unwrap();
-    let exact = converged(&disc).unwrap();
+    let exact = Converged::new(disc).unwrap();
     assert!((exact.summary.restitution - 0.980_44).abs() < 1e-5);
     let step = exact.summary.contact_time / 200.0;
     let (_, found) = march_explicit(&disc, step).unwrap();
@@ -50,7 +49,7 @@ fn the_published_restitution_is_the_explicit_schemes_step() {
 fn first_order_theory_gives_the_slope_of_the_explicit_schemes_energy() {
     let response = paper_response().unwrap();
     let disc = paper_disc(&response).unwrap();
-    let exact = converged(&disc).unwrap();
+    let exact = Converged::new(disc).unwrap();
     // the sampled end of contact scatters: a mean over many steps near one another
     let mean = |step: f64| -> f64 {
         let slope = |i: i32| {
@@ -77,13 +76,13 @@ fn the_explicit_march_blows_up_beyond_its_boundary_and_not_well_below() {
             coupling: scale * paper.coupling,
             ..paper
         };
-        let exact = converged(&disc).unwrap();
-        let beyond = explicit_outcome(&disc, &exact, 2.0 * exact.stable_step(&disc));
+        let exact = Converged::new(disc).unwrap();
+        let beyond = exact.explicit(2.0 * exact.stable_step());
         assert!(
             matches!(beyond, Outcome::BlownUp | Outcome::Oscillates),
             "{scale}: {beyond:?}"
         );
-        let below = explicit_outcome(&disc, &exact, 0.5 * exact.smooth_step(&disc));
+        let below = exact.explicit(0.5 * exact.smooth_step());
         assert!(
             matches!(
                 below,
@@ -103,9 +102,9 @@ fn the_implicit_march_is_stable_on_the_papers_plane_and_gains_no_energy() {
             coupling: scale * disc.coupling,
             ..disc
         };
-        let exact = converged(&disc).unwrap();
+        let exact = Converged::new(disc).unwrap();
         for step in [2e-3, 8e-3, 0.03, 0.08] {
-            let outcome = implicit_outcome(&disc, &exact, step * CONTACT_TIME);
+            let outcome = exact.implicit(step * CONTACT_TIME);
             assert!(
                 matches!(outcome, Outcome::Accurate | Outcome::Lossy),
                 "{scale} {step}: {outcome:?}"
@@ -124,11 +123,11 @@ fn on_a_very_soft_half_space_steps_near_the_memory_settle() {
         coupling: paper.coupling * 50.0 / (1.5 * admittance(&paper)),
         ..paper
     };
-    let exact = converged(&disc).unwrap();
+    let exact = Converged::new(disc).unwrap();
     for step in [0.01, 0.02, 0.04, 0.08] {
         let step = step * CONTACT_TIME;
         assert!(linear_growth(&disc, 1.5 * exact.summary.peak_force.cbrt(), step) < 1.0);
-        let outcome = implicit_outcome(&disc, &exact, step);
+        let outcome = exact.implicit(step);
         assert!(
             matches!(outcome, Outcome::Accurate | Outcome::Lossy),
             "{step}: {outcome:?}"

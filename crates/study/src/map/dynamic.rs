@@ -1,8 +1,6 @@
 //! The `dynamic` share at strong coupling: where it has no solution, and where a coarse step hides that.
 
-use super::marches::{
-    MarchPlane, Outcome, converged, implicit_outcome, linear_growth, paper_disc, paper_response,
-};
+use super::marches::{Converged, MarchPlane, Outcome, linear_growth, paper_disc, paper_response};
 use crate::StudyError;
 use crate::measure::Effort;
 use crate::picture::Picture;
@@ -69,7 +67,7 @@ pub(crate) fn figure(effort: Effort) -> Result<Picture, StudyError> {
     let paper = &paper_disc(&response)?;
     let plane = MarchPlane::new(Interval::logarithmic(0.05, 5.0), effort, |coupling| {
         let disc = dynamic(paper, coupling);
-        Ok((disc, converged(&disc).ok()))
+        Ok((disc, Converged::new(disc).ok()))
     })?;
     let mut figure = plane.map(
         "march-dynamic",
@@ -79,7 +77,7 @@ pub(crate) fn figure(effort: Effort) -> Result<Picture, StudyError> {
         |(disc, exact), step| match (exact, dynamic_is_solved(disc, step)) {
             (_, false) => 3,
             (None, true) => 2,
-            (Some(exact), true) => match implicit_outcome(disc, exact, step) {
+            (Some(exact), true) => match exact.implicit(step) {
                 Outcome::Accurate => 0,
                 Outcome::Lossy | Outcome::GainsEnergy | Outcome::Oscillates | Outcome::BlownUp => 1,
             },

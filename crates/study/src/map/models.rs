@@ -277,35 +277,55 @@ struct Map<'a> {
     plane: [Interval; 2],
     quantity: &'a str,
     shape: [usize; 2],
-    errors: Vec<ModelErrors>,
     /// From the lightest to the darkest region.
     classes: &'a [&'a str],
     /// How many points of a line.
     count: usize,
-    leaves: [(&'a str, Rung, Style); 2],
+    /// Lines of the models that `auto` leaves, the first solid.
+    leaves: [(&'a str, Rung); 2],
     boundary: &'a dyn Fn(f64, f64, Rung) -> f64,
 }
 
 impl Map<'_> {
-    /// The picture of a tolerance, without a caption.
-    fn picture(&self, name: &'static str, title: &str, tolerance: f64) -> Picture {
+    /// The errors at the centres of the cells, row by row.
+    fn errors(
+        &self,
+        at: impl Fn(f64, f64) -> Result<ModelErrors, MarchError>,
+        advance: &dyn Fn(),
+    ) -> Result<Vec<ModelErrors>, StudyError> {
         let [x, y] = self.plane;
+        let mut errors = Vec::new();
+        for &memory in &y.cells(self.shape[1]) {
+            for &deflection in &x.cells(self.shape[0]) {
+                errors.push(at(deflection, memory)?);
+            }
+            advance();
+        }
+        Ok(errors)
+    }
+
+    /// The picture of a tolerance, without a caption.
+    fn picture(
+        &self,
+        name: &'static str,
+        what: &str,
+        tolerance: f64,
+        errors: &[ModelErrors],
+    ) -> Picture {
+        let [x, y] = self.plane;
+        let title = format!("{what} that meets {tolerance:.0e}");
         let time = Axis::over(y, "memory over contact time");
-        let mut figure = Picture::new(name, title, Axis::over(x, self.quantity), time);
-        let mut cells = self.errors.iter();
+        let mut figure = Picture::new(name, &title, Axis::over(x, self.quantity), time);
+        let mut cells = errors.iter();
         let last = self.classes.len() - 1;
         figure.map(self.plane, self.shape, self.classes, |_, _| {
-            let cell = cells
-                .next()
-                .map_or(last, |errors| errors.cheapest(tolerance));
-            cell.min(last)
+            let errors = cells.next();
+            errors.map_or(last, |errors| errors.cheapest(tolerance).min(last))
         });
-        for (label, rung, style) in self.leaves {
-            figure.curve(
-                label,
-                style,
-                self.line(|x| (self.boundary)(x, tolerance, rung)),
-            );
+        let styles = [Style::Heavy, Style::HeavyDashed];
+        for ((label, rung), style) in self.leaves.into_iter().zip(styles) {
+            let line = self.line(|x| (self.boundary)(x, tolerance, rung));
+            figure.curve(label, style, line);
         }
         figure
     }
@@ -326,28 +346,15 @@ pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>
 
 fn growing_figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>, StudyError> {
     let plane = Plane::new(0.3)?;
-    let x = Interval::logarithmic(0.01, 1.15);
-    let y = Interval::logarithmic(1e-4, 3.0);
+    let (x, y) = (
+        Interval::logarithmic(0.01, 1.15),
+        Interval::logarithmic(1e-4, 3.0),
+    );
     let shape = shape(effort);
-    let steps = effort.pick(128, 192);
-    let mut errors = Vec::new();
-    for &memory in &y.cells(shape[1]) {
-        for &share in &x.cells(shape[0]) {
-            // the half-space has all of the compliance at most
-            errors.push(plane.errors(share.min(1.0), memory, steps)?);
-        }
-        advance();
-    }
-    // `auto`'s estimate of what hertz leaves out over the error found, in the middle of the plane
-    let (i, k) = (shape[0] / 2, shape[1] / 2);
-    let (lag, memory) = plane.groups(x.cells(shape[0])[i], y.cells(shape[1])[k]);
-    let estimate = choose(lag, memory, f64::INFINITY, None).error;
-    let ratio = estimate / errors[k * shape[0] + i].quasi_static;
     let map = Map {
         plane: [x, y],
         quantity: "static deflection of the half-space over indentation",
         shape,
-        errors,
         classes: &[
             "hertz",
             "radiation",
@@ -357,20 +364,24 @@ fn growing_figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>, S
         ],
         count: 40,
         leaves: [
-            ("auto leaves hertz", Rung::QuasiStatic, Style::Heavy),
-            (
-                "auto leaves the area dashpot",
-                Rung::AreaDashpot,
-                Style::HeavyDashed,
-            ),
+            ("auto leaves hertz", Rung::QuasiStatic),
+            ("auto leaves the area dashpot", Rung::AreaDashpot),
         ],
         boundary: &|share, tolerance, rung| plane.boundary(share, tolerance, rung),
     };
+    let steps = effort.pick(128, 192);
+    // the half-space has all of the compliance at most
+    let at = |share: f64, memory| plane.errors(share.min(1.0), memory, steps);
+    let errors = map.errors(at, advance)?;
+    // `auto`'s estimate of what hertz leaves out over the error found, in the middle of the plane
+    let (i, k) = (shape[0] / 2, shape[1] / 2);
+    let (lag, memory) = plane.groups(x.cells(shape[0])[i], y.cells(shape[1])[k]);
+    let estimate = choose(lag, memory, f64::INFINITY, None).error;
+    let ratio = estimate / errors[k * shape[0] + i].quasi_static;
     let mut figures = Vec::new();
     let names = ["models-1e-2", "models-1e-3", "models-1e-4"];
     for (name, tolerance) in names.into_iter().zip(TOLERANCES) {
-        let title = format!("Cheapest model that meets {tolerance:.0e}");
-        let mut figure = map.picture(name, &title, tolerance);
+        let mut figure = map.picture(name, "Cheapest model", tolerance, &errors);
         for speed in SPEEDS_M_S {
             let targets = targets();
             let places = targets.iter().map(|target| place_of(target, speed));
@@ -393,29 +404,18 @@ fn growing_figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>, S
 fn disc_figures(effort: Effort) -> Result<Vec<Picture>, StudyError> {
     let response = SurfaceResponse::new(&Medium::new(0.3)?, Deflection::Centre);
     let paper = paper(TABLE_1_PA)?.fixed_disc(&response, ROD_RADIUS_M, StaticShare::Full);
-    let x = Interval::logarithmic(1e-3, 10.0);
-    let y = Interval::logarithmic(1e-4, 1.0);
-    let shape = effort.pick([14, 12], [40, 40]);
-    let mut errors = Vec::new();
-    for &memory in &y.cells(shape[1]) {
-        for &coupling in &x.cells(shape[0]) {
-            errors.push(disc_errors(&disc_at(&paper, coupling, memory))?);
-        }
-    }
     let map = Map {
-        plane: [x, y],
+        plane: [
+            Interval::logarithmic(1e-3, 10.0),
+            Interval::logarithmic(1e-4, 1.0),
+        ],
         quantity: "static deflection over indentation (coupling)",
-        shape,
-        errors,
+        shape: effort.pick([14, 12], [40, 40]),
         classes: &["two springs", "two springs and first-order loss", "wave"],
         count: 60,
         leaves: [
-            ("auto leaves two springs", Rung::QuasiStatic, Style::Heavy),
-            (
-                "auto leaves the first-order loss",
-                Rung::Radiation,
-                Style::HeavyDashed,
-            ),
+            ("auto leaves two springs", Rung::QuasiStatic),
+            ("auto leaves the first-order loss", Rung::Radiation),
         ],
         boundary: &|coupling, tolerance, rung| {
             memory_of_change(1e-12, rung, |memory| {
@@ -423,10 +423,12 @@ fn disc_figures(effort: Effort) -> Result<Vec<Picture>, StudyError> {
             })
         },
     };
+    let at = |coupling, memory| disc_errors(&disc_at(&paper, coupling, memory));
+    let errors = map.errors(at, &|| ())?;
+    let what = "Cheapest model of the paper's fixed disc";
     let names = ["models-disc-1e-2", "models-disc-1e-3", "models-disc-1e-4"];
     let figures = names.into_iter().zip(TOLERANCES).map(|(name, tolerance)| {
-        let title = format!("Cheapest model of the paper's fixed disc that meets {tolerance:.0e}");
-        let mut figure = map.picture(name, &title, tolerance);
+        let mut figure = map.picture(name, what, tolerance, &errors);
         // half of the first-order loss is the error of the restitution of two springs
         let loss = 2.0 * tolerance;
         let theory = map.line(|coupling| {

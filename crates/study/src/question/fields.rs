@@ -133,57 +133,28 @@ fn exact_cells(medium: &Medium, compared: &mut Compared<'_>) -> Result<(), Study
     Ok(())
 }
 
-/// A way to use a table: its name, for which forces, how it is summed (none: running sums of the two exponentials of the
-/// pulse), and whether the program takes it.
-type Way = (&'static str, Smoothness, Option<Method>, bool);
-
-/// Ways to use the program's own table.
-const WAYS: [Way; 4] = [
-    (
-        "table, direct sums",
-        Smoothness::Smooth,
-        Some(Method::Direct),
-        true,
-    ),
-    (
-        "table, FFT",
-        Smoothness::Smooth,
-        Some(Method::Transform),
-        true,
-    ),
-    (
-        "table, linear cells",
-        Smoothness::Linear,
-        Some(Method::Transform),
-        false,
-    ),
-    (
-        "table, sums for this pulse only",
-        Smoothness::Smooth,
-        None,
-        false,
-    ),
-];
-
-/// The way to use others.
-const OTHER: [Way; 1] = [(
-    "table, other nodes or points",
-    Smoothness::Smooth,
-    Some(Method::Transform),
-    false,
-)];
-
 /// Tables of several densities and stencils, coarser cells, three ways to sum.
 fn looked_up(densities: &[Density], compared: &mut Compared<'_>) -> Result<(), StudyError> {
+    use Method::{Direct, Transform};
+    use Smoothness::{Linear, Smooth};
+    // for which forces, and how they are summed: none is by running sums of the two exponentials of the pulse
+    let own = [
+        ("table, direct sums", Smooth, Some(Direct), true),
+        ("table, FFT", Smooth, Some(Transform), true),
+        ("table, linear cells", Linear, Some(Transform), false),
+        ("table, sums for this pulse only", Smooth, None, false),
+    ];
+    let method = "table, other nodes or points";
+    let other = [(method, Smooth, Some(Transform), false)];
     let effort = compared.effort;
     let [r, z] = compared.pulse.place;
     for density in densities {
         for points in effort.pick(vec![Density::points()], vec![4, 6, Density::points()]) {
             let table = density.with_stencil(points)?;
             let (ways, coarsest) = if density.is_default(points) {
-                (&WAYS[..], 4)
+                (&own[..], 4)
             } else {
-                (&OTHER[..], 0)
+                (&other[..], 0)
             };
             for coarsening in (0..=coarsest).step_by(effort.pick(2, 1)) {
                 let width = table.cell_width(POISSON_RATIO)? * f64::from(1_u32 << coarsening);
