@@ -8,7 +8,7 @@ use crate::picture::Picture;
 use crate::question::{fields, force, impacts, kernels};
 use crate::ranking::{Ranking, rankings};
 use crate::record::Record;
-use crate::tables::{Density, Spacing};
+use crate::tables::Density;
 use std::time::Instant;
 use tabulator::Progress;
 
@@ -36,12 +36,11 @@ impl Chart {
     /// [`StudyError`] where a part that must work does not; failures of the methods compared are results.
     pub fn run(effort: Effort, progress: &dyn Progress) -> Result<Self, StudyError> {
         let started = Instant::now();
-        let uniform = effort.pick(vec![], vec![0.25, 0.125, 0.0625]);
-        let mut spacings = vec![Spacing::Own];
-        spacings.extend(uniform.into_iter().map(Spacing::Uniform));
+        let uniform = [None, Some(0.25), Some(0.125), Some(0.0625)];
+        let spacings = &uniform[..effort.pick(1, 4)];
         progress.total("tables", spacings.len() as u64);
         let mut densities = Vec::new();
-        for spacing in spacings {
+        for &spacing in spacings {
             densities.push(Density::build(kernels::POISSON_RATIO, spacing)?);
             progress.advance(1);
         }

@@ -22,53 +22,44 @@ impl Effort {
             Self::Full => full,
         }
     }
-
-    fn clock(self) -> Clock {
-        Clock {
-            runs: self.pick(5, 11),
-            shortest_s: self.pick(5e-4, 5e-3),
-            longest_s: self.pick(0.06, 1.5),
-        }
-    }
 }
 
-/// At least three of `runs` runs of at least `shortest_s` each, none begun after `longest_s` in all.
-struct Clock {
+/// The first result of `run`, and the time of a run, which makes `values` values.
+///
+/// From at least three of `runs` runs of at least `shortest_s` each, none begun after `longest_s` in all.
+fn time<T>(
     runs: usize,
     shortest_s: f64,
     longest_s: f64,
-}
-
-impl Clock {
-    /// The first result of `run`, and the time of a run, which makes `values` values.
-    fn time<T>(&self, values: f64, run: impl Fn() -> T) -> (T, Timing) {
-        let begun = Instant::now();
-        let first = black_box(run());
-        let once_s = begun.elapsed().as_secs_f64().max(20e-9);
-        let repeats = (self.shortest_s / once_s).ceil().max(1.0);
-        let mut samples = Vec::with_capacity(self.runs);
-        if repeats <= 1.0 {
-            // long enough for a run, and for the caches not to matter
-            samples.push(once_s * 1e9 / values);
-        }
-        while samples.len() < self.runs {
-            if samples.len() >= 3 && begun.elapsed().as_secs_f64() > self.longest_s {
-                break;
-            }
-            let start = Instant::now();
-            for _ in 0..repeats as usize {
-                black_box(run());
-            }
-            samples.push(start.elapsed().as_secs_f64() * 1e9 / repeats / values);
-        }
-        samples.sort_by(f64::total_cmp);
-        let at = |share: f64| samples[((samples.len() - 1) as f64 * share).round() as usize];
-        let timing = Timing {
-            median_ns: at(0.5),
-            spread_ns: 0.5 * (at(0.75) - at(0.25)),
-        };
-        (first, timing)
+    values: f64,
+    run: impl Fn() -> T,
+) -> (T, Timing) {
+    let begun = Instant::now();
+    let first = black_box(run());
+    let once_s = begun.elapsed().as_secs_f64().max(20e-9);
+    let repeats = (shortest_s / once_s).ceil().max(1.0);
+    let mut samples = Vec::with_capacity(runs);
+    if repeats <= 1.0 {
+        // long enough for a run, and for the caches not to matter
+        samples.push(once_s * 1e9 / values);
     }
+    while samples.len() < runs {
+        if samples.len() >= 3 && begun.elapsed().as_secs_f64() > longest_s {
+            break;
+        }
+        let start = Instant::now();
+        for _ in 0..repeats as usize {
+            black_box(run());
+        }
+        samples.push(start.elapsed().as_secs_f64() * 1e9 / repeats / values);
+    }
+    samples.sort_by(f64::total_cmp);
+    let at = |share: f64| samples[((samples.len() - 1) as f64 * share).round() as usize];
+    let timing = Timing {
+        median_ns: at(0.5),
+        spread_ns: 0.5 * (at(0.75) - at(0.25)),
+    };
+    (first, timing)
 }
 
 /// What a run found, and its work where that is counted.
@@ -131,7 +122,8 @@ impl<T> Scene<'_, T> {
             };
             ((candidate.run)(), nothing)
         } else {
-            effort.clock().time(self.values, &candidate.run)
+            let (runs, shortest_s, longest_s) = effort.pick((5, 5e-4, 0.06), (11, 5e-3, 1.5));
+            time(runs, shortest_s, longest_s, self.values, &candidate.run)
         };
         let (errors, work, refusal) = match found {
             Ok((found, work)) => ((self.errors)(&found)?, work, None),
@@ -158,13 +150,8 @@ mod tests {
 
     #[test]
     fn a_run_does_as_much_work_as_it_says() {
-        let clock = Clock {
-            runs: 5,
-            shortest_s: 2e-4,
-            longest_s: 0.05,
-        };
         let count = Cell::new(0_u64);
-        let (first, timing) = clock.time(10.0, || count.replace(count.get() + 1));
+        let (first, timing) = time(5, 2e-4, 0.05, 10.0, || count.replace(count.get() + 1));
         assert_eq!(first, 0);
         assert!(count.get() >= 6, "{}", count.get());
         assert!(timing.median_ns > 0.0 && timing.spread_ns >= 0.0);

@@ -8,7 +8,7 @@
 //! At z = 0 nothing decays along k. Beyond the singularities the load's e^{ik} and e^{-ik} are separated and
 //! each is followed into the half-plane where it decays, after the static deflection is taken out.
 
-use super::transform::{Roots, Solid, load, path};
+use super::transform::{Roots, load, path};
 use halfspace::Medium;
 use halfspace::gauss::Rule;
 use num_complex::Complex64;
@@ -19,7 +19,7 @@ use std::f64::consts::{LN_10, PI};
 /// surface w alone, over its static value.
 #[derive(Debug)]
 pub(crate) struct Hankel {
-    solid: Solid,
+    medium: Medium,
     r: f64,
     z: f64,
     digits: f64,
@@ -34,7 +34,7 @@ impl Hankel {
     pub(crate) fn new(medium: &Medium, [r, z]: [f64; 2], digits: f64) -> Self {
         debug_assert!(z > 0.0 || r == 0.0, "on the surface only the centre");
         Self {
-            solid: Solid::new(medium),
+            medium: medium.clone(),
             r,
             z,
             digits,
@@ -67,6 +67,11 @@ impl Hankel {
         s.iter().map(|&s| self.step(&shared, s)).collect()
     }
 
+    /// Slowness of the Rayleigh wave, the slowest.
+    fn slowest(&self) -> f64 {
+        1.0 / self.medium.rayleigh_speed()
+    }
+
     /// k beyond which e^{-k z} has decayed.
     fn reach(&self) -> f64 {
         self.digits * LN_10 / self.z
@@ -79,7 +84,7 @@ impl Hankel {
 
     /// Nodes that serve every s with Re s >= `least` and |Im s| <= `widest`.
     pub(crate) fn nodes(&self, least: f64, widest: f64) -> Vec<Node> {
-        let slowest = self.solid.rayleigh_slowness;
+        let slowest = self.slowest();
         let end = widest * slowest + self.reach() + 4.0 * least;
         let width = 3.5 / (1.0 + self.r);
         let rule = self.rule();
@@ -103,7 +108,7 @@ impl Hankel {
 
     /// Step response of the six fields at s, Re s > 0.
     pub(crate) fn step(&self, nodes: &[Node], s: Complex64) -> [Complex64; 6] {
-        let end = s.im.abs() * self.solid.rayleigh_slowness + self.reach() + 4.0 * s.re;
+        let end = s.im.abs() * self.slowest() + self.reach() + 4.0 * s.re;
         let count = nodes.partition_point(|&(k, _)| k <= end);
         let mut sum = [Complex64::default(); 6];
         for &(k, bessel) in &nodes[..count] {
@@ -115,8 +120,8 @@ impl Hankel {
 
     /// Adds the fields of one k.
     fn add(&self, sum: &mut [Complex64; 6], k: Complex64, s: Complex64, bessel: [Complex64; 3]) {
-        let roots = Roots::new(&self.solid, k, s);
-        let terms = roots.fields(&self.solid, k, s, self.z, bessel);
+        let roots = Roots::new(&self.medium, k, s);
+        let terms = roots.fields(&self.medium, k, s, self.z, bessel);
         for (total, term) in sum.iter_mut().zip(terms) {
             *total += term;
         }
@@ -126,7 +131,7 @@ impl Hankel {
     ///
     /// The path rises along the imaginary axis above the three singularities and leaves to the right.
     pub(crate) fn continued(&self, s: Complex64) -> [Complex64; 6] {
-        let slowest = self.solid.rayleigh_slowness;
+        let slowest = self.slowest();
         let clearance = 1.0 / (1.0 + self.r);
         let (height, widest) = path(s, slowest, clearance);
         let widest = widest.min(1.5 * clearance);
@@ -163,11 +168,11 @@ impl Hankel {
     /// w at the centre of the surface over its static value, at any s with Im s >= 0, continued through the
     /// imaginary axis.
     pub(crate) fn surface(&self, s: Complex64) -> Complex64 {
-        let rest = 1.0 - self.solid.poisson_ratio;
-        let slowest = self.solid.rayleigh_slowness;
+        let rest = 1.0 - self.medium.poisson_ratio();
+        let slowest = self.slowest();
         let rule = Rule::new((3.0 + 1.3 * self.digits).ceil() as usize);
-        let near = |k: Complex64| Roots::new(&self.solid, k, s).surface(&self.solid, s) - rest / k;
-        let far = |k: Complex64| Roots::far(&self.solid, k, s).surface(&self.solid, s) - rest / k;
+        let near = |k: Complex64| Roots::new(&self.medium, k, s).surface(s) - rest / k;
+        let far = |k: Complex64| Roots::far(&self.medium, k, s).surface(s) - rest / k;
         let mut sum = Complex64::default();
         let mut count = 0;
         let (height, widest) = path(s, slowest, 1.0);

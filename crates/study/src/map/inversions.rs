@@ -18,34 +18,29 @@ const CAPTION: &str = "Fixed Talbot, which is the best of all after the last fro
 pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>, StudyError> {
     let medium = Medium::new(POISSON_RATIO)?;
     let count = effort.pick(40, 160);
-    let mut figures = Vec::new();
-    for (name, title, scene) in [
-        (
-            "inversions-surface",
-            "Inversions over time: deflection of the surface's centre",
-            KernelScene::surface(&medium, count, &[])?,
-        ),
-        (
-            "inversions-interior",
-            "Inversions over time: six fields at (0.55, 0.65) r0",
-            KernelScene::interior(&medium, count, &[])?,
-        ),
-        (
-            "inversions-axis",
-            "Inversions over time: w on the axis at a depth of 0.65 r0",
-            KernelScene::axis(&medium, count, &[])?,
-        ),
-    ] {
-        figures.push(over_scene(&medium, &scene, (name, title), effort, advance)?);
-    }
-    Ok(figures)
+    let draw = |name, what: &str, scene: KernelScene| {
+        let title = format!("Inversions over time: {what}");
+        over_scene(&medium, &scene, name, &title, effort, advance)
+    };
+    let surface = KernelScene::surface(&medium, count, &[])?;
+    let interior = KernelScene::interior(&medium, count, &[])?;
+    let axis = KernelScene::axis(&medium, count, &[])?;
+    let centre = "deflection of the surface's centre";
+    let inside = "six fields at (0.55, 0.65) r0";
+    let depth = "w on the axis at a depth of 0.65 r0";
+    Ok(vec![
+        draw("inversions-surface", centre, surface)?,
+        draw("inversions-interior", inside, interior)?,
+        draw("inversions-axis", depth, axis)?,
+    ])
 }
 
 /// Every inversion at one place.
 fn over_scene(
     medium: &Medium,
     scene: &KernelScene,
-    (name, title): (&'static str, &str),
+    name: &'static str,
+    title: &str,
     effort: Effort,
     advance: &dyn Fn(),
 ) -> Result<Picture, StudyError> {
@@ -60,11 +55,8 @@ fn over_scene(
     );
     for method in Inversion::pictured(effort) {
         let (values, _) = method.run(medium, scene.place, &scene.times);
-        figure.curve(
-            &format!("{}, {}", method.name, method.setting),
-            Style::Plain,
-            over_time(scene, &values),
-        );
+        let label = format!("{}, {}", method.name, method.setting);
+        figure.curve(&label, Style::Plain, over_time(scene, &values));
         advance();
     }
     if name == "inversions-axis" {
@@ -73,18 +65,12 @@ fn over_scene(
         few.thin(3);
         let weights = ExtendedWeights::new(26);
         let (values, _) = few.extended(medium, &weights);
-        figure.curve(
-            "Gaver-Stehfest, 31 digits, 26 terms",
-            Style::Marked,
-            over_time(&few, &values),
-        );
+        let label = "Gaver-Stehfest, 31 digits, 26 terms";
+        figure.curve(label, Style::Marked, over_time(&few, &values));
     }
     let kernel = Kernel::new(medium, Profile::Hertz, 1e-10)?;
-    figure.curve(
-        "single integral, 1e-10",
-        Style::Heavy,
-        over_time(scene, &scene.by_kernel(&kernel)?),
-    );
+    let own = over_time(scene, &scene.by_kernel(&kernel)?);
+    figure.curve("single integral, 1e-10", Style::Heavy, own);
     for (arrival, label) in [
         (scene.arrivals.first(), "first front"),
         (scene.arrivals.last(), "last front"),
@@ -98,12 +84,7 @@ fn over_scene(
 }
 
 fn over_time(scene: &KernelScene, values: &[Six]) -> Vec<(f64, f64)> {
-    let errors = scene.errors_over_time(values);
-    let clamp = |e: f64| e.clamp(1e-16, 10.0);
-    scene
-        .times
-        .iter()
-        .copied()
-        .zip(errors.into_iter().map(clamp))
-        .collect()
+    let errors = scene.errors_over_time(values).into_iter();
+    let clamped = errors.map(|error| error.clamp(1e-16, 10.0));
+    scene.times.iter().copied().zip(clamped).collect()
 }

@@ -141,7 +141,8 @@ pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>
 /// Adds a curve of errors, those below 1e-17 drawn there.
 fn add(
     figure: &mut Picture,
-    (name, style): (&str, Style),
+    name: &str,
+    style: Style,
     places: &[f64],
     error: impl Fn(f64) -> Result<f64, StudyError>,
 ) -> Result<(), StudyError> {
@@ -166,15 +167,15 @@ fn potentials(effort: Effort) -> Result<Picture, StudyError> {
         ("closed form, between", 0.25 * PI),
     ] {
         let error = |size| Ok(closed_form_error(size, direction, 0.5).min(10.0));
-        add(&mut figure, (name, Style::Plain), &sizes, error)?;
+        add(&mut figure, name, Style::Plain, &sizes, error)?;
     }
     let medium = Medium::new(0.3)?;
-    let own = ("the program (static w at depth)", Style::Points);
+    let own = "the program (static w at depth)";
     let error = |depth| deep_static_error(&medium, 0.5, depth);
-    add(&mut figure, own, &sizes, error)?;
-    let theory = ("theory: machine epsilon |xi|^3 ln|xi|", Style::HeavyDashed);
+    add(&mut figure, own, Style::Points, &sizes, error)?;
+    let theory = "theory: machine epsilon |xi|^3 ln|xi|";
     let error = |size: f64| Ok((f64::EPSILON * size.powi(3) * size.ln()).min(10.0));
-    add(&mut figure, theory, &sizes, error)?;
+    add(&mut figure, theory, Style::HeavyDashed, &sizes, error)?;
     figure.caption = "The closed forms are differences of terms of size |xi|^2 ln|xi| with a result of size 1/|xi|: \
         their relative error grows as the third power of the distance and reaches one at about 1e5 r0. The program \
         changes to the multipole series at 7 to 10 r0 and keeps its digits."
@@ -193,16 +194,19 @@ fn double_root(effort: Effort) -> Result<Picture, StudyError> {
     );
     for (name, sign) in [("closed form, above", 1.0), ("closed form, below", -1.0)] {
         let error = |distance| double_root_error(sign * distance);
-        add(&mut figure, (name, Style::Marked), &distances, error)?;
+        add(&mut figure, name, Style::Marked, &distances, error)?;
     }
-    let own = ("the program, against the single integral", Style::Points);
-    add(&mut figure, own, &distances, double_root_own_error)?;
-    let theory = (
-        "theory, at most: machine epsilon over root distance",
-        Style::HeavyDashed,
-    );
+    let own = "the program, against the single integral";
+    add(
+        &mut figure,
+        own,
+        Style::Points,
+        &distances,
+        double_root_own_error,
+    )?;
+    let theory = "theory, at most: machine epsilon over root distance";
     let error = |distance: f64| Ok(f64::EPSILON / distance.sqrt());
-    add(&mut figure, theory, &x.cells(40), error)?;
+    add(&mut figure, theory, Style::HeavyDashed, &x.cells(40), error)?;
     figure.caption = "The two complex roots of the Rayleigh cubic part as the square root of the distance, and the \
         closed form divides by their difference. The program's surface response has no such difference and is used \
         everywhere; the closed form only checks it."
@@ -219,16 +223,28 @@ fn incompressible(effort: Effort) -> Result<Picture, StudyError> {
         Axis::over(x, "1/2 - nu"),
         Axis::logarithmic("relative error; c2/c1").range(1e-17, 10.0),
     );
-    let kernels = ("kernels asked for 1e-8 at (0.5, 0.6) r0", Style::Marked);
-    add(&mut figure, kernels, &distances, incompressible_error)?;
-    let surface = ("surface response against closed form", Style::Marked);
-    add(&mut figure, surface, &distances, |distance| {
-        let [own, closed] = incompressible_surface(distance)?;
-        Ok((own - closed).abs())
-    })?;
-    let theory = ("theory: c2/c1 = sqrt(d/(1/2 + d))", Style::HeavyDashed);
+    let kernels = "kernels asked for 1e-8 at (0.5, 0.6) r0";
+    add(
+        &mut figure,
+        kernels,
+        Style::Marked,
+        &distances,
+        incompressible_error,
+    )?;
+    let surface = "surface response against closed form";
+    add(
+        &mut figure,
+        surface,
+        Style::Marked,
+        &distances,
+        |distance| {
+            let [own, closed] = incompressible_surface(distance)?;
+            Ok((own - closed).abs())
+        },
+    )?;
+    let theory = "theory: c2/c1 = sqrt(d/(1/2 + d))";
     let ratio = |d: f64| Ok((d / (0.5 + d)).sqrt());
-    add(&mut figure, theory, &distances, ratio)?;
+    add(&mut figure, theory, Style::HeavyDashed, &distances, ratio)?;
     figure.mark(0.005, "tables end");
     figure.caption = "c1/c2 goes to infinity as the root of 1/(1/2 - nu): a table's time axis in r0/c1 grows with \
         it, which is why tables end at nu = 0.495. The kernels and the surface response themselves keep their accuracy."

@@ -346,10 +346,8 @@ pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>
 
 fn growing_figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>, StudyError> {
     let plane = Plane::new(0.3)?;
-    let (x, y) = (
-        Interval::logarithmic(0.01, 1.15),
-        Interval::logarithmic(1e-4, 3.0),
-    );
+    let x = Interval::logarithmic(0.01, 1.15);
+    let y = Interval::logarithmic(1e-4, 3.0);
     let shape = shape(effort);
     let map = Map {
         plane: [x, y],

@@ -127,7 +127,7 @@ fn exact_cells(medium: &Medium, compared: &mut Compared<'_>) -> Result<(), Study
             };
             let setting = format!("step {width}, kernel {tolerance:.0e}");
             let is_own = smoothness == Smooth && tolerance < 1e-7;
-            compared.add((method, setting, is_own), width, run)?;
+            compared.add(method, setting, is_own, width, run)?;
         }
     }
     Ok(())
@@ -160,7 +160,7 @@ fn looked_up(densities: &[Density], compared: &mut Compared<'_>) -> Result<(), S
                 let width = table.cell_width(POISSON_RATIO)? * f64::from(1_u32 << coarsening);
                 let force = compared.force(width);
                 let pulse = PulseSum::new(compared.pulse.length, width);
-                let spacing = density.spacing.label();
+                let spacing = density.label();
                 for &(method, smoothness, sum, is_own) in ways {
                     let convolver = sum.map(|sum| Convolver::by(&force, sum));
                     let run = || {
@@ -173,7 +173,7 @@ fn looked_up(densities: &[Density], compared: &mut Compared<'_>) -> Result<(), S
                         })
                     };
                     let setting = format!("step {width}, {spacing}, {points} points");
-                    compared.add((method, setting, is_own), width, run)?;
+                    compared.add(method, setting, is_own, width, run)?;
                 }
             }
         }

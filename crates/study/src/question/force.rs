@@ -166,7 +166,8 @@ fn on_disc<'a>(disc: &'a ExactDisc<'a>, effort: Effort) -> Vec<Candidate<'a, Res
 fn halved<'a>(
     method: &'static str,
     tolerance: f64,
-    (duration, memory): (f64, f64),
+    duration: f64,
+    memory: f64,
     march: impl Fn(f64) -> Result<History, MarchError> + 'a,
 ) -> Candidate<'a, Results> {
     Candidate::new(method, format!("tolerance {tolerance:.0e}"), move || {
@@ -188,13 +189,13 @@ fn to_tolerance<'a>(
     table: &'a ResponseTable,
     effort: Effort,
 ) -> Vec<Candidate<'a, Results>> {
-    let times = (quasi_static(disc.coupling).contact_time, disc.memory());
+    let (duration, memory) = (quasi_static(disc.coupling).contact_time, disc.memory());
     let mut list = Vec::new();
     for digits in 3..=effort.pick(5, 9) {
         let tolerance = 10.0_f64.powi(-digits);
         let method = "wave implicit, step halved to tolerance";
         let march = |step| march_implicit(disc, step);
-        list.push(halved(method, tolerance, times, march).default_path(true));
+        list.push(halved(method, tolerance, duration, memory, march).default_path(true));
         let workspace = RefCell::new(Workspace::default());
         let tabulated = FixedDisc {
             response: table,
@@ -208,7 +209,7 @@ fn to_tolerance<'a>(
             // each halving doubles steps and cells
             let step = found.step.unwrap_or(f64::INFINITY);
             let steps = found.summary.contact_time / step;
-            let cells = (times.1 / step).ceil() + 1.0;
+            let cells = (memory / step).ceil() + 1.0;
             let work = (4.0 / 3.0 * steps * cells) as u64;
             Ok(((&found.summary).into(), Some(work)))
         };
@@ -261,7 +262,8 @@ fn growing_contact<'a>(
         list.push(halved(
             "growing, step halved to tolerance",
             10.0_f64.powi(-digits),
-            (CONTACT_TIME, memory),
+            CONTACT_TIME,
+            memory,
             |step| march_growing(growing, step),
         ));
     }

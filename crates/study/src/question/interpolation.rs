@@ -82,7 +82,7 @@ pub(super) fn interpolations(
                     Ok(pulse.response(&rest.map(|rest| (1.0 - inside) * rest), &sum))
                 };
                 let setting = format!("spacing {spacing} r0, {points} points, step {width}");
-                compared.add((method, setting, false), width, run)?;
+                compared.add(method, setting, false, width, run)?;
             }
         }
     }

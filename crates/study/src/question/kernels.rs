@@ -341,7 +341,7 @@ fn tables(
                 values: count as f64,
                 errors: &errors,
             };
-            let setting = format!("{}, {points} points", density.spacing.label());
+            let setting = format!("{}, {points} points", density.label());
             let is_own = density.is_default(points);
             let candidate = Candidate::new("table", setting, run).default_path(is_own);
             records.push(scene.measure(effort, &candidate)?);

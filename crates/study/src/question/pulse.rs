@@ -121,7 +121,9 @@ impl Compared<'_> {
     /// Adds a method whose samples are `width` apart, where they meet the times of the reference.
     pub(super) fn add(
         &mut self,
-        (method, setting, default_path): (&'static str, String, bool),
+        method: &'static str,
+        setting: String,
+        default_path: bool,
         width: f64,
         run: impl Fn() -> Result<Vec<Six>, StudyError>,
     ) -> Result<(), StudyError> {

@@ -4,7 +4,7 @@ use crate::measure::Effort;
 use crate::question;
 use crate::ranking::{LEVELS, rankings};
 use crate::record::{Question, Record, distinct};
-use crate::tables::{Density, Spacing};
+use crate::tables::Density;
 use std::sync::OnceLock;
 use tabulator::Silent;
 
@@ -112,7 +112,7 @@ fn the_implicit_march_is_on_the_front_by_work() {
 /// The program's own table, built once for all tests.
 fn density() -> &'static Density {
     static DENSITY: OnceLock<Density> = OnceLock::new();
-    DENSITY.get_or_init(|| Density::build(0.3, Spacing::Own).unwrap())
+    DENSITY.get_or_init(|| Density::build(0.3, None).unwrap())
 }
 
 fn fields() -> &'static [Record] {
