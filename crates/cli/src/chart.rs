@@ -13,7 +13,7 @@ const EXAMPLES: &str = "Examples:
   hertzlamb chart -o chart-full --force
   hertzlamb chart --quick --check -o chart-check
 
-The folder gets chart.csv, chart.h5, report.md and the pictures as SVG and PNG.
+The folder gets chart.csv, pictures.csv, report.md and the pictures as SVG and PNG.
 Times are those of this machine; run it on an idle one.";
 
 #[derive(Debug, Args)]

@@ -1,8 +1,8 @@
-//! The paper's bodies: Table 1 and the numbers of section 4.
+//! The paper's bodies, Table 1 and the numbers of section 4, and the contacts that numbers and figures need.
 
 use crate::error::PaperError;
 use contact::{HalfSpace, Material, Model, Scheme, Settings, Striker};
-use impact::Impact;
+use impact::{Impact, Run};
 use std::f64::consts::PI;
 
 /// Mass of the rod in kg.
@@ -35,14 +35,14 @@ pub(crate) const COARSE_STEP_S: f64 = 5e-7;
 /// Relative tolerance of what is called converged.
 pub(crate) const TOLERANCE: f64 = 1e-6;
 
-/// S, the area in m^2 that a force is divided by, for a radius in m.
-pub(crate) fn area_m2(radius_m: f64) -> f64 {
-    PI * radius_m * radius_m
+/// A force in N over S, the area of a radius in m, in Pa.
+pub(crate) fn mean_pa(force_n: f64, radius_m: f64) -> f64 {
+    force_n / (PI * radius_m * radius_m)
 }
 
 /// Kmax of a force in N on a radius in m.
 pub(crate) fn kmax(force_n: f64, radius_m: f64) -> f64 {
-    force_n / area_m2(radius_m) / STRENGTH_PA
+    mean_pa(force_n, radius_m) / STRENGTH_PA
 }
 
 /// The anvil, a half-space of Table 1.
@@ -87,4 +87,37 @@ pub(crate) fn growing() -> Result<Impact, PaperError> {
     let mut impact = hertz(TABLE_1_PA, RADIUS_M)?;
     impact.settings.model = Model::Growing;
     Ok(impact)
+}
+
+/// The contacts, each solved once.
+#[derive(Debug, Clone)]
+pub(crate) struct Runs {
+    /// The paper's model, converged, with Table 1.
+    pub(crate) table_1: Run,
+    /// The same with copper of 129 GPa.
+    pub(crate) printed: Run,
+    /// The paper's scheme with 129 GPa and a step of 0.164 us.
+    pub(crate) scheme: Run,
+    /// The same with a step of 0.5 us.
+    pub(crate) coarse: Run,
+    /// Hertz with Table 1.
+    pub(crate) hertz_table_1: Run,
+    /// Hertz with 129 GPa.
+    pub(crate) hertz_printed: Run,
+    /// A contact that follows its load, with Table 1.
+    pub(crate) growing: Run,
+}
+
+impl Runs {
+    pub(crate) fn solve() -> Result<Self, PaperError> {
+        Ok(Self {
+            table_1: coupled(TABLE_1_PA, RADIUS_M)?.solve()?,
+            printed: coupled(PRINTED_PA, RADIUS_M)?.solve()?,
+            scheme: explicit(PRINTED_PA, STEP_S)?.solve()?,
+            coarse: explicit(PRINTED_PA, COARSE_STEP_S)?.solve()?,
+            hertz_table_1: hertz(TABLE_1_PA, RADIUS_M)?.solve()?,
+            hertz_printed: hertz(PRINTED_PA, RADIUS_M)?.solve()?,
+            growing: growing()?.solve()?,
+        })
+    }
 }

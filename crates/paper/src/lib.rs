@@ -11,26 +11,16 @@
 //!
 //! Equation, figure and table numbers are the paper's.
 
-// in reading order
 mod case;
-mod claim;
-mod csv_file;
 mod error;
 mod figures;
-mod histories;
-mod misprint;
 mod numbers;
-mod redone;
 mod report;
-mod row;
-mod runs;
 
-pub use claim::Claim;
 pub use error::PaperError;
-pub use figures::Redrawn;
-pub use numbers::{Numbers, Section};
-pub use redone::Redone;
-pub use row::Row;
+pub use figures::{Claim, Redrawn};
+pub use numbers::{Numbers, Row, Section};
+pub use report::Redone;
 
 /// The README's program runs.
 #[cfg(doctest)]

@@ -1,85 +1,177 @@
-//! report.md: numbers, figures and what is said of them.
+//! Everything together, and the folder that it is written into: report.md, numbers, claims, figures and their curves.
 
-use crate::figures::Redrawn;
-use crate::numbers::{Numbers, Section};
-use std::fmt::Write;
+use crate::case::Runs;
+use crate::error::PaperError;
+use crate::figures::{self, Claim, Redrawn};
+use crate::numbers::{Numbers, Row};
+use figure::{Layer, to_png, to_svg};
+use output::{Folder, NewFile, OutputError};
+use std::path::Path;
 
-/// The report as Markdown.
-pub(crate) fn markdown(numbers: &Numbers, figures: &[Redrawn]) -> String {
-    let mut out = String::new();
-    // a String takes all that is written to it
-    let _ = write_report(&mut out, numbers, figures);
-    out
+/// Pixels of a PNG for each of the SVG's.
+const SCALE: f32 = 1.5;
+
+/// Columns of numbers.csv.
+const NUMBERS: &str = "section place what unit paper here relative_difference why";
+
+/// The paper redone.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Redone {
+    /// Its numbers.
+    pub numbers: Numbers,
+    /// Its figures 4 to 11.
+    pub figures: Vec<Redrawn>,
 }
 
-fn write_report(out: &mut String, numbers: &Numbers, figures: &[Redrawn]) -> std::fmt::Result {
-    writeln!(out, "# The paper, redone\n")?;
-    writeln!(
-        out,
-        "A copper rod of 12.2 g with a hemispherical end of 4 mm strikes a steel anvil at 100 m/s: every number that the source paper prints and its Figures 4 to 11, beside those of this program."
-    )?;
-    writeln!(
-        out,
-        "Written by `hertzlamb paper`, version {}; equations, figures and tables have the paper's numbers.\n",
-        env!("CARGO_PKG_VERSION")
-    )?;
-    writeln!(
-        out,
-        "- \"Converged\" is the paper's model (a disc of radius r0 under Hertz's pressure, its whole deflection added to Hertz's indentation), solved to 1e-6."
-    )?;
-    writeln!(
-        out,
-        "- \"The paper's scheme\" is (40)-(44) with a step of 0.164 us, a 150th of (47), and copper of 129 GPa: with these every number that the paper prints of it comes out to its last digit."
-    )?;
-    writeln!(
-        out,
-        "- Fields are exact for the force that they belong to; z points into the block, and compression is negative.\n"
-    )?;
-    writeln!(out, "## Numbers\n")?;
-    for section in &numbers.sections {
-        table(out, section)?;
+impl Redone {
+    /// Solves the contacts and computes the fields.
+    ///
+    /// # Errors
+    /// [`PaperError`] where something that must work does not.
+    pub fn compute() -> Result<Self, PaperError> {
+        let runs = Runs::solve()?;
+        Ok(Self {
+            numbers: Numbers::of(&runs)?,
+            figures: figures::all(&runs)?,
+        })
     }
-    writeln!(out, "### What no row can hold\n")?;
-    for remark in &numbers.remarks {
-        writeln!(out, "- {remark}")?;
+
+    /// Writes report.md, numbers.csv, claims.csv, and of each figure SVG, PNG and the CSV of its curves.
+    ///
+    /// # Errors
+    /// [`PaperError::Output`] with the file and the reason, [`PaperError::Picture`] with the figure; no file has changed then.
+    pub fn write(&self, folder: &Folder) -> Result<(), PaperError> {
+        let sections = self.numbers.sections.iter();
+        let rows = sections.flat_map(|s| s.rows.iter().map(|row| row.cells(s.title)));
+        let claims = self.figures.iter().flat_map(|figure| {
+            let cells = |c: &Claim| {
+                [figure.name, c.says, &c.holds.to_string(), &c.found].map(str::to_owned)
+            };
+            figure.claims.iter().map(cells)
+        });
+        let mut files = vec![
+            NewFile::of("report.md", self.report()),
+            csv_file("numbers.csv", NUMBERS, rows)?,
+            csv_file("claims.csv", "figure says holds found", claims)?,
+        ];
+        for redrawn in &self.figures {
+            let name = redrawn.name;
+            let failed = |source| PaperError::Picture { name, source };
+            let svg = to_svg(&redrawn.figure).map_err(failed)?;
+            let png = to_png(&redrawn.figure, SCALE).map_err(failed)?;
+            files.push(NewFile::of(format!("{name}.svg"), svg));
+            files.push(NewFile::of(format!("{name}.png"), png));
+            let columns = "abscissa ordinate curve x y";
+            let points = points(redrawn).into_iter();
+            files.push(csv_file(&format!("{name}.csv"), columns, points)?);
+        }
+        Ok(folder.write(files)?)
     }
-    writeln!(out, "\n## Figures\n")?;
-    for redrawn in figures {
-        show(out, redrawn)?;
+
+    /// The report as Markdown; the figures are named as they are beside it.
+    #[must_use]
+    pub fn report(&self) -> String {
+        let mut lines = vec![
+            "# The paper, redone\n".to_owned(),
+            "A copper rod of 12.2 g with a hemispherical end of 4 mm strikes a steel anvil at 100 m/s: every number that the source paper prints and its Figures 4 to 11, beside those of this program.".to_owned(),
+            format!("Written by `hertzlamb paper`, version {}; equations, figures and tables have the paper's numbers.\n", env!("CARGO_PKG_VERSION")),
+            "- \"Converged\" is the paper's model (a disc of radius r0 under Hertz's pressure, its whole deflection added to Hertz's indentation), solved to 1e-6.".to_owned(),
+            "- \"The paper's scheme\" is (40)-(44) with a step of 0.164 us, a 150th of (47), and copper of 129 GPa: with these every number that the paper prints of it comes out to its last digit.".to_owned(),
+            "- Fields are exact for the force that they belong to; z points into the block, and compression is negative.\n".to_owned(),
+            "## Numbers\n".to_owned(),
+        ];
+        for section in &self.numbers.sections {
+            lines.push(format!("### {}\n", section.title));
+            lines.push("| where | what | paper | this program | difference | why |".to_owned());
+            lines.push("|---|---|---|---|---|---|".to_owned());
+            lines.extend(section.rows.iter().map(|row| {
+                let [paper, here, difference] = row.told();
+                let unit = if row.unit.is_empty() { "" } else { " " }.to_owned() + row.unit;
+                let Row {
+                    place, what, why, ..
+                } = row;
+                format!(
+                    "| {place} | {what} | {paper}{unit} | {here}{unit} | {difference} | {why} |"
+                )
+            }));
+            lines.push(String::new());
+        }
+        lines.push("### What no row can hold\n".to_owned());
+        lines.extend(
+            self.numbers
+                .remarks
+                .iter()
+                .map(|remark| format!("- {remark}")),
+        );
+        lines.push("\n## Figures\n".to_owned());
+        for Redrawn {
+            name,
+            title,
+            caption,
+            claims,
+            ..
+        } in &self.figures
+        {
+            lines.push(format!("### {title}\n\n![{title}]({name}.svg)\n"));
+            if !caption.is_empty() {
+                lines.push(format!("{caption}\n"));
+            }
+            lines.push("| the paper says | holds | found here |\n|---|---|---|".to_owned());
+            lines.extend(claims.iter().map(|Claim { says, found, holds }| {
+                let holds = if *holds { "yes" } else { "no" };
+                format!("| {says} | {holds} | {found} |")
+            }));
+            lines.push(String::new());
+        }
+        lines.join("\n") + "\n"
     }
-    Ok(())
 }
 
-fn table(out: &mut String, section: &Section) -> std::fmt::Result {
-    writeln!(out, "### {}\n", section.title)?;
-    writeln!(
-        out,
-        "| where | what | paper | this program | difference | why |"
-    )?;
-    writeln!(out, "|---|---|---|---|---|---|")?;
-    for row in &section.rows {
-        let [paper, here, difference] = row.told();
-        let unit = if row.unit.is_empty() { "" } else { " " };
-        writeln!(
-            out,
-            "| {} | {} | {paper}{unit}{} | {here}{unit}{} | {difference} | {} |",
-            row.place, row.what, row.unit, row.unit, row.why
-        )?;
-    }
-    writeln!(out)
+/// A table as CSV.
+fn csv_file<const N: usize>(
+    name: &str,
+    columns: &str,
+    rows: impl Iterator<Item = [String; N]>,
+) -> Result<NewFile<'static>, OutputError> {
+    let write = || {
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        writer.write_record(columns.split(' '))?;
+        for row in rows {
+            writer.write_record(row)?;
+        }
+        writer
+            .into_inner()
+            .map_err(|error| csv::Error::from(error.into_error()))
+    };
+    let failed = |error: csv::Error| OutputError::writing(Path::new(name), error.to_string());
+    Ok(NewFile::of(name, write().map_err(failed)?))
 }
 
-fn show(out: &mut String, redrawn: &Redrawn) -> std::fmt::Result {
-    writeln!(out, "### {}\n", redrawn.title)?;
-    writeln!(out, "![{}]({}.svg)\n", redrawn.title, redrawn.name)?;
-    if !redrawn.caption.is_empty() {
-        writeln!(out, "{}\n", redrawn.caption)?;
+/// The points of a figure's curves: times in s, lengths in m, forces in N, speeds in m/s.
+fn points(redrawn: &Redrawn) -> Vec<[String; 5]> {
+    let mut points = Vec::new();
+    for panel in &redrawn.figure.panels {
+        let mut add = |name: &str, (x, y): (f64, f64)| {
+            let [abscissa, ordinate] = [&panel.x, &panel.y].map(|axis| axis.quantity.clone());
+            points.push([
+                abscissa,
+                ordinate,
+                name.to_owned(),
+                x.to_string(),
+                y.to_string(),
+            ]);
+        };
+        for layer in &panel.layers {
+            match layer {
+                Layer::Line(line) => line.points.iter().for_each(|&at| add(&line.name, at)),
+                Layer::Point(point) => add("printed in the paper", (point.x, point.y)),
+                Layer::Band(_)
+                | Layer::Classes(_)
+                | Layer::Histogram(_)
+                | Layer::Image(_)
+                | Layer::Mark(_) => {}
+            }
+        }
     }
-    writeln!(out, "| the paper says | holds | found here |")?;
-    writeln!(out, "|---|---|---|")?;
-    for claim in &redrawn.claims {
-        let holds = if claim.holds { "yes" } else { "no" };
-        writeln!(out, "| {} | {holds} | {} |", claim.says, claim.found)?;
-    }
-    writeln!(out)
+    points
 }

@@ -1,15 +1,14 @@
 //! The whole chart: what is measured and drawn.
 
 use crate::StudyError;
-use crate::effort::Effort;
-use crate::machine::Machine;
-use crate::map::{disc_models, dynamic, inversions, kernels, lookups, marches, models};
+use crate::diagrams::diagrams;
+use crate::map;
+use crate::measure::Effort;
 use crate::picture::Picture;
-use crate::question;
+use crate::question::{fields, force, impacts, kernels};
+use crate::ranking::{Ranking, rankings};
 use crate::record::Record;
-use crate::standing::{Measure, Standing, standings};
-use crate::tables::{Density, Spacing};
-use crate::work_precision;
+use crate::tables::Density;
 use std::time::Instant;
 use tabulator::Progress;
 
@@ -18,8 +17,8 @@ use tabulator::Progress;
 pub struct Chart {
     /// How much was computed.
     pub effort: Effort,
-    /// On which machine.
-    pub machine: Machine,
+    /// The machine that the times depend on, in one line.
+    pub machine: String,
     /// Rows.
     pub records: Vec<Record>,
     /// Work-precision diagrams.
@@ -37,40 +36,37 @@ impl Chart {
     /// [`StudyError`] where a part that must work does not; failures of the methods compared are results.
     pub fn run(effort: Effort, progress: &dyn Progress) -> Result<Self, StudyError> {
         let started = Instant::now();
-        let uniform = effort.pick(vec![], vec![0.25, 0.125, 0.0625]);
-        let mut spacings = vec![Spacing::Own];
-        spacings.extend(uniform.into_iter().map(Spacing::Uniform));
+        let uniform = [None, Some(0.25), Some(0.125), Some(0.0625)];
+        let spacings = &uniform[..effort.pick(1, 4)];
         progress.total("tables", spacings.len() as u64);
         let mut densities = Vec::new();
-        for spacing in spacings {
-            densities.push(Density::build(question::kernels::POISSON_RATIO, spacing)?);
+        for &spacing in spacings {
+            densities.push(Density::build(kernels::POISSON_RATIO, spacing)?);
             progress.advance(1);
         }
         let advance = || progress.advance(1);
-        let mut records = question::kernels::measure(effort, &densities, progress)?;
+        let mut records = kernels::measure(effort, &densities, progress)?;
         progress.total("force", 2);
-        records.extend(question::force::measure(effort, &advance)?);
+        records.extend(force::measure(effort, &advance)?);
         progress.total("fields", effort.pick(3, 9));
-        records.extend(question::fields::measure(effort, &densities, &advance)?);
+        records.extend(fields::measure(effort, &densities, &advance)?);
         progress.total("impacts", 4);
-        records.extend(question::impacts::measure(effort, &densities, &advance)?);
+        records.extend(impacts::measure(effort, &densities, &advance)?);
         progress.total("inversions", 21);
-        let mut maps = inversions::figures(effort, &advance)?;
+        let mut maps = map::inversions::figures(effort, &advance)?;
         progress.total("marches", 3);
-        maps.extend(marches::figures(effort, &advance)?);
-        maps.push(dynamic::figure(effort)?);
+        maps.extend(map::marches::figures(effort, &advance)?);
+        maps.push(map::dynamic::figure(effort)?);
         advance();
         progress.total("kernel maps", 1);
-        maps.extend(kernels::figures(effort, &advance)?);
-        maps.extend(lookups::figures(&densities, effort)?);
-        progress.total("models", models::rows(effort) + 1);
-        maps.extend(models::figures(effort, &advance)?);
-        maps.extend(disc_models::figures(effort)?);
-        advance();
+        maps.extend(map::kernels::figures(effort, &advance)?);
+        maps.extend(map::lookups::figures(&densities, effort)?);
+        progress.total("models", map::models::rows(effort) + 1);
+        maps.extend(map::models::figures(effort, &advance)?);
         Ok(Self {
             effort,
-            machine: Machine::here(),
-            diagrams: work_precision::figures(&records),
+            machine: machine(),
+            diagrams: diagrams(&records),
             records,
             maps,
             wall_s: started.elapsed().as_secs_f64(),
@@ -80,9 +76,25 @@ impl Chart {
     /// What is ahead of the default path at 1e-3 to 1e-8 without a reason, in words; empty as it should be.
     #[must_use]
     pub fn unexplained(&self) -> Vec<String> {
-        standings(&self.records, Measure::Time)
-            .iter()
-            .filter_map(Standing::unexplained)
-            .collect()
+        let rankings = rankings(&self.records, Record::time_ns);
+        rankings.iter().filter_map(Ranking::unexplained).collect()
     }
+}
+
+/// This machine: processor, threads, operating system and architecture, and whether the program is optimised.
+fn machine() -> String {
+    let text = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let mut lines = text.lines();
+    let processor = lines
+        .find(|line| line.starts_with("model name"))
+        .and_then(|line| line.split(':').nth(1))
+        .map_or("unknown processor", str::trim);
+    let threads = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    let (system, architecture) = (std::env::consts::OS, std::env::consts::ARCH);
+    let build = if cfg!(debug_assertions) {
+        "debug"
+    } else {
+        "release"
+    };
+    format!("{processor}, {threads} threads, {system} {architecture}, {build} build")
 }

@@ -1,76 +1,159 @@
-//! Time of a method: median of repeated runs, with spread.
+//! How a method is measured: its error against what is exact, and the median time of repeated runs.
 
-use std::time::{Duration, Instant};
+use crate::StudyError;
+use crate::record::{Error, Question, Record, Timing};
+use std::hint::black_box;
+use std::time::Instant;
 
-/// Nanoseconds per value on one core.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Timing {
-    /// Median over the runs.
-    pub median_ns: f64,
-    /// Half the distance between the quartiles of the runs.
-    pub spread_ns: f64,
+/// How much is computed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Effort {
+    /// Few settings, few times, coarse maps.
+    Quick,
+    /// All of them.
+    Full,
 }
 
-/// How long a method is measured.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Clock {
+impl Effort {
+    /// One of two.
+    pub(crate) fn pick<T>(self, quick: T, full: T) -> T {
+        match self {
+            Self::Quick => quick,
+            Self::Full => full,
+        }
+    }
+}
+
+/// The first result of `run`, and the time of a run, which makes `values` values.
+///
+/// From at least three of `runs` runs of at least `shortest_s` each, none begun after `longest_s` in all.
+fn time<T>(
     runs: usize,
-    shortest: Duration,
-    longest: Duration,
+    shortest_s: f64,
+    longest_s: f64,
+    values: f64,
+    run: impl Fn() -> T,
+) -> (T, Timing) {
+    let begun = Instant::now();
+    let first = black_box(run());
+    let once_s = begun.elapsed().as_secs_f64().max(20e-9);
+    let repeats = (shortest_s / once_s).ceil().max(1.0);
+    let mut samples = Vec::with_capacity(runs);
+    if repeats <= 1.0 {
+        // long enough for a run, and for the caches not to matter
+        samples.push(once_s * 1e9 / values);
+    }
+    while samples.len() < runs {
+        if samples.len() >= 3 && begun.elapsed().as_secs_f64() > longest_s {
+            break;
+        }
+        let start = Instant::now();
+        for _ in 0..repeats as usize {
+            black_box(run());
+        }
+        samples.push(start.elapsed().as_secs_f64() * 1e9 / repeats / values);
+    }
+    samples.sort_by(f64::total_cmp);
+    let at = |share: f64| samples[((samples.len() - 1) as f64 * share).round() as usize];
+    let timing = Timing {
+        median_ns: at(0.5),
+        spread_ns: 0.5 * (at(0.75) - at(0.25)),
+    };
+    (first, timing)
 }
 
-impl Clock {
-    /// At least three of `runs` runs of at least `shortest` each, none begun after `longest` in all.
-    pub(crate) fn new(runs: usize, shortest: Duration, longest: Duration) -> Self {
+/// What a run found, and its work where that is counted.
+pub(crate) type Run<T> = Result<(T, Option<u64>), StudyError>;
+
+/// One method at one setting.
+pub(crate) struct Candidate<'a, T> {
+    method: &'static str,
+    setting: String,
+    default_path: bool,
+    run: Box<dyn Fn() -> Run<T> + 'a>,
+}
+
+impl<'a, T> Candidate<'a, T> {
+    /// A method that the program does not take by itself.
+    pub(crate) fn new(
+        method: &'static str,
+        setting: impl Into<String>,
+        run: impl Fn() -> Run<T> + 'a,
+    ) -> Self {
         Self {
-            runs,
-            shortest,
-            longest,
+            method,
+            setting: setting.into(),
+            default_path: false,
+            run: Box::new(run),
         }
     }
 
-    /// Times `work`, which is worth `values` values.
-    pub(crate) fn time(&self, values: f64, mut work: impl FnMut()) -> Timing {
-        let begun = Instant::now();
-        work();
-        let once = begun.elapsed().max(Duration::from_nanos(20));
-        let repeats = (self.shortest.as_secs_f64() / once.as_secs_f64())
-            .ceil()
-            .max(1.0);
-        let mut samples = Vec::with_capacity(self.runs);
-        if repeats <= 1.0 {
-            // long enough for a run, and for the caches not to matter
-            samples.push(once.as_secs_f64() * 1e9 / values);
+    /// The same where the program does take it unless told otherwise, if so.
+    pub(crate) fn default_path(self, default_path: bool) -> Self {
+        Self {
+            default_path,
+            ..self
         }
-        while samples.len() < self.runs {
-            if samples.len() >= 3 && begun.elapsed() > self.longest {
-                break;
-            }
-            let start = Instant::now();
-            for _ in 0..repeats as usize {
-                work();
-            }
-            samples.push(start.elapsed().as_secs_f64() * 1e9 / repeats / values);
-        }
-        samples.sort_by(f64::total_cmp);
-        let at = |share: f64| samples[((samples.len() - 1) as f64 * share).round() as usize];
-        Timing {
-            median_ns: at(0.5),
-            spread_ns: 0.5 * (at(0.75) - at(0.25)),
-        }
+    }
+}
+
+/// A scene of a question.
+pub(crate) struct Scene<'a, T> {
+    pub(crate) question: Question,
+    pub(crate) name: &'static str,
+    /// Values that a run makes.
+    pub(crate) values: f64,
+    /// Relative errors of what a run found.
+    pub(crate) errors: &'a dyn Fn(&T) -> Result<Vec<f64>, StudyError>,
+}
+
+impl<T> Scene<'_, T> {
+    /// Runs a candidate: one that fails is a row that says why.
+    pub(crate) fn measure(
+        &self,
+        effort: Effort,
+        candidate: &Candidate<'_, T>,
+    ) -> Result<Record, StudyError> {
+        let (found, cost) = if cfg!(test) {
+            // tests look at errors and work counts, never at times
+            let nothing = Timing {
+                median_ns: 1.0,
+                spread_ns: 0.0,
+            };
+            ((candidate.run)(), nothing)
+        } else {
+            let (runs, shortest_s, longest_s) = effort.pick((5, 5e-4, 0.06), (11, 5e-3, 1.5));
+            time(runs, shortest_s, longest_s, self.values, &candidate.run)
+        };
+        let (errors, work, refusal) = match found {
+            Ok((found, work)) => ((self.errors)(&found)?, work, None),
+            Err(error) => (vec![f64::NAN], None, Some(error.to_string())),
+        };
+        Ok(Record {
+            question: self.question,
+            scene: self.name,
+            method: candidate.method,
+            setting: candidate.setting.clone(),
+            default_path: candidate.default_path,
+            cost,
+            error: Error::of(&errors),
+            work: work.map(|work| work as f64 / self.values),
+            refusal,
+        })
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::cell::Cell;
 
     #[test]
     fn a_run_does_as_much_work_as_it_says() {
-        let clock = Clock::new(5, Duration::from_micros(200), Duration::from_millis(50));
-        let mut count = 0_u64;
-        let timing = clock.time(10.0, || count += 1);
-        assert!(count >= 6, "{count}");
+        let count = Cell::new(0_u64);
+        let (first, timing) = time(5, 2e-4, 0.05, 10.0, || count.replace(count.get() + 1));
+        assert_eq!(first, 0);
+        assert!(count.get() >= 6, "{}", count.get());
         assert!(timing.median_ns > 0.0 && timing.spread_ns >= 0.0);
     }
 }

@@ -1,4 +1,4 @@
-//! A picture of the chart: one panel with a name, a caption, and the numbers that chart.h5 keeps.
+//! A picture of the chart: one panel with a name, a caption, and the numbers behind it.
 
 use figure::{
     Axis, Classes, Figure, Interval, LabelledPoint, Layer, Legend, Line, Mark, Panel, Style,
@@ -71,30 +71,33 @@ impl Picture {
             .panel(self.panel.clone())
     }
 
-    /// Its map of classes, if it has one.
-    #[must_use]
-    pub fn classes(&self) -> Option<&Classes> {
-        self.panel.layers.iter().find_map(|layer| match layer {
-            Layer::Classes(classes) => Some(classes),
-            Layer::Line(_)
-            | Layer::Band(_)
-            | Layer::Histogram(_)
-            | Layer::Image(_)
-            | Layer::Mark(_)
-            | Layer::Point(_) => None,
-        })
-    }
-
-    /// Its curves, in order.
-    pub fn curves(&self) -> impl Iterator<Item = &Line> {
-        self.panel.layers.iter().filter_map(|layer| match layer {
-            Layer::Line(line) => Some(line),
-            Layer::Classes(_)
-            | Layer::Band(_)
-            | Layer::Histogram(_)
-            | Layer::Image(_)
-            | Layer::Mark(_)
-            | Layer::Point(_) => None,
-        })
+    /// What it is made of: the points of its curves, and the centres of the cells of its map under their classes.
+    pub(crate) fn points(&self) -> Vec<(&str, f64, f64)> {
+        let mut points = Vec::new();
+        for layer in &self.panel.layers {
+            match layer {
+                Layer::Line(line) => {
+                    points.extend(line.points.iter().map(|&(x, y)| (&*line.name, x, y)));
+                }
+                Layer::Classes(map) => {
+                    let centres = |axis: &Axis, count| {
+                        let (low, high) = axis.range.unwrap_or((0.0, count as f64));
+                        let scale = axis.scale;
+                        Interval { scale, low, high }.cells(count)
+                    };
+                    let x = centres(&self.panel.x, map.shape[0]);
+                    let y = centres(&self.panel.y, map.shape[1]);
+                    let cells = y.iter().flat_map(|&y| x.iter().map(move |&x| (x, y)));
+                    let names = map.class.iter().map(|&class| &*map.names[class]);
+                    points.extend(names.zip(cells).map(|(name, (x, y))| (name, x, y)));
+                }
+                Layer::Band(_)
+                | Layer::Histogram(_)
+                | Layer::Image(_)
+                | Layer::Mark(_)
+                | Layer::Point(_) => {}
+            }
+        }
+        points
     }
 }

@@ -1,7 +1,5 @@
 //! What is measured of one method at one setting in one scene.
 
-use crate::measure::Timing;
-
 /// The four questions of the chart.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Question {
@@ -41,16 +39,24 @@ impl Question {
         }
     }
 
-    /// What is counted as work.
-    #[must_use]
-    pub fn work(self) -> &'static str {
+    /// What the report calls it.
+    pub(crate) fn title(self) -> &'static str {
         match self {
-            Self::Kernels => "integrand evaluations per value",
-            Self::Force => "steps times cells of memory per impact",
-            Self::Fields => "cells of kernels per value",
-            Self::Impacts => "nothing",
+            Self::Kernels => "How to compute a kernel",
+            Self::Force => "How to compute an impact",
+            Self::Fields => "How to compute fields",
+            Self::Impacts => "How to compute the fields of a whole impact",
         }
     }
+}
+
+/// Nanoseconds per value on one core.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Timing {
+    /// Median over the runs.
+    pub median_ns: f64,
+    /// Half the distance between the quartiles of the runs.
+    pub spread_ns: f64,
 }
 
 /// Error of a method against the converged reference, relative to the largest value of each quantity.
@@ -77,7 +83,7 @@ impl Error {
 }
 
 /// A method has failed when its largest error is above this or is not a number.
-pub const FAILED: f64 = 0.1;
+const FAILED: f64 = 0.1;
 
 /// One row of the chart.
 #[derive(Debug, Clone, PartialEq)]
@@ -103,17 +109,48 @@ pub struct Record {
 }
 
 impl Record {
+    /// Names of the columns of chart.csv.
+    pub const COLUMNS: &str = "question scene method setting default_path cost_ns cost_spread_ns \
+        error_max error_rms work failed refusal";
+
+    /// Its columns.
+    pub(crate) fn row(&self) -> [String; 12] {
+        let number = |x: f64| format!("{x:.4e}");
+        [
+            self.question.name().to_owned(),
+            self.scene.to_owned(),
+            self.method.to_owned(),
+            self.setting.clone(),
+            self.default_path.to_string(),
+            number(self.cost.median_ns),
+            number(self.cost.spread_ns),
+            number(self.error.max),
+            number(self.error.rms),
+            self.work.map(number).unwrap_or_default(),
+            self.failed().to_string(),
+            self.refusal.clone().unwrap_or_default(),
+        ]
+    }
+
     /// Whether the method gave no usable answer.
     #[must_use]
     pub fn failed(&self) -> bool {
         self.refusal.is_some() || self.error.max > FAILED || self.error.max.is_nan()
     }
+
+    /// Cost as time.
+    pub(crate) fn time_ns(&self) -> Option<f64> {
+        Some(self.cost.median_ns)
+    }
 }
+
+/// What a method costs, where that is known: its time, or its work.
+pub(crate) type Cost = fn(&Record) -> Option<f64>;
 
 /// Indices of the records that no other beats in both cost and error, by ascending cost.
 ///
-/// `cost` gives the cost of a record; those without one, and failures, are left out.
-pub fn pareto_front(records: &[&Record], cost: impl Fn(&Record) -> Option<f64>) -> Vec<usize> {
+/// Those without a cost, and failures, are left out.
+pub(crate) fn pareto_front(records: &[&Record], cost: Cost) -> Vec<usize> {
     let mut order: Vec<(usize, f64)> = records
         .iter()
         .enumerate()
@@ -148,35 +185,39 @@ pub(crate) fn distinct<'a>(items: impl Iterator<Item = &'a str>) -> Vec<&'a str>
 mod tests {
     use super::*;
 
-    fn record(cost: f64, error: f64) -> Record {
-        Record {
-            question: Question::Kernels,
-            scene: "",
-            method: "",
-            setting: String::new(),
-            default_path: false,
-            cost: Timing {
-                median_ns: cost,
-                spread_ns: 0.0,
-            },
-            error: Error::of(&[error]),
-            work: None,
-            refusal: None,
+    impl Record {
+        /// A row of a question with one scene.
+        pub(crate) fn of(method: &'static str, default_path: bool, cost: f64, error: f64) -> Self {
+            Self {
+                question: Question::Fields,
+                scene: "a scene",
+                method,
+                setting: String::new(),
+                default_path,
+                cost: Timing {
+                    median_ns: cost,
+                    spread_ns: 0.0,
+                },
+                error: Error::of(&[error]),
+                work: None,
+                refusal: None,
+            }
         }
     }
 
     #[test]
     fn the_front_holds_what_nothing_beats() {
         let rows = [
-            record(1.0, 1e-2),
-            record(2.0, 2e-2),
-            record(3.0, 1e-5),
-            record(3.0, 1e-4),
-            record(0.5, f64::NAN),
-            record(9.0, 1e-9),
+            (1.0, 1e-2),
+            (2.0, 2e-2),
+            (3.0, 1e-5),
+            (3.0, 1e-4),
+            (0.5, f64::NAN),
+            (9.0, 1e-9),
         ];
+        let rows = rows.map(|(cost, error)| Record::of("", false, cost, error));
         let rows: Vec<&Record> = rows.iter().collect();
-        let front = pareto_front(&rows, |r| Some(r.cost.median_ns));
+        let front = pareto_front(&rows, Record::time_ns);
         assert_eq!(front, [0, 2, 5]);
         assert!(pareto_front(&rows, |r| r.work).is_empty());
     }

@@ -1,129 +1,167 @@
-//! report.md: the pictures with an answer to each question, generated from the rows.
+//! The folder of a chart: rows, pictures, and report.md, which has an answer to each question, generated from the rows.
 
+use crate::StudyError;
 use crate::chart::Chart;
-use crate::effort::Effort;
+use crate::measure::Effort;
 use crate::picture::Picture;
-use crate::reasons::reason;
+use crate::ranking::{Ranking, rankings, why_not};
 use crate::record::{Question, Record, distinct};
-use crate::standing::{EQUAL, LEVELS, Measure, Standing, standings};
-use std::fmt::Write;
+use figure::{to_png, to_svg};
+use output::{Folder, NewFile};
 
-/// The report as Markdown.
-pub(crate) fn markdown(chart: &Chart) -> String {
-    let mut out = String::new();
-    // a String takes all that is written to it
-    let _ = write_report(&mut out, chart);
-    out
+/// Columns of pictures.csv.
+pub const PICTURE_COLUMNS: &str = "picture name x y";
+
+/// Pixels of a PNG for each of the SVG's.
+const SCALE: f32 = 1.5;
+
+impl Chart {
+    /// Writes chart.csv, pictures.csv, report.md and the pictures into a folder.
+    ///
+    /// # Errors
+    /// [`StudyError::Output`] with the file and the reason, [`StudyError::Picture`] with the picture; no file has
+    /// changed then.
+    pub fn write(&self, folder: &Folder) -> Result<(), StudyError> {
+        let rows = || self.records.iter().map(Record::row).collect();
+        let mut files = vec![
+            csv_file("chart.csv", Record::COLUMNS, rows),
+            csv_file("pictures.csv", PICTURE_COLUMNS, || self.points()),
+        ];
+        for picture in self.diagrams.iter().chain(&self.maps) {
+            let name = picture.name;
+            let failed = |source| StudyError::Picture { name, source };
+            let figure = picture.figure();
+            let svg = to_svg(&figure).map_err(failed)?;
+            let png = to_png(&figure, SCALE).map_err(failed)?;
+            files.push(NewFile::of(format!("{name}.svg"), svg));
+            files.push(NewFile::of(format!("{name}.png"), png));
+        }
+        files.push(NewFile::of("report.md", markdown(self)));
+        Ok(folder.write(files)?)
+    }
+
+    /// The rows of pictures.csv.
+    fn points(&self) -> Vec<[String; 4]> {
+        let pictures = self.diagrams.iter().chain(&self.maps);
+        pictures
+            .flat_map(|picture| {
+                let row = |(name, x, y): (&str, f64, f64)| {
+                    [
+                        picture.name.into(),
+                        name.into(),
+                        x.to_string(),
+                        y.to_string(),
+                    ]
+                };
+                picture.points().into_iter().map(row)
+            })
+            .collect()
+    }
 }
 
-fn write_report(out: &mut String, chart: &Chart) -> std::fmt::Result {
-    writeln!(out, "# Speed against accuracy, and where methods fail\n")?;
+/// A table as CSV. Described in data-schema/chart.md.
+fn csv_file<'a, const N: usize>(
+    name: &str,
+    columns: &'static str,
+    rows: impl Fn() -> Vec<[String; N]> + 'a,
+) -> NewFile<'a> {
+    NewFile::new(name, move |part| {
+        let words = |error: csv::Error| error.to_string();
+        let mut writer = csv::Writer::from_path(part).map_err(words)?;
+        writer.write_record(columns.split(' ')).map_err(words)?;
+        for row in rows() {
+            writer.write_record(row).map_err(words)?;
+        }
+        writer.flush().map_err(|error| error.to_string())
+    })
+}
+
+/// The report as Markdown.
+fn markdown(chart: &Chart) -> String {
     let command = match chart.effort {
         Effort::Quick => "hertzlamb chart --quick",
         Effort::Full => "hertzlamb chart",
     };
-    writeln!(
-        out,
-        "Made by `{command}`, version {}.",
-        env!("CARGO_PKG_VERSION")
-    )?;
-    writeln!(out, "Machine: {}.", chart.machine.line())?;
-    writeln!(out, "Time taken: {:.0} s.", chart.wall_s)?;
-    writeln!(
-        out,
-        "Costs are nanoseconds per value on one core, the median of repeated runs; `chart.csv` has their spread, the work counts and the errors of every row."
-    )?;
-    writeln!(
-        out,
-        "Setting up (weights, nodes, a table, the force's spectrum) is not part of a cost; everything that a new point, time or impact needs is."
-    )?;
-    writeln!(
-        out,
-        "In the diagrams `[default]` marks the ways that the program itself takes, and `(fails)` those whose largest error is above a tenth at every setting; what is above the frame is not drawn.\n"
-    )?;
-    let all = standings(&chart.records, Measure::Time);
-    for (question, title) in [
-        (Question::Kernels, "How to compute a kernel"),
-        (Question::Force, "How to compute an impact"),
-        (Question::Fields, "How to compute fields"),
-        (
-            Question::Impacts,
-            "How to compute the fields of a whole impact",
-        ),
-    ] {
-        writeln!(out, "## {title}\n")?;
-        let mine: Vec<&Standing<'_>> = all.iter().filter(|s| s.question == question).collect();
-        for sentence in answer(chart, question, &mine) {
-            writeln!(out, "{sentence}")?;
-        }
-        writeln!(out)?;
-        let names = question.name();
-        not_adopted(out, &mine)?;
-        for picture in chart.diagrams.iter().filter(|f| f.name.starts_with(names)) {
-            show(out, picture)?;
+    let mut lines = vec![
+        "# Speed against accuracy, and where methods fail\n".to_owned(),
+        format!("Made by `{command}`, version {}.", env!("CARGO_PKG_VERSION")),
+        format!("Machine: {}.", chart.machine),
+        format!("Time taken: {:.0} s.", chart.wall_s),
+        "Costs are nanoseconds per value on one core, the median of repeated runs; `chart.csv` has their spread, the work counts and the errors of every row.".to_owned(),
+        "Setting up (weights, nodes, a table, the force's spectrum) is not part of a cost; everything that a new point, time or impact needs is.".to_owned(),
+        "In the diagrams `[default]` marks the ways that the program itself takes, and `(fails)` those whose largest error is above a tenth at every setting; what is above the frame is not drawn.\n".to_owned(),
+    ];
+    let all = rankings(&chart.records, Record::time_ns);
+    for question in Question::ALL {
+        lines.push(format!("## {}\n", question.title()));
+        let mine: Vec<&Ranking<'_>> = all.iter().filter(|s| s.question == question).collect();
+        lines.extend(answer(chart, question, &mine));
+        lines.extend(not_taken(&mine));
+        let name = question.name();
+        for picture in chart.diagrams.iter().filter(|f| f.name.starts_with(name)) {
+            lines.push(shown(picture));
             if !picture.caption.is_empty() {
-                writeln!(out, "{}\n", picture.caption)?;
+                lines.push(format!("{}\n", picture.caption));
             }
         }
-        table(out, &mine)?;
+        lines.extend(table(&mine));
     }
-    writeln!(out, "## Where methods fail\n")?;
+    lines.push("## Where methods fail\n".to_owned());
     for picture in &chart.maps {
-        writeln!(out, "### {}\n", picture.title)?;
-        for sentence in picture.caption.split(". ") {
-            writeln!(out, "{}.", sentence.trim_end_matches('.'))?;
-        }
-        writeln!(out)?;
-        show(out, picture)?;
+        lines.push(format!("### {}\n", picture.title));
+        let sentences = picture.caption.split(". ");
+        lines.extend(sentences.map(|sentence| format!("{}.", sentence.trim_end_matches('.'))));
+        lines.push(format!("\n{}", shown(picture)));
     }
-    failures(out, &chart.records)
+    lines.extend(failures(&chart.records));
+    lines.join("\n") + "\n"
 }
 
-fn show(out: &mut String, picture: &Picture) -> std::fmt::Result {
-    writeln!(out, "![{}]({}.png)\n", picture.title, picture.name)
+fn shown(picture: &Picture) -> String {
+    format!("![{}]({}.png)\n", picture.title, picture.name)
 }
 
 /// Methods that are ahead somewhere, with the reason why the program does not take them.
-fn not_adopted(out: &mut String, standings: &[&Standing<'_>]) -> std::fmt::Result {
-    let ahead = standings.iter().flat_map(|s| &s.ahead);
+fn not_taken(rankings: &[&Ranking<'_>]) -> Vec<String> {
+    let ahead = rankings.iter().flat_map(|s| &s.ahead);
     let methods = distinct(ahead.map(|(record, _)| record.method));
-    if methods.is_empty() {
-        return Ok(());
+    let mut lines = Vec::new();
+    if !methods.is_empty() {
+        lines.push("Ahead of the default path somewhere, and not taken:\n".to_owned());
+        lines.extend(methods.into_iter().map(|method| {
+            let why = why_not(method).unwrap_or("no reason is written down: it should be adopted");
+            format!("- {method}: {why}.")
+        }));
+        lines.push(String::new());
     }
-    writeln!(out, "Ahead of the default path somewhere, and not taken:\n")?;
-    for method in methods {
-        let why = reason(method).unwrap_or("no reason is written down: it should be adopted");
-        writeln!(out, "- {method}: {why}.")?;
-    }
-    writeln!(out)
+    lines
 }
 
-/// Three sentences: what is cheapest, where the default stands, what does not work.
-fn answer(chart: &Chart, question: Question, standings: &[&Standing<'_>]) -> [String; 3] {
-    let scenes = distinct(standings.iter().map(|s| s.scene));
-    let at = |level: f64| -> Vec<String> {
-        scenes
-            .iter()
-            .filter_map(|scene| {
-                let found = standings
-                    .iter()
-                    .find(|s| s.scene == *scene && s.level == level)?;
-                let (record, cost) = found.best?;
-                Some(format!("{} ({}) in \"{scene}\"", record.method, time(cost)))
-            })
-            .collect()
+/// Three sentences: what is cheapest, where the default path is, what does not work.
+fn answer(chart: &Chart, question: Question, rankings: &[&Ranking<'_>]) -> [String; 4] {
+    let cheapest = |level: f64| {
+        let at = rankings.iter().filter(|s| s.level == level);
+        let best = at.filter_map(|s| {
+            let (record, cost) = s.best?;
+            Some(format!(
+                "{} ({}) in \"{}\"",
+                record.method,
+                time(cost),
+                s.scene
+            ))
+        });
+        match best.collect::<Vec<_>>() {
+            list if list.is_empty() => "nothing".to_owned(),
+            list => list.join(", "),
+        }
     };
-    let cheapest = |level: f64| match at(level) {
-        list if list.is_empty() => "nothing".to_owned(),
-        list => list.join(", "),
-    };
-    let first = format!(
-        "The cheapest for an error of 1e-3 is {}; for 1e-6 it is {}.",
-        cheapest(1e-3),
-        cheapest(1e-6)
+    let (coarse, fine) = (cheapest(1e-3), cheapest(1e-6));
+    let first = format!("The cheapest for an error of 1e-3 is {coarse}; for 1e-6 it is {fine}.");
+    let reached: Vec<_> = rankings.iter().filter(|s| s.best.is_some()).collect();
+    let (on, of) = (
+        reached.iter().filter(|s| s.on_front()).count(),
+        reached.len(),
     );
-    let reached: Vec<&&Standing<'_>> = standings.iter().filter(|s| s.best.is_some()).collect();
-    let on = reached.iter().filter(|s| s.on_front(EQUAL)).count();
     let off: Vec<String> = reached.iter().filter_map(|s| s.first_ahead()).collect();
     let second = if off.is_empty() {
         format!(
@@ -131,17 +169,12 @@ fn answer(chart: &Chart, question: Question, standings: &[&Standing<'_>]) -> [St
         )
     } else {
         format!(
-            "The default path is on the front by time at {on} of {} accuracies from 1e-3 to 1e-8 that anything reaches, and not at {}.",
-            reached.len(),
+            "The default path is on the front by time at {on} of {of} accuracies from 1e-3 to 1e-8 that anything reaches, and not at {}.",
             off.join(", ")
         )
     };
-    let rows: Vec<&Record> = chart
-        .records
-        .iter()
-        .filter(|r| r.question == question)
-        .collect();
-    let failed: Vec<&str> = distinct(rows.iter().filter(|r| r.failed()).map(|r| r.method));
+    let rows = chart.records.iter().filter(|r| r.question == question);
+    let failed = distinct(rows.filter(|r| r.failed()).map(|r| r.method));
     let third = if failed.is_empty() {
         "No method failed in any scene.".to_owned()
     } else {
@@ -150,54 +183,39 @@ fn answer(chart: &Chart, question: Question, standings: &[&Standing<'_>]) -> [St
             failed.join(", ")
         )
     };
-    [first, second, third]
+    [first, second, third, String::new()]
 }
 
-fn table(out: &mut String, standings: &[&Standing<'_>]) -> std::fmt::Result {
-    writeln!(
-        out,
-        "| scene | error | cheapest of all | cost | default path | cost |"
-    )?;
-    writeln!(out, "|---|---|---|---|---|---|")?;
+fn table(rankings: &[&Ranking<'_>]) -> Vec<String> {
+    let mut lines = vec![
+        "| scene | error | cheapest of all | cost | default path | cost |".to_owned(),
+        "|---|---|---|---|---|---|".to_owned(),
+    ];
     let cell = |found: Option<(&Record, f64)>| match found {
         Some((r, cost)) => format!("{}, {} | {}", r.method, r.setting, time(cost)),
         None => "not reached | ".to_owned(),
     };
-    for s in standings {
-        debug_assert!(LEVELS.contains(&s.level));
-        writeln!(
-            out,
-            "| {} | {:.0e} | {} | {} |",
-            s.scene,
-            s.level,
-            cell(s.best),
-            cell(s.own)
-        )?;
-    }
-    writeln!(out)
+    lines.extend(rankings.iter().map(|s| {
+        let (best, own) = (cell(s.best), cell(s.own));
+        format!("| {} | {:.0e} | {best} | {own} |", s.scene, s.level)
+    }));
+    lines.push(String::new());
+    lines
 }
 
 /// Methods that failed, with their largest errors.
-fn failures(out: &mut String, records: &[Record]) -> std::fmt::Result {
-    writeln!(out, "## Failures in the rows\n")?;
-    writeln!(
-        out,
-        "| question | scene | method | setting | largest error | says |"
-    )?;
-    writeln!(out, "|---|---|---|---|---|---|")?;
-    for r in records.iter().filter(|r| r.failed()) {
-        writeln!(
-            out,
-            "| {} | {} | {} | {} | {:.1e} | {} |",
-            r.question.name(),
-            r.scene,
-            r.method,
-            r.setting,
-            r.error.max,
-            r.refusal.as_deref().unwrap_or("")
-        )?;
-    }
-    Ok(())
+fn failures(records: &[Record]) -> Vec<String> {
+    let mut lines = vec![
+        "## Failures in the rows\n".to_owned(),
+        "| question | scene | method | setting | largest error | says |".to_owned(),
+        "|---|---|---|---|---|---|".to_owned(),
+    ];
+    lines.extend(records.iter().filter(|r| r.failed()).map(|r| {
+        let (question, says) = (r.question.name(), r.refusal.as_deref().unwrap_or(""));
+        let (scene, method, setting, error) = (r.scene, r.method, &r.setting, r.error.max);
+        format!("| {question} | {scene} | {method} | {setting} | {error:.1e} | {says} |")
+    }));
+    lines
 }
 
 /// A time in a unit that suits it.

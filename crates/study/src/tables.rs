@@ -7,44 +7,26 @@ use tabulator::{Axis, Grid, Silent};
 /// Extent of the tables in r0.
 const EXTENT: f64 = 2.0;
 
-/// How the nodes of a table lie.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Spacing {
-    /// As in the demo table, which is graded toward the disc's edge and the surface.
-    Own,
-    /// At equal distances, in r0.
-    Uniform(f64),
-}
-
-impl Spacing {
-    /// In words.
-    pub(crate) fn label(self) -> String {
-        match self {
-            Self::Own => "graded".to_owned(),
-            Self::Uniform(spacing) => format!("spacing {spacing} r0"),
-        }
-    }
-}
-
 /// A table of one density.
 #[derive(Debug)]
 pub(crate) struct Density {
-    pub(crate) spacing: Spacing,
+    /// Distance of its nodes in r0; none: as in the demo table, which is graded toward the disc's edge and the surface.
+    spacing: Option<f64>,
     content: Content,
 }
 
 impl Density {
     /// Builds the table at one Poisson ratio.
-    pub(crate) fn build(poisson_ratio: f64, spacing: Spacing) -> Result<Self, StudyError> {
+    pub(crate) fn build(poisson_ratio: f64, spacing: Option<f64>) -> Result<Self, StudyError> {
         let folder = tempfile::tempdir()?;
         let path = folder.path().join("table.h5");
         let demo = Grid::demo();
         let axis = |own: &Axis| match spacing {
-            Spacing::Own => Axis {
+            None => Axis {
                 max: EXTENT,
                 ..own.clone()
             },
-            Spacing::Uniform(spacing) => Axis::uniform(EXTENT, spacing),
+            Some(spacing) => Axis::uniform(EXTENT, spacing),
         };
         let grid = Grid {
             poisson_ratios: vec![poisson_ratio],
@@ -59,6 +41,12 @@ impl Density {
         })
     }
 
+    /// Its density in words.
+    pub(crate) fn label(&self) -> String {
+        let uniform = |spacing| format!("spacing {spacing} r0");
+        self.spacing.map_or("graded".to_owned(), uniform)
+    }
+
     /// Nodes along each axis of the stencils of the program's own tables.
     pub(crate) fn points() -> usize {
         Grid::demo().stencil_points
@@ -66,7 +54,7 @@ impl Density {
 
     /// Whether the program's own tables are like this one when read with `points` nodes along each axis.
     pub(crate) fn is_default(&self, points: usize) -> bool {
-        self.spacing == Spacing::Own && points == Self::points()
+        self.spacing.is_none() && points == Self::points()
     }
 
     /// The table read with `points` nodes along each axis.

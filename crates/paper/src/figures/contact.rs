@@ -1,14 +1,15 @@
 //! Figures 4 and 6: the contact over time.
 
-use super::{CONVERGED, GROWING, HERTZ, Redrawn, SCHEME};
-use crate::case::{RADIUS_M, VELOCITY_M_S, kmax};
-use crate::claim::Claim;
-use crate::runs::Runs;
-use figure::{Axis, Figure, LabelledPoint, Layer, Legend, Panel, Sharing, Style};
+use super::{CONVERGED, Claim, GROWING, HERTZ, Redrawn, SCHEME, WIDTH, printed, single};
+use crate::case::{RADIUS_M, Runs, VELOCITY_M_S, kmax};
+use figure::{Axis, Figure, Legend, Panel, Sharing, Style};
 use impact::{Motion, Run};
 
 /// Until when is drawn, in s: the contact is printed to last 27 us.
 const UNTIL_S: f64 = 31e-6;
+
+/// What the points are.
+const STARS: &str = "stars: values printed in the paper";
 
 /// Points of a curve.
 const POINTS: u32 = 620;
@@ -27,11 +28,6 @@ fn force(run: &Run, scale: f64) -> Vec<(f64, f64)> {
     times()
         .map(|t| (t, excitation.force_n(t) / scale))
         .collect()
-}
-
-/// A number that the paper prints.
-fn printed(x: f64, y: f64, label: &str) -> Layer {
-    Layer::Point(LabelledPoint::new(x, y, label))
 }
 
 /// Fig. 4.
@@ -62,7 +58,7 @@ pub(super) fn history(runs: &Runs) -> Redrawn {
     }
     speeds = speeds.layer(printed(27.0e-6, -99.1, "-99.1 m/s"));
     let figure = Figure::new("Fig. 4: force, displacements and velocity")
-        .subtitle("stars: values printed in the paper")
+        .subtitle(STARS)
         .sharing(Sharing::X)
         .width(WIDTH)
         .panel(forces)
@@ -77,17 +73,12 @@ pub(super) fn history(runs: &Runs) -> Redrawn {
     }
 }
 
-/// Width of a picture in pixels.
-pub(super) const WIDTH: f64 = 1020.0;
-
 fn symmetry(runs: &Runs) -> Vec<Claim> {
     let share = |run: &Run| run.peak_force_time_s / run.contact_time_s;
     let (hertz, coupled) = (share(&runs.hertz_printed), share(&runs.table_1));
     let turn = motion(&runs.table_1, |m| m.velocity_m_s);
-    let turn_s = turn
-        .iter()
-        .find(|(_, v)| *v <= 0.0)
-        .map_or(f64::NAN, |(t, _)| *t);
+    let turn = turn.iter().find(|(_, v)| *v <= 0.0);
+    let turn_s = turn.map_or(f64::NAN, |(t, _)| *t);
     vec![
         Claim::new(
             "P(t) is symmetrical about t's, with ts = 2 t's",
@@ -148,10 +139,11 @@ pub(super) fn stress(runs: &Runs) -> Redrawn {
     Redrawn {
         name: "fig-06",
         title: "Fig. 6: contact stress over the tensile strength of copper",
-        figure: Figure::new("Fig. 6: P/S over the tensile strength of copper, 227 MPa")
-            .subtitle("stars: values printed in the paper")
-            .width(WIDTH)
-            .panel(panel),
+        figure: single(
+            "Fig. 6: P/S over the tensile strength of copper, 227 MPa",
+            STARS,
+            panel,
+        ),
         caption: "S is the area of the rod, not of the contact.",
         claims: vec![Claim::new(
             "the stress is significantly higher than the tensile strength",

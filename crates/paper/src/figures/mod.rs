@@ -1,14 +1,14 @@
-//! Figures 4 to 11.
+//! Figures 4 to 11: `contact` has 4 and 6, `radius` 5, `fields` 7 to 11, and `step` what explains them.
 
 mod contact;
 mod fields;
+mod histories;
 mod radius;
 mod step;
 
-use crate::claim::Claim;
+use crate::case::Runs;
 use crate::error::PaperError;
-use crate::runs::Runs;
-use figure::Figure;
+use figure::{Figure, LabelledPoint, Layer, Panel};
 
 /// A figure of the paper, redrawn, or one that explains it.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,6 +25,23 @@ pub struct Redrawn {
     pub claims: Vec<Claim>,
 }
 
+/// A sentence of the paper that has no number, and the numbers that it is judged by here.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Claim {
+    /// What the paper says.
+    pub says: &'static str,
+    /// What is found here.
+    pub found: String,
+    /// Whether that is so.
+    pub holds: bool,
+}
+
+impl Claim {
+    pub(crate) fn new(says: &'static str, holds: bool, found: String) -> Self {
+        Self { says, found, holds }
+    }
+}
+
 /// All of them, in order.
 pub(crate) fn all(runs: &Runs) -> Result<Vec<Redrawn>, PaperError> {
     let mut all = vec![
@@ -37,6 +54,9 @@ pub(crate) fn all(runs: &Runs) -> Result<Vec<Redrawn>, PaperError> {
     Ok(all)
 }
 
+/// Width of a picture in pixels.
+const WIDTH: f64 = 1020.0;
+
 /// Name of the curves of the paper's model with Table 1.
 const CONVERGED: &str = "converged, 123 GPa";
 
@@ -48,3 +68,14 @@ const HERTZ: &str = "Hertz, 129 GPa";
 
 /// Name of the curves of a contact that counts the static deflection once.
 const GROWING: &str = "radius follows the load, 123 GPa";
+
+/// A number that the paper prints.
+fn printed(x: f64, y: f64, label: &str) -> Layer {
+    Layer::Point(LabelledPoint::new(x, y, label))
+}
+
+/// A figure of one panel.
+fn single(title: &str, subtitle: &str, panel: Panel) -> Figure {
+    let figure = Figure::new(title).subtitle(subtitle);
+    figure.width(WIDTH).panel(panel)
+}

@@ -1,11 +1,9 @@
 //! Figure 5: the contact stress against the radius.
 
-use super::contact::WIDTH;
-use super::{HERTZ, Redrawn};
+use super::{Claim, HERTZ, Redrawn, printed, single};
 use crate::case::{PRINTED_PA, RADIUS_M, coupled, hertz, kmax};
-use crate::claim::Claim;
 use crate::error::PaperError;
-use figure::{Axis, Figure, LabelledPoint, Layer, Panel, Style};
+use figure::{Axis, Panel, Style};
 use impact::Impact;
 use rayon::prelude::*;
 
@@ -44,29 +42,24 @@ pub(super) fn dependence() -> Result<Redrawn, PaperError> {
     let radius = Axis::logarithmic("radius r_{0}")
         .unit("mm")
         .range(1e3 * RADII_M[0], 1e3 * RADII_M[1]);
-    let stars = [(15.97, "15.97"), (14.11, "14.11")];
-    let mut panel = Panel::new(radius, Axis::logarithmic("K_{max}"))
+    let panel = Panel::new(radius, Axis::logarithmic("K_{max}"))
         .height(420.0)
         .line(HERTZ, Style::Plain, alone)
         .line(
             "coupled with the half-space, 129 GPa",
             Style::Plain,
             on_block,
-        );
-    for (value, label) in stars {
-        panel = panel.layer(Layer::Point(LabelledPoint::new(
-            1e3 * RADIUS_M,
-            value,
-            label,
-        )));
-    }
+        )
+        .layer(printed(1e3 * RADIUS_M, 15.97, "15.97"))
+        .layer(printed(1e3 * RADIUS_M, 14.11, "14.11"));
     Ok(Redrawn {
         name: "fig-05",
         title: "Fig. 5: K_max against the radius r0",
-        figure: Figure::new("Fig. 5: K_{max} = P_{max}/S/R_{m} against the radius")
-            .subtitle("mass and velocity as in the paper; stars: values printed in the paper")
-            .width(WIDTH)
-            .panel(panel),
+        figure: single(
+            "Fig. 5: K_{max} = P_{max}/S/R_{m} against the radius",
+            "mass and velocity as in the paper; stars: values printed in the paper",
+            panel,
+        ),
         caption: "The radius is that of the rod, its tip and the disc; the mass stays.",
         claims: vec![Claim::new(
             "Kmax goes as r0 to the power -9/5",

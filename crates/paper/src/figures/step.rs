@@ -1,9 +1,7 @@
 //! The paper's scheme against its step.
 
-use super::Redrawn;
-use super::contact::WIDTH;
+use super::{Claim, Redrawn, WIDTH};
 use crate::case::{PRINTED_PA, RADIUS_M, STEP_S, TABLE_1_PA, VELOCITY_M_S, explicit, kmax};
-use crate::claim::Claim;
 use crate::error::PaperError;
 use contact::{Collision, Exact, Solver};
 use figure::{Axis, Figure, Legend, Panel, Sharing, Style};
@@ -16,12 +14,8 @@ const SPACING_S: f64 = STEP_S / 41.0;
 /// The steps, in their spacing.
 const STEPS: RangeInclusive<u32> = 10..=125;
 
-/// What the scheme gives with one step: Kmax, contact time in s, restitution.
-#[derive(Debug, Clone, Copy)]
-struct Found {
-    step_s: f64,
-    values: [f64; 3],
-}
+/// A step in s, and what the scheme gives with it: Kmax, contact time in s, restitution.
+type Found = (f64, [f64; 3]);
 
 /// The printed values, and half a unit of their last digit.
 const PRINTED: [(f64, f64); 3] = [(14.11, 0.005), (27.0e-6, 0.05e-6), (0.991, 0.0005)];
@@ -41,15 +35,15 @@ fn curve(copper_pa: f64) -> Result<Vec<Found>, PaperError> {
                 summary.contact_time * units.time_s,
                 summary.restitution,
             ];
-            Ok(Found { step_s, values })
+            Ok((step_s, values))
         },
     );
     found.collect()
 }
 
 /// Whether a step gives all printed values to their digits.
-fn gives_all(found: &&Found) -> bool {
-    let mut pairs = found.values.iter().zip(PRINTED);
+fn gives_all((_, values): &&Found) -> bool {
+    let mut pairs = values.iter().zip(PRINTED);
     pairs.all(|(value, (printed, half))| (value - printed).abs() <= half)
 }
 
@@ -68,11 +62,11 @@ pub(super) fn dependence() -> Result<Redrawn, PaperError> {
     for (k, axis) in axes.into_iter().enumerate() {
         let step = Axis::linear("step").unit("µs").range(0.0, ends[1]);
         let mut panel = Panel::new(step, axis).height(210.0).legend(Legend::Outside);
-        for (name, found) in [
-            ("copper of 123 GPa", &table_1),
-            ("copper of 129 GPa", &printed),
-        ] {
-            let points = found.iter().map(|f| (1e6 * f.step_s, f.values[k]));
+        for (copper, found) in [("123", &table_1), ("129", &printed)] {
+            let name = &format!("copper of {copper} GPa");
+            let points = found
+                .iter()
+                .map(|(step_s, values)| (1e6 * step_s, values[k]));
             panel = panel.line(name, Style::Plain, points.collect());
         }
         let level = ends.map(|step_us| (step_us, PRINTED[k].0));
@@ -94,14 +88,17 @@ pub(super) fn dependence() -> Result<Redrawn, PaperError> {
 fn claims(table_1: &[Found], printed: &[Found]) -> Vec<Claim> {
     let fitting = |found: &[Found]| -> Vec<String> {
         let steps = found.iter().filter(gives_all);
-        steps.map(|f| format!("{:.3}", 1e6 * f.step_s)).collect()
+        steps
+            .map(|(step_s, _)| format!("{:.3}", 1e6 * step_s))
+            .collect()
     };
     let (of_table_1, of_printed) = (fitting(table_1), fitting(printed));
     let told = |steps: &[String]| match steps {
         [] => "no step".to_owned(),
         steps => format!("{} us", steps.join(", ")),
     };
-    let ends = [printed.first(), printed.last()].map(|f| f.map_or(f64::NAN, |f| f.values[2]));
+    let ends =
+        [printed.first(), printed.last()].map(|f| f.map_or(f64::NAN, |(_, values)| values[2]));
     vec![
         Claim::new(
             "Kmax = 14.11, ts = 27.0 us and Rf = 0.991 together",

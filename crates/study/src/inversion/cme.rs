@@ -10,13 +10,12 @@
 //! outside a window around the peak; frequency, place and width of the window minimise the squared
 //! coefficient of variation, which is the error for a function with curvature.
 
-use super::Framework;
+use super::framework::Framework;
 use num_complex::Complex64;
 use std::f64::consts::{PI, TAU};
 
 /// `order` + 1 nodes; the squared coefficient of variation falls as 1/`order`^2.
-#[must_use]
-pub fn cme(order: usize) -> Framework {
+pub(crate) fn cme(order: usize) -> Framework {
     let best = nelder_mead(coarse(order), |place| variation(order, place));
     let (coefficients, omega) = (coefficients(order, best), best[0].abs());
     let [mass, mean, _] = moments(&coefficients, omega);

@@ -1,7 +1,8 @@
-//! Numerical inversion of the Laplace transform, one method a file.
+//! Numerical inversion of the Laplace transform: the way of the source paper to a kernel.
 //!
-//! Two families: methods of the Abate-Whitt framework evaluate the transform anew for every time, at
-//! nodes beta/t, and series methods share their samples among all times of a window.
+//! `framework` and `cme` have the methods that evaluate the transform anew for every time, at nodes beta/t; `series`
+//! those that share their samples among all times of a window; `extended` one of the first kind with 31 digits.
+//! `transform` has the paper's transforms, and `hankel` the quadrature that an inversion needs of them.
 //!
 //! ```text
 //! f(t) ~ (1/t) sum_k Re[ weight_k F(beta_k/t) ]                              Abate and Whitt (2006)
@@ -9,89 +10,190 @@
 //! ```
 
 mod cme;
-mod crump;
-mod de_hoog;
-mod durbin;
-mod euler;
-mod stehfest;
-mod stehfest_extended;
-mod talbot;
+mod extended;
+mod framework;
+mod hankel;
+mod series;
+mod transform;
 
-pub use cme::cme;
-pub use crump::crump;
-pub use de_hoog::DeHoog;
-pub use durbin::durbin;
-pub use euler::euler;
-pub use stehfest::stehfest;
-pub use stehfest_extended::{ExtendedWeights, MOST_TERMS, stehfest_extended};
-pub use talbot::talbot;
+pub(crate) use extended::{AxisTransform, ExtendedWeights, stehfest_extended};
 
+use crate::measure::Effort;
+use cme::cme;
+use framework::{Framework, euler, stehfest, talbot};
+use halfspace::{Medium, Six};
+use hankel::Hankel;
 use num_complex::Complex64;
+use series::{CRUMP, DE_HOOG, DURBIN, Series, Window};
 
-/// Nodes and weights of a method that takes the transform anew for every time.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Framework {
-    /// beta_k, Im >= 0.
-    pub nodes: Vec<Complex64>,
-    /// Their weights.
-    pub weights: Vec<Complex64>,
+/// A numerical inversion of the Laplace transform at one setting, ready for any scene and time.
+#[derive(Debug)]
+pub(crate) struct Inversion {
+    pub(crate) name: &'static str,
+    pub(crate) setting: String,
+    /// Digits that the transform needs: those of the result and those that the weights cancel.
+    digits: f64,
+    rule: Rule,
 }
 
-impl Framework {
-    /// f(t), t > 0, of a transform with any number of components.
-    pub fn invert<const N: usize>(
-        &self,
-        t: f64,
-        mut transform: impl FnMut(Complex64) -> [Complex64; N],
-    ) -> [f64; N] {
-        let mut sum = [0.0; N];
-        for (&node, &weight) in self.nodes.iter().zip(&self.weights) {
-            let values = transform(node / t);
-            for (total, value) in sum.iter_mut().zip(values) {
-                *total += (weight * value).re;
+#[derive(Debug)]
+enum Rule {
+    Framework(Framework),
+    Series {
+        series: Series,
+        samples: usize,
+        /// Aliasing error, matched to what the number of samples reaches.
+        aliasing: f64,
+        /// Ratio of the last to the first time that share the samples.
+        span: f64,
+    },
+}
+
+/// Ratio of times that share the samples of an accelerated series: over more the early ones are not resolved, over
+/// less the samples are not used.
+///
+/// Durbin's plain sum gains nothing by it.
+const SPAN: f64 = 4.0;
+
+/// A method, with its settings in a quick and a full chart, and in the pictures of errors over time of both: in a full
+/// one its best.
+type Method = (fn(usize) -> Inversion, [&'static [usize]; 2], [usize; 2]);
+
+const METHODS: [Method; 7] = [
+    (
+        |n| Inversion::framework("fixed Talbot", terms(n), 0.7 * n as f64, talbot(n)),
+        [&[12, 24], &[8, 12, 16, 24, 32]],
+        [16, 24],
+    ),
+    (
+        |n| Inversion::framework("Gaver-Stehfest", terms(n), 15.0, stehfest(n)),
+        [&[6, 14], &[6, 10, 14, 18]],
+        [14, 14],
+    ),
+    (
+        |n| Inversion::framework("Euler", format!("order {n}"), n as f64, euler(n)),
+        [&[6, 14], &[6, 10, 14, 18, 24]],
+        [10, 18],
+    ),
+    (
+        |n| Inversion::framework("CME", format!("order {n}"), 6.0, cme(n)),
+        [&[8, 24], &[8, 20, 50, 100]],
+        [20, 50],
+    ),
+    (
+        |n| Inversion::series("Durbin", DURBIN, n, 1e-6, f64::INFINITY),
+        [&[50, 200], &[50, 100, 200, 400, 800]],
+        [200, 400],
+    ),
+    (
+        |n| Inversion::series("Crump", CRUMP, n, accelerated(n), SPAN),
+        [&[21, 81], &[21, 41, 81, 161]],
+        [41, 81],
+    ),
+    (
+        |n| Inversion::series("de Hoog", DE_HOOG, n, accelerated(n), SPAN),
+        [&[21, 81], &[21, 41, 81, 161]],
+        [81, 161],
+    ),
+];
+
+fn terms(n: usize) -> String {
+    format!("{n} terms")
+}
+
+/// Aliasing error that an accelerated series reaches.
+fn accelerated(samples: usize) -> f64 {
+    10.0_f64.powf(-3.0 - samples as f64 / 20.0).max(1e-11)
+}
+
+impl Inversion {
+    /// All methods at increasing settings.
+    pub(crate) fn all(effort: Effort) -> Vec<Self> {
+        let of = |(make, [quick, full], _): Method| {
+            effort.pick(quick, full).iter().map(move |&n| make(n))
+        };
+        METHODS.into_iter().flat_map(of).collect()
+    }
+
+    /// The setting of each method in the pictures of errors over time.
+    pub(crate) fn pictured(effort: Effort) -> Vec<Self> {
+        let of = |(make, _, [quick, best]): Method| make(effort.pick(quick, best));
+        METHODS.into_iter().map(of).collect()
+    }
+
+    fn framework(name: &'static str, setting: String, digits: f64, rule: Framework) -> Self {
+        Self {
+            name,
+            setting,
+            digits: digits.clamp(4.0, 15.0),
+            rule: Rule::Framework(rule),
+        }
+    }
+
+    fn series(
+        name: &'static str,
+        series: Series,
+        samples: usize,
+        aliasing: f64,
+        span: f64,
+    ) -> Self {
+        Self {
+            name,
+            setting: format!("{samples} samples"),
+            digits: (2.0 - aliasing.log10()).clamp(4.0, 15.0),
+            rule: Rule::Series {
+                series,
+                samples,
+                aliasing,
+                span,
+            },
+        }
+    }
+
+    /// Step responses at ascending times, and the integrand evaluations they took; at the centre of the surface only
+    /// w over its static value.
+    pub(crate) fn run(&self, medium: &Medium, place: [f64; 2], times: &[f64]) -> (Vec<Six>, u64) {
+        let hankel = Hankel::new(medium, place, self.digits);
+        let mut values = Vec::with_capacity(times.len());
+        match &self.rule {
+            Rule::Framework(rule) => {
+                let at = |&t: &f64| rule.invert(t, |s| hankel.values(s));
+                values.extend(times.iter().map(at));
+            }
+            Rule::Series {
+                series,
+                samples,
+                aliasing,
+                span,
+            } => {
+                let mut rest = times;
+                while let Some(first) = rest.first() {
+                    let (now, later) = rest.split_at(rest.partition_point(|t| *t <= span * first));
+                    let longest = now.last().copied().unwrap_or(*first);
+                    let window = Window::new(longest, *aliasing, *samples);
+                    values.extend(in_window(&hankel, &window, series, now));
+                    rest = later;
+                }
             }
         }
-        sum.map(|v| v / t)
-    }
-
-    /// Smallest real and largest imaginary part of the nodes.
-    #[must_use]
-    pub fn extent(&self) -> (f64, f64) {
-        self.nodes.iter().fold((f64::INFINITY, 0.0), |(re, im), n| {
-            (re.min(n.re), im.max(n.im.abs()))
-        })
+        (values, hankel.evaluations())
     }
 }
 
-/// Where a series method samples the transform: a + i k pi/T.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Window {
-    /// Half the period T of the series; times up to it are inverted.
-    pub half_period: f64,
-    /// Distance a of the path from the imaginary axis.
-    pub damping: f64,
-    /// Number of samples.
-    pub samples: usize,
-}
-
-impl Window {
-    /// Times up to `longest` with an aliasing error of `aliasing`: a = -ln(aliasing)/(2 T), T = 1.25 `longest`.
-    #[must_use]
-    pub fn new(longest: f64, aliasing: f64, samples: usize) -> Self {
-        let half_period = 1.25 * longest;
-        Self {
-            half_period,
-            damping: -aliasing.ln() / (2.0 * half_period),
-            samples,
+/// Fields at many times by a series method, whose samples are shared.
+fn in_window(hankel: &Hankel, window: &Window, series: &Series, times: &[f64]) -> Vec<Six> {
+    let samples = hankel.values(&window.nodes());
+    let fields: [Vec<f64>; 6] = std::array::from_fn(|f| {
+        let column: Vec<Complex64> = samples.iter().map(|s| s[f]).collect();
+        if column.iter().any(|v| v.norm_sqr() > 0.0) {
+            window.invert(series, &column, times)
+        } else {
+            vec![0.0; times.len()]
         }
-    }
-
-    /// The node of sample k.
-    #[must_use]
-    pub fn node(&self, k: usize) -> Complex64 {
-        let step = std::f64::consts::PI / self.half_period;
-        Complex64::new(self.damping, step * k as f64)
-    }
+    });
+    (0..times.len())
+        .map(|i| std::array::from_fn(|f| fields[f][i]))
+        .collect()
 }
 
 #[cfg(test)]

@@ -1,8 +1,21 @@
-use super::{
-    DeHoog, ExtendedWeights, Framework, Window, cme, crump, durbin, euler, stehfest,
-    stehfest_extended, talbot,
-};
+//! Each inversion by itself, against the single integral and the closed form, and where it fails.
+
+use super::cme::cme;
+use super::extended::{ExtendedWeights, stehfest_extended};
+use super::framework::{Framework, euler, stehfest, talbot};
+use super::hankel::Hankel;
+use super::series::{CRUMP, DE_HOOG, DURBIN, Window};
+use super::{Inversion, in_window};
+use crate::measure::Effort;
+use crate::question::kernels::{KernelScene, POISSON_RATIO};
+use crate::question::single_integral::remainder;
+use halfspace::{Kernel, Medium, Profile, Six, kausel};
 use num_complex::Complex64;
+
+/// f(t) of a transform.
+fn inverted(rule: &Framework, t: f64, transform: impl Fn(Complex64) -> Complex64) -> f64 {
+    rule.invert(t, |s| s.iter().map(|&s| [transform(s)]).collect())[0]
+}
 
 /// 1 - e^{-t} cos 2t.
 fn smooth(s: Complex64) -> Complex64 {
@@ -17,7 +30,7 @@ const TIMES: [f64; 5] = [0.3, 0.9, 1.7, 3.1, 4.9];
 
 fn worst(rule: &Framework) -> f64 {
     TIMES.iter().fold(0.0, |most: f64, &t| {
-        most.max((rule.invert(t, |s| [smooth(s)])[0] - smooth_at(t)).abs())
+        most.max((inverted(rule, t, smooth) - smooth_at(t)).abs())
     })
 }
 
@@ -49,17 +62,17 @@ fn more_terms_are_better() {
 #[test]
 fn series_share_their_samples() {
     let window = Window::new(5.0, 1e-10, 81);
-    let samples: Vec<Complex64> = (0..window.samples)
-        .map(|k| smooth(window.node(k)))
-        .collect();
     let long = Window::new(5.0, 1e-6, 4001);
-    let many: Vec<Complex64> = (0..long.samples).map(|k| smooth(long.node(k))).collect();
-    let fraction = DeHoog::new(&window, &samples);
-    for t in TIMES {
-        let exact = smooth_at(t);
-        assert!((fraction.at(t) - exact).abs() < 1e-8, "{t}");
-        assert!((crump(&window, &samples, t) - exact).abs() < 1e-6, "{t}");
-        assert!((durbin(&long, &many, t) - exact).abs() < 2e-2, "{t}");
+    for (window, series, promised) in [
+        (window, DE_HOOG, 1e-8),
+        (window, CRUMP, 1e-6),
+        (long, DURBIN, 2e-2),
+    ] {
+        let samples: Vec<Complex64> = window.nodes().into_iter().map(smooth).collect();
+        let found = window.invert(&series, &samples, &TIMES);
+        for (found, t) in found.into_iter().zip(TIMES) {
+            assert!((found - smooth_at(t)).abs() < promised, "{series:?} at {t}");
+        }
     }
 }
 
@@ -68,12 +81,12 @@ fn the_cme_kernel_has_unit_mass_and_mean_and_never_overshoots() {
     for order in [5, 20, 50] {
         let rule = cme(order);
         // the step function and the ramp are the moments of the kernel
-        let step = rule.invert(1.0, |s| [s.inv()])[0];
-        let ramp = rule.invert(1.0, |s| [(s * s).inv()])[0];
+        let step = inverted(&rule, 1.0, |s| s.inv());
+        let ramp = inverted(&rule, 1.0, |s| (s * s).inv());
         assert!((step - 1.0).abs() < 1e-9 && (ramp - 1.0).abs() < 1e-9);
         for i in 1..60 {
             let t = 0.05 * f64::from(i);
-            let late = rule.invert(t, |s| [(-s).exp() / s])[0];
+            let late = inverted(&rule, t, |s| (-s).exp() / s);
             assert!((-1e-9..=1.0 + 1e-9).contains(&late), "{order} {t} {late}");
         }
     }
@@ -83,7 +96,7 @@ fn the_cme_kernel_has_unit_mass_and_mean_and_never_overshoots() {
 fn doubles_end_at_eighteen_terms_and_double_doubles_do_not() {
     use twofloat::TwoFloat;
     let transform =
-        |s: TwoFloat| crate::extended::divide(TwoFloat::from(1.0), (s + 1.0) * (s + 1.0));
+        |s: TwoFloat| super::extended::divide(TwoFloat::from(1.0), (s + 1.0) * (s + 1.0));
     let f = |t: f64| t * (-t).exp();
     let error = |terms: usize| {
         let weights = ExtendedWeights::new(terms);
@@ -94,11 +107,104 @@ fn doubles_end_at_eighteen_terms_and_double_doubles_do_not() {
     let double = |terms: usize| {
         let rule = stehfest(terms);
         TIMES.iter().fold(0.0_f64, |most, &t| {
-            let value = rule.invert(t, |s| [((s + 1.0) * (s + 1.0)).inv()])[0];
+            let value = inverted(&rule, t, |s| ((s + 1.0) * (s + 1.0)).inv());
             most.max((value - f(t)).abs())
         })
     };
     assert!(double(26) > 1e-3, "{:e}", double(26));
     assert!(error(26) < 1e-6, "{:e}", error(26));
     assert!(error(26) < 1e-2 * error(14));
+}
+
+fn distance(a: &Six, b: &Six) -> f64 {
+    a.iter()
+        .zip(b)
+        .fold(0.0, |most, (x, y)| most.max((x - y).abs()))
+}
+
+#[test]
+fn the_surface_centre_by_inversion_is_the_closed_form() {
+    let medium = Medium::new(0.3).unwrap();
+    let hankel = Hankel::new(&medium, [0.0, 0.0], 13.0);
+    let transform = |s| hankel.surface(s);
+    for (t, promised) in [
+        (0.5, 1e-9),
+        (1.0, 1e-4),
+        (2.5, 5e-3),
+        (4.0, 1e-4),
+        (8.0, 1e-6),
+    ] {
+        let exact = kausel::centre_step(&medium, medium.kappa() * t);
+        let euler = inverted(&euler(16), t, transform);
+        assert!((euler - exact).abs() < promised, "t = {t}: {euler} {exact}");
+    }
+    for (t, promised) in [(2.5, 1e-7), (4.0, 1e-11), (8.0, 1e-11)] {
+        let talbot = inverted(&talbot(24), t, transform);
+        assert!((talbot - 1.0).abs() < promised, "t = {t}: {talbot}");
+    }
+}
+
+#[test]
+fn the_interior_by_inversion_is_the_single_integral() {
+    let medium = Medium::new(0.3).unwrap();
+    let (r, z) = (0.5, 0.6);
+    let kernel = Kernel::new(&medium, Profile::Hertz, 1e-13).unwrap();
+    let rest = kernel.static_field(r, z).unwrap();
+    let hankel = Hankel::new(&medium, [r, z], 13.0);
+    let window = Window::new(20.0, 1e-11, 161);
+    for (t, promised) in [(2.0, 3e-5), (5.0, 1e-11), (9.0, 1e-11), (16.0, 1e-11)] {
+        let value = kernel.remainder(r, z, t).unwrap().value;
+        let exact: Six = std::array::from_fn(|f| value[f] + rest[f]);
+        let series = in_window(&hankel, &window, &DE_HOOG, &[t])[0];
+        assert!(distance(&series, &exact) < promised, "de Hoog at {t}");
+        if t >= 5.0 {
+            let continued = talbot(24).invert(t, |s| hankel.values(s));
+            assert!(distance(&continued, &exact) < promised, "Talbot at {t}");
+        }
+        let (fixed, nodes) = remainder(&medium, [r, z, t], 40);
+        assert!(distance(&fixed, &value) < 1e-9, "fixed rule at {t}");
+        assert!(nodes < 2500);
+    }
+}
+
+/// Largest error within 3 % of the last front, and from four times its time on.
+fn errors(scene: &KernelScene, values: &[Six]) -> [f64; 2] {
+    let front = scene.arrivals.last().copied().unwrap();
+    let mut worst = [0.0_f64; 2];
+    for (t, error) in scene.times.iter().zip(scene.errors_over_time(values)) {
+        if (t / front - 1.0).abs() < 0.03 {
+            worst[0] = worst[0].max(error);
+        } else if *t > 4.0 * front {
+            worst[1] = worst[1].max(error);
+        }
+    }
+    worst
+}
+
+#[test]
+fn every_inversion_fails_at_the_front_and_recovers_as_far_as_it_can() {
+    let medium = Medium::new(POISSON_RATIO).unwrap();
+    let scene = KernelScene::axis(&medium, 24, &[-0.02, -0.01, 0.0, 0.01, 0.02]).unwrap();
+    let mut found = Vec::new();
+    for method in Inversion::pictured(Effort::Full) {
+        let (values, _) = method.run(&medium, scene.place, &scene.times);
+        found.push((method.name, errors(&scene, &values)));
+    }
+    let mut few = scene.clone();
+    few.thin(3);
+    let (values, _) = few.extended(&medium, &ExtendedWeights::new(26));
+    found.push(("Gaver-Stehfest, 31 digits", errors(&few, &values)));
+    // at the front at least, and long after at most
+    for (name, [front, late]) in found {
+        let [least, most] = match name {
+            "fixed Talbot" => [1e-3, 1e-11],
+            "Gaver-Stehfest" => [1e-2, 1e-3],
+            "Euler" | "Crump" => [1e-4, 1e-6],
+            "Durbin" => [1e-4, 2e-3],
+            "de Hoog" => [1e-5, 1e-10],
+            // CME, and Gaver-Stehfest with 31 digits
+            _ => [1e-3, 1e-4],
+        };
+        assert!(front > least && late < most, "{name}: {front:e}, {late:e}");
+    }
 }

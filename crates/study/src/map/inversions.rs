@@ -1,10 +1,9 @@
 //! Error of every inversion over time, from before the first arrival to long after the last.
 
 use crate::StudyError;
-use crate::effort::Effort;
-use crate::inversion::ExtendedWeights;
+use crate::inversion::{ExtendedWeights, Inversion};
+use crate::measure::Effort;
 use crate::picture::Picture;
-use crate::question::inversions::Inversion;
 use crate::question::kernels::{KernelScene, POISSON_RATIO};
 use figure::{Axis, Style};
 use halfspace::{Kernel, Medium, Profile, Six};
@@ -19,34 +18,29 @@ const CAPTION: &str = "Fixed Talbot, which is the best of all after the last fro
 pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>, StudyError> {
     let medium = Medium::new(POISSON_RATIO)?;
     let count = effort.pick(40, 160);
-    let mut figures = Vec::new();
-    for (name, title, scene) in [
-        (
-            "inversions-surface",
-            "Inversions over time: deflection of the surface's centre",
-            KernelScene::surface(&medium, count, &[])?,
-        ),
-        (
-            "inversions-interior",
-            "Inversions over time: six fields at (0.55, 0.65) r0",
-            KernelScene::interior(&medium, count, &[])?,
-        ),
-        (
-            "inversions-axis",
-            "Inversions over time: w on the axis at a depth of 0.65 r0",
-            KernelScene::axis(&medium, count, &[])?,
-        ),
-    ] {
-        figures.push(over_scene(&medium, &scene, (name, title), effort, advance)?);
-    }
-    Ok(figures)
+    let draw = |name, what: &str, scene: KernelScene| {
+        let title = format!("Inversions over time: {what}");
+        over_scene(&medium, &scene, name, &title, effort, advance)
+    };
+    let surface = KernelScene::surface(&medium, count, &[])?;
+    let interior = KernelScene::interior(&medium, count, &[])?;
+    let axis = KernelScene::axis(&medium, count, &[])?;
+    let centre = "deflection of the surface's centre";
+    let inside = "six fields at (0.55, 0.65) r0";
+    let depth = "w on the axis at a depth of 0.65 r0";
+    Ok(vec![
+        draw("inversions-surface", centre, surface)?,
+        draw("inversions-interior", inside, interior)?,
+        draw("inversions-axis", depth, axis)?,
+    ])
 }
 
 /// Every inversion at one place.
 fn over_scene(
     medium: &Medium,
     scene: &KernelScene,
-    (name, title): (&'static str, &str),
+    name: &'static str,
+    title: &str,
     effort: Effort,
     advance: &dyn Fn(),
 ) -> Result<Picture, StudyError> {
@@ -59,27 +53,10 @@ fn over_scene(
             .range(scene.times[0], last),
         Axis::logarithmic("largest error over the largest value").range(1e-16, 10.0),
     );
-    let methods: &[Inversion] = match effort {
-        Effort::Quick => &[
-            Inversion::Talbot(16),
-            Inversion::Stehfest(14),
-            Inversion::Euler(10),
-            Inversion::Cme(20),
-            Inversion::Durbin(200),
-            Inversion::Crump(41),
-            Inversion::DeHoog(81),
-        ],
-        Effort::Full => &Inversion::best(),
-    };
-    for method in methods {
-        let (values, _) = method
-            .prepare()
-            .run(medium, scene.place, method.digits(), &scene.times);
-        figure.curve(
-            &format!("{}, {}", method.name(), method.setting()),
-            Style::Plain,
-            over_time(scene, &values),
-        );
+    for method in Inversion::pictured(effort) {
+        let (values, _) = method.run(medium, scene.place, &scene.times);
+        let label = format!("{}, {}", method.name, method.setting);
+        figure.curve(&label, Style::Plain, over_time(scene, &values));
         advance();
     }
     if name == "inversions-axis" {
@@ -88,18 +65,12 @@ fn over_scene(
         few.thin(3);
         let weights = ExtendedWeights::new(26);
         let (values, _) = few.extended(medium, &weights);
-        figure.curve(
-            "Gaver-Stehfest, 31 digits, 26 terms",
-            Style::Marked,
-            over_time(&few, &values),
-        );
+        let label = "Gaver-Stehfest, 31 digits, 26 terms";
+        figure.curve(label, Style::Marked, over_time(&few, &values));
     }
-    let kernel = single(medium, scene)?;
-    figure.curve(
-        "single integral, 1e-10",
-        Style::Heavy,
-        over_time(scene, &kernel),
-    );
+    let kernel = Kernel::new(medium, Profile::Hertz, 1e-10)?;
+    let own = over_time(scene, &scene.by_kernel(&kernel)?);
+    figure.curve("single integral, 1e-10", Style::Heavy, own);
     for (arrival, label) in [
         (scene.arrivals.first(), "first front"),
         (scene.arrivals.last(), "last front"),
@@ -113,30 +84,7 @@ fn over_scene(
 }
 
 fn over_time(scene: &KernelScene, values: &[Six]) -> Vec<(f64, f64)> {
-    let errors = scene.errors_over_time(values);
-    let clamp = |e: f64| e.clamp(1e-16, 10.0);
-    scene
-        .times
-        .iter()
-        .copied()
-        .zip(errors.into_iter().map(clamp))
-        .collect()
-}
-
-/// The program's kernel at the times of a scene.
-fn single(medium: &Medium, scene: &KernelScene) -> Result<Vec<Six>, StudyError> {
-    let [r, z] = scene.place;
-    let kernel = Kernel::new(medium, Profile::Hertz, 1e-10)?;
-    let rest = kernel.static_field(r, z)?;
-    let unit = if z > 0.0 {
-        1.0
-    } else {
-        1.0 / (0.375 * (1.0 - medium.poisson_ratio()))
-    };
-    let mut values = Vec::new();
-    for &t in &scene.times {
-        let value = kernel.remainder(r, z, t)?.value;
-        values.push(std::array::from_fn(|f| (value[f] + rest[f]) * unit));
-    }
-    Ok(values)
+    let errors = scene.errors_over_time(values).into_iter();
+    let clamped = errors.map(|error| error.clamp(1e-16, 10.0));
+    scene.times.iter().copied().zip(clamped).collect()
 }

@@ -1,9 +1,9 @@
 //! Where the kernels' formulas lose digits: potentials far away, coalescing roots, incompressible solids.
 
 use crate::StudyError;
-use crate::effort::Effort;
+use crate::measure::Effort;
 use crate::picture::Picture;
-use crate::single_integral::closed_potentials;
+use crate::question::single_integral::closed_potentials;
 use figure::{Axis, Interval, Style};
 use halfspace::gauss::Rule;
 use halfspace::{Deflection, Kernel, Medium, Profile, SurfaceResponse, kausel};
@@ -138,6 +138,20 @@ pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>
     Ok(done)
 }
 
+/// Adds a curve of errors, those below 1e-17 drawn there.
+fn add(
+    figure: &mut Picture,
+    name: &str,
+    style: Style,
+    places: &[f64],
+    error: impl Fn(f64) -> Result<f64, StudyError>,
+) -> Result<(), StudyError> {
+    let point = |&x: &f64| Ok((x, error(x)?.max(1e-17)));
+    let points: Result<_, StudyError> = places.iter().map(point).collect();
+    figure.curve(name, style, points?);
+    Ok(())
+}
+
 fn potentials(effort: Effort) -> Result<Picture, StudyError> {
     let x = Interval::logarithmic(3.0, 1e6);
     let sizes = x.cells(effort.pick(40, 120));
@@ -152,21 +166,16 @@ fn potentials(effort: Effort) -> Result<Picture, StudyError> {
         ("closed form, waves (xi imaginary)", 0.5 * PI),
         ("closed form, between", 0.25 * PI),
     ] {
-        let error = |&s: &f64| (s, closed_form_error(s, direction, 0.5).clamp(1e-17, 10.0));
-        figure.curve(name, Style::Plain, sizes.iter().map(error).collect());
+        let error = |size| Ok(closed_form_error(size, direction, 0.5).min(10.0));
+        add(&mut figure, name, Style::Plain, &sizes, error)?;
     }
     let medium = Medium::new(0.3)?;
-    let mut own = Vec::new();
-    for &s in &sizes {
-        own.push((s, deep_static_error(&medium, 0.5, s)?.max(1e-17)));
-    }
-    figure.curve("the program (static w at depth)", Style::Points, own);
-    let theory = |&s: &f64| (s, (f64::EPSILON * s.powi(3) * s.ln()).min(10.0));
-    figure.curve(
-        "theory: machine epsilon |xi|^3 ln|xi|",
-        Style::HeavyDashed,
-        sizes.iter().map(theory).collect(),
-    );
+    let own = "the program (static w at depth)";
+    let error = |depth| deep_static_error(&medium, 0.5, depth);
+    add(&mut figure, own, Style::Points, &sizes, error)?;
+    let theory = "theory: machine epsilon |xi|^3 ln|xi|";
+    let error = |size: f64| Ok((f64::EPSILON * size.powi(3) * size.ln()).min(10.0));
+    add(&mut figure, theory, Style::HeavyDashed, &sizes, error)?;
     figure.caption = "The closed forms are differences of terms of size |xi|^2 ln|xi| with a result of size 1/|xi|: \
         their relative error grows as the third power of the distance and reaches one at about 1e5 r0. The program \
         changes to the multipole series at 7 to 10 r0 and keeps its digits."
@@ -176,6 +185,7 @@ fn potentials(effort: Effort) -> Result<Picture, StudyError> {
 
 fn double_root(effort: Effort) -> Result<Picture, StudyError> {
     let x = Interval::logarithmic(1e-16, 0.1);
+    let distances = x.cells(effort.pick(16, 60));
     let mut figure = Picture::new(
         "double-root",
         "Closed form of W where two roots meet",
@@ -183,27 +193,20 @@ fn double_root(effort: Effort) -> Result<Picture, StudyError> {
         Axis::logarithmic("largest error of W").range(1e-17, 1e-6),
     );
     for (name, sign) in [("closed form, above", 1.0), ("closed form, below", -1.0)] {
-        let mut points = Vec::new();
-        for distance in x.cells(effort.pick(16, 60)) {
-            points.push((distance, double_root_error(sign * distance)?.max(1e-17)));
-        }
-        figure.curve(name, Style::Marked, points);
+        let error = |distance| double_root_error(sign * distance);
+        add(&mut figure, name, Style::Marked, &distances, error)?;
     }
-    let mut own = Vec::new();
-    for distance in x.cells(effort.pick(16, 60)) {
-        own.push((distance, double_root_own_error(distance)?.max(1e-17)));
-    }
-    figure.curve(
-        "the program, against the single integral",
-        Style::Points,
+    let own = "the program, against the single integral";
+    add(
+        &mut figure,
         own,
-    );
-    let theory = |d: f64| (d, f64::EPSILON / d.sqrt());
-    figure.curve(
-        "theory, at most: machine epsilon over root distance",
-        Style::HeavyDashed,
-        x.cells(40).into_iter().map(theory).collect(),
-    );
+        Style::Points,
+        &distances,
+        double_root_own_error,
+    )?;
+    let theory = "theory, at most: machine epsilon over root distance";
+    let error = |distance: f64| Ok(f64::EPSILON / distance.sqrt());
+    add(&mut figure, theory, Style::HeavyDashed, &x.cells(40), error)?;
     figure.caption = "The two complex roots of the Rayleigh cubic part as the square root of the distance, and the \
         closed form divides by their difference. The program's surface response has no such difference and is used \
         everywhere; the closed form only checks it."
@@ -220,28 +223,28 @@ fn incompressible(effort: Effort) -> Result<Picture, StudyError> {
         Axis::over(x, "1/2 - nu"),
         Axis::logarithmic("relative error; c2/c1").range(1e-17, 10.0),
     );
-    let (mut kernels, mut surface) = (Vec::new(), Vec::new());
-    for &d in &distances {
-        kernels.push((d, incompressible_error(d)?.max(1e-17)));
-        let [own, closed] = incompressible_surface(d)?;
-        surface.push((d, (own - closed).abs().max(1e-17)));
-    }
-    figure.curve(
-        "kernels asked for 1e-8 at (0.5, 0.6) r0",
-        Style::Marked,
+    let kernels = "kernels asked for 1e-8 at (0.5, 0.6) r0";
+    add(
+        &mut figure,
         kernels,
-    );
-    figure.curve(
-        "surface response against closed form",
         Style::Marked,
+        &distances,
+        incompressible_error,
+    )?;
+    let surface = "surface response against closed form";
+    add(
+        &mut figure,
         surface,
-    );
-    let ratio = |&d: &f64| (d, (d / (0.5 + d)).sqrt());
-    figure.curve(
-        "theory: c2/c1 = sqrt(d/(1/2 + d))",
-        Style::HeavyDashed,
-        distances.iter().map(ratio).collect(),
-    );
+        Style::Marked,
+        &distances,
+        |distance| {
+            let [own, closed] = incompressible_surface(distance)?;
+            Ok((own - closed).abs())
+        },
+    )?;
+    let theory = "theory: c2/c1 = sqrt(d/(1/2 + d))";
+    let ratio = |d: f64| Ok((d / (0.5 + d)).sqrt());
+    add(&mut figure, theory, Style::HeavyDashed, &distances, ratio)?;
     figure.mark(0.005, "tables end");
     figure.caption = "c1/c2 goes to infinity as the root of 1/(1/2 - nu): a table's time axis in r0/c1 grows with \
         it, which is why tables end at nu = 0.495. The kernels and the surface response themselves keep their accuracy."

@@ -4,10 +4,10 @@
 //! between its nodes.
 
 use crate::StudyError;
-use crate::effort::Effort;
+use crate::measure::Effort;
 use crate::picture::Picture;
 use crate::question::kernels::POISSON_RATIO;
-use crate::tables::{Density, Spacing};
+use crate::tables::Density;
 use figure::{Axis, Interval, Style};
 use halfspace::Medium;
 use lookup::Table;
@@ -44,7 +44,7 @@ fn error_at(table: &Table, i: usize, k: usize, pulse: usize) -> f64 {
 
 /// One picture for the first mesh below the surface and one for half a radius down.
 pub(crate) fn figures(densities: &[Density], effort: Effort) -> Result<Vec<Picture>, StudyError> {
-    let Some(density) = densities.iter().find(|d| d.spacing == Spacing::Own) else {
+    let Some(density) = densities.iter().find(|d| d.is_default(Density::points())) else {
         return Ok(Vec::new());
     };
     let table = density.with_stencil(Density::points())?;

@@ -1,10 +1,11 @@
-//! Stability maps: where each method works, where it fails, and where theory says it should.
+//! Maps of where each method works, where it fails, and where theory says it should.
+//!
+//! `marches` and `dynamic`: the steps of marches; `models`: which contact model a scene needs; `inversions`, `kernels`
+//! and `lookups`: the errors of kernels and tables.
 
-pub mod disc_models;
 pub mod dynamic;
 pub(crate) mod inversions;
 pub mod kernels;
-pub mod lookups;
+pub(crate) mod lookups;
 pub mod marches;
 pub mod models;
-pub mod recurrence;

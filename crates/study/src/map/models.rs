@@ -1,21 +1,22 @@
 //! Which model a scene needs: the plane of the two dimensionless groups.
 //!
 //! Static deflection over indentation is the half-space's part phi of the contact's compliance for a contact
-//! that follows the load, and the coupling of a fixed disc; memory is the time that the waves need across the
-//! contact, over Hertz's contact time.
+//! that follows the load, and the coupling of a fixed disc, the paper's, whose whole deflection is added to Hertz's
+//! indentation; memory is the time that the waves need across the contact, over Hertz's contact time.
 
 use crate::StudyError;
-use crate::effort::Effort;
-use crate::marching::Results;
+use crate::measure::Effort;
 use crate::picture::Picture;
+use crate::question::marching::Results;
 use crate::record::Error;
-use crate::scenes::{ball, collision};
-use contact::Library;
-use contact::choose::{Rung, choose};
+use crate::scenes::{ROD_RADIUS_M, TABLE_1_PA, ball, collision, paper};
+use contact::choose::{Family, Groups, Rung, choose};
 use contact::law::area_dashpot::AreaDashpot;
 use contact::law::hertz::CONTACT_TIME;
-use contact::law::radiation::{LARGEST_LAG, radiation};
-use contact::{GrowingDisc, MarchError, PunchResponse, PunchWaves, Summary, march_growing};
+use contact::law::quasi_static::{quasi_static, quasi_static_radiation};
+use contact::law::radiation::{LARGEST_LAG, LOSS, radiation};
+use contact::{Accuracy, ExactDisc, GrowingDisc, Library, MarchError, PunchResponse, PunchWaves};
+use contact::{StaticShare, Summary, march_growing, march_implicit, refine};
 use figure::{Axis, Interval, Style};
 use halfspace::{Deflection, Medium, SurfaceResponse};
 use impact::Impact;
@@ -34,18 +35,36 @@ pub struct Plane {
     waves: PunchWaves,
 }
 
-/// Errors of the cheaper models at one place of the plane, largest over peak force, contact time, restitution
-/// and peak displacement.
+/// Errors of the cheaper models at one place of a plane, largest over peak force, contact time, restitution
+/// and peak displacement; infinite where the program refuses the model.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ModelErrors {
-    /// No waves.
-    pub hertz: f64,
+    /// No waves: Hertz, or two springs.
+    pub quasi_static: f64,
     /// First-order radiated loss.
     pub radiation: f64,
-    /// Dashpot on the contact's area.
+    /// Dashpot on the area of a contact that follows the load.
     pub dashpot: f64,
     /// Change of the march that they are compared with over the last halving of its step.
     pub march: f64,
+}
+
+impl ModelErrors {
+    /// The cheapest model that meets a tolerance: 3 is the march, 4 the march where it has not converged.
+    fn cheapest(&self, tolerance: f64) -> usize {
+        let cheaper = [self.quasi_static, self.radiation, self.dashpot];
+        let found = cheaper.into_iter().position(|error| error <= tolerance);
+        found.unwrap_or(if self.march <= UNSETTLED { 3 } else { 4 })
+    }
+}
+
+/// The largest error of a model's results, or infinite where it is beyond its bounds.
+fn error(is_allowed: bool, found: impl Into<Results>, exact: &Results) -> f64 {
+    if is_allowed {
+        Error::of(&found.into().errors(exact)).max
+    } else {
+        f64::INFINITY
+    }
 }
 
 /// A march that changes by more when its step is halved is said not to have converged.
@@ -119,27 +138,16 @@ impl Plane {
         }
         let exact = Results::from(&found?);
         let march = match summary(&growing, 2.0 * step) {
-            Ok(coarse) => Error::of(&Results::from(&coarse).errors(&exact)).max,
+            Ok(coarse) => error(true, &coarse, &exact),
             Err(_) => f64::INFINITY,
         };
-        let of = |lag: f64| Error::of(&Results::from(&radiation(lag)).errors(&exact)).max;
         let (lag, length) = self.groups(share, memory);
-        let terms = AreaDashpot::new(share, self.wave_time(memory), &self.waves);
-        let dashpot = Results::from(&terms.summary());
+        let dashpot = AreaDashpot::new(share, self.wave_time(memory), &self.waves);
+        let is_allowed = dashpot.left_out(length).contact() < 1.0;
         Ok(ModelErrors {
-            hertz: of(0.0),
-            // beyond it the program refuses the first-order law
-            radiation: if lag <= LARGEST_LAG {
-                of(lag)
-            } else {
-                f64::INFINITY
-            },
-            // and the expansion beyond its own bounds
-            dashpot: if terms.left_out(length).contact() < 1.0 {
-                Error::of(&dashpot.errors(&exact)).max
-            } else {
-                f64::INFINITY
-            },
+            quasi_static: error(true, &radiation(0.0), &exact),
+            radiation: error(lag <= LARGEST_LAG, &radiation(lag), &exact),
+            dashpot: error(is_allowed, &dashpot.summary(), &exact),
             march,
         })
     }
@@ -151,8 +159,60 @@ impl Plane {
     }
 }
 
+/// Accuracy of the march that models of a fixed disc are compared with.
+const ACCURACY: f64 = 1e-5;
+
+/// Errors of the cheaper models of a fixed disc against the implicit march.
+///
+/// # Errors
+/// Those of the march.
+pub fn disc_errors(disc: &ExactDisc<'_>) -> Result<ModelErrors, MarchError> {
+    let springs = quasi_static(disc.coupling);
+    let accuracy = Accuracy::of_contact(ACCURACY, None);
+    let march = |step| march_implicit(disc, step);
+    let first = springs.contact_time / accuracy.first_steps();
+    let exact = Results::from(&refine(march, first, accuracy)?.summary);
+    let with_loss = |lag: f64| quasi_static_radiation(disc.coupling, lag);
+    let lag = disc_groups(disc).lag;
+    let is_allowed = springs.loss_per_lag * lag <= LOSS * LARGEST_LAG;
+    Ok(ModelErrors {
+        quasi_static: error(true, &with_loss(0.0), &exact),
+        radiation: error(is_allowed, &with_loss(lag), &exact),
+        dashpot: f64::INFINITY,
+        march: ACCURACY,
+    })
+}
+
+/// What `auto` chooses for a disc at a tolerance.
+#[must_use]
+pub fn disc_chosen(disc: &ExactDisc<'_>, tolerance: f64) -> Rung {
+    disc_groups(disc)
+        .choose(&Accuracy::of_contact(tolerance, None))
+        .rung
+}
+
+fn disc_groups(disc: &ExactDisc<'_>) -> Groups {
+    Groups {
+        family: Family::Full,
+        coupling: disc.coupling,
+        lag: disc.coupling * disc.wave_time * disc.response.relaxation_time(),
+        memory: disc.memory(),
+    }
+}
+
+/// The paper's disc with other groups.
+#[must_use]
+pub fn disc_at<'a>(like: &ExactDisc<'a>, coupling: f64, memory: f64) -> ExactDisc<'a> {
+    ExactDisc {
+        coupling,
+        wave_time: memory * CONTACT_TIME / like.response.memory(),
+        share: StaticShare::Full,
+        ..*like
+    }
+}
+
 /// Largest memory, from `low` to 1e3, at which `auto` has not yet left a rung for the next.
-pub(super) fn memory_of_change(low: f64, leaves: Rung, chosen: impl Fn(f64) -> Rung) -> f64 {
+fn memory_of_change(low: f64, leaves: Rung, chosen: impl Fn(f64) -> Rung) -> f64 {
     let (mut low, mut high) = (low, 1e3_f64);
     for _ in 0..60 {
         let middle = (low * high).sqrt();
@@ -211,105 +271,179 @@ pub(crate) fn rows(effort: Effort) -> u64 {
     shape(effort)[1] as u64
 }
 
-/// The lines at which `auto` leaves a rung.
-const LEAVES: [(&str, Rung, Style); 2] = [
-    ("auto leaves hertz", Rung::QuasiStatic, Style::Heavy),
-    (
-        "auto leaves the area dashpot",
-        Rung::AreaDashpot,
-        Style::HeavyDashed,
-    ),
-];
+/// A plane of errors, and the memory at which `auto` leaves a model for the next.
+struct Map<'a> {
+    /// Static deflection over indentation, and memory over contact time.
+    plane: [Interval; 2],
+    quantity: &'a str,
+    shape: [usize; 2],
+    /// From the lightest to the darkest region.
+    classes: &'a [&'a str],
+    /// How many points of a line.
+    count: usize,
+    /// Lines of the models that `auto` leaves, the first solid.
+    leaves: [(&'a str, Rung); 2],
+    boundary: &'a dyn Fn(f64, f64, Rung) -> f64,
+}
 
-/// A picture a tolerance.
+impl Map<'_> {
+    /// The errors at the centres of the cells, row by row.
+    fn errors(
+        &self,
+        at: impl Fn(f64, f64) -> Result<ModelErrors, MarchError>,
+        advance: &dyn Fn(),
+    ) -> Result<Vec<ModelErrors>, StudyError> {
+        let [x, y] = self.plane;
+        let mut errors = Vec::new();
+        for &memory in &y.cells(self.shape[1]) {
+            for &deflection in &x.cells(self.shape[0]) {
+                errors.push(at(deflection, memory)?);
+            }
+            advance();
+        }
+        Ok(errors)
+    }
+
+    /// The picture of a tolerance, without a caption.
+    fn picture(
+        &self,
+        name: &'static str,
+        what: &str,
+        tolerance: f64,
+        errors: &[ModelErrors],
+    ) -> Picture {
+        let [x, y] = self.plane;
+        let title = format!("{what} that meets {tolerance:.0e}");
+        let time = Axis::over(y, "memory over contact time");
+        let mut figure = Picture::new(name, &title, Axis::over(x, self.quantity), time);
+        let mut cells = errors.iter();
+        let last = self.classes.len() - 1;
+        figure.map(self.plane, self.shape, self.classes, |_, _| {
+            let errors = cells.next();
+            errors.map_or(last, |errors| errors.cheapest(tolerance).min(last))
+        });
+        let styles = [Style::Heavy, Style::HeavyDashed];
+        for ((label, rung), style) in self.leaves.into_iter().zip(styles) {
+            let line = self.line(|x| (self.boundary)(x, tolerance, rung));
+            figure.curve(label, style, line);
+        }
+        figure
+    }
+
+    fn line(&self, memory: impl Fn(f64) -> f64) -> Vec<(f64, f64)> {
+        let places = self.plane[0].cells(self.count).into_iter();
+        places.map(|x| (x, memory(x))).collect()
+    }
+}
+
+/// A picture a tolerance for contacts that follow the load, then for the paper's disc.
 pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>, StudyError> {
+    let mut figures = growing_figures(effort, advance)?;
+    figures.extend(disc_figures(effort)?);
+    advance();
+    Ok(figures)
+}
+
+fn growing_figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>, StudyError> {
     let plane = Plane::new(0.3)?;
     let x = Interval::logarithmic(0.01, 1.15);
     let y = Interval::logarithmic(1e-4, 3.0);
     let shape = shape(effort);
+    let map = Map {
+        plane: [x, y],
+        quantity: "static deflection of the half-space over indentation",
+        shape,
+        classes: &[
+            "hertz",
+            "radiation",
+            "area dashpot",
+            "growing",
+            "growing, not yet converged to 1e-2",
+        ],
+        count: 40,
+        leaves: [
+            ("auto leaves hertz", Rung::QuasiStatic),
+            ("auto leaves the area dashpot", Rung::AreaDashpot),
+        ],
+        boundary: &|share, tolerance, rung| plane.boundary(share, tolerance, rung),
+    };
     let steps = effort.pick(128, 192);
-    let mut errors = Vec::new();
-    for &memory in &y.cells(shape[1]) {
-        for &share in &x.cells(shape[0]) {
-            // the half-space has all of the compliance at most
-            errors.push(plane.errors(share.min(1.0), memory, steps)?);
-        }
-        advance();
-    }
-    let mut points = [Vec::new(), Vec::new(), Vec::new()];
-    for target in targets() {
-        for (list, speed) in points.iter_mut().zip(SPEEDS_M_S) {
-            list.push(place_of(&target, speed)?);
-        }
-    }
+    // the half-space has all of the compliance at most
+    let at = |share: f64, memory| plane.errors(share.min(1.0), memory, steps);
+    let errors = map.errors(at, advance)?;
+    // `auto`'s estimate of what hertz leaves out over the error found, in the middle of the plane
+    let (i, k) = (shape[0] / 2, shape[1] / 2);
+    let (lag, memory) = plane.groups(x.cells(shape[0])[i], y.cells(shape[1])[k]);
+    let estimate = choose(lag, memory, f64::INFINITY, None).error;
+    let ratio = estimate / errors[k * shape[0] + i].quasi_static;
     let mut figures = Vec::new();
-    for (name, tolerance) in ["models-1e-2", "models-1e-3", "models-1e-4"]
-        .into_iter()
-        .zip(TOLERANCES)
-    {
-        let mut figure = Picture::new(
-            name,
-            &format!("Cheapest model that meets {tolerance:.0e}"),
-            Axis::over(x, "static deflection of the half-space over indentation"),
-            Axis::over(y, "memory over contact time"),
-        );
-        let mut cells = errors.iter();
-        figure.map(
-            [x, y],
-            shape,
-            &[
-                "hertz",
-                "radiation",
-                "area dashpot",
-                "growing",
-                "growing, not yet converged to 1e-2",
-            ],
-            |_, _| match cells.next() {
-                Some(e) if e.hertz <= tolerance => 0,
-                Some(e) if e.radiation <= tolerance => 1,
-                Some(e) if e.dashpot <= tolerance => 2,
-                Some(e) if e.march <= UNSETTLED => 3,
-                Some(_) | None => 4,
-            },
-        );
-        for (label, rung, style) in LEAVES {
-            let line = x
-                .cells(40)
-                .into_iter()
-                .map(|share| (share, plane.boundary(share, tolerance, rung)));
-            figure.curve(label, style, line.collect());
-        }
-        for (list, speed) in points.iter().zip(SPEEDS_M_S) {
-            figure.curve(
-                &format!("steel ball on each material, {speed} m/s"),
-                Style::Points,
-                list.clone(),
-            );
+    let names = ["models-1e-2", "models-1e-3", "models-1e-4"];
+    for (name, tolerance) in names.into_iter().zip(TOLERANCES) {
+        let mut figure = map.picture(name, "Cheapest model", tolerance, &errors);
+        for speed in SPEEDS_M_S {
+            let targets = targets();
+            let places = targets.iter().map(|target| place_of(target, speed));
+            let label = format!("steel ball on each material, {speed} m/s");
+            figure.curve(&label, Style::Points, places.collect::<Result<_, _>>()?);
         }
         figure.caption = format!(
             "Regions are computed: each model against the converged growing contact, largest error of peak force, \
              contact time, restitution and peak displacement. The lines are where `auto` changes model at a tolerance \
              of {tolerance:.0e}. In the darkest region the contact at first grows faster than the waves: the force of \
              `growing` starts with a spike there that does not stand still when {steps} steps are made twice as long, \
-             and step control refuses it. `auto` never takes a model that misses, and its estimate for hertz is {} times the error \
-             found in the middle of the plane.",
-            ratio(&plane, &errors, shape, x, y)
+             and step control refuses it. `auto` never takes a model that misses, and its estimate for hertz is {ratio:.1} times the error \
+             found in the middle of the plane."
         );
         figures.push(figure);
     }
     Ok(figures)
 }
 
-/// `auto`'s estimate of what hertz leaves out over the error found, in the middle of the plane.
-fn ratio(
-    plane: &Plane,
-    errors: &[ModelErrors],
-    shape: [usize; 2],
-    x: Interval,
-    y: Interval,
-) -> String {
-    let (i, k) = (shape[0] / 2, shape[1] / 2);
-    let (lag, memory) = plane.groups(x.cells(shape[0])[i], y.cells(shape[1])[k]);
-    let estimate = choose(lag, memory, f64::INFINITY, None).error;
-    format!("{:.1}", estimate / errors[k * shape[0] + i].hertz)
+fn disc_figures(effort: Effort) -> Result<Vec<Picture>, StudyError> {
+    let response = SurfaceResponse::new(&Medium::new(0.3)?, Deflection::Centre);
+    let paper = paper(TABLE_1_PA)?.fixed_disc(&response, ROD_RADIUS_M, StaticShare::Full);
+    let map = Map {
+        plane: [
+            Interval::logarithmic(1e-3, 10.0),
+            Interval::logarithmic(1e-4, 1.0),
+        ],
+        quantity: "static deflection over indentation (coupling)",
+        shape: effort.pick([14, 12], [40, 40]),
+        classes: &["two springs", "two springs and first-order loss", "wave"],
+        count: 60,
+        leaves: [
+            ("auto leaves two springs", Rung::QuasiStatic),
+            ("auto leaves the first-order loss", Rung::Radiation),
+        ],
+        boundary: &|coupling, tolerance, rung| {
+            memory_of_change(1e-12, rung, |memory| {
+                disc_chosen(&disc_at(&paper, coupling, memory), tolerance)
+            })
+        },
+    };
+    let at = |coupling, memory| disc_errors(&disc_at(&paper, coupling, memory));
+    let errors = map.errors(at, &|| ())?;
+    let what = "Cheapest model of the paper's fixed disc";
+    let names = ["models-disc-1e-2", "models-disc-1e-3", "models-disc-1e-4"];
+    let figures = names.into_iter().zip(TOLERANCES).map(|(name, tolerance)| {
+        let mut figure = map.picture(name, what, tolerance, &errors);
+        // half of the first-order loss is the error of the restitution of two springs
+        let loss = 2.0 * tolerance;
+        let theory = map.line(|coupling| {
+            let lag = loss / quasi_static(coupling).loss_per_lag;
+            let wave_time = lag / (coupling * response.relaxation_time());
+            wave_time * response.memory() / CONTACT_TIME
+        });
+        let label = format!("theory: first-order loss of {loss:.0e}");
+        figure.curve(&label, Style::Dotted, theory);
+        let place = (paper.coupling, paper.memory() / CONTACT_TIME);
+        figure.point(place, "paper's case");
+        figure.caption = format!(
+            "With the full share the half-space is a second spring; the waves are seen by their radiated loss, first \
+             order in the memory, and then by their shape. Regions are computed against the implicit march; the lines \
+             are where `auto` changes model at a tolerance of {tolerance:.0e}."
+        );
+        figure
+    });
+    Ok(figures.collect())
 }

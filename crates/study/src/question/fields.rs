@@ -6,17 +6,42 @@
 
 use super::interpolation::interpolations;
 use super::kernels::POISSON_RATIO;
-use super::pulse_scene::{EVERY, Label, Scene, add, sample_count, scenes};
+use super::pulse::{Compared, PulseReference};
 use crate::StudyError;
-use crate::effort::Effort;
-use crate::pulse_reference::PulseReference;
+use crate::measure::Effort;
 use crate::record::Record;
 use crate::tables::Density;
 use halfspace::{Medium, Six};
 use impact::convolve::{Convolver, Method};
 use impact::kernels::{CellPlan, Pulse};
 use impact::{KernelSource, Place};
-use lookup::{PulseSum, Smoothness, Table};
+use lookup::{PulseSum, Smoothness};
+
+/// Every method is sampled at multiples of this.
+const EVERY: f64 = 1.6;
+
+/// Scenes: name, name where two ways to interpolate are compared, point and length of the pulse; the first alone in a
+/// quick chart.
+const SCENES: [(&str, &str, [f64; 2], f64); 3] = [
+    (
+        "under the disc, pulse of 10 r0/c1",
+        "whole response against remainder, pulse of 10 r0/c1",
+        [0.55, 0.65],
+        10.0,
+    ),
+    (
+        "under the disc, pulse of 40 r0/c1",
+        "whole response against remainder, pulse of 40 r0/c1",
+        [0.55, 0.65],
+        40.0,
+    ),
+    (
+        "near the edge, pulse of 40 r0/c1",
+        "whole response against remainder, near the edge",
+        [1.03, 0.45],
+        40.0,
+    ),
+];
 
 /// Measures every method in every scene.
 pub(crate) fn measure(
@@ -25,24 +50,29 @@ pub(crate) fn measure(
     advance: &dyn Fn(),
 ) -> Result<Vec<Record>, StudyError> {
     let medium = Medium::new(POISSON_RATIO)?;
-    let scenes = scenes(&medium, effort)?;
+    let mut scenes = Vec::new();
+    for (name, interpolation, place, length) in &SCENES[..effort.pick(1, 3)] {
+        let count = effort.pick(8, 16);
+        let pulse = PulseReference::new(&medium, *place, *length, EVERY, count)?;
+        scenes.push((*name, *interpolation, pulse));
+    }
     let mut records = Vec::new();
-    for scene in &scenes {
-        exact_cells(&medium, scene, effort, &mut records)?;
+    for (name, interpolation, pulse) in &scenes {
+        let mut compared = Compared {
+            effort,
+            scene: name,
+            pulse,
+            records: &mut records,
+        };
+        exact_cells(&medium, &mut compared)?;
         advance();
-        looked_up(scene, densities, effort, &mut records)?;
+        looked_up(densities, &mut compared)?;
         advance();
-        interpolations(&medium, scene, effort, &mut records)?;
+        compared.scene = interpolation;
+        interpolations(&medium, &mut compared)?;
         advance();
     }
     Ok(records)
-}
-
-/// Samples of the pulse.
-fn force(reference: &PulseReference, width: f64) -> Vec<f64> {
-    let pulse = PulseSum::new(reference.length, width);
-    let count = sample_count(reference, width);
-    (0..count).map(|n| pulse.force(n)).collect()
 }
 
 /// The response at all samples.
@@ -53,31 +83,25 @@ fn response(convolver: &Convolver, rest: &Six, cells: &[Six]) -> Vec<Six> {
         .collect()
 }
 
-/// Shapes of the force between its samples for which cells can be computed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Shape {
-    /// A line: averages alone.
-    Linear,
-    /// A cubic, by first and second moments: what the program takes for a smooth force.
-    Cubic,
-}
-
 /// Cells computed for the point itself, for a force that is linear or smooth between samples.
-fn exact_cells(
-    medium: &Medium,
-    scene: &Scene,
-    effort: Effort,
-    records: &mut Vec<Record>,
-) -> Result<(), StudyError> {
-    let reference = &scene.reference;
-    let [r, z] = reference.place;
-    for (shape, tolerance, halvings) in settings(effort) {
+fn exact_cells(medium: &Medium, compared: &mut Compared<'_>) -> Result<(), StudyError> {
+    use Smoothness::{Linear, Smooth};
+    // smoothness, kernel tolerance and halvings of the step; the program's own tolerance goes with the scene's
+    let settings: [(Smoothness, f64, &[i32], &[i32]); 4] = [
+        (Smooth, 1e-8, &[1, 3], &[0, 1, 2, 3, 4, 5]),
+        (Smooth, 1e-12, &[], &[2, 3, 4, 5]),
+        (Smooth, 1e-4, &[], &[1, 2, 3]),
+        (Linear, 1e-8, &[3], &[0, 1, 2, 3, 4, 5]),
+    ];
+    let [r, z] = compared.pulse.place;
+    for (smoothness, tolerance, quick, full) in settings {
         let source = KernelSource::direct(medium, tolerance)?;
-        for halvings in halvings {
+        for &halvings in compared.effort.pick(quick, full) {
             let width = EVERY * 0.5_f64.powi(halvings);
-            let force = force(reference, width);
-            let count = force.len();
-            let direct = || {
+            let force = compared.force(width);
+            let convolver = Convolver::new(&force);
+            let pulse = Pulse::Smooth(compared.pulse.length);
+            let run = || {
                 let place = Place {
                     r,
                     z,
@@ -85,194 +109,74 @@ fn exact_cells(
                 };
                 let plan = CellPlan {
                     step: width,
-                    count: count + lookup::BEYOND,
-                    pulse: Pulse::Smooth(reference.length),
+                    count: force.len() + lookup::BEYOND,
+                    pulse,
                     rates: false,
                     tolerance,
                 };
-                source.cells(medium.poisson_ratio(), place, plan)
+                let cells = source.cells(medium.poisson_ratio(), place, plan)?;
+                let of_force = match smoothness {
+                    Linear => &cells.moments.averages,
+                    Smooth => &cells.smooth,
+                };
+                Ok(response(&convolver, &cells.static_part, of_force))
             };
-            let cells = || -> Result<Vec<Six>, StudyError> {
-                match shape {
-                    Shape::Linear => Ok(direct()?.moments.averages),
-                    Shape::Cubic => Ok(direct()?.smooth),
-                }
+            let method = match smoothness {
+                Linear => "direct, linear cells",
+                Smooth => "direct",
             };
-            cells()?;
-            let rest = direct()?.static_part;
-            let convolver = Convolver::new(&force);
-            let mut run = || match cells() {
-                Ok(cells) => response(&convolver, &rest, &cells),
-                // not after the first time
-                Err(_) => vec![[f64::NAN; 6]; count],
-            };
-            let label = Label {
-                scene: scene.name,
-                method: match shape {
-                    Shape::Linear => "direct, linear cells",
-                    Shape::Cubic => "direct",
-                },
-                setting: format!("step {width}, kernel {tolerance:.0e}"),
-                default_path: shape == Shape::Cubic && tolerance < 1e-7,
-            };
-            add(records, effort, reference, label, width, &mut run);
+            let setting = format!("step {width}, kernel {tolerance:.0e}");
+            let is_own = smoothness == Smooth && tolerance < 1e-7;
+            compared.add(method, setting, is_own, width, run)?;
         }
     }
     Ok(())
-}
-
-/// Shape, kernel tolerance and halvings of the step of cells computed for a point.
-fn settings(effort: Effort) -> [(Shape, f64, Vec<i32>); 4] {
-    // the program's own tolerance of kernels goes with the scene's
-    [
-        (
-            Shape::Cubic,
-            1e-8,
-            effort.pick(vec![1, 3], vec![0, 1, 2, 3, 4, 5]),
-        ),
-        (Shape::Cubic, 1e-12, effort.pick(vec![], vec![2, 3, 4, 5])),
-        (Shape::Cubic, 1e-4, effort.pick(vec![], vec![1, 2, 3])),
-        (
-            Shape::Linear,
-            1e-8,
-            effort.pick(vec![3], vec![0, 1, 2, 3, 4, 5]),
-        ),
-    ]
 }
 
 /// Tables of several densities and stencils, coarser cells, three ways to sum.
-fn looked_up(
-    scene: &Scene,
-    densities: &[Density],
-    effort: Effort,
-    records: &mut Vec<Record>,
-) -> Result<(), StudyError> {
+fn looked_up(densities: &[Density], compared: &mut Compared<'_>) -> Result<(), StudyError> {
+    use Method::{Direct, Transform};
     use Smoothness::{Linear, Smooth};
+    // for which forces, and how they are summed: none is by running sums of the two exponentials of the pulse
+    let own = [
+        ("table, direct sums", Smooth, Some(Direct), true),
+        ("table, FFT", Smooth, Some(Transform), true),
+        ("table, linear cells", Linear, Some(Transform), false),
+        ("table, sums for this pulse only", Smooth, None, false),
+    ];
+    let method = "table, other nodes or points";
+    let other = [(method, Smooth, Some(Transform), false)];
+    let effort = compared.effort;
+    let [r, z] = compared.pulse.place;
     for density in densities {
         for points in effort.pick(vec![Density::points()], vec![4, 6, Density::points()]) {
             let table = density.with_stencil(points)?;
-            let mut add =
-                |method, smoothness, coarsening, sum, default_path| -> Result<(), StudyError> {
-                    let lookup = Lookup::new(scene, &table, smoothness, coarsening, sum)?;
-                    let label = Label {
-                        scene: scene.name,
-                        method,
-                        setting: format!(
-                            "step {}, {}, {points} points",
-                            lookup.width,
-                            density.spacing.label()
-                        ),
-                        default_path,
+            let (ways, coarsest) = if density.is_default(points) {
+                (&own[..], 4)
+            } else {
+                (&other[..], 0)
+            };
+            for coarsening in (0..=coarsest).step_by(effort.pick(2, 1)) {
+                let width = table.cell_width(POISSON_RATIO)? * f64::from(1_u32 << coarsening);
+                let force = compared.force(width);
+                let pulse = PulseSum::new(compared.pulse.length, width);
+                let spacing = density.label();
+                for &(method, smoothness, sum, is_own) in ways {
+                    let convolver = sum.map(|sum| Convolver::by(&force, sum));
+                    let run = || {
+                        let mut cells = vec![[0.0; 6]; force.len()];
+                        let nu = POISSON_RATIO;
+                        let info = table.trace_for(smoothness, nu, r, z, coarsening, &mut cells)?;
+                        Ok(match &convolver {
+                            Some(convolver) => response(convolver, &info.static_part, &cells),
+                            None => pulse.response(&info.static_part, &cells),
+                        })
                     };
-                    lookup.run()?;
-                    let mut run = || lookup.run().unwrap_or_default();
-                    add(
-                        records,
-                        effort,
-                        &scene.reference,
-                        label,
-                        lookup.width,
-                        &mut run,
-                    );
-                    Ok(())
-                };
-            if !density.is_default(points) {
-                add(
-                    "table, other nodes or points",
-                    Smooth,
-                    0,
-                    Sum::By(Method::Transform),
-                    false,
-                )?;
-                continue;
-            }
-            for coarsening in (0..=4).step_by(effort.pick(2, 1)) {
-                for (way, name) in [
-                    (Method::Direct, "table, direct sums"),
-                    (Method::Transform, "table, FFT"),
-                ] {
-                    add(name, Smooth, coarsening, Sum::By(way), true)?;
+                    let setting = format!("step {width}, {spacing}, {points} points");
+                    compared.add(method, setting, is_own, width, run)?;
                 }
-                add(
-                    "table, linear cells",
-                    Linear,
-                    coarsening,
-                    Sum::By(Method::Transform),
-                    false,
-                )?;
-                add(
-                    "table, sums for this pulse only",
-                    Smooth,
-                    coarsening,
-                    Sum::Running,
-                    false,
-                )?;
             }
         }
     }
     Ok(())
-}
-
-/// How cells and force are summed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Sum {
-    By(Method),
-    /// Running sums of the two exponentials of the pulse.
-    Running,
-}
-
-/// A lookup with everything that does not depend on the point.
-struct Lookup<'a> {
-    table: &'a Table,
-    place: [f64; 2],
-    smoothness: Smoothness,
-    coarsening: u32,
-    width: f64,
-    count: usize,
-    /// None: running sums.
-    convolver: Option<Convolver>,
-    pulse: PulseSum,
-}
-
-impl<'a> Lookup<'a> {
-    fn new(
-        scene: &Scene,
-        table: &'a Table,
-        smoothness: Smoothness,
-        coarsening: u32,
-        sum: Sum,
-    ) -> Result<Self, StudyError> {
-        let width = table.cell_width(POISSON_RATIO)? * f64::from(1_u32 << coarsening);
-        let force = force(&scene.reference, width);
-        Ok(Self {
-            table,
-            place: scene.reference.place,
-            smoothness,
-            coarsening,
-            width,
-            count: force.len(),
-            convolver: match sum {
-                Sum::By(method) => Some(Convolver::by(&force, method)),
-                Sum::Running => None,
-            },
-            pulse: PulseSum::new(scene.reference.length, width),
-        })
-    }
-
-    fn run(&self) -> Result<Vec<Six>, StudyError> {
-        let [r, z] = self.place;
-        let mut cells = vec![[0.0; 6]; self.count];
-        let info = self.table.trace_for(
-            self.smoothness,
-            POISSON_RATIO,
-            r,
-            z,
-            self.coarsening,
-            &mut cells,
-        )?;
-        Ok(match &self.convolver {
-            Some(convolver) => response(convolver, &info.static_part, &cells),
-            None => self.pulse.response(&info.static_part, &cells),
-        })
-    }
 }

@@ -3,10 +3,10 @@
 //! One value is one impact; its error is the largest over peak force, contact time, restitution and
 //! peak displacement against the converged march of the fullest model of its family.
 
+use super::marching::{Order, Results, march};
 use crate::StudyError;
-use crate::effort::Effort;
-use crate::marching::{Order, Results, march};
-use crate::record::{Error, Question, Record};
+use crate::measure::{Candidate, Effort, Run, Scene};
+use crate::record::{Question, Record};
 use crate::scenes::{ROD_RADIUS_M, TABLE_1_PA, ball, collision, paper};
 use contact::law::area_dashpot::AreaDashpot;
 use contact::law::hertz::CONTACT_TIME;
@@ -14,7 +14,7 @@ use contact::law::quasi_static::{quasi_static, quasi_static_radiation};
 use contact::law::radiation::radiation;
 use contact::surface::Surface;
 use contact::{
-    Accuracy, ContactError, ExactDisc, FixedDisc, GrowingContact, GrowingDisc, History, MarchError,
+    Accuracy, ExactDisc, FixedDisc, GrowingContact, GrowingDisc, History, MarchError,
     PunchResponse, PunchWaves, ResponseTable, StaticShare, Summary, Workspace, march_explicit,
     march_growing, march_implicit, refine, solve_disc, solve_growing,
 };
@@ -28,18 +28,22 @@ pub(crate) const DISC: &str = "copper rod on steel, fixed disc";
 /// A ball whose contact follows the load.
 pub(crate) const BALL: &str = "steel ball on steel at 1 m/s, growing contact";
 
-type Outcome = Result<(Results, u64), ContactError>;
-
-struct Candidate<'a> {
-    method: &'static str,
-    setting: String,
-    default_path: bool,
-    run: Box<dyn Fn() -> Outcome + 'a>,
-}
-
 /// Measures every method in both scenes.
 pub(crate) fn measure(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Record>, StudyError> {
     let mut records = Vec::new();
+    let mut measure = |scene, exact: &Summary, candidates: Vec<Candidate<'_, Results>>| {
+        let scene = Scene {
+            question: Question::Force,
+            name: scene,
+            values: 1.0,
+            errors: &|found: &Results| Ok(found.errors(&exact.into()).to_vec()),
+        };
+        for candidate in candidates {
+            records.push(scene.measure(effort, &candidate)?);
+        }
+        advance();
+        Ok::<_, StudyError>(())
+    };
     let collided = paper(TABLE_1_PA)?;
     let medium = Medium::new(collided.target_poisson_ratio)?;
     let response = SurfaceResponse::new(&medium, Deflection::Centre);
@@ -48,10 +52,7 @@ pub(crate) fn measure(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Record>,
     let table = ResponseTable::new(&response);
     let mut candidates = on_disc(&disc, effort);
     candidates.extend(to_tolerance(&disc, &table, effort));
-    for candidate in candidates {
-        records.push(take(effort, DISC, &(&reference.summary).into(), &candidate));
-    }
-    advance();
+    measure(DISC, &reference.summary, candidates)?;
 
     let collision = collision(&ball("steel", 1.0)?);
     let medium = Medium::new(collision.target_poisson_ratio)?;
@@ -70,33 +71,8 @@ pub(crate) fn measure(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Record>,
     let terms = AreaDashpot::new(growing.target_share, growing.wave_time, &waves);
     let mut candidates = growing_contact(&growing, lag, terms, effort);
     candidates.extend(by_pieces(pieces, effort));
-    for candidate in candidates {
-        records.push(take(effort, BALL, &reference.summary().into(), &candidate));
-    }
-    advance();
+    measure(BALL, reference.summary(), candidates)?;
     Ok(records)
-}
-
-fn take(effort: Effort, scene: &'static str, exact: &Results, candidate: &Candidate<'_>) -> Record {
-    let outcome = (candidate.run)();
-    let cost = effort.clock().time(1.0, || {
-        let _ = black_box((candidate.run)());
-    });
-    let (error, work, refusal) = match outcome {
-        Ok((found, work)) => (Error::of(&found.errors(exact)), Some(work as f64), None),
-        Err(error) => (Error::of(&[f64::NAN]), None, Some(error.to_string())),
-    };
-    Record {
-        question: Question::Force,
-        scene,
-        method: candidate.method,
-        setting: candidate.setting.clone(),
-        default_path: candidate.default_path,
-        cost,
-        error,
-        work,
-        refusal,
-    }
 }
 
 /// Steps of a march times the cells of its memory.
@@ -105,53 +81,74 @@ fn work(history: &History, memory: f64) -> u64 {
     steps * steps.min((memory / history.step).ceil() as u64 + 1)
 }
 
-fn on_disc<'a>(disc: &'a ExactDisc<'a>, effort: Effort) -> Vec<Candidate<'a>> {
+/// A closed form.
+fn closed<'a>(
+    method: &'static str,
+    setting: &str,
+    results: impl Fn() -> Results + 'a,
+) -> Candidate<'a, Results> {
+    Candidate::new(method, setting, move || Ok((results(), Some(1))))
+}
+
+fn hertz<'a>() -> Candidate<'a, Results> {
+    closed("hertz", "closed form", || {
+        (&radiation(black_box(0.0))).into()
+    })
+}
+
+/// A march over a number of steps.
+fn stepped<'a>(
+    method: &'static str,
+    n: usize,
+    duration: f64,
+    march: impl Fn(f64) -> Run<Results> + 'a,
+) -> Candidate<'a, Results> {
+    // the program halves its step instead: nobody tells it how many are enough
+    let setting = format!("{n} steps");
+    Candidate::new(method, setting, move || march(duration / n as f64))
+}
+
+fn on_disc<'a>(disc: &'a ExactDisc<'a>, effort: Effort) -> Vec<Candidate<'a, Results>> {
+    type March = fn(&ExactDisc<'_>, f64) -> Run<Results>;
+    let marches: [(&str, March, &[usize], &[usize]); 4] = [
+        (
+            "wave implicit",
+            |disc, step| {
+                let history = march_implicit(disc, step)?;
+                let work = work(&history, disc.memory());
+                Ok(((&Summary::new(&history)?).into(), Some(work)))
+            },
+            &[16, 64, 256],
+            &[12, 16, 24, 32, 64, 128, 256, 512, 1024, 2048],
+        ),
+        (
+            "implicit of order 1",
+            |disc, step| Ok(march(disc, step, Order::First)),
+            &[32, 256],
+            &[16, 64, 256, 1024, 4096],
+        ),
+        (
+            "implicit of order 2",
+            |disc, step| Ok(march(disc, step, Order::Second)),
+            &[32, 256],
+            &[16, 64, 256, 1024, 4096],
+        ),
+        (
+            "wave explicit (the paper's)",
+            |disc, step| {
+                let (history, summary) = march_explicit(disc, step)?;
+                Ok(((&summary).into(), Some(work(&history, disc.memory()))))
+            },
+            &[54, 200, 800],
+            &[20, 54, 100, 200, 400, 800, 1600, 3200, 6400],
+        ),
+    ];
     let duration = quasi_static(disc.coupling).contact_time;
-    let memory = disc.memory();
-    let steps = move |n: usize| duration / n as f64;
     let mut list = Vec::new();
-    for n in effort.pick(
-        vec![16, 64, 256],
-        vec![12, 16, 24, 32, 64, 128, 256, 512, 1024, 2048],
-    ) {
-        list.push(Candidate {
-            method: "wave implicit",
-            setting: format!("{n} steps"),
-            // the program halves its step instead: nobody tells it how many are enough
-            default_path: false,
-            run: Box::new(move || {
-                let history = march_implicit(disc, steps(n))?;
-                let summary = Summary::new(&history)?;
-                Ok(((&summary).into(), work(&history, memory)))
-            }),
-        });
-    }
-    for (order, method) in [
-        (Order::First, "implicit of order 1"),
-        (Order::Second, "implicit of order 2"),
-    ] {
-        for n in effort.pick(vec![32, 256], vec![16, 64, 256, 1024, 4096]) {
-            list.push(Candidate {
-                method,
-                setting: format!("{n} steps"),
-                default_path: false,
-                run: Box::new(move || Ok(march(disc, steps(n), order))),
-            });
+    for (method, march, quick, full) in marches {
+        for &n in effort.pick(quick, full) {
+            list.push(stepped(method, n, duration, move |step| march(disc, step)));
         }
-    }
-    for n in effort.pick(
-        vec![54, 200, 800],
-        vec![20, 54, 100, 200, 400, 800, 1600, 3200, 6400],
-    ) {
-        list.push(Candidate {
-            method: "wave explicit (the paper's)",
-            setting: format!("{n} steps"),
-            default_path: false,
-            run: Box::new(move || {
-                let (history, summary) = march_explicit(disc, steps(n))?;
-                Ok(((&summary).into(), work(&history, memory)))
-            }),
-        });
     }
     list.push(hertz());
     let lag = disc.coupling * disc.wave_time * disc.response.relaxation_time();
@@ -159,15 +156,8 @@ fn on_disc<'a>(disc: &'a ExactDisc<'a>, effort: Effort) -> Vec<Candidate<'a>> {
         ("two springs, no waves", 0.0),
         ("two springs, first-order loss", lag),
     ] {
-        list.push(Candidate {
-            method,
-            setting: "closed form".to_owned(),
-            default_path: true,
-            run: Box::new(move || {
-                let found = quasi_static_radiation(black_box(disc.coupling), lag);
-                Ok(((&found).into(), 1))
-            }),
-        });
+        let found = move || (&quasi_static_radiation(black_box(disc.coupling), lag)).into();
+        list.push(closed(method, "closed form", found).default_path(true));
     }
     list
 }
@@ -176,25 +166,21 @@ fn on_disc<'a>(disc: &'a ExactDisc<'a>, effort: Effort) -> Vec<Candidate<'a>> {
 fn halved<'a>(
     method: &'static str,
     tolerance: f64,
-    (duration, memory): (f64, f64),
+    duration: f64,
+    memory: f64,
     march: impl Fn(f64) -> Result<History, MarchError> + 'a,
-) -> Candidate<'a> {
-    Candidate {
-        method,
-        setting: format!("tolerance {tolerance:.0e}"),
-        default_path: true,
-        run: Box::new(move || {
-            let accuracy = Accuracy::from(tolerance);
-            let total = Cell::new(0);
-            let counted = |step| {
-                let history = march(step)?;
-                total.set(total.get() + work(&history, memory));
-                Ok(history)
-            };
-            let found = refine(counted, duration / accuracy.first_steps(), accuracy)?;
-            Ok(((&found.summary).into(), total.get()))
-        }),
-    }
+) -> Candidate<'a, Results> {
+    Candidate::new(method, format!("tolerance {tolerance:.0e}"), move || {
+        let accuracy = Accuracy::from(tolerance);
+        let total = Cell::new(0);
+        let counted = |step| {
+            let history = march(step)?;
+            total.set(total.get() + work(&history, memory));
+            Ok(history)
+        };
+        let found = refine(counted, duration / accuracy.first_steps(), accuracy)?;
+        Ok(((&found.summary).into(), Some(total.get())))
+    })
 }
 
 /// The marches whose step is halved until a tolerance is met: for one scene, and for the scenes of a sweep.
@@ -202,18 +188,14 @@ fn to_tolerance<'a>(
     disc: &'a ExactDisc<'a>,
     table: &'a ResponseTable,
     effort: Effort,
-) -> Vec<Candidate<'a>> {
-    let duration = quasi_static(disc.coupling).contact_time;
-    let memory = disc.memory();
+) -> Vec<Candidate<'a, Results>> {
+    let (duration, memory) = (quasi_static(disc.coupling).contact_time, disc.memory());
     let mut list = Vec::new();
     for digits in 3..=effort.pick(5, 9) {
         let tolerance = 10.0_f64.powi(-digits);
-        list.push(halved(
-            "wave implicit, step halved to tolerance",
-            tolerance,
-            (duration, memory),
-            |step| march_implicit(disc, step),
-        ));
+        let method = "wave implicit, step halved to tolerance";
+        let march = |step| march_implicit(disc, step);
+        list.push(halved(method, tolerance, duration, memory, march).default_path(true));
         let workspace = RefCell::new(Workspace::default());
         let tabulated = FixedDisc {
             response: table,
@@ -221,48 +203,36 @@ fn to_tolerance<'a>(
             wave_time: disc.wave_time,
             share: disc.share,
         };
-        list.push(Candidate {
-            method: "wave implicit, as in sweeps",
-            setting: format!("tolerance {tolerance:.0e}"),
-            default_path: true,
-            run: Box::new(move || {
-                let accuracy = Accuracy::of_contact(tolerance, None);
-                let room = &mut *workspace.borrow_mut();
-                let found = solve_disc(room, &tabulated, None, accuracy)?;
-                // each halving doubles steps and cells
-                let step = found.step.unwrap_or(f64::INFINITY);
-                let steps = found.summary.contact_time / step;
-                let cells = (memory / step).ceil() + 1.0;
-                Ok(((&found.summary).into(), (4.0 / 3.0 * steps * cells) as u64))
-            }),
-        });
+        let in_sweep = move || {
+            let accuracy = Accuracy::of_contact(tolerance, None);
+            let found = solve_disc(&mut workspace.borrow_mut(), &tabulated, None, accuracy)?;
+            // each halving doubles steps and cells
+            let step = found.step.unwrap_or(f64::INFINITY);
+            let steps = found.summary.contact_time / step;
+            let cells = (memory / step).ceil() + 1.0;
+            let work = (4.0 / 3.0 * steps * cells) as u64;
+            Ok(((&found.summary).into(), Some(work)))
+        };
+        let setting = format!("tolerance {tolerance:.0e}");
+        let method = "wave implicit, as in sweeps";
+        list.push(Candidate::new(method, setting, in_sweep).default_path(true));
     }
     list
 }
 
-fn hertz<'a>() -> Candidate<'a> {
-    Candidate {
-        method: "hertz",
-        setting: "closed form".to_owned(),
-        default_path: false,
-        run: Box::new(|| Ok(((&radiation(black_box(0.0))).into(), 1))),
-    }
-}
-
 /// The growing contact by polynomial pieces: what the program does.
-fn by_pieces(contact: GrowingContact<'_>, effort: Effort) -> Vec<Candidate<'_>> {
-    let digits = effort.pick(vec![4, 6], vec![3, 4, 5, 6, 7, 8]);
-    let at = |digits: i32| Candidate {
-        method: "growing, polynomial pieces",
-        setting: format!("tolerance 1e-{digits}"),
-        default_path: true,
-        run: Box::new(move || {
+fn by_pieces(contact: GrowingContact<'_>, effort: Effort) -> Vec<Candidate<'_, Results>> {
+    let at = |&digits: &i32| {
+        let setting = format!("tolerance 1e-{digits}");
+        let solve = move || {
             let accuracy = Accuracy::of_contact(10.0_f64.powi(-digits), None);
             let solved = solve_growing(&contact, &accuracy)?;
-            Ok((solved.summary().into(), solved.pieces() as u64))
-        }),
+            Ok((solved.summary().into(), Some(solved.pieces() as u64)))
+        };
+        Candidate::new("growing, polynomial pieces", setting, solve).default_path(true)
     };
-    digits.into_iter().map(at).collect()
+    let digits: &[i32] = effort.pick(&[4, 6], &[3, 4, 5, 6, 7, 8]);
+    digits.iter().map(at).collect()
 }
 
 fn growing_contact<'a>(
@@ -270,50 +240,32 @@ fn growing_contact<'a>(
     lag: f64,
     terms: AreaDashpot,
     effort: Effort,
-) -> Vec<Candidate<'a>> {
+) -> Vec<Candidate<'a, Results>> {
     let memory = growing.punch.memory() * growing.wave_time;
-    let mut list = vec![
-        Candidate {
-            default_path: true,
-            ..hertz()
-        },
-        Candidate {
-            method: "radiation",
-            setting: "first order".to_owned(),
-            default_path: true,
-            run: Box::new(move || Ok(((&radiation(black_box(lag))).into(), 1))),
-        },
-        Candidate {
-            method: "area dashpot",
-            setting: "third order in the memory".to_owned(),
-            default_path: true,
-            run: Box::new(move || Ok(((&black_box(terms).summary()).into(), 1))),
-        },
+    let radiation = move || (&radiation(black_box(lag))).into();
+    let dashpot = move || (&black_box(terms).summary()).into();
+    let mut list: Vec<Candidate<'_, Results>> = vec![
+        hertz().default_path(true),
+        closed("radiation", "first order", radiation).default_path(true),
+        closed("area dashpot", "third order in the memory", dashpot).default_path(true),
     ];
-    for n in effort.pick(vec![16, 64], vec![12, 16, 24, 32, 64, 128, 256, 512]) {
-        list.push(Candidate {
-            method: "growing",
-            setting: format!("{n} steps"),
-            default_path: false,
-            run: Box::new(move || {
-                let history = march_growing(growing, CONTACT_TIME / n as f64)?;
-                let summary = Summary::new(&history)?;
-                Ok(((&summary).into(), work(&history, memory)))
-            }),
-        });
+    let steps: &[usize] = effort.pick(&[16, 64], &[12, 16, 24, 32, 64, 128, 256, 512]);
+    for &n in steps {
+        list.push(stepped("growing", n, CONTACT_TIME, move |step| {
+            let history = march_growing(growing, step)?;
+            let work = work(&history, memory);
+            Ok(((&Summary::new(&history)?).into(), Some(work)))
+        }));
     }
     for digits in 3..=effort.pick(4, 5) {
-        let tolerance = 10.0_f64.powi(-digits);
+        // what is left where the pieces do not serve
         list.push(halved(
             "growing, step halved to tolerance",
-            tolerance,
-            (CONTACT_TIME, memory),
+            10.0_f64.powi(-digits),
+            CONTACT_TIME,
+            memory,
             |step| march_growing(growing, step),
         ));
-        if let Some(last) = list.last_mut() {
-            // what is left where the pieces do not serve
-            last.default_path = false;
-        }
     }
     list
 }

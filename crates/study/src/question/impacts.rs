@@ -5,8 +5,8 @@
 
 use super::kernels::POISSON_RATIO;
 use crate::StudyError;
-use crate::effort::Effort;
-use crate::record::{Error, Question, Record};
+use crate::measure::{Candidate, Effort, Scene};
+use crate::record::{Question, Record};
 use crate::scenes::ROD_RADIUS_M;
 use crate::tables::Density;
 use contact::{Model, Settings};
@@ -15,11 +15,10 @@ use impact::convolve::Convolver;
 use impact::kernels::{CellPlan, Pulse};
 use impact::{Excitation, HalfSpace, Impact, KernelSource, Material, Place, Striker};
 use lookup::Table;
-use std::hint::black_box;
 use std::sync::Arc;
 
 /// An impact and a point.
-struct Scene {
+struct Probed {
     name: &'static str,
     impact: Impact,
     place_m: [f64; 2],
@@ -42,29 +41,45 @@ pub(crate) fn measure(
     densities: &[Density],
     advance: &dyn Fn(),
 ) -> Result<Vec<Record>, StudyError> {
+    let own = densities.iter().find(|d| d.is_default(Density::points()));
     let mut records = Vec::new();
-    for scene in scenes()? {
-        for tolerance in effort.pick(vec![1e-3, 1e-5], vec![1e-2, 1e-3, 1e-4, 1e-5, 1e-6]) {
-            let run = || scene.computed(tolerance);
+    for probed in scenes()? {
+        let scene = Scene {
+            question: Question::Impacts,
+            name: probed.name,
+            values: 1.0,
+            errors: &|found: &Histories| probed.errors(effort, found),
+        };
+        let mut add = |method, setting, is_own, run: &dyn Fn() -> Result<Histories, StudyError>| {
+            let run = || Ok((run()?, None));
+            let candidate = Candidate::new(method, setting, run).default_path(is_own);
+            records.push(scene.measure(effort, &candidate)?);
+            Ok::<_, StudyError>(())
+        };
+        let tolerances: &[f64] = effort.pick(&[1e-3, 1e-5], &[1e-2, 1e-3, 1e-4, 1e-5, 1e-6]);
+        for &tolerance in tolerances {
             let setting = format!("tolerance {tolerance:.0e}");
-            records.push(scene.record(effort, "computed", setting, true, &run)?);
+            add("computed", setting, true, &|| probed.computed(tolerance))?;
         }
-        if scene.impact.settings.model == Model::Wave {
+        if probed.impact.settings.model == Model::Wave {
             for halvings in effort.pick(vec![3], vec![1, 3, 5, 7]) {
                 let width = 0.5_f64.powi(halvings);
-                let run = || scene.cells_alone(width);
                 let setting = format!("step {width} r0/c1");
-                records.push(scene.record(effort, "cells alone", setting, false, &run)?);
+                add("cells alone", setting, false, &|| probed.cells_alone(width))?;
             }
         }
-        if let Some(density) = densities.iter().find(|d| d.is_default(Density::points())) {
+        if let Some(density) = own {
             let table = Arc::new(density.with_stencil(Density::points())?);
-            let tolerances = effort.pick(vec![1e-3], vec![1e-2, 1e-3, 1e-4]);
-            for tolerance in tolerances.into_iter().filter(|_| scene.is_within(&table)) {
+            let tolerances: &[f64] = effort.pick(&[1e-3], &[1e-2, 1e-3, 1e-4]);
+            for &tolerance in tolerances.iter().filter(|_| probed.is_within(&table)) {
                 let source = KernelSource::Table(table.clone());
-                let run = || scene.fields(tolerance, source.clone());
-                let setting = format!("tolerance {tolerance:.0e}");
-                records.push(scene.record(effort, "looked up", setting, true, &run)?);
+                let run = || probed.fields(tolerance, source.clone());
+                add(
+                    "looked up",
+                    format!("tolerance {tolerance:.0e}"),
+                    true,
+                    &run,
+                )?;
             }
         }
         advance();
@@ -73,7 +88,7 @@ pub(crate) fn measure(
 }
 
 /// A copper rod with a round tip on steel, on a fixed disc and with a contact that grows, near it and far away.
-fn scenes() -> Result<Vec<Scene>, StudyError> {
+fn scenes() -> Result<Vec<Probed>, StudyError> {
     let steel = Material {
         poisson_ratio: POISSON_RATIO,
         ..Material::named("steel")?
@@ -99,12 +114,12 @@ fn scenes() -> Result<Vec<Scene>, StudyError> {
     .map(|(name, velocity_m_s, settings, place_m)| {
         let mut impact = Impact::new(block.clone(), rod.clone(), velocity_m_s);
         impact.settings = *settings;
-        Scene::new(name, impact, place_m)
+        Probed::new(name, impact, place_m)
     })
     .collect()
 }
 
-impl Scene {
+impl Probed {
     fn new(name: &'static str, impact: Impact, place_m: [f64; 2]) -> Result<Self, StudyError> {
         let run = impact.clone().to_tolerance(CONVERGED).solve()?;
         let mut scene = Self {
@@ -184,34 +199,6 @@ impl Scene {
         let arrivals = excitation.arrivals_s(self.place_m);
         let last = arrivals.into_iter().filter(|t| t.is_finite());
         last.fold(0.0, f64::max) + 1.2 * excitation.end_s()
-    }
-
-    fn record(
-        &self,
-        effort: Effort,
-        method: &'static str,
-        setting: String,
-        default_path: bool,
-        run: &dyn Fn() -> Result<Histories, StudyError>,
-    ) -> Result<Record, StudyError> {
-        let (error, refusal) = match run() {
-            Ok(found) => (Error::of(&self.errors(effort, &found)?), None),
-            Err(error) => (Error::of(&[f64::NAN]), Some(error.to_string())),
-        };
-        let cost = effort.clock().time(1.0, || {
-            let _ = black_box(run());
-        });
-        Ok(Record {
-            question: Question::Impacts,
-            scene: self.name,
-            method,
-            setting,
-            default_path,
-            cost,
-            error,
-            work: None,
-            refusal,
-        })
     }
 
     /// Largest error of each field over its peak, at instants from the first arrival on.

@@ -2,10 +2,8 @@
 //!
 //! Both by the same stencils over the same exact kernels in double precision.
 
-use super::pulse_scene::{Label, Scene, add, sample_count};
+use super::pulse::Compared;
 use crate::StudyError;
-use crate::effort::Effort;
-use crate::record::Record;
 use halfspace::{FIELDS, Medium, Six};
 use lookup::{PulseSum, Smoothness, Stencil};
 use tabulator::{Axis, PointPlan};
@@ -29,28 +27,19 @@ pub(crate) fn series(point: &tabulator::PointKernels, width: f64, count: usize) 
     cells
 }
 
-/// What is interpolated between the nodes of a grid.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Interpolated {
-    Whole,
-    Remainder,
-}
-
 /// Interpolating the whole response against interpolating the remainder, in double precision.
 pub(super) fn interpolations(
     medium: &Medium,
-    scene: &Scene,
-    effort: Effort,
-    records: &mut Vec<Record>,
+    compared: &mut Compared<'_>,
 ) -> Result<(), StudyError> {
-    let reference = &scene.reference;
-    let [r, z] = reference.place;
+    let [r, z] = compared.pulse.place;
     let width = 0.1;
-    let count = sample_count(reference, width);
+    let count = compared.pulse.count(width);
     let plan = PointPlan::new(medium.poisson_ratio(), 1e-9, width, count + 4, 4)?;
     let kernel = plan.kernel();
     let rest = kernel.static_field(r, z)?;
-    let pulse = PulseSum::new(reference.length, width);
+    let pulse = PulseSum::new(compared.pulse.length, width);
+    let effort = compared.effort;
     for spacing in effort.pick(vec![0.125], vec![0.25, 0.125, 0.0625]) {
         let nodes = Axis::uniform(3.0, spacing).nodes();
         for points in effort.pick(vec![6], vec![4, 6, 8]) {
@@ -64,8 +53,8 @@ pub(super) fn interpolations(
             for (a, &i) in across.nodes().iter().enumerate() {
                 for (d, &k) in down.nodes().iter().enumerate() {
                     let cells = series(&plan.compute(nodes[i], nodes[k])?, width, count);
-                    let weight: Six = std::array::from_fn(|f| {
-                        let radial = if FIELDS[f].is_odd_in_r() {
+                    let weight = FIELDS.map(|field| {
+                        let radial = if field.is_odd_in_r() {
                             across.odd()[a]
                         } else {
                             across.even()[a]
@@ -75,36 +64,25 @@ pub(super) fn interpolations(
                     corners.push((weight, cells, kernel.static_field(nodes[i], nodes[k])?));
                 }
             }
-            for (method, what) in [
-                ("interpolated whole response", Interpolated::Whole),
-                ("interpolated remainder", Interpolated::Remainder),
+            // what of the static part is interpolated
+            for (method, inside) in [
+                ("interpolated whole response", 1.0),
+                ("interpolated remainder", 0.0),
             ] {
-                let mut run = || {
+                let run = || {
                     let mut sum = vec![[0.0; 6]; count];
-                    for (weight, cells, node_rest) in &corners {
-                        let shift = match what {
-                            Interpolated::Whole => *node_rest,
-                            Interpolated::Remainder => [0.0; 6],
-                        };
+                    for (weight, cells, rest) in &corners {
+                        let shift = rest.map(|rest| inside * rest);
                         for (total, cell) in sum.iter_mut().zip(cells) {
                             for f in 0..6 {
                                 total[f] += weight[f] * (cell[f] + shift[f]);
                             }
                         }
                     }
-                    let own = match what {
-                        Interpolated::Whole => [0.0; 6],
-                        Interpolated::Remainder => rest,
-                    };
-                    pulse.response(&own, &sum)
+                    Ok(pulse.response(&rest.map(|rest| (1.0 - inside) * rest), &sum))
                 };
-                let label = Label {
-                    scene: scene.interpolation,
-                    method,
-                    setting: format!("spacing {spacing} r0, {points} points, step {width}"),
-                    default_path: false,
-                };
-                add(records, effort, reference, label, width, &mut run);
+                let setting = format!("spacing {spacing} r0, {points} points, step {width}");
+                compared.add(method, setting, false, width, run)?;
             }
         }
     }

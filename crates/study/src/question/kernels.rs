@@ -3,16 +3,14 @@
 //! One value is the fields at one point and time after a unit step of force; the reference is the single
 //! integral at a tolerance of 1e-14, or the closed form of Kausel (2012) at the centre of the surface.
 
-use super::inversions::Inversion;
+use super::single_integral::remainder;
 use crate::StudyError;
-use crate::axis_extended::AxisTransform;
-use crate::effort::Effort;
-use crate::inversion::{ExtendedWeights, stehfest_extended};
+use crate::inversion::{AxisTransform, ExtendedWeights, Inversion, stehfest_extended};
+use crate::measure::{Candidate, Effort, Scene};
 use crate::record::{Error, Question, Record};
-use crate::single_integral::remainder;
 use crate::tables::Density;
 use halfspace::{Arrivals, Deflection, Kernel, Medium, Profile, Six, SurfaceResponse, kausel};
-use std::hint::black_box;
+use std::cell::RefCell;
 use tabulator::Progress;
 
 /// A point, its times and the exact step responses there.
@@ -24,7 +22,11 @@ pub(crate) struct KernelScene {
     /// Arrivals of the waves.
     pub(crate) arrivals: Vec<f64>,
     exact: Vec<Six>,
+    /// Largest values; infinite for a field that is not looked at.
     scale: Six,
+    static_part: Six,
+    /// One over what the fields are measured in.
+    per_unit: f64,
 }
 
 /// Poisson's ratio of the chart.
@@ -51,26 +53,14 @@ impl KernelScene {
         count: usize,
         near: &[f64],
     ) -> Result<Self, StudyError> {
-        Self::new(
-            "interior point, across the fronts",
-            medium,
-            INTERIOR,
-            count,
-            &ALL,
-            near,
-        )
+        let name = "interior point, across the fronts";
+        Self::new(name, medium, INTERIOR, count, &ALL, near)
     }
 
     /// The same point where all fields are smooth: inversions at their best.
     fn late(medium: &Medium, count: usize) -> Result<Self, StudyError> {
-        let mut scene = Self::new(
-            "interior point, after the last front",
-            medium,
-            INTERIOR,
-            3 * count,
-            &ALL,
-            &[],
-        )?;
+        let name = "interior point, after the last front";
+        let mut scene = Self::new(name, medium, INTERIOR, 3 * count, &ALL, &[])?;
         let last = scene.arrivals.last().copied().unwrap_or(0.0);
         let first = scene.times.partition_point(|&t| t < 1.05 * last);
         scene.times.drain(..first);
@@ -91,19 +81,19 @@ impl KernelScene {
             exact[1] = kausel::centre_step(medium, medium.kappa() * t);
         }
         scene.scale[1] = 1.0;
+        scene.per_unit = 1.0 / (0.375 * (1.0 - medium.poisson_ratio()));
         Ok(scene)
     }
 
     fn new(
         name: &'static str,
         medium: &Medium,
-        place: [f64; 2],
+        [r, z]: [f64; 2],
         count: usize,
         fields: &[usize],
         near: &[f64],
     ) -> Result<Self, StudyError> {
         let kernel = Kernel::new(medium, Profile::Hertz, 1e-14)?;
-        let [r, z] = place;
         let arrivals = Arrivals::new(medium, Profile::Hertz, r, z)?;
         // from before the first arrival to long after the last, even in the logarithm
         let (first, last) = (0.8 * arrivals.first().max(0.1), 8.0 * arrivals.last());
@@ -111,35 +101,32 @@ impl KernelScene {
             .map(|i| first * (last / first).powf(i as f64 / (count - 1) as f64))
             .collect();
         for arrival in arrivals.sorted() {
-            times.extend(
-                near.iter()
-                    .flat_map(|d| [arrival * (1.0 - d), arrival * (1.0 + d)]),
-            );
+            let both = |d: &f64| [arrival * (1.0 - d), arrival * (1.0 + d)];
+            times.extend(near.iter().flat_map(both));
         }
         times.retain(|t| *t > 0.0);
         times.sort_by(f64::total_cmp);
-        let rest = kernel.static_field(r, z)?;
-        let mut scale = [f64::INFINITY; 6];
-        for &f in fields {
-            scale[f] = 0.0;
-        }
-        let mut exact = Vec::with_capacity(count);
-        for &t in &times {
-            let value = kernel.remainder(r, z, t)?.value;
-            let whole: Six = std::array::from_fn(|f| value[f] + rest[f]);
-            for f in 0..6 {
-                scale[f] = scale[f].max(whole[f].abs());
-            }
-            exact.push(whole);
-        }
-        Ok(Self {
+        let mut scene = Self {
             name,
-            place,
+            place: [r, z],
             times,
             arrivals: arrivals.sorted(),
-            exact,
-            scale,
-        })
+            exact: Vec::new(),
+            scale: [f64::INFINITY; 6],
+            static_part: kernel.static_field(r, z)?,
+            per_unit: 1.0,
+        };
+        for &f in fields {
+            scene.scale[f] = 0.0;
+        }
+        for &t in &scene.times {
+            let whole = scene.whole(kernel.remainder(r, z, t)?.value);
+            for (scale, value) in scene.scale.iter_mut().zip(whole) {
+                *scale = scale.max(value.abs());
+            }
+            scene.exact.push(whole);
+        }
+        Ok(scene)
     }
 
     /// Keeps every n-th time.
@@ -148,54 +135,54 @@ impl KernelScene {
         self.exact = self.exact.iter().step_by(n).copied().collect();
     }
 
+    /// The whole response of a remainder.
+    fn whole(&self, remainder: Six) -> Six {
+        std::array::from_fn(|f| (remainder[f] + self.static_part[f]) * self.per_unit)
+    }
+
+    /// The values by the program's kernel.
+    pub(crate) fn by_kernel(&self, kernel: &Kernel) -> Result<Vec<Six>, StudyError> {
+        let [r, z] = self.place;
+        let value = |&t: &f64| Ok(self.whole(kernel.remainder(r, z, t)?.value));
+        self.times.iter().map(value).collect()
+    }
+
     /// w on the axis by Gaver-Stehfest in double-double arithmetic, and the integrand evaluations.
     pub(crate) fn extended(&self, medium: &Medium, weights: &ExtendedWeights) -> (Vec<Six>, u64) {
         let mut work = 0;
-        let value = |&t: &f64| {
+        let values = self.at_centre(|t| {
             let least = std::f64::consts::LN_2 / t;
             let transform = AxisTransform::new(medium, self.place[1], least);
             work += (weights.terms() * transform.nodes()) as u64;
-            let w = stehfest_extended(weights, t, |s| transform.step(s));
-            [0.0, w, 0.0, 0.0, 0.0, 0.0]
-        };
-        (self.times.iter().map(value).collect(), work)
+            stehfest_extended(weights, t, |s| transform.step(s))
+        });
+        (values, work)
+    }
+
+    /// The values of w alone.
+    fn at_centre(&self, mut w: impl FnMut(f64) -> f64) -> Vec<Six> {
+        let value = |&t: &f64| [0.0, w(t), 0.0, 0.0, 0.0, 0.0];
+        self.times.iter().map(value).collect()
     }
 
     /// Largest relative error over the fields at each time.
     pub(crate) fn errors_over_time(&self, values: &[Six]) -> Vec<f64> {
-        self.relative(values)
-            .chunks(6)
-            .map(|chunk| Error::of(chunk).max)
-            .collect()
+        let errors = values.iter().zip(&self.exact).map(|(v, exact)| {
+            let errors: Six = std::array::from_fn(|f| (v[f] - exact[f]) / self.scale[f]);
+            Error::of(&errors).max
+        });
+        errors.collect()
     }
 
-    fn relative(&self, values: &[Six]) -> Vec<f64> {
+    /// The errors of the fields that are looked at.
+    fn errors(&self, values: &[Six]) -> Vec<f64> {
+        let live = (0..6).filter(|&f| self.scale[f].is_finite());
+        let live: Vec<usize> = live.collect();
         let pairs = values.iter().zip(&self.exact);
         pairs
-            .flat_map(|(v, e)| (0..6).map(|f| (v[f] - e[f]) / self.scale[f]))
+            .flat_map(|(v, exact)| live.iter().map(|&f| (v[f] - exact[f]) / self.scale[f]))
             .collect()
     }
-
-    /// The error over the fields of the scene.
-    fn error(&self, values: &[Six]) -> Error {
-        let live: Vec<bool> = self.scale.iter().map(|s| s.is_finite()).collect();
-        let kept: Vec<f64> = self
-            .relative(values)
-            .into_iter()
-            .enumerate()
-            .filter(|(i, _)| live[i % 6])
-            .map(|(_, e)| e)
-            .collect();
-        Error::of(&kept)
-    }
-}
-
-/// One method at one setting: a closure that makes the values and counts its work.
-struct Candidate<'a> {
-    method: &'static str,
-    setting: String,
-    default_path: bool,
-    run: Box<dyn Fn() -> (Vec<Six>, Option<u64>) + 'a>,
 }
 
 /// Measures every method in every scene.
@@ -228,7 +215,13 @@ pub(crate) fn measure(
     }
     progress.total("kernels", work.len() as u64 + 1);
     for (scene, candidate) in &work {
-        records.push(take(effort, scene, candidate));
+        let scene = Scene {
+            question: Question::Kernels,
+            name: scene.name,
+            values: scene.times.len() as f64,
+            errors: &|values: &Vec<Six>| Ok(scene.errors(values)),
+        };
+        records.push(scene.measure(effort, candidate)?);
         progress.advance(1);
     }
     records.extend(tables(&medium, &scenes[0], densities, effort)?);
@@ -236,75 +229,37 @@ pub(crate) fn measure(
     Ok(records)
 }
 
-fn take(effort: Effort, scene: &KernelScene, candidate: &Candidate<'_>) -> Record {
-    let (mut values, mut work) = (Vec::new(), None);
-    let cost = effort.clock().time(scene.times.len() as f64, || {
-        (values, work) = black_box((candidate.run)());
-    });
-    Record {
-        question: Question::Kernels,
-        scene: scene.name,
-        method: candidate.method,
-        setting: candidate.setting.clone(),
-        default_path: candidate.default_path,
-        cost,
-        error: scene.error(&values),
-        work: work.map(|work| work as f64 / scene.times.len() as f64),
-        refusal: None,
-    }
-}
+type Candidates<'a> = Vec<Candidate<'a, Vec<Six>>>;
 
 /// The program's kernel at several tolerances and the fixed rule at several node counts.
 fn single_integrals<'a>(
     medium: &'a Medium,
     scene: &'a KernelScene,
     effort: Effort,
-) -> Result<Vec<Candidate<'a>>, StudyError> {
+) -> Result<Candidates<'a>, StudyError> {
     let [r, z] = scene.place;
     let mut candidates = Vec::new();
-    let unit = if z > 0.0 {
-        1.0
-    } else {
-        1.0 / (0.375 * (1.0 - medium.poisson_ratio()))
-    };
-    let rest = Kernel::new(medium, Profile::Hertz, 1e-6)?.static_field(r, z)?;
-    let whole = move |value: Six| -> Six { std::array::from_fn(|f| (value[f] + rest[f]) * unit) };
     for digits in (1..=13).step_by(effort.pick(2, 1)) {
         let tolerance = 10.0_f64.powi(-digits);
         let kernel = Kernel::new(medium, Profile::Hertz, tolerance)?;
-        candidates.push(Candidate {
-            method: "single integral",
-            setting: format!("tolerance {tolerance:.0e}"),
-            default_path: z > 0.0,
-            run: Box::new(move || {
-                let value = |&t: &f64| match kernel.remainder(r, z, t) {
-                    Ok(estimate) => whole(estimate.value),
-                    Err(_) => [f64::NAN; 6],
-                };
-                (scene.times.iter().map(value).collect(), None)
-            }),
-        });
+        let setting = format!("tolerance {tolerance:.0e}");
+        let run = move || Ok((scene.by_kernel(&kernel)?, None));
+        candidates.push(Candidate::new("single integral", setting, run).default_path(z > 0.0));
     }
-    for points in effort.pick(vec![6, 12, 24], vec![4, 6, 8, 12, 16, 24, 32, 48]) {
-        candidates.push(Candidate {
-            method: "single integral, fixed rule",
-            setting: format!("{points} nodes a panel"),
-            default_path: false,
-            run: Box::new(move || {
-                let mut work = 0;
-                let values = scene
-                    .times
-                    .iter()
-                    .map(|&t| {
-                        // the closed forms do not know causality
-                        let (value, count) = remainder(medium, [r, z, t], points);
-                        work += count;
-                        whole(value)
-                    })
-                    .collect();
-                (values, Some(work))
-            }),
-        });
+    let points: &[usize] = effort.pick(&[6, 12, 24], &[4, 6, 8, 12, 16, 24, 32, 48]);
+    for &points in points {
+        let run = move || {
+            let mut work = 0;
+            let value = |&t: &f64| {
+                // the closed forms do not know causality
+                let (value, count) = remainder(medium, [r, z, t], points);
+                work += count;
+                scene.whole(value)
+            };
+            Ok((scene.times.iter().map(value).collect(), Some(work)))
+        };
+        let (method, setting) = ("single integral, fixed rule", "nodes a panel");
+        candidates.push(Candidate::new(method, format!("{points} {setting}"), run));
     }
     Ok(candidates)
 }
@@ -313,68 +268,40 @@ fn inversions<'a>(
     medium: &'a Medium,
     scene: &'a KernelScene,
     effort: Effort,
-) -> Vec<Candidate<'a>> {
-    Inversion::all(effort)
-        .into_iter()
-        .map(|method| {
-            let prepared = method.prepare();
-            Candidate {
-                method: method.name(),
-                setting: method.setting(),
-                default_path: false,
-                run: Box::new(move || {
-                    let (values, work) =
-                        prepared.run(medium, scene.place, method.digits(), &scene.times);
-                    (values, Some(work))
-                }),
-            }
+) -> impl Iterator<Item = Candidate<'a, Vec<Six>>> {
+    Inversion::all(effort).into_iter().map(move |inversion| {
+        let setting = inversion.setting.clone();
+        Candidate::new(inversion.name, setting, move || {
+            let (values, work) = inversion.run(medium, scene.place, &scene.times);
+            Ok((values, Some(work)))
         })
-        .collect()
+    })
 }
 
 /// What the impact equation uses, and what it is compared with.
-fn closed_forms<'a>(medium: &'a Medium, scene: &'a KernelScene) -> Vec<Candidate<'a>> {
-    let at_centre = |w: f64| [0.0, w, 0.0, 0.0, 0.0, 0.0];
+fn closed_forms<'a>(medium: &'a Medium, scene: &'a KernelScene) -> Candidates<'a> {
     let response = SurfaceResponse::new(medium, Deflection::Centre);
+    let fitted = move || Ok((scene.at_centre(|t| response.step(t)), None));
+    let kausel = |t: f64| kausel::centre_step(medium, medium.kappa() * t);
+    let closed = move || Ok((scene.at_centre(kausel), None));
+    let reference = "closed form (Kausel): the reference";
     vec![
-        Candidate {
-            method: "surface response",
-            setting: "fitted once".to_owned(),
-            default_path: true,
-            run: Box::new(move || {
-                let value = |&t: &f64| at_centre(response.step(t));
-                (scene.times.iter().map(value).collect(), None)
-            }),
-        },
-        Candidate {
-            method: "closed form (Kausel): the reference",
-            setting: "no settings".to_owned(),
-            default_path: false,
-            run: Box::new(move || {
-                let value = |&t: &f64| at_centre(kausel::centre_step(medium, medium.kappa() * t));
-                (scene.times.iter().map(value).collect(), None)
-            }),
-        },
+        Candidate::new("surface response", "fitted once", fitted).default_path(true),
+        Candidate::new(reference, "no settings", closed),
     ]
 }
 
-fn extended<'a>(medium: &'a Medium, scene: &'a KernelScene, effort: Effort) -> Vec<Candidate<'a>> {
-    effort
-        .pick(vec![26], vec![18, 22, 26, 30])
-        .into_iter()
-        .map(|terms| {
-            let weights = ExtendedWeights::new(terms);
-            Candidate {
-                method: "Gaver-Stehfest, 31 digits",
-                setting: format!("{terms} terms"),
-                default_path: false,
-                run: Box::new(move || {
-                    let (values, work) = scene.extended(medium, &weights);
-                    (values, Some(work))
-                }),
-            }
-        })
-        .collect()
+fn extended<'a>(medium: &'a Medium, scene: &'a KernelScene, effort: Effort) -> Candidates<'a> {
+    let terms: &[usize] = effort.pick(&[26], &[18, 22, 26, 30]);
+    let at = |&terms: &usize| {
+        let weights = ExtendedWeights::new(terms);
+        let run = move || {
+            let (values, work) = scene.extended(medium, &weights);
+            Ok((values, Some(work)))
+        };
+        Candidate::new("Gaver-Stehfest, 31 digits", format!("{terms} terms"), run)
+    };
+    terms.iter().map(at).collect()
 }
 
 /// Averages over time cells, looked up in tables of several densities with stencils of several orders.
@@ -397,26 +324,27 @@ fn tables(
             exact_kernel
                 .trace(r, z, count as f64 * width)?
                 .for_each_cell(width, count, |j, [average, ..]| exact[j] = average)?;
-            let mut cells = vec![[0.0; 6]; count];
-            table.trace(medium.poisson_ratio(), r, z, 0, &mut cells)?;
-            let mut errors = Vec::new();
-            for (a, b) in cells.iter().zip(&exact) {
-                errors.extend((0..6).map(|f| (a[f] - b[f]) / scene.scale[f]));
-            }
-            let cost = effort.clock().time(count as f64, || {
-                let _ = black_box(table.trace(medium.poisson_ratio(), r, z, 0, &mut cells));
-            });
-            records.push(Record {
+            let cells = RefCell::new(vec![[0.0; 6]; count]);
+            let run = || {
+                table.trace(medium.poisson_ratio(), r, z, 0, &mut cells.borrow_mut())?;
+                Ok(((), Some(0)))
+            };
+            let errors = |(): &()| {
+                let cells = cells.borrow();
+                let pairs = cells.iter().zip(&exact);
+                let errors = |(a, b): (&Six, &Six)| ALL.map(|f| (a[f] - b[f]) / scene.scale[f]);
+                Ok(pairs.flat_map(errors).collect())
+            };
+            let scene = Scene {
                 question: Question::Kernels,
-                scene: scene.name,
-                method: "table",
-                setting: format!("{}, {points} points", density.spacing.label()),
-                default_path: density.is_default(points),
-                cost,
-                error: Error::of(&errors),
-                work: Some(0.0),
-                refusal: None,
-            });
+                name: scene.name,
+                values: count as f64,
+                errors: &errors,
+            };
+            let setting = format!("{}, {points} points", density.label());
+            let is_own = density.is_default(points);
+            let candidate = Candidate::new("table", setting, run).default_path(is_own);
+            records.push(scene.measure(effort, &candidate)?);
         }
     }
     Ok(records)

@@ -17,58 +17,45 @@ use halfspace::Medium;
 use num_complex::Complex64;
 use std::f64::consts::PI;
 
-/// What the transforms need of a half-space.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Solid {
-    /// 1/kappa^2.
-    pub(crate) shear: f64,
-    pub(crate) lambda_over_mu: f64,
-    /// Slowness 1/c of the Rayleigh wave.
-    pub(crate) rayleigh_slowness: f64,
-    pub(crate) poisson_ratio: f64,
-}
-
-impl Solid {
-    pub(crate) fn new(medium: &Medium) -> Self {
-        Self {
-            shear: 1.0 / (medium.kappa() * medium.kappa()),
-            lambda_over_mu: medium.lambda_over_mu(),
-            rayleigh_slowness: 1.0 / medium.rayleigh_speed(),
-            poisson_ratio: medium.poisson_ratio(),
-        }
-    }
-}
-
 /// The two roots and what follows from them at one (k, s).
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Roots {
-    pub(crate) alpha: Complex64,
+    alpha: Complex64,
     beta: Complex64,
     gamma: Complex64,
     /// 1/D.
     inverse: Complex64,
+    /// 1/kappa^2.
+    shear: f64,
 }
 
 impl Roots {
     /// Right branch for every k on a path that passes above the branch points -i s, -i s/kappa.
-    pub(crate) fn new(solid: &Solid, k: Complex64, s: Complex64) -> Self {
+    pub(crate) fn new(medium: &Medium, k: Complex64, s: Complex64) -> Self {
         // by factors: the cut from -i s runs to the right below the path, that from i s to the left
         let root = |s: Complex64| {
             let i = Complex64::i();
             i * (-(k + i * s)).sqrt() * (k - i * s).sqrt()
         };
-        Self::from(solid, k, s, root(s), root(s * solid.shear.sqrt()))
+        Self::from(medium, k, s, root)
     }
 
     /// The same for |k| beyond the last singularity, in any direction of a half-plane Re k > 0.
-    pub(crate) fn far(solid: &Solid, k: Complex64, s: Complex64) -> Self {
+    pub(crate) fn far(medium: &Medium, k: Complex64, s: Complex64) -> Self {
         let root = |s: Complex64| k * (1.0 + (s / k) * (s / k)).sqrt();
-        Self::from(solid, k, s, root(s), root(s * solid.shear.sqrt()))
+        Self::from(medium, k, s, root)
     }
 
-    fn from(solid: &Solid, k: Complex64, s: Complex64, alpha: Complex64, beta: Complex64) -> Self {
+    fn from(
+        medium: &Medium,
+        k: Complex64,
+        s: Complex64,
+        root: impl Fn(Complex64) -> Complex64,
+    ) -> Self {
+        let shear = 1.0 / (medium.kappa() * medium.kappa());
+        let (alpha, beta) = (root(s), root(s * shear.sqrt()));
         let (k2, s2) = (k * k, s * s);
-        let slow = s2 * solid.shear;
+        let slow = s2 * shear;
         let gamma = 2.0 * k2 + slow;
         // gamma^2 - 4 k^4 and alpha beta - k^2 apart: no difference of large numbers for k >> s
         let product = alpha * beta;
@@ -79,18 +66,19 @@ impl Roots {
             beta,
             gamma,
             inverse: d.inv(),
+            shear,
         }
     }
 
     /// The deflection of the surface, w at z = 0.
-    pub(crate) fn surface(&self, solid: &Solid, s: Complex64) -> Complex64 {
-        self.alpha * s * s * solid.shear * self.inverse
+    pub(crate) fn surface(&self, s: Complex64) -> Complex64 {
+        self.alpha * s * s * self.shear * self.inverse
     }
 
     /// The fields in the order of [`halfspace::FIELDS`] from J0 and J1 times a weight, and J1/(k r) times it.
     pub(crate) fn fields(
         &self,
-        solid: &Solid,
+        medium: &Medium,
         k: Complex64,
         s: Complex64,
         z: f64,
@@ -100,7 +88,7 @@ impl Roots {
         let p = (-self.alpha * z).exp() * self.inverse;
         let q = (-self.beta * z).exp() * self.inverse;
         let cross = 4.0 * self.alpha * self.beta * k2 * q;
-        let lame = solid.lambda_over_mu * s * s;
+        let lame = medium.lambda_over_mu() * s * s;
         let u = k * (self.gamma * p - 2.0 * self.alpha * self.beta * q);
         let hoop = 2.0 * u * k * j1_over_kr;
         [

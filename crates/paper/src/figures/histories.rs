@@ -69,7 +69,7 @@ impl History<'_> {
         points.map(|(&t, &x)| (t, x / scale)).collect()
     }
 
-    /// The largest value, with its sign positive where the peak's is.
+    /// The value that is farthest from zero.
     pub(crate) fn peak(&self) -> f64 {
         let larger = |most: f64, &x: &f64| if x.abs() > most.abs() { x } else { most };
         self.samples.iter().fold(0.0, larger)

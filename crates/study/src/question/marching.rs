@@ -51,7 +51,7 @@ impl From<&contact::Summary> for Results {
 }
 
 /// Marches until the first separation; the results and the work, steps times cells of memory.
-pub(crate) fn march(impact: &ExactDisc<'_>, step: f64, order: Order) -> (Results, u64) {
+pub(crate) fn march(impact: &ExactDisc<'_>, step: f64, order: Order) -> (Results, Option<u64>) {
     const MOST_STEPS: usize = 1_000_000;
     let cell = step / impact.wave_time;
     let cells = (impact.response.memory() / cell).ceil() as usize + 1;
@@ -99,7 +99,7 @@ pub(crate) fn march(impact: &ExactDisc<'_>, step: f64, order: Order) -> (Results
                 restitution: -velocity,
                 peak_displacement: peak(&displacement),
             };
-            return (results, work);
+            return (results, Some(work));
         }
         d = free - inertia * push[1] * p;
         v -= 1.25 * step * (swing[0] * before + swing[1] * p);

@@ -1,10 +1,10 @@
 //! Where the default path stands, by errors and work counts.
 
-use crate::effort::Effort;
+use crate::measure::Effort;
 use crate::question;
+use crate::ranking::{LEVELS, rankings};
 use crate::record::{Question, Record, distinct};
-use crate::standing::{LEVELS, Measure, standings};
-use crate::tables::{Density, Spacing};
+use crate::tables::Density;
 use std::sync::OnceLock;
 use tabulator::Silent;
 
@@ -82,12 +82,12 @@ fn the_implicit_march_is_on_the_front_by_work() {
             assert!(other == f64::INFINITY || own <= 1.1 * other, "{level:e}");
         }
     }
-    for standing in standings(&records, Measure::Work) {
+    for ranking in rankings(&records, |r| r.work) {
         // what is ahead of the program's own way, which finds its step, has a reason
-        assert_eq!(standing.unexplained(), None, "{standing:?}");
+        assert_eq!(ranking.unexplained(), None, "{ranking:?}");
     }
     let reached = |level: f64| {
-        standings(&records, Measure::Work)
+        rankings(&records, |r| r.work)
             .iter()
             .any(|s| s.scene == question::force::DISC && s.level == level && s.own.is_some())
     };
@@ -112,7 +112,7 @@ fn the_implicit_march_is_on_the_front_by_work() {
 /// The program's own table, built once for all tests.
 fn density() -> &'static Density {
     static DENSITY: OnceLock<Density> = OnceLock::new();
-    DENSITY.get_or_init(|| Density::build(0.3, Spacing::Own).unwrap())
+    DENSITY.get_or_init(|| Density::build(0.3, None).unwrap())
 }
 
 fn fields() -> &'static [Record] {
@@ -161,8 +161,8 @@ fn smooth_cells_beat_linear_ones_and_the_remainder_the_whole_response() {
 
 #[test]
 fn the_default_path_is_on_the_front_by_work_or_the_report_says_why_not() {
-    for standing in standings(fields(), Measure::Work) {
-        assert_eq!(standing.unexplained(), None, "{standing:?}");
+    for ranking in rankings(fields(), |r| r.work) {
+        assert_eq!(ranking.unexplained(), None, "{ranking:?}");
     }
 }
 

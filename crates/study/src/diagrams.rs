@@ -5,110 +5,86 @@ use crate::record::{Question, Record, distinct, pareto_front};
 use figure::{Axis, Style};
 
 /// File names of the diagrams, in the order in which the scenes appear.
-const NAMES: [(Question, &[&str]); 4] = [
+const NAMES: [(Question, &str); 4] = [
     (
         Question::Kernels,
-        &[
-            "kernels-interior",
-            "kernels-late",
-            "kernels-axis",
-            "kernels-surface",
-        ],
+        "kernels-interior kernels-late kernels-axis kernels-surface",
     ),
-    (Question::Force, &["force-disc", "force-growing"]),
+    (Question::Force, "force-disc force-growing"),
     (
         Question::Fields,
-        &[
-            "fields-pulse-10",
-            "fields-interpolation-10",
-            "fields-pulse-40",
-            "fields-interpolation-40",
-            "fields-edge",
-            "fields-interpolation-edge",
-        ],
+        "fields-pulse-10 fields-interpolation-10 fields-pulse-40 fields-interpolation-40 \
+         fields-edge fields-interpolation-edge",
     ),
     (
         Question::Impacts,
-        &[
-            "impacts-disc-near",
-            "impacts-disc-far",
-            "impacts-growing-near",
-            "impacts-growing-far",
-        ],
+        "impacts-disc-near impacts-disc-far impacts-growing-near impacts-growing-far",
     ),
 ];
 
 /// One diagram a scene.
-pub(crate) fn figures(records: &[Record]) -> Vec<Picture> {
-    let mut figures = Vec::new();
+pub(crate) fn diagrams(records: &[Record]) -> Vec<Picture> {
+    let mut diagrams = Vec::new();
     for (question, names) in NAMES {
         let mine: Vec<&Record> = records.iter().filter(|r| r.question == question).collect();
         let scenes = distinct(mine.iter().map(|r| r.scene));
-        for (scene, name) in scenes.into_iter().zip(names) {
+        for (scene, name) in scenes.into_iter().zip(names.split(' ')) {
             let rows: Vec<&Record> = mine.iter().filter(|r| r.scene == scene).copied().collect();
-            figures.push(diagram(question, scene, name, &rows));
+            diagrams.push(diagram(question, scene, name, &rows));
         }
     }
-    figures
+    diagrams
 }
 
-/// Errors smaller than this are drawn here.
-const FLOOR: f64 = 1e-16;
+/// Cost and error of a record as they are drawn: errors below 1e-16 there.
+fn place(record: &Record) -> (f64, f64) {
+    (record.cost.median_ns, record.error.max.max(1e-16))
+}
+
+/// The places that the frame holds.
+fn places(rows: &[&Record]) -> Vec<(f64, f64)> {
+    let shown = rows.iter().filter(|r| r.error.max < 2.0);
+    shown.map(|r| place(r)).collect()
+}
 
 fn diagram(question: Question, scene: &str, name: &'static str, rows: &[&Record]) -> Picture {
-    let shown = || {
-        rows.iter()
-            .filter(|r| r.error.max < 2.0)
-            .map(|r| (r.cost.median_ns, r.error.max.max(FLOOR)))
-    };
+    let shown = places(rows);
     // half a marker of room around the outermost points
-    let low = shown().map(|p| p.0).fold(f64::INFINITY, f64::min);
-    let high = shown().map(|p| p.0).fold(0.0, f64::max);
-    let lowest = shown().map(|p| p.1).fold(1.0, f64::min);
+    let low = shown.iter().fold(f64::INFINITY, |low, p| low.min(p.0));
+    let high = shown.iter().fold(0.0, |high, p| p.0.max(high));
+    let lowest = shown.iter().fold(1.0, |low, p| p.1.min(low));
     let decade = |x: f64, up: f64| 10.0_f64.powf((x.log10() + up).floor());
-    let down = decade(lowest, -0.2);
     let mut figure = Picture::new(
         name,
         &format!("{}: {scene}", question.name()),
         Axis::logarithmic("cost")
             .unit(&format!("ns per value: {}", question.value()))
             .range(decade(low, -0.1), decade(high, 1.1)),
-        Axis::logarithmic("largest error over the largest value").range(down, 2.0),
+        Axis::logarithmic("largest error over the largest value").range(decade(lowest, -0.2), 2.0),
     );
     figure.caption = caption(question, scene).to_owned();
-    // settings of fields vary in several ways at once: no line orders them
-    let style = match question {
-        Question::Kernels | Question::Force | Question::Impacts => Style::Marked,
-        Question::Fields => Style::Points,
-    };
     for method in distinct(rows.iter().map(|r| r.method)) {
-        let own: Vec<&&Record> = rows.iter().filter(|r| r.method == method).collect();
-        let failed = own.iter().filter(|r| r.failed()).count();
-        let points: Vec<(f64, f64)> = own
-            .iter()
-            .filter(|r| r.error.max < 2.0)
-            .map(|r| (r.cost.median_ns, r.error.max.max(FLOOR)))
-            .collect();
+        let own = rows.iter().filter(|r| r.method == method);
+        let own: Vec<&Record> = own.copied().collect();
         let default = if own.iter().any(|r| r.default_path) {
             " [default]"
         } else {
             ""
         };
-        let failures = match failed {
+        let failures = match own.iter().filter(|r| r.failed()).count() {
             0 => String::new(),
             n if n == own.len() => " (fails)".to_owned(),
             n => format!(" ({n} of {} fail)", own.len()),
         };
-        // nor those of tables
-        let style = if method == "table" {
+        // settings of fields and tables vary in several ways at once: no line orders them
+        let style = if question == Question::Fields || method == "table" {
             Style::Points
         } else {
-            style
+            Style::Marked
         };
-        figure.curve(&format!("{method}{default}{failures}"), style, points);
+        figure.curve(&format!("{method}{default}{failures}"), style, places(&own));
     }
-    let front = pareto_front(rows, |r| Some(r.cost.median_ns));
-    figure.curve("Pareto front", Style::HeavyDashed, staircase(rows, &front));
+    figure.curve("Pareto front", Style::HeavyDashed, staircase(rows));
     figure
 }
 
@@ -145,16 +121,14 @@ fn caption(question: Question, scene: &str) -> &'static str {
 }
 
 /// The border of what the front dominates.
-fn staircase(rows: &[&Record], front: &[usize]) -> Vec<(f64, f64)> {
-    let mut points = Vec::new();
-    let mut before: Option<f64> = None;
-    for &i in front {
-        let (cost, error) = (rows[i].cost.median_ns, rows[i].error.max.max(FLOOR));
-        if let Some(error) = before {
-            points.push((cost, error));
+fn staircase(rows: &[&Record]) -> Vec<(f64, f64)> {
+    let mut points: Vec<(f64, f64)> = Vec::new();
+    for i in pareto_front(rows, Record::time_ns) {
+        let (cost, error) = place(rows[i]);
+        if let Some(&(_, before)) = points.last() {
+            points.push((cost, before));
         }
         points.push((cost, error));
-        before = Some(error);
     }
     points
 }

@@ -16,8 +16,7 @@ use num_complex::Complex64;
 use std::f64::consts::PI;
 
 /// Remainder R of the step response by the rule of `points` nodes a panel, and the integrand evaluations.
-#[must_use]
-pub fn remainder(medium: &Medium, [r, z, t]: [f64; 3], points: usize) -> (Six, u64) {
+pub(crate) fn remainder(medium: &Medium, [r, z, t]: [f64; 3], points: usize) -> (Six, u64) {
     let (kappa, c) = (medium.kappa(), medium.rayleigh_speed());
     let mut total = [0.0; 6];
     let q = Complex64::new(0.0, c);
@@ -147,8 +146,7 @@ fn add(
 /// A_3, A_2, B_3/r and B_2/r of Hertz's pressure in closed form, Re xi >= 0.
 ///
 /// Differences of nearly equal logarithms for |xi| >> 1: the error grows as |xi|^3.
-#[must_use]
-pub fn closed_potentials(xi: Complex64, r: f64) -> [Complex64; 4] {
+pub(crate) fn closed_potentials(xi: Complex64, r: f64) -> [Complex64; 4] {
     let i = Complex64::i();
     let end = |zeta: Complex64| {
         let rho = (zeta + i * r).sqrt() * (zeta - i * r).sqrt();

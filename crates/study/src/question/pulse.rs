@@ -7,8 +7,11 @@
 //! No cells, no samples of the force: it shares only R with what it judges.
 
 use crate::StudyError;
+use crate::measure::{Candidate, Effort, Scene};
+use crate::record::{Question, Record};
 use halfspace::gauss::Rule;
 use halfspace::{Arrivals, Kernel, Medium, Profile, Six};
+use lookup::PulseSum;
 use std::f64::consts::PI;
 
 /// A pulse at a point and its exact response at a few times.
@@ -78,23 +81,82 @@ impl PulseReference {
         })
     }
 
-    /// Relative errors of samples `width` apart; none where the samples do not meet the times.
-    pub(crate) fn errors(&self, samples: &[Six], width: f64) -> Option<Vec<f64>> {
-        let mut errors = Vec::new();
-        for (exact, t) in self.exact.iter().zip(&self.times) {
-            let n = (t / width).round();
-            if (n * width - t).abs() > 1e-9 * t {
-                return None;
-            }
-            let value = samples.get(n as usize)?;
-            errors.extend((0..6).map(|f| (value[f] - exact[f]) / self.peak[f]));
+    /// The last of the times.
+    pub(crate) fn end(&self) -> f64 {
+        self.times.last().copied().unwrap_or(1.0)
+    }
+
+    /// Samples that are needed at a width.
+    pub(crate) fn count(&self, width: f64) -> usize {
+        (self.end() / width).round() as usize + 1
+    }
+
+    /// Whether samples `width` apart meet the times.
+    pub(crate) fn meets(&self, width: f64) -> bool {
+        let off = |t: &f64| ((t / width).round() * width - t).abs();
+        self.times.iter().all(|t| off(t) <= 1e-9 * t)
+    }
+
+    /// Relative errors of samples `width` apart.
+    pub(crate) fn errors(&self, samples: &[Six], width: f64) -> Vec<f64> {
+        let pairs = self.exact.iter().zip(&self.times);
+        pairs
+            .flat_map(|(exact, t)| {
+                let value = samples[(t / width).round() as usize];
+                (0..6).map(move |f| (value[f] - exact[f]) / self.peak[f])
+            })
+            .collect()
+    }
+}
+
+/// What is compared under a pulse.
+pub(super) struct Compared<'a> {
+    pub(super) effort: Effort,
+    pub(super) scene: &'static str,
+    pub(super) pulse: &'a PulseReference,
+    pub(super) records: &'a mut Vec<Record>,
+}
+
+impl Compared<'_> {
+    /// Adds a method whose samples are `width` apart, where they meet the times of the reference.
+    pub(super) fn add(
+        &mut self,
+        method: &'static str,
+        setting: String,
+        default_path: bool,
+        width: f64,
+        run: impl Fn() -> Result<Vec<Six>, StudyError>,
+    ) -> Result<(), StudyError> {
+        if !self.pulse.meets(width) {
+            return Ok(());
         }
-        Some(errors)
+        let scene = Scene {
+            question: Question::Fields,
+            name: self.scene,
+            values: self.pulse.end(),
+            errors: &|samples: &Vec<Six>| Ok(self.pulse.errors(samples, width)),
+        };
+        let counted = || {
+            let samples = run()?;
+            let count = samples.len() as u64;
+            Ok((samples, Some(count)))
+        };
+        let candidate = Candidate::new(method, setting, counted).default_path(default_path);
+        self.records.push(scene.measure(self.effort, &candidate)?);
+        Ok(())
+    }
+
+    /// Samples of the pulse.
+    pub(super) fn force(&self, width: f64) -> Vec<f64> {
+        let pulse = PulseSum::new(self.pulse.length, width);
+        (0..self.pulse.count(width))
+            .map(|n| pulse.force(n))
+            .collect()
     }
 }
 
 /// sin^4(pi t/T) on [0, T].
-pub(crate) fn force(t: f64, length: f64) -> f64 {
+fn force(t: f64, length: f64) -> f64 {
     if (0.0..=length).contains(&t) {
         (PI * t / length).sin().powi(4)
     } else {
@@ -118,7 +180,7 @@ mod tests {
     #[test]
     fn it_is_the_independent_reference() {
         // tests/golden/fields.csv: Durbin inversion with direct Hankel quadrature, 1e-10 absolute
-        let golden = include_str!("../../../tests/golden/fields.csv");
+        let golden = include_str!("../../../../tests/golden/fields.csv");
         let mut seen = 0;
         for line in golden.lines().skip(1) {
             let row: Vec<f64> = line.split(',').filter_map(|x| x.parse().ok()).collect();

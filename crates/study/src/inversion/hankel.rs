@@ -1,0 +1,229 @@
+//! Hankel quadrature of the transforms: from (k, s) to step responses at (r, z) in the Laplace domain.
+//!
+//! Gauss-Legendre panels along the real k axis for Re s > 0.
+//! The branch points and the Rayleigh pole lie at k = -i s times 1, 1/kappa and 1/c, below the path by Re s:
+//! that distance and the oscillation of J(k r) Z_H(k) set the panels, and e^{-k z} sets the end.
+//! For Re s <= 0, which only Talbot's contour needs, they have crossed the axis, and the path is raised above them.
+//!
+//! At z = 0 nothing decays along k. Beyond the singularities the load's e^{ik} and e^{-ik} are separated and
+//! each is followed into the half-plane where it decays, after the static deflection is taken out.
+
+use super::transform::{Roots, load, path};
+use halfspace::Medium;
+use halfspace::gauss::Rule;
+use num_complex::Complex64;
+use std::cell::Cell;
+use std::f64::consts::{LN_10, PI};
+
+/// Step responses at one point as functions of the Laplace variable: the six fields inside, and at the centre of the
+/// surface w alone, over its static value.
+#[derive(Debug)]
+pub(crate) struct Hankel {
+    medium: Medium,
+    r: f64,
+    z: f64,
+    digits: f64,
+    evaluations: Cell<u64>,
+}
+
+/// A node on the real axis with what does not depend on s: k and the load's J0, J1, J1/(k r) times the weight.
+type Node = (f64, [f64; 3]);
+
+impl Hankel {
+    /// To `digits` decimal digits.
+    pub(crate) fn new(medium: &Medium, [r, z]: [f64; 2], digits: f64) -> Self {
+        debug_assert!(z > 0.0 || r == 0.0, "on the surface only the centre");
+        Self {
+            medium: medium.clone(),
+            r,
+            z,
+            digits,
+            evaluations: Cell::new(0),
+        }
+    }
+
+    /// Integrand evaluations so far.
+    pub(crate) fn evaluations(&self) -> u64 {
+        self.evaluations.get()
+    }
+
+    fn count(&self, evaluations: u64) {
+        self.evaluations.set(self.evaluations.get() + evaluations);
+    }
+
+    /// Step responses at many s with Im s >= 0, continued through the imaginary axis where one of them needs it.
+    pub(crate) fn values(&self, s: &[Complex64]) -> Vec<[Complex64; 6]> {
+        if self.z == 0.0 {
+            let zero = Complex64::default();
+            let fields = |&s| [zero, self.surface(s), zero, zero, zero, zero];
+            return s.iter().map(fields).collect();
+        }
+        let least = s.iter().map(|s| s.re).fold(f64::INFINITY, f64::min);
+        if least <= 0.0 {
+            return s.iter().map(|&s| self.continued(s)).collect();
+        }
+        let widest = s.iter().map(|s| s.im.abs()).fold(0.0, f64::max);
+        let shared = self.nodes(least, widest);
+        s.iter().map(|&s| self.step(&shared, s)).collect()
+    }
+
+    /// Slowness of the Rayleigh wave, the slowest.
+    fn slowest(&self) -> f64 {
+        1.0 / self.medium.rayleigh_speed()
+    }
+
+    /// k beyond which e^{-k z} has decayed.
+    fn reach(&self) -> f64 {
+        self.digits * LN_10 / self.z
+    }
+
+    /// The rule of a panel for the digits asked for.
+    fn rule(&self) -> Rule {
+        Rule::new((2.0 + 1.2 * self.digits).ceil() as usize)
+    }
+
+    /// Nodes that serve every s with Re s >= `least` and |Im s| <= `widest`.
+    pub(crate) fn nodes(&self, least: f64, widest: f64) -> Vec<Node> {
+        let slowest = self.slowest();
+        let end = widest * slowest + self.reach() + 4.0 * least;
+        let width = 3.5 / (1.0 + self.r);
+        let rule = self.rule();
+        let mut nodes = Vec::new();
+        let mut from = 0.0;
+        while from < end {
+            // beyond the last singularity their distance grows
+            let clear = least.hypot((from - widest * slowest).max(0.0));
+            let to = from + width.min(2.0 * clear);
+            for (k, weight) in rule.on(from, to) {
+                let scale = weight * load(k.into()).re;
+                let x = k * self.r;
+                let j1 = libm::j1(x);
+                let ratio = if x < 1e-6 { 0.5 } else { j1 / x };
+                nodes.push((k, [libm::j0(x), j1, ratio].map(|j| scale * j)));
+            }
+            from = to;
+        }
+        nodes
+    }
+
+    /// Step response of the six fields at s, Re s > 0.
+    pub(crate) fn step(&self, nodes: &[Node], s: Complex64) -> [Complex64; 6] {
+        let end = s.im.abs() * self.slowest() + self.reach() + 4.0 * s.re;
+        let count = nodes.partition_point(|&(k, _)| k <= end);
+        let mut sum = [Complex64::default(); 6];
+        for &(k, bessel) in &nodes[..count] {
+            self.add(&mut sum, k.into(), s, bessel.map(Complex64::from));
+        }
+        self.count(count as u64);
+        sum.map(|v| v / s)
+    }
+
+    /// Adds the fields of one k.
+    fn add(&self, sum: &mut [Complex64; 6], k: Complex64, s: Complex64, bessel: [Complex64; 3]) {
+        let roots = Roots::new(&self.medium, k, s);
+        let terms = roots.fields(&self.medium, k, s, self.z, bessel);
+        for (total, term) in sum.iter_mut().zip(terms) {
+            *total += term;
+        }
+    }
+
+    /// Step response at any s with Im s >= 0, continued through the imaginary axis.
+    ///
+    /// The path rises along the imaginary axis above the three singularities and leaves to the right.
+    pub(crate) fn continued(&self, s: Complex64) -> [Complex64; 6] {
+        let slowest = self.slowest();
+        let clearance = 1.0 / (1.0 + self.r);
+        let (height, widest) = path(s, slowest, clearance);
+        let widest = widest.min(1.5 * clearance);
+        let end = s.im.abs() * slowest + self.reach();
+        let rule = self.rule();
+        let mut sum = [Complex64::default(); 6];
+        let mut count = 0;
+        let mut leg = |from: Complex64, to: Complex64| {
+            let length = (to - from).norm();
+            for pair in cuts(length, 0.7 * s.norm(), widest).windows(2) {
+                for (x, weight) in rule.on(pair[0] / length, pair[1] / length) {
+                    let k = from + (to - from) * x;
+                    let scale = weight * (to - from) * load(k);
+                    let [j0, j1] = bessel(k * self.r);
+                    let ratio = if k.norm() * self.r < 1e-6 {
+                        0.5.into()
+                    } else {
+                        j1 / (k * self.r)
+                    };
+                    self.add(&mut sum, k, s, [j0, j1, ratio].map(|j| scale * j));
+                    count += 1;
+                }
+            }
+        };
+        let corner = Complex64::new(0.0, height);
+        if height > 0.0 {
+            leg(Complex64::default(), corner);
+        }
+        leg(corner, corner + end);
+        self.count(count);
+        sum.map(|v| v / s)
+    }
+
+    /// w at the centre of the surface over its static value, at any s with Im s >= 0, continued through the
+    /// imaginary axis.
+    pub(crate) fn surface(&self, s: Complex64) -> Complex64 {
+        let rest = 1.0 - self.medium.poisson_ratio();
+        let slowest = self.slowest();
+        let rule = Rule::new((3.0 + 1.3 * self.digits).ceil() as usize);
+        let near = |k: Complex64| Roots::new(&self.medium, k, s).surface(s) - rest / k;
+        let far = |k: Complex64| Roots::far(&self.medium, k, s).surface(s) - rest / k;
+        let mut sum = Complex64::default();
+        let mut count = 0;
+        let (height, widest) = path(s, slowest, 1.0);
+        let widest = widest.min(2.0);
+        let least = (0.7 * s.norm()).min(1.0);
+        let mut leg = |from: Complex64, to: Complex64, f: &dyn Fn(Complex64) -> Complex64| {
+            let length = (to - from).norm();
+            for pair in cuts(length, least, widest).windows(2) {
+                for (x, weight) in rule.on(pair[0], pair[1]) {
+                    let direction = (to - from) / length;
+                    sum += weight * direction * f(from + direction * x);
+                    count += 1;
+                }
+            }
+        };
+        let corner = Complex64::new(0.0, height);
+        let start = corner + s.norm() * slowest + 4.0;
+        let whole = |k: Complex64| load(k) * near(k);
+        if height > 0.0 {
+            leg(Complex64::default(), corner, &whole);
+        }
+        leg(corner, start, &whole);
+        // 3 (sin k - k cos k)/(2 pi k^2) = sum over both signs of e^{+-ik} (-+ i - k)/2 times 3/(2 pi k^2)
+        let depth = self.digits * LN_10 + 2.0;
+        for sign in [1.0, -1.0] {
+            let i = Complex64::new(0.0, sign);
+            let half = |k: Complex64| 0.75 / PI * (i * k).exp() * (-i - k) / (k * k) * far(k);
+            leg(start, start + i * depth, &half);
+        }
+        self.count(count);
+        (1.0 + sum / (0.375 * rest)) / s
+    }
+}
+
+/// Ends of the panels of a path from 0: no wider than `widest`, and than `least` near k = 0, where the singularities
+/// are as near as s.
+fn cuts(length: f64, least: f64, widest: f64) -> Vec<f64> {
+    let (mut at, mut cuts) = (0.0, vec![0.0]);
+    while at < length * (1.0 - 1e-12) {
+        at = (at + least.max(0.5 * at).min(widest)).min(length);
+        cuts.push(at);
+    }
+    cuts
+}
+
+/// J0 and J1 of a complex argument.
+fn bessel(x: Complex64) -> [Complex64; 2] {
+    if x.norm() < 1e-8 {
+        return [1.0.into(), 0.5 * x];
+    }
+    [0.0, 1.0].map(|order| {
+        complex_bessel::besselj(order, x).unwrap_or(Complex64::new(f64::INFINITY, 0.0))
+    })
+}
