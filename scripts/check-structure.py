@@ -1,4 +1,4 @@
-"""Structure of the Rust code: no two files import each other, no file over 450 lines, no function over 80.
+"""Structure of the Rust code: no two files import each other, no file over 700 lines, no function over 80.
 
 Usage: check-structure.py [CRATE...], from the root of the repository.
 Tables of data (files named *_data.rs) may be longer.
@@ -9,7 +9,7 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-MOST_LINES = 450
+MOST_LINES = 700
 MOST_FUNCTION = 80
 # parent and child may know each other here: a module and its parts
 PARENTS_ALLOWED = {"figure", "halfspace", "study"}

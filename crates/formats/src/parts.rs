@@ -1,10 +1,10 @@
 //! Rows of a sweep in several files: what a folder has of them, what it lacks, and all of them in one.
 
 use crate::error::SceneError;
+use crate::identity::from_hexadecimal;
 use crate::stored::{FileKind, Part, ReadError, StoredPart, StoredWhole, file_kind};
 use crate::sweep::{
-    Block, Blocks, Fields, Selection, Shard, Source, Spec, from_hexadecimal, gaps, stage_rows,
-    stage_virtual,
+    Block, Blocks, Fields, Selection, Shard, Source, Spec, gaps, stage_rows, stage_virtual,
 };
 use output::{Fault, HDF5, Output, OutputError, ROWS, Staged};
 use std::collections::BTreeMap;

@@ -4,7 +4,7 @@
 //! length of the failures' text, the numbers, those that probes bring, the models, the failures, and a hash of all that.
 //! A record that is cut short or damaged ends the journal; what comes after is computed anew.
 
-use super::block::Block;
+use super::rows::Block;
 use crate::quantities::QUANTITIES;
 use output::{Existing, Fault, OutputError};
 use std::fs::{File, OpenOptions};
@@ -104,22 +104,21 @@ impl Journal {
         header: &Header,
         existing: Existing,
     ) -> Result<(Self, Vec<Span>), JournalError> {
+        let path = path.to_owned();
         let io = |source| JournalError::Io {
-            path: path.to_owned(),
+            path: path.clone(),
             source,
         };
-        let there = std::fs::symlink_metadata(path);
+        let there = std::fs::symlink_metadata(&path);
         if there.as_ref().is_ok_and(|there| !there.is_file()) {
-            return Err(JournalError::Strange {
-                path: path.to_owned(),
-            });
+            return Err(JournalError::Strange { path });
         }
         let mut file = OpenOptions::new()
             .read(true)
             .write(true)
             .create_new(there.is_err())
-            .open(path)
-            .map_err(|error| OutputError::writing(path, error))?;
+            .open(&path)
+            .map_err(|error| OutputError::writing(&path, error))?;
         let found = start(&file).map_err(io)?;
         let (mut spans, mut length) = (Vec::new(), HEADER as u64);
         if found == header.bytes() {
@@ -129,24 +128,20 @@ impl Journal {
         } else {
             let known = found.len().min(MAGIC.len() - 1);
             if found[..known] != MAGIC[..known] {
-                return Err(JournalError::Strange {
-                    path: path.to_owned(),
-                });
+                return Err(JournalError::Strange { path });
             }
             // one that ends within its header holds nothing
             if found.len() == HEADER && existing != Existing::Replace {
-                return Err(JournalError::Other {
-                    path: path.to_owned(),
-                });
+                return Err(JournalError::Other { path });
             }
             file.set_len(0).map_err(io)?;
             file.rewind().map_err(io)?;
             file.write_all(&header.bytes())
-                .map_err(|error| OutputError::writing(path, error))?;
+                .map_err(|error| OutputError::writing(&path, error))?;
         }
         let journal = Self {
             file,
-            path: path.to_owned(),
+            path,
             flushed: Instant::now(),
             length,
             width: header.width,
