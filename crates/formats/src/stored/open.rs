@@ -1,9 +1,10 @@
 //! Opening a file, whatever it is, and bounded reading from it.
 
 use super::error::{FileKind, ReadError};
+use crate::quantities::Described;
 use crate::scene::section::parse;
 use crate::sweep::schema::{PROBED_VERSION, TEXTS, part};
-use crate::sweep::{Described, Fields, Footer, MAGIC, Precision, stored_columns};
+use crate::sweep::{Fields, Footer, MAGIC, Precision, stored_columns};
 use hdfread::{Attribute, Dataset, File, Group, HdfError, Kind, Number};
 use std::io::Read;
 use std::ops::Range;

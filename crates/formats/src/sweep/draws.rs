@@ -101,23 +101,22 @@ impl Drawn {
 
 /// A distribution of a number.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Distribution {
-    /// Even between two numbers.
-    Uniform { low: f64, high: f64 },
-    /// Even in the logarithm between two positive numbers.
-    LogUniform { low: f64, high: f64 },
-    /// Gauss's.
-    Normal { mean: f64, deviation: f64 },
-    /// Gauss's in the natural logarithm, with the deviation of that logarithm.
-    LogNormal { median: f64, deviation: f64 },
+struct Distribution {
+    kind: Kind,
+    /// Both ends, or the mean or median and the deviation.
+    numbers: [f64; 2],
 }
 
-/// The kind of a distribution, as files name it.
+/// The kind of a distribution.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Kind {
+    /// Even between two numbers.
     Uniform,
+    /// Even in the logarithm between two positive numbers.
     LogUniform,
+    /// Gauss's.
     Normal,
+    /// Gauss's in the natural logarithm, with the deviation of that logarithm.
     LogNormal,
 }
 
@@ -153,25 +152,15 @@ impl Distribution {
         section.allow(["distribution", keys[0], keys[1]])?;
         let a = section.required(keys[0], ranges[0], "the distribution needs it")?;
         let b = section.required(keys[1], ranges[1], "the distribution needs it")?;
-        if matches!(kind, Kind::Uniform | Kind::LogUniform) && b <= a {
+        if keys[1] == "high" && b <= a {
             return Err(SceneError::Conflict {
                 first: format!("{} = {b}", section.key("high")),
                 second: format!("low = {a}"),
                 reason: "high must be above low",
             });
         }
-        Ok(match kind {
-            Kind::Uniform => Self::Uniform { low: a, high: b },
-            Kind::LogUniform => Self::LogUniform { low: a, high: b },
-            Kind::Normal => Self::Normal {
-                mean: a,
-                deviation: b,
-            },
-            Kind::LogNormal => Self::LogNormal {
-                median: a,
-                deviation: b,
-            },
-        })
+        let numbers = [a, b];
+        Ok(Self { kind, numbers })
     }
 
     /// Draw number `index` of a stream: a function of its arguments only.
@@ -193,11 +182,12 @@ impl Distribution {
 
     /// The value at an even or a standard normal number, whichever it is made of.
     fn value(self, uniform: impl Fn() -> f64, normal: impl Fn() -> f64) -> f64 {
-        match self {
-            Self::Uniform { low, high } => low + (high - low) * uniform(),
-            Self::LogUniform { low, high } => low * (high / low).powf(uniform()),
-            Self::Normal { mean, deviation } => mean + deviation * normal(),
-            Self::LogNormal { median, deviation } => median * (deviation * normal()).exp(),
+        let [a, b] = self.numbers;
+        match self.kind {
+            Kind::Uniform => a + (b - a) * uniform(),
+            Kind::LogUniform => a * (b / a).powf(uniform()),
+            Kind::Normal => a + b * normal(),
+            Kind::LogNormal => a * (b * normal()).exp(),
         }
     }
 }
@@ -349,6 +339,10 @@ fn normal_probability(normal: f64) -> f64 {
 mod tests {
     use super::*;
 
+    fn of(kind: Kind, numbers: [f64; 2]) -> Distribution {
+        Distribution { kind, numbers }
+    }
+
     fn moments(distribution: Distribution, of: impl Fn(f64) -> f64) -> (f64, f64) {
         let n = 100_000_u32;
         let draws =
@@ -366,30 +360,15 @@ mod tests {
         };
         let even = 12.0_f64.sqrt();
         close(
-            moments(
-                Distribution::Uniform {
-                    low: 2.0,
-                    high: 5.0,
-                },
-                |x| x,
-            ),
+            moments(of(Kind::Uniform, [2.0, 5.0]), |x| x),
             3.5,
             3.0 / even,
         );
-        let log = Distribution::LogUniform {
-            low: 1.0,
-            high: 1f64.exp(),
-        };
+        let log = of(Kind::LogUniform, [1.0, 1f64.exp()]);
         close(moments(log, f64::ln), 0.5, 1.0 / even);
-        let normal = Distribution::Normal {
-            mean: -1.0,
-            deviation: 0.3,
-        };
+        let normal = of(Kind::Normal, [-1.0, 0.3]);
         close(moments(normal, |x| x), -1.0, 0.3);
-        let log_normal = Distribution::LogNormal {
-            median: 1.0,
-            deviation: 0.2,
-        };
+        let log_normal = of(Kind::LogNormal, [1.0, 0.2]);
         close(moments(log_normal, f64::ln), 0.0, 0.2);
     }
 
@@ -402,10 +381,7 @@ mod tests {
 
     #[test]
     fn draws_of_two_keys_and_two_seeds_differ() {
-        let even = Distribution::Uniform {
-            low: 0.0,
-            high: 1.0,
-        };
+        let even = of(Kind::Uniform, [0.0, 1.0]);
         let a = even.draw(stream(1, "striker.mass_kg"), 3);
         assert_eq!(a, even.draw(stream(1, "striker.mass_kg"), 3));
         assert_ne!(a, even.draw(stream(2, "striker.mass_kg"), 3));

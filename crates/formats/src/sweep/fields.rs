@@ -2,7 +2,7 @@
 
 use super::schema::FIELDS as SECTION;
 use crate::error::SceneError;
-use crate::quantities::{FIELDS, QUANTITIES, described};
+use crate::quantities::{Described, FIELDS, QUANTITIES, described};
 use crate::results::schema::{ERROR_SUFFIX, PEAK_SUFFIXES};
 use crate::scene::section::Section;
 use impact::{ProbePeaks, Quantity};
@@ -28,30 +28,6 @@ pub enum Precision {
     Double,
     /// 32 bits: rounded by up to 6e-8 of themselves.
     Single,
-}
-
-/// A column of a file: its name, its unit and what it is.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Described {
-    pub(crate) name: String,
-    pub(crate) unit: &'static str,
-    pub(crate) meaning: String,
-}
-
-impl From<(&str, &'static str, &str)> for Described {
-    fn from((name, unit, meaning): (&str, &'static str, &str)) -> Self {
-        Self {
-            name: name.to_owned(),
-            unit,
-            meaning: meaning.to_owned(),
-        }
-    }
-}
-
-impl Described {
-    pub(crate) fn labels(&self) -> (&str, &str, &str) {
-        (&self.name, self.unit, &self.meaning)
-    }
 }
 
 impl Default for Fields {

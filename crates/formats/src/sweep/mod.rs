@@ -24,7 +24,7 @@ mod template;
 
 pub use axes::{Axis, Column, Values};
 pub use draws::Drawn;
-pub(crate) use fields::{Described, stored_columns};
+pub(crate) use fields::stored_columns;
 pub use fields::{Fields, Precision};
 pub use journal::{Journal, JournalError};
 pub use kernels::{FieldKernels, KernelsError};

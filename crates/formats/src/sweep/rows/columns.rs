@@ -1,8 +1,9 @@
 //! The columns of a file of rows, whatever its format, and their values.
 
 use super::block::{Block, Blocks};
+use crate::quantities::Described;
 use crate::sweep::axes::Values;
-use crate::sweep::fields::{Described, Precision};
+use crate::sweep::fields::Precision;
 use crate::sweep::schema::{FAILURE, MODEL, part};
 use crate::sweep::spec::Spec;
 use contact::{Choice, Model};

@@ -7,7 +7,7 @@ use crate::sweep::fields::{Fields, Precision, stored_columns};
 use crate::sweep::schema::{self, part};
 use crate::sweep::shard::{Part, Selection};
 #[cfg(feature = "parquet")]
-use crate::sweep::{fields::Described, spec::Spec};
+use crate::{quantities::Described, sweep::spec::Spec};
 use serde_json::Value;
 #[cfg(feature = "parquet")]
 use serde_json::{Map, json};
