@@ -1,7 +1,7 @@
 //! Scene files: what hits what, and what is asked, in TOML and SI units, as `data-schema/scene.md` writes it down.
 //!
-//! [`keys`] lists what a scene can have, [`section`] reads typed values, [`read`] makes a scene of them with [`body`] and
-//! [`striker`], and [`write`] spells one out; [`text`] and [`record`] are the files beside it.
+//! `keys` lists what a scene can have, `section` reads typed values, `read` makes a scene of them with `body` and
+//! `striker`, and `write` spells one out; `text` and `record` are the files beside it.
 
 pub(crate) mod body;
 pub(crate) mod keys;

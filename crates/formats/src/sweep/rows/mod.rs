@@ -1,7 +1,7 @@
 //! Rows of a sweep and their files, in the format that a name ends with.
 //!
-//! [`block`] is a run of rows in memory and [`columns`] is what a file has of each; [`csv`], [`hdf5`] and `parquet` write
-//! them, a few blocks at a time, and [`footer`] is what a Parquet file says of itself.
+//! `block` is a run of rows in memory and `columns` is what a file has of each; `csv`, [`hdf5`] and `parquet` write
+//! them, a few blocks at a time, and `footer` is what a Parquet file says of itself.
 
 mod block;
 mod boxes;
