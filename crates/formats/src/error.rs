@@ -157,7 +157,7 @@ impl SceneError {
 }
 
 /// What a program can use of a scene's error, beside its sentence.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Culprit<'a> {
     /// Full name of the key at fault.
     pub key: Option<&'a str>,
@@ -175,56 +175,57 @@ impl SceneError {
     /// What it is about.
     #[must_use]
     pub fn culprit(&self) -> Culprit<'_> {
-        let mut found = Culprit {
-            key: None,
-            number: None,
-            word: None,
-            suggestion: None,
-            file: None,
+        let of_key = |key| Culprit {
+            key: Some(key),
+            ..Culprit::default()
         };
         match self {
             Self::In { path, error } => {
-                found = error.culprit();
-                found.file = found.file.or(Some(path));
+                let found = error.culprit();
+                let file = found.file.or(Some(path));
+                Culprit { file, ..found }
             }
-            Self::Unreadable { path, .. } | Self::ForceFile { path, .. } => {
-                found.file = Some(path);
-            }
-            Self::Syntax { .. } | Self::Treatment(_) => {}
+            Self::Unreadable { path, .. } | Self::ForceFile { path, .. } => Culprit {
+                file: Some(path),
+                ..Culprit::default()
+            },
+            Self::Syntax { .. } | Self::Treatment(_) => Culprit::default(),
             Self::UnknownKey {
                 key, suggestion, ..
-            } => {
-                found.key = Some(key);
-                found.suggestion = suggestion.as_deref();
-            }
+            } => Culprit {
+                suggestion: suggestion.as_deref(),
+                ..of_key(key)
+            },
             Self::Missing { key, .. }
             | Self::Superfluous { key, .. }
-            | Self::Conflict { first: key, .. } => found.key = Some(key),
+            | Self::Conflict { first: key, .. } => of_key(key),
             Self::WrongKind { key, value, .. } | Self::UnknownChoice { key, value, .. } => {
-                found.key = Some(key);
-                found.word = Some(value);
+                let word = Some(value.as_str());
+                Culprit {
+                    word,
+                    ..of_key(key)
+                }
             }
-            Self::OutOfRange { key, value, .. } => {
-                found.key = Some(key);
-                found.number = Some(*value);
-            }
+            Self::OutOfRange { key, value, .. } => Culprit {
+                number: Some(*value),
+                ..of_key(key)
+            },
             Self::UnknownMaterial {
                 key,
                 value,
                 suggestion,
-            } => {
-                found.key = Some(key);
-                found.word = Some(value);
-                found.suggestion = suggestion.as_deref();
-            }
+            } => Culprit {
+                word: Some(value),
+                suggestion: suggestion.as_deref(),
+                ..of_key(key)
+            },
             Self::Inconsistent {
                 second_key, second, ..
-            } => {
-                found.key = Some(second_key);
-                found.number = Some(*second);
-            }
+            } => Culprit {
+                number: Some(*second),
+                ..of_key(second_key)
+            },
         }
-        found
     }
 }
 

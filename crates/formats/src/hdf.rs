@@ -13,15 +13,6 @@ pub(crate) fn vector(
     numbers(group, described, &[samples.len()], samples)
 }
 
-pub(crate) fn matrix(
-    group: &Group,
-    described: &(&str, &str, &str),
-    shape: [usize; 2],
-    samples: &[f64],
-) -> Result<Dataset, hdf5::Error> {
-    numbers(group, described, &shape, samples)
-}
-
 /// A dataset of any shape; `described` is its name, unit and meaning.
 pub(crate) fn numbers<T: H5Type>(
     group: &Group,

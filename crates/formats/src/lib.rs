@@ -12,34 +12,27 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-// in reading order
-mod body;
-mod complete;
 mod error;
 mod hdf;
-mod inputs;
-mod materials;
+mod identity;
 pub mod parts;
 pub mod quantities;
-mod record;
 mod report;
 pub mod results;
 pub mod scene;
-mod section;
 pub mod stored;
 pub mod sweep;
-mod text;
 
-pub use complete::{Allowed, check_results};
 pub use error::{Culprit, SceneError};
-pub use inputs::inputs;
-pub use materials::{parse_materials, read_materials};
 pub use output::{Existing, Output, OutputError, check, write_whole};
 pub use quantities::{Kind, QUANTITIES, Quantity};
-pub use record::read_record;
 pub use report::{Choices, choices, json_report, kernel_name};
-pub use results::{print_results_csv, stage_results, stage_results_csv, write_results};
-pub use scene::{parse_scene, read_scene, resolved};
+pub use results::{
+    Allowed, check_results, print_results_csv, stage_results, stage_results_csv, write_results,
+};
+pub use scene::{
+    inputs, parse_materials, parse_scene, read_materials, read_record, read_scene, resolved,
+};
 
 /// The README's program runs.
 #[cfg(doctest)]

@@ -1,16 +1,20 @@
 //! Rows of a sweep in several files: what a folder has of them, what it lacks, and all of them in one.
 
 use crate::error::SceneError;
+use crate::identity::from_hexadecimal;
 use crate::stored::{FileKind, Part, ReadError, StoredPart, StoredWhole, file_kind};
 use crate::sweep::{
-    Block, Blocks, Fields, Selection, Shard, Source, Spec, from_hexadecimal, gaps, stage_rows,
-    stage_virtual,
+    Block, Blocks, Fields, Selection, Shard, Source, Spec, gaps, stage_rows, stage_virtual,
 };
 use output::{Fault, HDF5, Output, OutputError, ROWS, Staged};
 use std::collections::BTreeMap;
+use std::ffi::OsStr;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
+
+/// What rows are of that do not belong to a sweep.
+const OTHER: &str = "another sweep, or of this one before its files or the program changed";
 
 /// Parts that cannot be joined.
 #[derive(Debug, Error)]
@@ -112,10 +116,10 @@ impl Parts {
         for path in files(folder)? {
             match StoredPart::open(&path) {
                 Ok(open) => all.push(open.part),
-                Err(error) => foreign.push(Foreign {
-                    reason: error.to_string(),
-                    path,
-                }),
+                Err(error) => {
+                    let reason = error.to_string();
+                    foreign.push(Foreign { path, reason });
+                }
             }
         }
         let (sha256, sweep_rows) = match wanted {
@@ -128,12 +132,9 @@ impl Parts {
             .into_iter()
             .partition(|part| part.sha256 == sha256 && part.sweep_rows == sweep_rows);
         parts.sort_by_key(|part| (part.selection.rows.start, part.selection.rows.end));
-        foreign.extend(others.iter().map(|part| Foreign {
-            path: part.path.clone(),
-            reason: format!(
-                "{} is a part of another sweep, or of this one before its files or the program changed",
-                part.path.display()
-            ),
+        foreign.extend(others.into_iter().map(|Part { path, .. }| {
+            let reason = format!("{} is a part of {OTHER}", path.display());
+            Foreign { path, reason }
         }));
         Ok(Self {
             sha256,
@@ -152,10 +153,8 @@ impl Parts {
     /// Into how many shards the sweep was divided, where the parts agree on it.
     #[must_use]
     pub fn shards(&self) -> Option<usize> {
-        let mut counts = self
-            .parts
-            .iter()
-            .map(|part| part.selection.shard.map(|s| s.count));
+        let shards = self.parts.iter().map(|part| part.selection.shard);
+        let mut counts = shards.map(|shard| shard.map(|s| s.count));
         let first = counts.next()??;
         counts.all(|count| count == Some(first)).then_some(first)
     }
@@ -172,25 +171,16 @@ impl Parts {
     /// The first rows that two parts have, if there are any.
     #[must_use]
     pub fn overlap(&self) -> Option<PartsError> {
-        let full = self
-            .parts
-            .iter()
-            .filter(|part| !part.selection.rows.is_empty());
-        let mut last: Option<&Part> = None;
-        for part in full {
-            let rows = &part.selection.rows;
-            if let Some(last) = last
-                && last.selection.rows.end > rows.start
-            {
-                return Some(PartsError::Overlap {
-                    rows: rows.start..rows.end.min(last.selection.rows.end),
-                    first: last.path.clone(),
-                    second: part.path.clone(),
-                });
-            }
-            last = Some(part);
-        }
-        None
+        let full: Vec<&Part> = self.full().collect();
+        full.windows(2).find_map(|pair| {
+            let [first, second] = [pair[0], pair[1]];
+            let (before, rows) = (&first.selection.rows, &second.selection.rows);
+            (before.end > rows.start).then(|| PartsError::Overlap {
+                rows: rows.start..rows.end.min(before.end),
+                first: first.path.clone(),
+                second: second.path.clone(),
+            })
+        })
     }
 
     /// Writes the whole sweep, byte by byte as one run would have, in the format that the name says, into an output that was claimed before.
@@ -209,11 +199,7 @@ impl Parts {
     pub fn merge_virtual<'a>(&self, output: &'a Output) -> Result<Staged<'a>, PartsError> {
         HDF5.check(output.path())?;
         let spec = self.whole(output)?;
-        let full = self
-            .parts
-            .iter()
-            .filter(|part| !part.selection.rows.is_empty());
-        let sources = full.map(|part| {
+        let sources = self.full().map(|part| {
             let unreferred = |reason| PartsError::Unreferred {
                 path: part.path.clone(),
                 reason,
@@ -286,9 +272,16 @@ impl Parts {
         })
     }
 
+    /// Those that have rows.
+    fn full(&self) -> impl Iterator<Item = &Part> {
+        let parts = self.parts.iter();
+        parts.filter(|part| !part.selection.rows.is_empty())
+    }
+
     fn held(&self) -> Vec<Range<usize>> {
-        let rows = self.parts.iter().map(|part| part.selection.rows.clone());
-        rows.filter(|rows| !rows.is_empty()).collect()
+        self.full()
+            .map(|part| part.selection.rows.clone())
+            .collect()
     }
 }
 
@@ -336,12 +329,7 @@ pub fn check_complete(
     selection: Option<&Selection>,
 ) -> Result<(), String> {
     let told = |error: ReadError| error.to_string();
-    let other = || {
-        format!(
-            "{} is of another sweep, or of this one before its files or the program changed",
-            path.display()
-        )
-    };
+    let other = || format!("{} is of {OTHER}", path.display());
     let same_fields = |found: &Fields| {
         if *found == spec.fields {
             return Ok(());
@@ -384,20 +372,16 @@ fn others(more: usize) -> String {
 
 /// Files of a folder whose names end like HDF5 or Parquet, by name; those that begin with a dot belong to runs.
 fn files(folder: &Path) -> Result<Vec<PathBuf>, PartsError> {
-    let failed = |reason| PartsError::Folder {
+    let paths = || -> std::io::Result<Vec<PathBuf>> {
+        let entries = std::fs::read_dir(folder)?;
+        entries.map(|entry| Ok(entry?.path())).collect()
+    };
+    let mut found = paths().map_err(|reason| PartsError::Folder {
         path: folder.to_owned(),
         reason,
-    };
-    let mut found = Vec::new();
-    for entry in std::fs::read_dir(folder).map_err(failed)? {
-        let path = entry.map_err(failed)?.path();
-        let hidden = path
-            .file_name()
-            .is_some_and(|name| name.as_encoded_bytes().starts_with(b"."));
-        if ROWS.is_of(&path) && !hidden {
-            found.push(path);
-        }
-    }
+    })?;
+    let hidden = |name: &OsStr| name.as_encoded_bytes().starts_with(b".");
+    found.retain(|path| ROWS.is_of(path) && !path.file_name().is_some_and(hidden));
     found.sort();
     Ok(found)
 }

@@ -107,97 +107,38 @@ pub const QUANTITIES: [Quantity; 23] = quantities! {
     relative_error_estimate: Real "1" of relative_error_estimate, relative_error_estimate => "estimated relative error of peak force, contact time, restitution and displacement";
 };
 
+macro_rules! labels {
+    ($($name:expr, $unit:literal, $meaning:literal;)*) => { [$(($name, $unit, $meaning)),*] };
+}
+pub(crate) use labels;
+
 /// Fields at every point, in the order of the kernels: name, unit and meaning.
-pub const FIELDS: [(&str, &str, &str); 6] = [
-    (
-        "displacement_r",
-        "m",
-        "radial displacement, positive outwards",
-    ),
-    (
-        "displacement_z",
-        "m",
-        "axial displacement, positive into the half-space",
-    ),
-    ("stress_rr", "Pa", "radial stress, negative in compression"),
-    ("stress_tt", "Pa", "hoop stress, negative in compression"),
-    ("stress_zz", "Pa", "axial stress, negative in compression"),
-    ("stress_rz", "Pa", "shear stress"),
-];
+pub const FIELDS: [(&str, &str, &str); 6] = labels! {
+    "displacement_r", "m", "radial displacement, positive outwards";
+    "displacement_z", "m", "axial displacement, positive into the half-space";
+    "stress_rr", "Pa", "radial stress, negative in compression";
+    "stress_tt", "Pa", "hoop stress, negative in compression";
+    "stress_zz", "Pa", "axial stress, negative in compression";
+    "stress_rz", "Pa", "shear stress";
+};
 
 /// Quantities that a scene may ask for beside them, with unit and meaning; a quantity has its name.
-pub const FIELD_QUANTITIES: [(FieldQuantity, &str, &str); 14] = [
-    (
-        FieldQuantity::VelocityR,
-        "m/s",
-        "radial velocity of the particles, positive outwards",
-    ),
-    (
-        FieldQuantity::VelocityZ,
-        "m/s",
-        "axial velocity of the particles, positive into the half-space",
-    ),
-    (
-        FieldQuantity::AccelerationR,
-        "m/s^2",
-        "radial acceleration of the particles, mean over one step of the output",
-    ),
-    (
-        FieldQuantity::AccelerationZ,
-        "m/s^2",
-        "axial acceleration of the particles, mean over one step of the output",
-    ),
-    (
-        FieldQuantity::StrainRr,
-        "1",
-        "radial strain, negative in compression",
-    ),
-    (
-        FieldQuantity::StrainTt,
-        "1",
-        "hoop strain, negative in compression",
-    ),
-    (
-        FieldQuantity::StrainZz,
-        "1",
-        "axial strain, negative in compression",
-    ),
-    (
-        FieldQuantity::StrainRz,
-        "1",
-        "shear strain of the tensor, half of the change of angle",
-    ),
-    (
-        FieldQuantity::VonMises,
-        "Pa",
-        "von Mises' equivalent stress, sqrt(((s1 - s2)^2 + (s2 - s3)^2 + (s3 - s1)^2)/2)",
-    ),
-    (
-        FieldQuantity::Tresca,
-        "Pa",
-        "Tresca's equivalent stress, s1 - s3",
-    ),
-    (
-        FieldQuantity::MaxShear,
-        "Pa",
-        "largest shear stress, (s1 - s3)/2",
-    ),
-    (
-        FieldQuantity::Principal1,
-        "Pa",
-        "largest principal stress, negative in compression",
-    ),
-    (
-        FieldQuantity::Principal2,
-        "Pa",
-        "middle principal stress, negative in compression",
-    ),
-    (
-        FieldQuantity::Principal3,
-        "Pa",
-        "smallest principal stress, negative in compression",
-    ),
-];
+pub const FIELD_QUANTITIES: [(FieldQuantity, &str, &str); 14] = labels! {
+    FieldQuantity::VelocityR, "m/s", "radial velocity of the particles, positive outwards";
+    FieldQuantity::VelocityZ, "m/s", "axial velocity of the particles, positive into the half-space";
+    FieldQuantity::AccelerationR, "m/s^2", "radial acceleration of the particles, mean over one step of the output";
+    FieldQuantity::AccelerationZ, "m/s^2", "axial acceleration of the particles, mean over one step of the output";
+    FieldQuantity::StrainRr, "1", "radial strain, negative in compression";
+    FieldQuantity::StrainTt, "1", "hoop strain, negative in compression";
+    FieldQuantity::StrainZz, "1", "axial strain, negative in compression";
+    FieldQuantity::StrainRz, "1", "shear strain of the tensor, half of the change of angle";
+    FieldQuantity::VonMises, "Pa", "von Mises' equivalent stress, sqrt(((s1 - s2)^2 + (s2 - s3)^2 + (s3 - s1)^2)/2)";
+    FieldQuantity::Tresca, "Pa", "Tresca's equivalent stress, s1 - s3";
+    FieldQuantity::MaxShear, "Pa", "largest shear stress, (s1 - s3)/2";
+    FieldQuantity::Principal1, "Pa", "largest principal stress, negative in compression";
+    FieldQuantity::Principal2, "Pa", "middle principal stress, negative in compression";
+    FieldQuantity::Principal3, "Pa", "smallest principal stress, negative in compression";
+};
 
 /// Name, unit and meaning of a quantity that a scene may ask for.
 #[must_use]
@@ -205,4 +146,28 @@ pub fn described(quantity: FieldQuantity) -> (&'static str, &'static str, &'stat
     let row = FIELD_QUANTITIES.iter().find(|row| row.0 == quantity);
     let (unit, meaning) = row.map_or(("", ""), |row| (row.1, row.2));
     (quantity.name(), unit, meaning)
+}
+
+/// A column of a file: its name, its unit and what it is.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Described {
+    pub(crate) name: String,
+    pub(crate) unit: &'static str,
+    pub(crate) meaning: String,
+}
+
+impl From<(&str, &'static str, &str)> for Described {
+    fn from((name, unit, meaning): (&str, &'static str, &str)) -> Self {
+        Self {
+            name: name.to_owned(),
+            unit,
+            meaning: meaning.to_owned(),
+        }
+    }
+}
+
+impl Described {
+    pub(crate) fn labels(&self) -> (&str, &str, &str) {
+        (&self.name, self.unit, &self.meaning)
+    }
 }

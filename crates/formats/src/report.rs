@@ -27,25 +27,28 @@ const CLOSED_FORM: &str = "closed form";
 /// What a scene was computed with.
 #[must_use]
 pub fn choices<'a>(scene: &Scene, outcome: &'a Outcome) -> Choices<'a> {
-    let (model, scheme, reason) = match &outcome.cause {
+    let settings = &scene.settings;
+    let deflection = settings.deflection.name();
+    match &outcome.cause {
         Cause::Contact {
             model,
             scheme,
             reason,
             ..
-        } => (model.name(), scheme.map(Choice::name), reason.as_str()),
-        Cause::Record(_) => ("prescribed", None, "the force is given"),
-    };
-    let static_share = match &outcome.cause {
-        Cause::Contact { .. } => scene.settings.static_share.name(),
-        Cause::Record(_) => "full",
-    };
-    Choices {
-        model,
-        scheme: scheme.unwrap_or(CLOSED_FORM),
-        static_share,
-        deflection: scene.settings.deflection.name(),
-        reason,
+        } => Choices {
+            model: model.name(),
+            scheme: scheme.map_or(CLOSED_FORM, Choice::name),
+            static_share: settings.static_share.name(),
+            deflection,
+            reason,
+        },
+        Cause::Record(_) => Choices {
+            model: "prescribed",
+            scheme: CLOSED_FORM,
+            static_share: "full",
+            deflection,
+            reason: "the force is given",
+        },
     }
 }
 
@@ -75,18 +78,6 @@ pub fn kernel_name(outcome: &Outcome) -> &'static str {
     used.map_or("none", |used| used.kernels.name())
 }
 
-/// The same as JSON; null where nothing was done.
-fn treated(scene: &Scene) -> Value {
-    let numbers = treatment(scene);
-    if numbers.is_empty() {
-        return Value::Null;
-    }
-    let pairs = numbers
-        .into_iter()
-        .map(|(name, value)| (name.to_owned(), Value::from(value)));
-    Value::Object(pairs.collect())
-}
-
 /// All that is reported of a scene, with the time that it took in s.
 #[must_use]
 pub fn json_report(scene: &Scene, outcome: &Outcome, wall_s: f64) -> Value {
@@ -111,12 +102,16 @@ pub fn json_report(scene: &Scene, outcome: &Outcome, wall_s: f64) -> Value {
         "steps": time_s.len().saturating_sub(1),
         "step_s": time_s.get(1).copied().unwrap_or(0.0),
     });
+    let treated = treatment(scene).into_iter();
+    let treated: Map<_, _> = treated
+        .map(|(name, x)| (name.to_owned(), x.into()))
+        .collect();
     let tail = json!({
         "probes": outcome.probes.as_ref().map_or(0, |fields| fields.r_m.len()),
         "map": section.map(|s| [s.time_s.len(), s.z_m.len(), s.r_m.len()]),
         "wall_s": wall_s,
         "warnings": outcome.warnings,
-        "force_treatment": treated(scene),
+        "force_treatment": (!treated.is_empty()).then_some(treated),
     });
     let quantities = QUANTITIES.iter().map(|quantity| {
         let value = quantity

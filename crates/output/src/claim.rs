@@ -1,12 +1,10 @@
 //! From a name to the finished file under it.
 
-use crate::error::OutputError;
-use crate::fault::Fault;
-use crate::lock::Lock;
+use crate::error::{Fault, OutputError};
 use crate::place::{behind, folder};
-use crate::temporary::{Temporary, sweep};
+use crate::temporary::{Lock, Temporary, sweep};
 use std::fs::File;
-use std::io::{self, ErrorKind, Read};
+use std::io::{self, BufRead, BufReader, ErrorKind};
 use std::path::{Path, PathBuf};
 
 /// What to do with an existing file.
@@ -41,9 +39,8 @@ impl Output {
         let lock = match Lock::take(&real) {
             Ok(Some(lock)) => lock,
             Ok(None) => {
-                return Err(OutputError::Busy {
-                    path: path.to_owned(),
-                });
+                let path = path.to_owned();
+                return Err(OutputError::Busy { path });
             }
             Err(error) => {
                 exists()?;
@@ -155,17 +152,13 @@ impl Staged<'_> {
             ..
         } = self.output;
         let failed = |error: io::Error| OutputError::writing(path, error);
-        let kept = OutputError::Exists { path: path.clone() };
-        match existing {
-            Existing::Keep if real.exists() => return Err(kept),
-            Existing::KeepUnlessSame if real.exists() => {
-                return match same(&self.part.path, real) {
-                    Ok(true) => Ok(()),
-                    Ok(false) => Err(kept),
-                    Err(error) => Err(failed(error)),
-                };
-            }
-            Existing::Keep | Existing::KeepUnlessSame | Existing::Replace => {}
+        refuse(path, real, *existing)?;
+        if *existing == Existing::KeepUnlessSame && real.exists() {
+            return match same(&self.part.path, real) {
+                Ok(true) => Ok(()),
+                Ok(false) => Err(OutputError::Exists { path: path.clone() }),
+                Err(error) => Err(failed(error)),
+            };
         }
         std::fs::rename(&self.part.path, real).map_err(failed)?;
         self.part.forget();
@@ -199,21 +192,19 @@ fn flush(folder: &Path) -> io::Result<()> {
 
 /// Whether two files hold the same bytes.
 fn same(one: &Path, other: &Path) -> io::Result<bool> {
-    let (one, other) = (File::open(one)?, File::open(other)?);
-    if one.metadata()?.len() != other.metadata()?.len() {
-        return Ok(false);
-    }
-    let (mut one, mut other) = (io::BufReader::new(one), io::BufReader::new(other));
-    let (mut left, mut right) = (vec![0; 1 << 16], vec![0; 1 << 16]);
+    let open = |path| Ok::<_, io::Error>(BufReader::with_capacity(1 << 16, File::open(path)?));
+    let (mut one, mut other) = (open(one)?, open(other)?);
     loop {
-        let count = one.read(&mut left)?;
+        let (left, right) = (one.fill_buf()?, other.fill_buf()?);
+        let count = left.len().min(right.len());
         if count == 0 {
-            return Ok(true);
+            return Ok(left.len() == right.len());
         }
-        other.read_exact(&mut right[..count])?;
         if left[..count] != right[..count] {
             return Ok(false);
         }
+        one.consume(count);
+        other.consume(count);
     }
 }
 

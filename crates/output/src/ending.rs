@@ -64,11 +64,8 @@ impl Ending {
             return Ok(());
         };
         let found = found.to_string_lossy();
-        if self
-            .allowed
-            .iter()
-            .any(|ending| found.eq_ignore_ascii_case(ending))
-        {
+        let is = |ending: &&str| found.eq_ignore_ascii_case(ending);
+        if self.allowed.iter().any(is) {
             return Ok(());
         }
         Err(OutputError::Ending {

@@ -1,11 +1,10 @@
-//! What can keep a file from being written.
+//! What can keep a file from being written, and why its content could not be.
 
-use crate::fault::Fault;
+use std::io::{Error, ErrorKind};
 use std::path::{Path, PathBuf};
-use thiserror::Error;
 
 /// A file that could not be written, or is not to be.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum OutputError {
     /// The file exists and may not be replaced.
     #[error("{} exists already and is not replaced", path.display())]
@@ -87,16 +86,7 @@ impl OutputError {
     /// Whether the same may succeed when it is tried again later.
     #[must_use]
     pub fn may_be_tried_again(&self) -> bool {
-        match self {
-            Self::Full { .. } | Self::Busy { .. } => true,
-            Self::Exists { .. }
-            | Self::Unwritable { .. }
-            | Self::Failed { .. }
-            | Self::Ending { .. }
-            | Self::Unbuilt { .. }
-            | Self::Input { .. }
-            | Self::Twice { .. } => false,
-        }
+        matches!(self, Self::Full { .. } | Self::Busy { .. })
     }
 
     /// A place that cannot be written to.
@@ -131,5 +121,83 @@ fn behind(output: &Path, input: &Path) -> String {
         String::new()
     } else {
         format!(" as {}", input.display())
+    }
+}
+
+/// A reason, and whether it may be gone when the same is tried again: there is no space left.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Fault {
+    /// The system's or a library's reason.
+    pub reason: String,
+    /// Whether there is no space left, on the disk, in a quota, or below a limit of the process.
+    pub full: bool,
+}
+
+/// The kinds of errors that mean that there is no space left, what the C library calls them, in whose words other libraries
+/// pass them on, and how they are told.
+const FULL: [(ErrorKind, &str, &str); 3] = [
+    (
+        ErrorKind::StorageFull,
+        "No space left on device",
+        "no space left on the disk",
+    ),
+    (
+        ErrorKind::QuotaExceeded,
+        "Disk quota exceeded",
+        "no space left in the quota",
+    ),
+    (
+        ErrorKind::FileTooLarge,
+        "File too large",
+        "no space left below the largest size of a file that is set for this process (ulimit -f)",
+    ),
+];
+
+impl Fault {
+    fn of(reason: String, is: impl Fn(ErrorKind, &str) -> bool) -> Self {
+        match FULL.iter().find(|(kind, text, _)| is(*kind, text)) {
+            Some((.., words)) => Self {
+                reason: (*words).to_owned(),
+                full: true,
+            },
+            None => Self {
+                reason,
+                full: false,
+            },
+        }
+    }
+}
+
+impl From<Error> for Fault {
+    fn from(error: Error) -> Self {
+        Self::of(error.to_string(), |kind, _| kind == error.kind())
+    }
+}
+
+impl From<String> for Fault {
+    fn from(reason: String) -> Self {
+        Self::of(reason.clone(), |_, text| reason.contains(text))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_full_disk_is_known_from_the_system_and_from_texts() {
+        for (number, words) in [(28, "on the disk"), (122, "quota"), (27, "ulimit")] {
+            let system = Error::from_raw_os_error(number);
+            let passed_on = Fault::from(format!("a library failed: {system}"));
+            assert_eq!(Fault::from(system), passed_on);
+            assert!(passed_on.full, "{passed_on:?}");
+            assert!(
+                passed_on.reason.starts_with("no space left"),
+                "{passed_on:?}"
+            );
+            assert!(passed_on.reason.contains(words), "{passed_on:?}");
+        }
+        assert!(!Fault::from(Error::from(ErrorKind::PermissionDenied)).full);
+        assert!(!Fault::from("no such thing".to_owned()).full);
     }
 }

@@ -1,8 +1,7 @@
 //! A folder of files that belong together: all of them or none.
 
 use crate::claim::{Existing, Output, Staged};
-use crate::error::OutputError;
-use crate::fault::Fault;
+use crate::error::{Fault, OutputError};
 use std::path::{Path, PathBuf};
 
 /// A folder that one run at a time writes into.
@@ -33,16 +32,12 @@ impl Folder {
             .filter(|path| !hidden(path))
             .collect();
         names.sort();
-        match (existing, names.into_iter().next()) {
-            (Existing::Keep | Existing::KeepUnlessSame, Some(path)) => {
-                Err(OutputError::Exists { path })
-            }
-            (Existing::Keep | Existing::KeepUnlessSame, None) | (Existing::Replace, _) => {
-                Ok(Self {
-                    path: path.to_owned(),
-                    _claim: claim,
-                })
-            }
+        match names.into_iter().next() {
+            Some(path) if existing != Existing::Replace => Err(OutputError::Exists { path }),
+            Some(_) | None => Ok(Self {
+                path: path.to_owned(),
+                _claim: claim,
+            }),
         }
     }
 

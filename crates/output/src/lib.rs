@@ -19,21 +19,16 @@
 //! # Ok::<(), output::OutputError>(())
 //! ```
 
-mod apart;
 mod claim;
 mod ending;
 mod error;
-mod fault;
 mod folder;
-mod lock;
 mod place;
 mod temporary;
 
-pub use apart::{Role, apart};
 pub use claim::{Existing, Output, Staged, check, write_whole};
 pub use ending::{CSV, Ending, HDF5, PARQUET, ROWS, SHARD, TABLE};
-pub use error::OutputError;
-pub use fault::Fault;
+pub use error::{Fault, OutputError};
 pub use folder::{Folder, NewFile};
-pub use place::{behind, is_standard};
+pub use place::{Role, apart, behind, is_standard};
 pub use temporary::abandon;

@@ -1,7 +1,6 @@
 //! An impact as text: one table of everything over time.
 
 use super::schema;
-use crate::quantities::described;
 use impact::{Outcome, Scene};
 use output::{Output, OutputError, Staged};
 use std::fmt::Write as _;
@@ -64,32 +63,15 @@ pub fn print_results_csv(
 }
 
 fn columns(outcome: &Outcome) -> Vec<Column<'_>> {
-    let series = &outcome.series;
-    let striker = series.striker.as_ref();
-    let samples = [
-        Some(&series.time_s),
-        Some(&series.force_n),
-        striker.map(|striker| &striker.displacement_m),
-        striker.map(|striker| &striker.velocity_m_s),
-        Some(&series.deflection_m),
-    ];
-    let mut found = Vec::new();
-    for ((name, unit, _), samples) in schema::SERIES.iter().zip(samples) {
-        if let Some(samples) = samples {
-            found.push((format!("{name}{}", ending(unit)), samples.as_slice()));
-        }
-    }
-    let probes = outcome.probes.iter();
-    let rows = probes.flat_map(|fields| {
-        let own = schema::FIELDS.into_iter().zip(&fields.values);
-        let more = fields.more.iter();
-        own.chain(more.map(|own| (described(own.quantity), &own.values)))
-    });
-    for ((name, unit, _), values) in rows {
-        for (i, samples) in values.iter().enumerate() {
-            let name = format!("probe{}_{name}{}", i + 1, ending(unit));
-            found.push((name, samples.as_slice()));
-        }
+    let series = schema::samples(&outcome.series);
+    let mut found: Vec<Column<'_>> = series
+        .map(|((name, unit, _), samples)| (format!("{name}{}", ending(unit)), samples))
+        .collect();
+    for ((name, unit, _), values, _) in outcome.probes.iter().flat_map(schema::histories) {
+        found.extend((1..).zip(values).map(|(probe, samples)| {
+            let name = format!("probe{probe}_{name}{}", ending(unit));
+            (name, samples.as_slice())
+        }));
     }
     found
 }

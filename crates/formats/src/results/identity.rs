@@ -1,42 +1,78 @@
-//! What makes the results of two scenes the same, whatever their kernels.
+//! What makes the results of two scenes the same, and whether a results file is the whole result of a scene.
 
 use super::schema;
+use crate::identity::{Identity, hexadecimal};
 use crate::scene::resolved;
+use crate::stored::{ReadError, StoredImpact};
 use contact::numbers::NUMBERS_REVISION;
 use impact::numbers::FIELDS_REVISION;
 use impact::{Load, Scene};
-use sha2::{Digest, Sha256};
+use std::path::Path;
 
 /// SHA-256, in hexadecimal, of the resolved scene with the samples of its force record, of the program's version, of the
 /// revisions of its numbers and of the format.
 #[must_use]
 pub fn scene_sha256(scene: &Scene) -> String {
-    let mut hash = Sha256::new();
-    let mut add = |part: &[u8]| {
-        hash.update((part.len() as u64).to_le_bytes());
-        hash.update(part);
-    };
     // wherever its record lies
     let mut placeless = scene.clone();
     if let Load::Record(record) = &mut placeless.load {
         record.file = None;
     }
     let revisions = format!("{NUMBERS_REVISION} {FIELDS_REVISION}");
-    for part in [
-        env!("CARGO_PKG_VERSION"),
-        &revisions,
-        schema::FORMAT_VERSION,
-        &resolved(&placeless),
-    ] {
-        add(part.as_bytes());
+    let (version, scene_text) = (env!("CARGO_PKG_VERSION"), resolved(&placeless));
+    let mut hash = Identity::default();
+    for part in [version, &revisions, schema::FORMAT_VERSION, &scene_text] {
+        hash.add(part.as_bytes());
     }
     if let Load::Record(record) = &scene.load {
-        for number in record.time_s().iter().chain(record.force_n()) {
-            add(&number.to_le_bytes());
-        }
+        let samples = record.time_s().iter().chain(record.force_n());
+        samples.for_each(|number| hash.add(&number.to_le_bytes()));
     }
-    hash.finalize()
-        .iter()
-        .map(|byte| format!("{byte:02x}"))
-        .collect()
+    hexadecimal(&hash.finish())
+}
+
+/// Which kernels the fields of a scene may have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Allowed<'a> {
+    /// Computed ones.
+    Direct,
+    /// Those of the table with this id.
+    Table(&'a str),
+    /// Either.
+    Either(&'a str),
+}
+
+/// Why the file at `path` is not the whole result of a scene.
+///
+/// # Errors
+/// One sentence.
+pub fn check_results(path: &Path, scene: &Scene, allowed: Allowed<'_>) -> Result<(), String> {
+    let told = |error: ReadError| error.to_string();
+    let found = StoredImpact::open(path).map_err(told)?;
+    if found.scene_sha256() != Some(scene_sha256(scene)) {
+        return Err(format!(
+            "{} is of another scene, or of this one before its files or the program changed",
+            path.display()
+        ));
+    }
+    found.check_whole().map_err(told)?;
+    let (kernel, table) = found.kernels().map_err(told)?;
+    let same = match (kernel.as_str(), allowed) {
+        // no fields, no kernels
+        ("none", _) | ("direct", Allowed::Direct | Allowed::Either(_)) => true,
+        ("table", Allowed::Table(id) | Allowed::Either(id)) => id == table,
+        (_, _) => false,
+    };
+    if same {
+        return Ok(());
+    }
+    let of_table = if table.is_empty() {
+        String::new()
+    } else {
+        format!(" of the table {table}")
+    };
+    Err(format!(
+        "{} has fields with other kernels than are asked for: {kernel}{of_table}",
+        path.display()
+    ))
 }

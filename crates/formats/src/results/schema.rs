@@ -1,31 +1,21 @@
 //! Names and versions on disk.
 
 pub use crate::quantities::FIELDS;
+use crate::quantities::{described, labels};
+use impact::{ProbeFields, Series};
 
 /// Value of the attribute `file_type`.
 pub const FILE_TYPE: &str = "hertzlamb results";
 /// Version of the format: the first number changes when a reader of the old one would fail.
 pub const FORMAT_VERSION: &str = "1.7";
 /// Datasets in the root, with unit and description.
-pub const SERIES: [(&str, &str, &str); 5] = [
-    ("time", "s", "time since the first touch"),
-    (FORCE, "N", "contact force, positive in compression"),
-    (
-        "displacement",
-        "m",
-        "displacement of the striker, positive into the half-space",
-    ),
-    (
-        "velocity",
-        "m/s",
-        "velocity of the striker, positive into the half-space",
-    ),
-    (
-        "deflection",
-        "m",
-        "deflection of the half-space in the contact law, positive inwards",
-    ),
-];
+pub const SERIES: [(&str, &str, &str); 5] = labels! {
+    "time", "s", "time since the first touch";
+    FORCE, "N", "contact force, positive in compression";
+    "displacement", "m", "displacement of the striker, positive into the half-space";
+    "velocity", "m/s", "velocity of the striker, positive into the half-space";
+    "deflection", "m", "deflection of the half-space in the contact law, positive inwards";
+};
 /// The force in [`SERIES`].
 pub const FORCE: &str = "force";
 /// Numbers at `/force` of a record that was treated.
@@ -39,20 +29,12 @@ pub const TREATMENT: [&str; 5] = [
 /// Group of the energy over time.
 pub const ENERGY: &str = "energy";
 /// Datasets in it; the first where there is a striker, the second where there is none.
-pub const ENERGIES: [(&str, &str, &str); 4] = [
-    (
-        "kinetic",
-        "J",
-        "kinetic energy of the striker, by its momentum",
-    ),
-    ("work", "J", "work of the force on the half-space"),
-    ("stored", "J", "elastic energy that is given back"),
-    (
-        "radiated",
-        "J",
-        "work on the part of the deflection that lags behind the force",
-    ),
-];
+pub const ENERGIES: [(&str, &str, &str); 4] = labels! {
+    "kinetic", "J", "kinetic energy of the striker, by its momentum";
+    "work", "J", "work of the force on the half-space";
+    "stored", "J", "elastic energy that is given back";
+    "radiated", "J", "work on the part of the deflection that lags behind the force";
+};
 /// Group of the probes.
 pub const PROBES: &str = "probes";
 /// Number of each probe, the scale of their dimension.
@@ -64,10 +46,10 @@ pub const WAVES: [&str; 3] = ["P", "S", "R"];
 /// Attribute that names the coordinates of a dataset beside its scales, as the CF conventions have it.
 pub const COORDINATES: &str = "coordinates";
 /// Coordinates of the probes.
-pub const PLACES: [(&str, &str, &str); 2] = [
-    ("r", "m", "distance from the axis"),
-    ("z", "m", "depth below the surface"),
-];
+pub const PLACES: [(&str, &str, &str); 2] = labels! {
+    "r", "m", "distance from the axis";
+    "z", "m", "depth below the surface";
+};
 /// Appended to the name of a field: the estimate of its error.
 pub const ERROR_SUFFIX: &str = "_error";
 /// Appended to the name of a quantity: its largest value over time, and when it is reached.
@@ -108,14 +90,44 @@ pub const SCENE_SHA256: &str = "scene_sha256";
 /// Group of the section.
 pub const MAP: &str = "map";
 /// Scales of the section in the order of its dimensions.
-pub const MAP_SCALES: [(&str, &str, &str); 3] = [
-    ("time", "s", "time of each frame since the first touch"),
-    ("z", "m", "depth below the surface, descending"),
-    ("r", "m", "distance from the axis"),
-];
+pub const MAP_SCALES: [(&str, &str, &str); 3] = labels! {
+    "time", "s", "time of each frame since the first touch";
+    "z", "m", "depth below the surface, descending";
+    "r", "m", "distance from the axis";
+};
 /// Group that ParaView and pyvista read.
 pub const VTK: &str = "VTKHDF";
 /// Group of the fields in it.
 pub const VTK_POINTS: &str = "PointData";
 /// Where in a field of it each step begins.
 pub const VTK_OFFSETS: &str = "PointDataOffsets";
+
+/// Name, unit and meaning.
+type Labels = (&'static str, &'static str, &'static str);
+
+/// The samples of [`SERIES`], without those of a striker where there is none.
+pub(super) fn samples(series: &Series) -> impl Iterator<Item = (&'static Labels, &[f64])> {
+    let striker = series.striker.as_ref();
+    let samples = [
+        Some(&series.time_s),
+        Some(&series.force_n),
+        striker.map(|striker| &striker.displacement_m),
+        striker.map(|striker| &striker.velocity_m_s),
+        Some(&series.deflection_m),
+    ];
+    let rows = SERIES.iter().zip(samples);
+    rows.filter_map(|(row, samples)| Some((row, samples?.as_slice())))
+}
+
+/// What probes have, over time at each, with its error at each.
+pub(super) fn histories(
+    fields: &ProbeFields,
+) -> impl Iterator<Item = (Labels, &Vec<Vec<f64>>, &Vec<f64>)> {
+    let own = FIELDS
+        .into_iter()
+        .zip(fields.values.iter().zip(&fields.errors));
+    let more = fields.more.iter();
+    let more = more.map(|own| (described(own.quantity), (&own.values, &own.errors)));
+    own.chain(more)
+        .map(|(row, (values, errors))| (row, values, errors))
+}

@@ -4,7 +4,7 @@
 
 use super::schema;
 use crate::hdf::{attach_all, describe, numbers, scale, set_scale, text, texts};
-use crate::quantities::described;
+use crate::quantities::{Described, described};
 use hdf5::types::FixedAscii;
 use hdf5::{Dataset, File, Group};
 use impact::{Peaks, SectionFields};
@@ -31,51 +31,50 @@ pub(super) fn write_section(file: &File, map: &SectionFields) -> Result<(), hdf5
     let more = map.more.iter();
     let more = more.map(|own| (described(own.quantity), (&own.values, &own.errors)));
     for (i, (row, (values, errors))) in own.chain(more).enumerate() {
-        let (name, unit, meaning) = row;
         let dataset = points
             .new_dataset::<f32>()
             .shape(shape)
             .chunk([1, nz, nr])
             .obj_track_times(false)
-            .create(name)?;
+            .create(row.0)?;
         dataset.write_raw(values)?;
         describe(&dataset, &row)?;
         attach_all(&dataset, &[&time, &z, &r], 0)?;
-        link(
-            file,
-            &[schema::VTK, schema::VTK_POINTS, name],
-            &[schema::MAP, name],
-        )?;
-        let error = format!("{name}{}", schema::ERROR_SUFFIX);
-        let of_error = format!("estimated absolute error: {meaning}");
-        let row = (error.as_str(), unit, of_error.as_str());
-        let errors = numbers(&group, &row, &[nz, nr], errors)?;
-        attach_all(&errors, &[&z, &r], 0)?;
+        let path = [schema::VTK, schema::VTK_POINTS, row.0];
+        link(file, &path, &[schema::MAP, row.0])?;
         let peaks = map.peaks.as_ref().map(|peaks| &peaks[i]);
-        for (row, found) in peaks
-            .into_iter()
-            .flat_map(|p| peak_rows([name, unit, meaning], p))
-        {
-            let row = (row[0].as_str(), row[1].as_str(), row[2].as_str());
-            let dataset = numbers(&group, &row, &[nz, nr], found)?;
+        for (row, found) in beside(row, errors, peaks) {
+            let dataset = numbers(&group, &row.labels(), &[nz, nr], found)?;
             attach_all(&dataset, &[&z, &r], 0)?;
         }
     }
     Ok(())
 }
 
-/// Names, units and meanings of a quantity's largest value over time and of its instant, with their numbers.
-pub(super) fn peak_rows<'p>(
-    [name, unit, meaning]: [&str; 3],
-    peaks: &'p Peaks,
-) -> [([String; 3], &'p [f64]); 2] {
-    let [value, time] = schema::PEAK_SUFFIXES.map(|suffix| format!("{name}{suffix}"));
-    let largest = format!("largest in magnitude over time: {meaning}");
-    let instant = format!("when it is largest in magnitude: {meaning}");
-    [
-        ([value, unit.to_owned(), largest], &peaks.values),
-        ([time, "s".to_owned(), instant], &peaks.time_s),
-    ]
+/// What stands beside a quantity, one number a place: the estimate of its error and, where they are known, its largest
+/// value over time and when it is reached.
+pub(super) fn beside<'v>(
+    (name, unit, meaning): (&str, &'static str, &str),
+    errors: &'v [f64],
+    peaks: Option<&'v Peaks>,
+) -> Vec<(Described, &'v [f64])> {
+    let of = |suffix: &str, unit, what: &str| Described {
+        name: format!("{name}{suffix}"),
+        unit,
+        meaning: format!("{what}: {meaning}"),
+    };
+    let error = of(schema::ERROR_SUFFIX, unit, "estimated absolute error");
+    let mut found = vec![(error, errors)];
+    if let Some(peaks) = peaks {
+        let [value, time] = schema::PEAK_SUFFIXES;
+        let largest = of(value, unit, "largest in magnitude over time");
+        found.push((largest, &peaks.values));
+        found.push((
+            of(time, "s", "when it is largest in magnitude"),
+            &peaks.time_s,
+        ));
+    }
+    found
 }
 
 /// The scale of arrivals.

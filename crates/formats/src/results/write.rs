@@ -2,11 +2,11 @@
 
 use super::identity::scene_sha256;
 use super::schema;
-use super::section::{peak_rows, waves, write_section};
+use super::section::{beside, waves, write_section};
 use crate::hdf::{
-    attach_all, attach_scale, matrix, new_file, reason, scale, set_scale, text, vector,
+    attach_all, attach_scale, new_file, numbers, reason, scale, set_scale, text, vector,
 };
-use crate::quantities::{QUANTITIES, described};
+use crate::quantities::QUANTITIES;
 use crate::report::{choices, kernel_name, treatment};
 use crate::scene::resolved;
 use hdf5::{Dataset, File};
@@ -44,19 +44,8 @@ fn write_file(path: &Path, scene: &Scene, outcome: &Outcome) -> Result<(), hdf5:
     let file = new_file().create(path)?;
     write_attributes(&file, scene, outcome)?;
     let series = &outcome.series;
-    let striker = series.striker.as_ref();
-    let columns = [
-        Some(&series.time_s),
-        Some(&series.force_n),
-        striker.map(|striker| &striker.displacement_m),
-        striker.map(|striker| &striker.velocity_m_s),
-        Some(&series.deflection_m),
-    ];
     let mut time: Option<Dataset> = None;
-    for (described, samples) in schema::SERIES.iter().zip(columns) {
-        let Some(samples) = samples else {
-            continue;
-        };
+    for (described, samples) in schema::samples(series) {
         let dataset = vector(&file, described, samples)?;
         if described.0 == schema::FORCE {
             write_treatment(&dataset, scene)?;
@@ -131,33 +120,23 @@ fn write_probes(
         text(dataset, schema::COORDINATES, &format!("{} {}", r.0, z.0))
     };
     let arrivals: Vec<f64> = fields.arrival_s.iter().flatten().copied().collect();
-    let dataset = matrix(&group, &schema::ARRIVALS, [rows, 3], &arrivals)?;
+    let dataset = numbers(&group, &schema::ARRIVALS, &[rows, 3], &arrivals)?;
     placed(&dataset, &[&probe, &wave])?;
     let valid = vector(&group, &schema::VALID_UNTIL, &fields.valid_until_s)?;
     placed(&valid, &[&probe])?;
-    let own = schema::FIELDS
-        .into_iter()
-        .zip(fields.values.iter().zip(&fields.errors));
-    let more = fields.more.iter();
-    let more = more.map(|own| (described(own.quantity), (&own.values, &own.errors)));
-    for ((name, unit, meaning), (values, errors)) in own.chain(more) {
+    for (row, values, errors) in schema::histories(fields) {
         let columns = values.first().map_or(0, Vec::len);
         let samples: Vec<f64> = values.iter().flatten().copied().collect();
-        let dataset = matrix(&group, &(name, unit, meaning), [rows, columns], &samples)?;
+        let dataset = numbers(&group, &row, &[rows, columns], &samples)?;
         placed(&dataset, &[&probe, &time])?;
-        let error = format!("{name}{}", schema::ERROR_SUFFIX);
-        let of_error = format!("estimated absolute error: {meaning}");
-        let row = (error.as_str(), unit, of_error.as_str());
-        placed(&vector(&group, &row, errors)?, &[&probe])?;
+        let mut found = Peaks::default();
         if peaks {
-            let mut found = Peaks::default();
-            for samples in values {
-                found.push(time_s, samples);
-            }
-            for (row, numbers) in peak_rows([name, unit, meaning], &found) {
-                let row = (row[0].as_str(), row[1].as_str(), row[2].as_str());
-                placed(&vector(&group, &row, numbers)?, &[&probe])?;
-            }
+            values
+                .iter()
+                .for_each(|samples| found.push(time_s, samples));
+        }
+        for (row, numbers) in beside(row, errors, peaks.then_some(&found)) {
+            placed(&vector(&group, &row.labels(), numbers)?, &[&probe])?;
         }
     }
     Ok(())

@@ -1,13 +1,21 @@
-//! Scene files: what hits what, and what is asked, in TOML and SI units.
+//! Scene files: what hits what, and what is asked, in TOML and SI units, as `data-schema/scene.md` writes it down.
 //!
-//! The format is written down in `data-schema/scene.md`.
+//! `keys` lists what a scene can have, `section` reads typed values, `read` makes a scene of them with `body` and
+//! `striker`, and `write` spells one out; `text` and `record` are the files beside it.
 
+pub(crate) mod body;
+pub(crate) mod keys;
 mod read;
+mod record;
+pub(crate) mod section;
 mod striker;
+pub(crate) mod text;
 mod write;
 
-pub(crate) use read::bodies_of;
-pub(crate) use read::scene_with;
-pub use read::{parse_scene, read_scene, scene_of, sections_of};
+pub use body::{parse_materials, read_materials};
+pub use keys::sections_of;
+pub(crate) use read::{bodies_of, scene_with};
+pub use read::{inputs, parse_scene, read_scene, scene_of};
+pub use record::read_record;
 pub(crate) use striker::Form;
 pub use write::resolved;

@@ -1,59 +1,38 @@
 //! Reading scenes.
 
-use crate::body::{body, with_elastic};
+use super::body::{body, read_materials};
+use super::keys::SECTIONS;
+use super::record::read_record;
+use super::section::{Section, parse};
+use super::striker::read_strike;
+use super::text::read_text;
 use crate::error::SceneError;
-use crate::materials::read_materials;
-use crate::record::read_record;
-use crate::scene::striker::{KEYS as STRIKER_KEYS, read_strike};
-use crate::section::{NOT_NEGATIVE, POSITIVE, Section, TOLERANCE, parse};
-use crate::text::read_text;
 use contact::{Choice, Conflict, HalfSpace, Library, Settings};
 use impact::{Load, Probe, Scene, Section as MeridionalSection, Strike, Treatment};
+use output::Role;
 use std::path::Path;
-use toml::Table;
+use toml::{Table, Value};
 
-const SECTIONS: [&str; 8] = [
-    "target",
-    "striker",
-    "contact",
-    "force",
-    "probe",
-    "map",
-    "output",
-    "materials",
+/// Sections of a scene with a key `file`, and what that file is.
+const FILES: [(&str, &str); 2] = [
+    ("materials", "the materials file"),
+    ("force", "the force record"),
 ];
 
-/// Keys of the half-space but the elastic ones.
-const TARGET_KEYS: [&str; 3] = ["material", "thickness_m", "radius_m"];
-
-/// Keys of the section on how the contact is computed.
-const CONTACT_KEYS: [&str; 8] = [
-    "disc_radius_m",
-    "model",
-    "scheme",
-    "static_share",
-    "deflection",
-    "tolerance",
-    "loss_tolerance",
-    "step_s",
-];
-
-/// The sections of a contact that have a key of this name.
+/// The scene file at `path` and the files that it names: none of them may be an output.
 ///
-/// ```
-/// use formats::scene::sections_of;
-/// assert_eq!(sections_of("velocity_m_s"), ["striker"]);
-/// assert_eq!(sections_of("poisson_ratio"), ["target", "striker"]);
-/// ```
-#[must_use]
-pub fn sections_of(key: &str) -> Vec<&'static str> {
-    let sections = [
-        ("target", with_elastic(&TARGET_KEYS)),
-        ("striker", with_elastic(&STRIKER_KEYS)),
-        ("contact", CONTACT_KEYS.to_vec()),
-    ];
-    let has = sections.into_iter().filter(|(_, keys)| keys.contains(&key));
-    has.map(|(section, _)| section).collect()
+/// # Errors
+/// [`SceneError`] when it cannot be read or is not TOML.
+pub fn inputs(path: &Path) -> Result<Vec<Role>, SceneError> {
+    let table = parse(&read_text(path)?).map_err(|error| error.in_file(path))?;
+    let folder = path.parent().unwrap_or(Path::new("."));
+    let mut found = vec![Role::new("the scene", path)];
+    for (section, role) in FILES {
+        if let Some(Value::String(file)) = table.get(section).and_then(|s| s.get("file")) {
+            found.push(Role::new(role, &folder.join(file)));
+        }
+    }
+    Ok(found)
 }
 
 /// Reads a scene file; other files it names are found beside it.
@@ -90,7 +69,7 @@ pub fn scene_of(table: &Table, directory: &Path) -> Result<Scene, SceneError> {
             allowed: "this is a sweep, not a scene".to_owned(),
         });
     }
-    root.allow(&SECTIONS)?;
+    root.allow(SECTIONS)?;
     let library = read_library(&root, directory)?;
     scene_with(table, directory, &library)
 }
@@ -102,29 +81,25 @@ pub(crate) fn scene_with(
     library: &Library,
 ) -> Result<Scene, SceneError> {
     let root = Section::root(table);
-    root.allow(&SECTIONS)?;
+    root.allow(SECTIONS)?;
     let target = read_target(&root, library)?;
-    let settings = read_settings(root.section("contact")?.as_ref())?;
+    let settings = read_settings(&root)?;
     let load = read_load(&root, &settings, library, directory)?;
     let (probes, section) = (read_probes(&root)?, read_section(&root)?);
     inside(&target, &probes, section.as_ref())?;
     let output = root.section("output")?;
-    let (mut duration_s, mut quantities, mut peaks) = (None, Vec::new(), false);
-    if let Some(output) = &output {
-        output.allow(&["duration_s", "quantities", "peaks"])?;
-        duration_s = output.number("duration_s", POSITIVE)?;
-        quantities = output.choices("quantities")?;
-        peaks = output.flag("peaks")?;
-    }
+    let none = Table::new();
+    let output = output.unwrap_or(Section::of("output", &none));
+    output.allow_keys_of("output")?;
     Ok(Scene {
         target,
         load,
         settings,
         probes,
         section,
-        quantities,
-        peaks,
-        duration_s,
+        duration_s: output.number("duration_s")?,
+        quantities: output.choices("quantities")?,
+        peaks: output.flag("peaks")?,
     })
 }
 
@@ -144,7 +119,7 @@ fn read_target(root: &Section<'_>, library: &Library) -> Result<HalfSpace, Scene
     let target = root
         .section("target")?
         .ok_or_else(|| root.missing("target", "describe the half-space in a section [target]"))?;
-    target.allow(&with_elastic(&TARGET_KEYS))?;
+    target.allow_keys_of("target")?;
     let material = body(&target, library)?;
     // the reader has checked the ranges: a density is all that can be missing
     let mut half_space = HalfSpace::new(material).map_err(|_| {
@@ -153,8 +128,8 @@ fn read_target(root: &Section<'_>, library: &Library) -> Result<HalfSpace, Scene
             "the half-space needs a density for its waves",
         )
     })?;
-    half_space.thickness_m = target.number("thickness_m", POSITIVE)?;
-    half_space.radius_m = target.number("radius_m", POSITIVE)?;
+    half_space.thickness_m = target.number("thickness_m")?;
+    half_space.radius_m = target.number("radius_m")?;
     Ok(half_space)
 }
 
@@ -162,7 +137,7 @@ fn read_library(root: &Section<'_>, directory: &Path) -> Result<Library, SceneEr
     let Some(section) = root.section("materials")? else {
         return Ok(Library::built_in().clone());
     };
-    section.allow(&["file"])?;
+    section.allow_keys_of("materials")?;
     let file = section
         .text("file")?
         .ok_or_else(|| section.missing("file", "name a TOML file of materials"))?;
@@ -170,33 +145,28 @@ fn read_library(root: &Section<'_>, directory: &Path) -> Result<Library, SceneEr
     Ok(Library::built_in().extended(&own))
 }
 
-fn read_settings(section: Option<&Section<'_>>) -> Result<Settings, SceneError> {
-    let mut settings = Settings::default();
-    let Some(section) = section else {
-        return Ok(settings);
-    };
-    section.allow(&CONTACT_KEYS)?;
-    settings.disc_radius_m = section.number("disc_radius_m", POSITIVE)?;
-    settings.step_s = section.number("step_s", POSITIVE)?;
-    settings.loss_tolerance = section.number("loss_tolerance", TOLERANCE)?;
-    if let Some(tolerance) = section.number("tolerance", TOLERANCE)? {
-        settings.tolerance = tolerance;
-    }
-    if let Some(model) = section.choice("model")? {
-        settings.model = model;
-    }
-    if let Some(scheme) = section.choice("scheme")? {
-        settings.scheme = scheme;
-    }
-    if let Some(share) = section.choice("static_share")? {
-        settings.static_share = share;
-    }
-    if let Some(deflection) = section.choice("deflection")? {
-        settings.deflection = deflection;
-    }
-    match settings.conflict() {
-        None => Ok(settings),
-        Some(conflict) => Err(in_words(conflict)),
+fn read_settings(root: &Section<'_>) -> Result<Settings, SceneError> {
+    let (mut settings, none) = (Settings::default(), Table::new());
+    let section = root.section("contact")?;
+    let section = section.unwrap_or(Section::of("contact", &none));
+    section.allow_keys_of("contact")?;
+    settings.disc_radius_m = section.number("disc_radius_m")?;
+    settings.step_s = section.number("step_s")?;
+    settings.loss_tolerance = section.number("loss_tolerance")?;
+    put(&mut settings.tolerance, section.number("tolerance")?);
+    put(&mut settings.model, section.choice("model")?);
+    put(&mut settings.scheme, section.choice("scheme")?);
+    put(&mut settings.static_share, section.choice("static_share")?);
+    put(&mut settings.deflection, section.choice("deflection")?);
+    settings
+        .conflict()
+        .map_or(Ok(settings), |conflict| Err(in_words(conflict)))
+}
+
+/// What is given in place of a default.
+fn put<T>(setting: &mut T, given: Option<T>) {
+    if let Some(given) = given {
+        *setting = given;
     }
 }
 
@@ -235,7 +205,7 @@ fn read_load(
     match (root.section("striker")?, root.section("force")?) {
         (Some(striker), None) => read_strike(&striker, library).map(Load::Strike),
         (None, Some(force)) => {
-            force.allow(&["file", "low_pass_hz", "baseline_s"])?;
+            force.allow_keys_of("force")?;
             let file = force.text("file")?.ok_or_else(|| {
                 force.missing("file", "name a CSV file with columns time_s,force_n or an HDF5 file with /time and /force")
             })?;
@@ -247,8 +217,8 @@ fn read_load(
                 });
             }
             let treatment = Treatment {
-                baseline_s: force.number("baseline_s", POSITIVE)?,
-                low_pass_hz: force.number("low_pass_hz", POSITIVE)?,
+                baseline_s: force.number("baseline_s")?,
+                low_pass_hz: force.number("low_pass_hz")?,
             };
             let record = read_record(&directory.join(file))?;
             Ok(Load::Record(record.treat(&treatment)?))
@@ -297,10 +267,10 @@ fn read_probes(root: &Section<'_>) -> Result<Vec<Probe>, SceneError> {
         .iter()
         .map(|(name, table)| {
             let section = Section::of(name, table);
-            section.allow(&["r_m", "z_m"])?;
+            section.allow_keys_of("probe")?;
             Ok(Probe {
-                r_m: section.required("r_m", NOT_NEGATIVE, "the distance from the axis")?,
-                z_m: section.required("z_m", NOT_NEGATIVE, "the depth below the surface")?,
+                r_m: section.needed("r_m")?,
+                z_m: section.needed("z_m")?,
             })
         })
         .collect()
@@ -310,15 +280,15 @@ fn read_section(root: &Section<'_>) -> Result<Option<MeridionalSection>, SceneEr
     let Some(section) = root.section("map")? else {
         return Ok(None);
     };
-    section.allow(&["r_max_m", "z_max_m", "points", "frames"])?;
+    section.allow_keys_of("map")?;
     Ok(Some(MeridionalSection {
-        r_max_m: section.required("r_max_m", POSITIVE, "the width of the section")?,
-        z_max_m: section.required("z_max_m", POSITIVE, "the depth of the section")?,
+        r_max_m: section.needed("r_max_m")?,
+        z_max_m: section.needed("z_max_m")?,
         points: section
-            .counts("points", 2, 2001, "[2, 2001]")?
+            .counts("points", 2..=2001, "[2, 2001]")?
             .ok_or_else(|| section.missing("points", "points along r and z, such as [81, 81]"))?,
         frames: section
-            .count("frames", 1, 100_000, "[1, 100000]")?
+            .count("frames", 1..=100_000, "[1, 100000]")?
             .ok_or_else(|| section.missing("frames", "the number of frames in time"))?,
     }))
 }

@@ -1,8 +1,8 @@
 //! The section `[striker]`: a mass with a tip, a ball or a rod, and its velocity.
 
-use crate::body::{body, with_elastic};
+use super::body::body;
+use super::section::Section;
 use crate::error::SceneError;
-use crate::section::{POSITIVE, Section};
 use contact::{BodyError, Choice, Library, Shape, Striker, fall_velocity_m_s};
 use impact::Strike;
 
@@ -24,20 +24,8 @@ impl Choice for Form {
     }
 }
 
-/// All keys of the section but the elastic ones.
-pub(super) const KEYS: [&str; 8] = [
-    "material",
-    "shape",
-    "diameter_m",
-    "length_m",
-    "mass_kg",
-    "tip_radius_m",
-    "velocity_m_s",
-    "drop_height_m",
-];
-
-pub(crate) fn read_strike(section: &Section<'_>, library: &Library) -> Result<Strike, SceneError> {
-    section.allow(&with_elastic(&KEYS))?;
+pub(super) fn read_strike(section: &Section<'_>, library: &Library) -> Result<Strike, SceneError> {
+    section.allow_keys_of("striker")?;
     let striker = match section.choice("shape")? {
         None => plain(section, library)?,
         Some(form) => of_form(section, library, form)?,
@@ -55,17 +43,9 @@ fn plain(section: &Section<'_>, library: &Library) -> Result<Striker, SceneError
     }
     Ok(Striker {
         material: body(section, library)?,
-        mass_kg: section.required(
-            "mass_kg",
-            POSITIVE,
-            "the mass of the striker; or shape = \"ball\" with diameter_m",
-        )?,
-        tip_radius_m: section.required(
-            "tip_radius_m",
-            POSITIVE,
-            "the radius of the striker's tip",
-        )?,
-        length_m: section.number("length_m", POSITIVE)?,
+        mass_kg: section.needed("mass_kg")?,
+        tip_radius_m: section.needed("tip_radius_m")?,
+        length_m: section.number("length_m")?,
         shape: None,
     })
 }
@@ -89,20 +69,18 @@ fn of_form(section: &Section<'_>, library: &Library, form: Form) -> Result<Strik
             reason,
         });
     }
-    let diameter_m = section.required("diameter_m", POSITIVE, "the diameter of the striker")?;
+    let diameter_m = section.needed("diameter_m")?;
     let shape = match form {
         Form::Ball => Shape::Ball { diameter_m },
         Form::Rod => Shape::Rod {
-            length_m: section.required("length_m", POSITIVE, "the length of the rod")?,
+            length_m: section.needed("length_m")?,
             diameter_m,
-            tip_radius_m: section.number("tip_radius_m", POSITIVE)?,
+            tip_radius_m: section.number("tip_radius_m")?,
         },
     };
+    let hint = "the mass of a shape follows from its density";
     Striker::of_shape(body(section, library)?, shape).map_err(|error| match error {
-        BodyError::NoDensity { .. } => section.missing(
-            "density_kg_m3",
-            "the mass of a shape follows from its density",
-        ),
+        BodyError::NoDensity { .. } => section.missing("density_kg_m3", hint),
         BodyError::OutOfRange {
             quantity,
             value,
@@ -117,12 +95,8 @@ fn of_form(section: &Section<'_>, library: &Library, form: Form) -> Result<Strik
 
 /// Velocity of approach in m/s: as given, or after a fall.
 fn velocity(section: &Section<'_>) -> Result<f64, SceneError> {
-    match section.number("drop_height_m", POSITIVE)? {
-        None => section.required(
-            "velocity_m_s",
-            POSITIVE,
-            "the velocity of approach, or drop_height_m for a fall from rest",
-        ),
+    match section.number("drop_height_m")? {
+        None => section.needed("velocity_m_s"),
         Some(_) if section.value("velocity_m_s").is_some() => Err(SceneError::Superfluous {
             key: section.key("velocity_m_s"),
             beside: section.key("drop_height_m"),

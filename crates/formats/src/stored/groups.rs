@@ -1,13 +1,13 @@
 //! Groups of rows of a Parquet file: nothing is decoded before its hash was compared.
 
-use super::part::Part;
+use super::rows::NOT_HELD;
 use crate::sweep::schema::{FAILURE, MODEL};
-use crate::sweep::{Block, Footer, NO_MODEL, Precision};
+use crate::sweep::{Block, Footer, NO_MODEL, Part, Precision};
 use bytes::{Buf, Bytes};
 use contact::{Choice, Model};
 use output::Fault;
-use parquet::column::reader::{ColumnReader, get_column_reader};
-use parquet::data_type::ByteArray;
+use parquet::column::reader::{ColumnReader, ColumnReaderImpl, get_column_reader};
+use parquet::data_type::{ByteArray, DataType};
 use parquet::errors::ParquetError;
 use parquet::file::metadata::{
     ColumnChunkMetaData, ParquetMetaData, ParquetMetaDataReader, RowGroupMetaData,
@@ -46,8 +46,7 @@ pub(super) fn each(
         let block = block.map_err(|error| damaged(error.to_string()))?;
         next += block.numbers.len();
         if !block.holds() || next > part.selection.rows.end {
-            let what = "it has models that are not known, or failures without reasons";
-            return Err(damaged(what.to_owned()));
+            return Err(damaged(NOT_HELD.to_owned()));
         }
         visit(&block)?;
     }
@@ -63,7 +62,8 @@ fn places(part: &Part, metadata: &ParquetMetaData) -> Result<HashMap<String, usi
     let places: HashMap<_, _> = (columns.iter().enumerate())
         .map(|(place, column)| (column.name().to_owned(), place))
         .collect();
-    let names = part.fields.quantities().map(|(_, quantity)| quantity.name);
+    let names = part.fields.quantities();
+    let names = names.map(|(_, quantity)| quantity.name.as_str());
     let mut wanted = names.chain([MODEL.0, FAILURE.0]);
     match wanted.find(|name| !places.contains_key(*name)) {
         Some(name) => Err(format!("the column {name} is missing")),
@@ -83,9 +83,9 @@ fn block(
     let read = |name: &str| Column::read(group, places[name], bytes, rows);
     let quantities: Vec<_> = part.fields.quantities().collect();
     let columns: Vec<_> = (quantities.par_iter())
-        .map(|(_, quantity)| read(quantity.name)?.numbers(part.fields.precision))
+        .map(|(_, quantity)| read(&quantity.name)?.numbers(part.fields.precision))
         .collect::<Result<_, _>>()?;
-    let mut block = Block::blank(start, rows, part.fields.probed.len());
+    let mut block = Block::blank(start, rows, part.fields.probed());
     for ((k, _), column) in quantities.iter().zip(&columns) {
         for (row, &number) in column.iter().enumerate() {
             block.set(row, *k, number);
@@ -135,51 +135,36 @@ impl Column {
         let chunk = group.column(place);
         let pages = SerializedPageReader::new(Arc::clone(bytes), chunk, rows, None)?;
         let mut there = Vec::new();
-        let (values, found) = match get_column_reader(chunk.column_descr_ptr(), Box::new(pages)) {
-            ColumnReader::DoubleColumnReader(mut reader) => {
-                let mut values = Vec::new();
-                let found = reader.read_records(rows, Some(&mut there), None, &mut values)?;
-                (Values::Double(values), found)
+        let values = match get_column_reader(chunk.column_descr_ptr(), Box::new(pages)) {
+            ColumnReader::DoubleColumnReader(reader) => {
+                Values::Double(read_all(reader, rows, &mut there)?)
             }
-            ColumnReader::FloatColumnReader(mut reader) => {
-                let mut values = Vec::new();
-                let found = reader.read_records(rows, Some(&mut there), None, &mut values)?;
-                (Values::Single(values), found)
+            ColumnReader::FloatColumnReader(reader) => {
+                Values::Single(read_all(reader, rows, &mut there)?)
             }
-            ColumnReader::ByteArrayColumnReader(mut reader) => {
-                let mut values = Vec::new();
-                let found = reader.read_records(rows, Some(&mut there), None, &mut values)?;
-                (Values::Text(values), found)
+            ColumnReader::ByteArrayColumnReader(reader) => {
+                Values::Text(read_all(reader, rows, &mut there)?)
             }
             _ => return Err(wrong("a column has another type")),
         };
-        if found.0 != rows || there.len() != rows {
-            return Err(wrong("a column has not all rows"));
-        }
         Ok(Self { there, values })
     }
 
     /// Numbers, NaN where there is none.
     fn numbers(self, precision: Precision) -> Result<Vec<f64>, ParquetError> {
-        let spread = |mut values: Box<dyn Iterator<Item = f64>>| {
-            let there = self.there.iter();
-            there
-                .map(|&one| {
-                    if one == 0 {
-                        Some(f64::NAN)
-                    } else {
-                        values.next()
-                    }
-                })
-                .collect()
-        };
-        let spread: Option<Vec<f64>> = match (self.values, precision) {
-            (Values::Double(values), Precision::Double) => spread(Box::new(values.into_iter())),
+        let values: Vec<f64> = match (self.values, precision) {
+            (Values::Double(values), Precision::Double) => values,
             (Values::Single(values), Precision::Single) => {
-                spread(Box::new(values.into_iter().map(f64::from)))
+                values.into_iter().map(f64::from).collect()
             }
             _ => return Err(wrong("its results are not of one precision")),
         };
+        let mut values = values.into_iter();
+        let spread = self.there.iter().map(|&one| match one {
+            0 => Some(f64::NAN),
+            _ => values.next(),
+        });
+        let spread: Option<Vec<f64>> = spread.collect();
         spread.ok_or_else(|| wrong("a column has not all values"))
     }
 
@@ -188,11 +173,23 @@ impl Column {
             return Err(wrong("a column of words has another type"));
         };
         let mut values = values.into_iter();
-        let there = self.there.into_iter();
-        Ok(there
-            .map(|one| if one == 0 { None } else { values.next() })
-            .collect())
+        let text = |one: &i16| if *one == 0 { None } else { values.next() };
+        Ok(self.there.iter().map(text).collect())
     }
+}
+
+/// The values of all rows.
+fn read_all<T: DataType>(
+    mut reader: ColumnReaderImpl<T>,
+    rows: usize,
+    there: &mut Vec<i16>,
+) -> Result<Vec<T::T>, ParquetError> {
+    let mut values = Vec::new();
+    let found = reader.read_records(rows, Some(there), None, &mut values)?;
+    if found.0 != rows || there.len() != rows {
+        return Err(wrong("a column has not all rows"));
+    }
+    Ok(values)
 }
 
 fn wrong(what: &str) -> ParquetError {
@@ -226,18 +223,14 @@ impl Group {
 
     /// Some of them.
     fn some(&self, start: u64, length: Option<usize>) -> Result<Bytes, ParquetError> {
-        let from = start
-            .checked_sub(self.start)
-            .and_then(|from| usize::try_from(from).ok());
-        let from = from.filter(|&from| from <= self.bytes.len());
-        let to = from.and_then(|from| match length {
-            Some(length) => from.checked_add(length),
-            None => Some(self.bytes.len()),
-        });
-        match (from, to.filter(|&to| to <= self.bytes.len())) {
-            (Some(from), Some(to)) => Ok(self.bytes.slice(from..to)),
-            _ => Err(wrong("a column lies outside its group")),
-        }
+        let all = self.bytes.len();
+        let range = || {
+            let from = usize::try_from(start.checked_sub(self.start)?).ok()?;
+            let to = length.map_or(Some(all), |length| from.checked_add(length))?;
+            (from <= all && to <= all).then_some(from..to)
+        };
+        let range = range().ok_or_else(|| wrong("a column lies outside its group"))?;
+        Ok(self.bytes.slice(range))
     }
 }
 

@@ -1,17 +1,17 @@
 //! The results of a scene, read back.
 
-use super::error::ReadError;
-use super::kind::FileKind;
-use super::open::Stored;
-use super::probes::StoredProbes;
-use super::scene::StoredScene;
-use super::section::StoredSection;
-use crate::results::schema::{ENERGIES, ENERGY, MAP, PROBES, SCENE_SHA256, SERIES};
-use impact::{EnergySeries, Series, StrikerSeries};
+use super::error::{FileKind, ReadError};
+use super::open::{Stored, StoredQuantity};
+use crate::results::schema::{
+    ARRIVALS, ENERGIES, ENERGY, ERROR_SUFFIX, MAP, MAP_SCALES, PEAK_SUFFIXES, PLACES, PROBES,
+    SCENE_SHA256, SERIES,
+};
+use crate::scene::bodies_of;
+use crate::scene::section::{as_number, parse};
+use contact::HalfSpace;
+use impact::{EnergySeries, Series, Strike, StrikerSeries};
 use std::path::Path;
-
-/// Major version of the results that are read.
-const MAJOR: &str = "1";
+use toml::{Table, Value};
 
 /// An open results file with its time series; probes and section are read when they are asked for.
 #[derive(Debug, Clone)]
@@ -35,7 +35,7 @@ impl StoredImpact {
     /// # Errors
     /// [`ReadError`], which says what the file is instead.
     pub fn open(path: &Path) -> Result<Self, ReadError> {
-        let stored = Stored::open(path, FileKind::Impact, MAJOR)?;
+        let stored = Stored::open(path, FileKind::Impact)?;
         let scene = StoredScene::new(&stored.text("scene")?)
             .map_err(|error| stored.damaged(format!("its scene cannot be read: {error}")))?;
         let time_s = stored.vector(SERIES[0].0)?;
@@ -146,4 +146,180 @@ fn energy_of(stored: &Stored, samples: usize) -> Result<Option<EnergySeries>, Re
         stored_j: column(2)?,
         radiated_j: column(3)?,
     }))
+}
+
+/// The resolved scene of a results file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StoredScene {
+    /// The half-space.
+    pub target: HalfSpace,
+    /// The striker; none where the force was given.
+    pub strike: Option<Strike>,
+    table: Table,
+}
+
+impl StoredScene {
+    /// From the text in a file.
+    fn new(text: &str) -> Result<Self, String> {
+        let table = parse(text).map_err(|error| error.to_string())?;
+        let (target, strike) = bodies_of(&table).map_err(|error| error.to_string())?;
+        Ok(Self {
+            target,
+            strike,
+            table,
+        })
+    }
+
+    /// Every key with a value, such as `striker.velocity_m_s` and `2.5`, in alphabetical order.
+    ///
+    /// Lists are left out: the probes, the points of a section.
+    #[must_use]
+    pub fn keys(&self) -> Vec<(String, StoredValue)> {
+        let mut found = Vec::new();
+        for (section, value) in &self.table {
+            let Value::Table(keys) = value else {
+                continue;
+            };
+            for (key, value) in keys {
+                let text = value
+                    .as_str()
+                    .map(|text| StoredValue::Text(text.to_owned()));
+                let value = text.or(as_number(value).map(StoredValue::Number));
+                found.extend(value.map(|value| (format!("{section}.{key}"), value)));
+            }
+        }
+        found
+    }
+}
+
+/// The value of a key of a scene.
+#[derive(Debug, Clone, PartialEq)]
+pub enum StoredValue {
+    /// A number in the unit of its key.
+    Number(f64),
+    /// A word.
+    Text(String),
+}
+
+/// The probes of a results file: places and arrivals; traces are read when they are asked for.
+#[derive(Debug, Clone)]
+pub struct StoredProbes {
+    stored: Stored,
+    samples: usize,
+    /// Distances from the axis in m.
+    pub r_m: Vec<f64>,
+    /// Depths in m.
+    pub z_m: Vec<f64>,
+    /// Times of the first P, S and Rayleigh wave in s, one row a probe; infinite for a
+    /// Rayleigh wave where there is none (files before version 1.6: of a load that begins at time zero, on the surface).
+    pub arrival_s: Vec<[f64; 3]>,
+}
+
+impl StoredProbes {
+    fn new(stored: Stored, time_s: &[f64]) -> Result<Self, ReadError> {
+        let path = |name: &str| format!("{PROBES}/{name}");
+        let r_m = stored.vector(&path(PLACES[0].0))?;
+        let z_m = stored.numbers(&path(PLACES[1].0), &[r_m.len()])?;
+        let arrivals = stored.numbers(&path(ARRIVALS.0), &[r_m.len(), 3])?;
+        Ok(Self {
+            samples: time_s.len(),
+            arrival_s: arrivals
+                .chunks_exact(3)
+                .map(|t| [t[0], t[1], t[2]])
+                .collect(),
+            r_m,
+            z_m,
+            stored,
+        })
+    }
+
+    /// What was stored at each probe over time.
+    #[must_use]
+    pub fn quantities(&self) -> Vec<StoredQuantity> {
+        self.stored
+            .quantities(PROBES, &[self.r_m.len(), self.samples])
+    }
+
+    /// A quantity over time at a probe, at the times of the results.
+    ///
+    /// # Errors
+    /// [`ReadError`] for a quantity that is not there.
+    pub fn trace(&self, quantity: &str, probe: usize) -> Result<Vec<f64>, ReadError> {
+        let path = format!("{PROBES}/{quantity}");
+        self.stored
+            .slab(&path, &[self.r_m.len(), self.samples], probe)
+    }
+
+    /// The estimated error of a quantity at a probe, where it is there.
+    #[must_use]
+    pub fn error(&self, quantity: &str, probe: usize) -> Option<f64> {
+        let path = format!("{PROBES}/{quantity}{ERROR_SUFFIX}");
+        let errors = self.stored.numbers(&path, &[self.r_m.len()]).ok()?;
+        errors.get(probe).copied()
+    }
+}
+
+/// The section of a results file: its grid and times; frames are read when they are asked for.
+///
+/// A frame runs over depths, the deepest first, and within a depth over the distances from the axis.
+#[derive(Debug, Clone)]
+pub struct StoredSection {
+    stored: Stored,
+    /// Distances from the axis in m, ascending.
+    pub r_m: Vec<f64>,
+    /// Depths in m, descending.
+    pub z_m: Vec<f64>,
+    /// Times of the frames in s.
+    pub time_s: Vec<f64>,
+}
+
+impl StoredSection {
+    fn new(stored: Stored) -> Result<Self, ReadError> {
+        let scale = |i: usize| stored.vector(&format!("{MAP}/{}", MAP_SCALES[i].0));
+        let (time_s, z_m, r_m) = (scale(0)?, scale(1)?, scale(2)?);
+        let rising = |x: &[f64]| x.windows(2).all(|pair| pair[0] < pair[1]);
+        let falling = z_m.windows(2).all(|pair| pair[0] > pair[1]);
+        if !rising(&time_s) || !rising(&r_m) || !falling || r_m.len() < 2 || z_m.len() < 2 {
+            return Err(stored.damaged("the axes of its section are not in order"));
+        }
+        Ok(Self {
+            stored,
+            r_m,
+            z_m,
+            time_s,
+        })
+    }
+
+    /// What was stored in each frame.
+    #[must_use]
+    pub fn quantities(&self) -> Vec<StoredQuantity> {
+        self.stored.quantities(MAP, &self.shape())
+    }
+
+    /// A quantity in a frame.
+    ///
+    /// # Errors
+    /// [`ReadError`] for a quantity or a frame that is not there.
+    pub fn frame(&self, quantity: &str, frame: usize) -> Result<Vec<f32>, ReadError> {
+        if frame >= self.time_s.len() {
+            let last = self.time_s.len() - 1;
+            return Err(self
+                .stored
+                .damaged(format!("frame {frame} is outside [0, {last}]")));
+        }
+        self.stored
+            .slab(&format!("{MAP}/{quantity}"), &self.shape(), frame)
+    }
+
+    /// The largest value of a quantity over all samples at each place, where the file has it.
+    #[must_use]
+    pub fn peak(&self, quantity: &str) -> Option<Vec<f64>> {
+        let path = format!("{MAP}/{quantity}{}", PEAK_SUFFIXES[0]);
+        let [_, z, r] = self.shape();
+        self.stored.numbers(&path, &[z, r]).ok()
+    }
+
+    fn shape(&self) -> [usize; 3] {
+        [self.time_s.len(), self.z_m.len(), self.r_m.len()]
+    }
 }

@@ -4,30 +4,16 @@
 //! asked for, and no dataset beyond a size.
 
 mod error;
-mod file;
 #[cfg(feature = "parquet")]
 mod groups;
 mod impact;
-mod kind;
 mod open;
-mod parquet;
-mod part;
-mod part_hdf5;
-mod probes;
 mod rows;
-mod scene;
-mod section;
 mod sweep;
 
-pub use error::ReadError;
-pub use file::file_kind;
-pub use impact::StoredImpact;
-pub use kind::FileKind;
-pub use open::StoredQuantity;
-pub use parquet::StoredParquet;
-pub use part::Part;
-pub use probes::StoredProbes;
+pub use crate::sweep::Part;
+pub use error::{FileKind, ReadError};
+pub use impact::{StoredImpact, StoredProbes, StoredScene, StoredSection, StoredValue};
+pub use open::{StoredQuantity, file_kind};
 pub use rows::{StoredPart, StoredWhole};
-pub use scene::{StoredScene, StoredValue};
-pub use section::StoredSection;
 pub use sweep::{StoredAxis, StoredColumn, StoredSweep};

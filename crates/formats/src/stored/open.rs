@@ -1,17 +1,20 @@
-//! An open file, and bounded reading from it.
+//! Opening a file, whatever it is, and bounded reading from it.
 
-use super::error::ReadError;
-use super::file::{file_kind, open_hdf5, text_of};
-use super::kind::FileKind;
-use crate::section::parse;
+use super::error::{FileKind, ReadError};
+use crate::quantities::Described;
+use crate::scene::section::parse;
 use crate::sweep::schema::{PROBED_VERSION, TEXTS, part};
-use crate::sweep::{Described, Fields, Precision, stored_columns};
-use hdfread::{Dataset, Group, Kind, Number};
+use crate::sweep::{Fields, Footer, MAGIC, Precision, stored_columns};
+use hdfread::{Attribute, Dataset, File, Group, HdfError, Kind, Number};
+use std::io::Read;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 /// Most bytes of numbers that are read from a dataset at once.
 const MOST_BYTES: u64 = 1 << 29;
+
+/// Major version of the files that are read.
+const MAJOR: &str = "1";
 
 /// A dataset of a file: its name, unit and meaning.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -32,36 +35,18 @@ pub(super) struct Stored {
 }
 
 impl Stored {
-    /// Opens a file of a kind and of a version `major`.x.
-    pub(super) fn open(
-        path: &Path,
-        wanted: FileKind,
-        major: &'static str,
-    ) -> Result<Self, ReadError> {
-        let found = file_kind(path)?;
-        if found != wanted {
-            return Err(ReadError::Kind {
-                path: path.to_owned(),
-                found,
-                wanted,
-            });
-        }
-        let root = open_hdf5(path)?.root();
-        let stored = Self {
-            path: path.to_owned(),
-            root: root.map_err(|error| ReadError::Damaged {
-                path: path.to_owned(),
-                what: error.to_string(),
-            })?,
+    /// Opens a file of a kind and of a version that is known.
+    pub(super) fn open(path: &Path, wanted: FileKind) -> Result<Self, ReadError> {
+        check_kind(path, file_kind(path)?, wanted)?;
+        let path = path.to_owned();
+        let stored = match open_hdf5(&path)?.root() {
+            Ok(root) => Self { path, root },
+            Err(error) => {
+                let what = error.to_string();
+                return Err(ReadError::Damaged { path, what });
+            }
         };
-        let version = stored.text("format_version")?;
-        if version.split('.').next() != Some(major) {
-            return Err(ReadError::Version {
-                path: path.to_owned(),
-                found: version,
-                major,
-            });
-        }
+        check_version(&stored.path, &stored.text("format_version")?)?;
         Ok(stored)
     }
 
@@ -71,6 +56,10 @@ impl Stored {
             path: self.path.clone(),
             what: what.into(),
         }
+    }
+
+    fn unread(&self, path: &str, error: &HdfError) -> ReadError {
+        self.damaged(format!("{path} cannot be read: {error}"))
     }
 
     /// A text of the root.
@@ -129,7 +118,7 @@ impl Stored {
     /// All numbers of a dataset of a shape.
     pub(super) fn numbers(&self, path: &str, shape: &[usize]) -> Result<Vec<f64>, ReadError> {
         let numbers = self.of_shape(path, shape)?.as_f64(MOST_BYTES);
-        numbers.map_err(|error| self.damaged(format!("{path} cannot be read: {error}")))
+        numbers.map_err(|error| self.unread(path, &error))
     }
 
     /// All numbers of a dataset with one dimension.
@@ -143,9 +132,10 @@ impl Stored {
     /// All texts of a list.
     pub(super) fn texts(&self, path: &str) -> Result<Vec<String>, ReadError> {
         match self.dataset(path) {
-            Some(list) if list.shape().len() == 1 => list
-                .texts(MOST_BYTES)
-                .map_err(|error| self.damaged(format!("{path} cannot be read: {error}"))),
+            Some(list) if list.shape().len() == 1 => {
+                let texts = list.texts(MOST_BYTES);
+                texts.map_err(|error| self.unread(path, &error))
+            }
             Some(_) | None => Err(self.damaged(format!("the list {path} is missing"))),
         }
     }
@@ -176,7 +166,7 @@ impl Stored {
             *first = at..at.saturating_add(1);
         }
         let numbers = dataset.block(&block, MOST_BYTES);
-        numbers.map_err(|error| self.damaged(format!("{path} cannot be read: {error}")))
+        numbers.map_err(|error| self.unread(path, &error))
     }
 
     /// Some numbers of a dataset with one dimension of a length.
@@ -187,21 +177,19 @@ impl Stored {
         rows: Range<usize>,
     ) -> Result<Vec<T>, ReadError> {
         let numbers = self.of_shape(path, &[length])?.block(&[rows], MOST_BYTES);
-        numbers.map_err(|error| self.damaged(format!("{path} cannot be read: {error}")))
+        numbers.map_err(|error| self.unread(path, &error))
     }
 
     /// Which results a group has as datasets of a shape, and how exactly.
     pub(super) fn fields(&self, group: &str, shape: &[usize]) -> Result<Fields, ReadError> {
         let mut fields = Fields::all(self.probed()?);
         let mut kinds = Vec::new();
-        let mut places = std::mem::take(&mut fields.places);
-        places.retain(|&k| {
-            let path = format!("{group}/{}", fields.named(k).name);
-            let dataset = self.dataset(&path).filter(|found| found.shape() == shape);
+        fields.retain(|name| {
+            let dataset = self.dataset(&format!("{group}/{name}"));
+            let dataset = dataset.filter(|found| found.shape() == shape);
             kinds.extend(dataset.as_ref().map(Dataset::kind));
             dataset.is_some()
         });
-        fields.places = places;
         if !kinds.is_empty() && kinds.iter().all(|&kind| kind == f32::KIND) {
             fields.precision = Precision::Single;
         } else if kinds.iter().any(|&kind| kind != f64::KIND) {
@@ -229,7 +217,7 @@ impl Stored {
         } else {
             dataset.block::<f64>(&last, MOST_BYTES).map(drop)
         };
-        end.map_err(|error| self.damaged(format!("{path} cannot be read: {error}")))
+        end.map_err(|error| self.unread(path, &error))
     }
 
     /// A dataset that has a shape.
@@ -243,4 +231,110 @@ impl Stored {
             None => Err(self.damaged(format!("{path} is missing"))),
         }
     }
+}
+
+/// Whether a file begins as Parquet.
+pub(super) fn is_parquet(path: &Path) -> bool {
+    let mut head = [0; MAGIC.len()];
+    // looked at before it is opened: a pipe would wait for its other end
+    std::fs::metadata(path).is_ok_and(|there| there.is_file())
+        && std::fs::File::open(path).is_ok_and(|mut file| file.read_exact(&mut head).is_ok())
+        && head == *MAGIC
+}
+
+/// Opens a file of rows in Parquet, all or some, and checks its seal and its length; rows are read a group at a time.
+fn open_parquet(path: &Path) -> Result<(FileKind, Footer), ReadError> {
+    let path = path.to_owned();
+    let found = match Footer::read(&path) {
+        Ok(Some(found)) => found,
+        Ok(None) => return Err(ReadError::ForeignParquet { path }),
+        Err(what) => return Err(ReadError::Damaged { path, what }),
+    };
+    check_version(&path, &found.version)?;
+    let mut kinds = [FileKind::Sweep, FileKind::SweepPart].into_iter();
+    match kinds.find(|kind| kind.file_type() == found.file_type) {
+        Some(kind) => Ok((kind, found)),
+        None => Err(ReadError::ForeignParquet { path }),
+    }
+}
+
+/// [`open_parquet`] for a file of a kind.
+pub(super) fn parquet_of_kind(path: &Path, wanted: FileKind) -> Result<Footer, ReadError> {
+    let (kind, found) = open_parquet(path)?;
+    check_kind(path, kind, wanted).map(|()| found)
+}
+
+fn check_kind(path: &Path, found: FileKind, wanted: FileKind) -> Result<(), ReadError> {
+    if found == wanted {
+        return Ok(());
+    }
+    let path = path.to_owned();
+    Err(ReadError::Kind {
+        path,
+        found,
+        wanted,
+    })
+}
+
+fn check_version(path: &Path, found: &str) -> Result<(), ReadError> {
+    if found.split('.').next() == Some(MAJOR) {
+        return Ok(());
+    }
+    Err(ReadError::Version {
+        path: path.to_owned(),
+        found: found.to_owned(),
+        major: MAJOR,
+    })
+}
+
+/// What the file at `path` is.
+///
+/// # Errors
+/// [`ReadError`] for a file that is not one of the program.
+pub fn file_kind(path: &Path) -> Result<FileKind, ReadError> {
+    if is_parquet(path) {
+        return open_parquet(path).map(|(kind, _)| kind);
+    }
+    let root = open_hdf5(path)?.root().ok();
+    root.and_then(|root| text_of(root.attribute("file_type")))
+        .and_then(|found| FileKind::ALL.into_iter().find(|k| k.file_type() == found))
+        .ok_or_else(|| ReadError::Foreign {
+            path: path.to_owned(),
+        })
+}
+
+/// Opens an HDF5 file, whatever is in it.
+fn open_hdf5(path: &Path) -> Result<File, ReadError> {
+    let unreadable = |reason: &str| ReadError::Unreadable {
+        path: path.to_owned(),
+        reason: reason.to_owned(),
+    };
+    // looked at before it is opened: a pipe would wait for its other end
+    let data = std::fs::metadata(path).map_err(|error| unreadable(&error.to_string()))?;
+    if !data.is_file() {
+        return Err(unreadable("it is not a file"));
+    }
+    let mut head = Vec::new();
+    std::fs::File::open(path)
+        .and_then(|file| file.take(256).read_to_end(&mut head))
+        .map_err(|error| unreadable(&error.to_string()))?;
+    let not = |found| ReadError::NotHdf5 {
+        path: path.to_owned(),
+        found,
+    };
+    if !head.starts_with(b"\x89HDF\r\n\x1a\n") {
+        let is_text = !head.is_empty() && std::str::from_utf8(&head).is_ok();
+        return Err(not(match head.len() {
+            0 => "empty",
+            _ if head.starts_with(b"PAR1") => "a Parquet file",
+            _ if is_text => "text",
+            _ => "no HDF5 file",
+        }));
+    }
+    File::open(path).map_err(|_| not("a damaged HDF5 file"))
+}
+
+/// A text attribute, where it is one.
+fn text_of(attribute: Result<Attribute, HdfError>) -> Option<String> {
+    attribute.ok()?.text().ok()
 }

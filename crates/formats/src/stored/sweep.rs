@@ -1,15 +1,11 @@
 //! The results of a sweep, read back.
 
-use super::error::ReadError;
-use super::kind::FileKind;
+use super::error::{FileKind, ReadError};
 use super::open::{Stored, StoredQuantity};
 use crate::sweep::schema::part::PARTS;
 use crate::sweep::schema::{AXES, LIST, RESULTS, SAMPLE, SHA256};
 use crate::sweep::{Fields, Values};
 use std::path::Path;
-
-/// Major version of the sweeps that are read.
-const MAJOR: &str = "1";
 
 /// An open sweep with its axes; results are read when they are asked for.
 #[derive(Debug, Clone)]
@@ -57,7 +53,7 @@ impl StoredSweep {
     /// # Errors
     /// [`ReadError`], which says what the file is instead.
     pub fn open(path: &Path) -> Result<Self, ReadError> {
-        let stored = Stored::open(path, FileKind::Sweep, MAJOR)?;
+        let stored = Stored::open(path, FileKind::Sweep)?;
         if stored.text(PARTS).is_ok() {
             let path = path.to_owned();
             return Err(ReadError::Virtual { path });

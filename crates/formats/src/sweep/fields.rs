@@ -1,17 +1,21 @@
-//! Which results a file of rows has, and how exactly.
+//! Which results a file of rows has, and how exactly: the quantities of a contact and, behind them, what probes bring.
 
-use super::probed::Described;
+use super::schema::FIELDS as SECTION;
 use crate::error::SceneError;
-use crate::quantities::QUANTITIES;
+use crate::quantities::{Described, FIELDS, QUANTITIES, described};
+use crate::results::schema::{ERROR_SUFFIX, PEAK_SUFFIXES};
+use crate::scene::section::Section;
+use impact::{ProbePeaks, Quantity};
 use std::sync::Arc;
+use toml::{Table, Value};
 
 /// Results that are written; the model and the reason of a failure always are.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Fields {
-    /// Places in [`QUANTITIES`] and, behind them, in the columns of the probes; ascending.
+    /// Places among the known ones; ascending.
     pub(crate) places: Vec<usize>,
-    /// All columns of the probes.
-    pub(crate) probed: Arc<[Described]>,
+    /// All that could be written.
+    known: Arc<[Described]>,
     /// How exactly.
     pub precision: Precision,
 }
@@ -26,14 +30,6 @@ pub enum Precision {
     Single,
 }
 
-/// A result that is written.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Named<'a> {
-    pub(crate) name: &'a str,
-    pub(crate) unit: &'static str,
-    pub(crate) meaning: &'a str,
-}
-
 impl Default for Fields {
     fn default() -> Self {
         Self::all(Vec::new())
@@ -43,30 +39,24 @@ impl Default for Fields {
 impl Fields {
     /// All results, with the columns of some probes.
     pub(crate) fn all(probed: Vec<Described>) -> Self {
+        let own = QUANTITIES.iter();
+        let own = own.map(|own| Described::from((own.name, own.unit, own.meaning)));
+        let known: Arc<[Described]> = own.chain(probed).collect();
         Self {
-            places: (0..QUANTITIES.len() + probed.len()).collect(),
-            probed: probed.into(),
+            places: (0..known.len()).collect(),
+            known,
             precision: Precision::Double,
         }
     }
 
     /// The result at a place.
-    pub(crate) fn named(&self, place: usize) -> Named<'_> {
-        match QUANTITIES.get(place) {
-            Some(quantity) => Named {
-                name: quantity.name,
-                unit: quantity.unit,
-                meaning: quantity.meaning,
-            },
-            None => {
-                let column = &self.probed[place - QUANTITIES.len()];
-                Named {
-                    name: &column.name,
-                    unit: column.unit,
-                    meaning: &column.meaning,
-                }
-            }
-        }
+    pub(crate) fn named(&self, place: usize) -> &Described {
+        &self.known[place]
+    }
+
+    /// Numbers that probes bring to a row.
+    pub(crate) fn probed(&self) -> usize {
+        self.known.len() - QUANTITIES.len()
     }
 
     /// The results of these names, without probes.
@@ -86,19 +76,18 @@ impl Fields {
     /// # Errors
     /// [`SceneError::Missing`] for a name that is none of them.
     pub fn only<S: AsRef<str>>(self, names: &[S]) -> Result<Self, SceneError> {
-        let mut places = Vec::new();
-        for name in names.iter().map(AsRef::as_ref) {
-            let mut all = 0..QUANTITIES.len() + self.probed.len();
-            let place = all.find(|&place| self.named(place).name == name);
-            places.push(place.ok_or_else(|| {
-                let known = 0..QUANTITIES.len() + self.probed.len();
-                let known: Vec<&str> = known.map(|place| self.named(place).name).collect();
+        let place = |name: &S| {
+            let name = name.as_ref();
+            let place = self.known.iter().position(|known| known.name == name);
+            place.ok_or_else(|| {
+                let known: Vec<&str> = self.known.iter().map(|k| k.name.as_str()).collect();
                 SceneError::Missing {
                     key: format!("the column {name}"),
                     hint: format!("the results are {}", known.join(", ")),
                 }
-            })?);
-        }
+            })
+        };
+        let mut places: Vec<usize> = names.iter().map(place).collect::<Result<_, _>>()?;
         places.sort_unstable();
         places.dedup();
         Ok(Self { places, ..self })
@@ -106,21 +95,88 @@ impl Fields {
 
     /// Keeps the results whose names are wanted.
     pub(crate) fn retain(&mut self, mut wanted: impl FnMut(&str) -> bool) {
-        let mut places = std::mem::take(&mut self.places);
-        places.retain(|&k| wanted(self.named(k).name));
-        self.places = places;
+        let known = &self.known;
+        self.places.retain(|&place| wanted(&known[place].name));
     }
 
     /// The results, with their places.
-    pub(crate) fn quantities(&self) -> impl Iterator<Item = (usize, Named<'_>)> {
-        self.places.iter().map(|&k| (k, self.named(k)))
+    pub(crate) fn quantities(&self) -> impl Iterator<Item = (usize, &Described)> {
+        self.places.iter().map(|&place| (place, self.named(place)))
     }
 
     /// Bytes of a number.
-    pub(crate) fn width(&self) -> usize {
+    pub(super) fn width(&self) -> usize {
         match self.precision {
             Precision::Double => 8,
             Precision::Single => 4,
         }
     }
+}
+
+/// Columns of the probes at most: a dimension scale names every dataset that it belongs to in 64 kB.
+const MOST: usize = 2000;
+
+/// Whether the kernels of a row were looked up.
+const TABLE: (&str, &str, &str) = (
+    "probe_table",
+    "1",
+    "1 where the kernels of the fields were looked up, 0 where they were computed",
+);
+
+/// The columns of the probes of a base scene: peaks of fields, their instants and errors; none without probes.
+pub(super) fn columns_of_probes(scene: &Table) -> Result<Vec<Described>, SceneError> {
+    let root = Section::root(scene);
+    let probes = root.list("probe")?.len();
+    if probes == 0 {
+        return Ok(Vec::new());
+    }
+    let output = root.section("output")?;
+    let quantities = output.map(|output| output.choices::<Quantity>("quantities"));
+    let quantities = quantities.transpose()?.unwrap_or_default();
+    let more = quantities.into_iter().map(described);
+    let fields: Vec<_> = FIELDS.into_iter().chain(more).collect();
+    let count = 1 + 3 * probes * fields.len();
+    if count > MOST {
+        return Err(SceneError::OutOfRange {
+            key: "the number of columns of the probes".to_owned(),
+            value: count as f64,
+            range: "[0, 2000]",
+        });
+    }
+    let mut columns = vec![TABLE.into()];
+    for probe in 1..=probes {
+        columns.extend(fields.iter().flat_map(|&field| of_field(probe, field)));
+    }
+    Ok(columns)
+}
+
+/// The columns of the probes of a stored sweep.
+pub(crate) fn stored_columns(sweep: &Table) -> Result<Vec<Described>, SceneError> {
+    match (sweep.get(SECTION), sweep.get("scene")) {
+        (Some(_), Some(Value::Table(scene))) => columns_of_probes(scene),
+        _ => Ok(Vec::new()),
+    }
+}
+
+/// Peak, instant and error of a field.
+fn of_field(probe: usize, field: (&str, &'static str, &str)) -> [Described; 3] {
+    let (name, unit, meaning) = field;
+    let [peak, time] = PEAK_SUFFIXES;
+    [
+        (peak, unit, "largest in magnitude over time"),
+        (time, "s", "when it is largest in magnitude"),
+        (ERROR_SUFFIX, unit, "estimated absolute error"),
+    ]
+    .map(|(suffix, unit, what)| Described {
+        name: format!("probe_{probe}_{name}{suffix}"),
+        unit,
+        meaning: format!("{what} at probe {probe}: {meaning}"),
+    })
+}
+
+/// The numbers of a row, in the order of the columns.
+pub(super) fn probed_numbers(found: &ProbePeaks) -> impl Iterator<Item = f64> + '_ {
+    let peaks = found.peaks.iter();
+    let peaks = peaks.flat_map(|peak| [peak.value, peak.time_s, peak.error]);
+    std::iter::once(f64::from(u8::from(found.looked_up))).chain(peaks)
 }

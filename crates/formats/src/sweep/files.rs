@@ -1,29 +1,29 @@
 //! The files that a sweep names, each read once and before the first row.
 
-use super::axis::{Axis, Values};
+use super::axes::{Axis, Values};
 use crate::error::SceneError;
-use crate::materials::parse_materials;
-use crate::text::read_text;
+use crate::scene::body::parse_materials;
+use crate::scene::text::read_text;
 use contact::Library;
 use output::Role;
 use std::collections::BTreeMap;
 use std::path::Path;
-use toml::{Table, Value};
+use toml::Table;
 
 /// What was read: rows are computed from it, whatever becomes of the files.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct Files {
+pub(super) struct Files {
     /// Where each file is.
-    pub(crate) inputs: Vec<Role>,
+    pub(super) inputs: Vec<Role>,
     /// Materials by the name of their file.
     libraries: BTreeMap<String, Library>,
     /// Text of each materials file, in the order of their names.
-    pub(crate) texts: Vec<String>,
+    pub(super) texts: Vec<String>,
 }
 
 impl Files {
     /// Reads the materials of a base scene, and those that vary.
-    pub(crate) fn read(scene: &Table, axes: &[Axis], directory: &Path) -> Result<Self, SceneError> {
+    pub(super) fn read(scene: &Table, axes: &[Axis], directory: &Path) -> Result<Self, SceneError> {
         let mut files = Self::default();
         let mut names: Vec<&str> = named(scene).into_iter().collect();
         for column in axes.iter().flat_map(|axis| &axis.columns) {
@@ -48,7 +48,7 @@ impl Files {
     }
 
     /// The materials of a scene.
-    pub(crate) fn library(&self, scene: &Table) -> &Library {
+    pub(super) fn library(&self, scene: &Table) -> &Library {
         named(scene)
             .and_then(|name| self.libraries.get(name))
             .unwrap_or(Library::built_in())
@@ -57,8 +57,5 @@ impl Files {
 
 /// The materials file that a scene names.
 fn named(scene: &Table) -> Option<&str> {
-    match scene.get("materials") {
-        Some(Value::Table(section)) => section.get("file").and_then(Value::as_str),
-        Some(_) | None => None,
-    }
+    scene.get("materials")?.as_table()?.get("file")?.as_str()
 }

@@ -4,7 +4,7 @@
 //! length of the failures' text, the numbers, those that probes bring, the models, the failures, and a hash of all that.
 //! A record that is cut short or damaged ends the journal; what comes after is computed anew.
 
-use super::block::Block;
+use super::rows::Block;
 use crate::quantities::QUANTITIES;
 use output::{Existing, Fault, OutputError};
 use std::fs::{File, OpenOptions};
@@ -104,22 +104,21 @@ impl Journal {
         header: &Header,
         existing: Existing,
     ) -> Result<(Self, Vec<Span>), JournalError> {
+        let path = path.to_owned();
         let io = |source| JournalError::Io {
-            path: path.to_owned(),
+            path: path.clone(),
             source,
         };
-        let there = std::fs::symlink_metadata(path);
+        let there = std::fs::symlink_metadata(&path);
         if there.as_ref().is_ok_and(|there| !there.is_file()) {
-            return Err(JournalError::Strange {
-                path: path.to_owned(),
-            });
+            return Err(JournalError::Strange { path });
         }
         let mut file = OpenOptions::new()
             .read(true)
             .write(true)
             .create_new(there.is_err())
-            .open(path)
-            .map_err(|error| OutputError::writing(path, error))?;
+            .open(&path)
+            .map_err(|error| OutputError::writing(&path, error))?;
         let found = start(&file).map_err(io)?;
         let (mut spans, mut length) = (Vec::new(), HEADER as u64);
         if found == header.bytes() {
@@ -129,24 +128,20 @@ impl Journal {
         } else {
             let known = found.len().min(MAGIC.len() - 1);
             if found[..known] != MAGIC[..known] {
-                return Err(JournalError::Strange {
-                    path: path.to_owned(),
-                });
+                return Err(JournalError::Strange { path });
             }
             // one that ends within its header holds nothing
             if found.len() == HEADER && existing != Existing::Replace {
-                return Err(JournalError::Other {
-                    path: path.to_owned(),
-                });
+                return Err(JournalError::Other { path });
             }
             file.set_len(0).map_err(io)?;
             file.rewind().map_err(io)?;
             file.write_all(&header.bytes())
-                .map_err(|error| OutputError::writing(path, error))?;
+                .map_err(|error| OutputError::writing(&path, error))?;
         }
         let journal = Self {
             file,
-            path: path.to_owned(),
+            path,
             flushed: Instant::now(),
             length,
             width: header.width,
@@ -269,54 +264,51 @@ fn record(block: &Block) -> Vec<u8> {
 ///
 /// `left` is what the file still has: no more memory is taken.
 fn read_block(reader: &mut impl Read, left: u64, width: usize) -> Option<(Block, u64)> {
+    const WIDTH: usize = QUANTITIES.len();
     let mut bytes = vec![0; 24];
     reader.read_exact(&mut bytes).ok()?;
-    let word = |bytes: &[u8], i: usize| {
-        let eight: [u8; 8] = bytes[8 * i..8 * i + 8].try_into().ok()?;
-        Some(u64::from_le_bytes(eight))
-    };
-    let (start, rows, text) = (word(&bytes, 0)?, word(&bytes, 1)?, word(&bytes, 2)?);
+    let [start, rows, text] = [0, 1, 2].map(|i| word(&bytes[8 * i..]));
     let size = rows
-        .checked_mul(8 * (QUANTITIES.len() + width) as u64 + 1)?
+        .checked_mul(8 * (WIDTH + width) as u64 + 1)?
         .checked_add(text)?;
     if rows == 0 || size.checked_add(32)? > left {
         return None;
     }
-    let [start, rows, length] = [start, rows, size].map(usize::try_from);
-    let (start, rows, length) = (start.ok()?, rows.ok()?, length.ok()?);
+    let (start, rows) = (usize::try_from(start).ok()?, usize::try_from(rows).ok()?);
     start.checked_add(rows)?;
-    let contacts = rows * 8 * QUANTITIES.len();
-    let numbers = contacts + rows * 8 * width;
-    bytes.resize(24 + length, 0);
+    bytes.resize(24 + usize::try_from(size).ok()?, 0);
     reader.read_exact(&mut bytes[24..]).ok()?;
     let mut hash = [0; 8];
     reader.read_exact(&mut hash).ok()?;
     if sum(&bytes) != u64::from_le_bytes(hash) {
         return None;
     }
-    let body = &bytes[24..];
-    let row_numbers = body[..contacts].chunks_exact(8 * QUANTITIES.len());
-    let probed = body[contacts..numbers].chunks_exact(8);
-    let read = |chunk: &[u8], k: usize| word(chunk, k).map_or(f64::NAN, f64::from_bits);
-    let failures = std::str::from_utf8(&body[numbers + rows..]).ok()?;
-    let models = body[numbers..numbers + rows].to_vec();
+    let (contacts, rest) = bytes[24..].split_at(rows * 8 * WIDTH);
+    let (probed, rest) = rest.split_at(rows * 8 * width);
+    let (models, failures) = rest.split_at(rows);
+    let failures = std::str::from_utf8(failures).ok()?.lines().map(|line| {
+        let (row, reason) = line.split_once(' ')?;
+        Some((row.parse().ok()?, reason.to_owned()))
+    });
+    let number = |bytes: &[u8]| f64::from_bits(word(bytes));
+    let contacts = contacts.chunks_exact(8 * WIDTH);
     let block = Block {
         start,
-        numbers: row_numbers
-            .map(|chunk| std::array::from_fn(|k| read(chunk, k)))
+        numbers: contacts
+            .map(|row| std::array::from_fn(|k| number(&row[8 * k..])))
             .collect(),
-        probed: probed.map(|chunk| read(chunk, 0)).collect(),
-        models,
-        failures: failures
-            .lines()
-            .map(|line| {
-                let (row, reason) = line.split_once(' ')?;
-                let row = row.parse().ok()?;
-                Some((row, reason.to_owned()))
-            })
-            .collect::<Option<_>>()?,
+        probed: probed.chunks_exact(8).map(number).collect(),
+        models: models.to_vec(),
+        failures: failures.collect::<Option<_>>()?,
     };
-    block.holds().then_some((block, 32 + length as u64))
+    block.holds().then_some((block, 32 + size))
+}
+
+/// The number in the first eight bytes.
+fn word(bytes: &[u8]) -> u64 {
+    let mut word = [0; 8];
+    word.copy_from_slice(&bytes[..8]);
+    u64::from_le_bytes(word)
 }
 
 /// Fowler, Noll and Vo's hash over words of eight bytes.

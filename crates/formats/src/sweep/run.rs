@@ -1,13 +1,16 @@
-//! Runs a sweep block by block.
+//! Computes the rows of a sweep, block by block.
 
-use super::block::Block;
-use super::blocks::Blocks;
+use super::axes::place;
+use super::fields::probed_numbers;
 use super::journal::{Header, Journal, JournalError, Span};
+use super::rows::{Block, Blocks, NO_MODEL};
 use super::shard::BLOCK;
 use super::spec::Spec;
-use super::template::Templates;
+use super::template::{Scratch, Templates};
 use crate::error::SceneError;
-use contact::{Ratios, Tabulated};
+use crate::quantities::QUANTITIES;
+use contact::{Choice, Collision, Model, Ratios, Tabulated};
+use impact::sweep::{Collided, Observed, collide_rows, observe_rows};
 use output::{Existing, Fault, OutputError};
 use std::ops::Range;
 use std::path::Path;
@@ -84,9 +87,8 @@ pub fn run_rows(
     existing: Existing,
     mut watch: impl FnMut(usize) -> bool,
 ) -> Result<Option<Kept>, SweepError> {
-    let templates = Templates::new(spec)?;
+    let computer = Computer::new(spec)?;
     let (mut journal, mut spans) = Journal::open(part, &header(spec, &rows), existing)?;
-    let responses = Tabulated::new(ratios(spec));
     let mut done: usize = spans.iter().map(|span| span.count).sum();
     let resumed = done;
     if !watch(done) {
@@ -98,10 +100,8 @@ pub fn run_rows(
         let mut start = gap.start;
         while start < gap.end {
             let end = (start + size).min(gap.end);
-            let began = Instant::now();
-            let block = Block::compute(spec, &templates, &responses, (start, end), |row| row);
-            spec.check_kernels()?;
-            size = next_size(end - start, began.elapsed().as_secs_f64(), BLOCK_S);
+            let block;
+            (block, size) = computer.block(start..end, BLOCK_S, |row| row)?;
             spans.push(journal.append(&block)?);
             done += block.numbers.len();
             if !watch(done) && done < rows.len() {
@@ -143,6 +143,107 @@ pub fn run_sweep(
         resumed: kept.resumed,
         journal: kept.journal,
     }))
+}
+
+/// What rows are computed with.
+struct Computer<'a> {
+    spec: &'a Spec,
+    templates: Templates<'a>,
+    responses: Tabulated,
+}
+
+/// What a thread remembers of the row before.
+#[derive(Debug, Default)]
+struct Memory {
+    place: Vec<usize>,
+    scratch: Scratch,
+}
+
+impl<'a> Computer<'a> {
+    fn new(spec: &'a Spec) -> Result<Self, SceneError> {
+        let ratios = if spec.has_many_ratios() {
+            Ratios::Many
+        } else {
+            Ratios::Few
+        };
+        Ok(Self {
+            spec,
+            templates: Templates::new(spec)?,
+            responses: Tabulated::new(ratios),
+        })
+    }
+
+    /// The rows of a range, of those that `row_of` gives a number in the sweep, and how many are to follow for the next
+    /// block to take a time.
+    fn block(
+        &self,
+        rows: Range<usize>,
+        wanted_s: f64,
+        row_of: impl Fn(usize) -> usize + Sync,
+    ) -> Result<(Block, usize), SceneError> {
+        let began = Instant::now();
+        let (spec, templates, count) = (self.spec, &self.templates, rows.len());
+        let mut block = Block {
+            start: rows.start,
+            ..Block::default()
+        };
+        if let Some(kernels) = &spec.kernels {
+            let of = (&self.responses, &kernels.choice);
+            let done = observe_rows(rows.clone(), of, |row, memory: &mut Memory| {
+                place(&spec.axes, row_of(row), &mut memory.place);
+                let scene = templates.scene(&memory.place, &mut memory.scratch)?;
+                Ok::<_, SceneError>(scene.clone())
+            });
+            let width = spec.fields.probed();
+            rows.zip(done)
+                .for_each(|(row, done)| push_observed(&mut block, row, done, width));
+        } else {
+            let done = collide_rows(rows.clone(), &self.responses, |row, memory: &mut Memory| {
+                place(&spec.axes, row_of(row), &mut memory.place);
+                let (target, strike, settings) =
+                    templates.contact(&memory.place, &mut memory.scratch)?;
+                let collision = Collision::new(target, &strike.striker, strike.velocity_m_s);
+                Ok::<_, SceneError>((collision, *settings))
+            });
+            rows.zip(done)
+                .for_each(|(row, done)| push(&mut block, row, done));
+        }
+        spec.check_kernels()?;
+        let took_s = began.elapsed().as_secs_f64();
+        Ok((block, next_size(count, took_s, wanted_s)))
+    }
+}
+
+/// Adds a row with what the probes bring to it; where its fields alone failed the contact stays.
+fn push_observed(block: &mut Block, row: usize, done: Result<Observed, String>, width: usize) {
+    let end = block.probed.len() + width;
+    match done {
+        Ok(found) => {
+            push(block, row, Ok(found.collided));
+            match found.peaks {
+                Ok(peaks) => block.probed.extend(probed_numbers(&peaks)),
+                Err(reason) => block.failures.push((row, reason)),
+            }
+        }
+        Err(reason) => push(block, row, Err(reason)),
+    }
+    block.probed.resize(end, f64::NAN);
+}
+
+fn push(block: &mut Block, row: usize, done: Result<Collided, String>) {
+    let mut numbers = [f64::NAN; QUANTITIES.len()];
+    let mut model = None;
+    match done {
+        Ok(found) => {
+            numbers = std::array::from_fn(|k| (QUANTITIES[k].of_contact)(&found.results));
+            model = Model::ALL.iter().position(|m| *m == found.model);
+        }
+        Err(reason) => block.failures.push((row, reason)),
+    }
+    block.numbers.push(numbers);
+    block
+        .models
+        .push(model.map_or(NO_MODEL, |index| index as u8));
 }
 
 /// Rows that are held in memory together, at most: a hundred bytes each.
@@ -197,18 +298,18 @@ pub fn compute_rows(
             range: "the rows of the sweep, which count from 0",
         });
     }
-    let templates = Templates::new(spec)?;
-    let responses = Tabulated::new(ratios(spec));
+    let computer = Computer::new(spec)?;
     let row_of = |index: usize| start + index * step;
     let (mut all, mut size) = (Block::default(), FIRST_BLOCK);
     while all.numbers.len() < count {
         let done = all.numbers.len();
         let end = (done + size).min(count);
-        let began = Instant::now();
-        let block = Block::compute(spec, &templates, &responses, (done, end), row_of);
-        spec.check_kernels()?;
-        size = next_size(end - done, began.elapsed().as_secs_f64(), WATCH_S);
-        all.append(block);
+        let mut block;
+        (block, size) = computer.block(done..end, WATCH_S, row_of)?;
+        all.numbers.append(&mut block.numbers);
+        all.probed.append(&mut block.probed);
+        all.models.append(&mut block.models);
+        all.failures.append(&mut block.failures);
         if !watch(end) && end < count {
             return Ok(None);
         }
@@ -249,15 +350,7 @@ fn header(spec: &Spec, rows: &Range<usize>) -> Header {
     Header {
         fingerprint: spec.fingerprint,
         rows: rows.clone(),
-        width: spec.fields.probed.len(),
-    }
-}
-
-fn ratios(spec: &Spec) -> Ratios {
-    if spec.has_many_ratios() {
-        Ratios::Many
-    } else {
-        Ratios::Few
+        width: spec.fields.probed(),
     }
 }
 

@@ -1,22 +1,11 @@
 //! Names and versions on disk.
 
-use super::fields::Fields;
-
 /// Value of the attribute `file_type`.
 pub const FILE_TYPE: &str = "hertzlamb sweep";
 /// Version of the format: the first number changes when a reader of the old one would fail.
 pub const FORMAT_VERSION: &str = "1.4";
 /// Version of a sweep with probes.
 pub const PROBED_VERSION: &str = "1.5";
-
-/// Version of the format of a file with these results.
-pub(crate) fn version(fields: &Fields) -> &'static str {
-    if fields.probed.is_empty() {
-        FORMAT_VERSION
-    } else {
-        PROBED_VERSION
-    }
-}
 
 /// Section of the stored sweep that says where its fields have their kernels from.
 pub const FIELDS: &str = "fields";
@@ -65,23 +54,12 @@ pub const NAMES: &str = "names";
 
 /// Names and versions of a file that holds some rows of a sweep.
 pub mod part {
-    use super::Fields;
-
     /// Value of the attribute `file_type`.
     pub const FILE_TYPE: &str = "hertzlamb sweep part";
     /// Version of the format: the first number changes when a reader of the old one would fail.
     pub const FORMAT_VERSION: &str = "1.0";
     /// Version of a part with probes.
     pub const PROBED_VERSION: &str = "1.1";
-
-    /// Version of the format of a part with these results.
-    pub(crate) fn version(fields: &Fields) -> &'static str {
-        if fields.probed.is_empty() {
-            FORMAT_VERSION
-        } else {
-            PROBED_VERSION
-        }
-    }
 
     /// Text attribute of the root, beside those of a sweep: I/N of the I-th of N shards, nothing for other rows.
     pub const SHARD: &str = "shard";

@@ -1,8 +1,10 @@
 //! Some rows of a sweep.
 
+use super::fields::Fields;
 use crate::error::SceneError;
 use std::fmt;
 use std::ops::Range;
+use std::path::PathBuf;
 use std::str::FromStr;
 
 /// Rows of a block at most.
@@ -24,6 +26,23 @@ pub struct Selection {
     pub rows: Range<usize>,
     /// The shard that they are.
     pub shard: Option<Shard>,
+}
+
+/// What a file of some rows of a sweep says of itself.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Part {
+    /// Where it lies.
+    pub path: PathBuf,
+    /// Which sweep it is of.
+    pub sha256: String,
+    /// Which rows it has.
+    pub selection: Selection,
+    /// Rows of the whole sweep.
+    pub sweep_rows: usize,
+    /// Failed rows.
+    pub failed: usize,
+    /// Which results it has.
+    pub fields: Fields,
 }
 
 impl Shard {

@@ -1,21 +1,21 @@
-//! The sweep file.
+//! What a sweep is: a base scene, the keys that vary, and what of the results is written.
 
-use super::axis::{Axis, Column, Values, rows};
-use super::correlation::Correlations;
-use super::drawn::Drawn;
-use super::fields::Fields;
+use super::axes::{Axis, Column, Values, rows};
+use super::draws::Drawn;
+use super::fields::{Fields, columns_of_probes, stored_columns};
 use super::files::Files;
-use super::fingerprint::{fingerprint, hexadecimal};
-use super::kernels::Kernels;
-use super::probed::stored_columns;
-use super::random::Distribution;
-use super::schema::{LIST, SAMPLE};
+use super::kernels::{FieldKernels, Kernels, KernelsError};
+use super::schema::{FIELDS, FORMAT_VERSION, LIST, SAMPLE};
 use super::shard::BLOCK;
 use crate::error::SceneError;
-use crate::section::{FINITE, POSITIVE, Section, parse};
-use crate::text::read_text;
-use contact::Choice;
+use crate::identity::{Identity, hexadecimal};
+use crate::scene::keys::FINITE;
+use crate::scene::section::{Section, parse};
+use crate::scene::text::read_text;
+use contact::numbers::NUMBERS_REVISION;
+use impact::numbers::FIELDS_REVISION;
 use output::Role;
+use sha2::{Digest, Sha256};
 use std::path::{Path, PathBuf};
 use toml::{Table, Value};
 
@@ -25,13 +25,13 @@ pub struct Spec {
     /// The base scene.
     pub(crate) scene: Table,
     /// Where the files it names are.
-    pub(crate) directory: PathBuf,
+    pub(super) directory: PathBuf,
     /// Axes: the product's in alphabetical order, then the list's, then that of the draws.
     pub axes: Vec<Axis>,
     /// Everything spelled out, as TOML.
     pub(crate) resolved: String,
     /// What was read beside it.
-    pub(crate) files: Files,
+    pub(super) files: Files,
     /// What makes two sweeps the same: SHA-256 of everything that is asked and was read, and of the program's version and numbers.
     pub(crate) fingerprint: [u8; 32],
     /// What of the results is written.
@@ -43,12 +43,12 @@ pub struct Spec {
 /// Rows of a sweep at most: a place in a file of them is counted exactly.
 const MOST_ROWS: usize = 1_000_000_000_000;
 
-/// Values of an axis at most, but for draws: they are held in memory.
-const MOST_VALUES: usize = 10_000_000;
-
 /// Memory in bytes that a run takes beside the values of the axes: a block and the columns made of it, or a group of
 /// Parquet, and its tables.
 const RUN_BYTES: usize = 120_000_000;
+
+/// Distinct Poisson's ratios of targets up to which each has its own response, and its own part of a table.
+const FEW: usize = 256;
 
 impl Spec {
     /// Reads a sweep file; the scene it names is looked for beside it.
@@ -75,7 +75,7 @@ impl Spec {
     /// [`SceneError`].
     pub fn from_table(table: &Table, directory: &Path) -> Result<Self, SceneError> {
         let root = Section::root(table);
-        root.allow(&["scene", "product", "list", "random"])?;
+        root.allow(["scene", "product", "list", "random"])?;
         let (scene, directory, file) = base(&root, table, directory)?;
         let axes = axes(&root)?;
         let mut files = Files::read(&scene, &axes, &directory)?;
@@ -184,12 +184,11 @@ impl Spec {
     /// Memory in bytes that a run takes, about: it does not depend on the number of rows.
     #[must_use]
     pub fn memory_bytes(&self) -> f64 {
-        let columns = self.axes.iter().flat_map(|axis| &axis.columns);
-        let values: usize = (columns.map(|column| &column.values))
+        let values: usize = (self.columns().map(|column| &column.values))
             .filter(|values| !matches!(values, Values::Drawn(_)))
             .map(Values::len)
             .sum();
-        let probed = 2 * BLOCK * self.fields.probed.len();
+        let probed = 2 * BLOCK * self.fields.probed();
         (RUN_BYTES + (values + probed) * 8) as f64
     }
 
@@ -198,13 +197,86 @@ impl Spec {
     pub fn rows(&self) -> usize {
         rows(&self.axes).unwrap_or(0)
     }
+
+    /// The keys that vary.
+    pub(super) fn columns(&self) -> impl Iterator<Item = &Column> {
+        self.axes.iter().flat_map(|axis| &axis.columns)
+    }
+
+    /// Whether its base scene has probes, whose fields need [`Self::with_fields`].
+    #[must_use]
+    pub fn has_probes(&self) -> bool {
+        self.scene.contains_key("probe")
+    }
+
+    /// With the peaks of the fields at the probes of its base scene, which are then part of what makes two sweeps the same.
+    ///
+    /// Which results are written is chosen after it.
+    ///
+    /// # Errors
+    /// [`KernelsError`].
+    pub fn with_fields(mut self, asked: FieldKernels<'_>) -> Result<Self, KernelsError> {
+        let kernels = Kernels::new(asked, self.has_many_ratios())?;
+        self.fields = Fields::all(columns_of_probes(&self.scene)?);
+        let mut table = parse(&self.resolved)?;
+        table.insert(FIELDS.into(), Value::Table(kernels.identity.clone()));
+        self.resolved = table.to_string();
+        let mut hash = Sha256::new();
+        hash.update(self.fingerprint);
+        hash.update(FIELDS_REVISION.to_le_bytes());
+        hash.update(kernels.identity.to_string());
+        self.fingerprint = hash.finalize().into();
+        self.kernels = Some(kernels);
+        Ok(self)
+    }
+
+    /// Fails where kernels could not be read while rows were computed.
+    pub(super) fn check_kernels(&self) -> Result<(), SceneError> {
+        self.kernels.as_ref().map_or(Ok(()), Kernels::check)
+    }
+
+    /// Whether the targets have more Poisson's ratios than have responses of their own each.
+    pub(super) fn has_many_ratios(&self) -> bool {
+        let of_ratio = |column: &Column| {
+            column.section == "target"
+                && (column.key == "poisson_ratio" || column.key.ends_with("_speed_m_s"))
+        };
+        let mut axes = self.axes.iter();
+        axes.any(|axis| axis.len > FEW && axis.columns.iter().any(of_ratio))
+    }
+}
+
+/// SHA-256 of the program's version, the revision of its numbers, the format, everything spelled out, the files that were
+/// read, and of axes whose values are not spelled out.
+fn fingerprint(resolved: &str, files: &[String], axes: &[Axis]) -> [u8; 32] {
+    let numbers = NUMBERS_REVISION.to_string();
+    let parts = [
+        env!("CARGO_PKG_VERSION"),
+        &numbers,
+        FORMAT_VERSION,
+        resolved,
+    ];
+    let mut hash = Identity::default();
+    for part in parts.into_iter().chain(files.iter().map(String::as_str)) {
+        hash.add(part.as_bytes());
+    }
+    for column in axes.iter().flat_map(|axis| &axis.columns) {
+        hash.add(column.name().as_bytes());
+        match &column.values {
+            Values::Numbers(numbers) => numbers.iter().for_each(|x| hash.add(&x.to_le_bytes())),
+            // the distribution is spelled out
+            Values::Drawn(_) => {}
+            Values::Texts(words) => words.iter().for_each(|word| hash.add(word.as_bytes())),
+        }
+    }
+    hash.finish()
 }
 
 /// The axes that the sections of a sweep say.
 fn axes(root: &Section<'_>) -> Result<Vec<Axis>, SceneError> {
     let mut axes = Vec::new();
     if let Some(product) = root.section("product")? {
-        for column in columns(&product, &[])? {
+        for column in columns(&product)? {
             axes.push(Axis {
                 name: column.name(),
                 len: column.values.len(),
@@ -213,7 +285,7 @@ fn axes(root: &Section<'_>) -> Result<Vec<Axis>, SceneError> {
         }
     }
     if let Some(list) = root.section("list")? {
-        axes.push(together(columns(&list, &[])?)?);
+        axes.push(together(columns(&list)?)?);
     }
     if let Some(random) = root.section("random")? {
         axes.push(drawn(&random)?);
@@ -242,77 +314,22 @@ fn base(
 }
 
 /// The scene keys below a section of the sweep, with their values.
-fn columns(section: &Section<'_>, other: &[&str]) -> Result<Vec<Column>, SceneError> {
+fn columns(section: &Section<'_>) -> Result<Vec<Column>, SceneError> {
     let mut found = Vec::new();
-    for (name, keys) in section.subsections(other)? {
+    for keys in section.subsections(&[])? {
         for key in keys.names() {
             found.push(Column {
-                section: name.clone(),
+                section: keys.name().to_owned(),
                 key: key.to_owned(),
-                values: values(&keys, key)?,
+                values: Values::read(&keys, key)?,
             });
         }
     }
     if found.is_empty() {
-        return Err(section.missing(
-            "striker.velocity_m_s",
-            "give at least one scene key, such as this one",
-        ));
+        let hint = "give at least one scene key, such as this one";
+        return Err(section.missing("striker.velocity_m_s", hint));
     }
     Ok(found)
-}
-
-/// Values of a key: a list, or from, to, count and spacing.
-fn values(section: &Section<'_>, key: &str) -> Result<Values, SceneError> {
-    if let Some(range) = section.inner(key) {
-        return spaced(&range).map(Values::Numbers);
-    }
-    Values::read(section, key)
-}
-
-/// How values lie between two ends.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Spacing {
-    Linear,
-    Log,
-}
-
-impl Choice for Spacing {
-    const ALL: &'static [Self] = &[Self::Linear, Self::Log];
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::Linear => "linear",
-            Self::Log => "log",
-        }
-    }
-}
-
-fn spaced(range: &Section<'_>) -> Result<Vec<f64>, SceneError> {
-    range.allow(&["from", "to", "count", "spacing"])?;
-    let spacing = range.choice("spacing")?.unwrap_or(Spacing::Linear);
-    let allowed = match spacing {
-        Spacing::Linear => FINITE,
-        Spacing::Log => POSITIVE,
-    };
-    let from = range.required("from", allowed, "the first value")?;
-    let to = range.required("to", allowed, "the last value")?;
-    let count = range
-        .count("count", 2, MOST_VALUES, "[2, 10000000]")?
-        .ok_or_else(|| range.missing("count", "how many values"))?;
-    let last = (count - 1) as f64;
-    Ok((0..count)
-        .map(|i| {
-            let fraction = i as f64 / last;
-            if i + 1 == count {
-                return to;
-            }
-            match spacing {
-                Spacing::Linear => from + fraction * (to - from),
-                Spacing::Log => from * (to / from).powf(fraction),
-            }
-        })
-        .collect())
 }
 
 /// The axis of keys that vary together.
@@ -325,53 +342,28 @@ fn together(columns: Vec<Column>) -> Result<Axis, SceneError> {
             reason: "the keys of a list vary together and need as many values each",
         });
     }
-    Ok(Axis {
-        name: LIST.to_owned(),
-        columns,
-        len,
-    })
+    let name = LIST.to_owned();
+    Ok(Axis { name, columns, len })
 }
 
 /// The axis of random draws.
 fn drawn(random: &Section<'_>) -> Result<Axis, SceneError> {
-    let samples = random
-        .count("samples", 1, MOST_ROWS, "[1, 1e12]")?
+    let len = random
+        .count("samples", 1..=MOST_ROWS, "[1, 1e12]")?
         .ok_or_else(|| random.missing("samples", "how many draws"))?;
-    let seed = random
-        .count("seed", 0, usize::MAX, "[0, 2^63)")?
-        .unwrap_or(0) as u64;
-    let (mut places, mut drawn) = (Vec::new(), Vec::new());
-    for (name, keys) in random.subsections(&["samples", "seed", "correlation"])? {
-        for key in keys.names() {
-            let inner = keys.inner(key).ok_or_else(|| SceneError::Missing {
-                key: format!("{}.distribution", keys.key(key)),
-                hint: "a random key is a table such as { distribution = \"normal\", mean = 1.0, deviation = 0.1 }".to_owned(),
-            })?;
-            drawn.push((format!("{name}.{key}"), Distribution::read(&inner)?));
-            places.push((name.clone(), key.to_owned()));
-        }
-    }
-    let names: Vec<String> = drawn.iter().map(|(name, _)| name.clone()).collect();
-    let correlations = Correlations::read(random, &names)?;
-    let draws = Drawn::of(seed, samples, &drawn, correlations);
-    let columns: Vec<Column> = (places.into_iter().zip(draws))
-        .map(|((section, key), drawn)| Column {
-            section,
-            key,
-            values: Values::Drawn(drawn),
-        })
-        .collect();
+    let draws = Drawn::read(random, len)?.into_iter();
+    let columns = draws.map(|(section, key, drawn)| Column {
+        section,
+        key,
+        values: Values::Drawn(drawn),
+    });
+    let columns: Vec<Column> = columns.collect();
     if columns.is_empty() {
-        return Err(random.missing(
-            "striker.velocity_m_s",
-            "give at least one scene key with a distribution",
-        ));
+        let hint = "give at least one scene key with a distribution";
+        return Err(random.missing("striker.velocity_m_s", hint));
     }
-    Ok(Axis {
-        name: SAMPLE.to_owned(),
-        columns,
-        len: samples,
-    })
+    let name = SAMPLE.to_owned();
+    Ok(Axis { name, columns, len })
 }
 
 /// No key twice, at least one axis, not too many rows, numbers alone.
@@ -396,10 +388,8 @@ fn check(axes: &[Axis]) -> Result<(), SceneError> {
             hint: "say in one of these sections which keys vary".to_owned(),
         });
     }
-    let names: Vec<String> = axes
-        .iter()
-        .flat_map(|axis| axis.columns.iter().map(Column::name))
-        .collect();
+    let columns = axes.iter().flat_map(|axis| &axis.columns);
+    let names: Vec<String> = columns.map(Column::name).collect();
     for (i, name) in names.iter().enumerate() {
         if names[..i].contains(name) {
             return Err(SceneError::Conflict {

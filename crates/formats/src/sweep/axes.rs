@@ -1,9 +1,14 @@
 //! The keys that vary and their values.
 
-use super::drawn::Drawn;
+use super::draws::Drawn;
 use crate::error::SceneError;
-use crate::section::Section;
+use crate::scene::keys::{FINITE, POSITIVE};
+use crate::scene::section::{Section, as_number};
+use contact::Choice;
 use toml::{Table, Value};
+
+/// Values of an axis at most, but for draws: they are held in memory.
+const MOST_VALUES: usize = 10_000_000;
 
 /// Values of a key along an axis.
 #[derive(Debug, Clone, PartialEq)]
@@ -43,37 +48,88 @@ impl Values {
         }
     }
 
-    /// Those that a key of a section lists.
+    /// Those that a key of a section lists, or that lie between two ends.
     pub(super) fn read(section: &Section<'_>, key: &str) -> Result<Self, SceneError> {
+        if let Some(range) = section.inner(key) {
+            return spaced(&range).map(Self::Numbers);
+        }
         let Some(value) = section.value(key) else {
             return Err(section.missing(key, "a list of values"));
         };
         let wrong = || section.wrong_kind(key, value, "a list of numbers or of words");
         let items = match value {
-            Value::Array(items) if !items.is_empty() => items,
+            Value::Array(items) if !items.is_empty() => items.iter(),
             _ => return Err(wrong()),
         };
-        if items.iter().all(Value::is_str) {
-            let words = items.iter().filter_map(Value::as_str).map(str::to_owned);
-            return Ok(Self::Texts(words.collect()));
+        let words = items.clone().map(|item| item.as_str().map(str::to_owned));
+        if let Some(words) = words.collect() {
+            return Ok(Self::Texts(words));
         }
-        let number = |item: &Value| match item {
-            Value::Float(x) => Some(*x),
-            Value::Integer(i) => Some(*i as f64),
-            _ => None,
-        };
-        let numbers: Option<Vec<f64>> = items.iter().map(number).collect();
+        let numbers: Option<Vec<f64>> = items.map(as_number).collect();
         numbers.map(Self::Numbers).ok_or_else(wrong)
     }
 
     /// One of them as TOML.
-    pub(crate) fn get(&self, index: usize) -> Value {
+    pub(super) fn get(&self, index: usize) -> Value {
         match self {
             Self::Numbers(numbers) => Value::Float(numbers[index]),
             Self::Texts(texts) => Value::String(texts[index].clone()),
             Self::Drawn(drawn) => Value::Float(drawn.at(index)),
         }
     }
+
+    /// The words, where they are such.
+    pub(super) fn texts(&self) -> Option<&Vec<String>> {
+        match self {
+            Self::Texts(texts) => Some(texts),
+            Self::Numbers(_) | Self::Drawn(_) => None,
+        }
+    }
+}
+
+/// How values lie between two ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Spacing {
+    Linear,
+    Log,
+}
+
+impl Choice for Spacing {
+    const ALL: &'static [Self] = &[Self::Linear, Self::Log];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Linear => "linear",
+            Self::Log => "log",
+        }
+    }
+}
+
+fn spaced(range: &Section<'_>) -> Result<Vec<f64>, SceneError> {
+    range.allow(["from", "to", "count", "spacing"])?;
+    let spacing = range.choice("spacing")?.unwrap_or(Spacing::Linear);
+    let allowed = match spacing {
+        Spacing::Linear => FINITE,
+        Spacing::Log => POSITIVE,
+    };
+    let from = range.required("from", allowed, "the first value")?;
+    let to = range.required("to", allowed, "the last value")?;
+    let count = range
+        .count("count", 2..=MOST_VALUES, "[2, 10000000]")?
+        .ok_or_else(|| range.missing("count", "how many values"))?;
+    let last = (count - 1) as f64;
+    Ok((0..count)
+        .map(|i| {
+            let fraction = i as f64 / last;
+            if i + 1 == count {
+                return to;
+            }
+            match spacing {
+                Spacing::Linear => from + fraction * (to - from),
+                Spacing::Log => from * (to / from).powf(fraction),
+            }
+        })
+        .collect())
 }
 
 /// A scene key with its values along an axis.
@@ -95,7 +151,7 @@ impl Column {
     }
 
     /// Puts a value into a scene.
-    pub(crate) fn put(&self, scene: &mut Table, value: Value) -> Result<(), SceneError> {
+    pub(super) fn put(&self, scene: &mut Table, value: Value) -> Result<(), SceneError> {
         let section = scene
             .entry(self.section.clone())
             .or_insert_with(|| Value::Table(Table::new()));
@@ -125,13 +181,13 @@ pub struct Axis {
 }
 
 /// Number of rows of some axes, or nothing when it is beyond all counting.
-pub(crate) fn rows(axes: &[Axis]) -> Option<usize> {
+pub(super) fn rows(axes: &[Axis]) -> Option<usize> {
     axes.iter()
         .try_fold(1_usize, |rows, axis| rows.checked_mul(axis.len))
 }
 
 /// Index along each axis of a row; the last axis runs fastest.
-pub(crate) fn place(axes: &[Axis], row: usize, place: &mut Vec<usize>) {
+pub(super) fn place(axes: &[Axis], row: usize, place: &mut Vec<usize>) {
     place.clear();
     place.resize(axes.len(), 0);
     let mut rest = row;

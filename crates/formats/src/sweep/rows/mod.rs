@@ -1,8 +1,28 @@
-//! Rows into a file, in the format that its name ends with.
+//! Rows of a sweep and their files, in the format that a name ends with.
+//!
+//! `block` is a run of rows in memory and `columns` is what a file has of each; `csv`, [`hdf5`] and `parquet` write
+//! them, a few blocks at a time, and `footer` is what a Parquet file says of itself.
 
-use super::blocks::Blocks;
-use super::file::stage_sweep;
-use super::part::stage_part;
+mod block;
+mod boxes;
+mod columns;
+mod csv;
+mod footer;
+mod hdf5;
+#[cfg(feature = "parquet")]
+mod parquet;
+
+use self::hdf5::{Extent, stage_hdf5};
+pub(crate) use self::hdf5::{Source, stage_virtual};
+pub use self::hdf5::{row_bytes, write_sweep};
+#[cfg(feature = "parquet")]
+use self::parquet::stage_parquet;
+pub use block::{Block, Blocks, NO_MODEL};
+pub use columns::column_names;
+pub use csv::{print_csv, stage_csv, write_csv};
+pub use footer::FORMAT_VERSION as PARQUET_VERSION;
+pub(crate) use footer::{Footer, MAGIC};
+
 use super::shard::Selection;
 use super::spec::Spec;
 use output::{Output, OutputError, PARQUET, ROWS, Staged};
@@ -38,10 +58,8 @@ pub fn stage_rows<'a>(
     check_rows(output.path())?;
     #[cfg(feature = "parquet")]
     if PARQUET.is_of(output.path()) {
-        return super::parquet::stage_parquet(output, spec, selection, blocks);
+        return stage_parquet(output, spec, selection, blocks);
     }
-    match selection {
-        Some(selection) => stage_part(output, spec, selection, blocks),
-        None => stage_sweep(output, spec, blocks),
-    }
+    let extent = selection.map_or(Extent::Whole, Extent::Part);
+    stage_hdf5(output, spec, extent, blocks)
 }

@@ -1,0 +1,188 @@
+//! An elastic body as a section of keys, in scenes and in files of materials.
+
+use super::keys::keys_of;
+use super::section::{Section, parse};
+use super::text::read_text;
+use crate::error::SceneError;
+use contact::material::from_wave_speeds;
+use contact::{Library, Material};
+use std::path::Path;
+use toml::Table;
+
+/// Relative difference up to which quantities given twice are taken as rounded, not different.
+const ROUNDING: f64 = 0.02;
+
+/// A strength, which may be unknown: its key, and where it is.
+type Strength = (&'static str, fn(&Material) -> Option<f64>);
+
+const YIELD: Strength = ("yield_strength_pa", |m| m.yield_strength_pa);
+const TENSILE: Strength = ("tensile_strength_pa", |m| m.tensile_strength_pa);
+const TOUGHNESS: Strength = ("fracture_toughness_pa_sqrt_m", |m| {
+    m.fracture_toughness_pa_sqrt_m
+});
+
+/// Reads a file of materials: one section a material, the keys of a scene's bodies plus `group` and `source`.
+///
+/// # Errors
+/// [`SceneError`] with the file, the section and the key at fault.
+pub fn read_materials(path: &Path) -> Result<Library, SceneError> {
+    parse_materials(&read_text(path)?).map_err(|error| error.in_file(path))
+}
+
+/// Reads materials from text.
+///
+/// # Errors
+/// [`SceneError`] with the section and the key at fault.
+pub fn parse_materials(text: &str) -> Result<Library, SceneError> {
+    let table = parse(text)?;
+    let root = Section::root(&table);
+    let own = root.names().map(|name| {
+        let section = root.subsection(name, "a section")?;
+        let allowed = keys_of("body").map(|key| key.name);
+        section.allow(allowed.chain(["group", "source"]))?;
+        let source = section
+            .text("source")?
+            .ok_or_else(|| section.missing("source", "say where the numbers come from"))?;
+        Ok(Material {
+            name: section.name().to_owned(),
+            group: section.text("group")?.unwrap_or("other").to_owned(),
+            source: source.to_owned(),
+            ..elastic(&section, None)?
+        })
+    });
+    own.collect()
+}
+
+/// The body of a section that may name a material of a library.
+pub(super) fn body(section: &Section<'_>, library: &Library) -> Result<Material, SceneError> {
+    let named = section.text("material")?.map(|name| library.find(name));
+    let base = named.transpose();
+    let base = base.map_err(|unknown| SceneError::UnknownMaterial {
+        key: section.key("material"),
+        value: unknown.name,
+        suggestion: unknown.suggestion,
+    })?;
+    elastic(section, base)
+}
+
+/// The elastic body of a section: the numbers of `base` with those given replaced.
+///
+/// E and nu may be given by both wave speeds and the density instead.
+fn elastic(section: &Section<'_>, base: Option<&Material>) -> Result<Material, SceneError> {
+    let density = section.number("density_kg_m3")?;
+    let density = density.or_else(|| base.and_then(|b| b.density_kg_m3));
+    let (youngs_modulus_pa, poisson_ratio) = constants(section, base, density)?;
+    let strength = |(key, of): Strength| -> Result<Option<f64>, SceneError> {
+        let known = section.number(key)?.or(base.and_then(of));
+        Ok(known.filter(|&strength| strength > 0.0))
+    };
+    Ok(Material {
+        name: base.map_or_else(|| "given".to_owned(), |b| b.name.clone()),
+        youngs_modulus_pa,
+        poisson_ratio,
+        density_kg_m3: density,
+        yield_strength_pa: strength(YIELD)?,
+        tensile_strength_pa: strength(TENSILE)?,
+        fracture_toughness_pa_sqrt_m: strength(TOUGHNESS)?,
+        group: base.map_or_else(String::new, |b| b.group.clone()),
+        source: base.map_or_else(|| "the scene".to_owned(), |b| b.source.clone()),
+    })
+}
+
+/// Young's modulus in Pa and Poisson's ratio: as given, from the wave speeds, or those of `base`.
+fn constants(
+    section: &Section<'_>,
+    base: Option<&Material>,
+    density: Option<f64>,
+) -> Result<(f64, f64), SceneError> {
+    let given = (
+        section.number("youngs_modulus_pa")?,
+        section.number("poisson_ratio")?,
+    );
+    let speeds = from_speeds(section, density)?;
+    if let Some((modulus, ratio)) = speeds {
+        let twice = |quantity, key, given: Option<f64>, speeds: f64, size: f64| match given {
+            Some(first) if (first - speeds).abs() > ROUNDING * size => {
+                Err(SceneError::Inconsistent {
+                    section: format!("[{}]", section.name()),
+                    quantity,
+                    first,
+                    first_key: key,
+                    second: speeds,
+                    second_key: "longitudinal_speed_m_s and shear_speed_m_s",
+                })
+            }
+            Some(_) | None => Ok(()),
+        };
+        let key = "youngs_modulus_pa";
+        twice("Young's modulus", key, given.0, modulus, modulus)?;
+        twice("Poisson's ratio", "poisson_ratio", given.1, ratio, 0.5)?;
+    }
+    let known = speeds.or(base.map(|b| (b.youngs_modulus_pa, b.poisson_ratio)));
+    let missing = |key: &str| {
+        section.missing(key, "give a material, youngs_modulus_pa and poisson_ratio, or both wave speeds and density_kg_m3")
+    };
+    Ok((
+        (given.0.or(known.map(|k| k.0))).ok_or_else(|| missing("youngs_modulus_pa"))?,
+        (given.1.or(known.map(|k| k.1))).ok_or_else(|| missing("poisson_ratio"))?,
+    ))
+}
+
+/// Young's modulus in Pa and Poisson's ratio from the wave speeds, where they are given.
+fn from_speeds(
+    section: &Section<'_>,
+    density: Option<f64>,
+) -> Result<Option<(f64, f64)>, SceneError> {
+    let both = "both wave speeds are needed";
+    let c1 = section.number("longitudinal_speed_m_s")?;
+    let c2 = section.number("shear_speed_m_s")?;
+    let (c1, c2) = match (c1, c2) {
+        (None, None) => return Ok(None),
+        (Some(_), None) => return Err(section.missing("shear_speed_m_s", both)),
+        (None, Some(_)) => return Err(section.missing("longitudinal_speed_m_s", both)),
+        (Some(c1), Some(c2)) => (c1, c2),
+    };
+    let hint = "wave speeds give moduli only with a density";
+    let density = density.ok_or_else(|| section.missing("density_kg_m3", hint))?;
+    // nu in (-1, 1/2) needs c2/c1 < sqrt(3)/2
+    if c2 * c2 >= 0.75 * c1 * c1 {
+        return Err(SceneError::OutOfRange {
+            key: section.key("shear_speed_m_s"),
+            value: c2,
+            range: "(0, sqrt(3)/2) times longitudinal_speed_m_s",
+        });
+    }
+    Ok(Some(from_wave_speeds(c1, c2, density)))
+}
+
+/// The numbers of a material as TOML keys, for the resolved scene.
+pub(super) fn to_table(material: &Material) -> Table {
+    let mut table = Table::new();
+    // the numbers replace all of it; where one is unknown, 0 says so
+    let named = Library::built_in().get(&material.name);
+    let known = named.filter(|_| material.density_kg_m3.is_some());
+    if known.is_some() {
+        table.insert("material".to_owned(), material.name.as_str().into());
+    }
+    let strength = |(key, of): Strength| {
+        let zero = known.and_then(of).map(|_| 0.0);
+        (key, of(material).or(zero))
+    };
+    let numbers = [
+        ("youngs_modulus_pa", Some(material.youngs_modulus_pa)),
+        ("poisson_ratio", Some(material.poisson_ratio)),
+        ("density_kg_m3", material.density_kg_m3),
+        strength(YIELD),
+        strength(TENSILE),
+        strength(TOUGHNESS),
+    ];
+    put(&mut table, numbers);
+    table
+}
+
+/// Keys with the numbers that are known.
+pub(super) fn put<const N: usize>(table: &mut Table, numbers: [(&str, Option<f64>); N]) {
+    let known = numbers.into_iter();
+    let known = known.filter_map(|(key, number)| Some((key.to_owned(), number?.into())));
+    table.extend(known);
+}

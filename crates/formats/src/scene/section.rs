@@ -1,0 +1,285 @@
+//! Typed reading of a TOML table: every error names the full key and the value found.
+
+use super::keys::{FINITE, Range, keys_of, number};
+use crate::error::SceneError;
+use contact::{Choice, nearest};
+use std::ops::RangeInclusive;
+use toml::{Table, Value};
+
+/// One section of a scene, or its root.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Section<'a> {
+    name: &'a str,
+    table: &'a Table,
+}
+
+impl<'a> Section<'a> {
+    pub(crate) fn root(table: &'a Table) -> Self {
+        Self { name: "", table }
+    }
+
+    pub(crate) fn of(name: &'a str, table: &'a Table) -> Self {
+        Self { name, table }
+    }
+
+    pub(crate) fn name(&self) -> &'a str {
+        self.name
+    }
+
+    pub(crate) fn key(&self, key: &str) -> String {
+        if self.name.is_empty() {
+            key.to_owned()
+        } else {
+            format!("{}.{key}", self.name)
+        }
+    }
+
+    /// Reports the first key that is not allowed here.
+    pub(crate) fn allow(
+        &self,
+        allowed: impl IntoIterator<Item = &'static str>,
+    ) -> Result<(), SceneError> {
+        let allowed: Vec<&str> = allowed.into_iter().collect();
+        match self.names().find(|key| !allowed.contains(key)) {
+            None => Ok(()),
+            Some(key) => Err(SceneError::UnknownKey {
+                key: self.key(key),
+                suggestion: nearest(key, allowed.iter().copied()),
+                allowed: format!("known keys: {}", allowed.join(", ")),
+            }),
+        }
+    }
+
+    /// Reports the first key that the table of keys does not have in a section.
+    pub(super) fn allow_keys_of(&self, section: &str) -> Result<(), SceneError> {
+        self.allow(keys_of(section).map(|key| key.name))
+    }
+
+    /// Names of all keys.
+    pub(crate) fn names(&self) -> impl Iterator<Item = &'a str> {
+        self.table.keys().map(String::as_str)
+    }
+
+    /// The value of a key, whatever it is.
+    pub(crate) fn value(&self, key: &str) -> Option<&'a Value> {
+        self.table.get(key)
+    }
+
+    /// The table of a key that holds one.
+    pub(crate) fn inner(&self, key: &'a str) -> Option<Section<'a>> {
+        let table = self.value(key)?.as_table()?;
+        Some(Section { name: key, table })
+    }
+
+    /// The table of a key that is there.
+    pub(crate) fn subsection(
+        &self,
+        key: &'a str,
+        expected: &'static str,
+    ) -> Result<Section<'a>, SceneError> {
+        let wrong = || self.wrong_kind(key, &self.table[key], expected);
+        self.inner(key).ok_or_else(wrong)
+    }
+
+    /// A subsection such as [target].
+    pub(crate) fn section(&self, key: &'a str) -> Result<Option<Section<'a>>, SceneError> {
+        let there = self.value(key).is_some();
+        there.then(|| self.subsection(key, "a section")).transpose()
+    }
+
+    /// A list of subsections such as [[probe]], with the names of their elements.
+    pub(crate) fn list(&self, key: &str) -> Result<Vec<(String, &'a Table)>, SceneError> {
+        let wrong = |value| self.wrong_kind(key, value, "a list of sections [[..]]");
+        let items = match self.value(key) {
+            None => return Ok(Vec::new()),
+            Some(Value::Array(items)) => items.iter().enumerate(),
+            Some(value) => return Err(wrong(value)),
+        };
+        let named = items.map(|(i, item)| {
+            let table = item.as_table().ok_or_else(|| wrong(item))?;
+            Ok((format!("{}[{}]", self.key(key), i + 1), table))
+        });
+        named.collect()
+    }
+
+    /// A number of a scene, in the range that the table of keys gives it.
+    pub(super) fn number(&self, key: &str) -> Result<Option<f64>, SceneError> {
+        let range = number(key).and_then(|known| known.range);
+        self.number_in(key, range.unwrap_or(FINITE))
+    }
+
+    /// A number of a scene that is needed.
+    pub(super) fn needed(&self, key: &str) -> Result<f64, SceneError> {
+        let hint = number(key).map_or("", |known| known.hint);
+        self.number(key)?.ok_or_else(|| self.missing(key, hint))
+    }
+
+    /// All subsections but for the keys `other`.
+    pub(crate) fn subsections(&self, other: &[&str]) -> Result<Vec<Section<'a>>, SceneError> {
+        let names = self.names().filter(|name| !other.contains(name));
+        names
+            .map(|name| self.subsection(name, "a section of scene keys"))
+            .collect()
+    }
+
+    pub(crate) fn number_in(&self, key: &str, range: Range) -> Result<Option<f64>, SceneError> {
+        let Some(value) = self.value(key) else {
+            return Ok(None);
+        };
+        let number = as_number(value).ok_or_else(|| self.wrong_kind(key, value, "a number"))?;
+        if (range.holds)(number) {
+            return Ok(Some(number));
+        }
+        Err(SceneError::OutOfRange {
+            key: self.key(key),
+            value: number,
+            range: range.name,
+        })
+    }
+
+    pub(crate) fn required(&self, key: &str, range: Range, hint: &str) -> Result<f64, SceneError> {
+        let number = self.number_in(key, range)?;
+        number.ok_or_else(|| self.missing(key, hint))
+    }
+
+    pub(crate) fn missing(&self, key: &str, hint: &str) -> SceneError {
+        SceneError::Missing {
+            key: self.key(key),
+            hint: hint.to_owned(),
+        }
+    }
+
+    pub(crate) fn text(&self, key: &str) -> Result<Option<&'a str>, SceneError> {
+        let text = |value: &'a Value| {
+            let text = value.as_str();
+            text.ok_or_else(|| self.wrong_kind(key, value, "a string"))
+        };
+        self.value(key).map(text).transpose()
+    }
+
+    /// A whole number in a range.
+    pub(crate) fn count(
+        &self,
+        key: &str,
+        range: RangeInclusive<usize>,
+        name: &'static str,
+    ) -> Result<Option<usize>, SceneError> {
+        let whole = |value| self.whole(key, value, &range, name);
+        self.value(key).map(whole).transpose()
+    }
+
+    /// A pair of whole numbers in a range.
+    pub(super) fn counts(
+        &self,
+        key: &str,
+        range: RangeInclusive<usize>,
+        name: &'static str,
+    ) -> Result<Option<[usize; 2]>, SceneError> {
+        let whole = |value| self.whole(key, value, &range, name);
+        match self.value(key) {
+            None => Ok(None),
+            Some(Value::Array(items)) if items.len() == 2 => {
+                Ok(Some([whole(&items[0])?, whole(&items[1])?]))
+            }
+            Some(other) => Err(self.wrong_kind(key, other, "a pair of whole numbers")),
+        }
+    }
+
+    fn whole(
+        &self,
+        key: &str,
+        value: &Value,
+        range: &RangeInclusive<usize>,
+        name: &'static str,
+    ) -> Result<usize, SceneError> {
+        let Value::Integer(number) = value else {
+            return Err(self.wrong_kind(key, value, "a whole number"));
+        };
+        let count = usize::try_from(*number).ok();
+        (count.filter(|n| range.contains(n))).ok_or(SceneError::OutOfRange {
+            key: self.key(key),
+            value: *number as f64,
+            range: name,
+        })
+    }
+
+    /// One of the values of a choice.
+    pub(crate) fn choice<T: Choice>(&self, key: &str) -> Result<Option<T>, SceneError> {
+        let word = self.text(key)?;
+        word.map(|word| self.named(key, word)).transpose()
+    }
+
+    fn named<T: Choice>(&self, key: &str, word: &str) -> Result<T, SceneError> {
+        let names = || T::ALL.iter().map(|choice| choice.name());
+        T::named(word).ok_or_else(|| SceneError::UnknownChoice {
+            key: self.key(key),
+            value: word.to_owned(),
+            allowed: names().collect::<Vec<_>>().join(", "),
+        })
+    }
+
+    /// Different values of a choice, as a list; none where the key is not there.
+    pub(crate) fn choices<T: Choice>(&self, key: &str) -> Result<Vec<T>, SceneError> {
+        let items = match self.value(key) {
+            None => return Ok(Vec::new()),
+            Some(Value::Array(items)) => items,
+            Some(other) => return Err(self.wrong_kind(key, other, "a list of words")),
+        };
+        let mut found: Vec<T> = Vec::new();
+        for item in items {
+            let word = item.as_str();
+            let word = word.ok_or_else(|| self.wrong_kind(key, item, "a word"))?;
+            let choice = self.named(key, word)?;
+            if found.contains(&choice) {
+                return Err(SceneError::Conflict {
+                    first: format!("{} = \"{word}\"", self.key(key)),
+                    second: format!("\"{word}\""),
+                    reason: "each word stands once",
+                });
+            }
+            found.push(choice);
+        }
+        Ok(found)
+    }
+
+    /// Whether a key says true; no where it is not there.
+    pub(super) fn flag(&self, key: &str) -> Result<bool, SceneError> {
+        let flag = |value: &Value| {
+            let flag = value.as_bool();
+            flag.ok_or_else(|| self.wrong_kind(key, value, "true or false"))
+        };
+        self.value(key).map_or(Ok(false), flag)
+    }
+
+    pub(crate) fn wrong_kind(
+        &self,
+        key: &str,
+        value: &Value,
+        expected: &'static str,
+    ) -> SceneError {
+        let mut shown = value.to_string().replace('\n', " ");
+        if shown.chars().count() > 60 {
+            shown = shown.chars().take(57).chain("...".chars()).collect();
+        }
+        SceneError::WrongKind {
+            key: self.key(key),
+            value: shown,
+            expected,
+        }
+    }
+}
+
+/// A whole number is a number.
+pub(crate) fn as_number(value: &Value) -> Option<f64> {
+    value.as_float().or(value.as_integer().map(|i| i as f64))
+}
+
+/// Parses TOML text.
+pub(crate) fn parse(text: &str) -> Result<Table, SceneError> {
+    text.parse::<Table>().map_err(|error| SceneError::Syntax {
+        line: error.span().map_or(1, |span| {
+            text.get(..span.start).unwrap_or(text).matches('\n').count() + 1
+        }),
+        reason: error.message().replace('\n', " "),
+    })
+}

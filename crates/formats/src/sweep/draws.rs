@@ -1,0 +1,422 @@
+//! Random draws of keys: reproducible, the same whatever the number of threads, and each made when it is asked for, so that
+//! no memory holds them.
+//!
+//! Correlations between keys are Gauss's copula: each key has a standard normal number a draw; those of correlated keys are
+//! mixed by the Cholesky factor of their correlation matrix, and each is then taken to its own distribution at the same
+//! quantile. So every key keeps its distribution, and the coefficient is that of the values for normal, and of their
+//! logarithms for log-normal keys.
+
+use crate::error::SceneError;
+use crate::scene::keys::{FINITE, POSITIVE, Range};
+use crate::scene::section::Section;
+use contact::Choice;
+use std::f64::consts::{FRAC_1_SQRT_2, TAU};
+use std::sync::Arc;
+use toml::Value;
+
+/// The draws of one key.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Drawn {
+    draws: Arc<Draws>,
+    key: usize,
+}
+
+/// The draws of all keys, which may be correlated.
+#[derive(Debug, PartialEq)]
+struct Draws {
+    samples: usize,
+    keys: Vec<(u64, Distribution)>,
+    correlations: Correlations,
+}
+
+impl Drawn {
+    /// Those of all keys of the section `[random]`, each with its section and name; how many `samples` are.
+    pub(super) fn read(
+        random: &Section<'_>,
+        samples: usize,
+    ) -> Result<Vec<(String, String, Self)>, SceneError> {
+        let seed = random
+            .count("seed", 0..=usize::MAX, "[0, 2^63)")?
+            .unwrap_or(0) as u64;
+        let (mut places, mut names, mut keys) = (Vec::new(), Vec::new(), Vec::new());
+        for section in random.subsections(&["samples", "seed", "correlation"])? {
+            for key in section.names() {
+                let inner = section.inner(key).ok_or_else(|| SceneError::Missing {
+                    key: format!("{}.distribution", section.key(key)),
+                    hint: "a random key is a table such as { distribution = \"normal\", mean = 1.0, deviation = 0.1 }".to_owned(),
+                })?;
+                let name = section.key(key);
+                keys.push((stream(seed, &name), Distribution::read(&inner)?));
+                names.push(name);
+                places.push((section.name().to_owned(), key.to_owned()));
+            }
+        }
+        let draws = Arc::new(Draws {
+            samples,
+            keys,
+            correlations: Correlations::read(random, &names)?,
+        });
+        let of = |(key, (section, name))| {
+            let draws = Arc::clone(&draws);
+            (section, name, Self { draws, key })
+        };
+        Ok(places.into_iter().enumerate().map(of).collect())
+    }
+
+    /// How many.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.draws.samples
+    }
+
+    /// Whether there are none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Draw number `index`: a function of the seed, the keys and this number only.
+    #[must_use]
+    pub fn at(&self, index: usize) -> f64 {
+        let Draws {
+            keys, correlations, ..
+        } = &*self.draws;
+        let (stream, own) = keys[self.key];
+        let index = index as u64;
+        if correlations.binds(self.key) {
+            own.at(correlations.mixed(self.key, |j| normal(keys[j].0, index)))
+        } else {
+            own.draw(stream, index)
+        }
+    }
+
+    /// One that is not finite, where some of any number of draws may be so.
+    pub(super) fn infinite(&self) -> Option<f64> {
+        // those of correlated keys are sums of all with the squares of their weights adding up to one
+        let most = LARGEST_NORMAL * (self.draws.keys.len() as f64).sqrt();
+        let ends = self.draws.keys[self.key].1.ends(most);
+        ends.into_iter().find(|end| !end.is_finite())
+    }
+}
+
+/// A distribution of a number.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Distribution {
+    kind: Kind,
+    /// Both ends, or the mean or median and the deviation.
+    numbers: [f64; 2],
+}
+
+/// The kind of a distribution.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    /// Even between two numbers.
+    Uniform,
+    /// Even in the logarithm between two positive numbers.
+    LogUniform,
+    /// Gauss's.
+    Normal,
+    /// Gauss's in the natural logarithm, with the deviation of that logarithm.
+    LogNormal,
+}
+
+impl Choice for Kind {
+    const ALL: &'static [Self] = &[
+        Self::Uniform,
+        Self::LogUniform,
+        Self::Normal,
+        Self::LogNormal,
+    ];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Uniform => "uniform",
+            Self::LogUniform => "log_uniform",
+            Self::Normal => "normal",
+            Self::LogNormal => "log_normal",
+        }
+    }
+}
+
+impl Distribution {
+    fn read(section: &Section<'_>) -> Result<Self, SceneError> {
+        let kind = section.choice("distribution")?.ok_or_else(|| {
+            section.missing("distribution", "uniform, log_uniform, normal or log_normal")
+        })?;
+        let (keys, ranges) = match kind {
+            Kind::Uniform => (["low", "high"], [FINITE, FINITE]),
+            Kind::LogUniform => (["low", "high"], [POSITIVE, POSITIVE]),
+            Kind::Normal => (["mean", "deviation"], [FINITE, POSITIVE]),
+            Kind::LogNormal => (["median", "deviation"], [POSITIVE, POSITIVE]),
+        };
+        section.allow(["distribution", keys[0], keys[1]])?;
+        let a = section.required(keys[0], ranges[0], "the distribution needs it")?;
+        let b = section.required(keys[1], ranges[1], "the distribution needs it")?;
+        if keys[1] == "high" && b <= a {
+            return Err(SceneError::Conflict {
+                first: format!("{} = {b}", section.key("high")),
+                second: format!("low = {a}"),
+                reason: "high must be above low",
+            });
+        }
+        let numbers = [a, b];
+        Ok(Self { kind, numbers })
+    }
+
+    /// Draw number `index` of a stream: a function of its arguments only.
+    fn draw(self, stream: u64, index: u64) -> f64 {
+        let one = || uniform(stream, index, 0);
+        self.value(one, || normal(stream, index))
+    }
+
+    /// Values between which all draws are whose normal numbers are at most this far from zero.
+    fn ends(self, normal: f64) -> [f64; 2] {
+        [(f64::EPSILON, -normal), (1.0, normal)]
+            .map(|(uniform, normal)| self.value(|| uniform, || normal))
+    }
+
+    /// The value at the quantile of a standard normal number.
+    fn at(self, normal: f64) -> f64 {
+        self.value(|| normal_probability(normal), || normal)
+    }
+
+    /// The value at an even or a standard normal number, whichever it is made of.
+    fn value(self, uniform: impl Fn() -> f64, normal: impl Fn() -> f64) -> f64 {
+        let [a, b] = self.numbers;
+        match self.kind {
+            Kind::Uniform => a + (b - a) * uniform(),
+            Kind::LogUniform => a * (b / a).powf(uniform()),
+            Kind::Normal => a + b * normal(),
+            Kind::LogNormal => a * (b * normal()).exp(),
+        }
+    }
+}
+
+/// The stream of draws of a key.
+fn stream(seed: u64, key: &str) -> u64 {
+    key.bytes()
+        .fold(mix(seed), |hash, byte| mix(hash ^ u64::from(byte)))
+}
+
+/// Even number `which` of a draw of a stream, in (0, 1): never an end.
+fn uniform(stream: u64, index: u64, which: u64) -> f64 {
+    let bits = mix(stream ^ mix(2 * index + which));
+    ((bits >> 11) as f64 + 0.5) / (1_u64 << 53) as f64
+}
+
+/// No standard normal number is farther from zero: the smallest even number is 2^-54.
+const LARGEST_NORMAL: f64 = 8.66;
+
+/// The standard normal number of a draw of a stream, by Box and Muller.
+fn normal(stream: u64, index: u64) -> f64 {
+    let [radius, angle] = [0, 1].map(|which| uniform(stream, index, which));
+    (-2.0 * radius.ln()).sqrt() * (TAU * angle).cos()
+}
+
+/// The finaliser of splitmix64 after one step of its sequence.
+fn mix(state: u64) -> u64 {
+    let mut z = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    z ^ (z >> 31)
+}
+
+/// Open on both sides: keys that follow each other wholly are one key.
+const COEFFICIENT: Range = Range {
+    name: "(-1, 1)",
+    holds: |x| x > -1.0 && x < 1.0,
+};
+
+/// The lower Cholesky factor of the correlation matrix of some keys, in their order.
+#[derive(Debug, Clone, PartialEq)]
+struct Correlations {
+    factor: Vec<Vec<f64>>,
+}
+
+impl Correlations {
+    /// Reads `[[random.correlation]]`, sections of `keys`, a pair, and `coefficient`.
+    fn read(random: &Section<'_>, keys: &[String]) -> Result<Self, SceneError> {
+        let n = keys.len();
+        let mut matrix: Vec<Vec<f64>> = (0..n)
+            .map(|i| (0..n).map(|j| f64::from(u8::from(i == j))).collect())
+            .collect();
+        for (name, table) in random.list("correlation")? {
+            let section = Section::of(&name, table);
+            section.allow(["keys", "coefficient"])?;
+            let [i, j] = pair(&section, keys)?;
+            let coefficient = section.required(
+                "coefficient",
+                COEFFICIENT,
+                "the correlation of the two keys",
+            )?;
+            if matrix[i][j] != 0.0 || i == j {
+                return Err(SceneError::Conflict {
+                    first: format!("{name} of {}", keys[i]),
+                    second: keys[j].clone(),
+                    reason: "two different keys have one correlation",
+                });
+            }
+            matrix[i][j] = coefficient;
+            matrix[j][i] = coefficient;
+        }
+        cholesky(&matrix)
+            .map(|factor| Self { factor })
+            .ok_or_else(|| SceneError::Conflict {
+                first: "random.correlation".to_owned(),
+                second: "the other ones".to_owned(),
+                reason: "together these coefficients are no correlation matrix: it is not positive definite",
+            })
+    }
+
+    /// Whether a key is correlated with another.
+    fn binds(&self, key: usize) -> bool {
+        let off = |(column, &l): (usize, &f64)| column != key && l != 0.0;
+        self.factor[key].iter().enumerate().any(off)
+            || self.factor.iter().skip(key + 1).any(|row| row[key] != 0.0)
+    }
+
+    /// The standard normal number of a key from the independent ones of all keys.
+    fn mixed(&self, key: usize, normal: impl Fn(usize) -> f64) -> f64 {
+        let row = self.factor[key][..=key].iter().enumerate();
+        row.map(|(j, &l)| if l == 0.0 { 0.0 } else { l * normal(j) })
+            .sum()
+    }
+}
+
+fn pair(section: &Section<'_>, keys: &[String]) -> Result<[usize; 2], SceneError> {
+    let hint =
+        "two keys that are drawn, such as [\"striker.diameter_m\", \"striker.velocity_m_s\"]";
+    let value = section
+        .value("keys")
+        .ok_or_else(|| section.missing("keys", hint))?;
+    let wrong = || section.wrong_kind("keys", value, "a pair of keys that are drawn");
+    let Value::Array(items) = value else {
+        return Err(wrong());
+    };
+    let place = |item: &Value| {
+        let word = item.as_str().ok_or_else(wrong)?;
+        let found = keys.iter().position(|key| key == word);
+        found.ok_or_else(|| SceneError::UnknownChoice {
+            key: section.key("keys"),
+            value: word.to_owned(),
+            allowed: format!("the keys that are drawn: {}", keys.join(", ")),
+        })
+    };
+    match items.as_slice() {
+        [first, second] => Ok([place(first)?, place(second)?]),
+        _ => Err(wrong()),
+    }
+}
+
+/// The lower factor; none where the matrix is not positive definite.
+fn cholesky(matrix: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
+    let n = matrix.len();
+    let mut factor = vec![vec![0.0; n]; n];
+    for i in 0..n {
+        for j in 0..=i {
+            let known: f64 = (0..j).map(|k| factor[i][k] * factor[j][k]).sum();
+            let rest = matrix[i][j] - known;
+            factor[i][j] = if i == j {
+                if rest <= 1e-12 {
+                    return None;
+                }
+                rest.sqrt()
+            } else {
+                rest / factor[j][j]
+            };
+        }
+    }
+    Some(factor)
+}
+
+/// The probability of a standard normal number below this one, in (0, 1).
+fn normal_probability(normal: f64) -> f64 {
+    let below = 0.5 * libm::erfc(-normal * FRAC_1_SQRT_2);
+    below.clamp(f64::MIN_POSITIVE, 1.0 - f64::EPSILON)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of(kind: Kind, numbers: [f64; 2]) -> Distribution {
+        Distribution { kind, numbers }
+    }
+
+    fn moments(distribution: Distribution, of: impl Fn(f64) -> f64) -> (f64, f64) {
+        let n = 100_000_u32;
+        let draws =
+            (0..n).map(|i| of(distribution.draw(stream(7, "striker.mass_kg"), u64::from(i))));
+        let (sum, squares) = draws.fold((0.0, 0.0), |(s, q), x| (s + x, q + x * x));
+        let mean = sum / f64::from(n);
+        (mean, (squares / f64::from(n) - mean * mean).sqrt())
+    }
+
+    #[test]
+    fn draws_have_their_moments() {
+        let close = |found: (f64, f64), mean: f64, deviation: f64| {
+            assert!((found.0 - mean).abs() < 0.015 * deviation, "{found:?}");
+            assert!((found.1 / deviation - 1.0).abs() < 0.02, "{found:?}");
+        };
+        let even = 12.0_f64.sqrt();
+        close(
+            moments(of(Kind::Uniform, [2.0, 5.0]), |x| x),
+            3.5,
+            3.0 / even,
+        );
+        let log = of(Kind::LogUniform, [1.0, 1f64.exp()]);
+        close(moments(log, f64::ln), 0.5, 1.0 / even);
+        let normal = of(Kind::Normal, [-1.0, 0.3]);
+        close(moments(normal, |x| x), -1.0, 0.3);
+        let log_normal = of(Kind::LogNormal, [1.0, 0.2]);
+        close(moments(log_normal, f64::ln), 0.0, 0.2);
+    }
+
+    #[test]
+    fn no_normal_number_is_beyond_the_largest() {
+        let smallest: f64 = 0.5 / (1_u64 << 53) as f64;
+        let largest = (-2.0 * smallest.ln()).sqrt();
+        assert!(largest < LARGEST_NORMAL && largest > LARGEST_NORMAL - 0.01);
+    }
+
+    #[test]
+    fn draws_of_two_keys_and_two_seeds_differ() {
+        let even = of(Kind::Uniform, [0.0, 1.0]);
+        let a = even.draw(stream(1, "striker.mass_kg"), 3);
+        assert_eq!(a, even.draw(stream(1, "striker.mass_kg"), 3));
+        assert_ne!(a, even.draw(stream(2, "striker.mass_kg"), 3));
+        assert_ne!(a, even.draw(stream(1, "striker.velocity_m_s"), 3));
+        assert_ne!(a, even.draw(stream(1, "striker.mass_kg"), 4));
+    }
+
+    #[test]
+    fn factors_give_their_matrix() {
+        let matrix = vec![
+            vec![1.0, 0.6, -0.2],
+            vec![0.6, 1.0, 0.3],
+            vec![-0.2, 0.3, 1.0],
+        ];
+        let factor = cholesky(&matrix).unwrap_or_default();
+        for i in 0..3 {
+            for j in 0..3 {
+                let product: f64 = (0..3).map(|k| factor[i][k] * factor[j][k]).sum();
+                assert!((product - matrix[i][j]).abs() < 1e-15);
+            }
+        }
+        let impossible = [
+            vec![1.0, 0.9, -0.9],
+            vec![0.9, 1.0, 0.9],
+            vec![-0.9, 0.9, 1.0],
+        ];
+        assert_eq!(cholesky(&impossible), None);
+    }
+
+    #[test]
+    fn probabilities_are_those_of_tables() {
+        // Abramowitz and Stegun, table 26.1
+        assert_eq!(normal_probability(0.0), 0.5);
+        assert!((normal_probability(1.0) - 0.841344746068543).abs() < 1e-15);
+        assert!((normal_probability(-2.0) - 0.022750131948179).abs() < 1e-15);
+        assert!(normal_probability(50.0) < 1.0 && normal_probability(-50.0) > 0.0);
+    }
+}

@@ -1,0 +1,188 @@
+//! The columns of a file of rows, whatever its format, and their values.
+
+use super::block::{Block, Blocks};
+use crate::quantities::Described;
+use crate::sweep::axes::Values;
+use crate::sweep::fields::Precision;
+use crate::sweep::schema::{FAILURE, MODEL, part};
+use crate::sweep::spec::Spec;
+use contact::{Choice, Model};
+use output::Fault;
+use std::ops::Range;
+
+/// What a column holds.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum What<'a> {
+    /// The number of the row in the sweep.
+    Row,
+    /// The value of a key that varies.
+    Key {
+        /// Rows from one value of the axis to the next.
+        stride: usize,
+        values: &'a Values,
+    },
+    /// A result, by its place.
+    Number(usize),
+    Model,
+    /// The reason of a failure.
+    Failure,
+}
+
+/// A column of such a file.
+#[derive(Debug)]
+pub(super) struct Column<'a> {
+    pub(super) described: Described,
+    pub(super) what: What<'a>,
+}
+
+/// The values of a column in some rows.
+#[derive(Debug)]
+pub(super) enum Cells<'b> {
+    Whole(Vec<i64>),
+    Double(Vec<f64>),
+    Single(Vec<f32>),
+    /// Indices of words.
+    Words(Vec<u32>),
+    /// Indices of models.
+    Models(&'b [u8]),
+    Reasons(Vec<Option<&'b str>>),
+}
+
+/// The number of the row, the keys that vary, the results, the model and the reason of a failure.
+pub(super) fn columns(spec: &Spec) -> Vec<Column<'_>> {
+    let fixed = |described, what| Column { described, what };
+    let mut found = vec![fixed(part::ROW.into(), What::Row)];
+    let mut stride = spec.rows();
+    for axis in &spec.axes {
+        stride /= axis.len.max(1);
+        for key in &axis.columns {
+            let described = Described {
+                meaning: format!("scene key {}", key.name()),
+                unit: unit(&key.key),
+                name: key.name(),
+            };
+            let values = &key.values;
+            found.push(fixed(described, What::Key { stride, values }));
+        }
+    }
+    let numbers = spec.fields.quantities();
+    found.extend(numbers.map(|(place, result)| fixed(result.clone(), What::Number(place))));
+    found.push(fixed(MODEL.into(), What::Model));
+    found.push(fixed(FAILURE.into(), What::Failure));
+    found
+}
+
+/// Names of the columns of a part.
+#[must_use]
+pub fn column_names(spec: &Spec) -> Vec<String> {
+    let columns = columns(spec).into_iter();
+    columns.map(|column| column.described.name).collect()
+}
+
+impl What<'_> {
+    /// Whether it is a word of a list.
+    pub(super) fn words(&self) -> Option<&Vec<String>> {
+        match self {
+            Self::Key { values, .. } => values.texts(),
+            Self::Row | Self::Number(_) | Self::Model | Self::Failure => None,
+        }
+    }
+
+    /// The values of some rows of a block, which count from its first.
+    pub(super) fn cells<'b>(
+        &self,
+        spec: &Spec,
+        block: &'b Block,
+        some: Range<usize>,
+    ) -> Result<Cells<'b>, Fault> {
+        let rows = block.start + some.start..block.start + some.end;
+        Ok(match *self {
+            Self::Row => Cells::Whole(rows.map(|row| row as i64).collect()),
+            Self::Key { stride, values } => {
+                let places = rows.map(|row| row / stride % values.len());
+                match values {
+                    Values::Numbers(numbers) => Cells::Double(places.map(|i| numbers[i]).collect()),
+                    Values::Drawn(drawn) => Cells::Double(places.map(|i| drawn.at(i)).collect()),
+                    Values::Texts(_) => Cells::Words(places.map(|i| i as u32).collect()),
+                }
+            }
+            Self::Number(k) => {
+                let numbers = some.map(|row| block.number(row, k));
+                match spec.fields.precision {
+                    Precision::Double => Cells::Double(numbers.collect()),
+                    Precision::Single => {
+                        let name = &spec.fields.named(k).name;
+                        let rounded = numbers.zip(rows).map(|(x, row)| single(x, row, name));
+                        Cells::Single(rounded.collect::<Result<_, _>>()?)
+                    }
+                }
+            }
+            Self::Model => Cells::Models(&block.models[some]),
+            Self::Failure => {
+                let mut reasons = vec![None; some.len()];
+                let (first, last) = (rows.start, rows.end);
+                let from = block.failures.partition_point(|(row, _)| *row < first);
+                let failures = block.failures[from..].iter();
+                for (row, reason) in failures.take_while(|(row, _)| *row < last) {
+                    reasons[row - first] = Some(reason.as_str());
+                }
+                Cells::Reasons(reasons)
+            }
+        })
+    }
+}
+
+/// A number in single precision, where it has one.
+fn single(number: f64, row: usize, name: &str) -> Result<f32, Fault> {
+    let rounded = number as f32;
+    if rounded.is_infinite() && number.is_finite() {
+        return Err(Fault::from(format!(
+            "{name} = {number} in row {row} is outside [-3.4e38, 3.4e38] of single precision"
+        )));
+    }
+    Ok(rounded)
+}
+
+/// Shows blocks that have to be all rows of a range, in order; gives the number of failed ones.
+pub(super) fn each_of(
+    rows: &Range<usize>,
+    blocks: &(impl Blocks + ?Sized),
+    visit: &mut dyn FnMut(&Block) -> Result<(), Fault>,
+) -> Result<usize, Fault> {
+    let (mut next, mut failed) = (rows.start, 0);
+    let missing = |row: usize| Fault::from(format!("row {row} is not there"));
+    blocks.each(&mut |block| {
+        let end = block.start + block.numbers.len();
+        if block.start != next || end > rows.end {
+            return Err(missing(next));
+        }
+        visit(block)?;
+        failed += block.failures.len();
+        next = end;
+        Ok(())
+    })?;
+    if next == rows.end {
+        Ok(failed)
+    } else {
+        Err(missing(next))
+    }
+}
+
+/// The name of a model by its index; none for a failed scene.
+pub(super) fn model_name(index: u8) -> Option<&'static str> {
+    Some(Model::ALL.get(usize::from(index))?.name())
+}
+
+/// The unit that a scene key carries in its name.
+pub(super) fn unit(key: &str) -> &'static str {
+    const UNITS: [(&str, &str); 6] = [
+        ("_kg_m3", "kg/m^3"),
+        ("_m_s", "m/s"),
+        ("_kg", "kg"),
+        ("_pa", "Pa"),
+        ("_m", "m"),
+        ("_s", "s"),
+    ];
+    let found = UNITS.iter().find(|(ending, _)| key.ends_with(ending));
+    found.map_or("1", |(_, unit)| unit)
+}

@@ -1,0 +1,428 @@
+//! Rows as HDF5, as `data-schema/sweep.md` writes it down: all of a sweep in its dimensions, some of them as a part, or all
+//! of them by reference to their parts.
+//!
+//! The datasets are reserved through the library and filled a block at a time.
+
+use super::block::{Block, Blocks};
+use super::boxes::boxes;
+use super::columns::{Cells, Column, What, columns, each_of, unit};
+use crate::hdf::{
+    attach_all, attach_scale, describe, new_file, numbers, reason, reserve, set_scale,
+    some_at_a_time, text, texts,
+};
+use crate::quantities::QUANTITIES;
+use crate::results::schema::COORDINATES;
+use crate::sweep::axes::{Axis, Column as Key, Values};
+use crate::sweep::fields::Precision;
+use crate::sweep::schema::{self, part};
+use crate::sweep::shard::Selection;
+use crate::sweep::spec::Spec;
+use contact::{Choice, Model};
+use hdf5::{Dataset, Group, H5Type, Hyperslab, SliceOrIndex};
+use output::{Existing, Fault, Output, OutputError, Staged};
+use std::collections::HashMap;
+use std::fs::File;
+use std::io::{Seek, SeekFrom, Write};
+use std::ops::Range;
+use std::path::Path;
+
+/// Name, unit and meaning.
+type Labels<'a> = (&'a str, &'a str, &'a str);
+
+/// Which file is written.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Extent<'a> {
+    Whole,
+    Part(&'a Selection),
+    /// The whole, whose results lie in files that have some of the rows each.
+    Virtual(&'a [Source]),
+}
+
+/// A file with some of the rows.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Source {
+    /// Where it lies, seen from the folder of the output.
+    pub(crate) path: String,
+    /// Its rows.
+    pub(crate) rows: Range<usize>,
+}
+
+/// Writes the results of a sweep whose blocks are all there, in order.
+///
+/// # Errors
+/// [`OutputError`].
+pub fn write_sweep(
+    path: &Path,
+    spec: &Spec,
+    blocks: &(impl Blocks + ?Sized),
+    existing: Existing,
+) -> Result<(), OutputError> {
+    let output = Output::claim(path, existing)?;
+    stage_hdf5(&output, spec, Extent::Whole, blocks)?.commit()
+}
+
+/// Writes the file of a whole sweep that refers to its parts; only which failure a scene has is copied, because each part
+/// counts its own. Of the blocks nothing but the failures is taken.
+///
+/// What is not there when it is read is NaN, and model 255.
+///
+/// # Errors
+/// [`OutputError`].
+pub(crate) fn stage_virtual<'a>(
+    output: &'a Output,
+    spec: &Spec,
+    sources: &[Source],
+    blocks: &(impl Blocks + ?Sized),
+) -> Result<Staged<'a>, OutputError> {
+    stage_hdf5(output, spec, Extent::Virtual(sources), blocks)
+}
+
+/// Writes rows, whose blocks are all there in order, into an output that was claimed before the work.
+///
+/// No more than a block is in memory, and the bytes do not depend on how rows are divided into blocks.
+pub(super) fn stage_hdf5<'a>(
+    output: &'a Output,
+    spec: &Spec,
+    extent: Extent<'_>,
+    blocks: &(impl Blocks + ?Sized),
+) -> Result<Staged<'a>, OutputError> {
+    output.stage(|path| {
+        let told = |error: hdf5::Error| Fault::from(reason(&error));
+        let file = new_file().create(path).map_err(told)?;
+        let mut table = Table {
+            spec,
+            columns: columns(spec),
+            reserved: Vec::new(),
+        };
+        let rows = match extent {
+            Extent::Part(selection) => {
+                table.begin_part(&file, selection).map_err(told)?;
+                selection.rows.clone()
+            }
+            Extent::Whole => {
+                table.begin_whole(&file, None).map_err(told)?;
+                0..spec.rows()
+            }
+            Extent::Virtual(sources) => {
+                table.begin_whole(&file, Some(sources)).map_err(told)?;
+                let places: Vec<&str> = sources.iter().map(|s| s.path.as_str()).collect();
+                text(&file, part::PARTS, &places.join("\n")).map_err(told)?;
+                0..spec.rows()
+            }
+        };
+        let (failed, reasons) = table.fill(path, &rows, blocks)?;
+        finish(file, failed, &reasons).map_err(told)
+    })
+}
+
+/// What is known once all rows are written.
+fn finish(file: hdf5::File, failed: usize, reasons: &[String]) -> Result<(), hdf5::Error> {
+    count(&file, schema::FAILED, failed)?;
+    let reasons = texts(&file, &schema::FAILURES, reasons)?;
+    set_scale(&reasons, schema::FAILURES.0)?;
+    file.flush()?;
+    file.close()
+}
+
+/// Bytes that a row takes in a part, and in the journal while it is computed.
+#[must_use]
+pub fn row_bytes(spec: &Spec) -> (usize, usize) {
+    let words = |key: &Key| if key.values.texts().is_some() { 4 } else { 8 };
+    let keys: usize = spec.columns().map(words).sum();
+    let results = spec.fields.width() * spec.fields.places.len() + 1;
+    (
+        8 + keys + results + 4,
+        8 * (QUANTITIES.len() + spec.fields.probed()) + 1,
+    )
+}
+
+/// A file that is being written: its columns, and those that are reserved in it with the places of their numbers.
+struct Table<'a> {
+    spec: &'a Spec,
+    columns: Vec<Column<'a>>,
+    reserved: Vec<(What<'a>, Option<u64>)>,
+}
+
+impl Table<'_> {
+    /// Everything of a whole sweep but the rows.
+    fn begin_whole(
+        &mut self,
+        file: &hdf5::File,
+        sources: Option<&[Source]>,
+    ) -> Result<(), hdf5::Error> {
+        let spec = self.spec;
+        write_texts(
+            file,
+            spec,
+            schema::FILE_TYPE,
+            [schema::FORMAT_VERSION, schema::PROBED_VERSION],
+        )?;
+        count(file, schema::ROWS, spec.rows())?;
+        write_axes(file, &spec.axes)?;
+        let shape: Vec<usize> = spec.axes.iter().map(|axis| axis.len).collect();
+        let group = file.create_group(schema::RESULTS)?;
+        let (scales, beside) = write_scales(&group, &spec.axes)?;
+        let scales: Vec<&Dataset> = scales.iter().collect();
+        for column in std::mem::take(&mut self.columns) {
+            let labels = column.described.labels();
+            let dataset = match (column.what, sources, spec.fields.precision) {
+                (What::Row | What::Key { .. }, _, _) => continue,
+                (What::Failure, _, _) | (_, None, _) => {
+                    self.reserve(column.what, &group, &labels, &shape)?
+                }
+                (What::Model, Some(from), _) => refer(&group, &labels, &shape, from, u8::MAX)?,
+                (What::Number(_), Some(from), Precision::Double) => {
+                    refer(&group, &labels, &shape, from, f64::NAN)?
+                }
+                (What::Number(_), Some(from), Precision::Single) => {
+                    refer(&group, &labels, &shape, from, f32::NAN)?
+                }
+            };
+            name_models(&dataset, column.what)?;
+            attach_all(&dataset, &scales, 0)?;
+            if !beside.is_empty() {
+                text(&dataset, COORDINATES, &beside.join(" "))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Everything of a part but the rows.
+    fn begin_part(&mut self, file: &hdf5::File, selection: &Selection) -> Result<(), hdf5::Error> {
+        let spec = self.spec;
+        write_texts(
+            file,
+            spec,
+            part::FILE_TYPE,
+            [part::FORMAT_VERSION, part::PROBED_VERSION],
+        )?;
+        let shard = selection.shard.map(|shard| shard.to_string());
+        text(file, part::SHARD, &shard.unwrap_or_default())?;
+        count(file, part::SWEEP_ROWS, spec.rows())?;
+        count(file, part::FIRST_ROW, selection.rows.start)?;
+        count(file, schema::ROWS, selection.rows.len())?;
+        let shape = [selection.rows.len()];
+        let group = file.create_group(schema::RESULTS)?;
+        let words = file.create_group(part::WORDS)?;
+        let (mut row, mut keys) = (None, Vec::new());
+        for Column { described, what } in std::mem::take(&mut self.columns) {
+            let (name, unit, mut meaning) = (described.name, described.unit, described.meaning);
+            if let Some(values) = what.words() {
+                texts(&words, &(&name, "1", "words of a scene key"), values)?;
+                meaning = format!("index of the {meaning} in /{}/{name}", part::WORDS);
+            }
+            let dataset = self.reserve(what, &group, &(&name, unit, &meaning), &shape)?;
+            let Some(row) = &row else {
+                set_scale(&dataset, part::ROW.0)?;
+                row = Some(dataset);
+                continue;
+            };
+            name_models(&dataset, what)?;
+            attach_scale(&dataset, row, 0)?;
+            if let What::Key { .. } = what {
+                keys.push(name);
+            } else {
+                text(&dataset, COORDINATES, &keys.join(" "))?;
+            }
+        }
+        Ok(())
+    }
+}
+
+impl<'a> Table<'a> {
+    /// Makes the dataset of a column.
+    fn reserve(
+        &mut self,
+        what: What<'a>,
+        group: &Group,
+        labels: &Labels<'_>,
+        shape: &[usize],
+    ) -> Result<Dataset, hdf5::Error> {
+        let (dataset, place) = match (what, self.spec.fields.precision) {
+            (What::Row, _) => reserve::<i64>(group, labels, shape)?,
+            (What::Key { .. }, _) if what.words().is_some() => {
+                reserve::<u32>(group, labels, shape)?
+            }
+            (What::Key { .. }, _) | (What::Number(_), Precision::Double) => {
+                reserve::<f64>(group, labels, shape)?
+            }
+            (What::Number(_), Precision::Single) => reserve::<f32>(group, labels, shape)?,
+            (What::Model, _) => reserve::<u8>(group, labels, shape)?,
+            (What::Failure, _) => reserve::<i32>(group, labels, shape)?,
+        };
+        self.reserved.push((what, place));
+        Ok(dataset)
+    }
+
+    /// Writes all rows into the file at `path`, which the library has open: it writes to other places of it. Gives the
+    /// number of failed rows, and the distinct reasons in the order in which they come.
+    fn fill(
+        &self,
+        path: &Path,
+        rows: &Range<usize>,
+        blocks: &(impl Blocks + ?Sized),
+    ) -> Result<(usize, Vec<String>), Fault> {
+        let mut file = File::options().write(true).open(path)?;
+        let (mut reasons, mut known) = (Vec::new(), HashMap::new());
+        let failed = each_of(rows, blocks, &mut |block| {
+            for (_, reason) in &block.failures {
+                if !known.contains_key(reason) {
+                    known.insert(reason.clone(), reasons.len() as i32);
+                    reasons.push(reason.clone());
+                }
+            }
+            for (what, place) in &self.reserved {
+                let Some(place) = place else { continue };
+                let (bytes, width) = self.bytes(*what, block, &known)?;
+                let before = (block.start - rows.start) * width;
+                file.seek(SeekFrom::Start(place + before as u64))?;
+                file.write_all(&bytes)?;
+            }
+            Ok(())
+        })?;
+        Ok((failed, reasons))
+    }
+
+    /// The bytes of a column's rows, and of one of them.
+    fn bytes(
+        &self,
+        what: What<'_>,
+        block: &Block,
+        reasons: &HashMap<String, i32>,
+    ) -> Result<(Vec<u8>, usize), Fault> {
+        fn all<T, const N: usize>(
+            values: impl IntoIterator<Item = T>,
+            bytes: fn(T) -> [u8; N],
+        ) -> (Vec<u8>, usize) {
+            (values.into_iter().flat_map(bytes).collect(), N)
+        }
+        let cells = what.cells(self.spec, block, 0..block.numbers.len())?;
+        Ok(match cells {
+            Cells::Whole(values) => all(values, i64::to_ne_bytes),
+            Cells::Double(values) => all(values, f64::to_ne_bytes),
+            Cells::Single(values) => all(values, f32::to_ne_bytes),
+            Cells::Words(values) => all(values, u32::to_ne_bytes),
+            Cells::Models(models) => (models.to_vec(), 1),
+            Cells::Reasons(values) => {
+                let index = |reason: Option<&str>| reason.map_or(-1, |reason| reasons[reason]);
+                all(values.into_iter().map(index), i32::to_ne_bytes)
+            }
+        })
+    }
+}
+
+/// The texts of the root; a file with probes has the second version.
+fn write_texts(
+    file: &hdf5::File,
+    spec: &Spec,
+    file_type: &str,
+    versions: [&str; 2],
+) -> Result<(), hdf5::Error> {
+    let version = versions[usize::from(spec.fields.probed() > 0)];
+    let software = env!("CARGO_PKG_VERSION");
+    let values = [file_type, version, software, &spec.resolved, &spec.sha256()];
+    let mut named = schema::TEXTS.into_iter().zip(values);
+    named.try_for_each(|(name, value)| text(file, name, value))
+}
+
+/// A count of the root.
+fn count(file: &hdf5::File, name: &str, count: usize) -> Result<(), hdf5::Error> {
+    let attribute = file.new_attr::<u64>().create(name)?;
+    attribute.write_scalar(&(count as u64))
+}
+
+/// The models by their indices, divided by blanks, at the column of models.
+fn name_models(dataset: &Dataset, what: What<'_>) -> Result<(), hdf5::Error> {
+    let What::Model = what else {
+        return Ok(());
+    };
+    let names: Vec<&str> = Model::ALL.iter().map(|m| m.name()).collect();
+    text(dataset, schema::NAMES, &names.join(" "))
+}
+
+/// The keys that vary, each with the axis that it belongs to.
+fn write_axes(file: &hdf5::File, axes: &[Axis]) -> Result<(), hdf5::Error> {
+    let group = file.create_group(schema::AXES)?;
+    for axis in axes {
+        for key in &axis.columns {
+            let dataset = write_key(&group, key)?;
+            set_scale(&dataset, &key.name())?;
+            text(&dataset, "axis", &axis.name)?;
+        }
+    }
+    Ok(())
+}
+
+/// One scale for each dimension beside the results: a group is opened by itself; and the names of the keys that vary along
+/// a dimension with others.
+///
+/// Of keys that vary together the scale is their number, and each of them a list over it.
+fn write_scales(group: &Group, axes: &[Axis]) -> Result<(Vec<Dataset>, Vec<String>), hdf5::Error> {
+    let (mut scales, mut beside) = (Vec::new(), Vec::new());
+    for axis in axes {
+        if let [only] = axis.columns.as_slice()
+            && only.name() == axis.name
+        {
+            let dataset = write_key(group, only)?;
+            set_scale(&dataset, &axis.name)?;
+            scales.push(dataset);
+            continue;
+        }
+        let labels = (axis.name.as_str(), "1", schema::NUMBERED);
+        let along = some_at_a_time(group, &labels, axis.len, |i| i as i64)?;
+        set_scale(&along, &axis.name)?;
+        for key in &axis.columns {
+            attach_scale(&write_key(group, key)?, &along, 0)?;
+            beside.push(key.name());
+        }
+        scales.push(along);
+    }
+    Ok((scales, beside))
+}
+
+fn write_key(group: &Group, key: &Key) -> Result<Dataset, hdf5::Error> {
+    let name = key.name();
+    let meaning = format!("scene key {name}");
+    let labels = (name.as_str(), unit(&key.key), meaning.as_str());
+    match &key.values {
+        Values::Numbers(values) => numbers(group, &labels, &[values.len()], values),
+        Values::Texts(values) => texts(group, &labels, values),
+        Values::Drawn(drawn) => some_at_a_time(group, &labels, drawn.len(), |i| drawn.at(i)),
+    }
+}
+
+/// A dataset of the numbers in the parts.
+fn refer<T: H5Type + Copy + Into<hdf5::types::OwnedDynValue>>(
+    group: &Group,
+    labels: &Labels<'_>,
+    shape: &[usize],
+    sources: &[Source],
+    missing: T,
+) -> Result<Dataset, hdf5::Error> {
+    let mut builder = group
+        .new_dataset::<T>()
+        .shape(shape)
+        .fill_value(missing)
+        .obj_track_times(false);
+    for source in sources {
+        let name = format!("/{}/{}", schema::RESULTS, labels.0);
+        let mut from = 0;
+        for ranges in boxes(shape, source.rows.clone()) {
+            let count: usize = ranges.iter().map(ExactSizeIterator::len).product();
+            let slices: Vec<SliceOrIndex> = ranges.into_iter().map(SliceOrIndex::from).collect();
+            // the library takes %b for the number of a file
+            builder = builder.virtual_map(
+                source.path.replace('%', "%%"),
+                &name,
+                [source.rows.len()],
+                from..from + count,
+                shape,
+                Hyperslab::from(slices),
+            );
+            from += count;
+        }
+    }
+    let dataset = builder.create(labels.0)?;
+    describe(&dataset, labels)?;
+    Ok(dataset)
+}
