@@ -1,43 +1,11 @@
 //! A contact read at any time: between samples, within the pieces of a growing contact, after the striker has left.
 
-use crate::march::history::History;
-use crate::quadrature::{Local, find_root, hermite};
-use crate::spectral::SolvedContact;
+use crate::disc::history::History;
+use crate::growing::solved::SolvedContact;
+use crate::numeric::quadrature::{Local, find_root, hermite};
+use crate::summary::Instant;
 use crate::units::INVERSE_MASS;
 use std::sync::Arc;
-
-/// The state of an impact at one instant, in collision units.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct Instant {
-    /// Contact force.
-    pub force: f64,
-    /// Its rate.
-    pub rate: f64,
-    /// The rate's rate; zero at the very ends of a contact, where it has no bound.
-    pub second_rate: f64,
-    /// Displacement of the striker.
-    pub displacement: f64,
-    /// Velocity of the striker.
-    pub velocity: f64,
-    /// Deflection that enters the contact law.
-    pub deflection: f64,
-}
-
-impl Instant {
-    /// The force of an indentation u and its rates: p = u^(3/2).
-    fn of_indentation([u, slope, bend]: [f64; 3]) -> Self {
-        if u <= 0.0 {
-            return Self::default();
-        }
-        let y = u.sqrt();
-        Self {
-            force: u * y,
-            rate: 1.5 * y * slope,
-            second_rate: 1.5 * (y * bend + 0.5 * slope * slope / y),
-            ..Self::default()
-        }
-    }
-}
 
 /// A history at any time: the pieces of a growing contact, or samples joined by polynomials of the fifth degree.
 ///
@@ -94,7 +62,7 @@ impl Resampler {
         let now = match &self.source {
             Source::Pieces(solved) => return solved.force(time),
             Source::Samples(samples) => match samples.place(time) {
-                Some((cell, x)) => Instant::of_indentation(samples.indentation(cell, x)),
+                Some((cell, x)) => pressed_by(samples.indentation(cell, x)),
                 None => Instant::default(),
             },
         };
@@ -108,6 +76,20 @@ impl Resampler {
             Source::Pieces(solved) => solved.state(time),
             Source::Samples(samples) => samples.at(time),
         }
+    }
+}
+
+/// The state with the force of an indentation u and its rates alone: p = u^(3/2).
+fn pressed_by([u, slope, bend]: [f64; 3]) -> Instant {
+    if u <= 0.0 {
+        return Instant::default();
+    }
+    let y = u.sqrt();
+    Instant {
+        force: u * y,
+        rate: 1.5 * y * slope,
+        second_rate: 1.5 * (y * bend + 0.5 * slope * slope / y),
+        ..Instant::default()
     }
 }
 
@@ -180,7 +162,7 @@ impl Samples {
             };
         };
         let jet = self.indentation(cell, x);
-        let now = Instant::of_indentation(jet);
+        let now = pressed_by(jet);
         let (d, v, h) = (&self.displacement, &self.velocity, self.step);
         let displacement = hermite([d[cell], h * v[cell]], [d[cell + 1], h * v[cell + 1]], x);
         let slope = |i: usize| {

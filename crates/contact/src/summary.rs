@@ -6,12 +6,12 @@
 //! the power 3/2 (A is the compliance of the newest sample), so b is extrapolated from the last five
 //! samples in contact and the force of the last cells is integrated from it.
 
-use crate::force_balance::force_root;
-use crate::march::error::MarchError;
-use crate::march::history::History;
-use crate::quadrature::{GAUSS_8, Local, peak};
+use crate::disc::history::History;
+use crate::energy::work;
+use crate::error::MarchError;
+use crate::numeric::cubic::force_root;
+use crate::numeric::quadrature::{GAUSS_8, Local, peak};
 use crate::units::INVERSE_MASS;
-use crate::work::work;
 
 /// The scalar results of an impact in collision units.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,6 +37,23 @@ pub struct Summary {
     pub contacts: usize,
     /// How well the end of contact is known.
     pub end: EndOfContact,
+}
+
+/// The state of an impact at one instant, in collision units.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Instant {
+    /// Contact force.
+    pub force: f64,
+    /// Its rate.
+    pub rate: f64,
+    /// The rate's rate; zero at the very ends of a contact, where it has no bound.
+    pub second_rate: f64,
+    /// Displacement of the striker.
+    pub displacement: f64,
+    /// Velocity of the striker.
+    pub velocity: f64,
+    /// Deflection that enters the contact law.
+    pub deflection: f64,
 }
 
 /// How the end of the first contact was found, and so what the contact time's error does with the step.
@@ -267,8 +284,8 @@ fn end_of_contact(history: &History, end: usize) -> (f64, f64) {
 mod tests {
     use super::*;
     use crate::disc::FixedDisc;
-    use crate::march::implicit::march_implicit;
-    use crate::settings::StaticShare;
+    use crate::disc::implicit::march_implicit;
+    use crate::model::StaticShare;
     use halfspace::{Deflection, Medium, SurfaceResponse};
 
     /// Where the loss is taken from the work, the impulse is still that of the force: the ledger's two sides are two.

@@ -2,13 +2,13 @@
 //!
 //! Theory: `docs/theory.md` (T57).
 
+use crate::bodies::wave_speeds::WaveSpeeds;
 use crate::bodies::{HalfSpace, Striker};
 use crate::collision::Collision;
 use crate::disc::CENTRE_COUPLING;
-use crate::plan::fixed_disc_m;
+use crate::model::choose::fixed_disc_m;
+use crate::model::{Model, Settings, StaticShare};
 use crate::results::Results;
-use crate::settings::{Model, Settings, StaticShare};
-use crate::waves::WaveSpeeds;
 use halfspace::Deflection;
 use std::f64::consts::PI;
 
@@ -224,7 +224,7 @@ impl Checked<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::material::Material;
+    use crate::bodies::material::Material;
 
     #[test]
     fn slips_in_units_are_told_with_their_numbers() {

@@ -2,7 +2,7 @@
 
 use crate::error::SceneError;
 use crate::section::{NOT_NEGATIVE, POISSON, POSITIVE, Section};
-use contact::material::from_wave_speeds;
+use contact::from_wave_speeds;
 use contact::{Library, Material};
 use toml::Table;
 

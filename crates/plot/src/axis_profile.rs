@@ -8,7 +8,7 @@ use crate::number::with_unit;
 use crate::quantity::Quantity;
 use crate::request::Request;
 use crate::section::Section;
-use contact::units::KernelUnits;
+use contact::KernelUnits;
 use figure::{Axis, Panel, Style};
 use formats::results::schema::FIELDS;
 use formats::stored::StoredImpact;

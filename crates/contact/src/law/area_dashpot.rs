@@ -1,7 +1,7 @@
 //! Radiation as a dashpot that grows with the contact's area, to the second order in the memory.
 //!
 //! For a memory short beside the contact the equation of the growing contact
-//! ([`solve_growing`](crate::spectral::solve_growing)) is, by Lagrange's inversion of its delays,
+//! ([`solve_growing`](crate::growing::solve_growing)) is, by Lagrange's inversion of its delays,
 //!
 //! ```text
 //! d = p^(2/3) - c p' + b (p^(4/3))'' - (e/60) (p^(5/3))''' + ..
@@ -21,9 +21,9 @@
 //! the third order, fitted but for its e, which takes phi M_3 tau^3/24 int p'' (p^(5/3))'' dt from the loss; and the contact ends while the
 //! striker is still pressed in by 4 b f(phi) v^2, since the last instants are shorter than any memory.
 
-use super::pulse::pulse;
-use crate::march::history::History;
-use crate::spectral::waves::PunchWaves;
+use crate::disc::history::History;
+use crate::growing::waves::PunchWaves;
+use crate::law::pulse::pulse;
 use crate::summary::{EndOfContact, Summary};
 use crate::units::INVERSE_MASS;
 
@@ -229,7 +229,7 @@ fn depth_factor(target_share: f64, shape: f64) -> f64 {
 /// Loss below which the restitution is taken from it.
 const SMALL_LOSS: f64 = 0.03;
 
-/// What c^3, c b and e add to the results beyond the equation, fitted to [`solve_growing`](crate::spectral::solve_growing).
+/// What c^3, c b and e add to the results beyond the equation, fitted to [`solve_growing`](crate::growing::solve_growing).
 ///
 /// The part of e in the loss is -(1/24) int p'' (p^(5/3))'' dt of Hertz's pulse.
 const PEAK_FORCE: [f64; 3] = [6.57, -10.70, 0.072_7];
@@ -287,10 +287,10 @@ const BY_B: [[f64; 7]; 7] = [
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::disc::refine::Accuracy;
+    use crate::growing::{solve_growing, waves::GrowingContact};
     use crate::law::pulse::Course;
     use crate::law::radiation::radiation;
-    use crate::march::refine::Accuracy;
-    use crate::spectral::{GrowingContact, solve_growing};
     use halfspace::Medium;
 
     #[test]

@@ -13,8 +13,8 @@
 //! with A, B, s, k, m from the time and size of the largest force, contact time, impulse and largest displacement.
 //! The displacement is the double integral of that force.
 
-use crate::march::history::History;
-use crate::quadrature::peak;
+use crate::disc::history::History;
+use crate::numeric::quadrature::peak;
 use crate::summary::Summary;
 use crate::units::INVERSE_MASS;
 

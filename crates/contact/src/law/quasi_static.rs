@@ -12,7 +12,7 @@
 //!
 //! Theory: `docs/theory.md` (T39, T50).
 
-use crate::quadrature::{GAUSS_4, GAUSS_8, find_root};
+use crate::numeric::quadrature::{GAUSS_4, GAUSS_8, find_root};
 use crate::summary::{EndOfContact, Summary};
 use crate::units::INVERSE_MASS;
 

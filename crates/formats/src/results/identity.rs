@@ -2,7 +2,7 @@
 
 use super::schema;
 use crate::scene::resolved;
-use contact::numbers::NUMBERS_REVISION;
+use contact::NUMBERS_REVISION;
 use impact::numbers::FIELDS_REVISION;
 use impact::{Load, Scene};
 use sha2::{Digest, Sha256};

@@ -2,7 +2,7 @@
 
 use super::axis::{Axis, Values};
 use super::schema;
-use contact::numbers::NUMBERS_REVISION;
+use contact::NUMBERS_REVISION;
 use impact::numbers::FIELDS_REVISION;
 use sha2::{Digest, Sha256};
 

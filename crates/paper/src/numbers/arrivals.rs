@@ -5,7 +5,7 @@ use crate::case::{RADIUS_M, TABLE_1_PA, anvil, coupled};
 use crate::error::PaperError;
 use crate::row::Row;
 use contact::Collision;
-use contact::validity::super_seismic;
+use contact::super_seismic;
 use halfspace::{Arrivals, Medium, Profile};
 
 pub(super) fn rows() -> Result<Vec<Row>, PaperError> {

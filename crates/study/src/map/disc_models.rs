@@ -7,11 +7,11 @@ use crate::marching::Results;
 use crate::picture::Picture;
 use crate::record::Error;
 use crate::scenes::{ROD_RADIUS_M, TABLE_1_PA, paper};
-use contact::choose::{Family, Groups, Rung};
 use contact::law::hertz::CONTACT_TIME;
 use contact::law::quasi_static::{quasi_static, quasi_static_radiation};
 use contact::law::radiation::{LARGEST_LAG, LOSS};
 use contact::{Accuracy, ExactDisc, MarchError, StaticShare, march_implicit, refine};
+use contact::{Family, Groups, Rung};
 use figure::{Axis, Interval, Style};
 use halfspace::{Deflection, Medium, SurfaceResponse};
 
