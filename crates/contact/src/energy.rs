@@ -12,32 +12,14 @@ use crate::resample::Resampler;
 use crate::units::INVERSE_MASS;
 use halfspace::Deflection;
 
-/// Where the energy went, by two routes that share nothing but the force.
+/// What is missing of the energy, 1 - rebound - radiated, by two routes that share nothing but the force.
 ///
-/// What the striker keeps follows from its momentum, what the half-space takes from the work of the force on the
-/// deflection that lags behind it; a force that does not belong to its deflection, or an integral of either that is
-/// wrong, leaves a residual.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Ledger {
-    /// Kinetic energy of the striker after, relative to before, by its momentum: (1 - (5/4) int p dt)^2.
-    pub rebound: f64,
-    /// Work that the load left in the half-space as waves, relative.
-    pub radiated: f64,
-    /// What is missing: 1 - rebound - radiated.
-    pub residual: f64,
-}
-
-impl Ledger {
-    /// From the impulse and the radiated work.
-    #[must_use]
-    pub fn new(impulse: f64, radiated: f64) -> Self {
-        let rebound = (1.0 - INVERSE_MASS * impulse).powi(2);
-        Self {
-            rebound,
-            radiated,
-            residual: 1.0 - rebound - radiated,
-        }
-    }
+/// What the striker keeps follows from its momentum, (1 - (5/4) int p dt)^2, what the half-space takes from the work of
+/// the force on the deflection that lags behind it; a force that does not belong to its deflection, or an integral of
+/// either that is wrong, leaves a residual.
+pub(crate) fn residual(impulse: f64, radiated: f64) -> f64 {
+    let rebound = (1.0 - INVERSE_MASS * impulse).powi(2);
+    1.0 - rebound - radiated
 }
 
 /// Samples over a contact with which the work on a memory of several steps is taken.
@@ -53,8 +35,7 @@ const SAMPLES: f64 = 256.0;
 /// contact to all of it; measured against the spectrum of the force (`tests/reference/disc.csv`).
 ///
 /// `duration` is that of the first contact.
-#[must_use]
-pub fn radiated<R: DiscResponse>(
+pub(crate) fn radiated<R: DiscResponse>(
     impact: &FixedDisc<'_, R>,
     mean: &R,
     history: &History,
@@ -107,8 +88,7 @@ fn cells<'a>(force: &'a [f64], deflection: &'a [f64]) -> impl Iterator<Item = f6
 }
 
 /// int p dw over the kinetic energy before, of a contact in collision units.
-#[must_use]
-pub fn work(force: &[f64], deflection: &[f64]) -> f64 {
+pub(crate) fn work(force: &[f64], deflection: &[f64]) -> f64 {
     // force times length is 5/2 of the kinetic energy
     2.5 * cells(force, deflection).sum::<f64>()
 }

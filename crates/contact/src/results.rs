@@ -2,7 +2,7 @@
 
 use crate::bodies::strength::Loading;
 use crate::collision::Collision;
-use crate::energy::Ledger;
+use crate::energy::residual;
 use crate::error::ContactError;
 use crate::model::Settings;
 use crate::model::choose::fixed_disc_m;
@@ -36,7 +36,7 @@ pub struct Results {
     pub initial_energy_j: f64,
     /// Energy radiated into the half-space in J.
     pub radiated_energy_j: f64,
-    /// (initial - rebound - radiated)/initial, rebound the kinetic energy after by the impulse: see [`Ledger`].
+    /// (initial - rebound - radiated)/initial, rebound the kinetic energy after by the impulse.
     pub energy_residual: f64,
     /// Contact radius of Hertz's law at the largest force in m.
     pub contact_radius_m: f64,
@@ -78,7 +78,7 @@ impl Results {
             impulse_n_s: s.impulse * units.force_n * units.time_s,
             initial_energy_j: collision.energy_j(),
             radiated_energy_j: radiated * collision.energy_j(),
-            energy_residual: Ledger::new(s.impulse, radiated).residual,
+            energy_residual: residual(s.impulse, radiated),
             contact_radius_m,
             disc_radius_m,
             loading: Loading::new(

@@ -1,13 +1,12 @@
 //! One contact: its model chosen, its scheme run. Single impacts, sweeps and charts all come through here.
 
 use crate::collision::Collision;
-use crate::disc::FixedDisc;
 use crate::disc::history::History;
 use crate::disc::refine::{
     Accuracy, Found, Workspace, explicit, march_finely, solve_disc, stepped,
 };
 use crate::disc::response::DiscResponse;
-use crate::disc::stability;
+use crate::disc::{FixedDisc, stability};
 use crate::energy::{radiated, work};
 use crate::error::ContactError;
 use crate::growing::solved::SolvedContact;
@@ -41,7 +40,7 @@ pub struct Solved {
     pub step: Option<f64>,
 }
 
-/// Solves contacts one after the other with responses from a shelf; one for each thread.
+/// Solves contacts one after the other with responses from a cache; one for each thread.
 #[derive(Debug)]
 pub struct Solver<'a, S: Responses> {
     responses: &'a S,
@@ -57,7 +56,7 @@ const SAMPLES: f64 = 4096.0;
 const GROWING_SAMPLES: f64 = 256.0;
 
 impl<'a, S: Responses> Solver<'a, S> {
-    /// With a shelf of responses.
+    /// With a cache of responses.
     #[must_use]
     pub fn new(responses: &'a S) -> Self {
         Self {

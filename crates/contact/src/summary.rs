@@ -39,6 +39,40 @@ pub struct Summary {
     pub end: EndOfContact,
 }
 
+/// Estimated errors of the results: relative, but that of the restitution, which is absolute.
+///
+/// Each is true in 99 of 100 random scenes; see `tests/growing.rs`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Estimates {
+    /// Of the largest force.
+    pub peak_force: f64,
+    /// Of its time, over the contact time.
+    pub peak_force_time: f64,
+    /// Of the contact time.
+    pub contact_time: f64,
+    /// Of the restitution, of the velocity of approach.
+    pub restitution: f64,
+    /// Of the loss.
+    pub loss: f64,
+    /// Of the largest displacement.
+    pub peak_displacement: f64,
+    /// Of the largest deflection; infinite where nobody has estimated it.
+    pub peak_deflection: f64,
+    /// Of the force at any time, over the largest.
+    pub force: f64,
+}
+
+impl Estimates {
+    /// The largest of what a tolerance is asked on: peak force, contact time, restitution, displacement.
+    #[must_use]
+    pub fn contact(&self) -> f64 {
+        self.peak_force
+            .max(self.contact_time)
+            .max(self.restitution)
+            .max(self.peak_displacement)
+    }
+}
+
 /// The state of an impact at one instant, in collision units.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Instant {
@@ -143,7 +177,7 @@ impl Summary {
     #[must_use]
     pub fn distance(&self, other: &Self) -> f64 {
         self.motion_distance(other)
-            .max(self.contact_time_distance(other))
+            .max(relative(self.contact_time, other.contact_time))
     }
 
     /// The same without the contact time.
@@ -153,25 +187,15 @@ impl Summary {
             .max(relative(self.peak_displacement, other.peak_displacement))
     }
 
-    /// The relative difference of the contact time.
-    pub(crate) fn contact_time_distance(&self, other: &Self) -> f64 {
-        relative(self.contact_time, other.contact_time)
-    }
-
     /// The relative difference of the loss.
     #[must_use]
     pub fn loss_distance(&self, other: &Self) -> f64 {
         relative(self.loss, other.loss)
     }
-
-    /// The relative difference of the largest deflection.
-    #[must_use]
-    pub fn deflection_distance(&self, other: &Self) -> f64 {
-        relative(self.peak_deflection, other.peak_deflection)
-    }
 }
 
-fn relative(a: f64, b: f64) -> f64 {
+/// The difference over the larger of two numbers.
+pub(crate) fn relative(a: f64, b: f64) -> f64 {
     let size = a.abs().max(b.abs());
     if size > 0.0 {
         (a - b).abs() / size

@@ -35,15 +35,17 @@ impl Material {
         if let Some(density) = self.density_kg_m3 {
             positive("density_kg_m3", density)?;
         }
-        if self.poisson_ratio > -1.0 && self.poisson_ratio < 0.5 {
-            Ok(())
-        } else {
-            Err(BodyError::OutOfRange {
-                quantity: "poisson_ratio",
-                value: self.poisson_ratio,
-                range: "(-1, 0.5)",
-            })
-        }
+        let nu = self.poisson_ratio;
+        within("poisson_ratio", nu, "(-1, 0.5)", nu > -1.0 && nu < 0.5)?;
+        Ok(())
+    }
+
+    /// The density in kg/m^3, or the error that says what needs it.
+    pub(crate) fn density_for(&self, purpose: &'static str) -> Result<f64, BodyError> {
+        self.density_kg_m3.ok_or_else(|| BodyError::NoDensity {
+            material: self.name.clone(),
+            purpose,
+        })
     }
 
     /// Shear modulus mu = E/(2 (1 + nu)) in Pa.
@@ -119,13 +121,21 @@ pub enum BodyError {
 
 /// A positive finite number, or the error that names it.
 pub(crate) fn positive(quantity: &'static str, value: f64) -> Result<f64, BodyError> {
-    if value > 0.0 && value < f64::INFINITY {
-        Ok(value)
-    } else {
-        Err(BodyError::OutOfRange {
-            quantity,
-            value,
-            range: "(0, inf)",
-        })
-    }
+    let holds = value > 0.0 && value < f64::INFINITY;
+    within(quantity, value, "(0, inf)", holds)
+}
+
+/// A number that is in its range, or the error that names both.
+pub(crate) fn within(
+    quantity: &'static str,
+    value: f64,
+    range: &'static str,
+    holds: bool,
+) -> Result<f64, BodyError> {
+    let error = BodyError::OutOfRange {
+        quantity,
+        value,
+        range,
+    };
+    if holds { Ok(value) } else { Err(error) }
 }

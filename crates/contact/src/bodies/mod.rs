@@ -10,8 +10,7 @@ pub(crate) mod shape;
 pub(crate) mod strength;
 pub(crate) mod wave_speeds;
 
-use crate::bodies::material::Material;
-use crate::bodies::material::{BodyError, positive};
+use crate::bodies::material::{BodyError, Material, positive, within};
 use crate::bodies::shape::Shape;
 
 /// An elastic half-space: a material with a density, and the block's thickness where it is known.
@@ -33,7 +32,7 @@ impl HalfSpace {
     pub fn new(material: Material) -> Result<Self, BodyError> {
         material.check()?;
         Ok(Self {
-            density_kg_m3: density(&material)?,
+            density_kg_m3: material.density_for("the half-space")?,
             material,
             thickness_m: None,
             radius_m: None,
@@ -53,7 +52,7 @@ impl HalfSpace {
     pub fn change(&mut self, change: impl FnOnce(&mut Material)) -> Result<(), BodyError> {
         change(&mut self.material);
         self.material.check()?;
-        self.density_kg_m3 = density(&self.material)?;
+        self.density_kg_m3 = self.material.density_for("the half-space")?;
         Ok(())
     }
 
@@ -68,13 +67,6 @@ impl HalfSpace {
     pub fn longitudinal_speed_m_s(&self) -> f64 {
         (self.material.longitudinal_modulus_pa() / self.density_kg_m3).sqrt()
     }
-}
-
-fn density(material: &Material) -> Result<f64, BodyError> {
-    material.density_kg_m3.ok_or_else(|| BodyError::NoDensity {
-        material: material.name.clone(),
-        purpose: "the half-space",
-    })
 }
 
 /// The body that strikes: a rigid mass with a spherical elastic tip.
@@ -113,10 +105,7 @@ impl Striker {
     /// # Errors
     /// [`BodyError`] without a density, or for lengths that make no such body.
     pub fn of_shape(material: Material, shape: Shape) -> Result<Self, BodyError> {
-        let density = material.density_kg_m3.ok_or_else(|| BodyError::NoDensity {
-            material: material.name.clone(),
-            purpose: "the mass of the striker",
-        })?;
+        let density = material.density_for("the mass of the striker")?;
         match shape {
             Shape::Ball { diameter_m } => positive("diameter_m", diameter_m)?,
             Shape::Rod {
@@ -126,21 +115,10 @@ impl Striker {
             } => {
                 positive("diameter_m", diameter_m)?;
                 let tip_radius_m = positive("tip_radius_m", shape.tip_radius_m())?;
-                if tip_radius_m < 0.5 * diameter_m {
-                    return Err(BodyError::OutOfRange {
-                        quantity: "tip_radius_m",
-                        value: tip_radius_m,
-                        range: "[diameter_m/2, inf)",
-                    });
-                }
-                if !(length_m >= shape.cap_m() && length_m < f64::INFINITY) {
-                    return Err(BodyError::OutOfRange {
-                        quantity: "length_m",
-                        value: length_m,
-                        range: "[height of the tip's cap, inf)",
-                    });
-                }
-                length_m
+                let wide = tip_radius_m >= 0.5 * diameter_m;
+                within("tip_radius_m", tip_radius_m, "[diameter_m/2, inf)", wide)?;
+                let long = length_m >= shape.cap_m() && length_m < f64::INFINITY;
+                within("length_m", length_m, "[height of the tip's cap, inf)", long)?
             }
         };
         let mass_kg = density * shape.volume_m3();

@@ -161,13 +161,7 @@ impl Edge {
         relaxation: &Relaxation<impl Fn(f64) -> f64>,
         reach: f64,
     ) -> f64 {
-        self.taken(reach, |y| {
-            if relaxation.is_short() {
-                relaxation.moments[0] * self.slope(y)[0]
-            } else {
-                self.delayed_at_touch(relaxation, y)
-            }
-        })
+        self.taken(relaxation, reach, |y| -self.past_at_touch(relaxation, y))
     }
 
     /// The same of a force that ends.
@@ -176,23 +170,27 @@ impl Edge {
         relaxation: &Relaxation<impl Fn(f64) -> f64>,
         reach: f64,
     ) -> f64 {
-        self.taken(reach, |y| {
-            let zeroth = relaxation.moments[0] * self.slope(y)[0];
-            if relaxation.is_short() {
-                return zeroth;
-            }
+        self.taken(relaxation, reach, |y| {
             let s = self.time(y);
             let oldest = self.root_beside(s, y, relaxation.memory);
-            zeroth
-                + gauss(&GAUSS_4, y, oldest, |x| {
-                    relaxation.remaining(self.time(x) - s) * self.slope(x)[1]
-                })
+            gauss(&GAUSS_4, y, oldest, |x| {
+                relaxation.remaining(self.time(x) - s) * self.slope(x)[1]
+            })
         })
     }
 
-    /// int p' L ds: p' ds = 3 y^2 dy.
-    fn taken(&self, reach: f64, delayed: impl Fn(f64) -> f64) -> f64 {
-        gauss(&GAUSS_4, 0.0, reach, |y| 3.0 * y * y * delayed(y))
+    /// int p' L ds, p' ds = 3 y^2 dy, L the zeroth moment times p' and, where the memory is not short, a rest.
+    fn taken(
+        &self,
+        relaxation: &Relaxation<impl Fn(f64) -> f64>,
+        reach: f64,
+        rest: impl Fn(f64) -> f64,
+    ) -> f64 {
+        let short = relaxation.is_short();
+        gauss(&GAUSS_4, 0.0, reach, |y| {
+            let zeroth = relaxation.moments[0] * self.slope(y)[0];
+            3.0 * y * y * if short { zeroth } else { zeroth + rest(y) }
+        })
     }
 
     /// L = int_0^min(s,m) (1 - W(x)) p'(s - x) dx at the root y of a force that begins.
@@ -202,20 +200,25 @@ impl Edge {
         y: f64,
     ) -> f64 {
         let [slope, bend] = self.slope(y);
-        if relaxation.is_short() {
-            return relaxation.moments[0] * slope
-                - relaxation.moments[1] * bend / (y * self.rate(y)[0]);
-        }
+        let past = if relaxation.is_short() {
+            relaxation.moments[1] * bend / (y * self.rate(y)[0])
+        } else {
+            self.past_at_touch(relaxation, y)
+        };
+        relaxation.moments[0] * slope - past
+    }
+
+    /// What L is less than the zeroth moment times p'.
+    fn past_at_touch(&self, relaxation: &Relaxation<impl Fn(f64) -> f64>, y: f64) -> f64 {
         let s = self.time(y);
         let oldest = if relaxation.memory < s {
             self.root_beside(s, y, -relaxation.memory)
         } else {
             0.0
         };
-        let past = gauss(&GAUSS_4, oldest, y, |x| {
+        gauss(&GAUSS_4, oldest, y, |x| {
             relaxation.remaining(s - self.time(x)) * self.slope(x)[1]
-        });
-        relaxation.moments[0] * slope - past
+        })
     }
 }
 

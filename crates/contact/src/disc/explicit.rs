@@ -9,8 +9,7 @@
 //! First order: the velocity lags the force by half a step, which feeds energy into the rebound.
 
 use crate::disc::FixedDisc;
-use crate::disc::history::Budget;
-use crate::disc::history::History;
+use crate::disc::history::{Budget, History};
 use crate::error::MarchError;
 use crate::numeric::quadrature::{find_root, peak};
 use crate::summary::{EndOfContact, Summary};
@@ -28,11 +27,8 @@ pub fn march_explicit(
     impact: &FixedDisc<'_, SurfaceResponse>,
     step: f64,
 ) -> Result<(History, Summary), MarchError> {
-    let memory_cells = (impact.memory() / step).min(1e9);
-    let budget = Budget::new(memory_cells as usize, impact.memory());
-    budget.check(memory_cells as usize)?;
-    budget.before(step)?;
-    let kernel: Vec<f64> = (0..=memory_cells as usize + 1)
+    let budget = Budget::of_memory(impact.memory(), step)?;
+    let kernel: Vec<f64> = (0..=budget.cells + 1)
         .map(|i| {
             let t = i as f64 * step / impact.wave_time;
             impact.coupling * impact.response.impulse(t) * step / impact.wave_time

@@ -154,7 +154,7 @@ const SHORTEST: f64 = 0.5;
 /// Bounds the work of one march.
 #[derive(Debug)]
 pub(crate) struct Budget {
-    cells: usize,
+    pub(crate) cells: usize,
     ratio: f64,
 }
 
@@ -166,11 +166,12 @@ impl Budget {
         Self { cells, ratio }
     }
 
-    /// For a memory and a step; refuses one that is out of bounds by itself.
+    /// For a memory and a step; refuses what is out of bounds before the march begins.
     pub(crate) fn of_memory(memory: f64, step: f64) -> Result<Self, MarchError> {
         let cells = (memory / step).min(1e9) as usize;
         let budget = Self::new(cells, memory);
         budget.check(cells)?;
+        budget.before(step)?;
         Ok(budget)
     }
 

@@ -9,12 +9,10 @@
 //! Theory: `docs/theory.md` (T42).
 
 use crate::disc::FixedDisc;
-use crate::disc::edge::Edge;
-use crate::disc::edge::{RESOLVED, Relaxation};
-use crate::disc::flight::{Flight, STARTING, Start, starting_roots};
-use crate::disc::history::Budget;
-use crate::disc::history::History;
+use crate::disc::edge::{Edge, RESOLVED, Relaxation};
+use crate::disc::history::{Budget, History};
 use crate::disc::response::DiscResponse;
+use crate::disc::striker::{STARTING, StrikerMotion, TouchCorrection, starting_roots};
 use crate::disc::weights::Weights;
 use crate::error::MarchError;
 use crate::model::StaticShare;
@@ -43,7 +41,6 @@ pub(crate) fn march_into(
 ) -> Result<(), MarchError> {
     // before the weights, which need one evaluation a cell
     let budget = Budget::of_memory(impact.memory(), step)?;
-    budget.before(step)?;
     weights.fill_for(impact, impact.response, step);
     history.restart(step);
     let unit = impact.wave_time / step;
@@ -65,15 +62,15 @@ fn advance(
     let newest_weight = weights.values[0];
     let elastic = coupling * (share.factor() - newest_weight);
     let roots = starting_roots(step, elastic);
-    let start = Start::new(step, elastic, &roots);
+    let start = TouchCorrection::new(step, elastic, &roots);
     let missed = missed(
         relaxation,
         weights,
         &Edge::touch(elastic.max(0.0), step),
         &roots,
     );
-    let mut flight = Flight::new(step, start);
-    let inertia = flight.newest_weight();
+    let mut striker = StrikerMotion::new(step, start);
+    let inertia = striker.newest_weight();
     history.start = start.force;
     let compliance = inertia + elastic;
     history.compliance = compliance;
@@ -86,7 +83,7 @@ fn advance(
         let newest = history.force[n - 1];
         let past = weights.past(&history.force) + missed.get(n - 1).copied().unwrap_or(0.0);
         let known_deflection = coupling * (newest_weight * newest - past);
-        let free = flight.free_displacement();
+        let free = striker.free_displacement();
         let known = free - known_deflection;
         let guess = 5.0 * (roots[0] - roots[3]) + 10.0 * (roots[2] - roots[1]) + roots[4];
         let solved = force_root(compliance, known, guess).ok_or(MarchError::NoSolution {
@@ -100,7 +97,7 @@ fn advance(
             free - inertia * force,
             known_deflection + elastic * force,
         );
-        flight.push(force);
+        striker.push(force);
         if force > 0.0 {
             free_since = 0;
         } else {

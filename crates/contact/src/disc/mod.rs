@@ -1,19 +1,19 @@
 //! An impact on a disc of fixed radius, in dimensionless groups, and its marches.
 //!
 //! In reading order: `response` and `table` are how the loaded surface answers, `stability` says whether there is a contact
-//! at all; `implicit` is the march, with the half-space's memory in `weights`, the striker's motion in `flight`, the force
+//! at all; `implicit` is the march, with the half-space's memory in `weights`, the striker's motion in `striker`, the force
 //! next to the ends of contact in `edge`, the end itself and the work in `separation`; `refine` chooses the step;
 //! `explicit` is the paper's scheme, `history` the samples of all marches.
 
 pub(crate) mod edge;
 pub(crate) mod explicit;
-pub(crate) mod flight;
 pub(crate) mod history;
 pub(crate) mod implicit;
 pub(crate) mod refine;
 pub(crate) mod response;
 pub(crate) mod separation;
 pub(crate) mod stability;
+pub(crate) mod striker;
 pub(crate) mod table;
 pub(crate) mod weights;
 

@@ -10,7 +10,7 @@ use crate::error::MarchError;
 use crate::law::quasi_static::expected_contact_time;
 use crate::model::StaticShare;
 use crate::resample::Resampler;
-use crate::summary::Summary;
+use crate::summary::{Summary, relative};
 use halfspace::SurfaceResponse;
 
 /// What the results have to meet.
@@ -60,15 +60,16 @@ impl Accuracy {
     /// Judges the finer of two summaries a halving apart: the estimated error in units of what is allowed, enough where
     /// it is one or less, and that of the contact's results, relative.
     fn judge(&self, coarse: &Summary, fine: &Summary) -> (f64, f64) {
+        let change = |of: fn(&Summary) -> f64| relative(of(fine), of(coarse));
         let (fraction, stays) = fine.end.rest();
         let error = (REST * fine.motion_distance(coarse))
-            .max(fraction * fine.contact_time_distance(coarse) + stays);
+            .max(fraction * change(|summary| summary.contact_time) + stays);
         let parts = [
             Some(error / self.tolerance),
             self.loss
-                .map(|t| LOSS_REST * fine.loss_distance(coarse) / t),
+                .map(|t| LOSS_REST * change(|summary| summary.loss) / t),
             self.deflection
-                .map(|t| REST * fine.deflection_distance(coarse) / t),
+                .map(|t| REST * change(|summary| summary.peak_deflection) / t),
         ];
         (parts.into_iter().flatten().fold(0.0, f64::max), error)
     }
@@ -98,17 +99,6 @@ impl Accuracy {
     }
 }
 
-/// A march whose step meets the tolerance.
-#[derive(Debug, Clone)]
-pub struct Refined {
-    /// The finest march.
-    pub history: History,
-    /// Its results.
-    pub summary: Summary,
-    /// Estimated relative error of the contact's results.
-    pub error: f64,
-}
-
 /// Steps are halved at most so often.
 const HALVINGS: usize = 14;
 
@@ -133,18 +123,13 @@ pub fn refine(
     march: impl Fn(f64) -> Result<History, MarchError>,
     step: f64,
     accuracy: impl Into<Accuracy>,
-) -> Result<Refined, MarchError> {
-    let accuracy = accuracy.into();
-    let march = |step| {
-        let history = march(step)?;
-        Ok((Summary::new(&history)?, history))
-    };
-    let (found, history) = halve(march, step, &accuracy, 1.0)?;
-    Ok(Refined {
-        history,
-        summary: found.summary,
-        error: found.error,
-    })
+) -> Result<Found, MarchError> {
+    halve(
+        |step| Summary::new(&march(step)?),
+        step,
+        &accuracy.into(),
+        1.0,
+    )
 }
 
 /// Error over what is allowed up to which the last march counts where a finer one needs too much work.
@@ -159,31 +144,28 @@ const LENIENT: f64 = 100.0;
 const REPORTED: f64 = 3.0;
 
 /// Halves the step of a march until its results meet `accuracy`; with `caution` the last change counts so many times.
-///
-/// What it finds comes with what the finest march returned beside its results.
-fn halve<T>(
-    mut march: impl FnMut(f64) -> Result<(Summary, T), MarchError>,
+fn halve(
+    mut march: impl FnMut(f64) -> Result<Summary, MarchError>,
     mut step: f64,
     accuracy: &Accuracy,
     caution: f64,
-) -> Result<(Found, T), MarchError> {
+) -> Result<Found, MarchError> {
     let mut coarse: Option<Summary> = None;
     let (mut error, mut ratio, mut last) = (f64::INFINITY, f64::INFINITY, step);
     for attempt in 0..HALVINGS {
         match march(step) {
             // strongly coupled discs: the scheme itself feeds energy at some steps of a fraction of the memory
-            Ok((summary, _)) if summary.restitution > 1.0 => {}
-            Ok((summary, finest)) => {
+            Ok(summary) if summary.restitution > 1.0 => {}
+            Ok(summary) => {
                 if let Some(coarse) = &coarse {
                     (ratio, error) = accuracy.judge(coarse, &summary);
                     (ratio, error) = (caution * ratio, caution * error);
                     if ratio <= 1.0 {
-                        let found = Found {
+                        return Ok(Found {
                             summary: Accuracy::extrapolated(coarse, &summary),
                             error: (REPORTED * error).min(accuracy.tolerance).max(error),
                             step: Some(step),
-                        };
-                        return Ok((found, finest));
+                        });
                     }
                 }
                 (coarse, last) = (Some(summary), step);
@@ -191,13 +173,11 @@ fn halve<T>(
             Err(error) if may_pass(&error, attempt) => {}
             Err(MarchError::TooLong { .. }) if ratio <= LENIENT => {
                 // once more, since what the caller keeps is that of the march that failed
-                let (summary, finest) = march(last)?;
-                let found = Found {
-                    summary,
+                return Ok(Found {
+                    summary: march(last)?,
                     error: REPORTED * error,
                     step: Some(last),
-                };
-                return Ok((found, finest));
+                });
             }
             Err(other) => return Err(other),
         }
@@ -274,9 +254,7 @@ pub(crate) fn stepped(
             step: Some(step),
         });
     }
-    let first = duration / asked.first_steps();
-    let (found, ()) = halve(|step| Ok((run(step)?, ())), first, &asked, caution)?;
-    Ok(found)
+    halve(run, duration / asked.first_steps(), &asked, caution)
 }
 
 /// The explicit scheme and its error.

@@ -23,13 +23,8 @@ pub struct Weights {
 }
 
 impl Weights {
-    /// For a force that is known; `step` and `unit` = r0/c1 in the same unit of time.
-    #[must_use]
-    pub fn of_known_force(response: &impl DiscResponse, step: f64, unit: f64) -> Self {
-        Self::of_samples(response, step, unit, usize::MAX)
-    }
-
-    /// The same for a force of so many samples, which reach no older weights.
+    /// For a force that is known at so many samples, which reach no older weights; `step` and `unit` = r0/c1 in the same
+    /// unit of time.
     #[must_use]
     pub fn of_samples(response: &impl DiscResponse, step: f64, unit: f64, samples: usize) -> Self {
         let mut weights = Self::default();
@@ -167,7 +162,7 @@ mod tests {
         // p = t^2: w/S = 2 int W(t - s) s ds = 2 int_0^t (int W)
         let response = response();
         for h in [0.03, 0.3, 3.0] {
-            let weights = Weights::of_known_force(&response, h, 1.0);
+            let weights = Weights::of_samples(&response, h, 1.0, usize::MAX);
             let n = 60_usize;
             let p = |i: f64| (i * h).powi(2);
             let mut sum = (n as f64 * h).powi(2);

@@ -2,6 +2,7 @@
 //! at a time.
 
 use crate::growing::polynomial::Polynomial;
+use crate::numeric::quadrature::{CLOSE, rising_root};
 
 /// Time, contact radius, velocity and displacement of the striker over a stretch of the contact.
 #[derive(Debug, Clone, Copy)]
@@ -174,43 +175,20 @@ impl Roots<'_> {
 
     /// Newton's iterations inside a bracket; the earliest root in (0, latest).
     fn bracketed(&self, delay: f64, index: usize) -> Departure {
-        let (mut low, mut high) = (0.0, self.latest);
-        let mut place = 0.5 * self.latest;
-        let mut found = Departure {
+        let late = |place: f64| {
+            let (time, time_slope) = self.time.jet(place);
+            let (radius, radius_slope) = self.radius.jet(place);
+            let miss = time + delay * radius - self.arrival;
+            (miss, time_slope + delay * radius_slope)
+        };
+        let [before, place] = rising_root(late, [0.0, self.latest], 0.5 * self.latest, 5e-16);
+        let (radius, radius_slope) = self.radius.jet(before);
+        Departure {
             piece: index,
             place,
-            radius: 0.0,
-            time_slope: 1.0,
-            radius_slope: 0.0,
-        };
-        for _ in 0..60 {
-            let (t, time_slope) = self.time.jet(place);
-            let (a, radius_slope) = self.radius.jet(place);
-            let miss = t + delay * a - self.arrival;
-            if miss < 0.0 {
-                low = place;
-            } else {
-                high = place;
-            }
-            let newton = place - miss / (time_slope + delay * radius_slope);
-            let inside = newton >= low && newton <= high;
-            let next = if inside { newton } else { 0.5 * (low + high) };
-            let step = next - place;
-            found = Departure {
-                piece: index,
-                place: next,
-                radius: a + radius_slope * step,
-                time_slope,
-                radius_slope,
-            };
-            if (inside && step.abs() < CLOSE) || high - low < 1e-15 {
-                break;
-            }
-            place = next;
+            radius: radius + radius_slope * (place - before),
+            time_slope: self.time.jet(before).1,
+            radius_slope,
         }
-        found
     }
 }
-
-/// Newton's step after which the next is below the last digit, in the place in a piece.
-const CLOSE: f64 = 3e-8;

@@ -5,10 +5,9 @@
 //! from a^2 over the velocity to a smaller multiple of it, for a stiff striker to nearly a power one of a.
 
 use crate::growing::arrivals::Piece;
-use crate::growing::equations::{Known, Values};
-use crate::growing::march::{March, Stuck};
-use crate::growing::polynomial::LARGEST;
-use crate::growing::polynomial::Polynomial;
+use crate::growing::equations::{Independent, Values};
+use crate::growing::march::March;
+use crate::growing::polynomial::{LARGEST, Polynomial};
 
 /// Pieces at most, tried ones included.
 const MOST: usize = 200;
@@ -24,8 +23,8 @@ const LOST: f64 = 30.0;
 
 impl March<'_> {
     /// # Errors
-    /// [`Stuck`] where no piece is short enough.
-    pub(crate) fn close(&mut self) -> Result<(), Stuck> {
+    /// The time in collision units where no piece is short enough.
+    pub(crate) fn close(&mut self) -> Result<(), f64> {
         let mut ratio = 0.3;
         // dt/da ~ a^(power - 1)
         let mut power = 2.0_f64;
@@ -47,9 +46,9 @@ impl March<'_> {
             let to = if last { 0.0 } else { ratio * from };
             let given = Polynomial::power(from.sqrt(), to.sqrt() - from.sqrt(), 2);
             let guess = self.power_law(&given, left, power);
-            match self.attempt(Known::Radius, given, &guess) {
+            match self.attempt(Independent::Radius, given, &guess) {
                 Some((solution, error)) if error <= 1.0 => {
-                    self.accept(Known::Radius, &solution);
+                    self.accept(Independent::Radius, &solution);
                     if last {
                         return Ok(());
                     }
@@ -72,9 +71,7 @@ impl March<'_> {
                 }
             }
         }
-        Err(Stuck {
-            time: self.state.time,
-        })
+        Err(self.state.time)
     }
 
     /// Level of the rule over the waves below which the last instants have no solution: with few waves the

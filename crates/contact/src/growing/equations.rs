@@ -7,18 +7,26 @@
 //! v = v_0 - (5/4) int a^3 T' ds
 //! ```
 
-use crate::growing::arrivals::Departure;
-use crate::growing::arrivals::{Arrival, Piece};
-use crate::growing::nodes::Factors;
-use crate::growing::nodes::Nodes;
-use crate::growing::polynomial::LARGEST;
-use crate::growing::polynomial::Polynomial;
+use crate::growing::arrivals::{Arrival, Departure, Piece};
+use crate::growing::nodes::{Factors, Nodes};
+use crate::growing::polynomial::{LARGEST, Polynomial, dot};
 use crate::growing::waves::{GrowingContact, Rule};
 use crate::units::INVERSE_MASS;
 
+/// What is known where a piece starts or ends.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct State {
+    pub(crate) time: f64,
+    pub(crate) radius: f64,
+    pub(crate) velocity: f64,
+    pub(crate) displacement: f64,
+    /// Slope of the indentation a^2.
+    pub(crate) slope: f64,
+}
+
 /// What a piece is a function of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Known {
+pub(crate) enum Independent {
     /// The radius is sought as a function of time.
     Time,
     /// The time is sought as a function of the radius, which falls.
@@ -35,9 +43,8 @@ pub(crate) struct Equations<'a> {
     pub(crate) nodes: &'a Nodes,
     /// The pieces before.
     pub(crate) pieces: &'a [Piece],
-    /// Time, radius and velocity where the piece starts.
-    pub(crate) from: (f64, f64, f64),
-    pub(crate) known: Known,
+    pub(crate) start: State,
+    pub(crate) known: Independent,
     /// What is known: the time or the radius.
     pub(crate) given: Polynomial,
 }
@@ -72,8 +79,8 @@ impl Equations<'_> {
     pub(crate) fn polynomials(&self, sought: &Values) -> (Polynomial, Polynomial) {
         let sought = self.nodes.polynomial(sought);
         match self.known {
-            Known::Time => (self.given, sought),
-            Known::Radius => (sought, self.given),
+            Independent::Time => (self.given, sought),
+            Independent::Radius => (sought, self.given),
         }
     }
 
@@ -89,14 +96,14 @@ impl Equations<'_> {
             *slope = dot(self.nodes.slope_row(i), &sought[..=n]);
         }
         let (time, radius, time_slope, radius_slope) = match self.known {
-            Known::Time => (given, *sought, given_slope, sought_slope),
-            Known::Radius => (*sought, given, sought_slope, given_slope),
+            Independent::Time => (given, *sought, given_slope, sought_slope),
+            Independent::Radius => (*sought, given, sought_slope, given_slope),
         };
         let mut impulse = [0.0; LARGEST];
         for j in 1..=n {
             impulse[j - 1] = radius[j].powi(3) * time_slope[j];
         }
-        let mut velocity = [self.from.2; LARGEST + 1];
+        let mut velocity = [self.start.velocity; LARGEST + 1];
         for (i, v) in velocity.iter_mut().enumerate().take(n + 1).skip(1) {
             *v -= INVERSE_MASS * dot(self.nodes.integral_row(i), &impulse[..n]);
         }
@@ -142,7 +149,7 @@ impl Equations<'_> {
             let arrival = Arrival {
                 time_of: &time_of,
                 radius_of: &radius_of,
-                from: (self.from.0, self.from.1),
+                from: (self.start.time, self.start.radius),
                 place: self.nodes.places[i],
                 time: motion.time[i],
             };
@@ -181,10 +188,10 @@ impl Equations<'_> {
             let rest = 2.0 * (1.0 - self.contact.target_share);
             for l in 1..=n {
                 let by_velocity: f64 = match self.known {
-                    Known::Time => {
+                    Independent::Time => {
                         self.nodes.integral_row(i)[l - 1] * velocity[(l - 1) * n + l - 1]
                     }
-                    Known::Radius => {
+                    Independent::Radius => {
                         let integral = self.nodes.integral_row(i);
                         (0..n).map(|j| integral[j] * velocity[j * n + l - 1]).sum()
                     }
@@ -193,11 +200,11 @@ impl Equations<'_> {
                 let by_drive = by_velocity - tension * (own - sums[l]);
                 line[l - 1] = by_drive * motion.time_slope[i]
                     + match self.known {
-                        Known::Time => {
+                        Independent::Time => {
                             let here = if l == i { motion.radius_slope[i] } else { 0.0 };
                             -rest * (motion.radius[i] * slopes[l] + here)
                         }
-                        Known::Radius => residual.drive[i - 1] * slopes[l],
+                        Independent::Radius => residual.drive[i - 1] * slopes[l],
                     };
             }
         }
@@ -211,8 +218,10 @@ impl Equations<'_> {
             let row = &mut rows[(j - 1) * n..j * n];
             let a = motion.radius[j];
             match self.known {
-                Known::Time => row[j - 1] = -INVERSE_MASS * 3.0 * a * a * motion.time_slope[j],
-                Known::Radius => {
+                Independent::Time => {
+                    row[j - 1] = -INVERSE_MASS * 3.0 * a * a * motion.time_slope[j];
+                }
+                Independent::Radius => {
                     let slopes = &self.nodes.slope_row(j)[1..];
                     for (entry, slope) in row.iter_mut().zip(slopes) {
                         *entry = -INVERSE_MASS * a.powi(3) * slope;
@@ -233,11 +242,11 @@ impl Equations<'_> {
             let speed = left.time_slope + delay * left.radius_slope;
             let weight = match self.known {
                 // a_k follows the polynomial at its place, which moves
-                Known::Time => {
+                Independent::Time => {
                     own += rate;
                     rate * left.time_slope / speed
                 }
-                Known::Radius => {
+                Independent::Radius => {
                     own -= rate * left.radius_slope / speed;
                     -rate * left.radius_slope / speed
                 }
@@ -251,9 +260,4 @@ impl Equations<'_> {
         }
         (sums, own)
     }
-}
-
-/// Scalar product.
-pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(x, y)| x * y).sum()
 }

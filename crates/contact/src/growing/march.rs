@@ -1,11 +1,10 @@
 //! Pieces after pieces from the touch until the contact has mostly opened.
 
 use crate::growing::arrivals::Piece;
-use crate::growing::equations::{Equations, Known, Values};
+use crate::growing::equations::{Equations, Independent, State, Values};
 use crate::growing::nodes::Nodes;
-use crate::growing::polynomial::LARGEST;
-use crate::growing::polynomial::Polynomial;
-use crate::growing::step::{Solution, State, Step};
+use crate::growing::polynomial::{LARGEST, Polynomial};
+use crate::growing::step::{Solution, Step};
 use crate::growing::waves::{GrowingContact, LEVELS};
 use crate::law::hertz::CONTACT_TIME;
 use crate::units::INVERSE_MASS;
@@ -39,13 +38,6 @@ pub(crate) struct Errors {
     pub(crate) end: f64,
     /// Of the work done on the half-space.
     pub(crate) work: f64,
-}
-
-/// Why a contact cannot be followed.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Stuck {
-    /// Time in collision units.
-    pub(crate) time: f64,
 }
 
 /// What is left of a change by the finer rule over the waves, at most.
@@ -98,34 +90,32 @@ impl<'a> March<'a> {
     /// over the allowed one.
     pub(crate) fn attempt(
         &mut self,
-        known: Known,
+        known: Independent,
         given: Polynomial,
         guess: &Values,
     ) -> Option<(Solution, f64)> {
         let mut guess = *guess;
         loop {
             let rules = [self.level, self.level + 1].map(|level| self.contact.waves.rule(level));
-            let start = self.state;
             let equations = Equations {
                 contact: self.contact,
                 nodes: self.nodes,
                 pieces: &self.pieces,
-                from: (start.time, start.radius, start.velocity),
+                start: self.state,
                 known,
                 given,
             };
             let accuracy = self.accuracy;
             let solution = Step {
                 equations,
-                start,
                 rules,
                 accuracy,
             }
             .solve(&guess)?;
             // of the force where the radius is sought
             let weight = match known {
-                Known::Time => 3.0 * solution.widest * solution.widest,
-                Known::Radius => 1.0,
+                Independent::Time => 3.0 * solution.widest * solution.widest,
+                Independent::Radius => 1.0,
             };
             let error = solution.truncated * weight / self.accuracy;
             if error > 1.0 {
@@ -137,7 +127,7 @@ impl<'a> March<'a> {
                 guess = solution.sought;
                 continue;
             }
-            if miss < COARSER && self.level > 0 && known == Known::Time {
+            if miss < COARSER && self.level > 0 && known == Independent::Time {
                 self.level -= 1;
             }
             return Some((solution, error));
@@ -145,16 +135,16 @@ impl<'a> March<'a> {
     }
 
     /// Takes a piece.
-    pub(crate) fn accept(&mut self, known: Known, solution: &Solution) {
+    pub(crate) fn accept(&mut self, known: Independent, solution: &Solution) {
         let duration = solution.end.time - self.state.time;
         let error = solution.truncated + LEFT * solution.waves;
         let force = 3.0 * solution.widest * solution.widest;
         match known {
-            Known::Time => {
+            Independent::Time => {
                 self.errors.force = self.errors.force.max(force * error);
                 self.errors.momentum += force * error * duration;
             }
-            Known::Radius => {
+            Independent::Radius => {
                 let steepest = force * (self.state.radius - solution.end.radius) / duration;
                 self.errors.force = self.errors.force.max(steepest * error);
                 self.errors.momentum += solution.widest.powi(3) * error;
@@ -185,8 +175,8 @@ impl<'a> March<'a> {
     /// expected end: Hertz's contact is analytic in these over most of its duration.
     ///
     /// # Errors
-    /// [`Stuck`] where no piece is short enough.
-    pub(crate) fn load(&mut self) -> Result<(), Stuck> {
+    /// The time in collision units where no piece is short enough.
+    pub(crate) fn load(&mut self) -> Result<(), f64> {
         let mut length = self.first_length();
         let mut late = false;
         for _ in 0..MOST {
@@ -214,9 +204,9 @@ impl<'a> March<'a> {
             } else {
                 self.guess(&given)
             };
-            match self.attempt(Known::Time, given, &guess) {
+            match self.attempt(Independent::Time, given, &guess) {
                 Some((solution, error)) if error <= 1.0 => {
-                    self.accept(Known::Time, &solution);
+                    self.accept(Independent::Time, &solution);
                     length *= self.factor(error);
                     if self.state.slope < 0.0 && self.state.radius < SWITCH * self.widest {
                         return Ok(());
@@ -230,9 +220,7 @@ impl<'a> March<'a> {
                 break;
             }
         }
-        Err(Stuck {
-            time: self.state.time,
-        })
+        Err(self.state.time)
     }
 
     /// Root of the duration of the first piece.

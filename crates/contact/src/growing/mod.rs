@@ -21,11 +21,11 @@
 //! The integral over the waves is Gauss's rule of their measure, of 3 to 220 nodes as each piece needs.
 //!
 //! In reading order: `waves`, `equations` of a piece and the `arrivals` of its waves, `step` that solves them at the `nodes`
-//! of a `polynomial`, `march` and `closing` from piece to piece, `after` for what was taken for granted, `solved`, `work`.
+//! of a `polynomial`, `march` and `closing` from piece to piece, `checks` for what was taken for granted, `solved`, `work`.
 //! Measured against superposition in time of punches by another kernel formula (`tests/reference/growing.csv`).
 
-pub(crate) mod after;
 pub(crate) mod arrivals;
+pub(crate) mod checks;
 pub(crate) mod closing;
 pub(crate) mod equations;
 pub(crate) mod march;
@@ -40,8 +40,9 @@ pub(crate) mod work;
 
 use crate::disc::refine::Accuracy;
 use crate::growing::march::March;
-use crate::growing::solved::{Estimates, SolvedContact};
+use crate::growing::solved::SolvedContact;
 use crate::growing::waves::GrowingContact;
+use crate::summary::Estimates;
 use thiserror::Error;
 
 /// Why a growing contact could not be solved.
@@ -217,18 +218,18 @@ fn excess(estimates: &Estimates, accuracy: &Accuracy) -> f64 {
 fn resolve(contact: &GrowingContact<'_>, piece: f64) -> Result<SolvedContact, GrowingError> {
     let mut march = March::new(*contact, piece);
     let followed = march.load().and_then(|()| march.close());
-    followed.map_err(|stuck| GrowingError::NotFollowed {
-        time: stuck.time,
+    followed.map_err(|time| GrowingError::NotFollowed {
+        time,
         tolerance: piece,
         target_share: contact.target_share,
         wave_time: contact.wave_time,
     })?;
     let velocity = march.state.velocity;
     let solved = SolvedContact::new(march);
-    if let Some(time) = after::folds(solved.all_pieces(), contact) {
+    if let Some(time) = checks::folds(solved.all_pieces(), contact) {
         return Err(GrowingError::Overtaken { time });
     }
-    if let Some(time) = after::strikes_again(solved.all_pieces(), contact, velocity) {
+    if let Some(time) = checks::strikes_again(solved.all_pieces(), contact, velocity) {
         return Err(GrowingError::StrikesAgain { time });
     }
     Ok(solved)

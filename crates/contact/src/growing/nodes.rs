@@ -1,6 +1,6 @@
 //! Collocation at Radau's nodes: what a piece of degree n needs, made once for each n, and its small linear systems.
 
-use crate::growing::polynomial::{LARGEST, Polynomial};
+use crate::growing::polynomial::{LARGEST, Polynomial, dot};
 use crate::numeric::gauss::{gauss, legendre, radau};
 use std::sync::OnceLock;
 
@@ -101,7 +101,7 @@ impl Nodes {
     pub(crate) fn modes(&self, values: &[f64], modes: &mut [f64]) {
         let n = self.degree + 1;
         for (mode, row) in modes.iter_mut().zip(self.modes.chunks_exact(n)) {
-            *mode = row.iter().zip(values).map(|(a, b)| a * b).sum();
+            *mode = dot(row, values);
         }
     }
 
@@ -113,7 +113,7 @@ impl Nodes {
         let mut found = Polynomial::constant(0.0);
         found.degree = self.degree;
         for (k, row) in self.powers.chunks_exact(n).enumerate() {
-            found.powers[k] = row[k..].iter().zip(&modes[k..]).map(|(a, b)| a * b).sum();
+            found.powers[k] = dot(&row[k..], &modes[k..]);
         }
         found
     }
@@ -221,17 +221,11 @@ impl Factors {
         }
         for k in 0..n {
             let row = &self.matrix[k * n..k * n + k];
-            let known: f64 = row.iter().zip(&right[..k]).map(|(a, b)| a * b).sum();
-            right[k] -= known;
+            right[k] -= dot(row, &right[..k]);
         }
         for k in (0..n).rev() {
             let row = &self.matrix[k * n + k..(k + 1) * n];
-            let known: f64 = row[1..]
-                .iter()
-                .zip(&right[k + 1..n])
-                .map(|(a, b)| a * b)
-                .sum();
-            right[k] = (right[k] - known) / row[0];
+            right[k] = (right[k] - dot(&row[1..], &right[k + 1..n])) / row[0];
         }
     }
 }

@@ -95,6 +95,11 @@ impl Polynomial {
 /// Largest degree of a piece.
 pub(crate) const LARGEST: usize = 16;
 
+/// Scalar product.
+pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(x, y)| x * y).sum()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -2,42 +2,9 @@
 
 use crate::growing::arrivals::Piece;
 use crate::growing::march::{Errors, March};
-use crate::summary::{EndOfContact, Instant, Summary};
+use crate::numeric::quadrature::rising_root;
+use crate::summary::{EndOfContact, Estimates, Instant, Summary};
 use crate::units::INVERSE_MASS;
-
-/// Estimated errors of the results: relative, but that of the restitution, which is absolute.
-///
-/// Each is true in 99 of 100 random scenes; see `tests/growing.rs`.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Estimates {
-    /// Of the largest force.
-    pub peak_force: f64,
-    /// Of its time, over the contact time.
-    pub peak_force_time: f64,
-    /// Of the contact time.
-    pub contact_time: f64,
-    /// Of the restitution, of the velocity of approach.
-    pub restitution: f64,
-    /// Of the loss.
-    pub loss: f64,
-    /// Of the largest displacement.
-    pub peak_displacement: f64,
-    /// Of the largest deflection.
-    pub peak_deflection: f64,
-    /// Of the force at any time, over the largest.
-    pub force: f64,
-}
-
-impl Estimates {
-    /// The largest of what a tolerance is asked on: peak force, contact time, restitution, displacement.
-    #[must_use]
-    pub fn contact(&self) -> f64 {
-        self.peak_force
-            .max(self.contact_time)
-            .max(self.restitution)
-            .max(self.peak_displacement)
-    }
-}
 
 /// A contact whose radius follows the load, in collision units.
 #[derive(Debug, Clone)]
@@ -86,17 +53,18 @@ impl SolvedContact {
             errors,
             ..
         } = march;
-        let force = largest(&pieces, |p, s| p.radius.value(s), |p, s| p.radius.jet(s).1);
-        let travel = largest(
+        let (widest, peak_force_time) =
+            largest(&pieces, |p, s| p.radius.value(s), |p, s| p.radius.jet(s).1);
+        let (peak_displacement, _) = largest(
             &pieces,
             |p, s| p.displacement.value(s),
             |p, s| p.velocity.value(s),
         );
         let late = pieces
             .iter()
-            .take_while(|piece| piece.to.0 <= force.time)
+            .take_while(|piece| piece.to.0 <= peak_force_time)
             .count();
-        let deflection = largest(&pieces[late..], deflection, deflection_slope);
+        let (peak_deflection, _) = largest(&pieces[late..], deflection, deflection_slope);
         let work = 2.0 * INVERSE_MASS * dissipated;
         let momentum = (1.0 - state.velocity) * (1.0 + state.velocity);
         let (restitution, loss) = if work < SMALL_LOSS {
@@ -104,20 +72,19 @@ impl SolvedContact {
         } else {
             (-state.velocity, momentum)
         };
-        let peak_force = force.value.powi(3);
         let summary = Summary {
-            peak_force,
-            peak_force_time: force.time,
+            peak_force: widest.powi(3),
+            peak_force_time,
             contact_time: state.time,
             restitution,
             loss,
-            peak_displacement: travel.value,
-            peak_deflection: deflection.value,
+            peak_displacement,
+            peak_deflection,
             impulse: (1.0 - state.velocity) / INVERSE_MASS,
             contacts: 1,
             end: EndOfContact::Layer(0.0),
         };
-        let estimates = estimates(&summary, &errors, (work - momentum).abs(), &deflection);
+        let estimates = estimates(&summary, &errors, (work - momentum).abs());
         Self {
             summary: Summary {
                 end: EndOfContact::Layer(estimates.contact_time),
@@ -207,7 +174,7 @@ impl SolvedContact {
             ..Instant::default()
         };
         let end = self.summary.contact_time;
-        let (Some((piece, place)), true) = (self.place(time.max(0.0)), time < end) else {
+        let (Some(now), true) = (self.at(time.max(0.0)), time < end) else {
             let velocity = -self.summary.restitution;
             let last = self.pieces.last();
             let left = last.map_or(0.0, |piece| piece.displacement.value(1.0));
@@ -217,11 +184,10 @@ impl SolvedContact {
                 ..moved
             };
         };
-        let displacement = piece.displacement.value(place);
         Instant {
-            displacement,
-            velocity: piece.velocity.value(place),
-            deflection: displacement - piece.radius.value(place).max(0.0).powi(2),
+            displacement: now.displacement,
+            velocity: now.velocity,
+            deflection: now.deflection,
             ..moved
         }
     }
@@ -246,30 +212,16 @@ fn place_of(piece: &Piece, time: f64) -> f64 {
         let root = (slope * slope + 4.0 * half * away).max(0.0).sqrt();
         return (0.5 + away / (slope + root)).clamp(0.0, 1.0);
     }
-    let (mut low, mut high) = (0.0_f64, 1.0_f64);
     let span = piece.to.0 - piece.from.0;
-    let mut place = ((time - piece.from.0) / span).clamp(0.0, 1.0);
-    for _ in 0..60 {
+    let start = ((time - piece.from.0) / span).clamp(0.0, 1.0);
+    let late = |place: f64| {
         let (value, slope) = piece.time.jet(place);
-        let miss = value - time;
-        if miss < 0.0 {
-            low = place;
-        } else {
-            high = place;
-        }
-        let newton = place - miss / slope;
-        let inside = newton >= low && newton <= high;
-        let next = if inside { newton } else { 0.5 * (low + high) };
-        // Newton's error is squared each time
-        if (next - place).abs() < if inside { 3e-8 } else { 1e-14 } {
-            return next;
-        }
-        place = next;
-    }
-    place
+        (value - time, slope)
+    };
+    rising_root(late, [0.0, 1.0], start, 1e-14)[1]
 }
 
-fn estimates(summary: &Summary, errors: &Errors, energy: f64, deflection: &Extremum) -> Estimates {
+fn estimates(summary: &Summary, errors: &Errors, energy: f64) -> Estimates {
     Estimates {
         peak_force: PEAK_FORCE * (errors.force + errors.momentum) / summary.peak_force,
         peak_force_time: PEAK_FORCE_TIME * (errors.force + errors.momentum),
@@ -277,38 +229,26 @@ fn estimates(summary: &Summary, errors: &Errors, energy: f64, deflection: &Extre
         restitution: RESTITUTION * (errors.momentum + energy),
         loss: LOSS * (errors.work / summary.loss + energy),
         peak_displacement: DISPLACEMENT * errors.momentum / summary.peak_displacement,
-        peak_deflection: DEFLECTION * errors.force / deflection.value,
+        peak_deflection: DEFLECTION * errors.force / summary.peak_deflection,
         force: FORCE * errors.force / summary.peak_force,
     }
-}
-
-/// A value and when it is reached.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Extremum {
-    pub(crate) time: f64,
-    pub(crate) value: f64,
 }
 
 /// Parts of a piece in which an extremum is looked for.
 const PARTS: usize = 4;
 
-/// The largest of a quantity over pieces: its value at a place of a piece, and what has the sign of its slope.
-pub(crate) fn largest(
+/// The largest of a quantity over pieces and its time: from its value at a place of a piece, and what has the sign of its
+/// slope.
+fn largest(
     pieces: &[Piece],
     value: impl Fn(&Piece, f64) -> f64,
     slope: impl Fn(&Piece, f64) -> f64,
-) -> Extremum {
-    let mut best = Extremum {
-        time: 0.0,
-        value: 0.0,
-    };
+) -> (f64, f64) {
+    let mut best = (0.0, 0.0);
     let mut candidate = |piece: &Piece, place: f64| {
         let found = value(piece, place);
-        if found > best.value {
-            best = Extremum {
-                time: piece.time.value(place),
-                value: found,
-            };
+        if found > best.0 {
+            best = (found, piece.time.value(place));
         }
     };
     for piece in pieces {
@@ -329,7 +269,7 @@ pub(crate) fn largest(
 
 /// A zero of f between two places, positive at the first and not at the second: the false position,
 /// with the value of an end that stays halved.
-pub(crate) fn falling_zero(f: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
+fn falling_zero(f: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
     let (mut above, mut below) = (f(low), f(high));
     let mut stays = 0_i32;
     let mut place = high;

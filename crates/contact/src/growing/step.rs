@@ -1,21 +1,10 @@
 //! One piece of the contact by collocation and Newton's method.
 
 use crate::growing::arrivals::Piece;
-use crate::growing::equations::{Departures, Equations, Known, Motion, Values, dot};
+use crate::growing::equations::{Departures, Equations, Independent, Motion, State, Values};
 use crate::growing::nodes::Factors;
-use crate::growing::polynomial::LARGEST;
+use crate::growing::polynomial::{LARGEST, dot};
 use crate::growing::waves::Rule;
-
-/// What is known at the end of a piece.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct State {
-    pub(crate) time: f64,
-    pub(crate) radius: f64,
-    pub(crate) velocity: f64,
-    pub(crate) displacement: f64,
-    /// Slope of the indentation a^2.
-    pub(crate) slope: f64,
-}
 
 /// A piece that solves its equations at its nodes.
 #[derive(Debug, Clone, Copy)]
@@ -38,7 +27,6 @@ pub(crate) struct Solution {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Step<'a> {
     pub(crate) equations: Equations<'a>,
-    pub(crate) start: State,
     /// The rule over the waves that is solved with, and the next finer one that corrects.
     pub(crate) rules: [&'a Rule; 2],
     /// Error that is allowed.
@@ -123,8 +111,8 @@ impl Step<'_> {
     fn scale(&self, sought: &Values) -> f64 {
         let n = self.equations.nodes.degree;
         match self.equations.known {
-            Known::Time => sought[..=n].iter().fold(0.0_f64, |m, x| m.max(x.abs())),
-            Known::Radius => (sought[n] - sought[0]).abs(),
+            Independent::Time => sought[..=n].iter().fold(0.0_f64, |m, x| m.max(x.abs())),
+            Independent::Radius => (sought[n] - sought[0]).abs(),
         }
     }
 
@@ -133,8 +121,8 @@ impl Step<'_> {
         let mut factor = 1.0_f64;
         for i in 1..=change.len() {
             let (old, fall, least) = match self.equations.known {
-                Known::Time => (sought[i], change[i - 1], 0.2),
-                Known::Radius => {
+                Independent::Time => (sought[i], change[i - 1], 0.2),
+                Independent::Radius => {
                     let before = if i == 1 { 0.0 } else { change[i - 2] };
                     (sought[i] - sought[i - 1], change[i - 1] - before, 0.1)
                 }
@@ -166,7 +154,7 @@ impl Step<'_> {
             let lag = travel[j - 1] - 2.0 * motion.radius[j] * motion.radius_slope[j];
             dissipated += nodes.weights[j - 1] * motion.radius[j].powi(3) * lag;
         }
-        let mut displacement = [self.start.displacement; LARGEST + 1];
+        let mut displacement = [self.equations.start.displacement; LARGEST + 1];
         for (i, place) in displacement.iter_mut().enumerate().take(n + 1).skip(1) {
             *place += dot(nodes.integral_row(i), &travel[..n]);
         }
@@ -179,7 +167,7 @@ impl Step<'_> {
                 radius,
                 velocity: nodes.polynomial(&motion.velocity),
                 displacement: nodes.polynomial(&displacement),
-                from: (self.start.time, self.start.radius),
+                from: (self.equations.start.time, self.equations.start.radius),
                 to: (motion.time[n], motion.radius[n]),
             },
             end: State {

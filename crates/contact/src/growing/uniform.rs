@@ -16,9 +16,8 @@
 //!
 //! Theory: `docs/theory.md` (T47, T48).
 
-use crate::disc::flight::{Flight, Start, starting_roots};
-use crate::disc::history::Budget;
-use crate::disc::history::{EndLayer, History};
+use crate::disc::history::{Budget, EndLayer, History};
+use crate::disc::striker::{StrikerMotion, TouchCorrection, starting_roots};
 use crate::error::MarchError;
 use crate::growing::punch::PunchResponse;
 use crate::growing::waves::GrowingContact;
@@ -40,9 +39,9 @@ pub fn march_growing(contact: &GrowingContact<'_>, step: f64) -> Result<History,
     let memory = punch.memory() * contact.wave_time;
     let budget = Budget::new((memory / step).min(1e9) as usize * 8, memory);
     budget.before(step)?;
-    let start = Start::new(step, 0.0, &starting_roots(step, 0.0));
-    let mut flight = Flight::new(step, start);
-    let inertia = flight.newest_weight();
+    let start = TouchCorrection::new(step, 0.0, &starting_roots(step, 0.0));
+    let mut striker = StrikerMotion::new(step, start);
+    let inertia = striker.newest_weight();
     let mut history = History::at_touch(step, 256);
     history.start = start.force;
     history.end_layer = end_layer(contact);
@@ -51,7 +50,7 @@ pub fn march_growing(contact: &GrowingContact<'_>, step: f64) -> Result<History,
     let mut free_since = 0.0;
     loop {
         let n = history.force.len();
-        let free = flight.free_displacement();
+        let free = striker.free_displacement();
         let mut newest = match indentation[..] {
             [.., before, last] => (2.0 * last - before).max(0.0),
             _ => step,
@@ -88,7 +87,7 @@ pub fn march_growing(contact: &GrowingContact<'_>, step: f64) -> Result<History,
         widest = widest.max(newest.sqrt());
         let force = newest * newest.sqrt();
         history.push(force, free - inertia * force, deflection);
-        flight.push(force);
+        striker.push(force);
         if force > 0.0 {
             free_since = 0.0;
         } else {

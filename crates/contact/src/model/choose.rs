@@ -23,22 +23,18 @@
 //! the third derivative of the force.
 //! The coefficients bound the differences from the full memory that were measured over couplings of 1e-3 to 5,
 //! memories of 1e-4 to 0.25 and Poisson's ratios of 0 to 0.48, with a margin of about 1.3.
-//! Those of the area dashpot are [`LeftOut`]'s, over memories up to 0.5.
+//! Those of the area dashpot are [`left_out`]'s, over memories up to 0.5.
 //! `tests/auto.rs` repeats the comparison on random scenes.
 //!
 //! Theory: `docs/theory.md` (T58).
 
 use crate::collision::Collision;
-use crate::disc::refine::Accuracy;
-use crate::disc::refine::Found;
+use crate::disc::refine::{Accuracy, Found};
 use crate::disc::response::DiscResponse;
 use crate::error::ContactError;
-use crate::law::area_dashpot::AreaDashpot;
-use crate::law::area_dashpot::LeftOut;
-use crate::law::quasi_static::quasi_static;
-use crate::law::quasi_static::quasi_static_radiation;
-use crate::law::radiation::LOSS;
-use crate::law::radiation::radiation;
+use crate::law::area_dashpot::{AreaDashpot, left_out};
+use crate::law::quasi_static::{quasi_static, quasi_static_radiation};
+use crate::law::radiation::{LOSS, radiation};
 use crate::model::{Model, Rung, Scheme, Settings, StaticShare};
 use crate::names::Choice;
 
@@ -128,22 +124,15 @@ impl Groups {
         }
     }
 
-    /// What the area dashpot leaves out of a contact that follows the load.
-    #[must_use]
-    pub fn beyond_dashpot(&self) -> Estimate {
-        let left_out = LeftOut::of(self.lag, self.memory);
-        Estimate {
-            contact: left_out.contact(),
-            loss: left_out.loss,
-        }
-    }
-
     /// The rung of this family that radiates without memory, and what it leaves out.
     fn without_memory(&self) -> (Rung, Estimate) {
-        match self.family {
-            Family::Growing => (Rung::AreaDashpot, self.beyond_dashpot()),
-            Family::Full | Family::Dynamic => (Rung::Radiation, self.beyond_radiation()),
+        if self.family != Family::Growing {
+            return (Rung::Radiation, self.beyond_radiation());
         }
+        let errors = left_out(self.lag, self.memory);
+        let contact = errors.contact().max(errors.force);
+        let loss = errors.loss;
+        (Rung::AreaDashpot, Estimate { contact, loss })
     }
 
     /// The cheapest rung that meets the accuracy asked for.
@@ -271,10 +260,14 @@ impl Plan {
     /// sigma of the quasi-static spring.
     #[must_use]
     pub fn coupling(&self) -> f64 {
-        match self.model.row() {
-            (Rung::QuasiStatic | Rung::Radiation, true) => self.groups.coupling,
-            (Rung::QuasiStatic | Rung::Radiation, false) => 0.0,
-            (Rung::AreaDashpot | Rung::FullMemory, _) => 0.0,
+        let on_springs = matches!(
+            self.model.row(),
+            (Rung::QuasiStatic | Rung::Radiation, true)
+        );
+        if on_springs {
+            self.groups.coupling
+        } else {
+            0.0
         }
     }
 
@@ -321,7 +314,8 @@ impl Plan {
     /// [`ContactError::BeyondDashpot`] where the expansion in the memory makes no sense.
     pub(crate) fn dashpot(&self, terms: &AreaDashpot) -> Result<Found, ContactError> {
         let (lag, memory) = (terms.lag, self.groups.memory);
-        let error = terms.left_out(memory).contact();
+        let errors = terms.left_out(memory);
+        let error = errors.contact().max(errors.force);
         if error >= 1.0 {
             return Err(ContactError::BeyondDashpot { lag, memory });
         }

@@ -138,6 +138,39 @@ pub(crate) fn find_root(f: impl Fn(f64) -> (f64, f64), from: f64, to: f64) -> f6
     x
 }
 
+/// A zero of a rising function (value and slope) in [low, high] by Newton's method from `start`, with bisection where
+/// that leaves the bracket: the place before the last step, and the one after it.
+///
+/// It ends with a step below [`CLOSE`], or with a bisection below `least`.
+pub(crate) fn rising_root(
+    f: impl Fn(f64) -> (f64, f64),
+    [mut low, mut high]: [f64; 2],
+    start: f64,
+    least: f64,
+) -> [f64; 2] {
+    let mut places = [start; 2];
+    for _ in 0..60 {
+        let place = places[1];
+        let (value, slope) = f(place);
+        if value < 0.0 {
+            low = place;
+        } else {
+            high = place;
+        }
+        let newton = place - value / slope;
+        let inside = newton >= low && newton <= high;
+        let next = if inside { newton } else { 0.5 * (low + high) };
+        places = [place, next];
+        if (next - place).abs() < if inside { CLOSE } else { least } {
+            break;
+        }
+    }
+    places
+}
+
+/// Newton's step after which the next is below the last digit of a number of about one.
+pub(crate) const CLOSE: f64 = 3e-8;
+
 /// The first of the largest samples, and it; four lanes at a time.
 fn largest(samples: &[f64]) -> (usize, f64) {
     let mut lanes = [f64::NEG_INFINITY; 4];

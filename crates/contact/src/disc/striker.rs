@@ -29,14 +29,14 @@ pub(crate) fn starting_roots(step: f64, compliance: f64) -> [f64; STARTING] {
 
 /// What the trapezoidal rule misses at the touch: of int p dt and of int t p dt, the constants of Euler and Maclaurin.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(crate) struct Start {
+pub(crate) struct TouchCorrection {
     /// Of int p dt.
     pub(crate) force: f64,
     /// Of int t p dt.
     moment: f64,
 }
 
-impl Start {
+impl TouchCorrection {
     /// From the first roots of the force, on a surface that gives way by `compliance` times the force at once.
     ///
     /// t = y^2 + sigma y^3 makes both integrals and the derivatives at the upper end elementary.
@@ -71,19 +71,19 @@ impl Start {
 
 /// Running sums of the force samples.
 #[derive(Debug, Clone)]
-pub(crate) struct Flight {
+pub(crate) struct StrikerMotion {
     step: f64,
     samples: usize,
     /// sum of all samples so far.
     sum: f64,
     /// sum over the samples so far of (n - j) p_j, n the next sample.
     double_sum: f64,
-    start: Start,
+    start: TouchCorrection,
 }
 
-impl Flight {
+impl StrikerMotion {
     /// At the instant of touch: one sample, p = 0.
-    pub(crate) fn new(step: f64, start: Start) -> Self {
+    pub(crate) fn new(step: f64, start: TouchCorrection) -> Self {
         Self {
             step,
             samples: 1,
@@ -156,17 +156,17 @@ mod tests {
     fn errors(step: f64, compliance: f64, p: impl Fn(f64) -> f64, exact: [f64; 2]) -> [f64; 2] {
         let n = (1.0 / step).round() as usize;
         let mut history = History::at_touch(step, n);
-        let start = Start::new(step, compliance, &starting_roots(step, compliance));
-        let mut flight = Flight::new(step, start);
+        let start = TouchCorrection::new(step, compliance, &starting_roots(step, compliance));
+        let mut striker = StrikerMotion::new(step, start);
         history.start = start.force;
         for i in 1..=n + 2 {
             let force = p(i as f64 * step);
             history.push(force, 0.0, 0.0);
             if i < n {
-                flight.push(force);
+                striker.push(force);
             }
         }
-        let d = flight.free_displacement() - flight.newest_weight() * history.force[n];
+        let d = striker.free_displacement() - striker.newest_weight() * history.force[n];
         [
             (d - (1.0 - INVERSE_MASS * exact[1])).abs(),
             (history.impulse_until(n) - exact[0]).abs(),
