@@ -66,6 +66,7 @@ impl Collision {
     /// # Errors
     /// [`ContactError::OutOfRange`], [`ContactError::TooFast`], and a Poisson's ratio outside the physics.
     pub fn check(&self) -> Result<(), ContactError> {
+        let outside = |quantity, value| Err(ContactError::OutOfRange { quantity, value });
         for (quantity, value) in [
             ("mass_kg", self.mass_kg),
             ("tip_radius_m", self.tip_radius_m),
@@ -80,7 +81,7 @@ impl Collision {
             ),
         ] {
             if !(PHYSICAL[0]..=PHYSICAL[1]).contains(&value) {
-                return Err(ContactError::OutOfRange { quantity, value });
+                return outside(quantity, value);
             }
         }
         let velocity_m_s = self.velocity_m_s;
@@ -99,10 +100,7 @@ impl Collision {
         if velocity_m_s >= PHYSICAL[0] {
             return Ok(());
         }
-        Err(ContactError::OutOfRange {
-            quantity: "velocity_m_s",
-            value: velocity_m_s,
-        })
+        outside("velocity_m_s", velocity_m_s)
     }
 
     /// Whether a step that is given can be one of a march over this contact.

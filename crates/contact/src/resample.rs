@@ -59,14 +59,12 @@ impl Resampler {
     /// Force, rate and second rate at a time in collision units; zero outside the contacts.
     #[must_use]
     pub fn force(&self, time: f64) -> [f64; 3] {
-        let now = match &self.source {
-            Source::Pieces(solved) => return solved.force(time),
-            Source::Samples(samples) => match samples.place(time) {
-                Some((cell, x)) => pressed_by(samples.indentation(cell, x)),
-                None => Instant::default(),
-            },
-        };
-        [now.force, now.rate, now.second_rate]
+        match &self.source {
+            Source::Pieces(solved) => solved.force(time),
+            Source::Samples(samples) => samples.place(time).map_or([0.0; 3], |(cell, x)| {
+                pressed_by(samples.indentation(cell, x))
+            }),
+        }
     }
 
     /// The state at a time in collision units, from the touch on.
@@ -79,18 +77,14 @@ impl Resampler {
     }
 }
 
-/// The state with the force of an indentation u and its rates alone: p = u^(3/2).
-fn pressed_by([u, slope, bend]: [f64; 3]) -> Instant {
+/// The force of an indentation u and its rates: p = u^(3/2).
+fn pressed_by([u, slope, bend]: [f64; 3]) -> [f64; 3] {
     if u <= 0.0 {
-        return Instant::default();
+        return [0.0; 3];
     }
     let y = u.sqrt();
-    Instant {
-        force: u * y,
-        rate: 1.5 * y * slope,
-        second_rate: 1.5 * (y * bend + 0.5 * slope * slope / y),
-        ..Instant::default()
-    }
+    let second_rate = 1.5 * (y * bend + 0.5 * slope * slope / y);
+    [u * y, 1.5 * y * slope, second_rate]
 }
 
 /// Equidistant samples.
@@ -162,7 +156,7 @@ impl Samples {
             };
         };
         let jet = self.indentation(cell, x);
-        let now = pressed_by(jet);
+        let [force, rate, second_rate] = pressed_by(jet);
         let (d, v, h) = (&self.displacement, &self.velocity, self.step);
         let displacement = hermite([d[cell], h * v[cell]], [d[cell + 1], h * v[cell + 1]], x);
         let slope = |i: usize| {
@@ -170,10 +164,12 @@ impl Samples {
             -INVERSE_MASS * h * u * u.sqrt()
         };
         Instant {
+            force,
+            rate,
+            second_rate,
             displacement,
             velocity: hermite([v[cell], slope(cell)], [v[cell + 1], slope(cell + 1)], x),
             deflection: displacement - jet[0],
-            ..now
         }
     }
 

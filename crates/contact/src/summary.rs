@@ -139,9 +139,9 @@ impl Summary {
         let mut how = history.separation.map_or(EndOfContact::Smooth, |found| {
             EndOfContact::Kept(found.uncertainty / found.time)
         });
-        if history.end_layer.shrinks {
+        if let Some(layer) = history.end_layer {
             how = EndOfContact::Singular;
-            if let Some((time, uncertainty)) = end_of_layer(history, end) {
+            if let Some((time, uncertainty)) = end_of_layer(history, end, layer) {
                 contact_time = time;
                 how = EndOfContact::Layer(uncertainty / time);
             }
@@ -251,18 +251,17 @@ const LAYER_UNCERTAINTY: f64 = 0.05;
 /// End of a contact with a layer that the step does not resolve, and its uncertainty.
 ///
 /// The displacement is smooth there, so the place where it reaches the layer's depth is known well.
-fn end_of_layer(history: &History, end: usize) -> Option<(f64, f64)> {
+fn end_of_layer(history: &History, end: usize, [depth, width]: [f64; 2]) -> Option<(f64, f64)> {
     let (step, d) = (history.step, &history.displacement);
-    let layer = history.end_layer;
     let from = end.checked_sub(3)?;
-    if layer.width == 0.0 || end + 1 >= d.len() {
+    if width == 0.0 || end + 1 >= d.len() {
         return None;
     }
     let velocity = (d[end - 1] - d[end]) / step;
-    if velocity <= 0.0 || 4.0 * step < layer.width * velocity {
+    if velocity <= 0.0 || 4.0 * step < width * velocity {
         return None;
     }
-    let depth = layer.depth * velocity * velocity;
+    let depth = depth * velocity * velocity;
     let local = Local::<5>::new(std::array::from_fn(|i| d[from + i] - depth));
     if local.value(0.0) <= 0.0 || local.value(4.0) >= 0.0 {
         return None;

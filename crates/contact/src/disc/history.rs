@@ -44,23 +44,14 @@ pub struct History {
     pub(crate) ends: Option<Ends>,
     /// Work left in the half-space where the march finds it itself.
     pub(crate) dissipated: Option<f64>,
-    /// Layer at the end of a contact that shrinks.
-    pub(crate) end_layer: EndLayer,
+    /// The last instants of a contact whose radius goes to zero, too short for the step: the displacement of the striker
+    /// at the end over the square of its velocity there, and their duration over the velocity; zeros where they are long
+    /// enough.
+    pub(crate) end_layer: Option<[f64; 2]>,
     /// The contact itself where it was solved by pieces, of which these are samples.
     pub(crate) pieces: Option<Arc<SolvedContact>>,
     /// Estimated error of the force at any instant, over the largest.
     pub(crate) error: f64,
-}
-
-/// The last instants of a contact whose radius goes to zero, too short for the step.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(crate) struct EndLayer {
-    /// Whether the contact's radius goes to zero at all.
-    pub(crate) shrinks: bool,
-    /// Displacement of the striker at the end of contact over the square of its velocity there.
-    pub(crate) depth: f64,
-    /// Duration of the layer over the velocity; zero where there is none.
-    pub(crate) width: f64,
 }
 
 impl History {
@@ -98,7 +89,7 @@ impl History {
             separation: None,
             ends: None,
             dissipated: None,
-            end_layer: EndLayer::default(),
+            end_layer: None,
             pieces: None,
             error: f64::INFINITY,
         }

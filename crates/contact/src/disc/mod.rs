@@ -58,9 +58,6 @@ impl<R: DiscResponse> FixedDisc<'_, R> {
 
     /// Coupling of the static spring in the contact law: none for the dynamic share.
     pub(crate) fn static_coupling(&self) -> f64 {
-        match self.share {
-            StaticShare::Full => self.coupling,
-            StaticShare::Dynamic => 0.0,
-        }
+        self.coupling * self.share.factor()
     }
 }

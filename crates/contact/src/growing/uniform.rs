@@ -16,7 +16,7 @@
 //!
 //! Theory: `docs/theory.md` (T47, T48).
 
-use crate::disc::history::{Budget, EndLayer, History};
+use crate::disc::history::{Budget, History};
 use crate::disc::striker::{StrikerMotion, TouchCorrection, starting_roots};
 use crate::error::MarchError;
 use crate::growing::punch::PunchResponse;
@@ -44,7 +44,7 @@ pub fn march_growing(contact: &GrowingContact<'_>, step: f64) -> Result<History,
     let inertia = striker.newest_weight();
     let mut history = History::at_touch(step, 256);
     history.start = start.force;
-    history.end_layer = end_layer(contact);
+    history.end_layer = Some(end_layer(contact));
     let mut indentation = vec![0.0_f64];
     let mut widest = 0.0_f64;
     let mut free_since = 0.0;
@@ -130,21 +130,19 @@ const THIN: f64 = 0.4;
 /// ```
 ///
 /// f is fitted to marches that resolve the layer for phi up to 0.95 and thin layers, 1 for small phi, where u = v t undisturbed gives int V_p(sqrt(x)) dx = 2 m.
-fn end_layer(contact: &GrowingContact<'_>) -> EndLayer {
-    let (phi, tau) = (contact.target_share, contact.wave_time);
-    let memory = contact.waves.punch().memory() * tau;
+fn end_layer(contact: &GrowingContact<'_>) -> [f64; 2] {
+    let (phi, tau, punch) = (
+        contact.target_share,
+        contact.wave_time,
+        contact.waves.punch(),
+    );
+    let memory = punch.memory() * tau;
     if memory > THIN {
-        return EndLayer {
-            shrinks: true,
-            ..EndLayer::default()
-        };
+        return [0.0; 2];
     }
     let factor = 1.0 - 0.78 * phi + 0.08 * phi * phi;
-    EndLayer {
-        shrinks: true,
-        depth: 2.0 * phi * contact.waves.punch().first_moment() * factor * tau * tau,
-        width: memory * memory,
-    }
+    let depth = 2.0 * phi * punch.first_moment() * factor * tau * tau;
+    [depth, memory * memory]
 }
 
 /// Share of the half-space up to which the newest cell's curvature is taken from the cells before it.
