@@ -2,20 +2,22 @@
 //!
 //! Theory: `docs/theory.md` (T36, T39, T49).
 
+use crate::bodies::strength::{Strength, strengths};
 use crate::bodies::{HalfSpace, Striker};
 use crate::disc::FixedDisc;
+use crate::disc::response::DiscResponse;
 use crate::error::ContactError;
-use crate::march::growing::GrowingDisc;
-use crate::response::disc::DiscResponse;
-use crate::response::punch::PunchResponse;
-use crate::settings::StaticShare;
-use crate::strength::{Strength, strengths};
-use crate::surface::Surface;
+use crate::growing::waves::{GrowingContact, PunchWaves};
+use crate::law::hertz::CONTACT_TIME;
+use crate::model::{Settings, StaticShare};
 use crate::units::{CollisionUnits, KernelUnits};
 use halfspace::Medium;
 
 /// Range of the numbers of bodies in SI units, whose powers and products stay numbers.
 const PHYSICAL: [f64; 2] = [1e-30, 1e30];
+
+/// Steps of a march over Hertz's contact at most and at least, from where it cannot be one.
+const STEPS: [f64; 2] = [1e-3, 1e9];
 
 /// A striker with a spherical tip that meets an elastic half-space, in SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -64,6 +66,7 @@ impl Collision {
     /// # Errors
     /// [`ContactError::OutOfRange`], [`ContactError::TooFast`], and a Poisson's ratio outside the physics.
     pub fn check(&self) -> Result<(), ContactError> {
+        let outside = |quantity, value| Err(ContactError::OutOfRange { quantity, value });
         for (quantity, value) in [
             ("mass_kg", self.mass_kg),
             ("tip_radius_m", self.tip_radius_m),
@@ -78,7 +81,7 @@ impl Collision {
             ),
         ] {
             if !(PHYSICAL[0]..=PHYSICAL[1]).contains(&value) {
-                return Err(ContactError::OutOfRange { quantity, value });
+                return outside(quantity, value);
             }
         }
         let velocity_m_s = self.velocity_m_s;
@@ -97,10 +100,23 @@ impl Collision {
         if velocity_m_s >= PHYSICAL[0] {
             return Ok(());
         }
-        Err(ContactError::OutOfRange {
-            quantity: "velocity_m_s",
-            value: velocity_m_s,
-        })
+        outside("velocity_m_s", velocity_m_s)
+    }
+
+    /// Whether a step that is given can be one of a march over this contact.
+    ///
+    /// # Errors
+    /// [`ContactError::Step`], whatever [`check`](Self::check) refuses.
+    pub fn check_step(&self, settings: &Settings) -> Result<(), ContactError> {
+        let Some(step_s) = settings.step_s else {
+            return Ok(());
+        };
+        self.check()?;
+        let hertz_s = CONTACT_TIME * self.units().time_s;
+        if (STEPS[0]..=STEPS[1]).contains(&(hertz_s / step_s)) {
+            return Ok(());
+        }
+        Err(ContactError::Step { step_s, hertz_s })
     }
 
     /// K = (4/3) E* sqrt(R) in N/m^(3/2), (37).
@@ -173,9 +189,9 @@ impl Collision {
 
     /// The groups of an impact whose contact radius follows the load.
     #[must_use]
-    pub fn growing_disc<'a>(&self, punch: &'a PunchResponse) -> GrowingDisc<'a> {
-        GrowingDisc {
-            punch,
+    pub fn growing_contact<'w>(&self, waves: &'w PunchWaves) -> GrowingContact<'w> {
+        GrowingContact {
+            waves,
             target_share: self.target_share(),
             wave_time: self.contact_wave_time(),
         }
@@ -191,10 +207,10 @@ impl Collision {
 
     /// c of the radiation model in collision units: w = -c p' to first order, for any load.
     #[must_use]
-    pub fn lag(&self, surface: &Surface) -> f64 {
+    pub fn lag(&self, response: &impl DiscResponse) -> f64 {
         // phi (2/3) a J_p with the punch's J, which is the same for any disc
         // (the Hertz disc's mean deflection has another static part and another relaxation, the same product)
-        let centre = surface.static_compliance * surface.relaxation_time
+        let centre = response.static_compliance() * response.relaxation_time()
             / (0.375 * (1.0 - self.target_poisson_ratio));
         self.target_share() * self.contact_wave_time() * centre
     }

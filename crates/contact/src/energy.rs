@@ -1,44 +1,25 @@
-//! The energy ledger: what the striker loses and where it goes.
+//! The energy ledger: what the striker loses and where it goes, and the work of a sampled force.
 //!
 //! Energy is relative to the kinetic energy before, time and force are in collision units.
 //!
 //! Theory: `docs/theory.md` (T56, T57).
 
 use crate::disc::FixedDisc;
-use crate::march::history::History;
-use crate::march::weights::Weights;
+use crate::disc::history::History;
+use crate::disc::response::DiscResponse;
+use crate::disc::weights::Weights;
 use crate::resample::Resampler;
-use crate::response::disc::DiscResponse;
 use crate::units::INVERSE_MASS;
-use crate::work::work;
 use halfspace::Deflection;
 
-/// Where the energy went, by two routes that share nothing but the force.
+/// What is missing of the energy, 1 - rebound - radiated, by two routes that share nothing but the force.
 ///
-/// What the striker keeps follows from its momentum, what the half-space takes from the work of the force on the
-/// deflection that lags behind it; a force that does not belong to its deflection, or an integral of either that is
-/// wrong, leaves a residual.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Ledger {
-    /// Kinetic energy of the striker after, relative to before, by its momentum: (1 - (5/4) int p dt)^2.
-    pub rebound: f64,
-    /// Work that the load left in the half-space as waves, relative.
-    pub radiated: f64,
-    /// What is missing: 1 - rebound - radiated.
-    pub residual: f64,
-}
-
-impl Ledger {
-    /// From the impulse and the radiated work.
-    #[must_use]
-    pub fn new(impulse: f64, radiated: f64) -> Self {
-        let rebound = (1.0 - INVERSE_MASS * impulse).powi(2);
-        Self {
-            rebound,
-            radiated,
-            residual: 1.0 - rebound - radiated,
-        }
-    }
+/// What the striker keeps follows from its momentum, (1 - (5/4) int p dt)^2, what the half-space takes from the work of
+/// the force on the deflection that lags behind it; a force that does not belong to its deflection, or an integral of
+/// either that is wrong, leaves a residual.
+pub(crate) fn residual(impulse: f64, radiated: f64) -> f64 {
+    let rebound = (1.0 - INVERSE_MASS * impulse).powi(2);
+    1.0 - rebound - radiated
 }
 
 /// Samples over a contact with which the work on a memory of several steps is taken.
@@ -54,8 +35,7 @@ const SAMPLES: f64 = 256.0;
 /// contact to all of it; measured against the spectrum of the force (`tests/reference/disc.csv`).
 ///
 /// `duration` is that of the first contact.
-#[must_use]
-pub fn radiated<R: DiscResponse>(
+pub(crate) fn radiated<R: DiscResponse>(
     impact: &FixedDisc<'_, R>,
     mean: &R,
     history: &History,
@@ -83,4 +63,46 @@ pub fn radiated<R: DiscResponse>(
         .map(|n| -coupling * weights.delayed(&force[..=n]))
         .collect();
     work(force, &deflection)
+}
+
+/// int p dw over each cell.
+///
+/// The trapezoid of Stieltjes with its next correction, (p' w'' - p'' w') h^3/12 a cell, where the
+/// force is smooth; of second order because of the cells in which contact begins and ends.
+fn cells<'a>(force: &'a [f64], deflection: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
+    let (p, w) = (force, deflection);
+    (1..p.len().min(w.len())).map(move |i| {
+        let (rise, moved) = (p[i] - p[i - 1], w[i] - w[i - 1]);
+        let total = p[i] + p[i - 1];
+        if total == 0.0 {
+            return 0.0;
+        }
+        let mut sum = 0.5 * total * moved;
+        if i >= 2 && i + 1 < p.len() && p[i] != 0.0 {
+            // twice the mean of the second differences at both ends of the cell
+            let bend = |x: &[f64]| x[i + 1] - x[i] - x[i - 1] + x[i - 2];
+            sum += (rise * bend(w) - bend(p) * moved) / 24.0;
+        }
+        sum
+    })
+}
+
+/// int p dw over the kinetic energy before, of a contact in collision units.
+pub(crate) fn work(force: &[f64], deflection: &[f64]) -> f64 {
+    // force times length is 5/2 of the kinetic energy
+    2.5 * cells(force, deflection).sum::<f64>()
+}
+
+/// int P dw in J from the first sample to each, of forces in N and deflections in m.
+#[must_use]
+pub fn work_until_j(force_n: &[f64], deflection_m: &[f64]) -> Vec<f64> {
+    let mut sum = 0.0;
+    let first = force_n.first().map(|_| 0.0);
+    first
+        .into_iter()
+        .chain(cells(force_n, deflection_m).map(|cell| {
+            sum += cell;
+            sum
+        }))
+        .collect()
 }

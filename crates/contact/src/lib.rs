@@ -19,75 +19,59 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-// in reading order
-pub mod bodies;
-mod body_error;
-pub mod choose;
-pub mod collision;
-pub mod disc;
-pub mod energy;
-pub mod error;
-pub mod fall;
-mod finite;
-mod force_balance;
 pub mod law;
-pub mod library;
-mod library_data;
-pub mod march;
-pub mod material;
-mod nearest;
-pub mod numbers;
-pub mod plan;
-mod quadrature;
-pub mod resample;
-pub mod response;
-pub mod results;
-mod schemes;
-pub mod settings;
-pub mod shape;
-pub mod solver;
-pub mod spectral;
-pub mod strength;
-pub mod summary;
-pub mod surface;
-pub mod units;
-pub mod validity;
-pub mod waves;
-mod well_posed;
-pub mod work;
 
-pub use bodies::{HalfSpace, Striker};
-pub use body_error::BodyError;
+mod bodies;
+mod collision;
+mod disc;
+mod energy;
+mod error;
+mod growing;
+mod model;
+mod names;
+mod numbers;
+mod numeric;
+mod resample;
+mod responses;
+mod results;
+mod solver;
+mod summary;
+mod units;
+mod validity;
+
+pub use bodies::library::{Library, UnknownMaterial};
+pub use bodies::material::{BodyError, Material, from_wave_speeds};
+pub use bodies::shape::Shape;
+pub use bodies::strength::{Loading, Strength, largest_mises};
+pub use bodies::wave_speeds::WaveSpeeds;
+pub use bodies::{GRAVITY_M_S2, HalfSpace, Striker, fall_velocity_m_s};
 pub use collision::Collision;
-pub use disc::{ExactDisc, FixedDisc};
-pub use error::ContactError;
-pub use fall::fall_velocity_m_s;
-pub use finite::MOST_ERROR;
-pub use library::{Library, UnknownMaterial};
-pub use march::error::MarchError;
-pub use march::explicit::march_explicit;
-pub use march::growing::{GrowingDisc, march_growing};
-pub use march::history::History;
-pub use march::implicit::march_implicit;
-pub use march::refine::{Accuracy, Refined, refine};
-pub use march::weights::memory_weights;
-pub use march::workspace::Workspace;
-pub use material::Material;
-pub use nearest::nearest;
-pub use response::punch::PunchResponse;
-pub use response::shelf::{Exact, Ratios, Responses, Tabulated};
-pub use response::table::ResponseTable;
-pub use results::Results;
-pub use schemes::{Found, solve_disc};
-pub use settings::{Choice, Conflict, Model, Scheme, Settings, StaticShare};
-pub use shape::Shape;
+pub use disc::explicit::march_explicit;
+pub use disc::history::History;
+pub use disc::implicit::march_implicit;
+pub use disc::refine::{Accuracy, Found, Workspace, refine, solve_disc};
+pub use disc::response::DiscResponse;
+pub use disc::table::ResponseTable;
+pub use disc::weights::{Weights, memory_weights};
+pub use disc::{CENTRE_COUPLING, ExactDisc, FixedDisc};
+pub use energy::work_until_j;
+pub use error::{ContactError, MarchError};
+pub use growing::solved::{GrowingInstant, SolvedContact};
+pub use growing::uniform::{march_growing, superposed};
+pub use growing::waves::{GrowingContact, PunchWaves};
+pub use growing::work::work_on_half_space;
+pub use growing::{GrowingError, solve_growing};
+pub use model::choose::{Chosen, Estimate, Family, Groups, Plan, choose, fixed_disc_m};
+pub use model::{Conflict, Model, Rung, Scheme, Settings, StaticShare};
+pub use names::{Choice, nearest};
+pub use numbers::NUMBERS_REVISION;
+pub use resample::Resampler;
+pub use responses::{Exact, Ratios, Responses, Tabulated};
+pub use results::{MOST_ERROR, Results};
 pub use solver::{Solved, Solver};
-pub use spectral::{
-    GrowingContact, GrowingError, PunchWaves, SolvedContact, solve_growing, work_on_half_space,
-};
-pub use strength::{Loading, Strength};
-pub use summary::Summary;
-pub use waves::WaveSpeeds;
+pub use summary::{EndOfContact, Estimates, Instant, Summary};
+pub use units::{CollisionUnits, KernelUnits};
+pub use validity::{Checked, super_seismic};
 
 /// The README's program runs.
 #[cfg(doctest)]

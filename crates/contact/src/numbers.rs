@@ -10,9 +10,12 @@ pub const NUMBERS_REVISION: u32 = 2;
 
 #[cfg(test)]
 mod tests {
-    use crate::{
-        Collision, Exact, HalfSpace, Material, Model, Settings, Solver, StaticShare, Striker,
-    };
+    use crate::bodies::material::Material;
+    use crate::bodies::{HalfSpace, Striker};
+    use crate::collision::Collision;
+    use crate::model::{Model, Settings, StaticShare};
+    use crate::responses::Exact;
+    use crate::solver::Solver;
 
     /// Peak force, contact time and loss of every model, in collision units.
     fn found() -> Vec<[f64; 3]> {

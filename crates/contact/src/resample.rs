@@ -1,43 +1,11 @@
 //! A contact read at any time: between samples, within the pieces of a growing contact, after the striker has left.
 
-use crate::march::history::History;
-use crate::quadrature::{Local, find_root, hermite};
-use crate::spectral::SolvedContact;
+use crate::disc::history::History;
+use crate::growing::solved::SolvedContact;
+use crate::numeric::quadrature::{Local, find_root, hermite};
+use crate::summary::Instant;
 use crate::units::INVERSE_MASS;
 use std::sync::Arc;
-
-/// The state of an impact at one instant, in collision units.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct Instant {
-    /// Contact force.
-    pub force: f64,
-    /// Its rate.
-    pub rate: f64,
-    /// The rate's rate; zero at the very ends of a contact, where it has no bound.
-    pub second_rate: f64,
-    /// Displacement of the striker.
-    pub displacement: f64,
-    /// Velocity of the striker.
-    pub velocity: f64,
-    /// Deflection that enters the contact law.
-    pub deflection: f64,
-}
-
-impl Instant {
-    /// The force of an indentation u and its rates: p = u^(3/2).
-    fn of_indentation([u, slope, bend]: [f64; 3]) -> Self {
-        if u <= 0.0 {
-            return Self::default();
-        }
-        let y = u.sqrt();
-        Self {
-            force: u * y,
-            rate: 1.5 * y * slope,
-            second_rate: 1.5 * (y * bend + 0.5 * slope * slope / y),
-            ..Self::default()
-        }
-    }
-}
 
 /// A history at any time: the pieces of a growing contact, or samples joined by polynomials of the fifth degree.
 ///
@@ -91,14 +59,12 @@ impl Resampler {
     /// Force, rate and second rate at a time in collision units; zero outside the contacts.
     #[must_use]
     pub fn force(&self, time: f64) -> [f64; 3] {
-        let now = match &self.source {
-            Source::Pieces(solved) => return solved.force(time),
-            Source::Samples(samples) => match samples.place(time) {
-                Some((cell, x)) => Instant::of_indentation(samples.indentation(cell, x)),
-                None => Instant::default(),
-            },
-        };
-        [now.force, now.rate, now.second_rate]
+        match &self.source {
+            Source::Pieces(solved) => solved.force(time),
+            Source::Samples(samples) => samples.place(time).map_or([0.0; 3], |(cell, x)| {
+                pressed_by(samples.indentation(cell, x))
+            }),
+        }
     }
 
     /// The state at a time in collision units, from the touch on.
@@ -109,6 +75,16 @@ impl Resampler {
             Source::Samples(samples) => samples.at(time),
         }
     }
+}
+
+/// The force of an indentation u and its rates: p = u^(3/2).
+fn pressed_by([u, slope, bend]: [f64; 3]) -> [f64; 3] {
+    if u <= 0.0 {
+        return [0.0; 3];
+    }
+    let y = u.sqrt();
+    let second_rate = 1.5 * (y * bend + 0.5 * slope * slope / y);
+    [u * y, 1.5 * y * slope, second_rate]
 }
 
 /// Equidistant samples.
@@ -180,7 +156,7 @@ impl Samples {
             };
         };
         let jet = self.indentation(cell, x);
-        let now = Instant::of_indentation(jet);
+        let [force, rate, second_rate] = pressed_by(jet);
         let (d, v, h) = (&self.displacement, &self.velocity, self.step);
         let displacement = hermite([d[cell], h * v[cell]], [d[cell + 1], h * v[cell + 1]], x);
         let slope = |i: usize| {
@@ -188,10 +164,12 @@ impl Samples {
             -INVERSE_MASS * h * u * u.sqrt()
         };
         Instant {
+            force,
+            rate,
+            second_rate,
             displacement,
             velocity: hermite([v[cell], slope(cell)], [v[cell + 1], slope(cell + 1)], x),
             deflection: displacement - jet[0],
-            ..now
         }
     }
 

@@ -1,11 +1,15 @@
-//! The results of a contact in SI units.
+//! The results of a contact in SI units: they are numbers, and estimates that say nothing are refused.
 
+use crate::bodies::strength::Loading;
 use crate::collision::Collision;
-use crate::energy::Ledger;
-use crate::plan::fixed_disc_m;
-use crate::settings::Settings;
+use crate::energy::residual;
+use crate::error::ContactError;
+use crate::model::Settings;
+use crate::model::choose::fixed_disc_m;
 use crate::solver::Solved;
-use crate::strength::Loading;
+
+/// Estimated relative error from which on results say nothing.
+pub const MOST_ERROR: f64 = 0.5;
 
 /// Scalar results of a contact in SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -32,7 +36,7 @@ pub struct Results {
     pub initial_energy_j: f64,
     /// Energy radiated into the half-space in J.
     pub radiated_energy_j: f64,
-    /// (initial - rebound - radiated)/initial, rebound the kinetic energy after by the impulse: see [`Ledger`].
+    /// (initial - rebound - radiated)/initial, rebound the kinetic energy after by the impulse.
     pub energy_residual: f64,
     /// Contact radius of Hertz's law at the largest force in m.
     pub contact_radius_m: f64,
@@ -74,7 +78,7 @@ impl Results {
             impulse_n_s: s.impulse * units.force_n * units.time_s,
             initial_energy_j: collision.energy_j(),
             radiated_energy_j: radiated * collision.energy_j(),
-            energy_residual: Ledger::new(s.impulse, radiated).residual,
+            energy_residual: residual(s.impulse, radiated),
             contact_radius_m,
             disc_radius_m,
             loading: Loading::new(
@@ -88,5 +92,66 @@ impl Results {
             march_step_s: solved.step.map_or(0.0, |step| step * units.time_s),
             relative_error_estimate: solved.error,
         }
+    }
+
+    /// The same, where all of them are finite and their estimated error is at most [`MOST_ERROR`].
+    ///
+    /// # Errors
+    /// [`ContactError::NotFinite`], [`ContactError::Unreliable`].
+    pub fn checked(self) -> Result<Self, ContactError> {
+        let Self {
+            peak_force_n,
+            peak_force_time_s,
+            contact_time_s,
+            rebound_velocity_m_s,
+            restitution,
+            loss,
+            peak_displacement_m,
+            peak_deflection_m,
+            impulse_n_s,
+            initial_energy_j,
+            radiated_energy_j,
+            energy_residual,
+            contact_radius_m,
+            disc_radius_m,
+            loading,
+            contacts: _,
+            march_steps: _,
+            march_step_s,
+            relative_error_estimate,
+        } = self;
+        let numbers = [
+            ("peak force", peak_force_n),
+            ("time of the peak force", peak_force_time_s),
+            ("contact time", contact_time_s),
+            ("rebound velocity", rebound_velocity_m_s),
+            ("restitution", restitution),
+            ("loss", loss),
+            ("largest displacement", peak_displacement_m),
+            ("largest deflection", peak_deflection_m),
+            ("impulse", impulse_n_s),
+            ("kinetic energy", initial_energy_j),
+            ("radiated energy", radiated_energy_j),
+            ("residual of the energy", energy_residual),
+            ("contact radius", contact_radius_m),
+            ("disc's radius", disc_radius_m),
+            ("mean pressure", loading.mean_pressure_pa),
+            ("march's step", march_step_s),
+            ("error estimate", relative_error_estimate),
+        ];
+        if let Some((quantity, value)) = numbers.into_iter().find(|(_, x)| !x.is_finite()) {
+            return Err(ContactError::NotFinite { quantity, value });
+        }
+        // a force without length or size has left the range of floating-point numbers at its lower end
+        let vanished = [numbers[0], numbers[2], numbers[6], numbers[9]];
+        if let Some((quantity, value)) = vanished.into_iter().find(|(_, x)| *x <= 0.0) {
+            return Err(ContactError::NotFinite { quantity, value });
+        }
+        if relative_error_estimate > MOST_ERROR {
+            return Err(ContactError::Unreliable {
+                error: relative_error_estimate,
+            });
+        }
+        Ok(self)
     }
 }

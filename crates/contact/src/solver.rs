@@ -1,32 +1,27 @@
 //! One contact: its model chosen, its scheme run. Single impacts, sweeps and charts all come through here.
 
-use crate::choose::Family;
 use crate::collision::Collision;
-use crate::disc::FixedDisc;
-use crate::energy::radiated;
+use crate::disc::history::History;
+use crate::disc::refine::{
+    Accuracy, Found, Workspace, explicit, march_finely, solve_disc, stepped,
+};
+use crate::disc::response::DiscResponse;
+use crate::disc::{FixedDisc, stability};
+use crate::energy::{radiated, work};
 use crate::error::ContactError;
+use crate::growing::solved::SolvedContact;
+use crate::growing::uniform::march_growing;
+use crate::growing::waves::PunchWaves;
+use crate::growing::work::work_on_half_space;
+use crate::growing::{GrowingError, solve_growing};
 use crate::law::area_dashpot::AreaDashpot;
 use crate::law::hertz;
 use crate::law::pulse::pulse;
 use crate::law::radiation::damped_force;
-use crate::march::fine::march_finely;
-use crate::march::growing::march_growing;
-use crate::march::history::History;
-use crate::march::refine::Accuracy;
-use crate::march::workspace::Workspace;
-use crate::plan::{Plan, accuracy, disc_radius_m, plan};
-use crate::response::disc::DiscResponse;
-use crate::response::punch::PunchResponse;
-use crate::response::shelf::Responses;
-use crate::schemes::{Found, explicit, solve_disc, stepped};
-use crate::settings::{Model, Scheme, Settings};
-use crate::spectral::solved::SolvedContact;
-use crate::spectral::waves::PunchWaves;
-use crate::spectral::{GrowingContact, GrowingError, solve_growing, work_on_half_space};
+use crate::model::choose::{Family, Plan, accuracy, disc_radius_m, plan};
+use crate::model::{Model, Rung, Scheme, Settings};
+use crate::responses::Responses;
 use crate::summary::Summary;
-use crate::surface::Surface;
-use crate::well_posed;
-use crate::work::work;
 use halfspace::{Deflection, DomainError, Medium, SurfaceResponse};
 use std::sync::Arc;
 
@@ -45,14 +40,13 @@ pub struct Solved {
     pub step: Option<f64>,
 }
 
-/// Solves contacts one after the other with responses from a shelf; one for each thread.
+/// Solves contacts one after the other with responses from a cache; one for each thread.
 #[derive(Debug)]
 pub struct Solver<'a, S: Responses> {
     responses: &'a S,
     workspace: Workspace,
-    disc: Option<(u64, Arc<S::Disc>)>,
-    punch: Option<(u64, Arc<PunchResponse>)>,
-    waves: Option<(u64, Arc<PunchWaves>)>,
+    disc: Latest<(u64, Deflection), S::Disc>,
+    waves: Latest<u64, PunchWaves>,
     /// The contact solved last, where it was one that follows the load and was not marched.
     growing: Option<SolvedContact>,
 }
@@ -62,14 +56,13 @@ const SAMPLES: f64 = 4096.0;
 const GROWING_SAMPLES: f64 = 256.0;
 
 impl<'a, S: Responses> Solver<'a, S> {
-    /// With a shelf of responses.
+    /// With a cache of responses.
     #[must_use]
     pub fn new(responses: &'a S) -> Self {
         Self {
             responses,
             workspace: Workspace::default(),
             disc: None,
-            punch: None,
             waves: None,
             growing: None,
         }
@@ -104,7 +97,7 @@ impl<'a, S: Responses> Solver<'a, S> {
         let solved = self.solve_to(collision, settings, asked)?;
         let duration = solved.summary.contact_time;
         let mut history = match (&self.growing, solved.scheme) {
-            (Some(growing), _) => growing.history(duration / GROWING_SAMPLES),
+            (Some(growing), _) => History::of_pieces(growing, duration / GROWING_SAMPLES),
             (None, Some(Scheme::Implicit))
                 if solved.plan.model == Model::Wave && settings.step_s.is_none() =>
             {
@@ -145,27 +138,18 @@ impl<'a, S: Responses> Solver<'a, S> {
         settings: &Settings,
         solved: &Solved,
     ) -> Result<f64, DomainError> {
-        Ok(match (solved.plan.model, solved.scheme) {
+        Ok(match (solved.plan.model.row(), solved.scheme) {
             (_, None) => solved.summary.loss,
-            (Model::Growing, Some(_)) => {
+            ((_, false), Some(_)) => {
                 let waves = self.waves(collision.target_poisson_ratio)?;
-                let contact = following(collision, &waves);
+                let contact = collision.growing_contact(&waves);
                 let history = &self.workspace.history;
                 match &self.growing {
                     Some(growing) => work_on_half_space(&contact, growing, settings.tolerance),
                     None => work(&history.force, &history.deflection),
                 }
             }
-            (
-                Model::Hertz
-                | Model::Radiation
-                | Model::AreaDashpot
-                | Model::QuasiStatic
-                | Model::QuasiStaticRadiation
-                | Model::Wave
-                | Model::Auto,
-                Some(_),
-            ) => {
+            ((_, true), Some(_)) => {
                 let ratio = collision.target_poisson_ratio;
                 let mean = self.responses.disc(ratio, Deflection::Mean)?;
                 let own = self.disc(ratio, settings.deflection)?;
@@ -185,7 +169,7 @@ impl<'a, S: Responses> Solver<'a, S> {
         collision.check()?;
         let ratio = collision.target_poisson_ratio;
         let disc = self.disc(ratio, settings.deflection)?;
-        let plan = plan(settings, collision, &Surface::of(&*disc));
+        let plan = plan(settings, collision, &*disc);
         let step = settings
             .step_s
             .map(|step_s| step_s / collision.units().time_s);
@@ -194,18 +178,12 @@ impl<'a, S: Responses> Solver<'a, S> {
         let is_wave = matches!(settings.model, Model::Wave | Model::Auto);
         if is_disc && is_wave && settings.scheme == Scheme::Implicit {
             let impact = disc_of(collision, settings, &*disc);
-            well_posed::check(&impact, &mut self.workspace)?;
+            stability::check(&impact, &mut self.workspace)?;
         }
-        let (scheme, found) = match (plan.model, settings.scheme) {
-            (
-                Model::Hertz | Model::Radiation | Model::QuasiStatic | Model::QuasiStaticRadiation,
-                _,
-            ) => (None, plan.closed_form()?.into()),
-            (Model::AreaDashpot, _) => {
-                let terms = self.dashpot(collision)?;
-                (None, plan.dashpot(&terms)?.into())
-            }
-            (Model::Growing, _) => {
+        let (scheme, found) = match (plan.model.row(), settings.scheme) {
+            ((Rung::QuasiStatic | Rung::Radiation, _), _) => (None, plan.closed_form()?),
+            ((Rung::AreaDashpot, _), _) => (None, plan.dashpot(&self.dashpot(collision)?)?),
+            ((Rung::FullMemory, false), _) => {
                 let followed = match step {
                     None => self.follow(collision, &asked)?,
                     Some(_) => None,
@@ -216,18 +194,16 @@ impl<'a, S: Responses> Solver<'a, S> {
                 };
                 (Some(Scheme::Implicit), found)
             }
-            (Model::Wave | Model::Auto, Scheme::Implicit) => {
+            ((Rung::FullMemory, true), Scheme::Implicit) => {
                 let impact = disc_of(collision, settings, &*disc);
                 let found = solve_disc(&mut self.workspace, &impact, step, asked)?;
                 (Some(Scheme::Implicit), found)
             }
-            (Model::Wave | Model::Auto, Scheme::Explicit) => {
+            ((Rung::FullMemory, true), Scheme::Explicit) => {
                 let response = SurfaceResponse::new(&Medium::new(ratio)?, settings.deflection);
                 let impact = disc_of(collision, settings, &response);
-                (
-                    Some(Scheme::Explicit),
-                    explicit(&mut self.workspace, &impact, step)?,
-                )
+                let found = explicit(&mut self.workspace, &impact, step)?;
+                (Some(Scheme::Explicit), found)
             }
         };
         Ok(Solved {
@@ -240,15 +216,14 @@ impl<'a, S: Responses> Solver<'a, S> {
     }
 
     fn disc(&mut self, ratio: f64, deflection: Deflection) -> Result<Arc<S::Disc>, DomainError> {
-        if let Some((bits, disc)) = &self.disc
-            && *bits == ratio.to_bits()
-            && disc.deflection() == deflection
-        {
-            return Ok(Arc::clone(disc));
-        }
-        let disc = self.responses.disc(ratio, deflection)?;
-        self.disc = Some((ratio.to_bits(), Arc::clone(&disc)));
-        Ok(disc)
+        let made = || self.responses.disc(ratio, deflection);
+        remembered(&mut self.disc, (ratio.to_bits(), deflection), made)
+    }
+
+    fn waves(&mut self, ratio: f64) -> Result<Arc<PunchWaves>, DomainError> {
+        remembered(&mut self.waves, ratio.to_bits(), || {
+            self.responses.waves(ratio)
+        })
     }
 
     /// The terms of the expansion in the memory of a contact that follows the load.
@@ -266,7 +241,7 @@ impl<'a, S: Responses> Solver<'a, S> {
         asked: &Accuracy,
     ) -> Result<Option<Found>, ContactError> {
         let waves = self.waves(collision.target_poisson_ratio)?;
-        let contact = following(collision, &waves);
+        let contact = collision.growing_contact(&waves);
         self.growing = match solve_growing(&contact, asked) {
             Ok(solved) => Some(solved),
             // the march has other limits: a memory far shorter than the contact is one to it
@@ -291,8 +266,8 @@ impl<'a, S: Responses> Solver<'a, S> {
         step: Option<f64>,
         asked: Accuracy,
     ) -> Result<Found, ContactError> {
-        let punch = self.punch(collision.target_poisson_ratio)?;
-        let impact = collision.growing_disc(&punch);
+        let waves = self.waves(collision.target_poisson_ratio)?;
+        let contact = collision.growing_contact(&waves);
         let room = &mut self.workspace;
         Ok(stepped(
             room,
@@ -300,42 +275,29 @@ impl<'a, S: Responses> Solver<'a, S> {
             (hertz::CONTACT_TIME, 1.0),
             asked,
             |step, room| {
-                room.history = march_growing(&impact, step)?;
+                room.history = march_growing(&contact, step)?;
                 Ok(())
             },
         )?)
     }
-
-    fn waves(&mut self, ratio: f64) -> Result<Arc<PunchWaves>, DomainError> {
-        remembered(&mut self.waves, ratio, || self.responses.waves(ratio))
-    }
-
-    fn punch(&mut self, ratio: f64) -> Result<Arc<PunchResponse>, DomainError> {
-        remembered(&mut self.punch, ratio, || self.responses.punch(ratio))
-    }
 }
 
-/// What belongs to a Poisson's ratio, made where the last one was another.
-fn remembered<T>(
-    last: &mut Option<(u64, Arc<T>)>,
-    ratio: f64,
+/// What was made last, with what it was made for.
+type Latest<K, T> = Option<(K, Arc<T>)>;
+
+/// What belongs to a key, made where the last one was another.
+fn remembered<K: PartialEq, T>(
+    latest: &mut Latest<K, T>,
+    key: K,
     make: impl FnOnce() -> Result<Arc<T>, DomainError>,
 ) -> Result<Arc<T>, DomainError> {
-    match last {
-        Some((bits, made)) if *bits == ratio.to_bits() => Ok(Arc::clone(made)),
+    match latest {
+        Some((last, made)) if *last == key => Ok(Arc::clone(made)),
         Some(_) | None => {
             let made = make()?;
-            *last = Some((ratio.to_bits(), Arc::clone(&made)));
+            *latest = Some((key, Arc::clone(&made)));
             Ok(made)
         }
-    }
-}
-
-fn following<'w>(collision: &Collision, waves: &'w PunchWaves) -> GrowingContact<'w> {
-    GrowingContact {
-        waves,
-        target_share: collision.target_share(),
-        wave_time: collision.contact_wave_time(),
     }
 }
 

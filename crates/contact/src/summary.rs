@@ -6,12 +6,12 @@
 //! the power 3/2 (A is the compliance of the newest sample), so b is extrapolated from the last five
 //! samples in contact and the force of the last cells is integrated from it.
 
-use crate::force_balance::force_root;
-use crate::march::error::MarchError;
-use crate::march::history::History;
-use crate::quadrature::{GAUSS_8, Local, peak};
+use crate::disc::history::History;
+use crate::energy::work;
+use crate::error::MarchError;
+use crate::numeric::cubic::force_root;
+use crate::numeric::quadrature::{GAUSS_8, Local, peak};
 use crate::units::INVERSE_MASS;
-use crate::work::work;
 
 /// The scalar results of an impact in collision units.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,6 +37,57 @@ pub struct Summary {
     pub contacts: usize,
     /// How well the end of contact is known.
     pub end: EndOfContact,
+}
+
+/// Estimated errors of the results: relative, but that of the restitution, which is absolute.
+///
+/// Each is true in 99 of 100 random scenes; see `tests/growing.rs`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Estimates {
+    /// Of the largest force.
+    pub peak_force: f64,
+    /// Of its time, over the contact time.
+    pub peak_force_time: f64,
+    /// Of the contact time.
+    pub contact_time: f64,
+    /// Of the restitution, of the velocity of approach.
+    pub restitution: f64,
+    /// Of the loss.
+    pub loss: f64,
+    /// Of the largest displacement.
+    pub peak_displacement: f64,
+    /// Of the largest deflection; infinite where nobody has estimated it.
+    pub peak_deflection: f64,
+    /// Of the force at any time, over the largest.
+    pub force: f64,
+}
+
+impl Estimates {
+    /// The largest of what a tolerance is asked on: peak force, contact time, restitution, displacement.
+    #[must_use]
+    pub fn contact(&self) -> f64 {
+        self.peak_force
+            .max(self.contact_time)
+            .max(self.restitution)
+            .max(self.peak_displacement)
+    }
+}
+
+/// The state of an impact at one instant, in collision units.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Instant {
+    /// Contact force.
+    pub force: f64,
+    /// Its rate.
+    pub rate: f64,
+    /// The rate's rate; zero at the very ends of a contact, where it has no bound.
+    pub second_rate: f64,
+    /// Displacement of the striker.
+    pub displacement: f64,
+    /// Velocity of the striker.
+    pub velocity: f64,
+    /// Deflection that enters the contact law.
+    pub deflection: f64,
 }
 
 /// How the end of the first contact was found, and so what the contact time's error does with the step.
@@ -88,9 +139,9 @@ impl Summary {
         let mut how = history.separation.map_or(EndOfContact::Smooth, |found| {
             EndOfContact::Kept(found.uncertainty / found.time)
         });
-        if history.end_layer.shrinks {
+        if let Some(layer) = history.end_layer {
             how = EndOfContact::Singular;
-            if let Some((time, uncertainty)) = end_of_layer(history, end) {
+            if let Some((time, uncertainty)) = end_of_layer(history, end, layer) {
                 contact_time = time;
                 how = EndOfContact::Layer(uncertainty / time);
             }
@@ -126,7 +177,7 @@ impl Summary {
     #[must_use]
     pub fn distance(&self, other: &Self) -> f64 {
         self.motion_distance(other)
-            .max(self.contact_time_distance(other))
+            .max(relative(self.contact_time, other.contact_time))
     }
 
     /// The same without the contact time.
@@ -136,25 +187,15 @@ impl Summary {
             .max(relative(self.peak_displacement, other.peak_displacement))
     }
 
-    /// The relative difference of the contact time.
-    pub(crate) fn contact_time_distance(&self, other: &Self) -> f64 {
-        relative(self.contact_time, other.contact_time)
-    }
-
     /// The relative difference of the loss.
     #[must_use]
     pub fn loss_distance(&self, other: &Self) -> f64 {
         relative(self.loss, other.loss)
     }
-
-    /// The relative difference of the largest deflection.
-    #[must_use]
-    pub fn deflection_distance(&self, other: &Self) -> f64 {
-        relative(self.peak_deflection, other.peak_deflection)
-    }
 }
 
-fn relative(a: f64, b: f64) -> f64 {
+/// The difference over the larger of two numbers.
+pub(crate) fn relative(a: f64, b: f64) -> f64 {
     let size = a.abs().max(b.abs());
     if size > 0.0 {
         (a - b).abs() / size
@@ -210,18 +251,17 @@ const LAYER_UNCERTAINTY: f64 = 0.05;
 /// End of a contact with a layer that the step does not resolve, and its uncertainty.
 ///
 /// The displacement is smooth there, so the place where it reaches the layer's depth is known well.
-fn end_of_layer(history: &History, end: usize) -> Option<(f64, f64)> {
+fn end_of_layer(history: &History, end: usize, [depth, width]: [f64; 2]) -> Option<(f64, f64)> {
     let (step, d) = (history.step, &history.displacement);
-    let layer = history.end_layer;
     let from = end.checked_sub(3)?;
-    if layer.width == 0.0 || end + 1 >= d.len() {
+    if width == 0.0 || end + 1 >= d.len() {
         return None;
     }
     let velocity = (d[end - 1] - d[end]) / step;
-    if velocity <= 0.0 || 4.0 * step < layer.width * velocity {
+    if velocity <= 0.0 || 4.0 * step < width * velocity {
         return None;
     }
-    let depth = layer.depth * velocity * velocity;
+    let depth = depth * velocity * velocity;
     let local = Local::<5>::new(std::array::from_fn(|i| d[from + i] - depth));
     if local.value(0.0) <= 0.0 || local.value(4.0) >= 0.0 {
         return None;
@@ -267,8 +307,8 @@ fn end_of_contact(history: &History, end: usize) -> (f64, f64) {
 mod tests {
     use super::*;
     use crate::disc::FixedDisc;
-    use crate::march::implicit::march_implicit;
-    use crate::settings::StaticShare;
+    use crate::disc::implicit::march_implicit;
+    use crate::model::StaticShare;
     use halfspace::{Deflection, Medium, SurfaceResponse};
 
     /// Where the loss is taken from the work, the impulse is still that of the force: the ledger's two sides are two.

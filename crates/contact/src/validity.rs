@@ -2,13 +2,13 @@
 //!
 //! Theory: `docs/theory.md` (T57).
 
+use crate::bodies::wave_speeds::WaveSpeeds;
 use crate::bodies::{HalfSpace, Striker};
 use crate::collision::Collision;
 use crate::disc::CENTRE_COUPLING;
-use crate::plan::fixed_disc_m;
+use crate::model::choose::fixed_disc_m;
+use crate::model::{Model, Settings, StaticShare};
 use crate::results::Results;
-use crate::settings::{Model, Settings, StaticShare};
-use crate::waves::WaveSpeeds;
 use halfspace::Deflection;
 use std::f64::consts::PI;
 
@@ -64,11 +64,12 @@ impl Checked<'_> {
     /// Sentences for the user, each with its numbers; none where all is well.
     #[must_use]
     pub fn warnings(&self) -> Vec<String> {
-        let mut found = self.of_the_contact();
-        found.extend(self.of_the_materials());
-        found.extend(self.of_the_bodies());
+        let mut found = Vec::new();
+        self.of_the_contact(&mut found);
+        self.of_the_materials(&mut found);
+        self.of_the_bodies(&mut found);
         found.extend(doubt(self.striker));
-        found.extend(self.of_the_model());
+        self.of_the_model(&mut found);
         found
     }
 
@@ -76,8 +77,7 @@ impl Checked<'_> {
         fixed_disc_m(self.model, self.settings, self.collision)
     }
 
-    fn of_the_contact(&self) -> Vec<String> {
-        let mut found = Vec::new();
+    fn of_the_contact(&self, found: &mut Vec<String>) {
         let (disc_radius_m, hertz_radius) = (self.disc_radius_m(), self.results.contact_radius_m);
         let radius = disc_radius_m.unwrap_or(hertz_radius);
         let alpha = super_seismic(self.half_space, self.collision, radius);
@@ -104,17 +104,16 @@ impl Checked<'_> {
                 ));
             }
         }
-        found
     }
 
-    fn of_the_materials(&self) -> Vec<String> {
+    fn of_the_materials(&self, found: &mut Vec<String>) {
         let loading = &self.results.loading;
         let stress = loading.mean_pressure_pa;
         let bodies = [
             ("striker", &self.striker.material),
             ("target", self.half_space.material()),
         ];
-        let (mut borne, mut found) = (Vec::new(), Vec::new());
+        let mut borne = Vec::new();
         for ((body, material), strength) in bodies.into_iter().zip(&self.collision.strengths) {
             let onset = strength.yield_pressure_pa().filter(|&onset| stress > onset);
             if let (Some(onset), Some(limit)) = (onset, material.yield_strength_pa) {
@@ -151,11 +150,9 @@ impl Checked<'_> {
                 borne.join("; ")
             ));
         }
-        found
     }
 
-    fn of_the_bodies(&self) -> Vec<String> {
-        let mut found = Vec::new();
+    fn of_the_bodies(&self, found: &mut Vec<String>) {
         let contact_time_s = self.results.contact_time_s;
         let material = &self.striker.material;
         if let (Some(length), Some(density)) = (self.striker.length_m, material.density_kg_m3) {
@@ -184,11 +181,9 @@ impl Checked<'_> {
                 "the echo from {key} = {size:.3e} m returns after {echo:.3e} s, before the contact ends at {contact_time_s:.3e} s: the block is not a half-space"
             ));
         }
-        found
     }
 
-    fn of_the_model(&self) -> Vec<String> {
-        let mut found = Vec::new();
+    fn of_the_model(&self, found: &mut Vec<String>) {
         let centre = match (
             self.model,
             self.settings.static_share,
@@ -217,14 +212,13 @@ impl Checked<'_> {
                 self.results.contacts
             ));
         }
-        found
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::material::Material;
+    use crate::bodies::material::Material;
 
     #[test]
     fn slips_in_units_are_told_with_their_numbers() {

@@ -5,7 +5,7 @@
 #[path = "support/solids.rs"]
 mod solids;
 
-use contact::units::CollisionUnits;
+use contact::CollisionUnits;
 use contact::{
     Choice, Collision, Exact, ExactDisc, HalfSpace, Model, Results, Settings, Solver, StaticShare,
     Striker, Summary, march_explicit, march_implicit,

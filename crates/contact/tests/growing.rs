@@ -8,7 +8,7 @@ mod support;
 
 use contact::law::area_dashpot::AreaDashpot;
 use contact::{
-    Accuracy, GrowingContact, GrowingError, PunchWaves, SolvedContact, solve_growing,
+    Accuracy, GrowingContact, GrowingError, History, PunchWaves, SolvedContact, solve_growing,
     work_on_half_space,
 };
 use halfspace::Medium;
@@ -197,7 +197,7 @@ fn the_history_is_as_accurate_as_the_results() {
         }
         assert!(solved.at(0.0).unwrap().force < 1e-30);
         assert!(solved.at(-1e-9).is_none() && solved.at(1.01 * end).is_none());
-        let samples = solved.history(0.01);
+        let samples = History::of_pieces(&solved, 0.01);
         assert!((samples.force[100] - exact.at(1.0).unwrap().force).abs() < 3.0 * tolerance);
         assert_eq!(*samples.force.last().unwrap(), 0.0);
     }

@@ -4,7 +4,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
-use contact::resample::Resampler;
+use contact::Resampler;
 use contact::{Collision, Exact, HalfSpace, Material, Model, Settings, Solver, Striker};
 use std::f64::consts::PI;
 

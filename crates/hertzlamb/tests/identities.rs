@@ -4,7 +4,7 @@
 
 use contact::law::radiation::{self, radiation};
 use contact::{
-    GrowingDisc, HalfSpace, Material, Model, PunchResponse, Settings, StaticShare, Striker,
+    GrowingContact, HalfSpace, Material, Model, PunchWaves, Settings, StaticShare, Striker,
     Summary, march_growing,
 };
 use halfspace::{Deflection, Medium, SurfaceResponse};
@@ -125,13 +125,14 @@ fn the_force_takes_the_strikers_momentum() {
 
 #[test]
 fn growing_tends_to_the_radiation_law() {
-    let response = SurfaceResponse::new(&Medium::new(0.3).unwrap(), Deflection::Centre);
-    let punch = PunchResponse::new(&response);
+    let medium = Medium::new(0.3).unwrap();
+    let response = SurfaceResponse::new(&medium, Deflection::Centre);
+    let waves = PunchWaves::new(&medium);
     let mut before = f64::INFINITY;
     for wave_time in [3e-2, 1e-2, 3e-3, 1e-3] {
         // equal materials: half of the compliance is the half-space's
-        let impact = GrowingDisc {
-            punch: &punch,
+        let impact = GrowingContact {
+            waves: &waves,
             target_share: 0.5,
             wave_time,
         };

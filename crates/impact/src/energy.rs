@@ -15,11 +15,7 @@
 
 use crate::excitation::Excitation;
 use crate::grid::Grid;
-use contact::choose::Family;
-use contact::march::growing::superposed;
-use contact::plan::Plan;
-use contact::work::work_until_j;
-use contact::{Collision, Model, PunchResponse, StaticShare};
+use contact::{Collision, Family, Plan, PunchWaves, Rung, StaticShare, superposed, work_until_j};
 use halfspace::{Deflection, SurfaceResponse};
 
 /// Energies in J at the times of the output.
@@ -53,25 +49,27 @@ impl EnergySeries {
         let step_s = end_s / SAMPLES;
         let times = (0..=SAMPLES as usize + 1).map(|i| i as f64 * step_s);
         let force_n: Vec<f64> = times.clone().map(|t| excitation.force_n(t)).collect();
-        let lag_m: Vec<f64> = match plan.model {
-            Model::Wave | Model::Auto => {
+        let lag_m: Vec<f64> = match plan.model.row() {
+            (Rung::FullMemory, true) => {
                 let share = StaticShare::Dynamic;
                 excitation.deflection_m(Deflection::Mean, share, step_s, 0.0, &force_n)
             }
             // each increment of the load on a punch of its own radius
-            Model::AreaDashpot | Model::Growing => {
-                let centre = SurfaceResponse::new(excitation.medium(), Deflection::Centre);
-                let punch = PunchResponse::new(&centre);
+            (Rung::AreaDashpot | Rung::FullMemory, _) => {
+                let waves = PunchWaves::new(excitation.medium());
                 let indentation = |p: &f64| (p / units.force_n).cbrt().powi(2);
                 let indentations: Vec<f64> = force_n.iter().map(indentation).collect();
-                let impact = collision.growing_disc(&punch);
-                superposed(&impact, step_s / units.time_s, &indentations)
-                    .iter()
-                    .map(|w| w * units.length_m)
-                    .collect()
+                superposed(
+                    &collision.growing_contact(&waves),
+                    step_s / units.time_s,
+                    &indentations,
+                )
+                .iter()
+                .map(|w| w * units.length_m)
+                .collect()
             }
             // what the contact law's own deflection is more than its static part
-            Model::Hertz | Model::Radiation | Model::QuasiStatic | Model::QuasiStaticRadiation => {
+            (Rung::QuasiStatic | Rung::Radiation, _) => {
                 let static_m_per_n = plan.coupling() * units.length_m / units.force_n;
                 let law_m = |t| excitation.motion(t).map_or(0.0, |m| m.deflection_m);
                 let samples = times.zip(&force_n);

@@ -8,10 +8,10 @@
 use crate::evaluator::nodes::{CellNodes, Node};
 use crate::kernels::Pulse;
 use crate::record::ForceRecord;
-use contact::march::weights::Weights;
-use contact::resample::{Instant, Resampler};
-use contact::units::{CollisionUnits, KernelUnits};
+use contact::Weights;
+use contact::{CollisionUnits, KernelUnits};
 use contact::{HalfSpace, History, StaticShare, WaveSpeeds};
+use contact::{Instant, Resampler};
 use halfspace::{Deflection, DomainError, Medium, SurfaceResponse, gauss};
 
 /// Consecutive samples.

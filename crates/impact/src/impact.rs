@@ -1,11 +1,9 @@
 //! A striker and a half-space: from two bodies and a velocity to an excitation.
 
 use crate::excitation::{Excitation, PressureRadius};
-use contact::plan::fixed_disc_m;
-use contact::validity::Checked;
 use contact::{
-    Collision, ContactError, Exact, HalfSpace, Model, Responses, Results, Settings, Solved, Solver,
-    StaticShare, Striker,
+    Checked, Collision, ContactError, Exact, HalfSpace, Responses, Results, Settings, Solved,
+    Solver, StaticShare, Striker, fixed_disc_m,
 };
 use std::ops::Deref;
 
@@ -166,12 +164,7 @@ impl Impact {
         solved: &Solved,
         results: &Results,
     ) -> Option<String> {
-        let on_disc = match solved.plan.model {
-            Model::Wave | Model::QuasiStatic | Model::QuasiStaticRadiation => true,
-            Model::Hertz | Model::Radiation | Model::AreaDashpot | Model::Growing | Model::Auto => {
-                false
-            }
-        };
+        let (_, on_disc) = solved.plan.model.row();
         if !on_disc || self.settings.static_share != StaticShare::Full {
             return None;
         }

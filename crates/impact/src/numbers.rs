@@ -2,7 +2,7 @@
 
 /// Revision of the fields at points.
 ///
-/// Sweeps with probes carry it, beside [`contact::numbers::NUMBERS_REVISION`], in what makes two of them the same. It is
+/// Sweeps with probes carry it, beside [`contact::NUMBERS_REVISION`], in what makes two of them the same. It is
 /// raised by hand with every change that alters a field by more than the rounding of double precision, in this crate, in
 /// `lookup` or in `halfspace`; a test compares fields with those that were written down for it.
 pub const FIELDS_REVISION: u32 = 3;

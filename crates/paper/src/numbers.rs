@@ -4,7 +4,7 @@ use crate::case::{NAMED_STRENGTH_PA, RADIUS_M, Runs, STRENGTH_PA, TABLE_1_PA, VE
 use crate::case::{anvil, coupled, kmax, mean_pa};
 use crate::error::PaperError;
 use contact::law::hertz::CONTACT_TIME;
-use contact::validity::super_seismic;
+use contact::super_seismic;
 use contact::{Collision, Material};
 use halfspace::{Arrivals, Medium, Profile};
 use impact::Run;

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
-use contact::choose::Rung;
+use contact::Rung;
 use contact::law::hertz::CONTACT_TIME;
 use contact::{
     ExactDisc, Model, StaticShare, Summary, march_explicit, march_growing, march_implicit,

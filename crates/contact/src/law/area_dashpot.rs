@@ -1,7 +1,7 @@
 //! Radiation as a dashpot that grows with the contact's area, to the second order in the memory.
 //!
 //! For a memory short beside the contact the equation of the growing contact
-//! ([`solve_growing`](crate::spectral::solve_growing)) is, by Lagrange's inversion of its delays,
+//! ([`solve_growing`](crate::growing::solve_growing)) is, by Lagrange's inversion of its delays,
 //!
 //! ```text
 //! d = p^(2/3) - c p' + b (p^(4/3))'' - (e/60) (p^(5/3))''' + ..
@@ -21,10 +21,10 @@
 //! the third order, fitted but for its e, which takes phi M_3 tau^3/24 int p'' (p^(5/3))'' dt from the loss; and the contact ends while the
 //! striker is still pressed in by 4 b f(phi) v^2, since the last instants are shorter than any memory.
 
-use super::pulse::pulse;
-use crate::march::history::History;
-use crate::spectral::waves::PunchWaves;
-use crate::summary::{EndOfContact, Summary};
+use crate::disc::history::History;
+use crate::growing::waves::PunchWaves;
+use crate::law::pulse::pulse;
+use crate::summary::{EndOfContact, Estimates, Summary};
 use crate::units::INVERSE_MASS;
 
 /// The terms of the expansion in the memory, in collision units.
@@ -43,69 +43,30 @@ pub struct AreaDashpot {
 /// Largest lag of the tables.
 pub const LARGEST_LAG: f64 = 0.2;
 
-/// What the expansion leaves out: bounds that 99.5 of 100 random scenes keep (`tests/growing.rs`).
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct LeftOut {
-    /// Relative error of the largest force.
-    pub peak_force: f64,
-    /// Of its time, over the contact time.
-    pub peak_force_time: f64,
-    /// Relative error of the contact time.
-    pub contact_time: f64,
-    /// Error of the restitution.
-    pub restitution: f64,
-    /// Relative error of the loss.
-    pub loss: f64,
-    /// Relative error of the largest displacement.
-    pub peak_displacement: f64,
-    /// Error of the force at any time, over the largest.
-    pub force: f64,
-}
-
-impl LeftOut {
-    /// For a lag c and the punch's memory T, both in collision times.
-    ///
-    /// ```text
-    /// force 0.14 c T^2.5,  its time 0.035 c T^2.5,  contact time 0.09 c T^2,  restitution 0.01 c T^2,
-    /// displacement 0.018 c T^2,  loss 0.0052 T^2,  force at any time 0.11 c T^2 and 0.7 c T^3
-    /// ```
-    ///
-    /// One beyond [`LARGEST_LAG`] and [`LARGEST_MEMORY`].
-    #[must_use]
-    pub fn of(lag: f64, memory: f64) -> Self {
-        let (c, t) = (lag, memory);
-        if !(c <= LARGEST_LAG && t <= LARGEST_MEMORY) {
-            return Self {
-                peak_force: 1.0,
-                peak_force_time: 1.0,
-                contact_time: 1.0,
-                restitution: 1.0,
-                loss: 1.0,
-                peak_displacement: 1.0,
-                force: 1.0,
-            };
-        }
-        let square = c * t * t;
-        let steeper = square * t.sqrt();
-        Self {
-            peak_force: 0.14 * steeper + FLOOR,
-            peak_force_time: 0.035 * steeper + FLOOR,
-            contact_time: 0.09 * square + FLOOR,
-            restitution: 0.01 * square + FLOOR,
-            loss: 0.0052 * t * t + LOSS_FLOOR,
-            peak_displacement: 0.018 * square + FLOOR,
-            force: square * (0.7 * t).min(0.11) + 10.0 * FLOOR,
-        }
-    }
-
-    /// The largest of force at any time, contact time, restitution and displacement.
-    #[must_use]
-    pub fn contact(&self) -> f64 {
-        self.peak_force
-            .max(self.force)
-            .max(self.contact_time)
-            .max(self.restitution)
-            .max(self.peak_displacement)
+/// What the expansion leaves out, for a lag c and the punch's memory T, both in collision times: bounds that 99.5 of 100
+/// random scenes keep (`tests/growing.rs`).
+///
+/// ```text
+/// force 0.14 c T^2.5,  its time 0.035 c T^2.5,  contact time 0.09 c T^2,  restitution 0.01 c T^2,
+/// displacement 0.018 c T^2,  loss 0.0052 T^2,  force at any time 0.11 c T^2 and 0.7 c T^3
+/// ```
+///
+/// One beyond [`LARGEST_LAG`] and [`LARGEST_MEMORY`].
+pub(crate) fn left_out(lag: f64, memory: f64) -> Estimates {
+    let (c, t) = (lag, memory);
+    let square = c * t * t;
+    let steeper = square * t.sqrt();
+    let inside = c <= LARGEST_LAG && t <= LARGEST_MEMORY;
+    let bound = |error: f64| if inside { error } else { 1.0 };
+    Estimates {
+        peak_force: bound(0.14 * steeper + FLOOR),
+        peak_force_time: bound(0.035 * steeper + FLOOR),
+        contact_time: bound(0.09 * square + FLOOR),
+        restitution: bound(0.01 * square + FLOOR),
+        loss: bound(0.0052 * t * t + LOSS_FLOOR),
+        peak_displacement: bound(0.018 * square + FLOOR),
+        peak_deflection: f64::INFINITY,
+        force: bound(square * (0.7 * t).min(0.11) + 10.0 * FLOOR),
     }
 }
 
@@ -130,8 +91,8 @@ impl AreaDashpot {
 
     /// Bounds of the errors for a memory T in collision times, the punch's: 2 tau/c_R at the largest approach.
     #[must_use]
-    pub fn left_out(&self, memory: f64) -> LeftOut {
-        LeftOut::of(self.lag, memory)
+    pub fn left_out(&self, memory: f64) -> Estimates {
+        left_out(self.lag, memory)
     }
 
     /// Contact force at a displacement and a velocity, to the third order; none in tension.
@@ -165,7 +126,7 @@ impl AreaDashpot {
 
     /// Samples of the contact, a step apart; its results are those of [`summary`](Self::summary).
     ///
-    /// The force is as good as [`LeftOut::force`] says.
+    /// The force is as good as [`left_out`](Self::left_out) says.
     #[must_use]
     pub fn history(&self, step: f64) -> History {
         let results = self.summary();
@@ -229,7 +190,7 @@ fn depth_factor(target_share: f64, shape: f64) -> f64 {
 /// Loss below which the restitution is taken from it.
 const SMALL_LOSS: f64 = 0.03;
 
-/// What c^3, c b and e add to the results beyond the equation, fitted to [`solve_growing`](crate::spectral::solve_growing).
+/// What c^3, c b and e add to the results beyond the equation, fitted to [`solve_growing`](crate::growing::solve_growing).
 ///
 /// The part of e in the loss is -(1/24) int p'' (p^(5/3))'' dt of Hertz's pulse.
 const PEAK_FORCE: [f64; 3] = [6.57, -10.70, 0.072_7];
@@ -287,10 +248,10 @@ const BY_B: [[f64; 7]; 7] = [
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::disc::refine::Accuracy;
+    use crate::growing::{solve_growing, waves::GrowingContact};
     use crate::law::pulse::Course;
     use crate::law::radiation::radiation;
-    use crate::march::refine::Accuracy;
-    use crate::spectral::{GrowingContact, solve_growing};
     use halfspace::Medium;
 
     #[test]

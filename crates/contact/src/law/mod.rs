@@ -1,7 +1,23 @@
 //! Contact laws in closed form or without memory, one file each.
+//!
+//! [`radiation`] comes first, [`quasi_static`] is the same on a disc with a static spring of its own, [`area_dashpot`] goes
+//! to the next orders; `pulse` is the history that goes with their results.
 
 pub mod area_dashpot;
-pub mod hertz;
 pub(crate) mod pulse;
 pub mod quasi_static;
 pub mod radiation;
+
+/// Hertz's closed form (45)-(47): no waves, restitution 1.
+///
+/// In collision units everything is a constant.
+///
+/// Theory: `docs/theory.md` (T38).
+pub mod hertz {
+    /// Hertz's contact time in units of alpha/V0: 2 int_0^1 dx/sqrt(1 - x^(5/2)), the 2.94 of (47).
+    ///
+    /// ```text
+    /// (4/5) sqrt(pi) Gamma(2/5)/Gamma(9/10)
+    /// ```
+    pub const CONTACT_TIME: f64 = 2.943_275_184_324_705;
+}

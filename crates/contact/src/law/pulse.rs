@@ -13,8 +13,8 @@
 //! with A, B, s, k, m from the time and size of the largest force, contact time, impulse and largest displacement.
 //! The displacement is the double integral of that force.
 
-use crate::march::history::History;
-use crate::quadrature::peak;
+use crate::disc::history::History;
+use crate::numeric::quadrature::peak;
 use crate::summary::Summary;
 use crate::units::INVERSE_MASS;
 
@@ -32,7 +32,7 @@ pub(crate) fn pulse(
 ) -> History {
     let course = Course::new(&force, depth, step.min(results.contact_time / LEAST_STEPS));
     let fit = Fit::new(&course, results);
-    let mut tail: Option<Tail> = None;
+    let mut last_instants: Option<[f64; 2]> = None;
     let mut history = History::at_touch(step, (results.contact_time / step) as usize + 3);
     let mut state = [0.0, 1.0];
     let (mut place, mut before, mut known) = (0.0, 0.0, (0.0, 0.0));
@@ -44,15 +44,15 @@ pub(crate) fn pulse(
             break;
         }
         let mut at = |time: f64| {
-            if let Some(tail) = &tail {
-                return tail.at(time);
+            if let Some([size, power]) = last_instants {
+                return size * (results.contact_time - time).max(0.0).powf(power);
             }
             let to = fit.place(time);
             state = advance(&force, state, to - place, place == 0.0);
             place = to;
             let p = (fit.scale(to) * force(state[0], state[1])).max(0.0);
             if state[1] < 0.0 && state[0] < LAYERS * depth {
-                tail = Some(Tail::new([known, (time, p)], results.contact_time));
+                last_instants = Some(tail([known, (time, p)], results.contact_time));
             }
             known = (time, p);
             p
@@ -79,33 +79,18 @@ pub(crate) fn pulse(
 /// Depths at the end of a contact over which its force is a power of the time left.
 const LAYERS: f64 = 8.0;
 
-/// The force of the last instants: a power of the time left, through two of its values.
-struct Tail {
-    end: f64,
-    size: f64,
-    power: f64,
-}
-
-impl Tail {
-    fn new([(t0, p0), (t1, p1)]: [(f64, f64); 2], end: f64) -> Self {
-        let (left0, left1) = (end - t0, end - t1);
-        let power = (p0 / p1).ln() / (left0 / left1).ln();
-        let sound = p1 > 0.0 && left1 > 0.0 && power > 0.0 && power < STEEPEST;
-        let power = if sound { power } else { 1.5 };
-        Self {
-            end,
-            size: if left1 > 0.0 {
-                p1 / left1.powf(power)
-            } else {
-                0.0
-            },
-            power,
-        }
-    }
-
-    fn at(&self, time: f64) -> f64 {
-        self.size * (self.end - time).max(0.0).powf(self.power)
-    }
+/// The force of the last instants, a power of the time left through two of its values: its size and the power.
+fn tail([(t0, p0), (t1, p1)]: [(f64, f64); 2], end: f64) -> [f64; 2] {
+    let (left0, left1) = (end - t0, end - t1);
+    let power = (p0 / p1).ln() / (left0 / left1).ln();
+    let sound = p1 > 0.0 && left1 > 0.0 && power > 0.0 && power < STEEPEST;
+    let power = if sound { power } else { 1.5 };
+    let size = if left1 > 0.0 {
+        p1 / left1.powf(power)
+    } else {
+        0.0
+    };
+    [size, power]
 }
 
 /// Largest power of the time left.

@@ -12,7 +12,7 @@
 //!
 //! Theory: `docs/theory.md` (T39, T50).
 
-use crate::quadrature::{GAUSS_4, GAUSS_8, find_root};
+use crate::numeric::quadrature::{GAUSS_4, GAUSS_8, find_root};
 use crate::summary::{EndOfContact, Summary};
 use crate::units::INVERSE_MASS;
 
@@ -37,8 +37,7 @@ pub fn quasi_static(coupling: f64) -> QuasiStatic {
 
 /// Its largest force alone.
 pub(crate) fn largest_force(coupling: f64) -> f64 {
-    let energy = 1.0;
-    Springs { coupling, energy }.top().powi(3)
+    Springs::still(coupling).top().powi(3)
 }
 
 /// The results with a fraction `energy` in (0, 1] of the kinetic energy.
@@ -95,10 +94,7 @@ pub fn quasi_static_radiation(coupling: f64, lag: f64) -> Summary {
 /// The turning point is at theta = pi/2; the force leads it by c F'.
 fn peak_time_per_lag(coupling: f64) -> f64 {
     const CELLS: i32 = 200;
-    let spring = Springs {
-        coupling,
-        energy: 1.0,
-    };
+    let spring = Springs::still(coupling);
     let top = spring.top();
     let (mut spent, mut shift) = (0.0, 0.0);
     for i in (0..CELLS).rev() {
@@ -123,6 +119,12 @@ struct Springs {
 }
 
 impl Springs {
+    /// With all of the kinetic energy.
+    fn still(coupling: f64) -> Self {
+        let energy = 1.0;
+        Self { coupling, energy }
+    }
+
     /// y at the turning point.
     fn top(&self) -> f64 {
         let energy = |y: f64| {
@@ -168,10 +170,7 @@ impl Springs {
 /// How long a quasi-static contact with this coupling lasts, in collision units, to 3e-4; any coupling >= 0.
 #[must_use]
 pub fn expected_contact_time(coupling: f64) -> f64 {
-    let spring = Springs {
-        coupling,
-        energy: 1.0,
-    };
+    let spring = Springs::still(coupling);
     let top = spring.top();
     2.0 * GAUSS_4
         .iter()

@@ -13,8 +13,8 @@
 //!
 //! Theory: `docs/theory.md` (T49 to T51, T53).
 
-use super::hertz;
-use crate::force_balance::force_root;
+use crate::law::hertz;
+use crate::numeric::cubic::force_root;
 use crate::summary::{EndOfContact, Summary};
 use crate::units::INVERSE_MASS;
 

@@ -4,7 +4,7 @@ use super::schema;
 use crate::identity::{Identity, hexadecimal};
 use crate::scene::resolved;
 use crate::stored::{ReadError, StoredImpact};
-use contact::numbers::NUMBERS_REVISION;
+use contact::NUMBERS_REVISION;
 use impact::numbers::FIELDS_REVISION;
 use impact::{Load, Scene};
 use std::path::Path;

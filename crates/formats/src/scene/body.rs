@@ -4,7 +4,7 @@ use super::keys::keys_of;
 use super::section::{Section, parse};
 use super::text::read_text;
 use crate::error::SceneError;
-use contact::material::from_wave_speeds;
+use contact::from_wave_speeds;
 use contact::{Library, Material};
 use std::path::Path;
 use toml::Table;

@@ -12,7 +12,7 @@ use crate::identity::{Identity, hexadecimal};
 use crate::scene::keys::FINITE;
 use crate::scene::section::{Section, parse};
 use crate::scene::text::read_text;
-use contact::numbers::NUMBERS_REVISION;
+use contact::NUMBERS_REVISION;
 use impact::numbers::FIELDS_REVISION;
 use output::Role;
 use sha2::{Digest, Sha256};

@@ -7,7 +7,7 @@ use crate::excitation::{Excitation, PressureRadius};
 use crate::grid::{Grid, Wanted};
 use crate::kernels::KernelSource;
 use crate::watch::Unwatched;
-use contact::units::CollisionUnits;
+use contact::CollisionUnits;
 use contact::{Collision, Exact, HalfSpace, Material, Model, Settings, Solver, Striker};
 use halfspace::Six;
 use std::fs;

@@ -7,7 +7,7 @@ use crate::error::PlotError;
 use crate::request::Request;
 use crate::series::curve;
 use crate::words::with_unit;
-use contact::units::KernelUnits;
+use contact::KernelUnits;
 use figure::{Axis, Image, LabelledPoint, Layer, Legend, Panel, Shading, Style};
 use formats::results::schema::FIELDS;
 use formats::stored::StoredImpact;

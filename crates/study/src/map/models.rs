@@ -10,12 +10,12 @@ use crate::picture::Picture;
 use crate::question::marching::Results;
 use crate::record::Error;
 use crate::scenes::{ROD_RADIUS_M, TABLE_1_PA, ball, collision, paper};
-use contact::choose::{Family, Groups, Rung, choose};
 use contact::law::area_dashpot::AreaDashpot;
 use contact::law::hertz::CONTACT_TIME;
 use contact::law::quasi_static::{quasi_static, quasi_static_radiation};
 use contact::law::radiation::{LARGEST_LAG, LOSS, radiation};
-use contact::{Accuracy, ExactDisc, GrowingDisc, Library, MarchError, PunchResponse, PunchWaves};
+use contact::{Accuracy, ExactDisc, GrowingContact, Library, MarchError, PunchWaves};
+use contact::{Family, Groups, Rung, choose};
 use contact::{StaticShare, Summary, march_growing, march_implicit, refine};
 use figure::{Axis, Interval, Style};
 use halfspace::{Deflection, Medium, SurfaceResponse};
@@ -31,7 +31,6 @@ pub const SPEEDS_M_S: [f64; 3] = [1.0, 10.0, 100.0];
 #[derive(Debug)]
 pub struct Plane {
     centre: SurfaceResponse,
-    punch: PunchResponse,
     waves: PunchWaves,
 }
 
@@ -73,16 +72,16 @@ const UNSETTLED: f64 = 1e-2;
 /// How often a step that is too long is halved.
 const MOST_HALVINGS: usize = 5;
 
-fn summary(growing: &GrowingDisc<'_>, step: f64) -> Result<Summary, MarchError> {
+fn summary(growing: &GrowingContact<'_>, step: f64) -> Result<Summary, MarchError> {
     Summary::new(&march_growing(growing, step)?)
 }
 
 impl Plane {
     /// The contact at a place of the plane.
     #[must_use]
-    pub fn contact(&self, share: f64, memory: f64) -> GrowingDisc<'_> {
-        GrowingDisc {
-            punch: &self.punch,
+    pub fn contact(&self, share: f64, memory: f64) -> GrowingContact<'_> {
+        GrowingContact {
+            waves: &self.waves,
             target_share: share,
             wave_time: self.wave_time(memory),
         }
@@ -94,17 +93,15 @@ impl Plane {
     /// When the ratio is outside (-1, 0.5).
     pub fn new(poisson_ratio: f64) -> Result<Self, StudyError> {
         let medium = Medium::new(poisson_ratio)?;
-        let centre = SurfaceResponse::new(&medium, Deflection::Centre);
         Ok(Self {
-            punch: PunchResponse::new(&centre),
             waves: PunchWaves::new(&medium),
-            centre,
+            centre: SurfaceResponse::new(&medium, Deflection::Centre),
         })
     }
 
     /// a/c1 in collision times for a memory over contact time.
     fn wave_time(&self, memory: f64) -> f64 {
-        memory * CONTACT_TIME / self.punch.memory()
+        memory * CONTACT_TIME / (2.0 * self.centre.memory())
     }
 
     /// The lag of the radiation model and the memory in collision times, as `auto` forms them.

@@ -12,11 +12,10 @@ use contact::law::area_dashpot::AreaDashpot;
 use contact::law::hertz::CONTACT_TIME;
 use contact::law::quasi_static::{quasi_static, quasi_static_radiation};
 use contact::law::radiation::radiation;
-use contact::surface::Surface;
 use contact::{
-    Accuracy, ExactDisc, FixedDisc, GrowingContact, GrowingDisc, History, MarchError,
-    PunchResponse, PunchWaves, ResponseTable, StaticShare, Summary, Workspace, march_explicit,
-    march_growing, march_implicit, refine, solve_disc, solve_growing,
+    Accuracy, ExactDisc, FixedDisc, GrowingContact, History, MarchError, PunchWaves, ResponseTable,
+    StaticShare, Summary, Workspace, march_explicit, march_growing, march_implicit, refine,
+    solve_disc, solve_growing,
 };
 use halfspace::{Deflection, Medium, SurfaceResponse};
 use std::cell::{Cell, RefCell};
@@ -57,20 +56,14 @@ pub(crate) fn measure(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Record>,
     let collision = collision(&ball("steel", 1.0)?);
     let medium = Medium::new(collision.target_poisson_ratio)?;
     let response = SurfaceResponse::new(&medium, Deflection::Centre);
-    let punch = PunchResponse::new(&response);
-    let growing = collision.growing_disc(&punch);
     let waves = PunchWaves::new(&medium);
-    let pieces = GrowingContact {
-        waves: &waves,
-        target_share: growing.target_share,
-        wave_time: growing.wave_time,
-    };
+    let growing = collision.growing_contact(&waves);
     // itself measured against superposition in time (tests/reference/growing.csv)
-    let reference = solve_growing(&pieces, &Accuracy::of_contact(1e-10, None))?;
-    let lag = collision.lag(&Surface::of(&response));
+    let reference = solve_growing(&growing, &Accuracy::of_contact(1e-10, None))?;
+    let lag = collision.lag(&response);
     let terms = AreaDashpot::new(growing.target_share, growing.wave_time, &waves);
     let mut candidates = growing_contact(&growing, lag, terms, effort);
-    candidates.extend(by_pieces(pieces, effort));
+    candidates.extend(by_pieces(growing, effort));
     measure(BALL, reference.summary(), candidates)?;
     Ok(records)
 }
@@ -236,12 +229,12 @@ fn by_pieces(contact: GrowingContact<'_>, effort: Effort) -> Vec<Candidate<'_, R
 }
 
 fn growing_contact<'a>(
-    growing: &'a GrowingDisc<'a>,
+    growing: &'a GrowingContact<'a>,
     lag: f64,
     terms: AreaDashpot,
     effort: Effort,
 ) -> Vec<Candidate<'a, Results>> {
-    let memory = growing.punch.memory() * growing.wave_time;
+    let memory = growing.waves.memory() * growing.wave_time;
     let radiation = move || (&radiation(black_box(lag))).into();
     let dashpot = move || (&black_box(terms).summary()).into();
     let mut list: Vec<Candidate<'_, Results>> = vec![

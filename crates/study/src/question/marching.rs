@@ -6,7 +6,7 @@
 //! order 2   force linear in a cell:    g_j = 1 - (1/h) int W over the cell
 //! ```
 //!
-//! Product integration after Linz (1985); collision units as in [`contact::units::CollisionUnits`].
+//! Product integration after Linz (1985); collision units as in [`contact::CollisionUnits`].
 
 use contact::ExactDisc;
 

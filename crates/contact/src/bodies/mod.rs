@@ -1,0 +1,181 @@
+//! The two bodies of an impact, and how fast one falls.
+//!
+//! `material` and `library` are what they are made of, `shape` what mass and tip follow from, `strength` what they bear,
+//! `wave_speeds` when waves and echoes arrive.
+
+pub(crate) mod library;
+mod library_data;
+pub(crate) mod material;
+pub(crate) mod shape;
+pub(crate) mod strength;
+pub(crate) mod wave_speeds;
+
+use crate::bodies::material::{BodyError, Material, positive, within};
+use crate::bodies::shape::Shape;
+
+/// An elastic half-space: a material with a density, and the block's thickness where it is known.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HalfSpace {
+    material: Material,
+    density_kg_m3: f64,
+    /// Thickness of the block in m, where it ends below.
+    pub thickness_m: Option<f64>,
+    /// Distance in m from the axis to the nearest side of the block, where it ends there.
+    pub radius_m: Option<f64>,
+}
+
+impl HalfSpace {
+    /// Of a material.
+    ///
+    /// # Errors
+    /// [`BodyError`] without a density, or for elastic constants outside their ranges.
+    pub fn new(material: Material) -> Result<Self, BodyError> {
+        material.check()?;
+        Ok(Self {
+            density_kg_m3: material.density_for("the half-space")?,
+            material,
+            thickness_m: None,
+            radius_m: None,
+        })
+    }
+
+    /// What it is made of.
+    #[must_use]
+    pub fn material(&self) -> &Material {
+        &self.material
+    }
+
+    /// Changes numbers of the material.
+    ///
+    /// # Errors
+    /// [`BodyError`] when the changed material makes no half-space; it is not to be used then.
+    pub fn change(&mut self, change: impl FnOnce(&mut Material)) -> Result<(), BodyError> {
+        change(&mut self.material);
+        self.material.check()?;
+        self.density_kg_m3 = self.material.density_for("the half-space")?;
+        Ok(())
+    }
+
+    /// Density in kg/m^3.
+    #[must_use]
+    pub fn density_kg_m3(&self) -> f64 {
+        self.density_kg_m3
+    }
+
+    /// Longitudinal wave speed c1 in m/s.
+    #[must_use]
+    pub fn longitudinal_speed_m_s(&self) -> f64 {
+        (self.material.longitudinal_modulus_pa() / self.density_kg_m3).sqrt()
+    }
+}
+
+/// The body that strikes: a rigid mass with a spherical elastic tip.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Striker {
+    /// What it is made of.
+    pub material: Material,
+    /// Mass in kg.
+    pub mass_kg: f64,
+    /// Radius of its tip in m.
+    pub tip_radius_m: f64,
+    /// Length in m of a rod, for the check of its free oscillations.
+    pub length_m: Option<f64>,
+    /// What mass, tip and length follow from, where they do: see [`Striker::change_shape`].
+    pub shape: Option<Shape>,
+}
+
+impl Striker {
+    /// A mass with a tip of a radius.
+    ///
+    /// # Errors
+    /// [`BodyError::OutOfRange`] for a mass or a radius that is not positive.
+    pub fn new(material: Material, mass_kg: f64, tip_radius_m: f64) -> Result<Self, BodyError> {
+        material.check()?;
+        Ok(Self {
+            mass_kg: positive("mass_kg", mass_kg)?,
+            tip_radius_m: positive("tip_radius_m", tip_radius_m)?,
+            material,
+            length_m: None,
+            shape: None,
+        })
+    }
+
+    /// A body of a shape: its mass follows from the density of its material.
+    ///
+    /// # Errors
+    /// [`BodyError`] without a density, or for lengths that make no such body.
+    pub fn of_shape(material: Material, shape: Shape) -> Result<Self, BodyError> {
+        let density = material.density_for("the mass of the striker")?;
+        match shape {
+            Shape::Ball { diameter_m } => positive("diameter_m", diameter_m)?,
+            Shape::Rod {
+                length_m,
+                diameter_m,
+                ..
+            } => {
+                positive("diameter_m", diameter_m)?;
+                let tip_radius_m = positive("tip_radius_m", shape.tip_radius_m())?;
+                let wide = tip_radius_m >= 0.5 * diameter_m;
+                within("tip_radius_m", tip_radius_m, "[diameter_m/2, inf)", wide)?;
+                let long = length_m >= shape.cap_m() && length_m < f64::INFINITY;
+                within("length_m", length_m, "[height of the tip's cap, inf)", long)?
+            }
+        };
+        let mass_kg = density * shape.volume_m3();
+        let mut striker = Self::new(material, mass_kg, shape.tip_radius_m())?;
+        striker.length_m = shape.length_m();
+        striker.shape = Some(shape);
+        Ok(striker)
+    }
+
+    /// Changes what mass and tip follow from; without a shape only the material.
+    ///
+    /// # Errors
+    /// [`BodyError`] when the change makes no body; it is not to be used then.
+    pub fn change_shape(
+        &mut self,
+        change: impl FnOnce(&mut Material, Option<&mut Shape>),
+    ) -> Result<(), BodyError> {
+        let mut shape = self.shape;
+        change(&mut self.material, shape.as_mut());
+        if let Some(shape) = shape {
+            *self = Self::of_shape(self.material.clone(), shape)?;
+        }
+        Ok(())
+    }
+
+    /// A ball of a radius: its mass follows from the density of its material.
+    ///
+    /// ```
+    /// use contact::{Material, Striker};
+    /// let ball = Striker::ball(Material::named("bearing-steel")?, 0.005)?;
+    /// assert!((ball.mass_kg - 7800.0 * 4.0 / 3.0 * std::f64::consts::PI * 0.005_f64.powi(3)).abs() < 1e-12);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`BodyError`] without a density or for a radius that is not positive.
+    pub fn ball(material: Material, radius_m: f64) -> Result<Self, BodyError> {
+        let diameter_m = 2.0 * positive("radius_m", radius_m)?;
+        Self::of_shape(material, Shape::Ball { diameter_m })
+    }
+}
+
+/// Standard gravity in m/s^2.
+pub const GRAVITY_M_S2: f64 = 9.80665;
+
+/// Velocity in m/s after a free fall from rest.
+///
+/// ```text
+/// v = sqrt(2 g h),   g = 9.80665 m/s^2
+/// ```
+///
+/// The drag of air is left out: with a drag coefficient of 0.5 it takes 0.1 % of the velocity of a steel ball of 3 mm after 0.1 m, and 1 % after 1 m.
+///
+/// ```
+/// assert!((contact::fall_velocity_m_s(0.2) - 1.980571).abs() < 1e-6);
+/// ```
+#[must_use]
+pub fn fall_velocity_m_s(height_m: f64) -> f64 {
+    (2.0 * GRAVITY_M_S2 * height_m).sqrt()
+}

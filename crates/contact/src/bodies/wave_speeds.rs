@@ -1,0 +1,140 @@
+//! When waves from the loaded disc arrive at a place of a block, and when the first echo does.
+
+use crate::bodies::HalfSpace;
+use halfspace::{DomainError, Medium};
+
+/// Speeds of the waves of a half-space in m/s.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WaveSpeeds {
+    /// Longitudinal wave.
+    pub p: f64,
+    /// Shear wave.
+    pub s: f64,
+    /// Rayleigh wave.
+    pub rayleigh: f64,
+}
+
+impl WaveSpeeds {
+    /// Of a half-space.
+    ///
+    /// # Errors
+    /// [`DomainError`] for a Poisson's ratio outside the physics.
+    pub fn of(half_space: &HalfSpace) -> Result<Self, DomainError> {
+        let medium = Medium::new(half_space.material().poisson_ratio)?;
+        Ok(Self::new(&medium, half_space.longitudinal_speed_m_s()))
+    }
+
+    /// Of a medium with a longitudinal speed in m/s.
+    #[must_use]
+    pub fn new(medium: &Medium, longitudinal_m_s: f64) -> Self {
+        Self {
+            p: longitudinal_m_s,
+            s: longitudinal_m_s * medium.kappa(),
+            rayleigh: longitudinal_m_s * medium.rayleigh_speed(),
+        }
+    }
+
+    /// Whether a Rayleigh wave of its own arrives at a distance from the axis and a depth in m.
+    ///
+    /// It grows out of the shear wave where that meets the surface beyond
+    ///
+    /// ```text
+    /// r = z cR/sqrt(c2^2 - cR^2)
+    /// ```
+    ///
+    /// (Nakano 1925; Aki and Richards, Quantitative Seismology, section 6.3); nearer to the axis there is none.
+    #[must_use]
+    pub fn has_rayleigh(&self, r_m: f64, z_m: f64, disc_radius_m: f64) -> bool {
+        let cotangent = self.rayleigh / (self.s * self.s - self.rayleigh * self.rayleigh).sqrt();
+        r_m > disc_radius_m && r_m - disc_radius_m > z_m * cotangent
+    }
+
+    /// First arrivals in s after the force begins of the P, S and Rayleigh wave; infinite for a Rayleigh wave where
+    /// there is none.
+    ///
+    /// From the nearest point of a disc of a radius in m: straight above inside it, else its edge.
+    #[must_use]
+    pub fn arrivals_s(&self, r_m: f64, z_m: f64, disc_radius_m: f64) -> [f64; 3] {
+        let aside_m = (r_m - disc_radius_m).max(0.0);
+        let rayleigh = if self.has_rayleigh(r_m, z_m, disc_radius_m) {
+            aside_m / self.rayleigh
+        } else {
+            f64::INFINITY
+        };
+        let path_m = aside_m.hypot(z_m);
+        [path_m / self.p, path_m / self.s, rayleigh]
+    }
+
+    /// Time in s from the force's start to the first echo from the faces of a block; none where no face is known.
+    ///
+    /// The longitudinal wave goes down and up again, or to the nearest side and back: straight paths to the mirror
+    /// images of the place behind the lower face at the depth h and the side at the distance b from the axis,
+    ///
+    /// ```text
+    /// sqrt(max(r - a, 0)^2 + (2 h - z)^2)/c1,   sqrt((2 b - r - a)^2 + z^2)/c1
+    /// ```
+    ///
+    /// For a place inside the block.
+    #[must_use]
+    pub fn first_echo_s(
+        &self,
+        block: &HalfSpace,
+        [r_m, z_m]: [f64; 2],
+        disc_radius_m: f64,
+    ) -> Option<f64> {
+        let aside_m = (r_m - disc_radius_m).max(0.0);
+        let below = block.thickness_m.map(|h| aside_m.hypot(2.0 * h - z_m));
+        let side = |b: f64| (2.0 * b - r_m - disc_radius_m).max(0.0).hypot(z_m);
+        let paths_m = below.into_iter().chain(block.radius_m.map(side));
+        paths_m.reduce(f64::min).map(|path_m| path_m / self.p)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bodies::material::Material;
+
+    const SPEEDS: WaveSpeeds = WaveSpeeds {
+        p: 5900.0,
+        s: 3150.0,
+        rayleigh: 2920.0,
+    };
+
+    #[test]
+    fn rayleigh_waves_arrive_along_the_surface_only() {
+        assert!(SPEEDS.has_rayleigh(0.02, 0.0, 1e-4));
+        assert!(!SPEEDS.has_rayleigh(0.0, 0.05, 1e-4) && !SPEEDS.has_rayleigh(0.02, 0.02, 1e-4));
+        assert!(!SPEEDS.has_rayleigh(5e-5, 0.0, 1e-4));
+        let below = SPEEDS.arrivals_s(0.0, 0.05, 1e-4);
+        assert_eq!(below, [0.05 / 5900.0, 0.05 / 3150.0, f64::INFINITY]);
+        let beside = SPEEDS.arrivals_s(0.0201, 0.0, 1e-4);
+        assert!((beside[2] - 0.02 / 2920.0).abs() < 1e-18);
+    }
+
+    #[test]
+    fn the_first_echo_is_that_of_the_nearest_face() {
+        let steel = Material::named("steel").unwrap_or_else(|error| panic!("{error}"));
+        let mut block = HalfSpace::new(steel).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(SPEEDS.first_echo_s(&block, [0.0, 0.0], 0.0), None);
+        // straight down and up through 50 mm
+        block.thickness_m = Some(0.05);
+        let echo =
+            |block: &HalfSpace, place| SPEEDS.first_echo_s(block, place, 1e-4).unwrap_or(0.0);
+        assert!((echo(&block, [0.0, 0.0]) - 0.1 / 5900.0).abs() < 1e-15);
+        // a probe on the lower face hears it at once
+        assert!((echo(&block, [0.0, 0.05]) - 0.05 / 5900.0).abs() < 1e-15);
+        // 2 sqrt(h^2 + (r/2)^2)/c1 of a plate of 101.6 mm at 105 mm, from the axis
+        block.thickness_m = Some(0.1016);
+        let far = SPEEDS
+            .first_echo_s(&block, [0.105, 0.0], 0.0)
+            .unwrap_or(0.0);
+        assert!((far - 2.0 * 0.1016_f64.hypot(0.0525) / 5900.0).abs() < 1e-15);
+        // the side is nearer
+        block.radius_m = Some(0.06);
+        assert!((echo(&block, [0.05, 0.0]) - (0.07 - 1e-4) / 5900.0).abs() < 1e-15);
+        assert!(
+            (echo(&block, [0.06, 0.01]) - (0.06_f64 - 1e-4).hypot(0.01) / 5900.0).abs() < 1e-15
+        );
+    }
+}

@@ -1,0 +1,104 @@
+//! The paper's explicit scheme (40)-(44), kept to be measured.
+//!
+//! ```text
+//! d_n = d_{n-1} + v_{n-1} h + a_{n-1} h^2/2                                           (40)
+//! w_n = h sum_{m=1}^{n-2} w_delta(t_{n-1} - t_m) p_m + (h/2) w_delta(0) p_{n-1}       (41)
+//! p_n = (d_n - w_n)^(3/2),   a_n = -(5/4) p_n,   v_n = v_{n-1} + a_{n-1} h            (42)-(44)
+//! ```
+//!
+//! First order: the velocity lags the force by half a step, which feeds energy into the rebound.
+
+use crate::disc::FixedDisc;
+use crate::disc::history::{Budget, History};
+use crate::error::MarchError;
+use crate::numeric::quadrature::{find_root, peak};
+use crate::summary::{EndOfContact, Summary};
+use crate::units::INVERSE_MASS;
+use halfspace::SurfaceResponse;
+
+/// Marches with a fixed step (collision units) until the first separation.
+///
+/// The impulse kernel is sampled on the step and holds all of the half-space's deflection, so
+/// [`FixedDisc::share`] is not looked at: the scheme exists for the full share only.
+///
+/// # Errors
+/// [`MarchError::Unstable`], [`MarchError::TooLong`], [`MarchError::StepTooLong`].
+pub fn march_explicit(
+    impact: &FixedDisc<'_, SurfaceResponse>,
+    step: f64,
+) -> Result<(History, Summary), MarchError> {
+    let budget = Budget::of_memory(impact.memory(), step)?;
+    let kernel: Vec<f64> = (0..=budget.cells + 1)
+        .map(|i| {
+            let t = i as f64 * step / impact.wave_time;
+            impact.coupling * impact.response.impulse(t) * step / impact.wave_time
+        })
+        .collect();
+    let mut history = History::at_touch(step, 256);
+    history.velocity.push(1.0);
+    loop {
+        let n = history.force.len();
+        let (v, p) = (history.velocity[n - 1], history.force[n - 1]);
+        let acceleration = -INVERSE_MASS * p;
+        let displacement = history.displacement[n - 1] + step * (v + 0.5 * step * acceleration);
+        let oldest = n.saturating_sub(kernel.len()).max(1);
+        let mut deflection = 0.5 * kernel[0] * p;
+        for m in oldest..n.saturating_sub(1) {
+            deflection += kernel[n - 1 - m] * history.force[m];
+        }
+        let indentation = displacement - deflection;
+        let force = indentation.max(0.0).powf(1.5);
+        history.push(force, displacement, deflection);
+        history.velocity.push(v + step * acceleration);
+        if indentation <= 0.0 {
+            let summary = summarise(&history)?;
+            return Ok((history, summary));
+        }
+        if force.is_nan() || force >= 1e3 {
+            return Err(MarchError::Unstable {
+                scheme: "explicit",
+                force,
+                steps: n,
+            });
+        }
+        if n.is_multiple_of(1024) {
+            budget.check(n)?;
+        }
+    }
+}
+
+fn summarise(history: &History) -> Result<Summary, MarchError> {
+    let n = history.force.len() - 1;
+    if n < 3 {
+        return Err(MarchError::StepTooLong {
+            samples: n,
+            needed: 3,
+        });
+    }
+    let indentation = |i: usize| history.displacement[i] - history.deflection[i];
+    let fraction = linear_crossing(indentation(n - 1), indentation(n));
+    let (before, after) = (history.velocity[n - 1], history.velocity[n]);
+    let velocity = before + fraction * (after - before);
+    let (place, peak_force) = peak(&history.force);
+    Ok(Summary {
+        peak_force,
+        peak_force_time: place * history.step,
+        contact_time: (n as f64 - 1.0 + fraction) * history.step,
+        restitution: -velocity,
+        loss: (1.0 - velocity) * (1.0 + velocity),
+        peak_displacement: peak(&history.displacement).1,
+        peak_deflection: peak(&history.deflection).1,
+        impulse: (1.0 - velocity) / INVERSE_MASS,
+        contacts: 1,
+        end: EndOfContact::Smooth,
+    })
+}
+
+/// Time at which a linearly interpolated decreasing quantity passes zero after sample `i`.
+fn linear_crossing(before: f64, after: f64) -> f64 {
+    find_root(
+        |x| (before + x * (after - before), after - before),
+        0.0,
+        1.0,
+    )
+}

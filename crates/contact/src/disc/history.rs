@@ -1,0 +1,185 @@
+//! Samples of a march, and the work that it may take.
+
+use crate::disc::edge::Ends;
+use crate::error::MarchError;
+use crate::growing::solved::SolvedContact;
+use crate::law::hertz::CONTACT_TIME;
+use std::sync::Arc;
+
+/// The end of the first contact, as the last samples in contact tell it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Separation {
+    /// When the force is zero.
+    pub(crate) time: f64,
+    /// Uncertainty of `time` for steps longer than the memory.
+    pub(crate) uncertainty: f64,
+    /// Impulse from the third sample before the first free one until then.
+    pub(crate) impulse: f64,
+}
+
+/// Samples of a march, a step apart, from the first touch until the striker has left for good.
+///
+/// In collision units.
+#[derive(Debug, Clone)]
+pub struct History {
+    /// Time between samples.
+    pub step: f64,
+    /// Contact force.
+    pub force: Vec<f64>,
+    /// Displacement of the striker.
+    pub displacement: Vec<f64>,
+    /// Deflection of the half-space that enters the contact law.
+    pub deflection: Vec<f64>,
+    /// What the trapezoidal rule misses of the impulse at the touch.
+    pub(crate) start: f64,
+    /// Velocity where the scheme computes it itself; empty otherwise.
+    pub(crate) velocity: Vec<f64>,
+    /// Compliance of the newest sample: d - w + compliance * p is smooth through the end of contact.
+    pub(crate) compliance: f64,
+    /// The surface's part of it.
+    pub(crate) elastic: f64,
+    /// End of the first contact where the march finds it itself.
+    pub(crate) separation: Option<Separation>,
+    /// Both ends of a contact whose work the march finds itself.
+    pub(crate) ends: Option<Ends>,
+    /// Work left in the half-space where the march finds it itself.
+    pub(crate) dissipated: Option<f64>,
+    /// The last instants of a contact whose radius goes to zero, too short for the step: the displacement of the striker
+    /// at the end over the square of its velocity there, and their duration over the velocity; zeros where they are long
+    /// enough.
+    pub(crate) end_layer: Option<[f64; 2]>,
+    /// The contact itself where it was solved by pieces, of which these are samples.
+    pub(crate) pieces: Option<Arc<SolvedContact>>,
+    /// Estimated error of the force at any instant, over the largest.
+    pub(crate) error: f64,
+}
+
+impl History {
+    /// At the touch, with room for as many samples.
+    pub(crate) fn at_touch(step: f64, capacity: usize) -> Self {
+        Self::begun(step, std::array::from_fn(|_| Vec::with_capacity(capacity)))
+    }
+
+    /// Forgets everything but the room that it takes.
+    pub(crate) fn restart(&mut self, step: f64) {
+        let room = [
+            &mut self.force,
+            &mut self.displacement,
+            &mut self.deflection,
+        ];
+        *self = Self::begun(step, room.map(std::mem::take));
+    }
+
+    /// At the touch, in the room of force, displacement and deflection.
+    fn begun(step: f64, mut room: [Vec<f64>; 3]) -> Self {
+        for samples in &mut room {
+            samples.clear();
+            samples.push(0.0);
+        }
+        let [force, displacement, deflection] = room;
+        Self {
+            step,
+            force,
+            displacement,
+            deflection,
+            start: 0.0,
+            velocity: Vec::new(),
+            compliance: 0.0,
+            elastic: 0.0,
+            separation: None,
+            ends: None,
+            dissipated: None,
+            end_layer: None,
+            pieces: None,
+            error: f64::INFINITY,
+        }
+    }
+
+    /// Samples of a contact that was solved by pieces, a step apart up to the first after it, with the pieces themselves.
+    ///
+    /// After the contact the deflection is not followed: that sample holds the one at the end.
+    #[must_use]
+    pub fn of_pieces(solved: &SolvedContact, step: f64) -> Self {
+        let (contact_time, restitution) =
+            (solved.summary().contact_time, solved.summary().restitution);
+        let steps = (contact_time / step) as usize;
+        let mut history = Self::at_touch(step, steps + 2);
+        for i in 1..=steps {
+            if let Some(now) = solved.at(i as f64 * step) {
+                history.push(now.force, now.displacement, now.deflection);
+            }
+        }
+        let last = solved.at(contact_time).map_or(0.0, |now| now.displacement);
+        let beyond = history.force.len() as f64 * step - contact_time;
+        history.push(0.0, last - restitution * beyond, last);
+        history.error = solved.estimates().force;
+        history.pieces = Some(Arc::new(solved.clone()));
+        history
+    }
+
+    #[inline]
+    pub(crate) fn push(&mut self, force: f64, displacement: f64, deflection: f64) {
+        self.force.push(force);
+        self.displacement.push(displacement);
+        self.deflection.push(deflection);
+    }
+
+    /// Estimated error of the force at any instant, over the largest; infinite where nobody has estimated it.
+    #[must_use]
+    pub fn error(&self) -> f64 {
+        self.error
+    }
+
+    /// Mean velocity over the last step.
+    pub(crate) fn last_velocity(&self) -> f64 {
+        match self.displacement[..] {
+            [.., before, last] => (last - before) / self.step,
+            _ => 1.0,
+        }
+    }
+}
+
+/// A contact lasts at least this part of Hertz's.
+const SHORTEST: f64 = 0.5;
+
+/// Bounds the work of one march.
+#[derive(Debug)]
+pub(crate) struct Budget {
+    pub(crate) cells: usize,
+    ratio: f64,
+}
+
+impl Budget {
+    const STEPS: usize = 400_000;
+    const WORK: usize = 4_000_000_000;
+
+    pub(crate) fn new(cells: usize, ratio: f64) -> Self {
+        Self { cells, ratio }
+    }
+
+    /// For a memory and a step; refuses what is out of bounds before the march begins.
+    pub(crate) fn of_memory(memory: f64, step: f64) -> Result<Self, MarchError> {
+        let cells = (memory / step).min(1e9) as usize;
+        let budget = Self::new(cells, memory);
+        budget.check(cells)?;
+        budget.before(step)?;
+        Ok(budget)
+    }
+
+    /// Refuses a march before it begins.
+    pub(crate) fn before(&self, step: f64) -> Result<(), MarchError> {
+        self.check((SHORTEST * CONTACT_TIME / step).min(1e9) as usize)
+    }
+
+    pub(crate) fn check(&self, steps: usize) -> Result<(), MarchError> {
+        let work = steps.saturating_mul(self.cells.min(steps));
+        if steps > Self::STEPS || work > Self::WORK {
+            return Err(MarchError::TooLong {
+                steps,
+                cells: self.cells,
+                ratio: self.ratio,
+            });
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,133 @@
+//! The implicit scheme on a disc of fixed radius: the default.
+//!
+//! Each step solves A y^3 + y^2 = B for y = p^(1/3), where A collects what the newest force does to
+//! the striker and to the half-space, and B all that is known.
+//! The striker moves by Numerov's sum with the 3/2-power start taken out, the half-space answers by
+//! product integration that is exact for a force linear in each cell and corrected for its curvature:
+//! the scheme is of an order between 2 and 4 where the force is smooth, and stable at any step.
+//!
+//! Theory: `docs/theory.md` (T42).
+
+use crate::disc::FixedDisc;
+use crate::disc::edge::{Edge, RESOLVED, Relaxation};
+use crate::disc::history::{Budget, History};
+use crate::disc::response::DiscResponse;
+use crate::disc::striker::{STARTING, StrikerMotion, TouchCorrection, starting_roots};
+use crate::disc::weights::Weights;
+use crate::error::MarchError;
+use crate::model::StaticShare;
+use crate::numeric::cubic::force_root;
+
+/// Marches with a fixed step (collision units).
+///
+/// # Errors
+/// [`MarchError::NoSolution`] where the `dynamic` share is not well posed,
+/// [`MarchError::TooLong`] when the work is out of bounds.
+pub fn march_implicit(
+    impact: &FixedDisc<'_, impl DiscResponse>,
+    step: f64,
+) -> Result<History, MarchError> {
+    let mut history = History::at_touch(step, 256);
+    march_into(impact, step, &mut Weights::default(), &mut history)?;
+    Ok(history)
+}
+
+/// The same into weights and a history that take no new room once they are large enough.
+pub(crate) fn march_into(
+    impact: &FixedDisc<'_, impl DiscResponse>,
+    step: f64,
+    weights: &mut Weights,
+    history: &mut History,
+) -> Result<(), MarchError> {
+    // before the weights, which need one evaluation a cell
+    let budget = Budget::of_memory(impact.memory(), step)?;
+    weights.fill_for(impact, impact.response, step);
+    history.restart(step);
+    let unit = impact.wave_time / step;
+    let relaxation = Relaxation::of(impact.response, impact.coupling, unit);
+    advance(&relaxation, impact.share, weights, &budget, history)?;
+    history.separate(&relaxation);
+    Ok(())
+}
+
+/// Marches a history that holds the touch until the striker has left for good.
+fn advance(
+    relaxation: &Relaxation<impl Fn(f64) -> f64>,
+    share: StaticShare,
+    weights: &Weights,
+    budget: &Budget,
+    history: &mut History,
+) -> Result<(), MarchError> {
+    let (step, coupling) = (history.step, relaxation.coupling);
+    let newest_weight = weights.values[0];
+    let elastic = coupling * (share.factor() - newest_weight);
+    let roots = starting_roots(step, elastic);
+    let start = TouchCorrection::new(step, elastic, &roots);
+    let missed = missed(
+        relaxation,
+        weights,
+        &Edge::touch(elastic.max(0.0), step),
+        &roots,
+    );
+    let mut striker = StrikerMotion::new(step, start);
+    let inertia = striker.newest_weight();
+    history.start = start.force;
+    let compliance = inertia + elastic;
+    history.compliance = compliance;
+    history.elastic = elastic;
+    // the last five roots, newest first: the guess is the polynomial through them
+    let mut roots = [0.0_f64; 5];
+    let mut free_since = 0;
+    loop {
+        let n = history.force.len();
+        let newest = history.force[n - 1];
+        let past = weights.past(&history.force) + missed.get(n - 1).copied().unwrap_or(0.0);
+        let known_deflection = coupling * (newest_weight * newest - past);
+        let free = striker.free_displacement();
+        let known = free - known_deflection;
+        let guess = 5.0 * (roots[0] - roots[3]) + 10.0 * (roots[2] - roots[1]) + roots[4];
+        let solved = force_root(compliance, known, guess).ok_or(MarchError::NoSolution {
+            time: n as f64 * step,
+            coupling,
+        })?;
+        roots = [solved, roots[0], roots[1], roots[2], roots[3]];
+        let force = solved * solved * solved;
+        history.push(
+            force,
+            free - inertia * force,
+            known_deflection + elastic * force,
+        );
+        striker.push(force);
+        if force > 0.0 {
+            free_since = 0;
+        } else {
+            free_since += 1;
+            if free_since >= weights.values.len() && history.last_velocity() <= 0.0 {
+                return Ok(());
+            }
+        }
+        if n.is_multiple_of(1024) {
+            budget.check(n)?;
+        }
+    }
+}
+
+/// What the weights miss of the delayed deflection at the first samples.
+///
+/// They follow a parabola through the samples, the force at the touch has the roots of `edge`.
+fn missed(
+    relaxation: &Relaxation<impl Fn(f64) -> f64>,
+    weights: &Weights,
+    edge: &Edge,
+    roots: &[f64; STARTING],
+) -> [f64; STARTING] {
+    if relaxation.memory > RESOLVED {
+        return [0.0; STARTING];
+    }
+    let mut force = [0.0; STARTING + 1];
+    std::array::from_fn(|i| {
+        let y = roots[i];
+        force[i + 1] = y * y * y;
+        edge.delayed_at_touch(relaxation, y) - weights.delayed(&force[..i + 2])
+    })
+}

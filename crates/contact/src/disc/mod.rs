@@ -1,0 +1,63 @@
+//! An impact on a disc of fixed radius, in dimensionless groups, and its marches.
+//!
+//! In reading order: `response` and `table` are how the loaded surface answers, `stability` says whether there is a contact
+//! at all; `implicit` is the march, with the half-space's memory in `weights`, the striker's motion in `striker`, the force
+//! next to the ends of contact in `edge`, the end itself and the work in `separation`; `refine` chooses the step;
+//! `explicit` is the paper's scheme, `history` the samples of all marches.
+
+pub(crate) mod edge;
+pub(crate) mod explicit;
+pub(crate) mod history;
+pub(crate) mod implicit;
+pub(crate) mod refine;
+pub(crate) mod response;
+pub(crate) mod separation;
+pub(crate) mod stability;
+pub(crate) mod striker;
+pub(crate) mod table;
+pub(crate) mod weights;
+
+use crate::disc::response::DiscResponse;
+use crate::model::StaticShare;
+use halfspace::SurfaceResponse;
+
+/// Coupling up to which the deflection of the centre takes more energy than it gives, for any Poisson's ratio
+/// between 0 and 0.45: its compliance at some frequencies is real and down to -0.14 of the static one.
+pub const CENTRE_COUPLING: f64 = 5.0;
+
+/// An impact on a disc of fixed radius, in dimensionless groups; the response is exact or tabulated.
+#[derive(Debug)]
+pub struct FixedDisc<'a, R> {
+    /// Step response of the deflection of the disc.
+    pub response: &'a R,
+    /// Static deflection of the disc under Hertz's largest force over Hertz's largest approach.
+    pub coupling: f64,
+    /// r0/c1 in collision times.
+    pub wave_time: f64,
+    /// Which part of the deflection enters.
+    pub share: StaticShare,
+}
+
+/// One with the exact response.
+pub type ExactDisc<'a> = FixedDisc<'a, SurfaceResponse>;
+
+impl<R> Clone for FixedDisc<'_, R> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<R> Copy for FixedDisc<'_, R> {}
+
+impl<R: DiscResponse> FixedDisc<'_, R> {
+    /// Memory of the half-space in collision times.
+    #[must_use]
+    pub fn memory(&self) -> f64 {
+        self.response.memory() * self.wave_time
+    }
+
+    /// Coupling of the static spring in the contact law: none for the dynamic share.
+    pub(crate) fn static_coupling(&self) -> f64 {
+        self.coupling * self.share.factor()
+    }
+}

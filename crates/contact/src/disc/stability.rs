@@ -1,0 +1,169 @@
+//! Whether the deflection of a fixed disc makes a contact at all: the same answer at every tolerance.
+//!
+//! A fast change of the force meets the tangent compliance (2/3)/y of Hertz's law, y = p^(1/3), and the disc's dynamic
+//! compliance sigma C(i w), C the transform of the impulse response of its deflection over the static value:
+//!
+//! ```text
+//! full share      2/(3 y) + sigma C             the centre's C is real and negative at some frequencies
+//! dynamic share   2/(3 y) + sigma (C - 1)       C -> 0 for the fastest
+//! ```
+//!
+//! Where such a sum has a zero that grows (Nyquist: the second term is real and below -2/(3 y) somewhere), waves
+//! feed the contact or there is no solution at all.
+//! Coarse steps do not see it, fine ones do, so that a result or a refusal would depend on the tolerance.
+//! Hence the question is put once, before the model is chosen, with the largest y of a contact without waves.
+//! Where nothing grows the disc is sound; what grows has hundreds of memories for it if the memory is short; in between
+//! one march decides whose step resolves the memory.
+//! The mean deflection does the pressure's work and is passive: with the full share it is always sound.
+//!
+//! Theory: `docs/theory.md` (T42, T57).
+
+use crate::disc::FixedDisc;
+use crate::disc::implicit::march_into;
+use crate::disc::refine::Workspace;
+use crate::disc::response::DiscResponse;
+use crate::error::{ContactError, MarchError};
+use crate::law::quasi_static::{largest_force, quasi_static};
+use crate::model::StaticShare;
+use crate::summary::Summary;
+use halfspace::Deflection;
+
+/// -C where it is real, at most, for any Poisson's ratio.
+const LARGEST_NEGATIVE: f64 = 0.3;
+
+/// Memory over the contact time below which whatever grows has grown beyond bounds.
+const SHORT: f64 = 2e-3;
+
+/// Cells of the memory, and steps of the contact at least, of the march that decides.
+const CELLS: f64 = 24.0;
+const STEPS: f64 = 300.0;
+
+/// Margin of that march from the fold of the dynamic share.
+const MARGIN: f64 = 0.975;
+
+/// Refuses a disc whose model makes no sense.
+///
+/// # Errors
+/// [`MarchError::NoSolution`] for a dynamic share that folds back, [`ContactError::EnergyFed`] for a centre that feeds
+/// waves.
+pub(crate) fn check(
+    impact: &FixedDisc<'_, impl DiscResponse>,
+    workspace: &mut Workspace,
+) -> Result<(), ContactError> {
+    let still = impact.static_coupling();
+    let steepness = 1.5 * impact.coupling * largest_force(still).cbrt();
+    let at_once = 1.0 - impact.share.factor();
+    let centre = impact.response.deflection() == Deflection::Centre;
+    let bound = if centre { LARGEST_NEGATIVE } else { 0.0 };
+    if steepness * (at_once + bound) <= MARGIN {
+        return Ok(());
+    }
+    let negative = if centre {
+        negative_compliance(impact.response)
+    } else {
+        0.0
+    };
+    if steepness * (at_once + negative) <= MARGIN {
+        return Ok(());
+    }
+    let springs = quasi_static(still);
+    if impact.memory() < SHORT * springs.contact_time {
+        return Err(match impact.share {
+            StaticShare::Dynamic => no_solution(impact, 0.5 * springs.contact_time),
+            StaticShare::Full => fed(impact, None),
+        });
+    }
+    let step = (impact.memory() / CELLS).min(springs.contact_time / STEPS);
+    march_into(impact, step, &mut workspace.weights, &mut workspace.history)?;
+    let history = &workspace.history;
+    match impact.share {
+        StaticShare::Dynamic => {
+            let largest = history.force.iter().copied().fold(0.0, f64::max);
+            if 1.5 * impact.coupling * largest.cbrt() > MARGIN {
+                let place = history.force.iter().position(|&p| p == largest);
+                return Err(no_solution(impact, place.unwrap_or(0) as f64 * step));
+            }
+        }
+        StaticShare::Full => {
+            let found = Summary::new(history)?;
+            if found.contacts > 1 || found.restitution > 1.0 {
+                return Err(fed(impact, Some(&found)));
+            }
+        }
+    }
+    Ok(())
+}
+
+fn no_solution<R>(impact: &FixedDisc<'_, R>, time: f64) -> ContactError {
+    ContactError::March(MarchError::NoSolution {
+        time,
+        coupling: impact.coupling,
+    })
+}
+
+fn fed<R>(impact: &FixedDisc<'_, R>, found: Option<&Summary>) -> ContactError {
+    ContactError::EnergyFed {
+        coupling: impact.coupling,
+        found: found.map(|found| (found.restitution, found.contacts)),
+    }
+}
+
+/// The largest -C(i w) at frequencies at which the compliance C is real, zero where it is nowhere negative; to 1e-3.
+///
+/// ```text
+/// C(i w) = 1 - i w int_0^M V e^(-i w t) dt,     V = 1 - W, by its means over cells
+/// ```
+pub(crate) fn negative_compliance(response: &impl DiscResponse) -> f64 {
+    let width = response.memory() / SAMPLES as f64;
+    let mut cell = response.cells(width);
+    let left: Vec<f64> = (0..SAMPLES)
+        .map(|j| 1.0 - cell(j as f64 * width, (j + 1) as f64 * width).0 / width)
+        .collect();
+    let compliance = |angle: f64| {
+        // of a cell: w int e^(-i w t) dt = 2 sin(angle/2) e^(-i w middle)
+        let (mut real, mut imaginary) = (0.0, 0.0);
+        for (j, v) in left.iter().enumerate() {
+            let (sine, cosine) = (angle * (j as f64 + 0.5)).sin_cos();
+            real += v * cosine;
+            imaginary -= v * sine;
+        }
+        let size = 2.0 * (0.5 * angle).sin();
+        [1.0 + size * imaginary, -size * real]
+    };
+    let step = HIGHEST / (FREQUENCIES as f64 * SAMPLES as f64);
+    let mut before = compliance(step);
+    let mut largest = 0.0_f64;
+    for k in 2..=FREQUENCIES {
+        let now = compliance(k as f64 * step);
+        if before[1] * now[1] <= 0.0 && before[1] != now[1] {
+            let part = before[1] / (before[1] - now[1]);
+            largest = largest.max(-(before[0] + part * (now[0] - before[0])));
+        }
+        before = now;
+    }
+    largest
+}
+
+/// Cells of the memory, frequencies, and the highest in radians over the memory.
+const SAMPLES: usize = 256;
+const FREQUENCIES: usize = 240;
+const HIGHEST: f64 = 60.0;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use halfspace::{Medium, SurfaceResponse};
+
+    #[test]
+    fn the_centre_is_soft_at_some_frequencies_and_the_mean_at_none() {
+        let negative = |nu: f64, deflection| {
+            negative_compliance(&SurfaceResponse::new(&Medium::new(nu).unwrap(), deflection))
+        };
+        for i in -9..50 {
+            let nu = f64::from(i) * 0.01 * if i < 0 { 10.0 } else { 1.0 };
+            let [centre, mean] = [Deflection::Centre, Deflection::Mean].map(|of| negative(nu, of));
+            println!("nu = {nu:.2}: {centre:.4} {mean:.4}");
+            assert!(centre < LARGEST_NEGATIVE && mean < 1e-3);
+        }
+    }
+}

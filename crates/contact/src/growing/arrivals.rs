@@ -1,0 +1,194 @@
+//! A contact as pieces of polynomials, and where the waves that arrive at one of them left: by Newton's method, several
+//! at a time.
+
+use crate::growing::polynomial::Polynomial;
+use crate::numeric::quadrature::{CLOSE, rising_root};
+
+/// Time, contact radius, velocity and displacement of the striker over a stretch of the contact.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Piece {
+    pub(crate) time: Polynomial,
+    pub(crate) radius: Polynomial,
+    pub(crate) velocity: Polynomial,
+    pub(crate) displacement: Polynomial,
+    /// Time and radius where it starts.
+    pub(crate) from: (f64, f64),
+    /// Time and radius where it ends.
+    pub(crate) to: (f64, f64),
+}
+
+/// The piece of an arrival, after all others.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Arrival<'a> {
+    pub(crate) time_of: &'a Polynomial,
+    pub(crate) radius_of: &'a Polynomial,
+    /// Time and radius where the piece starts.
+    pub(crate) from: (f64, f64),
+    /// Place in it.
+    pub(crate) place: f64,
+    /// Time of the arrival.
+    pub(crate) time: f64,
+}
+
+impl Arrival<'_> {
+    /// The departures of waves of some delays, in ascending order: later and later back in time.
+    ///
+    /// `found` holds those of a nearby contact as first guesses, where `again`.
+    pub(crate) fn departures(
+        &self,
+        pieces: &[Piece],
+        delays: &[f64],
+        again: bool,
+        found: &mut [Departure],
+    ) {
+        let mut index = pieces.len();
+        let mut k = 0;
+        while k < delays.len() {
+            let from = |index: usize| pieces.get(index).map_or(self.from, |piece| piece.from);
+            // the piece of the first of those that are left, and those that it holds too
+            while index > 0 && from(index).0 + delays[k] * from(index).1 > self.time {
+                index -= 1;
+            }
+            let start = from(index);
+            let held = delays[k..]
+                .iter()
+                .take(LANES)
+                .take_while(|&delay| index == 0 || start.0 + delay * start.1 <= self.time)
+                .count();
+            let (time, radius, latest) = match pieces.get(index) {
+                Some(piece) => (&piece.time, &piece.radius, 1.0),
+                None => (self.time_of, self.radius_of, self.place),
+            };
+            let roots = Roots {
+                time,
+                radius,
+                arrival: self.time,
+                latest,
+            };
+            let (delays, found) = (&delays[k..k + held], &mut found[k..k + held]);
+            roots.find(delays, index, again, found);
+            k += held;
+        }
+    }
+}
+
+/// Where the wave of delay X that arrives now left: T + X a(T) = t.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Departure {
+    /// Index of the piece.
+    pub(crate) piece: usize,
+    /// Place in it.
+    pub(crate) place: f64,
+    pub(crate) radius: f64,
+    /// Slopes of time and radius with respect to the place.
+    pub(crate) time_slope: f64,
+    pub(crate) radius_slope: f64,
+}
+
+/// Roots that are sought together.
+pub(crate) const LANES: usize = 4;
+
+/// Roots of T + X a - t in a piece.
+pub(crate) struct Roots<'a> {
+    pub(crate) time: &'a Polynomial,
+    pub(crate) radius: &'a Polynomial,
+    /// t
+    pub(crate) arrival: f64,
+    /// Largest place of a root.
+    pub(crate) latest: f64,
+}
+
+/// Newton's steps for all roots together; those that need more are found one by one.
+const TOGETHER: usize = 4;
+
+impl Roots<'_> {
+    /// The roots for up to `LANES` delays; `found` holds first guesses, where `again`.
+    pub(crate) fn find(&self, delays: &[f64], index: usize, again: bool, found: &mut [Departure]) {
+        let mut places = [0.5 * self.latest; LANES];
+        let mut lanes = [delays[0]; LANES];
+        lanes[..delays.len()].copy_from_slice(delays);
+        if again && found.iter().all(|one| one.piece == index) {
+            for (place, one) in places.iter_mut().zip(found.iter()) {
+                *place = one.place;
+            }
+        } else {
+            self.guess(&lanes, &mut places);
+        }
+        let mut steps = [0.0; LANES];
+        let (mut radii, mut radius_slopes) = ([0.0; LANES], [0.0; LANES]);
+        let (mut times, mut time_slopes) = ([0.0; LANES], [0.0; LANES]);
+        for _ in 0..TOGETHER {
+            self.time.jets(&places, &mut times, &mut time_slopes);
+            self.radius.jets(&places, &mut radii, &mut radius_slopes);
+            let mut largest = 0.0_f64;
+            for l in 0..LANES {
+                let miss = times[l] + lanes[l] * radii[l] - self.arrival;
+                steps[l] = -miss / (time_slopes[l] + lanes[l] * radius_slopes[l]);
+                places[l] = (places[l] + steps[l]).clamp(0.0, self.latest);
+                largest = largest.max(steps[l].abs());
+            }
+            if largest < CLOSE {
+                break;
+            }
+        }
+        for (l, one) in found.iter_mut().enumerate() {
+            // the next step would be below the last digit; the larger root at the very end is not meant
+            let rises = time_slopes[l] + lanes[l] * radius_slopes[l] > 0.0;
+            let inside = places[l] > 0.0 && places[l] < self.latest;
+            *one = if steps[l].abs() < CLOSE && rises && inside {
+                Departure {
+                    piece: index,
+                    place: places[l],
+                    radius: radii[l] + radius_slopes[l] * steps[l],
+                    time_slope: time_slopes[l],
+                    radius_slope: radius_slopes[l],
+                }
+            } else {
+                self.bracketed(lanes[l], index)
+            };
+        }
+    }
+
+    /// Secants over the piece.
+    fn guess(&self, delays: &[f64; LANES], places: &mut [f64; LANES]) {
+        let (t0, a0) = (self.time.value(0.0), self.radius.value(0.0));
+        let (t1, ts) = self.time.jet(self.latest);
+        let (a1, a_s) = self.radius.jet(self.latest);
+        for (place, delay) in places.iter_mut().zip(delays) {
+            // the tangent at the end where it falls into the piece, else the secant
+            let miss = t1 + delay * a1 - self.arrival;
+            let tangent = self.latest - miss / (ts + delay * a_s);
+            let low = self.arrival - t0 - delay * a0;
+            let secant = self.latest * low / (low + miss);
+            let first = if tangent > 0.3 * self.latest && tangent < self.latest {
+                tangent
+            } else {
+                secant
+            };
+            *place = if first > 0.0 && first < self.latest {
+                first
+            } else {
+                0.5 * self.latest
+            };
+        }
+    }
+
+    /// Newton's iterations inside a bracket; the earliest root in (0, latest).
+    fn bracketed(&self, delay: f64, index: usize) -> Departure {
+        let late = |place: f64| {
+            let (time, time_slope) = self.time.jet(place);
+            let (radius, radius_slope) = self.radius.jet(place);
+            let miss = time + delay * radius - self.arrival;
+            (miss, time_slope + delay * radius_slope)
+        };
+        let [before, place] = rising_root(late, [0.0, self.latest], 0.5 * self.latest, 5e-16);
+        let (radius, radius_slope) = self.radius.jet(before);
+        Departure {
+            piece: index,
+            place,
+            radius: radius + radius_slope * (place - before),
+            time_slope: self.time.jet(before).1,
+            radius_slope,
+        }
+    }
+}

@@ -1,0 +1,116 @@
+//! What the solution takes for granted: that waves which left one after the other arrive so, and that the
+//! surface does not come back to the striker.
+//!
+//! After the end t_e nothing presses, and what is left of the deflection relaxes as
+//!
+//! ```text
+//! w'(t) = -2 phi sum_k (m_k/X_k) (a_1 - a_2),    T + X_k a = t at two times, T_1 < T_2 < t_e
+//! ```
+//!
+//! since waves of the shrinking contact are younger the later they left, but smaller.
+
+use crate::growing::arrivals::Piece;
+use crate::growing::waves::{GrowingContact, Rule};
+
+/// Samples of a piece.
+const SAMPLES: usize = 6;
+
+/// Times after the end at which the gap is looked at.
+const LOOKS: usize = 8;
+
+/// Level of the rule over the waves for the gap.
+const LEVEL: usize = 1;
+
+/// Depth of a second contact that is not told from the error of the gap.
+const NOISE: f64 = 1e-6;
+
+/// Part of the largest radius below which departures are not looked at: the last instants are known to
+/// the accuracy only.
+const SMALL: f64 = 1e-2;
+
+/// When waves that left at different times arrive together, if they do.
+///
+/// At the arrival t the age of a wave over the radius that it left, (t - T)/a, has to grow with the age.
+pub(crate) fn folds(pieces: &[Piece], contact: &GrowingContact<'_>) -> Option<f64> {
+    let end = pieces.last()?.to.0;
+    let top = (0..pieces.len()).max_by(|&a, &b| pieces[a].to.1.total_cmp(&pieces[b].to.1))?;
+    let widest = pieces[top].to.1;
+    let memory = contact.waves.memory() * contact.wave_time;
+    for piece in &pieces[top..] {
+        for i in 1..=SAMPLES {
+            let place = i as f64 / SAMPLES as f64;
+            let (time, time_slope) = piece.time.jet(place);
+            let (radius, radius_slope) = piece.radius.jet(place);
+            if radius < SMALL * widest || radius_slope >= 0.0 {
+                continue;
+            }
+            let age = memory.min((end - time) / radius);
+            if time_slope + age * radius_slope < 0.0 {
+                return Some(time);
+            }
+        }
+    }
+    None
+}
+
+/// When the surface overtakes the striker after the end, if it does.
+pub(crate) fn strikes_again(
+    pieces: &[Piece],
+    contact: &GrowingContact<'_>,
+    velocity: f64,
+) -> Option<f64> {
+    let end = pieces.last()?.to.0;
+    if velocity >= 0.0 {
+        return Some(end);
+    }
+    let sample = |piece: &Piece, i: usize| {
+        let place = i as f64 / SAMPLES as f64;
+        (piece.time.value(place), piece.radius.value(place).max(0.0))
+    };
+    let samples: Vec<(f64, f64)> = pieces
+        .iter()
+        .flat_map(|piece| (1..=SAMPLES).map(move |i| sample(piece, i)))
+        .collect();
+    let widest = samples.iter().fold(0.0_f64, |m, &(_, a)| m.max(a));
+    let memory = contact.waves.memory() * contact.wave_time * widest;
+    let rule = contact.waves.rule(LEVEL);
+    let gap_rate = |t: f64| velocity - relaxing(&samples, contact, rule, t);
+    // the gap opens first; it closes where the surface is faster than the striker for long enough
+    let (mut gap, mut before) = (0.0_f64, end);
+    for i in 0..LOOKS {
+        let t = end + memory * ((i as f64 + 0.5) / LOOKS as f64).powi(2);
+        gap += gap_rate(t) * (t - before);
+        before = t;
+        if gap > NOISE {
+            return Some(t);
+        }
+    }
+    None
+}
+
+/// Velocity of the surface at a time after the end.
+fn relaxing(samples: &[(f64, f64)], contact: &GrowingContact<'_>, rule: &Rule, t: f64) -> f64 {
+    let mut sum = 0.0;
+    for (delay, rate) in rule.delays.iter().zip(&rule.rates) {
+        let late = |&(time, radius): &(f64, f64)| time + delay * contact.wave_time * radius - t;
+        // from the end back: waves that have not come, then those that have, then the oldest, long gone
+        let mut radii = [0.0; 2];
+        let mut under = true;
+        let mut crossings = 0;
+        for pair in samples.windows(2).rev() {
+            let (young, old) = (late(&pair[1]), late(&pair[0]));
+            if (old < 0.0) != under {
+                let part = young / (young - old);
+                if crossings < 2 {
+                    radii[crossings] = pair[1].1 + part * (pair[0].1 - pair[1].1);
+                }
+                crossings += 1;
+                under = !under;
+            }
+        }
+        if crossings >= 2 {
+            sum += rate * (radii[1] - radii[0]);
+        }
+    }
+    -2.0 * contact.target_share * sum / contact.wave_time
+}

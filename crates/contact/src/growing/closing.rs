@@ -1,0 +1,120 @@
+//! Pieces in the radius until it is zero.
+//!
+//! The end of contact is then the time at a known place.
+//! In the last instants the contact is so small that its waves cross it in no time: the time left goes
+//! from a^2 over the velocity to a smaller multiple of it, for a stiff striker to nearly a power one of a.
+
+use crate::growing::arrivals::Piece;
+use crate::growing::equations::{Independent, Values};
+use crate::growing::march::March;
+use crate::growing::polynomial::{LARGEST, Polynomial};
+
+/// Pieces at most, tried ones included.
+const MOST: usize = 200;
+
+/// Error of the time left when it is taken from the power law of the last piece.
+const POWER_LAW: f64 = 0.2;
+
+/// Time left, over the accuracy, that is not resolved.
+const NEGLIGIBLE: f64 = 2.0;
+
+/// The same where no shorter piece is found either.
+const LOST: f64 = 30.0;
+
+impl March<'_> {
+    /// # Errors
+    /// The time in collision units where no piece is short enough.
+    pub(crate) fn close(&mut self) -> Result<(), f64> {
+        let mut ratio = 0.3;
+        // dt/da ~ a^(power - 1)
+        let mut power = 2.0_f64;
+        let mut again = 0;
+        let (phi, wave_time) = (self.contact.target_share, self.contact.wave_time);
+        let bare = (self.accuracy / (0.01 * phi * wave_time)).max(0.3 * wave_time);
+        for _ in 0..MOST {
+            let from = self.state.radius;
+            let rate = 2.0 * from / -self.state.slope;
+            let left = rate * from / power;
+            if left < NEGLIGIBLE * self.accuracy || again > 5 && left < LOST * self.accuracy {
+                self.end_by_power_law(left, power);
+                return Ok(());
+            }
+            if from < 3.0 * wave_time {
+                self.level = self.level.max(self.least_level());
+            }
+            let last = from < bare && again == 0;
+            let to = if last { 0.0 } else { ratio * from };
+            let given = Polynomial::power(from.sqrt(), to.sqrt() - from.sqrt(), 2);
+            let guess = self.power_law(&given, left, power);
+            match self.attempt(Independent::Radius, given, &guess) {
+                Some((solution, error)) if error <= 1.0 => {
+                    self.accept(Independent::Radius, &solution);
+                    if last {
+                        return Ok(());
+                    }
+                    again = 0;
+                    let rise = to / -self.state.slope / (0.5 * rate);
+                    power = (1.0 + rise.ln() / (to / from).ln()).clamp(0.7, 2.0);
+                    ratio = (1.0 - (1.0 - ratio) * self.factor(error)).clamp(0.1, 0.8);
+                }
+                Some(_) | None => {
+                    if !last {
+                        ratio = 1.0 - 0.6 * (1.0 - ratio);
+                    }
+                    again += 1;
+                    if again > 1 && self.level < 7 {
+                        self.level += 1;
+                    }
+                    if ratio > 0.999 {
+                        break;
+                    }
+                }
+            }
+        }
+        Err(self.state.time)
+    }
+
+    /// Level of the rule over the waves below which the last instants have no solution: with few waves the
+    /// stiff striker's contact does not open steadily.
+    fn least_level(&self) -> usize {
+        let coupling = match self.contact.target_share {
+            phi if phi > 0.9 => 3,
+            phi if phi > 0.5 => 2,
+            _ => 1,
+        };
+        coupling + usize::from(self.accuracy < 1e-6)
+    }
+
+    /// Times at the nodes by t = t_0 + left (1 - (a/a_0)^power).
+    fn power_law(&self, radius: &Polynomial, left: f64, power: f64) -> Values {
+        let mut times = [0.0; LARGEST + 1];
+        for (time, &s) in times.iter_mut().zip(&self.nodes.places) {
+            let a = radius.value(s).max(0.0) / self.state.radius;
+            *time = self.state.time + left * (1.0 - a.powf(power));
+        }
+        times
+    }
+
+    /// The last piece by the power law: shorter than the error.
+    fn end_by_power_law(&mut self, left: f64, power: f64) {
+        let from = self.state;
+        let radius = Polynomial::power(from.radius.sqrt(), -from.radius.sqrt(), 2);
+        let times = self.power_law(&radius, left, power);
+        let mut places = times;
+        for place in &mut places {
+            *place = from.displacement + from.velocity * (*place - from.time);
+        }
+        self.errors.end += POWER_LAW * left;
+        self.state.time += left;
+        self.state.radius = 0.0;
+        self.state.displacement += from.velocity * left;
+        self.pieces.push(Piece {
+            time: self.nodes.polynomial(&times),
+            radius,
+            velocity: Polynomial::constant(from.velocity),
+            displacement: self.nodes.polynomial(&places),
+            from: (from.time, from.radius),
+            to: (self.state.time, 0.0),
+        });
+    }
+}

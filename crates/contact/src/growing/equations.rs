@@ -1,0 +1,263 @@
+//! The equations of a piece at its nodes and their derivatives.
+//!
+//! Along a piece time T and radius a are functions of a place s in [0, 1]; one of them is known.
+//!
+//! ```text
+//! (v - 2 phi S) T' = 2 (1 - phi) a a',    S = sum_k (m_k/X_k) (a - a_k),    T_k + X_k a_k = t
+//! v = v_0 - (5/4) int a^3 T' ds
+//! ```
+
+use crate::growing::arrivals::{Arrival, Departure, Piece};
+use crate::growing::nodes::{Factors, Nodes};
+use crate::growing::polynomial::{LARGEST, Polynomial, dot};
+use crate::growing::waves::{GrowingContact, Rule};
+use crate::units::INVERSE_MASS;
+
+/// What is known where a piece starts or ends.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct State {
+    pub(crate) time: f64,
+    pub(crate) radius: f64,
+    pub(crate) velocity: f64,
+    pub(crate) displacement: f64,
+    /// Slope of the indentation a^2.
+    pub(crate) slope: f64,
+}
+
+/// What a piece is a function of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Independent {
+    /// The radius is sought as a function of time.
+    Time,
+    /// The time is sought as a function of the radius, which falls.
+    Radius,
+}
+
+/// Values at 0 and the nodes.
+pub(crate) type Values = [f64; LARGEST + 1];
+
+/// What the equations of a piece are made of.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Equations<'a> {
+    pub(crate) contact: GrowingContact<'a>,
+    pub(crate) nodes: &'a Nodes,
+    /// The pieces before.
+    pub(crate) pieces: &'a [Piece],
+    pub(crate) start: State,
+    pub(crate) known: Independent,
+    /// What is known: the time or the radius.
+    pub(crate) given: Polynomial,
+}
+
+/// Time, radius and what follows from them at 0 and the nodes.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Motion {
+    pub(crate) time: Values,
+    pub(crate) radius: Values,
+    /// Slopes with respect to the place.
+    pub(crate) time_slope: Values,
+    pub(crate) radius_slope: Values,
+    pub(crate) velocity: Values,
+}
+
+/// The departures of all waves to all nodes.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Departures {
+    found: Vec<Departure>,
+    delays: Vec<f64>,
+}
+
+/// Residuals and the sums S at the nodes.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Residual {
+    pub(crate) value: [f64; LARGEST],
+    drive: [f64; LARGEST],
+}
+
+impl Equations<'_> {
+    /// Polynomials of time and radius through values of what is sought.
+    pub(crate) fn polynomials(&self, sought: &Values) -> (Polynomial, Polynomial) {
+        let sought = self.nodes.polynomial(sought);
+        match self.known {
+            Independent::Time => (self.given, sought),
+            Independent::Radius => (sought, self.given),
+        }
+    }
+
+    /// What follows from values of what is sought.
+    pub(crate) fn motion(&self, sought: &Values) -> Motion {
+        let n = self.nodes.degree;
+        let mut given = [0.0; LARGEST + 1];
+        let (mut given_slope, mut sought_slope) = ([0.0; LARGEST + 1], [0.0; LARGEST + 1]);
+        for (i, &s) in self.nodes.places.iter().enumerate() {
+            (given[i], given_slope[i]) = self.given.jet(s);
+        }
+        for (i, slope) in sought_slope.iter_mut().enumerate().take(n + 1).skip(1) {
+            *slope = dot(self.nodes.slope_row(i), &sought[..=n]);
+        }
+        let (time, radius, time_slope, radius_slope) = match self.known {
+            Independent::Time => (given, *sought, given_slope, sought_slope),
+            Independent::Radius => (*sought, given, sought_slope, given_slope),
+        };
+        let mut impulse = [0.0; LARGEST];
+        for j in 1..=n {
+            impulse[j - 1] = radius[j].powi(3) * time_slope[j];
+        }
+        let mut velocity = [self.start.velocity; LARGEST + 1];
+        for (i, v) in velocity.iter_mut().enumerate().take(n + 1).skip(1) {
+            *v -= INVERSE_MASS * dot(self.nodes.integral_row(i), &impulse[..n]);
+        }
+        Motion {
+            time,
+            radius,
+            time_slope,
+            radius_slope,
+            velocity,
+        }
+    }
+
+    /// Residuals; the departures are those of a nearby motion on entry, or empty.
+    pub(crate) fn residual(
+        &self,
+        rule: &Rule,
+        sought: &Values,
+        motion: &Motion,
+        departures: &mut Departures,
+    ) -> Residual {
+        let n = self.nodes.degree;
+        let GrowingContact {
+            target_share,
+            wave_time,
+            ..
+        } = self.contact;
+        let (time_of, radius_of) = self.polynomials(sought);
+        let size = rule.delays.len();
+        let again = departures.found.len() == n * size;
+        if !again {
+            departures.found.clear();
+            departures.found.resize(n * size, Departure::default());
+            departures.delays.clear();
+            departures
+                .delays
+                .extend(rule.delays.iter().map(|delay| delay * wave_time));
+        }
+        let mut residual = Residual {
+            value: [0.0; LARGEST],
+            drive: [0.0; LARGEST],
+        };
+        for i in 1..=n {
+            let arrival = Arrival {
+                time_of: &time_of,
+                radius_of: &radius_of,
+                from: (self.start.time, self.start.radius),
+                place: self.nodes.places[i],
+                time: motion.time[i],
+            };
+            let found = &mut departures.found[(i - 1) * size..i * size];
+            arrival.departures(self.pieces, &departures.delays, again, found);
+            let parts = rule.rates.iter().zip(found.iter());
+            let sum: f64 = parts
+                .map(|(rate, left)| rate * (motion.radius[i] - left.radius))
+                .sum();
+            let drive = motion.velocity[i] - 2.0 * target_share * sum / wave_time;
+            let elastic = 2.0 * (1.0 - target_share) * motion.radius[i] * motion.radius_slope[i];
+            residual.value[i - 1] = drive * motion.time_slope[i] - elastic;
+            residual.drive[i - 1] = drive;
+        }
+        residual
+    }
+
+    /// Derivatives of the residuals with respect to what is sought, at the departures of the residual.
+    pub(crate) fn jacobian(
+        &self,
+        rule: &Rule,
+        motion: &Motion,
+        residual: &Residual,
+        departures: &Departures,
+        matrix: &mut Factors,
+    ) {
+        let n = self.nodes.degree;
+        let size = rule.delays.len();
+        let velocity = self.velocity_by_impulse(motion);
+        for i in 1..=n {
+            let found = &departures.found[(i - 1) * size..i * size];
+            let (sums, own) = self.tension_row(rule, found, &departures.delays);
+            let slopes = self.nodes.slope_row(i);
+            let line = matrix.row(i - 1);
+            let tension = 2.0 * self.contact.target_share / self.contact.wave_time;
+            let rest = 2.0 * (1.0 - self.contact.target_share);
+            for l in 1..=n {
+                let by_velocity: f64 = match self.known {
+                    Independent::Time => {
+                        self.nodes.integral_row(i)[l - 1] * velocity[(l - 1) * n + l - 1]
+                    }
+                    Independent::Radius => {
+                        let integral = self.nodes.integral_row(i);
+                        (0..n).map(|j| integral[j] * velocity[j * n + l - 1]).sum()
+                    }
+                };
+                let own = if l == i { own } else { 0.0 };
+                let by_drive = by_velocity - tension * (own - sums[l]);
+                line[l - 1] = by_drive * motion.time_slope[i]
+                    + match self.known {
+                        Independent::Time => {
+                            let here = if l == i { motion.radius_slope[i] } else { 0.0 };
+                            -rest * (motion.radius[i] * slopes[l] + here)
+                        }
+                        Independent::Radius => residual.drive[i - 1] * slopes[l],
+                    };
+            }
+        }
+    }
+
+    /// Row j: what is sought in the impulse -(5/4) a^3 T' of node j.
+    fn velocity_by_impulse(&self, motion: &Motion) -> [f64; LARGEST * LARGEST] {
+        let n = self.nodes.degree;
+        let mut rows = [0.0; LARGEST * LARGEST];
+        for j in 1..=n {
+            let row = &mut rows[(j - 1) * n..j * n];
+            let a = motion.radius[j];
+            match self.known {
+                Independent::Time => {
+                    row[j - 1] = -INVERSE_MASS * 3.0 * a * a * motion.time_slope[j];
+                }
+                Independent::Radius => {
+                    let slopes = &self.nodes.slope_row(j)[1..];
+                    for (entry, slope) in row.iter_mut().zip(slopes) {
+                        *entry = -INVERSE_MASS * a.powi(3) * slope;
+                    }
+                }
+            }
+        }
+        rows
+    }
+
+    /// Derivatives of S times the wave time at a node: with respect to what is sought at each node (with
+    /// the sign turned) and, beside it, at the node itself.
+    fn tension_row(&self, rule: &Rule, found: &[Departure], delays: &[f64]) -> (Values, f64) {
+        let mut sums = [0.0; LARGEST + 1];
+        let mut basis = [0.0; LARGEST + 1];
+        let mut own = 0.0;
+        for ((left, &delay), &rate) in found.iter().zip(delays).zip(&rule.rates) {
+            let speed = left.time_slope + delay * left.radius_slope;
+            let weight = match self.known {
+                // a_k follows the polynomial at its place, which moves
+                Independent::Time => {
+                    own += rate;
+                    rate * left.time_slope / speed
+                }
+                Independent::Radius => {
+                    own -= rate * left.radius_slope / speed;
+                    -rate * left.radius_slope / speed
+                }
+            };
+            if left.piece == self.pieces.len() {
+                self.nodes.lagrange(left.place, &mut basis);
+                for (sum, value) in sums.iter_mut().zip(&basis[..=self.nodes.degree]) {
+                    *sum += weight * value;
+                }
+            }
+        }
+        (sums, own)
+    }
+}

@@ -1,0 +1,281 @@
+//! Pieces after pieces from the touch until the contact has mostly opened.
+
+use crate::growing::arrivals::Piece;
+use crate::growing::equations::{Equations, Independent, State, Values};
+use crate::growing::nodes::Nodes;
+use crate::growing::polynomial::{LARGEST, Polynomial};
+use crate::growing::step::{Solution, Step};
+use crate::growing::waves::{GrowingContact, LEVELS};
+use crate::law::hertz::CONTACT_TIME;
+use crate::units::INVERSE_MASS;
+
+/// A contact on its way.
+#[derive(Debug)]
+pub(crate) struct March<'a> {
+    pub(crate) contact: GrowingContact<'a>,
+    /// Error that a piece may leave: of the force, in the end of the time.
+    pub(crate) accuracy: f64,
+    pub(crate) nodes: &'static Nodes,
+    pub(crate) pieces: Vec<Piece>,
+    pub(crate) state: State,
+    /// Of the rule over the waves.
+    pub(crate) level: usize,
+    /// Largest radius.
+    pub(crate) widest: f64,
+    /// int p (v - u') dt.
+    pub(crate) dissipated: f64,
+    pub(crate) errors: Errors,
+}
+
+/// Sums of the errors that the pieces estimate of themselves.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Errors {
+    /// Largest of the force at a time.
+    pub(crate) force: f64,
+    /// Of the momentum.
+    pub(crate) momentum: f64,
+    /// Of the end of contact.
+    pub(crate) end: f64,
+    /// Of the work done on the half-space.
+    pub(crate) work: f64,
+}
+
+/// What is left of a change by the finer rule over the waves, at most.
+const LEFT: f64 = 0.3;
+
+/// Error at the end of a smooth piece over that inside.
+const SMOOTH: f64 = 0.1;
+
+/// Pieces at most, tried ones included.
+const MOST: usize = 1500;
+
+/// Radius over the largest from which on the radius is the variable.
+const SWITCH: f64 = 0.75;
+
+/// Slope of the indentation below which the time to the expected end is the variable.
+const LATE: f64 = 0.5;
+
+/// Largest part of the root of the time left that a piece takes.
+const LONGEST: f64 = 0.45;
+
+/// Change by the finer rule that is allowed, over the error of a piece: what is left of it is smaller.
+const CORRECTED: f64 = 1.0;
+
+/// Change by the finer rule, over the error of a piece, below which the next piece takes a coarser rule.
+const COARSER: f64 = 1e-2;
+
+impl<'a> March<'a> {
+    pub(crate) fn new(contact: GrowingContact<'a>, accuracy: f64) -> Self {
+        let degree = (1.0 - accuracy.log10()).round().clamp(5.0, 12.0);
+        Self {
+            contact,
+            accuracy,
+            nodes: Nodes::of(degree as usize),
+            pieces: Vec::with_capacity(32),
+            state: State {
+                time: 0.0,
+                radius: 0.0,
+                velocity: 1.0,
+                displacement: 0.0,
+                slope: 1.0,
+            },
+            level: 2,
+            widest: 0.0,
+            dissipated: 0.0,
+            errors: Errors::default(),
+        }
+    }
+
+    /// Tries a piece, with a rule over the waves that is fine enough: its solution and the estimated error
+    /// over the allowed one.
+    pub(crate) fn attempt(
+        &mut self,
+        known: Independent,
+        given: Polynomial,
+        guess: &Values,
+    ) -> Option<(Solution, f64)> {
+        let mut guess = *guess;
+        loop {
+            let rules = [self.level, self.level + 1].map(|level| self.contact.waves.rule(level));
+            let equations = Equations {
+                contact: self.contact,
+                nodes: self.nodes,
+                pieces: &self.pieces,
+                start: self.state,
+                known,
+                given,
+            };
+            let accuracy = self.accuracy;
+            let solution = Step {
+                equations,
+                rules,
+                accuracy,
+            }
+            .solve(&guess)?;
+            // of the force where the radius is sought
+            let weight = match known {
+                Independent::Time => 3.0 * solution.widest * solution.widest,
+                Independent::Radius => 1.0,
+            };
+            let error = solution.truncated * weight / self.accuracy;
+            if error > 1.0 {
+                return Some((solution, error));
+            }
+            let miss = solution.waves * weight / (CORRECTED * self.accuracy);
+            if miss > 1.0 && self.level + 2 < LEVELS {
+                self.level += 1;
+                guess = solution.sought;
+                continue;
+            }
+            if miss < COARSER && self.level > 0 && known == Independent::Time {
+                self.level -= 1;
+            }
+            return Some((solution, error));
+        }
+    }
+
+    /// Takes a piece.
+    pub(crate) fn accept(&mut self, known: Independent, solution: &Solution) {
+        let duration = solution.end.time - self.state.time;
+        let error = solution.truncated + LEFT * solution.waves;
+        let force = 3.0 * solution.widest * solution.widest;
+        match known {
+            Independent::Time => {
+                self.errors.force = self.errors.force.max(force * error);
+                self.errors.momentum += force * error * duration;
+            }
+            Independent::Radius => {
+                let steepest = force * (self.state.radius - solution.end.radius) / duration;
+                self.errors.force = self.errors.force.max(steepest * error);
+                self.errors.momentum += solution.widest.powi(3) * error;
+                // the end of a piece converges at twice the order, but in the layer of the last instants
+                let layer = solution.end.radius < 3.0 * self.contact.wave_time;
+                self.errors.end += if layer { error } else { SMOOTH * error };
+            }
+        }
+        // the rate of the lag is a difference of slopes
+        let slopes = (self.nodes.degree * self.nodes.degree) as f64;
+        self.errors.work +=
+            solution.dissipated.abs() * error * slopes / solution.widest.max(duration);
+        self.pieces.push(solution.piece);
+        self.state = solution.end;
+        self.dissipated += solution.dissipated;
+        self.widest = self.widest.max(solution.widest);
+    }
+
+    /// Change of length that an error over the allowed one asks for.
+    pub(crate) fn factor(&self, error: f64) -> f64 {
+        let power = 1.0 / self.nodes.degree as f64;
+        (0.5 / error.max(1e-12)).powf(power).clamp(0.2, 3.0)
+    }
+
+    /// Pieces in time until the radius has fallen below most of its largest.
+    ///
+    /// They are polynomials of the root of the time since the touch, later of the root of the time to the
+    /// expected end: Hertz's contact is analytic in these over most of its duration.
+    ///
+    /// # Errors
+    /// The time in collision units where no piece is short enough.
+    pub(crate) fn load(&mut self) -> Result<(), f64> {
+        let mut length = self.first_length();
+        let mut late = false;
+        for _ in 0..MOST {
+            let first = self.pieces.is_empty();
+            let expected = if first {
+                CONTACT_TIME
+            } else {
+                self.expected_end()
+            };
+            if !first && late != (self.state.slope < LATE) {
+                late = !late;
+                length = 1.0;
+            }
+            let given = if late {
+                length = length.min(LONGEST);
+                let left = (expected - self.state.time).sqrt();
+                Polynomial::power(left, -length * left, 2).below(expected)
+            } else {
+                let since = self.state.time.sqrt();
+                length = length.min(LONGEST * (expected.sqrt() - since));
+                Polynomial::power(since, length, 2)
+            };
+            let guess = if first {
+                self.first_guess(length)
+            } else {
+                self.guess(&given)
+            };
+            match self.attempt(Independent::Time, given, &guess) {
+                Some((solution, error)) if error <= 1.0 => {
+                    self.accept(Independent::Time, &solution);
+                    length *= self.factor(error);
+                    if self.state.slope < 0.0 && self.state.radius < SWITCH * self.widest {
+                        return Ok(());
+                    }
+                }
+                Some((_, error)) if first => length *= self.factor(error).powi(2),
+                Some((_, error)) => length *= self.factor(error).min(0.7),
+                None => length *= 0.3,
+            }
+            if length < 1e-9 {
+                break;
+            }
+        }
+        Err(self.state.time)
+    }
+
+    /// Root of the duration of the first piece.
+    ///
+    /// Where the layer of the waves, phi tau in the radius, is not resolved its error of the force is
+    /// phi tau s^2; a tenth of the layer is.
+    fn first_length(&self) -> f64 {
+        let layer = self.contact.target_share * self.contact.wave_time;
+        let unresolved = (self.accuracy / (1.2 * layer)).sqrt();
+        unresolved.max(0.1 * self.contact.wave_time).min(0.3)
+    }
+
+    /// Time at which Hertz's contact would end from here, to a hundredth.
+    fn expected_end(&self) -> f64 {
+        let (u, rate) = (self.state.radius.powi(2), self.state.slope);
+        let energy = rate * rate + u.powf(2.5);
+        let top = energy.powf(0.4);
+        let half = 0.5 * CONTACT_TIME * top / energy.sqrt();
+        let x = (1.0 - u / top).max(0.0);
+        let away = half * x.sqrt() * (1.0 - 0.25 * x * (1.0 - x));
+        self.state.time + half + if rate > 0.0 { away } else { -away }
+    }
+
+    /// A first guess of the radius over the first piece: the law with a relaxation that decays exponentially.
+    fn first_guess(&self, length: f64) -> Values {
+        let mut guess = [0.0; LARGEST + 1];
+        let relaxation = self.contact.waves.relaxation_time() * self.contact.wave_time;
+        for (a, s) in guess.iter_mut().zip(&self.nodes.places).skip(1) {
+            let t = (length * s).powi(2);
+            let mut u = t;
+            for _ in 0..4 {
+                let rest = (-t / (relaxation * u.sqrt())).exp();
+                u = t / (1.0 - self.contact.target_share * rest).max(1e-12);
+            }
+            *a = u.sqrt();
+        }
+        guess
+    }
+
+    /// Hertz's contact from the state on, as a guess.
+    fn guess(&self, time: &Polynomial) -> Values {
+        let mut guess = [0.0; LARGEST + 1];
+        guess[0] = self.state.radius;
+        let (mut u, mut rate) = (self.state.radius.powi(2), self.state.slope);
+        let least = 0.01 * self.widest * self.widest;
+        let mut before = self.state.time;
+        for (a, &s) in guess.iter_mut().zip(&self.nodes.places).skip(1) {
+            let now = time.value(s);
+            let step = now - before;
+            before = now;
+            let middle = u + 0.5 * step * rate;
+            rate -= step * INVERSE_MASS * middle.max(0.0).powf(1.5);
+            u = (middle + 0.5 * step * rate).max(least);
+            *a = u.sqrt();
+        }
+        guess
+    }
+}

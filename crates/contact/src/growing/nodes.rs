@@ -1,0 +1,320 @@
+//! Collocation at Radau's nodes: what a piece of degree n needs, made once for each n, and its small linear systems.
+
+use crate::growing::polynomial::{LARGEST, Polynomial, dot};
+use crate::numeric::gauss::{gauss, legendre, radau};
+use std::sync::OnceLock;
+
+/// Matrices of the polynomials of degree n through 0 and the n nodes of Radau's rule on (0, 1].
+#[derive(Debug)]
+pub(crate) struct Nodes {
+    /// Degree n.
+    pub(crate) degree: usize,
+    /// 0 and the nodes.
+    pub(crate) places: Vec<f64>,
+    /// Weights of the nodes (not of 0): exact to degree 2 n - 2.
+    pub(crate) weights: Vec<f64>,
+    /// Slope at node i (row, from the first node on) from the values at 0 and the nodes.
+    slope: Vec<f64>,
+    /// Integral from 0 to node i of the polynomial of degree n - 1 through the nodes.
+    integral: Vec<f64>,
+    /// Legendre coefficients from the values at 0 and the nodes.
+    modes: Vec<f64>,
+    /// Coefficients of the powers of 2 s - 1 from those of Legendre's polynomials.
+    powers: Vec<f64>,
+    /// Barycentric weights of 0 and the nodes.
+    barycentric: Vec<f64>,
+}
+
+impl Nodes {
+    /// The nodes of a degree in [2, `LARGEST`].
+    pub(crate) fn of(degree: usize) -> &'static Self {
+        static ALL: [OnceLock<Nodes>; LARGEST + 1] = [const { OnceLock::new() }; LARGEST + 1];
+        let degree = degree.clamp(2, LARGEST);
+        ALL[degree].get_or_init(|| Self::new(degree))
+    }
+
+    fn new(n: usize) -> Self {
+        let inner = radau(n);
+        let places: Vec<f64> = [0.0].into_iter().chain(inner.iter().copied()).collect();
+        let barycentric: Vec<f64> = (0..=n)
+            .map(|i| {
+                let others = (0..=n).filter(|&j| j != i);
+                1.0 / others
+                    .map(|j| 2.0 * (places[i] - places[j]))
+                    .product::<f64>()
+            })
+            .collect();
+        let mut slope = vec![0.0; n * (n + 1)];
+        for i in 1..=n {
+            let row = &mut slope[(i - 1) * (n + 1)..i * (n + 1)];
+            for j in (0..=n).filter(|&j| j != i) {
+                row[j] = barycentric[j] / barycentric[i] / (places[i] - places[j]);
+            }
+            row[i] = -row.iter().sum::<f64>();
+        }
+        let lagrange = |x: f64, j: usize| {
+            let others = (0..n).filter(|&k| k != j);
+            others
+                .map(|k| (x - inner[k]) / (inner[j] - inner[k]))
+                .product::<f64>()
+        };
+        let rule = gauss(n / 2 + 1);
+        let mut integral = vec![0.0; n * n];
+        for i in 0..n {
+            for j in 0..n {
+                integral[i * n + j] = rule
+                    .iter()
+                    .map(|&(x, w)| w * inner[i] * lagrange(inner[i] * x, j))
+                    .sum();
+            }
+        }
+        let weights = integral[(n - 1) * n..].to_vec();
+        let vandermonde: Vec<f64> = places
+            .iter()
+            .flat_map(|s| (0..=n).map(move |k| legendre(k, 2.0 * s - 1.0).1))
+            .collect();
+        Self {
+            degree: n,
+            modes: inverse(&vandermonde, n + 1),
+            powers: powers(n),
+            places,
+            weights,
+            slope,
+            integral,
+            barycentric,
+        }
+    }
+
+    /// Slope with respect to s at node i in 1..=n.
+    pub(crate) fn slope_row(&self, i: usize) -> &[f64] {
+        let n = self.degree + 1;
+        &self.slope[(i - 1) * n..i * n]
+    }
+
+    /// Weights of the integral from 0 to node i in 1..=n.
+    pub(crate) fn integral_row(&self, i: usize) -> &[f64] {
+        let n = self.degree;
+        &self.integral[(i - 1) * n..i * n]
+    }
+
+    /// Legendre coefficients of values at 0 and the nodes.
+    pub(crate) fn modes(&self, values: &[f64], modes: &mut [f64]) {
+        let n = self.degree + 1;
+        for (mode, row) in modes.iter_mut().zip(self.modes.chunks_exact(n)) {
+            *mode = dot(row, values);
+        }
+    }
+
+    /// The polynomial of values at 0 and the nodes.
+    pub(crate) fn polynomial(&self, values: &[f64]) -> Polynomial {
+        let n = self.degree + 1;
+        let mut modes = [0.0; LARGEST + 1];
+        self.modes(values, &mut modes);
+        let mut found = Polynomial::constant(0.0);
+        found.degree = self.degree;
+        for (k, row) in self.powers.chunks_exact(n).enumerate() {
+            found.powers[k] = dot(&row[k..], &modes[k..]);
+        }
+        found
+    }
+
+    /// Values of Lagrange's polynomials at s; not at a node.
+    pub(crate) fn lagrange(&self, s: f64, values: &mut [f64]) {
+        let mut sum = 0.0;
+        for ((value, &weight), &place) in values.iter_mut().zip(&self.barycentric).zip(&self.places)
+        {
+            let distance = s - place;
+            *value = if distance == 0.0 {
+                1e300
+            } else {
+                weight / distance
+            };
+            sum += *value;
+        }
+        for value in &mut values[..=self.degree] {
+            *value /= sum;
+        }
+    }
+}
+
+/// Row k: what the Legendre polynomials of degree 0 to n hold of x^k.
+fn powers(n: usize) -> Vec<f64> {
+    let size = n + 1;
+    let mut rows = vec![0.0; size * size];
+    rows[0] = 1.0;
+    if n > 0 {
+        rows[size + 1] = 1.0;
+    }
+    for degree in 2..=n {
+        let d = degree as f64;
+        for k in 0..=degree {
+            let up = if k > 0 {
+                rows[(k - 1) * size + degree - 1]
+            } else {
+                0.0
+            };
+            rows[k * size + degree] =
+                ((2.0 * d - 1.0) * up - (d - 1.0) * rows[k * size + degree - 2]) / d;
+        }
+    }
+    rows
+}
+
+/// The triangular factors of a small dense matrix, rows exchanged.
+#[derive(Debug, Clone)]
+pub(crate) struct Factors {
+    size: usize,
+    matrix: [f64; LARGEST * LARGEST],
+    rows: [usize; LARGEST],
+}
+
+impl Factors {
+    /// Room for a matrix of `size` rows, filled by the caller.
+    pub(crate) fn room(size: usize) -> Self {
+        Self {
+            size,
+            matrix: [0.0; LARGEST * LARGEST],
+            rows: [0; LARGEST],
+        }
+    }
+
+    /// A row of the matrix, to be filled before [`Self::eliminate`].
+    pub(crate) fn row(&mut self, i: usize) -> &mut [f64] {
+        &mut self.matrix[i * self.size..(i + 1) * self.size]
+    }
+
+    /// Eliminates with row pivoting; false where the matrix is singular.
+    pub(crate) fn eliminate(&mut self) -> bool {
+        let n = self.size;
+        let matrix = &mut self.matrix[..n * n];
+        for k in 0..n {
+            let size = |i: usize| matrix[i * n + k].abs();
+            let pivot = (k + 1..n).fold(k, |best, i| if size(i) > size(best) { i } else { best });
+            self.rows[k] = pivot;
+            if pivot != k {
+                for j in 0..n {
+                    matrix.swap(k * n + j, pivot * n + j);
+                }
+            }
+            let diagonal = matrix[k * n + k];
+            if diagonal == 0.0 || !diagonal.is_finite() {
+                return false;
+            }
+            let (upper, lower) = matrix.split_at_mut((k + 1) * n);
+            let top = &upper[k * n + k + 1..];
+            for row in lower.chunks_exact_mut(n) {
+                let factor = row[k] / diagonal;
+                row[k] = factor;
+                for (a, b) in row[k + 1..].iter_mut().zip(top) {
+                    *a -= factor * b;
+                }
+            }
+        }
+        true
+    }
+
+    /// Solves for a right side in place.
+    pub(crate) fn solve(&self, right: &mut [f64]) {
+        let n = self.size;
+        for k in 0..n {
+            right.swap(k, self.rows[k]);
+        }
+        for k in 0..n {
+            let row = &self.matrix[k * n..k * n + k];
+            right[k] -= dot(row, &right[..k]);
+        }
+        for k in (0..n).rev() {
+            let row = &self.matrix[k * n + k..(k + 1) * n];
+            right[k] = (right[k] - dot(&row[1..], &right[k + 1..n])) / row[0];
+        }
+    }
+}
+
+/// The inverse of a matrix of n <= `LARGEST` + 1 rows, by Gauss and Jordan.
+pub(crate) fn inverse(matrix: &[f64], n: usize) -> Vec<f64> {
+    let mut left = matrix.to_vec();
+    let mut right: Vec<f64> = (0..n * n)
+        .map(|i| if i % (n + 1) == 0 { 1.0 } else { 0.0 })
+        .collect();
+    for k in 0..n {
+        let size = |i: usize| left[i * n + k].abs();
+        let pivot = (k + 1..n).fold(k, |best, i| if size(i) > size(best) { i } else { best });
+        for j in 0..n {
+            left.swap(k * n + j, pivot * n + j);
+            right.swap(k * n + j, pivot * n + j);
+        }
+        let diagonal = left[k * n + k];
+        for j in 0..n {
+            left[k * n + j] /= diagonal;
+            right[k * n + j] /= diagonal;
+        }
+        for i in (0..n).filter(|&i| i != k) {
+            let factor = left[i * n + k];
+            for j in 0..n {
+                left[i * n + j] -= factor * left[k * n + j];
+                right[i * n + j] -= factor * right[k * n + j];
+            }
+        }
+    }
+    right
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_polynomial_is_met_with_its_slope_and_integral() {
+        for n in 2..=LARGEST {
+            let nodes = Nodes::of(n);
+            let f = |s: f64| 1.0 / (2.0 + s);
+            let values: Vec<f64> = nodes.places.iter().map(|&s| f(s)).collect();
+            let found = nodes.polynomial(&values);
+            let error = 4.0 * 9.9_f64.powi(-(n as i32)) + 1e-13;
+            for s in [0.0, 0.013, 0.2, 0.77, 1.0] {
+                let (value, slope) = found.jet(s);
+                assert!((value - f(s)).abs() < error, "{n}");
+                assert_eq!(value, found.value(s));
+                assert!((slope + f(s).powi(2)).abs() < 100.0 * error, "{n}");
+                let mut basis = [0.0; LARGEST + 1];
+                nodes.lagrange(s, &mut basis);
+                let sum: f64 = basis.iter().zip(&values).map(|(a, b)| a * b).sum();
+                assert!((sum - value).abs() < 1e-13);
+            }
+            let rows = (1..=n).map(|i| (i, nodes.slope_row(i), nodes.integral_row(i)));
+            for (i, slope, integral) in rows {
+                let s = nodes.places[i];
+                let sum: f64 = slope.iter().zip(&values).map(|(a, b)| a * b).sum();
+                assert!((sum - found.jet(s).1).abs() < 1e-11, "{n} {i}");
+                let sum: f64 = integral.iter().zip(&values[1..]).map(|(a, b)| a * b).sum();
+                assert!((sum - ((2.0 + s) / 2.0).ln()).abs() < error, "{n} {i}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_system_that_needs_its_rows_exchanged() {
+        let matrix = [0.0, 2.0, 1.0, 1.0, 1.0, 0.0, 3.0, 0.0, 1.0];
+        let mut factors = Factors::room(3);
+        for i in 0..3 {
+            factors.row(i).copy_from_slice(&matrix[3 * i..3 * i + 3]);
+        }
+        assert!(factors.eliminate());
+        let mut found = [7.0, 3.0, 6.0];
+        factors.solve(&mut found);
+        for (x, expected) in found.iter().zip([1.0, 2.0, 3.0]) {
+            assert!((x - expected).abs() < 1e-14, "{found:?}");
+        }
+        let inverse = inverse(&matrix, 3);
+        for (i, expected) in [1.0, 2.0, 3.0].iter().enumerate() {
+            let row: f64 = inverse[3 * i..3 * i + 3]
+                .iter()
+                .zip([7.0, 3.0, 6.0])
+                .map(|(a, b)| a * b)
+                .sum();
+            assert!((row - expected).abs() < 1e-14);
+        }
+        let mut singular = Factors::room(2);
+        assert!(!singular.eliminate());
+    }
+}

@@ -1,0 +1,318 @@
+//! A contact that has been solved: its results, their errors, and its history at any time.
+
+use crate::growing::arrivals::Piece;
+use crate::growing::march::{Errors, March};
+use crate::numeric::quadrature::rising_root;
+use crate::summary::{EndOfContact, Estimates, Instant, Summary};
+use crate::units::INVERSE_MASS;
+
+/// A contact whose radius follows the load, in collision units.
+#[derive(Debug, Clone)]
+pub struct SolvedContact {
+    pieces: Vec<Piece>,
+    /// When each piece ends.
+    ends: Vec<f64>,
+    summary: Summary,
+    estimates: Estimates,
+}
+
+/// The contact at a time, in collision units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GrowingInstant {
+    /// Contact force p = a^3.
+    pub force: f64,
+    /// Contact radius a over that at Hertz's largest approach.
+    pub radius: f64,
+    /// Velocity of the striker.
+    pub velocity: f64,
+    /// Displacement of the striker.
+    pub displacement: f64,
+    /// What the displacement is more than Hertz's indentation a^2 under the same force.
+    pub deflection: f64,
+}
+
+/// Loss below which it is taken from the work on the half-space, not from the momentum.
+const SMALL_LOSS: f64 = 0.03;
+
+/// Factors from the sums of the pieces' errors to those of the results.
+const PEAK_FORCE: f64 = 0.4;
+const PEAK_FORCE_TIME: f64 = 1.0;
+const CONTACT_TIME: f64 = 24.0;
+const RESTITUTION: f64 = 0.2;
+const LOSS: f64 = 8.0;
+const DISPLACEMENT: f64 = 3.0;
+const DEFLECTION: f64 = 1.0;
+const FORCE: f64 = 2.0;
+
+impl SolvedContact {
+    pub(crate) fn new(march: March<'_>) -> Self {
+        let March {
+            pieces,
+            state,
+            dissipated,
+            errors,
+            ..
+        } = march;
+        let (widest, peak_force_time) =
+            largest(&pieces, |p, s| p.radius.value(s), |p, s| p.radius.jet(s).1);
+        let (peak_displacement, _) = largest(
+            &pieces,
+            |p, s| p.displacement.value(s),
+            |p, s| p.velocity.value(s),
+        );
+        let late = pieces
+            .iter()
+            .take_while(|piece| piece.to.0 <= peak_force_time)
+            .count();
+        let (peak_deflection, _) = largest(&pieces[late..], deflection, deflection_slope);
+        let work = 2.0 * INVERSE_MASS * dissipated;
+        let momentum = (1.0 - state.velocity) * (1.0 + state.velocity);
+        let (restitution, loss) = if work < SMALL_LOSS {
+            ((1.0 - work).sqrt().copysign(-state.velocity), work)
+        } else {
+            (-state.velocity, momentum)
+        };
+        let summary = Summary {
+            peak_force: widest.powi(3),
+            peak_force_time,
+            contact_time: state.time,
+            restitution,
+            loss,
+            peak_displacement,
+            peak_deflection,
+            impulse: (1.0 - state.velocity) / INVERSE_MASS,
+            contacts: 1,
+            end: EndOfContact::Layer(0.0),
+        };
+        let estimates = estimates(&summary, &errors, (work - momentum).abs());
+        Self {
+            summary: Summary {
+                end: EndOfContact::Layer(estimates.contact_time),
+                ..summary
+            },
+            ends: pieces.iter().map(|piece| piece.to.0).collect(),
+            pieces,
+            estimates,
+        }
+    }
+
+    /// The results.
+    #[must_use]
+    pub fn summary(&self) -> &Summary {
+        &self.summary
+    }
+
+    /// Their estimated errors.
+    #[must_use]
+    pub fn estimates(&self) -> &Estimates {
+        &self.estimates
+    }
+
+    /// Number of polynomial pieces.
+    #[must_use]
+    pub fn pieces(&self) -> usize {
+        self.pieces.len()
+    }
+
+    pub(crate) fn all_pieces(&self) -> &[Piece] {
+        &self.pieces
+    }
+
+    /// The contact at a time in [0, contact time]; nothing outside.
+    #[must_use]
+    pub fn at(&self, time: f64) -> Option<GrowingInstant> {
+        if !(time >= 0.0 && time <= self.summary.contact_time) {
+            return None;
+        }
+        let (piece, place) = self.place(time)?;
+        let radius = piece.radius.value(place).max(0.0);
+        let displacement = piece.displacement.value(place);
+        Some(GrowingInstant {
+            force: radius.powi(3),
+            radius,
+            velocity: piece.velocity.value(place),
+            displacement,
+            deflection: displacement - radius * radius,
+        })
+    }
+
+    /// The piece that holds a time, and the place in it.
+    fn place(&self, time: f64) -> Option<(&Piece, f64)> {
+        let after = self.ends.partition_point(|&end| end < time);
+        let piece = self.pieces.get(after).or(self.pieces.last())?;
+        Some((piece, place_of(piece, time)))
+    }
+
+    /// Force, rate and second rate at a time; the second zero at the very ends, all outside.
+    #[must_use]
+    pub fn force(&self, time: f64) -> [f64; 3] {
+        if !(time > 0.0 && time < self.summary.contact_time) {
+            return [0.0; 3];
+        }
+        self.place(time).map_or([0.0; 3], |(piece, place)| {
+            let [radius, a1, a2] = piece.radius.curve(place);
+            let [_, t1, t2] = piece.time.curve(place);
+            if radius <= 0.0 || t1 <= 0.0 {
+                return [0.0; 3];
+            }
+            // slopes in the place to those in time
+            let (per, square) = (1.0 / t1, 3.0 * radius * radius);
+            let rate = square * a1 * per;
+            let bend = (6.0 * radius * a1 * a1 + square * a2 - rate * t2) * per * per;
+            [radius.powi(3), rate, bend]
+        })
+    }
+
+    /// The state at any time from the touch on; the deflection is not followed after the contact.
+    #[must_use]
+    pub fn state(&self, time: f64) -> Instant {
+        let [force, rate, second_rate] = self.force(time);
+        let moved = Instant {
+            force,
+            rate,
+            second_rate,
+            ..Instant::default()
+        };
+        let end = self.summary.contact_time;
+        let (Some(now), true) = (self.at(time.max(0.0)), time < end) else {
+            let velocity = -self.summary.restitution;
+            let last = self.pieces.last();
+            let left = last.map_or(0.0, |piece| piece.displacement.value(1.0));
+            return Instant {
+                displacement: left + velocity * (time - end),
+                velocity,
+                ..moved
+            };
+        };
+        Instant {
+            displacement: now.displacement,
+            velocity: now.velocity,
+            deflection: now.deflection,
+            ..moved
+        }
+    }
+}
+
+fn deflection(piece: &Piece, place: f64) -> f64 {
+    let radius = piece.radius.value(place);
+    piece.displacement.value(place) - radius * radius
+}
+
+fn deflection_slope(piece: &Piece, place: f64) -> f64 {
+    let (radius, radius_slope) = piece.radius.jet(place);
+    let time_slope = piece.time.jet(place).1;
+    piece.velocity.value(place) * time_slope - 2.0 * radius * radius_slope
+}
+
+/// The place of a time in a piece: its time rises.
+fn place_of(piece: &Piece, time: f64) -> f64 {
+    if piece.time.degree == 2 {
+        let [middle, slope, half] = [0, 1, 2].map(|k| piece.time.powers[k]);
+        let away = time - middle;
+        let root = (slope * slope + 4.0 * half * away).max(0.0).sqrt();
+        return (0.5 + away / (slope + root)).clamp(0.0, 1.0);
+    }
+    let span = piece.to.0 - piece.from.0;
+    let start = ((time - piece.from.0) / span).clamp(0.0, 1.0);
+    let late = |place: f64| {
+        let (value, slope) = piece.time.jet(place);
+        (value - time, slope)
+    };
+    rising_root(late, [0.0, 1.0], start, 1e-14)[1]
+}
+
+fn estimates(summary: &Summary, errors: &Errors, energy: f64) -> Estimates {
+    Estimates {
+        peak_force: PEAK_FORCE * (errors.force + errors.momentum) / summary.peak_force,
+        peak_force_time: PEAK_FORCE_TIME * (errors.force + errors.momentum),
+        contact_time: CONTACT_TIME * (errors.end + 0.1 * errors.momentum) / summary.contact_time,
+        restitution: RESTITUTION * (errors.momentum + energy),
+        loss: LOSS * (errors.work / summary.loss + energy),
+        peak_displacement: DISPLACEMENT * errors.momentum / summary.peak_displacement,
+        peak_deflection: DEFLECTION * errors.force / summary.peak_deflection,
+        force: FORCE * errors.force / summary.peak_force,
+    }
+}
+
+/// Parts of a piece in which an extremum is looked for.
+const PARTS: usize = 4;
+
+/// The largest of a quantity over pieces and its time: from its value at a place of a piece, and what has the sign of its
+/// slope.
+fn largest(
+    pieces: &[Piece],
+    value: impl Fn(&Piece, f64) -> f64,
+    slope: impl Fn(&Piece, f64) -> f64,
+) -> (f64, f64) {
+    let mut best = (0.0, 0.0);
+    let mut candidate = |piece: &Piece, place: f64| {
+        let found = value(piece, place);
+        if found > best.0 {
+            best = (found, piece.time.value(place));
+        }
+    };
+    for piece in pieces {
+        candidate(piece, 1.0);
+        let mut before = slope(piece, 0.0);
+        for part in 1..=PARTS {
+            let end = part as f64 / PARTS as f64;
+            let after = slope(piece, end);
+            if before > 0.0 && after <= 0.0 {
+                let start = end - 1.0 / PARTS as f64;
+                candidate(piece, falling_zero(|place| slope(piece, place), start, end));
+            }
+            before = after;
+        }
+    }
+    best
+}
+
+/// A zero of f between two places, positive at the first and not at the second: the false position,
+/// with the value of an end that stays halved.
+fn falling_zero(f: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
+    let (mut above, mut below) = (f(low), f(high));
+    let mut stays = 0_i32;
+    let mut place = high;
+    for _ in 0..100 {
+        let next = (low * below - high * above) / (below - above);
+        let middle = 0.5 * (low + high);
+        let next = if next > low && next < high {
+            next
+        } else {
+            middle
+        };
+        let value = f(next);
+        let still = (next - place).abs() <= 1e-15 || value == 0.0;
+        place = next;
+        if still {
+            break;
+        }
+        if value > 0.0 {
+            (low, above) = (next, value);
+            if stays == 1 {
+                below *= 0.5;
+            }
+            stays = 1;
+        } else {
+            (high, below) = (next, value);
+            if stays == -1 {
+                above *= 0.5;
+            }
+            stays = -1;
+        }
+    }
+    place
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_zero_is_found_to_the_last_digits() {
+        let found = falling_zero(|x| 0.3 - x.powi(5), 0.0, 1.0);
+        assert!((found.powi(5) - 0.3).abs() < 1e-14);
+        let found = falling_zero(|x| 1e-3 - x.sqrt(), 0.0, 1.0);
+        assert!((found - 1e-6).abs() < 1e-14, "{found}");
+    }
+}

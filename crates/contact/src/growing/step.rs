@@ -1,0 +1,193 @@
+//! One piece of the contact by collocation and Newton's method.
+
+use crate::growing::arrivals::Piece;
+use crate::growing::equations::{Departures, Equations, Independent, Motion, State, Values};
+use crate::growing::nodes::Factors;
+use crate::growing::polynomial::{LARGEST, dot};
+use crate::growing::waves::Rule;
+
+/// A piece that solves its equations at its nodes.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Solution {
+    pub(crate) piece: Piece,
+    pub(crate) end: State,
+    /// Largest radius at the nodes.
+    pub(crate) widest: f64,
+    /// int p (v - u') dt over the piece.
+    pub(crate) dissipated: f64,
+    /// Size of the last of the polynomial's terms in what was sought.
+    pub(crate) truncated: f64,
+    /// Change of what was sought by the finer rule over the waves.
+    pub(crate) waves: f64,
+    /// What was sought, at 0 and the nodes.
+    pub(crate) sought: Values,
+}
+
+/// The problem of one piece.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Step<'a> {
+    pub(crate) equations: Equations<'a>,
+    /// The rule over the waves that is solved with, and the next finer one that corrects.
+    pub(crate) rules: [&'a Rule; 2],
+    /// Error that is allowed.
+    pub(crate) accuracy: f64,
+}
+
+/// Newton's iterations at most.
+const ITERATIONS: usize = 14;
+
+/// Iterations after which each has to halve the change.
+const SETTLED: usize = 6;
+
+/// Error of the time that the last instants may have, over the accuracy.
+const SLACK: f64 = 0.3;
+
+impl Step<'_> {
+    /// Solves the equations from a guess of the values sought; nothing where Newton's method does not settle
+    /// or time does not go on.
+    pub(crate) fn solve(&self, guess: &Values) -> Option<Solution> {
+        let n = self.equations.nodes.degree;
+        let mut sought = *guess;
+        let mut departures = Departures::default();
+        let mut matrix = Factors::room(n);
+        let mut before = f64::INFINITY;
+        // Newton's next change would be about the square
+        let enough = (1e-2 * self.accuracy).sqrt().min(1e-5);
+        for iteration in 1..=ITERATIONS {
+            let motion = self.equations.motion(&sought);
+            let rule = self.rules[0];
+            let residual = self
+                .equations
+                .residual(rule, &sought, &motion, &mut departures);
+            self.equations
+                .jacobian(rule, &motion, &residual, &departures, &mut matrix);
+            if !matrix.eliminate() {
+                return None;
+            }
+            let mut change = residual.value;
+            matrix.solve(&mut change[..n]);
+            let factor = self.damping(&sought, &change[..n]);
+            let mut size = 0.0_f64;
+            for i in 1..=n {
+                sought[i] -= factor * change[i - 1];
+                size = size.max(change[i - 1].abs());
+            }
+            let relative = size / self.scale(&sought);
+            if !relative.is_finite() {
+                return None;
+            }
+            if factor == 1.0 && relative < enough {
+                return self.corrected(sought, &matrix);
+            }
+            if iteration > SETTLED && relative > 0.5 * before {
+                return None;
+            }
+            before = relative;
+        }
+        None
+    }
+
+    /// One more change, by the finer rule.
+    fn corrected(&self, mut sought: Values, matrix: &Factors) -> Option<Solution> {
+        let n = self.equations.nodes.degree;
+        let motion = self.equations.motion(&sought);
+        let mut departures = Departures::default();
+        let residual = self
+            .equations
+            .residual(self.rules[1], &sought, &motion, &mut departures);
+        let mut change = residual.value;
+        matrix.solve(&mut change[..n]);
+        let mut waves = 0.0_f64;
+        for i in 1..=n {
+            sought[i] -= change[i - 1];
+            waves = waves.max(change[i - 1].abs());
+        }
+        let motion = self.equations.motion(&sought);
+        self.goes_on(&motion)
+            .then(|| self.solution(&sought, &motion, waves))
+    }
+
+    /// Size of what is sought.
+    fn scale(&self, sought: &Values) -> f64 {
+        let n = self.equations.nodes.degree;
+        match self.equations.known {
+            Independent::Time => sought[..=n].iter().fold(0.0_f64, |m, x| m.max(x.abs())),
+            Independent::Radius => (sought[n] - sought[0]).abs(),
+        }
+    }
+
+    /// The largest part of Newton's change that keeps the radius positive or the time rising.
+    fn damping(&self, sought: &Values, change: &[f64]) -> f64 {
+        let mut factor = 1.0_f64;
+        for i in 1..=change.len() {
+            let (old, fall, least) = match self.equations.known {
+                Independent::Time => (sought[i], change[i - 1], 0.2),
+                Independent::Radius => {
+                    let before = if i == 1 { 0.0 } else { change[i - 2] };
+                    (sought[i] - sought[i - 1], change[i - 1] - before, 0.1)
+                }
+            };
+            if old > 0.0 && old - fall < least * old {
+                factor = factor.min((1.0 - least) * old / fall);
+            }
+        }
+        factor.max(0.05)
+    }
+
+    /// Whether time rises and the radius stays positive; the last instants may be shorter than their error.
+    fn goes_on(&self, motion: &Motion) -> bool {
+        let n = self.equations.nodes.degree;
+        let closed = motion.radius[n] <= 0.0;
+        let slack = if closed { SLACK * self.accuracy } else { 0.0 };
+        let rises = motion.time[..=n].windows(2).all(|t| t[1] >= t[0] - slack);
+        let positive = motion.radius[1..n].iter().all(|&a| a > 0.0);
+        rises && positive && (closed || motion.time_slope[n] > 0.0)
+    }
+
+    fn solution(&self, sought: &Values, motion: &Motion, waves: f64) -> Solution {
+        let nodes = self.equations.nodes;
+        let n = nodes.degree;
+        let mut travel = [0.0; LARGEST];
+        let mut dissipated = 0.0;
+        for j in 1..=n {
+            travel[j - 1] = motion.velocity[j] * motion.time_slope[j];
+            let lag = travel[j - 1] - 2.0 * motion.radius[j] * motion.radius_slope[j];
+            dissipated += nodes.weights[j - 1] * motion.radius[j].powi(3) * lag;
+        }
+        let mut displacement = [self.equations.start.displacement; LARGEST + 1];
+        for (i, place) in displacement.iter_mut().enumerate().take(n + 1).skip(1) {
+            *place += dot(nodes.integral_row(i), &travel[..n]);
+        }
+        let (time, radius) = self.equations.polynomials(sought);
+        let mut modes = [0.0; LARGEST + 1];
+        nodes.modes(sought, &mut modes);
+        Solution {
+            piece: Piece {
+                time,
+                radius,
+                velocity: nodes.polynomial(&motion.velocity),
+                displacement: nodes.polynomial(&displacement),
+                from: (self.equations.start.time, self.equations.start.radius),
+                to: (motion.time[n], motion.radius[n]),
+            },
+            end: State {
+                time: motion.time[n],
+                radius: motion.radius[n],
+                velocity: motion.velocity[n],
+                displacement: displacement[n],
+                slope: 2.0 * motion.radius[n] * motion.radius_slope[n] / motion.time_slope[n],
+            },
+            widest: motion.radius[..=n].iter().fold(0.0_f64, |m, &a| m.max(a)),
+            dissipated,
+            truncated: last_term(&modes[..=n]),
+            waves,
+            sought: *sought,
+        }
+    }
+}
+
+/// Size of the last term of a Legendre series, or of the one before continued at the rate of its fall.
+fn last_term(modes: &[f64]) -> f64 {
+    let [a, b, c] = [3, 2, 1].map(|back| modes[modes.len() - back].abs());
+    c.max(if b < a { b * b / a } else { b })
+}

@@ -1,0 +1,392 @@
+//! `auto`: the cheapest rung of a family of models that meets the tolerance.
+//!
+//! Within a family (growing contact, fixed disc with the full or the dynamic share) the rungs are
+//! quasi-static, one without memory that radiates, and full memory; each is the limit
+//! of the next as the memory over the contact time goes to zero.
+//! The one that radiates is the area dashpot for a growing contact, the first-order loss for a fixed disc.
+//! What a rung leaves out is estimated from three numbers in collision units: the coupling sigma (zero
+//! unless the share is full), the lag c and the memory T of the half-space.
+//! With l = (5/2) c int p'^2, the first-order loss,
+//!
+//! ```text
+//! quasi-static    peak force, contact time, restitution, displacement   l/2 + what radiation leaves out
+//!                 loss                                                  all of it
+//! radiation       the same four        0.4 l^2 + (0.12 + 0.07 sigma) l sqrt(T)       fixed disc
+//!                                      0.4 l^2 + 0.3 l T + 0.06 l sqrt(T)            growing contact
+//!                 loss, relative       0.75 l + 0.8 T^2    and    0.75 l + 0.25 T^2
+//! area dashpot    the same four, and the force at any time      0.11 c T^2           growing contact
+//!                 loss, relative                                0.0052 T^2
+//! ```
+//!
+//! l/2 and the exponents are those of the expansion in the lag, docs/theory.md (T53): the next order of the restitution
+//! is (13/40) l^2, of the loss (13/20) l; the square root comes from the end of contact, where p' has one; T^2 from
+//! the third derivative of the force.
+//! The coefficients bound the differences from the full memory that were measured over couplings of 1e-3 to 5,
+//! memories of 1e-4 to 0.25 and Poisson's ratios of 0 to 0.48, with a margin of about 1.3.
+//! Those of the area dashpot are [`left_out`]'s, over memories up to 0.5.
+//! `tests/auto.rs` repeats the comparison on random scenes.
+//!
+//! Theory: `docs/theory.md` (T58).
+
+use crate::collision::Collision;
+use crate::disc::refine::{Accuracy, Found};
+use crate::disc::response::DiscResponse;
+use crate::error::ContactError;
+use crate::law::area_dashpot::{AreaDashpot, left_out};
+use crate::law::quasi_static::{quasi_static, quasi_static_radiation};
+use crate::law::radiation::{LOSS, radiation};
+use crate::model::{Model, Rung, Scheme, Settings, StaticShare};
+use crate::names::Choice;
+
+/// The physics that a scene states.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Family {
+    /// The contact radius follows the load.
+    Growing,
+    /// Fixed disc whose static deflection is added to Hertz's.
+    Full,
+    /// Fixed disc without its static deflection.
+    Dynamic,
+}
+
+/// What the choice depends on, in collision units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Groups {
+    /// Family.
+    pub family: Family,
+    /// Static compliance of the disc over Hertz's; only looked at for the full share.
+    pub coupling: f64,
+    /// c of w = -c p', the dynamic part of the deflection to first order.
+    pub lag: f64,
+    /// Time after which the half-space has forgotten.
+    pub memory: f64,
+}
+
+/// Estimated relative errors of a rung.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Estimate {
+    /// Of peak force, contact time, restitution, largest displacement: the largest.
+    pub contact: f64,
+    /// Of the loss 1 - e^2.
+    pub loss: f64,
+}
+
+/// The rung chosen and why.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Chosen {
+    /// The family.
+    pub family: Family,
+    /// The rung.
+    pub rung: Rung,
+    /// Estimated relative error of that rung; zero for full memory, whose error is its step's.
+    pub error: f64,
+    /// What radiation changes, l/2.
+    pub radiation: f64,
+    /// What the best rung without memory leaves out.
+    pub left_out: Estimate,
+}
+
+/// First-order losses and memories up to which the expansion is trusted at all.
+const LARGEST_LOSS: f64 = 0.3;
+const LARGEST_MEMORY: f64 = 0.3;
+
+impl Groups {
+    /// l = (5/2) c int p'^2 of the quasi-static impact.
+    #[must_use]
+    pub fn first_order_loss(&self) -> f64 {
+        match self.family {
+            Family::Full => quasi_static(self.coupling).loss_per_lag * self.lag,
+            Family::Growing | Family::Dynamic => LOSS * self.lag,
+        }
+    }
+
+    /// What the first order of radiation leaves out.
+    #[must_use]
+    pub fn beyond_radiation(&self) -> Estimate {
+        let (l, t) = (self.first_order_loss(), self.memory);
+        if l > LARGEST_LOSS || t > LARGEST_MEMORY {
+            return Estimate {
+                contact: 1.0,
+                loss: 1.0,
+            };
+        }
+        let fixed = |coupling: f64| Estimate {
+            contact: 0.4 * l * l + (0.12 + 0.07 * coupling) * l * t.sqrt(),
+            loss: 0.75 * l + 0.8 * t * t,
+        };
+        match self.family {
+            Family::Full => fixed(self.coupling),
+            Family::Dynamic => fixed(0.0),
+            Family::Growing => Estimate {
+                contact: 0.4 * l * l + 0.3 * l * t + 0.06 * l * t.sqrt(),
+                loss: 0.75 * l + 0.25 * t * t,
+            },
+        }
+    }
+
+    /// The rung of this family that radiates without memory, and what it leaves out.
+    fn without_memory(&self) -> (Rung, Estimate) {
+        if self.family != Family::Growing {
+            return (Rung::Radiation, self.beyond_radiation());
+        }
+        let errors = left_out(self.lag, self.memory);
+        let contact = errors.contact().max(errors.force);
+        let loss = errors.loss;
+        (Rung::AreaDashpot, Estimate { contact, loss })
+    }
+
+    /// The cheapest rung that meets the accuracy asked for.
+    #[must_use]
+    pub fn choose(&self, accuracy: &Accuracy) -> Chosen {
+        let radiation = 0.5 * self.first_order_loss();
+        let first_order = self.beyond_radiation();
+        let (radiating, left_out) = self.without_memory();
+        let choice = |rung, error| Chosen {
+            family: self.family,
+            rung,
+            error,
+            radiation,
+            left_out,
+        };
+        let quasi_static = radiation + first_order.contact;
+        if accuracy.loss.is_none() && quasi_static <= accuracy.tolerance {
+            return choice(Rung::QuasiStatic, quasi_static);
+        }
+        let loss_is_met = accuracy.loss.is_none_or(|asked| left_out.loss <= asked);
+        if left_out.contact <= accuracy.tolerance && loss_is_met {
+            return choice(radiating, left_out.contact);
+        }
+        choice(Rung::FullMemory, 0.0)
+    }
+}
+
+/// The choice for a contact that follows the load, from its lag and its memory in collision units.
+#[must_use]
+pub fn choose(lag: f64, memory: f64, tolerance: f64, loss_tolerance: Option<f64>) -> Chosen {
+    let groups = Groups {
+        family: Family::Growing,
+        coupling: 0.0,
+        lag,
+        memory,
+    };
+    groups.choose(&Accuracy::of_contact(tolerance, loss_tolerance))
+}
+
+impl Chosen {
+    /// The model of this family with this memory: without any, a disc whose static deflection is left out is no disc.
+    fn model(&self) -> Model {
+        let on_disc = match self.family {
+            Family::Growing => false,
+            Family::Full => true,
+            Family::Dynamic => self.rung == Rung::FullMemory,
+        };
+        let mut models = Model::ALL.iter().copied();
+        let found = models.find(|model| model.row() == (self.rung, on_disc));
+        found.unwrap_or(Model::Wave)
+    }
+
+    /// The reason in words.
+    #[must_use]
+    pub fn reason(&self, accuracy: &Accuracy) -> String {
+        let (first, tolerance) = (self.radiation, accuracy.tolerance);
+        let Estimate {
+            contact: second,
+            loss,
+        } = self.left_out;
+        let change = format!("radiation changes the results by {first:.1e}");
+        let rung = match self.family {
+            Family::Growing => "the area dashpot",
+            Family::Full | Family::Dynamic => "its first order",
+        };
+        match self.rung {
+            Rung::QuasiStatic => {
+                format!("{change}, below the tolerance {tolerance:.1e}: no waves needed")
+            }
+            Rung::Radiation => format!(
+                "{change}; what its first order leaves out, {second:.1e}, is below the tolerance {tolerance:.1e}"
+            ),
+            Rung::AreaDashpot => format!(
+                "{change}; what the area dashpot leaves out, {second:.1e} and {loss:.1e} of the loss, is below the tolerance {tolerance:.1e}: no memory needed"
+            ),
+            Rung::FullMemory => match accuracy.loss {
+                Some(asked) if second <= tolerance => format!(
+                    "{rung} alone would miss the loss by {loss:.1e} of it, above the loss_tolerance {asked:.1e}: full memory"
+                ),
+                Some(_) | None => format!(
+                    "{change}; {rung} alone would miss them by {second:.1e}, above the tolerance {tolerance:.1e}: full memory"
+                ),
+            },
+        }
+    }
+}
+
+/// First-order loss 1 - e^2 up to which the radiation models are used: half of the energy.
+const LARGEST_FIRST_ORDER: f64 = 0.5;
+
+/// A model, its dimensionless groups and, where `auto` chose, its choice.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Plan {
+    /// Never [`Model::Auto`].
+    pub model: Model,
+    /// Groups of the family that the scene states.
+    pub groups: Groups,
+    chosen: Option<Chosen>,
+}
+
+/// The model that is asked for or that `auto` chooses.
+///
+/// `response` is the half-space's for the deflection that the settings ask for.
+pub(crate) fn plan(
+    settings: &Settings,
+    collision: &Collision,
+    response: &impl DiscResponse,
+) -> Plan {
+    let groups = groups(settings, collision, response);
+    let auto = settings.model == Model::Auto && settings.scheme == Scheme::Implicit;
+    let chosen = auto.then(|| groups.choose(&accuracy(settings)));
+    let model = match &chosen {
+        Some(chosen) => chosen.model(),
+        None if settings.model == Model::Auto => Model::Wave,
+        None => settings.model,
+    };
+    Plan {
+        model,
+        groups,
+        chosen,
+    }
+}
+
+impl Plan {
+    /// sigma of the quasi-static spring.
+    #[must_use]
+    pub fn coupling(&self) -> f64 {
+        let on_springs = matches!(
+            self.model.row(),
+            (Rung::QuasiStatic | Rung::Radiation, true)
+        );
+        if on_springs {
+            self.groups.coupling
+        } else {
+            0.0
+        }
+    }
+
+    /// c of the radiated loss, zero where the model has none.
+    pub(crate) fn damping(&self) -> f64 {
+        if self.model.row().0 == Rung::Radiation {
+            self.groups.lag
+        } else {
+            0.0
+        }
+    }
+
+    /// Results of [`Model::Hertz`], [`Model::Radiation`] and their quasi-static counterparts.
+    ///
+    /// # Errors
+    /// [`ContactError::LossTooLarge`] where a first-order loss makes no sense.
+    pub(crate) fn closed_form(&self) -> Result<Found, ContactError> {
+        let (coupling, lag) = (self.coupling(), self.damping());
+        let loss = self.groups.first_order_loss();
+        if lag > 0.0 && loss > LARGEST_FIRST_ORDER {
+            return Err(ContactError::LossTooLarge { loss });
+        }
+        let left_out = self.groups.beyond_radiation().contact.min(1.0);
+        let (_, on_disc) = self.model.row();
+        Ok(Found {
+            summary: if on_disc {
+                quasi_static_radiation(coupling, lag)
+            } else {
+                radiation(lag)
+            },
+            // what the next rung adds
+            error: if lag > 0.0 {
+                left_out
+            } else {
+                (0.5 * loss + left_out).min(1.0)
+            },
+            step: None,
+        })
+    }
+
+    /// Results of [`Model::AreaDashpot`].
+    ///
+    /// # Errors
+    /// [`ContactError::BeyondDashpot`] where the expansion in the memory makes no sense.
+    pub(crate) fn dashpot(&self, terms: &AreaDashpot) -> Result<Found, ContactError> {
+        let (lag, memory) = (terms.lag, self.groups.memory);
+        let errors = terms.left_out(memory);
+        let error = errors.contact().max(errors.force);
+        if error >= 1.0 {
+            return Err(ContactError::BeyondDashpot { lag, memory });
+        }
+        Ok(Found {
+            summary: terms.summary(),
+            error,
+            step: None,
+        })
+    }
+
+    /// Why this model, in words.
+    #[must_use]
+    pub fn reason(&self, settings: &Settings) -> String {
+        let family = match self.groups.family {
+            Family::Growing => "no disc_radius_m: the contact follows the load",
+            Family::Full => "disc_radius_m and the full static share: the paper's disc",
+            Family::Dynamic => "disc_radius_m and the dynamic share",
+        };
+        match (&self.chosen, settings.model) {
+            (Some(chosen), _) => format!("{family}; {}", chosen.reason(&accuracy(settings))),
+            (None, Model::Auto) => "the explicit scheme marches a fixed disc".to_owned(),
+            (None, _) => "asked for by the scene".to_owned(),
+        }
+    }
+}
+
+/// What the settings ask of a contact's results.
+pub(crate) fn accuracy(settings: &Settings) -> Accuracy {
+    Accuracy::of_contact(settings.tolerance, settings.loss_tolerance)
+}
+
+/// Radius of the disc of the fixed models in m: that of the settings, or the tip's.
+#[must_use]
+pub(crate) fn disc_radius_m(settings: &Settings, collision: &Collision) -> f64 {
+    settings.disc_radius_m.unwrap_or(collision.tip_radius_m)
+}
+
+/// Radius of the disc that loads the half-space in m where the model fixes it; none for a contact that follows the load.
+#[must_use]
+pub fn fixed_disc_m(model: Model, settings: &Settings, collision: &Collision) -> Option<f64> {
+    if model.row().1 {
+        return Some(disc_radius_m(settings, collision));
+    }
+    settings.disc_radius_m
+}
+
+/// The groups of the family that the settings state.
+fn groups(settings: &Settings, collision: &Collision, response: &impl DiscResponse) -> Groups {
+    let fixed = match settings.model {
+        Model::Auto => settings.disc_radius_m.is_some() || settings.scheme == Scheme::Explicit,
+        asked => asked.row().1,
+    };
+    let lag = collision.lag(response);
+    if !fixed {
+        return Groups {
+            family: Family::Growing,
+            coupling: 0.0,
+            lag,
+            memory: collision.contact_wave_time() * response.punch_memory(),
+        };
+    }
+    let disc = disc_radius_m(settings, collision);
+    let (coupling, wave_time) = collision.disc_groups(response.static_compliance(), disc);
+    let (family, coupling) = match settings.static_share {
+        StaticShare::Full => (Family::Full, coupling),
+        StaticShare::Dynamic => (Family::Dynamic, 0.0),
+    };
+    Groups {
+        family,
+        coupling,
+        lag,
+        memory: wave_time * response.memory(),
+    }
+}

@@ -1,0 +1,164 @@
+//! What can be chosen about a contact: model, scheme, disc, tolerances.
+//!
+//! [`Model::row`] is the table of models; `choose` says which of them `auto` takes and what each leaves out.
+
+pub(crate) mod choose;
+
+use crate::names::choice;
+use halfspace::Deflection;
+
+/// The contact model asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Model {
+    /// Closed form, no waves.
+    Hertz,
+    /// First-order radiated loss.
+    Radiation,
+    /// Radiation to the second order in the memory, with its third: a dashpot on the contact's area.
+    AreaDashpot,
+    /// Hertz's spring in series with the disc's static one, no waves.
+    QuasiStatic,
+    /// The same with the first-order radiated loss.
+    QuasiStaticRadiation,
+    /// Full retarded deflection of a disc of fixed radius: the paper.
+    Wave,
+    /// Contact radius that follows the load.
+    Growing,
+    /// The cheapest of these that meets the tolerance.
+    Auto,
+}
+
+choice!(Model: Hertz = "hertz", Radiation = "radiation", QuasiStatic = "quasi_static",
+    QuasiStaticRadiation = "quasi_static_radiation", Wave = "wave", Growing = "growing",
+    AreaDashpot = "area_dashpot", Auto = "auto");
+
+/// How much of the half-space's memory a model has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Rung {
+    /// No waves at all.
+    QuasiStatic,
+    /// First-order radiated loss.
+    Radiation,
+    /// Dashpot on the contact's area.
+    AreaDashpot,
+    /// Full memory.
+    FullMemory,
+}
+
+impl Model {
+    /// The table of models: the memory that each has, and whether the half-space is loaded on a disc of fixed radius.
+    ///
+    /// `auto` is the paper's disc until it has chosen.
+    #[must_use]
+    pub fn row(self) -> (Rung, bool) {
+        match self {
+            Self::Hertz => (Rung::QuasiStatic, false),
+            Self::Radiation => (Rung::Radiation, false),
+            Self::AreaDashpot => (Rung::AreaDashpot, false),
+            Self::Growing => (Rung::FullMemory, false),
+            Self::QuasiStatic => (Rung::QuasiStatic, true),
+            Self::QuasiStaticRadiation => (Rung::Radiation, true),
+            Self::Wave | Self::Auto => (Rung::FullMemory, true),
+        }
+    }
+}
+
+/// The marching scheme.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Scheme {
+    /// Product integration, any step.
+    Implicit,
+    /// The paper's (40)-(44).
+    Explicit,
+}
+
+choice!(Scheme: Implicit = "implicit", Explicit = "explicit");
+
+/// Which part of the half-space's deflection is added to Hertz's indentation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum StaticShare {
+    /// All of it: the paper, whose K already holds the static compliance of the half-space.
+    Full,
+    /// Only what differs from the static deflection: nothing is counted twice.
+    Dynamic,
+}
+
+choice!(StaticShare: Full = "full", Dynamic = "dynamic");
+
+choice!(Deflection: Centre = "centre", Mean = "mean");
+
+impl StaticShare {
+    /// Part of the static deflection that enters.
+    #[must_use]
+    pub fn factor(self) -> f64 {
+        match self {
+            Self::Full => 1.0,
+            Self::Dynamic => 0.0,
+        }
+    }
+}
+
+/// How a contact is computed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Settings {
+    /// Radius of the loaded disc in m, if it is fixed.
+    pub disc_radius_m: Option<f64>,
+    /// Model.
+    pub model: Model,
+    /// Marching scheme.
+    pub scheme: Scheme,
+    /// Static share.
+    pub static_share: StaticShare,
+    /// Deflection.
+    pub deflection: Deflection,
+    /// Relative tolerance on the results.
+    pub tolerance: f64,
+    /// Relative tolerance on the loss 1 - e^2, if it is asked for.
+    pub loss_tolerance: Option<f64>,
+    /// Fixed step in s.
+    pub step_s: Option<f64>,
+}
+
+impl Default for Settings {
+    /// Model `auto` at a tolerance of 1e-4.
+    fn default() -> Self {
+        Self {
+            disc_radius_m: None,
+            model: Model::Auto,
+            scheme: Scheme::Implicit,
+            static_share: StaticShare::Full,
+            deflection: Deflection::Centre,
+            tolerance: 1e-4,
+            loss_tolerance: None,
+            step_s: None,
+        }
+    }
+}
+
+/// Two settings that exclude each other.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Conflict {
+    /// The explicit scheme with the dynamic share.
+    ExplicitDynamic,
+    /// The explicit scheme with a model that it does not march.
+    ExplicitModel(Model),
+    /// A contact that follows the load with a fixed disc.
+    GrowingDisc,
+}
+
+impl Settings {
+    /// The first two settings that exclude each other, if there are any.
+    #[must_use]
+    pub fn conflict(&self) -> Option<Conflict> {
+        if self.scheme == Scheme::Explicit {
+            if self.static_share == StaticShare::Dynamic {
+                return Some(Conflict::ExplicitDynamic);
+            }
+            if !matches!(self.model, Model::Wave | Model::Auto) {
+                return Some(Conflict::ExplicitModel(self.model));
+            }
+        }
+        (self.model == Model::Growing && self.disc_radius_m.is_some())
+            .then_some(Conflict::GrowingDisc)
+    }
+}

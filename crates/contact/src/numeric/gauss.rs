@@ -1,0 +1,197 @@
+//! Gauss's rules: of any number of nodes on [0, 1], Radau's, and that of a measure given by many point masses.
+
+use std::f64::consts::PI;
+
+/// P_(n-1), P_n and the slope of P_n at x in (-1, 1); at both ends there is no slope.
+pub(crate) fn legendre(n: usize, x: f64) -> (f64, f64, f64) {
+    let (mut before, mut value) = (0.0, 1.0);
+    for k in 1..=n {
+        let k = k as f64;
+        (before, value) = (
+            value,
+            ((2.0 * k - 1.0) * x * value - (k - 1.0) * before) / k,
+        );
+    }
+    let slope = n as f64 * (before - x * value) / ((1.0 - x) * (1.0 + x));
+    (before, value, slope)
+}
+
+/// Nodes and weights of the Gauss-Legendre rule of n nodes on [0, 1], ascending.
+pub(crate) fn gauss(n: usize) -> Vec<(f64, f64)> {
+    let mut rule = vec![(0.0, 0.0); n];
+    for (i, entry) in rule.iter_mut().enumerate() {
+        let mut x = -(PI * (i as f64 + 0.75) / (n as f64 + 0.5)).cos();
+        for _ in 0..20 {
+            let (_, value, slope) = legendre(n, x);
+            x -= value / slope;
+            if (value / slope).abs() < 1e-16 {
+                break;
+            }
+        }
+        let slope = legendre(n, x).2;
+        *entry = (
+            0.5 * (1.0 + x),
+            1.0 / ((1.0 - x) * (1.0 + x) * slope * slope),
+        );
+    }
+    rule
+}
+
+/// The n nodes of Radau's rule on (0, 1] that holds the right end, ascending.
+///
+/// They are the zeros of P_(n-1) - P_n, one of which is the end.
+pub(crate) fn radau(n: usize) -> Vec<f64> {
+    // (P_(n-1) - P_n)/(1 - x) = (P'_(n-1) + P'_n)/n changes sign between neighbours of a fine cosine grid
+    let function = |x: f64| {
+        let (before, value, _) = legendre(n, x);
+        (before - value) / (1.0 - x)
+    };
+    let cells = 40 * n;
+    let place = |i: usize| -((i as f64 + 0.5) * PI / cells as f64).cos();
+    let mut nodes = vec![];
+    for i in 0..cells - 1 {
+        let (mut low, mut high) = (place(i), place(i + 1));
+        let sign = function(low) > 0.0;
+        if sign == (function(high) > 0.0) {
+            continue;
+        }
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            if (function(middle) > 0.0) == sign {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        nodes.push(0.25 * (low + high) + 0.5);
+    }
+    nodes.push(1.0);
+    debug_assert_eq!(nodes.len(), n);
+    nodes
+}
+
+/// Gauss's rule of n nodes for a sum of point masses, ascending: Stieltjes' recurrence and its Jacobi matrix.
+pub(crate) fn gauss_rule(points: &[(f64, f64)], n: usize) -> (Vec<f64>, Vec<f64>) {
+    let total: f64 = points.iter().map(|(_, mass)| mass).sum();
+    let (mut diagonal, mut beside) = (vec![], vec![]);
+    let mut before = vec![0.0; points.len()];
+    let mut now = vec![1.0 / total.sqrt(); points.len()];
+    let mut norm = 0.0;
+    for _ in 0..n {
+        let mean: f64 = points
+            .iter()
+            .zip(&now)
+            .map(|((x, m), p)| m * x * p * p)
+            .sum();
+        diagonal.push(mean);
+        let mut square = 0.0;
+        for (((x, mass), p), q) in points.iter().zip(&mut now).zip(&mut before) {
+            let next = (x - mean) * *p - norm * *q;
+            *q = *p;
+            *p = next;
+            square += mass * next * next;
+        }
+        norm = square.sqrt();
+        beside.push(norm);
+        for p in &mut now {
+            *p /= norm;
+        }
+    }
+    let first = eigen(&mut diagonal, &mut beside);
+    let mut rule: Vec<(f64, f64)> = diagonal
+        .iter()
+        .zip(first)
+        .map(|(&x, z)| (x, total * z * z))
+        .collect();
+    rule.sort_by(|a, b| a.0.total_cmp(&b.0));
+    rule.into_iter().unzip()
+}
+
+/// Eigenvalues (in place of the diagonal) of a symmetric tridiagonal matrix and the first components of
+/// its eigenvectors, by the implicit QL iteration.
+fn eigen(diagonal: &mut [f64], beside: &mut [f64]) -> Vec<f64> {
+    let n = diagonal.len();
+    beside[n - 1] = 0.0;
+    let mut first = vec![0.0; n];
+    first[0] = 1.0;
+    for l in 0..n {
+        for _ in 0..60 {
+            let small = |i: usize| {
+                beside[i].abs() <= f64::EPSILON * (diagonal[i].abs() + diagonal[i + 1].abs())
+            };
+            let m = (l..n - 1).find(|&i| small(i)).unwrap_or(n - 1);
+            if m == l {
+                break;
+            }
+            let half = 0.5 * (diagonal[l + 1] - diagonal[l]) / beside[l];
+            let shift = half + half.hypot(1.0).copysign(half);
+            let mut g = diagonal[m] - diagonal[l] + beside[l] / shift;
+            let (mut sine, mut cosine, mut rest) = (1.0, 1.0, 0.0);
+            for i in (l..m).rev() {
+                let (f, b) = (sine * beside[i], cosine * beside[i]);
+                let r = f.hypot(g);
+                beside[i + 1] = r;
+                (sine, cosine) = (f / r, g / r);
+                g = diagonal[i + 1] - rest;
+                let turn = (diagonal[i] - g) * sine + 2.0 * cosine * b;
+                rest = sine * turn;
+                diagonal[i + 1] = g + rest;
+                g = cosine * turn - b;
+                let f = first[i + 1];
+                first[i + 1] = sine * first[i] + cosine * f;
+                first[i] = cosine * first[i] - sine * f;
+            }
+            diagonal[l] -= rest;
+            beside[l] = g;
+            beside[m] = 0.0;
+        }
+    }
+    first
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn gauss_integrates_its_degree() {
+        for n in [1, 2, 5, 12, 20] {
+            for k in 0..2 * n {
+                let sum: f64 = gauss(n).iter().map(|&(x, w)| w * x.powi(k as i32)).sum();
+                assert!((sum * (k as f64 + 1.0) - 1.0).abs() < 1e-13, "{n} {k}");
+            }
+        }
+    }
+
+    #[test]
+    fn radau_nodes_of_three() {
+        // (4 -+ sqrt 6)/10 and 1
+        let found = radau(3);
+        let root = 6.0_f64.sqrt();
+        for (x, expected) in found.iter().zip([0.4 - 0.1 * root, 0.4 + 0.1 * root, 1.0]) {
+            assert!((x - expected).abs() < 1e-14, "{found:?}");
+        }
+    }
+
+    #[test]
+    fn all_moments_of_its_degree_are_met() {
+        // dx/sqrt(x) on [0, 1] by the midpoints of its root, and a mass at the end
+        let mut points: Vec<(f64, f64)> = (0..400)
+            .map(|i| (((f64::from(i) + 0.5) / 400.0).powi(2), 2.0 / 400.0))
+            .collect();
+        points.push((1.0, 0.7));
+        let moment =
+            |rule: &[(f64, f64)], k: i32| -> f64 { rule.iter().map(|(x, m)| m * x.powi(k)).sum() };
+        for n in [1, 2, 3, 8, 20] {
+            let (nodes, masses) = gauss_rule(&points, n);
+            assert!(nodes.is_sorted() && masses.iter().all(|&m| m > 0.0));
+            let rule: Vec<_> = nodes.into_iter().zip(masses).collect();
+            for k in 0..2 * n as i32 {
+                assert!(
+                    (moment(&rule, k) / moment(&points, k) - 1.0).abs() < 1e-12,
+                    "{n} {k}"
+                );
+            }
+        }
+    }
+}

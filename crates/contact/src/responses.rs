@@ -1,0 +1,203 @@
+//! Surface responses by Poisson's ratio: exact ones, and tabulated ones that all threads share.
+
+use crate::disc::response::DiscResponse;
+use crate::disc::table::ResponseTable;
+use crate::growing::waves::PunchWaves;
+use halfspace::{Deflection, DomainError, Medium, SurfaceResponse};
+use std::collections::HashMap;
+use std::hash::Hash;
+use std::sync::{Arc, PoisonError, RwLock};
+
+/// Where a solver has its responses from.
+pub trait Responses {
+    /// Response of a fixed disc.
+    type Disc: DiscResponse;
+
+    /// The response of a fixed disc.
+    ///
+    /// # Errors
+    /// [`DomainError`] for a Poisson's ratio outside (-1, 0.5).
+    fn disc(&self, ratio: f64, deflection: Deflection) -> Result<Arc<Self::Disc>, DomainError>;
+
+    /// The waves under a flat punch.
+    ///
+    /// # Errors
+    /// [`DomainError`] for a Poisson's ratio outside (-1, 0.5).
+    fn waves(&self, ratio: f64) -> Result<Arc<PunchWaves>, DomainError>;
+}
+
+/// Exact responses, made when they are asked for: what a single impact takes.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Exact;
+
+impl Responses for Exact {
+    type Disc = SurfaceResponse;
+
+    fn disc(
+        &self,
+        ratio: f64,
+        deflection: Deflection,
+    ) -> Result<Arc<SurfaceResponse>, DomainError> {
+        let medium = Medium::new(ratio)?;
+        Ok(Arc::new(SurfaceResponse::new(&medium, deflection)))
+    }
+
+    fn waves(&self, ratio: f64) -> Result<Arc<PunchWaves>, DomainError> {
+        Ok(Arc::new(PunchWaves::new(&Medium::new(ratio)?)))
+    }
+}
+
+/// How many Poisson's ratios are met.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Ratios {
+    /// A few: each has its own response.
+    Few,
+    /// Any number, as random draws have: responses of a lattice, linear between two of them.
+    ///
+    /// The lattice has steps of 1/4096 in sqrt(1/2 - nu); what lies between is off by less than 1e-6, of punches in their first instants by 1e-5.
+    Many,
+}
+
+type Cache<K, V> = RwLock<HashMap<K, Arc<V>>>;
+
+/// Tabulated responses, made once and shared by all threads: what a sweep takes.
+#[derive(Debug)]
+pub struct Tabulated {
+    ratios: Ratios,
+    tables: Cache<(u64, Deflection), ResponseTable>,
+    waves: Cache<u64, PunchWaves>,
+}
+
+/// Steps of the lattice in sqrt(1/2 - nu), in which every response is smooth.
+const LATTICE: f64 = 4096.0;
+
+/// Lattice points next to nu = 1/2 that are not used: the memory grows like 1/sqrt(1/2 - nu) there.
+const FIRST: f64 = 512.0;
+
+impl Tabulated {
+    /// None yet.
+    #[must_use]
+    pub fn new(ratios: Ratios) -> Self {
+        Self {
+            ratios,
+            tables: Cache::default(),
+            waves: Cache::default(),
+        }
+    }
+
+    /// The lattice's Poisson's ratios on both sides and the place between them.
+    fn neighbours(&self, ratio: f64) -> Option<(f64, f64, f64)> {
+        let place = (0.5 - ratio).max(0.0).sqrt() * LATTICE;
+        let below = place.floor();
+        let at = |i: f64| 0.5 - (i / LATTICE).powi(2);
+        let inside = below >= FIRST && at(below + 1.0) > -1.0;
+        match self.ratios {
+            Ratios::Many if inside => Some((at(below), at(below + 1.0), place - below)),
+            Ratios::Many | Ratios::Few => None,
+        }
+    }
+
+    /// What belongs to a ratio: made for it once, or between the two of the lattice.
+    fn at<K: Eq + Hash, V>(
+        &self,
+        cache: &Cache<K, V>,
+        ratio: f64,
+        key: impl Fn(u64) -> K,
+        make: impl Fn(&Medium) -> V,
+        between: impl FnOnce(Arc<V>, Arc<V>, f64) -> V,
+    ) -> Result<Arc<V>, DomainError> {
+        let exact = |nu: f64| {
+            let read = cache.read().unwrap_or_else(PoisonError::into_inner);
+            if let Some(found) = read.get(&key(nu.to_bits())) {
+                return Ok(Arc::clone(found));
+            }
+            drop(read);
+            let made = Arc::new(make(&Medium::new(nu)?));
+            let mut cache = cache.write().unwrap_or_else(PoisonError::into_inner);
+            Ok(Arc::clone(cache.entry(key(nu.to_bits())).or_insert(made)))
+        };
+        match self.neighbours(ratio) {
+            None => exact(ratio),
+            Some((near, far, fraction)) => {
+                Ok(Arc::new(between(exact(near)?, exact(far)?, fraction)))
+            }
+        }
+    }
+}
+
+impl Responses for Tabulated {
+    type Disc = ResponseTable;
+
+    fn disc(&self, ratio: f64, deflection: Deflection) -> Result<Arc<ResponseTable>, DomainError> {
+        let table = |medium: &Medium| ResponseTable::new(&SurfaceResponse::new(medium, deflection));
+        self.at(
+            &self.tables,
+            ratio,
+            |bits| (bits, deflection),
+            table,
+            |near, far, fraction| ResponseTable::between(&near, &far, fraction),
+        )
+    }
+
+    fn waves(&self, ratio: f64) -> Result<Arc<PunchWaves>, DomainError> {
+        let same = |bits| bits;
+        self.at(
+            &self.waves,
+            ratio,
+            same,
+            PunchWaves::new,
+            PunchWaves::between,
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::growing::waves::Rule;
+
+    #[test]
+    fn between_lattice_points_responses_are_good_to_1e_6() {
+        let (few, many) = (Tabulated::new(Ratios::Few), Tabulated::new(Ratios::Many));
+        for nu in [-0.9, -0.4, 0.05, 0.263_082_06, 0.31, 0.47, 0.498] {
+            for deflection in [Deflection::Centre, Deflection::Mean] {
+                let exact = few.disc(nu, deflection).unwrap();
+                let found = many.disc(nu, deflection).unwrap();
+                let memory = exact.memory();
+                assert!((found.memory() / memory - 1.0).abs() < 1e-6, "nu = {nu}");
+                assert!((found.relaxation_time() / exact.relaxation_time() - 1.0).abs() < 1e-6);
+                for i in 1..400 {
+                    let t = memory * f64::from(i) / 300.0;
+                    let (a, b) = (exact.integrals(t), found.integrals(t));
+                    let error = (a[0] - b[0]).abs() / memory;
+                    assert!(error < 1e-6, "nu = {nu}, t = {t}: {error:e}");
+                }
+            }
+            let waves = [&few, &many].map(|responses| responses.waves(nu).unwrap());
+            let [exact, found] = [waves[0].punch(), waves[1].punch()];
+            for i in 1..400 {
+                let t = exact.memory() * f64::from(i) / 300.0;
+                let (a, b) = (exact.relaxation_integral(t), found.relaxation_integral(t));
+                assert!((a / b - 1.0).abs() < 1e-5, "nu = {nu}, t = {t}");
+            }
+            let (exact, found) = (few.waves(nu).unwrap(), many.waves(nu).unwrap());
+            for power in 1..=3 {
+                let (a, b) = (exact.moment(power), found.moment(power));
+                assert!((a / b - 1.0).abs() < 1e-6, "nu = {nu}: moment {power}");
+            }
+            for level in [0, 3, 6] {
+                let (a, b) = (exact.rule(level), found.rule(level));
+                for power in 0..8 {
+                    let sum = |rule: &Rule| -> f64 {
+                        let parts = rule.delays.iter().zip(&rule.rates);
+                        parts.map(|(x, rate)| rate * x * x.powi(power)).sum()
+                    };
+                    assert!(
+                        (sum(a) / sum(b) - 1.0).abs() < 1e-6,
+                        "nu = {nu}: {level}, {power}"
+                    );
+                }
+            }
+        }
+    }
+}
