@@ -1,28 +1,17 @@
-//! The `hertzlamb` command: one file per subcommand.
+//! The `hertzlamb` command: `commands` has one file per subcommand, the other files are what they share.
 
-mod chart;
-mod completions;
-mod demo;
+mod commands;
 mod failure;
-mod impact_command;
 mod interrupt;
 mod kernels;
-mod materials;
 mod memory;
 mod overwrite;
 mod panic;
-mod paper_command;
-mod plot_command;
 mod progress;
 mod report;
-mod sweep;
-mod sweep_parts;
-mod sweep_plan;
-mod sweep_report;
-mod table;
-mod tabulate;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+use commands::{chart, completions, demo, impact, materials, paper, plot, sweep, table, tabulate};
 use std::process::ExitCode;
 
 /// Impact of a body on an elastic half-space: contact force, rebound and waves.
@@ -39,15 +28,15 @@ struct Cli {
 #[derive(Debug, Subcommand)]
 enum Command {
     /// Runs a scene: contact force, rebound, fields at probes.
-    Impact(impact_command::Arguments),
+    Impact(impact::Arguments),
     /// Runs many scenes that differ in some keys and writes them as one table.
     Sweep(sweep::Arguments),
     /// Draws the results of impacts, sweeps and tables.
-    Plot(plot_command::Arguments),
+    Plot(plot::Arguments),
     /// A first look: the paper's case, its numbers, and the waves under a ball.
     Demo(demo::Arguments),
     /// Redoes the source paper: every number and Figures 4 to 11 beside ours.
-    Paper(paper_command::Arguments),
+    Paper(paper::Arguments),
     /// Builds a kernel table: once, for every material pair.
     Tabulate(tabulate::Arguments),
     /// Looks at finished tables (info, verify, diff) and joins shards (merge).
@@ -68,11 +57,11 @@ fn main() -> ExitCode {
         failure::be_quiet();
     }
     let done = match cli.command {
-        Command::Impact(arguments) => impact_command::run(&arguments),
+        Command::Impact(arguments) => impact::run(&arguments),
         Command::Sweep(arguments) => sweep::run(&arguments),
-        Command::Plot(arguments) => plot_command::run(&arguments),
+        Command::Plot(arguments) => plot::run(&arguments),
         Command::Demo(arguments) => demo::run(&arguments),
-        Command::Paper(arguments) => paper_command::run(&arguments),
+        Command::Paper(arguments) => paper::run(&arguments),
         Command::Tabulate(arguments) => tabulate::run(&arguments),
         Command::Table(arguments) => table::run(&arguments),
         Command::Chart(arguments) => chart::run(&arguments),

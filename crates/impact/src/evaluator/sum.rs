@@ -38,6 +38,9 @@ const NEAR: f64 = 2.0;
 
 /// Part of the tolerance up to which what is left of a sample is let be; a tenth of it for each difference.
 const SURE: f64 = 0.5;
+/// Of more than a few discs the highest power says little of those below it: less is let be.
+const FEW: usize = 4;
+const OF_MANY: f64 = 0.2;
 
 /// What is left has a sign: a sample beside one that is left with more may have met a zero of it, and counts with a part.
 const BESIDE: f64 = 0.5;
@@ -198,7 +201,13 @@ impl<'a> Sum<'a> {
 
     /// What may be left of a sample of each field.
     fn allowed(&self) -> Vec<f64> {
-        let part = SURE * self.forcing.tolerance * 0.1_f64.powi(self.forcing.differences as i32);
+        let many = if self.discs.radii.len() > FEW {
+            OF_MANY
+        } else {
+            1.0
+        };
+        let differences = 0.1_f64.powi(self.forcing.differences as i32);
+        let part = many * SURE * self.forcing.tolerance * differences;
         let fields = self.values.iter().take(self.components());
         fields.map(|samples| part * peak(samples)).collect()
     }

@@ -1,14 +1,16 @@
 //! `hertzlamb sweep`: many scenes.
 
+mod parts;
+mod plan;
+mod report;
+
+use crate::commands::sweep::report::{Report, Tally};
 use crate::failure::{Failure, print, say};
 use crate::interrupt;
 use crate::kernels::Kernels;
 use crate::memory::MemoryLimit;
 use crate::overwrite::{Overwrite, say_complete};
 use crate::progress::Bar;
-use crate::sweep_parts::{self, Action};
-use crate::sweep_plan;
-use crate::sweep_report::{Report, Tally};
 use clap::Args;
 use formats::parts::check_complete;
 use formats::sweep::{
@@ -17,6 +19,7 @@ use formats::sweep::{
 };
 use formats::{Existing, Output, OutputError};
 use output::{CSV, Role, Staged, apart, behind, is_standard};
+use parts::Action;
 use std::io::{BufWriter, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -106,9 +109,9 @@ fn range(text: &str) -> Result<Range<usize>, String> {
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let run = &arguments.run;
     match (&arguments.action, &run.sweep, &run.output) {
-        (Some(action), _, _) => sweep_parts::run(action),
+        (Some(action), _, _) => parts::run(action),
         (None, Some(sweep), _) if run.plan => {
-            sweep_plan::run(sweep, &spec(run, sweep)?, run.shards, run.json)
+            plan::run(sweep, &spec(run, sweep)?, run.shards, run.json)
         }
         (None, Some(sweep), Some(output)) => compute(run, sweep, output),
         (None, _, _) => Err(Failure::input("give a sweep file and -o OUT")),

@@ -1,10 +1,10 @@
 //! `hertzlamb demo`: the paper's case from kernels to picture, and the waves under a ball.
 
+use crate::commands::paper as paper_command;
+use crate::commands::tabulate;
 use crate::failure::{Failure, print, say};
 use crate::kernels::open_table;
-use crate::paper_command;
 use crate::progress::Bar;
-use crate::tabulate;
 use clap::Args;
 use figure::to_svg;
 use formats::{Existing, parse_scene, write_results, write_whole};
@@ -17,10 +17,10 @@ use std::time::Instant;
 use tabulator::{Grid, build};
 
 /// The paper's scene, the same file as in scenes/.
-const SCENE: &str = include_str!("copper-on-steel.toml");
+const SCENE: &str = include_str!("../copper-on-steel.toml");
 
 /// A ball on glass, whose waves are seen apart.
-const WAVES: &str = include_str!("waves.toml");
+const WAVES: &str = include_str!("../waves.toml");
 
 #[derive(Debug, Args)]
 #[command(

@@ -1,9 +1,9 @@
 //! `hertzlamb table`: looks at finished tables and joins shards.
 
+use crate::commands::tabulate;
 use crate::failure::{Failure, print};
 use crate::overwrite::Overwrite;
 use crate::progress::Bar;
-use crate::tabulate;
 use clap::{Args, Subcommand};
 use lookup::{Content, DamagedPatch, TableError};
 use output::TABLE;

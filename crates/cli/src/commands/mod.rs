@@ -1,0 +1,12 @@
+//! One file per subcommand; the arguments, the call of the library, and what is printed.
+
+pub(crate) mod chart;
+pub(crate) mod completions;
+pub(crate) mod demo;
+pub(crate) mod impact;
+pub(crate) mod materials;
+pub(crate) mod paper;
+pub(crate) mod plot;
+pub(crate) mod sweep;
+pub(crate) mod table;
+pub(crate) mod tabulate;
