@@ -151,7 +151,8 @@ fn tables(folder: &Path) -> Result<Vec<Vec<u8>>, Box<dyn Error>> {
     };
     let end = word(footer + 8);
     older.truncate(end);
-    if let Some(at) = older.windows(3).position(|three| three == b"2.2") {
+    let version = lookup::schema::FORMAT_VERSION_VALUE.as_bytes();
+    if let Some(at) = older.windows(3).position(|three| three == version) {
         older[at + 2] = b'1';
     }
     // a superblock of version 0 has four bytes less: those that version 1 adds are taken out, its end stays
