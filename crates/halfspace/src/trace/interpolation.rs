@@ -1,12 +1,18 @@
 //! Segments of a trace, as many as its fronts and the tolerance need.
 //!
-//! Fronts are ends of segments. Where the series of one has not converged with the most nodes, what is left of logarithms
-//! is confined to ever smaller segments by halving. A segment that is short beside the time in which the force rises counts
-//! for little, and has few nodes.
+//! Between two neighbouring fronts a < b
+//!
+//! ```text
+//! t = a + (b - a)/2 s^2   and   t = b - (b - a)/2 s^2,     0 < s < 1
+//! ```
+//!
+//! turn the roots at the fronts into smooth functions of s; what is left of logarithms is confined to ever smaller
+//! segments by halving those whose series has not converged. A segment that is short beside the time in which the force
+//! rises counts for little, and has few nodes.
 
 use crate::error::DomainError;
 use crate::field::{Estimate, Six};
-use crate::trace::segment::{Course, Piece, Segment};
+use crate::trace::segment::{Piece, Segment};
 
 /// Segments are halved no more once there are so many, which no place needs; what is left out is in the estimate.
 const MOST: usize = 200;
@@ -52,7 +58,7 @@ pub(crate) fn segments(
                 break;
             }
             if !segment.refine(&remainder)? {
-                let [early, late] = segment.piece.halves();
+                let (early, late) = segment.piece.halves();
                 stack.push(Segment::fit(late, &remainder)?);
                 stack.push(Segment::fit(early, &remainder)?);
                 break;
@@ -71,13 +77,8 @@ fn is_converged(segment: &Segment, allowed: &Six) -> bool {
         || (0..6).all(|f| segment.truncation[f] <= allowed[f].max(segment.error[f]))
 }
 
-/// The intervals between fronts and after the last, in the order of time.
+/// The intervals between fronts, halved, in the order of time.
 fn pieces(arrivals: &[f64], first: f64, end: f64) -> Vec<Piece> {
-    /// Time over which R falls after the last front, over the time of that front.
-    const DECAY: f64 = 0.5;
-    /// Radii from a front within which fields far away vary as fast as the disc is passed, and how far that is.
-    const NEAR: f64 = 8.0;
-    const FAR: f64 = 24.0;
     /// Fronts this close to each other are one.
     const SAME: f64 = 1e-13;
     let mut fronts = vec![first];
@@ -88,30 +89,33 @@ fn pieces(arrivals: &[f64], first: f64, end: f64) -> Vec<Piece> {
         }
     }
     let mut pieces = vec![];
-    for (i, &from) in fronts.iter().enumerate().filter(|(_, t)| **t < end) {
-        let course = match fronts.get(i + 1) {
-            Some(&to) => Course::Between([from, to]),
-            None => {
-                let bend = (1.0 - DECAY * from / (end - from)).max(0.0);
-                Course::After([from, (end - from) * (1.0 - bend), bend])
-            }
-        };
-        let mut rest = Piece::new(course, end);
-        let far = match course {
-            Course::Between([from, to]) => to - from,
-            Course::After([_, scale, _]) => scale,
-        };
-        if far > FAR {
-            let before_next = fronts.get(i + 1).map_or(f64::INFINITY, |to| to - NEAR);
-            for cut in [from + NEAR, before_next] {
-                if cut + NEAR < end {
-                    let [early, late] = rest.cut(cut);
-                    pieces.push(early);
-                    rest = late;
+    for (i, &from) in fronts.iter().enumerate() {
+        if from >= end {
+            break;
+        }
+        match fronts.get(i + 1) {
+            None => pieces.push(Piece {
+                anchor: from,
+                scale: end - from,
+                s: [0.0, 1.0],
+            }),
+            Some(&to) => {
+                let half = 0.5 * (to - from);
+                let until = |reach: f64| (reach / half).clamp(0.0, 1.0).sqrt();
+                pieces.push(Piece {
+                    anchor: from,
+                    scale: half,
+                    s: [0.0, until(end - from)],
+                });
+                if end > from + half {
+                    pieces.push(Piece {
+                        anchor: to,
+                        scale: -half,
+                        s: [until(to - end), 1.0],
+                    });
                 }
             }
         }
-        pieces.push(rest);
     }
     pieces
 }

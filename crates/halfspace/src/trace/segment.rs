@@ -1,11 +1,8 @@
-//! A segment of a trace: R as a polynomial in s, of which time is a function.
+//! A segment of a trace: R as a polynomial in the root of the distance in time from a front.
 //!
 //! ```text
-//! t = a + (b - a) sin^2(pi s/2)             between fronts a and b
-//! t = a + scale s^2/(1 - bend s^2)          after the last front a
+//! t = anchor + scale s^2      scale > 0 after a front, scale < 0 before one
 //! ```
-//!
-//! Both turn the roots at the fronts into smooth functions, the second also 1/t, in which R is smooth in the end.
 //!
 //! The nodes are a Leja sequence, taken in pairs: each set holds the one before, so that a segment has as many as it needs,
 //! and none lies on a front.
@@ -13,11 +10,11 @@
 use crate::error::DomainError;
 use crate::field::{Estimate, Six};
 use crate::numeric::gauss;
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::PI;
 use std::sync::LazyLock;
 
 /// Nodes of a segment at most, and at first.
-const MOST: usize = 39;
+const MOST: usize = 15;
 const FEWEST: usize = 3;
 
 /// What is left of a series over its last terms: beside a front they fall as a power, and many of the same size follow.
@@ -27,65 +24,22 @@ const CAUTION: f64 = 3.0;
 /// their estimates and of any sign.
 const NOISE: f64 = 0.12;
 
-/// How time follows from s, ascending from 0 to 1 at most.
-#[derive(Debug, Clone, Copy)]
-pub(crate) enum Course {
-    /// Between two fronts.
-    Between([f64; 2]),
-    /// After the last front: its time, the scale, and how much of 1 is bent.
-    After([f64; 3]),
-}
-
 /// An interval of time as one of s.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Piece {
-    course: Course,
-    s: [f64; 2],
+    pub(crate) anchor: f64,
+    pub(crate) scale: f64,
+    pub(crate) s: [f64; 2],
 }
 
 impl Piece {
-    /// From the start of a course to a time.
-    pub(crate) fn new(course: Course, end: f64) -> Self {
-        let mut piece = Self {
-            course,
-            s: [0.0, 1.0],
-        };
-        piece.s[1] = piece.place(end);
-        piece
-    }
-
-    /// Time from `origin` at s, and dt/ds.
-    fn time(&self, s: f64, origin: f64) -> (f64, f64) {
-        match self.course {
-            Course::Between([from, to]) => {
-                let (length, (sin, cos)) = (to - from, (FRAC_PI_2 * s).sin_cos());
-                let time = if s < 0.5 {
-                    (from - origin) + length * sin * sin
-                } else {
-                    (to - origin) - length * cos * cos
-                };
-                (time, PI * length * sin * cos)
-            }
-            Course::After([from, scale, bend]) => {
-                let unbent = 1.0 / (1.0 - bend * s * s);
-                let time = (from - origin) + scale * s * s * unbent;
-                (time, 2.0 * scale * s * unbent * unbent)
-            }
-        }
+    fn time(&self, s: f64) -> f64 {
+        self.anchor + self.scale * s * s
     }
 
     /// s of a time, held on the piece.
     fn place(&self, t: f64) -> f64 {
-        let s = match self.course {
-            Course::Between([from, to]) => {
-                let [x, y] = [t - from, to - t].map(|x| x.max(0.0).sqrt());
-                x.atan2(y) / FRAC_PI_2
-            }
-            Course::After([from, scale, bend]) => {
-                let x = (t - from) / scale;
-                (x / (1.0 + bend * x)).max(0.0).sqrt()
-            }
-        };
+        let s = ((t - self.anchor) / self.scale).max(0.0).sqrt();
         s.clamp(self.s[0], self.s[1])
     }
 
@@ -95,25 +49,22 @@ impl Piece {
         (0.5 * (low + high), 0.5 * (high - low))
     }
 
-    /// Its parts before and after s.
-    fn parts(self, s: f64) -> [Self; 2] {
-        let [low, high] = self.s;
-        [[low, s], [s, high]].map(|s| Self { s, ..self })
-    }
-
-    /// Its halves in s.
-    pub(crate) fn halves(self) -> [Self; 2] {
-        self.parts(self.middle().0)
-    }
-
-    /// Its parts before and after a time.
-    pub(crate) fn cut(self, t: f64) -> [Self; 2] {
-        self.parts(self.place(t))
+    /// Its halves in s, the earlier first.
+    pub(crate) fn halves(self) -> (Self, Self) {
+        let (middle, _) = self.middle();
+        let part = |s| Self { s, ..self };
+        let (low, high) = (part([self.s[0], middle]), part([middle, self.s[1]]));
+        if self.scale > 0.0 {
+            (low, high)
+        } else {
+            (high, low)
+        }
     }
 
     /// Start and end in time.
     pub(crate) fn times(&self) -> [f64; 2] {
-        self.s.map(|s| self.time(s, 0.0).0)
+        let [a, b] = self.s.map(|s| self.time(s));
+        [a.min(b), a.max(b)]
     }
 }
 
@@ -230,8 +181,7 @@ impl Segment {
         };
         let (middle, half) = self.piece.middle();
         for i in self.terms..terms {
-            let (t, _) = self.piece.time(middle + half * RULE.nodes[i], 0.0);
-            let found = remainder(t)?;
+            let found = remainder(self.piece.time(middle + half * RULE.nodes[i]))?;
             self.values[i] = found.value;
             for (sum, e) in self.noise.iter_mut().zip(found.error) {
                 *sum += NOISE * e;
@@ -252,8 +202,7 @@ impl Segment {
         for f in 0..6 {
             let size = |part: &[Six]| part.iter().map(|c| c[f].abs()).sum::<f64>();
             self.error[f] = self.noise[f] / terms as f64 + blur * size(&self.series[1..terms]);
-            self.truncation[f] =
-                CAUTION.max(0.25 * terms as f64) * size(&self.series[terms - 2..terms]);
+            self.truncation[f] = CAUTION * size(&self.series[terms - 2..terms]);
         }
         Ok(true)
     }
@@ -285,21 +234,23 @@ impl Segment {
     pub(crate) fn add(&self, from: f64, to: f64, centre: f64, sums: &mut [Six; 3]) {
         /// On a part this short, as a fraction of the segment, the series is nearly a cubic.
         const SHORT: f64 = 0.05;
-        /// Nodes for the other factors, on longer parts.
-        const MORE: usize = 11;
-        let [low, high] = [from, to].map(|t| self.piece.place(t));
+        let Piece { anchor, scale, .. } = self.piece;
+        let [mut low, mut high] = [from, to].map(|t| self.piece.place(t));
+        if low > high {
+            (low, high) = (high, low);
+        }
         let (middle, half) = self.piece.middle();
-        // of the series times dt/ds times t^2
+        // exact for the series times dt/ds times t^2
         let nodes = if high - low < SHORT * 2.0 * half {
             4
         } else {
-            self.terms / 2 + MORE
+            self.terms / 2 + 3
         };
         let [area, moment, second] = sums;
         for (s, weight) in gauss::rule(nodes).on(low, high) {
             let value = self.value((s - middle) / half);
-            let (arm, slope) = self.piece.time(s, centre);
-            let weight = weight * slope;
+            let weight = weight * 2.0 * scale.abs() * s;
+            let arm = (anchor - centre) + scale * s * s;
             for (f, value) in value.into_iter().enumerate() {
                 let value = weight * value;
                 area[f] += value;

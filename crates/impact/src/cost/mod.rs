@@ -21,7 +21,7 @@ const SMALL_DISC: f64 = 1.5;
 
 /// Kernels of a trace whatever its tolerance, and for each digit; for fields with rates so many times more.
 const KERNELS: f64 = 20.0;
-const KERNELS_A_DIGIT: f64 = 16.0;
+const KERNELS_A_DIGIT: f64 = 30.0;
 const WITH_RATES: f64 = 1.5;
 
 /// Moments of a cell, and what it takes to look it up.
