@@ -256,4 +256,33 @@ mod tests {
             }
         }
     }
+
+    #[test]
+    fn the_tail_agrees_with_the_kernels() {
+        for nu in [0.0, 0.3, 0.45] {
+            let medium = Medium::new(nu).unwrap();
+            let kernel = Kernel::new(&medium, Profile::Hertz, 1e-12).unwrap();
+            for (r, z) in [(0.0, 0.5), (0.9, 0.0), (1.1, 0.2), (3.0, 4.0), (6.0, 0.1)] {
+                let arrivals = halfspace::Arrivals::new(&medium, Profile::Hertz, r, z).unwrap();
+                let end = 1.5 * arrivals.last();
+                let rest = kernel.static_field(r, z).unwrap();
+                let size = rest.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
+                let plan = PointPlan::new(nu, 1e-12, end, 1, 12).unwrap();
+                let tail = plan.tail(r, z, end).unwrap();
+                for t in [end, 1.1 * end, 3.0 * end, 50.0 * end] {
+                    let exact = kernel.remainder(r, z, t).unwrap().value;
+                    let u = end / t;
+                    for f in 0..6 {
+                        let column: Vec<f64> = tail.iter().map(|six| six[f]).collect();
+                        let found = u * u * lookup::chebyshev(&column, u);
+                        let error = (found - exact[f]).abs() / size;
+                        assert!(
+                            error < 5e-8,
+                            "nu {nu} r {r} z {z} t {t} field {f}: {error:.1e}"
+                        );
+                    }
+                }
+            }
+        }
+    }
 }

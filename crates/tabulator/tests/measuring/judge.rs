@@ -1,8 +1,8 @@
 //! Whether the error estimate of a table is true, judged by values of R alone.
 //!
-//! A table is built and verified from time integrals of R: averages, moments and tails of cells, and pulses summed from
-//! them. Here nothing of that is used. R itself, [`Kernel::remainder`], is integrated against the rate of the force by
-//! Gauss's rules between the arrivals:
+//! A table is built and verified from traces of R: averages, moments and tails of cells, and pulses summed from them.
+//! Here R itself, [`Kernel::remainder`], is integrated against the rate of the force by Gauss's rules between the arrivals,
+//! so that kernels are shared and nothing else:
 //!
 //! ```text
 //! u(t) = P(t) u_static + int P'(t - s) R(s) ds
