@@ -101,19 +101,18 @@ impl Landscape {
     pub(crate) fn intervals(&mut self) -> impl Iterator<Item = (f64, f64)> + use<> {
         let cuts = &mut self.cuts;
         cuts.sort_unstable_by(f64::total_cmp);
-        let mut ends = [0.0; CAPACITY + 2];
-        let mut last = 0;
+        let mut ends: ArrayVec<f64, { CAPACITY + 2 }> = ArrayVec::new();
+        ends.push(0.0);
         for &cut in cuts.iter() {
-            if !same(cut, ends[last]) {
-                last += 1;
-                ends[last] = cut;
+            if !same(cut, ends[ends.len() - 1]) {
+                ends.push(cut);
             }
         }
-        if !same(ends[last], 1.0) {
-            last += 1;
+        if same(ends[ends.len() - 1], 1.0) {
+            ends.pop();
         }
-        ends[last] = 1.0;
-        (0..last).map(move |i| (ends[i], ends[i + 1]))
+        ends.push(1.0);
+        (1..ends.len()).map(move |i| (ends[i - 1], ends[i]))
     }
 
     /// Passes on the nodes of a rule on one interval a panel at a time, accurate to exp(-`digits`) of the size of the
@@ -262,18 +261,18 @@ impl Landscape {
     /// Singularities and pole in the variable (v - `from`)/`scale`, but for those nearer than `least`.
     fn images(&self, from: f64, scale: f64, least: f64) -> Images {
         let to_variable = |v: Complex64| (v - from) / scale;
-        let mut all = Points::new();
+        let mut images = Images {
+            all: Points::new(),
+            pole: to_variable(self.pole),
+        };
         let cuts = self.cuts.iter().map(|&c| Complex64::new(c, 0.0));
         for point in cuts.chain(self.singularities.iter().copied()) {
             let image = to_variable(point);
             if image.norm_sqr() > least * least || least == 0.0 {
-                all.push(image);
+                images.all.push(image);
             }
         }
-        Images {
-            all,
-            pole: to_variable(self.pole),
-        }
+        images
     }
 }
 

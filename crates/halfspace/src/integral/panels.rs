@@ -9,6 +9,7 @@
 use crate::integral::strength::RelativeError;
 use crate::numeric::gauss;
 use crate::numeric::lanes::Points;
+use arrayvec::ArrayVec;
 use num_complex::Complex64;
 
 /// Panels are halved rather than given more nodes than this.
@@ -63,11 +64,9 @@ pub(crate) fn panels(
     rule: Rule,
     f: &mut impl FnMut(&mut [Node]),
 ) {
-    let mut stack = [(0.0, 1.0); 64];
-    let mut depth = 1;
-    while depth > 0 {
-        depth -= 1;
-        let (s0, s1) = stack[depth];
+    let mut stack: ArrayVec<(f64, f64), 64> = ArrayVec::new();
+    stack.push((0.0, 1.0));
+    while let Some((s0, s1)) = stack.pop() {
         let axes = images.all.axes(s0, s1);
         let smallest = axes.iter().fold(FARTHEST, f64::min);
         let pole = half_axes(axis(images.pole, s0, s1));
@@ -79,13 +78,12 @@ pub(crate) fn panels(
         let nodes = (least_nodes / degree).ceil() + 1.0;
         if nodes > MOST_NODES as f64 && s1 - s0 > NARROWEST {
             let middle = 0.5 * (s0 + s1);
-            stack[depth] = (middle, s1);
-            stack[depth + 1] = (s0, middle);
-            depth += 2;
+            stack.push((middle, s1));
+            stack.push((s0, middle));
             continue;
         }
         let n = (nodes.max(least) as usize).min(MOST_NODES);
-        let left = |half_axes: f64| half_axes.powi(-(degree * n as f64) as i32);
+        let left = |half_axes: f64| power(half_axes, (degree * n as f64) as u32).recip();
         let near = axes.iter().filter(|&axis| axis <= NEAR * smallest);
         let all: f64 = near.map(|axis| left(half_axes(axis))).sum();
         // of the whole panel, as if one node had it
@@ -96,16 +94,30 @@ pub(crate) fn panels(
         } else {
             (gauss::rule(n), 0.5 * (s0 + s1), 0.5 * (s1 - s0))
         };
-        let mut found = [Node::default(); MOST_NODES];
-        for ((node, x), weight) in found.iter_mut().zip(&rule.nodes).zip(&rule.weights) {
-            *node = Node {
+        let nodes = rule.nodes.iter().zip(&rule.weights);
+        let mut found: ArrayVec<Node, MOST_NODES> = nodes
+            .map(|(x, weight)| Node {
                 place: middle + half * x,
                 weight: half * weight,
                 error,
-            };
-        }
-        f(&mut found[..n]);
+            })
+            .collect();
+        f(&mut found);
     }
+}
+
+/// x to a whole power.
+#[inline]
+fn power(mut x: f64, mut exponent: u32) -> f64 {
+    let mut product = 1.0;
+    while exponent > 0 {
+        if exponent & 1 == 1 {
+            product *= x;
+        }
+        x *= x;
+        exponent >>= 1;
+    }
+    product
 }
 
 /// Sum of half axes of the smallest ellipse with foci s0, s1 through a singularity, focal distance 2.

@@ -1,18 +1,12 @@
 //! Segments of a trace, as many as its fronts and the tolerance need.
 //!
-//! Between two neighbouring fronts a < b
-//!
-//! ```text
-//! t = a + (b - a)/2 s^2   and   t = b - (b - a)/2 s^2,     0 < s < 1
-//! ```
-//!
-//! turn the roots at the fronts into smooth functions of s; what is left of logarithms is confined to ever smaller
-//! segments by halving those whose series has not converged. A segment that is short beside the time in which the force
-//! rises counts for little, and has few nodes.
+//! Fronts are ends of segments. Where the series of one has not converged with the most nodes, what is left of logarithms
+//! is confined to ever smaller segments by halving. A segment that is short beside the time in which the force rises counts
+//! for little, and has few nodes.
 
 use crate::error::DomainError;
 use crate::field::{Estimate, Six};
-use crate::trace::segment::{Piece, Segment};
+use crate::trace::segment::{Course, Piece, Segment};
 
 /// Segments are halved no more once there are so many, which no place needs; what is left out is in the estimate.
 const MOST: usize = 200;
@@ -58,7 +52,7 @@ pub(crate) fn segments(
                 break;
             }
             if !segment.refine(&remainder)? {
-                let (early, late) = segment.piece.halves();
+                let [early, late] = segment.piece.halves();
                 stack.push(Segment::fit(late, &remainder)?);
                 stack.push(Segment::fit(early, &remainder)?);
                 break;
@@ -77,8 +71,17 @@ fn is_converged(segment: &Segment, allowed: &Six) -> bool {
         || (0..6).all(|f| segment.truncation[f] <= allowed[f].max(segment.error[f]))
 }
 
-/// The intervals between fronts, halved, in the order of time.
+/// The intervals between fronts and after the last, in the order of time.
+///
+/// Beside fronts that are long apart R varies as fast as the disc is passed: such an interval is two, each with a square of
+/// its variable.
 fn pieces(arrivals: &[f64], first: f64, end: f64) -> Vec<Piece> {
+    /// Radii from one front to the next, or of time before the last, that are not long.
+    const SHORT: f64 = 6.0;
+    /// Radii after the last front that need more than one polynomial where it is far.
+    const LONG: f64 = 20.0;
+    /// Time over which R falls after the last front, over the time of that front.
+    const DECAY: f64 = 0.5;
     /// Fronts this close to each other are one.
     const SAME: f64 = 1e-13;
     let mut fronts = vec![first];
@@ -89,30 +92,33 @@ fn pieces(arrivals: &[f64], first: f64, end: f64) -> Vec<Piece> {
         }
     }
     let mut pieces = vec![];
-    for (i, &from) in fronts.iter().enumerate() {
-        if from >= end {
-            break;
-        }
+    for (i, &from) in fronts.iter().enumerate().filter(|(_, t)| **t < end) {
         match fronts.get(i + 1) {
-            None => pieces.push(Piece {
-                anchor: from,
-                scale: end - from,
-                s: [0.0, 1.0],
-            }),
+            None if from < SHORT => {
+                let bend = (1.0 - DECAY * from / (end - from)).clamp(0.0, 1.0 - 1e-6);
+                let course = Course::After([from, (end - from) * (1.0 - bend), bend]);
+                pieces.push(Piece::new(course, end));
+            }
+            None => {
+                let mut rest = Piece::new(Course::After([from, end - from, 0.0]), end);
+                let mut late = vec![];
+                while rest.times()[1] - from > LONG {
+                    let [before, after] = rest.halves();
+                    late.push(after);
+                    rest = before;
+                }
+                pieces.push(rest);
+                pieces.extend(late.into_iter().rev());
+            }
+            Some(&to) if to - from < SHORT => {
+                pieces.push(Piece::new(Course::Between([from, to]), end));
+            }
             Some(&to) => {
                 let half = 0.5 * (to - from);
-                let until = |reach: f64| (reach / half).clamp(0.0, 1.0).sqrt();
-                pieces.push(Piece {
-                    anchor: from,
-                    scale: half,
-                    s: [0.0, until(end - from)],
-                });
+                let after = Course::After([from, half, 0.0]);
+                pieces.push(Piece::new(after, end.min(from + half)));
                 if end > from + half {
-                    pieces.push(Piece {
-                        anchor: to,
-                        scale: -half,
-                        s: [until(to - end), 1.0],
-                    });
+                    pieces.push(Piece::new(Course::Before([to, half]), end.min(to)));
                 }
             }
         }

@@ -1,9 +1,9 @@
-//! The remainder at one place as a function of time: polynomials on segments that halve toward the fronts.
+//! The remainder at one place as a function of time: polynomials on segments between the fronts.
 //!
 //! A cell average taken as a difference of int R dt carries the rounding of int R dt over the width of the cell; far from
 //! the load, where R is small and cells are short beside the time of travel, nothing is left of it. Here R itself is
-//! interpolated on segments that halve toward the fronts. Their number depends on the fronts and on the accuracy, not on
-//! the cells.
+//! interpolated on segments between the fronts, halved where one polynomial is not enough. Their number depends on the
+//! fronts and on the accuracy, not on the cells.
 //!
 //! The segments are found by `interpolation`; one of them is a `segment`.
 

@@ -1,8 +1,12 @@
-//! A segment of a trace: R as a polynomial in the root of the distance in time from a front.
+//! A segment of a trace: R as a polynomial in s, of which time is a function.
 //!
 //! ```text
-//! t = anchor + scale s^2      scale > 0 after a front, scale < 0 before one
+//! t = a + (b - a) sin^2(pi s/2)             between fronts a and b
+//! t = a + scale s^2/(1 - bend s^2)          after the last front a
+//! t = b - scale (1 - s)^2                   before a front b, where the last is far
 //! ```
+//!
+//! All turn the roots at the fronts into smooth functions, the second also 1/t, in which R is smooth in the end.
 //!
 //! The nodes are a Leja sequence, taken in pairs: each set holds the one before, so that a segment has as many as it needs,
 //! and none lies on a front.
@@ -10,11 +14,12 @@
 use crate::error::DomainError;
 use crate::field::{Estimate, Six};
 use crate::numeric::gauss;
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::LazyLock;
 
-/// Nodes of a segment at most, and at first.
-const MOST: usize = 15;
+/// Nodes of a segment at most, fewer where time is a square, and at first.
+const MOST: usize = 39;
+const MOST_OF_SQUARE: usize = 15;
 const FEWEST: usize = 3;
 
 /// What is left of a series over its last terms: beside a front they fall as a power, and many of the same size follow.
@@ -24,22 +29,79 @@ const CAUTION: f64 = 3.0;
 /// their estimates and of any sign.
 const NOISE: f64 = 0.12;
 
+/// How time follows from s, ascending from 0 to 1 at most.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Course {
+    /// Between two fronts.
+    Between([f64; 2]),
+    /// After a front: its time, the scale, and how much of 1 is bent.
+    After([f64; 3]),
+    /// Before a front: its time and the scale.
+    Before([f64; 2]),
+}
+
+impl Course {
+    /// Whether time is a square of s, or of 1 - s.
+    fn is_square(&self) -> bool {
+        matches!(self, Self::Before(_) | Self::After([_, _, 0.0]))
+    }
+}
+
 /// An interval of time as one of s.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Piece {
-    pub(crate) anchor: f64,
-    pub(crate) scale: f64,
-    pub(crate) s: [f64; 2],
+    course: Course,
+    s: [f64; 2],
 }
 
 impl Piece {
-    fn time(&self, s: f64) -> f64 {
-        self.anchor + self.scale * s * s
+    /// From the start of a course to a time.
+    pub(crate) fn new(course: Course, end: f64) -> Self {
+        let mut piece = Self {
+            course,
+            s: [0.0, 1.0],
+        };
+        piece.s[1] = piece.place(end);
+        piece
+    }
+
+    /// Time from `origin` at s, and dt/ds.
+    fn time(&self, s: f64, origin: f64) -> (f64, f64) {
+        match self.course {
+            Course::Between([from, to]) => {
+                let (length, (sin, cos)) = (to - from, (FRAC_PI_2 * s).sin_cos());
+                let time = if s < 0.5 {
+                    (from - origin) + length * sin * sin
+                } else {
+                    (to - origin) - length * cos * cos
+                };
+                (time, PI * length * sin * cos)
+            }
+            Course::After([from, scale, bend]) => {
+                let unbent = 1.0 / (1.0 - bend * s * s);
+                let time = (from - origin) + scale * s * s * unbent;
+                (time, 2.0 * scale * s * unbent * unbent)
+            }
+            Course::Before([to, scale]) => {
+                let left = 1.0 - s;
+                ((to - origin) - scale * left * left, 2.0 * scale * left)
+            }
+        }
     }
 
     /// s of a time, held on the piece.
     fn place(&self, t: f64) -> f64 {
-        let s = ((t - self.anchor) / self.scale).max(0.0).sqrt();
+        let s = match self.course {
+            Course::Between([from, to]) => {
+                let [x, y] = [t - from, to - t].map(|x| x.max(0.0).sqrt());
+                x.atan2(y) / FRAC_PI_2
+            }
+            Course::After([from, scale, bend]) => {
+                let x = (t - from) / scale;
+                (x / (1.0 + bend * x)).max(0.0).sqrt()
+            }
+            Course::Before([to, scale]) => 1.0 - ((to - t) / scale).max(0.0).sqrt(),
+        };
         s.clamp(self.s[0], self.s[1])
     }
 
@@ -49,29 +111,22 @@ impl Piece {
         (0.5 * (low + high), 0.5 * (high - low))
     }
 
-    /// Its halves in s, the earlier first.
-    pub(crate) fn halves(self) -> (Self, Self) {
-        let (middle, _) = self.middle();
-        let part = |s| Self { s, ..self };
-        let (low, high) = (part([self.s[0], middle]), part([middle, self.s[1]]));
-        if self.scale > 0.0 {
-            (low, high)
-        } else {
-            (high, low)
-        }
+    /// Its halves in s.
+    pub(crate) fn halves(self) -> [Self; 2] {
+        let ([low, high], (middle, _)) = (self.s, self.middle());
+        [[low, middle], [middle, high]].map(|s| Self { s, ..self })
     }
 
     /// Start and end in time.
     pub(crate) fn times(&self) -> [f64; 2] {
-        let [a, b] = self.s.map(|s| self.time(s));
-        [a.min(b), a.max(b)]
+        self.s.map(|s| self.time(s, 0.0).0)
     }
 }
 
 /// Nodes in [-1, 1], and what makes coefficients of Chebyshev's polynomials of values at the first of them, for each set.
 struct Rule {
     nodes: [f64; MOST],
-    inverses: Vec<Vec<[f64; MOST]>>,
+    inverses: Vec<Vec<Vec<f64>>>,
 }
 
 static RULE: LazyLock<Rule> = LazyLock::new(|| {
@@ -113,12 +168,7 @@ static RULE: LazyLock<Rule> = LazyLock::new(|| {
                 }
             }
         }
-        let kept = rows.iter().map(|row| {
-            let mut kept = [0.0; MOST];
-            kept[..terms].copy_from_slice(&row[terms..]);
-            kept
-        });
-        kept.collect()
+        rows.iter().map(|row| row[terms..].to_vec()).collect()
     };
     Rule {
         inverses: (0..=MOST)
@@ -135,14 +185,13 @@ pub(crate) struct Segment {
     pub(crate) times: [f64; 2],
     pub(crate) piece: Piece,
     /// Coefficients of Chebyshev's polynomials.
-    series: [Six; MOST],
-    terms: usize,
+    series: Vec<Six>,
     /// Likely error of the mean of R over a part of the segment, but for the truncation of the series.
     pub(crate) error: Six,
     /// Truncation error of the polynomial, from its last terms.
     pub(crate) truncation: Six,
-    /// At the nodes so far: values, and the sum of their errors.
-    values: [Six; MOST],
+    /// At the nodes: values, and the sum of their errors.
+    values: Vec<Six>,
     noise: Six,
 }
 
@@ -155,11 +204,10 @@ impl Segment {
         let mut segment = Self {
             times: piece.times(),
             piece,
-            series: [Six::default(); MOST],
-            terms: 0,
+            series: Vec::new(),
             error: Six::default(),
             truncation: Six::default(),
-            values: [Six::default(); MOST],
+            values: Vec::new(),
             noise: Six::default(),
         };
         segment.refine(remainder)?;
@@ -171,38 +219,41 @@ impl Segment {
         &mut self,
         mut remainder: impl FnMut(f64) -> Result<Estimate, DomainError>,
     ) -> Result<bool, DomainError> {
-        if self.terms == MOST {
-            return Ok(false);
-        }
-        let terms = if self.terms == 0 {
-            FEWEST
+        let most = if self.piece.course.is_square() {
+            MOST_OF_SQUARE
         } else {
-            self.terms + 2
+            MOST
+        };
+        let terms = match self.values.len() {
+            0 => FEWEST,
+            some if some == most => return Ok(false),
+            some => some + 2,
         };
         let (middle, half) = self.piece.middle();
-        for i in self.terms..terms {
-            let found = remainder(self.piece.time(middle + half * RULE.nodes[i]))?;
-            self.values[i] = found.value;
+        for node in &RULE.nodes[self.values.len()..terms] {
+            let (t, _) = self.piece.time(middle + half * node, 0.0);
+            let found = remainder(t)?;
+            self.values.push(found.value);
             for (sum, e) in self.noise.iter_mut().zip(found.error) {
                 *sum += NOISE * e;
             }
         }
-        self.terms = terms;
-        for (term, weights) in self.series.iter_mut().zip(&RULE.inverses[terms]) {
+        self.series.clear();
+        for weights in &RULE.inverses[terms] {
             let mut sum = Six::default();
-            for (weight, value) in weights[..terms].iter().zip(&self.values) {
+            for (weight, value) in weights.iter().zip(&self.values) {
                 for (s, v) in sum.iter_mut().zip(value) {
                     *s += weight * v;
                 }
             }
-            *term = sum;
+            self.series.push(sum);
         }
         // a time is known to its rounding error
         let blur = 4.0 * f64::EPSILON * self.times[1] / (self.times[1] - self.times[0]);
         for f in 0..6 {
             let size = |part: &[Six]| part.iter().map(|c| c[f].abs()).sum::<f64>();
-            self.error[f] = self.noise[f] / terms as f64 + blur * size(&self.series[1..terms]);
-            self.truncation[f] = CAUTION * size(&self.series[terms - 2..terms]);
+            self.error[f] = self.noise[f] / terms as f64 + blur * size(&self.series[1..]);
+            self.truncation[f] = CAUTION.max(0.25 * terms as f64) * size(&self.series[terms - 2..]);
         }
         Ok(true)
     }
@@ -214,7 +265,7 @@ impl Segment {
 
     fn value(&self, x: f64) -> Six {
         let (mut b1, mut b2) = (Six::default(), Six::default());
-        for c in self.series[1..self.terms].iter().rev() {
+        for c in self.series[1..].iter().rev() {
             let mut b0 = Six::default();
             for f in 0..6 {
                 b0[f] = 2.0 * x * b1[f] - b2[f] + c[f];
@@ -234,23 +285,28 @@ impl Segment {
     pub(crate) fn add(&self, from: f64, to: f64, centre: f64, sums: &mut [Six; 3]) {
         /// On a part this short, as a fraction of the segment, the series is nearly a cubic.
         const SHORT: f64 = 0.05;
-        let Piece { anchor, scale, .. } = self.piece;
-        let [mut low, mut high] = [from, to].map(|t| self.piece.place(t));
-        if low > high {
-            (low, high) = (high, low);
-        }
+        /// Nodes for dt/ds times t^2: exact where time is a square, else as parts of a wave, whose rule has some at least.
+        const SQUARE: usize = 3;
+        const WAVE: f64 = 11.0;
+        const LEAST: f64 = 5.0;
+        let [low, high] = [from, to].map(|t| self.piece.place(t));
         let (middle, half) = self.piece.middle();
-        // exact for the series times dt/ds times t^2
-        let nodes = if high - low < SHORT * 2.0 * half {
+        let part = (high - low) / (2.0 * half);
+        let terms = self.series.len();
+        let nodes = if part < SHORT {
             4
+        } else if self.piece.course.is_square() {
+            terms / 2 + SQUARE
         } else {
-            self.terms / 2 + 3
+            // toward an end of the segment the terms vary over its root
+            let whole = 0.5 * terms as f64 + WAVE;
+            (LEAST + part.sqrt() * (whole - LEAST)).ceil() as usize
         };
         let [area, moment, second] = sums;
         for (s, weight) in gauss::rule(nodes).on(low, high) {
             let value = self.value((s - middle) / half);
-            let weight = weight * 2.0 * scale.abs() * s;
-            let arm = (anchor - centre) + scale * s * s;
+            let (arm, slope) = self.piece.time(s, centre);
+            let weight = weight * slope;
             for (f, value) in value.into_iter().enumerate() {
                 let value = weight * value;
                 area[f] += value;

@@ -17,11 +17,11 @@ const TABLE_S: f64 = 6e-2;
 
 /// A kernel beside a disc, and one of the smaller discs of a contact that follows its load, which are farther.
 const KERNEL_S: f64 = 7e-6;
-const SMALL_DISC: f64 = 1.5;
+const SMALL_DISC: f64 = 1.7;
 
 /// Kernels of a trace whatever its tolerance, and for each digit; for fields with rates so many times more.
 const KERNELS: f64 = 20.0;
-const KERNELS_A_DIGIT: f64 = 30.0;
+const KERNELS_A_DIGIT: f64 = 18.0;
 const WITH_RATES: f64 = 1.5;
 
 /// Moments of a cell, and what it takes to look it up.

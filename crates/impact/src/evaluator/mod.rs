@@ -211,8 +211,7 @@ impl<'a> Evaluator<'a> {
             place_m[0].hypot(place_m[1]) < NEAR * self.asked.excitation.units().disc_radius_m;
         for &choice in &serving[1..] {
             // to integrate a sample costs less than a disc
-            if self.past.is_none() || open(&best.0) <= 2 * self.choices[choice].radii.len() || !near
-            {
+            if self.past.is_none() || open(&best.0) <= self.choices[choice].radii.len() || !near {
                 break;
             }
             let next = self.under(place_m, choice)?;
