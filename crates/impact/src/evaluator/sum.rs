@@ -39,7 +39,7 @@ const NEAR: f64 = 2.0;
 /// Part of the tolerance up to which what is left of a sample is let be; a tenth of it for each difference.
 const SURE: f64 = 0.5;
 /// Of more than a few discs the highest power says little of those below it: less is let be.
-const FEW: usize = 4;
+const FEW: usize = 5;
 const OF_MANY: f64 = 0.2;
 
 /// What is left has a sign: a sample beside one that is left with more may have met a zero of it, and counts with a part.
