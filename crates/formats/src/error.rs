@@ -1,5 +1,8 @@
 //! What can be wrong with a scene.
 
+use crate::parts::PartsError;
+use crate::sweep::{JournalError, KernelsError, SweepError};
+use fault::{Class, Culprit, Fault};
 use impact::TreatmentError;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
@@ -156,75 +159,84 @@ impl SceneError {
     }
 }
 
-/// What a program can use of a scene's error, beside its sentence.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct Culprit<'a> {
-    /// Full name of the key at fault.
-    pub key: Option<&'a str>,
-    /// The number found.
-    pub number: Option<f64>,
-    /// The word found.
-    pub word: Option<&'a str>,
-    /// The nearest name that exists.
-    pub suggestion: Option<&'a str>,
-    /// The file at fault.
-    pub file: Option<&'a Path>,
-}
-
-impl SceneError {
-    /// What it is about.
-    #[must_use]
-    pub fn culprit(&self) -> Culprit<'_> {
-        let of_key = |key| Culprit {
-            key: Some(key),
-            ..Culprit::default()
-        };
+impl Fault for SceneError {
+    fn culprit(&self) -> Culprit<'_> {
+        let scene = Culprit::of(Class::Scene);
         match self {
             Self::In { path, error } => {
                 let found = error.culprit();
                 let file = found.file.or(Some(path));
                 Culprit { file, ..found }
             }
-            Self::Unreadable { path, .. } | Self::ForceFile { path, .. } => Culprit {
-                file: Some(path),
-                ..Culprit::default()
-            },
-            Self::Syntax { .. } | Self::Treatment(_) => Culprit::default(),
+            Self::Unreadable { path, .. } | Self::ForceFile { path, .. } => scene.file(path),
+            Self::Syntax { .. } | Self::Treatment(_) => scene,
             Self::UnknownKey {
                 key, suggestion, ..
             } => Culprit {
                 suggestion: suggestion.as_deref(),
-                ..of_key(key)
+                ..scene.key(key)
             },
             Self::Missing { key, .. }
             | Self::Superfluous { key, .. }
-            | Self::Conflict { first: key, .. } => of_key(key),
-            Self::WrongKind { key, value, .. } | Self::UnknownChoice { key, value, .. } => {
-                let word = Some(value.as_str());
-                Culprit {
-                    word,
-                    ..of_key(key)
-                }
-            }
-            Self::OutOfRange { key, value, .. } => Culprit {
-                number: Some(*value),
-                ..of_key(key)
-            },
+            | Self::Conflict { first: key, .. } => scene.key(key),
+            Self::WrongKind { key, value, .. } => scene.key(key).word(value),
+            Self::UnknownChoice {
+                key,
+                value,
+                allowed,
+            } => scene.key(key).word(value).range(allowed),
+            Self::OutOfRange { key, value, range } => scene.key(key).number(*value).range(range),
             Self::UnknownMaterial {
                 key,
                 value,
                 suggestion,
             } => Culprit {
-                word: Some(value),
                 suggestion: suggestion.as_deref(),
-                ..of_key(key)
+                ..scene.key(key).word(value)
             },
             Self::Inconsistent {
                 second_key, second, ..
-            } => Culprit {
-                number: Some(*second),
-                ..of_key(second_key)
-            },
+            } => scene.key(second_key).number(*second),
+        }
+    }
+}
+
+impl Fault for KernelsError {
+    fn culprit(&self) -> Culprit<'_> {
+        match self {
+            Self::Scene(error) => error.culprit(),
+            Self::Table(error) => Culprit::of(Class::Table).file(&error.path),
+        }
+    }
+}
+
+impl Fault for SweepError {
+    fn culprit(&self) -> Culprit<'_> {
+        match self {
+            Self::Scene(error) => error.culprit(),
+            Self::Journal(JournalError::Output(error)) => error.culprit(),
+            Self::Journal(
+                JournalError::Other { path }
+                | JournalError::Strange { path }
+                | JournalError::Io { path, .. },
+            ) => Culprit::of(Class::Output).file(path),
+        }
+    }
+}
+
+impl Fault for PartsError {
+    fn culprit(&self) -> Culprit<'_> {
+        let parts = Culprit::of(Class::Scene);
+        match self {
+            Self::Scene(error) => error.culprit(),
+            Self::Read(error) => error.culprit(),
+            Self::Output(error) => error.culprit(),
+            Self::Folder { path, .. } | Self::None { path } | Self::Unreferred { path, .. } => {
+                parts.file(path)
+            }
+            Self::Foreign { foreign } => parts.file(&foreign.path),
+            Self::Overlap { first, .. } | Self::Columns { first, .. } => parts.file(first),
+            Self::Missing { .. } => parts,
         }
     }
 }

@@ -23,7 +23,7 @@ pub mod scene;
 pub mod stored;
 pub mod sweep;
 
-pub use error::{Culprit, SceneError};
+pub use error::SceneError;
 pub use output::{Existing, Output, OutputError, check, write_whole};
 pub use quantities::{Kind, QUANTITIES, Quantity};
 pub use report::{Choices, choices, json_report, kernel_name};

@@ -12,7 +12,8 @@ use crate::finite::{NotFinite, checked};
 use crate::grid::{Grid, TooManySamples, Wanted};
 use crate::impact::Impact;
 use crate::kernels::KernelSource;
-use crate::kernels::source::{Chosen, KernelChoice, SourceError, choose_source};
+use crate::kernels::place::FieldError;
+use crate::kernels::source::{Chosen, KernelChoice, SourceError, TableFault, choose_source};
 use crate::outcome::{
     Cause, FieldsUsed, KernelsUsed, Outcome, RecordResults, Series, StrikerSeries,
 };
@@ -21,6 +22,7 @@ use crate::record::plausible::doubts;
 use crate::scene::{Load, Scene, Strike};
 use crate::watch::Watch;
 use contact::{Collision, ContactError, Model, Scheme, StaticShare};
+use fault::{Class, Culprit, Fault};
 use halfspace::{Deflection, DomainError};
 use thiserror::Error;
 
@@ -51,6 +53,51 @@ pub enum ImpactError {
     /// A record without the disc that it loads.
     #[error("a force record needs the radius of the disc that it loads: set disc_radius_m")]
     NoDisc,
+}
+
+impl Fault for ImpactError {
+    fn culprit(&self) -> Culprit<'_> {
+        use contact::MarchError as M;
+        let culprit = Culprit::of(Class::Impact);
+        match self {
+            Self::Contact(ContactError::March(
+                M::NoSolution { .. }
+                | M::TooLong { .. }
+                | M::NotConverged { .. }
+                | M::Unstable { .. },
+            )) => culprit.unmendable(),
+            Self::Contact(ContactError::TooFast { velocity_m_s, .. }) => {
+                culprit.key("velocity_m_s").number(*velocity_m_s)
+            }
+            Self::Contact(ContactError::OutOfRange { quantity, value }) => {
+                culprit.key(quantity).number(*value).range("[1e-30, 1e30]")
+            }
+            Self::Fields(FieldsError::Field(FieldError::Table { source, .. })) => source.culprit(),
+            Self::Fields(FieldsError::Field(FieldError::Domain { source, .. }))
+            | Self::Fields(FieldsError::Domain(source))
+            | Self::Source(SourceError::Domain(source))
+            | Self::Domain(source) => source.culprit(),
+            Self::Source(SourceError::Table(fault)) => of_table(fault),
+            Self::TooMuch(TooMuch::Memory(_)) => Culprit::of(Class::Memory),
+            Self::Contact(_)
+            | Self::Fields(FieldsError::TooManySamples(_))
+            | Self::TooManySamples(_)
+            | Self::TooMuch(_)
+            | Self::NotFinite(_) => culprit,
+            Self::NoDisc => culprit.key("disc_radius_m"),
+        }
+    }
+}
+
+/// A table that could not be loaded is something to change, whatever is wrong with it.
+#[cfg_attr(not(feature = "hdf5"), allow(unused_variables))]
+fn of_table(fault: &TableFault) -> Culprit<'_> {
+    let culprit = Culprit::of(Class::Table);
+    #[cfg(feature = "hdf5")]
+    if let Some(lookup::TableError { path, .. }) = fault.downcast_ref() {
+        return culprit.file(path);
+    }
+    culprit
 }
 
 /// Computes a scene.

@@ -97,7 +97,7 @@ pub use error::{ContentError, LookupError};
 #[cfg(feature = "hdf5")]
 pub use file::labels;
 #[cfg(feature = "hdf5")]
-pub use file::{DamagedPatch, TableError, TableFile, damaged_patches};
+pub use file::{BadTable, DamagedPatch, TableError, TableFile, damaged_patches};
 #[cfg(feature = "hdf5")]
 pub use file::{check_hash, read, stated_hash, write};
 pub use hash::{content_hash, settings_id};

@@ -2,6 +2,7 @@
 
 use crate::request::Kind;
 use contact::nearest;
+use fault::{Class, Culprit, Fault};
 use formats::stored::{FileKind, ReadError, StoredQuantity};
 use impact::FieldsError;
 use std::path::{Path, PathBuf};
@@ -144,6 +145,36 @@ impl PlotError {
             quantity: said.into(),
             suggestion: nearest(word, known.iter().copied()),
             allowed: known.join(", "),
+        }
+    }
+}
+
+impl Fault for PlotError {
+    fn culprit(&self) -> Culprit<'_> {
+        let picture = Culprit::of(Class::Scene);
+        match self {
+            Self::Read(error) => error.culprit(),
+            Self::Table(error) => Culprit::of(Class::Table).file(&error.path),
+            Self::Mixed {
+                paths: [path, _], ..
+            }
+            | Self::Unsuitable { path, .. }
+            | Self::NotMoving { path, .. }
+            | Self::Absent { path, .. }
+            | Self::Coarse { path, .. } => picture.file(path),
+            Self::TooMany { path, key, .. } => picture.file(path).key(key),
+            Self::Quantity {
+                path,
+                quantity,
+                suggestion,
+                allowed,
+            } => Culprit {
+                suggestion: suggestion.as_deref(),
+                ..picture.file(path).word(quantity).range(allowed)
+            },
+            Self::NoNumbers { key } => picture.key(key),
+            Self::OneFile { .. } => picture,
+            Self::Fields(_) => Culprit::of(Class::Domain),
         }
     }
 }

@@ -1,5 +1,6 @@
 //! What can stop a build.
 
+use fault::{Class, Culprit, Fault};
 use halfspace::DomainError;
 use lookup::{ContentError, TableError};
 use output::OutputError;
@@ -152,6 +153,33 @@ impl BuildError {
         Self::InFile {
             path: path.to_owned(),
             source: Box::new(self),
+        }
+    }
+}
+
+impl Fault for BuildError {
+    fn culprit(&self) -> Culprit<'_> {
+        let (grid, work) = (Culprit::of(Class::Scene), Culprit::of(Class::Work));
+        match self {
+            Self::Output(error) => error.culprit(),
+            Self::Table(error) => error.culprit(),
+            Self::Domain(error) => error.culprit().unmendable(),
+            Self::Lookup(error) => error.culprit().unmendable(),
+            Self::Setting { key, value, range } => grid.key(key).number(*value).range(range),
+            Self::Shrinks { key, value, .. } => grid.key(key).number(*value),
+            Self::Settings { .. } | Self::TooFine { .. } | Self::NoShards => grid,
+            Self::InFile { path, source } => {
+                let found = source.culprit();
+                let file = found.file.or(Some(path));
+                Culprit { file, ..found }
+            }
+            Self::OtherSettings { path, .. }
+            | Self::NotJournal { path }
+            | Self::NotBlocks { path }
+            | Self::Mixed { second: path, .. }
+            | Self::File { path, .. } => grid.file(path),
+            Self::Incomplete { .. } => grid,
+            Self::Unwritable(_) | Self::NotFinite { .. } | Self::Content(_) => work,
         }
     }
 }

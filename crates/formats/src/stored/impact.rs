@@ -82,7 +82,7 @@ impl StoredImpact {
     /// The kernels of its fields, `none` without any, and the id of their table, empty without one.
     ///
     /// # Errors
-    /// [`ReadError::Damaged`].
+    /// [`ReadError`] for a file that is not as it was written.
     pub fn kernels(&self) -> Result<(String, String), ReadError> {
         Ok((self.stored.text("kernel")?, self.stored.text("table_id")?))
     }
