@@ -163,3 +163,17 @@ impl<'a> Culprit<'a> {
         Self { file, ..self }
     }
 }
+
+/// A sentence alone.
+impl Fault for String {
+    fn culprit(&self) -> Culprit<'_> {
+        Culprit::of(Class::Work)
+    }
+}
+
+/// A sentence alone.
+impl Fault for &str {
+    fn culprit(&self) -> Culprit<'_> {
+        Culprit::of(Class::Work)
+    }
+}

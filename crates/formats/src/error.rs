@@ -13,19 +13,13 @@ pub enum SceneError {
     /// An error in a file.
     #[error("{}: {error}", path.display())]
     In {
-        /// The file.
         path: PathBuf,
         /// What is wrong in it.
         error: Box<SceneError>,
     },
     /// The file cannot be read.
     #[error("cannot read {}: {reason}", path.display())]
-    Unreadable {
-        /// The file.
-        path: PathBuf,
-        /// The system's reason.
-        reason: String,
-    },
+    Unreadable { path: PathBuf, reason: String },
     /// The text is not TOML.
     #[error("line {line} is not valid TOML: {reason}")]
     Syntax {
@@ -37,7 +31,6 @@ pub enum SceneError {
     /// A key that does not exist.
     #[error("unknown key {key}{}", suggested(.suggestion, .allowed))]
     UnknownKey {
-        /// Full name of the key.
         key: String,
         /// The nearest key that exists.
         suggestion: Option<String>,
@@ -47,7 +40,6 @@ pub enum SceneError {
     /// A key that must be given is absent.
     #[error("{key} is missing: {hint}")]
     Missing {
-        /// Full name of the key.
         key: String,
         /// What to give.
         hint: String,
@@ -55,19 +47,15 @@ pub enum SceneError {
     /// A key beside another that it follows from, or that excludes it.
     #[error("{key} cannot be given beside {beside}: {reason}")]
     Superfluous {
-        /// Full name of the key.
         key: String,
         /// What is given already.
         beside: String,
-        /// Why.
         reason: &'static str,
     },
     /// A value of the wrong kind.
     #[error("{key} = {value} is not {expected}")]
     WrongKind {
-        /// Full name of the key.
         key: String,
-        /// The value found.
         value: String,
         /// What was expected.
         expected: &'static str,
@@ -75,9 +63,7 @@ pub enum SceneError {
     /// A number outside its range.
     #[error("{key} = {value} is outside {range}")]
     OutOfRange {
-        /// Full name of the key.
         key: String,
-        /// The value found.
         value: f64,
         /// The allowed range in interval notation.
         range: &'static str,
@@ -85,17 +71,14 @@ pub enum SceneError {
     /// A word that is not one of the choices.
     #[error("{key} = \"{value}\" is not one of {allowed}")]
     UnknownChoice {
-        /// Full name of the key.
         key: String,
         /// The word found.
         value: String,
-        /// The choices.
         allowed: String,
     },
     /// A material that is not in the library.
     #[error("{key} = \"{value}\" is not in the materials library{}", .suggestion.as_ref().map_or_else(String::new, |near| format!("; did you mean {near}?")))]
     UnknownMaterial {
-        /// Full name of the key.
         key: String,
         /// The name found.
         value: String,
@@ -109,7 +92,6 @@ pub enum SceneError {
     Inconsistent {
         /// Section of the scene.
         section: String,
-        /// The quantity.
         quantity: &'static str,
         /// Value from the first keys.
         first: f64,
@@ -127,7 +109,6 @@ pub enum SceneError {
         first: String,
         /// The second choice.
         second: String,
-        /// Why.
         reason: &'static str,
     },
     /// A treatment that the force record cannot have.
@@ -136,7 +117,6 @@ pub enum SceneError {
     /// A force file with an unusable row.
     #[error("{} line {line}: {reason}", path.display())]
     ForceFile {
-        /// The file.
         path: PathBuf,
         /// Line, from 1.
         line: usize,

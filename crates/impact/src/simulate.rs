@@ -101,17 +101,11 @@ fn of_table(fault: &TableFault) -> Culprit<'_> {
 }
 
 /// Computes a scene.
-///
-/// # Errors
-/// [`ImpactError`].
 pub fn simulate(scene: &Scene, kernels: &KernelChoice) -> Result<Outcome, ImpactError> {
     simulate_within(scene, kernels, &Allowance::default())
 }
 
 /// [`simulate`], telling `watch` how far the fields are.
-///
-/// # Errors
-/// [`ImpactError`].
 pub fn simulate_watched(
     scene: &Scene,
     kernels: &KernelChoice,

@@ -12,7 +12,6 @@
 //! Everything is reduced: lengths by the disc radius r0, times by r0/c1, displacements by P/(mu r0),
 //! stresses by P/r0^2; z points into the body and compression is negative stress.
 //! The six fields are in the order of [`halfspace::FIELDS`]: u, w, srr, stt, szz, srz.
-
 //!
 //! # Features
 //!
@@ -74,6 +73,8 @@
 //! assert_eq!(info.cell_width, 0.2);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+
+#![warn(missing_docs)]
 
 mod accuracy;
 mod certificate;

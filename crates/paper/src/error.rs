@@ -1,5 +1,6 @@
 //! Why the paper could not be redone.
 
+use fault::{Class, Culprit, Fault};
 use thiserror::Error;
 
 /// Why the paper could not be redone: a mistake of this library, or a folder that takes no files.
@@ -23,12 +24,19 @@ pub enum PaperError {
     /// A figure that could not be drawn.
     #[error("{name} cannot be drawn: {source}")]
     Picture {
-        /// Its name.
         name: &'static str,
-        /// The reason.
         source: figure::RenderError,
     },
     /// A file could not be written, or is not to be.
     #[error(transparent)]
     Output(#[from] output::OutputError),
+}
+
+impl Fault for PaperError {
+    fn culprit(&self) -> Culprit<'_> {
+        match self {
+            Self::Output(error) => error.culprit(),
+            _ => Culprit::of(Class::Work),
+        }
+    }
 }

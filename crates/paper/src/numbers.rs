@@ -14,7 +14,6 @@ use impact::Run;
 pub struct Row {
     /// Where the paper has it: an equation, a figure, a table, a page of text.
     pub place: &'static str,
-    /// What it is.
     pub what: &'static str,
     /// Its unit; empty for a number without one.
     pub unit: &'static str,

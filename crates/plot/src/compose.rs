@@ -10,9 +10,6 @@ use formats::stored::{FileKind, StoredImpact, StoredSweep, file_kind};
 use std::path::PathBuf;
 
 /// Composes a figure of one or several files of one kind.
-///
-/// # Errors
-/// [`PlotError`].
 pub fn compose(paths: &[PathBuf], request: &Request) -> Result<Drawn, PlotError> {
     let file = common_kind(paths)?;
     if let Some(kind) = request.kind
@@ -30,9 +27,6 @@ pub fn compose(paths: &[PathBuf], request: &Request) -> Result<Drawn, PlotError>
 }
 
 /// Composes the frames of an animation of a section, one figure each.
-///
-/// # Errors
-/// [`PlotError`].
 pub fn animate(
     paths: &[PathBuf],
     request: &Request,

@@ -17,7 +17,6 @@ pub enum PlotError {
     /// Files of different kinds.
     #[error("{} is {first}, and {} is {second}: one picture shows files of one kind", paths[0].display(), paths[1].display())]
     Mixed {
-        /// The two files.
         paths: [PathBuf; 2],
         /// What the first is.
         first: FileKind,
@@ -27,9 +26,7 @@ pub enum PlotError {
     /// A kind of picture that a file does not give.
     #[error("{} is {found}, which has no picture {kind}; it has {allowed}", path.display())]
     Unsuitable {
-        /// The file.
         path: PathBuf,
-        /// What it is.
         found: FileKind,
         /// What was asked for.
         kind: Kind,
@@ -47,9 +44,7 @@ pub enum PlotError {
     /// An animation of what does not move.
     #[error("an animation shows the waves in the section of an impact, and {} is {found}{}", path.display(), shown_as(*kind))]
     NotMoving {
-        /// The file.
         path: PathBuf,
-        /// What it is.
         found: FileKind,
         /// What was asked for.
         kind: Option<Kind>,
@@ -57,7 +52,6 @@ pub enum PlotError {
     /// What a picture shows is not in the file.
     #[error("{} has no {what}: {hint}", path.display())]
     Absent {
-        /// The file.
         path: PathBuf,
         /// What is missing.
         what: &'static str,
@@ -67,7 +61,6 @@ pub enum PlotError {
     /// A quantity that is not there.
     #[error("{quantity} is not in {}{}; it has {allowed}", path.display(), did_you_mean(suggestion.as_deref()))]
     Quantity {
-        /// The file.
         path: PathBuf,
         /// What was asked for.
         quantity: String,
@@ -79,7 +72,6 @@ pub enum PlotError {
     /// Frames too far apart in time for a velocity.
     #[error("{quantity} by differences between the frames of {} would be wrong by {percent} %: give [map] more frames, or show displacement_z", path.display())]
     Coarse {
-        /// The file.
         path: PathBuf,
         /// What was asked for.
         quantity: String,
@@ -89,7 +81,6 @@ pub enum PlotError {
     /// More curves than a picture can show.
     #[error("{} would give {count} curves, and {most} can be told apart: choose among them, such as by --at {key}=VALUE", path.display())]
     TooMany {
-        /// The file.
         path: PathBuf,
         /// Curves.
         count: usize,
@@ -100,10 +91,7 @@ pub enum PlotError {
     },
     /// A key of words along an axis of numbers.
     #[error("{key} has no numbers to draw along")]
-    NoNumbers {
-        /// The key.
-        key: String,
-    },
+    NoNumbers { key: String },
     /// A kernel table cannot be read.
     #[error(transparent)]
     Table(#[from] lookup::TableError),

@@ -1,5 +1,6 @@
 //! Why a chart could not be made.
 
+use fault::{Class, Culprit, Fault};
 use thiserror::Error;
 
 /// Why a chart could not be made.
@@ -46,10 +47,18 @@ pub enum StudyError {
     Picture {
         /// Name of its files.
         name: &'static str,
-        /// The reason.
         source: figure::RenderError,
     },
     /// A file could not be written, or is not to be.
     #[error(transparent)]
     Output(#[from] output::OutputError),
+}
+
+impl Fault for StudyError {
+    fn culprit(&self) -> Culprit<'_> {
+        match self {
+            Self::Output(error) => error.culprit(),
+            _ => Culprit::of(Class::Work),
+        }
+    }
 }

@@ -15,9 +15,7 @@ pub enum BuildError {
     Setting {
         /// Key in the grid file.
         key: String,
-        /// The value given.
         value: f64,
-        /// The allowed range.
         range: &'static str,
     },
     /// Text that is no grid.
@@ -54,7 +52,6 @@ pub enum BuildError {
     Shrinks {
         /// What is to be changed.
         key: &'static str,
-        /// The value given.
         value: f64,
         /// The value of the table.
         present: f64,
@@ -72,10 +69,7 @@ pub enum BuildError {
     },
     /// A file of somebody else has the name of a journal or a shard.
     #[error("{} is not one of this program's unfinished tables and is kept: give the output another name", path.display())]
-    NotJournal {
-        /// The file.
-        path: PathBuf,
-    },
+    NotJournal { path: PathBuf },
     /// A file that should hold blocks of a table does not.
     #[error("{} is not a shard of a kernel table made by this version of the program", path.display())]
     NotBlocks {

@@ -46,17 +46,11 @@ pub fn read_scene(path: &Path) -> Result<Scene, SceneError> {
 }
 
 /// Reads a scene from text; other files it names are found in `directory`.
-///
-/// # Errors
-/// [`SceneError`].
 pub fn parse_scene(text: &str, directory: &Path) -> Result<Scene, SceneError> {
     scene_of(&parse(text)?, directory)
 }
 
 /// Reads a scene from a parsed table, as sweeps make them.
-///
-/// # Errors
-/// [`SceneError`].
 pub fn scene_of(table: &Table, directory: &Path) -> Result<Scene, SceneError> {
     let root = Section::root(table);
     if let Some(key) = ["product", "list", "random"]
@@ -104,9 +98,6 @@ pub(crate) fn scene_with(
 }
 
 /// The half-space and the striker of a parsed scene; none for a force record, whose file is not read.
-///
-/// # Errors
-/// [`SceneError`].
 pub(crate) fn bodies_of(table: &Table) -> Result<(HalfSpace, Option<Strike>), SceneError> {
     let (root, library) = (Section::root(table), Library::built_in());
     let target = read_target(&root, library)?;

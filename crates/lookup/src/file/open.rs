@@ -9,9 +9,6 @@ use std::path::Path;
 /// Opens the table at `path` for reading.
 ///
 /// In this order: it is a regular file; its seal is right; it is HDF5; its kind and version are known.
-///
-/// # Errors
-/// [`TableError`].
 pub(super) fn open(path: &Path) -> Result<Source, TableError> {
     let cover = cover(path)?;
     let file = hdfread::File::open(path);

@@ -45,9 +45,6 @@ pub fn check_hash(path: &Path, content: &Content) -> Result<(), TableError> {
 }
 
 /// The SHA-256 that the file at `path` states.
-///
-/// # Errors
-/// As [`read`].
 pub fn stated_hash(path: &Path) -> Result<String, TableError> {
     let source = open(path)?;
     source.text(&source.root()?, schema::CONTENT_SHA256)

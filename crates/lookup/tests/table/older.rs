@@ -96,9 +96,7 @@ fn versions_kinds_and_gaps_are_named() {
     let error = refused(&folder, |file| {
         set_text(file, schema::FILE_TYPE, "hertzlamb impact results");
     });
-    assert!(
-        matches!(error.what, BadTable::Foreign(found) if found == "hertzlamb impact results")
-    );
+    assert!(matches!(error.what, BadTable::Foreign(found) if found == "hertzlamb impact results"));
     let error = refused(&folder, |file| {
         file.unlink("slices/nu_0.3/tail").unwrap();
     });
