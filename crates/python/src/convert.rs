@@ -1,27 +1,14 @@
 //! Values of TOML and JSON as Python's, and back.
 
+use crate::errors::raised;
 use formats::SceneError;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyList, PyString};
 use toml::{Table, Value};
 
-/// Why a value of Python is no value of a scene.
-pub(crate) enum NoValue {
-    /// It is of a kind that scenes do not have.
-    Scene(SceneError),
-    /// Python itself failed.
-    Python(PyErr),
-}
-
-impl From<PyErr> for NoValue {
-    fn from(error: PyErr) -> Self {
-        Self::Python(error)
-    }
-}
-
 /// A mapping of Python as a table; keys whose value is None are left out.
-pub(crate) fn table(mapping: &Bound<'_, PyAny>, name: &str) -> Result<Table, NoValue> {
+pub(crate) fn table(mapping: &Bound<'_, PyAny>, name: &str) -> PyResult<Table> {
     let mut found = Table::new();
     for item in mapping.call_method0("items")?.try_iter()? {
         let (key, value): (Bound<'_, PyAny>, Bound<'_, PyAny>) = item?.extract()?;
@@ -41,7 +28,7 @@ pub(crate) fn table(mapping: &Bound<'_, PyAny>, name: &str) -> Result<Table, NoV
 }
 
 /// One value; nothing for None.
-fn to_toml(value: &Bound<'_, PyAny>, name: &str) -> Result<Option<Value>, NoValue> {
+fn to_toml(value: &Bound<'_, PyAny>, name: &str) -> PyResult<Option<Value>> {
     if value.is_none() {
         return Ok(None);
     }
@@ -94,43 +81,24 @@ fn to_toml(value: &Bound<'_, PyAny>, name: &str) -> Result<Option<Value>, NoValu
     Ok(Some(Value::Array(found)))
 }
 
-fn wrong(name: &str, value: &Bound<'_, PyAny>, expected: &'static str) -> NoValue {
+fn wrong(name: &str, value: &Bound<'_, PyAny>, expected: &'static str) -> PyErr {
     let shown = value
         .repr()
         .map_or_else(|_| "?".to_owned(), |text| text.to_string());
     let short: String = shown.chars().take(60).collect();
-    NoValue::Scene(SceneError::WrongKind {
+    let error = SceneError::WrongKind {
         key: name.to_owned(),
         value: short,
         expected,
-    })
+    };
+    raised(value.py(), error)
 }
 
-/// A table as a dictionary.
-pub(crate) fn dict<'py>(py: Python<'py>, table: &Table) -> PyResult<Bound<'py, PyDict>> {
-    let found = PyDict::new(py);
-    for (key, value) in table {
-        found.set_item(key, from_toml(py, value)?)?;
-    }
-    Ok(found)
-}
-
-fn from_toml<'py>(py: Python<'py>, value: &Value) -> PyResult<Bound<'py, PyAny>> {
-    Ok(match value {
-        Value::String(text) => PyString::new(py, text).into_any(),
-        Value::Integer(number) => number.into_pyobject(py)?.into_any(),
-        Value::Float(number) => PyFloat::new(py, *number).into_any(),
-        Value::Boolean(flag) => PyBool::new(py, *flag).to_owned().into_any(),
-        Value::Datetime(date) => PyString::new(py, &date.to_string()).into_any(),
-        Value::Array(items) => {
-            let items: Vec<_> = items
-                .iter()
-                .map(|item| from_toml(py, item))
-                .collect::<PyResult<_>>()?;
-            PyList::new(py, items)?.into_any()
-        }
-        Value::Table(inner) => dict(py, inner)?.into_any(),
-    })
+/// What TOML text says, as a dictionary.
+pub(crate) fn from_toml<'py>(py: Python<'py>, text: &str) -> PyResult<Bound<'py, PyAny>> {
+    let table: Result<Table, String> = text.parse().map_err(|e: toml::de::Error| e.to_string());
+    let value = table.and_then(|table| serde_json::to_value(table).map_err(|e| e.to_string()));
+    from_json(py, &value.map_err(|error| raised(py, error))?)
 }
 
 /// A value of JSON as Python's.

@@ -1,11 +1,11 @@
 //! Scenes and sweeps as people give them: a dictionary, a path, or TOML text.
 
-use crate::convert::{NoValue, dict, table};
+use crate::convert::{from_toml, table};
 use crate::errors;
 use formats::{parse_scene, read_scene};
 use impact::Scene;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyString};
+use pyo3::types::PyString;
 use std::path::{Path, PathBuf};
 use toml::Table;
 
@@ -43,16 +43,10 @@ impl Given {
         }
         if !given.hasattr("items")? {
             let kind = given.get_type().name()?;
-            return Err(errors::bad_input(
-                py,
-                &format!("a scene is a dictionary, a path or TOML text, not {kind}"),
-            ));
+            let message = format!("a scene is a dictionary, a path or TOML text, not {kind}");
+            return Err(errors::plain(py, "SceneError", &message));
         }
-        match table(given, "") {
-            Ok(found) => Ok(Self::Table(found)),
-            Err(NoValue::Scene(error)) => Err(errors::scene(py, &error)),
-            Err(NoValue::Python(error)) => Err(error),
-        }
+        table(given, "").map(Self::Table)
     }
 }
 
@@ -65,19 +59,17 @@ pub(crate) fn scene(given: &Bound<'_, PyAny>) -> PyResult<Scene> {
         Given::Text(text) => parse_scene(text, here()),
         Given::File(path) => read_scene(path),
     });
-    found.map_err(|error| errors::scene(py, &error))
+    found.map_err(|error| errors::raised(py, error))
 }
 
 /// The scene with every default and material spelled out, as a dictionary.
-pub(crate) fn spelled_out<'py>(py: Python<'py>, scene: &Scene) -> PyResult<Bound<'py, PyDict>> {
-    let text = formats::resolved(scene);
-    let parsed = text.parse::<Table>();
-    dict(py, &parsed.map_err(|error| errors::internal(py, &error))?)
+pub(crate) fn spelled_out<'py>(py: Python<'py>, scene: &Scene) -> PyResult<Bound<'py, PyAny>> {
+    from_toml(py, &formats::resolved(scene))
 }
 
 /// A scene with every default and material spelled out.
 #[pyfunction]
-pub(crate) fn resolved<'py>(given: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyDict>> {
+pub(crate) fn resolved<'py>(given: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
     spelled_out(given.py(), &scene(given)?)
 }
 

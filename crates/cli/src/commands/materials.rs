@@ -3,8 +3,8 @@
 use crate::failure::{Failure, print};
 use clap::Args;
 use contact::{Library, Material};
-use formats::read_materials;
-use serde_json::{Value, json};
+use formats::{material_report, read_materials};
+use serde_json::Value;
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
@@ -20,23 +20,6 @@ pub(crate) struct Arguments {
     /// Print a JSON array instead of a table.
     #[arg(long)]
     json: bool,
-}
-
-/// A material with its wave speeds, as it is printed.
-fn row(m: &Material) -> Value {
-    json!({
-        "name": m.name,
-        "group": m.group,
-        "youngs_modulus_pa": m.youngs_modulus_pa,
-        "poisson_ratio": m.poisson_ratio,
-        "density_kg_m3": m.density_kg_m3,
-        "longitudinal_speed_m_s": m.longitudinal_speed_m_s(),
-        "shear_speed_m_s": m.shear_speed_m_s(),
-        "yield_strength_pa": m.yield_strength_pa,
-        "tensile_strength_pa": m.tensile_strength_pa,
-        "fracture_toughness_pa_sqrt_m": m.fracture_toughness_pa_sqrt_m,
-        "source": m.source,
-    })
 }
 
 fn text(m: &Material) -> String {
@@ -73,7 +56,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         )));
     }
     if arguments.json {
-        let rows: Value = found.into_iter().map(row).collect();
+        let rows: Value = found.into_iter().map(material_report).collect();
         return print(format!("{rows:#}"));
     }
     print(format!(

@@ -5,6 +5,7 @@ use crate::failure::{Failure, print, show};
 use crate::overwrite::Overwrite;
 use crate::progress::Bar;
 use clap::{Args, Subcommand};
+use formats::table_report;
 use lookup::{Content, DamagedPatch};
 use output::TABLE;
 use serde_json::json;
@@ -91,47 +92,23 @@ fn info(path: &Path, json: bool) -> Result<(), Failure> {
     let table = lookup::Table::open(path).map_err(Failure::input)?;
     let content = table.content();
     let origin = &content.origin;
-    let accuracy = content.accuracy();
-    let file = path.display().to_string();
-    let bytes = std::fs::metadata(path).map_or(0, |data| data.len());
-    let hash = lookup::content_hash(content);
+    let value = table_report(path, &table);
     let cells: Vec<usize> = content.slices.iter().map(|slice| slice.cells).collect();
-    let value = json!({
-        "file": file,
-        "bytes": bytes,
-        "id": table.id(),
-        "format_version": table.format_version(),
-        "software_version": origin.software_version,
-        "git_revision": origin.git_revision,
-        "created_unix_s": origin.created_unix_s,
-        "content_sha256": hash,
-        "poisson_ratios": table.poisson_ratios(),
-        "r_nodes": content.r.len(),
-        "z_nodes": content.z.len(),
-        "r_max": table.r_max(),
-        "z_max": table.z_max(),
-        "cell_width": content.cell_width,
-        "cells": cells,
-        "stencil_points": content.stencil_points,
-        "accuracy_asked": origin.accuracy_asked,
-        "pulse_lengths": content.pulse_lengths,
-        "p99_relative_error": origin.accuracy_reached,
-        "relative_errors": tabulate::errors(&accuracy),
-        "grid": origin.grid,
-    });
     let text = format!(
-        "file            {file} ({:.1} MB)\n\
+        "file            {} ({:.1} MB)\n\
          id              {}, format {}, written by {}\n\
-         content         sha256 {hash}\n\
+         content         sha256 {}\n\
          Poisson ratios  {:?}\n\
          r               0 .. {} r0, {} nodes\n\
          z               0 .. {} r0, {} nodes\n\
          time            cells of {} r0/c1, {cells:?} of them, then a tail\n\
          interpolation   {} points\n{}",
-        bytes as f64 / 1e6,
+        path.display(),
+        value["bytes"].as_f64().unwrap_or(0.0) / 1e6,
         table.id(),
         table.format_version(),
         origin.software_version,
+        value["content_sha256"].as_str().unwrap_or(""),
         table.poisson_ratios(),
         table.r_max(),
         content.r.len(),
@@ -139,7 +116,7 @@ fn info(path: &Path, json: bool) -> Result<(), Failure> {
         content.z.len(),
         content.cell_width,
         content.stencil_points,
-        tabulate::errors_in_words(&accuracy)
+        tabulate::errors_in_words(&content.accuracy())
     );
     show(json, &value, text)
 }

@@ -5,9 +5,10 @@ use crate::memory::MemoryLimit;
 use crate::overwrite::{Overwrite, say_complete};
 use crate::progress::Bar;
 use clap::Args;
+use formats::accuracy_report;
 use lookup::{Accuracy, Origin, Quantiles, schema};
 use output::{Role, SHARD, TABLE, apart};
-use serde_json::{Value, json};
+use serde_json::json;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 use tabulator::{BuildError, Extension, Grid, NUMBERS_REVISION, Summary};
@@ -63,30 +64,6 @@ pub(crate) struct Arguments {
     /// Print one JSON object instead of text.
     #[arg(long)]
     json: bool,
-}
-
-/// Relative errors measured off the grid, by length of the pulse, region and field.
-pub(crate) fn errors(accuracy: &[Accuracy]) -> Value {
-    let fields = |errors: &[Quantiles; 6]| {
-        let mut named: Vec<_> = schema::FIELD_NAMES.into_iter().zip(errors).collect();
-        named.sort_by_key(|(name, _)| *name);
-        let of = |&Quantiles { p50, p99, max }: &Quantiles| json!({ "p50": p50, "p99": p99, "max": max });
-        let named = named
-            .into_iter()
-            .map(|(name, error)| (name.to_owned(), of(error)));
-        Value::Object(named.collect())
-    };
-    let measured = accuracy.iter().map(|measured| {
-        let mut of_length = json!({
-            "pulse_length": measured.pulse_length,
-            "on_slices": fields(&measured.on_slices),
-        });
-        if let Some(between) = &measured.between_slices {
-            of_length["between_slices"] = fields(between);
-        }
-        of_length
-    });
-    measured.collect()
 }
 
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
@@ -219,7 +196,7 @@ fn tell(grid: &Grid, arguments: &Arguments, summary: &Summary) -> Result<(), Fai
         "resumed_blocks": summary.resumed_blocks,
         "pulse_lengths": summary.pulse_lengths,
         "p99_relative_error": summary.p99_error,
-        "relative_errors": errors(&summary.accuracy),
+        "relative_errors": accuracy_report(&summary.accuracy),
     });
     let text = format!(
         "{file}: {} points, {:.1} MB, {:.1} s, id {}\n{}",
