@@ -2,6 +2,7 @@
 
 use crate::parts::PartsError;
 use crate::sweep::{JournalError, KernelsError, SweepError};
+use contact::nearest;
 use fault::{Class, Culprit, Fault};
 use impact::TreatmentError;
 use std::path::{Path, PathBuf};
@@ -29,7 +30,7 @@ pub enum SceneError {
         reason: String,
     },
     /// A key that does not exist.
-    #[error("unknown key {key}{}", suggested(.suggestion, .allowed))]
+    #[error("unknown key {key}{}", suggested(.key, .suggestion, .allowed))]
     UnknownKey {
         key: String,
         /// The nearest key that exists.
@@ -68,8 +69,17 @@ pub enum SceneError {
         /// The allowed range in interval notation.
         range: &'static str,
     },
+    /// A place outside the block.
+    #[error("{key} = {value} is outside [0, {limit}], where {limit_key} ends the block")]
+    OutsideBlock {
+        key: String,
+        value: f64,
+        /// What ends the block.
+        limit_key: &'static str,
+        limit: f64,
+    },
     /// A word that is not one of the choices.
-    #[error("{key} = \"{value}\" is not one of {allowed}")]
+    #[error("{key} = \"{value}\" is not one of {allowed}{}", near(nearest_in(.value, .allowed)))]
     UnknownChoice {
         key: String,
         /// The word found.
@@ -77,7 +87,7 @@ pub enum SceneError {
         allowed: String,
     },
     /// A material that is not in the library.
-    #[error("{key} = \"{value}\" is not in the materials library{}", .suggestion.as_ref().map_or_else(String::new, |near| format!("; did you mean {near}?")))]
+    #[error("{key} = \"{value}\" is not in the materials library{}", near(.suggestion.as_deref()))]
     UnknownMaterial {
         key: String,
         /// The name found.
@@ -164,8 +174,17 @@ impl Fault for SceneError {
                 key,
                 value,
                 allowed,
-            } => scene.key(key).word(value).range(allowed),
+            } => Culprit {
+                suggestion: nearest_in(value, allowed),
+                ..scene.key(key).word(value).range(allowed)
+            },
             Self::OutOfRange { key, value, range } => scene.key(key).number(*value).range(range),
+            Self::OutsideBlock {
+                key, value, limit, ..
+            } => Culprit {
+                limits: Some([0.0, *limit]),
+                ..scene.key(key).number(*value)
+            },
             Self::UnknownMaterial {
                 key,
                 value,
@@ -221,9 +240,27 @@ impl Fault for PartsError {
     }
 }
 
-fn suggested(suggestion: &Option<String>, otherwise: &str) -> String {
-    match suggestion {
-        Some(name) => format!("; did you mean {name}?"),
-        None => format!(" ({otherwise})"),
+fn near(suggestion: Option<&str>) -> String {
+    suggestion.map_or_else(String::new, |name| format!("; did you mean {name}?"))
+}
+
+/// The nearest to a word of some that commas divide.
+fn nearest_in<'a>(word: &str, allowed: &'a str) -> Option<&'a str> {
+    let found = nearest(word, allowed.split(", "))?;
+    allowed.split(", ").find(|name| *name == found)
+}
+
+/// The nearest key, with its unit where that is all that differs, or what is known.
+fn suggested(key: &str, suggestion: &Option<String>, otherwise: &str) -> String {
+    let own = key.rsplit('.').next().and_then(|own| own.rsplit_once('_'));
+    match (
+        suggestion,
+        suggestion.as_ref().and_then(|near| near.rsplit_once('_')),
+    ) {
+        (Some(near), Some((stem, unit))) if own.is_some_and(|own| own.0 == stem) => {
+            format!("; did you mean {near}, in {unit}?")
+        }
+        (Some(_), _) => near(suggestion.as_deref()),
+        (None, _) => format!(" ({otherwise})"),
     }
 }

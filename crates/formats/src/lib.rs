@@ -33,7 +33,8 @@ pub use results::{
     Allowed, check_results, print_results_csv, stage_results, stage_results_csv, write_results,
 };
 pub use scene::{
-    inputs, parse_materials, parse_scene, read_materials, read_record, read_scene, resolved,
+    parse_materials, parse_scene, read_materials, read_record, read_scene, read_with_inputs,
+    resolved,
 };
 
 /// The README's program runs.

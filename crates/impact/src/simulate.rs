@@ -32,6 +32,14 @@ pub enum ImpactError {
     /// The contact failed.
     #[error(transparent)]
     Contact(#[from] ContactError),
+    /// The contact failed, between bodies whose numbers hint at slips.
+    #[error("{error}; {}", doubts.join("; "))]
+    Doubtful {
+        /// Why the contact failed.
+        error: ContactError,
+        /// What hints at slips.
+        doubts: Vec<String>,
+    },
     /// The kernels could not be had.
     #[error(transparent)]
     Source(#[from] SourceError),
@@ -59,19 +67,26 @@ impl Fault for ImpactError {
     fn culprit(&self) -> Culprit<'_> {
         use contact::MarchError as M;
         let culprit = Culprit::of(Class::Impact);
-        match self {
-            Self::Contact(ContactError::March(
+        let contact = match self {
+            Self::Contact(error) | Self::Doubtful { error, .. } => Some(error),
+            _ => None,
+        };
+        match contact {
+            Some(ContactError::March(
                 M::NoSolution { .. }
                 | M::TooLong { .. }
                 | M::NotConverged { .. }
                 | M::Unstable { .. },
-            )) => culprit.unmendable(),
-            Self::Contact(ContactError::TooFast { velocity_m_s, .. }) => {
-                culprit.key("velocity_m_s").number(*velocity_m_s)
+            )) => return culprit.unmendable(),
+            Some(ContactError::TooFast { velocity_m_s, .. }) => {
+                return culprit.key("velocity_m_s").number(*velocity_m_s);
             }
-            Self::Contact(ContactError::OutOfRange { quantity, value }) => {
-                culprit.key(quantity).number(*value).range("[1e-30, 1e30]")
+            Some(ContactError::OutOfRange { quantity, value }) => {
+                return culprit.key(quantity).number(*value).range("[1e-30, 1e30]");
             }
+            _ => {}
+        }
+        match self {
             Self::Fields(FieldsError::Field(FieldError::Table { source, .. })) => source.culprit(),
             Self::Fields(FieldsError::Field(FieldError::Domain { source, .. }))
             | Self::Fields(FieldsError::Domain(source))
@@ -80,6 +95,7 @@ impl Fault for ImpactError {
             Self::Source(SourceError::Table(fault)) => of_table(fault),
             Self::TooMuch(TooMuch::Memory(_)) => Culprit::of(Class::Memory),
             Self::Contact(_)
+            | Self::Doubtful { .. }
             | Self::Fields(FieldsError::TooManySamples(_))
             | Self::TooManySamples(_)
             | Self::TooMuch(_)
@@ -159,7 +175,13 @@ fn of_strike(scene: &Scene, strike: &Strike, asked: Asked<'_>) -> Result<Outcome
         velocity_m_s: strike.velocity_m_s,
         settings: scene.settings,
     };
-    let run = impact.solve()?;
+    let run =
+        impact.solve().map_err(
+            |error| match contact::doubts(&scene.target, &strike.striker) {
+                doubts if doubts.is_empty() => ImpactError::Contact(error),
+                doubts => ImpactError::Doubtful { error, doubts },
+            },
+        )?;
     let excitation = run.excitation();
     let computed = Computed::new(asked, excitation)?;
     let marched = (run.solved.plan.model, run.solved.scheme);

@@ -11,7 +11,8 @@ pub(crate) fn frozen<'py, T: Element>(
     numbers: Vec<T>,
     shape: &[usize],
 ) -> PyResult<Bound<'py, PyArrayDyn<T>>> {
-    let array = ArrayD::from_shape_vec(shape, numbers).map_err(|error| raised(py, error.to_string()))?;
+    let array =
+        ArrayD::from_shape_vec(shape, numbers).map_err(|error| raised(py, error.to_string()))?;
     let array = array.into_pyarray(py);
     array.try_readwrite()?.make_nonwriteable();
     Ok(array)

@@ -5,10 +5,10 @@ use crate::kernels::{Kernel, Kernels};
 use crate::memory::MemoryLimit;
 use crate::overwrite::{Overwrite, say_complete};
 use crate::progress::Bar;
-use crate::report::text_report;
+use crate::report::{text_report, understood};
 use clap::Args;
 use formats::{
-    Allowed, check_results, inputs, json_report, read_scene, stage_results, stage_results_csv,
+    Allowed, check_results, json_report, read_with_inputs, stage_results, stage_results_csv,
 };
 use impact::{Allowance, Forecast, ImpactError, KernelChoice, Scene, TooMuch, simulate_within};
 use output::{CSV, HDF5, Output, Role, Staged};
@@ -25,7 +25,7 @@ const PATIENCE: Duration = Duration::from_secs(1);
     after_help = "Example:\n  hertzlamb impact scenes/copper-on-steel.toml --table kernels.h5 -o impact.h5 --json"
 )]
 pub(crate) struct Arguments {
-    /// Scene file (TOML, see data-schema/scene.md).
+    /// Scene file (TOML, see data-schema/scene.md); - is standard input.
     scene: PathBuf,
     #[command(flatten)]
     kernels: Kernels,
@@ -52,12 +52,12 @@ pub(crate) struct Arguments {
 
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let start = Instant::now();
-    let scene = read_scene(&arguments.scene)?;
+    let (scene, inputs) = read_with_inputs(&arguments.scene)?;
     if arguments.skip_complete && is_complete(arguments, &scene)? {
         let output = arguments.output.as_deref().unwrap_or(Path::new(""));
         return say_complete(output, arguments.json);
     }
-    let [output, csv] = outputs(arguments)?;
+    let [output, csv] = outputs(arguments, inputs)?;
     let kernels = arguments.kernels.choice()?;
     if arguments.dry_run {
         return dry_run(arguments, &scene, &kernels);
@@ -110,7 +110,8 @@ fn dry_run(arguments: &Arguments, scene: &Scene, kernels: &KernelChoice) -> Resu
         "disk_bytes": forecast.disk_bytes,
         "threads": std::thread::available_parallelism().map_or(1, usize::from),
     });
-    show(arguments.json, &plan, takes(&forecast))
+    let text = format!("{}\n{}", understood(scene), takes(&forecast));
+    show(arguments.json, &plan, text)
 }
 
 /// Whether the output is there already, as this command would write it.
@@ -138,9 +139,8 @@ fn is_complete(arguments: &Arguments, scene: &Scene) -> Result<bool, Failure> {
 }
 
 /// The results file and the table as text, where they are asked for.
-fn outputs(arguments: &Arguments) -> Result<[Option<Output>; 2], Failure> {
+fn outputs(arguments: &Arguments, mut read: Vec<Role>) -> Result<[Option<Output>; 2], Failure> {
     let wanted = [(&arguments.output, HDF5), (&arguments.csv, CSV)];
-    let mut read = inputs(&arguments.scene)?;
     read.extend(arguments.kernels.inputs());
     let mut claimed = [None, None];
     for (place, (path, ending)) in claimed.iter_mut().zip(wanted) {

@@ -61,7 +61,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     print(format!(
         "{:<24} {:<9} {:>8} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6}  source",
-        "name", "group", "E [GPa]", "nu", "kg/m3", "c1", "c2", "Ry", "Rm", "KIc"
+        "name", "group", "E", "nu", "rho", "c1", "c2", "Ry", "Rm", "KIc"
+    ))?;
+    print(format!(
+        "{:<24} {:<9} {:>8} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6}",
+        "", "", "GPa", "", "kg/m3", "m/s", "m/s", "MPa", "MPa", "MPa√m"
     ))?;
     found.into_iter().try_for_each(|m| print(text(m)))
 }

@@ -3,7 +3,7 @@
 use super::body::{put, to_table};
 use super::striker::Form;
 use contact::{Choice, Settings, Shape, Striker};
-use impact::{Load, Scene};
+use impact::{Load, Reading, Scene};
 use toml::{Table, Value};
 
 /// The scene with every default and material spelled out, as TOML.
@@ -31,6 +31,22 @@ pub fn resolved(scene: &Scene) -> String {
             let mut table = Table::new();
             let file = record.file.as_ref().map(|path| path.display().to_string());
             table.insert("file".into(), file.unwrap_or_default().into());
+            let Reading {
+                columns,
+                units,
+                start_s,
+                end_s,
+                sign,
+            } = &record.reading;
+            for (key, words) in [("columns", columns), ("units", units)] {
+                if let Some(words) = words {
+                    table.insert(key.into(), words.to_vec().into());
+                }
+            }
+            put(
+                &mut table,
+                [("start_s", *start_s), ("end_s", *end_s), ("sign", *sign)],
+            );
             if let Some(treated) = &record.treated {
                 let (baseline_s, low_pass_hz) = (treated.baseline_s, treated.low_pass_hz);
                 put(
