@@ -19,11 +19,12 @@ pub(crate) struct Failure {
 impl Failure {
     /// The user can mend it: a scene, a file, an argument.
     pub(crate) fn input(error: impl Fault) -> Self {
-        let remedy = Remedy::Change;
-        Self {
-            remedy,
-            ..error.into()
+        let mut failure = Self::from(error);
+        failure.remedy = Remedy::Change;
+        if failure.about["class"] == Class::Work.name() {
+            failure.about["class"] = Class::Scene.name().into();
         }
+        failure
     }
 
     /// The work could not be done.

@@ -89,7 +89,8 @@ fn parsed() -> Cli {
             if error.use_stderr() && failure::wants_json() {
                 let text = error.to_string();
                 let sentence = text.split("\n\nUsage").next().unwrap_or(&text);
-                let sentence = sentence.trim().trim_start_matches("error: ").to_owned();
+                let sentence = sentence.trim().trim_start_matches("error: ");
+                let sentence = sentence.replace("\n\n  tip: ", "; ");
                 failure::Failure::input(sentence).report();
                 std::process::exit(2);
             }

@@ -1,6 +1,6 @@
 //! The results of an impact as text.
 
-use contact::Shape;
+use contact::{Material, Shape};
 use formats::{choices, kernel_name};
 use impact::{Cause, Load, Outcome, ProbeFields, RecordResults, Scene, Strike, Treated};
 
@@ -13,10 +13,12 @@ pub(crate) fn text_report(scene: &Scene, outcome: &Outcome) -> String {
     ];
     match &outcome.cause {
         Cause::Contact { results, .. } => {
-            lines.push(format!(
-                "scheme         {}, static share {}, deflection {}",
-                choices.scheme, choices.static_share, choices.deflection
-            ));
+            let mut scheme = format!("scheme         {}", choices.scheme);
+            if scene.settings.disc_radius_m.is_some() {
+                let (share, deflection) = (choices.static_share, choices.deflection);
+                scheme.push_str(&format!(", static share {share}, deflection {deflection}"));
+            }
+            lines.push(scheme);
             lines.extend(contact_lines(results));
         }
         Cause::Record(results) => {
@@ -37,21 +39,21 @@ pub(crate) fn understood(scene: &Scene) -> String {
             striker,
             velocity_m_s,
         }) => {
-            let name = &striker.material.name;
+            let name = named(&striker.material);
             let body = match striker.shape {
                 Some(Shape::Ball { diameter_m }) => {
-                    format!("{name} ball of {}", short(diameter_m, "m"))
+                    format!("{name}ball of {}", short(diameter_m, "m"))
                 }
                 Some(Shape::Rod {
                     diameter_m,
                     length_m,
                     ..
                 }) => format!(
-                    "{name} rod of {} by {}",
+                    "{name}rod of {} by {}",
                     short(diameter_m, "m"),
                     short(length_m, "m")
                 ),
-                None => format!("{name} tip of {} radius", short(striker.tip_radius_m, "m")),
+                None => format!("{name}tip of {} radius", short(striker.tip_radius_m, "m")),
             };
             let mass = short(1e3 * striker.mass_kg, "g");
             format!("{body}, {mass}, at {}", short(*velocity_m_s, "m/s"))
@@ -70,12 +72,20 @@ pub(crate) fn understood(scene: &Scene) -> String {
     };
     let target = scene.target.material();
     format!(
-        "impact         {load}, on {}: E {}, nu {}, {:.0} kg/m3",
-        target.name,
+        "impact         {load}, on {}E {}, nu {}, {:.0} kg/m3",
+        named(target).replace(' ', ": "),
         short(target.youngs_modulus_pa, "Pa"),
-        target.poisson_ratio,
+        (1e4 * target.poisson_ratio).round() / 1e4,
         scene.target.density_kg_m3()
     )
+}
+
+/// The name of a material that has one, with a blank.
+fn named(material: &Material) -> String {
+    match material.name.as_str() {
+        "given" => String::new(),
+        name => format!("{name} "),
+    }
 }
 
 fn peak_line(force_n: f64, time_s: f64) -> String {

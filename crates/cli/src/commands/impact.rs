@@ -166,8 +166,9 @@ fn announce(forecast: &Forecast) -> bool {
 fn takes(forecast: &Forecast) -> String {
     let decimals = if forecast.seconds > LONG_S { 0 } else { 2 };
     format!(
-        "{} points of {:.0} samples: about {:.decimals$} s, {:.3} GB of memory, {:.3} GB in a results file",
+        "{} point{} of {:.0} samples: about {:.decimals$} s, {:.3} GB of memory, {:.3} GB in a results file",
         forecast.points,
+        if forecast.points == 1 { "" } else { "s" },
         forecast.samples,
         forecast.seconds,
         1e-9 * forecast.memory_bytes,

@@ -164,8 +164,12 @@ fn factor(name: &str, given: Option<&String>, known: &[(&str, f64)]) -> Result<f
     let factor = known.iter().find(|(name, _)| *name == unit);
     factor.map(|(_, factor)| *factor).ok_or_else(|| {
         let names: Vec<&str> = known.iter().map(|(name, _)| *name).collect();
+        let has = match unit {
+            "" => "names no unit".to_owned(),
+            unit => format!("has the unit \"{unit}\""),
+        };
         format!(
-            "the column \"{name}\" has the unit \"{unit}\", not one of {}: give force.units, such as [\"us\", \"kN\"]",
+            "the column \"{name}\" {has}, needed one of {}: give force.units, such as [\"us\", \"kN\"]",
             names[..names.len() - 1].join(", ")
         )
     })
@@ -188,10 +192,10 @@ fn from_text(text: &str, reading: &Reading) -> Result<Rows, (usize, String)> {
         };
         Some([place(&wanted[0])?, place(&wanted[1])?])
     };
-    let Some((first, head)) = lines().next() else {
+    if lines().next().is_none() {
         let header = wanted.join(",");
         return Err((1, format!("the file is empty; its header is \"{header}\"")));
-    };
+    }
     // instruments write lines of their own above the header
     let most = if reading.columns.is_some() {
         usize::MAX
@@ -202,7 +206,7 @@ fn from_text(text: &str, reading: &Reading) -> Result<Rows, (usize, String)> {
         .take(most)
         .find_map(|(line, text)| Some((line, text, places(text)?)));
     let Some((line, header, [time, force])) = header else {
-        return Err((first, no_header(head, &wanted)));
+        return Err(no_header(lines(), &wanted));
     };
     let by = separator(header);
     let names = columns(header, by);
@@ -213,7 +217,7 @@ fn from_text(text: &str, reading: &Reading) -> Result<Rows, (usize, String)> {
         .into_iter()
         .enumerate()
     {
-        let name = if has_header { names[place] } else { "" };
+        let name = if has_header { names[place] } else { &wanted[i] };
         let given = reading.units.as_ref().map(|units| &units[i]);
         factors[i] = factor(name, given, known).map_err(|reason| (line, reason))?;
     }
@@ -262,20 +266,37 @@ fn from_text(text: &str, reading: &Reading) -> Result<Rows, (usize, String)> {
     Ok((time_s, force_n))
 }
 
-/// What is said of a line that is not the header, with what to do.
-fn no_header(head: &str, wanted: &[String; 2]) -> String {
-    let found = columns(head, separator(head));
-    let named = match found.as_slice() {
-        [first, _, ..] if number(first, separator(head)).is_some() => {
+/// Where the header seems to be, above the first row of numbers, and what to do with it.
+fn no_header<'a>(
+    lines: impl Iterator<Item = (usize, &'a str)>,
+    wanted: &[String; 2],
+) -> (usize, String) {
+    let mut head = (1, "");
+    for (line, text) in lines {
+        let by = separator(text);
+        let fields = columns(text, by);
+        let is_row = fields.len() > 1 && fields[..2].iter().all(|f| number(f, by).is_some());
+        if !is_row || head.1.is_empty() {
+            head = (line, text);
+        }
+        if is_row {
+            break;
+        }
+    }
+    let (line, text) = head;
+    let by = separator(text);
+    let way = match columns(text, by).as_slice() {
+        [first, ..] if number(first, by).is_some() => {
             "force.columns = [1, 2] with force.units = [\"s\", \"N\"], by place".to_owned()
         }
         [first, second, ..] => format!("such as force.columns = [\"{first}\", \"{second}\"]"),
-        _ => "force.columns".to_owned(),
+        _ => "in force.columns".to_owned(),
     };
-    format!(
-        "the header is \"{head}\", not \"{}\": name the columns of time and force, {named}",
-        wanted.join(",")
-    )
+    let wanted = wanted.join(",");
+    let reason = format!(
+        "the header is \"{text}\", not \"{wanted}\": name the columns of time and force, {way}"
+    );
+    (line, reason)
 }
 
 /// Reads the datasets `/time` (s) and `/force` (N) without the HDF5 library, which trusts what it reads.
