@@ -1,7 +1,9 @@
 //! How a command fails: exit code 2 for bad input, 1 when the work itself failed, 75 when it may be tried again.
 
 use fault::{Class, Culprit, Fault, Remedy};
+use output::OutputError;
 use serde_json::{Map, Value, json};
+use std::error::Error;
 use std::fmt::Display;
 use std::path::Path;
 use std::process::ExitCode;
@@ -30,6 +32,14 @@ impl Failure {
     /// The work could not be done.
     pub(crate) fn work(error: impl Display) -> Self {
         error.to_string().into()
+    }
+
+    /// Work of many parts failed; an output that cannot be written is told as everywhere.
+    pub(crate) fn in_part(error: Box<dyn Error + Send + Sync>) -> Self {
+        match error.downcast::<OutputError>() {
+            Ok(output) => (*output).into(),
+            Err(other) => Self::work(other),
+        }
     }
 
     /// The same with what to do.

@@ -1,8 +1,8 @@
 //! Every number that the paper prints, with ours.
 
+use crate::PaperError;
 use crate::case::{NAMED_STRENGTH_PA, RADIUS_M, Runs, STRENGTH_PA, TABLE_1_PA, VELOCITY_M_S};
 use crate::case::{anvil, coupled, kmax, mean_pa};
-use crate::error::PaperError;
 use contact::law::hertz::CONTACT_TIME;
 use contact::super_seismic;
 use contact::{Collision, Material};

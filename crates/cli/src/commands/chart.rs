@@ -40,9 +40,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     };
     let folder = Folder::claim(&arguments.output, arguments.overwrite.existing())?;
     let progress = Bar::new();
-    let chart = Chart::run(effort, &progress)?;
+    let chart = Chart::run(effort, &progress).map_err(Failure::in_part)?;
     progress.finish();
-    chart.write(&folder)?;
+    chart.write(&folder).map_err(Failure::in_part)?;
     print(format!(
         "{}: {} rows, {} pictures, {:.0} s",
         arguments.output.join("report.md").display(),

@@ -45,7 +45,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let start = Instant::now();
     let coupled = simulate(&table_1, &KernelChoice::Table(Arc::new(table)))?;
     let wall_s = start.elapsed().as_secs_f64();
-    let found = Numbers::compute()?;
+    let found = Numbers::compute().map_err(Failure::in_part)?;
     let numbers = folder.join("numbers.txt");
     write_whole(&numbers, Existing::Replace, |part| {
         std::fs::write(part, found.text())

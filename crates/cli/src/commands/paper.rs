@@ -25,8 +25,8 @@ pub(crate) struct Arguments {
 
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let folder = Folder::claim(&arguments.output, arguments.overwrite.existing())?;
-    let redone = Redone::compute()?;
-    redone.write(&folder)?;
+    let redone = Redone::compute().map_err(Failure::in_part)?;
+    redone.write(&folder).map_err(Failure::in_part)?;
     let rows = redone
         .numbers
         .sections
