@@ -13,6 +13,7 @@
 //! ```
 
 mod error;
+mod fault;
 mod hdf;
 mod identity;
 pub mod parts;

@@ -244,24 +244,29 @@ fn force_files_are_checked_line_by_line() {
     assert!(refused(&without, folder.path()).contains("contact.disc_radius_m is missing"));
 }
 
+/// Times and forces of a record, or why there is none; its scene spelled out is the same.
+fn record(text: &str, keys: &str) -> Result<(Vec<f64>, Vec<f64>), String> {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("f.csv"), text).unwrap();
+    let scene = format!(
+        "[target]\nmaterial = \"steel\"\n[contact]\ndisc_radius_m = 0.004\n[force]\nfile = \"f.csv\"\n{keys}"
+    );
+    let scene = parse_scene(&scene, folder.path()).map_err(|error| error.to_string())?;
+    let again = parse_scene(&formats::resolved(&scene), Path::new("."));
+    assert_eq!(again.unwrap().load, scene.load);
+    match scene.load {
+        impact::Load::Record(record) => Ok((record.time_s().to_vec(), record.force_n().to_vec())),
+        impact::Load::Strike(_) => Err("a striker".to_owned()),
+    }
+}
+
+const OSCILLOSCOPE: &str =
+    "Model;X\n\"F [kN]\";Time [us];T\n0;-1,0;9\n-1,5;0,5;9\n0,5;2;9\n0;3;9\n";
+const NAMED: &str = "columns = [\"Time [us]\", \"F [kN]\"]\n";
+const BARE: &str = "0\t0\n1\t5\n2\t0\n";
+
 #[test]
 fn records_of_instruments_are_read_by_column_unit_sign_and_instant() {
-    let folder = tempfile::tempdir().unwrap();
-    let record = |text: &str, keys: &str| {
-        std::fs::write(folder.path().join("f.csv"), text).unwrap();
-        let scene = format!(
-            "[target]\nmaterial = \"steel\"\n[contact]\ndisc_radius_m = 0.004\n[force]\nfile = \"f.csv\"\n{keys}"
-        );
-        let scene = parse_scene(&scene, folder.path()).map_err(|error| error.to_string())?;
-        let again = parse_scene(&formats::resolved(&scene), Path::new("."));
-        assert_eq!(again.unwrap().load, scene.load);
-        match scene.load {
-            impact::Load::Record(record) => {
-                Ok((record.time_s().to_vec(), record.force_n().to_vec()))
-            }
-            impact::Load::Strike(_) => Err("a striker".to_owned()),
-        }
-    };
     let near = |found: (Vec<f64>, Vec<f64>), time_s: &[f64], force_n: &[f64]| {
         for (found, wanted) in [(found.0, time_s), (found.1, force_n)] {
             assert_eq!(found.len(), wanted.len(), "{found:?}");
@@ -270,18 +275,15 @@ fn records_of_instruments_are_read_by_column_unit_sign_and_instant() {
             }
         }
     };
-    let oscilloscope = "Model;X\n\"F [kN]\";Time [us];T\n0;-1,0;9\n-1,5;0,5;9\n0,5;2;9\n0;3;9\n";
-    let named = "columns = [\"Time [us]\", \"F [kN]\"]\n";
-    let cut = format!("{named}start_s = -0.25e-6\nend_s = 2.5e-6\nsign = -1\n");
+    let cut = format!("{NAMED}start_s = -0.25e-6\nend_s = 2.5e-6\nsign = -1\n");
     near(
-        record(oscilloscope, &cut).unwrap(),
+        record(OSCILLOSCOPE, &cut).unwrap(),
         &[0.0, 0.75e-6, 2.25e-6, 2.75e-6],
         &[750.0, 1500.0, -500.0, -250.0],
     );
-    let bare = "0\t0\n1\t5\n2\t0\n";
     let placed = "columns = [1, 2]\nunits = [\"us\", \"lbf\"]\n";
     near(
-        record(bare, placed).unwrap(),
+        record(BARE, placed).unwrap(),
         &[0.0, 1e-6, 2e-6],
         &[0.0, 22.241_108_076_302_5, 0.0],
     );
@@ -297,24 +299,27 @@ fn records_of_instruments_are_read_by_column_unit_sign_and_instant() {
         &[0.0, 1.0],
         &[0.0, 5.0],
     );
-    // each refusal says the way out
+}
+
+#[test]
+fn each_refusal_of_a_record_says_the_way_out() {
     let cases = [
-        (oscilloscope, "", "line 2: the header is"),
+        (OSCILLOSCOPE, "", "line 2: the header is"),
         (
-            oscilloscope,
+            OSCILLOSCOPE,
             "",
             "such as force.columns = [\"F [kN]\", \"Time [us]\"]",
         ),
-        (oscilloscope, named, "give force.start_s"),
-        (bare, "", "force.columns = [1, 2] with force.units"),
-        (bare, "columns = [1, 2]\n", "names no unit"),
+        (OSCILLOSCOPE, NAMED, "give force.start_s"),
+        (BARE, "", "force.columns = [1, 2] with force.units"),
+        (BARE, "columns = [1, 2]\n", "names no unit"),
         (
-            bare,
+            BARE,
             "columns = [1, 2]\nunits = [\"us\", \"V\"]\n",
             "has the unit \"V\"",
         ),
-        (bare, "columns = [1, 3]\n", "the header is"),
-        (bare, "columns = [1]\n", "not a pair of words"),
+        (BARE, "columns = [1, 3]\n", "the header is"),
+        (BARE, "columns = [1]\n", "not a pair of words"),
         (
             "time_s,force_n\n0,1\n1,2\n",
             "start_s = 3.0\n",

@@ -1,10 +1,9 @@
 //! Many impacts: rows of a sweep, and keys that vary together.
 
 use crate::arrays::{frozen, vector};
-use crate::convert::from_toml;
 use crate::errors;
 use crate::impact_outcome::replace;
-use crate::scene::{Given, here};
+use crate::scene::{Given, from_toml, here};
 use crate::work::{Way, run};
 use formats::quantities::QUANTITIES;
 use formats::sweep::{

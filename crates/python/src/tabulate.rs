@@ -1,8 +1,8 @@
 //! Builds and extends kernel tables.
 
-use crate::convert::table;
 use crate::errors;
 use crate::impact_outcome::replace;
+use crate::scene::table;
 use crate::work::{Ticker, Way, run};
 use pyo3::prelude::*;
 use pyo3::types::PyString;

@@ -161,7 +161,10 @@ impl Fault for BuildError {
             Self::Lookup(error) => error.culprit().unmendable(),
             Self::Setting { key, value, range } => grid.key(key).number(*value).range(range),
             Self::Shrinks { key, value, .. } => grid.key(key).number(*value),
-            Self::Settings { .. } | Self::TooFine { .. } | Self::NoShards => grid,
+            Self::Settings { .. }
+            | Self::TooFine { .. }
+            | Self::NoShards
+            | Self::Incomplete { .. } => grid,
             Self::InFile { path, source } => {
                 let found = source.culprit();
                 let file = found.file.or(Some(path));
@@ -172,7 +175,6 @@ impl Fault for BuildError {
             | Self::NotBlocks { path }
             | Self::Mixed { second: path, .. }
             | Self::File { path, .. } => grid.file(path),
-            Self::Incomplete { .. } => grid,
             Self::Unwritable(_) | Self::NotFinite { .. } | Self::Content(_) => work,
         }
     }

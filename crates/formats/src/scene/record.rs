@@ -56,7 +56,7 @@ pub fn read_record(path: &Path, reading: Reading) -> Result<ForceRecord, SceneEr
         })
     })?;
     record.file = Some(path.to_owned());
-    record.reading = reading;
+    record.reading = Box::new(reading);
     Ok(record)
 }
 
@@ -175,6 +175,17 @@ fn factor(name: &str, given: Option<&String>, known: &[(&str, f64)]) -> Result<f
     })
 }
 
+/// Where the columns of time and force are in a line that has them all.
+fn places(line: &str, wanted: &[String; 2]) -> Option<[usize; 2]> {
+    let names = columns(line, separator(line));
+    let place = |name: &String| {
+        let found = names.iter().position(|column| column == name);
+        let counted = || name.parse::<usize>().ok()?.checked_sub(1);
+        found.or_else(counted).filter(|&place| place < names.len())
+    };
+    Some([place(&wanted[0])?, place(&wanted[1])?])
+}
+
 /// Rows of a text, or the line at fault, from 1, with what is wrong.
 fn from_text(text: &str, reading: &Reading) -> Result<Rows, (usize, String)> {
     let lines = || {
@@ -183,15 +194,6 @@ fn from_text(text: &str, reading: &Reading) -> Result<Rows, (usize, String)> {
         lines.filter(|(_, line)| !line.is_empty() && !line.starts_with('#'))
     };
     let wanted = (reading.columns.clone()).unwrap_or(COLUMNS.map(str::to_owned));
-    let places = |line: &str| {
-        let names = columns(line, separator(line));
-        let place = |name: &String| {
-            let found = names.iter().position(|column| column == name);
-            let counted = || name.parse::<usize>().ok()?.checked_sub(1);
-            found.or_else(counted).filter(|&place| place < names.len())
-        };
-        Some([place(&wanted[0])?, place(&wanted[1])?])
-    };
     if lines().next().is_none() {
         let header = wanted.join(",");
         return Err((1, format!("the file is empty; its header is \"{header}\"")));
@@ -204,7 +206,7 @@ fn from_text(text: &str, reading: &Reading) -> Result<Rows, (usize, String)> {
     };
     let header = lines()
         .take(most)
-        .find_map(|(line, text)| Some((line, text, places(text)?)));
+        .find_map(|(line, text)| Some((line, text, places(text, &wanted)?)));
     let Some((line, header, [time, force])) = header else {
         return Err(no_header(lines(), &wanted));
     };
@@ -212,15 +214,12 @@ fn from_text(text: &str, reading: &Reading) -> Result<Rows, (usize, String)> {
     let names = columns(header, by);
     let is_number = |place: usize| number(names[place], by).is_some();
     let has_header = !(is_number(time) && is_number(force));
-    let mut factors = [1.0; 2];
-    for (i, (place, known)) in [(time, &TIMES[..]), (force, &FORCES[..])]
-        .into_iter()
-        .enumerate()
-    {
+    let factor_of = |i: usize, place: usize, known: &[(&str, f64)]| {
         let name = if has_header { names[place] } else { &wanted[i] };
         let given = reading.units.as_ref().map(|units| &units[i]);
-        factors[i] = factor(name, given, known).map_err(|reason| (line, reason))?;
-    }
+        factor(name, given, known).map_err(|reason| (line, reason))
+    };
+    let factors = [factor_of(0, time, &TIMES)?, factor_of(1, force, &FORCES)?];
     let (mut time_s, mut force_n): Rows = Default::default();
     let after = if has_header { line } else { line - 1 };
     // some have a line of units below it

@@ -1,7 +1,7 @@
 //! What a file of the program is, and why one cannot be read back.
 
 use crate::{results, sweep};
-use fault::{Class, Culprit, Fault};
+use ::fault::{Class, Culprit, Fault};
 use std::fmt;
 use std::path::{Path, PathBuf};
 use thiserror::Error;

@@ -36,7 +36,7 @@ pub struct ForceRecord {
     /// The file that it comes from, if it comes from one.
     pub file: Option<PathBuf>,
     /// How it was read.
-    pub reading: Reading,
+    pub reading: Box<Reading>,
     /// What was done to it; none where nothing was.
     pub treated: Option<Treated>,
 }
@@ -131,7 +131,7 @@ impl ForceRecord {
             time_s,
             force_n,
             file: None,
-            reading: Reading::default(),
+            reading: Box::default(),
             treated: None,
         })
     }
