@@ -1,95 +1,122 @@
 //! How a command fails: exit code 2 for bad input, 1 when the work itself failed, 75 when it may be tried again.
 
+use fault::{Class, Culprit, Fault, Remedy};
+use output::OutputError;
+use serde_json::{Map, Value, json};
+use std::error::Error;
 use std::fmt::Display;
+use std::path::Path;
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// A failure with its sentence for the user.
 #[derive(Debug)]
-pub(crate) enum Failure {
-    /// The user can mend it: a scene, a file, an argument.
-    Input(String),
-    /// The work could not be done.
-    Work(String),
-    /// The same may succeed later: there is no space left, or another run is at it.
-    Again(String),
+pub(crate) struct Failure {
+    sentence: String,
+    remedy: Remedy,
+    /// What it is about, for programs.
+    about: Map<String, Value>,
 }
 
 impl Failure {
-    pub(crate) fn input(error: impl Display) -> Self {
-        Self::Input(error.to_string())
+    /// The user can mend it: a scene, a file, an argument.
+    pub(crate) fn input(error: impl Fault) -> Self {
+        let mut failure = Self::from(error);
+        failure.remedy = Remedy::Change;
+        if failure.about["class"] == Class::Work.name() {
+            failure.about["class"] = Class::Scene.name().into();
+        }
+        failure
     }
 
+    /// The work could not be done.
     pub(crate) fn work(error: impl Display) -> Self {
-        Self::Work(error.to_string())
+        error.to_string().into()
+    }
+
+    /// Work of many parts failed; an output that cannot be written is told as everywhere.
+    pub(crate) fn in_part(error: Box<dyn Error + Send + Sync>) -> Self {
+        match error.downcast::<OutputError>() {
+            Ok(output) => (*output).into(),
+            Err(other) => Self::work(other),
+        }
+    }
+
+    /// The same with what to do.
+    pub(crate) fn hint(mut self, words: &str) -> Self {
+        self.sentence.push_str(words);
+        self
     }
 
     /// Standard output does not take what is written.
     pub(crate) fn unprintable(error: std::io::Error) -> Self {
         let output::Fault { reason, full } = error.into();
-        let sentence = format!("cannot write to standard output: {reason}");
-        if full {
-            Self::Again(sentence)
-        } else {
-            Self::Work(sentence)
+        let remedy = if full { Remedy::Wait } else { Remedy::Unknown };
+        Self {
+            remedy,
+            ..Self::work(format!("cannot write to standard output: {reason}"))
         }
     }
 
-    /// Prints the sentence on standard error and gives the exit code.
+    /// Prints it on standard error, as an object where the command was to print one, and gives the exit code.
     pub(crate) fn report(&self) -> ExitCode {
-        let (message, code) = match self {
-            Self::Input(message) => (message, 2),
-            Self::Work(message) => (message, 1),
-            Self::Again(message) => (message, 75),
+        if wants_json() {
+            let mut error = self.about.clone();
+            error.insert("message".to_owned(), self.sentence.as_str().into());
+            tell(json!({ "error": error }));
+        } else {
+            tell(format!("error: {}", self.sentence));
+        }
+        ExitCode::from(match self.remedy {
+            Remedy::Change => 2,
+            Remedy::Unknown => 1,
+            Remedy::Wait => 75,
+        })
+    }
+}
+
+impl<E: Fault> From<E> for Failure {
+    fn from(error: E) -> Self {
+        let culprit = error.culprit();
+        let failure = Self {
+            sentence: error.to_string(),
+            remedy: culprit.remedy,
+            about: about(&culprit),
         };
-        tell(format!("error: {message}"));
-        ExitCode::from(code)
-    }
-}
-
-impl From<formats::OutputError> for Failure {
-    fn from(error: formats::OutputError) -> Self {
-        match error {
-            exists @ formats::OutputError::Exists { .. } => {
-                Self::input(format!("{exists}; give --force to replace it"))
+        match (culprit.class, culprit.remedy) {
+            (Class::Exists, _) => failure.hint("; give --force to replace it"),
+            (Class::Memory, _) => failure.hint(", or give --max-memory GB"),
+            (Class::OutsideTable, Remedy::Change) => {
+                failure.hint("; use --kernel direct or another table")
             }
-            unbuilt @ formats::OutputError::Unbuilt { .. } => Self::input(format!(
-                "{unbuilt}: build it with `cargo build --release --package hertzlamb-cli --features parquet`"
-            )),
-            again if again.may_be_tried_again() => Self::Again(again.to_string()),
-            failed @ formats::OutputError::Failed { .. } => Self::work(failed),
-            other => Self::input(other),
+            _ => failure,
         }
     }
 }
 
-impl From<impact::ImpactError> for Failure {
-    fn from(error: impact::ImpactError) -> Self {
-        use contact::{ContactError as C, MarchError as M};
-        use impact::{FieldError, FieldsError as F, ImpactError as E, TooMuch};
-        match error {
-            E::Contact(C::March(
-                M::NoSolution { .. }
-                | M::TooLong { .. }
-                | M::NotConverged { .. }
-                | M::Unstable { .. },
-            )) => Self::work(error),
-            E::Fields(F::Field(FieldError::Table { .. })) => {
-                Self::input(format!("{error}; use --kernel direct or another table"))
-            }
-            E::TooMuch(TooMuch::Memory(_)) => {
-                Self::input(format!("{error}, or give --max-memory GB"))
-            }
-            E::TooMuch(_)
-            | E::NotFinite(_)
-            | E::Contact(_)
-            | E::Source(_)
-            | E::Fields(_)
-            | E::TooManySamples(_)
-            | E::Domain(_)
-            | E::NoDisc => Self::input(error),
-        }
-    }
+/// What is known of an error.
+fn about(culprit: &Culprit<'_>) -> Map<String, Value> {
+    let value = culprit.number.map(Value::from);
+    let known = [
+        ("class", Some(culprit.class.name().into())),
+        ("key", culprit.key.map(Value::from)),
+        ("value", value.or(culprit.word.map(Value::from))),
+        ("range", culprit.range.map(Value::from)),
+        ("limits", culprit.limits.map(|limits| json!(limits))),
+        ("suggestion", culprit.suggestion.map(Value::from)),
+        (
+            "file",
+            culprit.file.map(Path::to_string_lossy).map(Value::from),
+        ),
+    ];
+    let known = known.into_iter();
+    let known = known.filter_map(|(name, value)| Some((name.to_owned(), value?)));
+    known.collect()
+}
+
+/// Whether the command was to print JSON, told before its arguments are understood.
+pub(crate) fn wants_json() -> bool {
+    std::env::args_os().any(|argument| argument == "--json")
 }
 
 /// Whether only errors are told.
@@ -126,4 +153,17 @@ pub(crate) fn print(text: impl Display) -> Result<(), Failure> {
         Err(error) if error.kind() == ErrorKind::BrokenPipe => std::process::exit(0),
         Err(error) => Err(Failure::unprintable(error)),
     }
+}
+
+/// Prints a report: one line of JSON, or text.
+pub(crate) fn show(json: bool, value: &Value, text: impl Display) -> Result<(), Failure> {
+    if json { print(value) } else { print(text) }
+}
+
+/// Lines of a report, each with its name.
+pub(crate) fn lines<T: Display>(named: impl IntoIterator<Item = (&'static str, T)>) -> String {
+    let lines = named
+        .into_iter()
+        .map(|(name, text)| format!("{name:15}{text}"));
+    lines.collect::<Vec<_>>().join("\n")
 }

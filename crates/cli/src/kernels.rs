@@ -78,7 +78,7 @@ impl Kernels {
             (Kernel::Table, Some(path)) => FieldKernels::Table(path),
             (Kernel::Auto, Some(path)) => FieldKernels::Within(path),
         };
-        spec.with_fields(kernels).map_err(Failure::input)
+        Ok(spec.with_fields(kernels)?)
     }
 }
 

@@ -16,7 +16,12 @@ use std::process::ExitCode;
 
 /// Impact of a body on an elastic half-space: contact force, rebound and waves.
 #[derive(Debug, Parser)]
-#[command(name = "hertzlamb", version, propagate_version = true)]
+#[command(
+    name = "hertzlamb",
+    version,
+    propagate_version = true,
+    after_help = "Exit codes: 0 done; 1 the work failed; 2 bad input or usage; 75 try the same again later; 101 a fault of the program.\nWith --json, an error is one JSON object on standard error."
+)]
 struct Cli {
     /// Only errors on standard error: no progress, no warnings.
     #[arg(short, long, global = true)]
@@ -77,5 +82,18 @@ fn main() -> ExitCode {
 /// The command line; every command has the version, and the name, of the program.
 fn parsed() -> Cli {
     let command = Cli::command().mut_subcommands(|command| command.display_name("hertzlamb"));
-    Cli::from_arg_matches(&command.get_matches()).unwrap_or_else(|error| error.exit())
+    let found = command.try_get_matches();
+    found
+        .and_then(|found| Cli::from_arg_matches(&found))
+        .unwrap_or_else(|error| {
+            if error.use_stderr() && failure::wants_json() {
+                let text = error.to_string();
+                let sentence = text.split("\n\nUsage").next().unwrap_or(&text);
+                let sentence = sentence.trim().trim_start_matches("error: ");
+                let sentence = sentence.replace("\n\n  tip: ", "; ");
+                failure::Failure::input(sentence).report();
+                std::process::exit(2);
+            }
+            error.exit()
+        })
 }

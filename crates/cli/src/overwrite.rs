@@ -1,9 +1,10 @@
 //! What happens to an existing output: one flag, the same in every command.
 
-use crate::failure::{Failure, print};
+use crate::failure::{Failure, lines, show};
 use clap::Args;
-use formats::{Existing, Output};
+use formats::{Existing, Output, OutputError};
 use output::{Ending, Role, apart};
+use serde_json::json;
 use std::path::Path;
 
 #[derive(Debug, Clone, Copy, Args)]
@@ -35,13 +36,22 @@ impl Overwrite {
     }
 }
 
+/// Whether a name is that of a file of rows that this program can write.
+pub(crate) fn check_rows(path: &Path) -> Result<(), Failure> {
+    formats::sweep::check_rows(path).map_err(|error| {
+        let unbuilt = matches!(error, OutputError::Unbuilt { .. });
+        let failure = Failure::from(error);
+        if unbuilt {
+            failure.hint(": build it with `cargo build --release --package hertzlamb-cli --features parquet`")
+        } else {
+            failure
+        }
+    })
+}
+
 /// What `--skip-complete` says where nothing is left to do.
 pub(crate) fn say_complete(output: &Path, json: bool) -> Result<(), Failure> {
-    if json {
-        return print(serde_json::json!({ "output": output, "complete": true }));
-    }
-    print(format!(
-        "complete       {}, nothing to do",
-        output.display()
-    ))
+    let output = output.display().to_string();
+    let text = lines([("complete", format!("{output}, nothing to do"))]);
+    show(json, &json!({ "output": output, "complete": true }), text)
 }

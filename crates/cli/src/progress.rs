@@ -46,21 +46,10 @@ impl Bar {
                 .unwrap_or_else(|_| ProgressStyle::default_bar());
             ProgressBar::new(0).with_style(style.progress_chars("=> "))
         });
-        let state = State {
-            stage: String::new(),
-            total: 0,
-            done: 0,
-            before: 0,
-            begun: false,
-            shown: false,
-            started: Instant::now(),
-            told: Instant::now(),
-            slice: None,
-        };
         Self {
             bar,
             patience,
-            state: Mutex::new(state),
+            state: Mutex::new(State::of("", 0)),
         }
     }
 
@@ -112,17 +101,7 @@ impl Bar {
 impl Progress for Bar {
     fn total(&self, stage: &str, total: u64) {
         let mut state = self.lock();
-        *state = State {
-            stage: stage.to_owned(),
-            total,
-            done: 0,
-            before: 0,
-            begun: false,
-            shown: false,
-            started: Instant::now(),
-            told: Instant::now(),
-            slice: None,
-        };
+        *state = State::of(stage, total);
         if self.patience.is_zero() {
             self.show(&mut state);
         }
@@ -165,6 +144,21 @@ impl impact::Watch for Bar {
 }
 
 impl State {
+    /// The beginning of a stage.
+    fn of(stage: &str, total: u64) -> Self {
+        Self {
+            stage: stage.to_owned(),
+            total,
+            done: 0,
+            before: 0,
+            begun: false,
+            shown: false,
+            started: Instant::now(),
+            told: Instant::now(),
+            slice: None,
+        }
+    }
+
     /// What to say when another tenth is done, or nothing has been said for long.
     fn line(&mut self, before: u64) -> Option<String> {
         let total = self.total.max(1);

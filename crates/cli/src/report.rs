@@ -1,21 +1,24 @@
 //! The results of an impact as text.
 
+use contact::{Material, Shape};
 use formats::{choices, kernel_name};
-use impact::{Cause, Load, Outcome, ProbeFields, RecordResults, Scene, Treated};
+use impact::{Cause, Load, Outcome, ProbeFields, RecordResults, Scene, Strike, Treated};
 
 /// The results for people.
 pub(crate) fn text_report(scene: &Scene, outcome: &Outcome) -> String {
     let choices = choices(scene, outcome);
-    let mut lines = vec![format!(
-        "model          {} ({})",
-        choices.model, choices.reason
-    )];
+    let mut lines = vec![
+        understood(scene),
+        format!("model          {} ({})", choices.model, choices.reason),
+    ];
     match &outcome.cause {
         Cause::Contact { results, .. } => {
-            lines.push(format!(
-                "scheme         {}, static share {}, deflection {}",
-                choices.scheme, choices.static_share, choices.deflection
-            ));
+            let mut scheme = format!("scheme         {}", choices.scheme);
+            if scene.settings.disc_radius_m.is_some() {
+                let (share, deflection) = (choices.static_share, choices.deflection);
+                scheme.push_str(&format!(", static share {share}, deflection {deflection}"));
+            }
+            lines.push(scheme);
             lines.extend(contact_lines(results));
         }
         Cause::Record(results) => {
@@ -27,6 +30,62 @@ pub(crate) fn text_report(scene: &Scene, outcome: &Outcome) -> String {
     }
     lines.extend(output_lines(outcome));
     lines.join("\n")
+}
+
+/// What is computed, as it was understood.
+pub(crate) fn understood(scene: &Scene) -> String {
+    let load = match &scene.load {
+        Load::Strike(Strike {
+            striker,
+            velocity_m_s,
+        }) => {
+            let name = named(&striker.material);
+            let body = match striker.shape {
+                Some(Shape::Ball { diameter_m }) => {
+                    format!("{name}ball of {}", short(diameter_m, "m"))
+                }
+                Some(Shape::Rod {
+                    diameter_m,
+                    length_m,
+                    ..
+                }) => format!(
+                    "{name}rod of {} by {}",
+                    short(diameter_m, "m"),
+                    short(length_m, "m")
+                ),
+                None => format!("{name}tip of {} radius", short(striker.tip_radius_m, "m")),
+            };
+            let mass = short(1e3 * striker.mass_kg, "g");
+            format!("{body}, {mass}, at {}", short(*velocity_m_s, "m/s"))
+        }
+        Load::Record(record) => {
+            let [from_s, to_s] = record.span_s();
+            let radius_m = scene.settings.disc_radius_m.unwrap_or(0.0);
+            format!(
+                "force of {} samples from {} to {}, over a disc of {} radius",
+                record.time_s().len(),
+                short(from_s, "s"),
+                short(to_s, "s"),
+                short(radius_m, "m")
+            )
+        }
+    };
+    let target = scene.target.material();
+    format!(
+        "impact         {load}, on {}E {}, nu {}, {:.0} kg/m3",
+        named(target).replace(' ', ": "),
+        short(target.youngs_modulus_pa, "Pa"),
+        (1e4 * target.poisson_ratio).round() / 1e4,
+        scene.target.density_kg_m3()
+    )
+}
+
+/// The name of a material that has one, with a blank.
+fn named(material: &Material) -> String {
+    match material.name.as_str() {
+        "given" => String::new(),
+        name => format!("{name} "),
+    }
 }
 
 fn peak_line(force_n: f64, time_s: f64) -> String {
@@ -163,7 +222,7 @@ fn validity(fields: &ProbeFields) -> Option<String> {
 
 /// A number with seven digits and an SI prefix.
 fn si(value: f64, unit: &str) -> String {
-    const PREFIXES: [(f64, &str); 7] = [
+    const PREFIXES: [(f64, &str); 8] = [
         (1e9, "G"),
         (1e6, "M"),
         (1e3, "k"),
@@ -171,6 +230,7 @@ fn si(value: f64, unit: &str) -> String {
         (1e-3, "m"),
         (1e-6, "u"),
         (1e-9, "n"),
+        (1e-12, "p"),
     ];
     let size = value.abs();
     if size == 0.0 {
@@ -183,5 +243,19 @@ fn si(value: f64, unit: &str) -> String {
             format!("{scaled:.decimals$} {prefix}{unit}")
         }
         Some(_) | None => format!("{value:.6e} {unit}"),
+    }
+}
+
+/// A number with four digits at most and an SI prefix.
+fn short(value: f64, unit: &str) -> String {
+    let rounded: f64 = format!("{value:.3e}").parse().unwrap_or(value);
+    let long = si(rounded, unit);
+    let (digits, unit) = long.split_once(' ').unwrap_or((&long, ""));
+    match digits.split_once('.') {
+        Some(_) if !digits.contains('e') => {
+            let digits = digits.trim_end_matches('0').trim_end_matches('.');
+            format!("{digits} {unit}")
+        }
+        _ => long,
     }
 }

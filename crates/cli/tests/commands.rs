@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::{Command, Output, Stdio};
 
 const SCENE: &str = "\
 [target]
@@ -261,4 +261,65 @@ fn a_sweep_writes_its_rows_and_refuses_what_is_wrong() {
         &["none.toml"],
     );
     assert!(!here.join("new.h5").exists());
+}
+
+#[test]
+fn a_scene_comes_from_standard_input_and_is_said_back() {
+    use std::io::Write;
+    let mut child = Command::new(env!("CARGO_BIN_EXE_hertzlamb"))
+        .args(["impact", "-"])
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let scene = "[target]\nmaterial = \"granite\"\n[striker]\nshape = \"ball\"\nmaterial = \"steel\"\n\
+        diameter_m = 0.003\ndrop_height_m = 0.2\n";
+    child
+        .stdin
+        .take()
+        .unwrap()
+        .write_all(scene.as_bytes())
+        .unwrap();
+    let done = child.wait_with_output().unwrap();
+    let text = String::from_utf8(done.stdout).unwrap();
+    let first = text.lines().next().unwrap();
+    assert!(
+        done.status.success()
+            && first.starts_with(
+                "impact         steel ball of 3 mm, 110.7 mg, at 1.981 m/s, on granite: E "
+            ),
+        "{first}"
+    );
+}
+
+#[test]
+fn errors_are_json_where_results_would_be() {
+    let folder = tempfile::tempdir().unwrap();
+    let error = |line: &[&str], code: i32| -> serde_json::Value {
+        let done = hertzlamb(folder.path(), line);
+        assert_eq!(done.status.code(), Some(code));
+        assert!(done.stdout.is_empty());
+        let object: serde_json::Value = serde_json::from_slice(&done.stderr).unwrap();
+        object["error"].clone()
+    };
+    let wrong = SCENE.replacen("mass_kg = ", "mass_kg = -", 1);
+    std::fs::write(folder.path().join("wrong.toml"), wrong).unwrap();
+    let found = error(&["impact", "wrong.toml", "--json"], 2);
+    assert_eq!(found["class"], "scene");
+    assert_eq!(found["key"], "striker.mass_kg");
+    assert_eq!(found["range"], "(0, inf)");
+    assert_eq!(found["file"], "wrong.toml");
+    assert!(found["value"].as_f64().unwrap() < 0.0, "{found}");
+    assert!(
+        found["message"]
+            .as_str()
+            .unwrap()
+            .starts_with("wrong.toml: striker.mass_kg = -"),
+        "{found}"
+    );
+    let found = error(&["impact", "none.toml", "--jsn", "--json"], 2);
+    assert!(
+        found["message"].as_str().unwrap().contains("--jsn"),
+        "{found}"
+    );
 }

@@ -15,7 +15,7 @@ pub enum ContactError {
     Growing(#[from] GrowingError),
     /// An approach that no wave of the surface outruns.
     #[error(
-        "velocity_m_s = {velocity_m_s:e} is outside (0, {limit_m_s:.4e}): the half-space's Rayleigh wave is no faster, and a contact law for impacts below it says nothing"
+        "the approach at velocity_m_s = {velocity_m_s:.4e} is not below the {limit_m_s:.4e} m/s of the half-space's Rayleigh wave, and contact laws are for slower ones: check the velocity, or the height of the fall, and the target's constants"
     )]
     TooFast {
         /// Velocity of approach in m/s.

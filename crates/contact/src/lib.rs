@@ -19,6 +19,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+#![warn(missing_docs)]
+
 pub mod law;
 
 mod bodies;
@@ -71,7 +73,7 @@ pub use results::{MOST_ERROR, Results};
 pub use solver::{Solved, Solver};
 pub use summary::{EndOfContact, Estimates, Instant, Summary};
 pub use units::{CollisionUnits, KernelUnits};
-pub use validity::{Checked, super_seismic};
+pub use validity::{Checked, doubts, super_seismic};
 
 /// The README's program runs.
 #[cfg(doctest)]

@@ -69,9 +69,6 @@ impl<'a, S: Responses> Solver<'a, S> {
     }
 
     /// The results of a contact.
-    ///
-    /// # Errors
-    /// [`ContactError`].
     pub fn solve(
         &mut self,
         collision: &Collision,
@@ -82,9 +79,6 @@ impl<'a, S: Responses> Solver<'a, S> {
 
     /// The results and the history of a contact: the deflection to the tolerance too, and the force at each instant with an
     /// error of its own, [`History::error`].
-    ///
-    /// # Errors
-    /// [`ContactError`].
     pub fn solve_with_history(
         &mut self,
         collision: &Collision,

@@ -2,6 +2,8 @@
 //!
 //! Theory: `docs/theory.md` (T57).
 
+use crate::bodies::material::Material;
+use crate::bodies::shape::Shape;
 use crate::bodies::wave_speeds::WaveSpeeds;
 use crate::bodies::{HalfSpace, Striker};
 use crate::collision::Collision;
@@ -21,6 +23,59 @@ pub fn super_seismic(half_space: &HalfSpace, collision: &Collision, radius_m: f6
 
 /// Mass over that of a ball of the tip's radius below which the two hint at a slip in a unit.
 const LIGHT: f64 = 1e-3;
+
+/// What bodies have: field, least and most, unit, and a unit that is often taken for it with its size.
+type Usual = (&'static str, [f64; 2], &'static str, (&'static str, f64));
+const MODULUS: Usual = ("youngs_modulus_pa", [1e3, 2e12], "Pa", ("GPa", 1e9));
+const DENSITY: Usual = ("density_kg_m3", [10.0, 3e4], "kg/m3", ("g/cm3", 1e3));
+const YIELD: Usual = ("yield_strength_pa", [1e3, 1e12], "Pa", ("MPa", 1e6));
+const TENSILE: Usual = ("tensile_strength_pa", [1e3, 1e12], "Pa", ("MPa", 1e6));
+const DIAMETER: Usual = ("diameter_m", [1e-8, 1.0], "m", ("mm", 1e-3));
+const LENGTH: Usual = ("length_m", [1e-8, 30.0], "m", ("mm", 1e-3));
+const RADIUS: Usual = ("tip_radius_m", [1e-9, 10.0], "m", ("mm", 1e-3));
+const MASS: Usual = ("mass_kg", [1e-20, 1e5], "kg", ("g", 1e-3));
+
+/// What hints at slips in the numbers of two bodies, by field.
+#[must_use]
+pub fn doubts(half_space: &HalfSpace, striker: &Striker) -> Vec<String> {
+    let target = half_space.material();
+    let of_material = |body, material: &Material| {
+        [
+            (body, MODULUS, Some(material.youngs_modulus_pa)),
+            (body, DENSITY, material.density_kg_m3),
+            (body, YIELD, material.yield_strength_pa),
+            (body, TENSILE, material.tensile_strength_pa),
+        ]
+    };
+    let lengths = match striker.shape {
+        Some(Shape::Ball { diameter_m }) => [(DIAMETER, Some(diameter_m)), (LENGTH, None)],
+        Some(Shape::Rod {
+            diameter_m,
+            length_m,
+            ..
+        }) => [(DIAMETER, Some(diameter_m)), (LENGTH, Some(length_m))],
+        None => [
+            (RADIUS, Some(striker.tip_radius_m)),
+            (MASS, Some(striker.mass_kg)),
+        ],
+    };
+    let lengths = lengths.map(|(usual, value)| ("striker", usual, value));
+    let numbers = of_material("striker", &striker.material).into_iter();
+    let numbers = numbers.chain(lengths).chain(of_material("target", target));
+    let unusual = numbers.filter_map(|(body, (field, [least, most], unit, other), value)| {
+        let value = value.filter(|value| !(least..=most).contains(value))?;
+        let (name, size) = other;
+        let meant = if (least..=most).contains(&(value * size)) {
+            format!("did you mean {:e}, for {value} {name}?", value * size)
+        } else {
+            format!("is it in {unit}?")
+        };
+        Some(format!(
+            "{body}.{field} = {value} is outside the {least:e} to {most:e} {unit} of usual bodies: {meant}"
+        ))
+    });
+    unusual.chain(doubt(striker)).collect()
+}
 
 /// What hints at a slip: a mass that no body with such a tip has, or that of a ball of half the radius.
 fn doubt(striker: &Striker) -> Option<String> {
@@ -68,7 +123,7 @@ impl Checked<'_> {
         self.of_the_contact(&mut found);
         self.of_the_materials(&mut found);
         self.of_the_bodies(&mut found);
-        found.extend(doubt(self.striker));
+        found.extend(doubts(self.half_space, self.striker));
         self.of_the_model(&mut found);
         found
     }
@@ -218,7 +273,29 @@ impl Checked<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bodies::material::Material;
+
+    #[test]
+    fn numbers_that_no_body_has_are_told_by_field() {
+        let steel = Material::named("steel").unwrap_or_else(|error| panic!("{error}"));
+        let glass = Material {
+            youngs_modulus_pa: 70.0,
+            density_kg_m3: Some(2.5),
+            ..steel.clone()
+        };
+        let ball = |diameter_m| {
+            let made = Striker::of_shape(steel.clone(), Shape::Ball { diameter_m });
+            made.unwrap_or_else(|error| panic!("{error}"))
+        };
+        let target = |material| HalfSpace::new(material).unwrap_or_else(|error| panic!("{error}"));
+        assert!(doubts(&target(steel.clone()), &ball(3e-3)).is_empty());
+        let found = doubts(&target(glass), &ball(3.0));
+        let told = [
+            "striker.diameter_m = 3 is outside the 1e-8 to 1e0 m of usual bodies: did you mean 3e-3, for 3 mm?",
+            "target.youngs_modulus_pa = 70 is outside the 1e3 to 2e12 Pa of usual bodies: did you mean 7e10, for 70 GPa?",
+            "target.density_kg_m3 = 2.5 is outside the 1e1 to 3e4 kg/m3 of usual bodies: did you mean 2.5e3, for 2.5 g/cm3?",
+        ];
+        assert_eq!(found, told);
+    }
 
     #[test]
     fn slips_in_units_are_told_with_their_numbers() {

@@ -6,9 +6,7 @@ use thiserror::Error;
 /// One of the two axes of a panel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Side {
-    /// The horizontal one.
     X,
-    /// The vertical one.
     Y,
 }
 
@@ -32,7 +30,6 @@ pub enum FigureError {
     Size {
         /// Which size.
         name: &'static str,
-        /// Its value.
         pixels: f64,
         /// Largest that is drawn.
         largest: f64,
@@ -74,7 +71,6 @@ pub enum FigureError {
         what: &'static str,
         /// Needed.
         expected: usize,
-        /// Given.
         found: usize,
     },
 }

@@ -1,5 +1,7 @@
 //! What can be wrong with a scene.
 
+use ::fault::{Class, Culprit, Fault};
+use contact::nearest;
 use impact::TreatmentError;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
@@ -10,19 +12,13 @@ pub enum SceneError {
     /// An error in a file.
     #[error("{}: {error}", path.display())]
     In {
-        /// The file.
         path: PathBuf,
         /// What is wrong in it.
         error: Box<SceneError>,
     },
     /// The file cannot be read.
     #[error("cannot read {}: {reason}", path.display())]
-    Unreadable {
-        /// The file.
-        path: PathBuf,
-        /// The system's reason.
-        reason: String,
-    },
+    Unreadable { path: PathBuf, reason: String },
     /// The text is not TOML.
     #[error("line {line} is not valid TOML: {reason}")]
     Syntax {
@@ -32,9 +28,8 @@ pub enum SceneError {
         reason: String,
     },
     /// A key that does not exist.
-    #[error("unknown key {key}{}", suggested(.suggestion, .allowed))]
+    #[error("unknown key {key}{}", suggested(.key, .suggestion, .allowed))]
     UnknownKey {
-        /// Full name of the key.
         key: String,
         /// The nearest key that exists.
         suggestion: Option<String>,
@@ -44,7 +39,6 @@ pub enum SceneError {
     /// A key that must be given is absent.
     #[error("{key} is missing: {hint}")]
     Missing {
-        /// Full name of the key.
         key: String,
         /// What to give.
         hint: String,
@@ -52,19 +46,15 @@ pub enum SceneError {
     /// A key beside another that it follows from, or that excludes it.
     #[error("{key} cannot be given beside {beside}: {reason}")]
     Superfluous {
-        /// Full name of the key.
         key: String,
         /// What is given already.
         beside: String,
-        /// Why.
         reason: &'static str,
     },
     /// A value of the wrong kind.
     #[error("{key} = {value} is not {expected}")]
     WrongKind {
-        /// Full name of the key.
         key: String,
-        /// The value found.
         value: String,
         /// What was expected.
         expected: &'static str,
@@ -72,27 +62,31 @@ pub enum SceneError {
     /// A number outside its range.
     #[error("{key} = {value} is outside {range}")]
     OutOfRange {
-        /// Full name of the key.
         key: String,
-        /// The value found.
         value: f64,
         /// The allowed range in interval notation.
         range: &'static str,
     },
+    /// A place outside the block.
+    #[error("{key} = {value} is outside [0, {limit}], where {limit_key} ends the block")]
+    OutsideBlock {
+        key: String,
+        value: f64,
+        /// What ends the block.
+        limit_key: &'static str,
+        limit: f64,
+    },
     /// A word that is not one of the choices.
-    #[error("{key} = \"{value}\" is not one of {allowed}")]
+    #[error("{key} = \"{value}\" is not one of {allowed}{}", near(nearest_in(.value, .allowed)))]
     UnknownChoice {
-        /// Full name of the key.
         key: String,
         /// The word found.
         value: String,
-        /// The choices.
         allowed: String,
     },
     /// A material that is not in the library.
-    #[error("{key} = \"{value}\" is not in the materials library{}", .suggestion.as_ref().map_or_else(String::new, |near| format!("; did you mean {near}?")))]
+    #[error("{key} = \"{value}\" is not in the materials library{}", near(.suggestion.as_deref()))]
     UnknownMaterial {
-        /// Full name of the key.
         key: String,
         /// The name found.
         value: String,
@@ -106,7 +100,6 @@ pub enum SceneError {
     Inconsistent {
         /// Section of the scene.
         section: String,
-        /// The quantity.
         quantity: &'static str,
         /// Value from the first keys.
         first: f64,
@@ -124,7 +117,6 @@ pub enum SceneError {
         first: String,
         /// The second choice.
         second: String,
-        /// Why.
         reason: &'static str,
     },
     /// A treatment that the force record cannot have.
@@ -133,7 +125,6 @@ pub enum SceneError {
     /// A force file with an unusable row.
     #[error("{} line {line}: {reason}", path.display())]
     ForceFile {
-        /// The file.
         path: PathBuf,
         /// Line, from 1.
         line: usize,
@@ -156,82 +147,78 @@ impl SceneError {
     }
 }
 
-/// What a program can use of a scene's error, beside its sentence.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct Culprit<'a> {
-    /// Full name of the key at fault.
-    pub key: Option<&'a str>,
-    /// The number found.
-    pub number: Option<f64>,
-    /// The word found.
-    pub word: Option<&'a str>,
-    /// The nearest name that exists.
-    pub suggestion: Option<&'a str>,
-    /// The file at fault.
-    pub file: Option<&'a Path>,
-}
-
-impl SceneError {
-    /// What it is about.
-    #[must_use]
-    pub fn culprit(&self) -> Culprit<'_> {
-        let of_key = |key| Culprit {
-            key: Some(key),
-            ..Culprit::default()
-        };
+impl Fault for SceneError {
+    fn culprit(&self) -> Culprit<'_> {
+        let scene = Culprit::of(Class::Scene);
         match self {
             Self::In { path, error } => {
                 let found = error.culprit();
                 let file = found.file.or(Some(path));
                 Culprit { file, ..found }
             }
-            Self::Unreadable { path, .. } | Self::ForceFile { path, .. } => Culprit {
-                file: Some(path),
-                ..Culprit::default()
-            },
-            Self::Syntax { .. } | Self::Treatment(_) => Culprit::default(),
+            Self::Unreadable { path, .. } | Self::ForceFile { path, .. } => scene.file(path),
+            Self::Syntax { .. } | Self::Treatment(_) => scene,
             Self::UnknownKey {
                 key, suggestion, ..
             } => Culprit {
                 suggestion: suggestion.as_deref(),
-                ..of_key(key)
+                ..scene.key(key)
             },
             Self::Missing { key, .. }
             | Self::Superfluous { key, .. }
-            | Self::Conflict { first: key, .. } => of_key(key),
-            Self::WrongKind { key, value, .. } | Self::UnknownChoice { key, value, .. } => {
-                let word = Some(value.as_str());
-                Culprit {
-                    word,
-                    ..of_key(key)
-                }
-            }
-            Self::OutOfRange { key, value, .. } => Culprit {
-                number: Some(*value),
-                ..of_key(key)
+            | Self::Conflict { first: key, .. } => scene.key(key),
+            Self::WrongKind { key, value, .. } => scene.key(key).word(value),
+            Self::UnknownChoice {
+                key,
+                value,
+                allowed,
+            } => Culprit {
+                suggestion: nearest_in(value, allowed),
+                ..scene.key(key).word(value).range(allowed)
+            },
+            Self::OutOfRange { key, value, range } => scene.key(key).number(*value).range(range),
+            Self::OutsideBlock {
+                key, value, limit, ..
+            } => Culprit {
+                limits: Some([0.0, *limit]),
+                ..scene.key(key).number(*value)
             },
             Self::UnknownMaterial {
                 key,
                 value,
                 suggestion,
             } => Culprit {
-                word: Some(value),
                 suggestion: suggestion.as_deref(),
-                ..of_key(key)
+                ..scene.key(key).word(value)
             },
             Self::Inconsistent {
                 second_key, second, ..
-            } => Culprit {
-                number: Some(*second),
-                ..of_key(second_key)
-            },
+            } => scene.key(second_key).number(*second),
         }
     }
 }
 
-fn suggested(suggestion: &Option<String>, otherwise: &str) -> String {
-    match suggestion {
-        Some(name) => format!("; did you mean {name}?"),
-        None => format!(" ({otherwise})"),
+fn near(suggestion: Option<&str>) -> String {
+    suggestion.map_or_else(String::new, |name| format!("; did you mean {name}?"))
+}
+
+/// The nearest to a word of some that commas divide.
+fn nearest_in<'a>(word: &str, allowed: &'a str) -> Option<&'a str> {
+    let found = nearest(word, allowed.split(", "))?;
+    allowed.split(", ").find(|name| *name == found)
+}
+
+/// The nearest key, with its unit where that is all that differs, or what is known.
+fn suggested(key: &str, suggestion: &Option<String>, otherwise: &str) -> String {
+    let own = key.rsplit('.').next().and_then(|own| own.rsplit_once('_'));
+    match (
+        suggestion,
+        suggestion.as_ref().and_then(|near| near.rsplit_once('_')),
+    ) {
+        (Some(near), Some((stem, unit))) if own.is_some_and(|own| own.0 == stem) => {
+            format!("; did you mean {near}, in {unit}?")
+        }
+        (Some(_), _) => near(suggestion.as_deref()),
+        (None, _) => format!(" ({otherwise})"),
     }
 }

@@ -13,6 +13,7 @@
 //! ```
 
 mod error;
+mod fault;
 mod hdf;
 mod identity;
 pub mod parts;
@@ -23,15 +24,18 @@ pub mod scene;
 pub mod stored;
 pub mod sweep;
 
-pub use error::{Culprit, SceneError};
+pub use error::SceneError;
 pub use output::{Existing, Output, OutputError, check, write_whole};
 pub use quantities::{Kind, QUANTITIES, Quantity};
-pub use report::{Choices, choices, json_report, kernel_name};
+pub use report::{
+    Choices, accuracy_report, choices, json_report, kernel_name, material_report, table_report,
+};
 pub use results::{
     Allowed, check_results, print_results_csv, stage_results, stage_results_csv, write_results,
 };
 pub use scene::{
-    inputs, parse_materials, parse_scene, read_materials, read_record, read_scene, resolved,
+    parse_materials, parse_scene, read_materials, read_record, read_scene, read_with_inputs,
+    resolved,
 };
 
 /// The README's program runs.

@@ -240,10 +240,7 @@ impl Parts {
                 path: output.path().to_owned(),
             });
         };
-        let damaged = || ReadError::Damaged {
-            path: first.path.clone(),
-            what: "the hash of its sweep is none".to_owned(),
-        };
+        let damaged = || ReadError::damaged(&first.path, "the hash of its sweep is none");
         let fingerprint = from_hexadecimal(&self.sha256).ok_or_else(damaged)?;
         let mut spec = Spec::of_stored(&StoredPart::open(&first.path)?.sweep()?, fingerprint)?;
         spec.fields = first.fields.clone();

@@ -2,9 +2,12 @@
 
 use crate::quantities::{Kind, QUANTITIES};
 use crate::results::schema::TREATMENT;
-use contact::Choice;
+use contact::{Choice, Material};
 use impact::{Cause, KernelsUsed, Load, Outcome, Scene};
+use lookup::schema::FIELD_NAMES;
+use lookup::{Accuracy, Quantiles, Table};
 use serde_json::{Map, Value, json};
+use std::path::Path;
 
 /// Names of the choices made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -133,4 +136,77 @@ pub fn json_report(scene: &Scene, outcome: &Outcome, wall_s: f64) -> Value {
             .chain(pairs(tail))
             .collect(),
     )
+}
+
+/// A material with its wave speeds.
+#[must_use]
+pub fn material_report(m: &Material) -> Value {
+    json!({
+        "name": m.name,
+        "group": m.group,
+        "youngs_modulus_pa": m.youngs_modulus_pa,
+        "poisson_ratio": m.poisson_ratio,
+        "density_kg_m3": m.density_kg_m3,
+        "longitudinal_speed_m_s": m.longitudinal_speed_m_s(),
+        "shear_speed_m_s": m.shear_speed_m_s(),
+        "yield_strength_pa": m.yield_strength_pa,
+        "tensile_strength_pa": m.tensile_strength_pa,
+        "fracture_toughness_pa_sqrt_m": m.fracture_toughness_pa_sqrt_m,
+        "source": m.source,
+    })
+}
+
+/// What the table of a file covers, how it was made and how exact it is.
+#[must_use]
+pub fn table_report(path: &Path, table: &Table) -> Value {
+    let content = table.content();
+    let origin = &content.origin;
+    json!({
+        "file": path.to_string_lossy(),
+        "bytes": std::fs::metadata(path).map_or(0, |data| data.len()),
+        "id": table.id(),
+        "format_version": table.format_version(),
+        "software_version": origin.software_version,
+        "git_revision": origin.git_revision,
+        "created_unix_s": origin.created_unix_s,
+        "content_sha256": lookup::content_hash(content),
+        "poisson_ratios": table.poisson_ratios(),
+        "r_nodes": content.r.len(),
+        "z_nodes": content.z.len(),
+        "r_max": table.r_max(),
+        "z_max": table.z_max(),
+        "cell_width": content.cell_width,
+        "cells": content.slices.iter().map(|slice| slice.cells).collect::<Vec<_>>(),
+        "stencil_points": content.stencil_points,
+        "accuracy_asked": origin.accuracy_asked,
+        "pulse_lengths": content.pulse_lengths,
+        "p99_relative_error": origin.accuracy_reached,
+        "relative_errors": accuracy_report(&content.accuracy()),
+        "grid": origin.grid,
+    })
+}
+
+/// Relative errors of a table measured off its grid, by length of the pulse, region and field.
+#[must_use]
+pub fn accuracy_report(accuracy: &[Accuracy]) -> Value {
+    let fields = |errors: &[Quantiles; 6]| {
+        let mut named: Vec<_> = FIELD_NAMES.into_iter().zip(errors).collect();
+        named.sort_by_key(|(name, _)| *name);
+        let of = |&Quantiles { p50, p99, max }: &Quantiles| json!({ "p50": p50, "p99": p99, "max": max });
+        let named = named
+            .into_iter()
+            .map(|(name, error)| (name.to_owned(), of(error)));
+        Value::Object(named.collect())
+    };
+    let measured = accuracy.iter().map(|measured| {
+        let mut of_length = json!({
+            "pulse_length": measured.pulse_length,
+            "on_slices": fields(&measured.on_slices),
+        });
+        if let Some(between) = &measured.between_slices {
+            of_length["between_slices"] = fields(between);
+        }
+        of_length
+    });
+    measured.collect()
 }

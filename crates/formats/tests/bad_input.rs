@@ -244,6 +244,133 @@ fn force_files_are_checked_line_by_line() {
     assert!(refused(&without, folder.path()).contains("contact.disc_radius_m is missing"));
 }
 
+/// Times and forces of a record, or why there is none; its scene spelled out is the same.
+fn record(text: &str, keys: &str) -> Result<(Vec<f64>, Vec<f64>), String> {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("f.csv"), text).unwrap();
+    let scene = format!(
+        "[target]\nmaterial = \"steel\"\n[contact]\ndisc_radius_m = 0.004\n[force]\nfile = \"f.csv\"\n{keys}"
+    );
+    let scene = parse_scene(&scene, folder.path()).map_err(|error| error.to_string())?;
+    let again = parse_scene(&formats::resolved(&scene), Path::new("."));
+    assert_eq!(again.unwrap().load, scene.load);
+    match scene.load {
+        impact::Load::Record(record) => Ok((record.time_s().to_vec(), record.force_n().to_vec())),
+        impact::Load::Strike(_) => Err("a striker".to_owned()),
+    }
+}
+
+const OSCILLOSCOPE: &str =
+    "Model;X\n\"F [kN]\";Time [us];T\n0;-1,0;9\n-1,5;0,5;9\n0,5;2;9\n0;3;9\n";
+const NAMED: &str = "columns = [\"Time [us]\", \"F [kN]\"]\n";
+const BARE: &str = "0\t0\n1\t5\n2\t0\n";
+
+#[test]
+fn records_of_instruments_are_read_by_column_unit_sign_and_instant() {
+    let near = |found: (Vec<f64>, Vec<f64>), time_s: &[f64], force_n: &[f64]| {
+        for (found, wanted) in [(found.0, time_s), (found.1, force_n)] {
+            assert_eq!(found.len(), wanted.len(), "{found:?}");
+            for (x, y) in found.iter().zip(wanted) {
+                assert!((x - y).abs() <= 1e-12 * y.abs().max(1e-6), "{found:?}");
+            }
+        }
+    };
+    let cut = format!("{NAMED}start_s = -0.25e-6\nend_s = 2.5e-6\nsign = -1\n");
+    near(
+        record(OSCILLOSCOPE, &cut).unwrap(),
+        &[0.0, 0.75e-6, 2.25e-6, 2.75e-6],
+        &[750.0, 1500.0, -500.0, -250.0],
+    );
+    let placed = "columns = [1, 2]\nunits = [\"us\", \"lbf\"]\n";
+    near(
+        record(BARE, placed).unwrap(),
+        &[0.0, 1e-6, 2e-6],
+        &[0.0, 22.241_108_076_302_5, 0.0],
+    );
+    let below = "time,force\n(ms),(N)\n\n0,0\n1,5\n2,0\n";
+    let units = "columns = [\"time\", \"force\"]\nunits = [\"ms\", \"N\"]\n";
+    near(
+        record(below, units).unwrap(),
+        &[0.0, 1e-3, 2e-3],
+        &[0.0, 5.0, 0.0],
+    );
+    near(
+        record("time_s force_n\n0 0\n1 5\n", "").unwrap(),
+        &[0.0, 1.0],
+        &[0.0, 5.0],
+    );
+}
+
+#[test]
+fn each_refusal_of_a_record_says_the_way_out() {
+    let cases = [
+        (OSCILLOSCOPE, "", "line 2: the header is"),
+        (
+            OSCILLOSCOPE,
+            "",
+            "such as force.columns = [\"F [kN]\", \"Time [us]\"]",
+        ),
+        (OSCILLOSCOPE, NAMED, "give force.start_s"),
+        (BARE, "", "force.columns = [1, 2] with force.units"),
+        (BARE, "columns = [1, 2]\n", "names no unit"),
+        (
+            BARE,
+            "columns = [1, 2]\nunits = [\"us\", \"V\"]\n",
+            "has the unit \"V\"",
+        ),
+        (BARE, "columns = [1, 3]\n", "the header is"),
+        (BARE, "columns = [1]\n", "not a pair of words"),
+        (
+            "time_s,force_n\n0,1\n1,2\n",
+            "start_s = 3.0\n",
+            "force.start_s = 3 is outside",
+        ),
+        (
+            "time_s,force_n\n0,1\n1,2\n",
+            "end_s = -3.0\n",
+            "force.end_s = -3 is outside",
+        ),
+        (
+            "time_s,force_n\n0,1\n1,2\n",
+            "sign = 2\n",
+            "force.sign = 2 is outside {-1, 1}",
+        ),
+    ];
+    for (text, keys, part) in cases {
+        let message = record(text, keys).unwrap_err();
+        assert!(message.contains(part), "{keys}: {message}");
+    }
+}
+
+#[test]
+fn words_say_what_was_meant() {
+    let cases = [
+        (
+            "tip_radius_m = 0.004",
+            "tip_radius_mm = 4.0",
+            "did you mean tip_radius_m, in m?",
+        ),
+        (
+            "velocity_m_s = 100.0",
+            "velocity_m_s = 0,5",
+            "numbers have a decimal point, no comma",
+        ),
+        (
+            "[striker]",
+            "[striker]\ntolerance = 1e-4",
+            "did you mean contact.tolerance?",
+        ),
+    ];
+    for (good, bad, part) in cases {
+        assert!(GOOD.contains(good), "{good}");
+        let message = refused(&GOOD.replacen(good, bad, 1), Path::new("."));
+        assert!(message.contains(part), "{bad}: {message}");
+    }
+    let asked = format!("{GOOD}\n[output]\nquantities = [\"vonmises\"]\n");
+    let message = refused(&asked, Path::new("."));
+    assert!(message.ends_with("did you mean von_mises?"), "{message}");
+}
+
 #[test]
 fn the_library_is_readable_and_physical() {
     let library = Library::built_in();

@@ -5,7 +5,7 @@ use crate::stand_in::content;
 use formats::stored::StoredPart;
 use formats::sweep::{Block, Blocks, Done, Spec, SweepError, run_sweep};
 use formats::{SceneError, json_report, parse_materials, parse_scene, read_record};
-use impact::{Allowance, Forecast, KernelChoice, Load, simulate_within};
+use impact::{Allowance, Forecast, KernelChoice, Load, Reading, simulate_within};
 use lookup::{Content, Table, TableError, TableFile};
 use output::Existing;
 use serde_json::Value;
@@ -186,8 +186,14 @@ impl Target {
                 Err(error) => sentence(&error),
             },
             Self::Materials => judged(parse_materials(&text)),
-            Self::Record => judged(read_record(&file(folder, "x.csv", input))),
-            Self::Results => judged(read_record(&file(folder, "x.h5", input))),
+            Self::Record => judged(read_record(
+                &file(folder, "x.csv", input),
+                Reading::default(),
+            )),
+            Self::Results => judged(read_record(
+                &file(folder, "x.h5", input),
+                Reading::default(),
+            )),
             Self::Journal => {
                 let path = file(folder, "x.part", input);
                 match sweep(&path, folder, usize::MAX) {

@@ -1,6 +1,7 @@
 //! The one error of this crate: a question outside the domain of the physics.
 
 use crate::profile::Profile;
+use fault::{Class, Culprit, Fault};
 use thiserror::Error;
 
 /// An argument lies outside the domain on which the kernels are defined.
@@ -26,4 +27,18 @@ pub enum DomainError {
         /// The profile of the kernel.
         profile: Profile,
     },
+}
+
+impl Fault for DomainError {
+    fn culprit(&self) -> Culprit<'_> {
+        let culprit = Culprit::of(Class::Domain);
+        match self {
+            Self::Range {
+                argument,
+                value,
+                range,
+            } => culprit.key(argument).number(*value).range(range),
+            Self::HertzOnly { function, .. } => culprit.key(function),
+        }
+    }
 }

@@ -59,6 +59,8 @@
 //! (29), with the coefficient of (24) corrected to 4); the static field is Huber's (1904); the surface-centre
 //! response agrees with the closed form of Kausel (2012).
 
+#![warn(missing_docs)]
+
 mod arrivals;
 mod domain;
 mod error;

@@ -70,9 +70,6 @@ impl Attribute {
     }
 
     /// Its only text, which is UTF-8.
-    ///
-    /// # Errors
-    /// [`HdfError`].
     pub fn text(&self) -> Result<String, HdfError> {
         if self.space != Space::Scalar {
             return Err(damaged("it is a list, needed one text"));

@@ -113,17 +113,11 @@ impl Dataset {
     }
 
     /// An attribute of the dataset.
-    ///
-    /// # Errors
-    /// [`HdfError`].
     pub fn attribute(&self, name: &str) -> Result<Attribute, HdfError> {
         Attribute::find(&self.object, name)
     }
 
     /// All its numbers, in the order of the file, which take `limit` bytes of memory at most.
-    ///
-    /// # Errors
-    /// [`HdfError`].
     pub fn numbers<T: Number>(&self, limit: u64) -> Result<Vec<T>, HdfError> {
         let all: Vec<Range<usize>> = self.shape.iter().map(|&n| 0..n).collect();
         self.block(&all, limit)
@@ -156,9 +150,6 @@ impl Dataset {
     }
 
     /// All its texts, which are UTF-8.
-    ///
-    /// # Errors
-    /// [`HdfError`].
     pub fn texts(&self, limit: u64) -> Result<Vec<String>, HdfError> {
         if self.kind != Kind::Text {
             return Err(wrong_type(self.kind, Kind::Text));
@@ -181,9 +172,6 @@ impl Dataset {
     }
 
     /// The numbers of a block of it, which take `limit` bytes of memory at most.
-    ///
-    /// # Errors
-    /// [`HdfError`].
     pub fn block<T: Number>(&self, block: &[Range<usize>], limit: u64) -> Result<Vec<T>, HdfError> {
         if self.kind != T::KIND {
             return Err(wrong_type(self.kind, T::KIND));

@@ -33,7 +33,6 @@ pub enum HdfError {
     Absent {
         /// Group, dataset or attribute.
         what: &'static str,
-        /// Its name.
         name: String,
     },
     /// Numbers of another type than asked for.

@@ -26,9 +26,6 @@ pub struct File {
 
 impl File {
     /// Opens the regular file at `path`.
-    ///
-    /// # Errors
-    /// [`HdfError`].
     pub fn open(path: &Path) -> Result<Self, HdfError> {
         Self::from_bytes(Arc::new(OnDisk::open(path)?))
     }

@@ -60,26 +60,17 @@ impl Group {
     }
 
     /// A group that is a member.
-    ///
-    /// # Errors
-    /// [`HdfError`].
     pub fn group(&self, name: &str) -> Result<Self, HdfError> {
         Self::load(&self.object.file, self.address("group", name)?)
     }
 
     /// A dataset that is a member.
-    ///
-    /// # Errors
-    /// [`HdfError`].
     pub fn dataset(&self, name: &str) -> Result<Dataset, HdfError> {
         let address = self.address("dataset", name)?;
         Dataset::load(&Object::load(&self.object.file, address)?)
     }
 
     /// An attribute of the group.
-    ///
-    /// # Errors
-    /// [`HdfError`].
     pub fn attribute(&self, name: &str) -> Result<Attribute, HdfError> {
         Attribute::find(&self.object, name)
     }

@@ -25,6 +25,8 @@
 //! The programs in `examples/` show the force alone, a point inside, a table made and used, a sweep in memory, and
 //! a force that was measured.
 
+#![warn(missing_docs)]
+
 pub use {contact, formats, halfspace, impact, lookup, tabulator};
 
 /// What most programs need.

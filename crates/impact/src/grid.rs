@@ -168,9 +168,6 @@ pub struct Grid {
 
 impl Grid {
     /// The times for what is wanted of an excitation, on steps that the source of the kernels can give.
-    ///
-    /// # Errors
-    /// [`TooManySamples`].
     pub fn new(
         wanted: &Wanted,
         excitation: &Excitation,

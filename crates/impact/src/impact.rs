@@ -121,9 +121,6 @@ impl Impact {
     }
 
     /// Solves the contact.
-    ///
-    /// # Errors
-    /// [`ContactError`].
     pub fn solve(&self) -> Result<Run, ContactError> {
         let settings = &self.settings;
         let collision = Collision::new(&self.half_space, &self.striker, self.velocity_m_s);

@@ -19,6 +19,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+#![warn(missing_docs)]
+
 mod cost;
 pub mod energy;
 mod error;
@@ -57,7 +59,7 @@ pub use kernels::place::{FieldError, Place};
 pub use kernels::source::{self, KernelChoice, SourceError, Tables};
 pub use outcome::{Cause, FieldsUsed, KernelsUsed, Outcome, RecordResults, Series, StrikerSeries};
 pub use record::condition::{Treatment, TreatmentError};
-pub use record::{ForceRecord, RecordError, Treated};
+pub use record::{ForceRecord, Reading, RecordError, Treated};
 pub use scene::{Load, Probe, Scene, Section, Strike};
 pub use shared::Shared;
 pub use simulate::{ImpactError, simulate, simulate_watched, simulate_within};

@@ -12,7 +12,8 @@ use crate::finite::{NotFinite, checked};
 use crate::grid::{Grid, TooManySamples, Wanted};
 use crate::impact::Impact;
 use crate::kernels::KernelSource;
-use crate::kernels::source::{Chosen, KernelChoice, SourceError, choose_source};
+use crate::kernels::place::FieldError;
+use crate::kernels::source::{Chosen, KernelChoice, SourceError, TableFault, choose_source};
 use crate::outcome::{
     Cause, FieldsUsed, KernelsUsed, Outcome, RecordResults, Series, StrikerSeries,
 };
@@ -21,6 +22,7 @@ use crate::record::plausible::doubts;
 use crate::scene::{Load, Scene, Strike};
 use crate::watch::Watch;
 use contact::{Collision, ContactError, Model, Scheme, StaticShare};
+use fault::{Class, Culprit, Fault};
 use halfspace::{Deflection, DomainError};
 use thiserror::Error;
 
@@ -30,6 +32,14 @@ pub enum ImpactError {
     /// The contact failed.
     #[error(transparent)]
     Contact(#[from] ContactError),
+    /// The contact failed, between bodies whose numbers hint at slips.
+    #[error("{error}; {}", doubts.join("; "))]
+    Doubtful {
+        /// Why the contact failed.
+        error: ContactError,
+        /// What hints at slips.
+        doubts: Vec<String>,
+    },
     /// The kernels could not be had.
     #[error(transparent)]
     Source(#[from] SourceError),
@@ -53,18 +63,65 @@ pub enum ImpactError {
     NoDisc,
 }
 
+impl Fault for ImpactError {
+    fn culprit(&self) -> Culprit<'_> {
+        use contact::MarchError as M;
+        let culprit = Culprit::of(Class::Impact);
+        let contact = match self {
+            Self::Contact(error) | Self::Doubtful { error, .. } => Some(error),
+            _ => None,
+        };
+        match contact {
+            Some(ContactError::March(
+                M::NoSolution { .. }
+                | M::TooLong { .. }
+                | M::NotConverged { .. }
+                | M::Unstable { .. },
+            )) => return culprit.unmendable(),
+            Some(ContactError::TooFast { velocity_m_s, .. }) => {
+                return culprit.key("velocity_m_s").number(*velocity_m_s);
+            }
+            Some(ContactError::OutOfRange { quantity, value }) => {
+                return culprit.key(quantity).number(*value).range("[1e-30, 1e30]");
+            }
+            _ => {}
+        }
+        match self {
+            Self::Fields(FieldsError::Field(FieldError::Table { source, .. })) => source.culprit(),
+            Self::Fields(FieldsError::Field(FieldError::Domain { source, .. }))
+            | Self::Fields(FieldsError::Domain(source))
+            | Self::Source(SourceError::Domain(source))
+            | Self::Domain(source) => source.culprit(),
+            Self::Source(SourceError::Table(fault)) => of_table(fault),
+            Self::TooMuch(TooMuch::Memory(_)) => Culprit::of(Class::Memory),
+            Self::Contact(_)
+            | Self::Doubtful { .. }
+            | Self::Fields(FieldsError::TooManySamples(_))
+            | Self::TooManySamples(_)
+            | Self::TooMuch(_)
+            | Self::NotFinite(_) => culprit,
+            Self::NoDisc => culprit.key("disc_radius_m"),
+        }
+    }
+}
+
+/// A table that could not be loaded is something to change, whatever is wrong with it.
+#[cfg_attr(not(feature = "hdf5"), allow(unused_variables))]
+fn of_table(fault: &TableFault) -> Culprit<'_> {
+    let culprit = Culprit::of(Class::Table);
+    #[cfg(feature = "hdf5")]
+    if let Some(lookup::TableError { path, .. }) = fault.downcast_ref() {
+        return culprit.file(path);
+    }
+    culprit
+}
+
 /// Computes a scene.
-///
-/// # Errors
-/// [`ImpactError`].
 pub fn simulate(scene: &Scene, kernels: &KernelChoice) -> Result<Outcome, ImpactError> {
     simulate_within(scene, kernels, &Allowance::default())
 }
 
 /// [`simulate`], telling `watch` how far the fields are.
-///
-/// # Errors
-/// [`ImpactError`].
 pub fn simulate_watched(
     scene: &Scene,
     kernels: &KernelChoice,
@@ -118,7 +175,13 @@ fn of_strike(scene: &Scene, strike: &Strike, asked: Asked<'_>) -> Result<Outcome
         velocity_m_s: strike.velocity_m_s,
         settings: scene.settings,
     };
-    let run = impact.solve()?;
+    let run =
+        impact.solve().map_err(
+            |error| match contact::doubts(&scene.target, &strike.striker) {
+                doubts if doubts.is_empty() => ImpactError::Contact(error),
+                doubts => ImpactError::Doubtful { error, doubts },
+            },
+        )?;
     let excitation = run.excitation();
     let computed = Computed::new(asked, excitation)?;
     let marched = (run.solved.plan.model, run.solved.scheme);

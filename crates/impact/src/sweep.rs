@@ -19,9 +19,6 @@ pub struct Collided {
 }
 
 /// The contact of two bodies with a thread's solver.
-///
-/// # Errors
-/// [`ContactError`].
 pub fn collide(
     solver: &mut Solver<'_, Tabulated>,
     collision: &Collision,

@@ -1,5 +1,6 @@
 //! What can be wrong with the content of a table, and what can be wrong with a question to it.
 
+use fault::{Class, Culprit, Fault};
 use halfspace::DomainError;
 use thiserror::Error;
 
@@ -75,4 +76,27 @@ pub enum LookupError {
     /// The static field cannot be computed there.
     #[error(transparent)]
     Domain(#[from] DomainError),
+}
+
+impl Fault for LookupError {
+    fn culprit(&self) -> Culprit<'_> {
+        let outside = |axis, number, limits| Culprit {
+            limits: Some(limits),
+            ..Culprit::of(Class::OutsideTable).key(axis).number(number)
+        };
+        match self {
+            Self::Outside {
+                axis,
+                value,
+                min,
+                max,
+            } => outside(*axis, *value, [*min, *max]),
+            Self::Coarsening { value, max } => {
+                outside("coarsening", f64::from(*value), [0.0, f64::from(*max)])
+            }
+            Self::PulseLength { value } => outside("pulse_length", *value, [0.0, f64::INFINITY]),
+            Self::Domain(error) => error.culprit(),
+            Self::Lengths { .. } => Culprit::of(Class::Work),
+        }
+    }
 }

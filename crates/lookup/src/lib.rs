@@ -12,7 +12,6 @@
 //! Everything is reduced: lengths by the disc radius r0, times by r0/c1, displacements by P/(mu r0),
 //! stresses by P/r0^2; z points into the body and compression is negative stress.
 //! The six fields are in the order of [`halfspace::FIELDS`]: u, w, srr, stt, szz, srz.
-
 //!
 //! # Features
 //!
@@ -75,6 +74,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+#![warn(missing_docs)]
+
 mod accuracy;
 mod certificate;
 mod content;
@@ -97,7 +98,7 @@ pub use error::{ContentError, LookupError};
 #[cfg(feature = "hdf5")]
 pub use file::labels;
 #[cfg(feature = "hdf5")]
-pub use file::{DamagedPatch, TableError, TableFile, damaged_patches};
+pub use file::{BadTable, DamagedPatch, TableError, TableFile, damaged_patches};
 #[cfg(feature = "hdf5")]
 pub use file::{check_hash, read, stated_hash, write};
 pub use hash::{content_hash, settings_id};

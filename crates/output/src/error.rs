@@ -1,5 +1,6 @@
 //! What can keep a file from being written, and why its content could not be.
 
+use fault::{Class, Culprit, Remedy};
 use std::io::{Error, ErrorKind};
 use std::path::{Path, PathBuf};
 
@@ -106,6 +107,31 @@ impl OutputError {
             Self::Full { path, reason }
         } else {
             Self::Failed { path, reason }
+        }
+    }
+}
+
+impl fault::Fault for OutputError {
+    fn culprit(&self) -> Culprit<'_> {
+        let (class, path) = match self {
+            Self::Exists { path } => (Class::Exists, path),
+            Self::Unwritable { path, .. }
+            | Self::Failed { path, .. }
+            | Self::Full { path, .. }
+            | Self::Busy { path }
+            | Self::Ending { path, .. }
+            | Self::Unbuilt { path, .. }
+            | Self::Input { output: path, .. }
+            | Self::Twice { first: path, .. } => (Class::Output, path),
+        };
+        let remedy = match self {
+            Self::Failed { .. } => Remedy::Unknown,
+            again if again.may_be_tried_again() => Remedy::Wait,
+            _ => Remedy::Change,
+        };
+        Culprit {
+            remedy,
+            ..Culprit::of(class).file(path)
         }
     }
 }

@@ -1,6 +1,6 @@
 //! The paper's bodies, Table 1 and the numbers of section 4, and the contacts that numbers and figures need.
 
-use crate::error::PaperError;
+use crate::PaperError;
 use contact::{HalfSpace, Material, Model, Scheme, Settings, Striker};
 use impact::{Impact, Run};
 use std::f64::consts::PI;

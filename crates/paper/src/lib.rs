@@ -12,15 +12,16 @@
 //! Equation, figure and table numbers are the paper's.
 
 mod case;
-mod error;
 mod figures;
 mod numbers;
 mod report;
 
-pub use error::PaperError;
 pub use figures::{Claim, Redrawn};
 pub use numbers::{Numbers, Row, Section};
 pub use report::Redone;
+
+/// Why the paper could not be redone: a mistake of this library, or a folder that takes no files.
+pub type PaperError = Box<dyn std::error::Error + Send + Sync>;
 
 /// The README's program runs.
 #[cfg(doctest)]

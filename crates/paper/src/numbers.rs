@@ -1,8 +1,8 @@
 //! Every number that the paper prints, with ours.
 
+use crate::PaperError;
 use crate::case::{NAMED_STRENGTH_PA, RADIUS_M, Runs, STRENGTH_PA, TABLE_1_PA, VELOCITY_M_S};
 use crate::case::{anvil, coupled, kmax, mean_pa};
-use crate::error::PaperError;
 use contact::law::hertz::CONTACT_TIME;
 use contact::super_seismic;
 use contact::{Collision, Material};
@@ -14,7 +14,6 @@ use impact::Run;
 pub struct Row {
     /// Where the paper has it: an equation, a figure, a table, a page of text.
     pub place: &'static str,
-    /// What it is.
     pub what: &'static str,
     /// Its unit; empty for a number without one.
     pub unit: &'static str,

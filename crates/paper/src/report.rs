@@ -1,7 +1,7 @@
 //! Everything together, and the folder that it is written into: report.md, numbers, claims, figures and their curves.
 
+use crate::PaperError;
 use crate::case::Runs;
-use crate::error::PaperError;
 use crate::figures::{self, Claim, Redrawn};
 use crate::numbers::{Numbers, Row};
 use figure::{Layer, to_png, to_svg};
@@ -39,7 +39,7 @@ impl Redone {
     /// Writes report.md, numbers.csv, claims.csv, and of each figure SVG, PNG and the CSV of its curves.
     ///
     /// # Errors
-    /// [`PaperError::Output`] with the file and the reason, [`PaperError::Picture`] with the figure; no file has changed then.
+    /// The file or the figure, with the reason; no file has changed then.
     pub fn write(&self, folder: &Folder) -> Result<(), PaperError> {
         let sections = self.numbers.sections.iter();
         let rows = sections.flat_map(|s| s.rows.iter().map(|row| row.cells(s.title)));
@@ -56,7 +56,7 @@ impl Redone {
         ];
         for redrawn in &self.figures {
             let name = redrawn.name;
-            let failed = |source| PaperError::Picture { name, source };
+            let failed = |source| format!("{name} cannot be drawn: {source}");
             let svg = to_svg(&redrawn.figure).map_err(failed)?;
             let png = to_png(&redrawn.figure, SCALE).map_err(failed)?;
             files.push(NewFile::of(format!("{name}.svg"), svg));

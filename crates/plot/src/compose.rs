@@ -10,9 +10,6 @@ use formats::stored::{FileKind, StoredImpact, StoredSweep, file_kind};
 use std::path::PathBuf;
 
 /// Composes a figure of one or several files of one kind.
-///
-/// # Errors
-/// [`PlotError`].
 pub fn compose(paths: &[PathBuf], request: &Request) -> Result<Drawn, PlotError> {
     let file = common_kind(paths)?;
     if let Some(kind) = request.kind
@@ -30,9 +27,6 @@ pub fn compose(paths: &[PathBuf], request: &Request) -> Result<Drawn, PlotError>
 }
 
 /// Composes the frames of an animation of a section, one figure each.
-///
-/// # Errors
-/// [`PlotError`].
 pub fn animate(
     paths: &[PathBuf],
     request: &Request,
@@ -40,11 +34,13 @@ pub fn animate(
     let file = common_kind(paths)?;
     let kind = request.kind.unwrap_or(Kind::Waves);
     if file != FileKind::Impact || kind != Kind::Waves {
-        return Err(PlotError::NotMoving {
-            path: paths[0].clone(),
-            found: file,
-            kind: request.kind,
-        });
+        let path = &paths[0];
+        let shown = (request.kind).map_or_else(String::new, |kind| format!(", shown as {kind}"));
+        let sentence = format!(
+            "an animation shows the waves in the section of an impact, and {} is {file}{shown}",
+            path.display()
+        );
+        return Err(PlotError::refused(Some(path), sentence));
     }
     frames_of(only(&open(paths)?, kind)?, request)
 }
@@ -61,11 +57,12 @@ fn common_kind(paths: &[PathBuf]) -> Result<FileKind, PlotError> {
         let second = file_kind(path)?;
         let (first_path, first) = *common.get_or_insert((path, second));
         if second != first {
-            return Err(PlotError::Mixed {
-                paths: [first_path.clone(), path.clone()],
-                first,
-                second,
-            });
+            let sentence = format!(
+                "{} is {first}, and {} is {second}: one picture shows files of one kind",
+                first_path.display(),
+                path.display()
+            );
+            return Err(PlotError::refused(Some(path), sentence));
         }
     }
     Ok(common.map_or(FileKind::Impact, |(_, kind)| kind))

@@ -2,8 +2,10 @@
 
 use crate::request::Kind;
 use contact::nearest;
+use fault::{Class, Culprit, Fault};
 use formats::stored::{FileKind, ReadError, StoredQuantity};
 use impact::FieldsError;
+use std::fmt::Display;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
@@ -13,137 +15,94 @@ pub enum PlotError {
     /// A file cannot be read.
     #[error(transparent)]
     Read(#[from] ReadError),
-    /// Files of different kinds.
-    #[error("{} is {first}, and {} is {second}: one picture shows files of one kind", paths[0].display(), paths[1].display())]
-    Mixed {
-        /// The two files.
-        paths: [PathBuf; 2],
-        /// What the first is.
-        first: FileKind,
-        /// What the second is.
-        second: FileKind,
-    },
-    /// A kind of picture that a file does not give.
-    #[error("{} is {found}, which has no picture {kind}; it has {allowed}", path.display())]
-    Unsuitable {
-        /// The file.
-        path: PathBuf,
-        /// What it is.
-        found: FileKind,
-        /// What was asked for.
-        kind: Kind,
-        /// What can be.
-        allowed: String,
-    },
-    /// A kind of picture of one file, asked of several.
-    #[error("the picture {kind} shows one file, and {given} were given")]
-    OneFile {
-        /// What was asked for.
-        kind: Kind,
-        /// Files given.
-        given: usize,
-    },
-    /// An animation of what does not move.
-    #[error("an animation shows the waves in the section of an impact, and {} is {found}{}", path.display(), shown_as(*kind))]
-    NotMoving {
-        /// The file.
-        path: PathBuf,
-        /// What it is.
-        found: FileKind,
-        /// What was asked for.
-        kind: Option<Kind>,
-    },
-    /// What a picture shows is not in the file.
-    #[error("{} has no {what}: {hint}", path.display())]
-    Absent {
-        /// The file.
-        path: PathBuf,
-        /// What is missing.
-        what: &'static str,
-        /// What to do.
-        hint: &'static str,
-    },
-    /// A quantity that is not there.
-    #[error("{quantity} is not in {}{}; it has {allowed}", path.display(), did_you_mean(suggestion.as_deref()))]
-    Quantity {
-        /// The file.
-        path: PathBuf,
-        /// What was asked for.
-        quantity: String,
-        /// The nearest that is there.
-        suggestion: Option<String>,
-        /// What is there.
-        allowed: String,
-    },
-    /// Frames too far apart in time for a velocity.
-    #[error("{quantity} by differences between the frames of {} would be wrong by {percent} %: give [map] more frames, or show displacement_z", path.display())]
-    Coarse {
-        /// The file.
-        path: PathBuf,
-        /// What was asked for.
-        quantity: String,
-        /// Error in per cent, as the root of mean squares.
-        percent: f64,
-    },
-    /// More curves than a picture can show.
-    #[error("{} would give {count} curves, and {most} can be told apart: choose among them, such as by --at {key}=VALUE", path.display())]
-    TooMany {
-        /// The file.
-        path: PathBuf,
-        /// Curves.
-        count: usize,
-        /// Curves that can be shown.
-        most: usize,
-        /// A key that varies.
-        key: String,
-    },
-    /// A key of words along an axis of numbers.
-    #[error("{key} has no numbers to draw along")]
-    NoNumbers {
-        /// The key.
-        key: String,
-    },
     /// A kernel table cannot be read.
     #[error(transparent)]
     Table(#[from] lookup::TableError),
     /// The fields could not be computed.
     #[error(transparent)]
     Fields(#[from] FieldsError),
+    /// What is asked for is not in the files, or not to be drawn.
+    #[error("{sentence}")]
+    Refused {
+        /// The whole sentence.
+        sentence: String,
+        /// The file at fault.
+        file: Option<PathBuf>,
+        /// The nearest name that is there.
+        suggestion: Option<String>,
+    },
 }
 
 impl PlotError {
-    /// A kind of picture that a file of another kind does not give.
-    pub(crate) fn unsuitable(path: &Path, found: FileKind, kind: Kind) -> Self {
-        Self::Unsuitable {
-            path: path.to_owned(),
-            found,
-            kind,
-            allowed: match Kind::of(found).as_slice() {
-                [] => "none".to_owned(),
-                names => names.join(", "),
-            },
+    /// What is asked for is not to be drawn.
+    pub(crate) fn refused(file: Option<&Path>, sentence: String) -> Self {
+        Self::Refused {
+            sentence,
+            file: file.map(Path::to_owned),
+            suggestion: None,
         }
     }
 
+    /// A kind of picture that a file of another kind does not give.
+    pub(crate) fn unsuitable(path: &Path, found: FileKind, kind: Kind) -> Self {
+        let allowed = match Kind::of(found).as_slice() {
+            [] => "none".to_owned(),
+            names => names.join(", "),
+        };
+        let file = path.display();
+        let sentence = format!("{file} is {found}, which has no picture {kind}; it has {allowed}");
+        Self::refused(Some(path), sentence)
+    }
+
     /// What a picture shows is not in the file.
-    pub(crate) fn absent(path: &Path, what: &'static str, hint: &'static str) -> Self {
-        let path = path.to_owned();
-        Self::Absent { path, what, hint }
+    pub(crate) fn absent(path: &Path, what: &str, hint: &str) -> Self {
+        Self::refused(
+            Some(path),
+            format!("{} has no {what}: {hint}", path.display()),
+        )
+    }
+
+    /// A key of words along an axis of numbers.
+    pub(crate) fn no_numbers(key: &str) -> Self {
+        Self::refused(None, format!("{key} has no numbers to draw along"))
     }
 
     /// A word that is none of those that a file has: `said` is what was asked for, of which `word` may be misspelt.
     pub(crate) fn unknown<'a>(
         path: &Path,
-        said: impl Into<String>,
+        said: impl Display,
         word: &str,
         known: impl IntoIterator<Item = &'a str>,
     ) -> Self {
         let known: Vec<&str> = known.into_iter().collect();
-        Self::Quantity {
-            path: path.to_owned(),
-            quantity: said.into(),
-            suggestion: nearest(word, known.iter().copied()),
-            allowed: known.join(", "),
+        let suggestion = nearest(word, known.iter().copied());
+        let near = suggestion.as_ref();
+        let near = near.map_or_else(String::new, |word| format!(" (did you mean {word}?)"));
+        Self::Refused {
+            sentence: format!(
+                "{said} is not in {}{near}; it has {}",
+                path.display(),
+                known.join(", ")
+            ),
+            file: Some(path.to_owned()),
+            suggestion,
+        }
+    }
+}
+
+impl Fault for PlotError {
+    fn culprit(&self) -> Culprit<'_> {
+        match self {
+            Self::Read(error) => error.culprit(),
+            Self::Table(error) => Culprit::of(Class::Table).file(&error.path),
+            Self::Fields(_) => Culprit::of(Class::Domain),
+            Self::Refused {
+                file, suggestion, ..
+            } => Culprit {
+                file: file.as_deref(),
+                suggestion: suggestion.as_deref(),
+                ..Culprit::of(Class::Scene)
+            },
         }
     }
 }
@@ -152,10 +111,11 @@ impl PlotError {
 pub(crate) fn only<T>(given: &[T], kind: Kind) -> Result<&T, PlotError> {
     match given {
         [only] => Ok(only),
-        several => Err(PlotError::OneFile {
-            kind,
-            given: several.len(),
-        }),
+        several => {
+            let given = several.len();
+            let sentence = format!("the picture {kind} shows one file, and {given} were given");
+            Err(PlotError::refused(None, sentence))
+        }
     }
 }
 
@@ -173,12 +133,4 @@ pub(crate) fn chosen(
             .ok_or_else(|| PlotError::unknown(path, name, name, all()))
     };
     names.iter().map(|name| find(name.as_ref())).collect()
-}
-
-fn shown_as(kind: Option<Kind>) -> String {
-    kind.map_or_else(String::new, |kind| format!(", shown as {kind}"))
-}
-
-fn did_you_mean(suggestion: Option<&str>) -> String {
-    suggestion.map_or_else(String::new, |word| format!(" (did you mean {word}?)"))
 }

@@ -1,6 +1,6 @@
 //! Arrays of numpy that nobody can write into.
 
-use crate::errors::internal;
+use crate::errors::raised;
 use numpy::ndarray::ArrayD;
 use numpy::{Element, IntoPyArray, PyArrayDyn, PyArrayMethods, PyReadonlyArray1};
 use pyo3::prelude::*;
@@ -11,7 +11,8 @@ pub(crate) fn frozen<'py, T: Element>(
     numbers: Vec<T>,
     shape: &[usize],
 ) -> PyResult<Bound<'py, PyArrayDyn<T>>> {
-    let array = ArrayD::from_shape_vec(shape, numbers).map_err(|error| internal(py, &error))?;
+    let array =
+        ArrayD::from_shape_vec(shape, numbers).map_err(|error| raised(py, error.to_string()))?;
     let array = array.into_pyarray(py);
     array.try_readwrite()?.make_nonwriteable();
     Ok(array)

@@ -57,7 +57,7 @@ pub(crate) fn run_impact(
         (simulate_within(&scene, &kernels, &allowance), scene)
     })?;
     let file = opened.as_ref().map(|opened| opened.path());
-    let computed = result.map_err(|error| errors::of_impact(py, &error, file))?;
+    let computed = result.map_err(|error| errors::raised_in(py, error, file))?;
     let wall_s = start.elapsed().as_secs_f64();
     Ok(Outcome {
         found: Arc::new(Found {
@@ -73,8 +73,9 @@ fn kernels(py: Python<'_>, name: &str, table: Option<Arc<Opened>>) -> PyResult<K
         ("direct", _) | ("auto", None) => Ok(KernelChoice::Direct),
         ("table", Some(table)) => Ok(KernelChoice::Table(table)),
         ("auto", Some(table)) => Ok(KernelChoice::Auto(table)),
-        ("table", None) => Err(errors::bad_input(
+        ("table", None) => Err(errors::plain(
             py,
+            "SceneError",
             "kernel = \"table\" needs a table: give table=hertzlamb.Table.open(...)",
         )),
         _ => Err(errors::unknown(
@@ -120,7 +121,7 @@ impl Outcome {
     }
 
     /// The scene with every default and material spelled out.
-    fn scene<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+    fn scene<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         spelled_out(py, &self.found.scene)
     }
 
@@ -195,7 +196,7 @@ impl Outcome {
                 stage_results(&output, scene, computed)?.commit()
             }
         })?;
-        written.map_err(|error| errors::of_output(py, &error))
+        written.map_err(|error| errors::raised(py, error))
     }
 }
 

@@ -14,7 +14,7 @@ use rayon::prelude::*;
 
 /// A medium, or the exception that names its range.
 fn medium_of(py: Python<'_>, nu: f64) -> PyResult<Medium> {
-    Medium::new(nu).map_err(|error| errors::domain(py, &error))
+    Medium::new(nu).map_err(|error| errors::raised(py, error))
 }
 
 fn profile_of(py: Python<'_>, name: &str) -> PyResult<Profile> {
@@ -103,7 +103,7 @@ pub(crate) fn kernel<'py>(
 ) -> PyResult<Fields<'py>> {
     let (order, profile) = (Order::named(py, order)?, profile_of(py, profile)?);
     let kernel = Kernel::new(&medium_of(py, nu)?, profile, tolerance);
-    let kernel = kernel.map_err(|error| errors::domain(py, &error))?;
+    let kernel = kernel.map_err(|error| errors::raised(py, error))?;
     let (r, z, t) = (numbers(&r), numbers(&z), numbers(&t));
     let rows = r.len();
     let one = move |ticker: &Ticker, i: usize| {
@@ -121,7 +121,7 @@ pub(crate) fn kernel<'py>(
             (0..rows).into_par_iter().map(|i| one(ticker, i)).collect()
         })?
     };
-    let found = found.map_err(|error| errors::domain(py, &error))?;
+    let found = found.map_err(|error| errors::raised(py, error))?;
     let values: Vec<f64> = found.iter().flat_map(|e| e.value).collect();
     let limits: Vec<f64> = found.iter().flat_map(|e| e.error).collect();
     Ok((
@@ -141,14 +141,14 @@ pub(crate) fn static_field<'py>(
 ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
     // no quadrature: the tolerance is of no consequence
     let kernel = Kernel::new(&medium_of(py, nu)?, profile_of(py, profile)?, 1e-6);
-    let kernel = kernel.map_err(|error| errors::domain(py, &error))?;
+    let kernel = kernel.map_err(|error| errors::raised(py, error))?;
     let (r, z) = (numbers(&r), numbers(&z));
     let rows = r.len();
     let found: Result<Vec<Six>, DomainError> = run_short(py, || {
         let places = r.iter().zip(&z);
         places.map(|(&r, &z)| kernel.static_field(r, z)).collect()
     })?;
-    let found = found.map_err(|error| errors::domain(py, &error))?;
+    let found = found.map_err(|error| errors::raised(py, error))?;
     frozen(py, found.into_flattened(), &[rows, 6])
 }
 
@@ -222,7 +222,7 @@ pub(crate) fn arrivals<'py>(
     profile: &str,
 ) -> PyResult<Bound<'py, PyDict>> {
     let found = Arrivals::new(&medium_of(py, nu)?, profile_of(py, profile)?, r, z);
-    let found = found.map_err(|error| errors::domain(py, &error))?;
+    let found = found.map_err(|error| errors::raised(py, error))?;
     let waves = PyDict::new(py);
     waves.set_item("above", found.above)?;
     waves.set_item("p", found.p)?;

@@ -4,8 +4,8 @@ use crate::convert::from_json;
 use crate::errors;
 use contact::{Choice, Library, Model};
 use formats::quantities::{Kind, QUANTITIES, described};
-use formats::read_materials;
 use formats::results::schema;
+use formats::{material_report, read_materials};
 use impact::Quantity as FieldQuantity;
 use pyo3::prelude::*;
 use serde_json::{Value, json};
@@ -22,27 +22,10 @@ pub(crate) fn materials<'py>(
     let mut library = Library::built_in().clone();
     if let Some(path) = file {
         let own = py.detach(|| read_materials(&path));
-        library = library.extended(&own.map_err(|error| errors::scene(py, &error))?);
+        library = library.extended(&own.map_err(|error| errors::raised(py, error))?);
     }
-    let found: Vec<Value> = library
-        .search(search)
-        .map(|m| {
-            json!({
-                "name": m.name,
-                "group": m.group,
-                "youngs_modulus_pa": m.youngs_modulus_pa,
-                "poisson_ratio": m.poisson_ratio,
-                "density_kg_m3": m.density_kg_m3,
-                "longitudinal_speed_m_s": m.longitudinal_speed_m_s(),
-                "shear_speed_m_s": m.shear_speed_m_s(),
-                "yield_strength_pa": m.yield_strength_pa,
-                "tensile_strength_pa": m.tensile_strength_pa,
-                "fracture_toughness_pa_sqrt_m": m.fracture_toughness_pa_sqrt_m,
-                "source": m.source,
-            })
-        })
-        .collect();
-    from_json(py, &Value::Array(found))
+    let found: Value = library.search(search).map(material_report).collect();
+    from_json(py, &found)
 }
 
 /// Unit and meaning of every name of a result, by the part of the results that it is in.

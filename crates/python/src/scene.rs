@@ -1,13 +1,13 @@
 //! Scenes and sweeps as people give them: a dictionary, a path, or TOML text.
 
-use crate::convert::{NoValue, dict, table};
-use crate::errors;
-use formats::{parse_scene, read_scene};
+use crate::convert::from_json;
+use crate::errors::{self, raised};
+use formats::{SceneError, parse_scene, read_scene};
 use impact::Scene;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyString};
+use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyString};
 use std::path::{Path, PathBuf};
-use toml::Table;
+use toml::{Table, Value};
 
 /// What was given.
 #[derive(Debug)]
@@ -43,16 +43,10 @@ impl Given {
         }
         if !given.hasattr("items")? {
             let kind = given.get_type().name()?;
-            return Err(errors::bad_input(
-                py,
-                &format!("a scene is a dictionary, a path or TOML text, not {kind}"),
-            ));
+            let message = format!("a scene is a dictionary, a path or TOML text, not {kind}");
+            return Err(errors::plain(py, "SceneError", &message));
         }
-        match table(given, "") {
-            Ok(found) => Ok(Self::Table(found)),
-            Err(NoValue::Scene(error)) => Err(errors::scene(py, &error)),
-            Err(NoValue::Python(error)) => Err(error),
-        }
+        table(given, "").map(Self::Table)
     }
 }
 
@@ -65,19 +59,17 @@ pub(crate) fn scene(given: &Bound<'_, PyAny>) -> PyResult<Scene> {
         Given::Text(text) => parse_scene(text, here()),
         Given::File(path) => read_scene(path),
     });
-    found.map_err(|error| errors::scene(py, &error))
+    found.map_err(|error| raised(py, error))
 }
 
 /// The scene with every default and material spelled out, as a dictionary.
-pub(crate) fn spelled_out<'py>(py: Python<'py>, scene: &Scene) -> PyResult<Bound<'py, PyDict>> {
-    let text = formats::resolved(scene);
-    let parsed = text.parse::<Table>();
-    dict(py, &parsed.map_err(|error| errors::internal(py, &error))?)
+pub(crate) fn spelled_out<'py>(py: Python<'py>, scene: &Scene) -> PyResult<Bound<'py, PyAny>> {
+    from_toml(py, &formats::resolved(scene))
 }
 
 /// A scene with every default and material spelled out.
 #[pyfunction]
-pub(crate) fn resolved<'py>(given: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyDict>> {
+pub(crate) fn resolved<'py>(given: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
     spelled_out(given.py(), &scene(given)?)
 }
 
@@ -85,4 +77,98 @@ pub(crate) fn resolved<'py>(given: &Bound<'py, PyAny>) -> PyResult<Bound<'py, Py
 #[pyfunction]
 pub(crate) fn sections_of(key: &str) -> Vec<&'static str> {
     formats::scene::sections_of(key)
+}
+
+/// A mapping of Python as a table; keys whose value is None are left out.
+pub(crate) fn table(mapping: &Bound<'_, PyAny>, name: &str) -> PyResult<Table> {
+    let mut found = Table::new();
+    for item in mapping.call_method0("items")?.try_iter()? {
+        let (key, value): (Bound<'_, PyAny>, Bound<'_, PyAny>) = item?.extract()?;
+        let Ok(key) = key.extract::<String>() else {
+            return Err(wrong(name, &key, "the name of a key"));
+        };
+        let full = if name.is_empty() {
+            key.clone()
+        } else {
+            format!("{name}.{key}")
+        };
+        if let Some(value) = to_toml(&value, &full)? {
+            found.insert(key, value);
+        }
+    }
+    Ok(found)
+}
+
+/// One value; nothing for None.
+fn to_toml(value: &Bound<'_, PyAny>, name: &str) -> PyResult<Option<Value>> {
+    if value.is_none() {
+        return Ok(None);
+    }
+    if value.cast::<PyDict>().is_ok() {
+        return Ok(Some(Value::Table(table(value, name)?)));
+    }
+    // before the numbers: True is an int to Python
+    if let Ok(flag) = value.cast::<PyBool>() {
+        return Ok(Some(Value::Boolean(flag.is_true())));
+    }
+    if let Ok(number) = value.cast::<PyFloat>() {
+        return Ok(Some(Value::Float(number.extract()?)));
+    }
+    if value.cast::<PyInt>().is_ok() {
+        return Ok(Some(match value.extract::<i64>() {
+            Ok(number) => Value::Integer(number),
+            Err(_) => Value::Float(value.extract()?),
+        }));
+    }
+    if let Ok(text) = value.cast::<PyString>() {
+        return Ok(Some(Value::String(text.extract()?)));
+    }
+    // scalars and arrays of numpy, which know how to become Python's
+    if value.hasattr("tolist")? {
+        return to_toml(&value.call_method0("tolist")?, name);
+    }
+    if value.hasattr("__fspath__")? {
+        return to_toml(&value.call_method0("__fspath__")?, name);
+    }
+    if value.hasattr("items")? {
+        return Ok(Some(Value::Table(table(value, name)?)));
+    }
+    let Ok(items) = value.try_iter() else {
+        return Err(wrong(name, value, "a number, a word, a list or a section"));
+    };
+    let mut found = Vec::new();
+    for (place, item) in items.enumerate() {
+        let name = format!("{name}[{}]", place + 1);
+        match to_toml(&item?, &name)? {
+            Some(item) => found.push(item),
+            None => {
+                return Err(wrong(
+                    &name,
+                    &value.py().None().into_bound(value.py()),
+                    "a value",
+                ));
+            }
+        }
+    }
+    Ok(Some(Value::Array(found)))
+}
+
+fn wrong(name: &str, value: &Bound<'_, PyAny>, expected: &'static str) -> PyErr {
+    let shown = value
+        .repr()
+        .map_or_else(|_| "?".to_owned(), |text| text.to_string());
+    let short: String = shown.chars().take(60).collect();
+    let error = SceneError::WrongKind {
+        key: name.to_owned(),
+        value: short,
+        expected,
+    };
+    raised(value.py(), error)
+}
+
+/// What TOML text says, as a dictionary.
+pub(crate) fn from_toml<'py>(py: Python<'py>, text: &str) -> PyResult<Bound<'py, PyAny>> {
+    let table: Result<Table, String> = text.parse().map_err(|e: toml::de::Error| e.to_string());
+    let value = table.and_then(|table| serde_json::to_value(table).map_err(|e| e.to_string()));
+    from_json(py, &value.map_err(|error| raised(py, error))?)
 }

@@ -1,10 +1,9 @@
 //! Many impacts: rows of a sweep, and keys that vary together.
 
 use crate::arrays::{frozen, vector};
-use crate::convert::dict;
 use crate::errors;
 use crate::impact_outcome::replace;
-use crate::scene::{Given, here};
+use crate::scene::{Given, from_toml, here};
 use crate::work::{Way, run};
 use formats::quantities::QUANTITIES;
 use formats::sweep::{
@@ -75,7 +74,7 @@ pub(crate) fn plan_of_columns(
 const MOST_VALUES: usize = 10_000_000;
 
 fn wrapped(py: Python<'_>, spec: Result<Spec, SceneError>) -> PyResult<Plan> {
-    let spec = spec.map_err(|error| errors::scene(py, &error))?;
+    let spec = spec.map_err(|error| errors::raised(py, error))?;
     // the axes are handed over as arrays
     if let Some(axis) = spec.axes.iter().find(|axis| axis.len > MOST_VALUES) {
         let error = SceneError::OutOfRange {
@@ -83,7 +82,7 @@ fn wrapped(py: Python<'_>, spec: Result<Spec, SceneError>) -> PyResult<Plan> {
             value: axis.len as f64,
             range: "[1, 10000000] in Python, which has the values of every axis as an array",
         };
-        return Err(errors::scene(py, &error));
+        return Err(errors::raised(py, error));
     }
     Ok(Plan {
         spec: Arc::new(spec),
@@ -128,9 +127,8 @@ impl Plan {
     }
 
     /// Everything spelled out.
-    fn resolved<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let parsed = self.spec.resolved().parse::<toml::Table>();
-        dict(py, &parsed.map_err(|error| errors::internal(py, &error))?)
+    fn resolved<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        from_toml(py, self.spec.resolved())
     }
 
     /// Computes the rows from `start` on, every `step`-th.
@@ -154,8 +152,8 @@ impl Plan {
                 !ticker.is_stopped()
             })
         })?;
-        let found = found.map_err(|error| errors::scene(py, &error))?;
-        let block = found.ok_or_else(|| errors::failed(py, "the sweep was stopped"))?;
+        let found = found.map_err(|error| errors::raised(py, error))?;
+        let block = found.ok_or_else(|| errors::raised(py, "the sweep was stopped"))?;
         let shape = [block.numbers.len(), QUANTITIES.len()];
         Ok((
             frozen(py, block.numbers.into_flattened(), &shape)?,
@@ -196,6 +194,6 @@ impl Plan {
                 stage_rows(&output, &spec, None, &[block])?.commit()
             }
         })?;
-        written.map_err(|error| errors::of_output(py, &error))
+        written.map_err(|error| errors::raised(py, error))
     }
 }

@@ -3,13 +3,13 @@
 use crate::arrays::{frozen, numbers};
 use crate::convert::from_json;
 use crate::errors;
-use crate::tables::{Fault, Opened};
+use crate::tables::Opened;
 use crate::work::{Ticker, Way, run};
-use lookup::{Accuracy, LookupError, Quantiles, Smoothness, TableFile, TraceInfo, schema};
+use formats::table_report;
+use lookup::{LookupError, Smoothness, TableError, TableFile, TraceInfo};
 use numpy::{PyArrayDyn, PyReadonlyArray1};
 use pyo3::prelude::*;
 use rayon::prelude::*;
-use serde_json::{Value, json};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -27,8 +27,6 @@ struct Asked {
     nu: f64,
     points: Vec<[f64; 2]>,
     coarsening: u32,
-    /// Cells of each trace; those that the table holds otherwise.
-    cells: Option<usize>,
     smoothness: Smoothness,
 }
 
@@ -38,13 +36,6 @@ struct Traces {
     values: Vec<[f64; 6]>,
     infos: Vec<TraceInfo>,
     cells: usize,
-}
-
-/// Why there are no traces.
-enum NoTraces {
-    Table(Fault),
-    Lookup(LookupError),
-    Memory(usize),
 }
 
 /// Arrays of a trace: values, static fields, errors, and the width of a cell.
@@ -61,7 +52,7 @@ impl Table {
     #[staticmethod]
     fn open(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
         let file = run(py, &Way::default(), move |_| TableFile::open(&path))?;
-        let file = file.map_err(|error| errors::table(py, &error))?;
+        let file = file.map_err(|error| errors::raised(py, error))?;
         Ok(Self {
             opened: Arc::new(Opened::new(file)),
         })
@@ -76,8 +67,9 @@ impl Table {
     /// Its settings and measured errors, as `hertzlamb table info --json` has them.
     fn info<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let opened = Arc::clone(&self.opened);
-        let found = run(py, &Way::default(), move |_| info(&opened))?;
-        from_json(py, &found.map_err(|error| errors::fault(py, &error))?)
+        let info = move |_: &Ticker| Ok(table_report(opened.path(), &*opened.whole()?));
+        let found: Result<_, TableError> = run(py, &Way::default(), info)?;
+        from_json(py, &found.map_err(|error| errors::raised(py, error))?)
     }
 
     /// Identity of the settings that it was made with.
@@ -109,7 +101,6 @@ impl Table {
             nu,
             points: places.map(|(r, z)| [r, z]).collect(),
             coarsening,
-            cells,
             smoothness: if smooth {
                 Smoothness::Smooth
             } else {
@@ -119,12 +110,24 @@ impl Table {
         let rows = asked.points.len();
         let opened = Arc::clone(&self.opened);
         let way = Way { threads, progress };
-        let found = run(py, &way, move |ticker| asked.traces(&opened, ticker))?;
-        let found = found.map_err(|error| match error {
-            NoTraces::Table(error) => errors::fault(py, &error),
-            NoTraces::Lookup(error) => errors::of_lookup(py, &error, Some(self.opened.path())),
-            NoTraces::Memory(cells) => errors::too_much_memory(py, rows, cells),
-        })?;
+        let whole = run(py, &way, move |_| opened.whole())?;
+        let table = whole.map_err(|error| errors::raised(py, error))?;
+        let held = table.content().slices.iter().map(|slice| slice.cells).max();
+        let cells = cells.unwrap_or((held.unwrap_or(0) >> coarsening.min(31)).max(1));
+        // asked for before it is taken: an allocation that fails would end the process
+        let mut values = Vec::new();
+        let all = rows.checked_mul(cells);
+        if all.is_none_or(|all| values.try_reserve_exact(all).is_err()) {
+            let message = format!(
+                "{rows} points of {cells} cells need {:.3} GB of memory, more than there is: ask for fewer points or cells, or for a larger coarsening",
+                48e-9 * rows as f64 * cells as f64
+            );
+            return Err(errors::plain(py, "TooMuchMemory", &message));
+        }
+        let traces = move |ticker: &Ticker| asked.traces(&table, (values, cells), ticker);
+        let found = run(py, &way, traces)?;
+        let file = Some(self.opened.path());
+        let found = found.map_err(|error| errors::raised_in(py, error, file))?;
         let width = found.infos.first().map_or(f64::NAN, |info| info.cell_width);
         let still: Vec<f64> = found.infos.iter().flat_map(|i| i.static_part).collect();
         let limits: Vec<f64> = found.infos.iter().flat_map(|i| i.error).collect();
@@ -138,19 +141,15 @@ impl Table {
 }
 
 impl Asked {
-    fn traces(&self, opened: &Opened, ticker: &Ticker) -> Result<Traces, NoTraces> {
-        let table = opened.whole().map_err(NoTraces::Table)?;
-        let held = table.content().slices.iter().map(|slice| slice.cells).max();
-        let cells = self
-            .cells
-            .unwrap_or((held.unwrap_or(0) >> self.coarsening.min(31)).max(1));
+    /// Traces of so many cells, into memory that is reserved.
+    fn traces(
+        &self,
+        table: &lookup::Table,
+        (mut values, cells): (Vec<[f64; 6]>, usize),
+        ticker: &Ticker,
+    ) -> Result<Traces, LookupError> {
         let rows = self.points.len();
-        let all = rows.checked_mul(cells).ok_or(NoTraces::Memory(cells))?;
-        // asked for before it is taken: an allocation that fails would end the process
-        if Vec::<[f64; 6]>::new().try_reserve_exact(all).is_err() {
-            return Err(NoTraces::Memory(cells));
-        }
-        let mut values = vec![[0.0; 6]; all];
+        values.resize(rows * cells, [0.0; 6]);
         let none = TraceInfo {
             static_part: [0.0; 6],
             cell_width: f64::NAN,
@@ -162,73 +161,23 @@ impl Asked {
         let parts = chunks
             .zip(infos.par_chunks_mut(GRAIN))
             .zip(self.points.par_chunks(GRAIN));
-        parts
-            .try_for_each(|((values, infos), points)| {
-                ticker.more(points.len() as u64);
-                let (nu, coarsening) = (self.nu, self.coarsening);
-                table.traces(self.smoothness, nu, points, coarsening, values, infos)?;
-                for (row, info) in values.chunks_exact_mut(cells).zip(infos) {
-                    for six in row {
-                        for (value, still) in six.iter_mut().zip(info.static_part) {
-                            *value += still;
-                        }
+        parts.try_for_each(|((values, infos), points)| {
+            ticker.more(points.len() as u64);
+            let (nu, coarsening) = (self.nu, self.coarsening);
+            table.traces(self.smoothness, nu, points, coarsening, values, infos)?;
+            for (row, info) in values.chunks_exact_mut(cells).zip(infos) {
+                for six in row {
+                    for (value, still) in six.iter_mut().zip(info.static_part) {
+                        *value += still;
                     }
                 }
-                Ok(())
-            })
-            .map_err(NoTraces::Lookup)?;
+            }
+            Ok::<_, LookupError>(())
+        })?;
         Ok(Traces {
             values,
             infos,
             cells,
         })
     }
-}
-
-fn info(opened: &Opened) -> Result<Value, Fault> {
-    let (path, table) = (opened.path(), opened.whole()?);
-    let content = table.content();
-    let origin = &content.origin;
-    Ok(json!({
-        "file": path.to_string_lossy(),
-        "bytes": std::fs::metadata(path).map_or(0, |data| data.len()),
-        "id": table.id(),
-        "format_version": table.format_version(),
-        "software_version": origin.software_version,
-        "git_revision": origin.git_revision,
-        "created_unix_s": origin.created_unix_s,
-        "content_sha256": lookup::content_hash(content),
-        "poisson_ratios": table.poisson_ratios(),
-        "r_nodes": content.r.len(),
-        "z_nodes": content.z.len(),
-        "r_max": table.r_max(),
-        "z_max": table.z_max(),
-        "cell_width": content.cell_width,
-        "cells": content.slices.iter().map(|slice| slice.cells).collect::<Vec<_>>(),
-        "stencil_points": content.stencil_points,
-        "accuracy_asked": origin.accuracy_asked,
-        "pulse_lengths": content.pulse_lengths,
-        "p99_relative_error": origin.accuracy_reached,
-        "relative_errors": content.accuracy().iter().map(relative_errors).collect::<Vec<_>>(),
-        "grid": origin.grid,
-    }))
-}
-
-/// Relative errors measured off the grid with pulses of one length, by region and field.
-fn relative_errors(accuracy: &Accuracy) -> Value {
-    let fields = |errors: &[Quantiles; 6]| -> Value {
-        let named = schema::FIELD_NAMES.into_iter().zip(errors);
-        let pairs = named.map(|(name, &Quantiles { p50, p99, max })| {
-            (name.to_owned(), json!({"p50": p50, "p99": p99, "max": max}))
-        });
-        Value::Object(pairs.collect())
-    };
-    let mut found = json!({
-        "pulse_length": accuracy.pulse_length,
-        "on_slices": fields(&accuracy.on_slices),
-    });
-    if let Some(between) = &accuracy.between_slices {
-        found["between_slices"] = fields(between);
-    }
-    found
 }

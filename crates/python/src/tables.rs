@@ -1,34 +1,9 @@
 //! The parts of a table on disk that impacts have needed, kept for the next ones.
 
 use impact::source::{TableFault, Tables};
-use lookup::{LookupError, Table, TableError, TableFile};
-use std::fmt;
-use std::path::{Path, PathBuf};
+use lookup::{BadTable, LookupError, Table, TableError, TableFile};
+use std::path::Path;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
-
-/// Why a table cannot be had.
-#[derive(Debug)]
-pub(crate) enum Fault {
-    /// Its file is none.
-    Table(TableError),
-    /// The file has been replaced or extended since it was opened.
-    Changed(PathBuf),
-}
-
-impl std::error::Error for Fault {}
-
-impl fmt::Display for Fault {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Table(error) => error.fmt(f),
-            Self::Changed(path) => write!(
-                f,
-                "{} is another table than when it was opened: open it again",
-                path.display()
-            ),
-        }
-    }
-}
 
 /// A part that was loaded.
 #[derive(Debug)]
@@ -66,7 +41,7 @@ impl Opened {
     }
 
     /// All of it, loaded once.
-    pub(crate) fn whole(&self) -> Result<Arc<Table>, Fault> {
+    pub(crate) fn whole(&self) -> Result<Arc<Table>, TableError> {
         if let Some(table) = self.whole.get() {
             return Ok(Arc::clone(table));
         }
@@ -75,12 +50,12 @@ impl Opened {
     }
 
     /// A table that was read, if its file is the one that was opened.
-    fn same(&self, read: Result<Table, TableError>) -> Result<Arc<Table>, Fault> {
-        let table = read.map_err(Fault::Table)?;
+    fn same(&self, read: Result<Table, TableError>) -> Result<Arc<Table>, TableError> {
+        let table = read?;
         if table.id() == self.id() {
             Ok(Arc::new(table))
         } else {
-            Err(Fault::Changed(self.path().to_owned()))
+            Err(BadTable::Changed.of(self.path()))
         }
     }
 }

@@ -1,8 +1,8 @@
 //! Builds and extends kernel tables.
 
-use crate::convert::{NoValue, table};
 use crate::errors;
 use crate::impact_outcome::replace;
+use crate::scene::table;
 use crate::work::{Ticker, Way, run};
 use pyo3::prelude::*;
 use pyo3::types::PyString;
@@ -35,11 +35,7 @@ impl Named {
         if given.hasattr("__fspath__")? {
             return Ok(Self::File(given.extract()?));
         }
-        match table(given, "") {
-            Ok(found) => Ok(Self::Text(found.to_string())),
-            Err(NoValue::Scene(error)) => Err(errors::scene(py, &error)),
-            Err(NoValue::Python(error)) => Err(error),
-        }
+        Ok(Self::Text(table(given, "")?.to_string()))
     }
 
     fn grid(&self) -> Result<Grid, BuildError> {
@@ -148,6 +144,6 @@ pub(crate) fn extend(
 }
 
 fn summary(py: Python<'_>, built: Result<Summary, BuildError>) -> PyResult<(usize, u64, f64)> {
-    let summary = built.map_err(|error| errors::build(py, &error))?;
+    let summary = built.map_err(|error| errors::raised(py, error))?;
     Ok((summary.points, summary.bytes, summary.wall_s))
 }

@@ -130,10 +130,10 @@ pub(crate) fn run<T: Send + 'static>(
                 tell(py, way, &ticker)?;
                 return Ok(result);
             }
-            Ok(Ok(Err(reason))) => return Err(errors::failed(py, &reason)),
-            Ok(Err(panic)) => return Err(errors::failed(py, &in_words(&*panic))),
+            Ok(Ok(Err(reason))) => return Err(errors::raised(py, reason)),
+            Ok(Err(panic)) => return Err(errors::raised(py, in_words(&*panic))),
             Err(RecvTimeoutError::Disconnected) => {
-                return Err(errors::failed(py, "the work ended without a result"));
+                return Err(errors::raised(py, "the work ended without a result"));
             }
             Err(RecvTimeoutError::Timeout) => {}
         }
@@ -180,7 +180,12 @@ fn own(py: Python<'_>) -> PyResult<()> {
     match OWNER.compare_exchange(0, process, Ordering::Relaxed, Ordering::Relaxed) {
         Ok(_) => Ok(()),
         Err(owner) if owner == process => Ok(()),
-        Err(owner) => Err(errors::forked(py, owner)),
+        Err(owner) => {
+            let message = format!(
+                "this process was forked from process {owner} after that one had begun to compute, and the threads of hertzlamb do not survive a fork: start processes with multiprocessing.get_context(\"spawn\") or \"forkserver\""
+            );
+            Err(errors::plain(py, "ForkError", &message))
+        }
     }
 }
 

@@ -13,7 +13,6 @@
 
 mod chart;
 mod diagrams;
-mod error;
 mod inversion;
 pub mod map;
 mod measure;
@@ -26,8 +25,10 @@ mod scenes;
 mod tables;
 
 pub use chart::Chart;
-pub use error::StudyError;
 pub use measure::Effort;
 pub use picture::Picture;
 pub use record::{Error, Question, Record, Timing};
 pub use report::PICTURE_COLUMNS;
+
+/// Why a chart could not be made: a part of it, or a file.
+pub type StudyError = Box<dyn std::error::Error + Send + Sync>;

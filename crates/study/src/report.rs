@@ -19,8 +19,7 @@ impl Chart {
     /// Writes chart.csv, pictures.csv, report.md and the pictures into a folder.
     ///
     /// # Errors
-    /// [`StudyError::Output`] with the file and the reason, [`StudyError::Picture`] with the picture; no file has
-    /// changed then.
+    /// The file or the picture, with the reason; no file has changed then.
     pub fn write(&self, folder: &Folder) -> Result<(), StudyError> {
         let rows = || self.records.iter().map(Record::row).collect();
         let mut files = vec![
@@ -29,7 +28,7 @@ impl Chart {
         ];
         for picture in self.diagrams.iter().chain(&self.maps) {
             let name = picture.name;
-            let failed = |source| StudyError::Picture { name, source };
+            let failed = |source| format!("the picture {name} cannot be drawn: {source}");
             let figure = picture.figure();
             let svg = to_svg(&figure).map_err(failed)?;
             let png = to_png(&figure, SCALE).map_err(failed)?;

@@ -7,7 +7,7 @@ use crate::known::Known;
 use crate::measure::verify;
 use crate::numbers::NUMBERS_REVISION;
 use crate::progress::Progress;
-use lookup::{Accuracy, Between, Content, Origin, Slice, Table, TableError, Verification, schema};
+use lookup::{Accuracy, BadTable, Between, Content, Origin, Slice, Table, Verification, schema};
 use output::{Fault, Output};
 use std::path::Path;
 use std::time::{SystemTime, UNIX_EPOCH};
@@ -65,10 +65,10 @@ fn write_checked(content: &Content, part: &Path) -> Result<(), Fault> {
         let back = lookup::read(part)?;
         lookup::check_hash(part, &back)
     });
-    done.map_err(|error| match error {
+    done.map_err(|error| match error.what {
         // its file is the temporary one, of which nobody should hear
-        TableError::Unwritable { detail, .. } => Fault::from(detail),
-        other => Fault::from(other.to_string()),
+        BadTable::Unwritable(detail) => Fault::from(detail),
+        _ => Fault::from(error.to_string()),
     })
 }
 

@@ -21,9 +21,6 @@ pub fn build(grid: &Grid, path: &Path, progress: &dyn Progress) -> Result<Summar
 }
 
 /// [`build`] with a choice of what happens to a file that is there already.
-///
-/// # Errors
-/// As [`build`].
 pub fn build_over(
     grid: &Grid,
     path: &Path,

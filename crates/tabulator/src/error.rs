@@ -1,5 +1,6 @@
 //! What can stop a build.
 
+use fault::{Class, Culprit, Fault};
 use halfspace::DomainError;
 use lookup::{ContentError, TableError};
 use output::OutputError;
@@ -14,9 +15,7 @@ pub enum BuildError {
     Setting {
         /// Key in the grid file.
         key: String,
-        /// The value given.
         value: f64,
-        /// The allowed range.
         range: &'static str,
     },
     /// Text that is no grid.
@@ -53,7 +52,6 @@ pub enum BuildError {
     Shrinks {
         /// What is to be changed.
         key: &'static str,
-        /// The value given.
         value: f64,
         /// The value of the table.
         present: f64,
@@ -71,10 +69,7 @@ pub enum BuildError {
     },
     /// A file of somebody else has the name of a journal or a shard.
     #[error("{} is not one of this program's unfinished tables and is kept: give the output another name", path.display())]
-    NotJournal {
-        /// The file.
-        path: PathBuf,
-    },
+    NotJournal { path: PathBuf },
     /// A file that should hold blocks of a table does not.
     #[error("{} is not a shard of a kernel table made by this version of the program", path.display())]
     NotBlocks {
@@ -152,6 +147,35 @@ impl BuildError {
         Self::InFile {
             path: path.to_owned(),
             source: Box::new(self),
+        }
+    }
+}
+
+impl Fault for BuildError {
+    fn culprit(&self) -> Culprit<'_> {
+        let (grid, work) = (Culprit::of(Class::Scene), Culprit::of(Class::Work));
+        match self {
+            Self::Output(error) => error.culprit(),
+            Self::Table(error) => error.culprit(),
+            Self::Domain(error) => error.culprit().unmendable(),
+            Self::Lookup(error) => error.culprit().unmendable(),
+            Self::Setting { key, value, range } => grid.key(key).number(*value).range(range),
+            Self::Shrinks { key, value, .. } => grid.key(key).number(*value),
+            Self::Settings { .. }
+            | Self::TooFine { .. }
+            | Self::NoShards
+            | Self::Incomplete { .. } => grid,
+            Self::InFile { path, source } => {
+                let found = source.culprit();
+                let file = found.file.or(Some(path));
+                Culprit { file, ..found }
+            }
+            Self::OtherSettings { path, .. }
+            | Self::NotJournal { path }
+            | Self::NotBlocks { path }
+            | Self::Mixed { second: path, .. }
+            | Self::File { path, .. } => grid.file(path),
+            Self::Unwritable(_) | Self::NotFinite { .. } | Self::Content(_) => work,
         }
     }
 }

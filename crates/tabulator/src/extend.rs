@@ -8,7 +8,7 @@ use crate::journal::{Journal, Left, Task, journal_of};
 use crate::known::Known;
 use crate::progress::Progress;
 use crate::rows::{rows, usable};
-use lookup::{Table, TableError};
+use lookup::{BadTable, Table};
 use output::{Existing, Output};
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
@@ -49,10 +49,7 @@ pub fn extend(
     let present = content.origin.grid.clone();
     let content = match Table::new(content) {
         Ok(table) => table.into_content(),
-        Err(source) => {
-            let path = path.to_owned();
-            return Err(TableError::Content { path, source }.into());
-        }
+        Err(source) => return Err(BadTable::Content(source).of(path).into()),
     };
     let mut grid = Grid::of(&content).map_err(|error| error.in_file(path))?;
     let known = Known::new(content);

@@ -6,7 +6,7 @@ use crate::progress::Bar;
 use clap::Args;
 use output::Folder;
 use std::path::PathBuf;
-use study::{Chart, Effort, StudyError};
+use study::{Chart, Effort};
 
 const EXAMPLES: &str = "Examples:
   hertzlamb chart --quick -o chart-quick
@@ -40,9 +40,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     };
     let folder = Folder::claim(&arguments.output, arguments.overwrite.existing())?;
     let progress = Bar::new();
-    let chart = Chart::run(effort, &progress).map_err(failure)?;
+    let chart = Chart::run(effort, &progress).map_err(Failure::in_part)?;
     progress.finish();
-    chart.write(&folder).map_err(failure)?;
+    chart.write(&folder).map_err(Failure::in_part)?;
     print(format!(
         "{}: {} rows, {} pictures, {:.0} s",
         arguments.output.join("report.md").display(),
@@ -51,30 +51,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         chart.wall_s
     ))?;
     match chart.unexplained() {
-        ahead if arguments.check && !ahead.is_empty() => Err(Failure::Work(format!(
+        ahead if arguments.check && !ahead.is_empty() => Err(Failure::work(format!(
             "the default path is not on the Pareto front at {}",
             ahead.join("; ")
         ))),
         _ => Ok(()),
-    }
-}
-
-/// Files that cannot be written are told as everywhere, the rest is work that failed.
-fn failure(error: StudyError) -> Failure {
-    match error {
-        StudyError::Output(error) => error.into(),
-        StudyError::Domain(_)
-        | StudyError::March(_)
-        | StudyError::Body(_)
-        | StudyError::Material(_)
-        | StudyError::Growing(_)
-        | StudyError::Contact(_)
-        | StudyError::Field(_)
-        | StudyError::Fields(_)
-        | StudyError::Build(_)
-        | StudyError::Table(_)
-        | StudyError::Lookup(_)
-        | StudyError::Picture { .. }
-        | StudyError::Temporary(_) => Failure::work(error),
     }
 }

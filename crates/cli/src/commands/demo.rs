@@ -1,7 +1,5 @@
 //! `hertzlamb demo`: the paper's case from kernels to picture, and the waves under a ball.
 
-use crate::commands::paper as paper_command;
-use crate::commands::tabulate;
 use crate::failure::{Failure, print, say};
 use crate::kernels::open_table;
 use crate::progress::Bar;
@@ -47,7 +45,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let start = Instant::now();
     let coupled = simulate(&table_1, &KernelChoice::Table(Arc::new(table)))?;
     let wall_s = start.elapsed().as_secs_f64();
-    let found = Numbers::compute().map_err(paper_command::failure)?;
+    let found = Numbers::compute().map_err(Failure::in_part)?;
     let numbers = folder.join("numbers.txt");
     write_whole(&numbers, Existing::Replace, |part| {
         std::fs::write(part, found.text())
@@ -109,7 +107,7 @@ fn make_table(path: &Path) -> Result<(), Failure> {
         path.display()
     ));
     let bar = Bar::new();
-    let summary = build(&Grid::demo(), path, &bar).map_err(tabulate::failure)?;
+    let summary = build(&Grid::demo(), path, &bar)?;
     bar.finish();
     say(format!(
         "{} points in {:.1} s, {} bytes",

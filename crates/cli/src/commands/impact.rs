@@ -1,18 +1,18 @@
 //! `hertzlamb impact`: one scene.
 
-use crate::failure::{Failure, print, say};
+use crate::failure::{Failure, say, show};
 use crate::kernels::{Kernel, Kernels};
 use crate::memory::MemoryLimit;
 use crate::overwrite::{Overwrite, say_complete};
 use crate::progress::Bar;
-use crate::report::text_report;
+use crate::report::{text_report, understood};
 use clap::Args;
 use formats::{
-    Allowed, check_results, inputs, json_report, read_scene, stage_results, stage_results_csv,
+    Allowed, check_results, json_report, read_with_inputs, stage_results, stage_results_csv,
 };
 use impact::{Allowance, Forecast, ImpactError, KernelChoice, Scene, TooMuch, simulate_within};
 use output::{CSV, HDF5, Output, Role, Staged};
-use serde::Serialize;
+use serde_json::json;
 use std::cell::Cell;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -25,7 +25,7 @@ const PATIENCE: Duration = Duration::from_secs(1);
     after_help = "Example:\n  hertzlamb impact scenes/copper-on-steel.toml --table kernels.h5 -o impact.h5 --json"
 )]
 pub(crate) struct Arguments {
-    /// Scene file (TOML, see data-schema/scene.md).
+    /// Scene file (TOML, see data-schema/scene.md); - is standard input.
     scene: PathBuf,
     #[command(flatten)]
     kernels: Kernels,
@@ -50,25 +50,14 @@ pub(crate) struct Arguments {
     json: bool,
 }
 
-/// The JSON object of `impact --dry-run --json`.
-#[derive(Debug, Serialize)]
-struct Plan {
-    points: usize,
-    samples: f64,
-    seconds: f64,
-    memory_bytes: f64,
-    disk_bytes: f64,
-    threads: usize,
-}
-
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let start = Instant::now();
-    let scene = read_scene(&arguments.scene).map_err(Failure::input)?;
+    let (scene, inputs) = read_with_inputs(&arguments.scene)?;
     if arguments.skip_complete && is_complete(arguments, &scene)? {
         let output = arguments.output.as_deref().unwrap_or(Path::new(""));
         return say_complete(output, arguments.json);
     }
-    let [output, csv] = outputs(arguments)?;
+    let [output, csv] = outputs(arguments, inputs)?;
     let kernels = arguments.kernels.choice()?;
     if arguments.dry_run {
         return dry_run(arguments, &scene, &kernels);
@@ -93,11 +82,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     for warning in &outcome.warnings {
         say(format!("warning: {warning}"));
     }
-    if arguments.json {
-        print(json_report(&scene, &outcome, start.elapsed().as_secs_f64()))
-    } else {
-        print(text_report(&scene, &outcome))
-    }
+    let value = json_report(&scene, &outcome, start.elapsed().as_secs_f64());
+    show(arguments.json, &value, text_report(&scene, &outcome))
 }
 
 /// Says what a scene takes.
@@ -116,18 +102,16 @@ fn dry_run(arguments: &Arguments, scene: &Scene, kernels: &KernelChoice) -> Resu
         Err(error) => return Err(error.into()),
     }
     let forecast = found.get().unwrap_or(Forecast::least(scene));
-    if !arguments.json {
-        return print(takes(&forecast));
-    }
-    let plan = Plan {
-        points: forecast.points,
-        samples: forecast.samples,
-        seconds: forecast.seconds,
-        memory_bytes: forecast.memory_bytes,
-        disk_bytes: forecast.disk_bytes,
-        threads: std::thread::available_parallelism().map_or(1, usize::from),
-    };
-    print(serde_json::to_string(&plan).map_err(Failure::work)?)
+    let plan = json!({
+        "points": forecast.points,
+        "samples": forecast.samples,
+        "seconds": forecast.seconds,
+        "memory_bytes": forecast.memory_bytes,
+        "disk_bytes": forecast.disk_bytes,
+        "threads": std::thread::available_parallelism().map_or(1, usize::from),
+    });
+    let text = format!("{}\n{}", understood(scene), takes(&forecast));
+    show(arguments.json, &plan, text)
 }
 
 /// Whether the output is there already, as this command would write it.
@@ -155,9 +139,8 @@ fn is_complete(arguments: &Arguments, scene: &Scene) -> Result<bool, Failure> {
 }
 
 /// The results file and the table as text, where they are asked for.
-fn outputs(arguments: &Arguments) -> Result<[Option<Output>; 2], Failure> {
+fn outputs(arguments: &Arguments, mut read: Vec<Role>) -> Result<[Option<Output>; 2], Failure> {
     let wanted = [(&arguments.output, HDF5), (&arguments.csv, CSV)];
-    let mut read = inputs(&arguments.scene).map_err(Failure::input)?;
     read.extend(arguments.kernels.inputs());
     let mut claimed = [None, None];
     for (place, (path, ending)) in claimed.iter_mut().zip(wanted) {
@@ -183,8 +166,9 @@ fn announce(forecast: &Forecast) -> bool {
 fn takes(forecast: &Forecast) -> String {
     let decimals = if forecast.seconds > LONG_S { 0 } else { 2 };
     format!(
-        "{} points of {:.0} samples: about {:.decimals$} s, {:.3} GB of memory, {:.3} GB in a results file",
+        "{} point{} of {:.0} samples: about {:.decimals$} s, {:.3} GB of memory, {:.3} GB in a results file",
         forecast.points,
+        if forecast.points == 1 { "" } else { "s" },
         forecast.samples,
         forecast.seconds,
         1e-9 * forecast.memory_bytes,

@@ -3,8 +3,8 @@
 use crate::failure::{Failure, print};
 use clap::Args;
 use contact::{Library, Material};
-use formats::read_materials;
-use serde::Serialize;
+use formats::{material_report, read_materials};
+use serde_json::Value;
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
@@ -22,79 +22,50 @@ pub(crate) struct Arguments {
     json: bool,
 }
 
-#[derive(Debug, Serialize)]
-struct Row<'a> {
-    name: &'a str,
-    group: &'a str,
-    youngs_modulus_pa: f64,
-    poisson_ratio: f64,
-    density_kg_m3: Option<f64>,
-    longitudinal_speed_m_s: Option<f64>,
-    shear_speed_m_s: Option<f64>,
-    yield_strength_pa: Option<f64>,
-    tensile_strength_pa: Option<f64>,
-    fracture_toughness_pa_sqrt_m: Option<f64>,
-    source: &'a str,
-}
-
-impl<'a> Row<'a> {
-    fn new(m: &'a Material) -> Self {
-        Self {
-            name: &m.name,
-            group: &m.group,
-            youngs_modulus_pa: m.youngs_modulus_pa,
-            poisson_ratio: m.poisson_ratio,
-            density_kg_m3: m.density_kg_m3,
-            longitudinal_speed_m_s: m.longitudinal_speed_m_s(),
-            shear_speed_m_s: m.shear_speed_m_s(),
-            yield_strength_pa: m.yield_strength_pa,
-            tensile_strength_pa: m.tensile_strength_pa,
-            fracture_toughness_pa_sqrt_m: m.fracture_toughness_pa_sqrt_m,
-            source: &m.source,
-        }
-    }
-
-    fn text(&self) -> String {
-        let number = |value: Option<f64>, scale: f64| {
-            value.map_or_else(|| "-".to_owned(), |v| format!("{:.0}", v / scale))
-        };
-        format!(
-            "{:<24} {:<9} {:>8.3} {:>6.3} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6}  {}",
-            self.name,
-            self.group,
-            self.youngs_modulus_pa / 1e9,
-            self.poisson_ratio,
-            number(self.density_kg_m3, 1.0),
-            number(self.longitudinal_speed_m_s, 1.0),
-            number(self.shear_speed_m_s, 1.0),
-            number(self.yield_strength_pa, 1e6),
-            number(self.tensile_strength_pa, 1e6),
-            self.fracture_toughness_pa_sqrt_m
-                .map_or_else(|| "-".to_owned(), |k| format!("{:.2}", k / 1e6)),
-            self.source
-        )
-    }
+fn text(m: &Material) -> String {
+    let number = |value: Option<f64>, scale: f64, decimals: usize| {
+        value.map_or_else(|| "-".to_owned(), |v| format!("{:.decimals$}", v / scale))
+    };
+    format!(
+        "{:<24} {:<9} {:>8.3} {:>6.3} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6}  {}",
+        m.name,
+        m.group,
+        m.youngs_modulus_pa / 1e9,
+        m.poisson_ratio,
+        number(m.density_kg_m3, 1.0, 0),
+        number(m.longitudinal_speed_m_s(), 1.0, 0),
+        number(m.shear_speed_m_s(), 1.0, 0),
+        number(m.yield_strength_pa, 1e6, 0),
+        number(m.tensile_strength_pa, 1e6, 0),
+        number(m.fracture_toughness_pa_sqrt_m, 1e6, 2),
+        m.source
+    )
 }
 
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let mut library = Library::built_in().clone();
     if let Some(path) = &arguments.file {
-        let own = read_materials(path).map_err(Failure::input)?;
+        let own = read_materials(path)?;
         library = library.extended(&own);
     }
     let word = arguments.search.as_deref().unwrap_or("");
-    let rows: Vec<Row<'_>> = library.search(word).map(Row::new).collect();
-    if rows.is_empty() {
+    let found: Vec<&Material> = library.search(word).collect();
+    if found.is_empty() {
         return Err(Failure::input(format!(
             "no material matches \"{word}\"; hertzlamb materials lists them all"
         )));
     }
     if arguments.json {
-        return print(serde_json::to_string_pretty(&rows).map_err(Failure::work)?);
+        let rows: Value = found.into_iter().map(material_report).collect();
+        return print(format!("{rows:#}"));
     }
     print(format!(
         "{:<24} {:<9} {:>8} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6}  source",
-        "name", "group", "E [GPa]", "nu", "kg/m3", "c1", "c2", "Ry", "Rm", "KIc"
+        "name", "group", "E", "nu", "rho", "c1", "c2", "Ry", "Rm", "KIc"
     ))?;
-    rows.iter().try_for_each(|row| print(row.text()))
+    print(format!(
+        "{:<24} {:<9} {:>8} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6}",
+        "", "", "GPa", "", "kg/m3", "m/s", "m/s", "MPa", "MPa", "MPa√m"
+    ))?;
+    found.into_iter().try_for_each(|m| print(text(m)))
 }

@@ -4,7 +4,7 @@ use crate::failure::{Failure, print};
 use crate::overwrite::Overwrite;
 use clap::Args;
 use output::Folder;
-use paper::{PaperError, Redone};
+use paper::Redone;
 use std::path::PathBuf;
 
 const EXAMPLES: &str = "Example:
@@ -25,8 +25,8 @@ pub(crate) struct Arguments {
 
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let folder = Folder::claim(&arguments.output, arguments.overwrite.existing())?;
-    let redone = Redone::compute().map_err(failure)?;
-    redone.write(&folder).map_err(failure)?;
+    let redone = Redone::compute().map_err(Failure::in_part)?;
+    redone.write(&folder).map_err(Failure::in_part)?;
     let rows = redone
         .numbers
         .sections
@@ -38,17 +38,4 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         rows.sum::<usize>(),
         redone.figures.len()
     ))
-}
-
-/// Files that cannot be written are told as everywhere, the rest is work that failed.
-pub(crate) fn failure(error: PaperError) -> Failure {
-    match error {
-        PaperError::Output(error) => error.into(),
-        PaperError::Material(_)
-        | PaperError::Body(_)
-        | PaperError::Contact(_)
-        | PaperError::Domain(_)
-        | PaperError::Fields(_)
-        | PaperError::Picture { .. } => Failure::work(error),
-    }
 }

@@ -7,7 +7,7 @@ use clap::builder::PossibleValuesParser;
 use contact::Choice;
 use figure::{Figure, RenderError, to_gif, to_pdf, to_png, to_svg};
 use output::{Output, Role, apart};
-use plot::{Kind, PlotError, Request, animate, compose};
+use plot::{Kind, Request, animate, compose};
 use std::path::{Path, PathBuf};
 
 const EXAMPLES: &str = "Examples:
@@ -155,11 +155,5 @@ fn rendered(figure: &Figure, format: Format, scale: u8) -> Result<Vec<u8>, Rende
         Format::Svg => to_svg(figure).map(String::into_bytes),
         Format::Png | Format::Gif => to_png(figure, f32::from(scale)),
         Format::Pdf => to_pdf(figure),
-    }
-}
-
-impl From<PlotError> for Failure {
-    fn from(error: PlotError) -> Self {
-        Self::input(error)
     }
 }

@@ -1,13 +1,14 @@
 //! `hertzlamb table`: looks at finished tables and joins shards.
 
 use crate::commands::tabulate;
-use crate::failure::{Failure, print};
+use crate::failure::{Failure, print, show};
 use crate::overwrite::Overwrite;
 use crate::progress::Bar;
 use clap::{Args, Subcommand};
-use lookup::{Content, DamagedPatch, TableError};
+use formats::table_report;
+use lookup::{Content, DamagedPatch};
 use output::TABLE;
-use serde::Serialize;
+use serde_json::json;
 use std::path::{Path, PathBuf};
 use tabulator::{BadNode, Difference, check_table, differences, merge};
 
@@ -87,98 +88,37 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
 }
 
-#[derive(Debug, Serialize)]
-struct Info<'a> {
-    file: String,
-    bytes: u64,
-    id: String,
-    format_version: &'a str,
-    software_version: &'a str,
-    git_revision: &'a str,
-    created_unix_s: u64,
-    content_sha256: String,
-    poisson_ratios: Vec<f64>,
-    r_nodes: usize,
-    z_nodes: usize,
-    r_max: f64,
-    z_max: f64,
-    cell_width: f64,
-    cells: Vec<usize>,
-    stencil_points: usize,
-    accuracy_asked: f64,
-    pulse_lengths: &'a [f64],
-    p99_relative_error: &'a [f64],
-    relative_errors: Vec<tabulate::Errors>,
-    grid: &'a str,
-}
-
 fn info(path: &Path, json: bool) -> Result<(), Failure> {
     let table = lookup::Table::open(path).map_err(Failure::input)?;
     let content = table.content();
     let origin = &content.origin;
-    let accuracy = content.accuracy();
-    let info = Info {
-        file: path.display().to_string(),
-        bytes: std::fs::metadata(path).map_or(0, |data| data.len()),
-        id: table.id().to_owned(),
-        format_version: table.format_version(),
-        software_version: &origin.software_version,
-        git_revision: &origin.git_revision,
-        created_unix_s: origin.created_unix_s,
-        content_sha256: lookup::content_hash(content),
-        poisson_ratios: table.poisson_ratios().to_vec(),
-        r_nodes: content.r.len(),
-        z_nodes: content.z.len(),
-        r_max: table.r_max(),
-        z_max: table.z_max(),
-        cell_width: content.cell_width,
-        cells: content.slices.iter().map(|slice| slice.cells).collect(),
-        stencil_points: content.stencil_points,
-        accuracy_asked: origin.accuracy_asked,
-        pulse_lengths: &content.pulse_lengths,
-        p99_relative_error: &origin.accuracy_reached,
-        relative_errors: tabulate::Errors::of(&accuracy),
-        grid: &origin.grid,
-    };
-    if json {
-        return print(serde_json::to_string(&info).map_err(Failure::work)?);
-    }
-    print(format!(
-        "file            {} ({:.1} MB)",
-        info.file,
-        info.bytes as f64 / 1e6
-    ))?;
-    print(format!(
-        "id              {}, format {}, written by {}",
-        info.id, info.format_version, info.software_version
-    ))?;
-    print(format!("content         sha256 {}", info.content_sha256))?;
-    print(format!("Poisson ratios  {:?}", info.poisson_ratios))?;
-    print(format!(
-        "r               0 .. {} r0, {} nodes",
-        info.r_max, info.r_nodes
-    ))?;
-    print(format!(
-        "z               0 .. {} r0, {} nodes",
-        info.z_max, info.z_nodes
-    ))?;
-    print(format!(
-        "time            cells of {} r0/c1, {:?} of them, then a tail",
-        info.cell_width, info.cells
-    ))?;
-    print(format!("interpolation   {} points", info.stencil_points))?;
-    tabulate::print_errors(&accuracy)
-}
-
-#[derive(Debug, Serialize)]
-struct Verified {
-    file: String,
-    nodes_checked: usize,
-    seed: u64,
-    largest_relative_difference: f64,
-    hash_right: bool,
-    bad_nodes: Vec<String>,
-    damaged_patches: Vec<String>,
+    let value = table_report(path, &table);
+    let cells: Vec<usize> = content.slices.iter().map(|slice| slice.cells).collect();
+    let text = format!(
+        "file            {} ({:.1} MB)\n\
+         id              {}, format {}, written by {}\n\
+         content         sha256 {}\n\
+         Poisson ratios  {:?}\n\
+         r               0 .. {} r0, {} nodes\n\
+         z               0 .. {} r0, {} nodes\n\
+         time            cells of {} r0/c1, {cells:?} of them, then a tail\n\
+         interpolation   {} points\n{}",
+        path.display(),
+        value["bytes"].as_f64().unwrap_or(0.0) / 1e6,
+        table.id(),
+        table.format_version(),
+        origin.software_version,
+        value["content_sha256"].as_str().unwrap_or(""),
+        table.poisson_ratios(),
+        table.r_max(),
+        content.r.len(),
+        table.z_max(),
+        content.z.len(),
+        content.cell_width,
+        content.stencil_points,
+        tabulate::errors_in_words(&content.accuracy())
+    );
+    show(json, &value, text)
 }
 
 /// Another seed at each call: the time in seconds.
@@ -188,43 +128,30 @@ fn any_seed() -> u64 {
 }
 
 fn verify(path: &Path, sample: usize, seed: u64, json: bool) -> Result<(), Failure> {
-    let report = check_table(path, sample, seed).map_err(|error| match error {
-        tabulator::BuildError::Table(
-            error @ (TableError::Unreadable { .. }
-            | TableError::NotHdf5 { .. }
-            | TableError::Foreign { .. }
-            | TableError::Version { .. }),
-        ) => Failure::input(error),
-        tabulator::BuildError::Table(error) => Failure::work(error),
-        other => tabulate::failure(other),
-    })?;
-    let verified = Verified {
-        file: path.display().to_string(),
-        nodes_checked: report.nodes_checked,
-        seed,
-        largest_relative_difference: report.largest_difference,
-        hash_right: report.hash_right,
-        bad_nodes: report.bad.iter().map(bad_node).collect(),
-        damaged_patches: report.damaged.iter().map(damaged_patch).collect(),
-    };
-    if json {
-        print(serde_json::to_string(&verified).map_err(Failure::work)?)?;
-    }
+    let report = check_table(path, sample, seed).map_err(tabulate::failure)?;
+    let file = path.display().to_string();
+    let bad: Vec<String> = report.bad.iter().map(bad_node).collect();
+    let damaged: Vec<String> = report.damaged.iter().map(damaged_patch).collect();
+    let (nodes, largest) = (report.nodes_checked, report.largest_difference);
+    let value = json!({
+        "file": file,
+        "nodes_checked": nodes,
+        "seed": seed,
+        "largest_relative_difference": largest,
+        "hash_right": report.hash_right,
+        "bad_nodes": bad,
+        "damaged_patches": damaged,
+    });
     if report.is_good() {
-        return if json {
-            Ok(())
-        } else {
-            print(format!(
-                "{}: complete, checksum right, {} nodes of seed {seed} computed again, largest difference {:.1e}",
-                verified.file, verified.nodes_checked, verified.largest_relative_difference
-            ))
-        };
+        let text = format!(
+            "{file}: complete, checksum right, {nodes} nodes of seed {seed} computed again, largest difference {largest:.1e}"
+        );
+        return show(json, &value, text);
     }
-    Err(Failure::work(wrong(&verified, sample)))
-}
-
-/// What is wrong with a table, in one line.
-fn wrong(verified: &Verified, sample: usize) -> String {
+    if json {
+        print(value)?;
+    }
+    // what is wrong, in one line
     let first = |list: &[String]| {
         let more = match list.len() {
             0..=5 => String::new(),
@@ -233,21 +160,20 @@ fn wrong(verified: &Verified, sample: usize) -> String {
         list[..list.len().min(5)].join("; ") + &more
     };
     let mut parts = Vec::new();
-    if !verified.damaged_patches.is_empty() {
-        let patches = first(&verified.damaged_patches);
+    if !damaged.is_empty() {
+        let patches = first(&damaged);
         parts.push(format!("damaged, nodes that cannot be read: {patches}"));
-    } else if !verified.hash_right {
+    } else if !report.hash_right {
         parts.push("the content is not that of content_sha256, it was changed".to_owned());
     }
-    if !verified.bad_nodes.is_empty() {
-        let count = verified.bad_nodes.len();
-        parts.push(format!("{count} wrong: {}", first(&verified.bad_nodes)));
-    } else if verified.damaged_patches.is_empty() {
+    if !bad.is_empty() {
+        parts.push(format!("{} wrong: {}", bad.len(), first(&bad)));
+    } else if damaged.is_empty() {
         parts.push(format!(
             "no wrong node among {sample}, try a larger --sample"
         ));
     }
-    format!("{}: {}", verified.file, parts.join("; "))
+    Err(Failure::work(format!("{file}: {}", parts.join("; "))))
 }
 
 fn bad_node(bad: &BadNode) -> String {
@@ -274,14 +200,13 @@ fn diff(first: &Path, second: &Path, json: bool) -> Result<(), Failure> {
         .iter()
         .map(describe)
         .collect();
-    if json {
-        let object = serde_json::json!({ "same": found.is_empty(), "differences": found });
-        print(object)?;
-    } else if found.is_empty() {
-        print("the tables hold the same")?;
+    let same = if found.is_empty() {
+        "the tables hold the same".to_owned()
     } else {
-        found.iter().try_for_each(print)?;
-    }
+        found.join("\n")
+    };
+    let value = json!({ "same": found.is_empty(), "differences": found });
+    show(json, &value, same)?;
     if found.is_empty() {
         Ok(())
     } else {
@@ -305,21 +230,20 @@ fn join(
         merge(shards, output, overwrite.existing(), &progress).map_err(tabulate::failure)?;
     progress.finish();
     let file = output.display().to_string();
-    if json {
-        return print(serde_json::json!({
-            "file": file,
-            "id": summary.id,
-            "content_sha256": summary.content_sha256,
-            "points": summary.points,
-            "bytes": summary.bytes,
-        }));
-    }
-    print(format!(
+    let value = json!({
+        "file": file,
+        "id": summary.id,
+        "content_sha256": summary.content_sha256,
+        "points": summary.points,
+        "bytes": summary.bytes,
+    });
+    let text = format!(
         "{file}: {} points, {:.1} MB, id {}",
         summary.points,
         summary.bytes as f64 / 1e6,
         summary.id
-    ))
+    );
+    show(json, &value, text)
 }
 
 fn describe(difference: &Difference) -> String {

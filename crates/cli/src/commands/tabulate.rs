@@ -1,14 +1,14 @@
 //! `hertzlamb tabulate`: builds a kernel table.
 
-use crate::failure::{Failure, print, say};
+use crate::failure::{Failure, say, show};
 use crate::memory::MemoryLimit;
 use crate::overwrite::{Overwrite, say_complete};
 use crate::progress::Bar;
 use clap::Args;
-use lookup::{Accuracy, Origin, Quantiles, TableError, schema};
+use formats::accuracy_report;
+use lookup::{Accuracy, Origin, Quantiles, schema};
 use output::{Role, SHARD, TABLE, apart};
-use serde::Serialize;
-use std::collections::BTreeMap;
+use serde_json::json;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 use tabulator::{BuildError, Extension, Grid, NUMBERS_REVISION, Summary};
@@ -64,58 +64,6 @@ pub(crate) struct Arguments {
     /// Print one JSON object instead of text.
     #[arg(long)]
     json: bool,
-}
-
-#[derive(Debug, Serialize)]
-struct Report<'a> {
-    file: String,
-    id: &'a str,
-    content_sha256: &'a str,
-    format_version: &'a str,
-    poisson_ratios: Vec<f64>,
-    points: usize,
-    bytes: u64,
-    wall_s: f64,
-    resumed_blocks: usize,
-    pulse_lengths: &'a [f64],
-    p99_relative_error: &'a [f64],
-    relative_errors: Vec<Errors>,
-}
-
-/// Relative errors measured off the grid with pulses of one length, by region and field.
-#[derive(Debug, Serialize)]
-pub(crate) struct Errors {
-    pulse_length: f64,
-    on_slices: BTreeMap<&'static str, OfField>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    between_slices: Option<BTreeMap<&'static str, OfField>>,
-}
-
-#[derive(Debug, Serialize)]
-struct OfField {
-    p50: f64,
-    p99: f64,
-    max: f64,
-}
-
-impl Errors {
-    /// All that were measured.
-    pub(crate) fn of(accuracy: &[Accuracy]) -> Vec<Self> {
-        let fields = |errors: &[Quantiles; 6]| {
-            let named = schema::FIELD_NAMES.into_iter().zip(errors);
-            named
-                .map(|(name, &Quantiles { p50, p99, max })| (name, OfField { p50, p99, max }))
-                .collect()
-        };
-        accuracy
-            .iter()
-            .map(|measured| Self {
-                pulse_length: measured.pulse_length,
-                on_slices: fields(&measured.on_slices),
-                between_slices: measured.between_slices.as_ref().map(fields),
-            })
-            .collect()
-    }
 }
 
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
@@ -178,7 +126,7 @@ fn check_complete(path: &Path, grid: &Grid) -> Result<(), Failure> {
     } else {
         return Ok(());
     };
-    Err(Failure::Work(format!(
+    Err(Failure::work(format!(
         "{} is a table that {other}",
         path.display()
     )))
@@ -235,26 +183,37 @@ fn grid(arguments: &Arguments) -> Result<Grid, Failure> {
 }
 
 fn tell(grid: &Grid, arguments: &Arguments, summary: &Summary) -> Result<(), Failure> {
-    let report = report(grid, arguments, summary);
-    if arguments.json {
-        return print(serde_json::to_string(&report).map_err(Failure::work)?);
-    }
-    print(format!(
-        "{}: {} points, {:.1} MB, {:.1} s, id {}",
-        report.file,
-        report.points,
-        report.bytes as f64 / 1e6,
-        report.wall_s,
-        report.id
-    ))?;
-    print_errors(&summary.accuracy)
+    let file = arguments.output.display().to_string();
+    let value = json!({
+        "file": file,
+        "id": summary.id,
+        "content_sha256": summary.content_sha256,
+        "format_version": schema::FORMAT_VERSION_VALUE,
+        "poisson_ratios": grid.slices().iter().map(|slice| slice.0).collect::<Vec<f64>>(),
+        "points": summary.points,
+        "bytes": summary.bytes,
+        "wall_s": summary.wall_s,
+        "resumed_blocks": summary.resumed_blocks,
+        "pulse_lengths": summary.pulse_lengths,
+        "p99_relative_error": summary.p99_error,
+        "relative_errors": accuracy_report(&summary.accuracy),
+    });
+    let text = format!(
+        "{file}: {} points, {:.1} MB, {:.1} s, id {}\n{}",
+        summary.points,
+        summary.bytes as f64 / 1e6,
+        summary.wall_s,
+        summary.id,
+        errors_in_words(&summary.accuracy)
+    );
+    show(arguments.json, &value, text)
 }
 
 /// The errors of the worst field in each region, for each length of the pulse.
-pub(crate) fn print_errors(accuracy: &[Accuracy]) -> Result<(), Failure> {
-    print(
-        "measured off the grid, error over the peak in time, of the worst field: 50 %, 99 %, most",
-    )?;
+pub(crate) fn errors_in_words(accuracy: &[Accuracy]) -> String {
+    let head =
+        "measured off the grid, error over the peak in time, of the worst field: 50 %, 99 %, most";
+    let mut text = head.to_owned();
     for measured in accuracy {
         let length = measured.pulse_length;
         let regions = [
@@ -264,13 +223,13 @@ pub(crate) fn print_errors(accuracy: &[Accuracy]) -> Result<(), Failure> {
         for (region, worst) in regions {
             if let Some((field, Quantiles { p50, p99, max })) = worst {
                 let field = schema::FIELD_NAMES[field as usize];
-                print(format!(
-                    "  pulses of {length:>5} r0/c1, {region:14}  {p50:.1e}  {p99:.1e}  {max:.1e}  {field}"
-                ))?;
+                text.push_str(&format!(
+                    "\n  pulses of {length:>5} r0/c1, {region:14}  {p50:.1e}  {p99:.1e}  {max:.1e}  {field}"
+                ));
             }
         }
     }
-    Ok(())
+    text
 }
 
 /// One part of a number of parts, written I/N.
@@ -298,29 +257,12 @@ impl FromStr for Shard {
 
 fn shard_report(arguments: &Arguments, blocks: usize) -> Result<(), Failure> {
     let file = arguments.output.display().to_string();
-    if arguments.json {
-        return print(serde_json::json!({ "file": file, "blocks": blocks }));
-    }
-    print(format!(
-        "{file}: {blocks} blocks; join all shards with hertzlamb table merge"
-    ))
-}
-
-fn report<'a>(grid: &'a Grid, arguments: &Arguments, summary: &'a Summary) -> Report<'a> {
-    Report {
-        file: arguments.output.display().to_string(),
-        id: &summary.id,
-        content_sha256: &summary.content_sha256,
-        format_version: schema::FORMAT_VERSION_VALUE,
-        poisson_ratios: grid.slices().iter().map(|slice| slice.0).collect(),
-        points: summary.points,
-        bytes: summary.bytes,
-        wall_s: summary.wall_s,
-        resumed_blocks: summary.resumed_blocks,
-        pulse_lengths: &summary.pulse_lengths,
-        p99_relative_error: &summary.p99_error,
-        relative_errors: Errors::of(&summary.accuracy),
-    }
+    let text = format!("{file}: {blocks} blocks; join all shards with hertzlamb table merge");
+    show(
+        arguments.json,
+        &json!({ "file": file, "blocks": blocks }),
+        text,
+    )
 }
 
 /// The grid of a preset or a file.
@@ -342,35 +284,13 @@ fn is_file(name: &str) -> bool {
     name.ends_with(".toml")
 }
 
-/// Bad settings and files in the way are the user's, the rest is work that failed.
+/// A table that was not built.
 pub(crate) fn failure(error: BuildError) -> Failure {
-    match error {
-        BuildError::Output(error) => error.into(),
-        BuildError::Setting { .. }
-        | BuildError::InFile { .. }
-        | BuildError::Shrinks { .. }
-        | BuildError::TooFine { .. }
-        | BuildError::Settings { .. }
-        | BuildError::NotJournal { .. }
-        | BuildError::File { .. }
-        | BuildError::NotBlocks { .. }
-        | BuildError::Mixed { .. }
-        | BuildError::NoShards
-        | BuildError::Incomplete { .. }
-        | BuildError::Table(
-            TableError::Unreadable { .. }
-            | TableError::NotHdf5 { .. }
-            | TableError::Foreign { .. }
-            | TableError::Version { .. },
-        ) => Failure::input(error),
-        BuildError::OtherSettings { .. } => {
-            Failure::input(format!("{error}; a new table with --force replaces it"))
-        }
-        BuildError::Unwritable(_)
-        | BuildError::NotFinite { .. }
-        | BuildError::Domain(_)
-        | BuildError::Table(_)
-        | BuildError::Content(_)
-        | BuildError::Lookup(_) => Failure::work(error),
+    let unfinished = matches!(error, BuildError::OtherSettings { .. });
+    let failure = Failure::from(error);
+    if unfinished {
+        failure.hint("; a new table with --force replaces it")
+    } else {
+        failure
     }
 }

@@ -76,9 +76,6 @@ impl Library {
     }
 
     /// A material by its name, or the error that suggests another.
-    ///
-    /// # Errors
-    /// [`UnknownMaterial`].
     pub fn find(&self, name: &str) -> Result<&Material, UnknownMaterial> {
         self.get(name).ok_or_else(|| UnknownMaterial {
             name: name.to_owned(),
@@ -105,9 +102,6 @@ impl Material {
     /// assert_eq!(steel.poisson_ratio, 0.3);
     /// # Ok::<(), contact::UnknownMaterial>(())
     /// ```
-    ///
-    /// # Errors
-    /// [`UnknownMaterial`].
     pub fn named(name: &str) -> Result<Self, UnknownMaterial> {
         Library::built_in().find(name).cloned()
     }

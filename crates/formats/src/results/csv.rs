@@ -13,9 +13,6 @@ type Column<'a> = (String, &'a [f64]);
 ///
 /// Lines that begin with `#` say where the probes are. The first line after them names the columns with their units,
 /// such as `time_s`, `force_n` and `probe1_stress_zz_pa`.
-///
-/// # Errors
-/// [`OutputError`].
 pub fn stage_results_csv<'a>(
     output: &'a Output,
     scene: &Scene,

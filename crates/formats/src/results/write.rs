@@ -15,9 +15,6 @@ use output::{Existing, Output, OutputError, Staged};
 use std::path::Path;
 
 /// Writes the results of a scene.
-///
-/// # Errors
-/// [`OutputError`].
 pub fn write_results(
     path: &Path,
     scene: &Scene,
@@ -29,9 +26,6 @@ pub fn write_results(
 }
 
 /// The same into an output that was claimed before the work, under its name when it is committed.
-///
-/// # Errors
-/// [`OutputError`].
 pub fn stage_results<'a>(
     output: &'a Output,
     scene: &Scene,

@@ -24,6 +24,10 @@ pub(crate) const NOT_NEGATIVE: Range = Range {
     name: "[0, inf)",
     holds: |x| (0.0..f64::INFINITY).contains(&x),
 };
+pub(crate) const SIGN: Range = Range {
+    name: "{-1, 1}",
+    holds: |x| x == 1.0 || x == -1.0,
+};
 pub(crate) const POISSON: Range = Range {
     name: "(-1, 0.5)",
     holds: |x| x > -1.0 && x < 0.5,
@@ -106,6 +110,11 @@ const KEYS: &[Key] = keys! {
     contact.loss_tolerance: TOLERANCE [1e-3] Setting(|s, x| s.loss_tolerance = Some(x));
     contact.step_s: POSITIVE;
     force.file;
+    force.columns;
+    force.units;
+    force.start_s: FINITE;
+    force.end_s: FINITE;
+    force.sign: SIGN;
     force.low_pass_hz: POSITIVE;
     force.baseline_s: POSITIVE;
     probe.r_m: NOT_NEGATIVE ("the distance from the axis");
@@ -137,6 +146,17 @@ pub(crate) fn keys_of(section: &str) -> impl Iterator<Item = &'static Key> {
     let bodies = ["target", "striker"].contains(&section);
     KEYS.iter()
         .filter(move |key| key.section == section || (bodies && key.section == "body"))
+}
+
+/// A key with its section, where one has a key of this name.
+pub(super) fn full_name(name: &str) -> Option<String> {
+    let key = number(name)?;
+    let section = if key.section == "body" {
+        "target"
+    } else {
+        key.section
+    };
+    Some(format!("{section}.{name}"))
 }
 
 /// A number of a scene; its name means the same in every section.

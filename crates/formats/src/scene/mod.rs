@@ -15,7 +15,7 @@ mod write;
 pub use body::{parse_materials, read_materials};
 pub use keys::sections_of;
 pub(crate) use read::{bodies_of, scene_with};
-pub use read::{inputs, parse_scene, read_scene, scene_of};
+pub use read::{parse_scene, read_scene, read_with_inputs, scene_of};
 pub use record::read_record;
 pub(crate) use striker::Form;
 pub use write::resolved;

@@ -5,11 +5,11 @@ use super::keys::SECTIONS;
 use super::record::read_record;
 use super::section::{Section, parse};
 use super::striker::read_strike;
-use super::text::read_text;
+use super::text::{read_standard, read_text};
 use crate::error::SceneError;
 use contact::{Choice, Conflict, HalfSpace, Library, Settings};
-use impact::{Load, Probe, Scene, Section as MeridionalSection, Strike, Treatment};
-use output::Role;
+use impact::{Load, Probe, Reading, Scene, Section as MeridionalSection, Strike, Treatment};
+use output::{Role, is_standard};
 use std::path::Path;
 use toml::{Table, Value};
 
@@ -19,20 +19,30 @@ const FILES: [(&str, &str); 2] = [
     ("force", "the force record"),
 ];
 
-/// The scene file at `path` and the files that it names: none of them may be an output.
+/// The scene of a file, of `-` for standard input, and the files that it names, itself among them: none of them may be an
+/// output.
 ///
 /// # Errors
-/// [`SceneError`] when it cannot be read or is not TOML.
-pub fn inputs(path: &Path) -> Result<Vec<Role>, SceneError> {
-    let table = parse(&read_text(path)?).map_err(|error| error.in_file(path))?;
+/// [`SceneError`], with the path of the file at fault.
+pub fn read_with_inputs(path: &Path) -> Result<(Scene, Vec<Role>), SceneError> {
+    let (text, named) = if is_standard(path) {
+        (read_standard()?, Path::new("standard input"))
+    } else {
+        (read_text(path)?, path)
+    };
     let folder = path.parent().unwrap_or(Path::new("."));
-    let mut found = vec![Role::new("the scene", path)];
+    let table = parse(&text).map_err(|error| error.in_file(named))?;
+    let scene = scene_of(&table, folder).map_err(|error| error.in_file(named))?;
+    let mut found = Vec::new();
+    if !is_standard(path) {
+        found.push(Role::new("the scene", path));
+    }
     for (section, role) in FILES {
         if let Some(Value::String(file)) = table.get(section).and_then(|s| s.get("file")) {
             found.push(Role::new(role, &folder.join(file)));
         }
     }
-    Ok(found)
+    Ok((scene, found))
 }
 
 /// Reads a scene file; other files it names are found beside it.
@@ -40,23 +50,15 @@ pub fn inputs(path: &Path) -> Result<Vec<Role>, SceneError> {
 /// # Errors
 /// [`SceneError`], with the path of the file at fault.
 pub fn read_scene(path: &Path) -> Result<Scene, SceneError> {
-    let text = read_text(path)?;
-    let directory = path.parent().unwrap_or(Path::new("."));
-    parse_scene(&text, directory).map_err(|error| error.in_file(path))
+    read_with_inputs(path).map(|(scene, _)| scene)
 }
 
 /// Reads a scene from text; other files it names are found in `directory`.
-///
-/// # Errors
-/// [`SceneError`].
 pub fn parse_scene(text: &str, directory: &Path) -> Result<Scene, SceneError> {
     scene_of(&parse(text)?, directory)
 }
 
 /// Reads a scene from a parsed table, as sweeps make them.
-///
-/// # Errors
-/// [`SceneError`].
 pub fn scene_of(table: &Table, directory: &Path) -> Result<Scene, SceneError> {
     let root = Section::root(table);
     if let Some(key) = ["product", "list", "random"]
@@ -104,9 +106,6 @@ pub(crate) fn scene_with(
 }
 
 /// The half-space and the striker of a parsed scene; none for a force record, whose file is not read.
-///
-/// # Errors
-/// [`SceneError`].
 pub(crate) fn bodies_of(table: &Table) -> Result<(HalfSpace, Option<Strike>), SceneError> {
     let (root, library) = (Section::root(table), Library::built_in());
     let target = read_target(&root, library)?;
@@ -220,7 +219,14 @@ fn read_load(
                 baseline_s: force.number("baseline_s")?,
                 low_pass_hz: force.number("low_pass_hz")?,
             };
-            let record = read_record(&directory.join(file))?;
+            let reading = Reading {
+                columns: force.words("columns")?,
+                units: force.words("units")?,
+                start_s: force.number("start_s")?,
+                end_s: force.number("end_s")?,
+                sign: force.number("sign")?,
+            };
+            let record = read_record(&directory.join(file), reading)?;
             Ok(Load::Record(record.treat(&treatment)?))
         }
         (Some(_), Some(_)) => Err(SceneError::Conflict {
@@ -241,14 +247,19 @@ fn inside(
     probes: &[Probe],
     section: Option<&MeridionalSection>,
 ) -> Result<(), SceneError> {
-    let within = |key: String, value: f64, limit: Option<f64>, range| match limit {
-        Some(limit) if value > limit => Err(SceneError::OutOfRange { key, value, range }),
+    let within = |key: String, value: f64, limit: Option<f64>, limit_key| match limit {
+        Some(limit) if value > limit => Err(SceneError::OutsideBlock {
+            key,
+            value,
+            limit_key,
+            limit,
+        }),
         Some(_) | None => Ok(()),
     };
     let at = |name: &str, [r, z]: [(&str, f64); 2]| {
         let key = |key: &str| format!("{name}.{key}");
-        within(key(z.0), z.1, block.thickness_m, "[0, target.thickness_m]")?;
-        within(key(r.0), r.1, block.radius_m, "[0, target.radius_m]")
+        within(key(z.0), z.1, block.thickness_m, "target.thickness_m")?;
+        within(key(r.0), r.1, block.radius_m, "target.radius_m")
     };
     for (i, probe) in probes.iter().enumerate() {
         let place = [("r_m", probe.r_m), ("z_m", probe.z_m)];

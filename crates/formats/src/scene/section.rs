@@ -1,6 +1,6 @@
 //! Typed reading of a TOML table: every error names the full key and the value found.
 
-use super::keys::{FINITE, Range, keys_of, number};
+use super::keys::{FINITE, Range, full_name, keys_of, number};
 use crate::error::SceneError;
 use contact::{Choice, nearest};
 use std::ops::RangeInclusive;
@@ -44,7 +44,7 @@ impl<'a> Section<'a> {
             None => Ok(()),
             Some(key) => Err(SceneError::UnknownKey {
                 key: self.key(key),
-                suggestion: nearest(key, allowed.iter().copied()),
+                suggestion: nearest(key, allowed.iter().copied()).or_else(|| full_name(key)),
                 allowed: format!("known keys: {}", allowed.join(", ")),
             }),
         }
@@ -185,6 +185,24 @@ impl<'a> Section<'a> {
         }
     }
 
+    /// A pair of words; a whole number is one, too.
+    pub(super) fn words(&self, key: &str) -> Result<Option<[String; 2]>, SceneError> {
+        let word = |value: &Value| match value {
+            Value::String(text) => Some(text.clone()),
+            Value::Integer(number) => Some(number.to_string()),
+            _ => None,
+        };
+        let Some(value) = self.value(key) else {
+            return Ok(None);
+        };
+        let pair = match value.as_array().map(Vec::as_slice) {
+            Some([first, second]) => word(first).zip(word(second)),
+            Some(_) | None => None,
+        };
+        let pair = pair.ok_or_else(|| self.wrong_kind(key, value, "a pair of words"));
+        pair.map(|(first, second)| Some([first, second]))
+    }
+
     fn whole(
         &self,
         key: &str,
@@ -280,6 +298,22 @@ pub(crate) fn parse(text: &str) -> Result<Table, SceneError> {
         line: error.span().map_or(1, |span| {
             text.get(..span.start).unwrap_or(text).matches('\n').count() + 1
         }),
-        reason: error.message().replace('\n', " "),
+        reason: error.message().replace('\n', " ") + decimal_comma(text, error.span()),
     })
+}
+
+/// What is said of a number such as 0,5.
+fn decimal_comma(text: &str, place: Option<std::ops::Range<usize>>) -> &'static str {
+    let there = || {
+        let start = place?.start;
+        let before = text.get(..start)?.rsplit('\n').next()?.trim_end();
+        let digit = |c: Option<char>| c.is_some_and(|c| c.is_ascii_digit());
+        let comma = text.get(start..)?.strip_prefix(',')?;
+        Some(digit(before.chars().last()) && digit(comma.chars().next()))
+    };
+    if there() == Some(true) {
+        "; numbers have a decimal point, no comma"
+    } else {
+        ""
+    }
 }

@@ -28,11 +28,24 @@ pub(crate) fn read_text_up_to(path: &Path, most: u64) -> Result<String, SceneErr
     if !std::fs::metadata(path).map_err(system)?.is_file() {
         return Err(fault("it is not a regular file".to_owned()));
     }
-    let mut bytes = Vec::new();
     let file = File::open(path).map_err(system)?;
-    file.take(most + 1)
-        .read_to_end(&mut bytes)
-        .map_err(system)?;
+    text_of(file, path, most)
+}
+
+/// The TOML that standard input has.
+pub(super) fn read_standard() -> Result<String, SceneError> {
+    text_of(io::stdin(), Path::new("standard input"), MOST_OF_TOML)
+}
+
+/// All text that a source of a name has, up to so many bytes.
+fn text_of(source: impl Read, path: &Path, most: u64) -> Result<String, SceneError> {
+    let fault = |reason: String| SceneError::Unreadable {
+        path: path.to_owned(),
+        reason,
+    };
+    let mut bytes = Vec::new();
+    let read = source.take(most + 1).read_to_end(&mut bytes);
+    read.map_err(|error| fault(error.to_string()))?;
     if bytes.len() as u64 > most {
         return Err(fault(format!("it has more than {} MB", most >> 20)));
     }

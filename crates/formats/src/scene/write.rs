@@ -3,7 +3,7 @@
 use super::body::{put, to_table};
 use super::striker::Form;
 use contact::{Choice, Settings, Shape, Striker};
-use impact::{Load, Scene};
+use impact::{Load, Reading, Scene, Section};
 use toml::{Table, Value};
 
 /// The scene with every default and material spelled out, as TOML.
@@ -31,6 +31,22 @@ pub fn resolved(scene: &Scene) -> String {
             let mut table = Table::new();
             let file = record.file.as_ref().map(|path| path.display().to_string());
             table.insert("file".into(), file.unwrap_or_default().into());
+            let Reading {
+                columns,
+                units,
+                start_s,
+                end_s,
+                sign,
+            } = &*record.reading;
+            for (key, words) in [("columns", columns), ("units", units)] {
+                if let Some(words) = words {
+                    table.insert(key.into(), words.to_vec().into());
+                }
+            }
+            put(
+                &mut table,
+                [("start_s", *start_s), ("end_s", *end_s), ("sign", *sign)],
+            );
             if let Some(treated) = &record.treated {
                 let (baseline_s, low_pass_hz) = (treated.baseline_s, treated.low_pass_hz);
                 put(
@@ -42,19 +58,8 @@ pub fn resolved(scene: &Scene) -> String {
         }
     }
     section("contact", settings(&scene.settings));
-    if let Some(map) = scene.section {
-        let mut table = Table::new();
-        put(
-            &mut table,
-            [
-                ("r_max_m", Some(map.r_max_m)),
-                ("z_max_m", Some(map.z_max_m)),
-            ],
-        );
-        let points = map.points.map(|n| Value::Integer(n as i64));
-        table.insert("points".into(), Value::Array(points.to_vec()));
-        table.insert("frames".into(), Value::Integer(map.frames as i64));
-        section("map", table);
+    if let Some(map) = &scene.section {
+        section("map", of_map(map));
     }
     let output = output(scene);
     if !output.is_empty() {
@@ -72,6 +77,21 @@ pub fn resolved(scene: &Scene) -> String {
         root.insert("probe".into(), Value::Array(probes.collect()));
     }
     root.to_string()
+}
+
+fn of_map(map: &Section) -> Table {
+    let mut table = Table::new();
+    put(
+        &mut table,
+        [
+            ("r_max_m", Some(map.r_max_m)),
+            ("z_max_m", Some(map.z_max_m)),
+        ],
+    );
+    let points = map.points.map(|n| Value::Integer(n as i64));
+    table.insert("points".into(), Value::Array(points.to_vec()));
+    table.insert("frames".into(), Value::Integer(map.frames as i64));
+    table
 }
 
 fn output(scene: &Scene) -> Table {

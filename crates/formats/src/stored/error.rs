@@ -1,75 +1,49 @@
 //! What a file of the program is, and why one cannot be read back.
 
 use crate::{results, sweep};
+use ::fault::{Class, Culprit, Fault};
 use std::fmt;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 /// A file that cannot be read back, told in one sentence.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-pub enum ReadError {
-    /// The file is not there, or is no regular file, or may not be read.
-    #[error("cannot read {}: {reason}", path.display())]
-    Unreadable {
-        /// The file.
-        path: PathBuf,
-        /// The system's reason.
-        reason: String,
-    },
-    /// It is no HDF5 file.
-    #[error("{} is {found}, not a file of results in HDF5", path.display())]
-    NotHdf5 {
-        /// The file.
-        path: PathBuf,
-        /// What it seems to be.
-        found: &'static str,
-    },
-    /// Another program's file.
-    #[error("{} is an HDF5 file, but none of hertzlamb's", path.display())]
-    Foreign {
-        /// The file.
-        path: PathBuf,
-    },
-    /// Another program's file.
-    #[error("{} is a Parquet file, but none of hertzlamb's", path.display())]
-    ForeignParquet {
-        /// The file.
-        path: PathBuf,
-    },
-    /// A file of another kind.
-    #[error("{} is {found}, not {wanted}", path.display())]
-    Kind {
-        /// The file.
-        path: PathBuf,
-        /// What it is.
-        found: FileKind,
-        /// What was wanted.
-        wanted: FileKind,
-    },
-    /// A sweep whose results lie elsewhere.
-    #[error("{} has the places of its parts, not their results: read the parts, or a copy of them in one file", path.display())]
-    Virtual {
-        /// The file.
-        path: PathBuf,
-    },
-    /// A version that is not known.
-    #[error("{} has the format version {found}; versions {major}.x can be read", path.display())]
-    Version {
-        /// The file.
-        path: PathBuf,
-        /// Its version.
-        found: String,
-        /// The major version that can be read.
-        major: &'static str,
-    },
+#[error("{sentence}")]
+pub struct ReadError {
+    path: PathBuf,
+    sentence: String,
+}
+
+impl ReadError {
+    /// The file is not what it should be: a sentence that its name begins.
+    pub(super) fn is(path: &Path, what: impl fmt::Display) -> Self {
+        Self {
+            path: path.to_owned(),
+            sentence: format!("{} {what}", path.display()),
+        }
+    }
+
     /// Something that every such file has is missing or wrong.
-    #[error("{}: {what}", path.display())]
-    Damaged {
-        /// The file.
-        path: PathBuf,
-        /// What is missing or wrong.
-        what: String,
-    },
+    pub(crate) fn damaged(path: &Path, what: impl fmt::Display) -> Self {
+        Self {
+            path: path.to_owned(),
+            sentence: format!("{}: {what}", path.display()),
+        }
+    }
+
+    /// The file is not there, or is no regular file, or may not be read.
+    pub(super) fn unreadable(path: &Path, reason: impl fmt::Display) -> Self {
+        Self {
+            path: path.to_owned(),
+            sentence: format!("cannot read {}: {reason}", path.display()),
+        }
+    }
+}
+
+impl Fault for ReadError {
+    fn culprit(&self) -> Culprit<'_> {
+        Culprit::of(Class::Scene).file(&self.path)
+    }
 }
 
 /// What a file of the program is.

@@ -82,15 +82,12 @@ impl StoredImpact {
     /// The kernels of its fields, `none` without any, and the id of their table, empty without one.
     ///
     /// # Errors
-    /// [`ReadError::Damaged`].
+    /// [`ReadError`] for a file that is not as it was written.
     pub fn kernels(&self) -> Result<(String, String), ReadError> {
         Ok((self.stored.text("kernel")?, self.stored.text("table_id")?))
     }
 
     /// Fails where the fields were cut short.
-    ///
-    /// # Errors
-    /// [`ReadError`].
     pub fn check_whole(&self) -> Result<(), ReadError> {
         let Some(probes) = self.probes()? else {
             return self.section().map(drop);
@@ -151,7 +148,6 @@ fn energy_of(stored: &Stored, samples: usize) -> Result<Option<EnergySeries>, Re
 /// The resolved scene of a results file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StoredScene {
-    /// The half-space.
     pub target: HalfSpace,
     /// The striker; none where the force was given.
     pub strike: Option<Strike>,

@@ -38,13 +38,10 @@ impl Stored {
     /// Opens a file of a kind and of a version that is known.
     pub(super) fn open(path: &Path, wanted: FileKind) -> Result<Self, ReadError> {
         check_kind(path, file_kind(path)?, wanted)?;
-        let path = path.to_owned();
-        let stored = match open_hdf5(&path)?.root() {
-            Ok(root) => Self { path, root },
-            Err(error) => {
-                let what = error.to_string();
-                return Err(ReadError::Damaged { path, what });
-            }
+        let root = open_hdf5(path)?.root();
+        let stored = Self {
+            path: path.to_owned(),
+            root: root.map_err(|error| ReadError::damaged(path, error))?,
         };
         check_version(&stored.path, &stored.text("format_version")?)?;
         Ok(stored)
@@ -52,10 +49,7 @@ impl Stored {
 
     /// Something that every such file has is missing or wrong.
     pub(super) fn damaged(&self, what: impl Into<String>) -> ReadError {
-        ReadError::Damaged {
-            path: self.path.clone(),
-            what: what.into(),
-        }
+        ReadError::damaged(&self.path, what.into())
     }
 
     fn unread(&self, path: &str, error: &HdfError) -> ReadError {
@@ -244,18 +238,13 @@ pub(super) fn is_parquet(path: &Path) -> bool {
 
 /// Opens a file of rows in Parquet, all or some, and checks its seal and its length; rows are read a group at a time.
 fn open_parquet(path: &Path) -> Result<(FileKind, Footer), ReadError> {
-    let path = path.to_owned();
-    let found = match Footer::read(&path) {
-        Ok(Some(found)) => found,
-        Ok(None) => return Err(ReadError::ForeignParquet { path }),
-        Err(what) => return Err(ReadError::Damaged { path, what }),
-    };
-    check_version(&path, &found.version)?;
+    let foreign = || ReadError::is(path, "is a Parquet file, but none of hertzlamb's");
+    let found = Footer::read(path).map_err(|what| ReadError::damaged(path, what))?;
+    let found = found.ok_or_else(foreign)?;
+    check_version(path, &found.version)?;
     let mut kinds = [FileKind::Sweep, FileKind::SweepPart].into_iter();
-    match kinds.find(|kind| kind.file_type() == found.file_type) {
-        Some(kind) => Ok((kind, found)),
-        None => Err(ReadError::ForeignParquet { path }),
-    }
+    let kind = kinds.find(|kind| kind.file_type() == found.file_type);
+    Ok((kind.ok_or_else(foreign)?, found))
 }
 
 /// [`open_parquet`] for a file of a kind.
@@ -268,23 +257,15 @@ fn check_kind(path: &Path, found: FileKind, wanted: FileKind) -> Result<(), Read
     if found == wanted {
         return Ok(());
     }
-    let path = path.to_owned();
-    Err(ReadError::Kind {
-        path,
-        found,
-        wanted,
-    })
+    Err(ReadError::is(path, format!("is {found}, not {wanted}")))
 }
 
 fn check_version(path: &Path, found: &str) -> Result<(), ReadError> {
     if found.split('.').next() == Some(MAJOR) {
         return Ok(());
     }
-    Err(ReadError::Version {
-        path: path.to_owned(),
-        found: found.to_owned(),
-        major: MAJOR,
-    })
+    let what = format!("has the format version {found}; versions {MAJOR}.x can be read");
+    Err(ReadError::is(path, what))
 }
 
 /// What the file at `path` is.
@@ -298,30 +279,22 @@ pub fn file_kind(path: &Path) -> Result<FileKind, ReadError> {
     let root = open_hdf5(path)?.root().ok();
     root.and_then(|root| text_of(root.attribute("file_type")))
         .and_then(|found| FileKind::ALL.into_iter().find(|k| k.file_type() == found))
-        .ok_or_else(|| ReadError::Foreign {
-            path: path.to_owned(),
-        })
+        .ok_or_else(|| ReadError::is(path, "is an HDF5 file, but none of hertzlamb's"))
 }
 
 /// Opens an HDF5 file, whatever is in it.
 fn open_hdf5(path: &Path) -> Result<File, ReadError> {
-    let unreadable = |reason: &str| ReadError::Unreadable {
-        path: path.to_owned(),
-        reason: reason.to_owned(),
-    };
+    let unreadable = |error| ReadError::unreadable(path, error);
     // looked at before it is opened: a pipe would wait for its other end
-    let data = std::fs::metadata(path).map_err(|error| unreadable(&error.to_string()))?;
+    let data = std::fs::metadata(path).map_err(unreadable)?;
     if !data.is_file() {
-        return Err(unreadable("it is not a file"));
+        return Err(ReadError::unreadable(path, "it is not a file"));
     }
     let mut head = Vec::new();
     std::fs::File::open(path)
         .and_then(|file| file.take(256).read_to_end(&mut head))
-        .map_err(|error| unreadable(&error.to_string()))?;
-    let not = |found| ReadError::NotHdf5 {
-        path: path.to_owned(),
-        found,
-    };
+        .map_err(unreadable)?;
+    let not = |found| ReadError::is(path, format!("is {found}, not a file of results in HDF5"));
     if !head.starts_with(b"\x89HDF\r\n\x1a\n") {
         let is_text = !head.is_empty() && std::str::from_utf8(&head).is_ok();
         return Err(not(match head.len() {

@@ -55,8 +55,8 @@ impl StoredSweep {
     pub fn open(path: &Path) -> Result<Self, ReadError> {
         let stored = Stored::open(path, FileKind::Sweep)?;
         if stored.text(PARTS).is_ok() {
-            let path = path.to_owned();
-            return Err(ReadError::Virtual { path });
+            let what = "has the places of its parts, not their results: read the parts, or a copy of them in one file";
+            return Err(ReadError::is(path, what));
         }
         let axes = read_axes(&stored)?;
         Ok(Self {
@@ -81,7 +81,7 @@ impl StoredSweep {
     /// Fails where the file was cut short.
     ///
     /// # Errors
-    /// [`ReadError::Damaged`].
+    /// [`ReadError`] for a file that is not as it was written.
     pub fn check_whole(&self) -> Result<(), ReadError> {
         let fields = self.fields()?;
         fields.quantities().try_for_each(|(_, quantity)| {
@@ -93,7 +93,7 @@ impl StoredSweep {
     /// Which results it has, and how exactly.
     ///
     /// # Errors
-    /// [`ReadError::Damaged`].
+    /// [`ReadError`] for a file that is not as it was written.
     pub fn fields(&self) -> Result<Fields, ReadError> {
         self.stored.fields(RESULTS, &self.shape())
     }

@@ -13,6 +13,21 @@ use halfspace::gauss;
 use std::path::PathBuf;
 use thiserror::Error;
 
+/// How the file of an instrument becomes a record, where it is not one as it stands.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Reading {
+    /// Columns of time and force, by name or by place from 1.
+    pub columns: Option<[String; 2]>,
+    /// Their units.
+    pub units: Option<[String; 2]>,
+    /// The instant in s of the file that is the time zero; what was before is cut off.
+    pub start_s: Option<f64>,
+    /// The last instant in s of the file that is taken.
+    pub end_s: Option<f64>,
+    /// -1 where the file counts pressing as negative.
+    pub sign: Option<f64>,
+}
+
 /// Samples of a force; zero before the first and after the last.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ForceRecord {
@@ -20,6 +35,8 @@ pub struct ForceRecord {
     force_n: Vec<f64>,
     /// The file that it comes from, if it comes from one.
     pub file: Option<PathBuf>,
+    /// How it was read.
+    pub reading: Box<Reading>,
     /// What was done to it; none where nothing was.
     pub treated: Option<Treated>,
 }
@@ -114,6 +131,7 @@ impl ForceRecord {
             time_s,
             force_n,
             file: None,
+            reading: Box::default(),
             treated: None,
         })
     }
@@ -124,6 +142,7 @@ impl ForceRecord {
             time_s,
             force_n,
             file: self.file.clone(),
+            reading: self.reading.clone(),
             treated: self.treated,
         }
     }

@@ -1,67 +1,50 @@
-//! What can be wrong with the file of a table. Every error names the file, once.
+//! What can be wrong with the file of a table.
 
 use crate::error::ContentError;
-use std::path::PathBuf;
+use crate::schema::{FILE_TYPE_VALUE, MAJOR_READ};
+use fault::{Class, Culprit, Fault};
+use std::fmt;
+use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 /// The file of a kernel table could not be read, accepted or written.
+#[derive(Debug)]
+pub struct TableError {
+    /// File asked for.
+    pub path: PathBuf,
+    /// What is wrong with it.
+    pub what: BadTable,
+}
+
+/// What is wrong with the file of a table.
 #[derive(Debug, Error)]
-pub enum TableError {
+pub enum BadTable {
     /// The file is not there or may not be read.
-    #[error("cannot read the kernel table {}: {source}", path.display())]
-    Unreadable {
-        /// File asked for.
-        path: PathBuf,
-        /// What the system said.
-        source: std::io::Error,
-    },
-    /// The file is not HDF5, or is cut short.
-    #[error("{} is not a complete HDF5 file: {detail}", path.display())]
-    NotHdf5 {
-        /// File asked for.
-        path: PathBuf,
-        /// What is missing, or the first line of what the HDF5 library said.
-        detail: String,
-    },
+    #[error("{0}")]
+    Unreadable(std::io::Error),
+    /// The file is not HDF5, or is cut short: what is missing, or the first line of what the HDF5 library said.
+    #[error("is not a complete HDF5 file: {0}")]
+    NotHdf5(String),
     /// Bytes of the file are not those that were written.
-    #[error("kernel table {} is damaged: {detail}", path.display())]
-    Damaged {
-        /// File asked for.
-        path: PathBuf,
-        /// What does not agree.
-        detail: String,
-    },
-    /// An HDF5 file of another kind.
-    #[error("{} is not a kernel table: file_type = {found:?}, needed \"{}\"", path.display(), crate::schema::FILE_TYPE_VALUE)]
-    Foreign {
-        /// File asked for.
-        path: PathBuf,
-        /// Its `file_type`, empty when there is none.
-        found: String,
-    },
+    #[error("is damaged: {0}")]
+    Damaged(String),
+    /// An HDF5 file of another kind: its `file_type`, empty when there is none.
+    #[error("is not a kernel table: file_type = {0:?}, needed \"{FILE_TYPE_VALUE}\"")]
+    Foreign(String),
     /// A format that this program does not know.
-    #[error("{} has kernel-table format version {found:?}; this program reads version {}.x", path.display(), crate::schema::MAJOR_READ)]
-    Version {
-        /// File asked for.
-        path: PathBuf,
-        /// Its `format_version`.
-        found: String,
-    },
+    #[error("has kernel-table format version {0:?}; this program reads version {MAJOR_READ}.x")]
+    Version(String),
     /// A dataset or an attribute is absent, unreadable or not as the format demands.
-    #[error("kernel table {}: cannot read {item}: {detail}", path.display())]
+    #[error("cannot read {item}: {detail}")]
     Item {
-        /// File asked for.
-        path: PathBuf,
         /// Path of the dataset or attribute inside the file.
         item: String,
         /// What is wrong, or the first line of what the HDF5 library said.
         detail: String,
     },
     /// A dataset has other dimensions than the axes demand.
-    #[error("kernel table {}: {item} has the dimensions {found:?}, needed {needed:?}", path.display())]
+    #[error("{item} has the dimensions {found:?}, needed {needed:?}")]
     Dimensions {
-        /// File asked for.
-        path: PathBuf,
         /// Path of the dataset inside the file.
         item: String,
         /// Dimensions that the axes demand.
@@ -70,10 +53,10 @@ pub enum TableError {
         found: Vec<usize>,
     },
     /// More memory than a file of this size can need.
-    #[error("kernel table {}: {item} makes {needed} bytes of numbers to load, more than the {limit} that its size explains", path.display())]
+    #[error(
+        "{item} makes {needed} bytes of numbers to load, more than the {limit} that its size explains"
+    )]
     TooLarge {
-        /// File asked for.
-        path: PathBuf,
         /// Path of the dataset inside the file.
         item: String,
         /// Bytes to be loaded up to there.
@@ -82,29 +65,63 @@ pub enum TableError {
         limit: u64,
     },
     /// The numbers read are no table.
-    #[error("kernel table {}: {source}", path.display())]
-    Content {
-        /// File asked for.
-        path: PathBuf,
-        /// What is wrong with them.
-        source: ContentError,
-    },
+    #[error(transparent)]
+    Content(#[from] ContentError),
     /// The content does not have the checksum that the file states.
-    #[error("kernel table {}: content hash {found}, stated {stated}: the content was changed", path.display())]
+    #[error("content hash {found}, stated {stated}: the content was changed")]
     Checksum {
-        /// File asked for.
-        path: PathBuf,
         /// Hash in the file.
         stated: String,
         /// Hash of the content.
         found: String,
     },
-    /// The file could not be written.
-    #[error("cannot write the kernel table {}: {detail}", path.display())]
-    Unwritable {
-        /// File to be written.
-        path: PathBuf,
-        /// What the system or the HDF5 library said.
-        detail: String,
-    },
+    /// The file could not be written: what the system or the HDF5 library said.
+    #[error("{0}")]
+    Unwritable(String),
+    /// Another table than when it was opened.
+    #[error("is another table than when it was opened: open it again")]
+    Changed,
+}
+
+impl BadTable {
+    /// The error of a file.
+    pub fn of(self, path: &Path) -> TableError {
+        TableError {
+            path: path.to_owned(),
+            what: self,
+        }
+    }
+}
+
+impl fmt::Display for TableError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        use BadTable as B;
+        let (path, what) = (self.path.display(), &self.what);
+        match what {
+            B::Unreadable(_) => write!(f, "cannot read the kernel table {path}: {what}"),
+            B::Unwritable(_) => write!(f, "cannot write the kernel table {path}: {what}"),
+            B::NotHdf5(_) | B::Foreign(_) | B::Version(_) | B::Changed => {
+                write!(f, "{path} {what}")
+            }
+            B::Damaged(_) => write!(f, "kernel table {path} {what}"),
+            B::Item { .. }
+            | B::Dimensions { .. }
+            | B::TooLarge { .. }
+            | B::Content(_)
+            | B::Checksum { .. } => write!(f, "kernel table {path}: {what}"),
+        }
+    }
+}
+
+impl std::error::Error for TableError {}
+
+impl Fault for TableError {
+    fn culprit(&self) -> Culprit<'_> {
+        use BadTable as B;
+        let culprit = Culprit::of(Class::Table).file(&self.path);
+        match self.what {
+            B::Unreadable(_) | B::NotHdf5(_) | B::Foreign(_) | B::Version(_) => culprit,
+            _ => culprit.unmendable(),
+        }
+    }
 }

@@ -13,7 +13,7 @@ mod table_file;
 mod write;
 
 pub use damage::{DamagedPatch, damaged_patches};
-pub use error::TableError;
+pub use error::{BadTable, TableError};
 pub use read::{check_hash, read, stated_hash};
 pub use table_file::TableFile;
 pub use write::write;

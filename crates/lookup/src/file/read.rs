@@ -1,6 +1,6 @@
 //! File to content.
 
-use super::error::TableError;
+use super::error::{BadTable, TableError};
 use super::open::open;
 use super::seal::Cover;
 use super::source::{Place, Source};
@@ -39,15 +39,12 @@ pub fn read(path: &Path) -> Result<Content, TableError> {
 /// Compares the SHA-256 that the file at `path` states with that of its `content`.
 ///
 /// # Errors
-/// [`TableError::Checksum`] when they differ, or the reading errors of [`read`].
+/// [`BadTable::Checksum`] when they differ, or the reading errors of [`read`].
 pub fn check_hash(path: &Path, content: &Content) -> Result<(), TableError> {
     open(path)?.same_hash(content)
 }
 
 /// The SHA-256 that the file at `path` states.
-///
-/// # Errors
-/// As [`read`].
 pub fn stated_hash(path: &Path) -> Result<String, TableError> {
     let source = open(path)?;
     source.text(&source.root()?, schema::CONTENT_SHA256)
@@ -112,11 +109,7 @@ impl Source {
         if stated == found {
             Ok(())
         } else {
-            Err(TableError::Checksum {
-                path: self.path().to_owned(),
-                stated,
-                found,
-            })
+            Err(BadTable::Checksum { stated, found }.of(self.path()))
         }
     }
 

@@ -1,6 +1,6 @@
 //! Reading single items of an open file: each is looked at before memory is asked for it.
 
-use super::error::TableError;
+use super::error::{BadTable, TableError};
 use super::seal::Cover;
 use crate::error::ContentError;
 use hdfread::{Attribute, Dataset, File, Group, HdfError, Number};
@@ -138,12 +138,13 @@ impl Source {
         let item = place.item(name);
         let data = self.dataset::<f32>(place, name, 4)?;
         if data.shape() != needed {
-            return Err(TableError::Dimensions {
-                path: self.path.clone(),
+            let (needed, found) = (needed.to_vec(), data.shape().to_vec());
+            return Err(BadTable::Dimensions {
                 item,
-                needed: needed.to_vec(),
-                found: data.shape().to_vec(),
-            });
+                needed,
+                found,
+            }
+            .of(&self.path));
         }
         let [rows, columns] = [count[0].min(needed[0]), count[1].min(needed[1])];
         let numbers = crate::validate::product(&[rows, columns, needed[2], needed[3]]);
@@ -185,12 +186,13 @@ impl Source {
         let needed = self.loaded.get().saturating_add(more);
         let limit = self.bytes.saturating_mul(GROWTH);
         if needed > limit {
-            return Err(TableError::TooLarge {
-                path: self.path.clone(),
-                item: item.to_owned(),
+            let item = item.to_owned();
+            return Err(BadTable::TooLarge {
+                item,
                 needed,
                 limit,
-            });
+            }
+            .of(&self.path));
         }
         self.loaded.set(needed);
         Ok(())
@@ -198,11 +200,8 @@ impl Source {
 
     /// An item that is not as it should be.
     pub(super) fn item(&self, item: &str, detail: &str) -> TableError {
-        TableError::Item {
-            path: self.path.clone(),
-            item: item.to_owned(),
-            detail: detail.to_owned(),
-        }
+        let (item, detail) = (item.to_owned(), detail.to_owned());
+        BadTable::Item { item, detail }.of(&self.path)
     }
 
     /// An item that cannot be read.
@@ -212,9 +211,6 @@ impl Source {
 
     /// Numbers of the file that are no table.
     pub(super) fn content(&self, source: impl Into<ContentError>) -> TableError {
-        TableError::Content {
-            path: self.path.clone(),
-            source: source.into(),
-        }
+        BadTable::Content(source.into()).of(&self.path)
     }
 }

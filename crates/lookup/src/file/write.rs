@@ -1,7 +1,7 @@
 //! Content to file.
 
 use super::datasets::{self, Described};
-use super::error::TableError;
+use super::error::{BadTable, TableError};
 use super::labels::{attach_scale, new_file, reason, set_scale, text};
 use super::seal;
 use crate::accuracy::Quantiles;
@@ -27,12 +27,9 @@ const TREE_RANK: u32 = 16;
 /// The bytes depend on the content and the creation time alone.
 ///
 /// # Errors
-/// [`TableError::Unwritable`] with what the system or the HDF5 library says.
+/// [`BadTable::Unwritable`] with what the system or the HDF5 library says.
 pub fn write(path: &Path, content: &Content) -> Result<(), TableError> {
-    let failed = |detail: String| TableError::Unwritable {
-        path: path.to_owned(),
-        detail,
-    };
+    let failed = |detail: String| BadTable::Unwritable(detail).of(path);
     let chunks = write_file(path, content).map_err(|error| failed(reason(&error)))?;
     seal::append(path, chunks).map_err(|error| failed(error.to_string()))
 }

@@ -4,7 +4,7 @@ use crate::format::written;
 use crate::older::one_sentence;
 use crate::slices::sliced;
 use crate::stand_in::content;
-use lookup::{Table, TableError, TableFile, content_hash, read, write};
+use lookup::{BadTable, Table, TableFile, content_hash, read, write};
 use std::path::Path;
 
 #[test]
@@ -18,25 +18,25 @@ fn damaged_and_foreign_files_are_refused_in_one_sentence() {
         one_sentence(&error, &path);
         error
     };
-    assert!(matches!(refused(b""), TableError::NotHdf5 { .. }));
+    assert!(matches!(refused(b"").what, BadTable::NotHdf5(_)));
     assert!(matches!(
-        refused(b"time_s,force_n\n0,0\n"),
-        TableError::NotHdf5 { .. }
+        refused(b"time_s,force_n\n0,0\n").what,
+        BadTable::NotHdf5(_)
     ));
     for length in [whole.len() / 10, whole.len() / 2, whole.len() - 1] {
         assert!(matches!(
-            refused(&whole[..length]),
-            TableError::Damaged { .. }
+            refused(&whole[..length]).what,
+            BadTable::Damaged(_)
         ));
     }
     let longer = [&whole[..], b"more"].concat();
-    assert!(matches!(refused(&longer), TableError::Damaged { .. }));
+    assert!(matches!(refused(&longer).what, BadTable::Damaged(_)));
     let missing = Table::open(Path::new("/no/such/table.h5")).unwrap_err();
-    assert!(matches!(missing, TableError::Unreadable { .. }));
+    assert!(matches!(missing.what, BadTable::Unreadable(_)));
     one_sentence(&missing, Path::new("/no/such/table.h5"));
     assert!(matches!(
-        Table::open(folder.path()).unwrap_err(),
-        TableError::Unreadable { .. }
+        Table::open(folder.path()).unwrap_err().what,
+        BadTable::Unreadable(_)
     ));
 }
 
@@ -82,7 +82,7 @@ fn a_file_that_was_written_to_has_lost_its_seal() {
     tail.write_slice(&[0.5_f32], (0, 0, 0, 0..1)).unwrap();
     file.close().unwrap();
     let error = Table::open(&path).unwrap_err();
-    assert!(matches!(error, TableError::Damaged { .. }), "{error}");
+    assert!(matches!(error.what, BadTable::Damaged(_)), "{error}");
 }
 
 #[test]

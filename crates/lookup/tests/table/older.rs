@@ -3,7 +3,7 @@
 use crate::format::written;
 use crate::stand_in::content;
 use hdf5::types::VarLenUnicode;
-use lookup::{Table, TableError, TableFile, read, schema};
+use lookup::{BadTable, Table, TableError, TableFile, read, schema};
 use std::path::{Path, PathBuf};
 
 /// The stand-in as an older program would have written it, with `change` made to it: no seal.
@@ -81,7 +81,7 @@ fn a_changed_number_is_found_by_the_hash_of_the_content() {
         let data = file.dataset("slices/nu_0.3/remainder").unwrap();
         data.write_slice(&[0.25_f32], (1, 2, 3, 4..5)).unwrap();
     });
-    assert!(matches!(error, TableError::Checksum { .. }), "{error}");
+    assert!(matches!(error.what, BadTable::Checksum { .. }), "{error}");
 }
 
 #[test]
@@ -96,13 +96,11 @@ fn versions_kinds_and_gaps_are_named() {
     let error = refused(&folder, |file| {
         set_text(file, schema::FILE_TYPE, "hertzlamb impact results");
     });
-    assert!(
-        matches!(error, TableError::Foreign { found, .. } if found == "hertzlamb impact results")
-    );
+    assert!(matches!(error.what, BadTable::Foreign(found) if found == "hertzlamb impact results"));
     let error = refused(&folder, |file| {
         file.unlink("slices/nu_0.3/tail").unwrap();
     });
-    assert!(matches!(error, TableError::Item { item, .. } if item == "/slices/nu_0.3/tail"));
+    assert!(matches!(error.what, BadTable::Item { item, .. } if item == "/slices/nu_0.3/tail"));
     let error = refused(&folder, |file| {
         let nodes = file.dataset("r").unwrap();
         nodes.write_slice(&[9.0], 3..4).unwrap();
@@ -112,7 +110,7 @@ fn versions_kinds_and_gaps_are_named() {
     let error = refused(&folder, |file| {
         set_text(file, schema::FORMAT_VERSION, "2.2");
     });
-    assert!(matches!(error, TableError::Damaged { .. }), "{error}");
+    assert!(matches!(error.what, BadTable::Damaged(_)), "{error}");
 }
 
 /// The dataset `name` of the slice made anew.
@@ -125,8 +123,8 @@ fn replaced(file: &hdf5::File, name: &str, make: impl FnOnce(&hdf5::Group)) {
 #[test]
 fn numbers_that_lie_elsewhere_or_nowhere_are_refused() {
     let folder = tempfile::tempdir().unwrap();
-    let item = |change: &dyn Fn(&hdf5::File)| match refused(&folder, change) {
-        TableError::Item { item, detail, .. } => format!("{item}: {detail}"),
+    let item = |change: &dyn Fn(&hdf5::File)| match refused(&folder, change).what {
+        BadTable::Item { item, detail } => format!("{item}: {detail}"),
         other => panic!("{other}"),
     };
     let soft = item(&|file| {
@@ -206,7 +204,7 @@ fn sizes_are_compared_before_memory_is_asked_for() {
         });
     });
     assert!(
-        matches!(error, TableError::Dimensions { ref needed, .. } if *needed == [15, 12, 6, 40]),
+        matches!(error.what, BadTable::Dimensions { ref needed, .. } if *needed == [15, 12, 6, 40]),
         "{error}"
     );
     // Terabytes that are nowhere.

@@ -2,8 +2,8 @@
 
 use super::histories::{Histories, History};
 use super::{Claim, Redrawn, single};
+use crate::PaperError;
 use crate::case::{RADIUS_M, Runs, STRENGTH_PA};
-use crate::error::PaperError;
 use figure::{Axis, Figure, Legend, Panel, Style};
 use impact::Field;
 use std::f64::consts::FRAC_1_SQRT_2;

@@ -1,7 +1,7 @@
 //! Fields over time at the points of Figures 7 to 11.
 
+use crate::PaperError;
 use crate::case::RADIUS_M;
-use crate::error::PaperError;
 use contact::WaveSpeeds;
 use impact::{Field, FieldHistory, Run};
 use rayon::prelude::*;

@@ -6,8 +6,8 @@ mod histories;
 mod radius;
 mod step;
 
+use crate::PaperError;
 use crate::case::Runs;
-use crate::error::PaperError;
 use figure::{Figure, LabelledPoint, Layer, Panel};
 
 /// A figure of the paper, redrawn, or one that explains it.

@@ -1,8 +1,8 @@
 //! Figure 5: the contact stress against the radius.
 
 use super::{Claim, HERTZ, Redrawn, printed, single};
+use crate::PaperError;
 use crate::case::{PRINTED_PA, RADIUS_M, coupled, hertz, kmax};
-use crate::error::PaperError;
 use figure::{Axis, Panel, Style};
 use impact::Impact;
 use rayon::prelude::*;

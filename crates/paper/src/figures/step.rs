@@ -1,8 +1,8 @@
 //! The paper's scheme against its step.
 
 use super::{Claim, Redrawn, WIDTH};
+use crate::PaperError;
 use crate::case::{PRINTED_PA, RADIUS_M, STEP_S, TABLE_1_PA, VELOCITY_M_S, explicit, kmax};
-use crate::error::PaperError;
 use contact::{Collision, Exact, Solver};
 use figure::{Axis, Figure, Legend, Panel, Sharing, Style};
 use rayon::prelude::*;

@@ -29,11 +29,14 @@ pub(crate) fn frames(
         let last = chosen.len().saturating_sub(4);
         let doubt = section.doubt(&quantity, &chosen[last..])?;
         if doubt > DOUBT && !request.quantities.is_empty() {
-            return Err(PlotError::Coarse {
-                path: impact.path().to_owned(),
-                quantity: quantity.name,
-                percent: (100.0 * doubt).round(),
-            });
+            let path = impact.path();
+            let sentence = format!(
+                "{} by differences between the frames of {} would be wrong by {} %: give [map] more frames, or show displacement_z",
+                quantity.name,
+                path.display(),
+                (100.0 * doubt).round()
+            );
+            return Err(PlotError::refused(Some(path), sentence));
         }
         if doubt > DOUBT {
             notes.push("the frames are too far apart for velocities, the displacement is shown: give [map] more frames".to_owned());

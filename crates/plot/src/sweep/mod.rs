@@ -153,9 +153,7 @@ impl Nodes {
     /// Along an axis of a sweep, those of the key that is asked for.
     fn along(view: &View<'_>, number: usize, asked: Option<&str>) -> Result<Self, PlotError> {
         let Some((column, values)) = view.numbers(number, asked) else {
-            return Err(PlotError::NoNumbers {
-                key: view.sweep.axes[number].name.clone(),
-            });
+            return Err(PlotError::no_numbers(&view.sweep.axes[number].name));
         };
         let (name, unit) = of_key(&column.name);
         // grams for kilograms, which have a prefix already
@@ -330,10 +328,12 @@ fn few(view: &View<'_>, slices: Vec<Slice>, most: usize) -> Result<Vec<Slice>, P
     }
     let mut free = view.free().into_iter();
     let key = free.find_map(|i| view.sweep.axes[i].columns.first());
-    Err(PlotError::TooMany {
-        path: view.sweep.path().to_owned(),
-        count: slices.len(),
-        most,
-        key: key.map_or_else(String::new, |column| column.name.clone()),
-    })
+    let path = view.sweep.path();
+    let sentence = format!(
+        "{} would give {} curves, and {most} can be told apart: choose among them, such as by --at {}=VALUE",
+        path.display(),
+        slices.len(),
+        key.map_or("", |column| &column.name)
+    );
+    Err(PlotError::refused(Some(path), sentence))
 }

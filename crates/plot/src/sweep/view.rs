@@ -71,9 +71,7 @@ impl<'a> View<'a> {
             let (axis, column) = find(self.sweep, key)?;
             return match &column.values {
                 Values::Numbers(_) | Values::Drawn(_) => Ok(Some(axis)),
-                Values::Texts(_) => Err(PlotError::NoNumbers {
-                    key: key.to_owned(),
-                }),
+                Values::Texts(_) => Err(PlotError::no_numbers(key)),
             };
         }
         let free = self.free().into_iter();

@@ -4,7 +4,7 @@ use crate::error::BuildError;
 use crate::grid::Grid;
 use crate::point::PointKernels;
 use halfspace::Six;
-use lookup::{Content, ContentError, DamagedPatch, Slice, Table, TableError};
+use lookup::{BadTable, Content, ContentError, DamagedPatch, Slice, Table};
 use lookup::{content_hash, damaged_patches, schema};
 use rayon::prelude::*;
 use std::path::Path;
@@ -70,7 +70,7 @@ const ALLOWED_OF_FIRST_MOMENTS: f64 = 5e-3;
 pub fn check_table(path: &Path, sample: usize, seed: u64) -> Result<CheckReport, BuildError> {
     let content = match lookup::read(path) {
         Ok(content) => content,
-        Err(error @ TableError::Item { .. }) => {
+        Err(error) if matches!(error.what, BadTable::Item { .. }) => {
             let damaged = damaged_patches(path)?;
             if damaged.is_empty() {
                 return Err(error.into());
@@ -91,10 +91,7 @@ pub fn check_table(path: &Path, sample: usize, seed: u64) -> Result<CheckReport,
             ..CheckReport::default()
         });
     }
-    let wrong = |source| TableError::Content {
-        path: path.to_owned(),
-        source,
-    };
+    let wrong = |source| BadTable::Content(source).of(path);
     let table = Table::new(content).map_err(wrong)?;
     let content = table.content();
     let grid = Grid::of(content).map_err(|error| error.in_file(path))?;

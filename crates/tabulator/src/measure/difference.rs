@@ -6,10 +6,7 @@ use lookup::{Content, Slice};
 #[derive(Debug, Clone, PartialEq)]
 pub enum Difference {
     /// A setting or an axis is not the same.
-    Setting {
-        /// Which.
-        name: &'static str,
-    },
+    Setting { name: &'static str },
     /// A slice is in one table only.
     Slice {
         /// Its Poisson ratio.

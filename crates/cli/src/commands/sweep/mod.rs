@@ -2,24 +2,25 @@
 
 mod parts;
 mod plan;
-mod report;
+mod tally;
 
-use crate::commands::sweep::report::{Report, Tally};
-use crate::failure::{Failure, print, say};
+use crate::commands::sweep::tally::Tally;
+use crate::failure::{Failure, lines, say, show};
 use crate::interrupt;
 use crate::kernels::Kernels;
 use crate::memory::MemoryLimit;
-use crate::overwrite::{Overwrite, say_complete};
+use crate::overwrite::{Overwrite, check_rows, say_complete};
 use crate::progress::Bar;
 use clap::Args;
 use formats::parts::check_complete;
 use formats::sweep::{
-    Blocks, JournalError, Kept, Precision, Selection, Shard, Spec, SweepError, check_rows,
-    is_computed, print_csv, run_rows, stage_csv, stage_rows,
+    Blocks, JournalError, Kept, Precision, Selection, Shard, Spec, SweepError, is_computed,
+    print_csv, run_rows, stage_csv, stage_rows,
 };
 use formats::{Existing, Output, OutputError};
 use output::{CSV, Role, Staged, apart, behind, is_standard};
 use parts::Action;
+use serde_json::{Value, json};
 use std::io::{BufWriter, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -144,45 +145,104 @@ fn compute(arguments: &Run, sweep: &Path, output: &Path) -> Result<(), Failure> 
         ));
     }
     outputs.write(&spec, &kept)?;
-    let selection = outputs.selection.as_ref();
-    let report = Report {
-        output,
-        csv: arguments.csv.as_deref(),
-        shape: selection.map_or_else(
-            || spec.axes.iter().map(|axis| axis.len).collect(),
-            |selection| vec![selection.rows.len()],
-        ),
-        rows: tally.rows,
-        first_row: selection.map(|selection| selection.rows.start),
-        shard: selection.and_then(|s| Some(s.shard?.to_string())),
-        sweep_rows: spec.rows(),
-        sweep_sha256: spec.sha256(),
-        resumed: kept.resumed,
-        failed: tally.failed,
-        yielding: tally.yielding,
-        cracking: tally.cracking,
-        looked_up: tally.looked_up,
-        wall_s: start.elapsed().as_secs_f64(),
-        computing_s,
-    };
+    let wall_s = start.elapsed().as_secs_f64();
+    let (value, text) = report(
+        arguments,
+        &spec,
+        &outputs,
+        &tally,
+        [wall_s, computing_s],
+        kept.resumed,
+    );
     let done = if outputs.print {
-        say(report.text(&spec));
+        say(text);
         print_rows(&spec, &kept)
-    } else if arguments.json {
-        print(serde_json::to_string(&report).map_err(Failure::work)?)
     } else {
-        print(report.text(&spec))
+        show(arguments.json, &value, text)
     };
     kept.remove();
     done
 }
 
+/// What was done, in how many s and s of computing, with how many rows of an earlier run.
+fn report(
+    arguments: &Run,
+    spec: &Spec,
+    outputs: &Outputs,
+    tally: &Tally,
+    [wall_s, computing_s]: [f64; 2],
+    resumed: usize,
+) -> (Value, String) {
+    let Tally {
+        rows,
+        failed,
+        yielding,
+        cracking,
+        looked_up,
+        ..
+    } = *tally;
+    let output = outputs.results.path().display().to_string();
+    let part = outputs.selection.as_ref();
+    let shard = part.and_then(|part| Some(part.shard?.to_string()));
+    let lengths = spec.axes.iter().map(|axis| axis.len).collect();
+    let mut value = json!({
+        "output": output,
+        "csv": arguments.csv.as_ref().map(|path| path.display().to_string()),
+        "shape": part.map_or(lengths, |part| vec![part.rows.len()]),
+        "rows": rows,
+        "sweep_rows": spec.rows(),
+        "sweep_sha256": spec.sha256(),
+        "resumed": resumed,
+        "failed": failed,
+        "yielding": yielding,
+        "cracking": cracking,
+        "wall_s": wall_s,
+        "computing_s": computing_s,
+    });
+    let axes = spec.axes.iter();
+    let axes: Vec<String> = axes
+        .map(|axis| format!("{} ({})", axis.name, axis.len))
+        .collect();
+    let mut text = vec![("axes", axes.join(" x "))];
+    if let Some(part) = part {
+        let first = part.rows.start;
+        value["first_row"] = first.into();
+        let mut of = String::new();
+        if let Some(shard) = shard {
+            of = format!("shard {shard}: ");
+            value["shard"] = shard.into();
+        }
+        let rows = format!("{of}rows {first}:{} of {}", first + rows, spec.rows());
+        text.push(("part", rows));
+    }
+    text.push((
+        "scenes",
+        format!("{rows}, {failed} failed, {resumed} resumed"),
+    ));
+    if yielding + cracking > 0 {
+        text.push(("not elastic", format!(
+            "{yielding} yield (yield_onset above 1), {cracking} may crack (cone_crack_onset above 1)"
+        )));
+    }
+    if let Some(count) = looked_up {
+        value["looked_up"] = count.into();
+        let fields = format!("{count} of {rows} scenes looked up, the others computed");
+        text.push(("fields", fields));
+    }
+    text.push((
+        "time",
+        format!("{wall_s:.2} s, {computing_s:.2} s of it computing"),
+    ));
+    text.push(("written", output));
+    (value, lines(text))
+}
+
 /// The sweep, and what of its results is written.
 fn spec(arguments: &Run, sweep: &Path) -> Result<Spec, Failure> {
-    let spec = Spec::from_file(sweep).map_err(Failure::input)?;
+    let spec = Spec::from_file(sweep)?;
     let mut spec = arguments.kernels.with_fields(spec)?;
     if let Some(names) = &arguments.columns {
-        spec.fields = spec.fields.only(names).map_err(Failure::input)?;
+        spec.fields = spec.fields.only(names)?;
     }
     if arguments.float32 {
         spec.fields.precision = Precision::Single;
@@ -196,8 +256,8 @@ fn selection(arguments: &Run, spec: &Spec) -> Result<Option<Selection>, Failure>
         return Ok(Some(shard.selection(spec.rows())));
     }
     let rows = arguments.rows.clone();
-    rows.map(|rows| Selection::of_rows(rows, spec.rows()).map_err(Failure::input))
-        .transpose()
+    let rows = rows.map(|rows| Selection::of_rows(rows, spec.rows()));
+    Ok(rows.transpose()?)
 }
 
 /// Computes the rows; what is done is kept from moment to moment.
@@ -226,12 +286,11 @@ fn rows(overwrite: Overwrite, spec: &Spec, outputs: &Outputs) -> Result<Option<K
 
 fn failure(sweep: &Path, error: SweepError) -> Failure {
     match error {
-        SweepError::Scene(scene) => Failure::input(scene.in_file(sweep)),
-        SweepError::Journal(JournalError::Output(output)) => output.into(),
-        SweepError::Journal(other @ JournalError::Other { .. }) => Failure::input(format!(
-            "{other}; give --force to drop it, or another output to keep it"
-        )),
-        SweepError::Journal(journal) => Failure::input(journal),
+        SweepError::Scene(scene) => scene.in_file(sweep).into(),
+        SweepError::Journal(JournalError::Other { .. }) => {
+            Failure::from(error).hint("; give --force to drop it, or another output to keep it")
+        }
+        journal @ SweepError::Journal(_) => journal.into(),
     }
 }
 

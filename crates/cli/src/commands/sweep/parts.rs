@@ -1,14 +1,14 @@
 //! `hertzlamb sweep status` and `merge`: what a folder of parts has and lacks, and all of it in one file.
 
-use crate::failure::{Failure, print, say};
+use crate::failure::{Failure, lines, print, say, show};
 use crate::kernels::Kernels;
-use crate::overwrite::Overwrite;
+use crate::overwrite::{Overwrite, check_rows};
 use clap::Subcommand;
 use formats::parts::{Parts, PartsError};
 use formats::stored::Part;
-use formats::sweep::{Spec, check_rows};
+use formats::sweep::Spec;
 use output::ROWS;
-use serde::Serialize;
+use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, Subcommand)]
@@ -61,7 +61,7 @@ pub(crate) fn run(action: &Action) -> Result<(), Failure> {
             json,
         } => {
             let spec = sweep.as_deref().map(|path| {
-                let spec = Spec::from_file(path).map_err(Failure::input)?;
+                let spec = Spec::from_file(path)?;
                 kernels.with_fields(spec)
             });
             let spec = spec.transpose()?;
@@ -81,39 +81,6 @@ pub(crate) fn run(action: &Action) -> Result<(), Failure> {
     }
 }
 
-/// The JSON object of `sweep status --json`.
-#[derive(Debug, Serialize)]
-struct Status<'a> {
-    sweep_sha256: &'a str,
-    sweep_rows: usize,
-    rows: usize,
-    failed: usize,
-    /// Whether every row is there, once.
-    complete: bool,
-    shards: Option<usize>,
-    parts: Vec<Stored<'a>>,
-    /// First row and the one behind the last of each gap.
-    missing_rows: Vec<(usize, usize)>,
-    missing_shards: Option<Vec<usize>>,
-    overlap: Option<String>,
-    foreign: Vec<Stranger<'a>>,
-}
-
-#[derive(Debug, Serialize)]
-struct Stored<'a> {
-    file: &'a Path,
-    shard: Option<String>,
-    first_row: usize,
-    rows: usize,
-    failed: usize,
-}
-
-#[derive(Debug, Serialize)]
-struct Stranger<'a> {
-    file: &'a Path,
-    reason: &'a str,
-}
-
 fn status(parts: &Parts, shards: Option<usize>, list: bool, json: bool) -> Result<(), Failure> {
     let missing_shards = shards.map(|count| parts.missing_shards(count));
     if list {
@@ -125,77 +92,61 @@ fn status(parts: &Parts, shards: Option<usize>, list: bool, json: bool) -> Resul
         return print(ranges(missing));
     }
     let gaps = parts.missing();
-    let gap_rows: usize = gaps.iter().map(ExactSizeIterator::len).sum();
+    let rows = parts.sweep_rows - gaps.iter().map(ExactSizeIterator::len).sum::<usize>();
+    let failed: usize = parts.parts.iter().map(|part| part.failed).sum();
     let overlap = parts.overlap().map(|error| error.to_string());
-    let status = Status {
-        sweep_sha256: &parts.sha256,
-        sweep_rows: parts.sweep_rows,
-        rows: parts.sweep_rows - gap_rows,
-        failed: parts.parts.iter().map(|part| part.failed).sum(),
-        complete: gaps.is_empty() && overlap.is_none(),
-        shards,
-        parts: parts.parts.iter().map(stored).collect(),
-        missing_rows: gaps.iter().map(|gap| (gap.start, gap.end)).collect(),
-        missing_shards,
-        overlap,
-        foreign: (parts.foreign.iter())
-            .map(|foreign| Stranger {
-                file: &foreign.path,
-                reason: &foreign.reason,
-            })
-            .collect(),
-    };
-    if json {
-        return print(serde_json::to_string(&status).map_err(Failure::work)?);
+    let complete = gaps.is_empty() && overlap.is_none();
+    let foreign = parts.foreign.iter();
+    let value = json!({
+        "sweep_sha256": parts.sha256,
+        "sweep_rows": parts.sweep_rows,
+        "rows": rows,
+        "failed": failed,
+        "complete": complete,
+        "shards": shards,
+        "parts": parts.parts.iter().map(stored).collect::<Value>(),
+        "missing_rows": gaps.iter().map(|gap| json!([gap.start, gap.end])).collect::<Value>(),
+        "missing_shards": missing_shards,
+        "overlap": overlap,
+        "foreign": foreign
+            .map(|found| json!({ "file": found.path.display().to_string(), "reason": found.reason }))
+            .collect::<Value>(),
+    });
+    let count = parts.parts.len();
+    let of_rows = format!(
+        "{count} with {rows} of {} rows, {failed} failed",
+        parts.sweep_rows
+    );
+    let mut text = vec![("sweep", parts.sha256.clone()), ("parts", of_rows)];
+    if let (Some(missing), Some(count)) = (missing_shards, shards)
+        && !missing.is_empty()
+    {
+        text.push(("missing", format!("shards {} of {count}", ranges(&missing))));
     }
-    print(status.text())
+    for gap in gaps.iter().take(MOST_LINES) {
+        text.push(("missing", format!("rows {}:{}", gap.start, gap.end)));
+    }
+    if gaps.len() > MOST_LINES {
+        let more = gaps.len() - MOST_LINES;
+        text.push(("missing", format!("{more} more ranges of rows")));
+    }
+    text.extend(overlap.map(|overlap| ("twice", overlap)));
+    let foreign = parts.foreign.iter();
+    text.extend(foreign.map(|foreign| ("foreign", foreign.reason.clone())));
+    if complete {
+        text.push(("complete", "yes".to_owned()));
+    }
+    show(json, &value, lines(text))
 }
 
-fn stored(part: &Part) -> Stored<'_> {
-    Stored {
-        file: &part.path,
-        shard: part.selection.shard.map(|shard| shard.to_string()),
-        first_row: part.selection.rows.start,
-        rows: part.selection.rows.len(),
-        failed: part.failed,
-    }
-}
-
-impl Status<'_> {
-    fn text(&self) -> String {
-        let mut text = format!(
-            "sweep          {}\nparts          {} with {} of {} rows, {} failed",
-            self.sweep_sha256,
-            self.parts.len(),
-            self.rows,
-            self.sweep_rows,
-            self.failed
-        );
-        let mut line = |name: &str, value: &str| text.push_str(&format!("\n{name:15}{value}"));
-        match (&self.missing_shards, self.shards) {
-            (Some(missing), Some(count)) if !missing.is_empty() => {
-                line("missing", &format!("shards {} of {count}", ranges(missing)));
-            }
-            _ => {}
-        }
-        for (start, end) in self.missing_rows.iter().take(MOST_LINES) {
-            line("missing", &format!("rows {start}:{end}"));
-        }
-        if self.missing_rows.len() > MOST_LINES {
-            let more = self.missing_rows.len() - MOST_LINES;
-            line("missing", &format!("{more} more ranges of rows"));
-        }
-        if let Some(overlap) = &self.overlap {
-            line("twice", overlap);
-        }
-        for foreign in &self.foreign {
-            line("foreign", foreign.reason);
-        }
-        if self.complete {
-            line("complete", "yes");
-        }
-        text
-    }
+fn stored(part: &Part) -> Value {
+    json!({
+        "file": part.path.display().to_string(),
+        "shard": part.selection.shard.map(|shard| shard.to_string()),
+        "first_row": part.selection.rows.start,
+        "rows": part.selection.rows.len(),
+        "failed": part.failed,
+    })
 }
 
 /// Ranges that are told one by one.
@@ -259,29 +210,25 @@ fn merge(
     if empty > 0 {
         say(format!("note: {empty} parts have no rows"));
     }
-    if json {
-        return print(serde_json::json!({
-            "output": output,
-            "rows": parts.sweep_rows,
-            "parts": parts.parts.len(),
-            "sweep_sha256": parts.sha256,
-        }));
-    }
-    print(format!(
-        "written        {}, {} rows of {} parts",
-        output.display(),
-        parts.sweep_rows,
-        parts.parts.len()
-    ))
+    let output = output.display().to_string();
+    let (rows, count) = (parts.sweep_rows, parts.parts.len());
+    let value = json!({
+        "output": output,
+        "rows": rows,
+        "parts": count,
+        "sweep_sha256": parts.sha256,
+    });
+    let text = lines([("written", format!("{output}, {rows} rows of {count} parts"))]);
+    show(json, &value, text)
 }
 
 fn failure(error: PartsError) -> Failure {
-    match error {
-        PartsError::Output(output) => output.into(),
-        missing @ PartsError::Missing { .. } => {
-            Failure::input(format!("{missing}; hertzlamb sweep status lists them"))
-        }
-        other => Failure::input(other),
+    let missing = matches!(error, PartsError::Missing { .. });
+    let failure = Failure::from(error);
+    if missing {
+        failure.hint("; hertzlamb sweep status lists them")
+    } else {
+        failure
     }
 }
 

@@ -1,8 +1,8 @@
 //! `hertzlamb sweep --plan`: what a sweep takes, measured on a few of its rows.
 
-use crate::failure::{Failure, print};
+use crate::failure::{Failure, lines, show};
 use formats::sweep::{BLOCK, Rows, Spec, column_names, compute_rows, row_bytes};
-use serde::Serialize;
+use serde_json::json;
 use std::path::Path;
 use std::time::Instant;
 
@@ -15,34 +15,13 @@ const MEASURED_S: f64 = 1.0;
 /// Rows of the first measurement.
 const FIRST_ROWS: usize = 64;
 
-/// The JSON object of `sweep --plan --json`.
-#[derive(Debug, Serialize)]
-struct Plan {
-    rows: usize,
-    shards: usize,
-    /// Of the largest shard.
-    rows_per_shard: usize,
-    bytes_per_shard: usize,
-    /// While it is computed and written.
-    disk_bytes_per_shard: usize,
-    seconds_per_shard: f64,
-    seconds: f64,
-    bytes: usize,
-    rows_per_second: f64,
-    threads: usize,
-    measured_rows: usize,
-    sweep_sha256: String,
-    columns: Vec<String>,
-}
-
 pub(crate) fn run(
     sweep: &Path,
     spec: &Spec,
     shards: Option<u32>,
     json: bool,
 ) -> Result<(), Failure> {
-    let (measured_rows, rows_per_second) =
-        measure(spec).map_err(|error| Failure::input(error.in_file(sweep)))?;
+    let (measured_rows, rows_per_second) = measure(spec).map_err(|error| error.in_file(sweep))?;
     let rows = spec.rows();
     let seconds = rows as f64 / rows_per_second;
     let blocks = rows.div_ceil(BLOCK);
@@ -51,25 +30,59 @@ pub(crate) fn run(
     let count = shards.map_or(own, |count| count as usize);
     let rows_per_shard = (blocks.div_ceil(count) * BLOCK).min(rows);
     let (bytes, kept) = row_bytes(spec);
-    let plan = Plan {
-        rows,
-        shards: count,
-        rows_per_shard,
-        bytes_per_shard: rows_per_shard * bytes,
-        disk_bytes_per_shard: rows_per_shard * (bytes + kept),
-        seconds_per_shard: rows_per_shard as f64 / rows_per_second,
-        seconds,
-        bytes: rows * bytes,
-        rows_per_second,
-        threads: std::thread::available_parallelism().map_or(1, usize::from),
-        measured_rows,
-        sweep_sha256: spec.sha256(),
-        columns: column_names(spec),
-    };
-    if json {
-        return print(serde_json::to_string(&plan).map_err(Failure::work)?);
-    }
-    print(plan.text())
+    let bytes_per_shard = rows_per_shard * bytes;
+    let disk_bytes_per_shard = rows_per_shard * (bytes + kept);
+    let seconds_per_shard = rows_per_shard as f64 / rows_per_second;
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    let sha256 = spec.sha256();
+    let value = json!({
+        "rows": rows,
+        "shards": count,
+        "rows_per_shard": rows_per_shard,
+        "bytes_per_shard": bytes_per_shard,
+        "disk_bytes_per_shard": disk_bytes_per_shard,
+        "seconds_per_shard": seconds_per_shard,
+        "seconds": seconds,
+        "bytes": rows * bytes,
+        "rows_per_second": rows_per_second,
+        "threads": threads,
+        "measured_rows": measured_rows,
+        "sweep_sha256": sha256,
+        "columns": column_names(spec),
+    });
+    let gigabytes = |bytes: usize| format!("{:.3} GB", 1e-9 * bytes as f64);
+    let text = lines([
+        ("sweep", sha256),
+        ("rows", rows.to_string()),
+        (
+            "shards",
+            format!(
+                "{count} of up to {rows_per_shard} rows, {} and {seconds_per_shard:.3} s each",
+                gigabytes(bytes_per_shard)
+            ),
+        ),
+        (
+            "in all",
+            format!(
+                "{}, {seconds:.3} s on this machine",
+                gigabytes(rows * bytes)
+            ),
+        ),
+        (
+            "rate",
+            format!(
+                "{rows_per_second:.0} rows a second on {threads} threads, from {measured_rows} rows"
+            ),
+        ),
+        (
+            "disk",
+            format!(
+                "{} a shard while it is written",
+                gigabytes(disk_bytes_per_shard)
+            ),
+        ),
+    ]);
+    show(json, &value, text)
 }
 
 /// Rows spread over the sweep, and how many of them a second takes.
@@ -90,27 +103,5 @@ fn measure(spec: &Spec) -> Result<(usize, f64), formats::SceneError> {
             return Ok((count, count as f64 / took_s));
         }
         count = more.clamp(count + 1, spec.rows().min(1 << 20));
-    }
-}
-
-impl Plan {
-    fn text(&self) -> String {
-        format!(
-            "sweep          {}\nrows           {}\nshards         {} of up to {} rows, {:.3} GB and {:.3} s each\n\
-             in all         {:.3} GB, {:.3} s on this machine\nrate           {:.0} rows a second on {} threads, from {} rows\n\
-             disk           {:.3} GB a shard while it is written",
-            self.sweep_sha256,
-            self.rows,
-            self.shards,
-            self.rows_per_shard,
-            1e-9 * self.bytes_per_shard as f64,
-            self.seconds_per_shard,
-            1e-9 * self.bytes as f64,
-            self.seconds,
-            self.rows_per_second,
-            self.threads,
-            self.measured_rows,
-            1e-9 * self.disk_bytes_per_shard as f64,
-        )
     }
 }

@@ -1,0 +1,179 @@
+//! The one face of every error: a sentence for people, a [`Culprit`] for programs.
+//!
+//! Each error says itself what it is about, beside its sentence; exit codes of the command, its errors as JSON and the
+//! exceptions of Python follow from that.
+//!
+//! ```
+//! use fault::{Class, Culprit, Fault, Remedy};
+//!
+//! #[derive(Debug)]
+//! struct TooHeavy(f64);
+//!
+//! impl std::fmt::Display for TooHeavy {
+//!     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+//!         write!(f, "mass_kg = {} is outside (0, 1e6]", self.0)
+//!     }
+//! }
+//!
+//! impl Fault for TooHeavy {
+//!     fn culprit(&self) -> Culprit<'_> {
+//!         Culprit::of(Class::Scene).key("mass_kg").number(self.0).range("(0, 1e6]")
+//!     }
+//! }
+//!
+//! let culprit = TooHeavy(1e9).culprit();
+//! assert_eq!((culprit.key, culprit.remedy), (Some("mass_kg"), Remedy::Change));
+//! ```
+
+use std::fmt::{Debug, Display};
+use std::path::Path;
+
+/// An error with one face.
+pub trait Fault: Debug + Display {
+    /// What it is about.
+    fn culprit(&self) -> Culprit<'_>;
+}
+
+/// Which kind of thing is at fault.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Class {
+    /// A scene, a sweep, a grid or an argument.
+    Scene,
+    /// A number outside the physics.
+    Domain,
+    /// A question outside a kernel table.
+    OutsideTable,
+    /// The file of a kernel table.
+    Table,
+    /// An impact that has no results.
+    Impact,
+    /// Memory that is not there.
+    Memory,
+    /// An output that exists already.
+    Exists,
+    /// An output that cannot be written.
+    Output,
+    /// Anything else that failed.
+    Work,
+}
+
+impl Class {
+    /// Its name for programs.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Scene => "scene",
+            Self::Domain => "domain",
+            Self::OutsideTable => "outside_table",
+            Self::Table => "table",
+            Self::Impact => "impact",
+            Self::Memory => "memory",
+            Self::Exists => "exists",
+            Self::Output => "output",
+            Self::Work => "work",
+        }
+    }
+}
+
+/// What can be done.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Remedy {
+    /// Change what was given.
+    Change,
+    /// Nothing that is known: the work itself failed.
+    Unknown,
+    /// Try the same again later.
+    Wait,
+}
+
+/// What a program can use of an error; none where it has no such thing.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Culprit<'a> {
+    pub class: Class,
+    pub remedy: Remedy,
+    /// Full name of the key, the argument or the axis at fault.
+    pub key: Option<&'a str>,
+    /// The number found.
+    pub number: Option<f64>,
+    /// The word found.
+    pub word: Option<&'a str>,
+    /// What is allowed, in interval notation or as names.
+    pub range: Option<&'a str>,
+    /// The same as two numbers.
+    pub limits: Option<[f64; 2]>,
+    /// The nearest name that exists.
+    pub suggestion: Option<&'a str>,
+    pub file: Option<&'a Path>,
+}
+
+impl<'a> Culprit<'a> {
+    /// One of whom no more is known: failed work has no remedy, everything else can be changed.
+    #[must_use]
+    pub fn of(class: Class) -> Self {
+        Self {
+            class,
+            remedy: match class {
+                Class::Work => Remedy::Unknown,
+                _ => Remedy::Change,
+            },
+            key: None,
+            number: None,
+            word: None,
+            range: None,
+            limits: None,
+            suggestion: None,
+            file: None,
+        }
+    }
+
+    /// The same where nothing that is known helps.
+    #[must_use]
+    pub fn unmendable(self) -> Self {
+        let remedy = Remedy::Unknown;
+        Self { remedy, ..self }
+    }
+
+    #[must_use]
+    pub fn key(self, key: &'a str) -> Self {
+        let key = Some(key);
+        Self { key, ..self }
+    }
+
+    #[must_use]
+    pub fn number(self, number: f64) -> Self {
+        let number = Some(number);
+        Self { number, ..self }
+    }
+
+    #[must_use]
+    pub fn word(self, word: &'a str) -> Self {
+        let word = Some(word);
+        Self { word, ..self }
+    }
+
+    #[must_use]
+    pub fn range(self, range: &'a str) -> Self {
+        let range = Some(range);
+        Self { range, ..self }
+    }
+
+    #[must_use]
+    pub fn file(self, file: &'a Path) -> Self {
+        let file = Some(file);
+        Self { file, ..self }
+    }
+}
+
+/// A sentence alone.
+impl Fault for String {
+    fn culprit(&self) -> Culprit<'_> {
+        Culprit::of(Class::Work)
+    }
+}
+
+/// A sentence alone.
+impl Fault for &str {
+    fn culprit(&self) -> Culprit<'_> {
+        Culprit::of(Class::Work)
+    }
+}
