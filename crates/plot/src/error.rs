@@ -1,7 +1,7 @@
 //! Why there is no picture; and what is looked for by its name, with the error that it is not there.
 
 use crate::request::Kind;
-use contact::nearest;
+use contact::{Choice, nearest};
 use formats::stored::{FileKind, ReadError, StoredQuantity};
 use impact::FieldsError;
 use std::path::{Path, PathBuf};
@@ -75,15 +75,41 @@ pub enum PlotError {
         /// What is there.
         allowed: String,
     },
-    /// Frames too far apart in time for a velocity.
-    #[error("{quantity} by differences between the frames of {} would be wrong by {percent} %: give [map] more frames, or show displacement_z", path.display())]
-    Coarse {
+    /// A quantity that the scene did not ask for.
+    #[error("{} has no {quantity}: give the scene [output] quantities = [\"{quantity}\"]", path.display())]
+    NotComputed {
         /// The file.
         path: PathBuf,
         /// What was asked for.
         quantity: String,
-        /// Error in per cent, as the root of mean squares.
-        percent: f64,
+    },
+    /// Times for a picture of all of them.
+    #[error("the picture {kind} shows all times: only waves and axis show those that are given")]
+    AllTimes {
+        /// What is shown.
+        kind: Kind,
+    },
+    /// Limits that are no interval, or not one of what is shown.
+    #[error("the limits {low}:{high} are not those of a picture: {why}")]
+    Limits {
+        /// The lower one.
+        low: f64,
+        /// The upper one.
+        high: f64,
+        /// Why not.
+        why: &'static str,
+    },
+    /// A value of a key that a sweep has not.
+    #[error("{key} = {value} is not in {}; it has {allowed}", path.display())]
+    Value {
+        /// The file.
+        path: PathBuf,
+        /// The key.
+        key: String,
+        /// What was asked for.
+        value: String,
+        /// What is there.
+        allowed: String,
     },
     /// More curves than a picture can show.
     #[error("{} would give {count} curves, and {most} can be told apart: choose among them, such as by --at {key}=VALUE", path.display())]
@@ -138,6 +164,12 @@ impl PlotError {
         word: &str,
         known: impl IntoIterator<Item = &'a str>,
     ) -> Self {
+        if impact::Quantity::named(word).is_some() {
+            return Self::NotComputed {
+                path: path.to_owned(),
+                quantity: word.to_owned(),
+            };
+        }
         let known: Vec<&str> = known.into_iter().collect();
         Self::Quantity {
             path: path.to_owned(),
