@@ -87,7 +87,8 @@ impl From<impact::ImpactError> for Failure {
             | E::Fields(_)
             | E::TooManySamples(_)
             | E::Domain(_)
-            | E::NoDisc => Self::input(error),
+            | E::NoDisc
+            | E::TooWide { .. } => Self::input(error),
         }
     }
 }

@@ -162,7 +162,8 @@ pub(crate) fn of_impact(py: Python<'_>, error: &ImpactError, file: Option<&Path>
         | E::TooManySamples(_)
         | E::TooMuch(_)
         | E::NotFinite(_)
-        | E::NoDisc => exception(py, "ImpactError", &message, &json!({})),
+        | E::NoDisc
+        | E::TooWide { .. } => exception(py, "ImpactError", &message, &json!({})),
     }
 }
 
