@@ -13,7 +13,7 @@ DOCUMENTS = [path for path in DOCUMENTS + list(ROOT.glob("crates/*/README.md")) 
 TEXTS = {path.relative_to(ROOT).as_posix(): path.read_text(encoding="utf-8") for path in DOCUMENTS}
 SCRIPTS = sorted(path for path in (ROOT / "scripts").iterdir() if path.is_file())
 SOURCES = {path.relative_to(ROOT).as_posix(): path.read_text(encoding="utf-8") for path in SCRIPTS}
-TOLD = re.compile(r"scripts/([a-z_-]+(?:\.py)?)((?: +(?:--?[a-z-]+|[A-Z0-9.]+))*)")
+TOLD = re.compile(r"scripts/([a-z_-]+(?:\.py)?)((?: +(?:--?[a-z][a-z-]*|[A-Z0-9.]+))*)")
 
 
 def options(name):
