@@ -1,5 +1,7 @@
 """What documents say of scripts: that these are there, take those options, and build what exists."""
 
+import importlib.machinery
+import importlib.util
 import json
 import re
 import subprocess
@@ -65,3 +67,11 @@ def test_targets_of_cargo_exist():
                 assert (kind, target) in everywhere, f"{name}: {kind} {target}"
             for target in re.findall(r"release/examples/([a-z_]+)", line):
                 assert ("example", target) in everywhere, f"{name}: {target}"
+
+
+def test_mutations_are_of_the_source_as_it_is():
+    loader = importlib.machinery.SourceFileLoader("check_mutations", str(ROOT / "scripts" / "check-mutations"))
+    script = importlib.util.module_from_spec(importlib.util.spec_from_loader("check_mutations", loader))
+    loader.exec_module(script)
+    for crate, _, _, file, sound, _ in script.MUTATIONS:
+        assert (ROOT / "crates" / crate / file).read_text(encoding="utf-8").count(sound) == 1, f"{crate} {file}: {sound}"
