@@ -17,8 +17,11 @@ PROCESS_S = 0.05
 """What a process takes beside its fields, at most."""
 
 
-def test_there_are_ten_jobs():
+def test_what_is_forecast_is_described():
     assert len(JOBS) >= 10
+    document = (ROOT / "data-schema" / "results.md").read_text()
+    for key in json.loads(run("impact", ROOT / "scenes" / "sensor.toml", "--dry-run", "--json").stdout):
+        assert f"`{key}`" in document, key
 
 
 @pytest.mark.parametrize(("name", "scene", "arguments", "most"), JOBS, ids=lambda value: value if isinstance(value, str) and "\n" not in value else "")
