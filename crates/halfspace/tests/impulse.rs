@@ -69,6 +69,12 @@ fn times_too_short_to_tell_apart_give_the_same() {
     for (r, z) in [(0.5, 0.0), (0.3, 1e-12), (0.0, 0.0)] {
         let [short, shorter] = [1e-20, 1e-86].map(|t| kernel.impulse(r, z, t).unwrap());
         assert_eq!(short.value, shorter.value);
-        assert!(shorter.error.iter().chain(&shorter.value).all(|x| x.is_finite()));
+        assert!(
+            shorter
+                .error
+                .iter()
+                .chain(&shorter.value)
+                .all(|x| x.is_finite())
+        );
     }
 }

@@ -89,7 +89,9 @@ pub(super) fn contact_panels(
 fn deflection_name(impact: &StoredImpact) -> &'static str {
     match (impact.model.as_str(), impact.static_share.as_str()) {
         ("prescribed", _) => "disc",
-        ("hertz" | "radiation" | "growing", _) | (_, "dynamic") => "half-space, dynamic part",
+        ("hertz" | "radiation" | "area_dashpot" | "growing", _) | (_, "dynamic") => {
+            "half-space, dynamic part"
+        }
         _ => "half-space",
     }
 }
