@@ -10,8 +10,6 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, Protocol
 
-import numpy as np
-
 from hertzlamb import _core
 from hertzlamb._errors import HertzlambWarning, OutputExists, SceneError
 from hertzlamb._fields import FIELDS
@@ -19,6 +17,7 @@ from hertzlamb._progress import Progress, told
 from hertzlamb._table import Table
 
 if TYPE_CHECKING:
+    import numpy as np
     import xarray as xr
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
