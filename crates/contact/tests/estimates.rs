@@ -16,10 +16,11 @@ use rayon::prelude::*;
 use solids::material;
 use support::Draws;
 
-/// Scenes of each kind: `HERTZLAMB_SCENES=1000` draws as many as one case in a hundred needs, and takes ten minutes.
+/// Scenes of each kind; among the next forty is one beside the area dashpot whose reference takes minutes.
+/// `HERTZLAMB_SCENES=1000` draws as many as one case in a hundred needs, and takes more than ten.
 fn scenes() -> u64 {
     let asked = std::env::var("HERTZLAMB_SCENES").ok();
-    asked.and_then(|n| n.parse().ok()).unwrap_or(100)
+    asked.and_then(|n| n.parse().ok()).unwrap_or(60)
 }
 
 /// Scenes in a hundred that may exceed their estimate, and what chance adds to a few draws.
