@@ -1,9 +1,7 @@
 #!/usr/bin/env python3
-"""Reads a results file of `hertzlamb impact`: what it holds, its largest force, and its probes.
+"""Reads a results file of `hertzlamb impact`: what it holds, its largest force, and its probes."""
 
-.venv/bin/python scripts/read_results.py impact.h5
-"""
-
+import argparse
 import sys
 
 import h5py
@@ -55,6 +53,6 @@ def main(path):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 2:
-        sys.exit("usage: read_results.py RESULTS.h5")
-    main(sys.argv[1])
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("path", metavar="RESULTS.h5")
+    main(parser.parse_args().path)

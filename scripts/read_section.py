@@ -1,16 +1,18 @@
 #!/usr/bin/env python3
 """Steps through the section of a results file with pyvista, as ParaView reads it, and prints each frame's range.
 
-Needs pyvista: .venv/bin/python -m pip install -r scripts/requirements/pyvista.txt
-.venv/bin/python scripts/read_section.py waves.vtkhdf [FIELD]
-
 `hertzlamb plot waves.vtkhdf -o waves.svg` draws it.
 """
 
+import argparse
 import sys
 
 import h5py
-import pyvista
+
+try:
+    import pyvista
+except ImportError:
+    pyvista = None
 
 
 def times(path):
@@ -27,6 +29,8 @@ def times(path):
 
 def frames(path):
     """Yields (time in s, mesh) of every frame; x is the distance from the axis, y minus the depth."""
+    if pyvista is None:
+        sys.exit("pyvista is not installed: .venv/bin/python -m pip install -r scripts/requirements/pyvista.txt")
     if not path.endswith(".vtkhdf"):
         sys.exit(f"{path} does not end in .vtkhdf, by which pyvista and ParaView know the format")
     known = times(path)
@@ -38,7 +42,7 @@ def frames(path):
         yield time_s, pyvista.wrap(reader.GetOutputDataObject(0)).copy()
 
 
-def main(path, field="stress_zz"):
+def main(path, field):
     for time_s, mesh in frames(path):
         if field not in mesh.point_data:
             sys.exit(f"{field} is not in {path}; it has {', '.join(mesh.point_data.keys())}")
@@ -47,6 +51,8 @@ def main(path, field="stress_zz"):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) not in (2, 3):
-        sys.exit("usage: read_section.py RESULTS.vtkhdf [FIELD]")
-    main(*sys.argv[1:])
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("path", metavar="RESULTS.vtkhdf")
+    parser.add_argument("field", metavar="FIELD", nargs="?", default="stress_zz")
+    arguments = parser.parse_args()
+    main(arguments.path, arguments.field)

@@ -10,8 +10,6 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, Protocol
 
-import numpy as np
-
 from hertzlamb import _core
 from hertzlamb._errors import HertzlambWarning, OutputExists, SceneError
 from hertzlamb._fields import FIELDS
@@ -19,6 +17,7 @@ from hertzlamb._progress import Progress, told
 from hertzlamb._table import Table
 
 if TYPE_CHECKING:
+    import numpy as np
     import xarray as xr
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
@@ -99,6 +98,9 @@ class _Kept:
 class _Group(Mapping[str, "NDArray[Any]"]):
     """Arrays by name, also as attributes."""
 
+    _more = ""
+    """How to get more of them."""
+
     def __init__(self, arrays: dict[str, Any]) -> None:
         self._arrays = arrays
 
@@ -106,7 +108,7 @@ class _Group(Mapping[str, "NDArray[Any]"]):
         try:
             array: NDArray[Any] = self._arrays[name]
         except KeyError:
-            raise KeyError(f"{name!r} is not one of {', '.join(self._arrays)}") from None
+            raise KeyError(f"{name!r} is not one of {', '.join(self._arrays)}{self._more}") from None
         return array
 
     def __iter__(self) -> Any:
@@ -118,7 +120,7 @@ class _Group(Mapping[str, "NDArray[Any]"]):
     def __getattr__(self, name: str) -> NDArray[Any]:
         if not name.startswith("_") and name in self._arrays:
             return self[name]
-        raise AttributeError(f"{type(self).__name__} has no {name!r}; there are {', '.join(self._arrays)}")
+        raise AttributeError(f"{type(self).__name__} has no {name!r}; there are {', '.join(self._arrays)}{self._more}")
 
     def __dir__(self) -> list[str]:
         return [*super().__dir__(), *self._arrays]
@@ -138,6 +140,9 @@ class Energy(_Group):
     """Where the energy is over time in J: ``kinetic`` or ``work``, ``stored``, ``radiated``, each (time,)."""
 
 
+_ASK = '; the scene asks for more, such as "output": {"quantities": ["velocity_z"]}'
+
+
 class Probes(_Group):
     """Fields over time at the probes of a scene, by name and as attributes.
 
@@ -148,6 +153,8 @@ class Probes(_Group):
     What ``output.quantities`` of the scene asks for beside them has its own name (``velocity_z``, ``von_mises`` ...), and
     ``output.peaks`` adds ``NAME_peak`` and ``NAME_peak_time`` (probe,).
     """
+
+    _more = _ASK
 
     def __init__(self, arrays: dict[str, Any], time: Floats) -> None:
         super().__init__(arrays)
@@ -171,27 +178,6 @@ class Probes(_Group):
         names = [name.removesuffix(ending) for name in self._arrays if name.endswith(ending)]
         return _Group({name: self._arrays[name + ending] for name in names})
 
-    @property
-    def velocity_r(self) -> Floats:
-        """Radial particle velocity in m/s, positive outwards, (probe, time).
-
-        That of the kernels where the scene asks for it (``"output": {"quantities": ["velocity_r"]}``), else central
-        differences of the displacement.
-        """
-        return self._rate("velocity_r", "displacement_r")
-
-    @property
-    def velocity_z(self) -> Floats:
-        """Axial particle velocity in m/s, positive into the half-space, (probe, time); as `velocity_r`."""
-        return self._rate("velocity_z", "displacement_z")
-
-    def _rate(self, name: str, of: str) -> Floats:
-        if name in self._arrays:
-            stored: Floats = self._arrays[name]
-            return stored
-        rate: Floats = np.gradient(self._arrays[of], self._time, axis=1)
-        return rate
-
 
 class Section(_Group):
     """Fields on a meridional section, by name and as attributes.
@@ -201,6 +187,8 @@ class Section(_Group):
     What ``output.quantities`` of the scene asks for beside them has its own name, and ``output.peaks`` adds ``NAME_peak``
     and ``NAME_peak_time`` (z, r).
     """
+
+    _more = _ASK
 
     def to_xarray(self) -> xr.Dataset:
         """The section as a data set with the dimensions time, z and r."""
@@ -392,7 +380,7 @@ class Impact:
 
         return force(self, axes)
 
-    def plot_probes(self, quantity: str = "velocity_z") -> Figure:
+    def plot_probes(self, quantity: str = "displacement_z") -> Figure:
         """Draws a field or a velocity at every probe over time, with the arrivals of the waves (matplotlib)."""
         from hertzlamb._plot import probes
 

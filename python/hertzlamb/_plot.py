@@ -71,7 +71,7 @@ def probes(run: Impact, quantity: str) -> Figure:
     found = run.probes
     import matplotlib.pyplot as plt
 
-    _known(quantity, tuple(name for name in _FIELDS if name in found or name in ("velocity_r", "velocity_z")))
+    _known(quantity, tuple(name for name in _FIELDS if name in found))
     values = getattr(found, quantity)
     count = len(found.r)
     figure, panels = plt.subplots(count, 1, sharex=True, squeeze=False, layout="constrained", figsize=(7, 1 + 1.8 * count))

@@ -87,7 +87,7 @@ def test_the_csv_has_the_same_numbers(sweep):
 def test_the_section_opens_in_vtk(tmp_path):
     pyvista = pytest.importorskip("pyvista")
     scene = (ROOT / "scenes" / "section.toml").read_text()
-    scene = scene.replace("points = [81, 81]", "points = [5, 4]").replace("frames = 120", "frames = 3")
+    scene = scene.replace("points = [41, 41]", "points = [5, 4]").replace("frames = 60", "frames = 3")
     (tmp_path / "scene.toml").write_text(scene)
     path = tmp_path / "section.vtkhdf"
     run_well("impact", tmp_path / "scene.toml", "-o", path)

@@ -4,7 +4,7 @@
     python point_load.py            print the rows
     python point_load.py --write    write the file
 
-Needs what scripts/requirements/compare-kernels.txt lists.
+Needs what scripts/requirements/point-load.txt lists.
 The package evaluates the generalised closed form of Zhang and Feng; lamb1 has source and receiver on the surface,
 lamb2 has the receiver below it.
 Units and signs are those of point_load.md.

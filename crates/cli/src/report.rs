@@ -152,7 +152,7 @@ fn output_lines(outcome: &Outcome) -> Vec<String> {
     let mut lines = vec![format!(
         "output         {} steps of {}, {probes} probe{}, kernel {}",
         time_s.len().saturating_sub(1),
-        si(time_s.get(1).copied().unwrap_or(0.0), "s"),
+        si(outcome.step_s(), "s"),
         if probes == 1 { "" } else { "s" },
         kernel_name(outcome)
     )];

@@ -4,9 +4,6 @@ use std::sync::OnceLock;
 use tiny_skia::{Path, PathBuilder, Transform};
 use ttf_parser::{Face, GlyphId, OutlineBuilder};
 
-/// Name of the font, and what takes its place in a viewer that does not have it.
-pub(crate) const FAMILY: &str = "Ubuntu, sans-serif";
-
 /// Top of the tallest letters above the line over the font's size.
 pub(crate) const ASCENT: f64 = 0.78;
 

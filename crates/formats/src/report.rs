@@ -103,7 +103,7 @@ pub fn json_report(scene: &Scene, outcome: &Outcome, wall_s: f64) -> Value {
         "convolution": used.map_or("", |used| used.convolution.name()),
         "table_id": table_id,
         "steps": time_s.len().saturating_sub(1),
-        "step_s": time_s.get(1).copied().unwrap_or(0.0),
+        "step_s": outcome.step_s(),
     });
     let treated = treatment(scene).into_iter();
     let treated: Map<_, _> = treated

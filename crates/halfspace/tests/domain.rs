@@ -6,6 +6,7 @@ use halfspace::{
     Arrivals, Deflection, DomainError, Estimate, Kernel, Medium, Profile, SurfaceResponse, kausel,
 };
 use proptest::prelude::*;
+use proptest::test_runner::FileFailurePersistence;
 
 const PROFILES: [Profile; 3] = [Profile::Hertz, Profile::Punch, Profile::Point];
 
@@ -96,7 +97,7 @@ fn sound(estimate: &Estimate) -> bool {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 2000, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 2000, failure_persistence: Some(Box::new(FileFailurePersistence::WithSource("regressions"))), ..ProptestConfig::default() })]
 
     #[test]
     fn a_medium_is_one_or_an_error(nu in any_number(), speed in any_number()) {
@@ -191,7 +192,7 @@ proptest! {
 
 proptest! {
     // a response takes a millisecond to prepare
-    #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 200, failure_persistence: Some(Box::new(FileFailurePersistence::WithSource("regressions"))), ..ProptestConfig::default() })]
 
     #[test]
     fn surface_responses_are_finite(t in any_number(), medium in any_medium()) {

@@ -8,6 +8,7 @@ mod support;
 
 use halfspace::{Arrivals, FIELDS, Kernel, Medium, Profile, Six};
 use proptest::prelude::*;
+use proptest::test_runner::FileFailurePersistence;
 use support::{NAMES, Stream, heading, line, peaks, step};
 
 const PROFILES: [Profile; 3] = [Profile::Hertz, Profile::Punch, Profile::Point];
@@ -43,7 +44,7 @@ fn curvature(h: f64, f: impl Fn(f64) -> Six) -> Six {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 128, max_global_rejects: 20_000, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 128, max_global_rejects: 20_000, failure_persistence: Some(Box::new(FileFailurePersistence::WithSource("regressions"))), ..ProptestConfig::default() })]
 
     #[test]
     fn nothing_moves_before_the_first_arrival(

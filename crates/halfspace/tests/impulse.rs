@@ -60,3 +60,21 @@ fn other_profiles_are_refused() {
         );
     }
 }
+
+/// Shorter times than 1e-20 are taken as that: what follows would be rounding, whose error overflows.
+#[test]
+fn times_too_short_to_tell_apart_give_the_same() {
+    let medium = Medium::new(0.3).unwrap();
+    let kernel = Kernel::new(&medium, Profile::Hertz, 1e-10).unwrap();
+    for (r, z) in [(0.5, 0.0), (0.3, 1e-12), (0.0, 0.0)] {
+        let [short, shorter] = [1e-20, 1e-86].map(|t| kernel.impulse(r, z, t).unwrap());
+        assert_eq!(short.value, shorter.value);
+        assert!(
+            shorter
+                .error
+                .iter()
+                .chain(&shorter.value)
+                .all(|x| x.is_finite())
+        );
+    }
+}

@@ -11,6 +11,7 @@ use halfspace::{Deflection, Medium, SurfaceResponse};
 use hertzlamb::{contact, halfspace, impact};
 use impact::Impact;
 use proptest::prelude::{ProptestConfig, proptest};
+use proptest::test_runner::FileFailurePersistence;
 
 #[derive(Debug, Clone, Copy)]
 struct Scale {
@@ -193,7 +194,7 @@ fn loss_tolerance_is_heeded_by_auto() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(24))]
+    #![proptest_config(ProptestConfig { cases: 24, failure_persistence: Some(Box::new(FileFailurePersistence::WithSource("regressions"))), ..ProptestConfig::default() })]
     #[test]
     fn results_scale_with_the_units(a in -3.0_f64..3.0, b in -2.0_f64..2.0, c in -3.0_f64..3.0) {
         let scale = Scale { length: 10_f64.powf(a), density: 10_f64.powf(b), modulus: 10_f64.powf(c) };

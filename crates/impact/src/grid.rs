@@ -77,7 +77,7 @@ impl Wanted {
         match excitation.record() {
             None => excitation.pulse_s() / self.samples_of_contact(),
             Some(record) => {
-                let stretches = record.stretches(self.settling_s(excitation));
+                let stretches = record.stretches(self.settling_s(excitation), self.tolerance);
                 let unit_s = excitation.units().time_s();
                 record.step_s(&stretches, self.tolerance, unit_s, MOST_RECORD)
             }
@@ -118,17 +118,16 @@ impl Wanted {
             count: ((to_s - from_s) / step_s).ceil().min(1e15) as usize + 1,
         };
         let settling_s = self.settling_s(excitation);
-        let stretches = excitation
-            .record()
-            .map_or_else(Vec::new, |record| record.stretches(settling_s));
+        let stretches = excitation.record().map_or_else(Vec::new, |record| {
+            record.stretches(settling_s, self.tolerance)
+        });
         let begins_s = |i: usize| match stretches.get(i) {
             // a short lead is kept, so that a record that begins at once is sampled from 0
             Some(stretch) if i > 0 || stretch.span_s[0] > settling_s => stretch.span_s[0],
             Some(_) => 0.0,
             None => f64::INFINITY,
         };
-        let whole = begins_s(0) == 0.0 && stretches.len() < 2;
-        if stretches.is_empty() || whole && self.duration_s.is_none() {
+        if stretches.is_empty() {
             return vec![run(0.0, duration_s, 0.0)];
         }
         let mut runs = Vec::new();

@@ -122,6 +122,15 @@ pub struct Outcome {
 }
 
 impl Outcome {
+    /// Step of the output in s; a record that is quiet for long begins with a gap.
+    #[must_use]
+    pub fn step_s(&self) -> f64 {
+        let time_s = &self.series.time_s;
+        let first = time_s.get(1).map_or(0.0, |second| second - time_s[0]);
+        let mut steps = time_s.windows(2).map(|pair| pair[1] - pair[0]);
+        steps.find(|step| *step < 0.5 * first).unwrap_or(first)
+    }
+
     /// The results of a contact; none for a record.
     #[must_use]
     pub fn results(&self) -> Option<&Results> {

@@ -61,6 +61,16 @@ pub enum ImpactError {
     /// A record without the disc that it loads.
     #[error("a force record needs the radius of the disc that it loads: set disc_radius_m")]
     NoDisc,
+    /// A disc so large beside the record that only rounding would be left.
+    #[error(
+        "disc_radius_m = {radius_m} is outside (0, {largest_m:.3e}]: waves cross too little of a larger disc while the record lasts"
+    )]
+    TooWide {
+        /// Radius of the disc in m.
+        radius_m: f64,
+        /// The largest for this record in m.
+        largest_m: f64,
+    },
 }
 
 impl Fault for ImpactError {
@@ -101,6 +111,13 @@ impl Fault for ImpactError {
             | Self::TooMuch(_)
             | Self::NotFinite(_) => culprit,
             Self::NoDisc => culprit.key("disc_radius_m"),
+            Self::TooWide {
+                radius_m,
+                largest_m,
+            } => Culprit {
+                limits: Some([0.0, *largest_m]),
+                ..culprit.key("disc_radius_m").number(*radius_m)
+            },
         }
     }
 }
@@ -219,6 +236,10 @@ fn of_strike(scene: &Scene, strike: &Strike, asked: Asked<'_>) -> Result<Outcome
     ))
 }
 
+/// What longitudinal waves have to cross of a disc while a record lasts, over its radius: less of it is lost in rounding,
+/// by 2e-4 at this and by 4e-2 at a tenth of it.
+const CROSSED: f64 = 1e-5;
+
 fn of_record(
     scene: &Scene,
     record: &ForceRecord,
@@ -226,6 +247,14 @@ fn of_record(
 ) -> Result<Outcome, ImpactError> {
     let radius_m = scene.settings.disc_radius_m.ok_or(ImpactError::NoDisc)?;
     let excitation = Excitation::of_record(&scene.target, radius_m, record.clone())?;
+    let [start_s, end_s] = record.span_s();
+    let largest_m = (end_s - start_s) * excitation.units().longitudinal_speed_m_s / CROSSED;
+    if radius_m > largest_m {
+        return Err(ImpactError::TooWide {
+            radius_m,
+            largest_m,
+        });
+    }
     let computed = Computed::new(asked, &excitation)?;
     let deflection_m = computed.disc_deflection_m(scene.settings.deflection, StaticShare::Full);
     let energy = EnergySeries::of_record(&excitation, &computed.grid, &computed.force_n);

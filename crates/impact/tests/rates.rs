@@ -192,28 +192,42 @@ fn accelerations_are_within_their_estimates_of_a_finer_output() {
     }
 }
 
-/// The integral of the velocity is the displacement, by the rule of trapezoids.
+/// Integrals of the velocity are displacements, and those of the acceleration, a mean over a step, velocities between
+/// samples: each is a convolution of its own.
 #[test]
-fn velocities_integrate_to_displacements() {
-    for (load, disc) in [(ball(), None), (record(), Some(2e-4))] {
-        let mut scene = scene(load, disc, 1e-3);
-        scene.quantities = VELOCITIES.to_vec();
+fn rates_integrate_to_what_they_are_rates_of() {
+    for (load, disc) in [(ball(), None), (ball(), Some(1e-4)), (record(), Some(2e-4))] {
+        let mut scene = scene(load, disc, 1e-4);
+        scene.settings.step_s = Some(3e-9);
         let outcome = run(&scene);
         let (time_s, fields) = (outcome.series.time_s, outcome.probes.unwrap());
         for component in 0..2 {
             for probe in 0..PLACES.len() {
-                let (u, v) = (
-                    &fields.values[component][probe],
-                    &fields.more[component].values[probe],
-                );
-                let mut sum = 0.0;
+                let u = &fields.values[component][probe];
+                let [v, a] = [0, 2].map(|rate| &fields.more[component + rate].values[probe]);
+                let (mut from_v, mut from_a) = (0.0, 0.0);
+                let (mut off_v, mut off_a) = (0.0_f64, Vec::new());
                 for i in 1..time_s.len() {
-                    sum += 0.5 * (time_s[i] - time_s[i - 1]) * (v[i] + v[i - 1]);
-                    assert!(
-                        (sum - u[i]).abs() <= 0.01 * peak(u),
-                        "{component} {probe} {i}"
-                    );
+                    let step_s = time_s[i] - time_s[i - 1];
+                    from_v += 0.5 * step_s * (v[i] + v[i - 1]);
+                    off_v = off_v.max((from_v - u[i]).abs());
+                    off_a.push((from_a - 0.5 * (v[i] + v[i - 1])).abs());
+                    from_a += step_s * a[i];
                 }
+                // between two samples beside a front the velocity is not their mean
+                off_a.sort_by(f64::total_cmp);
+                let off_a = off_a[off_a.len() * 9 / 10];
+                // nothing moves across on the axis
+                let over = |off: f64, most: f64| if most > 0.0 { off / most } else { off };
+                let off = [over(off_v, peak(u)), over(off_a, peak(v))];
+                println!(
+                    "disc {disc:?}, component {component}, probe {probe}: {:.1e}, {:.1e}",
+                    off[0], off[1]
+                );
+                assert!(
+                    off[0] <= 1e-3 && off[1] <= 2e-3,
+                    "{disc:?} {component} {probe}: {off:?}"
+                );
             }
         }
     }

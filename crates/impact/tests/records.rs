@@ -31,9 +31,9 @@ fn record(from_s: f64, to_s: f64) -> ForceRecord {
     ForceRecord::new(time_s, force_n).unwrap()
 }
 
-fn fields(record: ForceRecord, duration_s: Option<f64>) -> Outcome {
+fn scene(record: ForceRecord, duration_s: Option<f64>) -> Scene {
     let probe = |r_m: f64, z_m: f64| Probe { r_m, z_m };
-    let scene = Scene {
+    Scene {
         target: HalfSpace::new(Material::named("steel").unwrap()).unwrap(),
         load: Load::Record(record),
         settings: Settings {
@@ -46,8 +46,11 @@ fn fields(record: ForceRecord, duration_s: Option<f64>) -> Outcome {
         quantities: Vec::new(),
         peaks: false,
         duration_s,
-    };
-    simulate(&scene, &KernelChoice::Direct).unwrap()
+    }
+}
+
+fn fields(record: ForceRecord, duration_s: Option<f64>) -> Outcome {
+    simulate(&scene(record, duration_s), &KernelChoice::Direct).unwrap()
 }
 
 /// A field over time at a probe, linear between its samples.
@@ -203,5 +206,29 @@ fn a_constant_force_has_its_static_field() {
         (values[last] / fixed - 1.0).abs() < 1e-3,
         "{} {fixed}",
         values[last]
+    );
+}
+
+#[test]
+fn the_rest_after_a_pulse_has_no_samples() {
+    let [short, long] = [1e-2, 1.0].map(|end_s| fields(record(0.0, end_s), None));
+    let times_s = &long.series.time_s;
+    assert_eq!(&short.series.time_s, times_s);
+    assert!(times_s.len() < 50_000 && times_s[times_s.len() - 1] < 1e-3);
+    assert_eq!(long.step_s(), times_s[1]);
+    // at rest first: the first two samples are not a step apart
+    let later = fields(record(0.5, 1.0), None);
+    assert!((later.step_s() / long.step_s() - 1.0).abs() < 1e-6);
+}
+
+#[test]
+fn a_disc_that_waves_do_not_cross_is_refused() {
+    let mut wide = scene(record(0.0, PULSE_S), None);
+    wide.settings.disc_radius_m = Some(1e6);
+    let refused = simulate(&wide, &KernelChoice::Direct).unwrap_err();
+    let said = refused.to_string();
+    assert!(
+        said.starts_with("disc_radius_m = 1000000 is outside (0, 1.1"),
+        "{said}"
     );
 }

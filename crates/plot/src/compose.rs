@@ -5,7 +5,7 @@ use crate::impacts::{frames_of, of_impacts};
 use crate::request::{Drawn, Kind, Request};
 use crate::sweep::of_sweep;
 use crate::table::of_table;
-use figure::Figure;
+use figure::{ColourMap, Figure, Layer, Limits, Scale};
 use formats::stored::{FileKind, StoredImpact, StoredSweep, file_kind};
 use std::path::PathBuf;
 
@@ -17,13 +17,74 @@ pub fn compose(paths: &[PathBuf], request: &Request) -> Result<Drawn, PlotError>
     {
         return Err(PlotError::unsuitable(&paths[0], file, kind));
     }
-    match file {
-        FileKind::Impact => of_impacts(&open(paths)?, request),
-        FileKind::Sweep => of_sweep(&StoredSweep::open(only(paths, Kind::Sweep)?)?, request),
-        FileKind::Table => of_table(only(paths, Kind::Errors)?, request),
-        FileKind::SweepPart => Err(PlotError::unsuitable(&paths[0], file, Kind::Sweep)),
-        FileKind::Chart => Err(PlotError::unsuitable(&paths[0], file, Kind::Impact)),
+    let mut drawn = match file {
+        FileKind::Impact => of_impacts(&open(paths)?, request)?,
+        FileKind::Sweep => of_sweep(&StoredSweep::open(only(paths, Kind::Sweep)?)?, request)?,
+        FileKind::Table => of_table(only(paths, Kind::Errors)?, request)?,
+        FileKind::SweepPart => {
+            return Err(PlotError::unsuitable(&paths[0], file, Kind::Sweep));
+        }
+        FileKind::Chart => return Err(PlotError::unsuitable(&paths[0], file, Kind::Impact)),
+    };
+    scale(&mut drawn.figure, request)?;
+    Ok(drawn)
+}
+
+/// Shows what is asked for: limits, and sizes by their ratios; of colours where there are some, else of the y axis.
+fn scale(figure: &mut Figure, request: &Request) -> Result<(), PlotError> {
+    if let Some((low, high)) = request.limits {
+        let refused = |why| {
+            let sentence = format!("the limits {low}:{high} are not those of a picture: {why}");
+            Err(PlotError::refused(None, sentence))
+        };
+        if !(low < high && high.is_finite()) {
+            return refused("the first has to be below the second");
+        }
+        if request.logarithmic && low <= 0.0 {
+            return refused("sizes by their ratios are above zero");
+        }
+        let mut names = figure
+            .panels
+            .windows(2)
+            .map(|pair| pair[0].y.quantity == pair[1].y.quantity);
+        if !names.all(|same| same) {
+            return refused("it shows several quantities, choose one");
+        }
     }
+    for panel in &mut figure.panels {
+        let mut has_colours = false;
+        for layer in &mut panel.layers {
+            let Layer::Image(image) = layer else {
+                continue;
+            };
+            has_colours = true;
+            if request.logarithmic {
+                if image.colours.map == ColourMap::Diverging {
+                    image.colours.quantity = format!("size of the {}", image.colours.quantity);
+                    image
+                        .values
+                        .iter_mut()
+                        .for_each(|value| *value = value.abs());
+                }
+                if image.colours.spread == Scale::Linear {
+                    let largest = image.values.iter().copied().fold(0.0, f64::max);
+                    image.colours.limits = Limits::Between(1e-4 * largest, largest);
+                }
+                image.colours.map = ColourMap::Sequential;
+                image.colours.spread = Scale::Logarithmic;
+            }
+            if let Some((low, high)) = request.limits {
+                image.colours.limits = Limits::Between(low, high);
+            }
+        }
+        if !has_colours {
+            if request.logarithmic {
+                panel.y.scale = Scale::Logarithmic;
+            }
+            panel.y.range = request.limits.or(panel.y.range);
+        }
+    }
+    Ok(())
 }
 
 /// Composes the frames of an animation of a section, one figure each.
@@ -42,7 +103,11 @@ pub fn animate(
         );
         return Err(PlotError::refused(Some(path), sentence));
     }
-    frames_of(only(&open(paths)?, kind)?, request)
+    let (mut figures, notes) = frames_of(only(&open(paths)?, kind)?, request)?;
+    for figure in &mut figures {
+        scale(figure, request)?;
+    }
+    Ok((figures, notes))
 }
 
 fn open(paths: &[PathBuf]) -> Result<Vec<StoredImpact>, PlotError> {

@@ -1,7 +1,7 @@
 //! Why there is no picture; and what is looked for by its name, with the error that it is not there.
 
 use crate::request::Kind;
-use contact::nearest;
+use contact::{Choice, nearest};
 use fault::{Class, Culprit, Fault};
 use formats::stored::{FileKind, ReadError, StoredQuantity};
 use impact::FieldsError;
@@ -62,6 +62,14 @@ impl PlotError {
         )
     }
 
+    /// Times for a picture of all of them.
+    pub(crate) fn all_times(kind: Kind) -> Self {
+        let sentence = format!(
+            "the picture {kind} shows all times: only waves and axis show those that are given"
+        );
+        Self::refused(None, sentence)
+    }
+
     /// A key of words along an axis of numbers.
     pub(crate) fn no_numbers(key: &str) -> Self {
         Self::refused(None, format!("{key} has no numbers to draw along"))
@@ -74,6 +82,10 @@ impl PlotError {
         word: &str,
         known: impl IntoIterator<Item = &'a str>,
     ) -> Self {
+        if impact::Quantity::named(word).is_some() {
+            let hint = format!("give the scene [output] quantities = [\"{word}\"]");
+            return Self::absent(path, word, &hint);
+        }
         let known: Vec<&str> = known.into_iter().collect();
         let suggestion = nearest(word, known.iter().copied());
         let near = suggestion.as_ref();

@@ -57,6 +57,11 @@ impl Kind {
         let kinds = Self::ALL.iter().filter(|kind| kind.file() == file);
         kinds.map(|kind| kind.name()).collect()
     }
+
+    /// Whether instants can be chosen.
+    pub(crate) fn has_times(self) -> bool {
+        matches!(self, Self::Waves | Self::Axis)
+    }
 }
 
 impl fmt::Display for Kind {
@@ -80,6 +85,10 @@ pub struct Request {
     pub along: Option<String>,
     /// Keys of a sweep with the values at which they are held.
     pub at: Vec<(String, String)>,
+    /// From and to which values colours run, or else the y axis, in SI units; none: those that suit what is shown.
+    pub limits: Option<(f64, f64)>,
+    /// Whether colours, or else the y axis, show sizes by their ratios.
+    pub logarithmic: bool,
     /// Title; none: one that says what the scene is.
     pub title: Option<String>,
 }

@@ -1,5 +1,6 @@
 //! Numbers, keys and quantities in words, for titles, axes and legends.
 
+use figure::Unit;
 use std::path::Path;
 
 /// A value in its unit with an SI prefix, to four digits: `5.764 µs`, `33 mg`, `0.98`.
@@ -76,6 +77,16 @@ pub(crate) fn of_key(key: &str) -> (String, &'static str) {
         _ => name,
     };
     (name, unit)
+}
+
+/// The unit of a file on an axis: with SI prefixes where it takes them.
+pub(crate) fn unit_of(unit: &str) -> Unit {
+    match unit {
+        "1" | "" => Unit::One,
+        "kg" => Unit::Si("g".to_owned()),
+        "kg/m^3" => Unit::Fixed("kg/m^{3}".to_owned()),
+        unit => Unit::Si(unit.replace("^2", "^{2}")),
+    }
 }
 
 /// Name of a stored quantity in words: `displacement_z` is "axial displacement".

@@ -140,6 +140,39 @@ fn draws_give_histograms_and_bands() {
 }
 
 #[test]
+fn draws_over_their_own_key_are_points_or_bins() {
+    let folder = tempfile::tempdir().unwrap();
+    let few = sweep(folder.path(), "few.h5", DRAWS);
+    let many = DRAWS.replace("samples = 60", "samples = 2000");
+    let many = sweep(folder.path(), "many.h5", &many);
+    let request = Request {
+        along: Some("striker.tip_radius_m".to_owned()),
+        ..Request::default()
+    };
+    let figure = drawn(&few, &request);
+    check(&figure);
+    assert_eq!(lines(&figure, 0)[0].1.len(), 60);
+    assert!(
+        !figure.panels[0]
+            .layers
+            .iter()
+            .any(|l| matches!(l, Layer::Band(_)))
+    );
+    let figure = drawn(&many, &request);
+    check(&figure);
+    let Layer::Band(band) = &figure.panels[0].layers[0] else {
+        unreachable!("many draws are bins");
+    };
+    assert_eq!(band.points.len(), 20);
+    // Hertz: P grows as R^(1/5)
+    let middle = lines(&figure, 0)[0].1;
+    let (first, last) = (middle[0], middle[19]);
+    let power = (last.1 / first.1).ln() / (last.0 / first.0).ln();
+    assert!((power - 0.2).abs() < 0.01, "{power}");
+    assert!(figure.subtitle.contains("2000 draws in 20 bins"));
+}
+
+#[test]
 fn what_cannot_be_shown_of_a_sweep_is_told() {
     let folder = tempfile::tempdir().unwrap();
     let path = sweep(folder.path(), "v.h5", &format!("{VELOCITIES}{TARGETS}"));
@@ -170,6 +203,20 @@ fn what_cannot_be_shown_of_a_sweep_is_told() {
             ..Request::default()
         })
         .contains("did you mean granite?")
+    );
+    let held = |value: &str| Request {
+        at: vec![("striker.velocity_m_s".to_owned(), value.to_owned())],
+        along: Some("target.material".to_owned()),
+        ..Request::default()
+    };
+    let near = said(&held("0.051"));
+    assert!(
+        near.contains("velocity_m_s = 0.051 is not in") && near.contains("it has 0.05, "),
+        "{near}"
+    );
+    assert!(
+        said(&held("0.05")).contains("has no numbers"),
+        "the value itself is there"
     );
     let moving = plot::animate(std::slice::from_ref(&path), &Request::default());
     assert!(moving.unwrap_err().to_string().ends_with("v.h5 is a sweep"));

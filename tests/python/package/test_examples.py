@@ -65,7 +65,7 @@ def test_pictures_show_what_is_asked():
         "target": {"material": "steel"},
         "striker": {"material": "copper", "shape": "ball", "diameter_m": 2e-3, "velocity_m_s": 1.0},
         "probe": [{"r_m": 0.004, "z_m": 0.0}],
-        "output": {"quantities": ["von_mises"]},
+        "output": {"quantities": ["velocity_z", "von_mises"]},
         "map": {"r_max_m": 0.006, "z_max_m": 0.006, "points": [5, 5], "frames": 3},
     }
     run = hl.impact(scene)

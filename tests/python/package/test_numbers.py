@@ -114,10 +114,11 @@ def test_a_dictionary_gives_what_the_command_gives_with_a_table(tmp_path, table)
     fresh = hl.impact(probe, table, kernel="table")
     assert same(hl.impact(probe, opened, kernel="table").probes.stress_zz, fresh.probes.stress_zz)
     assert fresh.to_xarray()["von_mises_peak"].attrs["units"] == "Pa"
-    # the velocity is that of the kernels, about that of differences
-    assert fresh.probes.velocity_z is fresh.probes["velocity_z"]
+    # the velocity is that of the kernels, about that of differences, and none without being asked for
     differences = np.gradient(fresh.probes.displacement_z, fresh.time, axis=1)
     assert np.max(np.abs(differences - fresh.probes.velocity_z)) < 0.05 * np.max(np.abs(differences))
+    with pytest.raises(AttributeError, match="no 'velocity_r'.*quantities"):
+        _ = fresh.probes.velocity_r
 
 
 def test_dictionary_path_and_text_are_one_scene(tmp_path):

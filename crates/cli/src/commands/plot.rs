@@ -34,7 +34,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     quantity: Vec<String>,
     /// Times in s at which fields are shown, divided by commas.
-    #[arg(long, value_name = "SECONDS", value_delimiter = ',')]
+    #[arg(long, value_name = "SECONDS", value_delimiter = ',', value_parser = number)]
     times: Vec<f64>,
     /// Frames of a section: four in a picture without it, up to 120 in an animation.
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u16).range(1..=2000))]
@@ -45,7 +45,13 @@ pub(crate) struct Arguments {
     /// A key of a sweep with the value at which it is held; may be given again.
     #[arg(long, value_name = "KEY=VALUE", value_parser = held)]
     at: Vec<(String, String)>,
-    /// Title; without it one that says what strikes.
+    /// From and to which values colours run, or else the y axis, in SI units.
+    #[arg(long, value_name = "LOW:HIGH", value_parser = interval, allow_hyphen_values = true)]
+    limits: Option<(f64, f64)>,
+    /// Show sizes by their ratios, on a logarithmic scale of colours, or else y axis.
+    #[arg(long)]
+    log: bool,
+    /// Title; without it one that says what strikes what.
     #[arg(long)]
     title: Option<String>,
     /// Width in pixels of 1/96 inch; 321 is a column of a journal.
@@ -64,6 +70,19 @@ fn held(text: &str) -> Result<(String, String), String> {
         .split_once('=')
         .ok_or_else(|| format!("{text} is not KEY=VALUE, such as target.material=steel"))?;
     Ok((key.trim().to_owned(), value.trim().to_owned()))
+}
+
+/// Two numbers.
+fn interval(text: &str) -> Result<(f64, f64), String> {
+    let ends = text.split_once(':');
+    let ends = ends.and_then(|(low, high)| Some((number(low).ok()?, number(high).ok()?)));
+    ends.ok_or_else(|| format!("{text} is not LOW:HIGH, such as -2e6:2e6"))
+}
+
+/// A finite number.
+fn number(text: &str) -> Result<f64, String> {
+    let found = text.trim().parse().ok().filter(|x: &f64| x.is_finite());
+    found.ok_or_else(|| format!("{text} is no finite number"))
 }
 
 fn kinds() -> PossibleValuesParser {
@@ -109,6 +128,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         frames: arguments.frames.map(usize::from),
         along: arguments.along.clone(),
         at: arguments.at.clone(),
+        limits: arguments.limits,
+        logarithmic: arguments.log,
         title: arguments.title.clone(),
     };
     let size = |figure: Figure| match arguments.width {

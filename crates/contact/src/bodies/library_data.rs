@@ -53,8 +53,8 @@ macro_rules! rows {
 pub(crate) const ROWS: &[Row] = rows! {
     "steel", metal, moduli(209e9, 0.3), 7830.0, yield 1000e6, tensile 1200e6: "anvil steel of the copper-on-steel Taylor test, Table 1 of the paper";
     "copper", metal, moduli(123e9, 0.34), 8960.0, yield 57e6, tensile 227e6: "rod of the copper-on-steel Taylor test, Table 1 of the paper";
-    "bearing-steel", metal, moduli(208e9, 0.29), 7800.0, yield 1700e6, tensile 2240e6: "AISI 52100 hardened; elastic constants of the steel ball in this project's reference impacts, strengths typical of handbooks";
-    "granite", rock, moduli(55e9, 0.25), 2650.0, tensile 10e6, toughness 1.6e6: "typical; elastic constants of the granite in this project's reference impacts; fracture toughness typical, as quoted after Atkinson and Meredith (1987), Fracture Mechanics of Rock";
+    "bearing-steel", metal, moduli(208e9, 0.29), 7800.0, yield 1700e6, tensile 2240e6: "AISI 52100 hardened; elastic constants and strengths typical of handbooks";
+    "granite", rock, moduli(55e9, 0.25), 2650.0, tensile 10e6, toughness 1.6e6: "elastic constants typical, of no single source; fracture toughness typical, as quoted after Atkinson and Meredith (1987), Fracture Mechanics of Rock";
     "aluminium", metal, moduli(70.3e9, 0.345), 2700.0, yield 35e6, tensile 90e6: "Kaye and Laby, Tables of Physical and Chemical Constants, elastic constants of solids; strengths typical of handbooks (commercially pure, annealed)";
     "aluminium-6061-t6", metal, moduli(68.9e9, 0.33), 2700.0, yield 276e6, tensile 310e6: "typical of handbooks (minimum strengths of the temper)";
     "brass-70-30", metal, moduli(100.6e9, 0.35), 8530.0, yield 110e6, tensile 325e6: "Kaye and Laby, Tables of Physical and Chemical Constants, elastic constants of solids; strengths typical of handbooks (annealed)";
@@ -88,11 +88,11 @@ pub(crate) const ROWS: &[Row] = rows! {
     "crown-glass", glass, moduli(71.3e9, 0.22), 2500.0, tensile 45e6, toughness 0.8e6: "Kaye and Laby, Tables of Physical and Chemical Constants, elastic constants of solids; bending strength as of float glass, fracture toughness typical of handbooks";
     "flint-glass-heavy", glass, moduli(80.1e9, 0.27), 3900.0, tensile 45e6, toughness 0.7e6: "Kaye and Laby, Tables of Physical and Chemical Constants, elastic constants of solids; bending strength as of float glass, fracture toughness typical of handbooks";
     "fused-quartz", glass, moduli(73.1e9, 0.17), 2200.0, tensile 50e6, toughness 0.75e6: "Kaye and Laby, Tables of Physical and Chemical Constants, elastic constants of solids; tensile strength of makers' data sheets, fracture toughness typical of handbooks";
-    "glass-bead", glass, moduli(64e9, 0.2), 2500.0, tensile 45e6, toughness 0.75e6: "soda-lime beads; elastic constants of the glass in this project's reference impacts; bending strength of float glass, EN 572-1, fracture toughness typical of handbooks";
+    "glass-bead", glass, moduli(64e9, 0.2), 2500.0, tensile 45e6, toughness 0.75e6: "soda-lime beads; elastic constants of no single source, below those of handbooks for plate glass; bending strength of float glass, EN 572-1, fracture toughness typical of handbooks";
     "soda-lime-glass", glass, moduli(72e9, 0.22), 2500.0, tensile 45e6, toughness 0.75e6: "typical of handbooks (float glass); bending strength of EN 572-1, which hangs on the state of the surface; fracture toughness typical";
     "pyrex", glass, speeds(5640.0, 3280.0), 2320.0, tensile 45e6, toughness 0.75e6: "CRC Handbook of Chemistry and Physics, speed of sound in solids; bending strength as of float glass, fracture toughness typical of handbooks";
     "epoxy", polymer, moduli(3.5e9, 0.35), 1160.0, yield 60e6, tensile 60e6: "typical of handbooks (unfilled, room temperature); strengths likewise";
-    "pmma", polymer, moduli(5.0e9, 0.35), 1180.0, yield 110e6, tensile 75e6: "acrylic at impact rates; elastic constants of the PMMA in this project's reference impacts; strengths typical of handbooks (yield in compression)";
+    "pmma", polymer, moduli(5.0e9, 0.35), 1180.0, yield 110e6, tensile 75e6: "elastic constants typical of acrylic at impact rates, of no single source; strengths typical of handbooks (yield in compression)";
     "polycarbonate", polymer, moduli(2.4e9, 0.37), 1200.0, yield 62e6, tensile 66e6: "typical of handbooks (room temperature)";
     "ptfe", polymer, moduli(0.5e9, 0.46), 2170.0, yield 10e6, tensile 25e6: "typical of handbooks (room temperature); strengths likewise";
     "natural-rubber", polymer, moduli(0.0015e9, 0.4995), 930.0, tensile 25e6: "typical of handbooks (unfilled; the wave speeds are very sensitive to Poisson's ratio); tensile strength likewise";

@@ -2,29 +2,43 @@
 
 use super::png::{encode, pixels};
 use crate::error::RenderError;
-use crate::font::FAMILY;
+use crate::font;
 use crate::geometry::Rect;
-use crate::scene::{Item, Picture, Scene, Segment, Shape, Text, Turn};
+use crate::scene::{Item, Part, Picture, Scene, Segment, Shape, Text, Turn};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use svg::node::element::{ClipPath, Definitions, Group, Image, Path, Rectangle, Text as Label};
+use std::collections::BTreeSet;
+use svg::node::element::{ClipPath, Definitions, Group, Image, Path, Rectangle, Use};
 use svg::{Document, Node};
+use tiny_skia::PathSegment;
 
 /// Writes a scene.
 ///
-/// Every text says how long it is, so that a viewer without the font keeps it in its place.
+/// Letters are outlines, each defined once, so that no viewer needs the font; what a text says stands in `aria-label`.
 pub(crate) fn svg(scene: &Scene) -> Result<String, RenderError> {
     // the different areas outside of which something is not drawn
     let mut clips: Vec<Rect> = Vec::new();
+    let mut letters: BTreeSet<char> = BTreeSet::new();
     let mut definitions = Definitions::new();
     for item in &scene.items {
-        if let Item::Shape(shape) = item
-            && let Some(area) = shape.clip
-            && !clips.contains(&area)
-        {
-            let clip = ClipPath::new().set("id", format!("plot{}", clips.len()));
-            definitions = definitions.add(clip.add(placed(Rectangle::new(), area)));
-            clips.push(area);
+        match item {
+            Item::Shape(shape) => {
+                if let Some(area) = shape.clip
+                    && !clips.contains(&area)
+                {
+                    let clip = ClipPath::new().set("id", format!("plot{}", clips.len()));
+                    definitions = definitions.add(clip.add(placed(Rectangle::new(), area)));
+                    clips.push(area);
+                }
+            }
+            Item::Text(text) => letters.extend(text.parts().iter().flat_map(|p| p.text.chars())),
+            Item::Picture(_) => {}
+        }
+    }
+    for letter in letters {
+        if let Some(outline) = letter_outline(letter) {
+            let path = Path::new().set("id", letter_id(letter)).set("d", outline);
+            definitions = definitions.add(path);
         }
     }
     let (width, height) = (number(scene.width), number(scene.height));
@@ -32,11 +46,9 @@ pub(crate) fn svg(scene: &Scene) -> Result<String, RenderError> {
         .set("viewBox", format!("0 0 {width} {height}"))
         .set("width", width)
         .set("height", height)
-        .set("font-family", FAMILY)
-        .set("font-weight", "300");
-    if !clips.is_empty() {
-        document = document.add(definitions);
-    }
+        // the older name of a link, which every viewer knows
+        .set("xmlns:xlink", "http://www.w3.org/1999/xlink")
+        .add(definitions);
     for item in &scene.items {
         document = match item {
             Item::Shape(shape) => document.add(path(shape, &clips)),
@@ -110,31 +122,69 @@ fn image(picture: &Picture) -> Result<Image, RenderError> {
     let data = format!("data:image/png;base64,{}", STANDARD.encode(png));
     Ok(placed(Image::new(), picture.area)
         .set("preserveAspectRatio", "none")
-        .set("href", data))
+        .set("xlink:href", data))
 }
 
-/// A text, its raised and lowered parts each on its own.
+/// Letters are outlined in so many units of their size.
+const UNITS: f64 = 1000.0;
+
+fn letter_id(letter: char) -> String {
+    format!("u{:x}", u32::from(letter))
+}
+
+/// The outline of a letter in the font's units; none for a blank.
+fn letter_outline(letter: char) -> Option<String> {
+    let outline = font::outline(letter.encode_utf8(&mut [0; 4]), UNITS)?;
+    let at = |p: tiny_skia::Point| format!("{} {}", number(p.x.into()), number(p.y.into()));
+    let segments = outline.segments().map(|segment| match segment {
+        PathSegment::MoveTo(p) => format!("M{}", at(p)),
+        PathSegment::LineTo(p) => format!("L{}", at(p)),
+        PathSegment::QuadTo(a, p) => format!("Q{} {}", at(a), at(p)),
+        PathSegment::CubicTo(a, b, p) => format!("C{} {} {}", at(a), at(b), at(p)),
+        PathSegment::Close => "Z".to_owned(),
+    });
+    Some(segments.collect())
+}
+
+/// A text, its raised and lowered parts each on its own; a rim lies below all letters.
 fn label(text: &Text) -> Group {
-    let mut group = Group::new();
+    let mut group = Group::new().set("aria-label", text.plain());
     if text.rim {
-        group = group
-            .set("stroke", "#ffffff")
-            .set("stroke-width", 3)
-            .set("paint-order", "stroke")
-            .set("stroke-linejoin", "round");
+        for part in text.parts() {
+            let rim = letters(&part, text.turn)
+                .set("stroke", "#ffffff")
+                .set("stroke-width", number(3.0 * UNITS / part.size))
+                .set("stroke-linejoin", "round");
+            group = group.add(rim);
+        }
     }
     for part in text.parts() {
-        let (x, y) = part.start;
-        let lengths = [("font-size", part.size), ("textLength", part.width)];
-        let label = with_numbers(Label::new(part.text), [("x", x), ("y", y)]);
-        let mut label = with_numbers(label, lengths)
-            .set("lengthAdjust", "spacingAndGlyphs")
-            .set("fill", "#111111");
-        if text.turn == Turn::Upward {
-            let turn = format!("rotate(-90 {} {})", number(x), number(y));
-            label = label.set("transform", turn);
+        group = group.add(letters(&part, text.turn).set("fill", "#111111"));
+    }
+    group
+}
+
+fn letters(part: &Part<'_>, turn: Turn) -> Group {
+    let (x, y) = part.start;
+    let turned = match turn {
+        Turn::Level => "",
+        Turn::Upward => "rotate(-90)",
+    };
+    let (x, y, size) = (number(x), number(y), part.size / UNITS);
+    let mut group = Group::new().set(
+        "transform",
+        format!("translate({x} {y}){turned}scale({size:.5})"),
+    );
+    let mut along = 0.0;
+    for letter in part.text.chars() {
+        if !letter.is_whitespace() {
+            let link = format!("#{}", letter_id(letter));
+            group = group.add(with_numbers(
+                Use::new().set("xlink:href", link),
+                [("x", along)],
+            ));
         }
-        group = group.add(label);
+        along += UNITS * font::width(letter.encode_utf8(&mut [0; 4]));
     }
     group
 }

@@ -14,6 +14,9 @@ pub(crate) struct Stretch {
     pub(crate) base_n: f64,
 }
 
+/// How far a force that is constant may stray, over the tolerance.
+const QUIET: f64 = 1e-3;
+
 /// Steps in the time in which kernels change for a force that only jumps.
 const JUMP: f64 = 64.0;
 
@@ -53,8 +56,11 @@ impl Departure {
 
 impl ForceRecord {
     /// The stretches, those less than `quiet_s` apart as one; none where the force is zero throughout.
-    pub(crate) fn stretches(&self, quiet_s: f64) -> Vec<Stretch> {
+    ///
+    /// The force is constant where it stays within [`QUIET`] of `tolerance` of its largest.
+    pub(crate) fn stretches(&self, quiet_s: f64, tolerance: f64) -> Vec<Stretch> {
         let (time_s, force_n) = (self.time_s(), self.force_n());
+        let quiet_n = QUIET * tolerance * self.largest_n();
         let mut found: Vec<Stretch> = Vec::new();
         let mut change = |from_s: f64, to_s: f64, base_n: f64| match found.last_mut() {
             Some(last) if from_s - last.span_s[1] < quiet_s => last.span_s[1] = to_s,
@@ -68,9 +74,11 @@ impl ForceRecord {
         if force_n[0] != 0.0 {
             change(first_s, first_s, 0.0);
         }
-        for (t, p) in time_s.windows(2).zip(force_n.windows(2)) {
-            if p[0] != p[1] {
-                change(t[0], t[1], p[0]);
+        let mut rest_n = force_n[0];
+        for (t, p) in time_s.windows(2).zip(&force_n[1..]) {
+            if (p - rest_n).abs() > quiet_n {
+                change(t[0], t[1], rest_n);
+                rest_n = *p;
             }
         }
         let last_n = force_n[force_n.len() - 1];
@@ -158,15 +166,25 @@ mod tests {
             &[0.0, 1.0, 2.0, 50.0, 51.0, 60.0],
             &[0.0, 3.0, 1.0, 1.0, 0.0, 0.0],
         );
-        let found = two.stretches(10.0);
+        let found = two.stretches(10.0, 1e-4);
         assert_eq!(found.len(), 2);
         assert_eq!(found[0].span_s, [0.0, 2.0]);
         assert_eq!((found[1].span_s, found[1].base_n), ([50.0, 51.0], 1.0));
-        assert_eq!(two.stretches(49.0).len(), 1);
-        assert!(record(&[0.0, 1.0], &[0.0, 0.0]).stretches(1.0).is_empty());
+        assert_eq!(two.stretches(49.0, 1e-4).len(), 1);
+        assert!(
+            record(&[0.0, 1.0], &[0.0, 0.0])
+                .stretches(1.0, 1e-4)
+                .is_empty()
+        );
+        // what an instrument leaves after a pulse is quiet; a slow drift is not, however close its rows
+        let rests = record(&[0.0, 1.0, 2.0, 50.0, 60.0], &[0.0, 3.0, 1e-9, 2e-9, -1e-9]);
+        assert_eq!(rests.stretches(10.0, 1e-4)[0].span_s, [0.0, 2.0]);
+        let rows: Vec<f64> = (0..4000).map(f64::from).collect();
+        let drift = record(&rows, &rows).stretches(10.0, 1.0);
+        assert!(drift[0].span_s[0] < 5.0 && drift[0].span_s[1] > 3995.0);
         // on at once and off at once
         let plateau = record(&[5.0, 100.0], &[2.0, 2.0]);
-        let found = plateau.stretches(10.0);
+        let found = plateau.stretches(10.0, 1e-4);
         assert_eq!((found[0].span_s, found[1].span_s), ([5.0; 2], [100.0; 2]));
         assert_eq!((found[0].base_n, found[1].base_n), (0.0, 2.0));
     }
@@ -178,7 +196,7 @@ mod tests {
             &[0.0, 0.5, 0.500_007, 0.500_02, 1.0],
             &[0.0, 0.0, 1.0, 0.0, 0.0],
         );
-        let stretches = triangle.stretches(1e-3);
+        let stretches = triangle.stretches(1e-3, 1e-4);
         let step_s = triangle.step_s(&stretches, 1e-3, 1e-12, 1e6);
         assert!(step_s < 1e-6 && step_s > 1e-9, "{step_s}");
         let [from_s, to_s] = stretches[0].span_s;

@@ -206,6 +206,34 @@ fn the_estimate_follows_the_measured_errors() {
     ));
 }
 
+/// Between two measured pulses the estimate lies between theirs, nearer to that of the nearer, and it never falls below
+/// the rounding of what is stored.
+#[test]
+fn the_estimate_is_interpolated_between_pulses() {
+    let mut three = content();
+    three.pulse_lengths = vec![3.0, 10.0, 40.0];
+    three.origin.accuracy_reached = vec![1e-2, 1e-4, 0.0];
+    let probes = &mut three.slices[0].verification;
+    let (places, peak) = (probes.direct.len() / 6, 8.0);
+    probes.direct = vec![peak; 18 * places];
+    probes.looked_up = vec![peak; 18 * places];
+    let measured = [1e-2_f32, 1e-4, 0.0];
+    let of = |i: usize| measured[i / 6 % 3];
+    probes.error = (0..18 * places).map(of).collect();
+    let table = Table::new(three).unwrap();
+    let at = |length: f64| table.error(0.3, 0.4, 0.4, length).unwrap()[2];
+    let is = |found: f64, wanted: f64| (found / wanted - 1.0).abs() < 1e-5;
+    assert!(is(at(3.0), 1e-2 * lookup::SAFETY) && is(at(1.0), at(3.0)));
+    assert!(is(at(10.0), 1e-4 * lookup::SAFETY));
+    // a quarter of the way in the logarithm of the length is one of the error's
+    assert!(is(
+        at(3.0 * (10.0_f64 / 3.0).powf(0.25)),
+        at(3.0) * 0.01_f64.powf(0.25)
+    ));
+    // single precision
+    assert!(is(at(40.0), 6e-8 * f64::from(peak)) && is(at(1e3), at(40.0)));
+}
+
 #[test]
 fn a_table_is_shared_between_threads() {
     fn shared<T: Send + Sync>() {}

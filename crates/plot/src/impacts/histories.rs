@@ -2,7 +2,7 @@
 
 use crate::error::{PlotError, chosen};
 use crate::series::{curve, end_s, waves_of};
-use crate::words::{component, of_quantity, with_unit};
+use crate::words::{component, of_quantity, unit_of, with_unit};
 use contact::{Model, Settings};
 use figure::{Axis, Legend, Panel, Style};
 use formats::stored::{StoredImpact, StoredProbes, StoredQuantity};
@@ -14,9 +14,9 @@ pub(super) const FEW: usize = 3;
 /// An empty panel over time.
 fn over_time(quantity: &str, unit: &str, end_s: f64, legend: Legend) -> Panel {
     let time = Axis::linear("time").si("s").range(0.0, end_s);
-    Panel::new(time, Axis::linear(quantity).si(unit))
-        .height(210.0)
-        .legend(legend)
+    let mut value = Axis::linear(quantity);
+    value.unit = unit_of(unit);
+    Panel::new(time, value).height(210.0).legend(legend)
 }
 
 /// Panels of the contacts, one curve an impact; a single one has Hertz's force beside its own.
@@ -89,7 +89,9 @@ pub(super) fn contact_panels(
 fn deflection_name(impact: &StoredImpact) -> &'static str {
     match (impact.model.as_str(), impact.static_share.as_str()) {
         ("prescribed", _) => "disc",
-        ("hertz" | "radiation" | "growing", _) | (_, "dynamic") => "half-space, dynamic part",
+        ("hertz" | "radiation" | "area_dashpot" | "growing", _) | (_, "dynamic") => {
+            "half-space, dynamic part"
+        }
         _ => "half-space",
     }
 }
@@ -151,9 +153,9 @@ pub(super) fn probe_panels(
     for of_unit in &by_unit {
         for probe in 0..count {
             let place = [probes.r_m[probe], probes.z_m[probe]];
-            // beside a contact its legend says which impact is which
+            // the axis says what a single curve is; beside a contact its legend says which impact is which
             let is_told =
-                files.len() > 1 && of_unit.len() == 1 && (most == FEW || !panels.is_empty());
+                of_unit.len() == 1 && (files.len() == 1 || most == FEW || !panels.is_empty());
             let legend = if is_told { Legend::Off } else { Legend::Auto };
             let mut panel = probe_panel(first, place, of_unit, legend)?;
             for (impact, label, other) in &files {

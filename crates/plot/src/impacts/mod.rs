@@ -13,7 +13,7 @@ use crate::section::{Path, axis_profile, frames, peak, space_time};
 use crate::words::with_unit;
 use contact::Shape;
 use figure::{Figure, Panel, Sharing};
-use formats::stored::{FileKind, StoredImpact};
+use formats::stored::{FileKind, StoredImpact, StoredValue};
 use histories::{FEW, contact_panels, probe_panels};
 use labels::labels;
 use spectrum::spectrum;
@@ -28,6 +28,9 @@ pub(crate) fn of_impacts(impacts: &[StoredImpact], request: &Request) -> Result<
         _ => Kind::Impact,
     };
     let kind = request.kind.unwrap_or(suits);
+    if !request.times_s.is_empty() && !kind.has_times() {
+        return Err(PlotError::all_times(kind));
+    }
     let one = || only(impacts, kind);
     let figure = headed(impacts, request);
     let single = |panel: Panel| Drawn {
@@ -111,7 +114,7 @@ fn histories(impacts: &[StoredImpact], kind: Kind, request: &Request) -> Result<
     Ok(Drawn { figure, notes })
 }
 
-/// What strikes: `A ball of 3 mm strikes at 1.98 m/s`, or its mass and tip.
+/// What strikes what: `bearing-steel ball of 3 mm strikes granite at 1.98 m/s`, or its mass and tip.
 fn title(impacts: &[StoredImpact]) -> String {
     if impacts.len() > 1 {
         return format!("{} impacts", impacts.len());
@@ -119,26 +122,35 @@ fn title(impacts: &[StoredImpact]) -> String {
     let Some(strike) = &impacts[0].scene.strike else {
         return "A given force on the half-space".to_owned();
     };
+    let keys = impacts[0].scene.keys();
+    let material = |section: &str| {
+        let key = format!("{section}.material");
+        keys.iter().find_map(|(name, value)| match value {
+            StoredValue::Text(text) if *name == key => Some(text.as_str()),
+            _ => None,
+        })
+    };
+    let target = material("target").map_or_else(String::new, |name| format!(" {name}"));
+    let of = material("striker").map_or_else(String::new, |name| format!("{name} "));
     let speed = with_unit(strike.velocity_m_s, "m/s");
     let length = |metres| with_unit(metres, "m");
-    match strike.striker.shape {
-        Some(Shape::Ball { diameter_m }) => {
-            format!("A ball of {} strikes at {speed}", length(diameter_m))
-        }
+    let body = match strike.striker.shape {
+        Some(Shape::Ball { diameter_m }) => format!("{of}ball of {}", length(diameter_m)),
         Some(Shape::Rod {
             length_m,
             diameter_m,
             ..
         }) => {
             let (long, thick) = (length(length_m), length(diameter_m));
-            format!("A rod of {long}, {thick} thick, strikes at {speed}")
+            format!("{of}rod of {long}, {thick} thick,")
         }
         None => {
             let mass = with_unit(strike.striker.mass_kg, "kg");
             let tip = length(strike.striker.tip_radius_m);
-            format!("Impact of {mass} at {speed}, tip radius {tip}")
+            format!("{of}mass of {mass}, tip radius {tip},")
         }
-    }
+    };
+    format!("{body} strikes{target} at {speed}")
 }
 
 /// The most important numbers of a single impact.

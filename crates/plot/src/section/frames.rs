@@ -1,13 +1,14 @@
 //! The frames of a section, its near field and its fronts.
 
-use super::quantity::{Instants, Quantity, SAMPLES};
+use super::quantity::Quantity;
 use crate::error::PlotError;
 use crate::request::Request;
 use crate::series::{end_s, waves_of};
 use contact::WaveSpeeds;
-use figure::{Axis, ColourScale, Image, LabelledPoint, Layer, Line, Mirror, Panel, Shading, Style};
-use formats::stored::{ReadError, StoredImpact, StoredSection};
-use std::collections::VecDeque;
+use figure::{
+    Axis, ColourScale, Image, LabelledPoint, Layer, Limits, Line, Mirror, Panel, Shading, Style,
+};
+use formats::stored::{StoredImpact, StoredSection};
 use std::f64::consts::FRAC_PI_2;
 
 /// A section with what its pictures need.
@@ -20,15 +21,10 @@ pub(super) struct Section<'a> {
     pub(super) start_s: f64,
     /// How long it lasts in s.
     pub(super) pulse_s: f64,
-    /// Frames read last: a rate needs its neighbours again.
-    known: VecDeque<(String, usize, Vec<f64>)>,
 }
 
 /// Distance of the S front, over the width of the section, from which on fronts are named.
 const APART: f64 = 0.12;
-
-/// Frames that are kept.
-const KEPT: usize = 24;
 
 impl<'a> Section<'a> {
     /// The section of a results file.
@@ -43,7 +39,6 @@ impl<'a> Section<'a> {
             disc_radius_m: impact.number("disc_radius_m").unwrap_or(0.0),
             start_s,
             pulse_s: end_s(&impact.series.time_s, &impact.series.force_n) - start_s,
-            known: VecDeque::new(),
             stored,
         })
     }
@@ -52,6 +47,63 @@ impl<'a> Section<'a> {
     pub(super) fn quantity(&self, request: &Request, usual: &str) -> Result<Quantity, PlotError> {
         let name = request.quantities.first().map_or(usual, String::as_str);
         Quantity::named(name, &self.stored.quantities(), self.impact.path())
+    }
+
+    /// What shows waves best among what the file holds: velocities, which only some scenes ask for.
+    pub(super) fn usual(&self) -> &'static str {
+        let mut names = self.stored.quantities().into_iter().map(|q| q.name);
+        match names.any(|name| name == "velocity_z") {
+            true => "velocity_z",
+            false => "displacement_z",
+        }
+    }
+
+    /// Its shorter side in m.
+    pub(super) fn side_m(&self) -> f64 {
+        let [r, z] = self.extent_m();
+        r.min(z)
+    }
+
+    /// How long the longitudinal wave takes through it in s.
+    pub(super) fn crossing_s(&self) -> f64 {
+        self.side_m() / self.speeds.p
+    }
+
+    /// Whether it is all near field: the pulse is longer than the section.
+    pub(super) fn is_near(&self) -> bool {
+        self.pulse_s > self.crossing_s()
+    }
+
+    /// The frame nearest to a time.
+    pub(super) fn nearest(&self, time_s: f64) -> usize {
+        let known = &self.stored.time_s;
+        let after = known.partition_point(|&t| t < time_s).min(known.len() - 1);
+        let before = after.saturating_sub(1);
+        let is_before = time_s - known[before] < known[after] - time_s;
+        if is_before { before } else { after }
+    }
+
+    /// Colours of a quantity up to a size below which nearly all values outside the near field lie, of some rows of
+    /// values at the same places; up to the largest ones, as decades where they have no sign, if all is near field.
+    pub(super) fn colours(
+        &self,
+        quantity: &Quantity,
+        rows: &[Vec<f64>],
+        is_far: &[bool],
+    ) -> ColourScale {
+        let near = self.is_near();
+        let shown = rows.iter().flat_map(|row| {
+            let pairs = row.iter().zip(is_far).filter(|(_, far)| near || **far);
+            pairs.map(|(value, _)| *value)
+        });
+        let largest = quantile_of_sizes(shown, if near { 0.999 } else { 0.985 });
+        let colours = quantity.colours(largest);
+        match near && !quantity.has_sign() {
+            true => colours
+                .logarithmic()
+                .limits(Limits::Between(1e-3 * largest, largest)),
+            false => colours,
+        }
     }
 
     /// Its extents along r and z in m.
@@ -72,13 +124,8 @@ impl<'a> Section<'a> {
     }
 
     /// A quantity in a frame, [turned](Self::turned).
-    pub(super) fn values(
-        &mut self,
-        quantity: &Quantity,
-        frame: usize,
-    ) -> Result<Vec<f64>, PlotError> {
-        let values = quantity.at(self, frame, SAMPLES)?;
-        Ok(self.turned(&values))
+    pub(super) fn values(&self, quantity: &Quantity, frame: usize) -> Result<Vec<f64>, PlotError> {
+        Ok(self.turned(&quantity.at(&self.stored, frame)?))
     }
 
     /// Where the near field ends in m, in which values grow without bound on the scale of the picture: an eighth of
@@ -91,8 +138,7 @@ impl<'a> Section<'a> {
 
     /// Whether each place of [`Self::values`] is outside the near field.
     pub(super) fn is_far(&self) -> Vec<bool> {
-        let [r, z] = self.extent_m();
-        let near_m = self.near_m(r.min(z));
+        let near_m = self.near_m(self.side_m());
         let depths = self.depths_m();
         let places = depths
             .iter()
@@ -116,30 +162,6 @@ impl<'a> Section<'a> {
             .equal_lengths()
             .mirrored(Mirror::Even)
             .layer(Layer::Image(image))
-    }
-
-    /// How much of a frame by differences depends on the distance of the frames: rms over rms outside the near field.
-    pub(super) fn doubt(
-        &mut self,
-        quantity: &Quantity,
-        frames: &[usize],
-    ) -> Result<f64, PlotError> {
-        let far = self.is_far();
-        let (mut difference, mut size) = (0.0, 0.0);
-        for &frame in frames {
-            let fine = self.values(quantity, frame)?;
-            let coarse = quantity.at(self, frame, SAMPLES - 2)?;
-            let coarse = self.turned(&coarse);
-            for ((a, b), _) in fine.iter().zip(&coarse).zip(&far).filter(|(_, far)| **far) {
-                difference += (a - b) * (a - b);
-                size += a * a;
-            }
-        }
-        Ok(if size > 0.0 {
-            (difference / size).sqrt()
-        } else {
-            0.0
-        })
     }
 
     /// The fronts at a time as thin lines with their names, in a mirrored panel.
@@ -178,28 +200,6 @@ impl<'a> Section<'a> {
     }
 }
 
-impl Instants for Section<'_> {
-    fn time_s(&self) -> &[f64] {
-        &self.stored.time_s
-    }
-
-    fn at(&mut self, quantity: &str, instant: usize) -> Result<Vec<f64>, ReadError> {
-        let mut known = self.known.iter();
-        let found = known.find(|(name, frame, _)| name == quantity && *frame == instant);
-        if let Some((_, _, values)) = found {
-            return Ok(values.clone());
-        }
-        let found = self.stored.frame(quantity, instant)?;
-        let values: Vec<f64> = found.into_iter().map(f64::from).collect();
-        if self.known.len() >= KEPT {
-            self.known.pop_front();
-        }
-        let kept = (quantity.to_owned(), instant, values.clone());
-        self.known.push_back(kept);
-        Ok(values)
-    }
-}
-
 /// Points at a distance from a disc: a quarter circle around its edge and the plane part below it.
 fn capsule(disc_radius_m: f64, distance_m: f64) -> Vec<(f64, f64)> {
     const POINTS: u32 = 90;
@@ -209,16 +209,6 @@ fn capsule(disc_radius_m: f64, distance_m: f64) -> Vec<(f64, f64)> {
         (across, distance_m * angle.sin())
     });
     arc.chain([(0.0, distance_m)]).collect()
-}
-
-/// Colours of a quantity up to a size below which nearly all values outside the near field lie, of some rows of values
-/// at the same places.
-pub(super) fn colours(quantity: &Quantity, rows: &[Vec<f64>], is_far: &[bool]) -> ColourScale {
-    let outside = rows.iter().flat_map(|row| {
-        let pairs = row.iter().zip(is_far).filter(|(_, far)| **far);
-        pairs.map(|(value, _)| *value)
-    });
-    quantity.colours(quantile_of_sizes(outside, 0.985))
 }
 
 /// The value below which a fraction of the sizes lies; 0 without values.

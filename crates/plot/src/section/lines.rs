@@ -1,12 +1,12 @@
 //! What is seen along the surface and down the axis of a section: distance against time, and the axis beside the static
 //! field.
 
-use super::frames::{Section, colours};
+use super::frames::Section;
 use super::quantity::Quantity;
 use crate::error::PlotError;
 use crate::request::Request;
 use crate::series::curve;
-use crate::words::with_unit;
+use crate::words::{unit_of, with_unit};
 use contact::KernelUnits;
 use figure::{Axis, Image, LabelledPoint, Layer, Legend, Panel, Shading, Style};
 use formats::results::schema::FIELDS;
@@ -32,13 +32,13 @@ pub(crate) fn space_time(
     request: &Request,
     path: Path,
 ) -> Result<Panel, PlotError> {
-    let mut section = Section::of(impact)?;
+    let section = Section::of(impact)?;
     let frames = section.stored.time_s.len();
     let chosen: Vec<usize> = (0..frames)
         .step_by(frames.div_ceil(MOST_INSTANTS))
         .collect();
     let (usual, distances) = match path {
-        Path::Surface => ("velocity_z", section.stored.r_m.clone()),
+        Path::Surface => (section.usual(), section.stored.r_m.clone()),
         Path::Axis => ("stress_zz", section.depths_m()),
     };
     let quantity = section.quantity(request, usual)?;
@@ -53,7 +53,7 @@ pub(crate) fn space_time(
     }
     let near_m = section.near_m(distances[distances.len() - 1]);
     let is_far: Vec<bool> = distances.iter().map(|d| *d > near_m).collect();
-    let colours = colours(&quantity, &rows, &is_far);
+    let colours = section.colours(&quantity, &rows, &is_far);
     let times = chosen.iter().map(|&frame| section.stored.time_s[frame]);
     let along = distances.len();
     let image = Image {
@@ -104,16 +104,16 @@ fn panel(section: &Section<'_>, image: Image, path: Path) -> Panel {
 }
 
 /// Instants without times that are asked for: these shares of the pulse.
-const SHARES: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
+const SHARES: [f64; 4] = [0.2, 0.4, 0.6, 0.8];
 
-/// Smallest size that is shown, over the largest.
+/// Smallest size that is shown over the largest, at most.
 const DECADES: f64 = 1e-6;
 
 /// The field on the axis at some instants, and what would be there if the largest force lay on the disc for ever.
 ///
 /// Sizes on logarithmic axes: the static field falls with the square of the depth, and waves run ahead of it.
 pub(crate) fn axis_profile(impact: &StoredImpact, request: &Request) -> Result<Panel, PlotError> {
-    let mut section = Section::of(impact)?;
+    let section = Section::of(impact)?;
     let quantity = section.quantity(request, "stress_zz")?;
     let times_s = match request.times_s.as_slice() {
         [] => SHARES
@@ -127,22 +127,24 @@ pub(crate) fn axis_profile(impact: &StoredImpact, request: &Request) -> Result<P
     let depth = Axis::logarithmic("depth")
         .unit("mm")
         .range(1e3 * first_m, 1e3 * last_m);
-    let size = Axis::logarithmic(&format!("size of the {}", quantity.words)).si(&quantity.unit);
+    let mut size = Axis::logarithmic(&format!("size of the {}", quantity.words));
+    size.unit = unit_of(&quantity.unit);
     let mut panel = Panel::new(depth, size).height(380.0);
-    let mut largest = 0.0_f64;
+    let (mut smallest, mut largest) = (f64::INFINITY, 0.0_f64);
     let mut drawn = Vec::new();
     for time_s in times_s {
-        let known = &section.stored.time_s;
-        let frame = known.partition_point(|&t| t < time_s).min(known.len() - 1);
+        let frame = section.nearest(time_s);
         if drawn.contains(&frame) {
             continue;
         }
         drawn.push(frame);
-        let name = with_unit(known[frame], "s");
+        let name = with_unit(section.stored.time_s[frame], "s");
         let values = section.values(&quantity, frame)?;
         let column = values.iter().step_by(section.stored.r_m.len());
         let sizes: Vec<f64> = column.map(|value| value.abs()).collect();
         largest = sizes[1..].iter().copied().fold(largest, f64::max);
+        let positive = sizes[1..].iter().copied().filter(|size| *size > 0.0);
+        smallest = positive.fold(smallest, f64::min);
         let points = curve(&depths_mm, &sizes, f64::INFINITY);
         panel = panel.line(&name, Style::Plain, points);
     }
@@ -152,23 +154,26 @@ pub(crate) fn axis_profile(impact: &StoredImpact, request: &Request) -> Result<P
         panel = panel.line("static, largest force", Style::HeavyDashed, points);
     }
     if largest > 0.0 {
-        panel.y = panel.y.range(DECADES * largest, 2.0 * largest);
+        // before any wave there is nothing to see of the instants
+        let low = (0.5 * smallest.min(largest)).max(DECADES * largest);
+        panel.y = panel.y.range(low, 2.0 * largest);
     }
     Ok(panel)
 }
 
-/// Sizes of the static field on the axis under the largest force, over depths in mm; none for what is not one of the six fields.
+/// Sizes of the static field on the axis under the largest force, over depths in mm; none for rates.
 fn static_points(
     section: &Section<'_>,
     quantity: &Quantity,
 ) -> Result<Option<Vec<(f64, f64)>>, PlotError> {
-    let field = FIELDS.iter().position(|field| field.0 == quantity.name);
-    let (Some(field), Some(force_n)) = (field, section.impact.number("peak_force_n")) else {
+    let Some(force_n) = section.impact.number("peak_force_n") else {
         return Ok(None);
     };
     if section.disc_radius_m <= 0.0 {
         return Ok(None);
     }
+    let field = FIELDS.iter().position(|field| field.0 == quantity.name);
+    let stress = quantity.stress();
     let target = &section.impact.scene.target;
     let fault = |error| PlotError::Fields(FieldsError::Domain(error));
     let medium = Medium::new(target.material().poisson_ratio).map_err(fault)?;
@@ -191,7 +196,12 @@ fn static_points(
         let six = kernel
             .static_field(0.0, z_m / section.disc_radius_m)
             .map_err(fault)?;
-        points.push((1e3 * z_m, (force_n * unit * six[field]).abs()));
+        let size = match (field, stress) {
+            (Some(field), _) => six[field],
+            (None, Some(of)) => of.of([six[2], six[3], six[4], six[5]], [1.0, 0.0]),
+            (None, None) => return Ok(None),
+        };
+        points.push((1e3 * z_m, (force_n * unit * size).abs()));
     }
     Ok(Some(points))
 }

@@ -4,10 +4,10 @@ mod view;
 
 use crate::error::{PlotError, chosen};
 use crate::request::{Drawn, Kind, Request};
-use crate::words::{of_key, stem};
+use crate::words::{of_key, stem, unit_of};
 use figure::{
     Axis, ColourMap, ColourScale, Figure, Histogram, Image, Layer, Legend, Panel, Scale, Shading,
-    Style, Unit,
+    Style,
 };
 use formats::stored::{StoredQuantity, StoredSweep};
 use view::{SHARES, Slice, View, quantiles};
@@ -25,6 +25,12 @@ const MOST_CURVES: usize = 10;
 
 /// Histograms in a panel, at most.
 const MOST_HISTOGRAMS: usize = 4;
+
+/// Draws that are points, at most: more of them are bins.
+const MOST_POINTS: usize = 400;
+
+/// Bins of draws.
+const BINS: usize = 20;
 
 /// Values along a second axis from which on it is a heat map.
 const MANY: usize = 7;
@@ -48,6 +54,14 @@ pub(crate) fn of_sweep(sweep: &StoredSweep, request: &Request) -> Result<Drawn, 
         (Some(_), _) | (None, None) => Kind::Sweep,
     };
     let kind = request.kind.unwrap_or(suits);
+    // where only draws vary, over the first of their keys
+    let along = match kind {
+        Kind::Sweep => along.or(view.drawn),
+        _ => along,
+    };
+    if !request.times_s.is_empty() {
+        return Err(PlotError::all_times(kind));
+    }
     let known = sweep.quantities();
     let quantities = match (request.quantities.as_slice(), kind) {
         ([], Kind::Loss) => chosen(sweep.path(), &known, &["loss"])?,
@@ -79,7 +93,7 @@ pub(crate) fn of_sweep(sweep: &StoredSweep, request: &Request) -> Result<Drawn, 
     }
     let usual = || format!("Sweep {}", stem(sweep.path()));
     let title = request.title.clone().unwrap_or_else(usual);
-    let mut figure = Figure::new(&title).subtitle(&subtitle(&view, kind));
+    let mut figure = Figure::new(&title).subtitle(&subtitle(&view, kind, along));
     figure = match panels.len() {
         1 => figure.width(760.0),
         _ => figure.columns(2).width(1040.0),
@@ -92,19 +106,24 @@ pub(crate) fn of_sweep(sweep: &StoredSweep, request: &Request) -> Result<Drawn, 
 }
 
 /// How many scenes, and what bands are.
-fn subtitle(view: &View<'_>, kind: Kind) -> String {
+fn subtitle(view: &View<'_>, kind: Kind, along: Option<usize>) -> String {
     let rows: usize = view.sweep.axes.iter().map(|axis| axis.len).product();
     let mut text = format!("{rows} scenes");
     if view.sweep.failed > 0 {
         text.push_str(&format!(", {} of them failed", view.sweep.failed));
     }
+    if let Some(held) = view.held() {
+        text.push_str(&format!(", held: {held}"));
+    }
     if let Some(axis) = view.drawn
         && kind != Kind::Histogram
     {
         let draws = view.sweep.axes[axis].len;
-        text.push_str(&format!(
-            "; median of {draws} draws, and where 90 % of them lie"
-        ));
+        text.push_str(&match along == Some(axis) {
+            false => format!("; median of {draws} draws, and where 90 % of them lie"),
+            true if draws <= MOST_POINTS => format!("; {draws} draws"),
+            true => format!("; {draws} draws in {BINS} bins: median, and where 90 % lie"),
+        });
     }
     text
 }
@@ -132,12 +151,8 @@ fn scale_of(values: &[f64]) -> Scale {
 fn axis(name: &str, unit: &str, scale: Scale) -> Axis {
     let mut axis = Axis::linear(name);
     axis.scale = scale;
-    match unit {
-        "1" | "" => axis,
-        "kg" => axis.si("g"),
-        "kg/m^3" => axis.unit("kg/m^{3}"),
-        unit => axis.si(unit),
-    }
+    axis.unit = unit_of(unit);
+    axis
 }
 
 /// The numbers of a key along an axis.
@@ -203,7 +218,11 @@ fn lines(
     shown: &Shown<'_>,
     scale: Scale,
 ) -> Result<Panel, PlotError> {
-    let slices = few(view, view.slices(&[along]), MOST_CURVES)?;
+    let mut slices = few(view, view.slices(&[along]), MOST_CURVES)?;
+    if let ([only], Some(_)) = (slices.as_mut_slice(), view.drawn) {
+        // by its name a band knows its curve
+        only.label = "draws".to_owned();
+    }
     let Nodes {
         axis: x,
         places,
@@ -214,6 +233,12 @@ fn lines(
         ..=12 => Style::Marked,
         _ => Style::Plain,
     };
+    if view.drawn == Some(along) {
+        for slice in &slices {
+            panel = over_draws(panel, slice, &places, &view.rows(slice, &[]), &shown.values);
+        }
+        return Ok(panel);
+    }
     for slice in &slices {
         let at = |&i: &usize| {
             let found = view.quantiles(slice, &[(along, i)], &shown.values)?;
@@ -228,6 +253,33 @@ fn lines(
         panel = panel.line(&slice.label, style, middle);
     }
     Ok(panel)
+}
+
+/// Draws over one of their own keys: a point each, or of many the median and 90 % in bins of as many draws.
+fn over_draws(
+    panel: Panel,
+    slice: &Slice,
+    places: &[f64],
+    rows: &[usize],
+    values: &[f64],
+) -> Panel {
+    let pairs = places.iter().zip(rows).map(|(x, row)| (*x, values[*row]));
+    let mut pairs: Vec<(f64, f64)> = pairs.filter(|pair| pair.1.is_finite()).collect();
+    if pairs.len() <= MOST_POINTS {
+        return panel.line(&slice.label, Style::Points, pairs);
+    }
+    pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let of = |bin: &[(f64, f64)]| {
+        let x = quantiles(bin.iter().map(|pair| pair.0), SHARES)?;
+        Some((x[1], quantiles(bin.iter().map(|pair| pair.1), SHARES)?))
+    };
+    let bins = pairs.chunks(pairs.len().div_ceil(BINS)).filter_map(of);
+    let bins: Vec<(f64, [f64; 3])> = bins.collect();
+    let band = bins.iter().map(|&(x, q)| (x, q[0], q[2])).collect();
+    let middle = bins.iter().map(|&(x, q)| (x, q[1])).collect();
+    panel
+        .band(&slice.label, band)
+        .line(&slice.label, Style::Marked, middle)
 }
 
 fn heat_map(
@@ -248,10 +300,7 @@ fn heat_map(
             values.push(found.map_or(f64::NAN, |q| q[1]));
         }
     }
-    let unit = match shown.unit {
-        "1" | "" => Unit::One,
-        unit => Unit::Si(unit.to_owned()),
-    };
+    let unit = unit_of(shown.unit);
     let mut colours = ColourScale::new(&shown.words, unit, ColourMap::Sequential);
     colours.spread = scale_of(&values);
     let image = Image {

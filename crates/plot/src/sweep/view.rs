@@ -32,7 +32,7 @@ impl<'a> View<'a> {
         let mut fixed = vec![None; sweep.axes.len()];
         for (key, value) in &request.at {
             let (axis, column) = find(sweep, key)?;
-            fixed[axis] = Some(nearest_value(sweep, column, key, value)?);
+            fixed[axis] = Some(index_of(sweep, column, value)?);
         }
         let is_drawn = |i: &usize| sweep.axes[*i].is_drawn() && fixed[*i].is_none();
         Ok(Self {
@@ -107,6 +107,14 @@ impl<'a> View<'a> {
         found
     }
 
+    /// What is held, in words; none without anything.
+    pub(super) fn held(&self) -> Option<String> {
+        let fixed = self.fixed.iter().enumerate();
+        let held = fixed.filter_map(|(axis, index)| Some(self.name(axis, (*index)?)));
+        let held: Vec<String> = held.collect();
+        (!held.is_empty()).then(|| held.join(", "))
+    }
+
     /// What is at a place of an axis, in words: `granite`, `tip radius 2 mm`.
     fn name(&self, axis: usize, index: usize) -> String {
         let parts = self.sweep.axes[axis].columns.iter().map(|column| {
@@ -156,29 +164,38 @@ fn find<'a>(sweep: &'a StoredSweep, key: &str) -> Result<(usize, &'a StoredColum
     found.ok_or_else(|| PlotError::unknown(sweep.path(), format!("the key {key}"), key, names))
 }
 
-/// The index of a value of a key: that word, or the nearest number.
-fn nearest_value(
-    sweep: &StoredSweep,
-    column: &StoredColumn,
-    key: &str,
-    value: &str,
-) -> Result<usize, PlotError> {
-    let (found, known) = match &column.values {
-        Values::Texts(words) => {
-            let found = words.iter().position(|word| word == value);
-            (found, words.iter().map(String::as_str).collect())
+/// The index of a value of a key, a number to nine digits.
+fn index_of(sweep: &StoredSweep, column: &StoredColumn, value: &str) -> Result<usize, PlotError> {
+    /// Numbers that are told, at most.
+    const MOST: usize = 12;
+    let key = &column.name;
+    if let Values::Texts(words) = &column.values {
+        let found = words.iter().position(|word| word == value);
+        let words = words.iter().map(String::as_str);
+        let said = || format!("{key} = {value}");
+        return found.ok_or_else(|| PlotError::unknown(sweep.path(), said(), value, words));
+    }
+    let numbers = || (0..column.values.len()).filter_map(|i| column.values.number(i));
+    let wanted = value.parse::<f64>().unwrap_or(f64::NAN);
+    let is_wanted = |number: f64| (number - wanted).abs() <= 1e-9 * number.abs();
+    let allowed = || {
+        let count = column.values.len();
+        if count <= MOST {
+            let numbers: Vec<String> = numbers().map(|number| number.to_string()).collect();
+            return numbers.join(", ");
         }
-        numbers @ (Values::Numbers(_) | Values::Drawn(_)) => {
-            let wanted = value.parse::<f64>().ok().filter(|x| x.is_finite());
-            let nearest = |wanted: f64| {
-                let distance = |i: &usize| (numbers.number(*i).unwrap_or(f64::NAN) - wanted).abs();
-                (0..numbers.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)))
-            };
-            (wanted.and_then(nearest), vec!["numbers"])
-        }
+        let low = numbers().fold(f64::INFINITY, f64::min);
+        let high = numbers().fold(f64::NEG_INFINITY, f64::max);
+        format!("{count} values from {low} to {high}")
     };
-    let said = || format!("{key} = {value}");
-    found.ok_or_else(|| PlotError::unknown(sweep.path(), said(), value, known))
+    numbers().position(is_wanted).ok_or_else(|| {
+        let (path, allowed) = (sweep.path(), allowed());
+        let sentence = format!(
+            "{key} = {value} is not in {}; it has {allowed}",
+            path.display()
+        );
+        PlotError::refused(Some(path), sentence)
+    })
 }
 
 /// Lower, middle and upper quantile of values, those that are no numbers apart.

@@ -1,0 +1,50 @@
+"""What a scene takes is what the program says before: processor time, which other work on the machine disturbs little."""
+
+import importlib.machinery
+import importlib.util
+import json
+import time
+
+import pytest
+from conftest import PROGRAM, ROOT, run
+
+loader = importlib.machinery.SourceFileLoader("time_impacts", str(ROOT / "scripts" / "time-impacts"))
+times = importlib.util.module_from_spec(importlib.util.spec_from_loader("time_impacts", loader))
+loader.exec_module(times)
+
+JOBS = [job for job in times.jobs(None, False) if job[2] and job[2][0] != "sweep"]
+PROCESS_S = 0.05
+"""What a process takes beside its fields, at most."""
+
+
+def test_what_is_forecast_is_described():
+    assert len(JOBS) >= 10
+    document = (ROOT / "data-schema" / "results.md").read_text()
+    for key in json.loads(run("impact", ROOT / "scenes" / "sensor.toml", "--dry-run", "--json").stdout):
+        assert f"`{key}`" in document, key
+
+
+@pytest.mark.parametrize(("name", "scene", "arguments", "most"), JOBS, ids=lambda value: value if isinstance(value, str) and "\n" not in value else "")
+def test_a_forecast_is_within_a_factor_of_three(name, scene, arguments, most, tmp_path):
+    command = times.command(PROGRAM, tmp_path, scene, arguments)
+    told = times.forecast(PROGRAM, tmp_path, arguments)
+    took, why = min(times.processor_time(command) for _ in range(min(most, 3)))
+    assert not why, why
+    assert told / 3 - PROCESS_S < took < 3 * told + PROCESS_S, name
+
+
+def test_the_plan_of_a_sweep_is_within_a_factor_of_three(tmp_path):
+    """Draws of Poisson's ratio begin with a lattice that is made once, not once a row."""
+    text = (ROOT / "scenes" / "uncertain.toml").read_text()
+    sweep = tmp_path / "sweep.toml"
+    sweep.write_text(text.replace("samples = 20000", "samples = 400000"))
+    # both are seconds of the clock, which other work on the machine may take part of: it is tried again
+    for attempt in range(4):
+        plan = json.loads(run("sweep", sweep, "--plan", "--json").stdout)
+        assert plan["rows"] == 400_000
+        began = time.monotonic()
+        assert run("sweep", sweep, "-o", tmp_path / f"{attempt}.h5").returncode == 0
+        took = time.monotonic() - began
+        if plan["seconds"] / 3 < took < 3 * plan["seconds"]:
+            return
+    raise AssertionError(f"{plan['seconds']} s told, {took} s taken")
