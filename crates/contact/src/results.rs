@@ -108,8 +108,13 @@ impl Results {
             None => collision.contact_radius_m(peak_force_n),
         };
         let plastic_work = solved.flow.map_or(0.0, |flow| flow.plastic_work);
-        let disc_radius_m =
-            fixed_disc_m(solved.plan.model, settings, collision).unwrap_or(contact_radius_m);
+        let disc_radius_m = match &solved.flow {
+            Some(flow) => flow.disc_radius * (collision.tip_radius_m * units.length_m).sqrt(),
+            None => {
+                fixed_disc_m(solved.plan.model, settings, collision).unwrap_or(contact_radius_m)
+            }
+        };
+        let loaded_m = solved.flow.map_or(disc_radius_m, |_| contact_radius_m);
         let steps = solved
             .step
             .map_or(0.0, |step| (s.contact_time / step).ceil());
@@ -131,7 +136,7 @@ impl Results {
             loading: Loading::new(
                 &collision.strengths,
                 peak_force_n,
-                disc_radius_m,
+                loaded_m,
                 [collision.tip_radius_m, collision.effective_modulus_pa],
             ),
             plastic: Plastic::new(collision, settings, solved),

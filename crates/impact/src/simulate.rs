@@ -53,6 +53,9 @@ pub enum ImpactError {
     NoDisc,
 }
 
+/// Contact radii within which the fields are not those of a yielding block.
+const CLOSE: f64 = 2.0;
+
 /// Computes a scene.
 ///
 /// # Errors
@@ -139,6 +142,9 @@ fn of_strike(scene: &Scene, strike: &Strike, asked: Asked<'_>) -> Result<Outcome
     }
     let mut warnings = run.warnings.clone();
     warnings.extend(computed.warnings());
+    if run.solved.flow.is_some() {
+        warnings.extend(scene.beside(CLOSE * run.results.contact_radius_m));
+    }
     let cause = Cause::Contact {
         model: run.solved.plan.model,
         scheme: run.solved.scheme,

@@ -38,6 +38,7 @@ macro_rules! kinds {
 // kind, its name, the file that it shows, and what it shows
 kinds! {
     Impact "impact" of Impact => "force beside Hertz's, displacement, velocity, and the first probes";
+    Loop "loop" of Impact => "force against approach: the area inside is the energy lost";
     Probes "probes" of Impact => "histories at the probes with arrivals and error bands";
     Spectrum "spectrum" of Impact => "amplitude spectrum of the force, its corner frequency and its zeros";
     Waves "waves" of Impact => "frames of the section until the first wave leaves it; .gif: all of them";

@@ -35,7 +35,7 @@ use crate::error::ContactError;
 use crate::law::area_dashpot::{AreaDashpot, left_out};
 use crate::law::quasi_static::{quasi_static, quasi_static_radiation};
 use crate::law::radiation::{LOSS, radiation};
-use crate::model::{Model, Rung, Scheme, Settings, StaticShare};
+use crate::model::{Model, Plasticity, Rung, Scheme, Settings, StaticShare};
 use crate::names::Choice;
 
 /// The physics that a scene states.
@@ -353,15 +353,23 @@ impl Plan {
     /// Why this model, in words.
     #[must_use]
     pub fn reason(&self, settings: &Settings) -> String {
+        let yields = match (settings.plasticity, settings.yield_pressure_pa) {
+            (_, Some(_)) => "the contact yields at the yield_pressure_pa given",
+            (Plasticity::JacksonGreen, None) => "the contact yields by the fit for the yield strength",
+            (_, None) => "the contact yields at 2.8 times the lower yield strength",
+        };
         let family = match self.groups.family {
             Family::Growing => "no disc_radius_m: the contact follows the load",
-            Family::Yielding => "the contact yields",
+            Family::Yielding => yields,
             Family::Full => "disc_radius_m and the full static share: the paper's disc",
             Family::Dynamic => "disc_radius_m and the dynamic share",
         };
         match (&self.chosen, settings.model) {
             (Some(chosen), _) => format!("{family}; {}", chosen.reason(&accuracy(settings))),
             (None, Model::Auto) => "the explicit scheme marches a fixed disc".to_owned(),
+            (None, _) if self.groups.family == Family::Yielding => {
+                format!("asked for by the scene; {family}")
+            }
             (None, _) => "asked for by the scene".to_owned(),
         }
     }

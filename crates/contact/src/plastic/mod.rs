@@ -61,6 +61,20 @@ impl Yielding {
         radius * self.fit.map_or(1.0, |fit| over.powf(fit.spread()))
     }
 
+    /// Radius of Hertz's pressure with the second moment of the loading's at a radius of contact.
+    pub(crate) fn disc_radius(&self, radius: f64) -> f64 {
+        let (y, square) = (self.edge().min(radius), radius * radius);
+        match self.fit {
+            // of a flat pressure
+            Some(_) => self.true_radius(radius) * 1.25_f64.sqrt(),
+            None => {
+                let flat = square - y * y;
+                let moment = y * (0.25 * flat * flat + square * y * y / 3.0 - 0.2 * y.powi(4));
+                (7.5 * moment / Branch::Line { edge: y }.at(radius).force).sqrt()
+            }
+        }
+    }
+
     /// Loading beyond that radius.
     pub(crate) fn loading(&self) -> Branch {
         self.fit.map_or(Branch::Line { edge: self.edge() }, Branch::Fit)

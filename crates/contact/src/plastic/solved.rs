@@ -32,6 +32,8 @@ pub struct Flow {
     pub(crate) radius: f64,
     /// Largest radius of contact.
     pub contact_radius: f64,
+    /// Radius of Hertz's pressure of the same second moment at the turning point.
+    pub disc_radius: f64,
     /// Largest indentation.
     pub peak_indentation: f64,
     /// Indentation that stays.
@@ -48,6 +50,7 @@ impl Flow {
             plastic_work: 2.0 * INVERSE_MASS * (yielding.work(radius) - back.given_back(from)),
             radiated,
             radius,
+            disc_radius: yielding.disc_radius(radius),
             contact_radius: yielding.true_radius(radius),
             peak_indentation: radius * radius,
             residual_indentation: back.left(),

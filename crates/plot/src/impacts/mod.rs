@@ -14,7 +14,7 @@ use crate::words::with_unit;
 use contact::Shape;
 use figure::{Figure, Panel, Sharing};
 use formats::stored::{FileKind, StoredImpact};
-use histories::{FEW, contact_panels, probe_panels};
+use histories::{FEW, contact_panels, loop_panel, probe_panels};
 use labels::labels;
 use spectrum::spectrum;
 
@@ -36,6 +36,7 @@ pub(crate) fn of_impacts(impacts: &[StoredImpact], request: &Request) -> Result<
     };
     match kind {
         Kind::Impact | Kind::Probes => histories(impacts, kind, request),
+        Kind::Loop => Ok(single(loop_panel(impacts, &labels(impacts))?)),
         Kind::Spectrum => Ok(single(spectrum(impacts, &labels(impacts))?)),
         Kind::Peak => Ok(single(peak(one()?, request)?)),
         Kind::Axis => Ok(single(axis_profile(one()?, request)?)),
