@@ -155,7 +155,10 @@ impl Collision {
         let angle = 0.5 * PI * maximum / self.effective_modulus_pa;
         let depth = angle * angle * self.tip_radius_m / self.units().length_m;
         if depth.is_nan() || depth <= 0.0 {
-            return Err(ContactError::NotFinite { quantity: "yield depth", value: depth });
+            return Err(ContactError::NotFinite {
+                quantity: "yield depth",
+                value: depth,
+            });
         }
         Ok(Some(Yielding {
             law,

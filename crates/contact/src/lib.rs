@@ -66,9 +66,9 @@ pub use model::choose::{Chosen, Estimate, Family, Groups, Plan, choose, fixed_di
 pub use model::{Conflict, Model, Plasticity, Rung, Scheme, Settings, StaticShare};
 pub use names::{Choice, nearest};
 pub use numbers::NUMBERS_REVISION;
-pub use resample::Resampler;
 pub use plastic::Yielding;
 pub use plastic::solved::{Flow, YieldedContact};
+pub use resample::Resampler;
 pub use responses::{Exact, Ratios, Responses, Tabulated};
 pub use results::{MOST_ERROR, Plastic, Results};
 pub use solver::{Solved, Solver};

@@ -260,7 +260,11 @@ impl<'a, S: Responses> Solver<'a, S> {
             let waves = Waves::Memory(collision.growing_contact(&punch));
             let finest = PIECE * asked.tolerance;
             // a stiff striker's last instants may need finer pieces
-            found = follow(yielding, waves, [1.0, 0.1, 0.01].map(|part| (part * finest).max(FINEST)));
+            found = follow(
+                yielding,
+                waves,
+                [1.0, 0.1, 0.01].map(|part| (part * finest).max(FINEST)),
+            );
             if found.is_none() && !automatic {
                 return Err(ContactError::NotFollowed);
             }
@@ -285,7 +289,8 @@ impl<'a, S: Responses> Solver<'a, S> {
             }
         }
         let contact = found.as_ref();
-        let Some((summary, flow)) = results.or_else(|| contact.map(|one| (*one.summary(), *one.flow())))
+        let Some((summary, flow)) =
+            results.or_else(|| contact.map(|one| (*one.summary(), *one.flow())))
         else {
             return Ok(None);
         };

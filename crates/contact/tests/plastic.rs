@@ -24,7 +24,8 @@ impl Row<'_> {
     }
 
     fn collision(&self) -> (Collision, f64) {
-        let [tip_radius_m, mass_kg, pressure, velocity_m_s, at_yield] = [23, 22, 21, 20, 19].map(|i| self.number(i));
+        let [tip_radius_m, mass_kg, pressure, velocity_m_s, at_yield] =
+            [23, 22, 21, 20, 19].map(|i| self.number(i));
         let [phi, tau, nu] = [17, 16, 14].map(|i| self.number(i));
         // V_y = (pi/(2 E*))^2 sqrt(8 pi R^3/(15 m)) p_y^2.5
         let shape = (8.0 * PI * tip_radius_m.powi(3) / (15.0 * mass_kg)).sqrt();
@@ -55,13 +56,19 @@ fn solved(collision: &Collision, settings: &Settings) -> (Solved, Results) {
 }
 
 fn near(what: &str, found: f64, expected: f64, allowed: f64) {
-    assert!((found - expected).abs() <= allowed, "{what}: {found:.12e}, {expected:.12e}, off by {:.1e}", found - expected);
+    assert!(
+        (found - expected).abs() <= allowed,
+        "{what}: {found:.12e}, {expected:.12e}, off by {:.1e}",
+        found - expected
+    );
 }
 
 #[test]
 fn rows_of_the_reference() {
     for line in RESULTS.lines().skip(1) {
-        let row = Row { fields: line.split(',').collect() };
+        let row = Row {
+            fields: line.split(',').collect(),
+        };
         let (collision, settings) = referenced(line, [1e-4, 1e-7]);
         let allowed = match settings.model {
             Model::Hertz => 1e-8,
@@ -81,21 +88,38 @@ fn rows_of_the_reference() {
             near(&of(what), found / row.number(back), 1.0, allowed.max(3e-9));
         }
         let (deepest, left) = (row.number(6), r.plastic.residual_indentation_m.unwrap());
-        near(&of("residual"), left / deepest, row.number(5) / deepest, allowed);
+        near(
+            &of("residual"),
+            left / deepest,
+            row.number(5) / deepest,
+            allowed,
+        );
         let work = r.plastic.plastic_work_j.unwrap() / r.initial_energy_j;
         let radiated = r.radiated_energy_j / r.initial_energy_j;
-        near(&of("energy"), work + radiated, row.number(4) + row.number(3), 2.0 * allowed);
+        near(
+            &of("energy"),
+            work + radiated,
+            row.number(4) + row.number(3),
+            2.0 * allowed,
+        );
         // the reference counts what is stored where the dashpot's force ends as work of the law
         let flatter = r.plastic.dent_radius_m.unwrap() / collision.tip_radius_m;
         let kept = (2.25 * row.number(15) * r.restitution).powi(5) * flatter.powi(3);
-        near(&of("radiated"), radiated, row.number(3), 2.0 * kept + 1e-5 * row.number(3).max(1e-2));
+        near(
+            &of("radiated"),
+            radiated,
+            row.number(3),
+            2.0 * kept + 1e-5 * row.number(3).max(1e-2),
+        );
         near(&of("ledger"), r.energy_residual, 0.0, 1e-6);
     }
 }
 
 /// A collision of the reference with the settings of its row.
 fn referenced(line: &str, tolerance: [f64; 2]) -> (Collision, Settings) {
-    let row = Row { fields: line.split(',').collect() };
+    let row = Row {
+        fields: line.split(',').collect(),
+    };
     let (collision, pressure) = row.collision();
     let [waves, unloading] = [13, 12].map(|i| row.fields[row.fields.len() - i]);
     let (model, tolerance) = match waves {
@@ -103,7 +127,11 @@ fn referenced(line: &str, tolerance: [f64; 2]) -> (Collision, Settings) {
         "dashpot" => (Model::AreaDashpot, tolerance[0]),
         _ => (Model::Growing, tolerance[1]),
     };
-    let plasticity = if unloading == "thornton" { Plasticity::Thornton } else { Plasticity::Recovery };
+    let plasticity = if unloading == "thornton" {
+        Plasticity::Thornton
+    } else {
+        Plasticity::Recovery
+    };
     let settings = Settings {
         model,
         tolerance,
@@ -128,16 +156,34 @@ fn histories_of_the_reference() {
             };
             let row = RESULTS.lines().find(named).unwrap();
             let (collision, settings) = referenced(row, [1e-4, 1e-6]);
-            let (_, history) = Solver::new(&Exact).solve_with_history(&collision, &settings).unwrap();
+            let (_, history) = Solver::new(&Exact)
+                .solve_with_history(&collision, &settings)
+                .unwrap();
             contact = Some((history.yielded().unwrap().clone(), collision.units()));
             before = case;
         }
         let (found, units) = contact.as_ref().unwrap();
-        let [time, force, displacement, velocity] = [3, 4, 5, 6].map(|i| fields[i].parse::<f64>().unwrap());
+        let [time, force, displacement, velocity] =
+            [3, 4, 5, 6].map(|i| fields[i].parse::<f64>().unwrap());
         let now = found.state(time / units.time_s);
-        near(&format!("force of {line}"), now.force, force / units.force_n, 1e-5);
-        near(&format!("displacement of {line}"), now.displacement, displacement / units.length_m, 1e-5);
-        near(&format!("velocity of {line}"), now.velocity, velocity / units.velocity_m_s(), 1e-5);
+        near(
+            &format!("force of {line}"),
+            now.force,
+            force / units.force_n,
+            1e-5,
+        );
+        near(
+            &format!("displacement of {line}"),
+            now.displacement,
+            displacement / units.length_m,
+            1e-5,
+        );
+        near(
+            &format!("velocity of {line}"),
+            now.velocity,
+            velocity / units.velocity_m_s(),
+            1e-5,
+        );
     }
 }
 
@@ -161,13 +207,23 @@ fn thornton_without_waves_is_his_closed_form() {
         let (mut collision, settings) = at(ratio);
         // no wave is outrun by a block as stiff
         collision.target_longitudinal_speed_m_s *= 1e6;
-        let settings = Settings { model: Model::Hertz, ..settings };
+        let settings = Settings {
+            model: Model::Hertz,
+            ..settings
+        };
         let (_, r) = solved(&collision, &settings);
         let s = r.plastic.velocity_over_yield.unwrap();
         let root = 1.2 - 0.2 / (s * s);
-        let closed = (1.2 * 3f64.sqrt()).sqrt() * (1.0 - 1.0 / (6.0 * s * s)).sqrt() * (1.0 / s / (1.0 / s + 2.0 * root.sqrt())).powf(0.25);
+        let closed = (1.2 * 3f64.sqrt()).sqrt()
+            * (1.0 - 1.0 / (6.0 * s * s)).sqrt()
+            * (1.0 / s / (1.0 / s + 2.0 * root.sqrt())).powf(0.25);
         near("restitution", r.restitution, closed, 1e-9);
-        near("peak force", r.peak_force_n, s.powf(-1.2) * s * root.sqrt() * collision.units().force_n, 1e-9 * r.peak_force_n);
+        near(
+            "peak force",
+            r.peak_force_n,
+            s.powf(-1.2) * s * root.sqrt() * collision.units().force_n,
+            1e-9 * r.peak_force_n,
+        );
     }
 }
 
@@ -175,36 +231,72 @@ fn thornton_without_waves_is_his_closed_form() {
 fn the_quick_way_is_the_march() {
     for ratio in [1.2, 1.9, 5.0, 30.0, 200.0] {
         let (collision, settings) = at(ratio);
-        let settings = Settings { model: Model::AreaDashpot, ..settings };
+        let settings = Settings {
+            model: Model::AreaDashpot,
+            ..settings
+        };
         let quick = solved(&collision, &settings).0.summary;
-        let (_, history) = Solver::new(&Exact).solve_with_history(&collision, &settings).unwrap();
+        let (_, history) = Solver::new(&Exact)
+            .solve_with_history(&collision, &settings)
+            .unwrap();
         let march = *history.yielded().unwrap().summary();
         for (what, a, b) in [
             ("restitution", quick.restitution, march.restitution),
             ("peak force", quick.peak_force, march.peak_force),
             ("its time", quick.peak_force_time, march.peak_force_time),
             ("contact time", quick.contact_time, march.contact_time),
-            ("displacement", quick.peak_displacement, march.peak_displacement),
+            (
+                "displacement",
+                quick.peak_displacement,
+                march.peak_displacement,
+            ),
         ] {
             near(&format!("{what} at {ratio}"), a, b, 2e-9);
         }
-        near("deflection", quick.peak_deflection / march.peak_deflection, 1.0, 1e-3);
+        near(
+            "deflection",
+            quick.peak_deflection / march.peak_deflection,
+            1.0,
+            1e-3,
+        );
     }
 }
 
 #[test]
 fn below_yield_it_is_the_elastic_contact_to_the_last_bit() {
     let (collision, settings) = at(0.99);
-    let elastic = Settings { plasticity: Plasticity::None, yield_pressure_pa: None, ..settings };
-    for model in [Model::Auto, Model::Hertz, Model::AreaDashpot, Model::Growing] {
-        let [one, other] = [settings, elastic].map(|s| solved(&collision, &Settings { model, ..s }).1);
-        let bare = Results { plastic: other.plastic, ..one };
+    let elastic = Settings {
+        plasticity: Plasticity::None,
+        yield_pressure_pa: None,
+        ..settings
+    };
+    for model in [
+        Model::Auto,
+        Model::Hertz,
+        Model::AreaDashpot,
+        Model::Growing,
+    ] {
+        let [one, other] =
+            [settings, elastic].map(|s| solved(&collision, &Settings { model, ..s }).1);
+        let bare = Results {
+            plastic: other.plastic,
+            ..one
+        };
         assert_eq!(bare, other);
     }
     let (fast, settings) = at(100.0);
-    let hard = Settings { yield_pressure_pa: Some(1e15), ..settings };
+    let hard = Settings {
+        yield_pressure_pa: Some(1e15),
+        ..settings
+    };
     let [one, other] = [hard, elastic].map(|s| solved(&fast, &s).1);
-    assert_eq!(Results { plastic: other.plastic, ..one }, other);
+    assert_eq!(
+        Results {
+            plastic: other.plastic,
+            ..one
+        },
+        other
+    );
 }
 
 #[test]
@@ -226,8 +318,15 @@ fn the_ledger_closes_at_every_instant_and_plastic_work_never_falls() {
     for plasticity in [Plasticity::Thornton, Plasticity::Recovery] {
         for model in [Model::AreaDashpot, Model::Growing] {
             let (collision, settings) = at(15.0);
-            let settings = Settings { plasticity, model, tolerance: 1e-7, ..settings };
-            let (_, history) = Solver::new(&Exact).solve_with_history(&collision, &settings).unwrap();
+            let settings = Settings {
+                plasticity,
+                model,
+                tolerance: 1e-7,
+                ..settings
+            };
+            let (_, history) = Solver::new(&Exact)
+                .solve_with_history(&collision, &settings)
+                .unwrap();
             let contact = history.yielded().unwrap();
             let mut before = 0.0;
             for i in 0..=500 {
@@ -239,7 +338,8 @@ fn the_ledger_closes_at_every_instant_and_plastic_work_never_falls() {
                 assert!(flowed >= before - 1e-12, "{flowed} after {before}");
                 before = flowed;
                 // each term counts
-                let largest = [stored, flowed, radiated].map(|term| (sum - 0.01 * term - 1.0).abs());
+                let largest =
+                    [stored, flowed, radiated].map(|term| (sum - 0.01 * term - 1.0).abs());
                 if i == 250 {
                     assert!(largest.iter().all(|off| *off > 1e-7), "{largest:?}");
                 }
@@ -253,18 +353,23 @@ fn rows_of_jackson_and_green() {
     for line in JACKSON_GREEN.lines().skip(1) {
         let v: Vec<f64> = line.split(',').map(|x| x.parse().unwrap()).collect();
         let [strain, nu, ratio, lag, e, time, deepest, force] = std::array::from_fn(|i| v[i]);
-        let given = |youngs_modulus_pa: f64, poisson_ratio: f64, yield_strength_pa: Option<f64>| Material {
-            youngs_modulus_pa,
-            poisson_ratio,
-            yield_strength_pa,
-            ..Material::named("steel").unwrap()
-        };
+        let given =
+            |youngs_modulus_pa: f64, poisson_ratio: f64, yield_strength_pa: Option<f64>| Material {
+                youngs_modulus_pa,
+                poisson_ratio,
+                yield_strength_pa,
+                ..Material::named("steel").unwrap()
+            };
         let modulus = 1e11;
         let soft = given(modulus * (1.0 - nu * nu), nu, Some(strain * modulus));
         let ball = Striker::ball(given(1e30, 0.0, None), 0.01).unwrap();
         let block = HalfSpace::new(soft).unwrap();
         let mut settings = Settings {
-            model: if lag > 0.0 { Model::AreaDashpot } else { Model::Hertz },
+            model: if lag > 0.0 {
+                Model::AreaDashpot
+            } else {
+                Model::Hertz
+            },
             plasticity: Plasticity::JacksonGreen,
             ..Settings::default()
         };
@@ -280,9 +385,24 @@ fn rows_of_jackson_and_green() {
         let (_, r) = solved(&collision, &settings);
         let allowed = 1e-6;
         near(&format!("restitution of {line}"), r.restitution, e, allowed);
-        near("contact time", r.contact_time_s / units.time_s, time, allowed * time);
-        near("indentation", r.peak_displacement_m / units.length_m, deepest, allowed * deepest);
-        near("residual", r.plastic.residual_indentation_m.unwrap() / units.length_m, v.get(8).copied().unwrap_or(0.0), 2e-6 * deepest);
+        near(
+            "contact time",
+            r.contact_time_s / units.time_s,
+            time,
+            allowed * time,
+        );
+        near(
+            "indentation",
+            r.peak_displacement_m / units.length_m,
+            deepest,
+            allowed * deepest,
+        );
+        near(
+            "residual",
+            r.plastic.residual_indentation_m.unwrap() / units.length_m,
+            v.get(8).copied().unwrap_or(0.0),
+            2e-6 * deepest,
+        );
         assert!(r.peak_force_n / units.force_n >= force * (1.0 - 1e-6));
     }
 }

@@ -6,7 +6,8 @@
 
 use crate::scene::Strike;
 use contact::{
-    Choice, Collision, ContactError, Exact, HalfSpace, Plasticity, Results, Settings, Solver, choice,
+    Choice, Collision, ContactError, Exact, HalfSpace, Plasticity, Results, Settings, Solver,
+    choice,
 };
 use thiserror::Error;
 
@@ -58,7 +59,9 @@ pub enum InferError {
         velocity: bool,
     },
     /// A measure that no contact has that yields.
-    #[error("{measure} = {value} is outside ({low:.4e}, {high:.4e}), what a contact has that yields up to {MOST} times the yield velocity")]
+    #[error(
+        "{measure} = {value} is outside ({low:.4e}, {high:.4e}), what a contact has that yields up to {MOST} times the yield velocity"
+    )]
     Outside {
         /// What was measured.
         measure: &'static str,
@@ -155,7 +158,10 @@ pub fn infer(
         });
     };
     let mut band = [find(value - error)?, find(value + error)?];
-    if matches!(band, [Some(a), Some(b)] if a > b) || band[0].is_none() && band[1].is_some_and(|b| b < found) || band[1].is_none() && band[0].is_some_and(|a| a > found) {
+    if matches!(band, [Some(a), Some(b)] if a > b)
+        || band[0].is_none() && band[1].is_some_and(|b| b < found)
+        || band[1].is_none() && band[0].is_some_and(|a| a > found)
+    {
         band.reverse();
     }
     Ok(Inferred {

@@ -79,7 +79,11 @@ impl Scene {
     pub(crate) fn beside(&self, near_m: f64) -> Option<String> {
         let near = |probe: &&Probe| probe.r_m.hypot(probe.z_m) < near_m;
         let probes = self.probes.iter().filter(near).count();
-        let section = if self.section.is_some() { " and the middle of the section" } else { "" };
+        let section = if self.section.is_some() {
+            " and the middle of the section"
+        } else {
+            ""
+        };
         (probes > 0 || self.section.is_some()).then(|| {
             format!(
                 "{probes} probes{section} lie within {near_m:.3e} m, two contact radii: the stresses there are not those of a yielding block"

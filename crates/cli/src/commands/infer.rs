@@ -24,7 +24,7 @@ pub(crate) struct Arguments {
     restitution: Option<f64>,
     /// Times in s between three bounces: the second over the first is the restitution of the bounce between, whose
     /// velocity follows from the first.
-    #[arg(long, group = "measured", value_name = "T1,T2", value_delimiter = ',', num_args = 2)]
+    #[arg(long, group = "measured", value_name = "T1,T2", value_delimiter = ',')]
     bounces: Option<Vec<f64>>,
     /// Duration of the contact in s.
     #[arg(long, group = "measured", value_name = "SECONDS")]
@@ -46,13 +46,25 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let scene = read_scene(&arguments.scene).map_err(Failure::input)?;
     let Load::Strike(mut strike) = scene.load else {
-        return Err(Failure::input("a force record has no rebound: give the scene a [striker]"));
+        return Err(Failure::input(
+            "a force record has no rebound: give the scene a [striker]",
+        ));
     };
     let unknown = Unknown::named(&arguments.unknown).unwrap_or(Unknown::YieldPressure);
     let mut error = arguments.error;
-    let (measure, value) = match (&arguments.bounces, arguments.restitution, arguments.contact_time, arguments.peak_force) {
+    let (measure, value) = match (
+        &arguments.bounces,
+        arguments.restitution,
+        arguments.contact_time,
+        arguments.peak_force,
+    ) {
         (Some(times), _, _, _) => {
-            let [first, second] = [times[0], times[1]];
+            let &[first, second] = times.as_slice() else {
+                return Err(Failure::input(format!(
+                    "--bounces has {} times, not two",
+                    times.len()
+                )));
+            };
             strike.velocity_m_s = 0.5 * GRAVITY_M_S2 * first;
             error *= (1.0 + (second / first).powi(2)).sqrt() / first;
             (Measure::Restitution, second / first)
@@ -61,10 +73,25 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         (None, None, Some(time), _) => (Measure::ContactTime, time),
         (None, None, None, force) => (Measure::PeakForce, force.unwrap_or(f64::NAN)),
     };
-    if !(value > 0.0 && value.is_finite() && error >= 0.0 && error.is_finite() && strike.velocity_m_s > 0.0) {
-        return Err(Failure::input(format!("{} = {value} with an error of {error} is outside (0, inf) and [0, inf)", measure.name())));
+    if !(value > 0.0
+        && value.is_finite()
+        && error >= 0.0
+        && error.is_finite()
+        && strike.velocity_m_s > 0.0)
+    {
+        return Err(Failure::input(format!(
+            "{} = {value} with an error of {error} is outside (0, inf) and [0, inf)",
+            measure.name()
+        )));
     }
-    let found = infer(&scene.target, &strike, &scene.settings, unknown, (measure, [value, error])).map_err(Failure::input)?;
+    let found = infer(
+        &scene.target,
+        &strike,
+        &scene.settings,
+        unknown,
+        (measure, [value, error]),
+    )
+    .map_err(Failure::input)?;
     let (results, [low, high]) = (&found.results, found.band);
     if arguments.json {
         return print(json!({

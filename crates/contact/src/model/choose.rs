@@ -262,7 +262,14 @@ pub(crate) fn plan(
         groups.family = Family::Yielding;
     }
     let auto = settings.model == Model::Auto && settings.scheme == Scheme::Implicit;
-    let chosen = auto.then(|| groups.choose(&accuracy(settings)));
+    let mut chosen = auto.then(|| groups.choose(&accuracy(settings)));
+    if let (Some(chosen), Plasticity::JacksonGreen, true) =
+        (&mut chosen, settings.plasticity, yields)
+        && chosen.rung == Rung::FullMemory
+    {
+        // the fit jumps where it leaves Hertz's law: it has no memory
+        (chosen.rung, chosen.error) = (Rung::AreaDashpot, chosen.left_out.contact);
+    }
     let model = match &chosen {
         Some(chosen) => chosen.model(),
         None if settings.model == Model::Auto => Model::Wave,
@@ -355,7 +362,9 @@ impl Plan {
     pub fn reason(&self, settings: &Settings) -> String {
         let yields = match (settings.plasticity, settings.yield_pressure_pa) {
             (_, Some(_)) => "the contact yields at the yield_pressure_pa given",
-            (Plasticity::JacksonGreen, None) => "the contact yields by the fit for the yield strength",
+            (Plasticity::JacksonGreen, None) => {
+                "the contact yields by the fit for the yield strength"
+            }
             (_, None) => "the contact yields at 2.8 times the lower yield strength",
         };
         let family = match self.groups.family {
@@ -365,6 +374,12 @@ impl Plan {
             Family::Dynamic => "disc_radius_m and the dynamic share",
         };
         match (&self.chosen, settings.model) {
+            (Some(chosen), _)
+                if chosen.family == Family::Yielding && chosen.error > settings.tolerance =>
+            {
+                let left_out = chosen.error;
+                format!("{family}; the fit has a dashpot at most, which leaves out {left_out:.1e}")
+            }
             (Some(chosen), _) => format!("{family}; {}", chosen.reason(&accuracy(settings))),
             (None, Model::Auto) => "the explicit scheme marches a fixed disc".to_owned(),
             (None, _) if self.groups.family == Family::Yielding => {

@@ -202,7 +202,8 @@ impl Settings {
         let none = match model.row() {
             (Rung::QuasiStatic | Rung::AreaDashpot, on_disc) => on_disc,
             (Rung::FullMemory, on_disc) => {
-                on_disc && model != Model::Auto || model == Model::Growing && law == Plasticity::JacksonGreen
+                on_disc && model != Model::Auto
+                    || model == Model::Growing && law == Plasticity::JacksonGreen
             }
             (Rung::Radiation, _) => true,
         };

@@ -132,7 +132,10 @@ impl Branch {
                     let (from, to) = (place(a.min(kink)), place(0.0));
                     let width = 0.25 * (to - from);
                     let panels = [0.0, 1.0, 2.0, 3.0].map(|i| from + i * width);
-                    panels.map(|at| gauss(&GAUSS_8, at, at + width, part)).iter().sum()
+                    panels
+                        .map(|at| gauss(&GAUSS_8, at, at + width, part))
+                        .iter()
+                        .sum()
                 } else {
                     0.0
                 };

@@ -15,8 +15,8 @@ use crate::growing::march::March as Elastic;
 use crate::growing::nodes::{Factors, Nodes};
 use crate::growing::polynomial::{LARGEST, Polynomial, dot};
 use crate::growing::waves::GrowingContact;
-use crate::numeric::quadrature::rising_root;
 use crate::model::Plasticity;
+use crate::numeric::quadrature::rising_root;
 use crate::plastic::Yielding;
 use crate::plastic::branch::Branch;
 use crate::units::INVERSE_MASS;
@@ -75,7 +75,10 @@ struct Motion {
 }
 
 /// Pieces at most, tried ones included.
-const MOST: usize = 800;
+const MOST: usize = 200;
+
+/// Rate of the radius at which the contact has turned.
+const STILL: f64 = 1e-11;
 
 /// Newton's iterations at most.
 const ITERATIONS: usize = 12;
@@ -149,8 +152,15 @@ impl<'a> March<'a> {
         (march.branch, march.state.radius, march.state.velocity) = (branch, 1.0, 0.0);
         march.unload(1.0).ok()?;
         let pull = |one: &Stretch, s: f64| one.piece.radius.value(s) * -one.piece.velocity.value(s);
-        let samples = march.stretches.iter().flat_map(|one| (0..=64).map(move |i| pull(one, f64::from(i) / 64.0)));
-        Some([-march.state.velocity, march.state.time, samples.fold(0.0, f64::max)])
+        let samples = march
+            .stretches
+            .iter()
+            .flat_map(|one| (0..=64).map(move |i| pull(one, f64::from(i) / 64.0)));
+        Some([
+            -march.state.velocity,
+            march.state.time,
+            samples.fold(0.0, f64::max),
+        ])
     }
 
     /// Another branch from here on, with a g that goes on.
@@ -167,7 +177,11 @@ impl<'a> March<'a> {
         elastic.load()?;
         for piece in elastic.pieces {
             let yields = piece.to.1 >= edge;
-            let to = if yields { reaching(&piece.radius, edge) } else { 1.0 };
+            let to = if yields {
+                reaching(&piece.radius, edge)
+            } else {
+                1.0
+            };
             let motion = self.sampled(&piece, to);
             self.accept(&motion);
             if yields {
@@ -189,6 +203,9 @@ impl<'a> March<'a> {
                 velocity,
                 ..
             } = self.state;
+            if self.state.slope.abs() < STILL {
+                return Ok(());
+            }
             let elastic = self.branch == Branch::Hertz;
             if elastic && radius >= edge {
                 self.breaks[0] = time;
@@ -281,14 +298,24 @@ impl<'a> March<'a> {
             let near = radius > 0.5 * base;
             let goal = floor.max(if near { 0.45 * base } else { 0.0 });
             // in the root of the distance to the base, later in that of the radius
-            let map = |radius: f64| if near { (base - radius).max(0.0).sqrt() } else { radius.sqrt() };
+            let map = |radius: f64| {
+                if near {
+                    (base - radius).max(0.0).sqrt()
+                } else {
+                    radius.sqrt()
+                }
+            };
             let (from, to) = (map(radius), map(goal));
             let left = radius / -slope / power;
             let (mut share, mut guess) = (part, None);
             if let (Waves::Memory(contact), false) = (self.waves, near) {
                 let layer = contact.target_share * contact.wave_time;
                 let bare = (self.accuracy / (0.01 * layer)).max(0.3 * contact.wave_time);
-                share = if radius < bare && !failed { 1.0 } else { part.min(LONGEST) };
+                share = if radius < bare && !failed {
+                    1.0
+                } else {
+                    part.min(LONGEST)
+                };
                 guess = Some((left, power));
                 if left < NEGLIGIBLE * self.accuracy || part < 0.02 && left < LOST * self.accuracy {
                     self.end_by_power_law(left, power);
@@ -336,7 +363,9 @@ impl<'a> March<'a> {
         let (lag, branch) = (self.lag(), self.branch);
         // the force over the square of the radius, which vanishes too
         let pull = |a: f64, v: f64| -branch.at(a).force / (a * a) - 2.25 * lag * v;
-        let after = (1..=n).find(|&i| motion.radius[i] <= 0.0 || pull(motion.radius[i], motion.velocity[i]) >= 0.0)?;
+        let after = (1..=n).find(|&i| {
+            motion.radius[i] <= 0.0 || pull(motion.radius[i], motion.velocity[i]) >= 0.0
+        })?;
         if lag == 0.0 {
             return None;
         }
@@ -363,7 +392,12 @@ impl<'a> March<'a> {
     }
 
     /// A piece that solves its equations to the accuracy, and its error.
-    fn attempt(&self, known: Independent, given: Polynomial, law: Option<(f64, f64)>) -> Option<(Motion, f64)> {
+    fn attempt(
+        &self,
+        known: Independent,
+        given: Polynomial,
+        law: Option<(f64, f64)>,
+    ) -> Option<(Motion, f64)> {
         let n = self.nodes.degree;
         let problem = Problem {
             march: self,
@@ -433,7 +467,8 @@ impl<'a> March<'a> {
             }
             (found, slopes)
         };
-        let ((time, time_slope), (radius, radius_slope)) = (part(&motion.time), part(&motion.radius));
+        let ((time, time_slope), (radius, radius_slope)) =
+            (part(&motion.time), part(&motion.radius));
         Motion {
             time,
             radius,
@@ -551,8 +586,17 @@ struct Problem<'m, 'a> {
 
 impl Problem<'_, '_> {
     /// What follows from values of what is sought, and the residuals; `departures` are those of a motion nearby, or empty.
-    fn residual(&self, sought: &Values, departures: &mut Vec<Departure>) -> (Motion, [f64; LARGEST]) {
-        let March { nodes, state, branch, .. } = self.march;
+    fn residual(
+        &self,
+        sought: &Values,
+        departures: &mut Vec<Departure>,
+    ) -> (Motion, [f64; LARGEST]) {
+        let March {
+            nodes,
+            state,
+            branch,
+            ..
+        } = self.march;
         let n = nodes.degree;
         let (mut given, mut given_slope) = ([0.0; LARGEST + 1], [0.0; LARGEST + 1]);
         let mut sought_slope = [0.0; LARGEST + 1];
@@ -584,7 +628,11 @@ impl Problem<'_, '_> {
             local[j - 1] = here;
             let damped = lag * here.stiffness.powi(2) * here.depth_slope * motion.radius_slope[j];
             impulse[j - 1] = here.force * motion.time_slope[j] + damped;
-            let rate = if damped == 0.0 { 0.0 } else { damped / motion.time_slope[j] };
+            let rate = if damped == 0.0 {
+                0.0
+            } else {
+                damped / motion.time_slope[j]
+            };
             motion.force[j] = here.force + rate;
         }
         let mut residual = [0.0; LARGEST];
@@ -608,7 +656,15 @@ impl Problem<'_, '_> {
         departures: &mut Vec<Departure>,
         residual: &mut [f64; LARGEST],
     ) {
-        let March { nodes, state, branch, past, offsets, offset, .. } = self.march;
+        let March {
+            nodes,
+            state,
+            branch,
+            past,
+            offsets,
+            offset,
+            ..
+        } = self.march;
         let n = nodes.degree;
         if !motion.time[..=n].iter().all(|t| t.is_finite()) {
             residual[0] = f64::NAN;
@@ -616,7 +672,11 @@ impl Problem<'_, '_> {
         }
         let rule = contact.waves.rule(self.march.level());
         let size = rule.delays.len();
-        let delays: Vec<f64> = rule.delays.iter().map(|delay| delay * contact.wave_time).collect();
+        let delays: Vec<f64> = rule
+            .delays
+            .iter()
+            .map(|delay| delay * contact.wave_time)
+            .collect();
         let again = departures.len() == n * size;
         departures.resize(n * size, Departure::default());
         let time_of = nodes.polynomial(&motion.time[..=n]);
@@ -652,7 +712,12 @@ impl Problem<'_, '_> {
 
     /// The law without waves along what is given, as a guess; or a power law of the time left.
     fn guess(&self, law: Option<(f64, f64)>) -> Values {
-        let March { nodes, state, branch, .. } = self.march;
+        let March {
+            nodes,
+            state,
+            branch,
+            ..
+        } = self.march;
         let mut guess = [0.0; LARGEST + 1];
         let (mut time, mut radius, mut v) = (state.time, state.radius, state.velocity);
         if self.known == Independent::Radius && self.given.jet(0.5).1 < 0.0 {

@@ -52,7 +52,9 @@ impl Yielding {
 
     /// Radius of contact where the loading leaves Hertz's law.
     pub(crate) fn edge(&self) -> f64 {
-        self.fit.map_or(self.depth, |fit| FITTED * fit.critical).sqrt()
+        self.fit
+            .map_or(self.depth, |fit| FITTED * fit.critical)
+            .sqrt()
     }
 
     /// Radius of contact whose square is the indentation, to the one of the law: the fit's is wider.
@@ -77,7 +79,8 @@ impl Yielding {
 
     /// Loading beyond that radius.
     pub(crate) fn loading(&self) -> Branch {
-        self.fit.map_or(Branch::Line { edge: self.edge() }, Branch::Fit)
+        self.fit
+            .map_or(Branch::Line { edge: self.edge() }, Branch::Fit)
     }
 
     /// Work of the loading up to a radius of contact, int p du.
@@ -95,7 +98,10 @@ impl Yielding {
         };
         let width = (radius - edge) / PANELS as f64;
         let panels = (0..PANELS).map(|i| edge + i as f64 * width);
-        0.4 * edge.powi(5) + panels.map(|from| gauss(&GAUSS_8, from, from + width, part)).sum::<f64>()
+        0.4 * edge.powi(5)
+            + panels
+                .map(|from| gauss(&GAUSS_8, from, from + width, part))
+                .sum::<f64>()
     }
 
     /// Unloading from a radius of contact, and the radius with which it begins: the fit's is another one.

@@ -110,7 +110,8 @@ fn rise(edge: f64, lag: f64) -> Option<(f64, f64, f64)> {
                 break;
             }
         }
-        let over = |f: &dyn Fn(usize) -> f64| -> f64 { (0..NODES).map(|j| rule.weights[j] * f(j)).sum() };
+        let over =
+            |f: &dyn Fn(usize) -> f64| -> f64 { (0..NODES).map(|j| rule.weights[j] * f(j)).sum() };
         time += width * over(&|j| 2.0 * x[j] / v[j]);
         lost += width * over(&|j| x[j] * x[j] * x[j] * v[j]);
         from = to;
@@ -135,7 +136,9 @@ fn panel() -> &'static Panel {
         let rule = crate::numeric::quadrature::GAUSS_8;
         let lagrange = |x: f64, j: usize| -> f64 {
             let others = (0..NODES).filter(|&k| k != j);
-            others.map(|k| (x - rule[k].0) / (rule[j].0 - rule[k].0)).product()
+            others
+                .map(|k| (x - rule[k].0) / (rule[j].0 - rule[k].0))
+                .product()
         };
         Panel {
             places: rule.map(|node| node.0),

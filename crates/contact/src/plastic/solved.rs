@@ -61,11 +61,7 @@ impl Flow {
 
 impl YieldedContact {
     /// Follows a contact with pieces that leave an error of `accuracy` each; the time where none is short enough.
-    pub(crate) fn follow(
-        yielding: Yielding,
-        waves: Waves<'_>,
-        accuracy: f64,
-    ) -> Result<Self, f64> {
+    pub(crate) fn follow(yielding: Yielding, waves: Waves<'_>, accuracy: f64) -> Result<Self, f64> {
         let mut march = March::new(yielding, waves, accuracy);
         march.run()?;
         let state = march.state;
@@ -104,7 +100,9 @@ impl YieldedContact {
             error: march.error,
         };
         let samples = (0..=SAMPLES).map(|i| state.time * i as f64 / SAMPLES as f64);
-        found.summary.peak_deflection = samples.map(|t| found.state(t).deflection).fold(0.0, f64::max);
+        found.summary.peak_deflection = samples
+            .map(|t| found.state(t).deflection)
+            .fold(0.0, f64::max);
         Ok(found)
     }
 
@@ -150,7 +148,11 @@ impl YieldedContact {
         };
         let ([force, p1, p2], [_, t1, t2]) = (one.force.curve(s), one.piece.time.curve(s));
         let rate = if t1 > 0.0 { p1 / t1 } else { 0.0 };
-        let second_rate = if t1 > 0.0 { (p2 - rate * t2) / (t1 * t1) } else { 0.0 };
+        let second_rate = if t1 > 0.0 {
+            (p2 - rate * t2) / (t1 * t1)
+        } else {
+            0.0
+        };
         let velocity = one.piece.velocity.value(s);
         let displacement = one.piece.displacement.value(s);
         let here = one.branch.at(one.piece.radius.value(s).max(0.0));
@@ -176,7 +178,8 @@ impl YieldedContact {
     /// Radius of contact at a time; zero outside the contact.
     #[must_use]
     pub fn radius(&self, time: f64) -> f64 {
-        self.place(time).map_or(0.0, |(one, s)| one.piece.radius.value(s).max(0.0))
+        self.place(time)
+            .map_or(0.0, |(one, s)| one.piece.radius.value(s).max(0.0))
     }
 
     /// Stored energy, plastic work and work on the waves until a time, over the kinetic energy before.

@@ -89,7 +89,9 @@ pub(super) fn contact_panels(
 pub(super) fn loop_panel(impacts: &[StoredImpact], labels: &[String]) -> Result<Panel, PlotError> {
     let axes = [("approach", "m"), ("force", "N")].map(|(name, unit)| Axis::linear(name).si(unit));
     let [approach, force] = axes;
-    let mut panel = Panel::new(approach, force).height(380.0).legend(Legend::Auto);
+    let mut panel = Panel::new(approach, force)
+        .height(380.0)
+        .legend(Legend::Auto);
     for (impact, label) in impacts.iter().zip(labels) {
         let series = &impact.series;
         let Some(striker) = &series.striker else {
@@ -99,7 +101,11 @@ pub(super) fn loop_panel(impacts: &[StoredImpact], labels: &[String]) -> Result<
         let pairs = striker.displacement_m.iter().zip(&series.force_n);
         let pressed = |pair: &(&f64, &f64)| *pair.1 > 0.0;
         let points = pairs.clone().take(1).chain(pairs.filter(pressed));
-        panel = panel.line(label, Style::Plain, points.map(|(&d, &p)| (d, p)).collect::<Vec<_>>());
+        panel = panel.line(
+            label,
+            Style::Plain,
+            points.map(|(&d, &p)| (d, p)).collect::<Vec<_>>(),
+        );
     }
     Ok(panel)
 }
