@@ -67,6 +67,7 @@ pub use model::{Conflict, Model, Plasticity, Rung, Scheme, Settings, StaticShare
 pub use names::{Choice, nearest};
 pub use numbers::NUMBERS_REVISION;
 pub use plastic::Yielding;
+pub use plastic::infer::{InferError, Inferred, Measure, Rebound, Unknown};
 pub use plastic::solved::{Flow, YieldedContact};
 pub use resample::Resampler;
 pub use responses::{Exact, Ratios, Responses, Tabulated};

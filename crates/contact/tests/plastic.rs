@@ -3,8 +3,8 @@
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
 use contact::{
-    Collision, Exact, HalfSpace, Material, Model, Plasticity, Results, Settings, Solved, Solver,
-    Strength, Striker,
+    Collision, Exact, HalfSpace, Material, Measure, Model, Plasticity, Rebound, Results, Settings,
+    Solved, Solver, Strength, Striker, Unknown,
 };
 use halfspace::{Deflection, Medium, SurfaceResponse};
 use std::f64::consts::PI;
@@ -404,5 +404,64 @@ fn rows_of_jackson_and_green() {
             2e-6 * deepest,
         );
         assert!(r.peak_force_n / units.force_n >= force * (1.0 - 1e-6));
+    }
+}
+
+#[test]
+fn a_rebound_gives_back_its_yield_pressure_and_its_velocity() {
+    let block = HalfSpace::new(Material::named("aluminium-6061-t6").unwrap()).unwrap();
+    for i in 0..12 {
+        // equidistributed in three dimensions
+        let part = |root: f64| (f64::from(i + 1) * root).fract();
+        let ball = Striker::ball(
+            Material::named("bearing-steel").unwrap(),
+            1e-3 + 0.01 * part(2f64.sqrt()),
+        )
+        .unwrap();
+        let (velocity, pressure) = (
+            0.3 * 30f64.powf(part(3f64.sqrt())),
+            4e8 * 3f64.powf(part(5f64.sqrt())),
+        );
+        let settings = Settings {
+            plasticity: [Plasticity::Thornton, Plasticity::Recovery][i as usize % 2],
+            yield_pressure_pa: Some(pressure),
+            model: Model::AreaDashpot,
+            ..Settings::default()
+        };
+        let (_, r) = solved(&Collision::new(&block, &ball, velocity), &settings);
+        for (measure, value) in [
+            (Measure::Restitution, r.restitution),
+            (Measure::PeakForce, r.peak_force_n),
+        ] {
+            for (unknown, true_value) in [
+                (Unknown::YieldPressure, pressure),
+                (Unknown::Velocity, velocity),
+            ] {
+                let rebound = Rebound {
+                    target: &block,
+                    striker: &ball,
+                    velocity_m_s: if unknown == Unknown::Velocity {
+                        1.0
+                    } else {
+                        velocity
+                    },
+                    settings: &settings,
+                    unknown,
+                    measure,
+                };
+                let found = rebound.infer(value, 0.01 * value).unwrap();
+                near(
+                    &format!("{unknown:?} from {measure:?}"),
+                    found.value / true_value,
+                    1.0,
+                    1e-6,
+                );
+                let [low, high] = found.band;
+                assert!(
+                    low.is_none_or(|low| low < found.value)
+                        && high.is_none_or(|high| high > found.value)
+                );
+            }
+        }
     }
 }

@@ -3,9 +3,9 @@
 use crate::failure::{Failure, print};
 use clap::builder::PossibleValuesParser;
 use clap::{ArgGroup, Args};
-use contact::{Choice, GRAVITY_M_S2};
+use contact::{Choice, GRAVITY_M_S2, Measure, Rebound, Unknown};
 use formats::read_scene;
-use impact::{Load, Measure, Unknown, infer};
+use impact::Load;
 use serde_json::json;
 use std::path::PathBuf;
 
@@ -84,14 +84,15 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
             measure.name()
         )));
     }
-    let found = infer(
-        &scene.target,
-        &strike,
-        &scene.settings,
+    let rebound = Rebound {
+        target: &scene.target,
+        striker: &strike.striker,
+        velocity_m_s: strike.velocity_m_s,
+        settings: &scene.settings,
         unknown,
-        (measure, [value, error]),
-    )
-    .map_err(Failure::input)?;
+        measure,
+    };
+    let found = rebound.infer(value, error).map_err(Failure::input)?;
     let (results, [low, high]) = (&found.results, found.band);
     if arguments.json {
         return print(json!({

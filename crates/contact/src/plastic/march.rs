@@ -9,7 +9,7 @@
 //!
 //! Pieces end at yield and at the turning point, where the branch changes.
 
-use crate::growing::arrivals::{Arrival, Departure, Piece};
+use crate::growing::arrivals::Piece;
 use crate::growing::equations::{Independent, State, Values};
 use crate::growing::march::March as Elastic;
 use crate::growing::nodes::{Factors, Nodes};
@@ -19,6 +19,7 @@ use crate::model::Plasticity;
 use crate::numeric::quadrature::rising_root;
 use crate::plastic::Yielding;
 use crate::plastic::branch::Branch;
+use crate::plastic::problem::Problem;
 use crate::units::INVERSE_MASS;
 
 /// How the half-space answers.
@@ -45,14 +46,14 @@ pub(crate) struct March<'a> {
     pub(crate) yielding: Yielding,
     pub(crate) waves: Waves<'a>,
     pub(crate) accuracy: f64,
-    nodes: &'static Nodes,
+    pub(crate) nodes: &'static Nodes,
     /// The pieces as arrivals want them, and the constants of their g.
-    past: Vec<Piece>,
-    offsets: Vec<f64>,
+    pub(crate) past: Vec<Piece>,
+    pub(crate) offsets: Vec<f64>,
     pub(crate) stretches: Vec<Stretch>,
     pub(crate) state: State,
-    branch: Branch,
-    offset: f64,
+    pub(crate) branch: Branch,
+    pub(crate) offset: f64,
     /// Work on the deflection, over the kinetic energy.
     pub(crate) radiated: f64,
     /// Sum of the pieces' errors.
@@ -65,20 +66,20 @@ pub(crate) struct March<'a> {
 
 /// Time, radius and what follows from them at 0 and the nodes; slopes with respect to the place.
 #[derive(Clone, Copy)]
-struct Motion {
-    time: Values,
-    radius: Values,
-    time_slope: Values,
-    radius_slope: Values,
-    velocity: Values,
-    force: Values,
+pub(crate) struct Motion {
+    pub(crate) time: Values,
+    pub(crate) radius: Values,
+    pub(crate) time_slope: Values,
+    pub(crate) radius_slope: Values,
+    pub(crate) velocity: Values,
+    pub(crate) force: Values,
 }
 
 /// Pieces at most, tried ones included.
-const MOST: usize = 200;
+const MOST: usize = 500;
 
-/// Rate of the radius at which the contact has turned.
-const STILL: f64 = 1e-11;
+/// Velocity, and with memory rate of the radius, too small for a piece.
+const STILL: [f64; 2] = [1e-7, 1e-9];
 
 /// Newton's iterations at most.
 const ITERATIONS: usize = 12;
@@ -192,18 +193,32 @@ impl<'a> March<'a> {
         Err(self.state.time)
     }
 
+    /// Whether what is left until the turning point is too short for a piece; then it is passed.
+    fn has_turned(&mut self) -> bool {
+        let State {
+            radius,
+            velocity,
+            slope,
+            ..
+        } = self.state;
+        match self.waves {
+            Waves::Memory(_) => slope < STILL[1],
+            Waves::Dashpot(_) if velocity < STILL[0] => {
+                self.state.time += velocity / (INVERSE_MASS * self.branch.at(radius).force);
+                self.state.velocity = 0.0;
+                true
+            }
+            Waves::Dashpot(_) => false,
+        }
+    }
+
     /// Until the striker turns.
     fn load(&mut self) -> Result<(), f64> {
         let edge = self.yielding.edge();
         let mut part = 1.0;
         for _ in 0..MOST {
-            let State {
-                time,
-                radius,
-                velocity,
-                ..
-            } = self.state;
-            if self.state.slope.abs() < STILL {
+            let State { time, radius, .. } = self.state;
+            if self.has_turned() {
                 return Ok(());
             }
             let elastic = self.branch == Branch::Hertz;
@@ -216,17 +231,8 @@ impl<'a> March<'a> {
                 }
                 continue;
             }
-            let by_radius = velocity > SLOW && part > 1e-3;
-            let (known, given) = if by_radius {
-                let goal = if elastic { edge } else { radius + 0.3 };
-                let rise = part * (goal - radius);
-                (Independent::Radius, Polynomial::power(radius, rise, 1))
-            } else {
-                let here = self.branch.at(radius);
-                let push = here.force + self.lag() * here.stiffness.powi(2) * velocity;
-                let length = (part * 1.2 * velocity / (INVERSE_MASS * push)).min(0.5);
-                (Independent::Time, Polynomial::power(time, length, 1))
-            };
+            let (known, given) = self.next_piece(part);
+            let by_radius = known == Independent::Radius;
             let Some((motion, error)) = self.attempt(known, given, None) else {
                 part *= 0.5;
                 if part < 1e-8 {
@@ -276,6 +282,32 @@ impl<'a> March<'a> {
             }
         }
         Err(self.state.time)
+    }
+
+    /// What the next piece of the loading is a function of.
+    fn next_piece(&self, part: f64) -> (Independent, Polynomial) {
+        let State {
+            time,
+            radius,
+            velocity,
+            ..
+        } = self.state;
+        if velocity > SLOW && part > 1e-3 {
+            let elastic = self.branch == Branch::Hertz;
+            let goal = if elastic {
+                self.yielding.edge()
+            } else {
+                radius + 0.3
+            };
+            return (
+                Independent::Radius,
+                Polynomial::power(radius, part * (goal - radius), 1),
+            );
+        }
+        let here = self.branch.at(radius);
+        let push = here.force + self.lag() * here.stiffness.powi(2) * velocity;
+        let length = (part * 1.2 * velocity / (INVERSE_MASS * push)).min(0.5);
+        (Independent::Time, Polynomial::power(time, length, 1))
     }
 
     /// Until the force is gone, from the radius at which the striker turned.
@@ -384,7 +416,7 @@ impl<'a> March<'a> {
         Some(low)
     }
 
-    fn lag(&self) -> f64 {
+    pub(crate) fn lag(&self) -> f64 {
         match self.waves {
             Waves::Dashpot(lag) => lag,
             Waves::Memory(_) => 0.0,
@@ -577,195 +609,9 @@ impl<'a> March<'a> {
     }
 }
 
-/// The equations of a piece.
-struct Problem<'m, 'a> {
-    march: &'m March<'a>,
-    known: Independent,
-    given: Polynomial,
-}
-
-impl Problem<'_, '_> {
-    /// What follows from values of what is sought, and the residuals; `departures` are those of a motion nearby, or empty.
-    fn residual(
-        &self,
-        sought: &Values,
-        departures: &mut Vec<Departure>,
-    ) -> (Motion, [f64; LARGEST]) {
-        let March {
-            nodes,
-            state,
-            branch,
-            ..
-        } = self.march;
-        let n = nodes.degree;
-        let (mut given, mut given_slope) = ([0.0; LARGEST + 1], [0.0; LARGEST + 1]);
-        let mut sought_slope = [0.0; LARGEST + 1];
-        for (i, &s) in nodes.places.iter().enumerate() {
-            (given[i], given_slope[i]) = self.given.jet(s);
-        }
-        for i in 1..=n {
-            sought_slope[i] = dot(nodes.slope_row(i), &sought[..=n]);
-        }
-        let (time, radius, time_slope, radius_slope) = match self.known {
-            Independent::Time => (given, *sought, given_slope, sought_slope),
-            Independent::Radius => (*sought, given, sought_slope, given_slope),
-        };
-        let mut motion = Motion {
-            time,
-            radius,
-            time_slope,
-            radius_slope,
-            velocity: [state.velocity; LARGEST + 1],
-            force: [0.0; LARGEST + 1],
-        };
-        let lag = self.march.lag();
-        let start = branch.at(state.radius);
-        motion.force[0] = start.force + lag * start.stiffness.powi(2) * state.velocity;
-        let mut impulse = [0.0; LARGEST];
-        let mut local = [start; LARGEST];
-        for j in 1..=n {
-            let here = branch.at(motion.radius[j].max(0.0));
-            local[j - 1] = here;
-            let damped = lag * here.stiffness.powi(2) * here.depth_slope * motion.radius_slope[j];
-            impulse[j - 1] = here.force * motion.time_slope[j] + damped;
-            let rate = if damped == 0.0 {
-                0.0
-            } else {
-                damped / motion.time_slope[j]
-            };
-            motion.force[j] = here.force + rate;
-        }
-        let mut residual = [0.0; LARGEST];
-        for i in 1..=n {
-            motion.velocity[i] -= INVERSE_MASS * dot(nodes.integral_row(i), &impulse[..n]);
-            residual[i - 1] = motion.velocity[i] * motion.time_slope[i]
-                - local[i - 1].depth_slope * motion.radius_slope[i];
-        }
-        if let Waves::Memory(contact) = self.march.waves {
-            self.remember(&contact, &motion, &local, departures, &mut residual);
-        }
-        (motion, residual)
-    }
-
-    /// The part of the memory: phi (s_a a' - S T').
-    fn remember(
-        &self,
-        contact: &GrowingContact<'_>,
-        motion: &Motion,
-        local: &[crate::plastic::branch::Local],
-        departures: &mut Vec<Departure>,
-        residual: &mut [f64; LARGEST],
-    ) {
-        let March {
-            nodes,
-            state,
-            branch,
-            past,
-            offsets,
-            offset,
-            ..
-        } = self.march;
-        let n = nodes.degree;
-        if !motion.time[..=n].iter().all(|t| t.is_finite()) {
-            residual[0] = f64::NAN;
-            return;
-        }
-        let rule = contact.waves.rule(self.march.level());
-        let size = rule.delays.len();
-        let delays: Vec<f64> = rule
-            .delays
-            .iter()
-            .map(|delay| delay * contact.wave_time)
-            .collect();
-        let again = departures.len() == n * size;
-        departures.resize(n * size, Departure::default());
-        let time_of = nodes.polynomial(&motion.time[..=n]);
-        let radius_of = nodes.polynomial(&motion.radius[..=n]);
-        for i in 1..=n {
-            let arrival = Arrival {
-                time_of: &time_of,
-                radius_of: &radius_of,
-                from: (state.time, state.radius),
-                place: nodes.places[i],
-                time: motion.time[i],
-            };
-            let found = &mut departures[(i - 1) * size..i * size];
-            arrival.departures(past, &delays, again, found);
-            let here = branch.delayed(motion.radius[i].max(0.0)) + offset;
-            let sum: f64 = rule
-                .rates
-                .iter()
-                .zip(found.iter())
-                .map(|(rate, left)| {
-                    let (law, shift) = match self.march.stretches.get(left.piece) {
-                        Some(stretch) => (&stretch.branch, offsets[left.piece]),
-                        None => (branch, *offset),
-                    };
-                    rate * (here - law.delayed(left.radius.max(0.0)) - shift)
-                })
-                .sum();
-            let punches = local[i - 1].punch_slope * motion.radius_slope[i];
-            residual[i - 1] +=
-                contact.target_share * (punches - sum / contact.wave_time * motion.time_slope[i]);
-        }
-    }
-
-    /// The law without waves along what is given, as a guess; or a power law of the time left.
-    fn guess(&self, law: Option<(f64, f64)>) -> Values {
-        let March {
-            nodes,
-            state,
-            branch,
-            ..
-        } = self.march;
-        let mut guess = [0.0; LARGEST + 1];
-        let (mut time, mut radius, mut v) = (state.time, state.radius, state.velocity);
-        if self.known == Independent::Radius && self.given.jet(0.5).1 < 0.0 {
-            v = v.min(0.0);
-        }
-        guess[0] = match self.known {
-            Independent::Time => radius,
-            Independent::Radius => time,
-        };
-        for (value, &s) in guess.iter_mut().zip(&nodes.places).skip(1) {
-            let here = branch.at(radius);
-            match self.known {
-                Independent::Time => {
-                    let step = self.given.value(s) - time;
-                    let slope = |a: f64, v: f64| v / branch.at(a).depth_slope.max(1e-12);
-                    let half = v - 0.5 * step * INVERSE_MASS * here.force;
-                    radius += step * slope(radius + 0.5 * step * slope(radius, v), half);
-                    v -= step * INVERSE_MASS * branch.at(radius).force;
-                    time += step;
-                    *value = radius;
-                }
-                Independent::Radius => {
-                    let next = self.given.value(s).max(0.0);
-                    let there = branch.at(next);
-                    let moved = there.depth - here.depth;
-                    let energy = v * v - INVERSE_MASS * moved * (here.force + there.force);
-                    let after = energy.max(0.01 * v * v).sqrt().copysign(moved);
-                    if moved != 0.0 {
-                        time += 2.0 * moved / (v + after);
-                        v = after;
-                    }
-                    radius = next;
-                    *value = match law {
-                        None => time,
-                        Some((left, power)) => {
-                            state.time + left * (1.0 - (next / state.radius).powf(power))
-                        }
-                    };
-                }
-            }
-        }
-        guess
-    }
-}
-
 impl March<'_> {
     /// Level of the rule over the waves.
-    fn level(&self) -> usize {
+    pub(crate) fn level(&self) -> usize {
         (-3.0 - self.accuracy.log10()).round().clamp(1.0, 7.0) as usize
     }
 }

@@ -1,7 +1,7 @@
 //! Contacts that yield: loading until the striker turns, unloading as a sphere on a dent.
 //!
 //! `branch` has the laws, `march` follows a contact along them, with a dashpot on the contact's area or the memory of the
-//! half-space; `solved` is what comes of it, `quick` the same for Thornton's law without a march.
+//! half-space, by the equations of `problem`; `solved` is what comes of it, `quick` the same for Thornton's law without a march.
 //!
 //! ```text
 //! v' = -(5/4) p
@@ -15,7 +15,9 @@
 //! Theory: `docs/theory.md` (T62 to T67).
 
 pub(crate) mod branch;
+pub(crate) mod infer;
 pub(crate) mod march;
+pub(crate) mod problem;
 pub(crate) mod quick;
 pub(crate) mod solved;
 
