@@ -21,7 +21,7 @@ use crate::law::radiation::damped_force;
 use crate::model::choose::{Family, Plan, accuracy, disc_radius_m, plan};
 use crate::model::{Model, Rung, Scheme, Settings};
 use crate::plastic::Yielding;
-use crate::plastic::march::Waves;
+use crate::plastic::problem::Waves;
 use crate::plastic::quick::quick;
 use crate::plastic::solved::{Flow, YieldedContact};
 use crate::responses::Responses;

@@ -19,17 +19,8 @@ use crate::model::Plasticity;
 use crate::numeric::quadrature::rising_root;
 use crate::plastic::Yielding;
 use crate::plastic::branch::Branch;
-use crate::plastic::problem::Problem;
+use crate::plastic::problem::{Course, Motion, Problem, Waves};
 use crate::units::INVERSE_MASS;
-
-/// How the half-space answers.
-#[derive(Debug, Clone, Copy)]
-pub(crate) enum Waves<'a> {
-    /// At once, with a lag c.
-    Dashpot(f64),
-    /// By its memory.
-    Memory(GrowingContact<'a>),
-}
 
 /// A piece with its force, and the branch that it follows.
 #[derive(Debug, Clone, Copy)]
@@ -44,16 +35,9 @@ pub(crate) struct Stretch {
 /// A contact on its way.
 pub(crate) struct March<'a> {
     pub(crate) yielding: Yielding,
-    pub(crate) waves: Waves<'a>,
     pub(crate) accuracy: f64,
-    pub(crate) nodes: &'static Nodes,
-    /// The pieces as arrivals want them, and the constants of their g.
-    pub(crate) past: Vec<Piece>,
-    pub(crate) offsets: Vec<f64>,
+    pub(crate) course: Course<'a>,
     pub(crate) stretches: Vec<Stretch>,
-    pub(crate) state: State,
-    pub(crate) branch: Branch,
-    pub(crate) offset: f64,
     /// Work on the deflection, over the kinetic energy.
     pub(crate) radiated: f64,
     /// Sum of the pieces' errors.
@@ -62,17 +46,6 @@ pub(crate) struct March<'a> {
     pub(crate) top: f64,
     /// When yield begins and when the striker turns.
     pub(crate) breaks: [f64; 2],
-}
-
-/// Time, radius and what follows from them at 0 and the nodes; slopes with respect to the place.
-#[derive(Clone, Copy)]
-pub(crate) struct Motion {
-    pub(crate) time: Values,
-    pub(crate) radius: Values,
-    pub(crate) time_slope: Values,
-    pub(crate) radius_slope: Values,
-    pub(crate) velocity: Values,
-    pub(crate) force: Values,
 }
 
 /// Pieces at most, tried ones included.
@@ -102,21 +75,24 @@ impl<'a> March<'a> {
         let degree = (2.0 - accuracy.log10()).round().clamp(6.0, 13.0);
         Self {
             yielding,
-            waves,
             accuracy,
-            nodes: Nodes::of(degree as usize),
-            past: Vec::with_capacity(32),
-            offsets: Vec::with_capacity(32),
-            stretches: Vec::with_capacity(32),
-            state: State {
-                time: 0.0,
-                radius: 0.0,
-                velocity: 1.0,
-                displacement: 0.0,
-                slope: 1.0,
+            course: Course {
+                waves,
+                level: (-3.0 - accuracy.log10()).round().clamp(1.0, 7.0) as usize,
+                nodes: Nodes::of(degree as usize),
+                past: Vec::with_capacity(32),
+                laws: Vec::with_capacity(32),
+                state: State {
+                    time: 0.0,
+                    radius: 0.0,
+                    velocity: 1.0,
+                    displacement: 0.0,
+                    slope: 1.0,
+                },
+                branch: Branch::Hertz,
+                offset: 0.0,
             },
-            branch: Branch::Hertz,
-            offset: 0.0,
+            stretches: Vec::with_capacity(32),
             radiated: 0.0,
             error: 0.0,
             top: 0.0,
@@ -129,15 +105,15 @@ impl<'a> March<'a> {
     /// # Errors
     /// The time where no piece is short enough.
     pub(crate) fn run(&mut self) -> Result<(), f64> {
-        if let Waves::Memory(contact) = self.waves {
+        if let Waves::Memory(contact) = self.course.waves {
             self.touch(contact)?;
         }
         self.load()?;
-        self.breaks[1] = self.state.time;
-        self.top = self.state.radius;
+        self.breaks[1] = self.course.state.time;
+        self.top = self.course.state.radius;
         let (branch, top) = self.yielding.unloading(self.top);
         self.enter(branch);
-        self.state.radius = top;
+        self.course.state.radius = top;
         self.unload(top)
     }
 
@@ -150,7 +126,11 @@ impl<'a> March<'a> {
             fit: None,
         };
         let mut march = Self::new(never, waves, 1e-12);
-        (march.branch, march.state.radius, march.state.velocity) = (branch, 1.0, 0.0);
+        (
+            march.course.branch,
+            march.course.state.radius,
+            march.course.state.velocity,
+        ) = (branch, 1.0, 0.0);
         march.unload(1.0).ok()?;
         let pull = |one: &Stretch, s: f64| one.piece.radius.value(s) * -one.piece.velocity.value(s);
         let samples = march
@@ -158,17 +138,17 @@ impl<'a> March<'a> {
             .iter()
             .flat_map(|one| (0..=64).map(move |i| pull(one, f64::from(i) / 64.0)));
         Some([
-            -march.state.velocity,
-            march.state.time,
+            -march.course.state.velocity,
+            march.course.state.time,
             samples.fold(0.0, f64::max),
         ])
     }
 
     /// Another branch from here on, with a g that goes on.
     fn enter(&mut self, branch: Branch) {
-        let radius = self.state.radius;
-        self.offset += self.branch.delayed(radius) - branch.delayed(radius);
-        self.branch = branch;
+        let radius = self.course.state.radius;
+        self.course.offset += self.course.branch.delayed(radius) - branch.delayed(radius);
+        self.course.branch = branch;
     }
 
     /// The elastic beginning of a contact with memory is that of one that does not yield.
@@ -186,11 +166,11 @@ impl<'a> March<'a> {
             let motion = self.sampled(&piece, to);
             self.accept(&motion);
             if yields {
-                self.state.radius = edge;
+                self.course.state.radius = edge;
                 return Ok(());
             }
         }
-        Err(self.state.time)
+        Err(self.course.state.time)
     }
 
     /// Whether what is left until the turning point is too short for a piece; then it is passed.
@@ -200,12 +180,13 @@ impl<'a> March<'a> {
             velocity,
             slope,
             ..
-        } = self.state;
-        match self.waves {
+        } = self.course.state;
+        match self.course.waves {
             Waves::Memory(_) => slope < STILL[1],
             Waves::Dashpot(_) if velocity < STILL[0] => {
-                self.state.time += velocity / (INVERSE_MASS * self.branch.at(radius).force);
-                self.state.velocity = 0.0;
+                self.course.state.time +=
+                    velocity / (INVERSE_MASS * self.course.branch.at(radius).force);
+                self.course.state.velocity = 0.0;
                 true
             }
             Waves::Dashpot(_) => false,
@@ -217,15 +198,15 @@ impl<'a> March<'a> {
         let edge = self.yielding.edge();
         let mut part = 1.0;
         for _ in 0..MOST {
-            let State { time, radius, .. } = self.state;
+            let State { time, radius, .. } = self.course.state;
             if self.has_turned() {
                 return Ok(());
             }
-            let elastic = self.branch == Branch::Hertz;
+            let elastic = self.course.branch == Branch::Hertz;
             if elastic && radius >= edge {
                 self.breaks[0] = time;
                 self.enter(self.yielding.loading());
-                if matches!(self.waves, Waves::Memory(_)) {
+                if matches!(self.course.waves, Waves::Memory(_)) {
                     // waves from before the yield arrive with another slope
                     part = 0.1;
                 }
@@ -243,21 +224,24 @@ impl<'a> March<'a> {
             self.error += error;
             let whole = by_radius && part == 1.0;
             part = (1.6 * part).min(1.0);
-            let last = self.nodes.degree;
+            let last = self.course.nodes.degree;
             let mut to = 1.0;
             // the indentation turns; with memory the striker does so later
-            let turns = match self.waves {
+            let turns = match self.course.waves {
                 Waves::Dashpot(_) => motion.velocity[last] <= 0.0,
                 Waves::Memory(_) => !by_radius && motion.radius_slope[last] <= 0.0,
             };
             if turns {
-                to = match self.waves {
+                to = match self.course.waves {
                     Waves::Dashpot(_) => {
-                        let slowing = self.nodes.polynomial(&motion.velocity.map(|v| -v)[..=last]);
+                        let slowing = self
+                            .course
+                            .nodes
+                            .polynomial(&motion.velocity.map(|v| -v)[..=last]);
                         crossing(|s| slowing.jet(s))
                     }
                     Waves::Memory(_) => {
-                        let radius = self.nodes.polynomial(&motion.radius[..=last]);
+                        let radius = self.course.nodes.polynomial(&motion.radius[..=last]);
                         crossing(|s| {
                             let [_, slope, bend] = radius.curve(s);
                             (-slope, -bend)
@@ -267,7 +251,7 @@ impl<'a> March<'a> {
             }
             let mut yields = elastic && whole;
             if elastic && !by_radius && motion.radius[last] >= edge {
-                let radius = self.nodes.polynomial(&motion.radius[..=last]);
+                let radius = self.course.nodes.polynomial(&motion.radius[..=last]);
                 let place = reaching(&radius, edge);
                 yields = place <= to;
                 to = to.min(place);
@@ -275,13 +259,13 @@ impl<'a> March<'a> {
             let motion = self.cut(motion, to);
             self.accept(&motion);
             if yields {
-                self.state.radius = edge;
+                self.course.state.radius = edge;
             } else if turns {
-                self.state.slope = 0.0;
+                self.course.state.slope = 0.0;
                 return Ok(());
             }
         }
-        Err(self.state.time)
+        Err(self.course.state.time)
     }
 
     /// What the next piece of the loading is a function of.
@@ -291,9 +275,9 @@ impl<'a> March<'a> {
             radius,
             velocity,
             ..
-        } = self.state;
+        } = self.course.state;
         if velocity > SLOW && part > 1e-3 {
-            let elastic = self.branch == Branch::Hertz;
+            let elastic = self.course.branch == Branch::Hertz;
             let goal = if elastic {
                 self.yielding.edge()
             } else {
@@ -304,8 +288,8 @@ impl<'a> March<'a> {
                 Polynomial::power(radius, part * (goal - radius), 1),
             );
         }
-        let here = self.branch.at(radius);
-        let push = here.force + self.lag() * here.stiffness.powi(2) * velocity;
+        let here = self.course.branch.at(radius);
+        let push = here.force + self.course.lag() * here.stiffness.powi(2) * velocity;
         let length = (part * 1.2 * velocity / (INVERSE_MASS * push)).min(0.5);
         (Independent::Time, Polynomial::power(time, length, 1))
     }
@@ -313,7 +297,7 @@ impl<'a> March<'a> {
     /// Until the force is gone, from the radius at which the striker turned.
     fn unload(&mut self, top: f64) -> Result<(), f64> {
         // where the pressure was cut the branch has a root
-        let kink = match self.branch {
+        let kink = match self.course.branch {
             Branch::Truncated { edge, top } => ((top - edge) * (top + edge)).max(0.0).sqrt(),
             Branch::Hertz | Branch::Line { .. } | Branch::Fit(_) | Branch::Hertzian { .. } => 0.0,
         };
@@ -322,7 +306,7 @@ impl<'a> March<'a> {
         let mut power = 2.0;
         let mut failed = false;
         for _ in 0..MOST {
-            let State { radius, slope, .. } = self.state;
+            let State { radius, slope, .. } = self.course.state;
             let (base, floor) = match radius > kink {
                 true => (top, kink),
                 false => (kink, 0.0),
@@ -340,7 +324,7 @@ impl<'a> March<'a> {
             let (from, to) = (map(radius), map(goal));
             let left = radius / -slope / power;
             let (mut share, mut guess) = (part, None);
-            if let (Waves::Memory(contact), false) = (self.waves, near) {
+            if let (Waves::Memory(contact), false) = (self.course.waves, near) {
                 let layer = contact.target_share * contact.wave_time;
                 let bare = (self.accuracy / (0.01 * layer)).max(0.3 * contact.wave_time);
                 share = if radius < bare && !failed {
@@ -376,23 +360,24 @@ impl<'a> March<'a> {
             }
             self.accept(&motion);
             if share == 1.0 {
-                self.state.radius = goal;
+                self.course.state.radius = goal;
                 if goal == 0.0 {
                     return Ok(());
                 }
             }
             if slope < 0.0 {
-                let rise = slope / self.state.slope;
-                power = (1.0 + rise.ln() / (self.state.radius / radius).ln()).clamp(0.7, 2.0);
+                let rise = slope / self.course.state.slope;
+                power =
+                    (1.0 + rise.ln() / (self.course.state.radius / radius).ln()).clamp(0.7, 2.0);
             }
         }
-        Err(self.state.time)
+        Err(self.course.state.time)
     }
 
     /// Where the dashpot's force is gone in a piece of the unloading.
     fn separation(&self, motion: &Motion) -> Option<f64> {
-        let n = self.nodes.degree;
-        let (lag, branch) = (self.lag(), self.branch);
+        let n = self.course.nodes.degree;
+        let (lag, branch) = (self.course.lag(), self.course.branch);
         // the force over the square of the radius, which vanishes too
         let pull = |a: f64, v: f64| -branch.at(a).force / (a * a) - 2.25 * lag * v;
         let after = (1..=n).find(|&i| {
@@ -401,9 +386,12 @@ impl<'a> March<'a> {
         if lag == 0.0 {
             return None;
         }
-        let radius = self.nodes.polynomial(&motion.radius[..=n]);
-        let velocity = self.nodes.polynomial(&motion.velocity[..=n]);
-        let (mut low, mut high) = (self.nodes.places[after - 1], self.nodes.places[after]);
+        let radius = self.course.nodes.polynomial(&motion.radius[..=n]);
+        let velocity = self.course.nodes.polynomial(&motion.velocity[..=n]);
+        let (mut low, mut high) = (
+            self.course.nodes.places[after - 1],
+            self.course.nodes.places[after],
+        );
         for _ in 0..60 {
             let middle = 0.5 * (low + high);
             let a = radius.value(middle);
@@ -416,13 +404,6 @@ impl<'a> March<'a> {
         Some(low)
     }
 
-    pub(crate) fn lag(&self) -> f64 {
-        match self.waves {
-            Waves::Dashpot(lag) => lag,
-            Waves::Memory(_) => 0.0,
-        }
-    }
-
     /// A piece that solves its equations to the accuracy, and its error.
     fn attempt(
         &self,
@@ -430,9 +411,9 @@ impl<'a> March<'a> {
         given: Polynomial,
         law: Option<(f64, f64)>,
     ) -> Option<(Motion, f64)> {
-        let n = self.nodes.degree;
+        let n = self.course.nodes.degree;
         let problem = Problem {
-            march: self,
+            course: &self.course,
             known,
             given,
         };
@@ -473,7 +454,7 @@ impl<'a> March<'a> {
                 let rises = motion.time[..=n].windows(2).all(|t| t[1] >= t[0]);
                 let positive = motion.radius[1..n].iter().all(|&a| a > 0.0);
                 let mut modes = [0.0; LARGEST + 1];
-                self.nodes.modes(&sought, &mut modes);
+                self.course.nodes.modes(&sought, &mut modes);
                 let [a, b, c] = [3, 2, 1].map(|back| modes[n + 1 - back].abs());
                 let error = c.max(if b < a { b * b / a } else { b });
                 return (rises && positive && error <= self.accuracy).then_some((motion, error));
@@ -489,11 +470,11 @@ impl<'a> March<'a> {
         if to == 1.0 {
             return motion;
         }
-        let n = self.nodes.degree;
+        let n = self.course.nodes.degree;
         let part = |values: &Values| {
-            let polynomial = self.nodes.polynomial(&values[..=n]);
+            let polynomial = self.course.nodes.polynomial(&values[..=n]);
             let (mut found, mut slopes) = ([0.0; LARGEST + 1], [0.0; LARGEST + 1]);
-            for (i, place) in self.nodes.places.iter().enumerate() {
+            for (i, place) in self.course.nodes.places.iter().enumerate() {
                 (found[i], slopes[i]) = polynomial.jet(place * to);
                 slopes[i] *= to;
             }
@@ -522,7 +503,7 @@ impl<'a> March<'a> {
             velocity: zero,
             force: zero,
         };
-        for (i, &place) in self.nodes.places.iter().enumerate() {
+        for (i, &place) in self.course.nodes.places.iter().enumerate() {
             let s = place * to;
             (motion.time[i], motion.time_slope[i]) = piece.time.jet(s);
             (motion.radius[i], motion.radius_slope[i]) = piece.radius.jet(s);
@@ -535,13 +516,13 @@ impl<'a> March<'a> {
     }
 
     fn accept(&mut self, motion: &Motion) {
-        let n = self.nodes.degree;
+        let n = self.course.nodes.degree;
         let (mut travel, mut losing) = ([0.0; LARGEST], [0.0; LARGEST]);
         for j in 1..=n {
-            let here = self.branch.at(motion.radius[j].max(0.0));
+            let here = self.course.branch.at(motion.radius[j].max(0.0));
             travel[j - 1] = motion.velocity[j] * motion.time_slope[j];
             // the work on what is more than the indentation, or of what is more than the law's force
-            let lost = match self.waves {
+            let lost = match self.course.waves {
                 Waves::Dashpot(_) => (motion.force[j] - here.force) * travel[j - 1],
                 Waves::Memory(_) => {
                     let indented = here.depth_slope * motion.radius_slope[j];
@@ -551,13 +532,13 @@ impl<'a> March<'a> {
             losing[j - 1] = 2.0 * INVERSE_MASS * lost;
         }
         let mut radiated = [self.radiated; LARGEST + 1];
-        let mut displacement = [self.state.displacement; LARGEST + 1];
+        let mut displacement = [self.course.state.displacement; LARGEST + 1];
         for i in 1..=n {
-            displacement[i] += dot(self.nodes.integral_row(i), &travel[..n]);
-            radiated[i] += dot(self.nodes.integral_row(i), &losing[..n]);
+            displacement[i] += dot(self.course.nodes.integral_row(i), &travel[..n]);
+            radiated[i] += dot(self.course.nodes.integral_row(i), &losing[..n]);
         }
         self.radiated = radiated[n];
-        let polynomial = |values: &Values| self.nodes.polynomial(&values[..=n]);
+        let polynomial = |values: &Values| self.course.nodes.polynomial(&values[..=n]);
         let piece = Piece {
             time: polynomial(&motion.time),
             radius: polynomial(&motion.radius),
@@ -566,15 +547,17 @@ impl<'a> March<'a> {
             from: (motion.time[0], motion.radius[0]),
             to: (motion.time[n], motion.radius[n]),
         };
-        self.past.push(piece);
-        self.offsets.push(self.offset);
+        self.course.past.push(piece);
+        self.course
+            .laws
+            .push((self.course.branch, self.course.offset));
         self.stretches.push(Stretch {
             piece,
             force: polynomial(&motion.force),
             radiated: polynomial(&radiated),
-            branch: self.branch,
+            branch: self.course.branch,
         });
-        self.state = State {
+        self.course.state = State {
             time: motion.time[n],
             radius: motion.radius[n],
             velocity: motion.velocity[n],
@@ -585,7 +568,7 @@ impl<'a> March<'a> {
 
     /// The last piece where the time left goes with a power of the radius: shorter than the error.
     fn end_by_power_law(&mut self, left: f64, power: f64) {
-        let from = self.state;
+        let from = self.course.state;
         let root = from.radius.sqrt();
         let radius = Polynomial::power(root, -root, 2);
         let zero = [0.0; LARGEST + 1];
@@ -597,22 +580,15 @@ impl<'a> March<'a> {
             velocity: [from.velocity; LARGEST + 1],
             force: zero,
         };
-        for (i, &place) in self.nodes.places.iter().enumerate() {
+        for (i, &place) in self.course.nodes.places.iter().enumerate() {
             (motion.radius[i], motion.radius_slope[i]) = radius.jet(place);
             let part = motion.radius[i].max(0.0) / from.radius;
             motion.time[i] = from.time + left * (1.0 - part.powf(power));
             motion.time_slope[i] = 2.0 * power * left * (1.0 - place).powf(2.0 * power - 1.0);
-            motion.force[i] = self.branch.at(motion.radius[i].max(0.0)).force;
+            motion.force[i] = self.course.branch.at(motion.radius[i].max(0.0)).force;
         }
         self.accept(&motion);
         self.error += 0.2 * left;
-    }
-}
-
-impl March<'_> {
-    /// Level of the rule over the waves.
-    pub(crate) fn level(&self) -> usize {
-        (-3.0 - self.accuracy.log10()).round().clamp(1.0, 7.0) as usize
     }
 }
 

@@ -1,16 +1,60 @@
 //! The equations of a piece of a contact that yields, and a guess of what solves them.
 
-use crate::growing::arrivals::{Arrival, Departure};
-use crate::growing::equations::{Independent, Values};
+use crate::growing::arrivals::{Arrival, Departure, Piece};
+use crate::growing::equations::{Independent, State, Values};
+use crate::growing::nodes::Nodes;
 use crate::growing::polynomial::{LARGEST, Polynomial, dot};
 use crate::growing::waves::GrowingContact;
+use crate::plastic::branch::Branch;
 use crate::plastic::branch::Local;
-use crate::plastic::march::{March, Motion, Waves};
 use crate::units::INVERSE_MASS;
+
+/// How the half-space answers.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Waves<'a> {
+    /// At once, with a lag c.
+    Dashpot(f64),
+    /// By its memory.
+    Memory(GrowingContact<'a>),
+}
+
+/// A contact until now.
+pub(crate) struct Course<'a> {
+    pub(crate) waves: Waves<'a>,
+    /// Level of the rule over the waves.
+    pub(crate) level: usize,
+    pub(crate) nodes: &'static Nodes,
+    /// The pieces, the branches that they follow and the constants of their g.
+    pub(crate) past: Vec<Piece>,
+    pub(crate) laws: Vec<(Branch, f64)>,
+    pub(crate) state: State,
+    pub(crate) branch: Branch,
+    pub(crate) offset: f64,
+}
+
+impl Course<'_> {
+    pub(crate) fn lag(&self) -> f64 {
+        match self.waves {
+            Waves::Dashpot(lag) => lag,
+            Waves::Memory(_) => 0.0,
+        }
+    }
+}
+
+/// Time, radius and what follows from them at 0 and the nodes; slopes with respect to the place.
+#[derive(Clone, Copy)]
+pub(crate) struct Motion {
+    pub(crate) time: Values,
+    pub(crate) radius: Values,
+    pub(crate) time_slope: Values,
+    pub(crate) radius_slope: Values,
+    pub(crate) velocity: Values,
+    pub(crate) force: Values,
+}
 
 /// The equations of a piece.
 pub(crate) struct Problem<'m, 'a> {
-    pub(crate) march: &'m March<'a>,
+    pub(crate) course: &'m Course<'a>,
     pub(crate) known: Independent,
     pub(crate) given: Polynomial,
 }
@@ -22,20 +66,20 @@ impl Problem<'_, '_> {
         sought: &Values,
         departures: &mut Vec<Departure>,
     ) -> (Motion, [f64; LARGEST]) {
-        let March {
+        let Course {
             nodes,
             state,
             branch,
             ..
-        } = self.march;
+        } = self.course;
         let n = nodes.degree;
         let (mut given, mut given_slope) = ([0.0; LARGEST + 1], [0.0; LARGEST + 1]);
         let mut sought_slope = [0.0; LARGEST + 1];
         for (i, &s) in nodes.places.iter().enumerate() {
             (given[i], given_slope[i]) = self.given.jet(s);
         }
-        for i in 1..=n {
-            sought_slope[i] = dot(nodes.slope_row(i), &sought[..=n]);
+        for (i, slope) in sought_slope.iter_mut().enumerate().take(n + 1).skip(1) {
+            *slope = dot(nodes.slope_row(i), &sought[..=n]);
         }
         let (time, radius, time_slope, radius_slope) = match self.known {
             Independent::Time => (given, *sought, given_slope, sought_slope),
@@ -49,7 +93,7 @@ impl Problem<'_, '_> {
             velocity: [state.velocity; LARGEST + 1],
             force: [0.0; LARGEST + 1],
         };
-        let lag = self.march.lag();
+        let lag = self.course.lag();
         let start = branch.at(state.radius);
         motion.force[0] = start.force + lag * start.stiffness.powi(2) * state.velocity;
         let mut impulse = [0.0; LARGEST];
@@ -72,7 +116,7 @@ impl Problem<'_, '_> {
             residual[i - 1] = motion.velocity[i] * motion.time_slope[i]
                 - local[i - 1].depth_slope * motion.radius_slope[i];
         }
-        if let Waves::Memory(contact) = self.march.waves {
+        if let Waves::Memory(contact) = self.course.waves {
             self.remember(&contact, &motion, &local, departures, &mut residual);
         }
         (motion, residual)
@@ -87,21 +131,21 @@ impl Problem<'_, '_> {
         departures: &mut Vec<Departure>,
         residual: &mut [f64; LARGEST],
     ) {
-        let March {
+        let Course {
             nodes,
             state,
             branch,
             past,
-            offsets,
+            laws,
             offset,
             ..
-        } = self.march;
+        } = self.course;
         let n = nodes.degree;
         if !motion.time[..=n].iter().all(|t| t.is_finite()) {
             residual[0] = f64::NAN;
             return;
         }
-        let rule = contact.waves.rule(self.march.level());
+        let rule = contact.waves.rule(self.course.level);
         let size = rule.delays.len();
         let delays: Vec<f64> = rule
             .delays
@@ -123,15 +167,13 @@ impl Problem<'_, '_> {
             let found = &mut departures[(i - 1) * size..i * size];
             arrival.departures(past, &delays, again, found);
             let here = branch.delayed(motion.radius[i].max(0.0)) + offset;
+            let own = (*branch, *offset);
             let sum: f64 = rule
                 .rates
                 .iter()
                 .zip(found.iter())
                 .map(|(rate, left)| {
-                    let (law, shift) = match self.march.stretches.get(left.piece) {
-                        Some(stretch) => (&stretch.branch, offsets[left.piece]),
-                        None => (branch, *offset),
-                    };
+                    let (law, shift) = laws.get(left.piece).unwrap_or(&own);
                     rate * (here - law.delayed(left.radius.max(0.0)) - shift)
                 })
                 .sum();
@@ -143,12 +185,12 @@ impl Problem<'_, '_> {
 
     /// The law without waves along what is given, as a guess; or a power law of the time left.
     pub(crate) fn guess(&self, law: Option<(f64, f64)>) -> Values {
-        let March {
+        let Course {
             nodes,
             state,
             branch,
             ..
-        } = self.march;
+        } = self.course;
         let mut guess = [0.0; LARGEST + 1];
         let (mut time, mut radius, mut v) = (state.time, state.radius, state.velocity);
         if self.known == Independent::Radius && self.given.jet(0.5).1 < 0.0 {

@@ -2,7 +2,8 @@
 
 use crate::growing::solved::place_of;
 use crate::plastic::Yielding;
-use crate::plastic::march::{March, Stretch, Waves};
+use crate::plastic::march::{March, Stretch};
+use crate::plastic::problem::Waves;
 use crate::summary::{EndOfContact, Instant, Summary};
 use crate::units::INVERSE_MASS;
 
@@ -64,7 +65,7 @@ impl YieldedContact {
     pub(crate) fn follow(yielding: Yielding, waves: Waves<'_>, accuracy: f64) -> Result<Self, f64> {
         let mut march = March::new(yielding, waves, accuracy);
         march.run()?;
-        let state = march.state;
+        let state = march.course.state;
         let mut radiated = march.radiated;
         let lag = match waves {
             Waves::Dashpot(lag) => Some(lag),
