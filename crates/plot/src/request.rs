@@ -48,6 +48,7 @@ kinds! {
     Axis "axis" of Impact => "the section's axis at some instants, beside the static field";
     Sweep "sweep" of Sweep => "results of a sweep: lines over one key, a heat map over two";
     Loss "loss" of Sweep => "energy lost over the velocity of approach, with the slope 3/5";
+    Restitution "restitution" of Sweep => "restitution over the velocity of approach over that of yield, with the slope -1/4";
     Histogram "histogram" of Sweep => "histograms of a sweep's draws with their quantiles";
     Errors "errors" of Table => "errors of a kernel table, measured off its grid";
 }

@@ -42,11 +42,9 @@ pub(crate) fn of_impacts(impacts: &[StoredImpact], request: &Request) -> Result<
         Kind::Axis => Ok(single(axis_profile(one()?, request)?)),
         Kind::Surface => Ok(single(space_time(one()?, request, Path::Surface)?)),
         Kind::Depth => Ok(single(space_time(one()?, request, Path::Axis)?)),
-        Kind::Sweep | Kind::Loss | Kind::Histogram | Kind::Errors => Err(PlotError::unsuitable(
-            impacts[0].path(),
-            FileKind::Impact,
-            kind,
-        )),
+        Kind::Sweep | Kind::Loss | Kind::Restitution | Kind::Histogram | Kind::Errors => Err(
+            PlotError::unsuitable(impacts[0].path(), FileKind::Impact, kind),
+        ),
         Kind::Waves => {
             let (panels, notes) = frames(one()?, request, request.frames.unwrap_or(4))?;
             let columns = if panels.len() > 4 { 3 } else { 2 };
