@@ -3,8 +3,8 @@
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
 use contact::{
-    Collision, Exact, HalfSpace, Material, Measure, Model, Plasticity, Rebound, Results, Settings,
-    Solved, Solver, Strength, Striker, Unknown,
+    Collision, Exact, HalfSpace, Material, Measure, Model, Plasticity, Ratios, Rebound, Results,
+    Settings, Solved, Solver, Strength, Striker, Tabulated, Unknown,
 };
 use halfspace::{Deflection, Medium, SurfaceResponse};
 use std::f64::consts::PI;
@@ -462,6 +462,31 @@ fn a_rebound_gives_back_its_yield_pressure_and_its_velocity() {
                         && high.is_none_or(|high| high > found.value)
                 );
             }
+        }
+    }
+}
+
+#[test]
+fn every_law_is_followed_at_every_velocity() {
+    let (_, settings) = at(1.0);
+    let block = HalfSpace::new(Material::named("aluminium-6061-t6").unwrap()).unwrap();
+    let ball = Striker::ball(Material::named("bearing-steel").unwrap(), 0.01).unwrap();
+    let responses = Tabulated::new(Ratios::Few);
+    let mut solver = Solver::new(&responses);
+    for plasticity in [
+        Plasticity::Thornton,
+        Plasticity::Recovery,
+        Plasticity::JacksonGreen,
+    ] {
+        let settings = Settings {
+            plasticity,
+            yield_pressure_pa: None,
+            ..settings
+        };
+        for i in 0..300 {
+            let velocity = 0.02 * 1000f64.powf(f64::from(i % 60) / 59.0 + f64::from(i / 60) * 1e-3);
+            let found = solver.solve(&Collision::new(&block, &ball, velocity), &settings);
+            assert!(found.is_ok(), "{plasticity:?} at {velocity}: {found:?}");
         }
     }
 }

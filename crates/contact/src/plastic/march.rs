@@ -426,7 +426,12 @@ impl<'a> March<'a> {
             let (_, residual) = problem.residual(&sought, &mut departures);
             if !fresh {
                 for l in 1..=n {
-                    let by = DIFFERENCE * (sought[l] - sought[0]).abs().max(1e-9);
+                    // short of rounding; a memory's pieces may be shorter than that
+                    let least = match self.course.waves {
+                        Waves::Dashpot(_) => 0.01 * sought[l].abs(),
+                        Waves::Memory(_) => 1e-9,
+                    };
+                    let by = DIFFERENCE * (sought[l] - sought[0]).abs().max(least);
                     let mut moved = sought;
                     moved[l] += by;
                     let mut departures = departures.clone();
