@@ -137,7 +137,7 @@ class _Group(Mapping[str, "NDArray[Any]"]):
 
 
 class Energy(_Group):
-    """Where the energy is over time in J: ``kinetic`` or ``work``, ``stored``, ``radiated``, each (time,)."""
+    """Where the energy is over time in J: ``kinetic`` or ``work``, ``stored``, ``radiated`` and, where a contact yields, ``plastic``, each (time,)."""
 
 
 _ASK = '; the scene asks for more, such as "output": {"quantities": ["velocity_z"]}'
@@ -247,6 +247,20 @@ class Impact:
     """`mean_pressure_pa` over the lower of both tensile strengths; NaN where none is known."""
     cone_crack_onset: float
     """Largest force over that of a cone crack by Auerbach's law; NaN where no toughness is known."""
+    yield_pressure_pa: float
+    """Mean pressure that the yielding contact does not exceed; of jackson_green the one at which it yields in Pa; NaN without a plasticity."""
+    yield_velocity_m_s: float
+    """Velocity of approach at which yield begins in m/s; NaN without a plasticity."""
+    velocity_over_yield: float
+    """Velocity of approach over that at which yield begins; NaN without a plasticity."""
+    plastic_work_j: float
+    """Work of the plastic flow in J; NaN without a plasticity."""
+    peak_indentation_m: float
+    """Largest indentation in m; NaN without a plasticity."""
+    residual_indentation_m: float
+    """Indentation that stays in m; NaN without a plasticity."""
+    dent_radius_m: float
+    """Radius of the sphere that meets a plane as the striker meets its dent in m; NaN without a plasticity."""
     contacts: int
     """Number of contacts; 0 for a force record."""
     march_steps: int

@@ -11,7 +11,9 @@ mod progress;
 mod report;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
-use commands::{chart, completions, demo, impact, materials, paper, plot, sweep, table, tabulate};
+use commands::{
+    chart, completions, demo, impact, infer, materials, paper, plot, sweep, table, tabulate,
+};
 use std::process::ExitCode;
 
 /// Impact of a body on an elastic half-space: contact force, rebound and waves.
@@ -36,6 +38,8 @@ enum Command {
     Impact(impact::Arguments),
     /// Runs many scenes that differ in some keys and writes them as one table.
     Sweep(sweep::Arguments),
+    /// Yield pressure or velocity from a measured rebound, contact time or peak force.
+    Infer(infer::Arguments),
     /// Draws the results of impacts, sweeps and tables.
     Plot(plot::Arguments),
     /// A first look: the paper's case, its numbers, and the waves under a ball.
@@ -64,6 +68,7 @@ fn main() -> ExitCode {
     let done = match cli.command {
         Command::Impact(arguments) => impact::run(&arguments),
         Command::Sweep(arguments) => sweep::run(&arguments),
+        Command::Infer(arguments) => infer::run(&arguments),
         Command::Plot(arguments) => plot::run(&arguments),
         Command::Demo(arguments) => demo::run(&arguments),
         Command::Paper(arguments) => paper::run(&arguments),

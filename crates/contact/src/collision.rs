@@ -9,9 +9,16 @@ use crate::disc::response::DiscResponse;
 use crate::error::ContactError;
 use crate::growing::waves::{GrowingContact, PunchWaves};
 use crate::law::hertz::CONTACT_TIME;
-use crate::model::{Settings, StaticShare};
+use crate::model::{Plasticity, Settings, StaticShare};
+use crate::names::Choice;
+use crate::plastic::Yielding;
+use crate::plastic::branch::Fit;
 use crate::units::{CollisionUnits, KernelUnits};
 use halfspace::Medium;
+use std::f64::consts::PI;
+
+/// Mean pressure of full plasticity over the yield strength.
+pub const CONSTRAINT: f64 = 2.8;
 
 /// Range of the numbers of bodies in SI units, whose powers and products stay numbers.
 const PHYSICAL: [f64; 2] = [1e-30, 1e30];
@@ -117,6 +124,52 @@ impl Collision {
             return Ok(());
         }
         Err(ContactError::Step { step_s, hertz_s })
+    }
+
+    /// How the contact yields by its settings; none where no body does.
+    ///
+    /// The softer of both bodies flows. Without a pressure given it is [`CONSTRAINT`] times the yield strength.
+    ///
+    /// # Errors
+    /// [`ContactError::NoStrength`] where nothing says when it yields.
+    pub fn yielding(&self, settings: &Settings) -> Result<Option<Yielding>, ContactError> {
+        let law = settings.plasticity;
+        if law == Plasticity::None {
+            return Ok(None);
+        }
+        let missing = ContactError::NoStrength { law: law.name() };
+        let known = self.strengths.iter().filter_map(Strength::yields);
+        let (yield_pressure_pa, fit) = if law == Plasticity::JacksonGreen {
+            let shaped = known.map(|(strength, nu)| (strength, 1.295 * (0.736 * nu).exp()));
+            let softer = |a: (f64, f64), b: (f64, f64)| if b.0 * b.1 < a.0 * a.1 { b } else { a };
+            let (strength, shape) = shaped.reduce(softer).ok_or(missing)?;
+            // the mean of Hertz's pressure whose maximum is C S_y
+            (2.0 / 3.0 * shape * strength, Some((strength, shape)))
+        } else {
+            let softest = known.map(|(strength, _)| strength).reduce(f64::min);
+            let taken = softest.map(|strength| CONSTRAINT * strength);
+            (settings.yield_pressure_pa.or(taken).ok_or(missing)?, None)
+        };
+        // Hertz's pressure has this maximum at the yield velocity
+        let maximum = fit.map_or(yield_pressure_pa, |(strength, shape)| strength * shape);
+        let angle = 0.5 * PI * maximum / self.effective_modulus_pa;
+        let depth = angle * angle * self.tip_radius_m / self.units().length_m;
+        if depth.is_nan() || depth <= 0.0 {
+            return Err(ContactError::NotFinite {
+                quantity: "yield depth",
+                value: depth,
+            });
+        }
+        Ok(Some(Yielding {
+            law,
+            yield_pressure_pa,
+            depth,
+            fit: fit.map(|(strength, shape)| Fit {
+                critical: depth,
+                shape,
+                strain: strength / self.effective_modulus_pa,
+            }),
+        }))
     }
 
     /// K = (4/3) E* sqrt(R) in N/m^(3/2), (37).

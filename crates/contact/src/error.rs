@@ -63,6 +63,19 @@ pub enum ContactError {
         /// Memory in collision times.
         memory: f64,
     },
+    /// Nothing says when a body yields.
+    #[error(
+        "plasticity = \"{law}\" needs a yield_strength_pa of the striker or the target{}", if *law == "jackson_green" { "" } else { ", or yield_pressure_pa" }
+    )]
+    NoStrength {
+        /// Name of the law.
+        law: &'static str,
+    },
+    /// A yielding contact that could not be followed.
+    #[error(
+        "the yielding contact could not be followed to this tolerance; ask for a larger one, or for model \"area_dashpot\""
+    )]
+    NotFollowed,
     /// A number that floating-point arithmetic does not hold.
     #[error(
         "the {quantity} comes out as {value:e}: the numbers of the scene are beyond what floating-point arithmetic holds; check their units"

@@ -3,6 +3,7 @@
 use crate::disc::history::History;
 use crate::growing::solved::SolvedContact;
 use crate::numeric::quadrature::{Local, find_root, hermite};
+use crate::plastic::solved::YieldedContact;
 use crate::summary::Instant;
 use crate::units::INVERSE_MASS;
 use std::sync::Arc;
@@ -21,6 +22,7 @@ pub struct Resampler {
 #[derive(Debug, Clone)]
 enum Source {
     Pieces(Arc<SolvedContact>),
+    Yielded(Arc<YieldedContact>),
     Samples(Samples),
 }
 
@@ -32,6 +34,12 @@ impl Resampler {
             return Self {
                 breaks: vec![0.0, solved.summary().contact_time],
                 source: Source::Pieces(solved),
+            };
+        }
+        if let Some(yielded) = history.yielded {
+            return Self {
+                breaks: vec![0.0, yielded.summary().contact_time],
+                source: Source::Yielded(yielded),
             };
         }
         let samples = Samples::new(&history);
@@ -46,6 +54,7 @@ impl Resampler {
     pub fn end(&self) -> f64 {
         match &self.source {
             Source::Pieces(solved) => solved.summary().contact_time,
+            Source::Yielded(yielded) => yielded.summary().contact_time,
             Source::Samples(samples) => samples.end(),
         }
     }
@@ -61,6 +70,10 @@ impl Resampler {
     pub fn force(&self, time: f64) -> [f64; 3] {
         match &self.source {
             Source::Pieces(solved) => solved.force(time),
+            Source::Yielded(yielded) => {
+                let now = yielded.state(time);
+                [now.force, now.rate, now.second_rate]
+            }
             Source::Samples(samples) => samples.place(time).map_or([0.0; 3], |(cell, x)| {
                 pressed_by(samples.indentation(cell, x))
             }),
@@ -72,6 +85,7 @@ impl Resampler {
     pub fn at(&self, time: f64) -> Instant {
         match &self.source {
             Source::Pieces(solved) => solved.state(time),
+            Source::Yielded(yielded) => yielded.state(time),
             Source::Samples(samples) => samples.at(time),
         }
     }

@@ -6,6 +6,7 @@ use crate::energy::residual;
 use crate::error::ContactError;
 use crate::model::Settings;
 use crate::model::choose::fixed_disc_m;
+use crate::plastic::solved::Flow;
 use crate::solver::Solved;
 
 /// Estimated relative error from which on results say nothing.
@@ -44,6 +45,8 @@ pub struct Results {
     pub disc_radius_m: f64,
     /// How near the contact comes to what the bodies bear.
     pub loading: Loading,
+    /// What flows.
+    pub plastic: Plastic,
     /// Number of contacts.
     pub contacts: usize,
     /// Steps of the march over the contact, 0 without a march.
@@ -54,15 +57,64 @@ pub struct Results {
     pub relative_error_estimate: f64,
 }
 
+/// What flows in a contact, in SI units; all none where no law of flow is asked for.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Plastic {
+    /// Mean pressure that is not exceeded, or at which the fit's contact yields, in Pa.
+    pub yield_pressure_pa: Option<f64>,
+    /// Velocity of approach in m/s at which yield begins.
+    pub yield_velocity_m_s: Option<f64>,
+    /// Velocity of approach over that.
+    pub velocity_over_yield: Option<f64>,
+    /// Work of the plastic flow in J.
+    pub plastic_work_j: Option<f64>,
+    /// Largest indentation in m.
+    pub peak_indentation_m: Option<f64>,
+    /// Indentation that stays in m.
+    pub residual_indentation_m: Option<f64>,
+    /// Radius in m of the sphere that meets a plane as the striker its dent.
+    pub dent_radius_m: Option<f64>,
+}
+
+impl Plastic {
+    fn new(collision: &Collision, settings: &Settings, solved: &Solved) -> Self {
+        let Ok(Some(yielding)) = collision.yielding(settings) else {
+            return Self::default();
+        };
+        let (units, ratio) = (collision.units(), yielding.velocity_ratio());
+        let flow = solved.flow;
+        let elastic = solved.summary.peak_force.cbrt().powi(2);
+        let part = |value: fn(&Flow) -> f64, unit: f64| flow.as_ref().map_or(0.0, value) * unit;
+        Self {
+            yield_pressure_pa: Some(yielding.yield_pressure_pa),
+            yield_velocity_m_s: Some(collision.velocity_m_s / ratio),
+            velocity_over_yield: Some(ratio),
+            plastic_work_j: Some(part(|flow| flow.plastic_work, collision.energy_j())),
+            peak_indentation_m: Some(flow.map_or(elastic, |f| f.peak_indentation) * units.length_m),
+            residual_indentation_m: Some(part(|flow| flow.residual_indentation, units.length_m)),
+            dent_radius_m: Some(collision.tip_radius_m * flow.map_or(1.0, |flow| flow.flatter)),
+        }
+    }
+}
+
 impl Results {
     /// Of a contact solved; `radiated` is relative to the kinetic energy before.
     #[must_use]
     pub fn new(collision: &Collision, settings: &Settings, solved: &Solved, radiated: f64) -> Self {
         let (s, units) = (&solved.summary, collision.units());
         let peak_force_n = s.peak_force * units.force_n;
-        let contact_radius_m = collision.contact_radius_m(peak_force_n);
-        let disc_radius_m =
-            fixed_disc_m(solved.plan.model, settings, collision).unwrap_or(contact_radius_m);
+        let contact_radius_m = match &solved.flow {
+            Some(flow) => flow.contact_radius * (collision.tip_radius_m * units.length_m).sqrt(),
+            None => collision.contact_radius_m(peak_force_n),
+        };
+        let plastic_work = solved.flow.map_or(0.0, |flow| flow.plastic_work);
+        let disc_radius_m = match &solved.flow {
+            Some(flow) => flow.disc_radius * (collision.tip_radius_m * units.length_m).sqrt(),
+            None => {
+                fixed_disc_m(solved.plan.model, settings, collision).unwrap_or(contact_radius_m)
+            }
+        };
+        let loaded_m = solved.flow.map_or(disc_radius_m, |_| contact_radius_m);
         let steps = solved
             .step
             .map_or(0.0, |step| (s.contact_time / step).ceil());
@@ -78,15 +130,16 @@ impl Results {
             impulse_n_s: s.impulse * units.force_n * units.time_s,
             initial_energy_j: collision.energy_j(),
             radiated_energy_j: radiated * collision.energy_j(),
-            energy_residual: residual(s.impulse, radiated),
+            energy_residual: residual(s.impulse, radiated + plastic_work),
             contact_radius_m,
             disc_radius_m,
             loading: Loading::new(
                 &collision.strengths,
                 peak_force_n,
-                disc_radius_m,
+                loaded_m,
                 [collision.tip_radius_m, collision.effective_modulus_pa],
             ),
+            plastic: Plastic::new(collision, settings, solved),
             contacts: s.contacts,
             march_steps: steps as usize,
             march_step_s: solved.step.map_or(0.0, |step| step * units.time_s),
@@ -115,6 +168,7 @@ impl Results {
             contact_radius_m,
             disc_radius_m,
             loading,
+            plastic,
             contacts: _,
             march_steps: _,
             march_step_s,
@@ -136,6 +190,8 @@ impl Results {
             ("contact radius", contact_radius_m),
             ("disc's radius", disc_radius_m),
             ("mean pressure", loading.mean_pressure_pa),
+            ("plastic work", plastic.plastic_work_j.unwrap_or(0.0)),
+            ("yield velocity", plastic.yield_velocity_m_s.unwrap_or(0.0)),
             ("march's step", march_step_s),
             ("error estimate", relative_error_estimate),
         ];

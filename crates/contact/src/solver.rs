@@ -20,6 +20,10 @@ use crate::law::pulse::pulse;
 use crate::law::radiation::damped_force;
 use crate::model::choose::{Family, Plan, accuracy, disc_radius_m, plan};
 use crate::model::{Model, Rung, Scheme, Settings};
+use crate::plastic::Yielding;
+use crate::plastic::problem::Waves;
+use crate::plastic::quick::quick;
+use crate::plastic::solved::{Flow, YieldedContact};
 use crate::responses::Responses;
 use crate::summary::Summary;
 use halfspace::{Deflection, DomainError, Medium, SurfaceResponse};
@@ -38,6 +42,8 @@ pub struct Solved {
     pub error: f64,
     /// Step of the finest march; none without a march.
     pub step: Option<f64>,
+    /// What has flowed; none of a contact that has not yielded.
+    pub flow: Option<Flow>,
 }
 
 /// Solves contacts one after the other with responses from a cache; one for each thread.
@@ -49,11 +55,18 @@ pub struct Solver<'a, S: Responses> {
     waves: Latest<u64, PunchWaves>,
     /// The contact solved last, where it was one that follows the load and was not marched.
     growing: Option<SolvedContact>,
+    /// The same of one that has yielded.
+    yielded: Option<YieldedContact>,
 }
 
 /// Samples over a contact of a history that was not marched, and of one that has its pieces too.
 const SAMPLES: f64 = 4096.0;
 const GROWING_SAMPLES: f64 = 256.0;
+
+/// Error of a piece of a yielding contact with memory over the tolerance, the least, and that without memory.
+const PIECE: f64 = 0.3;
+const FINEST: f64 = 1e-10;
+const FINE: f64 = 1e-9;
 
 impl<'a, S: Responses> Solver<'a, S> {
     /// With a cache of responses.
@@ -65,6 +78,7 @@ impl<'a, S: Responses> Solver<'a, S> {
             disc: None,
             waves: None,
             growing: None,
+            yielded: None,
         }
     }
 
@@ -90,6 +104,10 @@ impl<'a, S: Responses> Solver<'a, S> {
         };
         let solved = self.solve_to(collision, settings, asked)?;
         let duration = solved.summary.contact_time;
+        if let Some(yielded) = &self.yielded {
+            let history = History::of_yielded(yielded, duration / GROWING_SAMPLES, solved.error);
+            return Ok((solved, history));
+        }
         let mut history = match (&self.growing, solved.scheme) {
             (Some(growing), _) => History::of_pieces(growing, duration / GROWING_SAMPLES),
             (None, Some(Scheme::Implicit))
@@ -132,6 +150,9 @@ impl<'a, S: Responses> Solver<'a, S> {
         settings: &Settings,
         solved: &Solved,
     ) -> Result<f64, DomainError> {
+        if let Some(flow) = &solved.flow {
+            return Ok(flow.radiated);
+        }
         Ok(match (solved.plan.model.row(), solved.scheme) {
             (_, None) => solved.summary.loss,
             ((_, false), Some(_)) => {
@@ -163,11 +184,18 @@ impl<'a, S: Responses> Solver<'a, S> {
         collision.check()?;
         let ratio = collision.target_poisson_ratio;
         let disc = self.disc(ratio, settings.deflection)?;
-        let plan = plan(settings, collision, &*disc);
+        self.growing = None;
+        self.yielded = None;
+        if let Some(yielding) = collision.yielding(settings)?.filter(Yielding::begins) {
+            let plan = plan(settings, collision, &*disc, true);
+            if let Some(solved) = self.yielded(collision, &yielding, plan, &asked)? {
+                return Ok(solved);
+            }
+        }
+        let plan = plan(settings, collision, &*disc, false);
         let step = settings
             .step_s
             .map(|step_s| step_s / collision.units().time_s);
-        self.growing = None;
         let is_disc = matches!(plan.groups.family, Family::Full | Family::Dynamic);
         let is_wave = matches!(settings.model, Model::Wave | Model::Auto);
         if is_disc && is_wave && settings.scheme == Scheme::Implicit {
@@ -206,7 +234,78 @@ impl<'a, S: Responses> Solver<'a, S> {
             summary: found.summary,
             error: found.error,
             step: found.step,
+            flow: None,
         })
+    }
+
+    /// A contact that yields; nothing where waves keep it from doing so.
+    fn yielded(
+        &mut self,
+        collision: &Collision,
+        yielding: &Yielding,
+        mut plan: Plan,
+        asked: &Accuracy,
+    ) -> Result<Option<Solved>, ContactError> {
+        let left_out = plan.groups.left_out();
+        let automatic = plan.is_automatic();
+        let mut found = None;
+        if plan.model.row().0 == Rung::FullMemory {
+            let punch = self.waves(collision.target_poisson_ratio)?;
+            let waves = Waves::Memory(collision.growing_contact(&punch));
+            let finest = PIECE * asked.tolerance;
+            // a stiff striker's last instants may need finer pieces
+            found = follow(
+                yielding,
+                waves,
+                [1.0, 0.1, 0.01].map(|part| (part * finest).max(FINEST)),
+            );
+            if found.is_none() && !automatic {
+                return Err(ContactError::NotFollowed);
+            }
+            if found.is_none() {
+                plan.model = Model::AreaDashpot;
+            }
+        }
+        let with_memory = found.is_some();
+        let radiates = plan.model.row().0 != Rung::QuasiStatic;
+        let lag = if radiates { plan.groups.lag } else { 0.0 };
+        let mut results = None;
+        if !with_memory {
+            results = quick(yielding, lag);
+            // the history of a single impact
+            if results.is_none() || asked.deflection.is_some() {
+                let waves = Waves::Dashpot(lag);
+                // rounding may be in the way of fine pieces
+                found = follow(yielding, waves, [FINE, 10.0 * FINE, 100.0 * FINE]);
+                if found.is_none() {
+                    return Err(ContactError::NotFollowed);
+                }
+            }
+        }
+        let contact = found.as_ref();
+        let Some((summary, flow)) =
+            results.or_else(|| contact.map(|one| (*one.summary(), *one.flow())))
+        else {
+            return Ok(None);
+        };
+        if flow.plastic_work <= 0.0 {
+            return Ok(None);
+        }
+        let error = match plan.model.row().0 {
+            Rung::QuasiStatic => plan.groups.first_order_loss() + left_out.contact,
+            Rung::Radiation | Rung::AreaDashpot => left_out.contact,
+            Rung::FullMemory => contact.map_or(0.0, YieldedContact::error),
+        };
+        let solved = Solved {
+            plan,
+            scheme: with_memory.then_some(Scheme::Implicit),
+            summary,
+            error: error.min(1.0),
+            step: None,
+            flow: Some(flow),
+        };
+        self.yielded = found;
+        Ok(Some(solved))
     }
 
     fn disc(&mut self, ratio: f64, deflection: Deflection) -> Result<Arc<S::Disc>, DomainError> {
@@ -274,6 +373,12 @@ impl<'a, S: Responses> Solver<'a, S> {
             },
         )?)
     }
+}
+
+/// A yielding contact followed with the first of some errors of its pieces that serves.
+fn follow(yielding: &Yielding, waves: Waves<'_>, errors: [f64; 3]) -> Option<YieldedContact> {
+    let mut tries = errors.into_iter();
+    tries.find_map(|error| YieldedContact::follow(*yielding, waves, error).ok())
 }
 
 /// What was made last, with what it was made for.

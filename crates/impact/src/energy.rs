@@ -29,6 +29,8 @@ pub struct EnergySeries {
     pub stored_j: Vec<f64>,
     /// Work on the deflection that lags; after the contact the energy that is radiated.
     pub radiated_j: Vec<f64>,
+    /// Work of the plastic flow, where a contact yields.
+    pub plastic_j: Option<Vec<f64>>,
 }
 
 /// Samples over the contacts for the work.
@@ -46,6 +48,23 @@ impl EnergySeries {
     ) -> Option<Self> {
         let (end_s, units) = excitation.contacts()?;
         let initial_j = 0.4 * units.force_n * units.length_m;
+        let kinetic = |t: f64| {
+            let v = excitation.motion(t).map_or(0.0, |m| m.velocity_m_s);
+            initial_j * (v / units.velocity_m_s()).powi(2)
+        };
+        if let Some(yielded) = excitation.yielded() {
+            let energies = time_s.iter().map(|t| yielded.energies(t / units.time_s));
+            let energies: Vec<[f64; 3]> = energies.map(|e| e.map(|e| initial_j * e)).collect();
+            let [stored_j, plastic_j, radiated_j] =
+                [0, 1, 2].map(|i| energies.iter().map(|e| e[i]).collect());
+            return Some(Self {
+                kinetic_j: Some(time_s.iter().map(|&t| kinetic(t)).collect()),
+                work_j: None,
+                stored_j,
+                radiated_j,
+                plastic_j: Some(plastic_j),
+            });
+        }
         let step_s = end_s / SAMPLES;
         let times = (0..=SAMPLES as usize + 1).map(|i| i as f64 * step_s);
         let force_n: Vec<f64> = times.clone().map(|t| excitation.force_n(t)).collect();
@@ -82,17 +101,14 @@ impl EnergySeries {
         let static_m_per_n = match plan.groups.family {
             Family::Full => static_mean_m_per_n(excitation),
             // Hertz's law holds all of it
-            Family::Growing | Family::Dynamic => 0.0,
+            Family::Growing | Family::Dynamic | Family::Yielding => 0.0,
         };
         let stored = |t: f64| {
             let p = excitation.force_n(t);
             initial_j * (p / units.force_n).powf(5.0 / 3.0) + 0.5 * static_m_per_n * p * p
         };
-        let kinetic = |t: f64| {
-            let v = excitation.motion(t).map_or(0.0, |m| m.velocity_m_s);
-            initial_j * (v / units.velocity_m_s()).powi(2)
-        };
         Some(Self {
+            plastic_j: None,
             kinetic_j: Some(time_s.iter().map(|&t| kinetic(t)).collect()),
             work_j: None,
             stored_j: time_s.iter().map(|&t| stored(t)).collect(),
@@ -127,6 +143,7 @@ impl EnergySeries {
         let parts = stored_j.iter().zip(&radiated_j);
         let work_j = parts.map(|(stored, radiated)| stored + radiated).collect();
         Self {
+            plastic_j: None,
             kinetic_j: None,
             work_j: Some(work_j),
             stored_j,

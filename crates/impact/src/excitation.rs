@@ -11,8 +11,9 @@ use crate::record::ForceRecord;
 use contact::Weights;
 use contact::{CollisionUnits, KernelUnits};
 use contact::{HalfSpace, History, StaticShare, WaveSpeeds};
-use contact::{Instant, Resampler};
+use contact::{Instant, Resampler, YieldedContact};
 use halfspace::{Deflection, DomainError, Medium, SurfaceResponse, gauss};
+use std::sync::Arc;
 
 /// Consecutive samples.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -78,6 +79,8 @@ enum Force {
         contact_time_s: f64,
         /// When each contact begins and ends, in s.
         contacts_s: Vec<[f64; 2]>,
+        /// The contact itself where it has yielded.
+        yielded: Option<Arc<YieldedContact>>,
     },
     /// Of a record.
     Record(ForceRecord),
@@ -108,6 +111,7 @@ impl Excitation {
         contact_time_s: f64,
         relative_error: f64,
     ) -> Result<Self, DomainError> {
+        let yielded = history.yielded().cloned();
         let samples = Box::new(Resampler::new(history));
         let spans = samples.breaks().chunks_exact(2);
         let force = Force::Contact {
@@ -117,6 +121,7 @@ impl Excitation {
             samples,
             units,
             contact_time_s,
+            yielded,
         };
         Self::new(half_space, radius, force, relative_error)
     }
@@ -184,6 +189,14 @@ impl Excitation {
     #[must_use]
     pub fn relative_error(&self) -> f64 {
         self.relative_error
+    }
+
+    /// The contact in collision units where it has yielded.
+    pub(crate) fn yielded(&self) -> Option<&YieldedContact> {
+        match &self.force {
+            Force::Contact { yielded, .. } => yielded.as_deref(),
+            Force::Record(_) => None,
+        }
     }
 
     /// The force at a time, in N.

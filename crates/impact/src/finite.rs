@@ -88,6 +88,10 @@ fn series(series: &Series) -> Result<(), NotFinite> {
         ("the work", energy.and_then(|e| e.work_j.as_ref())),
         ("the stored energy", energy.map(|e| &e.stored_j)),
         ("the radiated energy", energy.map(|e| &e.radiated_j)),
+        (
+            "the plastic work",
+            energy.and_then(|e| e.plastic_j.as_ref()),
+        ),
     ] {
         let samples = samples.into_iter().flatten().copied();
         finite(|| format!("{name} of a sample"), samples)?;

@@ -2,8 +2,8 @@
 
 use crate::excitation::{Excitation, PressureRadius};
 use contact::{
-    Checked, Collision, ContactError, Exact, HalfSpace, Responses, Results, Settings, Solved,
-    Solver, StaticShare, Striker, fixed_disc_m,
+    Checked, Choice, Collision, ContactError, Exact, HalfSpace, Plasticity, Responses, Results,
+    Settings, Solved, Solver, StaticShare, Striker, fixed_disc_m,
 };
 use std::ops::Deref;
 
@@ -141,12 +141,42 @@ impl Impact {
             results: &results,
         }
         .warnings();
+        warnings.extend(self.would_yield(&mut solver, &collision, &results));
         warnings.extend(self.counted_twice(&mut solver, &collision, &solved, &results));
         Ok(Run {
             solved,
             results,
             warnings,
             excitation,
+        })
+    }
+
+    /// What the laws of flow would make of a contact that is taken as elastic beyond its yield.
+    fn would_yield(
+        &self,
+        solver: &mut Solver<'_, Exact>,
+        collision: &Collision,
+        results: &Results,
+    ) -> Option<String> {
+        let yields = results.loading.yield_onset.is_some_and(|onset| onset > 1.0);
+        if self.settings.plasticity != Plasticity::None || !yields {
+            return None;
+        }
+        let laws = [Plasticity::Thornton, Plasticity::JacksonGreen].map(|plasticity| {
+            let settings = Settings {
+                plasticity,
+                ..Settings::default()
+            };
+            let restitution = solver.solve(collision, &settings).ok()?.summary.restitution;
+            Some(format!("{restitution:.3} with \"{}\"", plasticity.name()))
+        });
+        let laws: Vec<String> = laws.into_iter().flatten().collect();
+        (!laws.is_empty()).then(|| {
+            format!(
+                "the contact yields, and plasticity = \"none\" leaves that out: the restitution is {:.3} so, {}",
+                results.restitution,
+                laws.join(", ")
+            )
         })
     }
 

@@ -7,6 +7,7 @@ use contact::{Model, Results, Scheme};
 
 /// What loaded the half-space, with the results that go with it.
 #[derive(Debug, Clone, PartialEq)]
+#[allow(clippy::large_enum_variant, reason = "a scene has one")]
 pub enum Cause {
     /// A striker.
     Contact {

@@ -75,6 +75,22 @@ impl Scene {
         probes.chain(corner).fold(0.0, f64::max)
     }
 
+    /// A sentence where points that are asked for lie within a distance of the contact of a yielding block.
+    pub(crate) fn beside(&self, near_m: f64) -> Option<String> {
+        let near = |probe: &&Probe| probe.r_m.hypot(probe.z_m) < near_m;
+        let probes = self.probes.iter().filter(near).count();
+        let section = if self.section.is_some() {
+            " and the middle of the section"
+        } else {
+            ""
+        };
+        (probes > 0 || self.section.is_some()).then(|| {
+            format!(
+                "{probes} probes{section} lie within {near_m:.3e} m, two contact radii: the stresses there are not those of a yielding block"
+            )
+        })
+    }
+
     /// Rates of the displacement that are asked for: velocity, acceleration.
     #[must_use]
     pub fn rates(&self) -> usize {

@@ -133,6 +133,9 @@ fn of_table(fault: &TableFault) -> Culprit<'_> {
     culprit
 }
 
+/// Contact radii within which the fields are not those of a yielding block.
+const CLOSE: f64 = 2.0;
+
 /// Computes a scene.
 pub fn simulate(scene: &Scene, kernels: &KernelChoice) -> Result<Outcome, ImpactError> {
     simulate_within(scene, kernels, &Allowance::default())
@@ -219,6 +222,9 @@ fn of_strike(scene: &Scene, strike: &Strike, asked: Asked<'_>) -> Result<Outcome
     }
     let mut warnings = run.warnings.clone();
     warnings.extend(computed.warnings());
+    if run.solved.flow.is_some() {
+        warnings.extend(scene.beside(CLOSE * run.results.contact_radius_m));
+    }
     let cause = Cause::Contact {
         model: run.solved.plan.model,
         scheme: run.solved.scheme,

@@ -38,6 +38,7 @@ macro_rules! kinds {
 // kind, its name, the file that it shows, and what it shows
 kinds! {
     Impact "impact" of Impact => "force beside Hertz's, displacement, velocity, and the first probes";
+    Loop "loop" of Impact => "force against approach: the area inside is the energy lost";
     Probes "probes" of Impact => "histories at the probes with arrivals and error bands";
     Spectrum "spectrum" of Impact => "amplitude spectrum of the force, its corner frequency and its zeros";
     Waves "waves" of Impact => "frames of the section until the first wave leaves it; .gif: all of them";
@@ -47,6 +48,7 @@ kinds! {
     Axis "axis" of Impact => "the section's axis at some instants, beside the static field";
     Sweep "sweep" of Sweep => "results of a sweep: lines over one key, a heat map over two";
     Loss "loss" of Sweep => "energy lost over the velocity of approach, with the slope 3/5";
+    Restitution "restitution" of Sweep => "restitution over the velocity of approach over that of yield, with the slope -1/4";
     Histogram "histogram" of Sweep => "histograms of a sweep's draws with their quantiles";
     Errors "errors" of Table => "errors of a kernel table, measured off its grid";
 }

@@ -149,6 +149,7 @@ impl Outcome {
             energy.work_j.as_ref(),
             Some(&energy.stored_j),
             Some(&energy.radiated_j),
+            energy.plastic_j.as_ref(),
         ];
         columns_of(py, &schema::ENERGIES, columns).map(Some)
     }

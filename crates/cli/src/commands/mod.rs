@@ -4,6 +4,7 @@ pub(crate) mod chart;
 pub(crate) mod completions;
 pub(crate) mod demo;
 pub(crate) mod impact;
+pub(crate) mod infer;
 pub(crate) mod materials;
 pub(crate) mod paper;
 pub(crate) mod plot;

@@ -31,6 +31,11 @@ impl Strength {
         Some(2.0 / 3.0 * strength / largest_mises(self.poisson_ratio))
     }
 
+    /// Yield strength in Pa and Poisson's ratio, where the strength is known.
+    pub(crate) fn yields(&self) -> Option<(f64, f64)> {
+        Some((self.yield_strength_pa?, self.poisson_ratio))
+    }
+
     /// Force in N at which a sphere of a radius is expected to make a cone crack; none without a fracture toughness.
     ///
     /// ```text

@@ -205,7 +205,7 @@ fn deflection_slope(piece: &Piece, place: f64) -> f64 {
 }
 
 /// The place of a time in a piece: its time rises.
-fn place_of(piece: &Piece, time: f64) -> f64 {
+pub(crate) fn place_of(piece: &Piece, time: f64) -> f64 {
     if piece.time.degree == 2 {
         let [middle, slope, half] = [0, 1, 2].map(|k| piece.time.powers[k]);
         let away = time - middle;

@@ -24,6 +24,7 @@
 use crate::disc::history::History;
 use crate::growing::waves::PunchWaves;
 use crate::law::pulse::pulse;
+use crate::numeric::quadrature::chebyshev;
 use crate::summary::{EndOfContact, Estimates, Summary};
 use crate::units::INVERSE_MASS;
 
@@ -197,15 +198,6 @@ const PEAK_FORCE: [f64; 3] = [6.57, -10.70, 0.072_7];
 const PEAK_FORCE_TIME: [f64; 3] = [39.84, -61.32, 0.393];
 const LOSS: [f64; 3] = [-22.74, 36.90, -0.252_130_892_297_553];
 const PEAK_DISPLACEMENT: [f64; 3] = [4.582, -7.425, 0.049_95];
-
-/// A Chebyshev series at x in [-1, 1].
-fn chebyshev(series: &[f64], x: f64) -> f64 {
-    let (mut last, mut before) = (0.0, 0.0);
-    for &coefficient in series[1..].iter().rev() {
-        (last, before) = (2.0 * x * last - before + coefficient, last);
-    }
-    x * last - before + series[0]
-}
 
 /// At b = 0, in 2 c/`LARGEST_LAG` - 1; the last two over c.
 #[rustfmt::skip]

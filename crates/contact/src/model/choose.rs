@@ -35,7 +35,7 @@ use crate::error::ContactError;
 use crate::law::area_dashpot::{AreaDashpot, left_out};
 use crate::law::quasi_static::{quasi_static, quasi_static_radiation};
 use crate::law::radiation::{LOSS, radiation};
-use crate::model::{Model, Rung, Scheme, Settings, StaticShare};
+use crate::model::{Model, Plasticity, Rung, Scheme, Settings, StaticShare};
 use crate::names::Choice;
 
 /// The physics that a scene states.
@@ -47,6 +47,8 @@ pub enum Family {
     Full,
     /// Fixed disc without its static deflection.
     Dynamic,
+    /// The contact radius follows the load, and the softer body flows.
+    Yielding,
 }
 
 /// What the choice depends on, in collision units.
@@ -86,6 +88,9 @@ pub struct Chosen {
     pub left_out: Estimate,
 }
 
+/// What the dashpot of a yielding contact leaves out over c^2, of its loss over c.
+const YIELDING: [f64; 2] = [3.0, 1.0];
+
 /// First-order losses and memories up to which the expansion is trusted at all.
 const LARGEST_LOSS: f64 = 0.3;
 const LARGEST_MEMORY: f64 = 0.3;
@@ -96,7 +101,7 @@ impl Groups {
     pub fn first_order_loss(&self) -> f64 {
         match self.family {
             Family::Full => quasi_static(self.coupling).loss_per_lag * self.lag,
-            Family::Growing | Family::Dynamic => LOSS * self.lag,
+            Family::Growing | Family::Dynamic | Family::Yielding => LOSS * self.lag,
         }
     }
 
@@ -117,15 +122,25 @@ impl Groups {
         match self.family {
             Family::Full => fixed(self.coupling),
             Family::Dynamic => fixed(0.0),
-            Family::Growing => Estimate {
+            Family::Growing | Family::Yielding => Estimate {
                 contact: 0.4 * l * l + 0.3 * l * t + 0.06 * l * t.sqrt(),
                 loss: 0.75 * l + 0.25 * t * t,
             },
         }
     }
 
+    /// What the rung without memory leaves out.
+    pub(crate) fn left_out(&self) -> Estimate {
+        self.without_memory().1
+    }
+
     /// The rung of this family that radiates without memory, and what it leaves out.
     fn without_memory(&self) -> (Rung, Estimate) {
+        if self.family == Family::Yielding {
+            // the turning point is a corner: of first order in the memory
+            let (contact, loss) = (YIELDING[0] * self.lag * self.lag, YIELDING[1] * self.lag);
+            return (Rung::AreaDashpot, Estimate { contact, loss });
+        }
         if self.family != Family::Growing {
             return (Rung::Radiation, self.beyond_radiation());
         }
@@ -176,7 +191,7 @@ impl Chosen {
     /// The model of this family with this memory: without any, a disc whose static deflection is left out is no disc.
     fn model(&self) -> Model {
         let on_disc = match self.family {
-            Family::Growing => false,
+            Family::Growing | Family::Yielding => false,
             Family::Full => true,
             Family::Dynamic => self.rung == Rung::FullMemory,
         };
@@ -195,7 +210,7 @@ impl Chosen {
         } = self.left_out;
         let change = format!("radiation changes the results by {first:.1e}");
         let rung = match self.family {
-            Family::Growing => "the area dashpot",
+            Family::Growing | Family::Yielding => "the area dashpot",
             Family::Full | Family::Dynamic => "its first order",
         };
         match self.rung {
@@ -240,10 +255,21 @@ pub(crate) fn plan(
     settings: &Settings,
     collision: &Collision,
     response: &impl DiscResponse,
+    yields: bool,
 ) -> Plan {
-    let groups = groups(settings, collision, response);
+    let mut groups = groups(settings, collision, response);
+    if yields {
+        groups.family = Family::Yielding;
+    }
     let auto = settings.model == Model::Auto && settings.scheme == Scheme::Implicit;
-    let chosen = auto.then(|| groups.choose(&accuracy(settings)));
+    let mut chosen = auto.then(|| groups.choose(&accuracy(settings)));
+    if let (Some(chosen), Plasticity::JacksonGreen, true) =
+        (&mut chosen, settings.plasticity, yields)
+        && chosen.rung == Rung::FullMemory
+    {
+        // the fit jumps where it leaves Hertz's law: it has no memory
+        (chosen.rung, chosen.error) = (Rung::AreaDashpot, chosen.left_out.contact);
+    }
     let model = match &chosen {
         Some(chosen) => chosen.model(),
         None if settings.model == Model::Auto => Model::Wave,
@@ -326,17 +352,39 @@ impl Plan {
         })
     }
 
+    /// Whether `auto` has chosen.
+    pub(crate) fn is_automatic(&self) -> bool {
+        self.chosen.is_some()
+    }
+
     /// Why this model, in words.
     #[must_use]
     pub fn reason(&self, settings: &Settings) -> String {
+        let yields = match (settings.plasticity, settings.yield_pressure_pa) {
+            (_, Some(_)) => "the contact yields at the yield_pressure_pa given",
+            (Plasticity::JacksonGreen, None) => {
+                "the contact yields by the fit for the yield strength"
+            }
+            (_, None) => "the contact yields at 2.8 times the lower yield strength",
+        };
         let family = match self.groups.family {
             Family::Growing => "no disc_radius_m: the contact follows the load",
+            Family::Yielding => yields,
             Family::Full => "disc_radius_m and the full static share: the paper's disc",
             Family::Dynamic => "disc_radius_m and the dynamic share",
         };
         match (&self.chosen, settings.model) {
+            (Some(chosen), _)
+                if chosen.family == Family::Yielding && chosen.error > settings.tolerance =>
+            {
+                let left_out = chosen.error;
+                format!("{family}; the fit has a dashpot at most, which leaves out {left_out:.1e}")
+            }
             (Some(chosen), _) => format!("{family}; {}", chosen.reason(&accuracy(settings))),
             (None, Model::Auto) => "the explicit scheme marches a fixed disc".to_owned(),
+            (None, _) if self.groups.family == Family::Yielding => {
+                format!("asked for by the scene; {family}")
+            }
             (None, _) => "asked for by the scene".to_owned(),
         }
     }

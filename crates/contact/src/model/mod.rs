@@ -74,6 +74,21 @@ pub enum Scheme {
 
 choice!(Scheme: Implicit = "implicit", Explicit = "explicit");
 
+/// How the softer body flows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Plasticity {
+    /// It does not, however high the pressure.
+    None,
+    /// The pressure is cut at that of yield; unloading as Hertz's law of a flatter sphere.
+    Thornton,
+    /// The same loading, and the unloading that leaves no traction.
+    Recovery,
+    /// The fit of finite elements of Jackson and Green.
+    JacksonGreen,
+}
+
+choice!(Plasticity: None = "none", Thornton = "thornton", Recovery = "recovery", JacksonGreen = "jackson_green");
+
 /// Which part of the half-space's deflection is added to Hertz's indentation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum StaticShare {
@@ -117,6 +132,10 @@ pub struct Settings {
     pub loss_tolerance: Option<f64>,
     /// Fixed step in s.
     pub step_s: Option<f64>,
+    /// How the softer body flows.
+    pub plasticity: Plasticity,
+    /// Mean pressure in Pa that is not exceeded; 2.8 times the yield strength where none is given.
+    pub yield_pressure_pa: Option<f64>,
 }
 
 impl Default for Settings {
@@ -131,6 +150,8 @@ impl Default for Settings {
             tolerance: 1e-4,
             loss_tolerance: None,
             step_s: None,
+            plasticity: Plasticity::None,
+            yield_pressure_pa: None,
         }
     }
 }
@@ -144,6 +165,12 @@ pub enum Conflict {
     ExplicitModel(Model),
     /// A contact that follows the load with a fixed disc.
     GrowingDisc,
+    /// A contact that yields with a fixed disc.
+    PlasticDisc,
+    /// A law of flow with a model that it does not have.
+    PlasticModel(Plasticity, Model),
+    /// A yield pressure that its law does not take.
+    PlasticPressure(Plasticity),
 }
 
 impl Settings {
@@ -158,7 +185,28 @@ impl Settings {
                 return Some(Conflict::ExplicitModel(self.model));
             }
         }
-        (self.model == Model::Growing && self.disc_radius_m.is_some())
-            .then_some(Conflict::GrowingDisc)
+        if self.model == Model::Growing && self.disc_radius_m.is_some() {
+            return Some(Conflict::GrowingDisc);
+        }
+        let (law, model) = (self.plasticity, self.model);
+        let takes_pressure = matches!(law, Plasticity::Thornton | Plasticity::Recovery);
+        if self.yield_pressure_pa.is_some() && !takes_pressure {
+            return Some(Conflict::PlasticPressure(law));
+        }
+        if law == Plasticity::None {
+            return None;
+        }
+        if self.disc_radius_m.is_some() {
+            return Some(Conflict::PlasticDisc);
+        }
+        let none = match model.row() {
+            (Rung::QuasiStatic | Rung::AreaDashpot, on_disc) => on_disc,
+            (Rung::FullMemory, on_disc) => {
+                on_disc && model != Model::Auto
+                    || model == Model::Growing && law == Plasticity::JacksonGreen
+            }
+            (Rung::Radiation, _) => true,
+        };
+        (none || self.scheme == Scheme::Explicit).then_some(Conflict::PlasticModel(law, model))
     }
 }

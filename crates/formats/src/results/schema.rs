@@ -7,7 +7,7 @@ use impact::{ProbeFields, Series};
 /// Value of the attribute `file_type`.
 pub const FILE_TYPE: &str = "hertzlamb results";
 /// Version of the format: the first number changes when a reader of the old one would fail.
-pub const FORMAT_VERSION: &str = "1.7";
+pub const FORMAT_VERSION: &str = "1.8";
 /// Datasets in the root, with unit and description.
 pub const SERIES: [(&str, &str, &str); 5] = labels! {
     "time", "s", "time since the first touch";
@@ -29,11 +29,12 @@ pub const TREATMENT: [&str; 5] = [
 /// Group of the energy over time.
 pub const ENERGY: &str = "energy";
 /// Datasets in it; the first where there is a striker, the second where there is none.
-pub const ENERGIES: [(&str, &str, &str); 4] = labels! {
+pub const ENERGIES: [(&str, &str, &str); 5] = labels! {
     "kinetic", "J", "kinetic energy of the striker, by its momentum";
     "work", "J", "work of the force on the half-space";
     "stored", "J", "elastic energy that is given back";
     "radiated", "J", "work on the part of the deflection that lags behind the force";
+    "plastic", "J", "work of the plastic flow";
 };
 /// Group of the probes.
 pub const PROBES: &str = "probes";

@@ -83,6 +83,7 @@ fn write_energy(file: &File, energy: &EnergySeries, time_s: &[f64]) -> Result<()
         energy.work_j.as_ref(),
         Some(&energy.stored_j),
         Some(&energy.radiated_j),
+        energy.plastic_j.as_ref(),
     ];
     for (described, samples) in schema::ENERGIES.iter().zip(columns) {
         if let Some(samples) = samples {

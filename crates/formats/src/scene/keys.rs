@@ -109,6 +109,8 @@ const KEYS: &[Key] = keys! {
     contact.tolerance: TOLERANCE [1e-4] Setting(|s, x| s.tolerance = x);
     contact.loss_tolerance: TOLERANCE [1e-3] Setting(|s, x| s.loss_tolerance = Some(x));
     contact.step_s: POSITIVE;
+    contact.plasticity;
+    contact.yield_pressure_pa: POSITIVE [1e9] Setting(|s, x| s.yield_pressure_pa = Some(x));
     force.file;
     force.columns;
     force.units;

@@ -157,6 +157,8 @@ fn read_settings(root: &Section<'_>) -> Result<Settings, SceneError> {
     put(&mut settings.scheme, section.choice("scheme")?);
     put(&mut settings.static_share, section.choice("static_share")?);
     put(&mut settings.deflection, section.choice("deflection")?);
+    put(&mut settings.plasticity, section.choice("plasticity")?);
+    settings.yield_pressure_pa = section.number("yield_pressure_pa")?;
     settings
         .conflict()
         .map_or(Ok(settings), |conflict| Err(in_words(conflict)))
@@ -186,6 +188,23 @@ fn in_words(conflict: Conflict) -> SceneError {
             "contact.model = \"growing\"",
             "disc_radius_m".to_owned(),
             "its contact radius follows the load",
+        ),
+        Conflict::PlasticDisc => (
+            "contact.plasticity",
+            "disc_radius_m".to_owned(),
+            "the radius of a contact that yields follows the load",
+        ),
+        Conflict::PlasticModel(law, model) => {
+            return SceneError::Conflict {
+                first: format!("contact.plasticity = \"{}\"", law.name()),
+                second: format!("model = \"{}\"", model.name()),
+                reason: "a contact that yields is solved by the implicit scheme with model auto, hertz, area_dashpot or growing, the fit of jackson_green without growing",
+            };
+        }
+        Conflict::PlasticPressure(law) => (
+            "contact.yield_pressure_pa",
+            format!("plasticity = \"{}\"", law.name()),
+            "thornton and recovery take it",
         ),
     };
     SceneError::Conflict {

@@ -2,7 +2,7 @@
 
 use super::body::{put, to_table};
 use super::striker::Form;
-use contact::{Choice, Settings, Shape, Striker};
+use contact::{Choice, Plasticity, Settings, Shape, Striker};
 use impact::{Load, Reading, Scene, Section};
 use toml::{Table, Value};
 
@@ -148,12 +148,16 @@ fn settings(settings: &Settings) -> Table {
         ("static_share", settings.static_share.name()),
         ("deflection", settings.deflection.name()),
     ];
+    if settings.plasticity != Plasticity::None {
+        table.insert("plasticity".into(), settings.plasticity.name().into());
+    }
     table.extend(words.map(|(key, word)| (key.to_owned(), word.into())));
     let numbers = [
         ("disc_radius_m", settings.disc_radius_m),
         ("tolerance", Some(settings.tolerance)),
         ("loss_tolerance", settings.loss_tolerance),
         ("step_s", settings.step_s),
+        ("yield_pressure_pa", settings.yield_pressure_pa),
     ];
     put(&mut table, numbers);
     table

@@ -142,6 +142,7 @@ fn energy_of(stored: &Stored, samples: usize) -> Result<Option<EnergySeries>, Re
         work_j: existing(1)?,
         stored_j: column(2)?,
         radiated_j: column(3)?,
+        plastic_j: existing(4)?,
     }))
 }
 

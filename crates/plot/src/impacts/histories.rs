@@ -85,6 +85,31 @@ pub(super) fn contact_panels(
     Ok(panels)
 }
 
+/// Force against the displacement of the striker, one curve an impact.
+pub(super) fn loop_panel(impacts: &[StoredImpact], labels: &[String]) -> Result<Panel, PlotError> {
+    let axes = [("approach", "m"), ("force", "N")].map(|(name, unit)| Axis::linear(name).si(unit));
+    let [approach, force] = axes;
+    let mut panel = Panel::new(approach, force)
+        .height(380.0)
+        .legend(Legend::Auto);
+    for (impact, label) in impacts.iter().zip(labels) {
+        let series = &impact.series;
+        let Some(striker) = &series.striker else {
+            let hint = "a force record has no striker";
+            return Err(PlotError::absent(impact.path(), "approach", hint));
+        };
+        let pairs = striker.displacement_m.iter().zip(&series.force_n);
+        let pressed = |pair: &(&f64, &f64)| *pair.1 > 0.0;
+        let points = pairs.clone().take(1).chain(pairs.filter(pressed));
+        panel = panel.line(
+            label,
+            Style::Plain,
+            points.map(|(&d, &p)| (d, p)).collect::<Vec<_>>(),
+        );
+    }
+    Ok(panel)
+}
+
 /// What the deflection of a file is: Hertz's law may hold the static part of it.
 fn deflection_name(impact: &StoredImpact) -> &'static str {
     match (impact.model.as_str(), impact.static_share.as_str()) {

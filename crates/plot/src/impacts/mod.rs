@@ -14,7 +14,7 @@ use crate::words::with_unit;
 use contact::Shape;
 use figure::{Figure, Panel, Sharing};
 use formats::stored::{FileKind, StoredImpact, StoredValue};
-use histories::{FEW, contact_panels, probe_panels};
+use histories::{FEW, contact_panels, loop_panel, probe_panels};
 use labels::labels;
 use spectrum::spectrum;
 
@@ -39,16 +39,15 @@ pub(crate) fn of_impacts(impacts: &[StoredImpact], request: &Request) -> Result<
     };
     match kind {
         Kind::Impact | Kind::Probes => histories(impacts, kind, request),
+        Kind::Loop => Ok(single(loop_panel(impacts, &labels(impacts))?)),
         Kind::Spectrum => Ok(single(spectrum(impacts, &labels(impacts))?)),
         Kind::Peak => Ok(single(peak(one()?, request)?)),
         Kind::Axis => Ok(single(axis_profile(one()?, request)?)),
         Kind::Surface => Ok(single(space_time(one()?, request, Path::Surface)?)),
         Kind::Depth => Ok(single(space_time(one()?, request, Path::Axis)?)),
-        Kind::Sweep | Kind::Loss | Kind::Histogram | Kind::Errors => Err(PlotError::unsuitable(
-            impacts[0].path(),
-            FileKind::Impact,
-            kind,
-        )),
+        Kind::Sweep | Kind::Loss | Kind::Restitution | Kind::Histogram | Kind::Errors => Err(
+            PlotError::unsuitable(impacts[0].path(), FileKind::Impact, kind),
+        ),
         Kind::Waves => {
             let (panels, notes) = frames(one()?, request, request.frames.unwrap_or(4))?;
             let columns = if panels.len() > 4 { 3 } else { 2 };

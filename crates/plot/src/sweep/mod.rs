@@ -65,6 +65,7 @@ pub(crate) fn of_sweep(sweep: &StoredSweep, request: &Request) -> Result<Drawn, 
     let known = sweep.quantities();
     let quantities = match (request.quantities.as_slice(), kind) {
         ([], Kind::Loss) => chosen(sweep.path(), &known, &["loss"])?,
+        ([], Kind::Restitution) => chosen(sweep.path(), &known, &["restitution"])?,
         ([], _) => chosen(sweep.path(), &known, &USUAL)?,
         (given, _) => chosen(sweep.path(), &known, given)?,
     };
@@ -78,6 +79,7 @@ pub(crate) fn of_sweep(sweep: &StoredSweep, request: &Request) -> Result<Drawn, 
         let mut panel = match kind {
             Kind::Histogram => histogram(&view, &shown)?,
             Kind::Loss => loss(&view, &shown)?,
+            Kind::Restitution => restitution(&view, &shown)?,
             _ => {
                 let hint = "a sweep over words alone has no axis to draw along; sweep --csv writes its rows";
                 let what = "key of numbers that varies";
@@ -335,6 +337,39 @@ fn loss(view: &View<'_>, shown: &Shown<'_>) -> Result<Panel, PlotError> {
         let on = |v: f64| (v, 1.3 * highest * v.powf(0.6));
         panel = panel.line("slope 3/5", Style::HeavyDashed, vec![on(first), on(last)]);
     }
+    Ok(panel.height(380.0))
+}
+
+/// Restitution over velocity, both logarithmic, with Johnson's slope; the velocity over that at which the first row with a
+/// law of flow yields.
+fn restitution(view: &View<'_>, shown: &Shown<'_>) -> Result<Panel, PlotError> {
+    let along = view.along(Some(VELOCITY))?.unwrap_or(0);
+    let mut panel = lines(view, along, Some(VELOCITY), shown, Scale::Logarithmic)?;
+    let at_yield = view.sweep.values("yield_velocity_m_s")?;
+    let yields = at_yield.iter().copied().find(|v| v.is_finite());
+    let (name, unit) = match yields {
+        Some(_) => ("velocity of approach over that of yield".to_owned(), "1"),
+        None => (format!("{} of approach", of_key(VELOCITY).0), "m/s"),
+    };
+    panel.x = axis(&name, unit, Scale::Logarithmic);
+    let mut last = (0.0, f64::INFINITY);
+    for layer in &mut panel.layers {
+        if let Layer::Line(line) = layer {
+            for point in &mut line.points {
+                point.0 /= yields.unwrap_or(1.0);
+                if point.0 > last.0 || point.0 == last.0 && point.1 < last.1 {
+                    last = *point;
+                }
+            }
+        }
+    }
+    // below all curves
+    let on = |x: f64| (x, 0.9 * last.1 * (x / last.0).powf(-0.25));
+    panel = panel.line(
+        "slope -1/4",
+        Style::HeavyDashed,
+        vec![on(0.03 * last.0), on(last.0)],
+    );
     Ok(panel.height(380.0))
 }
 

@@ -1,0 +1,121 @@
+//! `hertzlamb infer`: yield pressure or velocity from a rebound.
+
+use crate::failure::{Failure, show};
+use clap::builder::PossibleValuesParser;
+use clap::{ArgGroup, Args};
+use contact::{Choice, GRAVITY_M_S2, Measure, Rebound, Unknown};
+use formats::read_scene;
+use impact::Load;
+use serde_json::json;
+use std::path::PathBuf;
+
+const EXAMPLES: &str = "Examples:
+  hertzlamb infer drop.toml --restitution 0.56 --error 0.01
+  hertzlamb infer drop.toml --bounces 0.32,0.18
+  hertzlamb infer drop.toml --peak-force 120 --error 3 --unknown velocity_m_s";
+
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES, group(ArgGroup::new("measured").required(true)))]
+pub(crate) struct Arguments {
+    /// The scene (TOML) with a plasticity; what is sought is not taken from it.
+    scene: PathBuf,
+    /// Velocity of departure over that of approach.
+    #[arg(long, group = "measured", value_name = "E")]
+    restitution: Option<f64>,
+    /// Times in s between three bounces: the second over the first is the restitution of the bounce between, whose
+    /// velocity follows from the first.
+    #[arg(long, group = "measured", value_name = "T1,T2", value_delimiter = ',')]
+    bounces: Option<Vec<f64>>,
+    /// Duration of the contact in s.
+    #[arg(long, group = "measured", value_name = "SECONDS")]
+    contact_time: Option<f64>,
+    /// Largest force in N.
+    #[arg(long, group = "measured", value_name = "NEWTONS")]
+    peak_force: Option<f64>,
+    /// Absolute error of what was measured, of both times for bounces.
+    #[arg(long, default_value_t = 0.0)]
+    error: f64,
+    /// What is sought.
+    #[arg(long, value_name = "KEY", default_value = "yield_pressure_pa", value_parser = PossibleValuesParser::new(Unknown::ALL.iter().map(|unknown| unknown.name())))]
+    unknown: String,
+    /// Print a JSON object.
+    #[arg(long)]
+    json: bool,
+}
+
+pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let scene = read_scene(&arguments.scene)?;
+    let Load::Strike(mut strike) = scene.load else {
+        return Err(Failure::input(
+            "a force record has no rebound: give the scene a [striker]",
+        ));
+    };
+    let unknown = Unknown::named(&arguments.unknown).unwrap_or(Unknown::YieldPressure);
+    let mut error = arguments.error;
+    let (measure, value) = match (
+        &arguments.bounces,
+        arguments.restitution,
+        arguments.contact_time,
+        arguments.peak_force,
+    ) {
+        (Some(times), _, _, _) => {
+            let &[first, second] = times.as_slice() else {
+                return Err(Failure::input(format!(
+                    "--bounces has {} times, not two",
+                    times.len()
+                )));
+            };
+            strike.velocity_m_s = 0.5 * GRAVITY_M_S2 * first;
+            error *= (1.0 + (second / first).powi(2)).sqrt() / first;
+            (Measure::Restitution, second / first)
+        }
+        (None, Some(e), _, _) => (Measure::Restitution, e),
+        (None, None, Some(time), _) => (Measure::ContactTime, time),
+        (None, None, None, force) => (Measure::PeakForce, force.unwrap_or(f64::NAN)),
+    };
+    if !(value > 0.0
+        && value.is_finite()
+        && error >= 0.0
+        && error.is_finite()
+        && strike.velocity_m_s > 0.0)
+    {
+        return Err(Failure::input(format!(
+            "{} = {value} with an error of {error} is outside (0, inf) and [0, inf)",
+            measure.name()
+        )));
+    }
+    let rebound = Rebound {
+        target: &scene.target,
+        striker: &strike.striker,
+        velocity_m_s: strike.velocity_m_s,
+        settings: &scene.settings,
+        unknown,
+        measure,
+    };
+    let found = rebound.infer(value, error)?;
+    let (results, [low, high]) = (&found.results, found.band);
+    let value = json!({
+        "unknown": unknown.name(),
+        "value": found.value,
+        "low": low,
+        "high": high,
+        "velocity_over_yield": results.plastic.velocity_over_yield,
+        "yield_velocity_m_s": results.plastic.yield_velocity_m_s,
+        "restitution": results.restitution,
+        "contact_time_s": results.contact_time_s,
+        "peak_force_n": results.peak_force_n,
+    });
+    let end = |end: Option<f64>| end.map_or("beyond yield".to_owned(), |x| format!("{x:.4e}"));
+    let text = format!(
+        "{}  {:.6e}  ({} to {})\nvelocity over that of yield  {:.4}\nrestitution  {:.4}\ncontact time  {:.4e} s\npeak force  {:.4e} N",
+        unknown.name(),
+        found.value,
+        end(low),
+        end(high),
+        results.plastic.velocity_over_yield.unwrap_or(1.0),
+        results.restitution,
+        results.contact_time_s,
+        results.peak_force_n,
+    );
+    show(arguments.json, &value, text)
+}

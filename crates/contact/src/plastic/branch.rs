@@ -1,0 +1,277 @@
+//! The laws of a contact that yields, as branches: force, indentation and slope over the radius of contact.
+//!
+//! Collision units: length alpha, radius sqrt(R alpha), force K alpha^1.5.
+//! On any branch the load is carried by punches, dp = (3/2) a ds: s is the indentation where nothing flows.
+//!
+//! ```text
+//! Hertz         u = a^2                                p = a^3                     slope (3/2) a
+//! line          u = a^2                                p = y^3 + (3/2) y (a^2 - y^2)     (3/2) y
+//! fit           u = a^2                                p of Jackson and Green
+//! Hertzian      u = u_p + a^2/rho                      p = a^3/rho                 (3/2) a
+//! truncated     du = (4/pi) asin min(1, y/sqrt(L^2 - a^2)) a da,  dp = (3/2) a du  (3/2) a
+//! ```
+//!
+//! y is the radius at yield, L the largest, rho = R_p/R of Thornton (1997).
+//! The truncated branch takes the punches of the pressure min(p_y, Hertz) away from outside in, so that nothing presses
+//! after the separation.
+//!
+//! Theory: `docs/theory.md` (T62 to T65).
+
+use crate::numeric::quadrature::{GAUSS_8, gauss};
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// A law on one side of the turning point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Branch {
+    /// Nothing has flowed.
+    Hertz,
+    /// The pressure is cut at that of yield; `edge` the radius at yield.
+    Line { edge: f64 },
+    /// Jackson and Green's fit.
+    Fit(Fit),
+    /// Unloading to a dent of depth `left` as a sphere `flatter` times as flat.
+    Hertzian { left: f64, flatter: f64 },
+    /// Unloading of a cut pressure from the radius `top`.
+    Truncated { edge: f64, top: f64 },
+}
+
+/// A branch at a radius of contact.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Local {
+    /// Indentation.
+    pub(crate) depth: f64,
+    /// Its slope in the radius.
+    pub(crate) depth_slope: f64,
+    /// Slope in the radius of the indentation s of the punches.
+    pub(crate) punch_slope: f64,
+    /// Force.
+    pub(crate) force: f64,
+    /// Slope of the force in the indentation.
+    pub(crate) stiffness: f64,
+}
+
+impl Branch {
+    /// At a radius.
+    pub(crate) fn at(&self, a: f64) -> Local {
+        let of = |depth, depth_slope, force| Local {
+            depth,
+            depth_slope,
+            punch_slope: depth_slope,
+            force,
+            stiffness: 1.5 * a,
+        };
+        match *self {
+            Self::Hertz => of(a * a, 2.0 * a, a * a * a),
+            Self::Line { edge } => Local {
+                punch_slope: 2.0 * edge,
+                stiffness: 1.5 * edge,
+                ..of(a * a, 2.0 * a, edge * (1.5 * a * a - 0.5 * edge * edge))
+            },
+            Self::Fit(fit) => {
+                let [force, stiffness] = fit.force(a * a);
+                Local {
+                    stiffness,
+                    ..of(a * a, 2.0 * a, force)
+                }
+            }
+            Self::Hertzian { left, flatter } => of(
+                left + a * a / flatter,
+                2.0 * a / flatter,
+                a * a * a / flatter,
+            ),
+            Self::Truncated { edge, top } => {
+                let cut = Cut::new(edge, top, a);
+                of(cut.depth(), 4.0 / PI * a * cut.angle, cut.force())
+            }
+        }
+    }
+
+    /// int ds/a, but for a constant.
+    pub(crate) fn delayed(&self, a: f64) -> f64 {
+        match *self {
+            Self::Hertz | Self::Fit(_) => 2.0 * a,
+            Self::Line { edge } => 2.0 * edge * (1.0 + (a / edge).ln()),
+            Self::Hertzian { flatter, .. } => 2.0 * a / flatter,
+            Self::Truncated { edge, top } => Cut::new(edge, top, a).delayed(),
+        }
+    }
+
+    /// Indentation that is left where an unloading branch ends.
+    pub(crate) fn left(&self) -> f64 {
+        match *self {
+            Self::Hertz | Self::Line { .. } | Self::Fit(_) => 0.0,
+            Self::Hertzian { left, .. } => left,
+            Self::Truncated { .. } => self.at(0.0).depth,
+        }
+    }
+
+    /// R_p/R at the end of an unloading branch.
+    pub(crate) fn flatter(&self) -> f64 {
+        match *self {
+            Self::Hertz | Self::Line { .. } | Self::Fit(_) => 1.0,
+            Self::Hertzian { flatter, .. } => flatter,
+            Self::Truncated { edge, top } => FRAC_PI_2 / (edge / top).asin(),
+        }
+    }
+
+    /// Work that an unloading branch gives back from a radius on, int p du.
+    pub(crate) fn given_back(&self, a: f64) -> f64 {
+        match *self {
+            Self::Hertz | Self::Line { .. } | Self::Fit(_) => 0.4 * a.powi(5),
+            Self::Hertzian { flatter, .. } => 0.4 * a.powi(5) / (flatter * flatter),
+            Self::Truncated { edge, top } => {
+                let kink = (top * top - edge * edge).max(0.0).sqrt();
+                let part = |turn: f64| {
+                    // smooth in the turn: roots at the kink, and a steep place of the width of y beside it
+                    let q = edge / kink * turn.sinh();
+                    let here = self.at(kink * (1.0 - q * q));
+                    2.0 * edge * q * turn.cosh() * here.force * here.depth_slope
+                };
+                let place = |b: f64| ((1.0 - b / kink).max(0.0).sqrt() * kink / edge).asinh();
+                let curved = if kink > 0.0 {
+                    let (from, to) = (place(a.min(kink)), place(0.0));
+                    let width = 0.25 * (to - from);
+                    let panels = [0.0, 1.0, 2.0, 3.0].map(|i| from + i * width);
+                    panels
+                        .map(|at| gauss(&GAUSS_8, at, at + width, part))
+                        .iter()
+                        .sum()
+                } else {
+                    0.0
+                };
+                if a <= kink {
+                    return curved;
+                }
+                let shift = self.at(kink).force - kink.powi(3);
+                curved + shift * (a * a - kink * kink) + 0.4 * (a.powi(5) - kink.powi(5))
+            }
+        }
+    }
+}
+
+/// The cut pressure from which the punches outside a radius are gone.
+struct Cut {
+    edge: f64,
+    top: f64,
+    a: f64,
+    /// Radius inside which the pressure was cut.
+    kink: f64,
+    /// asin min(1, y/sqrt(L^2 - a^2))
+    angle: f64,
+    /// asin(a/kink) and atan(a y/(L sqrt(kink^2 - a^2))).
+    turns: [f64; 2],
+}
+
+impl Cut {
+    fn new(edge: f64, top: f64, a: f64) -> Self {
+        let kink = (top * top - edge * edge).max(0.0).sqrt();
+        let inside = a < kink;
+        let rest = ((kink - a) * (kink + a)).max(0.0).sqrt();
+        let (angle, turns) = if inside {
+            let turns = [(a / kink).asin(), (a * edge).atan2(top * rest)];
+            (edge.atan2(rest), turns)
+        } else {
+            (FRAC_PI_2, [FRAC_PI_2; 2])
+        };
+        Self {
+            edge,
+            top,
+            a,
+            kink,
+            angle,
+            turns,
+        }
+    }
+
+    /// Work of the loading less what is left; Thornton's u* at the top.
+    fn depth(&self) -> f64 {
+        let (y2, square) = (self.edge * self.edge, self.top * self.top);
+        // stroke of a radius squared from full unloading
+        let stroke = |u: f64| {
+            if u <= y2 {
+                return u;
+            }
+            2.0 / PI * (u * (self.edge / u.sqrt()).asin() + self.edge * (u - y2).sqrt())
+        };
+        square - stroke((square - self.a * self.a).max(0.0))
+    }
+
+    fn force(&self) -> f64 {
+        let Self {
+            edge: y,
+            top,
+            a,
+            kink,
+            ..
+        } = *self;
+        let [turn, far] = self.turns;
+        let square = top * top;
+        if a >= kink {
+            return y * (1.5 * square - 0.5 * y * y) - (top.powi(3) - a.powi(3));
+        }
+        let rest = ((kink - a) * (kink + a)).sqrt();
+        let inner = y * (0.5 * a * rest - (0.5 * kink * kink + square) * turn);
+        2.0 / PI * (a.powi(3) * self.angle - inner - top.powi(3) * far)
+    }
+
+    fn delayed(&self) -> f64 {
+        let [turn, far] = self.turns;
+        let inner = self.a.min(self.kink) * self.angle + self.edge * turn - self.top * far;
+        4.0 / PI * inner + 2.0 * (self.a - self.kink).max(0.0)
+    }
+}
+
+/// Jackson and Green's fit of finite elements (2005), with the residual depth of Jackson, Green and Marghitu (2010).
+///
+/// ```text
+/// w = u/w_c,  p/p_c = exp(-w^(5/12)/4) w^1.5 + (4 H/C) (1 - exp(-w^(5/9)/25)) w      w > 1.9
+/// H = 2.84 (1 - exp(-0.82 (a/R)^-0.7)),   a/R = (pi C e_y/2) sqrt(w (w/1.9)^B)
+/// w_r = 1.02 w (1 - ((w + 5.9)/6.9)^-0.54)
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Fit {
+    /// w_c in collision units.
+    pub(crate) critical: f64,
+    /// C = 1.295 exp(0.736 nu).
+    pub(crate) shape: f64,
+    /// e_y = S_y/E*.
+    pub(crate) strain: f64,
+}
+
+/// Indentation over the critical one from which the fit leaves Hertz's law.
+pub(crate) const FITTED: f64 = 1.9;
+
+impl Fit {
+    /// Force and its slope at an indentation beyond 1.9 w_c.
+    fn force(&self, depth: f64) -> [f64; 2] {
+        let w = depth / self.critical;
+        let spread = self.spread();
+        let radius = 0.5 * PI * self.shape * self.strain * (w * (w / FITTED).powf(spread)).sqrt();
+        let by_radius = radius.powf(-0.7);
+        let soft = (-0.82 * by_radius).exp();
+        let hardness = 2.84 * (1.0 - soft);
+        let hardening = -2.84 * soft * 0.82 * 0.7 * by_radius * 0.5 * (1.0 + spread) / w;
+        let (slow, fast) = (w.powf(5.0 / 12.0), w.powf(5.0 / 9.0));
+        let (elastic, flowing) = ((-0.25 * slow).exp(), (-0.04 * fast).exp());
+        let hertz = w * w.sqrt();
+        let per = 4.0 / self.shape;
+        let force = elastic * hertz + per * hardness * (1.0 - flowing) * w;
+        let slope = elastic * w.sqrt() * (1.5 - 5.0 / 48.0 * slow)
+            + per * hardness * (1.0 - flowing + fast * flowing / 45.0)
+            + per * hardening * (1.0 - flowing) * w;
+        let unit = self.critical.sqrt();
+        [force * unit * self.critical, slope * unit]
+    }
+
+    /// B of the contact's area, R u (w/1.9)^B.
+    pub(crate) fn spread(&self) -> f64 {
+        0.14 * (23.0 * self.strain).exp()
+    }
+
+    /// Depth that is left after an indentation.
+    pub(crate) fn left(&self, depth: f64) -> f64 {
+        let w = depth / self.critical;
+        let rest = 1.0 - ((w + 5.9) / 6.9).powf(-0.54);
+        self.critical * (1.02 * w * rest).max(0.0)
+    }
+}

@@ -1,0 +1,223 @@
+//! Yield pressure or velocity from what was measured of a contact that yields.
+//!
+//! The unknown is bracketed between the onset of yield and far beyond, and the bracket halved in its logarithm.
+//! The band is what the measure's error makes of it; what the law leaves out is not in it.
+
+use crate::bodies::{HalfSpace, Striker};
+use crate::collision::Collision;
+use crate::error::ContactError;
+use crate::model::{Plasticity, Settings};
+use crate::names::{Choice, choice};
+use crate::responses::Exact;
+use crate::results::Results;
+use crate::solver::Solver;
+use fault::{Class, Culprit, Fault};
+use thiserror::Error;
+
+/// What was measured.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Measure {
+    /// Velocity of departure over that of approach.
+    Restitution,
+    /// Duration of the contact in s.
+    ContactTime,
+    /// Largest force in N.
+    PeakForce,
+}
+
+choice!(Measure: Restitution = "restitution", ContactTime = "contact_time_s", PeakForce = "peak_force_n");
+
+/// What is to be found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Unknown {
+    /// Mean pressure of the flow in Pa.
+    YieldPressure,
+    /// Velocity of approach in m/s.
+    Velocity,
+}
+
+choice!(Unknown: YieldPressure = "yield_pressure_pa", Velocity = "velocity_m_s");
+
+/// What was found.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Inferred {
+    /// The unknown.
+    pub value: f64,
+    /// What the error of the measure makes of it, ascending; an end is missing where no contact that yields has such a
+    /// measure.
+    pub band: [Option<f64>; 2],
+    /// Results with that value.
+    pub results: Results,
+}
+
+/// Why nothing was found.
+#[derive(Debug, Error)]
+pub enum InferError {
+    /// The contact failed.
+    #[error(transparent)]
+    Contact(#[from] ContactError),
+    /// No law of flow with that unknown.
+    #[error(
+        "plasticity = \"{law}\" has no {unknown} to be found: take \"thornton\" or \"recovery\", for velocity_m_s also \"jackson_green\""
+    )]
+    NoLaw {
+        /// Name of the law.
+        law: &'static str,
+        /// What was sought.
+        unknown: &'static str,
+    },
+    /// A measure that no contact has that yields.
+    #[error(
+        "{measure} = {value} is outside [{low:.4e}, {high:.4e}], what a contact has that yields"
+    )]
+    Outside {
+        /// What was measured.
+        measure: &'static str,
+        /// Its value.
+        value: f64,
+        /// The smallest.
+        low: f64,
+        /// The largest.
+        high: f64,
+    },
+}
+
+impl Fault for InferError {
+    fn culprit(&self) -> Culprit<'_> {
+        let culprit = Culprit::of(Class::Impact);
+        match self {
+            Self::Contact(_) => culprit,
+            Self::NoLaw { law, .. } => Culprit {
+                word: Some(law),
+                ..culprit.key("plasticity")
+            },
+            Self::Outside {
+                measure,
+                value,
+                low,
+                high,
+            } => Culprit {
+                limits: Some([*low, *high]),
+                ..culprit.key(measure).number(*value)
+            },
+        }
+    }
+}
+
+/// Velocity of approach over that of yield, at most.
+const MOST: f64 = 1000.0;
+
+/// Halvings of the bracket: to 1e-11 of the unknown.
+const HALVINGS: usize = 40;
+
+/// A contact whose yield pressure or velocity is sought.
+#[derive(Debug, Clone, Copy)]
+pub struct Rebound<'a> {
+    /// The half-space.
+    pub target: &'a HalfSpace,
+    /// The body that strikes.
+    pub striker: &'a Striker,
+    /// Velocity of approach in m/s, where it is known.
+    pub velocity_m_s: f64,
+    /// How the contact is computed.
+    pub settings: &'a Settings,
+    /// What is sought.
+    pub unknown: Unknown,
+    /// What was measured.
+    pub measure: Measure,
+}
+
+impl Rebound<'_> {
+    /// Finds the unknown that gives a measured value, with the band of an absolute error.
+    ///
+    /// # Errors
+    /// [`InferError`].
+    pub fn infer(&self, value: f64, error: f64) -> Result<Inferred, InferError> {
+        let (law, by_velocity) = (self.settings.plasticity, self.unknown == Unknown::Velocity);
+        if law == Plasticity::None || law == Plasticity::JacksonGreen && !by_velocity {
+            let (law, unknown) = (law.name(), self.unknown.name());
+            return Err(InferError::NoLaw { law, unknown });
+        }
+        let start = match self.unknown {
+            Unknown::YieldPressure => self.settings.yield_pressure_pa.unwrap_or(1e9),
+            Unknown::Velocity => self.velocity_m_s,
+        };
+        // s goes with V and with p_y^-2.5
+        let ratio = self.at(start)?.plastic.velocity_over_yield.unwrap_or(1.0);
+        let at_ratio = |s: f64| match self.unknown {
+            Unknown::YieldPressure => start * (ratio / s).powf(0.4),
+            Unknown::Velocity => start * s / ratio,
+        };
+        let mut most = MOST;
+        while most > 1.01 && self.at(at_ratio(most)).is_err() {
+            // a velocity that no contact law serves
+            most = most.sqrt();
+        }
+        let bracket = [1.0, most].map(at_ratio);
+        let ends = [self.measured(bracket[0])?, self.measured(bracket[1])?];
+        let Some(found) = self.halved(bracket, ends, value)? else {
+            return Err(InferError::Outside {
+                measure: self.measure.name(),
+                value,
+                low: ends[0].min(ends[1]),
+                high: ends[0].max(ends[1]),
+            });
+        };
+        let mut band = [-error, error].map(|off| self.halved(bracket, ends, value + off));
+        // rising with the measure, or falling
+        if (ends[1] > ends[0]) != (bracket[1] > bracket[0]) {
+            band.reverse();
+        }
+        let [low, high] = band;
+        Ok(Inferred {
+            value: found,
+            band: [low?, high?],
+            results: self.at(found)?,
+        })
+    }
+
+    /// The contact with a value of the unknown.
+    fn at(&self, x: f64) -> Result<Results, ContactError> {
+        let (mut settings, mut velocity_m_s) = (*self.settings, self.velocity_m_s);
+        match self.unknown {
+            Unknown::YieldPressure => settings.yield_pressure_pa = Some(x),
+            Unknown::Velocity => velocity_m_s = x,
+        }
+        let mut solver = Solver::new(&Exact);
+        let collision = Collision::new(self.target, self.striker, velocity_m_s);
+        let solved = solver.solve(&collision, &settings)?;
+        let radiated = solver.radiated(&collision, &settings, &solved)?;
+        Results::new(&collision, &settings, &solved, radiated).checked()
+    }
+
+    fn measured(&self, x: f64) -> Result<f64, ContactError> {
+        let results = self.at(x)?;
+        Ok(match self.measure {
+            Measure::Restitution => results.restitution,
+            Measure::ContactTime => results.contact_time_s,
+            Measure::PeakForce => results.peak_force_n,
+        })
+    }
+
+    /// The unknown between two values whose measures are known; nothing outside them.
+    fn halved(
+        &self,
+        bracket: [f64; 2],
+        ends: [f64; 2],
+        value: f64,
+    ) -> Result<Option<f64>, ContactError> {
+        if (value - ends[0]) * (value - ends[1]) > 0.0 {
+            return Ok(None);
+        }
+        let [mut near, mut far] = bracket.map(f64::ln);
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (near + far);
+            if (self.measured(middle.exp())? > value) == (ends[0] > ends[1]) {
+                near = middle;
+            } else {
+                far = middle;
+            }
+        }
+        Ok(Some((0.5 * (near + far)).exp()))
+    }
+}

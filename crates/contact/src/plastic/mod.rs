@@ -1,0 +1,129 @@
+//! Contacts that yield: loading until the striker turns, unloading as a sphere on a dent.
+//!
+//! `branch` has the laws, `march` follows a contact along them, with a dashpot on the contact's area or the memory of the
+//! half-space, by the equations of `problem`; `solved` is what comes of it, `quick` the same for Thornton's law without a march.
+//!
+//! ```text
+//! v' = -(5/4) p
+//! dashpot   p = F(u) + c F'(u)^2 u',   u = d                                        c = J/(mu c2)
+//! memory    d' = u' - phi s' + phi int (g(t) - g(t_X))/X dmu,  g = int ds/a,  t_X + X a(t_X) = t
+//! ```
+//!
+//! c = 0 is the contact without waves.
+//! Below the yield velocity nothing here is used: the contact is elastic.
+//!
+//! Theory: `docs/theory.md` (T62 to T67).
+
+pub(crate) mod branch;
+pub(crate) mod infer;
+pub(crate) mod march;
+pub(crate) mod problem;
+pub(crate) mod quick;
+pub(crate) mod solved;
+
+use crate::model::Plasticity;
+use crate::numeric::quadrature::{GAUSS_8, gauss};
+use crate::plastic::branch::{Branch, FITTED, Fit};
+
+/// Panels of the work of the loading.
+const PANELS: usize = 4;
+
+/// What a contact that may yield is, in collision units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Yielding {
+    pub(crate) law: Plasticity,
+    /// Mean pressure that is not exceeded, or at which the fit's contact yields, in Pa.
+    pub yield_pressure_pa: f64,
+    /// Indentation at the yield velocity.
+    pub(crate) depth: f64,
+    /// Jackson and Green's numbers, where they are the law.
+    pub(crate) fit: Option<Fit>,
+}
+
+impl Yielding {
+    /// s: velocity of approach over that at which yield begins.
+    #[must_use]
+    pub fn velocity_ratio(&self) -> f64 {
+        self.depth.powf(-1.25)
+    }
+
+    /// Whether an elastic contact would yield.
+    pub(crate) fn begins(&self) -> bool {
+        self.edge() < 1.0
+    }
+
+    /// Radius of contact where the loading leaves Hertz's law.
+    pub(crate) fn edge(&self) -> f64 {
+        self.fit
+            .map_or(self.depth, |fit| FITTED * fit.critical)
+            .sqrt()
+    }
+
+    /// Radius of contact whose square is the indentation, to the one of the law: the fit's is wider.
+    pub(crate) fn true_radius(&self, radius: f64) -> f64 {
+        let over = (radius / self.edge()).max(1.0);
+        radius * self.fit.map_or(1.0, |fit| over.powf(fit.spread()))
+    }
+
+    /// Radius of Hertz's pressure with the second moment of the loading's at a radius of contact.
+    pub(crate) fn disc_radius(&self, radius: f64) -> f64 {
+        let (y, square) = (self.edge().min(radius), radius * radius);
+        match self.fit {
+            // of a flat pressure
+            Some(_) => self.true_radius(radius) * 1.25_f64.sqrt(),
+            None => {
+                let flat = square - y * y;
+                let moment = y * (0.25 * flat * flat + square * y * y / 3.0 - 0.2 * y.powi(4));
+                (7.5 * moment / Branch::Line { edge: y }.at(radius).force).sqrt()
+            }
+        }
+    }
+
+    /// Loading beyond that radius.
+    pub(crate) fn loading(&self) -> Branch {
+        self.fit
+            .map_or(Branch::Line { edge: self.edge() }, Branch::Fit)
+    }
+
+    /// Work of the loading up to a radius of contact, int p du.
+    pub(crate) fn work(&self, radius: f64) -> f64 {
+        let edge = self.edge().min(radius);
+        let loading = self.loading();
+        if let Branch::Line { edge: y } = loading {
+            let [square, low] = [radius * radius, edge * edge];
+            let flat = 0.75 * (square + low) - 0.5 * y * y;
+            return 0.4 * edge.powi(5) + y * flat * (square - low);
+        }
+        let part = |a: f64| {
+            let here = loading.at(a);
+            here.force * here.depth_slope
+        };
+        let width = (radius - edge) / PANELS as f64;
+        let panels = (0..PANELS).map(|i| edge + i as f64 * width);
+        0.4 * edge.powi(5)
+            + panels
+                .map(|from| gauss(&GAUSS_8, from, from + width, part))
+                .sum::<f64>()
+    }
+
+    /// Unloading from a radius of contact, and the radius with which it begins: the fit's is another one.
+    pub(crate) fn unloading(&self, top: f64) -> (Branch, f64) {
+        let (edge, depth) = (self.edge(), top * top);
+        if top <= edge {
+            return (Branch::Hertz, top);
+        }
+        let force = self.loading().at(top).force;
+        match (self.fit, self.law) {
+            (Some(fit), _) => {
+                let left = fit.left(depth);
+                let flatter = force * force / (depth - left).powi(3);
+                (Branch::Hertzian { left, flatter }, (flatter * force).cbrt())
+            }
+            (None, Plasticity::Recovery) => (Branch::Truncated { edge, top }, top),
+            (None, Plasticity::None | Plasticity::Thornton | Plasticity::JacksonGreen) => {
+                let (left, flatter) = (depth - force / top, depth * top / force);
+                (Branch::Hertzian { left, flatter }, top)
+            }
+        }
+    }
+}
