@@ -14,7 +14,6 @@
 
 mod error;
 mod hdf;
-mod identity;
 pub mod parts;
 pub mod quantities;
 mod report;

@@ -204,8 +204,7 @@ pub(crate) fn build(py: Python<'_>, error: &BuildError) -> PyErr {
         }
         BuildError::Unwritable(_)
         | BuildError::TooFine { .. }
-        | BuildError::OtherSettings { .. }
-        | BuildError::NotJournal { .. }
+        | BuildError::Journal(_)
         | BuildError::NotBlocks { .. }
         | BuildError::NoShards
         | BuildError::Mixed { .. }

@@ -1,6 +1,7 @@
 //! What can stop a build.
 
 use halfspace::DomainError;
+use ledger::JournalError;
 use lookup::{ContentError, TableError};
 use output::OutputError;
 use std::path::{Path, PathBuf};
@@ -61,20 +62,9 @@ pub enum BuildError {
     /// The output cannot be written, or is not to be.
     #[error(transparent)]
     Output(#[from] OutputError),
-    /// Something unfinished of another kind is in the way.
-    #[error("{} holds {what}; finish that one, give the output another name, or remove the file", path.display())]
-    OtherSettings {
-        /// Its journal, or a shard.
-        path: PathBuf,
-        /// What is unfinished.
-        what: String,
-    },
-    /// A file of somebody else has the name of a journal or a shard.
-    #[error("{} is not one of this program's unfinished tables and is kept: give the output another name", path.display())]
-    NotJournal {
-        /// The file.
-        path: PathBuf,
-    },
+    /// Something else that is unfinished is in the way, or its file cannot be read.
+    #[error(transparent)]
+    Journal(JournalError),
     /// A file that should hold blocks of a table does not.
     #[error("{} is not a shard of a kernel table made by this version of the program", path.display())]
     NotBlocks {
@@ -144,6 +134,15 @@ pub enum BuildError {
     /// A probe cannot be looked up.
     #[error("verification: {0}")]
     Lookup(#[from] lookup::LookupError),
+}
+
+impl From<JournalError> for BuildError {
+    fn from(error: JournalError) -> Self {
+        match error {
+            JournalError::Unwritable { path, source } => OutputError::writing(&path, source).into(),
+            other => Self::Journal(other),
+        }
+    }
 }
 
 impl BuildError {

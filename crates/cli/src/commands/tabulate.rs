@@ -10,8 +10,7 @@ use output::{Role, SHARD, TABLE, apart};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::str::FromStr;
-use tabulator::{BuildError, Extension, Grid, NUMBERS_REVISION, Summary};
+use tabulator::{BuildError, Extension, Grid, JournalError, NUMBERS_REVISION, Shard, Summary};
 use tabulator::{build_over, build_shard, extend, refine};
 
 const EXAMPLES: &str = "Examples:
@@ -145,9 +144,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     let existing = arguments.overwrite.existing();
     let progress = Bar::new();
-    if let Some(Shard { index, count }) = arguments.shard {
-        let blocks =
-            build_shard(&grid, index, count, &arguments.output, &progress).map_err(failure)?;
+    if let Some(shard) = arguments.shard {
+        let blocks = build_shard(&grid, shard, &arguments.output, &progress).map_err(failure)?;
         progress.finish();
         return shard_report(arguments, blocks);
     }
@@ -161,13 +159,13 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
 
 /// Fails where a file is not the whole table of a grid, made by this version.
 fn check_complete(path: &Path, grid: &Grid) -> Result<(), Failure> {
-    let content = lookup::read(path).map_err(Failure::work)?;
     let Origin {
+        grid: settings,
         software_version: version,
         numbers_revision: revision,
         ..
-    } = &content.origin;
-    let other = if Grid::of(&content).map_err(Failure::work)? != *grid {
+    } = &lookup::check_whole(path).map_err(Failure::work)?;
+    let other = if Grid::parse(settings).map_err(Failure::work)? != *grid {
         "has another grid".to_owned()
     } else if version != env!("CARGO_PKG_VERSION") {
         format!("was made by version {version}")
@@ -273,29 +271,6 @@ pub(crate) fn print_errors(accuracy: &[Accuracy]) -> Result<(), Failure> {
     Ok(())
 }
 
-/// One part of a number of parts, written I/N.
-#[derive(Debug, Clone, Copy)]
-struct Shard {
-    index: usize,
-    count: usize,
-}
-
-impl FromStr for Shard {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let parts = text.split_once('/');
-        parts
-            .and_then(|(index, count)| {
-                Some(Self {
-                    index: index.parse().ok()?,
-                    count: count.parse().ok()?,
-                })
-            })
-            .ok_or_else(|| "give I/N with whole numbers, as in 2/4".to_owned())
-    }
-}
-
 fn shard_report(arguments: &Arguments, blocks: usize) -> Result<(), Failure> {
     let file = arguments.output.display().to_string();
     if arguments.json {
@@ -351,7 +326,6 @@ pub(crate) fn failure(error: BuildError) -> Failure {
         | BuildError::Shrinks { .. }
         | BuildError::TooFine { .. }
         | BuildError::Settings { .. }
-        | BuildError::NotJournal { .. }
         | BuildError::File { .. }
         | BuildError::NotBlocks { .. }
         | BuildError::Mixed { .. }
@@ -363,9 +337,10 @@ pub(crate) fn failure(error: BuildError) -> Failure {
             | TableError::Foreign { .. }
             | TableError::Version { .. },
         ) => Failure::input(error),
-        BuildError::OtherSettings { .. } => {
+        BuildError::Journal(JournalError::Other { .. }) => {
             Failure::input(format!("{error}; a new table with --force replaces it"))
         }
+        BuildError::Journal(_) => Failure::input(error),
         BuildError::Unwritable(_)
         | BuildError::NotFinite { .. }
         | BuildError::Domain(_)

@@ -3,9 +3,10 @@
 use super::error::{FileKind, ReadError};
 use crate::quantities::Described;
 use crate::scene::section::parse;
-use crate::sweep::schema::{PROBED_VERSION, TEXTS, part};
+use crate::sweep::schema::TEXTS;
 use crate::sweep::{Fields, Footer, MAGIC, Precision, stored_columns};
 use hdfread::{Attribute, Dataset, File, Group, HdfError, Kind, Number};
+use ledger::Seal;
 use std::io::Read;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -32,6 +33,8 @@ pub struct StoredQuantity {
 pub(super) struct Stored {
     pub(super) path: PathBuf,
     root: Group,
+    /// What the bytes that are read are compared with; files of older versions have none.
+    seal: Option<Seal>,
 }
 
 impl Stored {
@@ -39,15 +42,37 @@ impl Stored {
     pub(super) fn open(path: &Path, wanted: FileKind) -> Result<Self, ReadError> {
         check_kind(path, file_kind(path)?, wanted)?;
         let path = path.to_owned();
-        let stored = match open_hdf5(&path)?.root() {
-            Ok(root) => Self { path, root },
+        let (file, seal) = open_hdf5(&path)?;
+        let stored = match file.root() {
+            Ok(root) => Self { path, root, seal },
             Err(error) => {
                 let what = error.to_string();
                 return Err(ReadError::Damaged { path, what });
             }
         };
-        check_version(&stored.path, &stored.text("format_version")?)?;
+        let version = stored.text("format_version")?;
+        check_version(&stored.path, &version)?;
+        let minor = version
+            .split('.')
+            .nth(1)
+            .and_then(|minor| minor.parse().ok());
+        let sealed = minor.is_none_or(|minor: u32| minor >= wanted.sealed_from());
+        if sealed != stored.is_sealed() {
+            return Err(stored.damaged(
+                "its seal is gone: it was cut short, or something has written to it since it was made",
+            ));
+        }
         Ok(stored)
+    }
+
+    pub(super) fn is_sealed(&self) -> bool {
+        self.seal.is_some()
+    }
+
+    /// Compares every byte of a file that has a seal.
+    pub(super) fn check(&self) -> Result<(), ReadError> {
+        let checked = self.seal.as_ref().map_or(Ok(()), Seal::check);
+        checked.map_err(|error| self.damaged(error.to_string()))
     }
 
     /// Something that every such file has is missing or wrong.
@@ -200,24 +225,11 @@ impl Stored {
 
     /// The columns of the probes of a sweep, or of a part of one.
     fn probed(&self) -> Result<Vec<Described>, ReadError> {
-        let version = self.text(TEXTS[1])?;
-        if ![PROBED_VERSION, part::PROBED_VERSION].contains(&version.as_str()) {
+        let Ok(sweep) = self.text(TEXTS[3]) else {
             return Ok(Vec::new());
-        }
-        let sweep = parse(&self.text(TEXTS[3])?).and_then(|sweep| stored_columns(&sweep));
-        sweep.map_err(|error| self.damaged(format!("its sweep cannot be read: {error}")))
-    }
-
-    /// Fails where the last number of a dataset of floats cannot be read: the file was cut short.
-    pub(super) fn check_end(&self, path: &str, shape: &[usize]) -> Result<(), ReadError> {
-        let last: Vec<_> = shape.iter().map(|&n| n.saturating_sub(1)..n).collect();
-        let dataset = self.of_shape(path, shape)?;
-        let end = if dataset.kind() == f32::KIND {
-            dataset.block::<f32>(&last, MOST_BYTES).map(drop)
-        } else {
-            dataset.block::<f64>(&last, MOST_BYTES).map(drop)
         };
-        end.map_err(|error| self.unread(path, &error))
+        let sweep = parse(&sweep).and_then(|sweep| stored_columns(&sweep));
+        sweep.map_err(|error| self.damaged(format!("its sweep cannot be read: {error}")))
     }
 
     /// A dataset that has a shape.
@@ -295,7 +307,7 @@ pub fn file_kind(path: &Path) -> Result<FileKind, ReadError> {
     if is_parquet(path) {
         return open_parquet(path).map(|(kind, _)| kind);
     }
-    let root = open_hdf5(path)?.root().ok();
+    let root = open_hdf5(path)?.0.root().ok();
     root.and_then(|root| text_of(root.attribute("file_type")))
         .and_then(|found| FileKind::ALL.into_iter().find(|k| k.file_type() == found))
         .ok_or_else(|| ReadError::Foreign {
@@ -303,8 +315,8 @@ pub fn file_kind(path: &Path) -> Result<FileKind, ReadError> {
         })
 }
 
-/// Opens an HDF5 file, whatever is in it.
-fn open_hdf5(path: &Path) -> Result<File, ReadError> {
+/// Opens an HDF5 file, whatever is in it, with its seal.
+fn open_hdf5(path: &Path) -> Result<(File, Option<Seal>), ReadError> {
     let unreadable = |reason: &str| ReadError::Unreadable {
         path: path.to_owned(),
         reason: reason.to_owned(),
@@ -331,7 +343,13 @@ fn open_hdf5(path: &Path) -> Result<File, ReadError> {
             _ => "no HDF5 file",
         }));
     }
-    File::open(path).map_err(|_| not("a damaged HDF5 file"))
+    ledger::open(path).map_err(|error| match error {
+        HdfError::Damaged { what } => ReadError::Damaged {
+            path: path.to_owned(),
+            what,
+        },
+        _ => not("a damaged HDF5 file"),
+    })
 }
 
 /// A text attribute, where it is one.

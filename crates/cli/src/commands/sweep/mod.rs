@@ -193,7 +193,7 @@ fn spec(arguments: &Run, sweep: &Path) -> Result<Spec, Failure> {
 /// The rows that are asked for; nothing where they are the whole sweep in its own shape.
 fn selection(arguments: &Run, spec: &Spec) -> Result<Option<Selection>, Failure> {
     if let Some(shard) = arguments.shard {
-        return Ok(Some(shard.selection(spec.rows())));
+        return Ok(Some(Selection::of_shard(shard, spec.rows())));
     }
     let rows = arguments.rows.clone();
     rows.map(|rows| Selection::of_rows(rows, spec.rows()).map_err(Failure::input))
@@ -227,7 +227,7 @@ fn rows(overwrite: Overwrite, spec: &Spec, outputs: &Outputs) -> Result<Option<K
 fn failure(sweep: &Path, error: SweepError) -> Failure {
     match error {
         SweepError::Scene(scene) => Failure::input(scene.in_file(sweep)),
-        SweepError::Journal(JournalError::Output(output)) => output.into(),
+        SweepError::Output(output) => output.into(),
         SweepError::Journal(other @ JournalError::Other { .. }) => Failure::input(format!(
             "{other}; give --force to drop it, or another output to keep it"
         )),

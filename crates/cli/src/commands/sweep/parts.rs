@@ -6,7 +6,7 @@ use crate::overwrite::Overwrite;
 use clap::Subcommand;
 use formats::parts::{Parts, PartsError};
 use formats::stored::Part;
-use formats::sweep::{Spec, check_rows};
+use formats::sweep::{Shard, Spec, Unfinished, check_rows};
 use output::ROWS;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
@@ -23,7 +23,7 @@ pub(crate) enum Action {
         #[command(flatten)]
         kernels: Kernels,
         /// Into how many shards it is divided; as the parts say otherwise.
-        #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+        #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=Shard::MOST as i64))]
         shards: Option<u32>,
         /// Print the missing shards alone, as a Slurm array takes them: 3,17,40-42; an empty line for none.
         #[arg(long, conflicts_with = "json")]
@@ -97,6 +97,7 @@ struct Status<'a> {
     missing_shards: Option<Vec<usize>>,
     overlap: Option<String>,
     foreign: Vec<Stranger<'a>>,
+    unfinished: Vec<AtWork<'a>>,
 }
 
 #[derive(Debug, Serialize)]
@@ -106,6 +107,17 @@ struct Stored<'a> {
     first_row: usize,
     rows: usize,
     failed: usize,
+    /// Whether damage to it is seen.
+    sealed: bool,
+}
+
+/// A run that is at work or was interrupted.
+#[derive(Debug, Serialize)]
+struct AtWork<'a> {
+    file: &'a Path,
+    first_row: usize,
+    rows: usize,
+    kept: usize,
 }
 
 #[derive(Debug, Serialize)]
@@ -144,6 +156,7 @@ fn status(parts: &Parts, shards: Option<usize>, list: bool, json: bool) -> Resul
                 reason: &foreign.reason,
             })
             .collect(),
+        unfinished: parts.unfinished.iter().map(at_work).collect(),
     };
     if json {
         return print(serde_json::to_string(&status).map_err(Failure::work)?);
@@ -158,6 +171,16 @@ fn stored(part: &Part) -> Stored<'_> {
         first_row: part.selection.rows.start,
         rows: part.selection.rows.len(),
         failed: part.failed,
+        sealed: part.sealed,
+    }
+}
+
+fn at_work(run: &Unfinished) -> AtWork<'_> {
+    AtWork {
+        file: &run.path,
+        first_row: run.rows.start,
+        rows: run.rows.len(),
+        kept: run.kept,
     }
 }
 
@@ -190,6 +213,20 @@ impl Status<'_> {
         }
         for foreign in &self.foreign {
             line("foreign", foreign.reason);
+        }
+        for run in &self.unfinished {
+            let file = run.file.display();
+            line(
+                "unfinished",
+                &format!("{file} keeps {} of {} rows", run.kept, run.rows),
+            );
+        }
+        let unsealed = self.parts.iter().filter(|part| !part.sealed).count();
+        if unsealed > 0 {
+            line(
+                "unsealed",
+                &format!("{unsealed} parts of an older version: damage to them is not seen"),
+            );
         }
         if self.complete {
             line("complete", "yes");

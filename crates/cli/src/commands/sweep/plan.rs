@@ -1,7 +1,7 @@
 //! `hertzlamb sweep --plan`: what a sweep takes, measured on a few of its rows.
 
 use crate::failure::{Failure, print};
-use formats::sweep::{BLOCK, Rows, Spec, column_names, compute_rows, row_bytes};
+use formats::sweep::{Rows, Spec, column_names, compute_rows, row_bytes};
 use serde::Serialize;
 use std::path::Path;
 use std::time::Instant;
@@ -45,11 +45,10 @@ pub(crate) fn run(
         measure(spec).map_err(|error| Failure::input(error.in_file(sweep)))?;
     let rows = spec.rows();
     let seconds = rows as f64 / rows_per_second;
-    let blocks = rows.div_ceil(BLOCK);
     let wished = (seconds / SHARD_S).ceil() as usize;
-    let own = wished.clamp(1, MOST_SHARDS).min(blocks);
+    let own = wished.clamp(1, MOST_SHARDS).min(rows);
     let count = shards.map_or(own, |count| count as usize);
-    let rows_per_shard = (blocks.div_ceil(count) * BLOCK).min(rows);
+    let rows_per_shard = rows.div_ceil(count);
     let (bytes, kept) = row_bytes(spec);
     let plan = Plan {
         rows,

@@ -111,7 +111,8 @@ pub(super) fn stage_hdf5<'a>(
             }
         };
         let (failed, reasons) = table.fill(path, &rows, blocks)?;
-        finish(file, failed, &reasons).map_err(told)
+        finish(file, failed, &reasons).map_err(told)?;
+        ledger::seal(path).map_err(Fault::from)
     })
 }
 
@@ -151,12 +152,7 @@ impl Table<'_> {
         sources: Option<&[Source]>,
     ) -> Result<(), hdf5::Error> {
         let spec = self.spec;
-        write_texts(
-            file,
-            spec,
-            schema::FILE_TYPE,
-            [schema::FORMAT_VERSION, schema::PROBED_VERSION],
-        )?;
+        write_texts(file, spec, schema::FILE_TYPE, schema::FORMAT_VERSION)?;
         count(file, schema::ROWS, spec.rows())?;
         write_axes(file, &spec.axes)?;
         let shape: Vec<usize> = spec.axes.iter().map(|axis| axis.len).collect();
@@ -190,12 +186,7 @@ impl Table<'_> {
     /// Everything of a part but the rows.
     fn begin_part(&mut self, file: &hdf5::File, selection: &Selection) -> Result<(), hdf5::Error> {
         let spec = self.spec;
-        write_texts(
-            file,
-            spec,
-            part::FILE_TYPE,
-            [part::FORMAT_VERSION, part::PROBED_VERSION],
-        )?;
+        write_texts(file, spec, part::FILE_TYPE, part::FORMAT_VERSION)?;
         let shard = selection.shard.map(|shard| shard.to_string());
         text(file, part::SHARD, &shard.unwrap_or_default())?;
         count(file, part::SWEEP_ROWS, spec.rows())?;
@@ -311,14 +302,13 @@ impl<'a> Table<'a> {
     }
 }
 
-/// The texts of the root; a file with probes has the second version.
+/// The texts of the root.
 fn write_texts(
     file: &hdf5::File,
     spec: &Spec,
     file_type: &str,
-    versions: [&str; 2],
+    version: &str,
 ) -> Result<(), hdf5::Error> {
-    let version = versions[usize::from(spec.fields.probed() > 0)];
     let software = env!("CARGO_PKG_VERSION");
     let values = [file_type, version, software, &spec.resolved, &spec.sha256()];
     let mut named = schema::TEXTS.into_iter().zip(values);
