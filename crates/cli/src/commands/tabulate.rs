@@ -6,7 +6,7 @@ use crate::overwrite::{Overwrite, say_complete};
 use crate::progress::Bar;
 use clap::Args;
 use lookup::{Accuracy, Origin, Quantiles, TableError, schema};
-use output::{Role, SHARD, TABLE, apart};
+use output::{Existing, Output, Role, SHARD, TABLE, apart};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -139,6 +139,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     // a shard ends at once where it has all its blocks
     let is_shard = arguments.shard.is_some();
     if arguments.skip_complete && !is_shard && arguments.output.exists() {
+        // also removes what a killed run has left beside it
+        Output::claim(&arguments.output, Existing::Replace)?;
         check_complete(&arguments.output, &grid)?;
         return say_complete(&arguments.output, arguments.json);
     }

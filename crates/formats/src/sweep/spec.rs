@@ -272,7 +272,7 @@ fn fingerprint(resolved: &str, files: &[String], axes: &[Axis]) -> String {
 fn axes(root: &Section<'_>) -> Result<Vec<Axis>, SceneError> {
     let mut axes = Vec::new();
     if let Some(product) = root.section("product")? {
-        for column in columns(&product)? {
+        for column in columns(&product, Some(MOST_ROWS))? {
             axes.push(Axis {
                 name: column.name(),
                 len: column.values.len(),
@@ -281,7 +281,7 @@ fn axes(root: &Section<'_>) -> Result<Vec<Axis>, SceneError> {
         }
     }
     if let Some(list) = root.section("list")? {
-        axes.push(together(columns(&list)?)?);
+        axes.push(together(columns(&list, None)?)?);
     }
     if let Some(random) = root.section("random")? {
         axes.push(drawn(&random)?);
@@ -309,15 +309,20 @@ fn base(
     Ok((scene, directory, Some(role)))
 }
 
-/// The scene keys below a section of the sweep, with their values.
-fn columns(section: &Section<'_>) -> Result<Vec<Column>, SceneError> {
-    let mut found = Vec::new();
+/// The scene keys below a section of the sweep, with their values, so many rows at most where each varies by itself.
+fn columns(section: &Section<'_>, most: Option<usize>) -> Result<Vec<Column>, SceneError> {
+    let (mut found, mut rows) = (Vec::new(), 1.0);
     for keys in section.subsections(&[])? {
         for key in keys.names() {
+            let values = Values::read(&keys, key)?;
+            rows *= values.len() as f64;
+            if most.is_some_and(|most| rows > most as f64) {
+                return Err(too_many(rows));
+            }
             found.push(Column {
                 section: keys.name().to_owned(),
                 key: key.to_owned(),
-                values: Values::read(&keys, key)?,
+                values,
             });
         }
     }
@@ -397,10 +402,14 @@ fn check(axes: &[Axis]) -> Result<(), SceneError> {
     }
     match rows(axes) {
         Some(rows) if rows <= MOST_ROWS => Ok(()),
-        rows => Err(SceneError::OutOfRange {
-            key: "the number of rows".to_owned(),
-            value: rows.map_or(f64::INFINITY, |n| n as f64),
-            range: "[1, 1e12]",
-        }),
+        rows => Err(too_many(rows.map_or(f64::INFINITY, |rows| rows as f64))),
+    }
+}
+
+fn too_many(rows: f64) -> SceneError {
+    SceneError::OutOfRange {
+        key: "the number of rows".to_owned(),
+        value: rows,
+        range: "[1, 1e12]",
     }
 }
