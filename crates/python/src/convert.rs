@@ -22,6 +22,11 @@ impl From<PyErr> for NoValue {
 
 /// A mapping of Python as a table; keys whose value is None are left out.
 pub(crate) fn table(mapping: &Bound<'_, PyAny>, name: &str) -> Result<Table, NoValue> {
+    table_in(mapping, name, 0)
+}
+
+/// One that lies so deep in others.
+fn table_in(mapping: &Bound<'_, PyAny>, name: &str, deep: usize) -> Result<Table, NoValue> {
     let mut found = Table::new();
     for item in mapping.call_method0("items")?.try_iter()? {
         let (key, value): (Bound<'_, PyAny>, Bound<'_, PyAny>) = item?.extract()?;
@@ -33,20 +38,26 @@ pub(crate) fn table(mapping: &Bound<'_, PyAny>, name: &str) -> Result<Table, NoV
         } else {
             format!("{name}.{key}")
         };
-        if let Some(value) = to_toml(&value, &full)? {
+        if let Some(value) = to_toml(&value, &full, deep + 1)? {
             found.insert(key, value);
         }
     }
     Ok(found)
 }
 
+/// Containers in one another at most, as in a text.
+const MOST_DEEP: usize = 80;
+
 /// One value; nothing for None.
-fn to_toml(value: &Bound<'_, PyAny>, name: &str) -> Result<Option<Value>, NoValue> {
+fn to_toml(value: &Bound<'_, PyAny>, name: &str, deep: usize) -> Result<Option<Value>, NoValue> {
     if value.is_none() {
         return Ok(None);
     }
+    if deep > MOST_DEEP {
+        return Err(wrong("a value", value, "no more than 80 containers deep"));
+    }
     if value.cast::<PyDict>().is_ok() {
-        return Ok(Some(Value::Table(table(value, name)?)));
+        return Ok(Some(Value::Table(table_in(value, name, deep)?)));
     }
     // before the numbers: True is an int to Python
     if let Ok(flag) = value.cast::<PyBool>() {
@@ -66,13 +77,13 @@ fn to_toml(value: &Bound<'_, PyAny>, name: &str) -> Result<Option<Value>, NoValu
     }
     // scalars and arrays of numpy, which know how to become Python's
     if value.hasattr("tolist")? {
-        return to_toml(&value.call_method0("tolist")?, name);
+        return to_toml(&value.call_method0("tolist")?, name, deep + 1);
     }
     if value.hasattr("__fspath__")? {
-        return to_toml(&value.call_method0("__fspath__")?, name);
+        return to_toml(&value.call_method0("__fspath__")?, name, deep + 1);
     }
     if value.hasattr("items")? {
-        return Ok(Some(Value::Table(table(value, name)?)));
+        return Ok(Some(Value::Table(table_in(value, name, deep)?)));
     }
     let Ok(items) = value.try_iter() else {
         return Err(wrong(name, value, "a number, a word, a list or a section"));
@@ -80,7 +91,7 @@ fn to_toml(value: &Bound<'_, PyAny>, name: &str) -> Result<Option<Value>, NoValu
     let mut found = Vec::new();
     for (place, item) in items.enumerate() {
         let name = format!("{name}[{}]", place + 1);
-        match to_toml(&item?, &name)? {
+        match to_toml(&item?, &name, deep + 1)? {
             Some(item) => found.push(item),
             None => {
                 return Err(wrong(

@@ -335,7 +335,12 @@ fn columns(section: &Section<'_>, most: Option<usize>) -> Result<Vec<Column>, Sc
 
 /// The axis of keys that vary together.
 fn together(columns: Vec<Column>) -> Result<Axis, SceneError> {
-    let len = columns[0].values.len();
+    let Some(len) = columns.first().map(|column| column.values.len()) else {
+        return Err(SceneError::Missing {
+            key: "a key that varies".to_owned(),
+            hint: "give at least one scene key with its values".to_owned(),
+        });
+    };
     if let Some(other) = columns.iter().find(|c| c.values.len() != len) {
         return Err(SceneError::Conflict {
             first: format!("list.{} of {len} values", columns[0].name()),

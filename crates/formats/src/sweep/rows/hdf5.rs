@@ -29,6 +29,11 @@ use std::path::Path;
 /// Name, unit and meaning.
 type Labels<'a> = (&'a str, &'a str, &'a str);
 
+/// Reasons of failures that a file has at most: drawn numbers may make each its own, and all are in memory together.
+const MOST_REASONS: usize = 100_000;
+/// What stands for all later ones.
+const OTHER_REASON: &str = "a reason unlike the first 100000: compute the row by itself";
+
 /// Which file is written.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Extent<'a> {
@@ -257,7 +262,12 @@ impl<'a> Table<'a> {
         let (mut reasons, mut known) = (Vec::new(), HashMap::new());
         let failed = each_of(rows, blocks, &mut |block| {
             for (_, reason) in &block.failures {
-                if !known.contains_key(reason) {
+                if known.contains_key(reason) || reasons.len() > MOST_REASONS {
+                    continue;
+                }
+                if reasons.len() == MOST_REASONS {
+                    reasons.push(OTHER_REASON.to_owned());
+                } else {
                     known.insert(reason.clone(), reasons.len() as i32);
                     reasons.push(reason.clone());
                 }
@@ -295,7 +305,10 @@ impl<'a> Table<'a> {
             Cells::Words(values) => all(values, u32::to_ne_bytes),
             Cells::Models(models) => (models.to_vec(), 1),
             Cells::Reasons(values) => {
-                let index = |reason: Option<&str>| reason.map_or(-1, |reason| reasons[reason]);
+                let of = |reason: &str| reasons.get(reason).copied();
+                let index = |reason: Option<&str>| {
+                    reason.map_or(-1, |reason| of(reason).unwrap_or(MOST_REASONS as i32))
+                };
                 all(values.into_iter().map(index), i32::to_ne_bytes)
             }
         })
