@@ -100,6 +100,8 @@ pub struct Parts {
     pub sha256: String,
     /// Its rows.
     pub sweep_rows: usize,
+    /// Rows that shards do not divide.
+    grain: usize,
     /// The parts, by their first rows.
     pub parts: Vec<Part>,
     /// Files with the ending of HDF5 or Parquet that are none of them.
@@ -140,6 +142,9 @@ impl Parts {
         let (mut parts, others): (Vec<_>, Vec<_>) = all
             .into_iter()
             .partition(|part| part.sha256 == sha256 && part.sweep_rows == sweep_rows);
+        let fields = wanted.map(|spec| &spec.fields);
+        let fields = fields.or_else(|| parts.first().map(|part| &part.fields));
+        let grain = fields.map_or(1, Fields::grain);
         parts.sort_by_key(|part| (part.selection.rows.start, part.selection.rows.end));
         foreign.extend(others.into_iter().map(|Part { path, .. }| {
             let reason = format!("{} is a part of {OTHER}", path.display());
@@ -148,6 +153,7 @@ impl Parts {
         Ok(Self {
             sha256,
             sweep_rows,
+            grain,
             parts,
             foreign,
             unfinished,
@@ -174,7 +180,7 @@ impl Parts {
     pub fn missing_shards(&self, count: usize) -> Vec<usize> {
         let missing = self.missing();
         let lacks = |&index: &usize| {
-            let rows = Shard { index, count }.range(self.sweep_rows);
+            let rows = Shard { index, count }.range(self.sweep_rows, self.grain);
             let next = missing.partition_point(|gap| gap.end <= rows.start);
             missing.get(next).is_some_and(|gap| gap.start < rows.end)
         };

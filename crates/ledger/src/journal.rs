@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 /// How every journal begins; the number is the version of the format.
-const BEGIN: &str = "hertzlamb journal 1 of ";
+const BEGIN: &str = "hertzlamb journal 1 of a ";
 /// Bytes of the first line, and of the text behind it, at most.
 const MOST: u64 = 1 << 20;
 /// Bytes of a record beside what it keeps.
@@ -22,7 +22,7 @@ const FLUSH: Duration = Duration::from_secs(5);
 /// What a journal is of.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Title {
-    /// What is done, such as `a sweep`.
+    /// What is done, such as `sweep`.
     pub kind: &'static str,
     /// [`Identity`](crate::Identity) of what is done.
     pub identity: String,
@@ -62,10 +62,12 @@ pub struct Record {
 pub enum JournalError {
     /// It was begun by another run.
     #[error(
-        "{} holds the beginning of another run, or of this one before its settings, its files or the program changed",
+        "{} holds the beginning of another {kind}, or of this one before its settings, its files or the program changed",
         path.display()
     )]
     Other {
+        /// What is done.
+        kind: &'static str,
         /// The file.
         path: PathBuf,
     },
@@ -147,8 +149,10 @@ impl Journal {
                 return Ok(journal);
             }
             Some(records) if !drops(&records.title) => {
-                let path = journal.path;
-                return Err(JournalError::Other { path });
+                return Err(JournalError::Other {
+                    kind: title.kind,
+                    path: journal.path,
+                });
             }
             Some(_) => {}
             // new, or cut short in its title: nothing is in it
@@ -334,7 +338,7 @@ mod tests {
 
     fn title(identity: &str) -> Title {
         Title {
-            kind: "a test",
+            kind: "test",
             identity: identity.to_owned(),
             about: "two\nlines".to_owned(),
         }

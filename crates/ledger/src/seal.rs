@@ -1,7 +1,7 @@
-//! The seal behind the last byte of a finished HDF5 file: a SHA-256 of every 64 KiB of it.
+//! The seal behind the last byte of a finished HDF5 file: a SHA-256 of every 8 KiB of it.
 //!
 //! ```text
-//! HDF5 bytes | SHA-256 of each 65,536 of them, the last may be fewer | magic 8 | length of the HDF5 bytes u64 | SHA-256 of the seal up to here
+//! HDF5 bytes | SHA-256 of each 8,192 of them, the last may be fewer | magic 8 | length of the HDF5 bytes u64 | SHA-256 of the seal up to here
 //! ```
 //! The integer is little-endian. Bytes are compared when they are read, so that a part of a file costs no more than its
 //! own pieces; a piece has its place in the list, so that pieces which were exchanged are seen too.
@@ -19,12 +19,12 @@ const MAGIC: &[u8; 8] = b"hlseal2\n";
 /// Bytes of the last part: magic, length, digest.
 const END: usize = 8 + 8 + DIGEST;
 /// Bytes with a digest of their own.
-const PIECE: usize = 1 << 16;
+const PIECE: usize = 1 << 13;
 const DIGEST: usize = 32;
 /// Pieces that are read and digested together.
-const TOGETHER: usize = 64;
+const TOGETHER: usize = 512;
 /// Pieces that stay in memory: what describes a dataset is read bit by bit.
-const HELD: usize = 16;
+const HELD: usize = 64;
 
 /// Appends its seal to a finished HDF5 file.
 ///
@@ -269,6 +269,6 @@ mod tests {
         let (mut bad, piece) = (good.clone(), PIECE);
         let (first, second) = bad.split_at_mut(piece);
         first.swap_with_slice(&mut second[..piece]);
-        assert!(said(&folder, &bad).unwrap().contains("from 0 to 65536"));
+        assert!(said(&folder, &bad).unwrap().contains("from 0 to 8192"));
     }
 }

@@ -17,10 +17,14 @@ impl Shard {
     /// Shards at most: each is looked at.
     pub const MOST: usize = 1_000_000;
 
-    /// Its units, of so many; shards differ by one unit at most.
+    /// Its units, of so many, which are not divided within a grain; shards differ by one grain at most.
     #[must_use]
-    pub fn range(self, units: usize) -> Range<usize> {
-        let bound = |index: usize| (units as u128 * index as u128 / self.count as u128) as usize;
+    pub fn range(self, units: usize, grain: usize) -> Range<usize> {
+        let grains = units.div_ceil(grain) as u128;
+        let bound = |index: usize| {
+            let grain_of = grains * index as u128 / self.count as u128;
+            (grain_of as usize * grain).min(units)
+        };
         bound(self.index - 1)..bound(self.index)
     }
 }
@@ -70,27 +74,31 @@ mod tests {
     use super::*;
 
     #[test]
-    fn shards_are_all_units_once_and_of_one_size() {
-        for (units, count) in [
-            (0, 3),
-            (1, 1),
-            (40, 2),
-            (7, 3),
-            (5, 9),
-            (1_000_000_000_000, 7),
-        ] {
-            let mut next = 0;
-            for index in 1..=count {
-                let range = Shard { index, count }.range(units);
-                assert_eq!(range.start, next);
-                let even = units / count;
+    fn shards_are_all_units_once_in_whole_grains() {
+        for units in [0, 1, 7, 40, 32_767, 32_769, 327_687, 1_000_000_000_000] {
+            for (count, grain) in [
+                (1, 1),
+                (2, 1),
+                (3, 32_768),
+                (7, 1),
+                (239, 32_768),
+                (1000, 5),
+            ] {
+                let (mut next, mut sizes) = (0, Vec::new());
+                for index in 1..=count {
+                    let range = Shard { index, count }.range(units, grain);
+                    assert_eq!(range.start, next);
+                    assert!(range.start % grain == 0 || range.start == units);
+                    next = range.end;
+                    sizes.push(range.len().div_ceil(grain));
+                }
+                assert_eq!(next, units);
+                let ends = (sizes.iter().min(), sizes.iter().max());
                 assert!(
-                    (even..=even + 1).contains(&range.len()),
+                    ends.0.unwrap() + 1 >= *ends.1.unwrap(),
                     "{units} in {count}"
                 );
-                next = range.end;
             }
-            assert_eq!(next, units);
         }
     }
 

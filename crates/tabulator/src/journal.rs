@@ -13,7 +13,7 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 /// What is done.
-const KIND: &str = "a kernel table";
+const KIND: &str = "kernel table";
 /// Bytes before the numbers of a block: seven integers.
 const HEADER: usize = 7 * 8;
 

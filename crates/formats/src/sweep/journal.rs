@@ -11,7 +11,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 /// What is done.
-const KIND: &str = "a sweep";
+const KIND: &str = "sweep";
 /// Bytes before the numbers of a block: four integers.
 const HEADER: usize = 4 * 8;
 

@@ -1,6 +1,7 @@
 //! Some rows of a sweep.
 
 use super::fields::Fields;
+use super::spec::Spec;
 use crate::error::SceneError;
 use ledger::Shard;
 use std::ops::Range;
@@ -38,11 +39,11 @@ pub struct Part {
 }
 
 impl Selection {
-    /// The rows of a shard, of a sweep of `rows`.
+    /// The rows of a shard of a sweep.
     #[must_use]
-    pub fn of_shard(shard: Shard, rows: usize) -> Self {
+    pub fn of_shard(shard: Shard, spec: &Spec) -> Self {
         Self {
-            rows: shard.range(rows),
+            rows: shard.range(spec.rows(), spec.fields.grain()),
             shard: Some(shard),
         }
     }

@@ -45,10 +45,12 @@ pub(crate) fn run(
         measure(spec).map_err(|error| Failure::input(error.in_file(sweep)))?;
     let rows = spec.rows();
     let seconds = rows as f64 / rows_per_second;
+    let grain = spec.fields.grain();
+    let grains = rows.div_ceil(grain);
     let wished = (seconds / SHARD_S).ceil() as usize;
-    let own = wished.clamp(1, MOST_SHARDS).min(rows);
+    let own = wished.clamp(1, MOST_SHARDS).min(grains);
     let count = shards.map_or(own, |count| count as usize);
-    let rows_per_shard = rows.div_ceil(count);
+    let rows_per_shard = (grains.div_ceil(count) * grain).min(rows);
     let (bytes, kept) = row_bytes(spec);
     let plan = Plan {
         rows,
