@@ -1,7 +1,7 @@
 //! Rows of a sweep in several files: what a folder has of them, what it lacks, and all of them in one.
 
 use crate::error::SceneError;
-use crate::stored::{FileKind, Part, ReadError, StoredPart, StoredWhole, file_kind};
+use crate::stored::{FileKind, Part, ReadError, StoredPart, file_kind, whole_sweep};
 use crate::sweep::{
     Block, Blocks, Fields, Selection, Shard, Source, Spec, Unfinished, stage_rows, stage_virtual,
 };
@@ -355,11 +355,11 @@ pub fn check_complete(
         Err(format!("{path} has other columns, or another precision"))
     };
     let Some(selection) = selection else {
-        let found = StoredWhole::open(path).map_err(told)?;
-        if found.sha256 != Some(spec.sha256()) {
+        let (sha256, fields) = whole_sweep(path).map_err(told)?;
+        if sha256 != Some(spec.sha256()) {
             return Err(other());
         }
-        return same_fields(&found.fields);
+        return same_fields(&fields);
     };
     let open = StoredPart::open(path).map_err(told)?;
     open.check().map_err(told)?;

@@ -105,7 +105,7 @@ fn from_hdf5(path: &Path) -> Result<ForceRecord, SceneError> {
         path: path.to_owned(),
         reason,
     };
-    let root = hdfread::File::open(path).and_then(|file| file.root());
+    let root = ledger::open(path).and_then(|(file, _)| file.root());
     let root = root.map_err(|error| {
         fault(match &error {
             HdfError::Io(source) if source.kind() == ErrorKind::NotFound => {

@@ -87,14 +87,6 @@ impl StoredImpact {
         Ok((self.stored.text("kernel")?, self.stored.text("table_id")?))
     }
 
-    /// Compares every byte of a file that has a seal.
-    ///
-    /// # Errors
-    /// [`ReadError::Damaged`].
-    pub fn check(&self) -> Result<(), ReadError> {
-        self.stored.check()
-    }
-
     /// A scalar result by its name, where the file has it.
     #[must_use]
     pub fn number(&self, name: &str) -> Option<f64> {

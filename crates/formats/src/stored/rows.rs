@@ -111,36 +111,19 @@ impl Blocks for StoredPart {
     }
 }
 
-/// All rows of a sweep in one file, whose bytes are those that were written.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct StoredWhole {
-    /// Which sweep; nothing in HDF5 files of versions before 1.4.
-    pub sha256: Option<String>,
-    /// Which results it has.
-    pub fields: Fields,
-}
-
-impl StoredWhole {
-    /// Opens it and compares every byte with its seal.
-    ///
-    /// # Errors
-    /// [`ReadError`], which says what the file is instead.
-    pub fn open(path: &Path) -> Result<Self, ReadError> {
-        if is_parquet(path) {
-            let found = parquet_of_kind(path, FileKind::Sweep)?;
-            check_groups(&found)?;
-            return Ok(Self {
-                sha256: Some(found.part.sha256),
-                fields: found.part.fields,
-            });
-        }
-        let found = StoredSweep::open(path)?;
-        found.check()?;
-        Ok(Self {
-            sha256: found.sha256(),
-            fields: found.fields()?,
-        })
+/// Which sweep a file has all rows of, nothing in HDF5 files of versions before 1.4, and which results; every byte is
+/// compared with its seal.
+///
+/// # Errors
+/// [`ReadError`], which says what the file is instead.
+pub(crate) fn whole_sweep(path: &Path) -> Result<(Option<String>, Fields), ReadError> {
+    if is_parquet(path) {
+        let found = parquet_of_kind(path, FileKind::Sweep)?;
+        check_groups(&found)?;
+        return Ok((Some(found.part.sha256), found.part.fields));
     }
+    let found = StoredSweep::open(path)?;
+    Ok((found.sha256(), found.fields()?))
 }
 
 /// Compares the rows of a Parquet file with their hashes, where the program can read them.

@@ -78,14 +78,6 @@ impl StoredSweep {
         self.stored.text(SHA256).ok()
     }
 
-    /// Compares every byte of a file that has a seal.
-    ///
-    /// # Errors
-    /// [`ReadError::Damaged`].
-    pub fn check(&self) -> Result<(), ReadError> {
-        self.stored.check()
-    }
-
     /// Which results it has, and how exactly.
     ///
     /// # Errors
