@@ -11,6 +11,8 @@ use std::time::{Duration, Instant};
 
 /// How every journal begins; the number is the version of the format.
 const BEGIN: &str = "hertzlamb journal 1 of a ";
+/// How those of earlier versions begin, which are not gone on with.
+const EARLIER: [&[u8]; 2] = [b"hlsweep", b"hertzlamb kernel blocks "];
 /// Bytes of the first line, and of the text behind it, at most.
 const MOST: u64 = 1 << 20;
 /// Bytes of a record beside what it keeps.
@@ -105,7 +107,7 @@ impl Journal {
     pub fn open(
         path: &Path,
         title: &Title,
-        drops: impl FnOnce(&Title) -> bool,
+        drops: impl Fn(&Title) -> bool,
         mut take: impl FnMut(Record, &[u8]) -> bool,
     ) -> Result<Self, JournalError> {
         let path = path.to_owned();
@@ -132,6 +134,15 @@ impl Journal {
             path: journal.path.clone(),
             source,
         };
+        let other = |path| JournalError::Other {
+            kind: title.kind,
+            path,
+        };
+        let earlier = Title {
+            kind: title.kind,
+            identity: String::new(),
+            about: String::new(),
+        };
         let found = Records::read(journal.file.try_clone().map_err(unreadable)?, title.kind);
         match found.map_err(unreadable)? {
             Some(mut records) if records.title == *title => {
@@ -148,15 +159,15 @@ impl Journal {
                 return Ok(journal);
             }
             Some(records) if !drops(&records.title) => {
-                return Err(JournalError::Other {
-                    kind: title.kind,
-                    path: journal.path,
-                });
+                return Err(other(journal.path));
             }
             Some(_) => {}
-            // new, or cut short in its title: nothing is in it
-            None if is_title_cut_short(&journal.file, title).map_err(unreadable)? => {}
-            None => return Err(JournalError::Strange { path: journal.path }),
+            None => match without_title(&journal.file, title).map_err(unreadable)? {
+                Some(false) => {}
+                Some(true) if drops(&earlier) => {}
+                Some(true) => return Err(other(journal.path)),
+                None => return Err(JournalError::Strange { path: journal.path }),
+            },
         }
         let emptied = journal.file.set_len(0);
         emptied
@@ -328,16 +339,19 @@ fn sum(kept: &[u8]) -> [u8; 8] {
     hash.to_le_bytes()
 }
 
-/// Whether a file has no more than the beginning of a title.
-fn is_title_cut_short(file: &File, title: &Title) -> io::Result<bool> {
+/// Whether a file without a title that can be read has nothing in it, or is the journal of an earlier version; nothing for
+/// somebody else's.
+fn without_title(file: &File, title: &Title) -> io::Result<Option<bool>> {
     let (mut file, mut found) = (file, Vec::new());
     file.rewind()?;
     file.take(MOST).read_to_end(&mut found)?;
     let begin = format!("{BEGIN}{}: ", title.kind);
     let compared = found.len().min(begin.len());
-    let lines = found.iter().filter(|&&byte| byte == b'\n').count();
-    Ok(found[..compared] == begin.as_bytes()[..compared]
-        && (lines == 0 || title.text().as_bytes().starts_with(&found)))
+    // new, or cut short in its title
+    let cut_short = found[..compared] == begin.as_bytes()[..compared]
+        && (!found.contains(&b'\n') || title.text().as_bytes().starts_with(&found));
+    let earlier = EARLIER.iter().any(|begin| found.starts_with(begin));
+    Ok((cut_short || earlier).then_some(earlier))
 }
 
 #[cfg(test)]

@@ -42,7 +42,7 @@ pub(crate) fn title(grid: &str, extends: Option<&str>) -> Title {
 pub(crate) fn open(
     path: &Path,
     title: &Title,
-    drops: impl FnOnce(&str) -> bool,
+    drops: impl Fn(&str) -> bool,
 ) -> Result<(Journal, HashMap<Block, Row>), BuildError> {
     let mut found = Found::of(&title.about);
     let journal = Journal::open(
