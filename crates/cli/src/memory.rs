@@ -16,7 +16,7 @@ impl MemoryLimit {
     /// The limit in bytes.
     pub(crate) fn bytes(self) -> f64 {
         self.max_memory
-            .map_or_else(|| output::free_memory(), |gigabytes| 1e9 * gigabytes)
+            .map_or_else(output::free_memory, |gigabytes| 1e9 * gigabytes)
     }
 
     /// Refuses work that takes more.

@@ -105,7 +105,8 @@ fn sealed(path: &Path) -> Result<Option<Sealed>, HdfError> {
     Ok(Some(Sealed {
         length,
         digests,
-        read: Mutex::new((file, VecDeque::new())),
+        file: Mutex::new(file),
+        held: Mutex::default(),
     }))
 }
 
@@ -120,8 +121,8 @@ impl Seal {
     /// What the system says, or where bytes are not those that were sealed.
     pub fn check(&self) -> io::Result<()> {
         let sealed = &self.0;
-        let read = sealed.read.lock().unwrap_or_else(PoisonError::into_inner);
-        let found = digests(&read.0, sealed.length)?;
+        let file = sealed.file.lock().unwrap_or_else(PoisonError::into_inner);
+        let found = digests(&file, sealed.length)?;
         match found.iter().zip(&sealed.digests).position(|(a, b)| a != b) {
             Some(piece) => Err(changed(piece)),
             None => Ok(()),
@@ -134,8 +135,9 @@ struct Sealed {
     /// Bytes of the HDF5 part.
     length: u64,
     digests: Vec<[u8; DIGEST]>,
-    /// The file, and the pieces that were read last, each with its place.
-    read: Mutex<(std::fs::File, VecDeque<(usize, Vec<u8>)>)>,
+    file: Mutex<std::fs::File>,
+    /// The pieces that were read last, each with its place.
+    held: Mutex<VecDeque<(usize, Vec<u8>)>>,
 }
 
 impl Bytes for Sealed {
@@ -148,8 +150,7 @@ impl Bytes for Sealed {
         if end.is_none_or(|end| end > self.length) {
             return Err(ErrorKind::UnexpectedEof.into());
         }
-        let mut read = self.read.lock().unwrap_or_else(PoisonError::into_inner);
-        let (file, held) = &mut *read;
+        let mut held = self.held.lock().unwrap_or_else(PoisonError::into_inner);
         while !into.is_empty() {
             let (piece, from) = ((at / PIECE as u64) as usize, (at % PIECE as u64) as usize);
             let known = held.iter().position(|(place, _)| *place == piece);
@@ -157,7 +158,7 @@ impl Bytes for Sealed {
                 Some(known) => &held[known].1,
                 None => {
                     held.truncate(HELD - 1);
-                    held.push_front((piece, self.piece(file, piece)?));
+                    held.push_front((piece, self.piece(piece)?));
                     &held[0].1
                 }
             };
@@ -171,9 +172,10 @@ impl Bytes for Sealed {
 
 impl Sealed {
     /// The bytes of a piece, compared.
-    fn piece(&self, file: &mut std::fs::File, piece: usize) -> io::Result<Vec<u8>> {
+    fn piece(&self, piece: usize) -> io::Result<Vec<u8>> {
         let start = piece as u64 * PIECE as u64;
         let mut bytes = vec![0; (self.length - start).min(PIECE as u64) as usize];
+        let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
         file.seek(SeekFrom::Start(start))?;
         file.read_exact(&mut bytes)?;
         if Sha256::digest(&bytes)[..] == self.digests[piece] {

@@ -323,7 +323,11 @@ fn is_file(name: &str) -> bool {
 pub(crate) fn failure(error: BuildError) -> Failure {
     match error {
         BuildError::Output(error) => error.into(),
-        BuildError::Setting { .. }
+        BuildError::Journal(JournalError::Other { .. }) => {
+            Failure::input(format!("{error}; a new table with --force replaces it"))
+        }
+        BuildError::Journal(_)
+        | BuildError::Setting { .. }
         | BuildError::InFile { .. }
         | BuildError::Shrinks { .. }
         | BuildError::TooFine { .. }
@@ -339,10 +343,6 @@ pub(crate) fn failure(error: BuildError) -> Failure {
             | TableError::Foreign { .. }
             | TableError::Version { .. },
         ) => Failure::input(error),
-        BuildError::Journal(JournalError::Other { .. }) => {
-            Failure::input(format!("{error}; a new table with --force replaces it"))
-        }
-        BuildError::Journal(_) => Failure::input(error),
         BuildError::Unwritable(_)
         | BuildError::NotFinite { .. }
         | BuildError::Domain(_)
