@@ -3,7 +3,8 @@
 use crate::error::SceneError;
 use crate::stored::{FileKind, Part, ReadError, StoredPart, file_kind, whole_sweep};
 use crate::sweep::{
-    Block, Blocks, Fields, Selection, Shard, Source, Spec, Unfinished, stage_rows, stage_virtual,
+    Block, Blocks, Fields, Selection, Shard, Source, Spec, Unfinished, grain, stage_rows,
+    stage_virtual,
 };
 use ledger::gaps;
 use output::{Fault, HDF5, Output, OutputError, ROWS, Staged};
@@ -144,7 +145,7 @@ impl Parts {
             .partition(|part| part.sha256 == sha256 && part.sweep_rows == sweep_rows);
         let fields = wanted.map(|spec| &spec.fields);
         let fields = fields.or_else(|| parts.first().map(|part| &part.fields));
-        let grain = fields.map_or(1, Fields::grain);
+        let grain = fields.map_or(1, grain);
         parts.sort_by_key(|part| (part.selection.rows.start, part.selection.rows.end));
         foreign.extend(others.into_iter().map(|Part { path, .. }| {
             let reason = format!("{} is a part of {OTHER}", path.display());

@@ -1,7 +1,6 @@
 //! Which results a file of rows has, and how exactly: the quantities of a contact and, behind them, what probes bring.
 
 use super::schema::FIELDS as SECTION;
-use super::shard::BLOCK;
 use crate::error::SceneError;
 use crate::quantities::{Described, FIELDS, QUANTITIES, described};
 use crate::results::schema::{ERROR_SUFFIX, PEAK_SUFFIXES};
@@ -53,12 +52,6 @@ impl Fields {
     /// The result at a place.
     pub(crate) fn named(&self, place: usize) -> &Described {
         &self.known[place]
-    }
-
-    /// Rows that shards do not divide: with probes a row may take seconds.
-    #[must_use]
-    pub fn grain(&self) -> usize {
-        if self.probed() > 0 { 1 } else { BLOCK }
     }
 
     /// Numbers that probes bring to a row.

@@ -37,5 +37,5 @@ pub(crate) use rows::{Footer, MAGIC, Source, keys, stage_virtual};
 pub use run::{
     BLOCK_S, Done, FIRST_BLOCK, Kept, Rows, SweepError, compute_rows, run_rows, run_sweep,
 };
-pub use shard::{BLOCK, Part, Selection};
+pub use shard::{BLOCK, Part, Selection, grain};
 pub use spec::Spec;

@@ -1,7 +1,6 @@
 //! Some rows of a sweep.
 
 use super::fields::Fields;
-use super::spec::Spec;
 use crate::error::SceneError;
 use ledger::Shard;
 use std::ops::Range;
@@ -9,6 +8,12 @@ use std::path::PathBuf;
 
 /// Rows of a block at most: no more of a sweep are in memory together.
 pub const BLOCK: usize = 32_768;
+
+/// Rows that shards do not divide: with probes one may take seconds.
+#[must_use]
+pub fn grain(fields: &Fields) -> usize {
+    if fields.probed() > 0 { 1 } else { BLOCK }
+}
 
 /// Rows that are computed into one file.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -39,11 +44,11 @@ pub struct Part {
 }
 
 impl Selection {
-    /// The rows of a shard of a sweep.
+    /// The rows of a shard, of a sweep of `rows` with these results.
     #[must_use]
-    pub fn of_shard(shard: Shard, spec: &Spec) -> Self {
+    pub fn of_shard(shard: Shard, rows: usize, fields: &Fields) -> Self {
         Self {
-            rows: shard.range(spec.rows(), spec.fields.grain()),
+            rows: shard.range(rows, grain(fields)),
             shard: Some(shard),
         }
     }

@@ -193,7 +193,7 @@ fn spec(arguments: &Run, sweep: &Path) -> Result<Spec, Failure> {
 /// The rows that are asked for; nothing where they are the whole sweep in its own shape.
 fn selection(arguments: &Run, spec: &Spec) -> Result<Option<Selection>, Failure> {
     if let Some(shard) = arguments.shard {
-        return Ok(Some(Selection::of_shard(shard, spec)));
+        return Ok(Some(Selection::of_shard(shard, spec.rows(), &spec.fields)));
     }
     let rows = arguments.rows.clone();
     rows.map(|rows| Selection::of_rows(rows, spec.rows()).map_err(Failure::input))

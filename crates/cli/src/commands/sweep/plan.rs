@@ -1,7 +1,7 @@
 //! `hertzlamb sweep --plan`: what a sweep takes, measured on a few of its rows.
 
 use crate::failure::{Failure, print};
-use formats::sweep::{Rows, Spec, column_names, compute_rows, row_bytes};
+use formats::sweep::{Rows, Spec, column_names, compute_rows, grain, row_bytes};
 use serde::Serialize;
 use std::path::Path;
 use std::time::Instant;
@@ -45,7 +45,7 @@ pub(crate) fn run(
         measure(spec).map_err(|error| Failure::input(error.in_file(sweep)))?;
     let rows = spec.rows();
     let seconds = rows as f64 / rows_per_second;
-    let grain = spec.fields.grain();
+    let grain = grain(&spec.fields);
     let grains = rows.div_ceil(grain);
     let wished = (seconds / SHARD_S).ceil() as usize;
     let own = wished.clamp(1, MOST_SHARDS).min(grains);
