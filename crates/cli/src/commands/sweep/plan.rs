@@ -52,15 +52,17 @@ pub(crate) fn run(
     let count = shards.map_or(own, |count| count as usize);
     let rows_per_shard = (grains.div_ceil(count) * grain).min(rows);
     let (bytes, kept) = row_bytes(spec);
+    // 32 bytes of its seal for each 8192
+    let sealed = |bytes: usize| bytes + bytes / 256;
     let plan = Plan {
         rows,
         shards: count,
         rows_per_shard,
-        bytes_per_shard: rows_per_shard * bytes,
-        disk_bytes_per_shard: rows_per_shard * (bytes + kept),
+        bytes_per_shard: sealed(rows_per_shard * bytes),
+        disk_bytes_per_shard: sealed(rows_per_shard * bytes) + rows_per_shard * kept,
         seconds_per_shard: rows_per_shard as f64 / rows_per_second,
         seconds,
-        bytes: rows * bytes,
+        bytes: sealed(rows * bytes),
         rows_per_second,
         threads: std::thread::available_parallelism().map_or(1, usize::from),
         measured_rows,

@@ -136,10 +136,8 @@ pub fn row_bytes(spec: &Spec) -> (usize, usize) {
     let words = |key: &Key| if key.values.texts().is_some() { 4 } else { 8 };
     let keys: usize = spec.columns().map(words).sum();
     let results = spec.fields.width() * spec.fields.places.len() + 1;
-    let bytes = 8 + keys + results + 4;
-    // with its share of the seal
     (
-        bytes + bytes.div_ceil(256),
+        8 + keys + results + 4,
         8 * (QUANTITIES.len() + spec.fields.probed()) + 1,
     )
 }
