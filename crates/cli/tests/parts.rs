@@ -343,7 +343,7 @@ fn a_plan_says_what_a_billion_rows_take() {
         well(here, &format!("sweep b.toml --rows {rows} -o {name}"));
         std::fs::metadata(here.join(name)).unwrap().len()
     });
-    let planned = plan["bytes_per_shard"].as_u64().unwrap() / most * 32_768;
+    let planned = plan["bytes_per_shard"].as_u64().unwrap() * 32_768 / most;
     assert!((b - a).abs_diff(planned) < 4096, "{} {planned}", b - a);
     assert_eq!(plan["columns"][0], "row");
 }
