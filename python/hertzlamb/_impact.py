@@ -459,7 +459,7 @@ def impact(
         Where the kernels of the fields come from: the table or computed, by the estimated cost and error of both;
         computed; the table.
     max_memory_gb : float, optional
-        Refuses a scene that needs more.
+        Refuses a scene that needs more; what the machine has free otherwise.
     threads : int, optional
         Threads, all processors otherwise.
     progress : bool or callable, optional

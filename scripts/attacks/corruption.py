@@ -1,8 +1,8 @@
-"""Damaged kernel tables, shards, journals and parts of sweeps: refused, or the same numbers as before.
+"""Damaged kernel tables, shards, journals, results, sweeps and their parts: refused, or the same numbers as before.
 
-A table is damaged anywhere, in what its seal covers (metadata, attributes, chunk index), or in the seal; an impact
+A table is damaged anywhere, at its start (metadata, attributes), by pieces that change places, or in the seal; an impact
 that reads it and `table info` are run. A shard and the journals of a build and of a sweep are damaged and gone on with.
-A part of a sweep is damaged and merged: in Parquet it is refused; the numbers of HDF5 have no sums, there it ends well.
+Results and sweeps are damaged, drawn, and given to `--skip-complete`; a part is damaged, listed and merged.
 """
 
 import os
@@ -66,16 +66,20 @@ def damaged(good, choice, places=None):
     return bytes(bad), f"{what} of {size} at {at}"
 
 
-def covered(table):
-    """Places of a sealed table that no chunk's own sum covers, without the slack of zeros."""
-    end, count = struct.unpack_from("<QQ", table, len(table) - 48)
-    runs = struct.unpack_from(f"<{2 * count}Q", table, len(table) - 56 - 16 * count)
-    places, at = [], 0
-    for start, length in zip(runs[::2], runs[1::2]):
-        places += range(at, start)
-        at = start + length
-    places += range(at, end)
-    return [place for place in places if table[place]], list(range(end, len(table)))
+def regions(sealed):
+    """Places at the start of a sealed file, without the slack of zeros, and those of its seal."""
+    (end,) = struct.unpack_from("<Q", sealed, len(sealed) - 40)
+    assert sealed[-48:-40] == b"hlseal2\n"
+    return [place for place in range(min(end, 40_000)) if sealed[place]], list(range(end, len(sealed)))
+
+
+def exchanged(good, choice):
+    """Two stretches of equal length in each other's place, as a disk may mix them up."""
+    size = choice.choice([512, 4096, 65536])
+    one, other = (choice.randrange(max(1, len(good) // size - 1)) * size for _ in range(2))
+    bad = bytearray(good)
+    bad[one : one + size], bad[other : other + size] = good[other : other + size], good[one : one + size]
+    return bytes(bad), f"{size} at {one} and {other}"
 
 
 def judged(tally, ended, right, note):
@@ -96,7 +100,7 @@ def tables(folder):
     well(["tabulate", "--grid", grid, "-o", table])
     with open(table, "rb") as file:
         good = file.read()
-    metadata, seal = covered(good)
+    metadata, seal = regions(good)
     between = write(os.path.join(folder, "b.toml"), NEAR.replace('material = "steel"', "poisson_ratio = 0.27\nmaterial = \"steel\"", 1))
     scenes = [scene, between]
     write(bad, good)
@@ -106,10 +110,10 @@ def tables(folder):
         well(impact(path))
         truth[path] = digest(out)
     tallies = []
-    for name, places, count in (("anywhere", None, 400), ("metadata", metadata, 200), ("seal", seal, 50)):
+    for name, places, count in (("anywhere", None, 300), ("metadata", metadata, 200), ("seal", seal, 50), ("exchanged", (), 100)):
         tally, choice = Tally(f"tables damaged, {name}"), rng(name)
         for index in range(tries(count)):
-            content, note = damaged(good, choice, places)
+            content, note = exchanged(good, choice) if places == () else damaged(good, choice, places)
             write(bad, content)
             path = scenes[index % 2]
             ended = run(impact(path))
@@ -183,9 +187,35 @@ def parts(folder):
         for _ in range(tries(200)):
             content, note = damaged(good, choice)
             write(part, content)
-            judged(tally, run(merge), ending == "h5" or digest(merged) == truth, note)
+            listed = run(["sweep", "status", at("parts"), "--sweep", sweep, "--json"])
+            judged(tally, listed, content == good or '"foreign":[]' not in listed.out, f"status, {note}")
+            judged(tally, run(merge), digest(merged) == truth, note)
             gone(merged)
         gone(part)
+        tally.show()
+        tallies.append(tally)
+    return tallies
+
+
+def results(folder):
+    """What `--skip-complete` takes for whole, and what is drawn, of damaged results and sweeps."""
+    at = lambda name: os.path.join(folder, name)
+    scene, sweep, picture = write(at("s.toml"), SCENE), write(at("w.toml"), SWEEP), at("p.svg")
+    tallies = []
+    for name, make in (("results", ["impact", scene]), ("sweeps", ["sweep", sweep])):
+        path = at(f"{name}.h5")
+        draw = ["plot", path, "-o", picture, "--force"]
+        well([*make, "-o", path])
+        well(draw)
+        truth = digest(picture)
+        with open(path, "rb") as file:
+            good = file.read()
+        tally, choice = Tally(f"{name} damaged"), rng(name)
+        for index in range(tries(200)):
+            content, note = exchanged(good, choice) if index % 4 == 0 else damaged(good, choice)
+            write(path, content)
+            judged(tally, run([*make, "-o", path, "--skip-complete"]), content == good, note)
+            judged(tally, run(draw), digest(picture) == truth, f"plot, {note}")
         tally.show()
         tallies.append(tally)
     return tallies
@@ -228,4 +258,6 @@ def journal_of_sweep(arguments, output):
 
 
 if __name__ == "__main__":
-    finish(tables(fresh("corruption")) + journals(fresh("journals")) + parts(fresh("parts")))
+    finish(
+        tables(fresh("corruption")) + journals(fresh("journals")) + results(fresh("results")) + parts(fresh("parts"))
+    )

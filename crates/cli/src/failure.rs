@@ -142,13 +142,13 @@ pub(crate) fn say(text: impl Display) {
 /// Writes a line on standard error; where nobody takes it, the work goes on all the same.
 pub(crate) fn tell(text: impl Display) {
     use std::io::Write;
-    let _ = writeln!(std::io::stderr(), "{text}");
+    let _ = writeln!(std::io::stderr(), "{}", visible(text));
 }
 
 /// Writes a line on standard output; a closed pipe ends the program quietly.
 pub(crate) fn print(text: impl Display) -> Result<(), Failure> {
     use std::io::{ErrorKind, Write};
-    match writeln!(std::io::stdout(), "{text}") {
+    match writeln!(std::io::stdout(), "{}", visible(text)) {
         Ok(()) => Ok(()),
         Err(error) if error.kind() == ErrorKind::BrokenPipe => std::process::exit(0),
         Err(error) => Err(Failure::unprintable(error)),
@@ -166,4 +166,35 @@ pub(crate) fn lines<T: Display>(named: impl IntoIterator<Item = (&'static str, T
         .into_iter()
         .map(|(name, text)| format!("{name:15}{text}"));
     lines.collect::<Vec<_>>().join("\n")
+}
+
+/// A text as it is, but for control characters, which names of files may have and which terminals obey.
+fn visible(text: impl Display) -> String {
+    let mut shown = String::new();
+    for letter in text.to_string().chars() {
+        if letter.is_control() && !['\n', '\t'].contains(&letter) {
+            shown.extend(letter.escape_default());
+        } else {
+            shown.push(letter);
+        }
+    }
+    shown
+}
+
+/// Fails where standard output was closed before the program began: the system has put nothing in its place.
+pub(crate) fn check_stdout() -> Result<(), Failure> {
+    let of = |what: &str| format!("/proc/self/{what}/1");
+    let to_nothing = std::fs::read_link(of("fd")).is_ok_and(|path| path.ends_with("null"));
+    let described = std::fs::read_to_string(of("fdinfo")).unwrap_or_default();
+    let flags = described
+        .lines()
+        .find_map(|line| line.strip_prefix("flags:"));
+    // open for reading too, as nobody opens it for output
+    let both = flags.is_some_and(|flags| flags.trim().ends_with('2'));
+    if to_nothing && both {
+        return Err(Failure::work(
+            "cannot write to standard output: it is closed",
+        ));
+    }
+    Ok(())
 }

@@ -2,7 +2,7 @@
 
 use crate::failure::Failure;
 use clap::Args;
-use std::fs;
+use std::alloc::{GlobalAlloc, Layout, System};
 
 /// One flag, the same in every command that can take much.
 #[derive(Debug, Clone, Copy, Args)]
@@ -12,23 +12,11 @@ pub(crate) struct MemoryLimit {
     max_memory: Option<f64>,
 }
 
-/// Memory in bytes where the system does not say what there is.
-const UNKNOWN: f64 = 8e9;
-
-/// Part of what is free that the work may take: the rest is for the program and for what a forecast misses.
-const USABLE: f64 = 0.85;
-
 impl MemoryLimit {
     /// The limit in bytes.
     pub(crate) fn bytes(self) -> f64 {
-        self.max_memory.map_or_else(
-            || {
-                let free = [machine(), container(), process()];
-                let least = free.into_iter().flatten().reduce(f64::min);
-                USABLE * least.unwrap_or(UNKNOWN)
-            },
-            |gigabytes| 1e9 * gigabytes,
-        )
+        self.max_memory
+            .map_or_else(output::free_memory, |gigabytes| 1e9 * gigabytes)
     }
 
     /// Refuses work that takes more.
@@ -52,30 +40,42 @@ fn gigabytes(text: &str) -> Result<f64, String> {
     }
 }
 
-/// What the system could give a new program.
-fn machine() -> Option<f64> {
-    line_of("/proc/meminfo", "MemAvailable:", 1).map(|kilobytes| 1024.0 * kilobytes)
+/// The system's allocator; where it has nothing more, the program ends in a sentence.
+struct OrSentence;
+
+#[global_allocator]
+static ALLOCATOR: OrSentence = OrSentence;
+
+/// What was given, or the end of the program.
+fn given(memory: *mut u8, bytes: usize) -> *mut u8 {
+    if memory.is_null() {
+        use std::io::Write;
+        let _ = writeln!(
+            std::io::stderr(),
+            "error: there is no memory left, of which {bytes} bytes are needed: ask for less, or allow more"
+        );
+        // whatever was half-done stays, and is removed by the next run: nothing can be done without memory
+        signal_hook::low_level::exit(1);
+    }
+    memory
 }
 
-/// What the group of processes that this one is in may still take.
-fn container() -> Option<f64> {
-    let number = |name: &str| {
-        let text = fs::read_to_string(format!("/sys/fs/cgroup/memory.{name}")).ok()?;
-        text.trim().parse::<f64>().ok()
-    };
-    Some((number("max")? - number("current")?).max(0.0))
-}
+// SAFETY: all of it is done by the system's allocator, as it was asked for.
+#[allow(unsafe_code)]
+unsafe impl GlobalAlloc for OrSentence {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        given(unsafe { System.alloc(layout) }, layout.size())
+    }
 
-/// What the process may still take of its address space (`ulimit -v`).
-fn process() -> Option<f64> {
-    let limit = line_of("/proc/self/limits", "Max address space", 3)?;
-    let taken = line_of("/proc/self/status", "VmSize:", 1).unwrap_or(0.0);
-    Some((limit - 1024.0 * taken).max(0.0))
-}
+    unsafe fn alloc_zeroed(&self, layout: Layout) -> *mut u8 {
+        given(unsafe { System.alloc_zeroed(layout) }, layout.size())
+    }
 
-/// A word of the line of a file that starts with some words, as a number.
-fn line_of(path: &str, start: &str, word: usize) -> Option<f64> {
-    let text = fs::read_to_string(path).ok()?;
-    let line = text.lines().find(|line| line.starts_with(start))?;
-    line.split_whitespace().nth(word)?.parse().ok()
+    unsafe fn realloc(&self, memory: *mut u8, layout: Layout, bytes: usize) -> *mut u8 {
+        given(unsafe { System.realloc(memory, layout, bytes) }, bytes)
+    }
+
+    unsafe fn dealloc(&self, memory: *mut u8, layout: Layout) {
+        unsafe { System.dealloc(memory, layout) }
+    }
 }

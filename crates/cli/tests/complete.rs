@@ -82,6 +82,18 @@ fn an_impact_that_is_there_is_not_computed_again() {
     assert_eq!(run(here, line).0, Some(1));
     std::fs::write(here.join("s.h5"), "no results").unwrap();
     assert_eq!(run(here, line).0, Some(1));
+    // one bit anywhere
+    for place in (5..before.len()).step_by(before.len() / 40) {
+        let mut bad = before.clone();
+        bad[place] ^= 4;
+        std::fs::write(here.join("s.h5"), bad).unwrap();
+        assert_eq!(run(here, line).0, Some(1), "byte {place}");
+    }
+    // what a killed run has left goes, also where nothing is left to do
+    std::fs::write(here.join("s.h5"), &before).unwrap();
+    std::fs::write(here.join(".s.h5.lock"), "").unwrap();
+    expect(here, line, 0, "nothing to do");
+    assert!(!here.join(".s.h5.lock").exists());
 }
 
 #[test]

@@ -343,7 +343,7 @@ fn a_plan_says_what_a_billion_rows_take() {
         well(here, &format!("sweep b.toml --rows {rows} -o {name}"));
         std::fs::metadata(here.join(name)).unwrap().len()
     });
-    let planned = plan["bytes_per_shard"].as_u64().unwrap() / most * 32_768;
+    let planned = plan["bytes_per_shard"].as_u64().unwrap() * 32_768 / most;
     assert!((b - a).abs_diff(planned) < 4096, "{} {planned}", b - a);
     assert_eq!(plan["columns"][0], "row");
 }
@@ -418,4 +418,105 @@ fn chosen_columns_and_single_precision_are_kept_by_parts() {
 
 fn hdf5(folder: &Path, name: &str) -> formats::stored::StoredSweep {
     formats::stored::StoredSweep::open(&folder.join(name)).unwrap()
+}
+
+/// Twelve rows with a probe, which take some milliseconds each.
+const PROBED: &str = "[scene.target]\nmaterial = \"granite\"\n[scene.striker]\nshape = \"ball\"\nmaterial = \"bearing-steel\"\n\
+    velocity_m_s = 2.0\n[[scene.probe]]\nr_m = 0.1\nz_m = 0.0\n[product.striker]\n\
+    diameter_m = [3e-5, 1e-3, 1.1e-3, 1.2e-3, 1.3e-3, 1.4e-3, 1.5e-3, 1.6e-3, 1.7e-3, 1.8e-3, 1.9e-3, 2e-3]\n";
+
+#[test]
+fn rows_with_probes_are_divided_one_by_one_and_are_the_same_on_any_threads() {
+    let folder = folder();
+    let here = folder.path();
+    std::fs::write(here.join("p.toml"), PROBED).unwrap();
+    for threads in ["1", "64"] {
+        let line = format!("sweep p.toml -o {threads}.h5");
+        let done = command(here, &line)
+            .env("RAYON_NUM_THREADS", threads)
+            .output();
+        assert!(done.unwrap().status.success(), "{threads} threads");
+    }
+    assert!(bytes(here, "1.h5") == bytes(here, "64.h5"));
+    for shard in 1..=3 {
+        let said = json(
+            here,
+            &format!("sweep p.toml --shard {shard}/3 -o out/{shard}.h5 --json"),
+        );
+        assert_eq!((&said["rows"], &said["failed"]), (&4.into(), &0.into()));
+    }
+    well(here, "sweep merge out -o merged.h5");
+    assert!(bytes(here, "merged.h5") == bytes(here, "1.h5"));
+}
+
+#[test]
+fn damage_and_an_overlap_of_one_row_are_refused() {
+    let folder = folder();
+    let here = folder.path();
+    let few = SWEEP.replace("samples = 30000", "samples = 50");
+    std::fs::write(here.join("few.toml"), few).unwrap();
+    for rows in ["0:100", "100:200"] {
+        well(
+            here,
+            &format!("sweep few.toml --rows {rows} -o out/{}.h5", &rows[..1]),
+        );
+    }
+    well(here, "sweep merge out -o good.h5");
+    for (rows, words) in [("99:100", "rows 99 to 99"), ("100:101", "rows 100 to 100")] {
+        well(
+            here,
+            &format!("sweep few.toml --rows {rows} -o out/more.h5"),
+        );
+        refused(here, "sweep merge out -o all.h5", 2, words);
+        let status = json(here, "sweep status out --json");
+        assert!(
+            status["overlap"].as_str().unwrap().starts_with(words),
+            "{status}"
+        );
+        std::fs::remove_file(here.join("out/more.h5")).unwrap();
+    }
+    let good = bytes(here, "out/1.h5");
+    for place in (3..good.len()).step_by(good.len() / 40) {
+        let mut bad = good.clone();
+        bad[place] ^= 16;
+        std::fs::write(here.join("out/1.h5"), bad).unwrap();
+        let status = json(here, "sweep status out --json");
+        assert_eq!(status["foreign"][0]["file"], "out/1.h5", "byte {place}");
+        refused(here, "sweep merge out -o all.h5", 2, "out/1.h5");
+        refused(
+            here,
+            "sweep few.toml --rows 100:200 --skip-complete -o out/1.h5",
+            1,
+            "out/1.h5",
+        );
+    }
+}
+
+#[test]
+fn what_no_disk_holds_is_not_begun_and_what_is_at_work_is_told() {
+    let folder = folder();
+    let here = folder.path();
+    let endless = SWEEP.replace("samples = 30000", "samples = 200000000000");
+    std::fs::write(here.join("endless.toml"), endless).unwrap();
+    refused(here, "sweep endless.toml -o x.h5", 2, "GB of disk");
+    assert!(!here.join("x.h5.part").exists());
+    let long = SWEEP.replace("samples = 30000", "samples = 3000000");
+    std::fs::write(here.join("long.toml"), long).unwrap();
+    let mut child = command(here, "sweep long.toml --shard 1/2 -o out/1.h5")
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    let journal = here.join("out/1.h5.part");
+    while std::fs::metadata(&journal).map_or(0, |there| there.len()) < 100_000 {
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+    let status = json(here, "sweep status out --json");
+    let unfinished = &status["unfinished"][0];
+    assert_eq!(unfinished["file"], "out/1.h5.part");
+    assert!(unfinished["kept"].as_u64().unwrap() > 0, "{status}");
+    let many = run(here, "sweep s.toml --shard 1/1000001 -o y.h5");
+    assert_eq!(many.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&many.stderr).contains("[1, 1000000]"));
 }

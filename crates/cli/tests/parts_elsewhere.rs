@@ -91,7 +91,7 @@ fn parts_in_parquet_are_listed_skipped_and_merged() {
         2,
         "it is no HDF5 file",
     );
-    // damage of the footer is seen when the part is looked at, that of rows when they are read
+    // damage of the footer and of rows is seen when the part is looked at
     let part = bytes("out/4.parquet");
     std::fs::write(here.join("out/4.parquet"), &part[..part.len() - 1]).unwrap();
     assert_eq!(well(here, "sweep status out --missing"), "4\n");
@@ -102,7 +102,7 @@ fn parts_in_parquet_are_listed_skipped_and_merged() {
     refused(
         here,
         "sweep merge out -o again.parquet",
-        1,
+        2,
         "out/4.parquet: the rows from",
     );
     std::fs::write(here.join("out/4.parquet"), &part).unwrap();

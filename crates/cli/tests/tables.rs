@@ -211,7 +211,7 @@ fn a_second_run_on_one_file_is_refused() {
     first.wait().unwrap();
     assert!(message.contains("another run is writing t.h5"), "{message}");
     let message = refused(here, &BUILD, 2);
-    assert!(message.contains("other settings"), "{message}");
+    assert!(message.contains("another kernel table"), "{message}");
 }
 
 /// A file that may not grow behaves as on a full disk.

@@ -30,9 +30,15 @@ macro_rules! choice {
 }
 pub(crate) use choice;
 
+/// Letters of a word that may be a misspelt name, at most.
+const MOST_LETTERS: usize = 64;
+
 /// The candidate that differs least from `word`, if it differs little.
 #[must_use]
 pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<String> {
+    if word.chars().nth(MOST_LETTERS).is_some() {
+        return None;
+    }
     let (word, allowed) = (word.to_lowercase(), (word.chars().count() / 3).max(2));
     let distance = |candidate: &str| strsim::levenshtein(&word, &candidate.to_lowercase());
     candidates

@@ -1,7 +1,7 @@
 //! The face of errors that are made of others.
 
 use crate::parts::PartsError;
-use crate::sweep::{JournalError, KernelsError, SweepError};
+use crate::sweep::{KernelsError, SweepError};
 use ::fault::{Class, Culprit, Fault};
 
 impl Fault for KernelsError {
@@ -17,12 +17,8 @@ impl Fault for SweepError {
     fn culprit(&self) -> Culprit<'_> {
         match self {
             Self::Scene(error) => error.culprit(),
-            Self::Journal(JournalError::Output(error)) => error.culprit(),
-            Self::Journal(
-                JournalError::Other { path }
-                | JournalError::Strange { path }
-                | JournalError::Io { path, .. },
-            ) => Culprit::of(Class::Output).file(path),
+            Self::Journal(error) => error.culprit(),
+            Self::Output(error) => error.culprit(),
         }
     }
 }

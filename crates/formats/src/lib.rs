@@ -15,7 +15,6 @@
 mod error;
 mod fault;
 mod hdf;
-mod identity;
 pub mod parts;
 pub mod quantities;
 mod report;

@@ -1,11 +1,12 @@
 //! Rows of a sweep in several files: what a folder has of them, what it lacks, and all of them in one.
 
 use crate::error::SceneError;
-use crate::identity::from_hexadecimal;
-use crate::stored::{FileKind, Part, ReadError, StoredPart, StoredWhole, file_kind};
+use crate::stored::{FileKind, Part, ReadError, StoredPart, file_kind, whole_sweep};
 use crate::sweep::{
-    Block, Blocks, Fields, Selection, Shard, Source, Spec, gaps, stage_rows, stage_virtual,
+    Block, Blocks, Fields, Selection, Shard, Source, Spec, Unfinished, grain, stage_rows,
+    stage_virtual,
 };
+use ledger::gaps;
 use output::{Fault, HDF5, Output, OutputError, ROWS, Staged};
 use std::collections::BTreeMap;
 use std::ffi::OsStr;
@@ -100,10 +101,14 @@ pub struct Parts {
     pub sha256: String,
     /// Its rows.
     pub sweep_rows: usize,
+    /// Rows that shards do not divide.
+    grain: usize,
     /// The parts, by their first rows.
     pub parts: Vec<Part>,
     /// Files with the ending of HDF5 or Parquet that are none of them.
     pub foreign: Vec<Foreign>,
+    /// Journals of runs that are at work, or were interrupted.
+    pub unfinished: Vec<Unfinished>,
 }
 
 impl Parts {
@@ -113,24 +118,34 @@ impl Parts {
     /// [`PartsError`] for a folder that cannot be read or, where no sweep is wanted, has no parts.
     pub fn in_folder(folder: &Path, wanted: Option<&Spec>) -> Result<Self, PartsError> {
         let (mut all, mut foreign) = (Vec::new(), Vec::new());
-        for path in files(folder)? {
-            match StoredPart::open(&path) {
-                Ok(open) => all.push(open.part),
+        for path in files(folder, |path| ROWS.is_of(path))? {
+            let whole = |open: StoredPart| open.check().map(|()| open.part);
+            match StoredPart::open(&path).and_then(whole) {
+                Ok(part) => all.push(part),
                 Err(error) => {
                     let reason = error.to_string();
                     foreign.push(Foreign { path, reason });
                 }
             }
         }
+        let is_journal = |path: &Path| path.extension().is_some_and(|end| end == "part");
+        let journals = files(folder, is_journal)?;
+        let mut unfinished: Vec<_> = (journals.iter())
+            .filter_map(|path| Unfinished::read(path))
+            .collect();
         let (sha256, sweep_rows) = match wanted {
             Some(spec) => (spec.sha256(), spec.rows()),
-            None => most(&all).ok_or_else(|| PartsError::None {
+            None => most(&all, &unfinished).ok_or_else(|| PartsError::None {
                 path: folder.to_owned(),
             })?,
         };
+        unfinished.retain(|run| run.sha256 == sha256 && run.sweep_rows == sweep_rows);
         let (mut parts, others): (Vec<_>, Vec<_>) = all
             .into_iter()
             .partition(|part| part.sha256 == sha256 && part.sweep_rows == sweep_rows);
+        let fields = wanted.map(|spec| &spec.fields);
+        let fields = fields.or_else(|| parts.first().map(|part| &part.fields));
+        let grain = fields.map_or(1, grain);
         parts.sort_by_key(|part| (part.selection.rows.start, part.selection.rows.end));
         foreign.extend(others.into_iter().map(|Part { path, .. }| {
             let reason = format!("{} is a part of {OTHER}", path.display());
@@ -139,8 +154,10 @@ impl Parts {
         Ok(Self {
             sha256,
             sweep_rows,
+            grain,
             parts,
             foreign,
+            unfinished,
         })
     }
 
@@ -162,9 +179,12 @@ impl Parts {
     /// The shards, of so many, some rows of which no part has.
     #[must_use]
     pub fn missing_shards(&self, count: usize) -> Vec<usize> {
-        let held = self.held();
-        let lacks =
-            |&index: &usize| !gaps(&held, &Shard { index, count }.rows(self.sweep_rows)).is_empty();
+        let missing = self.missing();
+        let lacks = |&index: &usize| {
+            let rows = Shard { index, count }.range(self.sweep_rows, self.grain);
+            let next = missing.partition_point(|gap| gap.end <= rows.start);
+            missing.get(next).is_some_and(|gap| gap.start < rows.end)
+        };
         (1..=count).filter(lacks).collect()
     }
 
@@ -189,7 +209,12 @@ impl Parts {
     /// [`PartsError`] where rows are missing, or twice there, or a file is none of the sweep's parts.
     pub fn merge<'a>(&self, output: &'a Output) -> Result<Staged<'a>, PartsError> {
         let spec = self.whole(output)?;
-        Ok(stage_rows(output, &spec, None, self)?)
+        let rows = Checked {
+            parts: self,
+            spec: &spec,
+            all: true,
+        };
+        Ok(stage_rows(output, &spec, None, &rows)?)
     }
 
     /// Writes an HDF5 file of the whole sweep whose results lie in the parts, which are to stay where they are, seen from it.
@@ -214,7 +239,12 @@ impl Parts {
             Ok(Source { path, rows })
         });
         let sources = sources.collect::<Result<Vec<_>, _>>()?;
-        Ok(stage_virtual(output, &spec, &sources, &Failures(self))?)
+        let rows = Checked {
+            parts: self,
+            spec: &spec,
+            all: false,
+        };
+        Ok(stage_virtual(output, &spec, &sources, &rows)?)
     }
 
     /// The sweep, where all its rows are there, once.
@@ -240,9 +270,8 @@ impl Parts {
                 path: output.path().to_owned(),
             });
         };
-        let damaged = || ReadError::damaged(&first.path, "the hash of its sweep is none");
-        let fingerprint = from_hexadecimal(&self.sha256).ok_or_else(damaged)?;
-        let mut spec = Spec::of_stored(&StoredPart::open(&first.path)?.sweep()?, fingerprint)?;
+        let sweep = StoredPart::open(&first.path)?.sweep()?;
+        let mut spec = Spec::of_stored(&sweep, self.sha256.clone())?;
         spec.fields = first.fields.clone();
         if let Some(other) = self.parts.iter().find(|part| part.fields != spec.fields) {
             return Err(PartsError::Columns {
@@ -251,22 +280,6 @@ impl Parts {
             });
         }
         Ok(spec)
-    }
-
-    /// Shows each part as it was found; one is open at a time: there may be more than files that a process may open.
-    fn each_part(
-        &self,
-        visit: &mut dyn FnMut(&StoredPart) -> Result<(), Fault>,
-    ) -> Result<(), Fault> {
-        self.parts.iter().try_for_each(|part| {
-            let open = StoredPart::open(&part.path);
-            let open = open.map_err(|error| Fault::from(error.to_string()))?;
-            if open.part != *part {
-                let path = part.path.display();
-                return Err(Fault::from(format!("{path} was changed while it was read")));
-            }
-            visit(&open)
-        })
     }
 
     /// Those that have rows.
@@ -282,20 +295,28 @@ impl Parts {
     }
 }
 
-impl Blocks for Parts {
-    fn each(&self, visit: &mut dyn FnMut(&Block) -> Result<(), Fault>) -> Result<(), Fault> {
-        self.each_part(&mut |part| part.each(visit))
-    }
+/// The rows of the parts, with the keys of their sweep: all of them, or without their results.
+struct Checked<'a> {
+    parts: &'a Parts,
+    spec: &'a Spec,
+    all: bool,
 }
 
-/// The rows of the parts without their results.
-struct Failures<'a>(&'a Parts);
-
-impl Blocks for Failures<'_> {
+impl Blocks for Checked<'_> {
+    /// One part is open at a time: there may be more than files that a process may open.
     fn each(&self, visit: &mut dyn FnMut(&Block) -> Result<(), Fault>) -> Result<(), Fault> {
-        self.0.each_part(&mut |part| match part.failures() {
-            Some(rows) => rows.each(visit),
-            None => Ok(()),
+        self.parts.parts.iter().try_for_each(|part| {
+            let told = |error: ReadError| Fault::from(error.to_string());
+            let open = StoredPart::open(&part.path).map_err(told)?;
+            if open.part != *part {
+                let path = part.path.display();
+                return Err(Fault::from(format!("{path} was changed while it was read")));
+            }
+            open.check_keys(self.spec).map_err(told)?;
+            match open.failures() {
+                Some(rows) if !self.all => rows.each(visit),
+                Some(_) | None => open.each(visit),
+            }
         })
     }
 }
@@ -335,13 +356,15 @@ pub fn check_complete(
         Err(format!("{path} has other columns, or another precision"))
     };
     let Some(selection) = selection else {
-        let found = StoredWhole::open(path).map_err(told)?;
-        if found.sha256 != Some(spec.sha256()) {
+        let (sha256, fields) = whole_sweep(path).map_err(told)?;
+        if sha256 != Some(spec.sha256()) {
             return Err(other());
         }
-        return same_fields(&found.fields);
+        return same_fields(&fields);
     };
-    let found = StoredPart::open(path).map_err(told)?.part;
+    let open = StoredPart::open(path).map_err(told)?;
+    open.check().map_err(told)?;
+    let found = open.part;
     if found.sha256 != spec.sha256() {
         return Err(other());
     }
@@ -367,8 +390,8 @@ fn others(more: usize) -> String {
     }
 }
 
-/// Files of a folder whose names end like HDF5 or Parquet, by name; those that begin with a dot belong to runs.
-fn files(folder: &Path) -> Result<Vec<PathBuf>, PartsError> {
+/// Files of a folder with some names, by name; those that begin with a dot belong to runs.
+fn files(folder: &Path, named: impl Fn(&Path) -> bool) -> Result<Vec<PathBuf>, PartsError> {
     let paths = || -> std::io::Result<Vec<PathBuf>> {
         let entries = std::fs::read_dir(folder)?;
         entries.map(|entry| Ok(entry?.path())).collect()
@@ -378,16 +401,21 @@ fn files(folder: &Path) -> Result<Vec<PathBuf>, PartsError> {
         reason,
     })?;
     let hidden = |name: &OsStr| name.as_encoded_bytes().starts_with(b".");
-    found.retain(|path| ROWS.is_of(path) && !path.file_name().is_some_and(hidden));
+    found.retain(|path| named(path) && !path.file_name().is_some_and(hidden));
     found.sort();
     Ok(found)
 }
 
-/// The sweep that most parts are of, with its rows; the first of several.
-fn most(parts: &[Part]) -> Option<(String, usize)> {
+/// The sweep that most parts, or else journals, are of, with its rows; the first of several.
+fn most(parts: &[Part], unfinished: &[Unfinished]) -> Option<(String, usize)> {
     let mut counts: BTreeMap<(&str, usize), usize> = BTreeMap::new();
-    for part in parts {
-        *counts.entry((&part.sha256, part.sweep_rows)).or_default() += 1;
+    let parts = parts.iter().map(|part| (&part.sha256, part.sweep_rows));
+    let mut of: Vec<_> = parts.collect();
+    if of.is_empty() {
+        of.extend((unfinished.iter()).map(|run| (&run.sha256, run.sweep_rows)));
+    }
+    for (sha256, rows) in of {
+        *counts.entry((sha256, rows)).or_default() += 1;
     }
     let largest = counts.values().max()?;
     let (&(sha256, rows), _) = counts.iter().find(|(_, count)| *count == largest)?;

@@ -173,7 +173,7 @@ fn an_interrupted_sweep_goes_on_and_gives_the_same() {
     assert!(refused.to_string().contains("another sweep"), "{refused}");
     assert!(std::fs::read(&part).unwrap() == before);
     run_sweep(&other, &part, Existing::Replace, |_| false).unwrap();
-    assert!(std::fs::metadata(&part).unwrap().len() < 100);
+    assert!(std::fs::metadata(&part).unwrap().len() < 300);
 }
 
 #[test]
@@ -211,18 +211,28 @@ fn a_damaged_journal_takes_no_memory_and_a_strange_one_stays() {
     let whole = run_sweep(&spec, &part, Existing::Keep, |_| true);
     let whole = bits(&whole.unwrap().unwrap().blocks);
     let good = std::fs::read(&part).unwrap();
-    // first row, number of rows, length of the text of the first record
-    for (place, number) in [(56, u64::MAX), (64, 36_000_000), (64, 0), (72, 1 << 40)] {
-        let mut bad = good.clone();
+    // the length of the first record, behind the title, and what it says of itself
+    let line = good.iter().position(|&byte| byte == b'\n').unwrap();
+    let title = String::from_utf8_lossy(&good[..line]);
+    let about: usize = title.rsplit(' ').next().unwrap().parse().unwrap();
+    let begin = line + 1 + about;
+    for (place, number) in [
+        (0, u64::MAX),
+        (0, 1 << 40),
+        (8, 7),
+        (16, 36_000_000),
+        (32, 0),
+    ] {
+        let (mut bad, place) = (good.clone(), begin + place);
         bad[place..place + 8].copy_from_slice(&number.to_le_bytes());
         std::fs::write(&part, &bad).unwrap();
         let done = run_sweep(&spec, &part, Existing::Keep, |_| true);
         assert!(bits(&done.unwrap().unwrap().blocks) == whole);
     }
-    for strange in ["precious", "hl", "hlswee"] {
+    for strange in ["precious", "hertz", "hertzlamb journal 1 of a sweep: 12"] {
         std::fs::write(&part, strange).unwrap();
         let done = run_sweep(&spec, &part, Existing::Replace, |_| true);
-        assert_eq!(done.is_ok(), strange.starts_with("hl"), "{strange}");
+        assert_eq!(done.is_ok(), strange.starts_with("hertz"), "{strange}");
     }
     std::fs::write(&part, "precious").unwrap();
     run_sweep(&spec, &part, Existing::Keep, |_| true).unwrap_err();

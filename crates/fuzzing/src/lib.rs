@@ -8,7 +8,6 @@
 pub mod campaign;
 mod draws;
 mod mutate;
-mod seal;
 mod seeds;
 mod stand_in;
 mod target;

@@ -1,7 +1,7 @@
 //! Good inputs to start from.
 
 use crate::stand_in::content;
-use crate::target::{Target, of_sweep, sweep};
+use crate::target::{Target, of_sweep, sweep, without_seal};
 use formats::sweep::{Selection, check_rows, stage_rows};
 use formats::{parse_scene, write_results};
 use impact::{KernelChoice, simulate};
@@ -9,7 +9,7 @@ use output::{Existing, Output};
 use std::error::Error;
 use std::fs;
 use std::path::{Path, PathBuf};
-use tabulator::{Grid, Silent};
+use tabulator::{Grid, Shard, Silent};
 
 /// Good inputs of all targets, and the folder where scenes find what they name.
 #[derive(Debug)]
@@ -133,7 +133,8 @@ fn parts(folder: &Path) -> Result<Vec<Vec<u8>>, Box<dyn Error>> {
 /// The first of two shards.
 fn shard(folder: &Path) -> Result<Vec<Vec<u8>>, Box<dyn Error>> {
     let path = folder.join("seed.shard");
-    tabulator::build_shard(&Grid::parse(GRID)?, 1, 2, &path, &Silent)?;
+    let shard = Shard { index: 1, count: 2 };
+    tabulator::build_shard(&Grid::parse(GRID)?, shard, &path, &Silent)?;
     Ok(vec![fs::read(path)?])
 }
 
@@ -142,21 +143,10 @@ fn tables(folder: &Path) -> Result<Vec<Vec<u8>>, Box<dyn Error>> {
     let path = folder.join("seed.h5");
     lookup::write(&path, &content())?;
     let sealed = fs::read(&path)?;
-    let mut older = sealed.clone();
-    let footer = older.len() - 56;
-    let word = |at: usize| {
-        let mut eight = [0; 8];
-        eight.copy_from_slice(&older[at..at + 8]);
-        u64::from_le_bytes(eight) as usize
-    };
-    let end = word(footer + 8);
-    older.truncate(end);
+    let mut older = without_seal(&sealed).to_vec();
     let version = lookup::schema::FORMAT_VERSION_VALUE.as_bytes();
     if let Some(at) = older.windows(3).position(|three| three == version) {
         older[at + 2] = b'1';
     }
-    // a superblock of version 0 has four bytes less: those that version 1 adds are taken out, its end stays
-    older[8] = 0;
-    older.copy_within(28..100, 24);
     Ok(vec![sealed, older])
 }

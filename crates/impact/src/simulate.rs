@@ -311,7 +311,13 @@ impl<'a> Computed<'a> {
         let chosen = choose_source(scene, asked.kernels, excitation)?;
         let source = chosen.as_ref().map(|chosen| &chosen.source);
         let grid = Grid::new(&Wanted::of(scene), excitation, source)?;
-        let forecast = Forecast::new(scene, excitation, &grid, source)?;
+        let forecast = Forecast::new(
+            scene,
+            excitation,
+            &grid,
+            source,
+            rayon::current_num_threads(),
+        )?;
         forecast
             .check(scene, allowance.memory_bytes)
             .map_err(TooMuch::Memory)?;

@@ -3,7 +3,6 @@
 use crate::content::{Content, Verification};
 use crate::schema;
 use sha2::{Digest, Sha256};
-use std::fmt::Write;
 
 /// Identity of a table: the first 16 hexadecimal digits of SHA-256 over the major format version and the resolved grid.
 ///
@@ -14,7 +13,7 @@ pub fn settings_id(grid: &str) -> String {
     hash.update(schema::MAJOR_READ.to_string().as_bytes());
     hash.update([0]);
     hash.update(grid.as_bytes());
-    let mut id = hex(&hash.finalize());
+    let mut id = format!("{:x}", hash.finalize());
     id.truncate(16);
     id
 }
@@ -62,7 +61,7 @@ pub fn content_hash(content: &Content) -> String {
         hash.update(between.poisson_ratio.to_le_bytes());
         add_verification(&mut hash, &between.verification);
     }
-    hex(&hash.finalize())
+    format!("{:x}", hash.finalize())
 }
 
 fn add_verification(hash: &mut Sha256, probes: &Verification) {
@@ -79,14 +78,4 @@ fn add_array(hash: &mut Sha256, array: &[f32]) {
         bytes.extend(chunk.iter().flat_map(|value| value.to_le_bytes()));
         hash.update(&bytes);
     }
-}
-
-fn hex(bytes: &[u8]) -> String {
-    bytes
-        .iter()
-        .fold(String::with_capacity(2 * bytes.len()), |mut text, byte| {
-            // Writing to a String cannot fail.
-            let _ = write!(text, "{byte:02x}");
-            text
-        })
 }

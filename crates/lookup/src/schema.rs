@@ -5,7 +5,9 @@
 /// Value of [`FILE_TYPE`] in every kernel table.
 pub const FILE_TYPE_VALUE: &str = "hertzlamb kernel table";
 /// Version of the format that this program writes: major.minor.
-pub const FORMAT_VERSION_VALUE: &str = "2.3";
+pub const FORMAT_VERSION_VALUE: &str = "2.4";
+/// Minor version from which on files have a seal.
+pub const SEALED_FROM: u32 = 4;
 /// Major versions that this program reads.
 pub const MAJOR_READ: u32 = 2;
 

@@ -24,6 +24,7 @@ mod ending;
 mod error;
 mod folder;
 mod place;
+mod room;
 mod temporary;
 
 pub use claim::{Existing, Output, Staged, check, write_whole};
@@ -31,4 +32,5 @@ pub use ending::{CSV, Ending, HDF5, PARQUET, ROWS, SHARD, TABLE};
 pub use error::{Fault, OutputError};
 pub use folder::{Folder, NewFile};
 pub use place::{Role, apart, behind, is_standard};
+pub use room::{free_disk, free_memory};
 pub use temporary::abandon;

@@ -50,7 +50,7 @@ pub(crate) fn run_impact(
     let way = Way { threads, progress };
     let (result, scene) = run(py, &way, move |ticker| {
         let allowance = Allowance {
-            memory_bytes: max_memory_bytes.unwrap_or(f64::INFINITY),
+            memory_bytes: max_memory_bytes.unwrap_or_else(output::free_memory),
             go_on: &|_| !ticker.is_stopped(),
             watch: ticker,
         };

@@ -104,8 +104,14 @@ pub(crate) fn kernel<'py>(
     let (order, profile) = (Order::named(py, order)?, profile_of(py, profile)?);
     let kernel = Kernel::new(&medium_of(py, nu)?, profile, tolerance);
     let kernel = kernel.map_err(|error| errors::raised(py, error))?;
+    let rows = r.len()?;
+    if z.len()? != rows || t.len()? != rows {
+        let message = "r, z and t differ in their lengths";
+        return Err(errors::plain(py, "SceneError", message));
+    }
+    // the places, the estimates, and the two arrays that are made of them
+    errors::check_memory(py, rows, 3 * 8 + size_of::<Estimate>() + 2 * 6 * 8)?;
     let (r, z, t) = (numbers(&r), numbers(&z), numbers(&t));
-    let rows = r.len();
     let one = move |ticker: &Ticker, i: usize| {
         ticker.more(1);
         order.at(&kernel, [r[i], z[i], t[i]])
@@ -142,8 +148,9 @@ pub(crate) fn static_field<'py>(
     // no quadrature: the tolerance is of no consequence
     let kernel = Kernel::new(&medium_of(py, nu)?, profile_of(py, profile)?, 1e-6);
     let kernel = kernel.map_err(|error| errors::raised(py, error))?;
+    let rows = r.len()?;
+    errors::check_memory(py, rows, 2 * 8 + 2 * 6 * 8)?;
     let (r, z) = (numbers(&r), numbers(&z));
-    let rows = r.len();
     let found: Result<Vec<Six>, DomainError> = run_short(py, || {
         let places = r.iter().zip(&z);
         places.map(|(&r, &z)| kernel.static_field(r, z)).collect()
@@ -163,6 +170,7 @@ pub(crate) fn surface<'py>(
 ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
     let order = Order::named(py, order)?;
     let response = SurfaceResponse::new(&medium_of(py, nu)?, deflection_of(py, deflection)?);
+    errors::check_memory(py, t.len()?, 2 * 8)?;
     let t = numbers(&t);
     let found: Vec<f64> = run_short(py, || {
         let at = |t: f64| match order {
@@ -183,6 +191,7 @@ pub(crate) fn surface_centre<'py>(
     nu: f64,
     t: PyReadonlyArray1<'py, f64>,
 ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+    errors::check_memory(py, t.len()?, 2 * 8)?;
     let (medium, t) = (medium_of(py, nu)?, numbers(&t));
     let found = run_short(py, || {
         let values = t.iter().map(|&t| kausel::centre_step(&medium, t));

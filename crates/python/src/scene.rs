@@ -81,6 +81,11 @@ pub(crate) fn sections_of(key: &str) -> Vec<&'static str> {
 
 /// A mapping of Python as a table; keys whose value is None are left out.
 pub(crate) fn table(mapping: &Bound<'_, PyAny>, name: &str) -> PyResult<Table> {
+    table_in(mapping, name, 0)
+}
+
+/// One that lies so deep in others.
+fn table_in(mapping: &Bound<'_, PyAny>, name: &str, deep: usize) -> PyResult<Table> {
     let mut found = Table::new();
     for item in mapping.call_method0("items")?.try_iter()? {
         let (key, value): (Bound<'_, PyAny>, Bound<'_, PyAny>) = item?.extract()?;
@@ -92,20 +97,26 @@ pub(crate) fn table(mapping: &Bound<'_, PyAny>, name: &str) -> PyResult<Table> {
         } else {
             format!("{name}.{key}")
         };
-        if let Some(value) = to_toml(&value, &full)? {
+        if let Some(value) = to_toml(&value, &full, deep + 1)? {
             found.insert(key, value);
         }
     }
     Ok(found)
 }
 
+/// Containers in one another at most, as in a text.
+const MOST_DEEP: usize = 80;
+
 /// One value; nothing for None.
-fn to_toml(value: &Bound<'_, PyAny>, name: &str) -> PyResult<Option<Value>> {
+fn to_toml(value: &Bound<'_, PyAny>, name: &str, deep: usize) -> PyResult<Option<Value>> {
     if value.is_none() {
         return Ok(None);
     }
+    if deep > MOST_DEEP {
+        return Err(wrong("a value", value, "no more than 80 containers deep"));
+    }
     if value.cast::<PyDict>().is_ok() {
-        return Ok(Some(Value::Table(table(value, name)?)));
+        return Ok(Some(Value::Table(table_in(value, name, deep)?)));
     }
     // before the numbers: True is an int to Python
     if let Ok(flag) = value.cast::<PyBool>() {
@@ -125,13 +136,13 @@ fn to_toml(value: &Bound<'_, PyAny>, name: &str) -> PyResult<Option<Value>> {
     }
     // scalars and arrays of numpy, which know how to become Python's
     if value.hasattr("tolist")? {
-        return to_toml(&value.call_method0("tolist")?, name);
+        return to_toml(&value.call_method0("tolist")?, name, deep + 1);
     }
     if value.hasattr("__fspath__")? {
-        return to_toml(&value.call_method0("__fspath__")?, name);
+        return to_toml(&value.call_method0("__fspath__")?, name, deep + 1);
     }
     if value.hasattr("items")? {
-        return Ok(Some(Value::Table(table(value, name)?)));
+        return Ok(Some(Value::Table(table_in(value, name, deep)?)));
     }
     let Ok(items) = value.try_iter() else {
         return Err(wrong(name, value, "a number, a word, a list or a section"));
@@ -139,7 +150,7 @@ fn to_toml(value: &Bound<'_, PyAny>, name: &str) -> PyResult<Option<Value>> {
     let mut found = Vec::new();
     for (place, item) in items.enumerate() {
         let name = format!("{name}[{}]", place + 1);
-        match to_toml(&item?, &name)? {
+        match to_toml(&item?, &name, deep + 1)? {
             Some(item) => found.push(item),
             None => {
                 return Err(wrong(

@@ -142,6 +142,8 @@ impl Plan {
         threads: Option<usize>,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Computed<'py>> {
+        // a row, in parts and in the whole
+        errors::check_memory(py, count, 2 * 8 * (QUANTITIES.len() + 1))?;
         let spec = Arc::clone(&self.spec);
         let rows = Rows { start, step, count };
         let way = Way { threads, progress };

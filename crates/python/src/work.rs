@@ -19,6 +19,9 @@ const TELL: Duration = Duration::from_millis(100);
 /// Time that stopped work gets to end; what takes longer ends unheard.
 const GRACE: Duration = Duration::from_millis(150);
 
+/// Threads at most: more than any machine has processors, fewer than a system has room for.
+const MOST_THREADS: usize = 1024;
+
 /// The process that started the threads of the library; 0 while there are none.
 static OWNER: AtomicU32 = AtomicU32::new(0);
 
@@ -111,6 +114,14 @@ pub(crate) fn run<T: Send + 'static>(
     work: impl FnOnce(&Ticker) -> T + Send + 'static,
 ) -> PyResult<T> {
     own(py)?;
+    if way
+        .threads
+        .is_some_and(|threads| !(1..=MOST_THREADS).contains(&threads))
+    {
+        let threads = way.threads.unwrap_or_default();
+        let message = format!("threads = {threads} is outside [1, {MOST_THREADS}]");
+        return Err(errors::plain(py, "SceneError", &message));
+    }
     let ticker = Arc::new(Ticker::default());
     let (sender, mut receiver) = channel();
     let (watched, threads) = (Arc::clone(&ticker), way.threads);
@@ -174,8 +185,16 @@ fn tell(py: Python<'_>, way: &Way, ticker: &Ticker) -> PyResult<()> {
     }
 }
 
-/// Refuses to work in a process that was forked from one whose threads it would wait for in vain.
+/// Refuses more threads than a system has room for, and to work in a process that was forked from one whose threads it would wait for in vain.
 fn own(py: Python<'_>) -> PyResult<()> {
+    let asked = std::env::var("RAYON_NUM_THREADS").unwrap_or_default();
+    if asked
+        .parse()
+        .is_ok_and(|threads: usize| threads > MOST_THREADS)
+    {
+        let message = format!("RAYON_NUM_THREADS = {asked} is outside [1, {MOST_THREADS}]");
+        return Err(errors::plain(py, "SceneError", &message));
+    }
     let process = std::process::id();
     match OWNER.compare_exchange(0, process, Ordering::Relaxed, Ordering::Relaxed) {
         Ok(_) => Ok(()),

@@ -4,7 +4,7 @@ use crate::assemble::{Summary, complete};
 use crate::block;
 use crate::error::BuildError;
 use crate::grid::Grid;
-use crate::journal::{self, Journal, Left, Task, journal_of};
+use crate::journal::{self, journal_of, title};
 use crate::progress::Progress;
 use crate::rows::{rows, usable};
 use output::{Existing, Output, OutputError};
@@ -31,7 +31,6 @@ pub fn build_over(
     grid.validate()?;
     let work = block::all(grid);
     let text = grid.to_toml()?;
-    let task = Task::Build { grid: &text };
     let output = match Output::claim(path, existing) {
         Err(exists @ OutputError::Exists { .. }) => {
             clear(grid, path, &text)?;
@@ -39,11 +38,8 @@ pub fn build_over(
         }
         claimed => claimed?,
     };
-    let left = match existing {
-        Existing::Replace => Left::Replaced,
-        Existing::Keep | Existing::KeepUnlessSame => Left::Kept,
-    };
-    let (journal, finished) = Journal::open(&journal_of(&output), task, left)?;
+    let drops = |_: &str| existing == Existing::Replace;
+    let (journal, finished) = journal::open(&journal_of(&output), &title(&text, None), drops)?;
     let finished = usable(grid, &work, finished, None)?;
     let resumed_blocks = finished.len();
     let journal = Mutex::new(journal);
@@ -52,7 +48,7 @@ pub fn build_over(
     journal
         .into_inner()
         .unwrap_or_else(PoisonError::into_inner)
-        .remove()?;
+        .remove();
     Ok(Summary {
         resumed_blocks,
         wall_s: started.elapsed().as_secs_f64(),
@@ -70,7 +66,7 @@ fn clear(grid: &Grid, path: &Path, settings: &str) -> Result<(), BuildError> {
     let work = block::all(grid);
     let whole = found == settings && usable(grid, &work, rows, None)?.len() == work.len();
     if whole && lookup::read(path).is_ok_and(|content| content.origin.grid == settings) {
-        journal::remove(&journal)?;
+        let _ = std::fs::remove_file(&journal);
     }
     Ok(())
 }

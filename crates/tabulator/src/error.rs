@@ -2,6 +2,7 @@
 
 use fault::{Class, Culprit, Fault};
 use halfspace::DomainError;
+use ledger::JournalError;
 use lookup::{ContentError, TableError};
 use output::OutputError;
 use std::path::{Path, PathBuf};
@@ -59,17 +60,9 @@ pub enum BuildError {
     /// The output cannot be written, or is not to be.
     #[error(transparent)]
     Output(#[from] OutputError),
-    /// Something unfinished of another kind is in the way.
-    #[error("{} holds {what}; finish that one, give the output another name, or remove the file", path.display())]
-    OtherSettings {
-        /// Its journal, or a shard.
-        path: PathBuf,
-        /// What is unfinished.
-        what: String,
-    },
-    /// A file of somebody else has the name of a journal or a shard.
-    #[error("{} is not one of this program's unfinished tables and is kept: give the output another name", path.display())]
-    NotJournal { path: PathBuf },
+    /// Something else that is unfinished is in the way, or its file cannot be read.
+    #[error(transparent)]
+    Journal(JournalError),
     /// A file that should hold blocks of a table does not.
     #[error("{} is not a shard of a kernel table made by this version of the program", path.display())]
     NotBlocks {
@@ -141,6 +134,15 @@ pub enum BuildError {
     Lookup(#[from] lookup::LookupError),
 }
 
+impl From<JournalError> for BuildError {
+    fn from(error: JournalError) -> Self {
+        match error {
+            JournalError::Unwritable { path, source } => OutputError::writing(&path, source).into(),
+            other => Self::Journal(other),
+        }
+    }
+}
+
 impl BuildError {
     /// The error of settings that came from a file.
     pub(crate) fn in_file(self, path: &Path) -> Self {
@@ -170,9 +172,8 @@ impl Fault for BuildError {
                 let file = found.file.or(Some(path));
                 Culprit { file, ..found }
             }
-            Self::OtherSettings { path, .. }
-            | Self::NotJournal { path }
-            | Self::NotBlocks { path }
+            Self::Journal(error) => error.culprit(),
+            Self::NotBlocks { path }
             | Self::Mixed { second: path, .. }
             | Self::File { path, .. } => grid.file(path),
             Self::Unwritable(_) | Self::NotFinite { .. } | Self::Content(_) => work,

@@ -4,7 +4,7 @@ use crate::assemble::{Summary, complete};
 use crate::block;
 use crate::error::BuildError;
 use crate::grid::Grid;
-use crate::journal::{Journal, Left, Task, journal_of};
+use crate::journal::{self, journal_of, title};
 use crate::known::Known;
 use crate::progress::Progress;
 use crate::rows::{rows, usable};
@@ -57,12 +57,10 @@ pub fn extend(
     grid.validate()?;
     let work = block::all(&grid);
     let text = grid.to_toml()?;
-    let task = Task::Extension {
-        grid: &text,
-        base: &base,
-    };
-    let left = Left::Of { table: &present };
-    let (journal, found) = Journal::open(&journal_of(&output), task, left)?;
+    // one that became the table which is there may go
+    let drops = |settings: &str| settings == present;
+    let title = title(&text, Some(&base));
+    let (journal, found) = journal::open(&journal_of(&output), &title, drops)?;
     let mut finished = usable(&grid, &work, found, Some(&known))?;
     let resumed_blocks = finished.len();
     for &block in &work {
@@ -77,7 +75,7 @@ pub fn extend(
     journal
         .into_inner()
         .unwrap_or_else(PoisonError::into_inner)
-        .remove()?;
+        .remove();
     Ok(Summary {
         resumed_blocks,
         wall_s: started.elapsed().as_secs_f64(),

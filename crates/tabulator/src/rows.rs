@@ -3,10 +3,11 @@
 use crate::block::{Block, Kind, Row, positions};
 use crate::error::BuildError;
 use crate::grid::Grid;
-use crate::journal::Journal;
+use crate::journal::kept;
 use crate::known::Known;
 use crate::point::PointPlan;
 use crate::progress::Progress;
+use ledger::Journal;
 use rayon::prelude::*;
 use std::collections::HashMap;
 use std::sync::{Mutex, PoisonError};
@@ -39,8 +40,9 @@ pub(crate) fn rows(
             progress.slice(plans.of(block).kernel().medium().poisson_ratio());
             let row = row(plans.of(block), block.kind, r[block.row], z, known)?;
             if let Some(journal) = journal {
+                let kept = kept(block, &row);
                 let mut journal = journal.lock().unwrap_or_else(PoisonError::into_inner);
-                journal.record(block, &row)?;
+                journal.append(&kept)?;
             }
             progress.advance(1);
             Ok((block, row))

@@ -4,46 +4,37 @@ use crate::assemble::{Summary, complete};
 use crate::block::{self, Block, Row};
 use crate::error::BuildError;
 use crate::grid::Grid;
-use crate::journal::{self, Journal, Left, Task};
+use crate::journal::{self, title};
 use crate::progress::Progress;
 use crate::rows::{rows, usable};
+use ledger::Shard;
 use output::{Existing, Output, Role, apart};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::time::Instant;
 
-/// Computes part `index` of `count` (from 1) of the blocks of `grid` into the file `path`, to be joined by [`merge`].
+/// Computes a part of the blocks of `grid` into the file `path`, to be joined by [`merge`].
 ///
 /// Given again, it goes on where it stopped; when all blocks of the part are there it does nothing.
 ///
 /// # Errors
-/// As [`build`](crate::build); [`BuildError::Setting`] when `index` is not in 1 ..= `count`.
+/// As [`build`](crate::build).
 pub fn build_shard(
     grid: &Grid,
-    index: usize,
-    count: usize,
+    shard: Shard,
     path: &Path,
     progress: &dyn Progress,
 ) -> Result<usize, BuildError> {
     grid.validate()?;
-    if index < 1 || index > count {
-        let key = "shard".to_owned();
-        return Err(BuildError::Setting {
-            key,
-            value: index as f64,
-            range: "1 .. the number of shards",
-        });
-    }
     let work: Vec<Block> = block::all(grid)
         .into_iter()
-        .skip(index - 1)
-        .step_by(count)
+        .skip(shard.index - 1)
+        .step_by(shard.count)
         .collect();
     let text = grid.to_toml()?;
     let output = Output::claim(path, Existing::Replace)?;
-    let task = Task::Build { grid: &text };
-    let (journal, finished) = Journal::open(output.real(), task, Left::Kept)?;
+    let (journal, finished) = journal::open(output.real(), &title(&text, None), |_| false)?;
     let finished = usable(grid, &work, finished, None)?;
     let journal = Mutex::new(journal);
     rows(grid, &work, finished, Some(&journal), None, progress)?;

@@ -4,8 +4,10 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
-use tabulator::{Axis, BuildError, Existing, Extension, Grid, OutputError, Progress, Silent};
-use tabulator::{build, build_over, build_shard, check_table, differences, extend, merge};
+use tabulator::{Axis, BuildError, Existing, Extension, Grid, JournalError, OutputError, Progress};
+use tabulator::{
+    Shard, Silent, build, build_over, build_shard, check_table, differences, extend, merge,
+};
 
 /// Two slices of 8 by 8 nodes and three beyond each outer edge.
 fn small() -> Grid {
@@ -98,7 +100,7 @@ fn a_build_takes_nothing_that_an_interrupted_extension_left() {
     std::fs::copy(journal(&path), journal(&fresh)).unwrap();
     assert!(matches!(
         build(&grid, &fresh, &Silent),
-        Err(BuildError::OtherSettings { .. })
+        Err(BuildError::Journal(JournalError::Other { .. }))
     ));
     // Nor does the extension of another table with these settings.
     let mut other = lookup::read(&path).unwrap();
@@ -107,7 +109,7 @@ fn a_build_takes_nothing_that_an_interrupted_extension_left() {
     lookup::write(&path, &other).unwrap();
     assert!(matches!(
         extend(&path, &higher, &Silent),
-        Err(BuildError::OtherSettings { .. })
+        Err(BuildError::Journal(JournalError::Other { .. }))
     ));
     std::fs::write(&path, kept).unwrap();
     let resumed = extend(&path, &higher, &Silent).unwrap();
@@ -192,7 +194,7 @@ fn files_in_the_way_are_kept_unless_replaced() {
     .unwrap();
     assert!(matches!(
         build(&small(), &other, &Silent),
-        Err(BuildError::OtherSettings { .. })
+        Err(BuildError::Journal(JournalError::Other { .. }))
     ));
     build_over(&small(), &other, Existing::Replace, &Silent).unwrap();
     assert!(!journal(&other).exists());
@@ -298,7 +300,16 @@ fn shards_make_the_same_table_and_gaps_are_named() {
         .map(|i| folder.path().join(format!("{i}.shard")))
         .collect();
     for (i, path) in shards.iter().enumerate() {
-        build_shard(&small(), i + 1, 3, path, &Silent).unwrap();
+        build_shard(
+            &small(),
+            Shard {
+                index: i + 1,
+                count: 3,
+            },
+            path,
+            &Silent,
+        )
+        .unwrap();
     }
     let message = merge(&shards[1..], &joined, Existing::Keep, &Silent)
         .unwrap_err()
@@ -317,7 +328,16 @@ fn shards_make_the_same_table_and_gaps_are_named() {
         ..small()
     };
     let stranger = folder.path().join("stranger.shard");
-    build_shard(&other, 1, 30, &stranger, &Silent).unwrap();
+    build_shard(
+        &other,
+        Shard {
+            index: 1,
+            count: 30,
+        },
+        &stranger,
+        &Silent,
+    )
+    .unwrap();
     let mixed = [shards[0].clone(), stranger];
     assert!(matches!(
         merge(&mixed, &joined, Existing::Replace, &Silent),

@@ -11,7 +11,7 @@ use formats::{
     Allowed, check_results, json_report, read_with_inputs, stage_results, stage_results_csv,
 };
 use impact::{Allowance, Forecast, ImpactError, KernelChoice, Scene, TooMuch, simulate_within};
-use output::{CSV, HDF5, Output, Role, Staged};
+use output::{CSV, Existing, HDF5, Output, Role, Staged};
 use serde_json::json;
 use std::cell::Cell;
 use std::path::{Path, PathBuf};
@@ -121,6 +121,10 @@ fn is_complete(arguments: &Arguments, scene: &Scene) -> Result<bool, Failure> {
         return Ok(false);
     };
     HDF5.check(output)?;
+    // also removes what a killed run has left beside them
+    for path in [Some(output), arguments.csv.as_ref()].into_iter().flatten() {
+        Output::claim(path, Existing::Replace)?;
+    }
     let allowed = arguments.kernels.allowed()?;
     let allowed = match &allowed {
         None => Allowed::Direct,

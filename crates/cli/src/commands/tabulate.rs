@@ -7,11 +7,10 @@ use crate::progress::Bar;
 use clap::Args;
 use formats::accuracy_report;
 use lookup::{Accuracy, Origin, Quantiles, schema};
-use output::{Role, SHARD, TABLE, apart};
+use output::{Existing, Output, Role, SHARD, TABLE, apart};
 use serde_json::json;
 use std::path::{Path, PathBuf};
-use std::str::FromStr;
-use tabulator::{BuildError, Extension, Grid, NUMBERS_REVISION, Summary};
+use tabulator::{BuildError, Extension, Grid, JournalError, NUMBERS_REVISION, Shard, Summary};
 use tabulator::{build_over, build_shard, extend, refine};
 
 const EXAMPLES: &str = "Examples:
@@ -88,14 +87,15 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     // a shard ends at once where it has all its blocks
     let is_shard = arguments.shard.is_some();
     if arguments.skip_complete && !is_shard && arguments.output.exists() {
+        // also removes what a killed run has left beside it
+        Output::claim(&arguments.output, Existing::Replace)?;
         check_complete(&arguments.output, &grid)?;
         return say_complete(&arguments.output, arguments.json);
     }
     let existing = arguments.overwrite.existing();
     let progress = Bar::new();
-    if let Some(Shard { index, count }) = arguments.shard {
-        let blocks =
-            build_shard(&grid, index, count, &arguments.output, &progress).map_err(failure)?;
+    if let Some(shard) = arguments.shard {
+        let blocks = build_shard(&grid, shard, &arguments.output, &progress).map_err(failure)?;
         progress.finish();
         return shard_report(arguments, blocks);
     }
@@ -109,13 +109,13 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
 
 /// Fails where a file is not the whole table of a grid, made by this version.
 fn check_complete(path: &Path, grid: &Grid) -> Result<(), Failure> {
-    let content = lookup::read(path).map_err(Failure::work)?;
     let Origin {
+        grid: settings,
         software_version: version,
         numbers_revision: revision,
         ..
-    } = &content.origin;
-    let other = if Grid::of(&content).map_err(Failure::work)? != *grid {
+    } = &lookup::check_whole(path).map_err(Failure::work)?;
+    let other = if Grid::parse(settings).map_err(Failure::work)? != *grid {
         "has another grid".to_owned()
     } else if version != env!("CARGO_PKG_VERSION") {
         format!("was made by version {version}")
@@ -232,29 +232,6 @@ pub(crate) fn errors_in_words(accuracy: &[Accuracy]) -> String {
     text
 }
 
-/// One part of a number of parts, written I/N.
-#[derive(Debug, Clone, Copy)]
-struct Shard {
-    index: usize,
-    count: usize,
-}
-
-impl FromStr for Shard {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let parts = text.split_once('/');
-        parts
-            .and_then(|(index, count)| {
-                Some(Self {
-                    index: index.parse().ok()?,
-                    count: count.parse().ok()?,
-                })
-            })
-            .ok_or_else(|| "give I/N with whole numbers, as in 2/4".to_owned())
-    }
-}
-
 fn shard_report(arguments: &Arguments, blocks: usize) -> Result<(), Failure> {
     let file = arguments.output.display().to_string();
     let text = format!("{file}: {blocks} blocks; join all shards with hertzlamb table merge");
@@ -286,7 +263,7 @@ fn is_file(name: &str) -> bool {
 
 /// A table that was not built.
 pub(crate) fn failure(error: BuildError) -> Failure {
-    let unfinished = matches!(error, BuildError::OtherSettings { .. });
+    let unfinished = matches!(error, BuildError::Journal(JournalError::Other { .. }));
     let failure = Failure::from(error);
     if unfinished {
         failure.hint("; a new table with --force replaces it")

@@ -1,15 +1,15 @@
 //! What makes the results of two scenes the same, and whether a results file is the whole result of a scene.
 
 use super::schema;
-use crate::identity::{Identity, hexadecimal};
 use crate::scene::resolved;
 use crate::stored::{ReadError, StoredImpact};
 use contact::NUMBERS_REVISION;
 use impact::numbers::FIELDS_REVISION;
 use impact::{Load, Scene};
+use ledger::Identity;
 use std::path::Path;
 
-/// SHA-256, in hexadecimal, of the resolved scene with the samples of its force record, of the program's version, of the
+/// Identity of the resolved scene with the samples of its force record, of the program's version, of the
 /// revisions of its numbers and of the format.
 #[must_use]
 pub fn scene_sha256(scene: &Scene) -> String {
@@ -18,17 +18,18 @@ pub fn scene_sha256(scene: &Scene) -> String {
     if let Load::Record(record) = &mut placeless.load {
         record.file = None;
     }
-    let revisions = format!("{NUMBERS_REVISION} {FIELDS_REVISION}");
-    let (version, scene_text) = (env!("CARGO_PKG_VERSION"), resolved(&placeless));
-    let mut hash = Identity::default();
-    for part in [version, &revisions, schema::FORMAT_VERSION, &scene_text] {
-        hash.add(part.as_bytes());
-    }
+    let mut samples = Vec::new();
     if let Load::Record(record) = &scene.load {
-        let samples = record.time_s().iter().chain(record.force_n());
-        samples.for_each(|number| hash.add(&number.to_le_bytes()));
+        let numbers = record.time_s().iter().chain(record.force_n());
+        samples.extend(numbers.flat_map(|number| number.to_le_bytes()));
     }
-    hexadecimal(&hash.finish())
+    Identity::default()
+        .with("software", env!("CARGO_PKG_VERSION"))
+        .with("numbers", format!("{NUMBERS_REVISION} {FIELDS_REVISION}"))
+        .with("format", schema::FORMAT_VERSION)
+        .with("scene", resolved(&placeless))
+        .with("record", samples)
+        .hex()
 }
 
 /// Which kernels the fields of a scene may have.
@@ -55,7 +56,6 @@ pub fn check_results(path: &Path, scene: &Scene, allowed: Allowed<'_>) -> Result
             path.display()
         ));
     }
-    found.check_whole().map_err(told)?;
     let (kernel, table) = found.kernels().map_err(told)?;
     let same = match (kernel.as_str(), allowed) {
         // no fields, no kernels

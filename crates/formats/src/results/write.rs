@@ -11,7 +11,7 @@ use crate::report::{choices, kernel_name, treatment};
 use crate::scene::resolved;
 use hdf5::{Dataset, File};
 use impact::{EnergySeries, KernelsUsed, Outcome, Peaks, ProbeFields, Scene};
-use output::{Existing, Output, OutputError, Staged};
+use output::{Existing, Fault, Output, OutputError, Staged};
 use std::path::Path;
 
 /// Writes the results of a scene.
@@ -31,7 +31,11 @@ pub fn stage_results<'a>(
     scene: &Scene,
     outcome: &Outcome,
 ) -> Result<Staged<'a>, OutputError> {
-    output.stage(|part| write_file(part, scene, outcome).map_err(|error| reason(&error)))
+    output.stage(|part| {
+        let written = write_file(part, scene, outcome);
+        written.map_err(|error| Fault::from(reason(&error)))?;
+        ledger::seal(part).map_err(Fault::from)
+    })
 }
 
 fn write_file(path: &Path, scene: &Scene, outcome: &Outcome) -> Result<(), hdf5::Error> {

@@ -300,7 +300,7 @@ fn no_header<'a>(
 
 /// Reads the datasets `/time` (s) and `/force` (N) without the HDF5 library, which trusts what it reads.
 fn from_hdf5(path: &Path) -> Result<Rows, String> {
-    let root = hdfread::File::open(path).and_then(|file| file.root());
+    let root = ledger::open(path).and_then(|(file, _)| file.root());
     let root = root.map_err(|error| match &error {
         HdfError::Io(source) if source.kind() == ErrorKind::NotFound => {
             "there is no such file".to_owned()

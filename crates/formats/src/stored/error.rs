@@ -71,6 +71,17 @@ impl FileKind {
         Self::Chart,
     ];
 
+    /// Minor version of the format from which on its files have a seal.
+    pub(super) fn sealed_from(self) -> u32 {
+        match self {
+            Self::Impact => 8,
+            Self::Sweep => 6,
+            Self::SweepPart => 2,
+            Self::Table => lookup::schema::SEALED_FROM,
+            Self::Chart => u32::MAX,
+        }
+    }
+
     /// Value of the attribute `file_type`.
     #[must_use]
     pub fn file_type(self) -> &'static str {

@@ -28,32 +28,56 @@ pub(super) fn each(
     visit: &mut dyn FnMut(&Block) -> Result<(), Fault>,
 ) -> Result<(), Fault> {
     let damaged = |what: String| Fault::from(format!("{}: {what}", part.path.display()));
-    let footer = Footer::bytes(&part.path)?;
-    let metadata = ParquetMetaDataReader::decode_metadata(&footer);
-    let metadata = metadata.map_err(|error| damaged(error.to_string()))?;
+    let metadata = metadata(part).map_err(damaged)?;
     let places = places(part, &metadata).map_err(damaged)?;
-    let mut file = File::open(&part.path)?;
     let mut next = part.selection.rows.start;
-    if metadata.num_row_groups() != hashes.len() {
-        return Err(damaged("it has other groups of rows".to_owned()));
-    }
-    for (group, hash) in metadata.row_groups().iter().zip(hashes) {
-        let bytes = Group::read(&mut file, group)?;
-        if format!("{:x}", Sha256::digest(&bytes.bytes)) != *hash {
-            return Err(damaged(format!("the rows from {next} on were changed")));
-        }
+    let read = each_group(part, hashes, &metadata, &mut |group, bytes| {
         let block = block(part, &places, group, &Arc::new(bytes), next);
-        let block = block.map_err(|error| damaged(error.to_string()))?;
+        let block = block.map_err(|error| error.to_string())?;
         next += block.numbers.len();
         if !block.holds() || next > part.selection.rows.end {
-            return Err(damaged(NOT_HELD.to_owned()));
+            return Err(NOT_HELD.to_owned().into());
         }
-        visit(&block)?;
-    }
+        visit(&block)
+    });
+    read.map_err(|fault| damaged(fault.reason))?;
     if next == part.selection.rows.end {
         return Ok(());
     }
     Err(damaged(format!("row {next} is missing")))
+}
+
+/// Compares the rows of a file with the hashes of their groups.
+pub(super) fn check(part: &Part, hashes: &[String]) -> Result<(), Fault> {
+    each_group(part, hashes, &metadata(part)?, &mut |_, _| Ok(()))
+}
+
+fn metadata(part: &Part) -> Result<ParquetMetaData, String> {
+    let footer = Footer::bytes(&part.path).map_err(|error| error.to_string())?;
+    ParquetMetaDataReader::decode_metadata(&footer).map_err(|error| error.to_string())
+}
+
+/// Shows the groups, each compared with its hash.
+fn each_group(
+    part: &Part,
+    hashes: &[String],
+    metadata: &ParquetMetaData,
+    visit: &mut dyn FnMut(&RowGroupMetaData, Group) -> Result<(), Fault>,
+) -> Result<(), Fault> {
+    let mut file = File::open(&part.path)?;
+    if metadata.num_row_groups() != hashes.len() {
+        return Err(Fault::from("it has other groups of rows".to_owned()));
+    }
+    let mut next = part.selection.rows.start;
+    for (group, hash) in metadata.row_groups().iter().zip(hashes) {
+        let bytes = Group::read(&mut file, group)?;
+        if format!("{:x}", Sha256::digest(&bytes.bytes)) != *hash {
+            return Err(Fault::from(format!("the rows from {next} on were changed")));
+        }
+        next += usize::try_from(group.num_rows()).unwrap_or(0);
+        visit(group, bytes)?;
+    }
+    Ok(())
 }
 
 /// Where the columns of a file are, by name.

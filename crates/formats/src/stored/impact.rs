@@ -87,19 +87,6 @@ impl StoredImpact {
         Ok((self.stored.text("kernel")?, self.stored.text("table_id")?))
     }
 
-    /// Fails where the fields were cut short.
-    pub fn check_whole(&self) -> Result<(), ReadError> {
-        let Some(probes) = self.probes()? else {
-            return self.section().map(drop);
-        };
-        for quantity in probes.quantities() {
-            for probe in 0..probes.r_m.len() {
-                probes.trace(&quantity.name, probe)?;
-            }
-        }
-        self.section().map(drop)
-    }
-
     /// A scalar result by its name, where the file has it.
     #[must_use]
     pub fn number(&self, name: &str) -> Option<f64> {

@@ -3,9 +3,10 @@
 use super::error::{FileKind, ReadError};
 use crate::quantities::Described;
 use crate::scene::section::parse;
-use crate::sweep::schema::{PROBED_VERSION, TEXTS, part};
+use crate::sweep::schema::TEXTS;
 use crate::sweep::{Fields, Footer, MAGIC, Precision, stored_columns};
 use hdfread::{Attribute, Dataset, File, Group, HdfError, Kind, Number};
+use ledger::Seal;
 use std::io::Read;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -32,19 +33,48 @@ pub struct StoredQuantity {
 pub(super) struct Stored {
     pub(super) path: PathBuf,
     root: Group,
+    /// What the bytes that are read are compared with; files of older versions have none.
+    seal: Option<Seal>,
 }
 
 impl Stored {
     /// Opens a file of a kind and of a version that is known.
     pub(super) fn open(path: &Path, wanted: FileKind) -> Result<Self, ReadError> {
         check_kind(path, file_kind(path)?, wanted)?;
-        let root = open_hdf5(path)?.root();
+        let (file, seal) = open_hdf5(path)?;
+        let root = file.root();
         let stored = Self {
             path: path.to_owned(),
             root: root.map_err(|error| ReadError::damaged(path, error))?,
+            seal,
         };
-        check_version(&stored.path, &stored.text("format_version")?)?;
+        let version = stored.text("format_version")?;
+        check_version(&stored.path, &version)?;
+        let minor = version
+            .split('.')
+            .nth(1)
+            .and_then(|minor| minor.parse().ok());
+        let sealed = minor.is_none_or(|minor: u32| minor >= wanted.sealed_from());
+        if sealed != stored.is_sealed() {
+            return Err(stored.damaged(
+                "its seal is gone: it was cut short, or something has written to it since it was made",
+            ));
+        }
+        // what is damaged may seem not to be there; parts are long, and have all that they say
+        if wanted != FileKind::SweepPart {
+            stored.check()?;
+        }
         Ok(stored)
+    }
+
+    pub(super) fn is_sealed(&self) -> bool {
+        self.seal.is_some()
+    }
+
+    /// Compares every byte of a file that has a seal.
+    pub(super) fn check(&self) -> Result<(), ReadError> {
+        let checked = self.seal.as_ref().map_or(Ok(()), Seal::check);
+        checked.map_err(|error| self.damaged(error.to_string()))
     }
 
     /// Something that every such file has is missing or wrong.
@@ -194,24 +224,11 @@ impl Stored {
 
     /// The columns of the probes of a sweep, or of a part of one.
     fn probed(&self) -> Result<Vec<Described>, ReadError> {
-        let version = self.text(TEXTS[1])?;
-        if ![PROBED_VERSION, part::PROBED_VERSION].contains(&version.as_str()) {
+        let Ok(sweep) = self.text(TEXTS[3]) else {
             return Ok(Vec::new());
-        }
-        let sweep = parse(&self.text(TEXTS[3])?).and_then(|sweep| stored_columns(&sweep));
-        sweep.map_err(|error| self.damaged(format!("its sweep cannot be read: {error}")))
-    }
-
-    /// Fails where the last number of a dataset of floats cannot be read: the file was cut short.
-    pub(super) fn check_end(&self, path: &str, shape: &[usize]) -> Result<(), ReadError> {
-        let last: Vec<_> = shape.iter().map(|&n| n.saturating_sub(1)..n).collect();
-        let dataset = self.of_shape(path, shape)?;
-        let end = if dataset.kind() == f32::KIND {
-            dataset.block::<f32>(&last, MOST_BYTES).map(drop)
-        } else {
-            dataset.block::<f64>(&last, MOST_BYTES).map(drop)
         };
-        end.map_err(|error| self.unread(path, &error))
+        let sweep = parse(&sweep).and_then(|sweep| stored_columns(&sweep));
+        sweep.map_err(|error| self.damaged(format!("its sweep cannot be read: {error}")))
     }
 
     /// A dataset that has a shape.
@@ -276,14 +293,14 @@ pub fn file_kind(path: &Path) -> Result<FileKind, ReadError> {
     if is_parquet(path) {
         return open_parquet(path).map(|(kind, _)| kind);
     }
-    let root = open_hdf5(path)?.root().ok();
+    let root = open_hdf5(path)?.0.root().ok();
     root.and_then(|root| text_of(root.attribute("file_type")))
         .and_then(|found| FileKind::ALL.into_iter().find(|k| k.file_type() == found))
         .ok_or_else(|| ReadError::is(path, "is an HDF5 file, but none of hertzlamb's"))
 }
 
-/// Opens an HDF5 file, whatever is in it.
-fn open_hdf5(path: &Path) -> Result<File, ReadError> {
+/// Opens an HDF5 file, whatever is in it, with its seal.
+fn open_hdf5(path: &Path) -> Result<(File, Option<Seal>), ReadError> {
     let unreadable = |error| ReadError::unreadable(path, error);
     // looked at before it is opened: a pipe would wait for its other end
     let data = std::fs::metadata(path).map_err(unreadable)?;
@@ -304,7 +321,10 @@ fn open_hdf5(path: &Path) -> Result<File, ReadError> {
             _ => "no HDF5 file",
         }));
     }
-    File::open(path).map_err(|_| not("a damaged HDF5 file"))
+    ledger::open(path).map_err(|error| match error {
+        HdfError::Damaged { what } => ReadError::damaged(path, what),
+        _ => not("a damaged HDF5 file"),
+    })
 }
 
 /// A text attribute, where it is one.

@@ -4,7 +4,9 @@ use super::error::{FileKind, ReadError};
 use super::open::{Stored, is_parquet, parquet_of_kind};
 use super::sweep::StoredSweep;
 use crate::sweep::schema::{FAILED, FAILURE, FAILURES, MODEL, RESULTS, ROWS, SHA256, part};
-use crate::sweep::{BLOCK, Block, Blocks, Fields, Footer, Part, Precision, Selection};
+use crate::sweep::{
+    BLOCK, Block, Blocks, Fields, Footer, Part, Precision, Selection, Spec, Values, keys,
+};
 use output::Fault;
 use std::ops::Range;
 use std::path::Path;
@@ -27,7 +29,7 @@ enum Rows {
 }
 
 impl StoredPart {
-    /// Opens a part and checks that it was not cut short.
+    /// Opens a part; what is read of it later is compared with its seal then.
     ///
     /// # Errors
     /// [`ReadError`], which says what the file is instead.
@@ -44,6 +46,33 @@ impl StoredPart {
             part: rows.part.clone(),
             rows: Rows::Hdf5(rows),
         })
+    }
+
+    /// Compares every byte of a part that has a seal.
+    ///
+    /// # Errors
+    /// [`ReadError::Damaged`].
+    pub fn check(&self) -> Result<(), ReadError> {
+        match &self.rows {
+            Rows::Hdf5(rows) => rows.stored.check(),
+            Rows::Parquet(rows) => check_groups(rows),
+        }
+    }
+
+    /// Compares the keys that vary with those of the sweep that the part is of.
+    pub(crate) fn check_keys(&self, spec: &Spec) -> Result<(), ReadError> {
+        let same = self.sweep()? == spec.resolved;
+        match &self.rows {
+            _ if !same => {
+                let what = "its sweep is not that of the other parts";
+                Err(ReadError::damaged(&self.part.path, what))
+            }
+            Rows::Hdf5(rows) => rows
+                .blocks()
+                .try_for_each(|some| rows.check_keys(spec, some)),
+            // the hash of a group is over its keys too
+            Rows::Parquet(_) => Ok(()),
+        }
     }
 
     /// The same without its results: models and failures alone are read; nothing for a part that is not HDF5.
@@ -82,35 +111,28 @@ impl Blocks for StoredPart {
     }
 }
 
-/// All rows of a sweep in one file, which was not cut short.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct StoredWhole {
-    /// Which sweep; nothing in HDF5 files of versions before 1.4.
-    pub sha256: Option<String>,
-    /// Which results it has.
-    pub fields: Fields,
+/// Which sweep a file has all rows of, nothing in HDF5 files of versions before 1.4, and which results; every byte is
+/// compared with its seal.
+///
+/// # Errors
+/// [`ReadError`], which says what the file is instead.
+pub(crate) fn whole_sweep(path: &Path) -> Result<(Option<String>, Fields), ReadError> {
+    if is_parquet(path) {
+        let found = parquet_of_kind(path, FileKind::Sweep)?;
+        check_groups(&found)?;
+        return Ok((Some(found.part.sha256), found.part.fields));
+    }
+    let found = StoredSweep::open(path)?;
+    Ok((found.sha256(), found.fields()?))
 }
 
-impl StoredWhole {
-    /// Opens it and checks that it was not cut short.
-    ///
-    /// # Errors
-    /// [`ReadError`], which says what the file is instead.
-    pub fn open(path: &Path) -> Result<Self, ReadError> {
-        if is_parquet(path) {
-            let found = parquet_of_kind(path, FileKind::Sweep)?;
-            return Ok(Self {
-                sha256: Some(found.part.sha256),
-                fields: found.part.fields,
-            });
-        }
-        let found = StoredSweep::open(path)?;
-        found.check_whole()?;
-        Ok(Self {
-            sha256: found.sha256(),
-            fields: found.fields()?,
-        })
-    }
+/// Compares the rows of a Parquet file with their hashes, where the program can read them.
+fn check_groups(rows: &Footer) -> Result<(), ReadError> {
+    #[cfg(feature = "parquet")]
+    super::groups::check(&rows.part, &rows.groups)
+        .map_err(|fault| ReadError::damaged(&rows.part.path, fault.reason))?;
+    let _ = rows;
+    Ok(())
 }
 
 /// An open part in HDF5.
@@ -122,7 +144,6 @@ struct Hdf5Part {
 }
 
 impl Hdf5Part {
-    /// Opens a part and checks that none of its columns was cut short.
     fn open(path: &Path) -> Result<Self, ReadError> {
         let stored = Stored::open(path, FileKind::SweepPart)?;
         let count = |name: &str| {
@@ -143,9 +164,6 @@ impl Hdf5Part {
         };
         let rows = start..end;
         let fields = stored.fields(RESULTS, &[rows.len()])?;
-        for (_, quantity) in fields.quantities() {
-            stored.check_end(&format!("{RESULTS}/{}", quantity.name), &[rows.len()])?;
-        }
         let part = Part {
             path: path.to_owned(),
             sha256: stored.text(SHA256)?,
@@ -153,6 +171,7 @@ impl Hdf5Part {
             selection: Selection { rows, shard },
             sweep_rows,
             fields,
+            sealed: stored.is_sealed(),
         };
         Ok(Self {
             reasons: stored.texts(FAILURES.0)?,
@@ -166,6 +185,38 @@ impl Hdf5Part {
         let mut bare = self.clone();
         bare.part.fields.retain(|_| false);
         bare
+    }
+
+    /// Its rows, counted from its first, as many together as are held in memory.
+    fn blocks(&self) -> impl Iterator<Item = Range<usize>> + use<> {
+        let rows = self.part.selection.rows.len();
+        let starts = (0..rows).step_by(BLOCK);
+        starts.map(move |start| start..(start + BLOCK).min(rows))
+    }
+
+    /// Compares the keys of some of its rows with those of the sweep.
+    fn check_keys(&self, spec: &Spec, some: Range<usize>) -> Result<(), ReadError> {
+        let Selection { rows, .. } = &self.part.selection;
+        for (key, wanted) in keys(spec, &(rows.start + some.start..rows.start + some.end)) {
+            let path = format!("{RESULTS}/{key}");
+            let same = match wanted {
+                Values::Texts(wanted) => {
+                    let words = self.stored.texts(&format!("{}/{key}", part::WORDS))?;
+                    let found = self.stored.some::<u32>(&path, rows.len(), some.clone())?;
+                    let mut pairs = found.iter().zip(&wanted);
+                    pairs.all(|(&index, wanted)| words.get(index as usize) == Some(wanted))
+                }
+                wanted => {
+                    let found = self.stored.some::<f64>(&path, rows.len(), some.clone())?;
+                    Values::Numbers(found) == wanted
+                }
+            };
+            if !same {
+                let what = format!("{key} has other values than its sweep says");
+                return Err(self.stored.damaged(what));
+            }
+        }
+        Ok(())
     }
 
     /// Some of its rows, counted from its first.
@@ -208,11 +259,9 @@ impl Hdf5Part {
 
 impl Blocks for Hdf5Part {
     fn each(&self, visit: &mut dyn FnMut(&Block) -> Result<(), Fault>) -> Result<(), Fault> {
-        let rows = self.part.selection.rows.len();
-        for start in (0..rows).step_by(BLOCK) {
-            let block = self.block(start..(start + BLOCK).min(rows));
-            visit(&block.map_err(|error| Fault::from(error.to_string()))?)?;
-        }
-        Ok(())
+        self.blocks().try_for_each(|rows| {
+            let block = self.block(rows);
+            visit(&block.map_err(|error| Fault::from(error.to_string()))?)
+        })
     }
 }

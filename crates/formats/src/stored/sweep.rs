@@ -78,18 +78,6 @@ impl StoredSweep {
         self.stored.text(SHA256).ok()
     }
 
-    /// Fails where the file was cut short.
-    ///
-    /// # Errors
-    /// [`ReadError`] for a file that is not as it was written.
-    pub fn check_whole(&self) -> Result<(), ReadError> {
-        let fields = self.fields()?;
-        fields.quantities().try_for_each(|(_, quantity)| {
-            let path = format!("{RESULTS}/{}", quantity.name);
-            self.stored.check_end(&path, &self.shape())
-        })
-    }
-
     /// Which results it has, and how exactly.
     ///
     /// # Errors

@@ -26,17 +26,16 @@ pub use axes::{Axis, Column, Values};
 pub use draws::Drawn;
 pub(crate) use fields::stored_columns;
 pub use fields::{Fields, Precision};
-pub use journal::{Journal, JournalError};
+pub use journal::{Unfinished, is_computed};
 pub use kernels::{FieldKernels, KernelsError};
+pub use ledger::{JournalError, Shard};
 pub use rows::{
     Block, Blocks, NO_MODEL, PARQUET_VERSION, check_rows, column_names, print_csv, row_bytes,
     stage_csv, stage_rows, write_csv, write_sweep,
 };
-pub(crate) use rows::{Footer, MAGIC, Source, stage_virtual};
-pub(crate) use run::gaps;
+pub(crate) use rows::{Footer, MAGIC, Source, keys, stage_virtual};
 pub use run::{
-    BLOCK_S, Done, FIRST_BLOCK, Kept, Rows, SweepError, compute_rows, is_computed, run_rows,
-    run_sweep,
+    BLOCK_S, Done, FIRST_BLOCK, Kept, Rows, SweepError, compute_rows, run_rows, run_sweep,
 };
-pub use shard::{BLOCK, Part, Selection, Shard};
+pub use shard::{BLOCK, Part, Selection, grain};
 pub use spec::Spec;

@@ -2,7 +2,7 @@
 
 use super::axes::place;
 use super::fields::probed_numbers;
-use super::journal::{Header, Journal, JournalError, Span};
+use super::journal::{self, Span};
 use super::rows::{Block, Blocks, NO_MODEL};
 use super::shard::BLOCK;
 use super::spec::Spec;
@@ -11,13 +11,14 @@ use crate::error::SceneError;
 use crate::quantities::QUANTITIES;
 use contact::{Choice, Collision, Model, Ratios, Tabulated};
 use impact::sweep::{Collided, Observed, collide_rows, observe_rows};
+use ledger::{Journal, JournalError, gaps};
 use output::{Existing, Fault, OutputError};
 use std::ops::Range;
 use std::path::Path;
 use std::time::Instant;
 use thiserror::Error;
 
-/// Rows of the first block of a run; the following ones have as many as take [`BLOCK_S`].
+/// Rows of the first block of a run, without probes; the following ones have as many as take [`BLOCK_S`].
 pub const FIRST_BLOCK: usize = 64;
 
 /// Time in s that the computation of a block is to take: what a kill costs.
@@ -31,7 +32,19 @@ pub enum SweepError {
     Scene(#[from] SceneError),
     /// The journal cannot be used.
     #[error(transparent)]
-    Journal(#[from] JournalError),
+    Journal(JournalError),
+    /// It cannot be written or read back.
+    #[error(transparent)]
+    Output(#[from] OutputError),
+}
+
+impl From<JournalError> for SweepError {
+    fn from(error: JournalError) -> Self {
+        match error {
+            JournalError::Unwritable { path, source } => OutputError::writing(&path, source).into(),
+            other => Self::Journal(other),
+        }
+    }
 }
 
 /// Computed rows of a sweep, kept in their journal.
@@ -54,7 +67,9 @@ impl Kept {
 impl Blocks for Kept {
     fn each(&self, visit: &mut dyn FnMut(&Block) -> Result<(), Fault>) -> Result<(), Fault> {
         for span in &self.spans {
-            visit(&self.journal.block(span)?)?;
+            let block = journal::parsed(&self.journal.read(span.record)?);
+            let changed = || Fault::from("its journal was changed while it was read".to_owned());
+            visit(&block.ok_or_else(changed)?)?;
         }
         Ok(())
     }
@@ -88,21 +103,25 @@ pub fn run_rows(
     mut watch: impl FnMut(usize) -> bool,
 ) -> Result<Option<Kept>, SweepError> {
     let computer = Computer::new(spec)?;
-    let (mut journal, mut spans) = Journal::open(part, &header(spec, &rows), existing)?;
-    let mut done: usize = spans.iter().map(|span| span.count).sum();
+    let drops = existing == Existing::Replace;
+    let (mut journal, mut spans) = journal::open(part, spec, &rows, drops)?;
+    let mut done: usize = spans.iter().map(|span| span.rows.len()).sum();
     let resumed = done;
     if !watch(done) {
         return Ok(None);
     }
-    let mut size = FIRST_BLOCK;
-    let held: Vec<_> = spans.iter().map(|s| s.start..s.start + s.count).collect();
+    let mut size = computer.first_block();
+    let held: Vec<_> = spans.iter().map(|span| span.rows.clone()).collect();
     for gap in gaps(&held, &rows) {
         let mut start = gap.start;
         while start < gap.end {
             let end = (start + size).min(gap.end);
             let block;
             (block, size) = computer.block(start..end, BLOCK_S, |row| row)?;
-            spans.push(journal.append(&block)?);
+            spans.push(Span {
+                rows: start..end,
+                record: journal.append(&journal::kept(&block))?,
+            });
             done += block.numbers.len();
             if !watch(done) && done < rows.len() {
                 return Ok(None);
@@ -110,7 +129,7 @@ pub fn run_rows(
             start = end;
         }
     }
-    spans.sort_by_key(|span| span.start);
+    spans.sort_by_key(|span| span.rows.start);
     Ok(Some(Kept {
         spans,
         resumed,
@@ -137,7 +156,7 @@ pub fn run_sweep(
         blocks.push(block.clone());
         Ok(())
     });
-    read.map_err(|fault| JournalError::from(OutputError::writing(part, fault)))?;
+    read.map_err(|fault| OutputError::writing(part, fault))?;
     Ok(Some(Done {
         blocks,
         resumed: kept.resumed,
@@ -171,6 +190,14 @@ impl<'a> Computer<'a> {
             templates: Templates::new(spec)?,
             responses: Tabulated::new(ratios),
         })
+    }
+
+    /// Rows of a first block: with probes one may take seconds.
+    fn first_block(&self) -> usize {
+        match self.spec.kernels {
+            Some(_) => rayon::current_num_threads(),
+            None => FIRST_BLOCK,
+        }
     }
 
     /// The rows of a range, of those that `row_of` gives a number in the sweep, and how many are to follow for the next
@@ -300,7 +327,7 @@ pub fn compute_rows(
     }
     let computer = Computer::new(spec)?;
     let row_of = |index: usize| start + index * step;
-    let (mut all, mut size) = (Block::default(), FIRST_BLOCK);
+    let (mut all, mut size) = (Block::default(), computer.first_block());
     while all.numbers.len() < count {
         let done = all.numbers.len();
         let end = (done + size).min(count);
@@ -317,41 +344,10 @@ pub fn compute_rows(
     Ok(Some(all))
 }
 
-/// Whether the journal at `part` holds these rows of the sweep, so that a run may have begun to write its outputs.
-#[must_use]
-pub fn is_computed(spec: &Spec, rows: Range<usize>, part: &Path) -> bool {
-    Journal::rows_in(part, &header(spec, &rows)).is_some_and(|found| found == rows.len())
-}
-
-/// The rows of a range that are not held, ascending; those that are held ascend.
-pub(crate) fn gaps(held: &[Range<usize>], rows: &Range<usize>) -> Vec<Range<usize>> {
-    let mut found = Vec::new();
-    let mut place = rows.start;
-    for held in held {
-        let start = held.start.min(rows.end);
-        if place < start {
-            found.push(place..start);
-        }
-        place = place.max(held.end);
-    }
-    if place < rows.end {
-        found.push(place..rows.end);
-    }
-    found
-}
-
 /// Rows of the next block, after one of `count` that took this long: no more than eight times as many.
 fn next_size(count: usize, took_s: f64, wanted_s: f64) -> usize {
     let factor = (wanted_s / took_s.max(1e-6)).min(8.0);
     ((count as f64 * factor) as usize).clamp(1, BLOCK)
-}
-
-fn header(spec: &Spec, rows: &Range<usize>) -> Header {
-    Header {
-        fingerprint: spec.fingerprint,
-        rows: rows.clone(),
-        width: spec.fields.probed(),
-    }
 }
 
 #[cfg(test)]
@@ -370,17 +366,5 @@ mod tests {
         assert_eq!((size, longest <= BLOCK_S), (2000, true));
         assert_eq!(next_size(64, 640.0, BLOCK_S), 1);
         assert_eq!(next_size(BLOCK, 1e-3, BLOCK_S), BLOCK);
-    }
-
-    #[test]
-    fn gaps_lie_between_what_is_held() {
-        assert_eq!(gaps(&[2..5, 5..6], &(0..9)), [0..2, 6..9]);
-        assert_eq!(gaps(&[0..1, 1..2], &(0..3)).first(), Some(&(2..3)));
-        assert!(gaps(std::slice::from_ref(&(0..3)), &(0..3)).is_empty());
-        assert_eq!(gaps(&[], &(4..7)), std::slice::from_ref(&(4..7)));
-        assert!(gaps(&[], &(4..4)).is_empty());
-        // also of fewer rows than are held
-        assert_eq!(gaps(&[0..2, 3..9], &(1..4)).first(), Some(&(2..3)));
-        assert!(gaps(&[0..2, 3..9], &(0..2)).is_empty());
     }
 }

@@ -3,9 +3,7 @@
 /// Value of the attribute `file_type`.
 pub const FILE_TYPE: &str = "hertzlamb sweep";
 /// Version of the format: the first number changes when a reader of the old one would fail.
-pub const FORMAT_VERSION: &str = "1.4";
-/// Version of a sweep with probes.
-pub const PROBED_VERSION: &str = "1.5";
+pub const FORMAT_VERSION: &str = "1.6";
 
 /// Section of the stored sweep that says where its fields have their kernels from.
 pub const FIELDS: &str = "fields";
@@ -57,9 +55,7 @@ pub mod part {
     /// Value of the attribute `file_type`.
     pub const FILE_TYPE: &str = "hertzlamb sweep part";
     /// Version of the format: the first number changes when a reader of the old one would fail.
-    pub const FORMAT_VERSION: &str = "1.0";
-    /// Version of a part with probes.
-    pub const PROBED_VERSION: &str = "1.1";
+    pub const FORMAT_VERSION: &str = "1.2";
 
     /// Text attribute of the root, beside those of a sweep: I/N of the I-th of N shards, nothing for other rows.
     pub const SHARD: &str = "shard";

@@ -8,14 +8,13 @@ use super::kernels::{FieldKernels, Kernels, KernelsError};
 use super::schema::{FIELDS, FORMAT_VERSION, LIST, SAMPLE};
 use super::shard::BLOCK;
 use crate::error::SceneError;
-use crate::identity::{Identity, hexadecimal};
 use crate::scene::keys::FINITE;
 use crate::scene::section::{Section, parse};
 use crate::scene::text::read_text;
 use contact::NUMBERS_REVISION;
 use impact::numbers::FIELDS_REVISION;
+use ledger::Identity;
 use output::Role;
-use sha2::{Digest, Sha256};
 use std::path::{Path, PathBuf};
 use toml::{Table, Value};
 
@@ -32,8 +31,8 @@ pub struct Spec {
     pub(crate) resolved: String,
     /// What was read beside it.
     pub(super) files: Files,
-    /// What makes two sweeps the same: SHA-256 of everything that is asked and was read, and of the program's version and numbers.
-    pub(crate) fingerprint: [u8; 32],
+    /// What makes two sweeps the same: the identity of everything that is asked and was read, and of the program's version and numbers.
+    pub(crate) fingerprint: String,
     /// What of the results is written.
     pub fields: Fields,
     /// Where the fields at probes have their kernels from, where they are asked for.
@@ -96,7 +95,7 @@ impl Spec {
     }
 
     /// The sweep that a file holds, with everything spelled out: its axes and rows, not what computes them.
-    pub(crate) fn of_stored(resolved: &str, fingerprint: [u8; 32]) -> Result<Self, SceneError> {
+    pub(crate) fn of_stored(resolved: &str, fingerprint: String) -> Result<Self, SceneError> {
         let table = parse(resolved)?;
         let axes = axes(&Section::root(&table))?;
         let probed = stored_columns(&table)?;
@@ -178,7 +177,7 @@ impl Spec {
     /// the same have the same rows.
     #[must_use]
     pub fn sha256(&self) -> String {
-        hexadecimal(&self.fingerprint)
+        self.fingerprint.clone()
     }
 
     /// Memory in bytes that a run takes, about: it does not depend on the number of rows.
@@ -221,11 +220,11 @@ impl Spec {
         let mut table = parse(&self.resolved)?;
         table.insert(FIELDS.into(), Value::Table(kernels.identity.clone()));
         self.resolved = table.to_string();
-        let mut hash = Sha256::new();
-        hash.update(self.fingerprint);
-        hash.update(FIELDS_REVISION.to_le_bytes());
-        hash.update(kernels.identity.to_string());
-        self.fingerprint = hash.finalize().into();
+        self.fingerprint = Identity::default()
+            .with("sweep", self.fingerprint)
+            .with("numbers of fields", FIELDS_REVISION.to_le_bytes())
+            .with("kernels", kernels.identity.to_string())
+            .hex();
         self.kernels = Some(kernels);
         Ok(self)
     }
@@ -246,37 +245,34 @@ impl Spec {
     }
 }
 
-/// SHA-256 of the program's version, the revision of its numbers, the format, everything spelled out, the files that were
-/// read, and of axes whose values are not spelled out.
-fn fingerprint(resolved: &str, files: &[String], axes: &[Axis]) -> [u8; 32] {
-    let numbers = NUMBERS_REVISION.to_string();
-    let parts = [
-        env!("CARGO_PKG_VERSION"),
-        &numbers,
-        FORMAT_VERSION,
-        resolved,
-    ];
-    let mut hash = Identity::default();
-    for part in parts.into_iter().chain(files.iter().map(String::as_str)) {
-        hash.add(part.as_bytes());
+/// Of the program's version, the revision of its numbers, the format, everything spelled out, the files that were read, and
+/// axes whose values are not spelled out.
+fn fingerprint(resolved: &str, files: &[String], axes: &[Axis]) -> String {
+    let mut identity = Identity::default()
+        .with("software", env!("CARGO_PKG_VERSION"))
+        .with("numbers", NUMBERS_REVISION.to_le_bytes())
+        .with("format", FORMAT_VERSION)
+        .with("sweep", resolved);
+    for text in files {
+        identity = identity.with("materials", text);
     }
     for column in axes.iter().flat_map(|axis| &axis.columns) {
-        hash.add(column.name().as_bytes());
-        match &column.values {
-            Values::Numbers(numbers) => numbers.iter().for_each(|x| hash.add(&x.to_le_bytes())),
+        let values = match &column.values {
+            Values::Numbers(numbers) => numbers.iter().flat_map(|x| x.to_le_bytes()).collect(),
             // the distribution is spelled out
-            Values::Drawn(_) => {}
-            Values::Texts(words) => words.iter().for_each(|word| hash.add(word.as_bytes())),
-        }
+            Values::Drawn(_) => Vec::new(),
+            Values::Texts(words) => words.join("\n").into_bytes(),
+        };
+        identity = identity.with(&column.name(), values);
     }
-    hash.finish()
+    identity.hex()
 }
 
 /// The axes that the sections of a sweep say.
 fn axes(root: &Section<'_>) -> Result<Vec<Axis>, SceneError> {
     let mut axes = Vec::new();
     if let Some(product) = root.section("product")? {
-        for column in columns(&product)? {
+        for column in columns(&product, Some(MOST_ROWS))? {
             axes.push(Axis {
                 name: column.name(),
                 len: column.values.len(),
@@ -285,7 +281,7 @@ fn axes(root: &Section<'_>) -> Result<Vec<Axis>, SceneError> {
         }
     }
     if let Some(list) = root.section("list")? {
-        axes.push(together(columns(&list)?)?);
+        axes.push(together(columns(&list, None)?)?);
     }
     if let Some(random) = root.section("random")? {
         axes.push(drawn(&random)?);
@@ -313,15 +309,20 @@ fn base(
     Ok((scene, directory, Some(role)))
 }
 
-/// The scene keys below a section of the sweep, with their values.
-fn columns(section: &Section<'_>) -> Result<Vec<Column>, SceneError> {
-    let mut found = Vec::new();
+/// The scene keys below a section of the sweep, with their values, so many rows at most where each varies by itself.
+fn columns(section: &Section<'_>, most: Option<usize>) -> Result<Vec<Column>, SceneError> {
+    let (mut found, mut rows) = (Vec::new(), 1.0);
     for keys in section.subsections(&[])? {
         for key in keys.names() {
+            let values = Values::read(&keys, key)?;
+            rows *= values.len() as f64;
+            if most.is_some_and(|most| rows > most as f64) {
+                return Err(too_many(rows));
+            }
             found.push(Column {
                 section: keys.name().to_owned(),
                 key: key.to_owned(),
-                values: Values::read(&keys, key)?,
+                values,
             });
         }
     }
@@ -334,7 +335,12 @@ fn columns(section: &Section<'_>) -> Result<Vec<Column>, SceneError> {
 
 /// The axis of keys that vary together.
 fn together(columns: Vec<Column>) -> Result<Axis, SceneError> {
-    let len = columns[0].values.len();
+    let Some(len) = columns.first().map(|column| column.values.len()) else {
+        return Err(SceneError::Missing {
+            key: "a key that varies".to_owned(),
+            hint: "give at least one scene key with its values".to_owned(),
+        });
+    };
     if let Some(other) = columns.iter().find(|c| c.values.len() != len) {
         return Err(SceneError::Conflict {
             first: format!("list.{} of {len} values", columns[0].name()),
@@ -401,10 +407,14 @@ fn check(axes: &[Axis]) -> Result<(), SceneError> {
     }
     match rows(axes) {
         Some(rows) if rows <= MOST_ROWS => Ok(()),
-        rows => Err(SceneError::OutOfRange {
-            key: "the number of rows".to_owned(),
-            value: rows.map_or(f64::INFINITY, |n| n as f64),
-            range: "[1, 1e12]",
-        }),
+        rows => Err(too_many(rows.map_or(f64::INFINITY, |rows| rows as f64))),
+    }
+}
+
+fn too_many(rows: f64) -> SceneError {
+    SceneError::OutOfRange {
+        key: "the number of rows".to_owned(),
+        value: rows,
+        range: "[1, 1e12]",
     }
 }

@@ -123,10 +123,10 @@ impl Forecast {
     /// The least that a scene takes, before its force is known.
     #[must_use]
     pub fn least(scene: &Scene) -> Self {
-        Self::of(scene, FEWEST)
+        Self::of(scene, FEWEST, rayon::current_num_threads())
     }
 
-    /// Of a scene whose force and times are known.
+    /// Of a scene whose force and times are known, among so many threads.
     ///
     /// # Errors
     /// [`TooMuch::Work`].
@@ -135,6 +135,7 @@ impl Forecast {
         excitation: &Excitation,
         grid: &Grid,
         source: Option<&KernelSource>,
+        threads: usize,
     ) -> Result<Self, TooMuch> {
         let samples = grid.count() as f64;
         let response = SurfaceResponse::new(excitation.medium(), Deflection::Centre);
@@ -155,13 +156,12 @@ impl Forecast {
             Some(KernelSource::Table(_)) => cost.looked_up_s(),
         };
         Ok(Self {
-            seconds: fields_s / rayon::current_num_threads() as f64 + products * PRODUCT_S,
-            ..Self::of(scene, samples)
+            seconds: fields_s / threads as f64 + products * PRODUCT_S,
+            ..Self::of(scene, samples, threads)
         })
     }
 
-    fn of(scene: &Scene, samples: f64) -> Self {
-        let threads = rayon::current_num_threads() as f64;
+    fn of(scene: &Scene, samples: f64, threads: usize) -> Self {
         let more = scene.quantities.len() as f64;
         let of_probe = samples * (PROBE_SAMPLE + more * QUANTITY_SAMPLE) + POINT;
         let probes = scene.probes.len() as f64 * of_probe;
@@ -176,7 +176,7 @@ impl Forecast {
             section = kept + r * wanted * 2.0 * at_frame;
         }
         let cells = if scene.points() > 0 {
-            threads * CELL
+            threads as f64 * CELL
         } else {
             0.0
         };

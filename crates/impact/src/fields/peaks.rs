@@ -53,7 +53,8 @@ pub(crate) fn at_probes(
     let source = &chosen.source;
     found.looked_up = matches!(source, KernelSource::Table(_));
     let grid = Grid::new(&Wanted::of(scene), excitation, Some(source))?;
-    Forecast::new(scene, excitation, &grid, Some(source))?
+    // on its own thread: whether a row fails depends on the row alone
+    Forecast::new(scene, excitation, &grid, Some(source), 1)?
         .check(scene, MOST_BYTES)
         .map_err(TooMuch::Memory)?;
     let time_s: Vec<f64> = grid.times_s().collect();

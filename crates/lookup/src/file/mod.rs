@@ -7,13 +7,12 @@ mod error;
 pub mod labels;
 mod open;
 mod read;
-mod seal;
 mod source;
 mod table_file;
 mod write;
 
 pub use damage::{DamagedPatch, damaged_patches};
 pub use error::{BadTable, TableError};
-pub use read::{check_hash, read, stated_hash};
+pub use read::{check_hash, check_whole, read, stated_hash};
 pub use table_file::TableFile;
 pub use write::write;

@@ -2,7 +2,6 @@
 
 use super::error::{BadTable, TableError};
 use super::open::open;
-use super::seal::Cover;
 use super::source::{Place, Source};
 use crate::content::{Between, Content, FIELDS, Origin, Role, Slice, Verification};
 use crate::hash::content_hash;
@@ -13,8 +12,8 @@ use std::path::Path;
 impl Table {
     /// Reads the table at `path` into memory and validates it; [`TableFile`](crate::TableFile) reads parts.
     ///
-    /// Every byte that is read is covered by a checksum that is compared: the seal of the file and the sums of its
-    /// chunks, or, in a file of a format before 2.2, the hash of the whole content.
+    /// Every byte that is read is compared with the seal of the file or, in a format before 2.4, all of the content with
+    /// the hash that the file states.
     ///
     /// # Errors
     /// [`TableError`]: the file is absent, not a kernel table, of an unknown version, damaged, or
@@ -42,6 +41,22 @@ pub fn read(path: &Path) -> Result<Content, TableError> {
 /// [`BadTable::Checksum`] when they differ, or the reading errors of [`read`].
 pub fn check_hash(path: &Path, content: &Content) -> Result<(), TableError> {
     open(path)?.same_hash(content)
+}
+
+/// Compares every byte of the table at `path` with its seal or, where it has none, its content with the hash that it states;
+/// gives how it was made.
+///
+/// # Errors
+/// As [`read`], and [`BadTable::Checksum`].
+pub fn check_whole(path: &Path) -> Result<Origin, TableError> {
+    let source = open(path)?;
+    if source.is_sealed() {
+        source.check_seal()?;
+        return Ok(source.head()?.0.origin);
+    }
+    let content = source.everything()?;
+    source.same_hash(&content)?;
+    Ok(content.origin)
 }
 
 /// The SHA-256 that the file at `path` states.
@@ -85,8 +100,9 @@ pub(super) struct Listed {
 }
 
 impl Source {
-    /// All of the table.
+    /// All of the table, and every byte of the file compared with its seal.
     pub(super) fn everything(&self) -> Result<Content, TableError> {
+        self.check_seal()?;
         let (mut content, listed) = self.head()?;
         let whole = Nodes::all(&content);
         for slice in &listed {
@@ -97,9 +113,10 @@ impl Source {
 
     /// Compares the content of a file whose bytes nothing else covers.
     pub(super) fn compare(&self, content: &Content) -> Result<(), TableError> {
-        match self.cover() {
-            Cover::Sealed => Ok(()),
-            Cover::ByContent => self.same_hash(content),
+        if self.is_sealed() {
+            Ok(())
+        } else {
+            self.same_hash(content)
         }
     }
 

@@ -1,9 +1,9 @@
 //! Reading single items of an open file: each is looked at before memory is asked for it.
 
 use super::error::{BadTable, TableError};
-use super::seal::Cover;
 use crate::error::ContentError;
 use hdfread::{Attribute, Dataset, File, Group, HdfError, Number};
+use ledger::Seal;
 use std::cell::Cell;
 use std::path::{Path, PathBuf};
 
@@ -16,7 +16,7 @@ pub(super) struct Source {
     path: PathBuf,
     file: File,
     bytes: u64,
-    cover: Cover,
+    seal: Option<Seal>,
     /// Bytes of numbers loaded so far.
     loaded: Cell<u64>,
 }
@@ -36,12 +36,12 @@ impl Place {
 }
 
 impl Source {
-    pub(super) fn new(path: &Path, file: File, cover: Cover) -> Self {
+    pub(super) fn new(path: &Path, file: File, seal: Option<Seal>) -> Self {
         Self {
             path: path.to_owned(),
             bytes: file.length(),
             file,
-            cover,
+            seal,
             loaded: Cell::new(0),
         }
     }
@@ -50,8 +50,14 @@ impl Source {
         &self.path
     }
 
-    pub(super) fn cover(&self) -> Cover {
-        self.cover
+    pub(super) fn is_sealed(&self) -> bool {
+        self.seal.is_some()
+    }
+
+    /// Compares all bytes, where the file has a seal.
+    pub(super) fn check_seal(&self) -> Result<(), TableError> {
+        let checked = self.seal.as_ref().map_or(Ok(()), Seal::check);
+        checked.map_err(|error| BadTable::Damaged(error.to_string()).of(&self.path))
     }
 
     /// The root.

@@ -4,7 +4,6 @@ use super::blend::Blend;
 use super::error::TableError;
 use super::open::open;
 use super::read::Nodes;
-use super::seal::Cover;
 use crate::content::{Content, Role};
 use crate::error::LookupError;
 use crate::hash::settings_id;
@@ -27,7 +26,7 @@ pub struct TableFile {
 impl TableFile {
     /// The table at `path`; reads what is not a slice.
     ///
-    /// A file of a format before 2.2 is read whole and its content compared with the hash that it states, which takes
+    /// A file of a format before 2.4 is read whole and its content compared with the hash that it states, which takes
     /// seconds: nothing else covers all of its bytes.
     ///
     /// # Errors
@@ -35,7 +34,7 @@ impl TableFile {
     pub fn open(path: &Path) -> Result<Self, TableError> {
         let source = open(path)?;
         let (content, _) = source.head()?;
-        if source.cover() == Cover::ByContent {
+        if !source.is_sealed() {
             source.compare(&source.everything()?)?;
         }
         Ok(Self {

@@ -3,7 +3,6 @@
 use super::datasets::{self, Described};
 use super::error::{BadTable, TableError};
 use super::labels::{attach_scale, new_file, reason, set_scale, text};
-use super::seal;
 use crate::accuracy::Quantiles;
 use crate::content::{Content, FIELDS, Slice, Verification};
 use crate::hash::{content_hash, settings_id};
@@ -11,16 +10,12 @@ use crate::ratio::cell_scale;
 use crate::schema;
 use hdf5::types::FixedAscii;
 use hdf5::{Dataset, File, Group, H5Type};
-use std::ops::Range;
 use std::path::Path;
 
 /// Compression level: higher ones gain a few per cent and cost several times the time.
 const DEFLATE: u8 = 2;
 /// Nodes in r and in z that share a chunk, all their times and fields with them.
 const PATCH: usize = 8;
-/// Half the rank of the trees of chunks, not the library's own 32: the superblock then has version 1, by which a file
-/// says at its start that it has a seal at its end.
-const TREE_RANK: u32 = 16;
 
 /// Writes `content` to `path`, replacing what is there, and seals it.
 ///
@@ -30,17 +25,12 @@ const TREE_RANK: u32 = 16;
 /// [`BadTable::Unwritable`] with what the system or the HDF5 library says.
 pub fn write(path: &Path, content: &Content) -> Result<(), TableError> {
     let failed = |detail: String| BadTable::Unwritable(detail).of(path);
-    let chunks = write_file(path, content).map_err(|error| failed(reason(&error)))?;
-    seal::append(path, chunks).map_err(|error| failed(error.to_string()))
+    write_file(path, content).map_err(|error| failed(reason(&error)))?;
+    ledger::seal(path).map_err(|error| failed(error.to_string()))
 }
 
-/// Writes the file and says where its chunks with a Fletcher-32 sum are.
-///
-/// It is not opened again: a process that was started meanwhile may hold its lock.
-fn write_file(path: &Path, content: &Content) -> Result<Vec<Range<u64>>, hdf5::Error> {
-    let file = new_file()
-        .with_fcpl(|plan| plan.istore_k(TREE_RANK))
-        .create(path)?;
+fn write_file(path: &Path, content: &Content) -> Result<(), hdf5::Error> {
+    let file = new_file().create(path)?;
     write_attributes(&file, content)?;
     let scale = |described: &Described, values: &[f64]| make_scale(&file, described, values);
     let [probe_r, probe_z] = content.probes();
@@ -78,9 +68,7 @@ fn write_file(path: &Path, content: &Content) -> Result<Vec<Range<u64>>, hdf5::E
         write_verification(&group, &place.verification, &scales)?;
     }
     file.flush()?;
-    let chunks = checked_chunks(&file)?;
-    file.close()?;
-    Ok(chunks)
+    file.close()
 }
 
 /// Scales that slices share.
@@ -125,23 +113,6 @@ fn write_slice(
         &[r, z, field, term],
     )?;
     write_verification(group, &slice.verification, &axes.at_probes)
-}
-
-/// Where the chunks with a Fletcher-32 sum are.
-fn checked_chunks(file: &File) -> Result<Vec<Range<u64>>, hdf5::Error> {
-    let mut chunks = Vec::new();
-    for parent in [schema::SLICES, schema::BETWEEN] {
-        for group in file.group(parent)?.groups()? {
-            for data in group.datasets()? {
-                for index in 0..data.num_chunks().unwrap_or(0) {
-                    if let Some(chunk) = data.chunk_info(index) {
-                        chunks.push(chunk.addr..chunk.addr + chunk.size);
-                    }
-                }
-            }
-        }
-    }
-    Ok(chunks)
 }
 
 fn number(place: &Group, name: &str, value: f64) -> Result<(), hdf5::Error> {

@@ -20,7 +20,7 @@ fn what_is_written_is_read() {
     check_hash(&path, &back).unwrap();
     let table = Table::open(&path).unwrap();
     assert_eq!(table.id().len(), 16);
-    assert_eq!(table.format_version(), "2.3");
+    assert_eq!(table.format_version(), "2.4");
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! Files of a format before 2.2: read, compared by their content, refused where something is not as it should be.
+//! Files of a format before 2.4: read, compared by their content, refused where something is not as it should be.
 
 use crate::format::written;
 use crate::stand_in::content;
@@ -106,9 +106,9 @@ fn versions_kinds_and_gaps_are_named() {
         nodes.write_slice(&[9.0], 3..4).unwrap();
     });
     assert!(error.to_string().contains(": r[4] = "), "{error}");
-    // From 2.2 on there is a seal.
+    // From 2.4 on there is a seal.
     let error = refused(&folder, |file| {
-        set_text(file, schema::FORMAT_VERSION, "2.2");
+        set_text(file, schema::FORMAT_VERSION, "2.4");
     });
     assert!(matches!(error.what, BadTable::Damaged(_)), "{error}");
 }

@@ -70,7 +70,7 @@ const ALLOWED_OF_FIRST_MOMENTS: f64 = 5e-3;
 pub fn check_table(path: &Path, sample: usize, seed: u64) -> Result<CheckReport, BuildError> {
     let content = match lookup::read(path) {
         Ok(content) => content,
-        Err(error) if matches!(error.what, BadTable::Item { .. }) => {
+        Err(error) if matches!(error.what, BadTable::Item { .. } | BadTable::Damaged(_)) => {
             let damaged = damaged_patches(path)?;
             if damaged.is_empty() {
                 return Err(error.into());

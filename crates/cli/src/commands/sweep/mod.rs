@@ -5,7 +5,7 @@ mod plan;
 mod tally;
 
 use crate::commands::sweep::tally::Tally;
-use crate::failure::{Failure, lines, say, show};
+use crate::failure::{Failure, check_stdout, lines, say, show};
 use crate::interrupt;
 use crate::kernels::Kernels;
 use crate::memory::MemoryLimit;
@@ -15,10 +15,10 @@ use clap::Args;
 use formats::parts::check_complete;
 use formats::sweep::{
     Blocks, JournalError, Kept, Precision, Selection, Shard, Spec, SweepError, is_computed,
-    print_csv, run_rows, stage_csv, stage_rows,
+    print_csv, row_bytes, run_rows, stage_csv, stage_rows,
 };
 use formats::{Existing, Output, OutputError};
-use output::{CSV, Role, Staged, apart, behind, is_standard};
+use output::{CSV, Role, Staged, apart, behind, free_disk, is_standard};
 use parts::Action;
 use serde_json::{Value, json};
 use std::io::{BufWriter, Write};
@@ -253,7 +253,7 @@ fn spec(arguments: &Run, sweep: &Path) -> Result<Spec, Failure> {
 /// The rows that are asked for; nothing where they are the whole sweep in its own shape.
 fn selection(arguments: &Run, spec: &Spec) -> Result<Option<Selection>, Failure> {
     if let Some(shard) = arguments.shard {
-        return Ok(Some(shard.selection(spec.rows())));
+        return Ok(Some(Selection::of_shard(shard, spec.rows(), &spec.fields)));
     }
     let rows = arguments.rows.clone();
     let rows = rows.map(|rows| Selection::of_rows(rows, spec.rows()));
@@ -290,7 +290,7 @@ fn failure(sweep: &Path, error: SweepError) -> Failure {
         SweepError::Journal(JournalError::Other { .. }) => {
             Failure::from(error).hint("; give --force to drop it, or another output to keep it")
         }
-        journal @ SweepError::Journal(_) => journal.into(),
+        other => other.into(),
     }
 }
 
@@ -321,6 +321,9 @@ impl Outputs {
                 "--csv - and --json both go to standard output: give the rows a file",
             ));
         }
+        if print {
+            check_stdout()?;
+        }
         let csv = arguments.csv.as_deref().filter(|_| !print);
         check_rows(output)?;
         let mut part = behind(output)?.into_os_string();
@@ -342,7 +345,7 @@ impl Outputs {
         let rows = selection
             .as_ref()
             .map_or(0..spec.rows(), |s| s.rows.clone());
-        let finish = wanted == Existing::Keep && is_computed(spec, rows, &part);
+        let finish = wanted == Existing::Keep && is_computed(spec, rows.clone(), &part);
         if arguments.skip_complete && !finish && results.real().exists() {
             check_complete(output, spec, selection.as_ref()).map_err(Failure::work)?;
             return match csv.filter(|csv| !csv.real().exists()) {
@@ -358,6 +361,7 @@ impl Outputs {
         let existing = if finish {
             Existing::KeepUnlessSame
         } else {
+            check_disk(spec, rows.len(), &part)?;
             wanted
         };
         Ok(Some(Self {
@@ -385,6 +389,22 @@ impl Outputs {
         results.commit()?;
         csv.map_or(Ok(()), Staged::commit)?;
         Ok(())
+    }
+}
+
+/// Refuses rows that the disk does not hold, in the file and, while it is written, in the journal.
+fn check_disk(spec: &Spec, rows: usize, part: &Path) -> Result<(), Failure> {
+    let (bytes, kept) = row_bytes(spec);
+    let there = std::fs::metadata(part).map_or(0.0, |journal| journal.len() as f64);
+    let needed = rows as f64 * (bytes + kept) as f64 - there;
+    match free_disk(part) {
+        Some(free) if needed > free => Err(Failure::input(format!(
+            "{rows} rows need about {:.3} GB of disk while they are written, more than the {:.3} GB free beside {}: ask for fewer, or for a shard of them elsewhere",
+            1e-9 * needed,
+            1e-9 * free,
+            part.display()
+        ))),
+        Some(_) | None => Ok(()),
     }
 }
 

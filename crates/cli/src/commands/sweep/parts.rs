@@ -6,7 +6,7 @@ use crate::overwrite::{Overwrite, check_rows};
 use clap::Subcommand;
 use formats::parts::{Parts, PartsError};
 use formats::stored::Part;
-use formats::sweep::Spec;
+use formats::sweep::{Shard, Spec, Unfinished};
 use output::ROWS;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
@@ -23,7 +23,7 @@ pub(crate) enum Action {
         #[command(flatten)]
         kernels: Kernels,
         /// Into how many shards it is divided; as the parts say otherwise.
-        #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+        #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=Shard::MOST as i64))]
         shards: Option<u32>,
         /// Print the missing shards alone, as a Slurm array takes them: 3,17,40-42; an empty line for none.
         #[arg(long, conflicts_with = "json")]
@@ -111,6 +111,7 @@ fn status(parts: &Parts, shards: Option<usize>, list: bool, json: bool) -> Resul
         "foreign": foreign
             .map(|found| json!({ "file": found.path.display().to_string(), "reason": found.reason }))
             .collect::<Value>(),
+        "unfinished": parts.unfinished.iter().map(at_work).collect::<Value>(),
     });
     let count = parts.parts.len();
     let of_rows = format!(
@@ -133,6 +134,17 @@ fn status(parts: &Parts, shards: Option<usize>, list: bool, json: bool) -> Resul
     text.extend(overlap.map(|overlap| ("twice", overlap)));
     let foreign = parts.foreign.iter();
     text.extend(foreign.map(|foreign| ("foreign", foreign.reason.clone())));
+    let unfinished = parts.unfinished.iter();
+    text.extend(unfinished.map(|run| {
+        let (file, rows) = (run.path.display(), run.rows.len());
+        let keeps = format!("{file} keeps {} of {rows} rows", run.kept);
+        ("unfinished", keeps)
+    }));
+    let unsealed = parts.parts.iter().filter(|part| !part.sealed).count();
+    if unsealed > 0 {
+        let of_older = format!("{unsealed} parts of an older version: damage to them is not seen");
+        text.push(("unsealed", of_older));
+    }
     if complete {
         text.push(("complete", "yes".to_owned()));
     }
@@ -146,6 +158,17 @@ fn stored(part: &Part) -> Value {
         "first_row": part.selection.rows.start,
         "rows": part.selection.rows.len(),
         "failed": part.failed,
+        "sealed": part.sealed,
+    })
+}
+
+/// A run that is at work or was interrupted.
+fn at_work(run: &Unfinished) -> Value {
+    json!({
+        "file": run.path.display().to_string(),
+        "first_row": run.rows.start,
+        "rows": run.rows.len(),
+        "kept": run.kept,
     })
 }
 

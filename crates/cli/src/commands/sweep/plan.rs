@@ -1,7 +1,7 @@
 //! `hertzlamb sweep --plan`: what a sweep takes, measured on a few of its rows.
 
 use crate::failure::{Failure, lines, show};
-use formats::sweep::{BLOCK, Rows, Spec, column_names, compute_rows, row_bytes};
+use formats::sweep::{Rows, Spec, column_names, compute_rows, grain, row_bytes};
 use serde_json::json;
 use std::path::Path;
 use std::time::Instant;
@@ -24,14 +24,18 @@ pub(crate) fn run(
     let (measured_rows, rows_per_second) = measure(spec).map_err(|error| error.in_file(sweep))?;
     let rows = spec.rows();
     let seconds = rows as f64 / rows_per_second;
-    let blocks = rows.div_ceil(BLOCK);
+    let grain = grain(&spec.fields);
+    let grains = rows.div_ceil(grain);
     let wished = (seconds / SHARD_S).ceil() as usize;
-    let own = wished.clamp(1, MOST_SHARDS).min(blocks);
+    let own = wished.clamp(1, MOST_SHARDS).min(grains);
     let count = shards.map_or(own, |count| count as usize);
-    let rows_per_shard = (blocks.div_ceil(count) * BLOCK).min(rows);
+    let rows_per_shard = (grains.div_ceil(count) * grain).min(rows);
     let (bytes, kept) = row_bytes(spec);
-    let bytes_per_shard = rows_per_shard * bytes;
-    let disk_bytes_per_shard = rows_per_shard * (bytes + kept);
+    // 32 bytes of its seal for each 8192
+    let sealed = |bytes: usize| bytes + bytes / 256;
+    let all_bytes = sealed(rows * bytes);
+    let bytes_per_shard = sealed(rows_per_shard * bytes);
+    let disk_bytes_per_shard = bytes_per_shard + rows_per_shard * kept;
     let seconds_per_shard = rows_per_shard as f64 / rows_per_second;
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let sha256 = spec.sha256();
@@ -43,7 +47,7 @@ pub(crate) fn run(
         "disk_bytes_per_shard": disk_bytes_per_shard,
         "seconds_per_shard": seconds_per_shard,
         "seconds": seconds,
-        "bytes": rows * bytes,
+        "bytes": all_bytes,
         "rows_per_second": rows_per_second,
         "threads": threads,
         "measured_rows": measured_rows,
@@ -63,10 +67,7 @@ pub(crate) fn run(
         ),
         (
             "in all",
-            format!(
-                "{}, {seconds:.3} s on this machine",
-                gigabytes(rows * bytes)
-            ),
+            format!("{}, {seconds:.3} s on this machine", gigabytes(all_bytes)),
         ),
         (
             "rate",

@@ -73,7 +73,7 @@ impl Block {
     }
 
     /// Results that probes bring to a row.
-    pub(super) fn width(&self) -> usize {
+    pub(crate) fn width(&self) -> usize {
         self.probed.len() / self.numbers.len().max(1)
     }
 

@@ -72,6 +72,24 @@ pub(super) fn columns(spec: &Spec) -> Vec<Column<'_>> {
     found
 }
 
+/// The keys that vary, with their values in some rows.
+pub(crate) fn keys(spec: &Spec, rows: &Range<usize>) -> Vec<(String, Values)> {
+    let keys = columns(spec).into_iter().filter_map(|column| {
+        let What::Key { stride, values } = column.what else {
+            return None;
+        };
+        let places = rows.clone().map(|row| row / stride % values.len());
+        let found = match values {
+            Values::Texts(words) => Values::Texts(places.map(|i| words[i].clone()).collect()),
+            Values::Numbers(_) | Values::Drawn(_) => {
+                Values::Numbers(places.filter_map(|i| values.number(i)).collect())
+            }
+        };
+        Some((column.described.name, found))
+    });
+    keys.collect()
+}
+
 /// Names of the columns of a part.
 #[must_use]
 pub fn column_names(spec: &Spec) -> Vec<String> {

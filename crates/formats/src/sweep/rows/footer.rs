@@ -20,9 +20,7 @@ use std::ops::Range;
 use std::path::Path;
 
 /// Version of the format: the first number changes when a reader of the old one would fail.
-pub const FORMAT_VERSION: &str = "1.0";
-/// Version of a file with probes.
-const PROBED_VERSION: &str = "1.1";
+pub const FORMAT_VERSION: &str = "1.2";
 
 /// How the file begins and ends.
 pub(crate) const MAGIC: &[u8; 4] = b"PAR1";
@@ -99,13 +97,7 @@ impl Footer {
         };
         let columns = text.get("columns")?.as_object()?;
         let sweep = string("sweep")?;
-        let version = string("format_version")?;
-        let probed = if version == PROBED_VERSION {
-            stored_columns(&parse(&sweep).ok()?).ok()?
-        } else {
-            Vec::new()
-        };
-        let mut fields = Fields::all(probed);
+        let mut fields = Fields::all(stored_columns(&parse(&sweep).ok()?).ok()?);
         fields.retain(|name| columns.contains_key(name));
         fields.precision = match count("bits")? {
             64 => Precision::Double,
@@ -115,7 +107,7 @@ impl Footer {
         let groups = text.get("row_groups")?.as_array()?.iter();
         Some(Self {
             file_type: string("file_type")?,
-            version,
+            version: string("format_version")?,
             sweep,
             part: Part {
                 path: path.to_owned(),
@@ -127,6 +119,7 @@ impl Footer {
                 },
                 failed: count(schema::FAILED)?,
                 fields,
+                sealed: true,
             },
             groups: groups
                 .map(|group| Some(group.as_str()?.to_owned()))
@@ -145,15 +138,9 @@ impl Footer {
             shard: None,
         };
         let file_type = selection.map_or(schema::FILE_TYPE, |_| part::FILE_TYPE);
-        let probed = spec.fields.probed() > 0;
-        let version = if probed {
-            PROBED_VERSION
-        } else {
-            FORMAT_VERSION
-        };
         Self {
             file_type: file_type.to_owned(),
-            version: version.to_owned(),
+            version: FORMAT_VERSION.to_owned(),
             sweep: spec.resolved.clone(),
             part: Part {
                 path: std::path::PathBuf::new(),
@@ -162,6 +149,7 @@ impl Footer {
                 selection: selection.cloned().unwrap_or_else(whole),
                 failed: 0,
                 fields: spec.fields.clone(),
+                sealed: true,
             },
             groups: Vec::new(),
             data_bytes: 0,

@@ -29,6 +29,11 @@ use std::path::Path;
 /// Name, unit and meaning.
 type Labels<'a> = (&'a str, &'a str, &'a str);
 
+/// Reasons of failures that a file has at most: drawn numbers may make each its own, and all are in memory together.
+const MOST_REASONS: usize = 100_000;
+/// What stands for all later ones.
+const OTHER_REASON: &str = "a reason unlike the first 100000: compute the row by itself";
+
 /// Which file is written.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Extent<'a> {
@@ -111,7 +116,8 @@ pub(super) fn stage_hdf5<'a>(
             }
         };
         let (failed, reasons) = table.fill(path, &rows, blocks)?;
-        finish(file, failed, &reasons).map_err(told)
+        finish(file, failed, &reasons).map_err(told)?;
+        ledger::seal(path).map_err(Fault::from)
     })
 }
 
@@ -151,12 +157,7 @@ impl Table<'_> {
         sources: Option<&[Source]>,
     ) -> Result<(), hdf5::Error> {
         let spec = self.spec;
-        write_texts(
-            file,
-            spec,
-            schema::FILE_TYPE,
-            [schema::FORMAT_VERSION, schema::PROBED_VERSION],
-        )?;
+        write_texts(file, spec, schema::FILE_TYPE, schema::FORMAT_VERSION)?;
         count(file, schema::ROWS, spec.rows())?;
         write_axes(file, &spec.axes)?;
         let shape: Vec<usize> = spec.axes.iter().map(|axis| axis.len).collect();
@@ -190,12 +191,7 @@ impl Table<'_> {
     /// Everything of a part but the rows.
     fn begin_part(&mut self, file: &hdf5::File, selection: &Selection) -> Result<(), hdf5::Error> {
         let spec = self.spec;
-        write_texts(
-            file,
-            spec,
-            part::FILE_TYPE,
-            [part::FORMAT_VERSION, part::PROBED_VERSION],
-        )?;
+        write_texts(file, spec, part::FILE_TYPE, part::FORMAT_VERSION)?;
         let shard = selection.shard.map(|shard| shard.to_string());
         text(file, part::SHARD, &shard.unwrap_or_default())?;
         count(file, part::SWEEP_ROWS, spec.rows())?;
@@ -266,7 +262,12 @@ impl<'a> Table<'a> {
         let (mut reasons, mut known) = (Vec::new(), HashMap::new());
         let failed = each_of(rows, blocks, &mut |block| {
             for (_, reason) in &block.failures {
-                if !known.contains_key(reason) {
+                if known.contains_key(reason) || reasons.len() > MOST_REASONS {
+                    continue;
+                }
+                if reasons.len() == MOST_REASONS {
+                    reasons.push(OTHER_REASON.to_owned());
+                } else {
                     known.insert(reason.clone(), reasons.len() as i32);
                     reasons.push(reason.clone());
                 }
@@ -304,21 +305,23 @@ impl<'a> Table<'a> {
             Cells::Words(values) => all(values, u32::to_ne_bytes),
             Cells::Models(models) => (models.to_vec(), 1),
             Cells::Reasons(values) => {
-                let index = |reason: Option<&str>| reason.map_or(-1, |reason| reasons[reason]);
+                let of = |reason: &str| reasons.get(reason).copied();
+                let index = |reason: Option<&str>| {
+                    reason.map_or(-1, |reason| of(reason).unwrap_or(MOST_REASONS as i32))
+                };
                 all(values.into_iter().map(index), i32::to_ne_bytes)
             }
         })
     }
 }
 
-/// The texts of the root; a file with probes has the second version.
+/// The texts of the root.
 fn write_texts(
     file: &hdf5::File,
     spec: &Spec,
     file_type: &str,
-    versions: [&str; 2],
+    version: &str,
 ) -> Result<(), hdf5::Error> {
-    let version = versions[usize::from(spec.fields.probed() > 0)];
     let software = env!("CARGO_PKG_VERSION");
     let values = [file_type, version, software, &spec.resolved, &spec.sha256()];
     let mut named = schema::TEXTS.into_iter().zip(values);

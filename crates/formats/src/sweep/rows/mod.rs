@@ -19,6 +19,7 @@ pub use self::hdf5::{row_bytes, write_sweep};
 use self::parquet::stage_parquet;
 pub use block::{Block, Blocks, NO_MODEL};
 pub use columns::column_names;
+pub(crate) use columns::keys;
 pub use csv::{print_csv, stage_csv, write_csv};
 pub use footer::FORMAT_VERSION as PARQUET_VERSION;
 pub(crate) use footer::{Footer, MAGIC};

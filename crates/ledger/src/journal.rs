@@ -1,0 +1,460 @@
+//! Finished work on disk, so that an interrupted run goes on where it stopped.
+//!
+//! A line that names what the journal is of and its identity, a text that says more, and records that are only ever
+//! appended: the length of what is kept, that itself, and a sum of both. A record that was cut short or damaged ends
+//! the journal; what comes after is done anew.
+
+use fault::{Class, Culprit, Fault};
+use std::fs::{File, OpenOptions};
+use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+/// How every journal begins; the number is the version of the format.
+const BEGIN: &str = "hertzlamb journal 1 of a ";
+/// How those of earlier versions begin, which are not gone on with.
+const EARLIER: [&[u8]; 2] = [b"hlsweep", b"hertzlamb kernel blocks "];
+/// Bytes of the first line, and of the text behind it, at most.
+const MOST: u64 = 1 << 20;
+/// Bytes of a record beside what it keeps.
+const FRAME: u64 = 8 + 8;
+/// Time between two flushes: what a loss of power costs at most, beside the work that is not recorded.
+const FLUSH: Duration = Duration::from_secs(5);
+
+/// What a journal is of.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Title {
+    /// What is done, such as `sweep`.
+    pub kind: &'static str,
+    /// [`Identity`](crate::Identity) of what is done.
+    pub identity: String,
+    /// More about it.
+    pub about: String,
+}
+
+impl Title {
+    fn text(&self) -> String {
+        let Self {
+            kind,
+            identity,
+            about,
+        } = self;
+        format!("{BEGIN}{kind}: {identity} {}\n{about}", about.len())
+    }
+}
+
+/// A journal open for appending.
+#[derive(Debug)]
+pub struct Journal {
+    path: PathBuf,
+    file: File,
+    end: u64,
+    flushed: Instant,
+}
+
+/// Where a journal keeps something.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Record {
+    at: u64,
+    bytes: u64,
+}
+
+/// Why a journal cannot be used.
+#[derive(Debug, thiserror::Error)]
+pub enum JournalError {
+    /// It was begun by another run.
+    #[error(
+        "{} holds the beginning of another {kind}, or of this one before its settings, its files or the program changed",
+        path.display()
+    )]
+    Other {
+        /// What is done.
+        kind: &'static str,
+        /// The file.
+        path: PathBuf,
+    },
+    /// It is a file of somebody else, or of another version.
+    #[error("{} is no beginning that this program goes on with, and is kept: give the output another name", path.display())]
+    Strange {
+        /// The file.
+        path: PathBuf,
+    },
+    /// It cannot be read.
+    #[error("cannot read {}: {source}", path.display())]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// The system's reason.
+        source: io::Error,
+    },
+    /// It cannot be written.
+    #[error("cannot write {}: {source}", path.display())]
+    Unwritable {
+        /// The file.
+        path: PathBuf,
+        /// The system's reason.
+        source: io::Error,
+    },
+}
+
+impl Fault for JournalError {
+    fn culprit(&self) -> Culprit<'_> {
+        let (Self::Other { path, .. }
+        | Self::Strange { path }
+        | Self::Unreadable { path, .. }
+        | Self::Unwritable { path, .. }) = self;
+        Culprit::of(Class::Output).file(path)
+    }
+}
+
+impl Journal {
+    /// Opens or begins the journal at `path`, whose output was claimed, and shows what it keeps to `take`, which says
+    /// whether it is whole.
+    ///
+    /// Another one of the same kind is replaced where `drops` says so of it.
+    ///
+    /// # Errors
+    /// [`JournalError`].
+    pub fn open(
+        path: &Path,
+        title: &Title,
+        drops: impl Fn(&Title) -> bool,
+        mut take: impl FnMut(Record, &[u8]) -> bool,
+    ) -> Result<Self, JournalError> {
+        let path = path.to_owned();
+        let there = std::fs::symlink_metadata(&path);
+        if there.as_ref().is_ok_and(|there| !there.is_file()) {
+            return Err(JournalError::Strange { path });
+        }
+        let file = OpenOptions::new()
+            .read(true)
+            .write(true)
+            .create_new(there.is_err())
+            .open(&path)
+            .map_err(|source| JournalError::Unwritable {
+                path: path.clone(),
+                source,
+            })?;
+        let mut journal = Self {
+            path,
+            file,
+            end: 0,
+            flushed: Instant::now(),
+        };
+        let unreadable = |source| JournalError::Unreadable {
+            path: journal.path.clone(),
+            source,
+        };
+        let other = |path| JournalError::Other {
+            kind: title.kind,
+            path,
+        };
+        let earlier = Title {
+            kind: title.kind,
+            identity: String::new(),
+            about: String::new(),
+        };
+        let found = Records::read(journal.file.try_clone().map_err(unreadable)?, title.kind);
+        match found.map_err(unreadable)? {
+            Some(mut records) if records.title == *title => {
+                journal.end = records.at;
+                while let Some((record, kept)) = records.next() {
+                    if !take(record, &kept) {
+                        break;
+                    }
+                    journal.end = records.at;
+                }
+                let cut = journal.file.set_len(journal.end);
+                cut.and_then(|()| journal.file.seek(SeekFrom::End(0)))
+                    .map_err(unreadable)?;
+                return Ok(journal);
+            }
+            Some(records) if !drops(&records.title) => {
+                return Err(other(journal.path));
+            }
+            Some(_) => {}
+            None => match without_title(&journal.file, title).map_err(unreadable)? {
+                Some(false) => {}
+                Some(true) if drops(&earlier) => {}
+                Some(true) => return Err(other(journal.path)),
+                None => return Err(JournalError::Strange { path: journal.path }),
+            },
+        }
+        let emptied = journal.file.set_len(0);
+        emptied
+            .and_then(|()| journal.file.rewind())
+            .map_err(unreadable)?;
+        journal.write(title.text().as_bytes())?;
+        Ok(journal)
+    }
+
+    /// Appends something finished.
+    ///
+    /// # Errors
+    /// [`JournalError::Unwritable`].
+    pub fn append(&mut self, kept: &[u8]) -> Result<Record, JournalError> {
+        let bytes = kept.len() as u64;
+        let record = Record {
+            at: self.end,
+            bytes,
+        };
+        self.write(&bytes.to_le_bytes())?;
+        self.write(kept)?;
+        self.write(&sum(kept))?;
+        if self.flushed.elapsed() > FLUSH {
+            self.flushed = Instant::now();
+            let flushed = self.file.sync_data();
+            flushed.map_err(|source| self.unwritable(source))?;
+        }
+        Ok(record)
+    }
+
+    /// What it keeps at a place.
+    ///
+    /// # Errors
+    /// What the system says, or that it was changed.
+    pub fn read(&self, record: Record) -> io::Result<Vec<u8>> {
+        let mut file = &self.file;
+        file.seek(SeekFrom::Start(record.at))?;
+        let left = record.bytes.saturating_add(FRAME);
+        next(&mut file, left)?.ok_or_else(|| {
+            let path = self.path.display();
+            io::Error::other(format!("{path} was changed while it was read"))
+        })
+    }
+
+    /// Removes the file: what it keeps is written elsewhere.
+    pub fn remove(self) {
+        let _ = std::fs::remove_file(&self.path);
+    }
+
+    fn write(&mut self, bytes: &[u8]) -> Result<(), JournalError> {
+        let written = self.file.write_all(bytes);
+        written.map_err(|source| self.unwritable(source))?;
+        self.end += bytes.len() as u64;
+        Ok(())
+    }
+
+    fn unwritable(&self, source: io::Error) -> JournalError {
+        JournalError::Unwritable {
+            path: self.path.clone(),
+            source,
+        }
+    }
+}
+
+/// What a journal keeps, one record after the other.
+#[derive(Debug)]
+pub struct Records {
+    /// What it is of.
+    pub title: Title,
+    reader: BufReader<File>,
+    /// Where the next record begins.
+    at: u64,
+    length: u64,
+}
+
+impl Records {
+    /// Opens a journal of a kind without changing it; nothing where the file is none.
+    ///
+    /// # Errors
+    /// [`JournalError::Unreadable`].
+    pub fn open(path: &Path, kind: &'static str) -> Result<Option<Self>, JournalError> {
+        let open = || {
+            // looked at before it is opened: a pipe would wait for its other end
+            if !std::fs::metadata(path)?.is_file() {
+                return Err(io::Error::other("it is not a file"));
+            }
+            Self::read(File::open(path)?, kind)
+        };
+        open().map_err(|source| JournalError::Unreadable {
+            path: path.to_owned(),
+            source,
+        })
+    }
+
+    fn read(mut file: File, kind: &'static str) -> io::Result<Option<Self>> {
+        let length = file.metadata()?.len();
+        file.rewind()?;
+        let mut reader = BufReader::new(file);
+        let (mut line, mut about) = (Vec::new(), Vec::new());
+        reader.by_ref().take(MOST).read_until(b'\n', &mut line)?;
+        let parsed = || {
+            let line = std::str::from_utf8(&line).ok()?.strip_suffix('\n')?;
+            let named = line.strip_prefix(BEGIN)?.strip_prefix(kind)?;
+            let (identity, bytes) = named.strip_prefix(": ")?.split_once(' ')?;
+            Some((identity.to_owned(), bytes.parse::<u64>().ok()?))
+        };
+        let Some((identity, bytes)) = parsed().filter(|(_, bytes)| *bytes <= MOST) else {
+            return Ok(None);
+        };
+        reader.by_ref().take(bytes).read_to_end(&mut about)?;
+        let at = line.len() as u64 + bytes;
+        Ok(match String::from_utf8(about) {
+            Ok(about) if about.len() as u64 == bytes => Some(Self {
+                title: Title {
+                    kind,
+                    identity,
+                    about,
+                },
+                reader,
+                at,
+                length,
+            }),
+            Ok(_) | Err(_) => None,
+        })
+    }
+}
+
+impl Iterator for Records {
+    type Item = (Record, Vec<u8>);
+
+    /// Nothing at the end and after damage.
+    fn next(&mut self) -> Option<Self::Item> {
+        let kept = next(&mut self.reader, self.length - self.at).ok()??;
+        let (at, bytes) = (self.at, kept.len() as u64);
+        self.at += bytes + FRAME;
+        Some((Record { at, bytes }, kept))
+    }
+}
+
+/// What the next record keeps; `left` is what the file still has: no more memory is taken.
+fn next(reader: &mut impl Read, left: u64) -> io::Result<Option<Vec<u8>>> {
+    let (mut length, mut stated) = ([0; 8], [0; 8]);
+    if left < FRAME {
+        return Ok(None);
+    }
+    reader.read_exact(&mut length)?;
+    let bytes = u64::from_le_bytes(length);
+    if bytes > left - FRAME {
+        return Ok(None);
+    }
+    let mut kept = vec![0; bytes as usize];
+    reader.read_exact(&mut kept)?;
+    reader.read_exact(&mut stated)?;
+    Ok((sum(&kept) == stated).then_some(kept))
+}
+
+/// Fowler, Noll and Vo's hash over words of eight bytes and the length: rows are read back several times, a million and more
+/// a second.
+fn sum(kept: &[u8]) -> [u8; 8] {
+    let (words, rest) = kept.as_chunks::<8>();
+    let mut last = [0; 8];
+    last[..rest.len()].copy_from_slice(rest);
+    let words = words.iter().copied().map(u64::from_le_bytes);
+    let all = words.chain([u64::from_le_bytes(last), kept.len() as u64]);
+    let hash = all.fold(0xcbf2_9ce4_8422_2325_u64, |hash, word| {
+        let mixed = (hash ^ word).wrapping_mul(0x0100_0000_01b3);
+        mixed ^ (mixed >> 29)
+    });
+    hash.to_le_bytes()
+}
+
+/// Whether a file without a title that can be read has nothing in it, or is the journal of an earlier version; nothing for
+/// somebody else's.
+fn without_title(file: &File, title: &Title) -> io::Result<Option<bool>> {
+    let (mut file, mut found) = (file, Vec::new());
+    file.rewind()?;
+    file.take(MOST).read_to_end(&mut found)?;
+    let begin = format!("{BEGIN}{}: ", title.kind);
+    let compared = found.len().min(begin.len());
+    // new, or cut short in its title
+    let cut_short = found[..compared] == begin.as_bytes()[..compared]
+        && (!found.contains(&b'\n') || title.text().as_bytes().starts_with(&found));
+    let earlier = EARLIER.iter().any(|begin| found.starts_with(begin));
+    Ok((cut_short || earlier).then_some(earlier))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn title(identity: &str) -> Title {
+        Title {
+            kind: "test",
+            identity: identity.to_owned(),
+            about: "two\nlines".to_owned(),
+        }
+    }
+
+    fn open(path: &Path, identity: &str) -> Result<(Journal, Vec<Vec<u8>>), JournalError> {
+        let mut found = Vec::new();
+        let journal = Journal::open(
+            path,
+            &title(identity),
+            |_| false,
+            |_, kept| {
+                found.push(kept.to_vec());
+                true
+            },
+        )?;
+        Ok((journal, found))
+    }
+
+    /// Two records, and where the second begins.
+    fn two(path: &Path) -> usize {
+        let (mut journal, none) = open(path, "mine").unwrap();
+        assert!(none.is_empty());
+        journal.append(b"first").unwrap();
+        let second = journal.append(b"second").unwrap();
+        assert_eq!(journal.read(second).unwrap(), b"second");
+        second.at as usize
+    }
+
+    #[test]
+    fn whatever_is_lost_or_changed_the_records_before_it_are_there() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("journal");
+        let begin = two(&path);
+        let good = std::fs::read(&path).unwrap();
+        for length in 0..=good.len() {
+            std::fs::write(&path, &good[..length]).unwrap();
+            let (mut journal, found) = open(&path, "mine").unwrap();
+            let first = title("mine").text().len() + 5 + FRAME as usize;
+            let whole = usize::from(length >= first) + usize::from(length >= good.len());
+            assert_eq!(found.len(), whole, "{length} bytes");
+            journal.append(b"more").unwrap();
+            assert_eq!(open(&path, "mine").unwrap().1.len(), whole + 1);
+        }
+        for place in begin..good.len() {
+            let mut bad = good.clone();
+            bad[place] ^= 1;
+            std::fs::write(&path, &bad).unwrap();
+            assert_eq!(open(&path, "mine").unwrap().1, [b"first"], "byte {place}");
+        }
+    }
+
+    #[test]
+    fn what_is_not_of_this_run_is_kept() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("journal");
+        two(&path);
+        let good = std::fs::read(&path).unwrap();
+        assert!(matches!(
+            open(&path, "other"),
+            Err(JournalError::Other { .. })
+        ));
+        assert_eq!(std::fs::read(&path).unwrap(), good);
+        for strange in [
+            "mine",
+            "hertzlamb journal 1 of a cake: x 3\nabc",
+            "hertzlamb\n",
+        ] {
+            std::fs::write(&path, strange).unwrap();
+            assert!(matches!(
+                open(&path, "mine"),
+                Err(JournalError::Strange { .. })
+            ));
+            assert_eq!(std::fs::read_to_string(&path).unwrap(), strange);
+        }
+        std::fs::write(&path, &good).unwrap();
+        let dropped = Journal::open(
+            &path,
+            &title("other"),
+            |of| of.identity == "mine",
+            |_, _| true,
+        );
+        dropped.unwrap().append(b"third").unwrap();
+        assert_eq!(open(&path, "other").unwrap().1, [b"third"]);
+    }
+}
