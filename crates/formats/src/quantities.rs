@@ -22,6 +22,8 @@ pub struct Quantity {
     pub meaning: &'static str,
     /// Whether it is a count.
     pub kind: Kind,
+    /// Whether only contacts that yield have it.
+    pub is_of_flow: bool,
     /// Of a contact; NaN where a strength that it needs is not known.
     pub of_contact: fn(&Results) -> f64,
     /// Of a record, which has no striker.
@@ -71,10 +73,13 @@ macro_rules! quantities {
             unit: $unit,
             meaning: $meaning,
             kind: Kind::$kind,
+            is_of_flow: quantities!(@flow $($contact)+),
             of_contact: |r| r.$($contact).+.number(),
             of_record: quantities!(@record $($record)?),
         },)*]
     };
+    (@flow plastic $field:ident) => { true };
+    (@flow $($other:ident)+) => { false };
     (@record) => { None };
     (@record $field:ident) => { Some(|r| r.$field) };
 }

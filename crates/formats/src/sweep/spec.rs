@@ -8,10 +8,11 @@ use super::kernels::{FieldKernels, Kernels, KernelsError};
 use super::schema::{FIELDS, FORMAT_VERSION, LIST, SAMPLE};
 use super::shard::BLOCK;
 use crate::error::SceneError;
+use crate::quantities::{Described, QUANTITIES};
 use crate::scene::keys::FINITE;
 use crate::scene::section::{Section, parse};
 use crate::scene::text::read_text;
-use contact::NUMBERS_REVISION;
+use contact::{Choice, NUMBERS_REVISION, Plasticity};
 use impact::numbers::FIELDS_REVISION;
 use ledger::Identity;
 use output::Role;
@@ -82,6 +83,7 @@ impl Spec {
         let mut resolved = table.clone();
         resolved.insert("scene".into(), Value::Table(scene.clone()));
         let resolved = resolved.to_string();
+        let fields = own_fields(&scene, &axes, Vec::new());
         Ok(Self {
             fingerprint: fingerprint(&resolved, &files.texts, &[]),
             scene,
@@ -89,7 +91,7 @@ impl Spec {
             axes,
             resolved,
             files,
-            fields: Fields::default(),
+            fields,
             kernels: None,
         })
     }
@@ -126,6 +128,7 @@ impl Spec {
         check(&axes)?;
         let files = Files::read(scene, &axes, directory)?;
         let resolved = scene.to_string();
+        let fields = own_fields(scene, &axes, Vec::new());
         Ok(Self {
             fingerprint: fingerprint(&resolved, &files.texts, &axes),
             resolved,
@@ -133,7 +136,7 @@ impl Spec {
             directory: directory.to_owned(),
             axes,
             files,
-            fields: Fields::default(),
+            fields,
             kernels: None,
         })
     }
@@ -216,7 +219,7 @@ impl Spec {
     /// [`KernelsError`].
     pub fn with_fields(mut self, asked: FieldKernels<'_>) -> Result<Self, KernelsError> {
         let kernels = Kernels::new(asked, self.has_many_ratios())?;
-        self.fields = Fields::all(columns_of_probes(&self.scene)?);
+        self.fields = own_fields(&self.scene, &self.axes, columns_of_probes(&self.scene)?);
         let mut table = parse(&self.resolved)?;
         table.insert(FIELDS.into(), Value::Table(kernels.identity.clone()));
         self.resolved = table.to_string();
@@ -243,6 +246,20 @@ impl Spec {
         let mut axes = self.axes.iter();
         axes.any(|axis| axis.len > FEW && axis.columns.iter().any(of_ratio))
     }
+}
+
+/// What is written unless columns are chosen: what flow brings only where a law of flow is asked for.
+fn own_fields(scene: &Table, axes: &[Axis], probed: Vec<Described>) -> Fields {
+    const KEY: &str = "plasticity";
+    let contact = scene.get("contact");
+    let law = contact.and_then(|contact| contact.get(KEY)?.as_str());
+    let mut columns = axes.iter().flat_map(|axis| &axis.columns);
+    let yields = law.is_some_and(|law| law != Plasticity::None.name())
+        || columns.any(|column| column.section == "contact" && column.key == KEY);
+    let mut fields = Fields::all(probed);
+    let elastic = |name: &str| !QUANTITIES.iter().any(|q| q.is_of_flow && q.name == name);
+    fields.retain(|name| yields || elastic(name));
+    fields
 }
 
 /// Of the program's version, the revision of its numbers, the format, everything spelled out, the files that were read, and
