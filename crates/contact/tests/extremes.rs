@@ -49,7 +49,8 @@ fn an_approach_as_fast_as_rayleighs_wave_is_refused_by_every_model() {
             };
             let text = solve(&fast, model).unwrap_err().to_string();
             assert!(
-                text.contains(&format!("velocity_m_s = {velocity_m_s:e}")) && text.contains("e3)"),
+                text.contains(&format!("velocity_m_s = {velocity_m_s:.4e}"))
+                    && text.contains("e3 m/s"),
                 "{model:?}: {text}"
             );
         }

@@ -30,17 +30,23 @@ fn probes_and_sections_outside_the_block_are_refused() {
         (
             "thickness_m = 0.019",
             PROBES,
-            ["probe[1].z_m = 0.02", "[0, target.thickness_m]"],
+            [
+                "probe[1].z_m = 0.02 is outside [0, 0.019]",
+                "target.thickness_m",
+            ],
         ),
         (
             "radius_m = 0.02",
             PROBES,
-            ["probe[2].r_m = 0.03", "[0, target.radius_m]"],
+            [
+                "probe[2].r_m = 0.03 is outside [0, 0.02]",
+                "target.radius_m",
+            ],
         ),
         (
             "radius_m = 0.02",
             "[map]\nr_max_m = 0.03\nz_max_m = 0.01\npoints = [3, 3]\nframes = 2\n",
-            ["map.r_max_m = 0.03", "[0, target.radius_m]"],
+            ["map.r_max_m = 0.03 is outside [0, 0.02]", "target.radius_m"],
         ),
         (
             "thickness_m = -1.0",

@@ -71,6 +71,8 @@ fn described_datasets(file: &hdf5::File) -> BTreeSet<String> {
 /// What a striker has and a record has not, and the other way round.
 const OF_A_STRIKER: [&str; 3] = ["/displacement", "/velocity", "/energy/kinetic"];
 const OF_A_RECORD: [&str; 1] = ["/energy/work"];
+/// What a striker has that makes the contact yield.
+const OF_FLOW: &str = "/energy/plastic";
 
 #[test]
 fn every_dataset_is_described_and_every_description_is_written() {
@@ -102,7 +104,13 @@ fn every_dataset_is_described_and_every_description_is_written() {
         formats::stored::StoredImpact::open(&other).unwrap().series,
         outcome.series
     );
-    let written: BTreeSet<String> = striker.union(&record).cloned().collect();
+    let scene = parse_scene(include_str!("../../../scenes/plastic.toml"), &scenes).unwrap();
+    let outcome = simulate(&scene, &KernelChoice::Direct).unwrap();
+    write_results(&other, &scene, &outcome, Existing::Replace).unwrap();
+    let yielding = described_datasets(&hdf5::File::open(&other).unwrap());
+    assert!(yielding.contains(OF_FLOW) && !striker.contains(OF_FLOW));
+    let mut written: BTreeSet<String> = striker.union(&record).cloned().collect();
+    written.extend(yielding);
     assert_eq!(written, listed("## Datasets", "## Attributes"));
     let attributes: BTreeSet<String> = file.attr_names().unwrap().into_iter().collect();
     assert_eq!(attributes, listed("## Attributes", ""));

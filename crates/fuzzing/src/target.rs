@@ -267,7 +267,7 @@ fn impact(text: &str, folder: &Path) -> bool {
         let value = &report[quantity.name];
         let right = match value {
             Value::Number(number) => number.as_f64().is_some_and(f64::is_finite),
-            Value::Null if struck => OF_STRENGTHS.contains(&quantity.name),
+            Value::Null if struck => quantity.is_of_flow || OF_STRENGTHS.contains(&quantity.name),
             Value::Null => quantity.of_record.is_none(),
             _ => false,
         };

@@ -51,7 +51,7 @@ impl StoredPart {
     /// Compares every byte of a part that has a seal.
     ///
     /// # Errors
-    /// [`ReadError::Damaged`].
+    /// [`ReadError`].
     pub fn check(&self) -> Result<(), ReadError> {
         match &self.rows {
             Rows::Hdf5(rows) => rows.stored.check(),
