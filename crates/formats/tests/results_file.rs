@@ -104,15 +104,17 @@ fn every_dataset_is_described_and_every_description_is_written() {
         formats::stored::StoredImpact::open(&other).unwrap().series,
         outcome.series
     );
-    let scene = parse_scene(include_str!("../../../scenes/plastic.toml"), &scenes).unwrap();
+    let scene = parse_scene(include_str!("../../../scenes/plastic-drop.toml"), &scenes).unwrap();
     let outcome = simulate(&scene, &KernelChoice::Direct).unwrap();
     write_results(&other, &scene, &outcome, Existing::Replace).unwrap();
-    let yielding = described_datasets(&hdf5::File::open(&other).unwrap());
+    let dented = hdf5::File::open(&other).unwrap();
+    let yielding = described_datasets(&dented);
     assert!(yielding.contains(OF_FLOW) && !striker.contains(OF_FLOW));
     let mut written: BTreeSet<String> = striker.union(&record).cloned().collect();
     written.extend(yielding);
     assert_eq!(written, listed("## Datasets", "## Attributes"));
-    let attributes: BTreeSet<String> = file.attr_names().unwrap().into_iter().collect();
+    let names = [&file, &dented].map(|file| file.attr_names().unwrap());
+    let attributes: BTreeSet<String> = names.into_iter().flatten().collect();
     assert_eq!(attributes, listed("## Attributes", ""));
     for quantity in &QUANTITIES {
         let row = format!("| `{}` |", quantity.name);

@@ -24,6 +24,16 @@ SECTION = {
     "map": {"r_max_m": 0.016, "z_max_m": 0.016, "points": [9, 7], "frames": 5},
     "output": {"quantities": ["velocity_z", "von_mises"], "peaks": True},
 }
+# What sweeps have where a law of flow is asked for.
+OF_FLOW = [
+    "yield_pressure_pa",
+    "yield_velocity_m_s",
+    "velocity_over_yield",
+    "plastic_work_j",
+    "peak_indentation_m",
+    "residual_indentation_m",
+    "dent_radius_m",
+]
 FEW = """
 [scene.target]
 material = "granite"
@@ -178,7 +188,10 @@ def test_a_sweep_and_any_part_of_it_give_what_the_command_gives(tmp_path):
     assert whole.is_whole and len(whole.rows) == 240
     with h5py.File(tmp_path / "sweep.h5") as file:
         for name in [*hl.Impact.__annotations__]:
-            assert same(whole[name].reshape(2, 40, 3), file["results"][name][()].astype(float)), name
+            if name in file["results"]:
+                assert same(whole[name].reshape(2, 40, 3), file["results"][name][()].astype(float)), name
+            else:
+                assert name in OF_FLOW and np.all(np.isnan(whole[name])), name
         assert same(whole.to_xarray()["striker.velocity_m_s"].values, file["axes/striker.velocity_m_s"][()])
     part = hl.sweep(FEW, rows=slice(7, 200, 5), threads=1)
     assert len(part.rows) == 39
@@ -211,7 +224,7 @@ def test_collide_gives_what_impact_gives_for_any_key():
             striker = {**scene["striker"], "mass_kg": mass, "velocity_m_s": velocity[j]}
             one = hl.impact({"target": {"material": "granite", "poisson_ratio": 0.21}, "striker": striker})
             for name, value in one.numbers.items():
-                assert out[name][i, j] == value, name
+                assert out[name][i, j] == value or value is None and np.isnan(out[name][i, j]), name
             assert out.model[i, j] == one.model
     words = hl.collide(scene, velocity_m_s=1.0, mass_kg=1e-5, striker__material=["copper", "steel"])
     assert words.shape == (2,) and words.restitution[0] != words.restitution[1]
