@@ -151,7 +151,7 @@ impl Impact {
         })
     }
 
-    /// What the laws of flow would make of a contact that is taken as elastic beyond its yield.
+    /// What Thornton's law would make of a contact that is taken as elastic beyond its yield.
     fn would_yield(
         &self,
         solver: &mut Solver<'_, Exact>,
@@ -162,22 +162,17 @@ impl Impact {
         if self.settings.plasticity != Plasticity::None || !yields {
             return None;
         }
-        let laws = [Plasticity::Thornton, Plasticity::JacksonGreen].map(|plasticity| {
-            let settings = Settings {
-                plasticity,
-                ..Settings::default()
-            };
-            let restitution = solver.solve(collision, &settings).ok()?.summary.restitution;
-            Some(format!("{restitution:.3} with \"{}\"", plasticity.name()))
-        });
-        let laws: Vec<String> = laws.into_iter().flatten().collect();
-        (!laws.is_empty()).then(|| {
-            format!(
-                "the contact yields, and plasticity = \"none\" leaves that out: the restitution is {:.3} so, {}",
-                results.restitution,
-                laws.join(", ")
-            )
-        })
+        let plasticity = Plasticity::Thornton;
+        let settings = Settings {
+            plasticity,
+            ..Settings::default()
+        };
+        let restitution = solver.solve(collision, &settings).ok()?.summary.restitution;
+        Some(format!(
+            "the contact yields, and plasticity = \"none\" leaves that out: the restitution is {:.3} so, {restitution:.3} with \"{}\"",
+            results.restitution,
+            plasticity.name()
+        ))
     }
 
     /// What the full static share of a fixed disc costs against a contact that follows the load, where it is more than
