@@ -209,18 +209,20 @@ impl Journal {
         Ok(record)
     }
 
-    /// What it keeps at a place.
+    /// What it keeps at a place, in the room of what was read before.
     ///
     /// # Errors
     /// What the system says, or that it was changed.
-    pub fn read(&self, record: Record) -> io::Result<Vec<u8>> {
+    pub fn read(&self, record: Record, kept: &mut Vec<u8>) -> io::Result<()> {
         let mut file = &self.file;
         file.seek(SeekFrom::Start(record.at))?;
         let left = record.bytes.saturating_add(FRAME);
-        next(&mut file, left)?.ok_or_else(|| {
-            let path = self.path.display();
-            io::Error::other(format!("{path} was changed while it was read"))
-        })
+        if next(&mut file, left, kept)? {
+            return Ok(());
+        }
+        let path = self.path.display();
+        let changed = format!("{path} was changed while it was read");
+        Err(io::Error::other(changed))
     }
 
     /// Removes the file: what it keeps is written elsewhere.
@@ -311,28 +313,31 @@ impl Iterator for Records {
 
     /// Nothing at the end and after damage.
     fn next(&mut self) -> Option<Self::Item> {
-        let kept = next(&mut self.reader, self.length - self.at).ok()??;
+        let mut kept = Vec::new();
+        if !next(&mut self.reader, self.length - self.at, &mut kept).ok()? {
+            return None;
+        }
         let (at, bytes) = (self.at, kept.len() as u64);
         self.at += bytes + FRAME;
         Some((Record { at, bytes }, kept))
     }
 }
 
-/// What the next record keeps; `left` is what the file still has: no more memory is taken.
-fn next(reader: &mut impl Read, left: u64) -> io::Result<Option<Vec<u8>>> {
+/// What the next record keeps, and whether it is one; `left` is what the file still has: no more memory is taken.
+fn next(reader: &mut impl Read, left: u64, kept: &mut Vec<u8>) -> io::Result<bool> {
     let (mut length, mut stated) = ([0; 8], [0; 8]);
     if left < FRAME {
-        return Ok(None);
+        return Ok(false);
     }
     reader.read_exact(&mut length)?;
     let bytes = u64::from_le_bytes(length);
     if bytes > left - FRAME {
-        return Ok(None);
+        return Ok(false);
     }
-    let mut kept = vec![0; bytes as usize];
-    reader.read_exact(&mut kept)?;
+    kept.resize(bytes as usize, 0);
+    reader.read_exact(kept)?;
     reader.read_exact(&mut stated)?;
-    Ok((sum(&kept) == stated).then_some(kept))
+    Ok(sum(kept) == stated)
 }
 
 /// Fowler, Noll and Vo's hash over words of eight bytes and the length: rows are read back several times, a million and more
@@ -397,7 +402,9 @@ mod tests {
         assert!(none.is_empty());
         journal.append(b"first").unwrap();
         let second = journal.append(b"second").unwrap();
-        assert_eq!(journal.read(second).unwrap(), b"second");
+        let mut kept = b"what was read before".to_vec();
+        journal.read(second, &mut kept).unwrap();
+        assert_eq!(kept, b"second");
         second.at as usize
     }
 

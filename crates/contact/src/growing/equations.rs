@@ -24,6 +24,17 @@ pub(crate) struct State {
     pub(crate) slope: f64,
 }
 
+impl State {
+    /// When the striker touches.
+    pub(crate) const TOUCH: Self = Self {
+        time: 0.0,
+        radius: 0.0,
+        velocity: 1.0,
+        displacement: 0.0,
+        slope: 1.0,
+    };
+}
+
 /// What a piece is a function of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Independent {

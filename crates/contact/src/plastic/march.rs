@@ -82,13 +82,7 @@ impl<'a> March<'a> {
                 nodes: Nodes::of(degree as usize),
                 past: Vec::with_capacity(32),
                 laws: Vec::with_capacity(32),
-                state: State {
-                    time: 0.0,
-                    radius: 0.0,
-                    velocity: 1.0,
-                    displacement: 0.0,
-                    slope: 1.0,
-                },
+                state: State::TOUCH,
                 branch: Branch::Hertz,
                 offset: 0.0,
             },
@@ -499,15 +493,7 @@ impl<'a> March<'a> {
 
     /// The first part of an elastic piece at the nodes.
     fn sampled(&self, piece: &Piece, to: f64) -> Motion {
-        let zero = [0.0; LARGEST + 1];
-        let mut motion = Motion {
-            time: zero,
-            radius: zero,
-            time_slope: zero,
-            radius_slope: zero,
-            velocity: zero,
-            force: zero,
-        };
+        let mut motion = Motion::default();
         for (i, &place) in self.course.nodes.places.iter().enumerate() {
             let s = place * to;
             (motion.time[i], motion.time_slope[i]) = piece.time.jet(s);
@@ -576,14 +562,9 @@ impl<'a> March<'a> {
         let from = self.course.state;
         let root = from.radius.sqrt();
         let radius = Polynomial::power(root, -root, 2);
-        let zero = [0.0; LARGEST + 1];
         let mut motion = Motion {
-            time: zero,
-            radius: zero,
-            time_slope: zero,
-            radius_slope: zero,
             velocity: [from.velocity; LARGEST + 1],
-            force: zero,
+            ..Motion::default()
         };
         for (i, &place) in self.course.nodes.places.iter().enumerate() {
             (motion.radius[i], motion.radius_slope[i]) = radius.jet(place);

@@ -42,7 +42,7 @@ impl Course<'_> {
 }
 
 /// Time, radius and what follows from them at 0 and the nodes; slopes with respect to the place.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 pub(crate) struct Motion {
     pub(crate) time: Values,
     pub(crate) radius: Values,

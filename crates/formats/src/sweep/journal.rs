@@ -148,14 +148,14 @@ pub(super) fn parsed(kept: &[u8]) -> Option<Block> {
         let (row, reason) = line.split_once(' ')?;
         Some((row.parse().ok()?, reason.to_owned()))
     });
-    let numbers = |bytes: &[u8]| -> Vec<f64> {
-        let words = bytes.as_chunks().0.iter();
-        words.map(|word| f64::from_le_bytes(*word)).collect()
-    };
+    let number = |word: &[u8; 8]| f64::from_le_bytes(*word);
+    let row = |words: &[[u8; 8]; WIDTH]| words.each_ref().map(number);
     let block = Block {
         start,
-        numbers: numbers(contacts).as_chunks().0.to_vec(),
-        probed: numbers(probed),
+        numbers: (contacts.as_chunks().0.as_chunks().0.iter())
+            .map(row)
+            .collect(),
+        probed: probed.as_chunks().0.iter().map(number).collect(),
         models: models.to_vec(),
         failures: failures.collect::<Option<_>>()?,
     };

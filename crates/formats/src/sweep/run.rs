@@ -66,8 +66,10 @@ impl Kept {
 
 impl Blocks for Kept {
     fn each(&self, visit: &mut dyn FnMut(&Block) -> Result<(), Fault>) -> Result<(), Fault> {
+        let mut kept = Vec::new();
         for span in &self.spans {
-            let block = journal::parsed(&self.journal.read(span.record)?);
+            self.journal.read(span.record, &mut kept)?;
+            let block = journal::parsed(&kept);
             let changed = || Fault::from("its journal was changed while it was read".to_owned());
             visit(&block.ok_or_else(changed)?)?;
         }
