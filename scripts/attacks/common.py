@@ -58,6 +58,22 @@ z_m = 1e-3
 """
 """A scene that takes a few milliseconds."""
 
+SWEEP = """[scene.striker]
+tip_radius_m = 0.005
+material = "steel"
+[scene.target]
+material = "steel"
+[scene.contact]
+model = "hertz"
+[random]
+samples = 2000
+seed = 5
+[random.striker]
+mass_kg = { distribution = "normal", mean = 4e-3, deviation = 2e-3 }
+velocity_m_s = { distribution = "log_uniform", low = 0.1, high = 10.0 }
+"""
+"""A sweep of draws without waves."""
+
 Ended = collections.namedtuple("Ended", "code signal hung wall_s rss_mb out err")
 """How a run ended: `code` is None where a signal ended it."""
 

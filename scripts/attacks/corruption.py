@@ -8,7 +8,7 @@ Results and sweeps are damaged, drawn, and given to `--skip-complete`; a part is
 import os
 import struct
 
-from common import SCENE, Tally, digest, finish, fresh, last_line, rng, run, tries, well, write
+from common import SCENE, SWEEP, Tally, digest, finish, fresh, last_line, rng, run, tries, well, write
 
 # metadata of several slices with few numbers
 GRID = """poisson_ratios = [0.25, 0.3]
@@ -22,19 +22,6 @@ spacing = 0.25
 [z]
 max = 2.0
 spacing = 0.25
-"""
-SWEEP = """[scene.striker]
-tip_radius_m = 0.005
-material = "steel"
-[scene.target]
-material = "steel"
-[scene.contact]
-model = "hertz"
-[random]
-samples = 2000
-[random.striker]
-mass_kg = { distribution = "normal", mean = 4e-3, deviation = 2e-3 }
-velocity_m_s = { distribution = "log_uniform", low = 0.1, high = 10.0 }
 """
 # probes that the small table reaches
 NEAR = SCENE.replace("_m = 1e-3", "_m = 2e-4")

@@ -7,23 +7,9 @@ one run.
 import os
 import shutil
 
-from common import GRID, Tally, digest, finish, fresh, kind, last_line, run, well, write
+from common import GRID, SWEEP, Tally, digest, finish, fresh, kind, last_line, run, well, write
 
-SWEEP = """[scene.striker]
-tip_radius_m = 0.005
-material = "steel"
-[scene.target]
-material = "steel"
-[scene.contact]
-model = "hertz"
-[product.striker]
-velocity_m_s = [1.0, 2.0]
-[random]
-samples = 150
-seed = 5
-[random.striker]
-mass_kg = { distribution = "normal", mean = 4e-3, deviation = 2e-3 }
-"""
+ROWS = SWEEP.replace("samples = 2000", "samples = 300")
 MOST_S = 10.0
 
 
@@ -80,7 +66,7 @@ def listing(tally, ended, note):
 
 def folders(work):
     at = lambda name: os.path.join(work, name)
-    sweep, other = write(at("s.toml"), SWEEP), write(at("o.toml"), SWEEP.replace("seed = 5", "seed = 6"))
+    sweep, other = write(at("s.toml"), ROWS), write(at("o.toml"), ROWS.replace("seed = 5", "seed = 6"))
     os.mkdir(at("good"))
     for index, rows in enumerate(("0:100", "100:200", "200:300"), 1):
         well(["sweep", sweep, "--rows", rows, "-o", at(f"good/{index}.h5")])
@@ -110,7 +96,7 @@ def folders(work):
 
 def shards(work):
     """Shards of odd numbers."""
-    sweep, tally = write(os.path.join(work, "s.toml"), SWEEP), Tally("shards of odd numbers")
+    sweep, tally = write(os.path.join(work, "s.toml"), ROWS), Tally("shards of odd numbers")
     for text in ("0/4", "5/4", "1/0", "1/18446744073709551615", "1/1000001", "-1/2", "a/b", "1", "1/2/3", ""):
         ended = run(["sweep", sweep, "--shard", text, "-o", os.path.join(work, "x.h5")])
         tally.ended(ended, {2}, text) if kind(ended) == "exit 2" else tally.fail("taken", text)

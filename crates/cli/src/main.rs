@@ -1,18 +1,15 @@
 //! The `hertzlamb` command: `commands` has one file per subcommand, the other files are what they share.
 
+mod arguments;
 mod commands;
 mod failure;
-mod interrupt;
-mod kernels;
-mod memory;
-mod overwrite;
-mod panic;
+mod process;
 mod progress;
 mod report;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use commands::{
-    chart, completions, demo, impact, infer, materials, paper, plot, sweep, table, tabulate,
+    chart, completions, demo, export, impact, infer, materials, paper, plot, sweep, table, tabulate,
 };
 use std::process::ExitCode;
 
@@ -40,6 +37,8 @@ enum Command {
     Sweep(sweep::Arguments),
     /// Yield pressure or velocity from a measured rebound, contact time or peak force.
     Infer(infer::Arguments),
+    /// Inputs of particle codes, and a table of the rebound against velocity.
+    Export(export::Arguments),
     /// Draws the results of impacts, sweeps and tables.
     Plot(plot::Arguments),
     /// A first look: the paper's case, its numbers, and the waves under a ball.
@@ -59,8 +58,8 @@ enum Command {
 }
 
 fn main() -> ExitCode {
-    panic::in_one_sentence();
-    interrupt::listen();
+    process::end_in_one_sentence();
+    process::listen();
     let cli = parsed();
     if cli.quiet {
         failure::be_quiet();
@@ -69,6 +68,7 @@ fn main() -> ExitCode {
         Command::Impact(arguments) => impact::run(&arguments),
         Command::Sweep(arguments) => sweep::run(&arguments),
         Command::Infer(arguments) => infer::run(&arguments),
+        Command::Export(arguments) => export::run(&arguments),
         Command::Plot(arguments) => plot::run(&arguments),
         Command::Demo(arguments) => demo::run(&arguments),
         Command::Paper(arguments) => paper::run(&arguments),

@@ -133,16 +133,6 @@ impl Progress for Bar {
     }
 }
 
-impl impact::Watch for Bar {
-    fn points(&self, total: usize) {
-        self.start("fields", total as u64);
-    }
-
-    fn advance(&self) {
-        Progress::advance(self, 1);
-    }
-}
-
 impl State {
     /// The beginning of a stage.
     fn of(stage: &str, total: u64) -> Self {

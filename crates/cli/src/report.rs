@@ -167,7 +167,7 @@ fn output_lines(outcome: &Outcome) -> Vec<String> {
     if let Some(used) = &outcome.used {
         lines.push(format!(
             "fields         {} ({}), {}",
-            used.kernels.name(),
+            used.kernel(),
             used.reason,
             used.convolution.name()
         ));
@@ -221,7 +221,7 @@ fn validity(fields: &ProbeFields) -> Option<String> {
 }
 
 /// A number with seven digits and an SI prefix.
-fn si(value: f64, unit: &str) -> String {
+pub(crate) fn si(value: f64, unit: &str) -> String {
     const PREFIXES: [(f64, &str); 8] = [
         (1e9, "G"),
         (1e6, "M"),
@@ -247,7 +247,7 @@ fn si(value: f64, unit: &str) -> String {
 }
 
 /// A number with four digits at most and an SI prefix.
-fn short(value: f64, unit: &str) -> String {
+pub(crate) fn short(value: f64, unit: &str) -> String {
     let rounded: f64 = format!("{value:.3e}").parse().unwrap_or(value);
     let long = si(rounded, unit);
     let (digits, unit) = long.split_once(' ').unwrap_or((&long, ""));

@@ -210,7 +210,7 @@ fn a_sweep_writes_its_rows_and_refuses_what_is_wrong() {
     let write = |name: &str, text: &str| std::fs::write(here.join(name), text).unwrap();
     write(
         "sweep.toml",
-        "scene = \"scene.toml\"\n[product.striker]\nvelocity_m_s = [1.0, 10.0, -1.0]\nmass_kg = [0.01, 0.02]\n",
+        "scene = \"scene.toml\"\n[product.striker]\nmass_kg = [0.01, 0.02]\n[list.striker]\nvelocity_m_s = [1.0, 10.0, -1.0]\n",
     );
     let done = hertzlamb(
         here,

@@ -6,8 +6,8 @@
 #![allow(clippy::unwrap_used, reason = "a bench may panic")]
 
 use contact::{
-    Choice, Collision, HalfSpace, Material, Model, Ratios, Settings, Solver, StaticShare, Striker,
-    Summary, Tabulated, march_explicit, march_implicit,
+    Choice, Collision, HalfSpace, Material, Model, Ratios, Results, Settings, Solver, StaticShare,
+    Striker, Summary, Tabulated, march_explicit, march_implicit,
 };
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use halfspace::{Deflection, Medium, SurfaceResponse};
@@ -112,6 +112,89 @@ fn models(c: &mut Criterion) {
     group.finish();
 }
 
+/// Ten thousand copper balls of 4 to 10 mm at 0.1 to 10 m/s on steel, on discs of 0.5 to 2 of their contact radii.
+fn alike(model: Model) -> Vec<(Collision, Settings)> {
+    let named = |name: &str| Material::named(name).unwrap();
+    let target = HalfSpace::new(named("steel")).unwrap();
+    (0..10_000_u32)
+        .map(|i| {
+            let part = |root: f64| (f64::from(i) * root.sqrt()).fract();
+            let between = |low: f64, high: f64, x: f64| low * (high / low).powf(x);
+            let tip = between(2e-3, 5e-3, part(2.0));
+            let mass = 4.19 * tip.powi(3) * between(7000.0, 8500.0, part(3.0));
+            let velocity = between(0.1, 10.0, part(5.0));
+            let disc = 0.6 * tip * (1.0_f64 / 3000.0).powf(0.4) * between(0.5, 2.0, part(7.0));
+            let striker = Striker::new(named("copper"), mass, tip).unwrap();
+            let settings = Settings {
+                model,
+                tolerance: 1e-6,
+                disc_radius_m: (model == Model::Wave).then_some(disc),
+                ..Settings::default()
+            };
+            (Collision::new(&target, &striker, velocity), settings)
+        })
+        .collect()
+}
+
+/// Impacts of one pair of materials whose outcomes come from series, with their results and nothing but statistics of
+/// them; before, how long the series take to be made, and how good they are against marches to 1e-9.
+fn contracted(c: &mut Criterion) {
+    let responses = Tabulated::new(Ratios::Few);
+    let mut group = c.benchmark_group("impacts from series");
+    for model in [Model::Growing, Model::Wave] {
+        let rows = alike(model);
+        let mut marches = Solver::new(&responses);
+        let outcomes = marches.outcomes(1_000_000, rows.iter().step_by(10).copied());
+        let mut solver = Solver::sharing(&responses, &outcomes);
+        let start = Instant::now();
+        let solved: Vec<_> = rows
+            .iter()
+            .map(|(collision, settings)| solver.solve(collision, settings).unwrap())
+            .collect();
+        let made_s = start.elapsed().as_secs_f64();
+        let from_series = solved
+            .iter()
+            .zip(&rows)
+            .filter(|(one, _)| one.scheme.is_none());
+        let (mut count, mut beyond, mut worst) = (0, 0, 0.0_f64);
+        for (found, (collision, settings)) in from_series {
+            let exactly = Settings {
+                tolerance: 1e-9,
+                ..*settings
+            };
+            if let Ok(exact) = marches.solve(collision, &exactly) {
+                let error = found.summary.distance(&exact.summary);
+                count += 1;
+                beyond += usize::from(error > found.error);
+                worst = worst.max(error);
+            }
+        }
+        println!(
+            "{}: {made_s:.2} s with the series to be made for 10,000 rows, {count} of them from series; off by {worst:.1e} at most, {beyond} beyond the certificate",
+            model.name()
+        );
+        group.throughput(Throughput::Elements(count as u64));
+        let rows: Vec<_> = (rows.iter().zip(&solved))
+            .filter(|(_, one)| one.scheme.is_none())
+            .map(|(row, _)| *row)
+            .collect();
+        group.bench_function(model.name(), |b| {
+            b.iter(|| {
+                let (mut sum, mut largest) = (0.0, 0.0_f64);
+                for (collision, settings) in black_box(&rows) {
+                    let solved = solver.solve(collision, settings).unwrap();
+                    let radiated = solver.radiated(collision, settings, &solved).unwrap();
+                    let results = Results::new(collision, settings, &solved, radiated);
+                    sum += results.restitution;
+                    largest = largest.max(results.peak_force_n);
+                }
+                (sum, largest)
+            });
+        });
+    }
+    group.finish();
+}
+
 /// How many times slower the explicit scheme is where both reach 1e-4 on force, time and restitution.
 fn explicit(c: &mut Criterion) {
     let all = scenes(Model::Wave);
@@ -169,5 +252,5 @@ fn explicit(c: &mut Criterion) {
     });
 }
 
-criterion_group!(benches, models, explicit);
+criterion_group!(benches, models, contracted, explicit);
 criterion_main!(benches);

@@ -261,10 +261,15 @@ impl Collision {
     /// c of the radiation model in collision units: w = -c p' to first order, for any load.
     #[must_use]
     pub fn lag(&self, response: &impl DiscResponse) -> f64 {
+        self.lag_of(self.contact_wave_time(), response)
+    }
+
+    /// The same with a/c1 at hand.
+    pub(crate) fn lag_of(&self, contact_wave_time: f64, response: &impl DiscResponse) -> f64 {
         // phi (2/3) a J_p with the punch's J, which is the same for any disc
         // (the Hertz disc's mean deflection has another static part and another relaxation, the same product)
         let centre = response.static_compliance() * response.relaxation_time()
             / (0.375 * (1.0 - self.target_poisson_ratio));
-        self.target_share() * self.contact_wave_time() * centre
+        self.target_share() * contact_wave_time * centre
     }
 }

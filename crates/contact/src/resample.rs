@@ -3,7 +3,6 @@
 use crate::disc::history::History;
 use crate::growing::solved::SolvedContact;
 use crate::numeric::quadrature::{Local, find_root, hermite};
-use crate::plastic::solved::YieldedContact;
 use crate::summary::Instant;
 use crate::units::INVERSE_MASS;
 use std::sync::Arc;
@@ -17,12 +16,13 @@ pub struct Resampler {
     source: Source,
     /// Where contacts begin and end.
     breaks: Vec<f64>,
+    /// Where a contact that yields has a kink.
+    kinks: Vec<f64>,
 }
 
 #[derive(Debug, Clone)]
 enum Source {
     Pieces(Arc<SolvedContact>),
-    Yielded(Arc<YieldedContact>),
     Samples(Samples),
 }
 
@@ -33,18 +33,14 @@ impl Resampler {
         if let Some(solved) = history.pieces {
             return Self {
                 breaks: vec![0.0, solved.summary().contact_time],
+                kinks: solved.kinks().to_vec(),
                 source: Source::Pieces(solved),
-            };
-        }
-        if let Some(yielded) = history.yielded {
-            return Self {
-                breaks: vec![0.0, yielded.summary().contact_time],
-                source: Source::Yielded(yielded),
             };
         }
         let samples = Samples::new(&history);
         Self {
             breaks: samples.breaks(),
+            kinks: Vec::new(),
             source: Source::Samples(samples),
         }
     }
@@ -54,15 +50,20 @@ impl Resampler {
     pub fn end(&self) -> f64 {
         match &self.source {
             Source::Pieces(solved) => solved.summary().contact_time,
-            Source::Yielded(yielded) => yielded.summary().contact_time,
             Source::Samples(samples) => samples.end(),
         }
     }
 
-    /// Instants between which the force is smooth: where each contact begins and ends, in collision units, ascending.
+    /// Where each contact begins and ends, in collision units, ascending.
     #[must_use]
     pub fn breaks(&self) -> &[f64] {
         &self.breaks
+    }
+
+    /// Where the rate of the force jumps within a contact, in collision units, ascending.
+    #[must_use]
+    pub fn kinks(&self) -> &[f64] {
+        &self.kinks
     }
 
     /// Force, rate and second rate at a time in collision units; zero outside the contacts.
@@ -70,10 +71,6 @@ impl Resampler {
     pub fn force(&self, time: f64) -> [f64; 3] {
         match &self.source {
             Source::Pieces(solved) => solved.force(time),
-            Source::Yielded(yielded) => {
-                let now = yielded.state(time);
-                [now.force, now.rate, now.second_rate]
-            }
             Source::Samples(samples) => samples.place(time).map_or([0.0; 3], |(cell, x)| {
                 pressed_by(samples.indentation(cell, x))
             }),
@@ -85,7 +82,6 @@ impl Resampler {
     pub fn at(&self, time: f64) -> Instant {
         match &self.source {
             Source::Pieces(solved) => solved.state(time),
-            Source::Yielded(yielded) => yielded.state(time),
             Source::Samples(samples) => samples.at(time),
         }
     }

@@ -6,7 +6,7 @@ use crate::energy::residual;
 use crate::error::ContactError;
 use crate::model::Settings;
 use crate::model::choose::fixed_disc_m;
-use crate::plastic::solved::Flow;
+use crate::plastic::Flow;
 use crate::solver::Solved;
 
 /// Estimated relative error from which on results say nothing.

@@ -159,7 +159,7 @@ fn histories_of_the_reference() {
             let (_, history) = Solver::new(&Exact)
                 .solve_with_history(&collision, &settings)
                 .unwrap();
-            contact = Some((history.yielded().unwrap().clone(), collision.units()));
+            contact = Some((history.pieces().unwrap().clone(), collision.units()));
             before = case;
         }
         let (found, units) = contact.as_ref().unwrap();
@@ -229,35 +229,75 @@ fn thornton_without_waves_is_his_closed_form() {
 
 #[test]
 fn the_quick_way_is_the_march() {
-    for ratio in [1.2, 1.9, 5.0, 30.0, 200.0] {
-        let (collision, settings) = at(ratio);
-        let settings = Settings {
-            model: Model::AreaDashpot,
-            ..settings
-        };
-        let quick = solved(&collision, &settings).0.summary;
-        let (_, history) = Solver::new(&Exact)
-            .solve_with_history(&collision, &settings)
-            .unwrap();
-        let march = *history.yielded().unwrap().summary();
-        for (what, a, b) in [
-            ("restitution", quick.restitution, march.restitution),
-            ("peak force", quick.peak_force, march.peak_force),
-            ("its time", quick.peak_force_time, march.peak_force_time),
-            ("contact time", quick.contact_time, march.contact_time),
-            (
-                "displacement",
-                quick.peak_displacement,
-                march.peak_displacement,
-            ),
+    for (plasticity, allowed) in [
+        (Plasticity::Thornton, 1e-9),
+        (Plasticity::Recovery, 1e-9),
+        (Plasticity::JacksonGreen, 1e-8),
+    ] {
+        let mut worst = [0.0_f64; 6];
+        for ratio in [
+            1.0 + 1e-5,
+            1.003,
+            1.05,
+            1.2,
+            1.9,
+            3.0,
+            5.0,
+            13.0,
+            30.0,
+            77.0,
+            200.0,
+            900.0,
         ] {
-            near(&format!("{what} at {ratio}"), a, b, 2e-9);
+            let (collision, settings) = at(ratio);
+            let settings = Settings {
+                model: Model::AreaDashpot,
+                plasticity,
+                yield_pressure_pa: settings
+                    .yield_pressure_pa
+                    .filter(|_| plasticity != Plasticity::JacksonGreen),
+                ..settings
+            };
+            let (found, _) = solved(&collision, &settings);
+            let Some(flow) = found.flow else { continue };
+            let quick = found.summary;
+            let (_, history) = Solver::new(&Exact)
+                .solve_with_history(&collision, &settings)
+                .unwrap();
+            let contact = history.pieces().unwrap();
+            let (march, slow) = (contact.summary(), contact.flow().unwrap());
+            let off = [
+                quick.restitution / march.restitution,
+                quick.peak_force / march.peak_force,
+                quick.contact_time / march.contact_time,
+                quick.peak_displacement / march.peak_displacement,
+                1.0 + flow.plastic_work - slow.plastic_work,
+                1.0 + flow.radiated - slow.radiated,
+            ];
+            println!(
+                "{plasticity:?} {ratio} {:?}",
+                off.map(|x| format!("{:.1e}", x - 1.0))
+            );
+            for (worst, off) in worst.iter_mut().zip(off) {
+                *worst = worst.max((off - 1.0).abs());
+            }
+            near(
+                "deflection",
+                quick.peak_deflection / march.peak_deflection,
+                1.0,
+                1e-3,
+            );
+            near(
+                "time of the peak",
+                quick.peak_force_time / march.peak_force_time,
+                1.0,
+                1e-6,
+            );
         }
-        near(
-            "deflection",
-            quick.peak_deflection / march.peak_deflection,
-            1.0,
-            1e-3,
+        println!("{plasticity:?}: {worst:?}");
+        assert!(
+            worst.iter().all(|off| *off < allowed),
+            "{plasticity:?}: {worst:?}"
         );
     }
 }
@@ -321,27 +361,27 @@ fn the_ledger_closes_at_every_instant_and_plastic_work_never_falls() {
             let settings = Settings {
                 plasticity,
                 model,
-                tolerance: 1e-7,
+                tolerance: 1e-9,
                 ..settings
             };
             let (_, history) = Solver::new(&Exact)
                 .solve_with_history(&collision, &settings)
                 .unwrap();
-            let contact = history.yielded().unwrap();
+            let contact = history.pieces().unwrap();
             let mut before = 0.0;
             for i in 0..=500 {
                 let time = contact.summary().contact_time * 0.999 * f64::from(i) / 500.0;
                 let now = contact.state(time);
-                let [stored, flowed, radiated] = contact.energies(time);
+                let [stored, flowed, radiated] = contact.energies(time).unwrap();
                 let sum = now.velocity * now.velocity + stored + flowed + radiated;
-                near(&format!("energy at {time}"), sum, 1.0, 1e-7);
+                near(&format!("energy at {time}"), sum, 1.0, 1e-9);
                 assert!(flowed >= before - 1e-12, "{flowed} after {before}");
                 before = flowed;
                 // each term counts
                 let largest =
                     [stored, flowed, radiated].map(|term| (sum - 0.01 * term - 1.0).abs());
                 if i == 250 {
-                    assert!(largest.iter().all(|off| *off > 1e-7), "{largest:?}");
+                    assert!(largest.iter().all(|off| *off > 1e-6), "{largest:?}");
                 }
             }
         }
@@ -489,4 +529,69 @@ fn every_law_is_followed_at_every_velocity() {
             assert!(found.is_ok(), "{plasticity:?} at {velocity}: {found:?}");
         }
     }
+}
+
+/// Errors of `auto` over their estimates on random pairs of metals, from the onset of yield to some hundred times its
+/// velocity; and what the dashpot leaves out over c^2, from which `auto` chooses.
+#[test]
+fn estimates_of_contacts_that_yield_hold() {
+    let metals = [
+        "steel",
+        "aluminium-6061-t6",
+        "copper",
+        "brass-70-30",
+        "titanium",
+    ];
+    let (mut over, mut left_out) = (Vec::new(), Vec::new());
+    for i in 0..80_u32 {
+        let part = |root: f64| (f64::from(i + 1) * root).fract();
+        let named = |i: u32| Material::named(metals[i as usize % metals.len()]).unwrap();
+        let block = HalfSpace::new(named(i)).unwrap();
+        let mut ball = Striker::ball(named(i / 5 + 2), 0.005).unwrap();
+        ball.mass_kg *= 0.5 * 6f64.powf(part(2f64.sqrt()));
+        let settings = Settings {
+            plasticity: [Plasticity::Thornton, Plasticity::Recovery][i as usize % 2],
+            yield_pressure_pa: Some(3e8 * 10f64.powf(part(3f64.sqrt()))),
+            tolerance: 1e-6 * 1e3f64.powf(part(5f64.sqrt())),
+            ..Settings::default()
+        };
+        let slow = Collision::new(&block, &ball, 1.0);
+        let onset = 1.0 / slow.yielding(&settings).unwrap().unwrap().velocity_ratio();
+        let velocity = (onset * 1.05 * 300f64.powf(part(7f64.sqrt()))).min(40.0);
+        let collision = Collision::new(&block, &ball, velocity);
+        let with = |model, tolerance| {
+            let settings = Settings {
+                model,
+                tolerance,
+                ..settings
+            };
+            Solver::new(&Exact).solve(&collision, &settings)
+        };
+        // stiff strikers' last instants cannot all be followed so closely
+        let Some(exact) = with(Model::Growing, 1e-7)
+            .ok()
+            .filter(|one| one.flow.is_some())
+        else {
+            continue;
+        };
+        let found = with(Model::Auto, settings.tolerance).unwrap();
+        let error = found.summary.distance(&exact.summary);
+        over.push((error - exact.error).max(0.0) / found.error);
+        let damped = with(Model::AreaDashpot, settings.tolerance).unwrap();
+        let lag = damped.plan.groups.lag;
+        left_out.push(damped.summary.distance(&exact.summary) / (lag * lag));
+    }
+    over.sort_by(f64::total_cmp);
+    left_out.sort_by(f64::total_cmp);
+    let (count, last) = (over.len(), over.len() - 1);
+    println!(
+        "auto: error over estimate median {:.2}, largest {:.2}, of {count}; dashpot: error over c^2 median {:.2}, largest {:.2}",
+        over[count / 2],
+        over[last],
+        left_out[count / 2],
+        left_out[last]
+    );
+    assert!(count > 60 && over[last] < 1.0, "{over:?}");
+    // the coefficient of `auto`
+    assert!(left_out[last] < 10.0, "{left_out:?}");
 }

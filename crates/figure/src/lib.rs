@@ -35,7 +35,6 @@
 
 mod axis;
 mod colour;
-mod draw;
 mod error;
 mod figure;
 mod font;
@@ -64,7 +63,7 @@ pub use look::Style;
 /// # Errors
 /// [`RenderError`] for a figure that cannot be drawn.
 pub fn to_svg(figure: &Figure) -> Result<String, RenderError> {
-    write::svg(&draw::draw(figure)?)
+    write::svg(&layout::draw(figure)?)
 }
 
 /// The figure as PNG, at `scale` pixels for each of its own.
@@ -72,7 +71,7 @@ pub fn to_svg(figure: &Figure) -> Result<String, RenderError> {
 /// # Errors
 /// [`RenderError`] for a figure that cannot be drawn, or a picture that is too large.
 pub fn to_png(figure: &Figure, scale: f32) -> Result<Vec<u8>, RenderError> {
-    write::png(&draw::draw(figure)?, scale)
+    write::png(&layout::draw(figure)?, scale)
 }
 
 /// The figure as PDF: a page of its size, with its font.
@@ -80,7 +79,7 @@ pub fn to_png(figure: &Figure, scale: f32) -> Result<Vec<u8>, RenderError> {
 /// # Errors
 /// [`RenderError`] for a figure that cannot be drawn.
 pub fn to_pdf(figure: &Figure) -> Result<Vec<u8>, RenderError> {
-    write::pdf(&draw::draw(figure)?)
+    write::pdf(&layout::draw(figure)?)
 }
 
 /// Figures as an animated GIF that repeats: a frame each, all of the size of the first, `frame_s` long.
@@ -88,7 +87,7 @@ pub fn to_pdf(figure: &Figure) -> Result<Vec<u8>, RenderError> {
 /// # Errors
 /// [`RenderError`] for a figure that cannot be drawn, or frames that are not of one size.
 pub fn to_gif(figures: &[Figure], scale: f32, frame_s: f64) -> Result<Vec<u8>, RenderError> {
-    let scenes: Vec<scene::Scene> = figures.iter().map(draw::draw).collect::<Result<_, _>>()?;
+    let scenes: Vec<scene::Scene> = figures.iter().map(layout::draw).collect::<Result<_, _>>()?;
     write::gif(&scenes, scale, frame_s)
 }
 
@@ -108,7 +107,7 @@ pub struct Measured {
 /// # Errors
 /// [`FigureError`] for a figure that cannot be drawn.
 pub fn measure(figure: &Figure) -> Result<Measured, FigureError> {
-    let scene = draw::draw(figure)?;
+    let scene = layout::draw(figure)?;
     let texts = scene.items.iter().filter_map(|item| match item {
         scene::Item::Text(text) => Some((text.plain(), text.bounds())),
         scene::Item::Shape(_) | scene::Item::Picture(_) => None,

@@ -3,7 +3,7 @@
 use crate::colour::{BLACK, Colour};
 use crate::font;
 use crate::geometry::{Point, Rect};
-use crate::text::Rich;
+use crate::text::{Run, runs};
 
 /// A part of an outline.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -38,19 +38,12 @@ impl Stroke {
     }
 }
 
-/// How an area is filled.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Fill {
-    pub(crate) colour: Colour,
-    /// 1 hides what is below.
-    pub(crate) opacity: f64,
-}
-
 /// An outline, filled or drawn.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Shape {
     pub(crate) segments: Vec<Segment>,
-    pub(crate) fill: Option<Fill>,
+    /// With an opacity: 1 hides what is below.
+    pub(crate) fill: Option<(Colour, f64)>,
     pub(crate) stroke: Option<Stroke>,
     /// Nothing is drawn outside.
     pub(crate) clip: Option<Rect>,
@@ -112,7 +105,7 @@ impl Shape {
     }
 
     pub(crate) fn filled(mut self, colour: Colour, opacity: f64) -> Self {
-        self.fill = Some(Fill { colour, opacity });
+        self.fill = Some((colour, opacity));
         self
     }
 
@@ -157,7 +150,7 @@ pub(crate) enum Anchor {
 /// A line of text.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Text {
-    rich: Rich,
+    runs: Vec<Run>,
     /// Its start on the line on which letters stand.
     pub(crate) start: Point,
     pub(crate) size: f64,
@@ -169,27 +162,31 @@ pub(crate) struct Text {
 impl Text {
     /// A text at a place on the line on which letters stand.
     pub(crate) fn new(markup: &str, (x, y): Point, size: f64, anchor: Anchor) -> Self {
-        let rich = Rich::new(markup);
-        let back = match anchor {
-            Anchor::Start => 0.0,
-            Anchor::Middle => 0.5 * rich.width(size),
-            Anchor::End => rich.width(size),
-        };
-        Self {
-            rich,
-            start: (x - back, y),
+        let mut text = Self {
+            runs: runs(markup),
+            start: (x, y),
             size,
             turn: Turn::Level,
             rim: false,
-        }
+        };
+        text.start.0 -= match anchor {
+            Anchor::Start => 0.0,
+            Anchor::Middle => 0.5 * text.width(),
+            Anchor::End => text.width(),
+        };
+        text
     }
 
     /// A text that runs upward, its middle at a place.
     pub(crate) fn upward(markup: &str, (x, y): Point, size: f64) -> Self {
         let mut text = Self::new(markup, (x, y), size, Anchor::Start);
-        text.start.1 += 0.5 * text.rich.width(size);
+        text.start.1 += 0.5 * text.width();
         text.turn = Turn::Upward;
         text
+    }
+
+    fn width(&self) -> f64 {
+        self.size * self.runs.iter().map(Run::width).sum::<f64>()
     }
 
     /// With a white rim.
@@ -201,8 +198,8 @@ impl Text {
     /// Its parts from the start on; blanks around one are left out, its place says them.
     pub(crate) fn parts(&self) -> Vec<Part<'_>> {
         let mut along = 0.0;
-        let mut parts = Vec::with_capacity(self.rich.0.len());
-        for run in &self.rich.0 {
+        let mut parts = Vec::with_capacity(self.runs.len());
+        for run in &self.runs {
             let text = run.text.trim();
             let width = |text: &str| self.size * run.size * font::width(text);
             let indent = width(&run.text[..run.text.len() - run.text.trim_start().len()]);
@@ -225,8 +222,12 @@ impl Text {
     /// The rectangle that it covers.
     pub(crate) fn bounds(&self) -> Rect {
         let (x, y) = self.start;
-        let width = self.rich.width(self.size);
-        let (above, below) = self.rich.extent();
+        let width = self.width();
+        let (mut above, mut below) = (0.0_f64, 0.0_f64);
+        for run in &self.runs {
+            above = above.max(run.rise + run.size * font::ASCENT);
+            below = below.max(run.size * font::DESCENT - run.rise);
+        }
         let (above, below) = (above * self.size, below * self.size);
         match self.turn {
             Turn::Level => Rect::new(x, y - above, width, above + below),
@@ -236,7 +237,7 @@ impl Text {
 
     /// What it says, without raising and lowering.
     pub(crate) fn plain(&self) -> String {
-        self.rich.0.iter().map(|run| run.text.as_str()).collect()
+        self.runs.iter().map(|run| run.text.as_str()).collect()
     }
 }
 

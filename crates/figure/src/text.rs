@@ -19,76 +19,55 @@ pub(crate) struct Run {
 
 impl Run {
     /// Width over the size of the line.
-    fn width(&self) -> f64 {
+    pub(crate) fn width(&self) -> f64 {
         self.size * font::width(&self.text)
     }
 }
-
-/// A line of text.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Rich(pub(crate) Vec<Run>);
 
 const SMALL: f64 = 0.72;
 const RAISED: f64 = 0.38;
 const LOWERED: f64 = -0.16;
 
-impl Rich {
-    /// Reads `^{...}` as raised and `_{...}` as lowered; a brace that is not closed stands for itself.
-    pub(crate) fn new(markup: &str) -> Self {
-        let mut runs: Vec<Run> = Vec::new();
-        let mut push = |text: &str, size: f64, rise: f64| {
-            if !text.is_empty() {
-                runs.push(Run {
-                    text: text.to_owned(),
-                    size,
-                    rise,
-                });
-            }
-        };
-        let mut rest = markup;
-        let mut from = 0;
-        while let Some(at) = rest[from..].find(['^', '_']).map(|i| from + i) {
-            let part = rest[at + 1..]
-                .strip_prefix('{')
-                .and_then(|inner| inner.split_once('}'));
-            let Some((inner, after)) = part else {
-                from = at + 1;
-                continue;
-            };
-            push(&rest[..at], 1.0, 0.0);
-            let rise = if rest[at..].starts_with('^') {
-                RAISED
-            } else {
-                LOWERED
-            };
-            push(inner, SMALL, rise);
-            (rest, from) = (after, 0);
+/// The parts of a line: `^{...}` is raised and `_{...}` lowered; a brace that is not closed stands for itself.
+pub(crate) fn runs(markup: &str) -> Vec<Run> {
+    let mut runs: Vec<Run> = Vec::new();
+    let mut push = |text: &str, size: f64, rise: f64| {
+        if !text.is_empty() {
+            runs.push(Run {
+                text: text.to_owned(),
+                size,
+                rise,
+            });
         }
-        push(rest, 1.0, 0.0);
-        Self(runs)
+    };
+    let mut rest = markup;
+    let mut from = 0;
+    while let Some(at) = rest[from..].find(['^', '_']).map(|i| from + i) {
+        let part = rest[at + 1..]
+            .strip_prefix('{')
+            .and_then(|inner| inner.split_once('}'));
+        let Some((inner, after)) = part else {
+            from = at + 1;
+            continue;
+        };
+        push(&rest[..at], 1.0, 0.0);
+        let is_raised = rest[at..].starts_with('^');
+        push(inner, SMALL, if is_raised { RAISED } else { LOWERED });
+        (rest, from) = (after, 0);
     }
+    push(rest, 1.0, 0.0);
+    runs
+}
 
-    /// Width in pixels at a size.
-    pub(crate) fn width(&self, size: f64) -> f64 {
-        size * self.0.iter().map(Run::width).sum::<f64>()
-    }
-
-    /// Top above the line and bottom below it over the size, for the letters of the font.
-    pub(crate) fn extent(&self) -> (f64, f64) {
-        let runs = self.0.iter();
-        runs.fold((0.0, 0.0), |(top, bottom): (f64, f64), run| {
-            (
-                top.max(run.rise + run.size * font::ASCENT),
-                bottom.max(run.size * font::DESCENT - run.rise),
-            )
-        })
-    }
+/// Width of a line in pixels at a size.
+pub(crate) fn width(markup: &str, size: f64) -> f64 {
+    size * runs(markup).iter().map(Run::width).sum::<f64>()
 }
 
 /// Lines no wider than `width` pixels at a size, broken between words; a word that is too wide alone is broken
 /// between letters, unless parts of it are raised or lowered.
 pub(crate) fn wrap(text: &str, size: f64, width: f64) -> Vec<String> {
-    let fits = |line: &str| Rich::new(line).width(size) <= width;
+    let fits = |line: &str| self::width(line, size) <= width;
     let mut lines = Vec::new();
     let mut line = String::new();
     for word in text.split_whitespace() {
@@ -193,23 +172,18 @@ mod tests {
     use super::*;
 
     fn texts(markup: &str) -> Vec<String> {
-        Rich::new(markup)
-            .0
-            .into_iter()
-            .map(|run| run.text)
-            .collect()
+        runs(markup).into_iter().map(|run| run.text).collect()
     }
 
     #[test]
     fn parts_are_raised_and_lowered() {
-        let rich = Rich::new("time [r_{0}/c_{1}]");
+        let parts = runs("time [r_{0}/c_{1}]");
         assert_eq!(
             texts("time [r_{0}/c_{1}]"),
             ["time [r", "0", "/c", "1", "]"]
         );
-        assert!(rich.0[1].rise < 0.0 && rich.0[2].rise == 0.0);
-        assert!(Rich::new("10^{-6}").0[1].rise > 0.0);
-        assert!(Rich::new("10^{-6}").extent().0 > Rich::new("10").extent().0);
+        assert!(parts[1].rise < 0.0 && parts[2].rise == 0.0);
+        assert!(runs("10^{-6}")[1].rise > 0.0);
     }
 
     #[test]
@@ -225,7 +199,7 @@ mod tests {
         let name = "wave implicit, step halved to tolerance, and then some more";
         let lines = wrap(name, 12.0, 150.0);
         assert!(lines.len() > 2);
-        assert!(lines.iter().all(|l| Rich::new(l).width(12.0) <= 150.0));
+        assert!(lines.iter().all(|l| width(l, 12.0) <= 150.0));
         assert_eq!(lines.join(" "), name);
         assert!(wrap("  ", 12.0, 50.0).is_empty());
     }
@@ -233,7 +207,7 @@ mod tests {
     #[test]
     fn a_word_that_is_too_long_is_broken_too() {
         let lines = wrap("incompressibility of it", 12.0, 40.0);
-        assert!(lines.iter().all(|l| Rich::new(l).width(12.0) <= 40.0));
+        assert!(lines.iter().all(|l| width(l, 12.0) <= 40.0));
         assert!(lines.len() >= 3);
         assert_eq!(lines.concat().replace(' ', ""), "incompressibilityofit");
         assert_eq!(wrap("x^{22}", 12.0, 1.0), ["x^{22}"]);

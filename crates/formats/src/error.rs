@@ -1,199 +1,204 @@
 //! What can be wrong with a scene.
 
-use ::fault::{Class, Culprit, Fault};
 use contact::nearest;
+use fault::{Class, Culprit, Fault};
 use impact::TreatmentError;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 /// A scene that cannot be run, told in one sentence with the key, the value and what is allowed.
 #[derive(Debug, Clone, PartialEq, Error)]
-pub enum SceneError {
-    /// An error in a file.
-    #[error("{}: {error}", path.display())]
-    In {
-        path: PathBuf,
-        /// What is wrong in it.
-        error: Box<SceneError>,
-    },
-    /// The file cannot be read.
-    #[error("cannot read {}: {reason}", path.display())]
-    Unreadable { path: PathBuf, reason: String },
-    /// The text is not TOML.
-    #[error("line {line} is not valid TOML: {reason}")]
-    Syntax {
-        /// Line, from 1.
-        line: usize,
-        /// The parser's reason.
-        reason: String,
-    },
-    /// A key that does not exist.
-    #[error("unknown key {key}{}", suggested(.key, .suggestion, .allowed))]
-    UnknownKey {
-        key: String,
-        /// The nearest key that exists.
-        suggestion: Option<String>,
-        /// The keys that exist there.
-        allowed: String,
-    },
-    /// A key that must be given is absent.
-    #[error("{key} is missing: {hint}")]
-    Missing {
-        key: String,
-        /// What to give.
-        hint: String,
-    },
-    /// A key beside another that it follows from, or that excludes it.
-    #[error("{key} cannot be given beside {beside}: {reason}")]
-    Superfluous {
-        key: String,
-        /// What is given already.
-        beside: String,
-        reason: &'static str,
-    },
-    /// A value of the wrong kind.
-    #[error("{key} = {value} is not {expected}")]
-    WrongKind {
-        key: String,
-        value: String,
-        /// What was expected.
-        expected: &'static str,
-    },
-    /// A number outside its range.
-    #[error("{key} = {value} is outside {range}")]
-    OutOfRange {
-        key: String,
-        value: f64,
-        /// The allowed range in interval notation.
-        range: &'static str,
-    },
-    /// A place outside the block.
-    #[error("{key} = {value} is outside [0, {limit}], where {limit_key} ends the block")]
-    OutsideBlock {
-        key: String,
-        value: f64,
-        /// What ends the block.
-        limit_key: &'static str,
-        limit: f64,
-    },
-    /// A word that is not one of the choices.
-    #[error("{key} = \"{value}\" is not one of {allowed}{}", near(nearest_in(.value, .allowed)))]
-    UnknownChoice {
-        key: String,
-        /// The word found.
-        value: String,
-        allowed: String,
-    },
-    /// A material that is not in the library.
-    #[error("{key} = \"{value}\" is not in the materials library{}", near(.suggestion.as_deref()))]
-    UnknownMaterial {
-        key: String,
-        /// The name found.
-        value: String,
-        /// The nearest name.
-        suggestion: Option<String>,
-    },
-    /// The same quantity given twice, differently.
-    #[error(
-        "{section} gives {quantity} twice: {first} from {first_key} and {second} from {second_key}; leave one pair out"
-    )]
-    Inconsistent {
-        /// Section of the scene.
-        section: String,
-        quantity: &'static str,
-        /// Value from the first keys.
-        first: f64,
-        /// The first keys.
-        first_key: &'static str,
-        /// Value from the second keys.
-        second: f64,
-        /// The second keys.
-        second_key: &'static str,
-    },
-    /// Two choices that exclude each other.
-    #[error("{first} cannot be combined with {second}: {reason}")]
-    Conflict {
-        /// The first choice.
-        first: String,
-        /// The second choice.
-        second: String,
-        reason: &'static str,
-    },
-    /// A treatment that the force record cannot have.
-    #[error("force.{0}")]
-    Treatment(#[from] TreatmentError),
-    /// A force file with an unusable row.
-    #[error("{} line {line}: {reason}", path.display())]
-    ForceFile {
-        path: PathBuf,
-        /// Line, from 1.
-        line: usize,
-        /// What is wrong with it.
-        reason: String,
-    },
+#[error("{}", .0.sentence)]
+pub struct SceneError(Box<About>);
+
+/// The sentence, and what is in it.
+#[derive(Debug, Clone, Default, PartialEq)]
+struct About {
+    sentence: String,
+    of: Of,
+    key: Option<String>,
+    number: Option<f64>,
+    word: Option<String>,
+    range: Option<String>,
+    limits: Option<[f64; 2]>,
+    suggestion: Option<String>,
+    file: Option<PathBuf>,
+}
+
+/// What the rows of a sweep may differ in.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+enum Of {
+    Numbers,
+    Words,
+    #[default]
+    Other,
 }
 
 impl SceneError {
+    fn of(sentence: String, key: impl Into<String>) -> Self {
+        Self(Box::new(About {
+            sentence,
+            key: Some(key.into()),
+            ..About::default()
+        }))
+    }
+
+    /// One that is in a file and names it.
+    pub(crate) fn in_sentence(path: &Path, sentence: String) -> Self {
+        Self(Box::new(About {
+            sentence,
+            file: Some(path.to_owned()),
+            ..About::default()
+        }))
+    }
+
+    /// A file that cannot be read.
+    pub(crate) fn unreadable(path: &Path, reason: impl std::fmt::Display) -> Self {
+        Self::in_sentence(path, format!("cannot read {}: {reason}", path.display()))
+    }
+
+    /// A text that is not TOML, from a line that counts from 1.
+    pub(crate) fn syntax(line: usize, reason: &str) -> Self {
+        let sentence = format!("line {line} is not valid TOML: {reason}");
+        Self(Box::new(About {
+            sentence,
+            ..About::default()
+        }))
+    }
+
+    /// A key that does not exist, with the nearest that does, or what is said otherwise.
+    pub(crate) fn unknown_key(key: String, suggestion: Option<String>, otherwise: &str) -> Self {
+        let near = suggested(&key, suggestion.as_deref(), otherwise);
+        let mut error = Self::of(format!("unknown key {key}{near}"), key);
+        error.0.suggestion = suggestion;
+        error
+    }
+
+    /// A key that must be given.
+    pub(crate) fn missing(key: impl Into<String>, hint: &str) -> Self {
+        let key = key.into();
+        Self::of(format!("{key} is missing: {hint}"), key)
+    }
+
+    /// A key beside another that it follows from, or that excludes it.
+    pub(crate) fn superfluous(key: String, beside: &str, reason: &str) -> Self {
+        let sentence = format!("{key} cannot be given beside {beside}: {reason}");
+        Self::of(sentence, key)
+    }
+
+    /// A value of the wrong kind.
+    #[must_use]
+    pub fn wrong_kind(key: String, value: String, expected: &str) -> Self {
+        let mut error = Self::of(format!("{key} = {value} is not {expected}"), key);
+        (error.0.of, error.0.word) = (Of::Words, Some(value));
+        error
+    }
+
+    /// A number outside its range.
+    pub fn out_of_range(key: impl Into<String>, value: f64, range: &str) -> Self {
+        let key = key.into();
+        let sentence = format!("{key} = {value} is outside {range}");
+        let mut error = Self::of_number(key, value, sentence);
+        error.0.range = Some(range.to_owned());
+        error
+    }
+
+    /// A number that is wrong beside others.
+    pub(crate) fn of_number(key: impl Into<String>, value: f64, sentence: String) -> Self {
+        let mut error = Self::of(sentence, key);
+        (error.0.of, error.0.number) = (Of::Numbers, Some(value));
+        error
+    }
+
+    /// A place outside the block, which a key ends.
+    pub(crate) fn outside_block(key: String, value: f64, limit_key: &str, limit: f64) -> Self {
+        let sentence =
+            format!("{key} = {value} is outside [0, {limit}], where {limit_key} ends the block");
+        let mut error = Self::of_number(key, value, sentence);
+        (error.0.of, error.0.limits) = (Of::Other, Some([0.0, limit]));
+        error
+    }
+
+    /// A word that is not one of the choices, which commas divide.
+    pub(crate) fn unknown_choice(key: String, value: &str, allowed: &str) -> Self {
+        let found = nearest(value, allowed.split(", "));
+        let near = near(found.as_deref());
+        let sentence = format!("{key} = \"{value}\" is not one of {allowed}{near}");
+        let mut error = Self::unknown_word(sentence, key, value, found);
+        error.0.range = Some(allowed.to_owned());
+        error
+    }
+
+    /// A material that is not in the library, with the nearest name.
+    pub(crate) fn unknown_material(key: String, value: &str, suggestion: Option<String>) -> Self {
+        let near = near(suggestion.as_deref());
+        let sentence = format!("{key} = \"{value}\" is not in the materials library{near}");
+        Self::unknown_word(sentence, key, value, suggestion)
+    }
+
+    fn unknown_word(sentence: String, key: String, value: &str, near: Option<String>) -> Self {
+        let mut error = Self::of(sentence, key);
+        (error.0.of, error.0.word) = (Of::Words, Some(value.to_owned()));
+        error.0.suggestion = near;
+        error
+    }
+
+    /// Two choices that exclude each other.
+    pub(crate) fn conflict(
+        first: impl Into<String>,
+        second: impl std::fmt::Display,
+        reason: &str,
+    ) -> Self {
+        let first = first.into();
+        let sentence = format!("{first} cannot be combined with {second}: {reason}");
+        let mut error = Self::of(sentence, first);
+        error.0.of = Of::Numbers;
+        error
+    }
+
     /// The same with the path of the file that it is in, unless it names a file already.
     #[must_use]
-    pub fn in_file(self, path: &Path) -> Self {
-        match self {
-            named @ (Self::In { .. } | Self::Unreadable { .. } | Self::ForceFile { .. }) => named,
-            error => Self::In {
-                path: path.to_owned(),
-                error: Box::new(error),
-            },
+    pub fn in_file(mut self, path: &Path) -> Self {
+        if self.0.file.is_none() {
+            self.0.sentence = format!("{}: {}", path.display(), self.0.sentence);
+            self.0.file = Some(path.to_owned());
         }
+        self
+    }
+
+    /// Whether it is of numbers that other rows of a sweep may not have.
+    pub(crate) fn is_of_numbers(&self) -> bool {
+        self.0.of == Of::Numbers
+    }
+
+    /// Whether it is of a word that is not known.
+    pub(crate) fn is_of_words(&self) -> bool {
+        self.0.of == Of::Words
+    }
+}
+
+/// A treatment that the force record cannot have.
+impl From<TreatmentError> for SceneError {
+    fn from(error: TreatmentError) -> Self {
+        Self(Box::new(About {
+            sentence: format!("force.{error}"),
+            ..About::default()
+        }))
     }
 }
 
 impl Fault for SceneError {
     fn culprit(&self) -> Culprit<'_> {
-        let scene = Culprit::of(Class::Scene);
-        match self {
-            Self::In { path, error } => {
-                let found = error.culprit();
-                let file = found.file.or(Some(path));
-                Culprit { file, ..found }
-            }
-            Self::Unreadable { path, .. } | Self::ForceFile { path, .. } => scene.file(path),
-            Self::Syntax { .. } | Self::Treatment(_) => scene,
-            Self::UnknownKey {
-                key, suggestion, ..
-            } => Culprit {
-                suggestion: suggestion.as_deref(),
-                ..scene.key(key)
-            },
-            Self::Missing { key, .. }
-            | Self::Superfluous { key, .. }
-            | Self::Conflict { first: key, .. } => scene.key(key),
-            Self::WrongKind { key, value, .. } => scene.key(key).word(value),
-            Self::UnknownChoice {
-                key,
-                value,
-                allowed,
-            } => Culprit {
-                suggestion: nearest_in(value, allowed),
-                ..scene.key(key).word(value).range(allowed)
-            },
-            Self::OutOfRange { key, value, range } => scene.key(key).number(*value).range(range),
-            Self::OutsideBlock {
-                key, value, limit, ..
-            } => Culprit {
-                limits: Some([0.0, *limit]),
-                ..scene.key(key).number(*value)
-            },
-            Self::UnknownMaterial {
-                key,
-                value,
-                suggestion,
-            } => Culprit {
-                suggestion: suggestion.as_deref(),
-                ..scene.key(key).word(value)
-            },
-            Self::Inconsistent {
-                second_key, second, ..
-            } => scene.key(second_key).number(*second),
+        let about = &*self.0;
+        Culprit {
+            key: about.key.as_deref(),
+            number: about.number,
+            word: about.word.as_deref(),
+            range: about.range.as_deref(),
+            limits: about.limits,
+            suggestion: about.suggestion.as_deref(),
+            file: about.file.as_deref(),
+            ..Culprit::of(Class::Scene)
         }
     }
 }
@@ -202,23 +207,17 @@ fn near(suggestion: Option<&str>) -> String {
     suggestion.map_or_else(String::new, |name| format!("; did you mean {name}?"))
 }
 
-/// The nearest to a word of some that commas divide.
-fn nearest_in<'a>(word: &str, allowed: &'a str) -> Option<&'a str> {
-    let found = nearest(word, allowed.split(", "))?;
-    allowed.split(", ").find(|name| *name == found)
-}
-
-/// The nearest key, with its unit where that is all that differs, or what is known.
-fn suggested(key: &str, suggestion: &Option<String>, otherwise: &str) -> String {
+/// The nearest key, with its unit where that is all that differs, or what is said otherwise.
+fn suggested(key: &str, suggestion: Option<&str>, otherwise: &str) -> String {
     let own = key.rsplit('.').next().and_then(|own| own.rsplit_once('_'));
     match (
         suggestion,
-        suggestion.as_ref().and_then(|near| near.rsplit_once('_')),
+        suggestion.and_then(|near| near.rsplit_once('_')),
     ) {
         (Some(near), Some((stem, unit))) if own.is_some_and(|own| own.0 == stem) => {
             format!("; did you mean {near}, in {unit}?")
         }
-        (Some(_), _) => near(suggestion.as_deref()),
+        (Some(_), _) => near(suggestion),
         (None, _) => format!(" ({otherwise})"),
     }
 }

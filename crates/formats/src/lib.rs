@@ -13,7 +13,6 @@
 //! ```
 
 mod error;
-mod fault;
 mod hdf;
 pub mod parts;
 pub mod quantities;

@@ -1,89 +1,19 @@
 //! Rows of a sweep in several files: what a folder has of them, what it lacks, and all of them in one.
 
-use crate::error::SceneError;
 use crate::stored::{FileKind, Part, ReadError, StoredPart, file_kind, whole_sweep};
 use crate::sweep::{
-    Block, Blocks, Fields, Selection, Shard, Source, Spec, Unfinished, grain, stage_rows,
-    stage_virtual,
+    Block, Blocks, Fields, Selection, Shard, Source, Spec, SweepError, Unfinished, grain,
+    stage_rows, stage_virtual,
 };
 use ledger::gaps;
-use output::{Fault, HDF5, Output, OutputError, ROWS, Staged};
+use output::{Fault, HDF5, Output, ROWS, Staged};
 use std::collections::BTreeMap;
 use std::ffi::OsStr;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
-use thiserror::Error;
 
 /// What rows are of that do not belong to a sweep.
 const OTHER: &str = "another sweep, or of this one before its files or the program changed";
-
-/// Parts that cannot be joined.
-#[derive(Debug, Error)]
-pub enum PartsError {
-    /// The folder cannot be read.
-    #[error("cannot read {}: {reason}", path.display())]
-    Folder {
-        /// The folder.
-        path: PathBuf,
-        /// The system's reason.
-        reason: std::io::Error,
-    },
-    /// There are none.
-    #[error("{} has no part of a sweep", path.display())]
-    None {
-        /// The folder.
-        path: PathBuf,
-    },
-    /// A file that does not belong to the others.
-    #[error("{}", foreign.reason)]
-    Foreign {
-        /// The file.
-        foreign: Foreign,
-    },
-    /// Rows that no part has.
-    #[error("rows {} to {} of the sweep are in no part{}", rows.start, rows.end - 1, others(*.more))]
-    Missing {
-        /// The first of them.
-        rows: Range<usize>,
-        /// Ranges beside these.
-        more: usize,
-    },
-    /// Rows that two parts have.
-    #[error("rows {} to {} are in {} and in {}: remove one of the two", rows.start, rows.end - 1, first.display(), second.display())]
-    Overlap {
-        /// The rows.
-        rows: Range<usize>,
-        /// One file.
-        first: PathBuf,
-        /// The other.
-        second: PathBuf,
-    },
-    /// Parts with other results, or of another precision.
-    #[error("{} and {} have other columns, or another precision", first.display(), second.display())]
-    Columns {
-        /// One file.
-        first: PathBuf,
-        /// The other.
-        second: PathBuf,
-    },
-    /// A part that an HDF5 file cannot refer to.
-    #[error("{} cannot be referred to: {reason}", path.display())]
-    Unreferred {
-        /// The file.
-        path: PathBuf,
-        /// Why, in a few words.
-        reason: &'static str,
-    },
-    /// The sweep that a part names cannot be read.
-    #[error(transparent)]
-    Scene(#[from] SceneError),
-    /// A part cannot be read.
-    #[error(transparent)]
-    Read(#[from] ReadError),
-    /// The output cannot be written.
-    #[error(transparent)]
-    Output(#[from] OutputError),
-}
 
 /// A file in a folder of parts that is none of its sweep.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -115,8 +45,8 @@ impl Parts {
     /// Opens the parts in a folder: of the sweep `wanted`, or of that of most of them.
     ///
     /// # Errors
-    /// [`PartsError`] for a folder that cannot be read or, where no sweep is wanted, has no parts.
-    pub fn in_folder(folder: &Path, wanted: Option<&Spec>) -> Result<Self, PartsError> {
+    /// [`SweepError`] for a folder that cannot be read or, where no sweep is wanted, has no parts.
+    pub fn in_folder(folder: &Path, wanted: Option<&Spec>) -> Result<Self, SweepError> {
         let (mut all, mut foreign) = (Vec::new(), Vec::new());
         for path in files(folder, |path| ROWS.is_of(path))? {
             let whole = |open: StoredPart| open.check().map(|()| open.part);
@@ -135,9 +65,7 @@ impl Parts {
             .collect();
         let (sha256, sweep_rows) = match wanted {
             Some(spec) => (spec.sha256(), spec.rows()),
-            None => most(&all, &unfinished).ok_or_else(|| PartsError::None {
-                path: folder.to_owned(),
-            })?,
+            None => most(&all, &unfinished).ok_or_else(|| none(folder))?,
         };
         unfinished.retain(|run| run.sha256 == sha256 && run.sweep_rows == sweep_rows);
         let (mut parts, others): (Vec<_>, Vec<_>) = all
@@ -190,15 +118,17 @@ impl Parts {
 
     /// The first rows that two parts have, if there are any.
     #[must_use]
-    pub fn overlap(&self) -> Option<PartsError> {
+    pub fn overlap(&self) -> Option<SweepError> {
         let full: Vec<&Part> = self.full().collect();
         full.windows(2).find_map(|pair| {
             let [first, second] = [pair[0], pair[1]];
             let (before, rows) = (&first.selection.rows, &second.selection.rows);
-            (before.end > rows.start).then(|| PartsError::Overlap {
-                rows: rows.start..rows.end.min(before.end),
-                first: first.path.clone(),
-                second: second.path.clone(),
+            (before.end > rows.start).then(|| {
+                let (from, to) = (rows.start, rows.end.min(before.end) - 1);
+                let [one, two] = [first, second].map(|part| part.path.display());
+                let sentence =
+                    format!("rows {from} to {to} are in {one} and in {two}: remove one of the two");
+                SweepError::part(&first.path, sentence)
             })
         })
     }
@@ -206,8 +136,8 @@ impl Parts {
     /// Writes the whole sweep, byte by byte as one run would have, in the format that the name says, into an output that was claimed before.
     ///
     /// # Errors
-    /// [`PartsError`] where rows are missing, or twice there, or a file is none of the sweep's parts.
-    pub fn merge<'a>(&self, output: &'a Output) -> Result<Staged<'a>, PartsError> {
+    /// [`SweepError`] where rows are missing, or twice there, or a file is none of the sweep's parts.
+    pub fn merge<'a>(&self, output: &'a Output) -> Result<Staged<'a>, SweepError> {
         let spec = self.whole(output)?;
         let rows = Checked {
             parts: self,
@@ -220,14 +150,14 @@ impl Parts {
     /// Writes an HDF5 file of the whole sweep whose results lie in the parts, which are to stay where they are, seen from it.
     ///
     /// # Errors
-    /// Those of [`Self::merge`], and [`PartsError::Unreferred`] for a part that it cannot refer to.
-    pub fn merge_virtual<'a>(&self, output: &'a Output) -> Result<Staged<'a>, PartsError> {
+    /// Those of [`Self::merge`], and [`SweepError::Part`] for a part that it cannot refer to.
+    pub fn merge_virtual<'a>(&self, output: &'a Output) -> Result<Staged<'a>, SweepError> {
         HDF5.check(output.path())?;
         let spec = self.whole(output)?;
         let sources = self.full().map(|part| {
-            let unreferred = |reason| PartsError::Unreferred {
-                path: part.path.clone(),
-                reason,
+            let unreferred = |reason: &str| {
+                let sentence = format!("{} cannot be referred to: {reason}", part.path.display());
+                SweepError::part(&part.path, sentence)
             };
             if HDF5.check(&part.path).is_err() || StoredPart::open(&part.path)?.failures().is_none()
             {
@@ -248,36 +178,32 @@ impl Parts {
     }
 
     /// The sweep, where all its rows are there, once.
-    fn whole(&self, output: &Output) -> Result<Spec, PartsError> {
+    fn whole(&self, output: &Output) -> Result<Spec, SweepError> {
         // what was merged before may lie beside the parts
         let merged = |path: &Path| file_kind(path) == Ok(FileKind::Sweep);
         if let Some(foreign) = self.foreign.iter().find(|foreign| !merged(&foreign.path)) {
-            let foreign = foreign.clone();
-            return Err(PartsError::Foreign { foreign });
+            return Err(SweepError::part(&foreign.path, foreign.reason.clone()));
         }
         if let Some(overlap) = self.overlap() {
             return Err(overlap);
         }
         let missing = self.missing();
         if let Some(rows) = missing.first() {
-            return Err(PartsError::Missing {
+            return Err(SweepError::Missing {
                 rows: rows.clone(),
                 more: missing.len() - 1,
             });
         }
         let Some(first) = self.parts.first() else {
-            return Err(PartsError::None {
-                path: output.path().to_owned(),
-            });
+            return Err(none(output.path()));
         };
         let sweep = StoredPart::open(&first.path)?.sweep()?;
         let mut spec = Spec::of_stored(&sweep, self.sha256.clone())?;
         spec.fields = first.fields.clone();
         if let Some(other) = self.parts.iter().find(|part| part.fields != spec.fields) {
-            return Err(PartsError::Columns {
-                first: first.path.clone(),
-                second: other.path.clone(),
-            });
+            let [one, two] = [first, other].map(|part| part.path.display());
+            let sentence = format!("{one} and {two} have other columns, or another precision");
+            return Err(SweepError::part(&first.path, sentence));
         }
         Ok(spec)
     }
@@ -382,23 +308,22 @@ pub fn check_complete(
     same_fields(&found.fields)
 }
 
-fn others(more: usize) -> String {
-    match more {
-        0 => String::new(),
-        1 => ", and those of another range".to_owned(),
-        more => format!(", and those of {more} other ranges"),
-    }
+/// What is said of a place without parts.
+fn none(path: &Path) -> SweepError {
+    SweepError::part(path, format!("{} has no part of a sweep", path.display()))
 }
 
 /// Files of a folder with some names, by name; those that begin with a dot belong to runs.
-fn files(folder: &Path, named: impl Fn(&Path) -> bool) -> Result<Vec<PathBuf>, PartsError> {
+fn files(folder: &Path, named: impl Fn(&Path) -> bool) -> Result<Vec<PathBuf>, SweepError> {
     let paths = || -> std::io::Result<Vec<PathBuf>> {
         let entries = std::fs::read_dir(folder)?;
         entries.map(|entry| Ok(entry?.path())).collect()
     };
-    let mut found = paths().map_err(|reason| PartsError::Folder {
-        path: folder.to_owned(),
-        reason,
+    let mut found = paths().map_err(|reason| {
+        SweepError::part(
+            folder,
+            format!("cannot read {}: {reason}", folder.display()),
+        )
     })?;
     let hidden = |name: &OsStr| name.as_encoded_bytes().starts_with(b".");
     found.retain(|path| named(path) && !path.file_name().is_some_and(hidden));

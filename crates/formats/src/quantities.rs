@@ -152,12 +152,16 @@ pub const FIELD_QUANTITIES: [(FieldQuantity, &str, &str); 14] = labels! {
     FieldQuantity::Principal3, "Pa", "smallest principal stress, negative in compression";
 };
 
-/// Name, unit and meaning of a quantity that a scene may ask for.
-#[must_use]
-pub fn described(quantity: FieldQuantity) -> (&'static str, &'static str, &'static str) {
-    let row = FIELD_QUANTITIES.iter().find(|row| row.0 == quantity);
-    let (unit, meaning) = row.map_or(("", ""), |row| (row.1, row.2));
-    (quantity.name(), unit, meaning)
+/// Name, unit and meaning.
+pub type Labels<'a> = (&'a str, &'a str, &'a str);
+
+/// Those of the six fields and then of some quantities beside them, as results have them.
+pub fn labels_of(quantities: &[FieldQuantity]) -> impl Iterator<Item = Labels<'static>> {
+    let more = quantities.iter().filter_map(|quantity| {
+        let row = FIELD_QUANTITIES.iter().find(|row| row.0 == *quantity)?;
+        Some((quantity.name(), row.1, row.2))
+    });
+    FIELDS.into_iter().chain(more)
 }
 
 /// A column of a file: its name, its unit and what it is.

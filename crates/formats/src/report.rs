@@ -3,7 +3,7 @@
 use crate::quantities::{Kind, QUANTITIES};
 use crate::results::schema::TREATMENT;
 use contact::{Choice, Material};
-use impact::{Cause, KernelsUsed, Load, Outcome, Scene};
+use impact::{Cause, Load, Outcome, Scene};
 use lookup::schema::FIELD_NAMES;
 use lookup::{Accuracy, Quantiles, Table};
 use serde_json::{Map, Value, json};
@@ -78,7 +78,7 @@ pub(crate) fn treatment(scene: &Scene) -> Vec<(&'static str, Option<f64>)> {
 #[must_use]
 pub fn kernel_name(outcome: &Outcome) -> &'static str {
     let used = outcome.used.as_ref();
-    used.map_or("none", |used| used.kernels.name())
+    used.map_or("none", |used| used.kernel())
 }
 
 /// All that is reported of a scene, with the time that it took in s.
@@ -86,10 +86,7 @@ pub fn kernel_name(outcome: &Outcome) -> &'static str {
 pub fn json_report(scene: &Scene, outcome: &Outcome, wall_s: f64) -> Value {
     let choices = choices(scene, outcome);
     let used = outcome.used.as_ref();
-    let table_id = match used.map(|used| &used.kernels) {
-        Some(KernelsUsed::Table { id, .. }) => Some(id.as_str()),
-        Some(KernelsUsed::Direct) | None => None,
-    };
+    let table = used.and_then(|used| used.table.as_ref());
     let time_s = &outcome.series.time_s;
     let section = outcome.section.as_ref();
     let head = json!({
@@ -101,7 +98,7 @@ pub fn json_report(scene: &Scene, outcome: &Outcome, wall_s: f64) -> Value {
         "kernel": kernel_name(outcome),
         "kernel_reason": used.map_or("", |used| &used.reason),
         "convolution": used.map_or("", |used| used.convolution.name()),
-        "table_id": table_id,
+        "table_id": table.map(|[id, _]| id),
         "steps": time_s.len().saturating_sub(1),
         "step_s": outcome.step_s(),
     });

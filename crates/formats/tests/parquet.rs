@@ -109,9 +109,9 @@ fn blocks_are_those_that_were_written() {
         .each(&mut |block| {
             for (k, quantity) in formats::QUANTITIES.iter().enumerate() {
                 let written = ["restitution", "yield_onset"].contains(&quantity.name);
-                for (i, numbers) in block.numbers.iter().enumerate() {
+                for (i, numbers) in block.rows().enumerate() {
                     let expected = if written {
-                        computed.numbers[row + i][k]
+                        computed.numbers[(row + i) * computed.width + k]
                     } else {
                         f64::NAN
                     };
@@ -122,7 +122,7 @@ fn blocks_are_those_that_were_written() {
             assert_eq!(block.start, 30_000 + row);
             assert!(computed.models[row..].starts_with(&block.models));
             assert!(computed.failures[failed..].starts_with(&block.failures));
-            row += block.numbers.len();
+            row += block.len();
             failed += block.failures.len();
             Ok(())
         })

@@ -125,12 +125,8 @@ fn principal_stresses_on_the_axis_are_those_along_it() {
     let outcome = simulate(&scene, &KernelChoice::Direct).unwrap();
     let probes = outcome.probes.unwrap();
     let of = |quantity: Quantity| {
-        &probes
-            .more
-            .iter()
-            .find(|q| q.quantity == quantity)
-            .unwrap()
-            .values[1]
+        let place = probes.quantities.iter().position(|q| *q == quantity);
+        &probes.values[6 + place.unwrap()][1]
     };
     let axial = &probes.values[4][1];
     for (i, &axial) in axial.iter().enumerate() {

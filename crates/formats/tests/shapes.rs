@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
-use formats::sweep::{Block, Spec, run_sweep};
+use formats::sweep::{Block, Spec, run_rows};
 use formats::{Existing, QUANTITIES, parse_scene, resolved};
 use impact::{Load, Scene, Strike};
 use std::f64::consts::PI;
@@ -106,13 +106,19 @@ fn rows(axes: &str) -> (Spec, Vec<Block>) {
     );
     let spec = Spec::from_toml(&text, Path::new(".")).unwrap();
     let folder = tempfile::tempdir().unwrap();
-    let done = run_sweep(&spec, &folder.path().join("part"), Existing::Keep, |_| true);
-    (spec, done.unwrap().unwrap().blocks)
+    let done = run_rows(
+        &spec,
+        0..spec.rows(),
+        &folder.path().join("part"),
+        Existing::Keep,
+        |_| true,
+    );
+    (spec, done.unwrap().unwrap().blocks().unwrap())
 }
 
 fn column(blocks: &[Block], name: &str) -> Vec<f64> {
     let place = QUANTITIES.iter().position(|q| q.name == name).unwrap();
-    let all = blocks.iter().flat_map(|block| &block.numbers);
+    let all = blocks.iter().flat_map(Block::rows);
     all.map(|numbers| numbers[place]).collect()
 }
 
@@ -156,7 +162,13 @@ fn a_key_that_follows_does_not_vary() {
     );
     let spec = Spec::from_toml(&text, Path::new(".")).unwrap();
     let folder = tempfile::tempdir().unwrap();
-    let done = run_sweep(&spec, &folder.path().join("part"), Existing::Keep, |_| true);
+    let done = run_rows(
+        &spec,
+        0..spec.rows(),
+        &folder.path().join("part"),
+        Existing::Keep,
+        |_| true,
+    );
     let error = done.unwrap_err().to_string();
     assert!(
         error.contains("striker.mass_kg") && error.contains("shape"),

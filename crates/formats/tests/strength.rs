@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
 use contact::Library;
-use formats::sweep::{Block, Spec, run_sweep};
+use formats::sweep::{Block, Spec, run_rows};
 use formats::{Existing, QUANTITIES, parse_scene};
 use impact::{KernelChoice, simulate};
 use std::path::Path;
@@ -31,9 +31,15 @@ material = [\"steel\", \"soda-lime-glass\", \"soil-soft\"]
 ";
     let spec = Spec::from_toml(text, Path::new(".")).unwrap();
     let folder = tempfile::tempdir().unwrap();
-    let done = run_sweep(&spec, &folder.path().join("part"), Existing::Keep, |_| true);
-    let blocks: Vec<Block> = done.unwrap().unwrap().blocks;
-    let rows: Vec<&[f64; QUANTITIES.len()]> = blocks.iter().flat_map(|b| &b.numbers).collect();
+    let done = run_rows(
+        &spec,
+        0..spec.rows(),
+        &folder.path().join("part"),
+        Existing::Keep,
+        |_| true,
+    );
+    let blocks: Vec<Block> = done.unwrap().unwrap().blocks().unwrap();
+    let rows: Vec<&[f64]> = blocks.iter().flat_map(Block::rows).collect();
     let value = |row: usize, name: &str| {
         let place = QUANTITIES.iter().position(|q| q.name == name).unwrap();
         rows[row][place]

@@ -4,7 +4,7 @@
 
 use contact::{Choice, Model};
 use formats::sweep::{
-    BLOCK, Block, Rows, Spec, compute_rows, is_computed, run_sweep, schema, write_csv, write_sweep,
+    BLOCK, Block, Rows, Spec, compute_rows, is_computed, run_rows, schema, write_csv, write_sweep,
 };
 use formats::{Existing, QUANTITIES, parse_scene};
 use impact::{KernelChoice, simulate};
@@ -31,8 +31,9 @@ fn spec(axes: &str) -> Spec {
 
 fn all(spec: &Spec) -> Vec<Block> {
     let folder = tempfile::tempdir().unwrap();
-    let done = run_sweep(spec, &folder.path().join("part"), Existing::Keep, |_| true);
-    done.unwrap().unwrap().blocks
+    let part = folder.path().join("part");
+    let done = run_rows(spec, 0..spec.rows(), &part, Existing::Keep, |_| true);
+    done.unwrap().unwrap().blocks().unwrap()
 }
 
 #[test]
@@ -43,8 +44,7 @@ fn each_row_is_what_its_scene_gives_alone() {
          [product.contact]\nmodel = [\"hertz\", \"radiation\", \"wave\", \"growing\"]\n",
     );
     let blocks = all(&spec);
-    let rows: Vec<[f64; QUANTITIES.len()]> =
-        blocks.iter().flat_map(|b| b.numbers.clone()).collect();
+    let rows: Vec<&[f64]> = blocks.iter().flat_map(Block::rows).collect();
     assert_eq!(rows.len(), 16);
     let mut row = 0;
     // alphabetical: contact.model, striker.velocity_m_s, target.material
@@ -88,13 +88,9 @@ fn a_failed_scene_is_a_row_with_a_reason() {
     );
     let blocks = all(&spec);
     let block = &blocks[0];
-    assert!(block.numbers[0][0] > 0.0);
-    assert!(
-        block.numbers[1]
-            .iter()
-            .chain(&block.numbers[2])
-            .all(|x| x.is_nan())
-    );
+    let (first, failed) = block.numbers.split_at(block.width);
+    assert!(first[0] > 0.0 && failed.len() == 2 * block.width);
+    assert!(failed.iter().all(|x| x.is_nan()));
     let reasons: Vec<&str> = block.failures.iter().map(|(_, r)| r.as_str()).collect();
     assert!(reasons[0].contains("striker.mass_kg = -1") && reasons[0].contains("(0, inf)"));
     assert!(reasons[1].contains("striker.density_kg_m3 = -7000"));
@@ -122,7 +118,7 @@ const DRAWS: &str = "[scene.contact]\nmodel = \"wave\"\ndisc_radius_m = 0.002\n\
     mass_kg = { distribution = \"log_normal\", median = 0.0122, deviation = 0.05 }\n";
 
 fn bits(blocks: &[Block]) -> Vec<u64> {
-    let numbers = blocks.iter().flat_map(|b| b.numbers.iter().flatten());
+    let numbers = blocks.iter().flat_map(|b| &b.numbers);
     numbers.map(|x| x.to_bits()).collect()
 }
 
@@ -133,13 +129,16 @@ fn an_interrupted_sweep_goes_on_and_gives_the_same() {
     let folder = tempfile::tempdir().unwrap();
     let part = folder.path().join("part");
     // stops after the first block
-    let stopped = run_sweep(&spec, &part, Existing::Keep, |done| done == 0).unwrap();
+    let stopped = run_rows(&spec, 0..spec.rows(), &part, Existing::Keep, |done| {
+        done == 0
+    })
+    .unwrap();
     assert!(stopped.is_none());
     assert!(!is_computed(&spec, 0..spec.rows(), &part));
     // a record that is cut short is computed anew, in blocks that begin and end elsewhere
     let length = std::fs::metadata(&part).unwrap().len();
     let mut counts = Vec::new();
-    let stopped = run_sweep(&spec, &part, Existing::Keep, |done| {
+    let stopped = run_rows(&spec, 0..spec.rows(), &part, Existing::Keep, |done| {
         counts.push(done);
         done < 2 * BLOCK
     });
@@ -150,7 +149,7 @@ fn an_interrupted_sweep_goes_on_and_gives_the_same() {
     file.set_len(both - 100).unwrap();
     let kept = counts[counts.len() - 2];
     let mut first = None;
-    let done = run_sweep(&spec, &part, Existing::Keep, |rows| {
+    let done = run_rows(&spec, 0..spec.rows(), &part, Existing::Keep, |rows| {
         first.get_or_insert(rows);
         true
     });
@@ -158,9 +157,12 @@ fn an_interrupted_sweep_goes_on_and_gives_the_same() {
     assert_eq!((first, done.resumed), (Some(kept), kept));
     assert!(is_computed(&spec, 0..spec.rows(), &part));
     let whole = all(&spec);
-    assert!(bits(&done.blocks) == bits(&whole), "resumed rows differ");
+    assert!(
+        bits(&done.blocks().unwrap()) == bits(&whole),
+        "resumed rows differ"
+    );
     let k = place_of("restitution");
-    let numbers = whole.iter().flat_map(|block| &block.numbers);
+    let numbers = whole.iter().flat_map(Block::rows);
     let restitutions: BTreeSet<u64> = numbers.map(|n| n[k].to_bits()).collect();
     assert!(
         restitutions.len() > spec.rows() / 2,
@@ -169,10 +171,10 @@ fn an_interrupted_sweep_goes_on_and_gives_the_same() {
     // another sweep does not go on with this one's rows, and drops them only when it is told to
     let other = self::spec(&DRAWS.replace("seed = 7", "seed = 8"));
     let before = std::fs::read(&part).unwrap();
-    let refused = run_sweep(&other, &part, Existing::Keep, |_| true).unwrap_err();
+    let refused = run_rows(&other, 0..other.rows(), &part, Existing::Keep, |_| true).unwrap_err();
     assert!(refused.to_string().contains("another sweep"), "{refused}");
     assert!(std::fs::read(&part).unwrap() == before);
-    run_sweep(&other, &part, Existing::Replace, |_| false).unwrap();
+    run_rows(&other, 0..other.rows(), &part, Existing::Replace, |_| false).unwrap();
     assert!(std::fs::metadata(&part).unwrap().len() < 300);
 }
 
@@ -188,18 +190,21 @@ fn a_sweep_goes_on_only_with_the_materials_that_it_began_with() {
     let read = || Spec::from_toml(text, folder.path()).unwrap();
     let spec = read();
     assert_eq!(spec.inputs()[0].path, materials);
-    run_sweep(&spec, &part, Existing::Keep, |done| done == 0).unwrap();
+    run_rows(&spec, 0..spec.rows(), &part, Existing::Keep, |done| {
+        done == 0
+    })
+    .unwrap();
     // what was read once is not read again
     std::fs::write(&materials, mine.replace("70e9", "7e9")).unwrap();
-    let done = run_sweep(&spec, &part, Existing::Keep, |_| true);
+    let done = run_rows(&spec, 0..spec.rows(), &part, Existing::Keep, |_| true);
     let done = done.unwrap().unwrap();
     let alone = folder.path().join("alone");
     std::fs::write(&materials, mine).unwrap();
-    let whole = run_sweep(&read(), &alone, Existing::Keep, |_| true);
-    assert!(bits(&done.blocks) == bits(&whole.unwrap().unwrap().blocks));
+    let whole = run_rows(&read(), 0..read().rows(), &alone, Existing::Keep, |_| true);
+    assert!(bits(&done.blocks().unwrap()) == bits(&whole.unwrap().unwrap().blocks().unwrap()));
     // and a later run with the edited file is another sweep
     std::fs::write(&materials, mine.replace("70e9", "7e9")).unwrap();
-    let refused = run_sweep(&read(), &part, Existing::Keep, |_| true).unwrap_err();
+    let refused = run_rows(&read(), 0..read().rows(), &part, Existing::Keep, |_| true).unwrap_err();
     assert!(refused.to_string().contains("its files"), "{refused}");
 }
 
@@ -208,8 +213,8 @@ fn a_damaged_journal_takes_no_memory_and_a_strange_one_stays() {
     let spec = spec("[product.striker]\nvelocity_m_s = { from = 1.0, to = 2.0, count = 100 }\n");
     let folder = tempfile::tempdir().unwrap();
     let part = folder.path().join("part");
-    let whole = run_sweep(&spec, &part, Existing::Keep, |_| true);
-    let whole = bits(&whole.unwrap().unwrap().blocks);
+    let whole = run_rows(&spec, 0..spec.rows(), &part, Existing::Keep, |_| true);
+    let whole = bits(&whole.unwrap().unwrap().blocks().unwrap());
     let good = std::fs::read(&part).unwrap();
     // the length of the first record, behind the title, and what it says of itself
     let line = good.iter().position(|&byte| byte == b'\n').unwrap();
@@ -226,16 +231,16 @@ fn a_damaged_journal_takes_no_memory_and_a_strange_one_stays() {
         let (mut bad, place) = (good.clone(), begin + place);
         bad[place..place + 8].copy_from_slice(&number.to_le_bytes());
         std::fs::write(&part, &bad).unwrap();
-        let done = run_sweep(&spec, &part, Existing::Keep, |_| true);
-        assert!(bits(&done.unwrap().unwrap().blocks) == whole);
+        let done = run_rows(&spec, 0..spec.rows(), &part, Existing::Keep, |_| true);
+        assert!(bits(&done.unwrap().unwrap().blocks().unwrap()) == whole);
     }
     for strange in ["precious", "hertz", "hertzlamb journal 1 of a sweep: 12"] {
         std::fs::write(&part, strange).unwrap();
-        let done = run_sweep(&spec, &part, Existing::Replace, |_| true);
+        let done = run_rows(&spec, 0..spec.rows(), &part, Existing::Replace, |_| true);
         assert_eq!(done.is_ok(), strange.starts_with("hertz"), "{strange}");
     }
     std::fs::write(&part, "precious").unwrap();
-    run_sweep(&spec, &part, Existing::Keep, |_| true).unwrap_err();
+    run_rows(&spec, 0..spec.rows(), &part, Existing::Keep, |_| true).unwrap_err();
     assert_eq!(std::fs::read(&part).unwrap(), b"precious");
 }
 
@@ -319,7 +324,8 @@ fn bad_sweeps_are_refused_with_key_and_value() {
         let message = match Spec::from_toml(&text, Path::new(".")) {
             Err(error) => error.to_string(),
             Ok(spec) => {
-                match run_sweep(&spec, &folder.path().join("part"), Existing::Keep, |_| true) {
+                let (rows, part) = (0..spec.rows(), folder.path().join("part"));
+                match run_rows(&spec, rows, &part, Existing::Keep, |_| true) {
                     Err(error) => error.to_string(),
                     Ok(_) => "no error".to_owned(),
                 }
@@ -327,6 +333,21 @@ fn bad_sweeps_are_refused_with_key_and_value() {
         };
         assert!(message.contains(expected), "{axes}\n{message}");
         assert_eq!(message.lines().count(), 1, "{message}");
+    }
+}
+
+#[test]
+fn a_scene_and_numbers_out_of_range_are_refused_at_once() {
+    let scene = SCENE.replace("[scene.", "[");
+    let outside = format!(
+        "{SCENE}[product.striker]\nvelocity_m_s = {{ from = -1.0, to = 2.0, count = 3 }}\n"
+    );
+    for (text, expected) in [
+        (scene, "this is a scene; a sweep names its file"),
+        (outside, "striker.velocity_m_s = -1 is outside (0, inf)"),
+    ] {
+        let error = Spec::from_toml(&text, Path::new(".")).unwrap_err();
+        assert!(error.to_string().contains(expected), "{error}");
     }
 }
 

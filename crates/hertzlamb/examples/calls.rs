@@ -2,7 +2,7 @@
 //!
 //! WHAT is `impact`, a force-only scene from its text; `trace`, 10,000 points of the table; or `sweep`, 200,000 contacts.
 
-use formats::sweep::{Spec, run_sweep};
+use formats::sweep::{Spec, run_rows};
 use formats::{Existing, parse_scene};
 use impact::{KernelChoice, simulate};
 use lookup::{Smoothness, Table, TraceInfo};
@@ -90,6 +90,12 @@ fn sweep() -> Result<(), Box<dyn Error>> {
     let folder = tempfile::tempdir()?;
     let spec = Spec::from_toml(SWEEP, Path::new("."))?;
     let part = folder.path().join("sweep.part");
-    black_box(run_sweep(&spec, &part, Existing::Keep, |_| true)?);
+    black_box(run_rows(
+        &spec,
+        0..spec.rows(),
+        &part,
+        Existing::Keep,
+        |_| true,
+    )?);
     Ok(())
 }

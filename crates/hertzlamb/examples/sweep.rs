@@ -3,7 +3,7 @@
 //! `cargo run --release --package hertzlamb --example sweep`
 
 use hertzlamb::contact::{BodyError, Collision, Ratios, Tabulated};
-use hertzlamb::impact::sweep::collide_rows;
+use hertzlamb::impact::sweep::{collide_rows, outcomes};
 use hertzlamb::prelude::*;
 use std::time::Instant;
 
@@ -23,7 +23,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         ))
     };
     let start = Instant::now();
-    let found = collide_rows(0..ROWS, &Tabulated::new(Ratios::Few), row);
+    let responses = Tabulated::new(Ratios::Few);
+    let series = outcomes(ROWS, &responses, row);
+    let found = collide_rows(0..ROWS, (&responses, &series), row);
     let wall_s = start.elapsed().as_secs_f64();
     let losses: Vec<f64> = found.iter().flatten().map(|c| c.results.loss).collect();
     let range = losses

@@ -53,7 +53,9 @@ impl EnergySeries {
             initial_j * (v / units.velocity_m_s()).powi(2)
         };
         if let Some(yielded) = excitation.yielded() {
-            let energies = time_s.iter().map(|t| yielded.energies(t / units.time_s));
+            let energies = time_s
+                .iter()
+                .filter_map(|t| yielded.energies(t / units.time_s));
             let energies: Vec<[f64; 3]> = energies.map(|e| e.map(|e| initial_j * e)).collect();
             let [stored_j, plastic_j, radiated_j] =
                 [0, 1, 2].map(|i| energies.iter().map(|e| e[i]).collect());

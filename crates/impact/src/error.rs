@@ -1,20 +1,180 @@
-//! Why fields could not be computed.
+//! Why an impact, or its fields, could not be computed.
 
-use crate::grid::TooManySamples;
-use crate::kernels::place::FieldError;
+use contact::ContactError;
+use fault::{Class, Culprit, Fault};
 use halfspace::DomainError;
+use lookup::LookupError;
 use thiserror::Error;
 
-/// Fields that could not be computed.
+/// Why a table cannot be loaded, in one sentence.
+pub type TableFault = Box<dyn std::error::Error + Send + Sync>;
+
+/// Why a scene could not be computed.
 #[derive(Debug, Error)]
-pub enum FieldsError {
+pub enum ImpactError {
+    /// The contact failed.
+    #[error(transparent)]
+    Contact(#[from] ContactError),
+    /// The contact failed, between bodies whose numbers hint at slips.
+    #[error("{error}; {}", doubts.join("; "))]
+    Doubtful {
+        /// Why the contact failed.
+        error: ContactError,
+        /// What hints at slips.
+        doubts: Vec<String>,
+    },
+    /// The table could not be loaded.
+    #[error("{0}")]
+    Table(TableFault),
+    /// A point is outside the table.
+    #[error("probe r = {r_m} m, z = {z_m} m with disc radius {disc_radius_m} m: {source}")]
+    OutsideTable {
+        /// Distance from the axis in m.
+        r_m: f64,
+        /// Depth in m.
+        z_m: f64,
+        /// Unit of length in m.
+        disc_radius_m: f64,
+        /// What the table says.
+        source: LookupError,
+    },
+    /// A point is outside the half-space.
+    #[error("probe r = {r_m} m, z = {z_m} m: {source}")]
+    OutsideBlock {
+        /// Distance from the axis in m.
+        r_m: f64,
+        /// Depth in m.
+        z_m: f64,
+        /// What the kernel says.
+        source: DomainError,
+    },
     /// More samples than memory should hold.
-    #[error(transparent)]
-    TooManySamples(#[from] TooManySamples),
-    /// A point without fields.
-    #[error(transparent)]
-    Field(#[from] FieldError),
-    /// A number outside the physics.
+    #[error(
+        "the output needs {samples:.3e} samples of {step_s:.3e} s, more than {limit}: give a larger step_s or a smaller duration_s"
+    )]
+    TooManySamples {
+        /// Samples needed.
+        samples: f64,
+        /// Their step in s.
+        step_s: f64,
+        /// Samples allowed.
+        limit: usize,
+    },
+    /// More memory than there is.
+    #[error(
+        "the scene needs about {needed_gb:.3} GB of memory, more than the {limit_gb:.3} GB allowed ({points} points, {samples:.3e} samples, {frames} frames): ask for {change}"
+    )]
+    TooMuchMemory {
+        /// Needed in GB.
+        needed_gb: f64,
+        /// Allowed in GB.
+        limit_gb: f64,
+        /// Points at which fields are asked for.
+        points: usize,
+        /// Samples of the output in time.
+        samples: f64,
+        /// Frames of the section.
+        frames: usize,
+        /// What to change.
+        change: &'static str,
+    },
+    /// The deflection of the disc needs more products than can be waited for.
+    #[error(
+        "the deflection of the disc is a sum of {products:.1e} products, more than {limit:.0e}: its memory spans {cells:.2e} of the output's {samples:.2e} samples; ask for a larger step_s, a smaller duration_s or a smaller disc_radius_m"
+    )]
+    TooMuchWork {
+        /// Products needed.
+        products: f64,
+        /// Products allowed.
+        limit: f64,
+        /// Samples of the disc's memory.
+        cells: f64,
+        /// Samples of the output.
+        samples: f64,
+    },
+    /// Whoever asked for the scene has seen the forecast and does not want it.
+    #[error("the scene was given up before it was begun: it takes about {seconds:.1e} s")]
+    GivenUp {
+        /// Time in s.
+        seconds: f64,
+    },
+    /// A result that is no number.
+    #[error(
+        "{quantity} comes out as {value}: the numbers of the scene are beyond what floating-point arithmetic holds; check their units"
+    )]
+    NotFinite {
+        /// Which result.
+        quantity: String,
+        /// What it is.
+        value: f64,
+    },
+    /// A number is outside the physics.
     #[error(transparent)]
     Domain(#[from] DomainError),
+    /// A record without the disc that it loads.
+    #[error("a force record needs the radius of the disc that it loads: set disc_radius_m")]
+    NoDisc,
+    /// A disc so large beside the record that only rounding would be left.
+    #[error(
+        "disc_radius_m = {radius_m} is outside (0, {largest_m:.3e}]: waves cross too little of a larger disc while the record lasts"
+    )]
+    TooWide {
+        /// Radius of the disc in m.
+        radius_m: f64,
+        /// The largest for this record in m.
+        largest_m: f64,
+    },
+}
+
+impl Fault for ImpactError {
+    fn culprit(&self) -> Culprit<'_> {
+        let culprit = Culprit::of(Class::Impact);
+        match self {
+            Self::Contact(error) | Self::Doubtful { error, .. } => of_contact(error),
+            Self::Table(fault) => of_table(fault),
+            Self::OutsideTable { source, .. } => source.culprit(),
+            Self::OutsideBlock { source, .. } | Self::Domain(source) => source.culprit(),
+            Self::TooMuchMemory { .. } => Culprit::of(Class::Memory),
+            Self::TooManySamples { .. }
+            | Self::TooMuchWork { .. }
+            | Self::GivenUp { .. }
+            | Self::NotFinite { .. } => culprit,
+            Self::NoDisc => culprit.key("disc_radius_m"),
+            Self::TooWide {
+                radius_m,
+                largest_m,
+            } => Culprit {
+                limits: Some([0.0, *largest_m]),
+                ..culprit.key("disc_radius_m").number(*radius_m)
+            },
+        }
+    }
+}
+
+fn of_contact(error: &ContactError) -> Culprit<'_> {
+    use contact::MarchError as M;
+    let culprit = Culprit::of(Class::Impact);
+    match error {
+        ContactError::March(
+            M::NoSolution { .. } | M::TooLong { .. } | M::NotConverged { .. } | M::Unstable { .. },
+        ) => culprit.unmendable(),
+        ContactError::TooFast { velocity_m_s, .. } => {
+            culprit.key("velocity_m_s").number(*velocity_m_s)
+        }
+        ContactError::OutOfRange { quantity, value } => {
+            culprit.key(quantity).number(*value).range("[1e-30, 1e30]")
+        }
+        _ => culprit,
+    }
+}
+
+/// A table that could not be loaded is something to change, whatever is wrong with it.
+#[cfg_attr(not(feature = "hdf5"), allow(unused_variables))]
+fn of_table(fault: &TableFault) -> Culprit<'_> {
+    let culprit = Culprit::of(Class::Table);
+    #[cfg(feature = "hdf5")]
+    if let Some(lookup::TableError { path, .. }) = fault.downcast_ref() {
+        return culprit.file(path);
+    }
+    culprit
 }

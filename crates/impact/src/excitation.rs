@@ -11,7 +11,7 @@ use crate::record::ForceRecord;
 use contact::Weights;
 use contact::{CollisionUnits, KernelUnits};
 use contact::{HalfSpace, History, StaticShare, WaveSpeeds};
-use contact::{Instant, Resampler, YieldedContact};
+use contact::{Instant, Resampler, SolvedContact};
 use halfspace::{Deflection, DomainError, Medium, SurfaceResponse, gauss};
 use std::sync::Arc;
 
@@ -79,8 +79,10 @@ enum Force {
         contact_time_s: f64,
         /// When each contact begins and ends, in s.
         contacts_s: Vec<[f64; 2]>,
+        /// When its rate jumps within one, in s.
+        kinks_s: Vec<f64>,
         /// The contact itself where it has yielded.
-        yielded: Option<Arc<YieldedContact>>,
+        yielded: Option<Arc<SolvedContact>>,
     },
     /// Of a record.
     Record(ForceRecord),
@@ -111,13 +113,14 @@ impl Excitation {
         contact_time_s: f64,
         relative_error: f64,
     ) -> Result<Self, DomainError> {
-        let yielded = history.yielded().cloned();
+        let yielded = history.pieces().filter(|one| one.flow().is_some()).cloned();
         let samples = Box::new(Resampler::new(history));
         let spans = samples.breaks().chunks_exact(2);
         let force = Force::Contact {
             contacts_s: spans
                 .map(|span| [0, 1].map(|i| span[i] * units.time_s))
                 .collect(),
+            kinks_s: samples.kinks().iter().map(|t| t * units.time_s).collect(),
             samples,
             units,
             contact_time_s,
@@ -192,7 +195,7 @@ impl Excitation {
     }
 
     /// The contact in collision units where it has yielded.
-    pub(crate) fn yielded(&self) -> Option<&YieldedContact> {
+    pub(crate) fn yielded(&self) -> Option<&SolvedContact> {
         match &self.force {
             Force::Contact { yielded, .. } => yielded.as_deref(),
             Force::Record(_) => None,
@@ -214,6 +217,27 @@ impl Excitation {
     pub(crate) fn contacts_s(&self) -> &[[f64; 2]] {
         match &self.force {
             Force::Contact { contacts_s, .. } => contacts_s,
+            Force::Record(_) => &[],
+        }
+    }
+
+    /// Spans in s on which the force of contacts is smooth.
+    pub(crate) fn smooth_s(&self) -> Vec<[f64; 2]> {
+        let cut = |&[begin_s, end_s]: &[f64; 2]| {
+            let inside = self.kinks_s().iter().copied();
+            let inside = inside.filter(move |kink| begin_s < *kink && *kink < end_s);
+            let ends: Vec<f64> = [begin_s].into_iter().chain(inside).chain([end_s]).collect();
+            ends.windows(2)
+                .map(|pair| [pair[0], pair[1]])
+                .collect::<Vec<_>>()
+        };
+        self.contacts_s().iter().flat_map(cut).collect()
+    }
+
+    /// When the rate of a contact's force jumps between its beginning and its end, in s.
+    pub(crate) fn kinks_s(&self) -> &[f64] {
+        match &self.force {
+            Force::Contact { kinks_s, .. } => kinks_s,
             Force::Record(_) => &[],
         }
     }

@@ -1,26 +1,12 @@
 //! Times of the output.
 
+use crate::error::ImpactError;
 use crate::excitation::{Excitation, Run};
 use crate::kernels::KernelSource;
 use crate::scene::Scene;
-use thiserror::Error;
 
 /// Samples of the output at most.
 const MOST_SAMPLES: usize = 4_000_000;
-
-/// More samples than memory should hold.
-#[derive(Debug, Clone, Copy, PartialEq, Error)]
-#[error(
-    "the output needs {samples:.3e} samples of {step_s:.3e} s, more than {limit}: give a larger step_s or a smaller duration_s"
-)]
-pub struct TooManySamples {
-    /// Samples needed.
-    pub samples: f64,
-    /// Their step in s.
-    pub step_s: f64,
-    /// Samples allowed.
-    pub limit: usize,
-}
 
 /// What the times of the output depend on beside the excitation.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -171,7 +157,7 @@ impl Grid {
         wanted: &Wanted,
         excitation: &Excitation,
         source: Option<&KernelSource>,
-    ) -> Result<Self, TooManySamples> {
+    ) -> Result<Self, ImpactError> {
         let (duration_s, wanted_s) = wanted.duration_and_step_s(excitation);
         let unit_s = excitation.units().time_s();
         let step_s = match source {
@@ -184,7 +170,7 @@ impl Grid {
         let runs = wanted.runs(excitation, duration_s, step_s);
         let samples: f64 = runs.iter().map(|run| run.count as f64).sum();
         if samples > MOST_SAMPLES as f64 {
-            return Err(TooManySamples {
+            return Err(ImpactError::TooManySamples {
                 samples,
                 step_s,
                 limit: MOST_SAMPLES,

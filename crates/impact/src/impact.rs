@@ -60,20 +60,13 @@ impl Run {
     }
 }
 
-/// A contact solved, and the excitation that it is.
-pub(crate) struct Struck {
-    pub(crate) solved: Solved,
-    pub(crate) results: Results,
-    pub(crate) excitation: Excitation,
-}
-
-/// Solves a contact with a solver's responses.
-pub(crate) fn struck<S: Responses>(
+/// Solves a contact with a solver's responses, and looks no further.
+pub(crate) fn solve<S: Responses>(
     solver: &mut Solver<'_, S>,
     half_space: &HalfSpace,
     collision: &Collision,
     settings: &Settings,
-) -> Result<Struck, ContactError> {
+) -> Result<Run, ContactError> {
     collision.check_step(settings)?;
     let (solved, history) = solver.solve_with_history(collision, settings)?;
     let radiated = solver.radiated(collision, settings, &solved)?;
@@ -94,9 +87,10 @@ pub(crate) fn struck<S: Responses>(
         results.contact_time_s,
         error,
     )?;
-    Ok(Struck {
+    Ok(Run {
         solved,
         results,
+        warnings: Vec::new(),
         excitation,
     })
 }
@@ -125,30 +119,24 @@ impl Impact {
         let settings = &self.settings;
         let collision = Collision::new(&self.half_space, &self.striker, self.velocity_m_s);
         let mut solver = Solver::new(&Exact);
-        let Struck {
-            solved,
-            results,
-            excitation,
-        } = struck(&mut solver, &self.half_space, &collision, settings)?;
-        let model = solved.plan.model;
+        let mut run = solve(&mut solver, &self.half_space, &collision, settings)?;
+        let Run {
+            solved, results, ..
+        } = &run;
         let mut warnings = Checked {
             half_space: &self.half_space,
             striker: &self.striker,
             collision: &collision,
             settings,
-            model,
+            model: solved.plan.model,
             coupling: solved.plan.groups.coupling,
-            results: &results,
+            results,
         }
         .warnings();
-        warnings.extend(self.would_yield(&mut solver, &collision, &results));
-        warnings.extend(self.counted_twice(&mut solver, &collision, &solved, &results));
-        Ok(Run {
-            solved,
-            results,
-            warnings,
-            excitation,
-        })
+        warnings.extend(self.would_yield(&mut solver, &collision, results));
+        warnings.extend(self.counted_twice(&mut solver, &collision, solved, results));
+        run.warnings = warnings;
+        Ok(run)
     }
 
     /// What Thornton's law would make of a contact that is taken as elastic beyond its yield.

@@ -36,7 +36,7 @@ mod tests {
         let observed = observe(&mut solver, &scene, &KernelChoice::Direct).unwrap();
         let peaks = observed.peaks.unwrap().peaks;
         let rows = [1, 4, 6, 8, 11, 13].map(|i| peaks[i]);
-        rows.map(|p| [p.value, p.time_s, p.error]).to_vec()
+        rows.to_vec()
     }
 
     /// If this fails, numbers have changed: raise [`super::FIELDS_REVISION`] and write down the new ones, which the

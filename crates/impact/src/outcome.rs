@@ -1,9 +1,12 @@
-//! All that a scene gives.
+//! All that a scene gives: numbers, none of which is not finite.
 
 use crate::energy::EnergySeries;
+use crate::error::ImpactError;
 use crate::evaluator::convolve::Method;
 use crate::fields::probes::{ProbeFields, SectionFields};
-use contact::{Model, Results, Scheme};
+use crate::fields::quantity::Quantity;
+use contact::{Choice, Model, Results, Scheme};
+use lookup::schema::FIELD_NAMES;
 
 /// What loaded the half-space, with the results that go with it.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,40 +48,26 @@ pub struct RecordResults {
     pub radiated_energy_j: f64,
 }
 
-/// Kernels that were used.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum KernelsUsed {
-    /// Computed.
-    Direct,
-    /// Looked up.
-    Table {
-        /// Id of the table.
-        id: String,
-        /// Version of its file's format.
-        format_version: String,
-    },
-}
-
-impl KernelsUsed {
-    /// Name in reports and results.
-    #[must_use]
-    pub fn name(&self) -> &'static str {
-        match self {
-            Self::Direct => "direct",
-            Self::Table { .. } => "table",
-        }
-    }
-}
-
 /// How the fields were computed.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct FieldsUsed {
-    /// Their kernels.
-    pub kernels: KernelsUsed,
+    /// Id of the table of their kernels and version of its file's format; none of kernels that were computed.
+    pub table: Option<[String; 2]>,
     /// Why these kernels.
     pub reason: String,
     /// How the force was convolved with them.
     pub convolution: Method,
+}
+
+impl FieldsUsed {
+    /// Name of the kernels in reports and results: "direct" or "table".
+    #[must_use]
+    pub fn kernel(&self) -> &'static str {
+        match self.table {
+            None => "direct",
+            Some(_) => "table",
+        }
+    }
 }
 
 /// Time series in SI units.
@@ -149,4 +138,114 @@ impl Outcome {
             Cause::Record(results) => results.peak_force_n,
         }
     }
+}
+
+/// Passes on an outcome all numbers of which are finite; those of a contact are checked where it is solved.
+pub(crate) fn checked(outcome: Outcome) -> Result<Outcome, ImpactError> {
+    match &outcome.cause {
+        Cause::Contact { .. } => {}
+        Cause::Record(results) => of_record(results)?,
+    }
+    series(&outcome.series)?;
+    if let Some(found) = &outcome.probes {
+        let arrivals = found.arrival_s.iter().flat_map(|[p, s, _]| [*p, *s]);
+        finite(|| "an arrival at a probe".to_owned(), arrivals)?;
+        let values = found
+            .values
+            .iter()
+            .map(|rows| rows.iter().flatten().copied());
+        fields("at a probe", &found.quantities, values, &found.errors)?;
+    }
+    if let Some(found) = &outcome.section {
+        let arrivals = found.arrival_s[..2].iter().flatten().copied();
+        finite(|| "an arrival in the section".to_owned(), arrivals)?;
+        let values = found
+            .values
+            .iter()
+            .map(|own| own.iter().copied().map(f64::from));
+        fields("in the section", &found.quantities, values, &found.errors)?;
+    }
+    Ok(outcome)
+}
+
+fn finite(
+    quantity: impl Fn() -> String,
+    numbers: impl IntoIterator<Item = f64>,
+) -> Result<(), ImpactError> {
+    match numbers.into_iter().find(|x| !x.is_finite()) {
+        None => Ok(()),
+        Some(value) => Err(ImpactError::NotFinite {
+            quantity: quantity(),
+            value,
+        }),
+    }
+}
+
+fn of_record(results: &RecordResults) -> Result<(), ImpactError> {
+    let RecordResults {
+        peak_force_n,
+        peak_force_time_s,
+        duration_s,
+        impulse_n_s,
+        peak_deflection_m,
+        disc_radius_m,
+        relative_error_estimate,
+        radiated_energy_j,
+    } = *results;
+    for (name, value) in [
+        ("the peak force", peak_force_n),
+        ("the time of the peak force", peak_force_time_s),
+        ("the duration", duration_s),
+        ("the impulse", impulse_n_s),
+        ("the largest deflection", peak_deflection_m),
+        ("the disc's radius", disc_radius_m),
+        ("the error estimate", relative_error_estimate),
+        ("the radiated energy", radiated_energy_j),
+    ] {
+        finite(|| name.to_owned(), [value])?;
+    }
+    Ok(())
+}
+
+fn series(series: &Series) -> Result<(), ImpactError> {
+    let (striker, energy) = (series.striker.as_ref(), series.energy.as_ref());
+    for (name, samples) in [
+        ("the time", Some(&series.time_s)),
+        ("the force", Some(&series.force_n)),
+        ("the deflection", Some(&series.deflection_m)),
+        ("the displacement", striker.map(|s| &s.displacement_m)),
+        ("the velocity", striker.map(|s| &s.velocity_m_s)),
+        (
+            "the kinetic energy",
+            energy.and_then(|e| e.kinetic_j.as_ref()),
+        ),
+        ("the work", energy.and_then(|e| e.work_j.as_ref())),
+        ("the stored energy", energy.map(|e| &e.stored_j)),
+        ("the radiated energy", energy.map(|e| &e.radiated_j)),
+        (
+            "the plastic work",
+            energy.and_then(|e| e.plastic_j.as_ref()),
+        ),
+    ] {
+        let samples = samples.into_iter().flatten().copied();
+        finite(|| format!("{name} of a sample"), samples)?;
+    }
+    Ok(())
+}
+
+/// The six fields and the quantities beside them, with their errors, somewhere.
+fn fields<V: IntoIterator<Item = f64>>(
+    place: &str,
+    quantities: &[Quantity],
+    values: impl Iterator<Item = V>,
+    errors: &[Vec<f64>],
+) -> Result<(), ImpactError> {
+    let more = quantities.iter().map(|quantity| quantity.name());
+    let names = FIELD_NAMES.into_iter().chain(more);
+    for ((name, values), errors) in names.zip(values).zip(errors) {
+        finite(|| format!("{name} {place}"), values)?;
+        let of_error = || format!("the error of {name} {place}");
+        finite(of_error, errors.iter().copied())?;
+    }
+    Ok(())
 }

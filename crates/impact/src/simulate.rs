@@ -1,137 +1,22 @@
 //! From a scene to all that it gives: an excitation, then series and fields.
 
-use crate::cost::forecast::{Allowance, Forecast, TooMuch};
+use crate::cost::{Allowance, Forecast};
 use crate::energy::EnergySeries;
-use crate::error::FieldsError;
+use crate::error::ImpactError;
 use crate::evaluator::convolve::{Method, rises};
 use crate::evaluator::projection::Projection;
 use crate::evaluator::{self, Evaluator};
 use crate::excitation::Excitation;
 use crate::fields::probes::{ProbeFields, SectionFields, at_probes, frames, on_section};
-use crate::finite::{NotFinite, checked};
-use crate::grid::{Grid, TooManySamples, Wanted};
+use crate::grid::{Grid, Wanted};
 use crate::impact::Impact;
 use crate::kernels::KernelSource;
-use crate::kernels::place::FieldError;
-use crate::kernels::source::{Chosen, KernelChoice, SourceError, TableFault, choose_source};
-use crate::outcome::{
-    Cause, FieldsUsed, KernelsUsed, Outcome, RecordResults, Series, StrikerSeries,
-};
+use crate::kernels::source::{KernelChoice, choose_source};
+use crate::outcome::{Cause, FieldsUsed, Outcome, RecordResults, Series, StrikerSeries, checked};
 use crate::record::ForceRecord;
-use crate::record::plausible::doubts;
 use crate::scene::{Load, Scene, Strike};
-use crate::watch::Watch;
-use contact::{Collision, ContactError, Model, Scheme, StaticShare};
-use fault::{Class, Culprit, Fault};
-use halfspace::{Deflection, DomainError};
-use thiserror::Error;
-
-/// Why a scene could not be computed.
-#[derive(Debug, Error)]
-pub enum ImpactError {
-    /// The contact failed.
-    #[error(transparent)]
-    Contact(#[from] ContactError),
-    /// The contact failed, between bodies whose numbers hint at slips.
-    #[error("{error}; {}", doubts.join("; "))]
-    Doubtful {
-        /// Why the contact failed.
-        error: ContactError,
-        /// What hints at slips.
-        doubts: Vec<String>,
-    },
-    /// The kernels could not be had.
-    #[error(transparent)]
-    Source(#[from] SourceError),
-    /// A field failed.
-    #[error(transparent)]
-    Fields(#[from] FieldsError),
-    /// More samples than memory should hold.
-    #[error(transparent)]
-    TooManySamples(#[from] TooManySamples),
-    /// More memory or work than there is.
-    #[error(transparent)]
-    TooMuch(#[from] TooMuch),
-    /// A result that is no number.
-    #[error(transparent)]
-    NotFinite(#[from] NotFinite),
-    /// A number is outside the physics.
-    #[error(transparent)]
-    Domain(#[from] DomainError),
-    /// A record without the disc that it loads.
-    #[error("a force record needs the radius of the disc that it loads: set disc_radius_m")]
-    NoDisc,
-    /// A disc so large beside the record that only rounding would be left.
-    #[error(
-        "disc_radius_m = {radius_m} is outside (0, {largest_m:.3e}]: waves cross too little of a larger disc while the record lasts"
-    )]
-    TooWide {
-        /// Radius of the disc in m.
-        radius_m: f64,
-        /// The largest for this record in m.
-        largest_m: f64,
-    },
-}
-
-impl Fault for ImpactError {
-    fn culprit(&self) -> Culprit<'_> {
-        use contact::MarchError as M;
-        let culprit = Culprit::of(Class::Impact);
-        let contact = match self {
-            Self::Contact(error) | Self::Doubtful { error, .. } => Some(error),
-            _ => None,
-        };
-        match contact {
-            Some(ContactError::March(
-                M::NoSolution { .. }
-                | M::TooLong { .. }
-                | M::NotConverged { .. }
-                | M::Unstable { .. },
-            )) => return culprit.unmendable(),
-            Some(ContactError::TooFast { velocity_m_s, .. }) => {
-                return culprit.key("velocity_m_s").number(*velocity_m_s);
-            }
-            Some(ContactError::OutOfRange { quantity, value }) => {
-                return culprit.key(quantity).number(*value).range("[1e-30, 1e30]");
-            }
-            _ => {}
-        }
-        match self {
-            Self::Fields(FieldsError::Field(FieldError::Table { source, .. })) => source.culprit(),
-            Self::Fields(FieldsError::Field(FieldError::Domain { source, .. }))
-            | Self::Fields(FieldsError::Domain(source))
-            | Self::Source(SourceError::Domain(source))
-            | Self::Domain(source) => source.culprit(),
-            Self::Source(SourceError::Table(fault)) => of_table(fault),
-            Self::TooMuch(TooMuch::Memory(_)) => Culprit::of(Class::Memory),
-            Self::Contact(_)
-            | Self::Doubtful { .. }
-            | Self::Fields(FieldsError::TooManySamples(_))
-            | Self::TooManySamples(_)
-            | Self::TooMuch(_)
-            | Self::NotFinite(_) => culprit,
-            Self::NoDisc => culprit.key("disc_radius_m"),
-            Self::TooWide {
-                radius_m,
-                largest_m,
-            } => Culprit {
-                limits: Some([0.0, *largest_m]),
-                ..culprit.key("disc_radius_m").number(*radius_m)
-            },
-        }
-    }
-}
-
-/// A table that could not be loaded is something to change, whatever is wrong with it.
-#[cfg_attr(not(feature = "hdf5"), allow(unused_variables))]
-fn of_table(fault: &TableFault) -> Culprit<'_> {
-    let culprit = Culprit::of(Class::Table);
-    #[cfg(feature = "hdf5")]
-    if let Some(lookup::TableError { path, .. }) = fault.downcast_ref() {
-        return culprit.file(path);
-    }
-    culprit
-}
+use contact::{Collision, Model, Scheme, StaticShare};
+use halfspace::Deflection;
 
 /// Contact radii within which the fields are not those of a yielding block.
 const CLOSE: f64 = 2.0;
@@ -141,54 +26,31 @@ pub fn simulate(scene: &Scene, kernels: &KernelChoice) -> Result<Outcome, Impact
     simulate_within(scene, kernels, &Allowance::default())
 }
 
-/// [`simulate`], telling `watch` how far the fields are.
-pub fn simulate_watched(
-    scene: &Scene,
-    kernels: &KernelChoice,
-    watch: &dyn Watch,
-) -> Result<Outcome, ImpactError> {
-    let allowance = Allowance {
-        watch,
-        ..Allowance::default()
-    };
-    simulate_within(scene, kernels, &allowance)
-}
-
 /// Computes a scene that takes no more than it may.
 ///
 /// What it takes is forecast twice: from the scene alone, before the contact is solved, and before the fields.
 ///
 /// # Errors
-/// [`ImpactError`], [`ImpactError::TooMuch`] before anything long is begun.
+/// [`ImpactError`]; too much memory or work is refused before anything long is begun.
 pub fn simulate_within(
     scene: &Scene,
     kernels: &KernelChoice,
     allowance: &Allowance<'_>,
 ) -> Result<Outcome, ImpactError> {
-    Forecast::least(scene)
-        .check(scene, allowance.memory_bytes)
-        .map_err(TooMuch::Memory)?;
-    let asked = Asked {
-        scene,
-        kernels,
-        allowance,
-    };
+    Forecast::least(scene).check(scene, allowance.memory_bytes)?;
     let outcome = match &scene.load {
-        Load::Strike(strike) => of_strike(scene, strike, asked)?,
-        Load::Record(record) => of_record(scene, record, asked)?,
+        Load::Strike(strike) => of_strike(scene, strike, kernels, allowance)?,
+        Load::Record(record) => of_record(scene, record, kernels, allowance)?,
     };
-    Ok(checked(outcome)?)
+    checked(outcome)
 }
 
-/// The fields that are asked for, from which kernels, what they may take and who is told of them.
-#[derive(Clone, Copy)]
-struct Asked<'a> {
-    scene: &'a Scene,
-    kernels: &'a KernelChoice,
-    allowance: &'a Allowance<'a>,
-}
-
-fn of_strike(scene: &Scene, strike: &Strike, asked: Asked<'_>) -> Result<Outcome, ImpactError> {
+fn of_strike(
+    scene: &Scene,
+    strike: &Strike,
+    kernels: &KernelChoice,
+    allowance: &Allowance<'_>,
+) -> Result<Outcome, ImpactError> {
     let impact = Impact {
         half_space: scene.target.clone(),
         striker: strike.striker.clone(),
@@ -203,7 +65,7 @@ fn of_strike(scene: &Scene, strike: &Strike, asked: Asked<'_>) -> Result<Outcome
             },
         )?;
     let excitation = run.excitation();
-    let computed = Computed::new(asked, excitation)?;
+    let computed = Computed::new(scene, kernels, allowance, excitation)?;
     let marched = (run.solved.plan.model, run.solved.scheme);
     let mut deflection_m = None;
     if marched == (Model::Wave, Some(Scheme::Implicit)) {
@@ -249,7 +111,8 @@ const CROSSED: f64 = 1e-5;
 fn of_record(
     scene: &Scene,
     record: &ForceRecord,
-    asked: Asked<'_>,
+    kernels: &KernelChoice,
+    allowance: &Allowance<'_>,
 ) -> Result<Outcome, ImpactError> {
     let radius_m = scene.settings.disc_radius_m.ok_or(ImpactError::NoDisc)?;
     let excitation = Excitation::of_record(&scene.target, radius_m, record.clone())?;
@@ -261,11 +124,11 @@ fn of_record(
             largest_m,
         });
     }
-    let computed = Computed::new(asked, &excitation)?;
+    let computed = Computed::new(scene, kernels, allowance, &excitation)?;
     let deflection_m = computed.disc_deflection_m(scene.settings.deflection, StaticShare::Full);
     let energy = EnergySeries::of_record(&excitation, &computed.grid, &computed.force_n);
     let mut warnings = computed.warnings();
-    warnings.extend(doubts(record));
+    warnings.extend(record.doubts());
     let left_n = computed.left_n();
     let relative_error = left_n / record.largest_n().max(f64::MIN_POSITIVE);
     if relative_error > scene.settings.tolerance {
@@ -304,12 +167,14 @@ struct Computed<'a> {
 }
 
 impl<'a> Computed<'a> {
-    fn new(asked: Asked<'_>, excitation: &'a Excitation) -> Result<Self, ImpactError> {
-        let Asked {
-            scene, allowance, ..
-        } = asked;
-        let chosen = choose_source(scene, asked.kernels, excitation)?;
-        let source = chosen.as_ref().map(|chosen| &chosen.source);
+    fn new(
+        scene: &Scene,
+        kernels: &KernelChoice,
+        allowance: &Allowance<'_>,
+        excitation: &'a Excitation,
+    ) -> Result<Self, ImpactError> {
+        let chosen = choose_source(scene, kernels, excitation)?;
+        let source = chosen.as_ref().map(|(source, _)| source);
         let grid = Grid::new(&Wanted::of(scene), excitation, source)?;
         let forecast = Forecast::new(
             scene,
@@ -318,12 +183,10 @@ impl<'a> Computed<'a> {
             source,
             rayon::current_num_threads(),
         )?;
-        forecast
-            .check(scene, allowance.memory_bytes)
-            .map_err(TooMuch::Memory)?;
+        forecast.check(scene, allowance.memory_bytes)?;
         if !(allowance.go_on)(&forecast) {
             let seconds = forecast.seconds;
-            return Err(TooMuch::GivenUp { seconds }.into());
+            return Err(ImpactError::GivenUp { seconds });
         }
         let time_s: Vec<f64> = grid.times_s().collect();
         let force_n = time_s.iter().map(|&t| excitation.force_n(t)).collect();
@@ -337,15 +200,17 @@ impl<'a> Computed<'a> {
             section: None,
         };
         if let Some(chosen) = chosen {
-            computed.add_fields(asked, chosen)?;
+            computed.add_fields(scene, allowance, chosen)?;
         }
         Ok(computed)
     }
 
-    fn add_fields(&mut self, asked: Asked<'_>, chosen: Chosen) -> Result<(), FieldsError> {
-        let Chosen { source, reason } = chosen;
-        let scene = asked.scene;
-        asked.allowance.watch.points(scene.points());
+    fn add_fields(
+        &mut self,
+        scene: &Scene,
+        allowance: &Allowance<'_>,
+        (source, reason): (KernelSource, String),
+    ) -> Result<(), ImpactError> {
         let material = scene.target.material();
         let evaluator = |wanted| {
             Evaluator::new(evaluator::Asked {
@@ -356,7 +221,7 @@ impl<'a> Computed<'a> {
                 quantities: &scene.quantities,
                 elastic: [material.youngs_modulus_pa, material.poisson_ratio],
                 tolerance: scene.settings.tolerance,
-                watch: asked.allowance.watch,
+                watch: allowance.watch,
             })
         };
         let mut convolution = Method::Direct;
@@ -378,7 +243,12 @@ impl<'a> Computed<'a> {
             convolution = evaluator.method();
         }
         self.used = Some(FieldsUsed {
-            kernels: used(&source),
+            table: match source {
+                KernelSource::Direct(_) => None,
+                KernelSource::Table(table) => {
+                    Some([table.id(), table.format_version()].map(str::to_owned))
+                }
+            },
             reason,
             convolution,
         });
@@ -445,15 +315,5 @@ impl<'a> Computed<'a> {
             section: self.section,
             warnings,
         }
-    }
-}
-
-fn used(source: &KernelSource) -> KernelsUsed {
-    match source {
-        KernelSource::Direct(_) => KernelsUsed::Direct,
-        KernelSource::Table(table) => KernelsUsed::Table {
-            id: table.id().to_owned(),
-            format_version: table.format_version().to_owned(),
-        },
     }
 }

@@ -1,11 +1,11 @@
 //! Many contacts, without histories: what a sweep computes. Where a scene has probes, their peaks come with it.
 
-use crate::fields::peaks::{ProbePeaks, at_probes};
-use crate::finite::NotFinite;
-use crate::impact::{Struck, struck};
+use crate::error::ImpactError;
+use crate::fields::probes::{ProbePeaks, peaks_at_probes};
+use crate::impact::solve;
 use crate::kernels::source::KernelChoice;
 use crate::scene::{Load, Scene};
-use contact::{Collision, ContactError, Model, Results, Settings, Solver, Tabulated};
+use contact::{Collision, ContactError, Model, Outcomes, Results, Settings, Solver, Tabulated};
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -56,30 +56,27 @@ pub fn observe(
     };
     let (target, settings) = (&scene.target, &scene.settings);
     let collision = Collision::new(target, &strike.striker, strike.velocity_m_s);
-    let Struck {
-        solved,
-        results,
-        excitation,
-    } = struck(solver, target, &collision, settings).map_err(|error| error.to_string())?;
-    let peaks = at_probes(scene, kernels, &excitation).and_then(|peaks| Ok(finite(peaks)?));
+    let run = solve(solver, target, &collision, settings).map_err(|error| error.to_string())?;
+    let peaks = peaks_at_probes(scene, kernels, run.excitation()).and_then(finite);
     Ok(Observed {
         collided: Collided {
-            model: solved.plan.model,
-            results,
+            model: run.solved.plan.model,
+            results: run.results,
         },
         peaks: peaks.map_err(|error| error.to_string()),
     })
 }
 
 /// Passes on peaks that are numbers.
-fn finite(found: ProbePeaks) -> Result<ProbePeaks, NotFinite> {
-    let numbers = found
+fn finite(found: ProbePeaks) -> Result<ProbePeaks, ImpactError> {
+    match found
         .peaks
         .iter()
-        .flat_map(|p| [p.value, p.time_s, p.error]);
-    match numbers.into_iter().find(|number| !number.is_finite()) {
+        .flatten()
+        .find(|number| !number.is_finite())
+    {
         None => Ok(found),
-        Some(value) => Err(NotFinite {
+        Some(&value) => Err(ImpactError::NotFinite {
             quantity: "the peak of a field at a probe".to_owned(),
             value,
         }),
@@ -91,15 +88,39 @@ const GRAIN: usize = 256;
 /// Such portions for each thread at least, where there are rows enough: none waits long for the last one.
 const PORTIONS: usize = 4;
 
+/// Rows from which it is told where all of them lie, at most.
+const SAMPLE: usize = 1024;
+
+/// The series of outcomes that rows from 0 to `rows` share, whichever of them are computed together.
+pub fn outcomes<M: Default, E>(
+    rows: usize,
+    responses: &Tabulated,
+    row: impl Fn(usize, &mut M) -> Result<(Collision, Settings), E>,
+) -> Outcomes {
+    // equidistributed along every axis, whose strides it does not follow
+    let golden = (0..SAMPLE).map(|k| (k as f64 * 0.618_033_988_749_895).fract());
+    let sample: Vec<usize> = if rows <= SAMPLE {
+        (0..rows).collect()
+    } else {
+        golden.map(|part| (part * rows as f64) as usize).collect()
+    };
+    let mut memory = M::default();
+    let some = sample
+        .into_iter()
+        .filter_map(|index| row(index, &mut memory).ok());
+    Solver::new(responses).outcomes(rows, some)
+}
+
 /// Results of consecutive rows, in parallel; a row that fails has its reason.
 ///
 /// `row` gives the bodies of a row with the help of what the thread remembers of the row before.
 pub fn collide_rows<M: Default, E: ToString>(
     rows: Range<usize>,
-    responses: &Tabulated,
+    (responses, outcomes): (&Tabulated, &Outcomes),
     row: impl Fn(usize, &mut M) -> Result<(Collision, Settings), E> + Sync,
 ) -> Vec<Result<Collided, String>> {
-    in_parallel(rows, responses, |index, memory, solver| {
+    let solver = || Solver::sharing(responses, outcomes);
+    in_parallel(rows, solver, |index, memory, solver| {
         let (collision, settings) = row(index, memory).map_err(|error| error.to_string())?;
         collide(solver, &collision, &settings).map_err(|error| error.to_string())
     })
@@ -111,16 +132,17 @@ pub fn observe_rows<M: Default, E: ToString>(
     (responses, kernels): (&Tabulated, &KernelChoice),
     row: impl Fn(usize, &mut M) -> Result<Scene, E> + Sync,
 ) -> Vec<Result<Observed, String>> {
-    in_parallel(rows, responses, |index, memory, solver| {
+    let solver = || Solver::new(responses);
+    in_parallel(rows, solver, |index, memory, solver| {
         let scene = row(index, memory).map_err(|error| error.to_string())?;
         observe(solver, &scene, kernels)
     })
 }
 
-fn in_parallel<M: Default, T: Send>(
+fn in_parallel<'a, M: Default, T: Send>(
     rows: Range<usize>,
-    responses: &Tabulated,
-    row: impl Fn(usize, &mut M, &mut Solver<'_, Tabulated>) -> T + Sync,
+    solver: impl Fn() -> Solver<'a, Tabulated> + Sync,
+    row: impl Fn(usize, &mut M, &mut Solver<'a, Tabulated>) -> T + Sync,
 ) -> Vec<T> {
     let end = rows.end;
     let grain = (rows.len() / (PORTIONS * rayon::current_num_threads())).clamp(1, GRAIN);
@@ -128,7 +150,7 @@ fn in_parallel<M: Default, T: Send>(
         .into_par_iter()
         .step_by(grain)
         .map(|from| {
-            let (mut solver, mut memory) = (Solver::new(responses), M::default());
+            let (mut solver, mut memory) = (solver(), M::default());
             (from..(from + grain).min(end))
                 .map(|index| row(index, &mut memory, &mut solver))
                 .collect()

@@ -128,8 +128,10 @@ fn worst(load: &Load, disc: Option<f64>, tolerance: f64, quantities: &[Quantity]
     let fine = run(&finer);
     let last_s = fine.series.time_s[fine.series.time_s.len() - 1] - 4.0 * step_s;
     let mut found = [0.0_f64; 2];
-    for own in &coarse.probes.as_ref().unwrap().more {
-        let (component, order) = match own.quantity {
+    let probes = coarse.probes.as_ref().unwrap();
+    let found_rates = probes.values.iter().zip(&probes.errors).skip(6);
+    for (quantity, (own, errors)) in probes.quantities.iter().zip(found_rates) {
+        let (component, order) = match quantity {
             Quantity::VelocityR => (0, 0),
             Quantity::VelocityZ => (1, 0),
             Quantity::AccelerationR => (0, 1),
@@ -139,7 +141,7 @@ fn worst(load: &Load, disc: Option<f64>, tolerance: f64, quantities: &[Quantity]
             let of_finer = fine.probes.as_ref().unwrap().errors[component][probe]
                 / (step_s / finer_by)
                 * if order == 0 { 1.0 } else { 1.0 / step_s };
-            let most = peak(&own.values[probe]);
+            let most = peak(&own[probe]);
             if most == 0.0 {
                 continue;
             }
@@ -149,17 +151,17 @@ fn worst(load: &Load, disc: Option<f64>, tolerance: f64, quantities: &[Quantity]
                 let of = |every| differenced(&fine, every, [probe, component], [time_s, step_s]);
                 let (wanted, thinned) = (of(1)[order], of(2)[order]);
                 let sure = 3.0 * (wanted - thinned).abs() + of_finer;
-                let error = (own.values[probe][i] - wanted).abs() - sure;
-                if error > own.errors[probe] {
+                let error = (own[probe][i] - wanted).abs() - sure;
+                if error > errors[probe] {
                     println!(
                         "{:?} at probe {probe}, {time_s:.4e} s, disc {disc:?}: {:.4e} for {wanted:.4e}, estimated {:.1e}",
-                        own.quantity, own.values[probe][i], own.errors[probe]
+                        quantity, own[probe][i], errors[probe]
                     );
                 }
                 off = error.max(off);
             }
-            found[0] = found[0].max(off / own.errors[probe]);
-            found[1] = found[1].max(own.errors[probe] / most);
+            found[0] = found[0].max(off / errors[probe]);
+            found[1] = found[1].max(errors[probe] / most);
         }
     }
     found
@@ -204,7 +206,7 @@ fn rates_integrate_to_what_they_are_rates_of() {
         for component in 0..2 {
             for probe in 0..PLACES.len() {
                 let u = &fields.values[component][probe];
-                let [v, a] = [0, 2].map(|rate| &fields.more[component + rate].values[probe]);
+                let [v, a] = [6, 8].map(|rate| &fields.values[component + rate][probe]);
                 let (mut from_v, mut from_a) = (0.0, 0.0);
                 let (mut off_v, mut off_a) = (0.0_f64, Vec::new());
                 for i in 1..time_s.len() {

@@ -6,13 +6,15 @@
 //! The integer is little-endian. Bytes are compared when they are read, so that a part of a file costs no more than its
 //! own pieces; a piece has its place in the list, so that pieces which were exchanged are seen too.
 
-use hdfread::{Bytes, File, HdfError};
+use crate::hdf::HdfError;
+use hdf5_reader::error::Error;
+use hdf5_reader::{Storage, StorageBuffer};
 use rayon::prelude::*;
 use sha2::{Digest, Sha256};
 use std::collections::VecDeque;
 use std::io::{self, ErrorKind, Read, Seek, SeekFrom, Write};
 use std::path::Path;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Mutex, PoisonError};
 
 /// How the last part of a seal starts.
 const MAGIC: &[u8; 8] = b"hlseal2\n";
@@ -21,6 +23,7 @@ const END: usize = 8 + 8 + DIGEST;
 /// Bytes with a digest of their own.
 const PIECE: usize = 1 << 13;
 const DIGEST: usize = 32;
+type Digest256 = [u8; DIGEST];
 /// Pieces that are read and digested together.
 const TOGETHER: usize = 512;
 /// Pieces that stay in memory: what describes a dataset is read bit by bit.
@@ -44,112 +47,53 @@ pub fn seal(path: &Path) -> io::Result<()> {
     file.write_all(&seal)
 }
 
-/// Opens an HDF5 file, with its seal where it has one: bytes are compared when they are read.
-///
-/// # Errors
-/// [`HdfError`].
-pub fn open(path: &Path) -> Result<(File, Option<Seal>), HdfError> {
-    // looked at before it is opened: a pipe would wait for its other end
-    if !std::fs::metadata(path)?.is_file() {
-        return Err(HdfError::NotAFile);
-    }
-    match sealed(path)?.map(Arc::new) {
-        None => Ok((File::open(path)?, None)),
-        Some(sealed) => {
-            let file = File::from_bytes(Arc::clone(&sealed) as _);
-            let file = file.map_err(|error| match error {
-                HdfError::Io(error) if error.kind() == ErrorKind::InvalidData => {
-                    let what = error.to_string();
-                    HdfError::Damaged { what }
-                }
-                other => other,
-            });
-            Ok((file?, Some(Seal(sealed))))
-        }
-    }
-}
-
-/// The bytes of a file that ends with a seal.
-fn sealed(path: &Path) -> Result<Option<Sealed>, HdfError> {
-    let mut file = std::fs::File::open(path)?;
-    let whole = file.metadata()?.len();
-    let mut end = [0; END];
-    if whole >= END as u64 {
-        file.seek(SeekFrom::End(-(END as i64)))?;
-        file.read_exact(&mut end)?;
-    }
-    if !end.starts_with(MAGIC) {
-        return Ok(None);
-    }
-    let broken = || HdfError::Damaged {
-        what: "its seal is broken".to_owned(),
-    };
-    let mut length = [0; 8];
-    length.copy_from_slice(&end[8..16]);
-    let length = u64::from_le_bytes(length);
-    let pieces = length.div_ceil(PIECE as u64);
-    let listed = pieces.saturating_mul(DIGEST as u64);
-    if listed.saturating_add(length).saturating_add(END as u64) != whole {
-        return Err(broken());
-    }
-    file.seek(SeekFrom::Start(length))?;
-    let mut digests = vec![[0; DIGEST]; pieces as usize];
-    file.read_exact(digests.as_flattened_mut())?;
-    let sum = Sha256::new()
-        .chain_update(digests.as_flattened())
-        .chain_update(&end[..16])
-        .finalize();
-    if sum[..] != end[16..] {
-        return Err(broken());
-    }
-    Ok(Some(Sealed {
-        length,
-        digests,
-        file: Mutex::new(file),
-        held: Mutex::default(),
-    }))
-}
-
-/// The seal of an open file.
-#[derive(Debug, Clone)]
-pub struct Seal(Arc<Sealed>);
-
-impl Seal {
-    /// Compares every byte of the file.
-    ///
-    /// # Errors
-    /// What the system says, or where bytes are not those that were sealed.
-    pub fn check(&self) -> io::Result<()> {
-        let sealed = &self.0;
-        let file = sealed.file.lock().unwrap_or_else(PoisonError::into_inner);
-        let found = digests(&file, sealed.length)?;
-        match found.iter().zip(&sealed.digests).position(|(a, b)| a != b) {
-            Some(piece) => Err(changed(piece)),
-            None => Ok(()),
-        }
-    }
-}
-
+/// The bytes of an open HDF5 file, compared with its seal where it has one.
 #[derive(Debug)]
-struct Sealed {
+pub(crate) struct Sealed {
     /// Bytes of the HDF5 part.
-    length: u64,
-    digests: Vec<[u8; DIGEST]>,
+    pub(crate) length: u64,
+    /// Digest of each piece.
+    pub(crate) digests: Option<Vec<Digest256>>,
     file: Mutex<std::fs::File>,
     /// The pieces that were read last, each with its place.
     held: Mutex<VecDeque<(usize, Vec<u8>)>>,
 }
 
-impl Bytes for Sealed {
-    fn length(&self) -> u64 {
-        self.length
+impl Sealed {
+    /// Opens a regular file; its bytes are read when they are asked for.
+    pub(crate) fn open(path: &Path) -> Result<Self, HdfError> {
+        // looked at before it is opened: a pipe would wait for its other end
+        if !std::fs::metadata(path)?.is_file() {
+            return Err(io::Error::other("it is not a regular file").into());
+        }
+        let mut file = std::fs::File::open(path)?;
+        let whole = file.metadata()?.len();
+        let (length, digests) = match read_seal(&mut file, whole)? {
+            Some((length, digests)) => (length, Some(digests)),
+            None => (whole, None),
+        };
+        Ok(Self {
+            length,
+            digests,
+            file: Mutex::new(file),
+            held: Mutex::default(),
+        })
+    }
+
+    /// Compares every byte of the file, where it has a seal.
+    pub(crate) fn check(&self) -> io::Result<()> {
+        let Some(stated) = &self.digests else {
+            return Ok(());
+        };
+        let file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
+        let found = digests(&file, self.length)?;
+        match found.iter().zip(stated).position(|(a, b)| a != b) {
+            Some(piece) => Err(changed(piece)),
+            None => Ok(()),
+        }
     }
 
     fn fill(&self, mut at: u64, mut into: &mut [u8]) -> io::Result<()> {
-        let end = at.checked_add(into.len() as u64);
-        if end.is_none_or(|end| end > self.length) {
-            return Err(ErrorKind::UnexpectedEof.into());
-        }
         let mut held = self.held.lock().unwrap_or_else(PoisonError::into_inner);
         while !into.is_empty() {
             let (piece, from) = ((at / PIECE as u64) as usize, (at % PIECE as u64) as usize);
@@ -168,9 +112,7 @@ impl Bytes for Sealed {
         }
         Ok(())
     }
-}
 
-impl Sealed {
     /// The bytes of a piece, compared.
     fn piece(&self, piece: usize) -> io::Result<Vec<u8>> {
         let start = piece as u64 * PIECE as u64;
@@ -178,12 +120,62 @@ impl Sealed {
         let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
         file.seek(SeekFrom::Start(start))?;
         file.read_exact(&mut bytes)?;
-        if Sha256::digest(&bytes)[..] == self.digests[piece] {
-            Ok(bytes)
-        } else {
-            Err(changed(piece))
+        match &self.digests {
+            Some(digests) if Sha256::digest(&bytes)[..] != digests[piece] => Err(changed(piece)),
+            Some(_) | None => Ok(bytes),
         }
     }
+}
+
+impl Storage for Sealed {
+    fn len(&self) -> u64 {
+        self.length
+    }
+
+    fn read_range(&self, offset: u64, len: usize) -> Result<StorageBuffer, Error> {
+        let end = offset.checked_add(len as u64);
+        if end.is_none_or(|end| end > self.length) {
+            return Err(Error::OffsetOutOfBounds(offset));
+        }
+        let mut bytes = vec![0; len];
+        self.fill(offset, &mut bytes)?;
+        Ok(StorageBuffer::from_vec(bytes))
+    }
+}
+
+/// Bytes of the HDF5 part of a file and the digests of its pieces; nothing where it has no seal.
+fn read_seal(
+    file: &mut std::fs::File,
+    whole: u64,
+) -> Result<Option<(u64, Vec<Digest256>)>, HdfError> {
+    let mut end = [0; END];
+    if whole >= END as u64 {
+        file.seek(SeekFrom::End(-(END as i64)))?;
+        file.read_exact(&mut end)?;
+    }
+    if !end.starts_with(MAGIC) {
+        return Ok(None);
+    }
+    let broken = || HdfError::Damaged("its seal is broken".to_owned());
+    let mut length = [0; 8];
+    length.copy_from_slice(&end[8..16]);
+    let length = u64::from_le_bytes(length);
+    let pieces = length.div_ceil(PIECE as u64);
+    let listed = pieces.saturating_mul(DIGEST as u64);
+    if listed.saturating_add(length).saturating_add(END as u64) != whole {
+        return Err(broken());
+    }
+    file.seek(SeekFrom::Start(length))?;
+    let mut digests = vec![[0; DIGEST]; pieces as usize];
+    file.read_exact(digests.as_flattened_mut())?;
+    let sum = Sha256::new()
+        .chain_update(digests.as_flattened())
+        .chain_update(&end[..16])
+        .finalize();
+    if sum[..] != end[16..] {
+        return Err(broken());
+    }
+    Ok(Some((length, digests)))
 }
 
 fn changed(piece: usize) -> io::Error {
@@ -194,7 +186,7 @@ fn changed(piece: usize) -> io::Error {
 }
 
 /// The digests of the first bytes of a file.
-fn digests(file: &std::fs::File, length: u64) -> io::Result<Vec<[u8; DIGEST]>> {
+fn digests(file: &std::fs::File, length: u64) -> io::Result<Vec<Digest256>> {
     let mut file = file;
     file.rewind()?;
     let mut found = Vec::new();
@@ -204,7 +196,7 @@ fn digests(file: &std::fs::File, length: u64) -> io::Result<Vec<[u8; DIGEST]>> {
         let count = bytes.len().min(left as usize);
         file.read_exact(&mut bytes[..count])?;
         let pieces = bytes[..count].par_chunks(PIECE);
-        found.par_extend(pieces.map(|piece| <[u8; DIGEST]>::from(Sha256::digest(piece))));
+        found.par_extend(pieces.map(|piece| <Digest256>::from(Sha256::digest(piece))));
         left -= count as u64;
     }
     Ok(found)
@@ -227,16 +219,16 @@ mod tests {
     fn said(folder: &tempfile::TempDir, bytes: &[u8]) -> Option<String> {
         let path = folder.path().join("tried");
         std::fs::write(&path, bytes).unwrap();
-        match sealed(&path) {
-            Ok(None) => Some("no seal".to_owned()),
+        match Sealed::open(&path) {
             Err(error) => Some(error.to_string()),
-            Ok(Some(sealed)) => {
+            Ok(sealed) if sealed.digests.is_none() => Some("no seal".to_owned()),
+            Ok(sealed) => {
                 let mut all = vec![0; sealed.length as usize];
                 let read = sealed
                     .fill(0, &mut all)
                     .err()
                     .map(|error| error.to_string());
-                let checked = Seal(Arc::new(sealed)).check().err();
+                let checked = sealed.check().err();
                 assert_eq!(read, checked.map(|error| error.to_string()));
                 assert!(read.is_some() || all == bytes[..all.len()]);
                 read

@@ -1,5 +1,7 @@
 //! What a kernel table consists of, before it is a file and after it was read.
 
+use crate::schema;
+
 /// Number of fields.
 pub(crate) const FIELDS: usize = 6;
 
@@ -127,10 +129,33 @@ pub struct Verification {
 }
 
 impl Slice {
+    /// The numbers at the nodes, with the names of their datasets.
+    #[must_use]
+    pub fn lists(&self) -> [(&'static str, &[f32]); 4] {
+        [
+            (schema::REMAINDER, &self.remainder),
+            (schema::MOMENT, &self.moment),
+            (schema::CURVATURE, &self.curvature),
+            (schema::TAIL, &self.tail),
+        ]
+    }
+
     /// Number of coefficients of a tail, given the number of nodes of the grid.
     #[must_use]
     pub fn tail_terms(&self, nodes: usize) -> usize {
         self.tail.len() / (nodes * FIELDS).max(1)
+    }
+}
+
+impl Verification {
+    /// The numbers with the names of their datasets.
+    #[must_use]
+    pub fn lists(&self) -> [(&'static str, &[f32]); 3] {
+        [
+            (schema::PROBE_DIRECT, &self.direct),
+            (schema::PROBE_LOOKED_UP, &self.looked_up),
+            (schema::PROBE_ERROR, &self.error),
+        ]
     }
 }
 

@@ -47,12 +47,7 @@ pub fn content_hash(content: &Content) -> String {
         hash.update(slice.poisson_ratio.to_le_bytes());
         hash.update(slice.role.name().as_bytes());
         hash.update((slice.cells as u64).to_le_bytes());
-        for array in [
-            &slice.remainder,
-            &slice.moment,
-            &slice.curvature,
-            &slice.tail,
-        ] {
+        for (_, array) in slice.lists() {
             add_array(&mut hash, array);
         }
         add_verification(&mut hash, &slice.verification);
@@ -65,7 +60,7 @@ pub fn content_hash(content: &Content) -> String {
 }
 
 fn add_verification(hash: &mut Sha256, probes: &Verification) {
-    for array in [&probes.direct, &probes.looked_up, &probes.error] {
+    for (_, array) in probes.lists() {
         add_array(hash, array);
     }
 }

@@ -117,22 +117,12 @@ fn group(slice: &Slice) -> String {
     format!("slices/{}", schema::slice_name(slice.poisson_ratio))
 }
 
-/// The lists of a slice with their names.
-fn lists(slice: &Slice) -> [(&'static str, &[f32]); 4] {
-    [
-        (schema::REMAINDER, &slice.remainder),
-        (schema::MOMENT, &slice.moment),
-        (schema::CURVATURE, &slice.curvature),
-        (schema::TAIL, &slice.tail),
-    ]
-}
-
 /// Checks a slice as far as it is indexed by: the lengths of its lists, and what was measured.
 pub(crate) fn fits(content: &Content, slice: &Slice) -> Result<(), ContentError> {
     let group = group(slice);
     let nodes = content.r.len() * content.z.len();
     let [cells, terms] = size(content, slice);
-    for ((dataset, list), each) in lists(slice).into_iter().zip([cells, cells, cells, terms]) {
+    for ((dataset, list), each) in slice.lists().into_iter().zip([cells, cells, cells, terms]) {
         let needed = product(&[nodes, FIELDS, each]);
         length(&format!("{group}/{dataset}"), list, needed)?;
     }
@@ -143,7 +133,7 @@ pub(crate) fn fits(content: &Content, slice: &Slice) -> Result<(), ContentError>
 /// Checks that the numbers of a slice that fits are finite.
 fn finite(content: &Content, slice: &Slice) -> Result<(), ContentError> {
     let nodes = content.r.len() * content.z.len();
-    for (dataset, list) in lists(slice) {
+    for (dataset, list) in slice.lists() {
         if let Some(bad) = list.iter().position(|x| !x.is_finite()) {
             let node = bad / (list.len() / nodes);
             let (i, k) = (node / content.z.len(), node % content.z.len());
@@ -162,21 +152,11 @@ fn probes(
     places: usize,
 ) -> Result<(), ContentError> {
     let needed = product(&[places, content.pulse_lengths.len(), FIELDS]);
-    for (dataset, array, least, range) in [
-        (
-            schema::PROBE_DIRECT,
-            &probes.direct,
-            f32::MIN,
-            "finite numbers",
-        ),
-        (
-            schema::PROBE_LOOKED_UP,
-            &probes.looked_up,
-            f32::MIN,
-            "finite numbers",
-        ),
-        (schema::PROBE_ERROR, &probes.error, 0.0, "[0, inf)"),
-    ] {
+    for (dataset, array) in probes.lists() {
+        let (least, range) = match dataset {
+            schema::PROBE_ERROR => (0.0, "[0, inf)"),
+            _ => (f32::MIN, "finite numbers"),
+        };
         let name = format!("{group}/{dataset}");
         length(&name, array, needed)?;
         let bad = |x: &f32| !x.is_finite() || *x < least;

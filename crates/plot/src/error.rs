@@ -4,7 +4,7 @@ use crate::request::Kind;
 use contact::{Choice, nearest};
 use fault::{Class, Culprit, Fault};
 use formats::stored::{FileKind, ReadError, StoredQuantity};
-use impact::FieldsError;
+use halfspace::DomainError;
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
@@ -18,9 +18,9 @@ pub enum PlotError {
     /// A kernel table cannot be read.
     #[error(transparent)]
     Table(#[from] lookup::TableError),
-    /// The fields could not be computed.
+    /// A number is outside the physics.
     #[error(transparent)]
-    Fields(#[from] FieldsError),
+    Domain(#[from] DomainError),
     /// What is asked for is not in the files, or not to be drawn.
     #[error("{sentence}")]
     Refused {
@@ -107,7 +107,7 @@ impl Fault for PlotError {
         match self {
             Self::Read(error) => error.culprit(),
             Self::Table(error) => Culprit::of(Class::Table).file(&error.path),
-            Self::Fields(_) => Culprit::of(Class::Domain),
+            Self::Domain(_) => Culprit::of(Class::Domain),
             Self::Refused {
                 file, suggestion, ..
             } => Culprit {

@@ -3,7 +3,6 @@
 use crate::error::PlotError;
 use contact::WaveSpeeds;
 use formats::stored::StoredImpact;
-use impact::FieldsError;
 
 /// Points of a curve that is drawn: with more, parts of it are drawn by their extremes.
 const MOST_POINTS: usize = 4000;
@@ -44,7 +43,7 @@ pub(crate) fn end_s(time_s: &[f64], force_n: &[f64]) -> f64 {
 
 /// Speeds of the waves in the half-space of an impact, and when its force begins in s.
 pub(crate) fn waves_of(impact: &StoredImpact) -> Result<(WaveSpeeds, f64), PlotError> {
-    let speeds = WaveSpeeds::of(&impact.scene.target).map_err(FieldsError::from)?;
+    let speeds = WaveSpeeds::of(&impact.scene.target)?;
     Ok((
         speeds,
         onset_s(&impact.series.time_s, &impact.series.force_n),

@@ -1,6 +1,7 @@
 //! Numbers, keys and quantities in words, for titles, axes and legends.
 
 use figure::Unit;
+use formats::sweep::key_unit;
 use std::path::Path;
 
 /// A value in its unit with an SI prefix, to four digits: `5.764 µs`, `33 mg`, `0.98`.
@@ -50,25 +51,11 @@ fn trimmed(text: &str) -> String {
     text.replace('-', "\u{2212}")
 }
 
-/// Units that keys carry at their ends, the longest first.
-const UNITS: [(&str, &str); 7] = [
-    ("_pa_sqrt_m", "Pa m^(1/2)"),
-    ("_kg_m3", "kg/m^3"),
-    ("_m_s", "m/s"),
-    ("_kg", "kg"),
-    ("_pa", "Pa"),
-    ("_m", "m"),
-    ("_s", "s"),
-];
-
 /// Name and unit of a scene key: `striker.tip_radius_m` is "tip radius" in m.
 pub(crate) fn of_key(key: &str) -> (String, &'static str) {
     let (section, key) = key.split_once('.').unwrap_or(("", key));
-    let found = UNITS.iter().find(|(ending, _)| key.ends_with(ending));
-    let (name, unit) = found.map_or((key, "1"), |(ending, unit)| {
-        (&key[..key.len() - ending.len()], *unit)
-    });
-    let name = name
+    let (unit, ending) = key_unit(key);
+    let name = key[..key.len() - ending.len()]
         .replace("youngs_modulus", "Young's modulus")
         .replace("poisson_ratio", "Poisson's ratio")
         .replace('_', " ");

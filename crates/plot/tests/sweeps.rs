@@ -4,7 +4,7 @@
 
 use figure::{Figure, Layer, measure};
 use formats::Existing;
-use formats::sweep::{Spec, run_sweep, write_sweep};
+use formats::sweep::{Spec, run_rows, write_sweep};
 use plot::{Kind, Request, compose};
 use std::path::{Path, PathBuf};
 
@@ -17,8 +17,8 @@ fn sweep(folder: &Path, name: &str, varies: &str) -> PathBuf {
     let spec = Spec::from_toml(&text, folder).unwrap();
     let path = folder.join(name);
     let part = folder.join("part");
-    let done = run_sweep(&spec, &part, Existing::Replace, |_| true).unwrap();
-    write_sweep(&path, &spec, &done.unwrap().blocks, Existing::Keep).unwrap();
+    let done = run_rows(&spec, 0..spec.rows(), &part, Existing::Replace, |_| true).unwrap();
+    write_sweep(&path, &spec, &done.unwrap(), Existing::Keep).unwrap();
     path
 }
 
@@ -234,4 +234,23 @@ fn what_cannot_be_shown_of_a_sweep_is_told() {
         refused.contains("choose among them, such as by --at"),
         "{refused}"
     );
+}
+
+#[test]
+fn restitution_has_the_slope_where_something_yields() {
+    let folder = tempfile::tempdir().unwrap();
+    let request = Request {
+        kind: Some(Kind::Restitution),
+        ..Request::default()
+    };
+    let yields = "[scene.contact]\nplasticity = \"thornton\"\nyield_pressure_pa = 1e9\n";
+    for (name, flow, curves) in [("elastic.h5", "", 1), ("plastic.h5", yields, 2)] {
+        let path = sweep(folder.path(), name, &format!("{flow}{VELOCITIES}"));
+        let figure = drawn(&path, &request);
+        let lines = lines(&figure, 0);
+        assert_eq!(lines.len(), curves, "{name}");
+        let is_of_yield = figure.panels[0].x.quantity.ends_with("of yield");
+        assert_eq!(is_of_yield, curves == 2, "{name}");
+        assert_eq!(lines[curves - 1].0 == "slope -1/4", curves == 2, "{name}");
+    }
 }

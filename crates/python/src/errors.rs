@@ -1,6 +1,6 @@
 //! Errors as exceptions of `hertzlamb._errors`, with the numbers that their sentences have.
 
-use crate::convert::from_json;
+use crate::values::from_json;
 use fault::{Class, Fault};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -62,6 +62,20 @@ pub(crate) fn raised_in(py: Python<'_>, error: impl Fault, file: Option<&Path>) 
 /// An exception of a class, with its sentence alone.
 pub(crate) fn plain(py: Python<'_>, class: &str, message: &str) -> PyErr {
     exception(py, class, message, Map::new())
+}
+
+/// What an argument names, of all that it may name.
+pub(crate) fn one_of<T: Copy>(
+    py: Python<'_>,
+    what: &str,
+    found: &str,
+    all: &[(&str, T)],
+) -> PyResult<T> {
+    let known = all.iter().find(|(name, _)| *name == found);
+    known.map(|(_, value)| *value).ok_or_else(|| {
+        let names: Vec<&str> = all.iter().map(|(name, _)| *name).collect();
+        unknown(py, what, found, &names)
+    })
 }
 
 /// A profile, an integral or a deflection that does not exist.

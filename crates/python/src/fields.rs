@@ -1,7 +1,7 @@
 //! Fields at probes and on sections as arrays, by the names of results files.
 
-use crate::arrays::{frozen, matrix, vector};
-use formats::quantities::described;
+use crate::values::{frozen, matrix, vector};
+use formats::quantities::labels_of;
 use formats::results::schema;
 use impact::{Peaks, ProbeFields, SectionFields};
 use pyo3::prelude::*;
@@ -28,11 +28,8 @@ pub(crate) fn at_probes<'py>(
     found.set_item(schema::ARRIVALS.0, frozen(py, arrivals, &shape)?)?;
     let valid = vector(py, fields.valid_until_s.clone())?;
     found.set_item(schema::VALID_UNTIL.0, valid)?;
-    let own = schema::FIELDS.iter().map(|row| row.0);
-    let own = own.zip(fields.values.iter().zip(&fields.errors));
-    let more = fields.more.iter();
-    let more = more.map(|own| (described(own.quantity).0, (&own.values, &own.errors)));
-    for (name, (values, errors)) in own.chain(more) {
+    let histories = fields.values.iter().zip(&fields.errors);
+    for ((name, ..), (values, errors)) in labels_of(&fields.quantities).zip(histories) {
         found.set_item(name, matrix(py, values)?)?;
         found.set_item(error_of(name), vector(py, errors.clone())?)?;
         if peaks {
@@ -61,15 +58,11 @@ pub(crate) fn on_section<'py>(
     let waves = [3, place[0], place[1]];
     let arrivals = section.arrival_s.concat();
     found.set_item(schema::ARRIVALS.0, frozen(py, arrivals, &waves)?)?;
-    let own = schema::FIELDS.iter().map(|row| row.0);
-    let own = own.zip(section.values.iter().zip(&section.errors));
-    let more = section.more.iter();
-    let more = more.map(|own| (described(own.quantity).0, (&own.values, &own.errors)));
-    let mut names = Vec::new();
-    for (name, (values, errors)) in own.chain(more) {
+    let values = section.values.iter().zip(&section.errors);
+    let names: Vec<_> = labels_of(&section.quantities).map(|row| row.0).collect();
+    for (&name, (values, errors)) in names.iter().zip(values) {
         found.set_item(name, frozen(py, values.clone(), &frames)?)?;
         found.set_item(error_of(name), frozen(py, errors.clone(), &place)?)?;
-        names.push(name);
     }
     for (name, largest) in names.into_iter().zip(section.peaks.iter().flatten()) {
         put_peaks(&found, name, largest.clone(), &place)?;

@@ -1,14 +1,13 @@
 //! One impact: computed, looked at, written.
 
-use crate::arrays::vector;
-use crate::convert::from_json;
 use crate::errors;
 use crate::fields::{at_probes, on_section};
 use crate::scene::{scene, spelled_out};
+use crate::table::Opened;
 use crate::table::Table;
-use crate::tables::Opened;
+use crate::values::{from_json, vector};
 use crate::work::{Way, run};
-use formats::quantities::{Kind, QUANTITIES};
+use formats::quantities::{Kind, Labels, QUANTITIES};
 use formats::results::schema;
 use formats::{Existing, Output, json_report, stage_results, stage_results_csv};
 use impact::{Allowance, KernelChoice, Outcome as Computed, Scene, simulate_within};
@@ -51,8 +50,11 @@ pub(crate) fn run_impact(
     let (result, scene) = run(py, &way, move |ticker| {
         let allowance = Allowance {
             memory_bytes: max_memory_bytes.unwrap_or_else(output::free_memory),
-            go_on: &|_| !ticker.is_stopped(),
-            watch: ticker,
+            go_on: &|forecast| {
+                ticker.of(forecast.points as u64);
+                !ticker.is_stopped()
+            },
+            watch: &|| ticker.more(1),
         };
         (simulate_within(&scene, &kernels, &allowance), scene)
     })?;
@@ -213,7 +215,7 @@ pub(crate) fn replace(overwrite: bool) -> Existing {
 /// The columns that exist, by name.
 fn columns_of<'py, const N: usize>(
     py: Python<'py>,
-    described: &[(&str, &str, &str); N],
+    described: &[Labels<'_>; N],
     columns: [Option<&Vec<f64>>; N],
 ) -> PyResult<Bound<'py, PyDict>> {
     let found = PyDict::new(py);

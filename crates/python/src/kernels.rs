@@ -1,7 +1,7 @@
 //! The exact kernels at many places and times, in reduced units.
 
-use crate::arrays::{frozen, numbers, vector};
 use crate::errors;
+use crate::values::{frozen, numbers, vector};
 use crate::work::{Ticker, Way, run, run_short};
 use halfspace::{
     Arrivals, Deflection, DomainError, Estimate, Kernel, Medium, Profile, Six, SurfaceResponse,
@@ -18,25 +18,17 @@ fn medium_of(py: Python<'_>, nu: f64) -> PyResult<Medium> {
 }
 
 fn profile_of(py: Python<'_>, name: &str) -> PyResult<Profile> {
-    match name {
-        "hertz" => Ok(Profile::Hertz),
-        "punch" => Ok(Profile::Punch),
-        "point" => Ok(Profile::Point),
-        _ => Err(errors::unknown(
-            py,
-            "profile",
-            name,
-            &["hertz", "punch", "point"],
-        )),
-    }
+    let all = [
+        ("hertz", Profile::Hertz),
+        ("punch", Profile::Punch),
+        ("point", Profile::Point),
+    ];
+    errors::one_of(py, "profile", name, &all)
 }
 
 fn deflection_of(py: Python<'_>, name: &str) -> PyResult<Deflection> {
-    match name {
-        "centre" => Ok(Deflection::Centre),
-        "mean" => Ok(Deflection::Mean),
-        _ => Err(errors::unknown(py, "deflection", name, &["centre", "mean"])),
-    }
+    let all = [("centre", Deflection::Centre), ("mean", Deflection::Mean)];
+    errors::one_of(py, "deflection", name, &all)
 }
 
 /// Which function of time.
@@ -50,16 +42,13 @@ enum Order {
 
 impl Order {
     fn named(py: Python<'_>, name: &str) -> PyResult<Self> {
-        match name {
-            "step" => Ok(Self::Step),
-            "remainder" => Ok(Self::Remainder),
-            "impulse" => Ok(Self::Impulse),
-            "step_integral" => Ok(Self::Integral),
-            _ => {
-                let all = ["step", "remainder", "impulse", "step_integral"];
-                Err(errors::unknown(py, "order", name, &all))
-            }
-        }
+        let all = [
+            ("step", Self::Step),
+            ("remainder", Self::Remainder),
+            ("impulse", Self::Impulse),
+            ("step_integral", Self::Integral),
+        ];
+        errors::one_of(py, "order", name, &all)
     }
 
     fn at(self, kernel: &Kernel, [r, z, t]: [f64; 3]) -> Result<Estimate, DomainError> {

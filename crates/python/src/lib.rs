@@ -13,9 +13,6 @@
     reason = "the stubs in python/hertzlamb document what Python sees"
 )]
 
-// in reading order
-mod arrays;
-mod convert;
 mod errors;
 mod fields;
 mod impact_outcome;
@@ -24,8 +21,8 @@ mod library;
 mod scene;
 mod sweep;
 mod table;
-mod tables;
 mod tabulate;
+mod values;
 mod work;
 
 use pyo3::prelude::*;

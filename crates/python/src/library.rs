@@ -1,9 +1,9 @@
 //! The materials, and what every name of a result means.
 
-use crate::convert::from_json;
 use crate::errors;
+use crate::values::from_json;
 use contact::{Choice, Library, Model};
-use formats::quantities::{Kind, QUANTITIES, described};
+use formats::quantities::{Kind, Labels, QUANTITIES, labels_of};
 use formats::results::schema;
 use formats::{material_report, read_materials};
 use impact::Quantity as FieldQuantity;
@@ -31,7 +31,7 @@ pub(crate) fn materials<'py>(
 /// Unit and meaning of every name of a result, by the part of the results that it is in.
 #[pyfunction]
 pub(crate) fn describe(py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
-    let part = |list: &[(&str, &str, &str)]| -> Value {
+    let part = |list: &[Labels<'_>]| -> Value {
         let pairs = list
             .iter()
             .map(|(name, unit, meaning)| ((*name).to_owned(), json!([unit, meaning])));
@@ -45,7 +45,9 @@ pub(crate) fn describe(py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
         let row = json!([quantity.unit, quantity.meaning, kind]);
         (quantity.name.to_owned(), row)
     });
-    let more: Vec<(&str, &str, &str)> = FieldQuantity::ALL.iter().map(|&q| described(q)).collect();
+    let more: Vec<_> = labels_of(FieldQuantity::ALL)
+        .skip(schema::FIELDS.len())
+        .collect();
     let found = json!({
         "more": part(&more),
         "quantities": Value::Object(quantities.collect()),

@@ -1,52 +1,64 @@
 //! Scenes and sweeps as people give them: a dictionary, a path, or TOML text.
 
-use crate::convert::from_json;
 use crate::errors::{self, raised};
-use formats::{SceneError, parse_scene, read_scene};
+use crate::values::from_json;
+use formats::SceneError;
+use formats::scene::{parse_table, read_text, scene_of};
 use impact::Scene;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyString};
 use std::path::{Path, PathBuf};
 use toml::{Table, Value};
 
-/// What was given.
+/// What was given, and the file that it is in, beside which the files are that it names.
 #[derive(Debug)]
-pub(crate) enum Given {
-    /// A dictionary.
-    Table(Table),
-    /// TOML text.
-    Text(String),
-    /// A file.
-    File(PathBuf),
-}
-
-/// Where the files are that a dictionary or a text names.
-pub(crate) fn here() -> &'static Path {
-    Path::new(".")
+pub(crate) struct Given {
+    table: Table,
+    file: Option<PathBuf>,
 }
 
 impl Given {
     /// A text has more than one line, or is one assignment or section; anything else is a path.
     pub(crate) fn new(given: &Bound<'_, PyAny>) -> PyResult<Self> {
         let py = given.py();
+        let told = |error| raised(py, error);
+        let read = |path: PathBuf| -> PyResult<Self> {
+            let text = py.detach(|| read_text(&path)).map_err(told)?;
+            let table = parse_table(&text).map_err(|error| told(error.in_file(&path)))?;
+            let file = Some(path);
+            Ok(Self { table, file })
+        };
         if let Ok(text) = given.cast::<PyString>() {
             let text: String = text.extract()?;
-            let is_text = text.contains(['\n', '=']) || text.trim_start().starts_with('[');
-            return Ok(if is_text {
-                Self::Text(text)
-            } else {
-                Self::File(PathBuf::from(text))
-            });
+            if !text.contains(['\n', '=']) && !text.trim_start().starts_with('[') {
+                return read(PathBuf::from(text));
+            }
+            let (table, file) = (parse_table(&text).map_err(told)?, None);
+            return Ok(Self { table, file });
         }
         if given.hasattr("__fspath__")? {
-            return Ok(Self::File(given.extract()?));
+            return read(given.extract()?);
         }
         if !given.hasattr("items")? {
             let kind = given.get_type().name()?;
             let message = format!("a scene is a dictionary, a path or TOML text, not {kind}");
             return Err(errors::plain(py, "SceneError", &message));
         }
-        table(given, "").map(Self::Table)
+        let (table, file) = (table(given, "")?, None);
+        Ok(Self { table, file })
+    }
+
+    /// What it is read as, with the folder of its files; an error names the file.
+    pub(crate) fn read<T>(
+        &self,
+        of: impl FnOnce(&Table, &Path) -> Result<T, SceneError>,
+    ) -> Result<T, SceneError> {
+        let folder = self.file.as_ref().and_then(|path| path.parent());
+        let found = of(&self.table, folder.unwrap_or(Path::new(".")));
+        found.map_err(|error| match &self.file {
+            Some(path) => error.in_file(path),
+            None => error,
+        })
     }
 }
 
@@ -54,11 +66,7 @@ impl Given {
 pub(crate) fn scene(given: &Bound<'_, PyAny>) -> PyResult<Scene> {
     let py = given.py();
     let given = Given::new(given)?;
-    let found = py.detach(|| match &given {
-        Given::Table(table) => formats::scene::scene_of(table, here()),
-        Given::Text(text) => parse_scene(text, here()),
-        Given::File(path) => read_scene(path),
-    });
+    let found = py.detach(|| given.read(scene_of));
     found.map_err(|error| raised(py, error))
 }
 
@@ -169,11 +177,7 @@ fn wrong(name: &str, value: &Bound<'_, PyAny>, expected: &'static str) -> PyErr 
         .repr()
         .map_or_else(|_| "?".to_owned(), |text| text.to_string());
     let short: String = shown.chars().take(60).collect();
-    let error = SceneError::WrongKind {
-        key: name.to_owned(),
-        value: short,
-        expected,
-    };
+    let error = SceneError::wrong_kind(name.to_owned(), short, expected);
     raised(value.py(), error)
 }
 

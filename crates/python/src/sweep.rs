@@ -1,10 +1,10 @@
 //! Many impacts: rows of a sweep, and keys that vary together.
 
-use crate::arrays::{frozen, vector};
 use crate::errors;
 use crate::impact_outcome::replace;
-use crate::scene::{Given, from_toml, here};
-use crate::work::{Way, run};
+use crate::scene::{Given, from_toml};
+use crate::values::{frozen, vector};
+use crate::work::{Ticker, Way, run};
 use formats::quantities::QUANTITIES;
 use formats::sweep::{
     Block, Column, Rows, Spec, Values, check_rows, compute_rows, stage_csv, stage_rows,
@@ -28,12 +28,8 @@ pub(crate) struct Plan {
 pub(crate) fn plan(given: &Bound<'_, PyAny>) -> PyResult<Plan> {
     let py = given.py();
     let given = Given::new(given)?;
-    let spec = run(py, &Way::default(), move |_| match given {
-        Given::Table(table) => Spec::from_table(&table, here()),
-        Given::Text(text) => Spec::from_toml(&text, here()),
-        Given::File(path) => Spec::from_file(&path),
-    })?;
-    wrapped(py, spec)
+    let spec = move |_: &Ticker| given.read(Spec::from_table);
+    wrapped(py, run(py, &Way::default(), spec)?)
 }
 
 /// Numbers or words of a key.
@@ -57,17 +53,14 @@ pub(crate) fn plan_of_columns(
             section,
             key,
             values: match values {
-                Given1::Numbers(array) => Values::Numbers(crate::arrays::numbers(&array)),
+                Given1::Numbers(array) => Values::Numbers(crate::values::numbers(&array)),
                 Given1::Words(words) => Values::Texts(words),
             },
         })
         .collect();
-    let spec = run(py, &Way::default(), move |_| match scene {
-        Given::Table(table) => Spec::of_columns(&table, here(), columns),
-        Given::Text(text) => Spec::of_columns_in_text(&text, here(), columns),
-        Given::File(path) => Spec::of_columns_in_file(&path, columns),
-    })?;
-    wrapped(py, spec)
+    let of = |table: &_, folder: &_| Spec::of_columns(table, folder, columns);
+    let spec = move |_: &Ticker| scene.read(of);
+    wrapped(py, run(py, &Way::default(), spec)?)
 }
 
 /// Values of an axis at most.
@@ -77,11 +70,11 @@ fn wrapped(py: Python<'_>, spec: Result<Spec, SceneError>) -> PyResult<Plan> {
     let spec = spec.map_err(|error| errors::raised(py, error))?;
     // the axes are handed over as arrays
     if let Some(axis) = spec.axes.iter().find(|axis| axis.len > MOST_VALUES) {
-        let error = SceneError::OutOfRange {
-            key: format!("the length of the axis {}", axis.name),
-            value: axis.len as f64,
-            range: "[1, 10000000] in Python, which has the values of every axis as an array",
-        };
+        let error = SceneError::out_of_range(
+            format!("the length of the axis {}", axis.name),
+            axis.len as f64,
+            "[1, 10000000] in Python, which has the values of every axis as an array",
+        );
         return Err(errors::raised(py, error));
     }
     Ok(Plan {
@@ -156,9 +149,9 @@ impl Plan {
         })?;
         let found = found.map_err(|error| errors::raised(py, error))?;
         let block = found.ok_or_else(|| errors::raised(py, "the sweep was stopped"))?;
-        let shape = [block.numbers.len(), QUANTITIES.len()];
+        let shape = [block.len(), QUANTITIES.len()];
         Ok((
-            frozen(py, block.numbers.into_flattened(), &shape)?,
+            frozen(py, block.numbers, &shape)?,
             vector(py, block.models)?,
             block.failures,
         ))
@@ -174,12 +167,10 @@ impl Plan {
         failures: Vec<(usize, String)>,
         overwrite: bool,
     ) -> PyResult<()> {
-        let numbers = numbers.to_vec()?;
-        let (rows, _) = numbers.as_chunks();
         let block = Block {
             start: 0,
-            numbers: rows.to_vec(),
-            probed: Vec::new(),
+            width: QUANTITIES.len(),
+            numbers: numbers.to_vec()?,
             models: models.to_vec()?,
             failures,
         };

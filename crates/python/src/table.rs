@@ -1,17 +1,16 @@
-//! A kernel table: opened once, asked often.
+//! A kernel table: opened once, asked often; the parts that impacts have needed are kept for the next ones.
 
-use crate::arrays::{frozen, numbers};
-use crate::convert::from_json;
 use crate::errors;
-use crate::tables::Opened;
+use crate::values::{from_json, frozen, numbers};
 use crate::work::{Ticker, Way, run};
 use formats::table_report;
-use lookup::{LookupError, Smoothness, TableError, TableFile, TraceInfo};
+use impact::{TableFault, Tables};
+use lookup::{BadTable, LookupError, Smoothness, TableError, TableFile, TraceInfo};
 use numpy::{PyArrayDyn, PyReadonlyArray1};
 use pyo3::prelude::*;
 use rayon::prelude::*;
-use std::path::PathBuf;
-use std::sync::Arc;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 /// Points that a thread looks up at a time.
 const GRAIN: usize = 16;
@@ -28,14 +27,6 @@ struct Asked {
     points: Vec<[f64; 2]>,
     coarsening: u32,
     smoothness: Smoothness,
-}
-
-/// What a trace gives.
-struct Traces {
-    /// Step responses averaged over cells: points, cells, fields.
-    values: Vec<[f64; 6]>,
-    infos: Vec<TraceInfo>,
-    cells: usize,
 }
 
 /// Arrays of a trace: values, static fields, errors, and the width of a cell.
@@ -127,12 +118,12 @@ impl Table {
         let traces = move |ticker: &Ticker| asked.traces(&table, (values, cells), ticker);
         let found = run(py, &way, traces)?;
         let file = Some(self.opened.path());
-        let found = found.map_err(|error| errors::raised_in(py, error, file))?;
-        let width = found.infos.first().map_or(f64::NAN, |info| info.cell_width);
-        let still: Vec<f64> = found.infos.iter().flat_map(|i| i.static_part).collect();
-        let limits: Vec<f64> = found.infos.iter().flat_map(|i| i.error).collect();
+        let (values, infos) = found.map_err(|error| errors::raised_in(py, error, file))?;
+        let width = infos.first().map_or(f64::NAN, |info| info.cell_width);
+        let still: Vec<f64> = infos.iter().flat_map(|i| i.static_part).collect();
+        let limits: Vec<f64> = infos.iter().flat_map(|i| i.error).collect();
         Ok((
-            frozen(py, found.values.into_flattened(), &[rows, found.cells, 6])?,
+            frozen(py, values.into_flattened(), &[rows, cells, 6])?,
             frozen(py, still, &[rows, 6])?,
             frozen(py, limits, &[rows, 6])?,
             width,
@@ -141,13 +132,13 @@ impl Table {
 }
 
 impl Asked {
-    /// Traces of so many cells, into memory that is reserved.
+    /// Traces of so many cells, averaged over each, into memory that is reserved: points, cells, fields.
     fn traces(
         &self,
         table: &lookup::Table,
         (mut values, cells): (Vec<[f64; 6]>, usize),
         ticker: &Ticker,
-    ) -> Result<Traces, LookupError> {
+    ) -> Result<(Vec<[f64; 6]>, Vec<TraceInfo>), LookupError> {
         let rows = self.points.len();
         values.resize(rows * cells, [0.0; 6]);
         let none = TraceInfo {
@@ -174,10 +165,99 @@ impl Asked {
             }
             Ok::<_, LookupError>(())
         })?;
-        Ok(Traces {
-            values,
-            infos,
-            cells,
-        })
+        Ok((values, infos))
+    }
+}
+
+/// A part that was loaded.
+#[derive(Debug)]
+struct Part {
+    poisson_ratio: f64,
+    farthest: [f64; 2],
+    table: Arc<lookup::Table>,
+}
+
+/// A table on disk with what was loaded of it.
+#[derive(Debug)]
+pub(crate) struct Opened {
+    file: TableFile,
+    /// The part of the last impact: a part answers as the whole does.
+    part: Mutex<Option<Part>>,
+    whole: OnceLock<Arc<lookup::Table>>,
+}
+
+impl Opened {
+    pub(crate) fn new(file: TableFile) -> Self {
+        Self {
+            file,
+            part: Mutex::new(None),
+            whole: OnceLock::new(),
+        }
+    }
+
+    pub(crate) fn path(&self) -> &Path {
+        self.file.path()
+    }
+
+    /// Identity of the settings that it was made with.
+    pub(crate) fn id(&self) -> &str {
+        self.file.id()
+    }
+
+    /// All of it, loaded once.
+    pub(crate) fn whole(&self) -> Result<Arc<lookup::Table>, TableError> {
+        if let Some(table) = self.whole.get() {
+            return Ok(Arc::clone(table));
+        }
+        let table = self.same(lookup::Table::open(self.path()))?;
+        Ok(Arc::clone(self.whole.get_or_init(|| table)))
+    }
+
+    /// A table that was read, if its file is the one that was opened.
+    fn same(
+        &self,
+        read: Result<lookup::Table, TableError>,
+    ) -> Result<Arc<lookup::Table>, TableError> {
+        let table = read?;
+        if table.id() == self.id() {
+            Ok(Arc::new(table))
+        } else {
+            Err(BadTable::Changed.of(self.path()))
+        }
+    }
+}
+
+impl Tables for Opened {
+    fn part(
+        &self,
+        poisson_ratio: f64,
+        farthest: [f64; 2],
+    ) -> Result<Arc<lookup::Table>, TableFault> {
+        let mut kept = self.part.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(part) = &*kept
+            && part.poisson_ratio.to_bits() == poisson_ratio.to_bits()
+            && part
+                .farthest
+                .iter()
+                .zip(farthest)
+                .all(|(&has, wants)| wants <= has)
+        {
+            return Ok(Arc::clone(&part.table));
+        }
+        let table = self.same(self.file.part(poisson_ratio, farthest))?;
+        *kept = Some(Part {
+            poisson_ratio,
+            farthest,
+            table: Arc::clone(&table),
+        });
+        Ok(table)
+    }
+
+    fn refusal(
+        &self,
+        poisson_ratio: f64,
+        farthest: [f64; 2],
+    ) -> Result<Option<LookupError>, TableFault> {
+        Tables::refusal(&self.file, poisson_ratio, farthest)
     }
 }

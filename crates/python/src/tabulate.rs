@@ -3,76 +3,31 @@
 use crate::errors;
 use crate::impact_outcome::replace;
 use crate::scene::table;
-use crate::work::{Ticker, Way, run};
+use crate::work::{Way, run};
 use pyo3::prelude::*;
 use pyo3::types::PyString;
 use std::path::{Path, PathBuf};
 use tabulator::{BuildError, Extension, Grid, PRESETS, Summary, build_over, refine};
 
-/// A grid as it was given.
-enum Named {
-    Preset(String),
-    File(PathBuf),
-    Text(String),
-}
-
-impl Named {
-    fn new(given: &Bound<'_, PyAny>) -> PyResult<Self> {
-        let py = given.py();
-        if let Ok(name) = given.cast::<PyString>() {
-            let name: String = name.extract()?;
-            let is_file = Path::new(&name)
-                .extension()
-                .is_some_and(|end| end == "toml");
-            if PRESETS.contains(&name.as_str()) {
-                return Ok(Self::Preset(name));
-            } else if is_file {
-                return Ok(Self::File(PathBuf::from(name)));
-            }
-            let words = format!("{}, or the name of a .toml file", PRESETS.join(", "));
-            return Err(errors::unknown(py, "grid", &name, &[&words]));
+/// The grid of a preset, a file or a dictionary.
+fn grid_of(given: &Bound<'_, PyAny>) -> PyResult<Grid> {
+    let py = given.py();
+    let told = |error| errors::raised(py, error);
+    if let Ok(name) = given.cast::<PyString>() {
+        let name: String = name.extract()?;
+        let path = Path::new(&name);
+        if let Some(grid) = Grid::preset(&name).map_err(told)? {
+            return Ok(grid);
+        } else if path.extension().is_some_and(|end| end == "toml") {
+            return Grid::from_file(path).map_err(told);
         }
-        if given.hasattr("__fspath__")? {
-            return Ok(Self::File(given.extract()?));
-        }
-        Ok(Self::Text(table(given, "")?.to_string()))
+        let words = format!("{}, or the name of a .toml file", PRESETS.join(", "));
+        return Err(errors::unknown(py, "grid", &name, &[&words]));
     }
-
-    fn grid(&self) -> Result<Grid, BuildError> {
-        match self {
-            Self::Preset(name) => Ok(Grid::preset(name)?.unwrap_or_else(Grid::demo)),
-            Self::File(path) => Grid::from_file(path),
-            Self::Text(text) => Grid::parse(text),
-        }
+    if given.hasattr("__fspath__")? {
+        return Grid::from_file(&given.extract::<PathBuf>()?).map_err(told);
     }
-}
-
-/// What differs from the grid.
-struct Changes {
-    nu: Option<Vec<f64>>,
-    r_max: Option<f64>,
-    z_max: Option<f64>,
-    time_factor: Option<f64>,
-    /// An error, and the length of the pulses for which it is asked.
-    accuracy: Option<(f64, f64)>,
-}
-
-impl Changes {
-    fn apply(self, grid: &mut Grid, ticker: &Ticker) -> Result<(), BuildError> {
-        if let Some(mut ratios) = self.nu {
-            ratios.sort_by(f64::total_cmp);
-            ratios.dedup();
-            grid.poisson_ratios = ratios;
-            grid.exact_ratios.clear();
-        }
-        grid.r.max = self.r_max.unwrap_or(grid.r.max);
-        grid.z.max = self.z_max.unwrap_or(grid.z.max);
-        grid.time_factor = self.time_factor.unwrap_or(grid.time_factor);
-        if let Some((tolerance, pulse)) = self.accuracy {
-            (*grid, _) = refine(grid, tolerance, pulse, ticker)?;
-        }
-        Ok(())
-    }
+    Grid::parse(&table(given, "")?.to_string()).map_err(told)
 }
 
 /// Builds a table; its points, bytes and time in s.
@@ -95,19 +50,22 @@ pub(crate) fn tabulate(
     threads: Option<usize>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<(usize, u64, f64)> {
-    let named = Named::new(grid)?;
-    let changes = Changes {
-        nu,
-        r_max,
-        z_max,
-        time_factor,
-        accuracy,
-    };
+    let mut grid = grid_of(grid)?;
+    if let Some(mut ratios) = nu {
+        ratios.sort_by(f64::total_cmp);
+        ratios.dedup();
+        grid.poisson_ratios = ratios;
+        grid.exact_ratios.clear();
+    }
+    grid.r.max = r_max.unwrap_or(grid.r.max);
+    grid.z.max = z_max.unwrap_or(grid.z.max);
+    grid.time_factor = time_factor.unwrap_or(grid.time_factor);
     let way = Way { threads, progress };
     let built = run(py, &way, move |ticker| {
         output::TABLE.check(&path)?;
-        let mut grid = named.grid()?;
-        changes.apply(&mut grid, ticker)?;
+        if let Some((tolerance, pulse)) = accuracy {
+            (grid, _) = refine(&grid, tolerance, pulse, ticker)?;
+        }
         build_over(&grid, &path, replace(overwrite), ticker)
     })?;
     summary(py, built)

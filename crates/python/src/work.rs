@@ -68,16 +68,6 @@ impl Ticker {
     }
 }
 
-impl impact::Watch for Ticker {
-    fn points(&self, total: usize) {
-        self.of(total as u64);
-    }
-
-    fn advance(&self) {
-        self.more(1);
-    }
-}
-
 impl tabulator::Progress for Ticker {
     fn total(&self, _stage: &str, total: u64) {
         self.of(total);

@@ -1,14 +1,13 @@
 //! The whole chart: what is measured and drawn.
 
 use crate::StudyError;
-use crate::diagrams::diagrams;
 use crate::map;
 use crate::measure::Effort;
-use crate::picture::Picture;
+use crate::picture::{Picture, diagrams};
 use crate::question::{fields, force, impacts, kernels};
 use crate::ranking::{Ranking, rankings};
 use crate::record::Record;
-use crate::tables::Density;
+use crate::scenes::Density;
 use std::time::Instant;
 use tabulator::Progress;
 
@@ -56,8 +55,6 @@ impl Chart {
         let mut maps = map::inversions::figures(effort, &advance)?;
         progress.total("marches", 3);
         maps.extend(map::marches::figures(effort, &advance)?);
-        maps.push(map::dynamic::figure(effort)?);
-        advance();
         progress.total("kernel maps", 1);
         maps.extend(map::kernels::figures(effort, &advance)?);
         maps.extend(map::lookups::figures(&densities, effort)?);

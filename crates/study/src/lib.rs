@@ -9,10 +9,9 @@
 //! Used by the command `hertzlamb chart` and by tests, by no other crate.
 //!
 //! In reading order: `chart`; `measure` (a method at a setting, timed) and `record` (its row); the questions, with
-//! `scenes`, `tables` and `inversion` for them; the maps; `ranking`, `diagrams`, `picture` and `report`.
+//! `scenes` and `inversion` for them; the maps; `ranking`, `picture` and `report`.
 
 mod chart;
-mod diagrams;
 mod inversion;
 pub mod map;
 mod measure;
@@ -22,12 +21,11 @@ mod ranking;
 mod record;
 mod report;
 mod scenes;
-mod tables;
 
 pub use chart::Chart;
 pub use measure::Effort;
 pub use picture::Picture;
-pub use record::{Error, Question, Record, Timing};
+pub use record::{Error, Question, Record};
 pub use report::PICTURE_COLUMNS;
 
 /// Why a chart could not be made: a part of it, or a file.

@@ -1,7 +1,7 @@
 //! How a method is measured: its error against what is exact, and the median time of repeated runs.
 
 use crate::StudyError;
-use crate::record::{Error, Question, Record, Timing};
+use crate::record::{Error, Question, Record};
 use std::hint::black_box;
 use std::time::Instant;
 
@@ -24,7 +24,8 @@ impl Effort {
     }
 }
 
-/// The first result of `run`, and the time of a run, which makes `values` values.
+/// The first result of `run`, and the ns of one of the `values` that a run makes: median and half the distance between
+/// the quartiles.
 ///
 /// From at least three of `runs` runs of at least `shortest_s` each, none begun after `longest_s` in all.
 fn time<T>(
@@ -33,7 +34,7 @@ fn time<T>(
     longest_s: f64,
     values: f64,
     run: impl Fn() -> T,
-) -> (T, Timing) {
+) -> (T, [f64; 2]) {
     let begun = Instant::now();
     let first = black_box(run());
     let once_s = begun.elapsed().as_secs_f64().max(20e-9);
@@ -55,11 +56,7 @@ fn time<T>(
     }
     samples.sort_by(f64::total_cmp);
     let at = |share: f64| samples[((samples.len() - 1) as f64 * share).round() as usize];
-    let timing = Timing {
-        median_ns: at(0.5),
-        spread_ns: 0.5 * (at(0.75) - at(0.25)),
-    };
-    (first, timing)
+    (first, [at(0.5), 0.5 * (at(0.75) - at(0.25))])
 }
 
 /// What a run found, and its work where that is counted.
@@ -114,13 +111,9 @@ impl<T> Scene<'_, T> {
         effort: Effort,
         candidate: &Candidate<'_, T>,
     ) -> Result<Record, StudyError> {
-        let (found, cost) = if cfg!(test) {
+        let (found, [cost_ns, cost_spread_ns]) = if cfg!(test) {
             // tests look at errors and work counts, never at times
-            let nothing = Timing {
-                median_ns: 1.0,
-                spread_ns: 0.0,
-            };
-            ((candidate.run)(), nothing)
+            ((candidate.run)(), [1.0, 0.0])
         } else {
             let (runs, shortest_s, longest_s) = effort.pick((5, 5e-4, 0.06), (11, 5e-3, 1.5));
             time(runs, shortest_s, longest_s, self.values, &candidate.run)
@@ -135,7 +128,8 @@ impl<T> Scene<'_, T> {
             method: candidate.method,
             setting: candidate.setting.clone(),
             default_path: candidate.default_path,
-            cost,
+            cost_ns,
+            cost_spread_ns,
             error: Error::of(&errors),
             work: work.map(|work| work as f64 / self.values),
             refusal,
@@ -151,9 +145,10 @@ mod tests {
     #[test]
     fn a_run_does_as_much_work_as_it_says() {
         let count = Cell::new(0_u64);
-        let (first, timing) = time(5, 2e-4, 0.05, 10.0, || count.replace(count.get() + 1));
+        let (first, [median_ns, spread_ns]) =
+            time(5, 2e-4, 0.05, 10.0, || count.replace(count.get() + 1));
         assert_eq!(first, 0);
         assert!(count.get() >= 6, "{}", count.get());
-        assert!(timing.median_ns > 0.0 && timing.spread_ns >= 0.0);
+        assert!(median_ns > 0.0 && spread_ns >= 0.0);
     }
 }

@@ -1,5 +1,7 @@
-//! A picture of the chart: one panel with a name, a caption, and the numbers behind it.
+//! A picture of the chart: one panel with a name, a caption, and the numbers behind it; and the work-precision diagrams:
+//! error against cost, one curve a method, the Pareto front drawn.
 
+use crate::record::{Question, Record, distinct, pareto_front};
 use figure::{
     Axis, Classes, Figure, Interval, LabelledPoint, Layer, Legend, Line, Mark, Panel, Style,
 };
@@ -100,4 +102,115 @@ impl Picture {
         }
         points
     }
+}
+
+/// One diagram a scene.
+pub(crate) fn diagrams(records: &[Record]) -> Vec<Picture> {
+    let mut diagrams = Vec::new();
+    for question in Question::ALL {
+        let mine: Vec<&Record> = records.iter().filter(|r| r.question == question).collect();
+        let scenes = distinct(mine.iter().map(|r| r.scene));
+        for (scene, name) in scenes.into_iter().zip(question.diagrams()) {
+            let rows: Vec<&Record> = mine.iter().filter(|r| r.scene == scene).copied().collect();
+            diagrams.push(diagram(question, scene, name, &rows));
+        }
+    }
+    diagrams
+}
+
+/// Cost and error of a record as they are drawn: errors below 1e-16 there.
+fn place(record: &Record) -> (f64, f64) {
+    (record.cost_ns, record.error.max.max(1e-16))
+}
+
+/// The places that the frame holds.
+fn places(rows: &[&Record]) -> Vec<(f64, f64)> {
+    let shown = rows.iter().filter(|r| r.error.max < 2.0);
+    shown.map(|r| place(r)).collect()
+}
+
+fn diagram(question: Question, scene: &str, name: &'static str, rows: &[&Record]) -> Picture {
+    let shown = places(rows);
+    // half a marker of room around the outermost points
+    let low = shown.iter().fold(f64::INFINITY, |low, p| low.min(p.0));
+    let high = shown.iter().fold(0.0, |high, p| p.0.max(high));
+    let lowest = shown.iter().fold(1.0, |low, p| p.1.min(low));
+    let decade = |x: f64, up: f64| 10.0_f64.powf((x.log10() + up).floor());
+    let mut figure = Picture::new(
+        name,
+        &format!("{}: {scene}", question.name()),
+        Axis::logarithmic("cost")
+            .unit(&format!("ns per value: {}", question.value()))
+            .range(decade(low, -0.1), decade(high, 1.1)),
+        Axis::logarithmic("largest error over the largest value").range(decade(lowest, -0.2), 2.0),
+    );
+    figure.caption = caption(question, scene).to_owned();
+    for method in distinct(rows.iter().map(|r| r.method)) {
+        let own = rows.iter().filter(|r| r.method == method);
+        let own: Vec<&Record> = own.copied().collect();
+        let default = if own.iter().any(|r| r.default_path) {
+            " [default]"
+        } else {
+            ""
+        };
+        let failures = match own.iter().filter(|r| r.failed()).count() {
+            0 => String::new(),
+            n if n == own.len() => " (fails)".to_owned(),
+            n => format!(" ({n} of {} fail)", own.len()),
+        };
+        // settings of fields and tables vary in several ways at once: no line orders them
+        let style = if question == Question::Fields || method == "table" {
+            Style::Points
+        } else {
+            Style::Marked
+        };
+        figure.curve(&format!("{method}{default}{failures}"), style, places(&own));
+    }
+    figure.curve("Pareto front", Style::HeavyDashed, staircase(rows));
+    figure
+}
+
+/// What a diagram needs to be read.
+fn caption(question: Question, scene: &str) -> &'static str {
+    match question {
+        Question::Kernels if scene.starts_with("interior point, across") => {
+            "Times are even in the logarithm, with more at one hundredth before and after every front. \
+             The table holds averages over time cells, and its error here is that of single cells, which a front that \
+             passes between two nodes makes large; it is made for sums with a force, as in the diagrams of fields, where \
+             the fronts cancel."
+        }
+        Question::Kernels if scene.starts_with("surface") => {
+            "The closed form is the reference here: its error is zero by definition and drawn at the bottom."
+        }
+        Question::Kernels => "",
+        Question::Force => {
+            "The marches at a given number of steps are the scheme alone; those with a tolerance halve the step until the \
+             results stand still, and pay for the coarser marches as well."
+        }
+        Question::Impacts => {
+            "The contact is solved anew for each value, to the same tolerance as its fields. The reference is an integral over \
+             the past of a force solved to 1e-9. Cells alone do not integrate the ends of the contact apart."
+        }
+        Question::Fields if scene.starts_with("whole") => {
+            "Both by the same stencils over the same exact kernels in double precision: the static part, which is exact and \
+             steep near the disc, is worth interpolating around."
+        }
+        Question::Fields => {
+            "A value is the six fields at a point over a unit of time, so that a method with longer steps has fewer samples \
+             to make. Steps of the table are powers of two of its cells."
+        }
+    }
+}
+
+/// The border of what the front dominates.
+fn staircase(rows: &[&Record]) -> Vec<(f64, f64)> {
+    let mut points: Vec<(f64, f64)> = Vec::new();
+    for i in pareto_front(rows, Record::time_ns) {
+        let (cost, error) = place(rows[i]);
+        if let Some(&(_, before)) = points.last() {
+            points.push((cost, before));
+        }
+        points.push((cost, error));
+    }
+    points
 }

@@ -17,46 +17,59 @@ impl Question {
     /// All of them.
     pub const ALL: [Self; 4] = [Self::Kernels, Self::Force, Self::Fields, Self::Impacts];
 
+    /// Its name in files, what one value is for cost and work, what the report calls it, and the names of its diagrams in
+    /// the order in which the scenes appear.
+    fn row(self) -> [&'static str; 4] {
+        match self {
+            Self::Kernels => [
+                "kernels",
+                "six fields at one point and time",
+                "How to compute a kernel",
+                "kernels-interior kernels-late kernels-axis kernels-surface",
+            ],
+            Self::Force => [
+                "force",
+                "one impact",
+                "How to compute an impact",
+                "force-disc force-growing",
+            ],
+            Self::Fields => [
+                "fields",
+                "six fields at one point over r0/c1 of time",
+                "How to compute fields",
+                "fields-pulse-10 fields-interpolation-10 fields-pulse-40 fields-interpolation-40 \
+                 fields-edge fields-interpolation-edge",
+            ],
+            Self::Impacts => [
+                "impacts",
+                "one impact with six fields at one point",
+                "How to compute the fields of a whole impact",
+                "impacts-disc-near impacts-disc-far impacts-growing-near impacts-growing-far",
+            ],
+        }
+    }
+
     /// Its name in files.
     #[must_use]
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Kernels => "kernels",
-            Self::Force => "force",
-            Self::Fields => "fields",
-            Self::Impacts => "impacts",
-        }
+        self.row()[0]
     }
 
     /// What one value is, for cost and work.
     #[must_use]
     pub fn value(self) -> &'static str {
-        match self {
-            Self::Kernels => "six fields at one point and time",
-            Self::Force => "one impact",
-            Self::Fields => "six fields at one point over r0/c1 of time",
-            Self::Impacts => "one impact with six fields at one point",
-        }
+        self.row()[1]
     }
 
     /// What the report calls it.
     pub(crate) fn title(self) -> &'static str {
-        match self {
-            Self::Kernels => "How to compute a kernel",
-            Self::Force => "How to compute an impact",
-            Self::Fields => "How to compute fields",
-            Self::Impacts => "How to compute the fields of a whole impact",
-        }
+        self.row()[2]
     }
-}
 
-/// Nanoseconds per value on one core.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Timing {
-    /// Median over the runs.
-    pub median_ns: f64,
-    /// Half the distance between the quartiles of the runs.
-    pub spread_ns: f64,
+    /// Names of its diagrams, in the order in which the scenes appear.
+    pub(crate) fn diagrams(self) -> impl Iterator<Item = &'static str> {
+        self.row()[3].split(' ')
+    }
 }
 
 /// Error of a method against the converged reference, relative to the largest value of each quantity.
@@ -98,8 +111,10 @@ pub struct Record {
     pub setting: String,
     /// Whether the program itself takes this way unless told otherwise.
     pub default_path: bool,
-    /// Cost per value on one core.
-    pub cost: Timing,
+    /// Nanoseconds per value on one core, the median over the runs.
+    pub cost_ns: f64,
+    /// Half the distance between the quartiles of the runs.
+    pub cost_spread_ns: f64,
     /// Error against the converged reference.
     pub error: Error,
     /// Work per value, where it is counted.
@@ -122,8 +137,8 @@ impl Record {
             self.method.to_owned(),
             self.setting.clone(),
             self.default_path.to_string(),
-            number(self.cost.median_ns),
-            number(self.cost.spread_ns),
+            number(self.cost_ns),
+            number(self.cost_spread_ns),
             number(self.error.max),
             number(self.error.rms),
             self.work.map(number).unwrap_or_default(),
@@ -140,7 +155,7 @@ impl Record {
 
     /// Cost as time.
     pub(crate) fn time_ns(&self) -> Option<f64> {
-        Some(self.cost.median_ns)
+        Some(self.cost_ns)
     }
 }
 
@@ -194,10 +209,8 @@ mod tests {
                 method,
                 setting: String::new(),
                 default_path,
-                cost: Timing {
-                    median_ns: cost,
-                    spread_ns: 0.0,
-                },
+                cost_ns: cost,
+                cost_spread_ns: 0.0,
                 error: Error::of(&[error]),
                 work: None,
                 refusal: None,

@@ -9,13 +9,13 @@ use contact::{
 };
 use halfspace::Medium;
 use std::f64::consts::PI;
-use study::map::dynamic::{dynamic_growth_limit, dynamic_is_solved, dynamic_limit};
 use study::map::kernels::{
     closed_form_error, deep_static_error, double_root_error, double_root_own_error,
     incompressible_error, incompressible_surface,
 };
 use study::map::marches::{
-    Converged, Outcome, admittance, linear_growth, paper_disc, paper_response,
+    Converged, Outcome, admittance, dynamic_growth_limit, dynamic_is_solved, dynamic_limit,
+    linear_growth, paper_disc, paper_response,
 };
 use study::map::models::{
     Plane, SPEEDS_M_S, TOLERANCES, ball_impact, disc_at, disc_chosen, disc_errors, place_of,

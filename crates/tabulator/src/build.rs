@@ -5,8 +5,10 @@ use crate::block;
 use crate::error::BuildError;
 use crate::grid::Grid;
 use crate::journal::{self, journal_of, title};
+use crate::known::Known;
 use crate::progress::Progress;
 use crate::rows::{rows, usable};
+use ledger::Title;
 use output::{Existing, Output, OutputError};
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
@@ -29,7 +31,6 @@ pub fn build_over(
 ) -> Result<Summary, BuildError> {
     let started = Instant::now();
     grid.validate()?;
-    let work = block::all(grid);
     let text = grid.to_toml()?;
     let output = match Output::claim(path, existing) {
         Err(exists @ OutputError::Exists { .. }) => {
@@ -39,19 +40,42 @@ pub fn build_over(
         claimed => claimed?,
     };
     let drops = |_: &str| existing == Existing::Replace;
-    let (journal, finished) = journal::open(&journal_of(&output), &title(&text, None), drops)?;
-    let finished = usable(grid, &work, finished, None)?;
+    let summary = compute(grid, &output, &title(&text, None), drops, None, progress)?;
+    Ok(Summary {
+        wall_s: started.elapsed().as_secs_f64(),
+        ..summary
+    })
+}
+
+/// Computes what neither a journal nor a known table has, and writes the table; the journal goes when it is there.
+pub(crate) fn compute(
+    grid: &Grid,
+    output: &Output,
+    title: &Title,
+    drops: impl Fn(&str) -> bool,
+    known: Option<&Known>,
+    progress: &dyn Progress,
+) -> Result<Summary, BuildError> {
+    let work = block::all(grid);
+    let (journal, found) = journal::open(&journal_of(output), title, drops)?;
+    let mut finished = usable(grid, &work, found, known)?;
     let resumed_blocks = finished.len();
+    if let Some(known) = known {
+        for &block in &work {
+            if let Some(row) = known.row(grid, block)? {
+                finished.insert(block, row);
+            }
+        }
+    }
     let journal = Mutex::new(journal);
-    let rows = rows(grid, &work, finished, Some(&journal), None, progress)?;
-    let summary = complete(grid, &work, rows, &output, None, progress)?;
+    let rows = rows(grid, &work, finished, Some(&journal), known, progress)?;
+    let summary = complete(grid, &work, rows, output, known, progress)?;
     journal
         .into_inner()
         .unwrap_or_else(PoisonError::into_inner)
         .remove();
     Ok(Summary {
         resumed_blocks,
-        wall_s: started.elapsed().as_secs_f64(),
         ..summary
     })
 }

@@ -1,17 +1,15 @@
 //! Adds slices, places and times to a finished table, computing only what it lacks.
 
-use crate::assemble::{Summary, complete};
-use crate::block;
+use crate::assemble::Summary;
+use crate::build::compute;
 use crate::error::BuildError;
 use crate::grid::Grid;
-use crate::journal::{self, journal_of, title};
+use crate::journal::title;
 use crate::known::Known;
 use crate::progress::Progress;
-use crate::rows::{rows, usable};
 use lookup::{BadTable, Table};
 use output::{Existing, Output};
 use std::path::Path;
-use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
 /// What a table is to have in addition.
@@ -55,29 +53,11 @@ pub fn extend(
     let known = Known::new(content);
     apply(&mut grid, &known, extension)?;
     grid.validate()?;
-    let work = block::all(&grid);
-    let text = grid.to_toml()?;
+    let title = title(&grid.to_toml()?, Some(&base));
     // one that became the table which is there may go
     let drops = |settings: &str| settings == present;
-    let title = title(&text, Some(&base));
-    let (journal, found) = journal::open(&journal_of(&output), &title, drops)?;
-    let mut finished = usable(&grid, &work, found, Some(&known))?;
-    let resumed_blocks = finished.len();
-    for &block in &work {
-        if let Some(row) = known.row(&grid, block)? {
-            finished.insert(block, row);
-        }
-    }
-    let journal = Mutex::new(journal);
-    let recorded = Some(&journal);
-    let rows = rows(&grid, &work, finished, recorded, Some(&known), progress)?;
-    let summary = complete(&grid, &work, rows, &output, Some(&known), progress)?;
-    journal
-        .into_inner()
-        .unwrap_or_else(PoisonError::into_inner)
-        .remove();
+    let summary = compute(&grid, &output, &title, drops, Some(&known), progress)?;
     Ok(Summary {
-        resumed_blocks,
         wall_s: started.elapsed().as_secs_f64(),
         ..summary
     })

@@ -1,7 +1,7 @@
 //! `hertzlamb chart`: speed against accuracy, and where methods fail.
 
-use crate::failure::{Failure, print};
-use crate::overwrite::Overwrite;
+use crate::arguments::Overwrite;
+use crate::failure::{Failure, print, say};
 use crate::progress::Bar;
 use clap::Args;
 use output::Folder;
@@ -39,6 +39,13 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         Effort::Full
     };
     let folder = Folder::claim(&arguments.output, arguments.overwrite.existing())?;
+    let old = arguments.output.join("chart.h5");
+    if old.exists() {
+        let old = old.display();
+        say(format!(
+            "note: {old} is of an earlier version and stays; this one writes CSV files"
+        ));
+    }
     let progress = Bar::new();
     let chart = Chart::run(effort, &progress).map_err(Failure::in_part)?;
     progress.finish();

@@ -1,18 +1,18 @@
 //! `hertzlamb demo`: the paper's case from kernels to picture, and the waves under a ball.
 
+use crate::arguments::open_table;
 use crate::failure::{Failure, print, say};
-use crate::kernels::open_table;
 use crate::progress::Bar;
 use clap::Args;
 use figure::to_svg;
 use formats::{Existing, parse_scene, write_results, write_whole};
-use impact::{KernelChoice, simulate, simulate_watched};
+use impact::{Allowance, KernelChoice, simulate, simulate_within};
 use paper::Numbers;
 use plot::{Request, compose};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
-use tabulator::{Grid, build};
+use tabulator::{Grid, Progress, build};
 
 /// The paper's scene, the same file as in scenes/.
 const SCENE: &str = include_str!("../copper-on-steel.toml");
@@ -80,7 +80,12 @@ fn waves(folder: &Path) -> Result<[PathBuf; 2], Failure> {
         scene.points()
     ));
     let bar = Bar::new();
-    let outcome = simulate_watched(&scene, &KernelChoice::Direct, &bar)?;
+    bar.start("fields", scene.points() as u64);
+    let allowance = Allowance {
+        watch: &|| bar.advance(1),
+        ..Allowance::default()
+    };
+    let outcome = simulate_within(&scene, &KernelChoice::Direct, &allowance)?;
     bar.finish();
     let results = folder.join("waves.vtkhdf");
     write_results(&results, &scene, &outcome, Existing::Replace)?;

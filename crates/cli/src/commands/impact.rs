@@ -1,28 +1,27 @@
 //! `hertzlamb impact`: one scene.
 
+use crate::arguments::{Kernel, Kernels, MemoryLimit, Overwrite, say_complete};
 use crate::failure::{Failure, say, show};
-use crate::kernels::{Kernel, Kernels};
-use crate::memory::MemoryLimit;
-use crate::overwrite::{Overwrite, say_complete};
 use crate::progress::Bar;
 use crate::report::{text_report, understood};
 use clap::Args;
 use formats::{
     Allowed, check_results, json_report, read_with_inputs, stage_results, stage_results_csv,
 };
-use impact::{Allowance, Forecast, ImpactError, KernelChoice, Scene, TooMuch, simulate_within};
+use impact::{Allowance, Forecast, ImpactError, KernelChoice, Scene, simulate_within};
 use output::{CSV, Existing, HDF5, Output, Role, Staged};
 use serde_json::json;
 use std::cell::Cell;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
+use tabulator::Progress;
 
 /// An impact that takes longer says how far it is.
 const PATIENCE: Duration = Duration::from_secs(1);
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Example:\n  hertzlamb impact scenes/copper-on-steel.toml --table kernels.h5 -o impact.h5 --json"
+    after_help = "Examples:\n  hertzlamb impact scenes/first-impact.toml -o impact.h5\n  hertzlamb impact scenes/copper-on-steel.toml --table kernels.h5 -o impact.h5 --json"
 )]
 pub(crate) struct Arguments {
     /// Scene file (TOML, see data-schema/scene.md); - is standard input.
@@ -65,8 +64,14 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let progress = Bar::after(PATIENCE);
     let allowance = Allowance {
         memory_bytes: arguments.memory.bytes(),
-        go_on: &announce,
-        watch: &progress,
+        go_on: &|forecast| {
+            if forecast.seconds > LONG_S {
+                say(takes(forecast));
+            }
+            progress.start("fields", forecast.points as u64);
+            true
+        },
+        watch: &|| progress.advance(1),
     };
     let outcome = simulate_within(&scene, &kernels, &allowance)?;
     progress.finish();
@@ -98,7 +103,7 @@ fn dry_run(arguments: &Arguments, scene: &Scene, kernels: &KernelChoice) -> Resu
         ..Allowance::default()
     };
     match simulate_within(scene, kernels, &allowance) {
-        Ok(_) | Err(ImpactError::TooMuch(TooMuch::GivenUp { .. })) => {}
+        Ok(_) | Err(ImpactError::GivenUp { .. }) => {}
         Err(error) => return Err(error.into()),
     }
     let forecast = found.get().unwrap_or(Forecast::least(scene));
@@ -158,14 +163,6 @@ fn outputs(arguments: &Arguments, mut read: Vec<Role>) -> Result<[Option<Output>
 
 /// Seconds from which on a scene says what it will take.
 const LONG_S: f64 = 5.0;
-
-/// Says what a long scene takes, and that it goes on.
-fn announce(forecast: &Forecast) -> bool {
-    if forecast.seconds > LONG_S {
-        say(takes(forecast));
-    }
-    true
-}
 
 fn takes(forecast: &Forecast) -> String {
     let decimals = if forecast.seconds > LONG_S { 0 } else { 2 };

@@ -1,18 +1,18 @@
 //! `hertzlamb infer`: yield pressure or velocity from a rebound.
 
+use crate::commands::strike;
 use crate::failure::{Failure, show};
 use clap::builder::PossibleValuesParser;
 use clap::{ArgGroup, Args};
 use contact::{Choice, GRAVITY_M_S2, Measure, Rebound, Unknown};
 use formats::read_scene;
-use impact::Load;
 use serde_json::json;
 use std::path::PathBuf;
 
 const EXAMPLES: &str = "Examples:
-  hertzlamb infer drop.toml --restitution 0.56 --error 0.01
-  hertzlamb infer drop.toml --bounces 0.32,0.18
-  hertzlamb infer drop.toml --peak-force 120 --error 3 --unknown velocity_m_s";
+  hertzlamb infer scenes/plastic-drop.toml --restitution 0.56 --error 0.01
+  hertzlamb infer scenes/plastic-drop.toml --bounces 0.32,0.18
+  hertzlamb infer scenes/plastic-drop.toml --peak-force 120 --error 3 --unknown velocity_m_s";
 
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES, group(ArgGroup::new("measured").required(true)))]
@@ -45,11 +45,7 @@ pub(crate) struct Arguments {
 
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let scene = read_scene(&arguments.scene)?;
-    let Load::Strike(mut strike) = scene.load else {
-        return Err(Failure::input(
-            "a force record has no rebound: give the scene a [striker]",
-        ));
-    };
+    let mut strike = strike(&scene)?.clone();
     let unknown = Unknown::named(&arguments.unknown).unwrap_or(Unknown::YieldPressure);
     let mut error = arguments.error;
     let (measure, value) = match (

@@ -1,7 +1,7 @@
 //! `hertzlamb paper`: the source paper's numbers and figures beside those of this program.
 
+use crate::arguments::Overwrite;
 use crate::failure::{Failure, print};
-use crate::overwrite::Overwrite;
 use clap::Args;
 use output::Folder;
 use paper::Redone;

@@ -1,7 +1,7 @@
 //! `hertzlamb plot`: pictures of what was computed.
 
+use crate::arguments::Overwrite;
 use crate::failure::{Failure, print, say};
-use crate::overwrite::Overwrite;
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use contact::Choice;

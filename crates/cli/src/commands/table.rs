@@ -1,8 +1,8 @@
 //! `hertzlamb table`: looks at finished tables and joins shards.
 
+use crate::arguments::Overwrite;
 use crate::commands::tabulate;
 use crate::failure::{Failure, print, show};
-use crate::overwrite::Overwrite;
 use crate::progress::Bar;
 use clap::{Args, Subcommand};
 use formats::table_report;

@@ -1,8 +1,7 @@
 //! `hertzlamb tabulate`: builds a kernel table.
 
+use crate::arguments::{MemoryLimit, Overwrite, say_complete};
 use crate::failure::{Failure, say, show};
-use crate::memory::MemoryLimit;
-use crate::overwrite::{Overwrite, say_complete};
 use crate::progress::Bar;
 use clap::Args;
 use formats::accuracy_report;

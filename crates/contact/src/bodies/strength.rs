@@ -12,6 +12,8 @@ pub struct Strength {
     yield_strength_pa: Option<f64>,
     tensile_strength_pa: Option<f64>,
     fracture_toughness_pa_sqrt_m: Option<f64>,
+    /// Mean pressure of the contact at which it begins to yield.
+    yield_pressure_pa: Option<f64>,
 }
 
 impl Strength {
@@ -21,14 +23,15 @@ impl Strength {
             yield_strength_pa: material.yield_strength_pa,
             tensile_strength_pa: material.tensile_strength_pa,
             fracture_toughness_pa_sqrt_m: material.fracture_toughness_pa_sqrt_m,
+            yield_pressure_pa: (material.yield_strength_pa)
+                .map(|strength| 2.0 / 3.0 * strength / largest_mises(material.poisson_ratio)),
         }
     }
 
     /// Mean pressure of the contact in Pa at which the body begins to yield; none without a yield strength.
     #[must_use]
     pub fn yield_pressure_pa(&self) -> Option<f64> {
-        let strength = self.yield_strength_pa?;
-        Some(2.0 / 3.0 * strength / largest_mises(self.poisson_ratio))
+        self.yield_pressure_pa
     }
 
     /// Yield strength in Pa and Poisson's ratio, where the strength is known.

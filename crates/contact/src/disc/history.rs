@@ -4,7 +4,6 @@ use crate::disc::edge::Ends;
 use crate::error::MarchError;
 use crate::growing::solved::SolvedContact;
 use crate::law::hertz::CONTACT_TIME;
-use crate::plastic::solved::YieldedContact;
 use std::sync::Arc;
 
 /// The end of the first contact, as the last samples in contact tell it.
@@ -51,8 +50,6 @@ pub struct History {
     pub(crate) end_layer: Option<[f64; 2]>,
     /// The contact itself where it was solved by pieces, of which these are samples.
     pub(crate) pieces: Option<Arc<SolvedContact>>,
-    /// The same of one that has yielded.
-    pub(crate) yielded: Option<Arc<YieldedContact>>,
     /// Estimated error of the force at any instant, over the largest.
     pub(crate) error: f64,
 }
@@ -94,7 +91,6 @@ impl History {
             dissipated: None,
             end_layer: None,
             pieces: None,
-            yielded: None,
             error: f64::INFINITY,
         }
     }
@@ -121,24 +117,10 @@ impl History {
         history
     }
 
-    /// Samples of a contact that has yielded, with the contact itself.
+    /// The contact itself where it was solved by pieces.
     #[must_use]
-    pub fn of_yielded(contact: &YieldedContact, step: f64, error: f64) -> Self {
-        let steps = (contact.summary().contact_time / step) as usize + 1;
-        let mut history = Self::at_touch(step, steps + 1);
-        for i in 1..=steps {
-            let now = contact.state(i as f64 * step);
-            history.push(now.force, now.displacement, now.deflection);
-        }
-        history.error = error;
-        history.yielded = Some(Arc::new(contact.clone()));
-        history
-    }
-
-    /// The contact itself where it has yielded.
-    #[must_use]
-    pub fn yielded(&self) -> Option<&Arc<YieldedContact>> {
-        self.yielded.as_ref()
+    pub fn pieces(&self) -> Option<&Arc<SolvedContact>> {
+        self.pieces.as_ref()
     }
 
     #[inline]

@@ -122,10 +122,15 @@ pub(crate) fn negative_compliance(response: &impl DiscResponse) -> f64 {
     let compliance = |angle: f64| {
         // of a cell: w int e^(-i w t) dt = 2 sin(angle/2) e^(-i w middle)
         let (mut real, mut imaginary) = (0.0, 0.0);
-        for (j, v) in left.iter().enumerate() {
-            let (sine, cosine) = (angle * (j as f64 + 0.5)).sin_cos();
+        let (mut sine, mut cosine) = (0.5 * angle).sin_cos();
+        let (turn_sine, turn_cosine) = angle.sin_cos();
+        for v in &left {
             real += v * cosine;
             imaginary -= v * sine;
+            (sine, cosine) = (
+                sine * turn_cosine + cosine * turn_sine,
+                cosine * turn_cosine - sine * turn_sine,
+            );
         }
         let size = 2.0 * (0.5 * angle).sin();
         [1.0 + size * imaginary, -size * real]

@@ -3,18 +3,47 @@
 
 use crate::growing::polynomial::Polynomial;
 use crate::numeric::quadrature::{CLOSE, rising_root};
+use crate::plastic::branch::Law;
 
-/// Time, contact radius, velocity and displacement of the striker over a stretch of the contact.
+/// Time, contact radius, velocity and displacement of the striker over a stretch of the contact, and the law that it follows.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Piece {
+    pub(crate) law: Law,
     pub(crate) time: Polynomial,
     pub(crate) radius: Polynomial,
     pub(crate) velocity: Polynomial,
     pub(crate) displacement: Polynomial,
+    /// Force where it is not the cube of the radius.
+    pub(crate) force: Option<Polynomial>,
+    /// c of a half-space that answers at once.
+    pub(crate) lag: Option<f64>,
     /// Time and radius where it starts.
     pub(crate) from: (f64, f64),
     /// Time and radius where it ends.
     pub(crate) to: (f64, f64),
+}
+
+impl Piece {
+    /// Force and its first two slopes in the place.
+    pub(crate) fn force(&self, place: f64) -> [f64; 3] {
+        match &self.force {
+            Some(force) => force.curve(place),
+            None => {
+                let [a, slope, bend] = self.radius.curve(place);
+                let square = 3.0 * a * a;
+                let second = 6.0 * a * slope * slope + square * bend;
+                [a.powi(3), square * slope, second]
+            }
+        }
+    }
+
+    /// Power that leaves the law, per place: (p v T' - F u_a a').
+    pub(crate) fn losing(&self, place: f64) -> f64 {
+        let (radius, radius_slope) = self.radius.jet(place);
+        let here = self.law.branch.at(radius.max(0.0));
+        let travel = self.velocity.value(place) * self.time.jet(place).1;
+        self.force(place)[0] * travel - here.force * here.depth_slope * radius_slope
+    }
 }
 
 /// The piece of an arrival, after all others.

@@ -33,7 +33,7 @@ impl March<'_> {
         let bare = (self.accuracy / (0.01 * phi * wave_time)).max(0.3 * wave_time);
         for _ in 0..MOST {
             let from = self.state.radius;
-            let rate = 2.0 * from / -self.state.slope;
+            let rate = self.law.branch.at(from).depth_slope / -self.state.slope;
             let left = rate * from / power;
             if left < NEGLIGIBLE * self.accuracy || again > 5 && left < LOST * self.accuracy {
                 self.end_by_power_law(left, power);
@@ -53,7 +53,7 @@ impl March<'_> {
                         return Ok(());
                     }
                     again = 0;
-                    let rise = to / -self.state.slope / (0.5 * rate);
+                    let rise = self.law.branch.at(to).depth_slope / -self.state.slope / rate;
                     power = (1.0 + rise.ln() / (to / from).ln()).clamp(0.7, 2.0);
                     ratio = (1.0 - (1.0 - ratio) * self.factor(error)).clamp(0.1, 0.8);
                 }
@@ -109,10 +109,13 @@ impl March<'_> {
         self.state.radius = 0.0;
         self.state.displacement += from.velocity * left;
         self.pieces.push(Piece {
+            law: self.law,
             time: self.nodes.polynomial(&times),
             radius,
             velocity: Polynomial::constant(from.velocity),
             displacement: self.nodes.polynomial(&places),
+            force: None,
+            lag: None,
             from: (from.time, from.radius),
             to: (self.state.time, 0.0),
         });

@@ -3,14 +3,18 @@
 //! Along a piece time T and radius a are functions of a place s in [0, 1]; one of them is known.
 //!
 //! ```text
-//! (v - 2 phi S) T' = 2 (1 - phi) a a',    S = sum_k (m_k/X_k) (a - a_k),    T_k + X_k a_k = t
-//! v = v_0 - (5/4) int a^3 T' ds
+//! (v - phi S) T' = (u_a - phi s_a) a',    S = sum_k (m_k/X_k) (g - g_k),    T_k + X_k a_k = t
+//! v = v_0 - (5/4) int p T' ds
 //! ```
+//!
+//! Indentation u, punches s, g = int ds/a and force p over the radius are those of a [`Law`]; Hertz's has u = s = a^2,
+//! g = 2 a and p = a^3.
 
 use crate::growing::arrivals::{Arrival, Departure, Piece};
 use crate::growing::nodes::{Factors, Nodes};
 use crate::growing::polynomial::{LARGEST, Polynomial, dot};
 use crate::growing::waves::{GrowingContact, Rule};
+use crate::plastic::branch::{Law, Local};
 use crate::units::INVERSE_MASS;
 
 /// What is known where a piece starts or ends.
@@ -55,6 +59,7 @@ pub(crate) struct Equations<'a> {
     /// The pieces before.
     pub(crate) pieces: &'a [Piece],
     pub(crate) start: State,
+    pub(crate) law: Law,
     pub(crate) known: Independent,
     /// What is known: the time or the radius.
     pub(crate) given: Polynomial,
@@ -69,6 +74,8 @@ pub(crate) struct Motion {
     pub(crate) time_slope: Values,
     pub(crate) radius_slope: Values,
     pub(crate) velocity: Values,
+    /// The law at the nodes.
+    pub(crate) local: [Local; LARGEST],
 }
 
 /// The departures of all waves to all nodes.
@@ -111,8 +118,10 @@ impl Equations<'_> {
             Independent::Radius => (*sought, given, sought_slope, given_slope),
         };
         let mut impulse = [0.0; LARGEST];
+        let mut local = [Local::default(); LARGEST];
         for j in 1..=n {
-            impulse[j - 1] = radius[j].powi(3) * time_slope[j];
+            local[j - 1] = self.law.branch.at(radius[j]);
+            impulse[j - 1] = local[j - 1].force * time_slope[j];
         }
         let mut velocity = [self.start.velocity; LARGEST + 1];
         for (i, v) in velocity.iter_mut().enumerate().take(n + 1).skip(1) {
@@ -124,6 +133,7 @@ impl Equations<'_> {
             time_slope,
             radius_slope,
             velocity,
+            local,
         }
     }
 
@@ -166,16 +176,25 @@ impl Equations<'_> {
             };
             let found = &mut departures.found[(i - 1) * size..i * size];
             arrival.departures(self.pieces, &departures.delays, again, found);
+            let delayed = self.law.delayed(motion.radius[i]);
             let parts = rule.rates.iter().zip(found.iter());
             let sum: f64 = parts
-                .map(|(rate, left)| rate * (motion.radius[i] - left.radius))
+                .map(|(rate, left)| rate * (delayed - self.law_of(left).delayed(left.radius)))
                 .sum();
-            let drive = motion.velocity[i] - 2.0 * target_share * sum / wave_time;
-            let elastic = 2.0 * (1.0 - target_share) * motion.radius[i] * motion.radius_slope[i];
-            residual.value[i - 1] = drive * motion.time_slope[i] - elastic;
+            let drive = motion.velocity[i] - target_share * sum / wave_time;
+            let here = &motion.local[i - 1];
+            let at_once = (1.0 - target_share) * here.punch_slope;
+            let slope = at_once + (here.depth_slope - here.punch_slope);
+            residual.value[i - 1] = drive * motion.time_slope[i] - slope * motion.radius_slope[i];
             residual.drive[i - 1] = drive;
         }
         residual
+    }
+
+    /// The law at a departure.
+    fn law_of(&self, left: &Departure) -> &Law {
+        let piece = self.pieces.get(left.piece);
+        piece.map_or(&self.law, |piece| &piece.law)
     }
 
     /// Derivatives of the residuals with respect to what is sought, at the departures of the residual.
@@ -192,11 +211,16 @@ impl Equations<'_> {
         let velocity = self.velocity_by_impulse(motion);
         for i in 1..=n {
             let found = &departures.found[(i - 1) * size..i * size];
-            let (sums, own) = self.tension_row(rule, found, &departures.delays);
+            let here = &motion.local[i - 1];
+            let slope = self.law.slope(motion.radius[i]);
+            let (sums, own) = self.tension_row(rule, found, &departures.delays, slope);
             let slopes = self.nodes.slope_row(i);
             let line = matrix.row(i - 1);
-            let tension = 2.0 * self.contact.target_share / self.contact.wave_time;
-            let rest = 2.0 * (1.0 - self.contact.target_share);
+            let tension = self.contact.target_share / self.contact.wave_time;
+            let rest = 1.0 - self.contact.target_share;
+            // what the indentation is more than the punches
+            let more = here.depth_slope - here.punch_slope;
+            let more_bend = here.bends[0] - here.bends[1];
             for l in 1..=n {
                 let by_velocity: f64 = match self.known {
                     Independent::Time => {
@@ -212,8 +236,9 @@ impl Equations<'_> {
                 line[l - 1] = by_drive * motion.time_slope[i]
                     + match self.known {
                         Independent::Time => {
-                            let here = if l == i { motion.radius_slope[i] } else { 0.0 };
-                            -rest * (motion.radius[i] * slopes[l] + here)
+                            let turn = if l == i { motion.radius_slope[i] } else { 0.0 };
+                            let punches = here.punch_slope * slopes[l] + here.bends[1] * turn;
+                            -rest * punches - (more * slopes[l] + more_bend * turn)
                         }
                         Independent::Radius => residual.drive[i - 1] * slopes[l],
                     };
@@ -221,21 +246,19 @@ impl Equations<'_> {
         }
     }
 
-    /// Row j: what is sought in the impulse -(5/4) a^3 T' of node j.
+    /// Row j: what is sought in the impulse -(5/4) p T' of node j.
     fn velocity_by_impulse(&self, motion: &Motion) -> [f64; LARGEST * LARGEST] {
         let n = self.nodes.degree;
         let mut rows = [0.0; LARGEST * LARGEST];
         for j in 1..=n {
             let row = &mut rows[(j - 1) * n..j * n];
-            let a = motion.radius[j];
+            let here = &motion.local[j - 1];
             match self.known {
-                Independent::Time => {
-                    row[j - 1] = -INVERSE_MASS * 3.0 * a * a * motion.time_slope[j];
-                }
+                Independent::Time => row[j - 1] = -here.braking * motion.time_slope[j],
                 Independent::Radius => {
                     let slopes = &self.nodes.slope_row(j)[1..];
                     for (entry, slope) in row.iter_mut().zip(slopes) {
-                        *entry = -INVERSE_MASS * a.powi(3) * slope;
+                        *entry = -INVERSE_MASS * here.force * slope;
                     }
                 }
             }
@@ -244,22 +267,29 @@ impl Equations<'_> {
     }
 
     /// Derivatives of S times the wave time at a node: with respect to what is sought at each node (with
-    /// the sign turned) and, beside it, at the node itself.
-    fn tension_row(&self, rule: &Rule, found: &[Departure], delays: &[f64]) -> (Values, f64) {
+    /// the sign turned) and, beside it, at the node itself, where g has a slope.
+    fn tension_row(
+        &self,
+        rule: &Rule,
+        found: &[Departure],
+        delays: &[f64],
+        slope: f64,
+    ) -> (Values, f64) {
         let mut sums = [0.0; LARGEST + 1];
         let mut basis = [0.0; LARGEST + 1];
         let mut own = 0.0;
         for ((left, &delay), &rate) in found.iter().zip(delays).zip(&rule.rates) {
             let speed = left.time_slope + delay * left.radius_slope;
+            let there = rate * self.law_of(left).slope(left.radius);
             let weight = match self.known {
                 // a_k follows the polynomial at its place, which moves
                 Independent::Time => {
-                    own += rate;
-                    rate * left.time_slope / speed
+                    own += rate * slope;
+                    there * left.time_slope / speed
                 }
                 Independent::Radius => {
-                    own -= rate * left.radius_slope / speed;
-                    -rate * left.radius_slope / speed
+                    own -= there * left.radius_slope / speed;
+                    -there * left.radius_slope / speed
                 }
             };
             if left.piece == self.pieces.len() {

@@ -7,6 +7,8 @@ use crate::growing::polynomial::{LARGEST, Polynomial};
 use crate::growing::step::{Solution, Step};
 use crate::growing::waves::{GrowingContact, LEVELS};
 use crate::law::hertz::CONTACT_TIME;
+use crate::numeric::quadrature::rising_root;
+use crate::plastic::branch::Law;
 use crate::units::INVERSE_MASS;
 
 /// A contact on its way.
@@ -18,6 +20,7 @@ pub(crate) struct March<'a> {
     pub(crate) nodes: &'static Nodes,
     pub(crate) pieces: Vec<Piece>,
     pub(crate) state: State,
+    pub(crate) law: Law,
     /// Of the rule over the waves.
     pub(crate) level: usize,
     /// Largest radius.
@@ -73,6 +76,7 @@ impl<'a> March<'a> {
             nodes: Nodes::of(degree as usize),
             pieces: Vec::with_capacity(32),
             state: State::TOUCH,
+            law: Law::HERTZ,
             level: 2,
             widest: 0.0,
             dissipated: 0.0,
@@ -96,6 +100,7 @@ impl<'a> March<'a> {
                 nodes: self.nodes,
                 pieces: &self.pieces,
                 start: self.state,
+                law: self.law,
                 known,
                 given,
             };
@@ -163,16 +168,17 @@ impl<'a> March<'a> {
         (0.5 / error.max(1e-12)).powf(power).clamp(0.2, 3.0)
     }
 
-    /// Pieces in time until the radius has fallen below most of its largest.
+    /// Pieces in time until the radius reaches a limit, or has fallen below most of its largest.
     ///
     /// They are polynomials of the root of the time since the touch, later of the root of the time to the
     /// expected end: Hertz's contact is analytic in these over most of its duration.
     ///
     /// # Errors
     /// The time in collision units where no piece is short enough.
-    pub(crate) fn load(&mut self) -> Result<(), f64> {
+    pub(crate) fn load(&mut self, limit: f64) -> Result<(), f64> {
         let mut length = self.first_length();
         let mut late = false;
+        let mut ends = false;
         for _ in 0..MOST {
             let first = self.pieces.is_empty();
             let expected = if first {
@@ -199,8 +205,22 @@ impl<'a> March<'a> {
                 self.guess(&given)
             };
             match self.attempt(Independent::Time, given, &guess) {
+                Some((solution, _)) if solution.end.radius > limit && !ends => {
+                    // once more, until there
+                    let rising = |s| {
+                        let (radius, slope) = solution.piece.radius.jet(s);
+                        (radius - limit, slope)
+                    };
+                    length *= rising_root(rising, [0.0, 1.0], 0.5, 1e-16)[1];
+                    ends = true;
+                    continue;
+                }
                 Some((solution, error)) if error <= 1.0 => {
                     self.accept(Independent::Time, &solution);
+                    if ends {
+                        self.state.radius = limit;
+                        return Ok(());
+                    }
                     length *= self.factor(error);
                     if self.state.slope < 0.0 && self.state.radius < SWITCH * self.widest {
                         return Ok(());
@@ -210,6 +230,7 @@ impl<'a> March<'a> {
                 Some((_, error)) => length *= self.factor(error).min(0.7),
                 None => length *= 0.3,
             }
+            ends = false;
             if length < 1e-9 {
                 break;
             }
@@ -254,8 +275,8 @@ impl<'a> March<'a> {
         guess
     }
 
-    /// Hertz's contact from the state on, as a guess.
-    fn guess(&self, time: &Polynomial) -> Values {
+    /// The law without waves from the state on, as a guess.
+    pub(crate) fn guess(&self, time: &Polynomial) -> Values {
         let mut guess = [0.0; LARGEST + 1];
         guess[0] = self.state.radius;
         let (mut u, mut rate) = (self.state.radius.powi(2), self.state.slope);
@@ -266,7 +287,7 @@ impl<'a> March<'a> {
             let step = now - before;
             before = now;
             let middle = u + 0.5 * step * rate;
-            rate -= step * INVERSE_MASS * middle.max(0.0).powf(1.5);
+            rate -= step * INVERSE_MASS * self.law.branch.pressed(middle.max(0.0));
             u = (middle + 0.5 * step * rate).max(least);
             *a = u.sqrt();
         }

@@ -217,7 +217,7 @@ fn excess(estimates: &Estimates, accuracy: &Accuracy) -> f64 {
 /// Solves with pieces that leave an error of `piece` each.
 fn resolve(contact: &GrowingContact<'_>, piece: f64) -> Result<SolvedContact, GrowingError> {
     let mut march = March::new(*contact, piece);
-    let followed = march.load().and_then(|()| march.close());
+    let followed = march.load(f64::INFINITY).and_then(|()| march.close());
     followed.map_err(|time| GrowingError::NotFollowed {
         time,
         tolerance: piece,

@@ -2,7 +2,10 @@
 
 use crate::growing::arrivals::Piece;
 use crate::growing::march::{Errors, March};
-use crate::numeric::quadrature::rising_root;
+use crate::growing::nodes::Nodes;
+use crate::growing::polynomial::LARGEST;
+use crate::numeric::quadrature::{GAUSS_8, gauss, rising_root};
+use crate::plastic::{Flow, Yielding};
 use crate::summary::{EndOfContact, Estimates, Instant, Summary};
 use crate::units::INVERSE_MASS;
 
@@ -14,6 +17,18 @@ pub struct SolvedContact {
     ends: Vec<f64>,
     summary: Summary,
     estimates: Estimates,
+    yielded: Option<Yielded>,
+}
+
+/// What a contact has that has yielded.
+#[derive(Debug, Clone)]
+struct Yielded {
+    yielding: Yielding,
+    flow: Flow,
+    /// When yield begins and when the indentation turns.
+    breaks: [f64; 2],
+    /// Work on the waves until each piece, over the kinetic energy.
+    radiated: Vec<f64>,
 }
 
 /// The contact at a time, in collision units.
@@ -64,7 +79,7 @@ impl SolvedContact {
             .iter()
             .take_while(|piece| piece.to.0 <= peak_force_time)
             .count();
-        let (peak_deflection, _) = largest(&pieces[late..], deflection, deflection_slope);
+        let (peak_deflection, _) = largest(&pieces[late..], deflected, deflection_slope);
         let work = 2.0 * INVERSE_MASS * dissipated;
         let momentum = (1.0 - state.velocity) * (1.0 + state.velocity);
         let (restitution, loss) = if work < SMALL_LOSS {
@@ -93,7 +108,120 @@ impl SolvedContact {
             ends: pieces.iter().map(|piece| piece.to.0).collect(),
             pieces,
             estimates,
+            yielded: None,
         }
+    }
+
+    /// Of a contact that has yielded, from its pieces with the velocity after it: its largest radius, and when yield began
+    /// and the indentation turned.
+    pub(crate) fn yielded(
+        mut pieces: Vec<Piece>,
+        errors: &Errors,
+        velocity: f64,
+        yielding: &Yielding,
+        [top, onset, turn]: [f64; 3],
+    ) -> Self {
+        let nodes = Nodes::of(LARGEST);
+        for piece in pieces.iter_mut().filter(|piece| piece.force.is_none()) {
+            let force = |&s: &f64| piece.law.branch.at(piece.radius.value(s).max(0.0)).force;
+            let values: Vec<f64> = nodes.places.iter().map(force).collect();
+            piece.force = Some(nodes.polynomial(&values));
+        }
+        let slope = |piece: &Piece, place: f64| piece.force(place)[1];
+        let (peak_force, peak_force_time) = largest(&pieces, |p, s| p.force(s)[0], slope);
+        let (peak_displacement, _) = largest(
+            &pieces,
+            |p, s| p.displacement.value(s),
+            |p, s| p.displacement.jet(s).1,
+        );
+        let mut radiated = vec![0.0];
+        for piece in &pieces {
+            let before = radiated.last().copied().unwrap_or(0.0);
+            radiated.push(before + work_of(piece, 1.0));
+        }
+        let last = pieces.last();
+        // what a contact without force has not given back goes the way of the dashpot
+        let kept = last.map_or(0.0, |one| one.law.branch.given_back(one.to.1.max(0.0)));
+        let (back, from) = yielding.unloading(top);
+        let flowed = 2.0 * INVERSE_MASS * (yielding.work(top) - back.given_back(from));
+        let lost = radiated.last().copied().unwrap_or(0.0) + 2.0 * INVERSE_MASS * kept;
+        let contact_time = last.map_or(0.0, |one| one.to.0);
+        let deflected = pieces.iter().flat_map(|piece| {
+            let places = (0..=SAMPLES).map(|i| f64::from(i) / f64::from(SAMPLES));
+            places.map(|place| deflected(piece, place))
+        });
+        let summary = Summary {
+            peak_force,
+            peak_force_time,
+            contact_time,
+            restitution: -velocity,
+            loss: (1.0 - velocity) * (1.0 + velocity),
+            peak_displacement,
+            peak_deflection: deflected.fold(0.0, f64::max),
+            impulse: (1.0 - velocity) / INVERSE_MASS,
+            contacts: 1,
+            end: EndOfContact::Layer(0.0),
+        };
+        Self {
+            estimates: estimates(&summary, errors, 0.0),
+            ends: pieces.iter().map(|piece| piece.to.0).collect(),
+            pieces,
+            summary,
+            yielded: Some(Yielded {
+                yielding: *yielding,
+                flow: Flow::new(yielding, top, [flowed, lost]),
+                breaks: [onset, turn],
+                radiated,
+            }),
+        }
+    }
+
+    /// What has flowed, where the contact has yielded.
+    #[must_use]
+    pub fn flow(&self) -> Option<&Flow> {
+        self.yielded.as_ref().map(|yielded| &yielded.flow)
+    }
+
+    /// When the rate of the force jumps within the contact: the onset of yield and the turning point of one that yields.
+    #[must_use]
+    pub fn kinks(&self) -> &[f64] {
+        self.yielded.as_ref().map_or(&[], |yielded| &yielded.breaks)
+    }
+
+    /// Stored energy, plastic work and work on the waves until a time, over the kinetic energy before; nothing of a contact
+    /// that has not yielded.
+    #[must_use]
+    pub fn energies(&self, time: f64) -> Option<[f64; 3]> {
+        let Yielded {
+            yielding,
+            flow,
+            breaks,
+            radiated,
+        } = self.yielded.as_ref()?;
+        if !(time >= 0.0 && time < self.summary.contact_time) {
+            return Some([0.0, flow.plastic_work, flow.radiated]);
+        }
+        let index = self.index(time);
+        let piece = self.pieces.get(index)?;
+        let place = place_of(piece, time);
+        let radius = piece.radius.value(place).max(0.0);
+        let turned = time >= breaks[1];
+        let (back, from) = if turned {
+            (piece.law.branch, radius)
+        } else {
+            yielding.unloading(radius)
+        };
+        let stored = 2.0 * INVERSE_MASS * back.given_back(from);
+        let flowed = if turned {
+            flow.plastic_work
+        } else {
+            2.0 * INVERSE_MASS * yielding.work(radius) - stored
+        };
+        Some([
+            stored,
+            flowed.max(0.0),
+            radiated[index] + work_of(piece, place),
+        ])
     }
 
     /// The results.
@@ -126,20 +254,25 @@ impl SolvedContact {
         }
         let (piece, place) = self.place(time)?;
         let radius = piece.radius.value(place).max(0.0);
-        let displacement = piece.displacement.value(place);
+        let force = piece.force.map(|force| force.value(place).max(0.0));
         Some(GrowingInstant {
-            force: radius.powi(3),
+            force: force.unwrap_or(radius.powi(3)),
             radius,
             velocity: piece.velocity.value(place),
-            displacement,
-            deflection: displacement - radius * radius,
+            displacement: piece.displacement.value(place),
+            deflection: deflected(piece, place),
         })
+    }
+
+    /// The piece that holds a time.
+    fn index(&self, time: f64) -> usize {
+        let after = self.ends.partition_point(|&end| end < time);
+        after.min(self.pieces.len().saturating_sub(1))
     }
 
     /// The piece that holds a time, and the place in it.
     fn place(&self, time: f64) -> Option<(&Piece, f64)> {
-        let after = self.ends.partition_point(|&end| end < time);
-        let piece = self.pieces.get(after).or(self.pieces.last())?;
+        let piece = self.pieces.get(self.index(time))?;
         Some((piece, place_of(piece, time)))
     }
 
@@ -150,16 +283,15 @@ impl SolvedContact {
             return [0.0; 3];
         }
         self.place(time).map_or([0.0; 3], |(piece, place)| {
-            let [radius, a1, a2] = piece.radius.curve(place);
+            let [force, p1, p2] = piece.force(place);
             let [_, t1, t2] = piece.time.curve(place);
-            if radius <= 0.0 || t1 <= 0.0 {
+            if force <= 0.0 || t1 <= 0.0 {
                 return [0.0; 3];
             }
             // slopes in the place to those in time
-            let (per, square) = (1.0 / t1, 3.0 * radius * radius);
-            let rate = square * a1 * per;
-            let bend = (6.0 * radius * a1 * a1 + square * a2 - rate * t2) * per * per;
-            [radius.powi(3), rate, bend]
+            let per = 1.0 / t1;
+            let rate = p1 * per;
+            [force, rate, (p2 - rate * t2) * per * per]
         })
     }
 
@@ -193,15 +325,29 @@ impl SolvedContact {
     }
 }
 
-fn deflection(piece: &Piece, place: f64) -> f64 {
-    let radius = piece.radius.value(place);
-    piece.displacement.value(place) - radius * radius
-}
-
 fn deflection_slope(piece: &Piece, place: f64) -> f64 {
     let (radius, radius_slope) = piece.radius.jet(place);
     let time_slope = piece.time.jet(place).1;
     piece.velocity.value(place) * time_slope - 2.0 * radius * radius_slope
+}
+
+/// Places of a piece among which the largest deflection of a contact that yields is.
+const SAMPLES: u32 = 16;
+
+/// What deflects the surface beside the law's indentation: of a dashpot, which has no displacement for it, by its force.
+fn deflected(piece: &Piece, place: f64) -> f64 {
+    let here = piece.law.branch.at(piece.radius.value(place).max(0.0));
+    if let Some(lag) = piece.lag {
+        return -lag * here.stiffness * piece.velocity.value(place);
+    }
+    piece.displacement.value(place) - here.depth
+}
+
+/// Work on the waves from the start of a piece to a place, over the kinetic energy before the contact.
+fn work_of(piece: &Piece, place: f64) -> f64 {
+    let half = 0.5 * place;
+    let losing = |from| gauss(&GAUSS_8, from, from + half, |s| piece.losing(s));
+    2.0 * INVERSE_MASS * (losing(0.0) + losing(half))
 }
 
 /// The place of a time in a piece: its time rises.

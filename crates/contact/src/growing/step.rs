@@ -151,8 +151,9 @@ impl Step<'_> {
         let mut dissipated = 0.0;
         for j in 1..=n {
             travel[j - 1] = motion.velocity[j] * motion.time_slope[j];
-            let lag = travel[j - 1] - 2.0 * motion.radius[j] * motion.radius_slope[j];
-            dissipated += nodes.weights[j - 1] * motion.radius[j].powi(3) * lag;
+            let here = &motion.local[j - 1];
+            let lag = travel[j - 1] - here.depth_slope * motion.radius_slope[j];
+            dissipated += nodes.weights[j - 1] * here.force * lag;
         }
         let mut displacement = [self.equations.start.displacement; LARGEST + 1];
         for (i, place) in displacement.iter_mut().enumerate().take(n + 1).skip(1) {
@@ -163,10 +164,13 @@ impl Step<'_> {
         nodes.modes(sought, &mut modes);
         Solution {
             piece: Piece {
+                law: self.equations.law,
                 time,
                 radius,
                 velocity: nodes.polynomial(&motion.velocity),
                 displacement: nodes.polynomial(&displacement),
+                force: None,
+                lag: None,
                 from: (self.equations.start.time, self.equations.start.radius),
                 to: (motion.time[n], motion.radius[n]),
             },
@@ -175,7 +179,8 @@ impl Step<'_> {
                 radius: motion.radius[n],
                 velocity: motion.velocity[n],
                 displacement: displacement[n],
-                slope: 2.0 * motion.radius[n] * motion.radius_slope[n] / motion.time_slope[n],
+                slope: motion.local[n - 1].depth_slope * motion.radius_slope[n]
+                    / motion.time_slope[n],
             },
             widest: motion.radius[..=n].iter().fold(0.0_f64, |m, &a| m.max(a)),
             dissipated,
@@ -187,7 +192,7 @@ impl Step<'_> {
 }
 
 /// Size of the last term of a Legendre series, or of the one before continued at the rate of its fall.
-fn last_term(modes: &[f64]) -> f64 {
+pub(crate) fn last_term(modes: &[f64]) -> f64 {
     let [a, b, c] = [3, 2, 1].map(|back| modes[modes.len() - back].abs());
     c.max(if b < a { b * b / a } else { b })
 }

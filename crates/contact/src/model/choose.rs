@@ -89,7 +89,10 @@ pub struct Chosen {
 }
 
 /// What the dashpot of a yielding contact leaves out over c^2, of its loss over c.
-const YIELDING: [f64; 2] = [3.0, 1.0];
+///
+/// The first bounds what was found on 80 random pairs of metals at 1.05 to 300 times the velocity of yield, 8.7 at most and
+/// 1.4 in the median; `tests/plastic.rs` repeats it.
+const YIELDING: [f64; 2] = [10.0, 1.0];
 
 /// First-order losses and memories up to which the expansion is trusted at all.
 const LARGEST_LOSS: f64 = 0.3;
@@ -416,13 +419,14 @@ fn groups(settings: &Settings, collision: &Collision, response: &impl DiscRespon
         Model::Auto => settings.disc_radius_m.is_some() || settings.scheme == Scheme::Explicit,
         asked => asked.row().1,
     };
-    let lag = collision.lag(response);
+    let wave_time = collision.contact_wave_time();
+    let lag = collision.lag_of(wave_time, response);
     if !fixed {
         return Groups {
             family: Family::Growing,
             coupling: 0.0,
             lag,
-            memory: collision.contact_wave_time() * response.punch_memory(),
+            memory: wave_time * response.punch_memory(),
         };
     }
     let disc = disc_radius_m(settings, collision);

@@ -18,6 +18,7 @@
 //! Theory: `docs/theory.md` (T62 to T65).
 
 use crate::numeric::quadrature::{GAUSS_8, gauss};
+use crate::units::INVERSE_MASS;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// A law on one side of the turning point.
@@ -35,8 +36,44 @@ pub(crate) enum Branch {
     Truncated { edge: f64, top: f64 },
 }
 
+/// A branch with the constant of its int ds/a, which goes on where branches meet.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Law {
+    pub(crate) branch: Branch,
+    offset: f64,
+}
+
+impl Law {
+    /// A contact that has not yielded.
+    pub(crate) const HERTZ: Self = Self {
+        branch: Branch::Hertz,
+        offset: 0.0,
+    };
+
+    /// Another branch from a radius on.
+    pub(crate) fn followed_by(&self, branch: Branch, radius: f64) -> Self {
+        let offset = self.delayed(radius) - branch.delayed(radius);
+        Self { branch, offset }
+    }
+
+    /// g = int ds/a from the touch.
+    pub(crate) fn delayed(&self, radius: f64) -> f64 {
+        self.branch.delayed(radius) + self.offset
+    }
+
+    /// Its slope in the radius.
+    pub(crate) fn slope(&self, radius: f64) -> f64 {
+        match self.branch {
+            Branch::Hertz | Branch::Fit(_) => 2.0,
+            Branch::Line { edge } => 2.0 * edge / radius,
+            Branch::Hertzian { flatter, .. } => 2.0 / flatter,
+            Branch::Truncated { edge, top } => 4.0 / PI * Cut::new(edge, top, radius).angle,
+        }
+    }
+}
+
 /// A branch at a radius of contact.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Local {
     /// Indentation.
     pub(crate) depth: f64,
@@ -44,45 +81,72 @@ pub(crate) struct Local {
     pub(crate) depth_slope: f64,
     /// Slope in the radius of the indentation s of the punches.
     pub(crate) punch_slope: f64,
+    /// Slopes of the two slopes; not of a truncated branch, where the radius is what is known.
+    pub(crate) bends: [f64; 2],
     /// Force.
     pub(crate) force: f64,
     /// Slope of the force in the indentation.
     pub(crate) stiffness: f64,
+    /// Slope in the radius of what slows the striker, (5/4) p.
+    pub(crate) braking: f64,
 }
 
 impl Branch {
     /// At a radius.
     pub(crate) fn at(&self, a: f64) -> Local {
-        let of = |depth, depth_slope, force| Local {
+        let of = |depth, depth_slope, bend, force| Local {
             depth,
             depth_slope,
             punch_slope: depth_slope,
+            bends: [bend; 2],
             force,
             stiffness: 1.5 * a,
+            braking: INVERSE_MASS * 1.5 * a * depth_slope,
         };
         match *self {
-            Self::Hertz => of(a * a, 2.0 * a, a * a * a),
+            Self::Hertz => Local {
+                braking: INVERSE_MASS * 3.0 * a * a,
+                ..of(a * a, 2.0 * a, 2.0, a * a * a)
+            },
             Self::Line { edge } => Local {
                 punch_slope: 2.0 * edge,
+                bends: [2.0, 0.0],
                 stiffness: 1.5 * edge,
-                ..of(a * a, 2.0 * a, edge * (1.5 * a * a - 0.5 * edge * edge))
+                braking: INVERSE_MASS * 3.0 * edge * a,
+                ..of(
+                    a * a,
+                    2.0 * a,
+                    2.0,
+                    edge * (1.5 * a * a - 0.5 * edge * edge),
+                )
             },
             Self::Fit(fit) => {
                 let [force, stiffness] = fit.force(a * a);
                 Local {
                     stiffness,
-                    ..of(a * a, 2.0 * a, force)
+                    braking: INVERSE_MASS * stiffness * 2.0 * a,
+                    ..of(a * a, 2.0 * a, 2.0, force)
                 }
             }
             Self::Hertzian { left, flatter } => of(
                 left + a * a / flatter,
                 2.0 * a / flatter,
+                2.0 / flatter,
                 a * a * a / flatter,
             ),
             Self::Truncated { edge, top } => {
                 let cut = Cut::new(edge, top, a);
-                of(cut.depth(), 4.0 / PI * a * cut.angle, cut.force())
+                let slope = 4.0 / PI * cut.angle;
+                of(cut.depth(), a * slope, slope, cut.force())
             }
+        }
+    }
+
+    /// Force of a loading branch at an indentation.
+    pub(crate) fn pressed(&self, depth: f64) -> f64 {
+        match self {
+            Self::Hertz => depth.powf(1.5),
+            branch => branch.at(depth.sqrt()).force,
         }
     }
 
@@ -243,15 +307,16 @@ pub(crate) const FITTED: f64 = 1.9;
 
 impl Fit {
     /// Force and its slope at an indentation beyond 1.9 w_c.
-    fn force(&self, depth: f64) -> [f64; 2] {
+    pub(crate) fn force(&self, depth: f64) -> [f64; 2] {
         let w = depth / self.critical;
+        let log = w.ln();
         let spread = self.spread();
-        let radius = 0.5 * PI * self.shape * self.strain * (w * (w / FITTED).powf(spread)).sqrt();
-        let by_radius = radius.powf(-0.7);
+        let area = (1.0 + spread) * log - spread * FITTED.ln();
+        let by_radius = (-0.7 * ((0.5 * PI * self.shape * self.strain).ln() + 0.5 * area)).exp();
         let soft = (-0.82 * by_radius).exp();
         let hardness = 2.84 * (1.0 - soft);
         let hardening = -2.84 * soft * 0.82 * 0.7 * by_radius * 0.5 * (1.0 + spread) / w;
-        let (slow, fast) = (w.powf(5.0 / 12.0), w.powf(5.0 / 9.0));
+        let [slow, fast] = [5.0 / 12.0, 5.0 / 9.0].map(|power: f64| (power * log).exp());
         let (elastic, flowing) = ((-0.25 * slow).exp(), (-0.04 * fast).exp());
         let hertz = w * w.sqrt();
         let per = 4.0 / self.shape;

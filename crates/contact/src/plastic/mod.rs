@@ -1,7 +1,8 @@
-//! Contacts that yield: loading until the striker turns, unloading as a sphere on a dent.
+//! Contacts that yield: loading until the indentation turns, unloading as a sphere on a dent.
 //!
-//! `branch` has the laws, `march` follows a contact along them, with a dashpot on the contact's area or the memory of the
-//! half-space, by the equations of `problem`; `solved` is what comes of it, `quick` the same for Thornton's law without a march.
+//! The laws are branches of a growing contact (`branch`); [`Yielding`] says which follows which.
+//! `memory` follows them with the memory of the half-space, by the pieces of a contact that does not yield; `dashpot` with
+//! a dashpot on the contact's area; `quick` has the results of that without a march.
 //!
 //! ```text
 //! v' = -(5/4) p
@@ -15,11 +16,10 @@
 //! Theory: `docs/theory.md` (T62 to T67).
 
 pub(crate) mod branch;
+pub(crate) mod dashpot;
 pub(crate) mod infer;
-pub(crate) mod march;
-pub(crate) mod problem;
+pub(crate) mod memory;
 pub(crate) mod quick;
-pub(crate) mod solved;
 
 use crate::model::Plasticity;
 use crate::numeric::quadrature::{GAUSS_8, gauss};
@@ -124,6 +124,48 @@ impl Yielding {
                 let (left, flatter) = (depth - force / top, depth * top / force);
                 (Branch::Hertzian { left, flatter }, top)
             }
+        }
+    }
+}
+
+/// What has flowed, in collision units; works over the kinetic energy before.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Flow {
+    /// Work of the plastic flow.
+    pub plastic_work: f64,
+    /// Work on the half-space's waves.
+    pub radiated: f64,
+    /// Root of the largest indentation.
+    pub(crate) radius: f64,
+    /// Largest radius of contact.
+    pub contact_radius: f64,
+    /// Radius of Hertz's pressure of the same second moment at the turning point.
+    pub disc_radius: f64,
+    /// Largest indentation.
+    pub peak_indentation: f64,
+    /// Indentation that stays.
+    pub residual_indentation: f64,
+    /// R_p/R: what contact's relative curvature has become.
+    pub flatter: f64,
+}
+
+impl Flow {
+    /// Of a law that unloads from a radius, with the works of flow and waves.
+    pub(crate) fn new(
+        yielding: &Yielding,
+        radius: f64,
+        [plastic_work, radiated]: [f64; 2],
+    ) -> Self {
+        let (back, _) = yielding.unloading(radius);
+        Self {
+            plastic_work,
+            radiated,
+            radius,
+            disc_radius: yielding.disc_radius(radius),
+            contact_radius: yielding.true_radius(radius),
+            peak_indentation: radius * radius,
+            residual_indentation: back.left(),
+            flatter: back.flatter(),
         }
     }
 }

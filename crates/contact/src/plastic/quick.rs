@@ -1,90 +1,227 @@
-//! Thornton's contact with a dashpot in three parts that need no march.
+//! A contact with a dashpot that yields, in three parts that need no march.
 //!
 //! ```text
 //! rise    x = sqrt(u):  v^2 = 1 - x^5 - (45/4) c int x^3 v dx,  t = int 2 x dx/v     Gauss and Picard
-//! flow    p = k X + c k^2 v,  X'' = -(5/4) p,  k = (3/2) y                         a damped oscillator
-//! fall    Hertz's contact from rest, of the lag c a^1.5 alone                        series, made once
+//! flow    Thornton's line: p = k X + c k^2 v,  X'' = -(5/4) p,  k = (3/2) y         a damped oscillator
+//!         the fit: v = V cos(angle),  du = V^2 sin cos d(angle)/((5/4) p)            Gauss and Picard
+//! fall    from rest at radius one, with a lag c a^1.5; of a cut pressure also y/a    series, made once
 //! ```
 //!
-//! Theory: `docs/theory.md` (T66).
+//! Theory: `docs/theory.md` (T65).
 
-use crate::model::Plasticity;
+use crate::growing::nodes::Factors;
 use crate::numeric::quadrature::chebyshev;
-use crate::plastic::Yielding;
-use crate::plastic::branch::Branch;
-use crate::plastic::march::March;
-use crate::plastic::problem::Waves;
-use crate::plastic::solved::Flow;
+use crate::plastic::branch::{Branch, FITTED, Fit};
+use crate::plastic::dashpot::Dashpot;
+use crate::plastic::{Flow, Yielding};
 use crate::summary::{EndOfContact, Summary};
 use crate::units::INVERSE_MASS;
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::OnceLock;
 
-/// Nodes of a panel of the rise, and the part of the way to Hertz's turning point that it takes.
+/// Nodes of a panel, and the part of the way to Hertz's turning point that one of the rise takes.
 const NODES: usize = 8;
 const PART: f64 = 0.6;
 
-/// Largest lag of the fall, and terms of its series.
-const LARGEST_LAG: f64 = 0.1;
-const TERMS: usize = 20;
+/// Growth of the panels of the flow of the fit.
+const GROWTH: f64 = 8.0;
 
-/// Results to 1e-9 for a lag; nothing for other laws, for a lag beyond the series, where waves keep the contact from
-/// yielding, and where the force is largest before it does.
+/// Results to 1e-9 for a lag, of the fit to 1e-8; nothing for a lag beyond the series, where waves keep the contact from yielding, and where
+/// the force is largest before it does.
 pub(crate) fn quick(yielding: &Yielding, lag: f64) -> Option<(Summary, Flow)> {
-    if yielding.law != Plasticity::Thornton {
-        return None;
-    }
     let edge = yielding.edge();
-    let (v0, t0, mut radiated) = rise(edge, lag)?;
-    let stiffness = 1.5 * edge;
-    let (square, damping) = (
-        INVERSE_MASS * stiffness,
-        0.5 * INVERSE_MASS * lag * stiffness * stiffness,
-    );
-    let frequency = (square - damping * damping).sqrt();
-    // place and size of the extremum of a damped oscillation with a value and a slope
-    let extremum = |value: f64, slope: f64| {
-        let angle = (slope * frequency).atan2(damping * slope + square * value);
-        let time = angle / frequency;
-        let (sine, cosine) = angle.sin_cos();
-        let size = value * cosine + (slope + damping * value) / frequency * sine;
-        (time, (-damping * time).exp() * size)
+    let (v0, t0, lost) = rise(edge, lag)?;
+    let turned = match yielding.fit {
+        None => Turned::of_line(edge, lag, v0)?,
+        Some(fit) => Turned::of_fit(&fit, lag, v0)?,
     };
-    let place = edge * edge / 1.5;
-    let push = stiffness * place + lag * stiffness * stiffness * v0;
-    let rate = stiffness * v0 - INVERSE_MASS * lag * stiffness * stiffness * push;
-    if frequency.is_nan() || rate <= 0.0 {
+    let top = turned.depth.sqrt();
+    let (back, from) = yielding.unloading(top);
+    let own_lag = lag * from * from.sqrt();
+    if own_lag.is_nan() || own_lag > LARGEST_LAG {
         return None;
     }
-    let ((peak_time, peak_force), (turn, far)) = (extremum(push, rate), extremum(place, v0));
-    let depth = edge * edge + far - place;
-    let top = depth.sqrt();
-    radiated += v0 * v0 - INVERSE_MASS * stiffness * (far - place) * (far + place);
-    let (back, _) = yielding.unloading(top);
-    let own_lag = lag * depth.sqrt() * top.sqrt();
-    if own_lag > LARGEST_LAG || own_lag.is_nan() {
-        return None;
-    }
-    let length = depth / back.flatter();
-    let x = 2.0 * own_lag / LARGEST_LAG - 1.0;
-    let [speed, duration, pulled] = fall().each_ref().map(|series| chebyshev(series, x));
-    let v = speed * length * top.sqrt();
-    radiated += 2.0 * INVERSE_MASS * back.given_back(top) - v * v;
+    let fifth = from.powi(5);
+    let ([speed, duration, pulled], stored) = match back {
+        Branch::Truncated { edge, top } => {
+            let (found, stored) = fall_of_cut(edge / top, own_lag)?;
+            (found, stored * fifth)
+        }
+        Branch::Hertzian { .. } | Branch::Hertz | Branch::Line { .. } | Branch::Fit(_) => {
+            let x = 2.0 * own_lag / LARGEST_LAG - 1.0;
+            let [speed, duration, pulled] = fall().each_ref().map(|one| chebyshev(one, x));
+            let by = 1.0 / back.flatter();
+            ([speed * by, duration, pulled * by], back.given_back(from))
+        }
+    };
+    let v = speed * fifth.sqrt();
+    let radiated = lost + turned.radiated + 2.0 * INVERSE_MASS * stored - v * v;
+    let plastic_work = match yielding.fit {
+        None => 2.0 * INVERSE_MASS * (yielding.work(top) - stored),
+        Some(_) => 1.0 - lost - turned.radiated - 2.0 * INVERSE_MASS * stored,
+    };
     Some((
         Summary {
-            peak_force,
-            peak_force_time: t0 + peak_time,
-            contact_time: t0 + turn + duration / top.sqrt(),
+            peak_force: turned.peak_force,
+            peak_force_time: t0 + turned.peak_force_time,
+            contact_time: t0 + turned.time + duration / from.sqrt(),
             restitution: v,
             loss: (1.0 - v) * (1.0 + v),
-            peak_displacement: depth,
-            peak_deflection: 1.5 * lag * pulled * length * depth.sqrt() * top.sqrt(),
+            peak_displacement: turned.depth,
+            peak_deflection: 1.5 * lag * pulled * from * fifth.sqrt(),
             impulse: (1.0 + v) / INVERSE_MASS,
             contacts: 1,
             end: EndOfContact::Layer(0.0),
         },
-        Flow::new(yielding, top, radiated),
+        Flow::new(yielding, top, [plastic_work, radiated]),
     ))
+}
+
+/// What the flow has come to where the indentation turns; times since it began.
+struct Turned {
+    depth: f64,
+    time: f64,
+    radiated: f64,
+    peak_force: f64,
+    peak_force_time: f64,
+}
+
+impl Turned {
+    /// On Thornton's line, from a velocity at its beginning.
+    fn of_line(edge: f64, lag: f64, v0: f64) -> Option<Self> {
+        let stiffness = 1.5 * edge;
+        let (square, damping) = (
+            INVERSE_MASS * stiffness,
+            0.5 * INVERSE_MASS * lag * stiffness * stiffness,
+        );
+        let frequency = (square - damping * damping).sqrt();
+        // place and size of the extremum of a damped oscillation with a value and a slope
+        let extremum = |value: f64, slope: f64| {
+            let angle = (slope * frequency).atan2(damping * slope + square * value);
+            let time = angle / frequency;
+            let (sine, cosine) = angle.sin_cos();
+            let size = value * cosine + (slope + damping * value) / frequency * sine;
+            (time, (-damping * time).exp() * size)
+        };
+        let place = edge * edge / 1.5;
+        let push = stiffness * place + lag * stiffness * stiffness * v0;
+        let rate = stiffness * v0 - INVERSE_MASS * lag * stiffness * stiffness * push;
+        if frequency.is_nan() || rate <= 0.0 {
+            return None;
+        }
+        let (peak_force_time, peak_force) = extremum(push, rate);
+        let (time, far) = extremum(place, v0);
+        Some(Self {
+            depth: edge * edge + far - place,
+            time,
+            radiated: v0 * v0 - INVERSE_MASS * stiffness * (far - place) * (far + place),
+            peak_force,
+            peak_force_time,
+        })
+    }
+
+    /// On the fit, from a velocity where it leaves Hertz's law.
+    fn of_fit(fit: &Fit, lag: f64, v0: f64) -> Option<Self> {
+        let rule = panel();
+        let mut depth = FITTED * fit.critical;
+        let energy = v0 * v0 + depth.powf(2.5);
+        let speed = energy.sqrt();
+        let mut from = (v0 / speed).acos();
+        let (mut time, mut lost) = (0.0, 0.0);
+        // slope of the indentation in the angle over its sine and cosine
+        let mut slope = energy / (INVERSE_MASS * fit.force(depth)[0]);
+        let panels = ((FRAC_PI_2 / from).ln() / GROWTH.ln()).ceil().max(2.0);
+        let ratio = (FRAC_PI_2 / from).powf(1.0 / panels);
+        for _ in 0..panels as usize {
+            let to = ratio * from;
+            let width = to - from;
+            let turns = rule.places.map(|place| (from + width * place).sin_cos());
+            let rate = |depth: f64, (sine, cosine): (f64, f64)| {
+                let [force, stiffness] = fit.force(depth);
+                let damped = lag * stiffness * stiffness * speed * cosine;
+                let rate = energy * sine * cosine / (INVERSE_MASS * (force + damped));
+                (rate, [force, damped, sine], stiffness)
+            };
+            // a guess by Heun's method from node to node
+            let (mut before, mut there) = ((0.0, slope * from.sin() * from.cos()), depth);
+            let mut rates: [f64; NODES] = std::array::from_fn(|i| {
+                let step = width * (rule.places[i] - before.0);
+                let (next, ..) = rate(there + step * before.1, turns[i]);
+                there += 0.5 * step * (before.1 + next);
+                before = (rule.places[i], next);
+                next
+            });
+            let mut forces = [[0.0; 3]; NODES];
+            let mut matrix = Factors::room(NODES);
+            let mut settled = false;
+            for _ in 0..ITERATIONS {
+                let mut change = [0.0; NODES];
+                for i in 0..NODES {
+                    let sum: f64 = (0..NODES).map(|j| rule.integral[i][j] * rates[j]).sum();
+                    let (rate, here, stiffness) = rate(depth + width * sum, turns[i]);
+                    forces[i] = here;
+                    change[i] = rates[i] - rate;
+                    let by = width * rate * stiffness / (here[0] + here[1]);
+                    for (j, entry) in matrix.row(i).iter_mut().enumerate() {
+                        *entry = by * rule.integral[i][j] + f64::from(u8::from(i == j));
+                    }
+                }
+                if !matrix.eliminate() {
+                    return None;
+                }
+                matrix.solve(&mut change);
+                for (rate, change) in rates.iter_mut().zip(change) {
+                    *rate -= change;
+                }
+                let largest = change.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+                // the next change would be about its square
+                if largest < 1e-7 {
+                    settled = true;
+                    break;
+                }
+            }
+            if !settled {
+                return None;
+            }
+            let over = |f: &dyn Fn(usize) -> f64| -> f64 {
+                width * (0..NODES).map(|j| rule.weights[j] * f(j)).sum::<f64>()
+            };
+            time +=
+                over(&|j| speed * forces[j][2] / (INVERSE_MASS * (forces[j][0] + forces[j][1])));
+            lost += over(&|j| forces[j][1] * rates[j]);
+            depth += over(&|j| rates[j]);
+            let last = NODES - 1;
+            slope = rates[last] / (turns[last].0 * turns[last].1);
+            from = to;
+        }
+        let (peak_force, since) = peak_before(fit, lag, depth);
+        Some(Self {
+            depth,
+            time,
+            radiated: 2.0 * INVERSE_MASS * lost,
+            peak_force,
+            peak_force_time: time - since,
+        })
+    }
+}
+
+/// The largest force on the fit and how long before the turning point it is: back over the velocity there, by Runge and
+/// Kutta.
+fn peak_before(fit: &Fit, lag: f64, depth: f64) -> (f64, f64) {
+    let pressed = |depth: f64, v: f64| {
+        let [force, stiffness] = fit.force(depth);
+        force + lag * stiffness * stiffness * v
+    };
+    let [force, stiffness] = fit.force(depth);
+    let v = INVERSE_MASS * lag * stiffness * force;
+    let fall = |depth: f64, at: f64| -at / (INVERSE_MASS * pressed(depth, at));
+    let half = 0.5 * v;
+    let first = fall(depth, half);
+    let second = fall(depth + half * first, half);
+    let third = fall(depth + v * second, v);
+    let before = depth + v / 6.0 * (2.0 * first + 2.0 * second + third);
+    let peak_force = pressed(before, v);
+    (peak_force, v / (INVERSE_MASS * 0.5 * (force + peak_force)))
 }
 
 /// Velocity, time and radiated energy where the radius of contact reaches that of yield.
@@ -155,21 +292,98 @@ fn panel() -> &'static Panel {
     })
 }
 
+/// Largest lag of the fall, and terms of its series.
+const LARGEST_LAG: f64 = 0.25;
+const TERMS: usize = 24;
+
 /// Velocity, duration and the largest radius times velocity of Hertz's contact from rest at radius one, over its lag:
 /// Chebyshev series in 2 c/[`LARGEST_LAG`] - 1.
 fn fall() -> &'static [[f64; TERMS]; 3] {
     static MADE: OnceLock<[[f64; TERMS]; 3]> = OnceLock::new();
     MADE.get_or_init(|| {
-        let angle = |i: usize| PI * (i as f64 + 0.5) / TERMS as f64;
         let values: [[f64; 3]; TERMS] = std::array::from_fn(|i| {
-            let lag = 0.5 * LARGEST_LAG * (1.0 + angle(i).cos());
-            March::from_rest(Branch::Hertz, Waves::Dashpot(lag)).unwrap_or([f64::NAN; 3])
+            let lag = 0.5 * LARGEST_LAG * (1.0 + node(i, TERMS).cos());
+            Dashpot::from_rest(Branch::Hertz, lag).unwrap_or([f64::NAN; 3])
         });
-        std::array::from_fn(|k| {
-            std::array::from_fn(|n| {
-                let terms = (0..TERMS).map(|i| values[i][k] * (n as f64 * angle(i)).cos());
-                terms.sum::<f64>() * if n == 0 { 1.0 } else { 2.0 } / TERMS as f64
-            })
-        })
+        std::array::from_fn(|k| std::array::from_fn(|n| term(n, TERMS, |i| values[i][k])))
+    })
+}
+
+/// Angle of a node of Chebyshev's.
+fn node(i: usize, terms: usize) -> f64 {
+    PI * (i as f64 + 0.5) / terms as f64
+}
+
+/// A coefficient of the Chebyshev series through values at the nodes.
+fn term(n: usize, terms: usize, value: impl Fn(usize) -> f64) -> f64 {
+    let sum: f64 = (0..terms)
+        .map(|i| value(i) * (n as f64 * node(i, terms)).cos())
+        .sum();
+    sum * if n == 0 { 1.0 } else { 2.0 } / terms as f64
+}
+
+/// Terms of the series of a cut pressure in the logarithm of the angle asin(y/a) and in the lag.
+const ANGLES: usize = 32;
+const LAGS: usize = 9;
+
+/// Range of the angle, and the largest lag: the contact ends with less than the radius where the pressure was cut.
+const RANGE: [f64; 2] = [0.02, 1.3];
+const LARGEST: f64 = 0.1;
+
+/// Velocity, duration and the largest radius times velocity of the unloading of a cut pressure from rest at radius one,
+/// by the radius at yield and the lag, and what it gives back without one; nothing beyond the series.
+fn fall_of_cut(edge: f64, lag: f64) -> Option<([f64; 3], f64)> {
+    let [low, high] = RANGE.map(f64::ln);
+    let x = 2.0 * (edge.asin().ln() - low) / (high - low) - 1.0;
+    let y = 2.0 * lag / LARGEST - 1.0;
+    if !(x.abs() <= 1.0 && y <= 1.0) {
+        return None;
+    }
+    let series = cut();
+    let over_angle = |y: f64, of: usize| {
+        let terms: [f64; ANGLES] = std::array::from_fn(|n| chebyshev(&series[of][n], y));
+        chebyshev(&terms, x)
+    };
+    let bare = over_angle(-1.0, 0);
+    let root = edge.sqrt();
+    let [speed, duration, pulled] = [0, 1, 2].map(|of| over_angle(y, of));
+    let stored = 0.5 / INVERSE_MASS * bare * bare * edge;
+    Some(([speed * root, duration / root, pulled * root], stored))
+}
+
+/// Chebyshev series in the lag of those in the angle.
+type Series = [[[f64; LAGS]; ANGLES]; 3];
+
+fn cut() -> &'static Series {
+    static MADE: OnceLock<Box<Series>> = OnceLock::new();
+    MADE.get_or_init(|| {
+        let mut values = Box::new([[[0.0; LAGS]; ANGLES]; 3]);
+        for i in 0..ANGLES {
+            let [low, high] = RANGE.map(f64::ln);
+            let edge = (low + 0.5 * (high - low) * (1.0 + node(i, ANGLES).cos()))
+                .exp()
+                .sin();
+            for j in 0..LAGS {
+                let lag = 0.5 * LARGEST * (1.0 + node(j, LAGS).cos());
+                let branch = Branch::Truncated { edge, top: 1.0 };
+                let [speed, duration, pulled] =
+                    Dashpot::from_rest(branch, lag).unwrap_or([f64::NAN; 3]);
+                let root = edge.sqrt();
+                let found = [speed / root, duration * root, pulled / root];
+                for (k, value) in found.into_iter().enumerate() {
+                    values[k][i][j] = value;
+                }
+            }
+        }
+        let mut made = Box::new([[[0.0; LAGS]; ANGLES]; 3]);
+        for (series, values) in made.iter_mut().zip(values.iter()) {
+            for (n, line) in series.iter_mut().enumerate() {
+                for (m, coefficient) in line.iter_mut().enumerate() {
+                    let over_lag = |i: usize| term(m, LAGS, |j| values[i][j]);
+                    *coefficient = term(n, ANGLES, over_lag);
+                }
+            }
+        }
+        made
     })
 }

@@ -5,7 +5,7 @@ use crate::colour::{BLACK, GRID};
 use crate::error::Side;
 use crate::geometry::Frame;
 use crate::scene::{Anchor, Scene, Shape, Stroke, Text};
-use crate::text::{LINE, Rich, Typeface, wrap};
+use crate::text::{LINE, Typeface, width as width_of, wrap};
 use crate::ticks::{Room, Ticks, shown};
 
 /// Pixels on each side of a plot.
@@ -38,10 +38,7 @@ pub(crate) struct Axes {
 
 /// Width of the widest number of some ticks.
 pub(super) fn widest(ticks: &Ticks, size: f64) -> f64 {
-    let widths = ticks
-        .major
-        .iter()
-        .map(|tick| Rich::new(&tick.label).width(size));
+    let widths = ticks.major.iter().map(|tick| width_of(&tick.label, size));
     widths.fold(0.0, f64::max)
 }
 
@@ -70,7 +67,7 @@ impl FittedAxis {
             Side::X => Room {
                 length,
                 distance: 6.6 * faces.tick,
-                needs: Box::new(|text| Rich::new(text).width(faces.tick) + 0.9 * faces.tick),
+                needs: Box::new(|text| width_of(text, faces.tick) + 0.9 * faces.tick),
             },
             Side::Y => Room::of_lines(length, 3.6 * faces.tick, faces.tick),
         };
@@ -112,7 +109,7 @@ impl Axes {
                 tick.map_or(0.0, |tick| {
                     let fraction = plan.x.interval.fraction(tick.value);
                     let inside = width * fraction.min(1.0 - fraction);
-                    (0.5 * Rich::new(&tick.label).width(faces.tick) - inside).max(0.0)
+                    (0.5 * width_of(&tick.label, faces.tick) - inside).max(0.0)
                 })
             });
             needs.left = needs.left.max(ends[0]);

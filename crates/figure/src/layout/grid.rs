@@ -1,41 +1,109 @@
-//! The areas of all panels on the canvas.
+//! From a figure to a scene: panels fitted around their plots, their areas on the canvas, and everything drawn.
 
+use super::axes::{Axes, Needs};
 use super::bar::Bar;
-use super::fit::{Context, Fitted};
+use super::labels::{self, Label};
+use super::legend::{Legend, Place};
 use super::plan::{AxisPlan, PanelPlan, plan};
+use crate::colour::WHITE;
+use crate::error::FigureError;
 use crate::figure::{Aspect, ColourBar, Figure};
 use crate::geometry::{Frame, Rect};
-use crate::text::{Typeface, wrap};
+use crate::layers::Plot;
+use crate::scene::{Anchor, Scene, Shape, Text};
+use crate::text::{LINE, Typeface, wrap};
 
-/// A panel with its area.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Placed<'a> {
-    pub(crate) plan: PanelPlan<'a>,
-    pub(crate) fitted: Fitted,
-    pub(crate) frame: Frame,
+/// Everything that a figure shows, with places in pixels.
+pub(crate) fn draw(figure: &Figure) -> Result<Scene, FigureError> {
+    figure.check()?;
+    let layout = lay_out(figure);
+    let mut scene = Scene {
+        width: layout.width,
+        height: layout.height,
+        plots: layout.panels.iter().map(|(.., frame)| frame.area).collect(),
+        items: Vec::new(),
+    };
+    let canvas = Rect::new(0.0, 0.0, layout.width, layout.height);
+    scene.shape(Shape::rectangle(canvas).filled(WHITE, 1.0));
+    heading(&mut scene, &layout);
+    for panel in &layout.panels {
+        draw_panel(&mut scene, panel, &layout.faces);
+    }
+    if let Some((bar, plots)) = &layout.bar {
+        bar.draw(&mut scene, *plots, &layout.faces);
+    }
+    Ok(scene)
 }
 
+/// Title and the line below it.
+fn heading(scene: &mut Scene, layout: &Layout<'_>) {
+    let faces = &layout.faces;
+    let mut top = PAD;
+    let titles = layout.title.iter().map(|line| (line, faces.title));
+    let subtitles = layout.subtitle.iter().map(|line| (line, faces.subtitle));
+    for (line, size) in titles.chain(subtitles) {
+        scene.text(Text::new(line, (PAD, top + size), size, Anchor::Start));
+        top += Typeface::lines(size, 1);
+    }
+}
+
+fn draw_panel(scene: &mut Scene, placed: &Placed<'_>, faces: &Typeface) {
+    let (plan, fitted, frame) = placed;
+    if !plan.is_filled() {
+        fitted.axes.draw_grid(scene, frame);
+    }
+    let plot = Plot {
+        frame,
+        colours: plan.colours.as_ref(),
+    };
+    for (layer, &slot) in plan.panel.layers.iter().zip(&plan.slots) {
+        layer.kind().draw(scene, &plot, slot);
+    }
+    labels::draw_marks(scene, plan, frame, &fitted.marks, faces);
+    fitted.axes.draw(scene, frame, faces);
+    let mut line = frame.area.top - faces.gap() - Typeface::lines(faces.mark, fitted.mark_rows);
+    for title in fitted.title.iter().rev() {
+        let at = (frame.area.centre().0, line - 0.2 * faces.panel);
+        scene.text(Text::new(title, at, faces.panel, Anchor::Middle));
+        line -= LINE * faces.panel;
+    }
+    let legend = fitted.legend.as_ref();
+    let taken = legend.and_then(|legend| legend.covered(frame.area));
+    labels::draw_points(scene, plan, frame, taken, faces.tick);
+    if let Some(legend) = legend {
+        legend.draw(scene, frame.area, faces.legend);
+    }
+    if let Some(bar) = &fitted.bar {
+        bar.draw(scene, frame.area, faces);
+    }
+}
+
+/// A panel, what is around its plot, and the plot.
+type Placed<'a> = (PanelPlan<'a>, Fitted, Frame);
+
 /// Everything with its place.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Layout<'a> {
-    pub(crate) width: f64,
-    pub(crate) height: f64,
-    pub(crate) faces: Typeface,
+struct Layout<'a> {
+    width: f64,
+    height: f64,
+    faces: Typeface,
     /// Lines of the title and of the line below it.
-    pub(crate) title: Vec<String>,
-    pub(crate) subtitle: Vec<String>,
-    pub(crate) panels: Vec<Placed<'a>>,
+    title: Vec<String>,
+    subtitle: Vec<String>,
+    panels: Vec<Placed<'a>>,
     /// The common colour bar and the area of all plots at its left.
-    pub(crate) bar: Option<(Bar, Rect)>,
+    bar: Option<(Bar, Rect)>,
 }
 
 /// Lays a figure out.
-pub(crate) fn lay_out(figure: &Figure) -> Layout<'_> {
+fn lay_out(figure: &Figure) -> Layout<'_> {
     let mut layout = arrange(figure, 0.0);
     if figure.colour_bar == ColourBar::Each {
         return layout;
     }
-    let colours = layout.panels.first().and_then(|p| p.plan.colours.clone());
+    let colours = layout
+        .panels
+        .first()
+        .and_then(|(plan, ..)| plan.colours.clone());
     let Some(colours) = colours else {
         return layout;
     };
@@ -59,12 +127,10 @@ fn arrange(figure: &Figure, bar: f64) -> Layout<'_> {
     let faces = Typeface::new(figure.text);
     let plans = plan(figure);
     let count = figure.columns.min(plans.len());
-    let context = Context {
-        faces: &faces,
-        own_bars: figure.colour_bar == ColourBar::Each,
-        legend_width: (0.34 * figure.width / count as f64).min(22.0 * faces.tick),
-    };
-    let (columns, fitted) = Columns::fit(&plans, count, figure.width - bar, &context);
+    let legend_width = (0.34 * figure.width / count as f64).min(22.0 * faces.tick);
+    let fit =
+        |plan: &PanelPlan<'_>, plot| Fitted::new(plan, size(plan, plot), &faces, legend_width);
+    let (columns, fitted) = Columns::fit(&plans, count, figure.width - bar, 1.4 * faces.tick, &fit);
     let width = columns.width();
     let line = |text: &str, size: f64| wrap(text, size, width + bar - 2.0 * PAD);
     let title = line(&figure.title, faces.title);
@@ -105,11 +171,7 @@ fn rows<'a>(
         for (plan, fitted) in row {
             let [width, height] = size(plan, columns.plot);
             let area = Rect::new(columns.start(plan.column), top, width, height);
-            panels.push(Placed {
-                frame: plan.frame(area),
-                plan: plan.clone(),
-                fitted: fitted.clone(),
-            });
+            panels.push((plan.clone(), fitted.clone(), plan.frame(area)));
         }
         top += height + most(&|(_, fitted)| fitted.needs.bottom) + gap;
     }
@@ -118,15 +180,15 @@ fn rows<'a>(
 
 /// From the first plot to the last, with what the last column needs at its right.
 fn plots(panels: &[Placed<'_>]) -> Rect {
-    let areas = panels.iter().map(|panel| Rect {
-        right: panel.frame.area.right + panel.fitted.needs.right,
-        ..panel.frame.area
+    let areas = panels.iter().map(|(_, fitted, frame)| Rect {
+        right: frame.area.right + fitted.needs.right,
+        ..frame.area
     });
     areas.reduce(Rect::union).unwrap_or_default()
 }
 
 /// Distance from the sides of the canvas.
-pub(crate) const PAD: f64 = 14.0;
+const PAD: f64 = 14.0;
 
 /// Narrowest plot.
 const NARROWEST: f64 = 60.0;
@@ -149,20 +211,19 @@ impl Columns {
         plans: &[PanelPlan<'_>],
         count: usize,
         width: f64,
-        context: &Context<'_>,
+        gap: f64,
+        fit: &dyn Fn(&PanelPlan<'_>, f64) -> Fitted,
     ) -> (Self, Vec<Fitted>) {
         let mut columns = Self {
             plot: width / count as f64,
             left: vec![0.0; count],
             right: vec![0.0; count],
-            gap: 1.4 * context.faces.tick,
+            gap,
         };
         // what is reserved at the sides only grows, so that it is enough for the plots at the end
         loop {
-            let fitted: Vec<Fitted> = plans
-                .iter()
-                .map(|plan| Fitted::new(plan, size(plan, columns.plot), context))
-                .collect();
+            let fitted = plans.iter().map(|plan| fit(plan, columns.plot));
+            let fitted: Vec<Fitted> = fitted.collect();
             let mut is_enough = true;
             for (plan, fitted) in plans.iter().zip(&fitted) {
                 for (side, needed) in [
@@ -213,6 +274,62 @@ fn size(plan: &PanelPlan<'_>, width: f64) -> [f64; 2] {
                 true => [TALLEST * width / ratio, TALLEST * width],
                 false => [width, ratio * width],
             }
+        }
+    }
+}
+
+/// A panel fitted around a plot whose upper left corner is at 0, 0.
+#[derive(Debug, Clone, PartialEq)]
+struct Fitted {
+    axes: Axes,
+    title: Vec<String>,
+    marks: Vec<Label>,
+    /// Rows of the labels of marks.
+    mark_rows: usize,
+    legend: Option<Legend>,
+    bar: Option<Bar>,
+    needs: Needs,
+}
+
+impl Fitted {
+    /// Fits a panel around a plot of a size.
+    ///
+    /// A legend at the right has `legend_width` pixels at most.
+    fn new(plan: &PanelPlan<'_>, size: [f64; 2], faces: &Typeface, legend_width: f64) -> Self {
+        let [width, height] = size;
+        let axes = Axes::new(plan, size, faces);
+        let mut needs = axes.needs(plan, width, faces);
+        let title = wrap(&plan.panel.title, faces.panel, width);
+        let (marks, mark_rows) = labels::of_marks(plan, width, faces);
+        let title_height = Typeface::lines(faces.panel, title.len());
+        let above = Typeface::lines(faces.mark, mark_rows) + title_height;
+        if above > 0.0 {
+            needs.top = needs.top.max(above + faces.gap());
+        }
+        let colours = plan.colours.as_ref().filter(|_| plan.has_bar);
+        let bar = colours.map(|colours| Bar::new(colours, height, faces));
+        if let Some(bar) = &bar {
+            needs.right = needs.right.max(bar.width);
+        }
+        let legend = Legend::new(plan, size, faces, &needs, legend_width);
+        if let Some(legend) = &legend {
+            match legend.place {
+                Place::Right(from) => {
+                    needs.right = from + legend.width;
+                    needs.bottom = needs.bottom.max(legend.height - height);
+                }
+                Place::Below(from) => needs.bottom = from + legend.height,
+                Place::Inside(_) => {}
+            }
+        }
+        Self {
+            axes,
+            title,
+            marks,
+            mark_rows,
+            legend,
+            bar,
+            needs,
         }
     }
 }

@@ -1,15 +1,15 @@
 //! The legend of a panel: its entries, broken into lines and columns, in the plot or beside it.
 
 use super::axes::Needs;
+use super::labels::{free, occupied};
 use super::plan::PanelPlan;
-use super::room::{free, occupied};
 use crate::axis::Mirror;
 use crate::colour::{Colour, MARK, WHITE};
 use crate::figure::Legend as Wish;
 use crate::geometry::{Point, Rect};
 use crate::layers::{Band, Histogram, Swatch};
 use crate::scene::{Anchor, Scene, Shape, Stroke, Text};
-use crate::text::{LINE, Rich, Typeface, wrap};
+use crate::text::{LINE, Typeface, width as width_of, wrap};
 
 /// Width of the sample of a curve.
 const SWATCH: f64 = 30.0;
@@ -84,7 +84,7 @@ impl Legend {
     fn block(named: &[(&str, Swatch)], width: f64, most_columns: usize, size: f64) -> Self {
         let indent = SWATCH + 0.5 * size;
         let room = (width - indent).max(2.0 * size);
-        let long = |name: &str| Rich::new(name).width(size);
+        let long = |name: &str| width_of(name, size);
         let natural = named.iter().map(|(name, _)| long(name)).fold(0.0, f64::max);
         let text = natural.min(room);
         let gap = 1.4 * size;

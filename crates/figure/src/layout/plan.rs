@@ -28,6 +28,8 @@ pub(crate) struct PanelPlan<'a> {
     pub(crate) y: AxisPlan<'a>,
     /// What the colours of its images mean.
     pub(crate) colours: Option<Colours>,
+    /// Whether it explains them itself.
+    pub(crate) has_bar: bool,
     /// Numbers of each layer, from which its look follows; the first for those without a colour of their own.
     pub(crate) slots: Vec<Slot>,
 }
@@ -76,6 +78,7 @@ pub(crate) fn plan(figure: &Figure) -> Vec<PanelPlan<'_>> {
             colours: common
                 .clone()
                 .or_else(|| colours(std::slice::from_ref(panel))),
+            has_bar: figure.colour_bar == ColourBar::Each,
             slots,
         })
         .collect();

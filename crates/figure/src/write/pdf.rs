@@ -44,7 +44,7 @@ pub(crate) fn pdf(scene: &Scene) -> Result<Vec<u8>, RenderError> {
         match item {
             Item::Picture(picture) => pictures.push((new(), picture)),
             Item::Shape(shape) => {
-                let opacity = shape.fill.map_or(1.0, |fill| fill.opacity);
+                let opacity = shape.fill.map_or(1.0, |(_, opacity)| opacity);
                 if opacity < 1.0 && !opacities.contains(&opacity) {
                     opacities.push(opacity);
                 }
@@ -224,11 +224,11 @@ fn draw_shape(content: &mut Content, shape: &Shape) {
         content.rect(left, top, width, height);
         content.clip_nonzero().end_path();
     }
-    if let Some(fill) = shape.fill {
-        let [r, g, b] = rgb(fill.colour);
+    if let Some((colour, opacity)) = shape.fill {
+        let [r, g, b] = rgb(colour);
         content.set_fill_rgb(r, g, b);
-        if fill.opacity < 1.0 {
-            content.set_parameters(Name(state_name(fill.opacity).as_bytes()));
+        if opacity < 1.0 {
+            content.set_parameters(Name(state_name(opacity).as_bytes()));
         }
     }
     if let Some(stroke) = shape.stroke {

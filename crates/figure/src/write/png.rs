@@ -119,8 +119,8 @@ impl Canvas {
             self.clip_to(area);
         }
         let mask = shape.clip.and(self.clip.as_ref()).map(|(_, mask)| mask);
-        if let Some(fill) = shape.fill {
-            let paint = paint(fill.colour, fill.opacity);
+        if let Some((colour, opacity)) = shape.fill {
+            let paint = paint(colour, opacity);
             let rule = FillRule::Winding;
             self.map.fill_path(&outline, &paint, rule, self.place, mask);
         }

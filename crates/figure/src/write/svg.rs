@@ -79,10 +79,10 @@ fn placed<N: Node>(node: N, area: Rect) -> N {
 fn path(shape: &Shape, clips: &[Rect]) -> Path {
     let mut path = Path::new().set("d", outline(&shape.segments));
     path = match shape.fill {
-        Some(fill) if fill.opacity < 1.0 => path
-            .set("fill", fill.colour.hex())
-            .set("fill-opacity", fill.opacity),
-        Some(fill) => path.set("fill", fill.colour.hex()),
+        Some((colour, opacity)) if opacity < 1.0 => {
+            path.set("fill", colour.hex()).set("fill-opacity", opacity)
+        }
+        Some((colour, _)) => path.set("fill", colour.hex()),
         None => path.set("fill", "none"),
     };
     if let Some(stroke) = shape.stroke {

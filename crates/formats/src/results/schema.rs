@@ -1,7 +1,7 @@
 //! Names and versions on disk.
 
 pub use crate::quantities::FIELDS;
-use crate::quantities::{described, labels};
+use crate::quantities::{Labels, labels, labels_of};
 use impact::{ProbeFields, Series};
 
 /// Value of the attribute `file_type`.
@@ -103,11 +103,8 @@ pub const VTK_POINTS: &str = "PointData";
 /// Where in a field of it each step begins.
 pub const VTK_OFFSETS: &str = "PointDataOffsets";
 
-/// Name, unit and meaning.
-type Labels = (&'static str, &'static str, &'static str);
-
 /// The samples of [`SERIES`], without those of a striker where there is none.
-pub(super) fn samples(series: &Series) -> impl Iterator<Item = (&'static Labels, &[f64])> {
+pub(super) fn samples(series: &Series) -> impl Iterator<Item = (&'static Labels<'static>, &[f64])> {
     let striker = series.striker.as_ref();
     let samples = [
         Some(&series.time_s),
@@ -123,12 +120,9 @@ pub(super) fn samples(series: &Series) -> impl Iterator<Item = (&'static Labels,
 /// What probes have, over time at each, with its error at each.
 pub(super) fn histories(
     fields: &ProbeFields,
-) -> impl Iterator<Item = (Labels, &Vec<Vec<f64>>, &Vec<f64>)> {
-    let own = FIELDS
-        .into_iter()
-        .zip(fields.values.iter().zip(&fields.errors));
-    let more = fields.more.iter();
-    let more = more.map(|own| (described(own.quantity), (&own.values, &own.errors)));
-    own.chain(more)
+) -> impl Iterator<Item = (Labels<'static>, &Vec<Vec<f64>>, &Vec<f64>)> {
+    let found = fields.values.iter().zip(&fields.errors);
+    labels_of(&fields.quantities)
+        .zip(found)
         .map(|(row, (values, errors))| (row, values, errors))
 }

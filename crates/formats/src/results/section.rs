@@ -4,7 +4,7 @@
 
 use super::schema;
 use crate::hdf::{attach_all, describe, numbers, scale, set_scale, text, texts};
-use crate::quantities::{Described, described};
+use crate::quantities::{Described, labels_of};
 use hdf5::types::FixedAscii;
 use hdf5::{Dataset, File, Group};
 use impact::{Peaks, SectionFields};
@@ -25,12 +25,8 @@ pub(super) fn write_section(file: &File, map: &SectionFields) -> Result<(), hdf5
     for (name, ..) in schema::MAP_SCALES {
         link(file, &[schema::MAP, name], &[schema::VTK, name])?;
     }
-    let own = schema::FIELDS
-        .into_iter()
-        .zip(map.values.iter().zip(&map.errors));
-    let more = map.more.iter();
-    let more = more.map(|own| (described(own.quantity), (&own.values, &own.errors)));
-    for (i, (row, (values, errors))) in own.chain(more).enumerate() {
+    let found = map.values.iter().zip(&map.errors);
+    for (i, (row, (values, errors))) in labels_of(&map.quantities).zip(found).enumerate() {
         let dataset = points
             .new_dataset::<f32>()
             .shape(shape)
@@ -126,8 +122,7 @@ fn vtk_image(file: &File, map: &SectionFields) -> Result<Group, hdf5::Error> {
     // a step of a field begins where the one before it ends; some readers count in 64 bits only
     let offsets = steps.create_group(schema::VTK_OFFSETS)?;
     let numbered: Vec<i64> = (0..map.time_s.len() as i64).collect();
-    let more = map.more.iter().map(|own| described(own.quantity));
-    for (name, _, meaning) in schema::FIELDS.into_iter().chain(more) {
+    for (name, _, meaning) in labels_of(&map.quantities) {
         let row = (name, "1", meaning);
         numbers(&offsets, &row, &[numbered.len()], &numbered)?;
     }

@@ -10,7 +10,7 @@ use crate::quantities::QUANTITIES;
 use crate::report::{choices, kernel_name, treatment};
 use crate::scene::resolved;
 use hdf5::{Dataset, File};
-use impact::{EnergySeries, KernelsUsed, Outcome, Peaks, ProbeFields, Scene};
+use impact::{EnergySeries, Outcome, Peaks, ProbeFields, Scene};
 use output::{Existing, Fault, Output, OutputError, Staged};
 use std::path::Path;
 
@@ -144,10 +144,8 @@ fn write_probes(
 fn write_attributes(file: &File, scene: &Scene, outcome: &Outcome) -> Result<(), hdf5::Error> {
     let choices = choices(scene, outcome);
     let used = outcome.used.as_ref();
-    let (id, version) = match used.map(|used| &used.kernels) {
-        Some(KernelsUsed::Table { id, format_version }) => (id.as_str(), format_version.as_str()),
-        Some(KernelsUsed::Direct) | None => ("", ""),
-    };
+    let table = used.and_then(|used| used.table.as_ref());
+    let [id, version] = table.map_or(["", ""], |table| table.each_ref().map(String::as_str));
     let warnings = outcome.warnings.join("\n");
     let texts = [
         schema::FILE_TYPE,

@@ -1,11 +1,13 @@
-//! An elastic body as a section of keys, in scenes and in files of materials.
+//! Bodies as sections of keys: an elastic one, in scenes and in files of materials, and a striker, which is a mass with a
+//! tip, a ball or a rod, with its velocity.
 
 use super::keys::keys_of;
+use super::section::read_text;
 use super::section::{Section, parse};
-use super::text::read_text;
 use crate::error::SceneError;
-use contact::from_wave_speeds;
-use contact::{Library, Material};
+use contact::{BodyError, Choice, Library, Material, Shape, Striker};
+use contact::{fall_velocity_m_s, from_wave_speeds};
+use impact::Strike;
 use std::path::Path;
 use toml::Table;
 
@@ -57,10 +59,8 @@ pub fn parse_materials(text: &str) -> Result<Library, SceneError> {
 pub(super) fn body(section: &Section<'_>, library: &Library) -> Result<Material, SceneError> {
     let named = section.text("material")?.map(|name| library.find(name));
     let base = named.transpose();
-    let base = base.map_err(|unknown| SceneError::UnknownMaterial {
-        key: section.key("material"),
-        value: unknown.name,
-        suggestion: unknown.suggestion,
+    let base = base.map_err(|unknown| {
+        SceneError::unknown_material(section.key("material"), &unknown.name, unknown.suggestion)
     })?;
     elastic(section, base)
 }
@@ -103,14 +103,11 @@ fn constants(
     if let Some((modulus, ratio)) = speeds {
         let twice = |quantity, key, given: Option<f64>, speeds: f64, size: f64| match given {
             Some(first) if (first - speeds).abs() > ROUNDING * size => {
-                Err(SceneError::Inconsistent {
-                    section: format!("[{}]", section.name()),
-                    quantity,
-                    first,
-                    first_key: key,
-                    second: speeds,
-                    second_key: "longitudinal_speed_m_s and shear_speed_m_s",
-                })
+                let (name, by) = (section.name(), "longitudinal_speed_m_s and shear_speed_m_s");
+                let sentence = format!(
+                    "[{name}] gives {quantity} twice: {first} from {key} and {speeds} from {by}; leave one pair out"
+                );
+                Err(SceneError::of_number(by, speeds, sentence))
             }
             Some(_) | None => Ok(()),
         };
@@ -146,11 +143,11 @@ fn from_speeds(
     let density = density.ok_or_else(|| section.missing("density_kg_m3", hint))?;
     // nu in (-1, 1/2) needs c2/c1 < sqrt(3)/2
     if c2 * c2 >= 0.75 * c1 * c1 {
-        return Err(SceneError::OutOfRange {
-            key: section.key("shear_speed_m_s"),
-            value: c2,
-            range: "(0, sqrt(3)/2) times longitudinal_speed_m_s",
-        });
+        return Err(SceneError::out_of_range(
+            section.key("shear_speed_m_s"),
+            c2,
+            "(0, sqrt(3)/2) times longitudinal_speed_m_s",
+        ));
     }
     Ok(Some(from_wave_speeds(c1, c2, density)))
 }
@@ -185,4 +182,100 @@ pub(super) fn put<const N: usize>(table: &mut Table, numbers: [(&str, Option<f64
     let known = numbers.into_iter();
     let known = known.filter_map(|(key, number)| Some((key.to_owned(), number?.into())));
     table.extend(known);
+}
+
+/// What a striker is said to be, where mass and tip follow from it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Form {
+    Ball,
+    Rod,
+}
+
+impl Choice for Form {
+    const ALL: &'static [Self] = &[Self::Ball, Self::Rod];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Ball => "ball",
+            Self::Rod => "rod",
+        }
+    }
+}
+
+pub(super) fn read_strike(section: &Section<'_>, library: &Library) -> Result<Strike, SceneError> {
+    section.allow_keys_of("striker")?;
+    let striker = match section.choice("shape")? {
+        None => plain(section, library)?,
+        Some(form) => of_form(section, library, form)?,
+    };
+    Ok(Strike {
+        striker,
+        velocity_m_s: velocity(section)?,
+    })
+}
+
+/// A mass with a tip.
+fn plain(section: &Section<'_>, library: &Library) -> Result<Striker, SceneError> {
+    if section.value("diameter_m").is_some() {
+        return Err(section.missing("shape", "say whose diameter_m it is: \"ball\" or \"rod\""));
+    }
+    Ok(Striker {
+        material: body(section, library)?,
+        mass_kg: section.needed("mass_kg")?,
+        tip_radius_m: section.needed("tip_radius_m")?,
+        length_m: section.number("length_m")?,
+        shape: None,
+    })
+}
+
+/// A body whose mass follows from lengths and a density.
+fn of_form(section: &Section<'_>, library: &Library, form: Form) -> Result<Striker, SceneError> {
+    let (superfluous, reason): (&[&str], _) = match form {
+        Form::Ball => (
+            &["mass_kg", "tip_radius_m", "length_m"],
+            "mass and tip of a ball follow from diameter_m and the density",
+        ),
+        Form::Rod => (
+            &["mass_kg"],
+            "the mass of a rod follows from length_m, diameter_m, tip_radius_m and the density",
+        ),
+    };
+    if let Some(key) = superfluous.iter().find(|key| section.value(key).is_some()) {
+        return Err(SceneError::superfluous(
+            section.key(key),
+            &format!("shape = \"{}\"", form.name()),
+            reason,
+        ));
+    }
+    let diameter_m = section.needed("diameter_m")?;
+    let shape = match form {
+        Form::Ball => Shape::Ball { diameter_m },
+        Form::Rod => Shape::Rod {
+            length_m: section.needed("length_m")?,
+            diameter_m,
+            tip_radius_m: section.number("tip_radius_m")?,
+        },
+    };
+    let hint = "the mass of a shape follows from its density";
+    Striker::of_shape(body(section, library)?, shape).map_err(|error| match error {
+        BodyError::NoDensity { .. } => section.missing("density_kg_m3", hint),
+        BodyError::OutOfRange {
+            quantity,
+            value,
+            range,
+        } => SceneError::out_of_range(section.key(quantity), value, range),
+    })
+}
+
+/// Velocity of approach in m/s: as given, or after a fall.
+fn velocity(section: &Section<'_>) -> Result<f64, SceneError> {
+    match section.number("drop_height_m")? {
+        None => section.needed("velocity_m_s"),
+        Some(_) if section.value("velocity_m_s").is_some() => Err(SceneError::superfluous(
+            section.key("velocity_m_s"),
+            &section.key("drop_height_m"),
+            "the velocity follows from the height of the fall",
+        )),
+        Some(height_m) => Ok(fall_velocity_m_s(height_m)),
+    }
 }

@@ -1,21 +1,20 @@
 //! Scene files: what hits what, and what is asked, in TOML and SI units, as `data-schema/scene.md` writes it down.
 //!
-//! `keys` lists what a scene can have, `section` reads typed values, `read` makes a scene of them with `body` and
-//! `striker`, and `write` spells one out; `text` and `record` are the files beside it.
+//! `keys` lists what a scene can have, `section` reads typed values, `read` makes a scene of them with `body`, and `write`
+//! spells one out; `record` is the file beside it.
 
 pub(crate) mod body;
 pub(crate) mod keys;
 mod read;
 mod record;
 pub(crate) mod section;
-mod striker;
-pub(crate) mod text;
 mod write;
 
+pub(crate) use body::Form;
 pub use body::{parse_materials, read_materials};
 pub use keys::sections_of;
 pub(crate) use read::{bodies_of, scene_with};
 pub use read::{parse_scene, read_scene, read_with_inputs, scene_of};
 pub use record::read_record;
-pub(crate) use striker::Form;
+pub use section::{parse as parse_table, read_text};
 pub use write::resolved;

@@ -1,11 +1,10 @@
 //! Reading scenes.
 
-use super::body::{body, read_materials};
+use super::body::{body, read_materials, read_strike};
 use super::keys::SECTIONS;
 use super::record::read_record;
 use super::section::{Section, parse};
-use super::striker::read_strike;
-use super::text::{read_standard, read_text};
+use super::section::{read_standard, read_text};
 use crate::error::SceneError;
 use contact::{Choice, Conflict, HalfSpace, Library, Settings};
 use impact::{Load, Probe, Reading, Scene, Section as MeridionalSection, Strike, Treatment};
@@ -65,11 +64,11 @@ pub fn scene_of(table: &Table, directory: &Path) -> Result<Scene, SceneError> {
         .into_iter()
         .find(|key| table.contains_key(*key))
     {
-        return Err(SceneError::UnknownKey {
-            key: key.to_owned(),
-            suggestion: None,
-            allowed: "this is a sweep, not a scene".to_owned(),
-        });
+        return Err(SceneError::unknown_key(
+            key.to_owned(),
+            None,
+            "this is a sweep, not a scene",
+        ));
     }
     root.allow(SECTIONS)?;
     let library = read_library(&root, directory)?;
@@ -195,11 +194,11 @@ fn in_words(conflict: Conflict) -> SceneError {
             "the radius of a contact that yields follows the load",
         ),
         Conflict::PlasticModel(law, model) => {
-            return SceneError::Conflict {
-                first: format!("contact.plasticity = \"{}\"", law.name()),
-                second: format!("model = \"{}\"", model.name()),
-                reason: "a contact that yields is solved by the implicit scheme with model auto, hertz, area_dashpot or growing, the fit of jackson_green without growing",
-            };
+            return SceneError::conflict(
+                format!("contact.plasticity = \"{}\"", law.name()),
+                format!("model = \"{}\"", model.name()),
+                "a contact that yields is solved by the implicit scheme with model auto, hertz, area_dashpot or growing, the fit of jackson_green without growing",
+            );
         }
         Conflict::PlasticPressure(law) => (
             "contact.yield_pressure_pa",
@@ -207,11 +206,7 @@ fn in_words(conflict: Conflict) -> SceneError {
             "thornton and recovery take it",
         ),
     };
-    SceneError::Conflict {
-        first: first.to_owned(),
-        second,
-        reason,
-    }
+    SceneError::conflict(first.to_owned(), second, reason)
 }
 
 fn read_load(
@@ -228,11 +223,10 @@ fn read_load(
                 force.missing("file", "name a CSV file with columns time_s,force_n or an HDF5 file with /time and /force")
             })?;
             if settings.disc_radius_m.is_none() {
-                return Err(SceneError::Missing {
-                    key: "contact.disc_radius_m".to_owned(),
-                    hint: "a prescribed force needs the radius of the disc that it loads"
-                        .to_owned(),
-                });
+                return Err(SceneError::missing(
+                    "contact.disc_radius_m",
+                    "a prescribed force needs the radius of the disc that it loads",
+                ));
             }
             let treatment = Treatment {
                 baseline_s: force.number("baseline_s")?,
@@ -248,11 +242,11 @@ fn read_load(
             let record = read_record(&directory.join(file), reading)?;
             Ok(Load::Record(record.treat(&treatment)?))
         }
-        (Some(_), Some(_)) => Err(SceneError::Conflict {
-            first: "[striker]".to_owned(),
-            second: "[force]".to_owned(),
-            reason: "the force is either computed or prescribed",
-        }),
+        (Some(_), Some(_)) => Err(SceneError::conflict(
+            "[striker]",
+            "[force]",
+            "the force is either computed or prescribed",
+        )),
         (None, None) => Err(root.missing(
             "striker",
             "give a section [striker], or [force] with a prescribed history",
@@ -267,12 +261,9 @@ fn inside(
     section: Option<&MeridionalSection>,
 ) -> Result<(), SceneError> {
     let within = |key: String, value: f64, limit: Option<f64>, limit_key| match limit {
-        Some(limit) if value > limit => Err(SceneError::OutsideBlock {
-            key,
-            value,
-            limit_key,
-            limit,
-        }),
+        Some(limit) if value > limit => {
+            Err(SceneError::outside_block(key, value, limit_key, limit))
+        }
         Some(_) | None => Ok(()),
     };
     let at = |name: &str, [r, z]: [(&str, f64); 2]| {

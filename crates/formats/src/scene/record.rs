@@ -1,9 +1,9 @@
 //! Force records: text with columns of time and force, or HDF5 with `/time` and `/force`, which a results file has.
 
-use super::text::{MOST_OF_RECORD, read_text_up_to};
+use super::section::{MOST_OF_RECORD, read_text_up_to};
 use crate::error::SceneError;
-use hdfread::{Group, HdfError};
 use impact::{ForceRecord, Reading, RecordError, TreatmentError};
+use ledger::{Group, HdfError, HdfFile};
 use output::HDF5;
 use std::io::ErrorKind;
 use std::path::Path;
@@ -17,12 +17,9 @@ type Rows = (Vec<f64>, Vec<f64>);
 /// Reads a record; the ending of its name says which of both it is.
 ///
 /// # Errors
-/// [`SceneError::ForceFile`] with the line at fault, [`SceneError::Unreadable`], [`SceneError::Treatment`].
+/// [`SceneError`] with the file, and the line at fault.
 pub fn read_record(path: &Path, reading: Reading) -> Result<ForceRecord, SceneError> {
-    let unreadable = |reason: String| SceneError::Unreadable {
-        path: path.to_owned(),
-        reason,
-    };
+    let unreadable = |reason: String| SceneError::unreadable(path, reason);
     let (rows, name) = if HDF5.is_of(path) {
         if reading.columns.is_some() || reading.units.is_some() {
             let reason = "force.columns and force.units are for text, and it is an HDF5 file";
@@ -32,10 +29,9 @@ pub fn read_record(path: &Path, reading: Reading) -> Result<ForceRecord, SceneEr
     } else {
         let text = read_text_up_to(path, MOST_OF_RECORD)?;
         let rows = from_text(&text, &reading);
-        let rows = rows.map_err(|(line, reason)| SceneError::ForceFile {
-            path: path.to_owned(),
-            line,
-            reason,
+        let rows = rows.map_err(|(line, reason)| {
+            let sentence = format!("{} line {line}: {reason}", path.display());
+            SceneError::in_sentence(path, sentence)
         })?;
         (rows, "time_s")
     };
@@ -300,14 +296,13 @@ fn no_header<'a>(
 
 /// Reads the datasets `/time` (s) and `/force` (N) without the HDF5 library, which trusts what it reads.
 fn from_hdf5(path: &Path) -> Result<Rows, String> {
-    let root = ledger::open(path).and_then(|(file, _)| file.root());
-    let root = root.map_err(|error| match &error {
+    let file = HdfFile::open(path).map_err(|error| match &error {
         HdfError::Io(source) if source.kind() == ErrorKind::NotFound => {
             "there is no such file".to_owned()
         }
         other => other.to_string(),
     })?;
-    let (time_s, force_n) = (samples(&root, "time")?, samples(&root, "force")?);
+    let (time_s, force_n) = (samples(&file.root, "time")?, samples(&file.root, "force")?);
     if time_s.len() != force_n.len() || time_s.len() < 2 {
         return Err(format!(
             "/time has {} samples and /force {}; at least 2 and as many of each are needed",
@@ -315,9 +310,8 @@ fn from_hdf5(path: &Path) -> Result<Rows, String> {
             force_n.len()
         ));
     }
-    let follows = |i: &usize| time_s[*i] <= time_s[i - 1];
-    if let Some(i) = (1..time_s.len()).find(follows) {
-        let (time_s, before_s) = (time_s[i], time_s[i - 1]);
+    if let Some(pair) = time_s.windows(2).find(|pair| pair[1] <= pair[0]) {
+        let [before_s, time_s] = [pair[0], pair[1]];
         return Err(format!(
             "/time = {time_s} does not follow {before_s}; times must ascend"
         ));
@@ -328,16 +322,10 @@ fn from_hdf5(path: &Path) -> Result<Rows, String> {
 /// The numbers of a dataset of one dimension.
 fn samples(root: &Group, name: &str) -> Result<Vec<f64>, String> {
     let failed = |error: HdfError| match error {
-        HdfError::Absent { .. } => format!("it has no dataset /{name} of numbers"),
+        HdfError::Absent(_) => format!("it has no dataset /{name} of numbers"),
         other => format!("/{name}: {other}"),
     };
     let data = root.dataset(name).map_err(failed)?;
-    if !data.kind().is_number() {
-        return Err(format!(
-            "/{name} holds values of the type {}, no numbers",
-            data.kind()
-        ));
-    }
     if data.shape().len() != 1 {
         return Err(format!(
             "/{name} has {} dimensions, needed 1",

@@ -1,9 +1,14 @@
-//! Typed reading of a TOML table: every error names the full key and the value found.
+//! TOML files and typed reading of their tables: every error names the full key and the value found.
+//!
+//! A file is regular, of a bounded size, and UTF-8.
 
 use super::keys::{FINITE, Range, full_name, keys_of, number};
 use crate::error::SceneError;
 use contact::{Choice, nearest};
+use std::fs::File;
+use std::io::{self, Read};
 use std::ops::RangeInclusive;
+use std::path::Path;
 use toml::{Table, Value};
 
 /// One section of a scene, or its root.
@@ -42,11 +47,11 @@ impl<'a> Section<'a> {
         let allowed: Vec<&str> = allowed.into_iter().collect();
         match self.names().find(|key| !allowed.contains(key)) {
             None => Ok(()),
-            Some(key) => Err(SceneError::UnknownKey {
-                key: self.key(key),
-                suggestion: nearest(key, allowed.iter().copied()).or_else(|| full_name(key)),
-                allowed: format!("known keys: {}", allowed.join(", ")),
-            }),
+            Some(key) => Err(SceneError::unknown_key(
+                self.key(key),
+                nearest(key, allowed.iter().copied()).or_else(|| full_name(key)),
+                &format!("known keys: {}", allowed.join(", ")),
+            )),
         }
     }
 
@@ -130,11 +135,7 @@ impl<'a> Section<'a> {
         if (range.holds)(number) {
             return Ok(Some(number));
         }
-        Err(SceneError::OutOfRange {
-            key: self.key(key),
-            value: number,
-            range: range.name,
-        })
+        Err(SceneError::out_of_range(self.key(key), number, range.name))
     }
 
     pub(crate) fn required(&self, key: &str, range: Range, hint: &str) -> Result<f64, SceneError> {
@@ -143,10 +144,7 @@ impl<'a> Section<'a> {
     }
 
     pub(crate) fn missing(&self, key: &str, hint: &str) -> SceneError {
-        SceneError::Missing {
-            key: self.key(key),
-            hint: hint.to_owned(),
-        }
+        SceneError::missing(self.key(key), hint)
     }
 
     pub(crate) fn text(&self, key: &str) -> Result<Option<&'a str>, SceneError> {
@@ -214,11 +212,11 @@ impl<'a> Section<'a> {
             return Err(self.wrong_kind(key, value, "a whole number"));
         };
         let count = usize::try_from(*number).ok();
-        (count.filter(|n| range.contains(n))).ok_or(SceneError::OutOfRange {
-            key: self.key(key),
-            value: *number as f64,
-            range: name,
-        })
+        (count.filter(|n| range.contains(n))).ok_or(SceneError::out_of_range(
+            self.key(key),
+            *number as f64,
+            name,
+        ))
     }
 
     /// One of the values of a choice.
@@ -229,10 +227,8 @@ impl<'a> Section<'a> {
 
     fn named<T: Choice>(&self, key: &str, word: &str) -> Result<T, SceneError> {
         let names = || T::ALL.iter().map(|choice| choice.name());
-        T::named(word).ok_or_else(|| SceneError::UnknownChoice {
-            key: self.key(key),
-            value: word.to_owned(),
-            allowed: names().collect::<Vec<_>>().join(", "),
+        T::named(word).ok_or_else(|| {
+            SceneError::unknown_choice(self.key(key), word, &names().collect::<Vec<_>>().join(", "))
         })
     }
 
@@ -249,11 +245,11 @@ impl<'a> Section<'a> {
             let word = word.ok_or_else(|| self.wrong_kind(key, item, "a word"))?;
             let choice = self.named(key, word)?;
             if found.contains(&choice) {
-                return Err(SceneError::Conflict {
-                    first: format!("{} = \"{word}\"", self.key(key)),
-                    second: format!("\"{word}\""),
-                    reason: "each word stands once",
-                });
+                return Err(SceneError::conflict(
+                    format!("{} = \"{word}\"", self.key(key)),
+                    format!("\"{word}\""),
+                    "each word stands once",
+                ));
             }
             found.push(choice);
         }
@@ -279,11 +275,7 @@ impl<'a> Section<'a> {
         if shown.chars().count() > 60 {
             shown = shown.chars().take(57).chain("...".chars()).collect();
         }
-        SceneError::WrongKind {
-            key: self.key(key),
-            value: shown,
-            expected,
-        }
+        SceneError::wrong_kind(self.key(key), shown, expected)
     }
 }
 
@@ -292,13 +284,15 @@ pub(crate) fn as_number(value: &Value) -> Option<f64> {
     value.as_float().or(value.as_integer().map(|i| i as f64))
 }
 
-/// Parses TOML text.
-pub(crate) fn parse(text: &str) -> Result<Table, SceneError> {
-    text.parse::<Table>().map_err(|error| SceneError::Syntax {
-        line: error.span().map_or(1, |span| {
-            text.get(..span.start).unwrap_or(text).matches('\n').count() + 1
-        }),
-        reason: error.message().replace('\n', " ") + decimal_comma(text, error.span()),
+/// Parses the TOML of a scene or a sweep.
+pub fn parse(text: &str) -> Result<Table, SceneError> {
+    text.parse::<Table>().map_err(|error| {
+        SceneError::syntax(
+            error.span().map_or(1, |span| {
+                text.get(..span.start).unwrap_or(text).matches('\n').count() + 1
+            }),
+            &(error.message().replace('\n', " ") + decimal_comma(text, error.span())),
+        )
     })
 }
 
@@ -316,4 +310,55 @@ fn decimal_comma(text: &str, place: Option<std::ops::Range<usize>>) -> &'static 
     } else {
         ""
     }
+}
+
+/// Bytes of a TOML file at most: a parsed one takes some fifty times its size.
+const MOST_OF_TOML: u64 = 8 << 20;
+/// Bytes of a force record at most.
+pub(crate) const MOST_OF_RECORD: u64 = 256 << 20;
+
+/// How HDF5 files start.
+const HDF5: &[u8] = b"\x89HDF\r\n";
+
+/// The text of a TOML file.
+pub fn read_text(path: &Path) -> Result<String, SceneError> {
+    read_text_up_to(path, MOST_OF_TOML)
+}
+
+/// The text of a regular file of at most so many bytes: a pipe would wait for its other end, a device never ends.
+pub(crate) fn read_text_up_to(path: &Path, most: u64) -> Result<String, SceneError> {
+    let fault = |reason: String| SceneError::unreadable(path, reason);
+    let system = |error: io::Error| fault(error.to_string());
+    if !std::fs::metadata(path).map_err(system)?.is_file() {
+        return Err(fault("it is not a regular file".to_owned()));
+    }
+    let file = File::open(path).map_err(system)?;
+    text_of(file, path, most)
+}
+
+/// The TOML that standard input has.
+pub(super) fn read_standard() -> Result<String, SceneError> {
+    text_of(io::stdin(), Path::new("standard input"), MOST_OF_TOML)
+}
+
+/// All text that a source of a name has, up to so many bytes.
+fn text_of(source: impl Read, path: &Path, most: u64) -> Result<String, SceneError> {
+    let fault = |reason: String| SceneError::unreadable(path, reason);
+    let mut bytes = Vec::new();
+    let read = source.take(most + 1).read_to_end(&mut bytes);
+    read.map_err(|error| fault(error.to_string()))?;
+    if bytes.len() as u64 > most {
+        return Err(fault(format!("it has more than {} MB", most >> 20)));
+    }
+    let starts_as_hdf5 = bytes.starts_with(HDF5);
+    String::from_utf8(bytes).map_err(|error| {
+        fault(if starts_as_hdf5 {
+            "it is an HDF5 file, needed text".to_owned()
+        } else {
+            let line = error.as_bytes()[..error.utf8_error().valid_up_to()]
+                .split(|&byte| byte == b'\n')
+                .count();
+            format!("line {line} is not UTF-8")
+        })
+    })
 }

@@ -1,7 +1,6 @@
 //! Writing scenes.
 
-use super::body::{put, to_table};
-use super::striker::Form;
+use super::body::{Form, put, to_table};
 use contact::{Choice, Plasticity, Settings, Shape, Striker};
 use impact::{Load, Reading, Scene, Section};
 use toml::{Table, Value};

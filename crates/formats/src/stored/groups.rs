@@ -34,7 +34,7 @@ pub(super) fn each(
     let read = each_group(part, hashes, &metadata, &mut |group, bytes| {
         let block = block(part, &places, group, &Arc::new(bytes), next);
         let block = block.map_err(|error| error.to_string())?;
-        next += block.numbers.len();
+        next += block.len();
         if !block.holds() || next > part.selection.rows.end {
             return Err(NOT_HELD.to_owned().into());
         }
@@ -109,11 +109,9 @@ fn block(
     let columns: Vec<_> = (quantities.par_iter())
         .map(|(_, quantity)| read(&quantity.name)?.numbers(part.fields.precision))
         .collect::<Result<_, _>>()?;
-    let mut block = Block::blank(start, rows, part.fields.probed());
-    for ((k, _), column) in quantities.iter().zip(&columns) {
-        for (row, &number) in column.iter().enumerate() {
-            block.set(row, *k, number);
-        }
+    let mut block = Block::blank(start, rows, part.fields.width());
+    for ((k, _), column) in quantities.into_iter().zip(columns) {
+        block.fill(k, column);
     }
     let models = read(MODEL.0)?.texts()?.into_iter().map(|name| {
         let Some(name) = name else {

@@ -5,8 +5,7 @@ use crate::quantities::Described;
 use crate::scene::section::parse;
 use crate::sweep::schema::TEXTS;
 use crate::sweep::{Fields, Footer, MAGIC, Precision, stored_columns};
-use hdfread::{Attribute, Dataset, File, Group, HdfError, Kind, Number};
-use ledger::Seal;
+use ledger::{Dataset, Group, H5Type, HdfError, HdfFile};
 use std::io::Read;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -32,21 +31,16 @@ pub struct StoredQuantity {
 #[derive(Debug, Clone)]
 pub(super) struct Stored {
     pub(super) path: PathBuf,
-    root: Group,
-    /// What the bytes that are read are compared with; files of older versions have none.
-    seal: Option<Seal>,
+    file: HdfFile,
 }
 
 impl Stored {
     /// Opens a file of a kind and of a version that is known.
     pub(super) fn open(path: &Path, wanted: FileKind) -> Result<Self, ReadError> {
         check_kind(path, file_kind(path)?, wanted)?;
-        let (file, seal) = open_hdf5(path)?;
-        let root = file.root();
         let stored = Self {
             path: path.to_owned(),
-            root: root.map_err(|error| ReadError::damaged(path, error))?,
-            seal,
+            file: open_hdf5(path)?,
         };
         let version = stored.text("format_version")?;
         check_version(&stored.path, &version)?;
@@ -68,12 +62,12 @@ impl Stored {
     }
 
     pub(super) fn is_sealed(&self) -> bool {
-        self.seal.is_some()
+        self.file.is_sealed()
     }
 
     /// Compares every byte of a file that has a seal.
     pub(super) fn check(&self) -> Result<(), ReadError> {
-        let checked = self.seal.as_ref().map_or(Ok(()), Seal::check);
+        let checked = self.file.check();
         checked.map_err(|error| self.damaged(error.to_string()))
     }
 
@@ -88,20 +82,19 @@ impl Stored {
 
     /// A text of the root.
     pub(super) fn text(&self, name: &str) -> Result<String, ReadError> {
-        text_of(self.root.attribute(name))
-            .ok_or_else(|| self.damaged(format!("the text attribute {name} is missing")))
+        let text = self.file.root.text(name);
+        text.map_err(|_| self.damaged(format!("the text attribute {name} is missing")))
     }
 
     /// A number of the root, where it is there.
     pub(super) fn number(&self, name: &str) -> Option<f64> {
-        let attribute = self.root.attribute(name).ok()?;
-        let real = attribute.number::<f64>().ok();
-        real.or_else(|| attribute.number::<u64>().ok().map(|count| count as f64))
+        let real = self.file.root.number::<f64>(name).ok();
+        real.or_else(|| Some(self.file.root.number::<u64>(name).ok()? as f64))
     }
 
     /// A group, where it is there.
     pub(super) fn group(&self, name: &str) -> Option<Group> {
-        let mut group = self.root.clone();
+        let mut group = self.file.root.clone();
         for part in name.split('/').filter(|part| !part.is_empty()) {
             group = group.group(part).ok()?;
         }
@@ -113,7 +106,7 @@ impl Stored {
         let path = path.trim_start_matches('/');
         match path.rsplit_once('/') {
             Some((group, name)) => self.group(group)?.dataset(name).ok(),
-            None => self.root.dataset(path).ok(),
+            None => self.file.root.dataset(path).ok(),
         }
     }
 
@@ -127,13 +120,14 @@ impl Stored {
         let Some(group) = self.group(group) else {
             return Vec::new();
         };
-        let found = group.members().filter_map(|name| {
-            let dataset = group.dataset(name).ok()?;
-            let described = |attribute| text_of(dataset.attribute(attribute)).unwrap_or_default();
+        let names = group.members().unwrap_or_default().into_iter();
+        let found = names.filter_map(|name| {
+            let dataset = group.dataset(&name).ok()?;
+            let described = |attribute| dataset.text(attribute).unwrap_or_default();
             (dataset.shape() == shape).then(|| StoredQuantity {
                 unit: described("units"),
                 meaning: described("long_name"),
-                name: name.to_owned(),
+                name,
             })
         });
         found.collect()
@@ -167,18 +161,17 @@ impl Stored {
     /// Unit of a dataset and the axis that it belongs to.
     pub(super) fn labels(&self, path: &str) -> Option<(String, String)> {
         let dataset = self.dataset(path)?;
-        let unit = text_of(dataset.attribute("units")).unwrap_or_default();
-        Some((unit, text_of(dataset.attribute("axis"))?))
+        let unit = dataset.text("units").unwrap_or_default();
+        Some((unit, dataset.text("axis").ok()?))
     }
 
     /// Whether a list holds texts.
     pub(super) fn holds_texts(&self, path: &str) -> bool {
-        self.dataset(path)
-            .is_some_and(|list| list.kind() == Kind::Text)
+        self.dataset(path).is_some_and(|list| list.holds_texts())
     }
 
     /// What a dataset holds at one place of its first dimension.
-    pub(super) fn slab<T: Number>(
+    pub(super) fn slab<T: H5Type>(
         &self,
         path: &str,
         shape: &[usize],
@@ -194,7 +187,7 @@ impl Stored {
     }
 
     /// Some numbers of a dataset with one dimension of a length.
-    pub(super) fn some<T: Number>(
+    pub(super) fn some<T: H5Type>(
         &self,
         path: &str,
         length: usize,
@@ -207,16 +200,19 @@ impl Stored {
     /// Which results a group has as datasets of a shape, and how exactly.
     pub(super) fn fields(&self, group: &str, shape: &[usize]) -> Result<Fields, ReadError> {
         let mut fields = Fields::all(self.probed()?);
-        let mut kinds = Vec::new();
+        let (mut single, mut double) = (true, true);
         fields.retain(|name| {
             let dataset = self.dataset(&format!("{group}/{name}"));
             let dataset = dataset.filter(|found| found.shape() == shape);
-            kinds.extend(dataset.as_ref().map(Dataset::kind));
+            if let Some(dataset) = &dataset {
+                single &= dataset.holds::<f32>();
+                double &= dataset.holds::<f64>();
+            }
             dataset.is_some()
         });
-        if !kinds.is_empty() && kinds.iter().all(|&kind| kind == f32::KIND) {
+        if single && !double {
             fields.precision = Precision::Single;
-        } else if kinds.iter().any(|&kind| kind != f64::KIND) {
+        } else if !double {
             return Err(self.damaged("its results are not of one precision"));
         }
         Ok(fields)
@@ -293,14 +289,14 @@ pub fn file_kind(path: &Path) -> Result<FileKind, ReadError> {
     if is_parquet(path) {
         return open_parquet(path).map(|(kind, _)| kind);
     }
-    let root = open_hdf5(path)?.0.root().ok();
-    root.and_then(|root| text_of(root.attribute("file_type")))
+    let found = open_hdf5(path)?.root.text("file_type").ok();
+    found
         .and_then(|found| FileKind::ALL.into_iter().find(|k| k.file_type() == found))
         .ok_or_else(|| ReadError::is(path, "is an HDF5 file, but none of hertzlamb's"))
 }
 
 /// Opens an HDF5 file, whatever is in it, with its seal.
-fn open_hdf5(path: &Path) -> Result<(File, Option<Seal>), ReadError> {
+fn open_hdf5(path: &Path) -> Result<HdfFile, ReadError> {
     let unreadable = |error| ReadError::unreadable(path, error);
     // looked at before it is opened: a pipe would wait for its other end
     let data = std::fs::metadata(path).map_err(unreadable)?;
@@ -321,13 +317,8 @@ fn open_hdf5(path: &Path) -> Result<(File, Option<Seal>), ReadError> {
             _ => "no HDF5 file",
         }));
     }
-    ledger::open(path).map_err(|error| match error {
-        HdfError::Damaged { what } => ReadError::damaged(path, what),
+    HdfFile::open(path).map_err(|error| match error {
+        HdfError::Damaged(what) => ReadError::damaged(path, what),
         _ => not("a damaged HDF5 file"),
     })
-}
-
-/// A text attribute, where it is one.
-fn text_of(attribute: Result<Attribute, HdfError>) -> Option<String> {
-    attribute.ok()?.text().ok()
 }

@@ -224,7 +224,7 @@ impl Hdf5Part {
         let length = self.part.selection.rows.len();
         let path = |name: &str| format!("{RESULTS}/{name}");
         let start = self.part.selection.rows.start + rows.start;
-        let mut block = Block::blank(start, rows.len(), self.part.fields.probed());
+        let mut block = Block::blank(start, rows.len(), self.part.fields.width());
         block.models = self.stored.some(&path(MODEL.0), length, rows.clone())?;
         for (k, quantity) in self.part.fields.quantities() {
             let (path, rows) = (path(&quantity.name), rows.clone());
@@ -235,9 +235,7 @@ impl Hdf5Part {
                     column.into_iter().map(f64::from).collect()
                 }
             };
-            for (row, number) in column.into_iter().enumerate() {
-                block.set(row, k, number);
-            }
+            block.fill(k, column);
         }
         let indices = self.stored.some::<i32>(&path(FAILURE.0), length, rows)?;
         for (row, index) in (block.start..).zip(indices) {

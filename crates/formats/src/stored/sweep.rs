@@ -116,10 +116,9 @@ fn read_axes(stored: &Stored) -> Result<Vec<StoredAxis>, ReadError> {
     let group = stored
         .group(AXES)
         .ok_or_else(|| stored.damaged(format!("the group {AXES} is missing")))?;
-    let mut names: Vec<String> = group.members().map(str::to_owned).collect();
-    names.sort();
+    let names = group.members();
     let mut axes: Vec<StoredAxis> = Vec::new();
-    for name in names {
+    for name in names.map_err(|error| stored.damaged(error.to_string()))? {
         let path = format!("{AXES}/{name}");
         let (unit, axis) = stored
             .labels(&path)

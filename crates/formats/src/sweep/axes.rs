@@ -160,11 +160,11 @@ impl Column {
                 table.insert(self.key.clone(), value);
                 Ok(())
             }
-            other => Err(SceneError::WrongKind {
-                key: self.section.clone(),
-                value: other.to_string(),
-                expected: "a section",
-            }),
+            other => Err(SceneError::wrong_kind(
+                self.section.clone(),
+                other.to_string(),
+                "a section",
+            )),
         }
     }
 }

@@ -26,7 +26,8 @@ pub struct Drawn {
 struct Draws {
     samples: usize,
     keys: Vec<(u64, Distribution)>,
-    correlations: Correlations,
+    /// The lower Cholesky factor of the correlation matrix of the keys.
+    factor: Vec<Vec<f64>>,
 }
 
 impl Drawn {
@@ -41,10 +42,7 @@ impl Drawn {
         let (mut places, mut names, mut keys) = (Vec::new(), Vec::new(), Vec::new());
         for section in random.subsections(&["samples", "seed", "correlation"])? {
             for key in section.names() {
-                let inner = section.inner(key).ok_or_else(|| SceneError::Missing {
-                    key: format!("{}.distribution", section.key(key)),
-                    hint: "a random key is a table such as { distribution = \"normal\", mean = 1.0, deviation = 0.1 }".to_owned(),
-                })?;
+                let inner = section.inner(key).ok_or_else(|| SceneError::missing(format!("{}.distribution", section.key(key)), "a random key is a table such as { distribution = \"normal\", mean = 1.0, deviation = 0.1 }"))?;
                 let name = section.key(key);
                 keys.push((stream(seed, &name), Distribution::read(&inner)?));
                 names.push(name);
@@ -54,7 +52,7 @@ impl Drawn {
         let draws = Arc::new(Draws {
             samples,
             keys,
-            correlations: Correlations::read(random, &names)?,
+            factor: correlations(random, &names)?,
         });
         let of = |(key, (section, name))| {
             let draws = Arc::clone(&draws);
@@ -78,13 +76,11 @@ impl Drawn {
     /// Draw number `index`: a function of the seed, the keys and this number only.
     #[must_use]
     pub fn at(&self, index: usize) -> f64 {
-        let Draws {
-            keys, correlations, ..
-        } = &*self.draws;
-        let (stream, own) = keys[self.key];
+        let draws = &*self.draws;
+        let (stream, own) = draws.keys[self.key];
         let index = index as u64;
-        if correlations.binds(self.key) {
-            own.at(correlations.mixed(self.key, |j| normal(keys[j].0, index)))
+        if draws.binds(self.key) {
+            own.at(draws.mixed(self.key, |j| normal(draws.keys[j].0, index)))
         } else {
             own.draw(stream, index)
         }
@@ -153,11 +149,11 @@ impl Distribution {
         let a = section.required(keys[0], ranges[0], "the distribution needs it")?;
         let b = section.required(keys[1], ranges[1], "the distribution needs it")?;
         if keys[1] == "high" && b <= a {
-            return Err(SceneError::Conflict {
-                first: format!("{} = {b}", section.key("high")),
-                second: format!("low = {a}"),
-                reason: "high must be above low",
-            });
+            return Err(SceneError::conflict(
+                format!("{} = {b}", section.key("high")),
+                format!("low = {a}"),
+                "high must be above low",
+            ));
         }
         let numbers = [a, b];
         Ok(Self { kind, numbers })
@@ -227,47 +223,7 @@ const COEFFICIENT: Range = Range {
     holds: |x| x > -1.0 && x < 1.0,
 };
 
-/// The lower Cholesky factor of the correlation matrix of some keys, in their order.
-#[derive(Debug, Clone, PartialEq)]
-struct Correlations {
-    factor: Vec<Vec<f64>>,
-}
-
-impl Correlations {
-    /// Reads `[[random.correlation]]`, sections of `keys`, a pair, and `coefficient`.
-    fn read(random: &Section<'_>, keys: &[String]) -> Result<Self, SceneError> {
-        let n = keys.len();
-        let mut matrix: Vec<Vec<f64>> = (0..n)
-            .map(|i| (0..n).map(|j| f64::from(u8::from(i == j))).collect())
-            .collect();
-        for (name, table) in random.list("correlation")? {
-            let section = Section::of(&name, table);
-            section.allow(["keys", "coefficient"])?;
-            let [i, j] = pair(&section, keys)?;
-            let coefficient = section.required(
-                "coefficient",
-                COEFFICIENT,
-                "the correlation of the two keys",
-            )?;
-            if matrix[i][j] != 0.0 || i == j {
-                return Err(SceneError::Conflict {
-                    first: format!("{name} of {}", keys[i]),
-                    second: keys[j].clone(),
-                    reason: "two different keys have one correlation",
-                });
-            }
-            matrix[i][j] = coefficient;
-            matrix[j][i] = coefficient;
-        }
-        cholesky(&matrix)
-            .map(|factor| Self { factor })
-            .ok_or_else(|| SceneError::Conflict {
-                first: "random.correlation".to_owned(),
-                second: "the other ones".to_owned(),
-                reason: "together these coefficients are no correlation matrix: it is not positive definite",
-            })
-    }
-
+impl Draws {
     /// Whether a key is correlated with another.
     fn binds(&self, key: usize) -> bool {
         let off = |(column, &l): (usize, &f64)| column != key && l != 0.0;
@@ -283,6 +239,40 @@ impl Correlations {
     }
 }
 
+/// The factor of `[[random.correlation]]`, sections of `keys`, a pair, and `coefficient`.
+fn correlations(random: &Section<'_>, keys: &[String]) -> Result<Vec<Vec<f64>>, SceneError> {
+    let n = keys.len();
+    let mut matrix: Vec<Vec<f64>> = (0..n)
+        .map(|i| (0..n).map(|j| f64::from(u8::from(i == j))).collect())
+        .collect();
+    for (name, table) in random.list("correlation")? {
+        let section = Section::of(&name, table);
+        section.allow(["keys", "coefficient"])?;
+        let [i, j] = pair(&section, keys)?;
+        let coefficient = section.required(
+            "coefficient",
+            COEFFICIENT,
+            "the correlation of the two keys",
+        )?;
+        if matrix[i][j] != 0.0 || i == j {
+            return Err(SceneError::conflict(
+                format!("{name} of {}", keys[i]),
+                keys[j].clone(),
+                "two different keys have one correlation",
+            ));
+        }
+        matrix[i][j] = coefficient;
+        matrix[j][i] = coefficient;
+    }
+    cholesky(&matrix).ok_or_else(|| {
+        SceneError::conflict(
+            "random.correlation",
+            "the other ones",
+            "together these coefficients are no correlation matrix: it is not positive definite",
+        )
+    })
+}
+
 fn pair(section: &Section<'_>, keys: &[String]) -> Result<[usize; 2], SceneError> {
     let hint =
         "two keys that are drawn, such as [\"striker.diameter_m\", \"striker.velocity_m_s\"]";
@@ -296,10 +286,12 @@ fn pair(section: &Section<'_>, keys: &[String]) -> Result<[usize; 2], SceneError
     let place = |item: &Value| {
         let word = item.as_str().ok_or_else(wrong)?;
         let found = keys.iter().position(|key| key == word);
-        found.ok_or_else(|| SceneError::UnknownChoice {
-            key: section.key("keys"),
-            value: word.to_owned(),
-            allowed: format!("the keys that are drawn: {}", keys.join(", ")),
+        found.ok_or_else(|| {
+            SceneError::unknown_choice(
+                section.key("keys"),
+                word,
+                &format!("the keys that are drawn: {}", keys.join(", ")),
+            )
         })
     };
     match items.as_slice() {

@@ -2,7 +2,7 @@
 
 use super::schema::FIELDS as SECTION;
 use crate::error::SceneError;
-use crate::quantities::{Described, FIELDS, QUANTITIES, described};
+use crate::quantities::{Described, Labels, QUANTITIES, labels_of};
 use crate::results::schema::{ERROR_SUFFIX, PEAK_SUFFIXES};
 use crate::scene::section::Section;
 use impact::{ProbePeaks, Quantity};
@@ -30,6 +30,16 @@ pub enum Precision {
     Single,
 }
 
+impl Precision {
+    /// Bytes of a number.
+    pub(super) fn bytes(self) -> usize {
+        match self {
+            Self::Double => 8,
+            Self::Single => 4,
+        }
+    }
+}
+
 impl Default for Fields {
     fn default() -> Self {
         Self::all(Vec::new())
@@ -54,15 +64,20 @@ impl Fields {
         &self.known[place]
     }
 
-    /// Numbers that probes bring to a row.
-    pub(crate) fn probed(&self) -> usize {
-        self.known.len() - QUANTITIES.len()
+    /// Numbers of a row, written or not: the results of a contact, and behind them what probes bring.
+    pub(crate) fn width(&self) -> usize {
+        self.known.len()
+    }
+
+    /// Whether probes bring some of them.
+    pub(crate) fn has_probes(&self) -> bool {
+        self.width() > QUANTITIES.len()
     }
 
     /// The results of these names, without probes.
     ///
     /// # Errors
-    /// [`SceneError::Missing`] for a name that is none of them.
+    /// [`SceneError`] for a name that is none of them.
     pub fn of_names<S: AsRef<str>>(names: &[S], precision: Precision) -> Result<Self, SceneError> {
         let all = Self {
             precision,
@@ -74,17 +89,17 @@ impl Fields {
     /// Those of these names alone.
     ///
     /// # Errors
-    /// [`SceneError::Missing`] for a name that is none of them.
+    /// [`SceneError`] for a name that is none of them.
     pub fn only<S: AsRef<str>>(self, names: &[S]) -> Result<Self, SceneError> {
         let place = |name: &S| {
             let name = name.as_ref();
             let place = self.known.iter().position(|known| known.name == name);
             place.ok_or_else(|| {
                 let known: Vec<&str> = self.known.iter().map(|k| k.name.as_str()).collect();
-                SceneError::Missing {
-                    key: format!("the column {name}"),
-                    hint: format!("the results are {}", known.join(", ")),
-                }
+                SceneError::missing(
+                    format!("the column {name}"),
+                    &format!("the results are {}", known.join(", ")),
+                )
             })
         };
         let mut places: Vec<usize> = names.iter().map(place).collect::<Result<_, _>>()?;
@@ -102,14 +117,6 @@ impl Fields {
     /// The results, with their places.
     pub(crate) fn quantities(&self) -> impl Iterator<Item = (usize, &Described)> {
         self.places.iter().map(|&place| (place, self.named(place)))
-    }
-
-    /// Bytes of a number.
-    pub(super) fn width(&self) -> usize {
-        match self.precision {
-            Precision::Double => 8,
-            Precision::Single => 4,
-        }
     }
 }
 
@@ -133,15 +140,14 @@ pub(super) fn columns_of_probes(scene: &Table) -> Result<Vec<Described>, SceneEr
     let output = root.section("output")?;
     let quantities = output.map(|output| output.choices::<Quantity>("quantities"));
     let quantities = quantities.transpose()?.unwrap_or_default();
-    let more = quantities.into_iter().map(described);
-    let fields: Vec<_> = FIELDS.into_iter().chain(more).collect();
+    let fields: Vec<_> = labels_of(&quantities).collect();
     let count = 1 + 3 * probes * fields.len();
     if count > MOST {
-        return Err(SceneError::OutOfRange {
-            key: "the number of columns of the probes".to_owned(),
-            value: count as f64,
-            range: "[0, 2000]",
-        });
+        return Err(SceneError::out_of_range(
+            "the number of columns of the probes",
+            count as f64,
+            "[0, 2000]",
+        ));
     }
     let mut columns = vec![TABLE.into()];
     for probe in 1..=probes {
@@ -159,8 +165,7 @@ pub(crate) fn stored_columns(sweep: &Table) -> Result<Vec<Described>, SceneError
 }
 
 /// Peak, instant and error of a field.
-fn of_field(probe: usize, field: (&str, &'static str, &str)) -> [Described; 3] {
-    let (name, unit, meaning) = field;
+fn of_field(probe: usize, (name, unit, meaning): Labels<'static>) -> [Described; 3] {
     let [peak, time] = PEAK_SUFFIXES;
     [
         (peak, unit, "largest in magnitude over time"),
@@ -176,7 +181,6 @@ fn of_field(probe: usize, field: (&str, &'static str, &str)) -> [Described; 3] {
 
 /// The numbers of a row, in the order of the columns.
 pub(super) fn probed_numbers(found: &ProbePeaks) -> impl Iterator<Item = f64> + '_ {
-    let peaks = found.peaks.iter();
-    let peaks = peaks.flat_map(|peak| [peak.value, peak.time_s, peak.error]);
+    let peaks = found.peaks.iter().flatten().copied();
     std::iter::once(f64::from(u8::from(found.looked_up))).chain(peaks)
 }

@@ -1,9 +1,14 @@
 //! What a journal keeps of a sweep: a block of rows a record.
 //!
-//! A block is its first row, its rows, the numbers that probes bring to one and the length of the failures' text, as
-//! integers of eight bytes; then its numbers, those of the probes, the models and the failures.
+//! A block is its first row, its rows, which results it has (a bit each), the numbers that probes bring to a row and the
+//! length of the failures' text, as integers of eight bytes; then its numbers, those of the probes, the models and the
+//! failures. It has the results that are written and those that are counted: what was kept without one of them is computed
+//! anew.
 
+use super::fields::Fields;
 use super::rows::Block;
+use super::schema::COUNTED;
+use super::shard::BLOCK;
 use super::spec::Spec;
 use crate::quantities::QUANTITIES;
 use ledger::{Identity, Journal, JournalError, Record, Records, Title};
@@ -12,8 +17,8 @@ use std::path::{Path, PathBuf};
 
 /// What is done.
 const KIND: &str = "sweep";
-/// Bytes before the numbers of a block: four integers.
-const HEADER: usize = 4 * 8;
+/// Bytes before the numbers of a block: five integers.
+const HEADER: usize = 5 * 8;
 
 /// Rows that a journal keeps.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -42,7 +47,8 @@ pub(super) fn open(
     drops: bool,
 ) -> Result<(Journal, Vec<Span>), JournalError> {
     let mut spans = Vec::new();
-    let take = |record, kept: &[u8]| take(&mut spans, rows, record, kept);
+    let wanted = results(&spec.fields);
+    let take = |record, kept: &[u8]| take(&mut spans, rows, wanted, record, kept);
     let journal = Journal::open(path, &title(spec, rows), |_| drops, take)?;
     Ok((journal, apart(spans)))
 }
@@ -72,7 +78,7 @@ impl Unfinished {
         let mut count = || words.next()?.parse::<usize>().ok();
         let (sweep_rows, rows) = (count()?, count()?..count()?);
         let mut spans = Vec::new();
-        records.all(|(record, kept)| take(&mut spans, &rows, record, &kept));
+        records.all(|(record, kept)| take(&mut spans, &rows, 0, record, &kept));
         let kept = apart(spans).iter().map(|span| span.rows.len()).sum();
         Some(Self {
             path: path.to_owned(),
@@ -92,9 +98,16 @@ pub fn is_computed(spec: &Spec, rows: Range<usize>, part: &Path) -> bool {
     })
 }
 
-/// Adds what a record keeps, where that can be rows of a range.
-fn take(spans: &mut Vec<Span>, wanted: &Range<usize>, record: Record, kept: &[u8]) -> bool {
-    let rows = parsed(kept).map(|block| block.start..block.start + block.numbers.len());
+/// Adds what a record keeps, where that can be rows of a range with these results.
+fn take(
+    spans: &mut Vec<Span>,
+    wanted: &Range<usize>,
+    results: u64,
+    record: Record,
+    kept: &[u8],
+) -> bool {
+    let block = parsed(kept).filter(|(_, held)| held & results == results);
+    let rows = block.map(|(block, _)| block.start..block.start + block.len());
     let rows = rows.filter(|rows| wanted.start <= rows.start && rows.end <= wanted.end);
     spans.extend(rows.clone().map(|rows| Span { rows, record }));
     rows.is_some()
@@ -112,53 +125,79 @@ fn apart(mut spans: Vec<Span>) -> Vec<Span> {
     spans
 }
 
-/// What is kept of a block.
-pub(super) fn kept(block: &Block) -> Vec<u8> {
+/// The results of a contact that are kept, a bit each: those that are written, and those that are counted.
+pub(super) fn results(fields: &Fields) -> u64 {
+    let written = |place: &usize| fields.places.contains(place);
+    let counted = |place: &usize| COUNTED.contains(&QUANTITIES[*place].name);
+    let places = (0..QUANTITIES.len()).filter(|place| written(place) || counted(place));
+    places.fold(0, |kept, place| kept | 1 << place)
+}
+
+/// The places of the numbers of a row that are kept: some results of a contact, and all that probes bring.
+fn places(results: u64, width: usize) -> Vec<usize> {
+    let is_kept = |place: &usize| *place >= QUANTITIES.len() || results >> place & 1 == 1;
+    (0..width).filter(is_kept).collect()
+}
+
+/// What is kept of a block: these results.
+pub(super) fn kept(block: &Block, results: u64) -> Vec<u8> {
     let mut text = String::new();
     for (row, reason) in &block.failures {
         text.push_str(&format!("{row} {}\n", reason.replace('\n', " ")));
     }
-    let rows = block.numbers.len();
-    let numbers = rows * QUANTITIES.len() + block.probed.len();
+    let (rows, places) = (block.len(), places(results, block.width));
+    let probed = block.width - QUANTITIES.len();
+    let numbers = rows * places.len();
     let mut bytes = Vec::with_capacity(HEADER + 8 * numbers + rows + text.len());
-    for number in [block.start, rows, block.width(), text.len()] {
-        bytes.extend((number as u64).to_le_bytes());
-    }
-    for number in block.numbers.iter().flatten().chain(&block.probed) {
+    let [start, rows, probed, length] =
+        [block.start, rows, probed, text.len()].map(|count| count as u64);
+    for number in [start, rows, results, probed, length] {
         bytes.extend(number.to_le_bytes());
+    }
+    for row in block.rows() {
+        for &place in &places {
+            bytes.extend(row[place].to_le_bytes());
+        }
     }
     bytes.extend(&block.models);
     bytes.extend(text.as_bytes());
     bytes
 }
 
-/// A block that can have been computed.
-pub(super) fn parsed(kept: &[u8]) -> Option<Block> {
-    const WIDTH: usize = QUANTITIES.len();
+/// A block that can have been computed, NaN where a result was not kept, and the results that were.
+pub(super) fn parsed(kept: &[u8]) -> Option<(Block, u64)> {
     let (header, rest) = kept.split_at_checked(HEADER)?;
     let mut words = header.as_chunks().0.iter().copied();
-    let mut count = || usize::try_from(u64::from_le_bytes(words.next()?)).ok();
-    let (start, rows, width, text) = (count()?, count()?, count()?, count()?);
-    start.checked_add(rows).filter(|_| rows > 0)?;
-    let (contacts, rest) = rest.split_at_checked(rows.checked_mul(8 * WIDTH)?)?;
-    let (probed, rest) = rest.split_at_checked(rows.checked_mul(width)?.checked_mul(8)?)?;
+    let mut word = || Some(u64::from_le_bytes(words.next()?));
+    let (start, rows, results, probed, text) = (word()?, word()?, word()?, word()?, word()?);
+    let [start, rows, probed, text] = [start, rows, probed, text].map(|word| word as usize);
+    start
+        .checked_add(rows)
+        .filter(|_| (1..=BLOCK).contains(&rows) && probed <= rest.len())?;
+    let places = places(results, QUANTITIES.len() + probed);
+    let (numbers, rest) = rest.split_at_checked(8 * rows.checked_mul(places.len())?)?;
     let (models, failures) = rest.split_at_checked(rows)?;
+    if results >> QUANTITIES.len() != 0 || failures.len() != text {
+        return None;
+    }
     let failures = std::str::from_utf8(failures).ok()?;
     let failures = failures.lines().map(|line| {
         let (row, reason) = line.split_once(' ')?;
         Some((row.parse().ok()?, reason.to_owned()))
     });
-    let number = |word: &[u8; 8]| f64::from_le_bytes(*word);
-    let row = |words: &[[u8; 8]; WIDTH]| words.each_ref().map(number);
-    let block = Block {
-        start,
-        numbers: (contacts.as_chunks().0.as_chunks().0.iter())
-            .map(row)
-            .collect(),
-        probed: probed.as_chunks().0.iter().map(number).collect(),
-        models: models.to_vec(),
-        failures: failures.collect::<Option<_>>()?,
-    };
-    let length = HEADER + 8 * (rows * WIDTH + block.probed.len()) + rows + text;
-    (length == kept.len() && block.holds()).then_some(block)
+    let mut block = Block::blank(start, rows, QUANTITIES.len() + probed);
+    let mut numbers = numbers
+        .as_chunks()
+        .0
+        .iter()
+        .copied()
+        .map(f64::from_le_bytes);
+    for row in block.numbers.chunks_exact_mut(block.width) {
+        for (&place, number) in places.iter().zip(&mut numbers) {
+            row[place] = number;
+        }
+    }
+    block.models = models.to_vec();
+    block.failures = failures.collect::<Option<_>>()?;
+    block.holds().then_some((block, results))
 }

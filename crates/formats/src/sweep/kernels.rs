@@ -5,7 +5,6 @@ use impact::{KernelChoice, Shared};
 use lookup::{Table, TableError, TableFile, stated_hash};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use thiserror::Error;
 
 /// What a sweep with probes asks for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -16,17 +15,6 @@ pub enum FieldKernels<'a> {
     Table(&'a Path),
     /// Those of a table where its estimated error is within the tolerance of a row, else computed.
     Within(&'a Path),
-}
-
-/// Why fields cannot be had.
-#[derive(Debug, Error)]
-pub enum KernelsError {
-    /// The base scene.
-    #[error(transparent)]
-    Scene(#[from] SceneError),
-    /// The table.
-    #[error(transparent)]
-    Table(#[from] TableError),
 }
 
 /// Kernels that are ready.
@@ -88,10 +76,7 @@ impl Kernels {
     pub(super) fn check(&self) -> Result<(), SceneError> {
         let fault = self.shared.as_ref().and_then(|shared| shared.fault());
         fault.map_or(Ok(()), |reason| {
-            Err(SceneError::Unreadable {
-                path: self.path.clone(),
-                reason,
-            })
+            Err(SceneError::unreadable(&self.path, reason))
         })
     }
 }

@@ -1,6 +1,6 @@
 //! Sweeps: many scenes that differ in some keys, their contacts computed and written as one table.
 //!
-//! What is asked: a [`Spec`] is read from TOML (`spec`), a base scene with the `files` that it names and the keys that
+//! What is asked: a [`Spec`] is read from TOML (`spec`), a base scene with the files that it names and the keys that
 //! vary (`axes`, `draws`), as a Cartesian product, as a list of keys that vary together, and as random draws. Which
 //! results are written is said by `fields`, and where fields at probes have their kernels from by `kernels`.
 //!
@@ -11,8 +11,8 @@
 
 mod axes;
 mod draws;
+mod error;
 mod fields;
-mod files;
 mod journal;
 mod kernels;
 mod rows;
@@ -24,18 +24,17 @@ mod template;
 
 pub use axes::{Axis, Column, Values};
 pub use draws::Drawn;
+pub use error::SweepError;
 pub(crate) use fields::stored_columns;
 pub use fields::{Fields, Precision};
 pub use journal::{Unfinished, is_computed};
-pub use kernels::{FieldKernels, KernelsError};
+pub use kernels::FieldKernels;
 pub use ledger::{JournalError, Shard};
 pub use rows::{
-    Block, Blocks, NO_MODEL, PARQUET_VERSION, check_rows, column_names, print_csv, row_bytes,
-    stage_csv, stage_rows, write_csv, write_sweep,
+    Block, Blocks, NO_MODEL, PARQUET_VERSION, check_rows, column_names, key_unit, print_csv,
+    row_bytes, stage_csv, stage_rows, write_csv, write_sweep,
 };
 pub(crate) use rows::{Footer, MAGIC, Source, keys, stage_virtual};
-pub use run::{
-    BLOCK_S, Done, FIRST_BLOCK, Kept, Rows, SweepError, compute_rows, run_rows, run_sweep,
-};
+pub use run::{BLOCK_S, FIRST_BLOCK, Kept, Rows, compute_rows, run_rows};
 pub use shard::{BLOCK, Part, Selection, grain};
 pub use spec::Spec;

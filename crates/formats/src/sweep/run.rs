@@ -1,6 +1,7 @@
 //! Computes the rows of a sweep, block by block.
 
 use super::axes::place;
+use super::error::SweepError;
 use super::fields::probed_numbers;
 use super::journal::{self, Span};
 use super::rows::{Block, Blocks, NO_MODEL};
@@ -9,43 +10,19 @@ use super::spec::Spec;
 use super::template::{Scratch, Templates};
 use crate::error::SceneError;
 use crate::quantities::QUANTITIES;
-use contact::{Choice, Collision, Model, Ratios, Tabulated};
-use impact::sweep::{Collided, Observed, collide_rows, observe_rows};
-use ledger::{Journal, JournalError, gaps};
-use output::{Existing, Fault, OutputError};
+use contact::{Choice, Collision, Model, Outcomes, Ratios, Settings, Tabulated};
+use impact::sweep::{Collided, Observed, collide_rows, observe_rows, outcomes};
+use ledger::{Journal, gaps};
+use output::{Existing, Fault};
 use std::ops::Range;
 use std::path::Path;
 use std::time::Instant;
-use thiserror::Error;
 
 /// Rows of the first block of a run, without probes; the following ones have as many as take [`BLOCK_S`].
 pub const FIRST_BLOCK: usize = 64;
 
 /// Time in s that the computation of a block is to take: what a kill costs.
 pub const BLOCK_S: f64 = 2.0;
-
-/// A sweep that could not be run; scenes that fail are rows, not errors.
-#[derive(Debug, Error)]
-pub enum SweepError {
-    /// The sweep or its base scene is wrong.
-    #[error(transparent)]
-    Scene(#[from] SceneError),
-    /// The journal cannot be used.
-    #[error(transparent)]
-    Journal(JournalError),
-    /// It cannot be written or read back.
-    #[error(transparent)]
-    Output(#[from] OutputError),
-}
-
-impl From<JournalError> for SweepError {
-    fn from(error: JournalError) -> Self {
-        match error {
-            JournalError::Unwritable { path, source } => OutputError::writing(&path, source).into(),
-            other => Self::Journal(other),
-        }
-    }
-}
 
 /// Computed rows of a sweep, kept in their journal.
 #[derive(Debug)]
@@ -58,6 +35,19 @@ pub struct Kept {
 }
 
 impl Kept {
+    /// All of them, where memory holds them.
+    ///
+    /// # Errors
+    /// Why they cannot be read back.
+    pub fn blocks(&self) -> Result<Vec<Block>, Fault> {
+        let mut blocks = Vec::new();
+        self.each(&mut |block| {
+            blocks.push(block.clone());
+            Ok(())
+        })?;
+        Ok(blocks)
+    }
+
     /// Removes the journal, once the results are written.
     pub fn remove(self) {
         self.journal.remove();
@@ -69,23 +59,13 @@ impl Blocks for Kept {
         let mut kept = Vec::new();
         for span in &self.spans {
             self.journal.read(span.record, &mut kept)?;
-            let block = journal::parsed(&kept);
+            let found = journal::parsed(&kept);
             let changed = || Fault::from("its journal was changed while it was read".to_owned());
-            visit(&block.ok_or_else(changed)?)?;
+            let (block, _) = found.ok_or_else(changed)?;
+            visit(&block)?;
         }
         Ok(())
     }
-}
-
-/// All rows of a sweep in memory.
-#[derive(Debug)]
-pub struct Done {
-    /// Blocks in the order of their rows.
-    pub blocks: Vec<Block>,
-    /// Rows that an earlier run had computed.
-    pub resumed: usize,
-    /// Where they are kept too; to be removed once the results are written.
-    pub journal: Journal,
 }
 
 /// Computes the rows of a range that the journal at `part` does not hold yet; no more than a block is in memory.
@@ -112,6 +92,7 @@ pub fn run_rows(
     if !watch(done) {
         return Ok(None);
     }
+    let results = journal::results(&spec.fields);
     let mut size = computer.first_block();
     let held: Vec<_> = spans.iter().map(|span| span.rows.clone()).collect();
     for gap in gaps(&held, &rows) {
@@ -122,9 +103,9 @@ pub fn run_rows(
             (block, size) = computer.block(start..end, BLOCK_S, |row| row)?;
             spans.push(Span {
                 rows: start..end,
-                record: journal.append(&journal::kept(&block))?,
+                record: journal.append(&journal::kept(&block, results))?,
             });
-            done += block.numbers.len();
+            done += block.len();
             if !watch(done) && done < rows.len() {
                 return Ok(None);
             }
@@ -139,38 +120,12 @@ pub fn run_rows(
     }))
 }
 
-/// [`run_rows`] for all rows of a sweep that fit into memory.
-///
-/// # Errors
-/// [`SweepError`].
-pub fn run_sweep(
-    spec: &Spec,
-    part: &Path,
-    existing: Existing,
-    watch: impl FnMut(usize) -> bool,
-) -> Result<Option<Done>, SweepError> {
-    admit(spec.rows())?;
-    let Some(kept) = run_rows(spec, 0..spec.rows(), part, existing, watch)? else {
-        return Ok(None);
-    };
-    let mut blocks = Vec::new();
-    let read = kept.each(&mut |block| {
-        blocks.push(block.clone());
-        Ok(())
-    });
-    read.map_err(|fault| OutputError::writing(part, fault))?;
-    Ok(Some(Done {
-        blocks,
-        resumed: kept.resumed,
-        journal: kept.journal,
-    }))
-}
-
 /// What rows are computed with.
 struct Computer<'a> {
     spec: &'a Spec,
     templates: Templates<'a>,
     responses: Tabulated,
+    outcomes: Outcomes,
 }
 
 /// What a thread remembers of the row before.
@@ -187,11 +142,30 @@ impl<'a> Computer<'a> {
         } else {
             Ratios::Few
         };
-        Ok(Self {
+        let mut computer = Self {
             spec,
             templates: Templates::new(spec)?,
             responses: Tabulated::new(ratios),
-        })
+            outcomes: Outcomes::default(),
+        };
+        if spec.kernels.is_none() {
+            let row = |row, memory: &mut Memory| computer.contact(row, memory);
+            computer.outcomes = outcomes(spec.rows(), &computer.responses, row);
+        }
+        Ok(computer)
+    }
+
+    /// The contact of a row.
+    fn contact(
+        &self,
+        row: usize,
+        memory: &mut Memory,
+    ) -> Result<(Collision, Settings), SceneError> {
+        place(&self.spec.axes, row, &mut memory.place);
+        let (target, strike, settings) =
+            self.templates.contact(&memory.place, &mut memory.scratch)?;
+        let collision = Collision::new(target, &strike.striker, strike.velocity_m_s);
+        Ok((collision, *settings))
     }
 
     /// Rows of a first block: with probes one may take seconds.
@@ -212,10 +186,7 @@ impl<'a> Computer<'a> {
     ) -> Result<(Block, usize), SceneError> {
         let began = Instant::now();
         let (spec, templates, count) = (self.spec, &self.templates, rows.len());
-        let mut block = Block {
-            start: rows.start,
-            ..Block::default()
-        };
+        let mut block = Block::blank(rows.start, 0, spec.fields.width());
         if let Some(kernels) = &spec.kernels {
             let of = (&self.responses, &kernels.choice);
             let done = observe_rows(rows.clone(), of, |row, memory: &mut Memory| {
@@ -223,16 +194,12 @@ impl<'a> Computer<'a> {
                 let scene = templates.scene(&memory.place, &mut memory.scratch)?;
                 Ok::<_, SceneError>(scene.clone())
             });
-            let width = spec.fields.probed();
             rows.zip(done)
-                .for_each(|(row, done)| push_observed(&mut block, row, done, width));
+                .for_each(|(row, done)| push_observed(&mut block, row, done));
         } else {
-            let done = collide_rows(rows.clone(), &self.responses, |row, memory: &mut Memory| {
-                place(&spec.axes, row_of(row), &mut memory.place);
-                let (target, strike, settings) =
-                    templates.contact(&memory.place, &mut memory.scratch)?;
-                let collision = Collision::new(target, &strike.striker, strike.velocity_m_s);
-                Ok::<_, SceneError>((collision, *settings))
+            let of = (&self.responses, &self.outcomes);
+            let done = collide_rows(rows.clone(), of, |row, memory: &mut Memory| {
+                self.contact(row_of(row), memory)
             });
             rows.zip(done)
                 .for_each(|(row, done)| push(&mut block, row, done));
@@ -244,32 +211,35 @@ impl<'a> Computer<'a> {
 }
 
 /// Adds a row with what the probes bring to it; where its fields alone failed the contact stays.
-fn push_observed(block: &mut Block, row: usize, done: Result<Observed, String>, width: usize) {
-    let end = block.probed.len() + width;
+fn push_observed(block: &mut Block, row: usize, done: Result<Observed, String>) {
+    let end = block.numbers.len() + block.width;
     match done {
         Ok(found) => {
             push(block, row, Ok(found.collided));
             match found.peaks {
-                Ok(peaks) => block.probed.extend(probed_numbers(&peaks)),
+                Ok(peaks) => block.numbers.extend(probed_numbers(&peaks)),
                 Err(reason) => block.failures.push((row, reason)),
             }
         }
         Err(reason) => push(block, row, Err(reason)),
     }
-    block.probed.resize(end, f64::NAN);
+    block.numbers.resize(end, f64::NAN);
 }
 
 fn push(block: &mut Block, row: usize, done: Result<Collided, String>) {
-    let mut numbers = [f64::NAN; QUANTITIES.len()];
     let mut model = None;
     match done {
         Ok(found) => {
-            numbers = std::array::from_fn(|k| (QUANTITIES[k].of_contact)(&found.results));
+            let numbers = QUANTITIES.iter();
+            let numbers = numbers.map(|quantity| (quantity.of_contact)(&found.results));
+            block.numbers.extend(numbers);
             model = Model::ALL.iter().position(|m| *m == found.model);
         }
-        Err(reason) => block.failures.push((row, reason)),
+        Err(reason) => {
+            block.numbers.extend([f64::NAN; QUANTITIES.len()]);
+            block.failures.push((row, reason));
+        }
     }
-    block.numbers.push(numbers);
     block
         .models
         .push(model.map_or(NO_MODEL, |index| index as u8));
@@ -283,11 +253,11 @@ fn admit(rows: usize) -> Result<(), SceneError> {
     if rows <= MOST_AT_ONCE {
         return Ok(());
     }
-    Err(SceneError::OutOfRange {
-        key: "the number of rows in memory".to_owned(),
-        value: rows as f64,
-        range: "[0, 10000000]",
-    })
+    Err(SceneError::out_of_range(
+        "the number of rows in memory",
+        rows as f64,
+        "[0, 10000000]",
+    ))
 }
 
 /// Some rows of a sweep: `count` of them from `start` on, every `step`-th.
@@ -321,24 +291,21 @@ pub fn compute_rows(
     let last = step.checked_mul(count.saturating_sub(1));
     let last = last.and_then(|way| way.checked_add(start));
     if count > 0 && last.is_none_or(|last| last >= spec.rows()) {
-        return Err(SceneError::OutOfRange {
-            key: "the last row".to_owned(),
-            value: last.map_or(f64::INFINITY, |last| last as f64),
-            range: "the rows of the sweep, which count from 0",
-        });
+        return Err(SceneError::out_of_range(
+            "the last row",
+            last.map_or(f64::INFINITY, |last| last as f64),
+            "the rows of the sweep, which count from 0",
+        ));
     }
     let computer = Computer::new(spec)?;
     let row_of = |index: usize| start + index * step;
     let (mut all, mut size) = (Block::default(), computer.first_block());
-    while all.numbers.len() < count {
-        let done = all.numbers.len();
+    while all.len() < count {
+        let done = all.len();
         let end = (done + size).min(count);
-        let mut block;
+        let block;
         (block, size) = computer.block(done..end, WATCH_S, row_of)?;
-        all.numbers.append(&mut block.numbers);
-        all.probed.append(&mut block.probed);
-        all.models.append(&mut block.models);
-        all.failures.append(&mut block.failures);
+        all.extend(&block, 0..block.len());
         if !watch(end) && end < count {
             return Ok(None);
         }

@@ -43,6 +43,8 @@ pub const TEXTS: [&str; 5] = [
 pub const SHA256: &str = "sweep_sha256";
 /// Number attribute of the root: rows.
 pub const ROWS: &str = "rows";
+/// Results that are counted over all rows where they are above one, whatever is written.
+pub const COUNTED: [&str; 2] = ["yield_onset", "cone_crack_onset"];
 /// Number attribute of the root: rows that failed.
 pub const FAILED: &str = "failed";
 /// Number attributes of the root.

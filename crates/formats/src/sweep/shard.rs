@@ -12,7 +12,7 @@ pub const BLOCK: usize = 32_768;
 /// Rows that shards do not divide: with probes one may take seconds.
 #[must_use]
 pub fn grain(fields: &Fields) -> usize {
-    if fields.probed() > 0 { 1 } else { BLOCK }
+    if fields.has_probes() { 1 } else { BLOCK }
 }
 
 /// Rows that are computed into one file.
@@ -56,14 +56,14 @@ impl Selection {
     /// Rows from one on up to another, which is not among them, of a sweep of `rows`.
     ///
     /// # Errors
-    /// [`SceneError::OutOfRange`] beyond the end.
+    /// [`SceneError`] beyond the end.
     pub fn of_rows(asked: Range<usize>, rows: usize) -> Result<Self, SceneError> {
         if asked.end > rows {
-            return Err(SceneError::OutOfRange {
-                key: format!("the end of the rows, of a sweep of {rows},"),
-                value: asked.end as f64,
-                range: "the rows of the sweep, which count from 0",
-            });
+            return Err(SceneError::out_of_range(
+                format!("the end of the rows, of a sweep of {rows},"),
+                asked.end as f64,
+                "the rows of the sweep, which count from 0",
+            ));
         }
         let (rows, shard) = (asked, None);
         Ok(Self { rows, shard })

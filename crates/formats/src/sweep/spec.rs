@@ -2,20 +2,22 @@
 
 use super::axes::{Axis, Column, Values, rows};
 use super::draws::Drawn;
+use super::error::SweepError;
 use super::fields::{Fields, columns_of_probes, stored_columns};
-use super::files::Files;
-use super::kernels::{FieldKernels, Kernels, KernelsError};
+use super::kernels::{FieldKernels, Kernels};
 use super::schema::{FIELDS, FORMAT_VERSION, LIST, SAMPLE};
 use super::shard::BLOCK;
 use crate::error::SceneError;
 use crate::quantities::{Described, QUANTITIES};
-use crate::scene::keys::FINITE;
+use crate::scene::body::parse_materials;
+use crate::scene::keys::{FINITE, SECTIONS, keys_of};
+use crate::scene::section::read_text;
 use crate::scene::section::{Section, parse};
-use crate::scene::text::read_text;
-use contact::{Choice, NUMBERS_REVISION, Plasticity};
+use contact::{Choice, Library, NUMBERS_REVISION, Plasticity};
 use impact::numbers::FIELDS_REVISION;
 use ledger::Identity;
 use output::Role;
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use toml::{Table, Value};
 
@@ -31,7 +33,7 @@ pub struct Spec {
     /// Everything spelled out, as TOML.
     pub(crate) resolved: String,
     /// What was read beside it.
-    pub(super) files: Files,
+    files: Files,
     /// What makes two sweeps the same: the identity of everything that is asked and was read, and of the program's version and numbers.
     pub(crate) fingerprint: String,
     /// What of the results is written.
@@ -75,9 +77,14 @@ impl Spec {
     /// [`SceneError`].
     pub fn from_table(table: &Table, directory: &Path) -> Result<Self, SceneError> {
         let root = Section::root(table);
+        if !table.contains_key("scene") && SECTIONS.iter().any(|name| table.contains_key(*name)) {
+            let hint = "this is a scene; a sweep names its file, scene = \"FILE\", or has its sections below it, as in [scene.target], and says in [product], [list] or [random] which keys vary";
+            return Err(root.missing("scene", hint));
+        }
         root.allow(["scene", "product", "list", "random"])?;
         let (scene, directory, file) = base(&root, table, directory)?;
         let axes = axes(&root)?;
+        in_range(&axes)?;
         let mut files = Files::read(&scene, &axes, &directory)?;
         files.inputs.extend(file);
         let mut resolved = table.clone();
@@ -141,29 +148,6 @@ impl Spec {
         })
     }
 
-    /// [`Self::of_columns`] of a scene in a text.
-    ///
-    /// # Errors
-    /// [`SceneError`].
-    pub fn of_columns_in_text(
-        text: &str,
-        directory: &Path,
-        columns: Vec<Column>,
-    ) -> Result<Self, SceneError> {
-        Self::of_columns(&parse(text)?, directory, columns)
-    }
-
-    /// [`Self::of_columns`] of a scene in a file.
-    ///
-    /// # Errors
-    /// [`SceneError`].
-    pub fn of_columns_in_file(path: &Path, columns: Vec<Column>) -> Result<Self, SceneError> {
-        let text = read_text(path)?;
-        let directory = path.parent().unwrap_or(Path::new("."));
-        let spec = Self::of_columns_in_text(&text, directory, columns);
-        spec.map_err(|error| error.in_file(path))
-    }
-
     /// Everything spelled out, as TOML.
     #[must_use]
     pub fn resolved(&self) -> &str {
@@ -190,8 +174,13 @@ impl Spec {
             .filter(|values| !matches!(values, Values::Drawn(_)))
             .map(Values::len)
             .sum();
-        let probed = 2 * BLOCK * self.fields.probed();
+        let probed = 2 * BLOCK * (self.fields.width() - QUANTITIES.len());
         (RUN_BYTES + (values + probed) * 8) as f64
+    }
+
+    /// The materials of a scene of it.
+    pub(super) fn library(&self, scene: &Table) -> &Library {
+        self.files.library(scene)
     }
 
     /// Number of scenes.
@@ -216,8 +205,8 @@ impl Spec {
     /// Which results are written is chosen after it.
     ///
     /// # Errors
-    /// [`KernelsError`].
-    pub fn with_fields(mut self, asked: FieldKernels<'_>) -> Result<Self, KernelsError> {
+    /// [`SweepError`].
+    pub fn with_fields(mut self, asked: FieldKernels<'_>) -> Result<Self, SweepError> {
         let kernels = Kernels::new(asked, self.has_many_ratios())?;
         self.fields = own_fields(&self.scene, &self.axes, columns_of_probes(&self.scene)?);
         let mut table = parse(&self.resolved)?;
@@ -283,6 +272,56 @@ fn fingerprint(resolved: &str, files: &[String], axes: &[Axis]) -> String {
         identity = identity.with(&column.name(), values);
     }
     identity.hex()
+}
+
+/// What was read: rows are computed from it, whatever becomes of the files.
+#[derive(Debug, Clone, PartialEq, Default)]
+struct Files {
+    /// Where each file is.
+    inputs: Vec<Role>,
+    /// Materials by the name of their file.
+    libraries: BTreeMap<String, Library>,
+    /// Text of each materials file, in the order of their names.
+    texts: Vec<String>,
+}
+
+impl Files {
+    /// Reads the materials of a base scene, and those that vary.
+    fn read(scene: &Table, axes: &[Axis], directory: &Path) -> Result<Self, SceneError> {
+        let mut files = Self::default();
+        let mut names: Vec<&str> = named(scene).into_iter().collect();
+        for column in axes.iter().flat_map(|axis| &axis.columns) {
+            if let ("materials", "file", Values::Texts(words)) =
+                (column.section.as_str(), column.key.as_str(), &column.values)
+            {
+                names.extend(words.iter().map(String::as_str));
+            }
+        }
+        names.sort_unstable();
+        names.dedup();
+        for name in names {
+            let path = directory.join(name);
+            let text = read_text(&path)?;
+            let own = parse_materials(&text).map_err(|error| error.in_file(&path))?;
+            let library = Library::built_in().clone().extended(&own);
+            files.libraries.insert(name.to_owned(), library);
+            files.inputs.push(Role::new("a materials file", &path));
+            files.texts.push(text);
+        }
+        Ok(files)
+    }
+
+    /// The materials of a scene.
+    fn library(&self, scene: &Table) -> &Library {
+        named(scene)
+            .and_then(|name| self.libraries.get(name))
+            .unwrap_or(Library::built_in())
+    }
+}
+
+/// The materials file that a scene names.
+fn named(scene: &Table) -> Option<&str> {
+    scene.get("materials")?.as_table()?.get("file")?.as_str()
 }
 
 /// The axes that the sections of a sweep say.
@@ -353,17 +392,17 @@ fn columns(section: &Section<'_>, most: Option<usize>) -> Result<Vec<Column>, Sc
 /// The axis of keys that vary together.
 fn together(columns: Vec<Column>) -> Result<Axis, SceneError> {
     let Some(len) = columns.first().map(|column| column.values.len()) else {
-        return Err(SceneError::Missing {
-            key: "a key that varies".to_owned(),
-            hint: "give at least one scene key with its values".to_owned(),
-        });
+        return Err(SceneError::missing(
+            "a key that varies",
+            "give at least one scene key with its values",
+        ));
     };
     if let Some(other) = columns.iter().find(|c| c.values.len() != len) {
-        return Err(SceneError::Conflict {
-            first: format!("list.{} of {len} values", columns[0].name()),
-            second: format!("list.{} of {}", other.name(), other.values.len()),
-            reason: "the keys of a list vary together and need as many values each",
-        });
+        return Err(SceneError::conflict(
+            format!("list.{} of {len} values", columns[0].name()),
+            format!("list.{} of {}", other.name(), other.values.len()),
+            "the keys of a list vary together and need as many values each",
+        ));
     }
     let name = LIST.to_owned();
     Ok(Axis { name, columns, len })
@@ -389,6 +428,21 @@ fn drawn(random: &Section<'_>) -> Result<Axis, SceneError> {
     Ok(Axis { name, columns, len })
 }
 
+/// Numbers of a product are in the ranges of their keys; of a list or of draws one outside is a row that fails.
+fn in_range(axes: &[Axis]) -> Result<(), SceneError> {
+    let of_product = axes.iter().filter(|axis| axis.name != LIST);
+    for column in of_product.flat_map(|axis| &axis.columns) {
+        let known = keys_of(&column.section).find(|key| key.name == column.key);
+        if let (Some(range), Values::Numbers(numbers)) =
+            (known.and_then(|key| key.range), &column.values)
+            && let Some(&value) = numbers.iter().find(|x| !(range.holds)(**x))
+        {
+            return Err(SceneError::out_of_range(column.name(), value, range.name));
+        }
+    }
+    Ok(())
+}
+
 /// No key twice, at least one axis, not too many rows, numbers alone.
 fn check(axes: &[Axis]) -> Result<(), SceneError> {
     for column in axes.iter().flat_map(|axis| &axis.columns) {
@@ -398,28 +452,24 @@ fn check(axes: &[Axis]) -> Result<(), SceneError> {
             Values::Drawn(drawn) => drawn.infinite(),
         };
         if let Some(value) = infinite {
-            return Err(SceneError::OutOfRange {
-                key: column.name(),
-                value,
-                range: FINITE.name,
-            });
+            return Err(SceneError::out_of_range(column.name(), value, FINITE.name));
         }
     }
     if axes.is_empty() {
-        return Err(SceneError::Missing {
-            key: "[product], [list] or [random]".to_owned(),
-            hint: "say in one of these sections which keys vary".to_owned(),
-        });
+        return Err(SceneError::missing(
+            "[product], [list] or [random]",
+            "say in one of these sections which keys vary",
+        ));
     }
     let columns = axes.iter().flat_map(|axis| &axis.columns);
     let names: Vec<String> = columns.map(Column::name).collect();
     for (i, name) in names.iter().enumerate() {
         if names[..i].contains(name) {
-            return Err(SceneError::Conflict {
-                first: name.clone(),
-                second: name.clone(),
-                reason: "a key varies along one axis only",
-            });
+            return Err(SceneError::conflict(
+                name.clone(),
+                name.clone(),
+                "a key varies along one axis only",
+            ));
         }
     }
     match rows(axes) {
@@ -429,9 +479,5 @@ fn check(axes: &[Axis]) -> Result<(), SceneError> {
 }
 
 fn too_many(rows: f64) -> SceneError {
-    SceneError::OutOfRange {
-        key: "the number of rows".to_owned(),
-        value: rows,
-        range: "[1, 1e12]",
-    }
+    SceneError::out_of_range("the number of rows", rows, "[1, 1e12]")
 }

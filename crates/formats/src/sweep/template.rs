@@ -67,11 +67,7 @@ impl<'a> Templates<'a> {
         match templates.parse(&origin) {
             Ok(scene) => contact_only(&scene, spec.kernels.is_some())?,
             // a row that fails
-            Err(
-                SceneError::OutOfRange { .. }
-                | SceneError::Inconsistent { .. }
-                | SceneError::Conflict { .. },
-            ) => {}
+            Err(error) if error.is_of_numbers() => {}
             Err(error) => return Err(error),
         }
         templates.check_words()?;
@@ -102,14 +98,9 @@ impl<'a> Templates<'a> {
                 }
                 let mut place = vec![0; self.spec.axes.len()];
                 place[index] = i;
-                let parsed = self.parse(&place);
-                if let Err(
-                    error @ (SceneError::UnknownMaterial { .. }
-                    | SceneError::UnknownChoice { .. }
-                    | SceneError::WrongKind { .. }),
-                ) = parsed
-                {
-                    return Err(error);
+                match self.parse(&place) {
+                    Err(error) if error.is_of_words() => return Err(error),
+                    Ok(_) | Err(_) => {}
                 }
             }
         }
@@ -182,7 +173,7 @@ impl<'a> Templates<'a> {
                 column.put(&mut table, value)?;
             }
         }
-        let library = self.spec.files.library(&table);
+        let library = self.spec.library(&table);
         scene_with(&table, &self.spec.directory, library)
     }
 }
@@ -202,11 +193,11 @@ fn contact_only(scene: &Scene, observed: bool) -> Result<(), SceneError> {
 }
 
 fn contacts_only(found: &str) -> SceneError {
-    SceneError::Conflict {
-        first: "a sweep".to_owned(),
-        second: found.to_owned(),
-        reason: "it computes contacts only; leave this section out of its scene",
-    }
+    SceneError::conflict(
+        "a sweep",
+        found.to_owned(),
+        "it computes contacts only; leave this section out of its scene",
+    )
 }
 
 /// The column as plain numbers, if that is what it is.
@@ -251,10 +242,6 @@ impl Fast<'_> {
         } else {
             return Ok(());
         };
-        Err(SceneError::OutOfRange {
-            key: self.name.clone(),
-            value,
-            range,
-        })
+        Err(SceneError::out_of_range(self.name.clone(), value, range))
     }
 }

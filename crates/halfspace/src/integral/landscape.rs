@@ -9,6 +9,7 @@ use crate::integral::panels::{Images, Node, ROUNDING, Rule, panels};
 use crate::integral::strength::Strength;
 use crate::numeric::complex::root;
 use crate::numeric::lanes::{Map, Pair, Points};
+use crate::numeric::scalar::Scalar;
 use arrayvec::ArrayVec;
 use num_complex::Complex64;
 use pulp::Simd;
@@ -260,19 +261,42 @@ impl Landscape {
 
     /// Singularities and pole in the variable (v - `from`)/`scale`, but for those nearer than `least`.
     fn images(&self, from: f64, scale: f64, least: f64) -> Images {
-        let to_variable = |v: Complex64| (v - from) / scale;
-        let mut images = Images {
-            all: Points::new(),
-            pole: to_variable(self.pole),
-        };
-        let cuts = self.cuts.iter().map(|&c| Complex64::new(c, 0.0));
-        for point in cuts.chain(self.singularities.iter().copied()) {
-            let image = to_variable(point);
-            if image.norm_sqr() > least * least || least == 0.0 {
-                images.all.push(image);
-            }
+        let mut all = Points::new();
+        for &cut in &self.cuts {
+            all.push(cut.into());
         }
-        images
+        for &point in &self.singularities {
+            all.push(point);
+        }
+        all.map(&Scaled { from, scale, least });
+        Images {
+            all,
+            pole: (self.pole - from) / scale,
+        }
+    }
+}
+
+/// (v - `from`)/`scale`, but for what is nearer than `least` to zero.
+struct Scaled {
+    from: f64,
+    scale: f64,
+    least: f64,
+}
+
+impl Map for Scaled {
+    #[inline(always)]
+    fn at<S: Simd>(&self, v: Pair<S>) -> Pair<S> {
+        let scale = v.re.constant(self.scale);
+        let image = Pair {
+            re: (v.re - self.from) / scale,
+            im: v.im / scale,
+        };
+        let least = v.re.constant(self.least * self.least);
+        let nowhere = Pair {
+            re: v.re.constant(Points::NOWHERE),
+            im: v.re.constant(Points::NOWHERE),
+        };
+        Pair::where_below(image.norm_sqr(), least, nowhere, image)
     }
 }
 

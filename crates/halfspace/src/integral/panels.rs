@@ -8,7 +8,7 @@
 
 use crate::integral::strength::RelativeError;
 use crate::numeric::gauss;
-use crate::numeric::lanes::Points;
+use crate::numeric::lanes::{Axes, Points, half_axes, major_axis, power};
 use arrayvec::ArrayVec;
 use num_complex::Complex64;
 
@@ -66,10 +66,10 @@ pub(crate) fn panels(
 ) {
     let mut stack: ArrayVec<(f64, f64), 64> = ArrayVec::new();
     stack.push((0.0, 1.0));
+    let mut axes = Axes::new();
     while let Some((s0, s1)) = stack.pop() {
-        let axes = images.all.axes(s0, s1);
-        let smallest = axes.iter().fold(FARTHEST, f64::min);
-        let pole = half_axes(axis(images.pole, s0, s1));
+        let smallest = images.all.axes(s0, s1, &mut axes).min(FARTHEST);
+        let pole = half_axes(major_axis(images.pole.re, images.pole.im, s0, s1));
         let (rate, pole_rate) = (half_axes(smallest).ln(), pole.ln());
         let at_cut = s0 == 0.0 && rule.finite_part;
         // Gauss's rule has twice the degree of one that only interpolates.
@@ -83,11 +83,11 @@ pub(crate) fn panels(
             continue;
         }
         let n = (nodes.max(least) as usize).min(MOST_NODES);
-        let left = |half_axes: f64| power(half_axes, (degree * n as f64) as u32).recip();
-        let near = axes.iter().filter(|&axis| axis <= NEAR * smallest);
-        let all: f64 = near.map(|axis| left(half_axes(axis))).sum();
+        let exponent = degree as u32 * n as u32;
+        let all = axes.sum_of_inverse_powers(NEAR * smallest, exponent);
         // of the whole panel, as if one node had it
-        let of_rule = rule.caution * (all + POLE * left(pole)) * (n as f64).sqrt();
+        let of_rule =
+            rule.caution * (all + POLE * power(pole, exponent).recip()) * (n as f64).sqrt();
         let error = (of_rule + ROUNDING).into();
         let (rule, middle, half) = if at_cut {
             (gauss::finite_part_rule(n), 0.0, s1)
@@ -106,37 +106,8 @@ pub(crate) fn panels(
     }
 }
 
-/// x to a whole power.
-#[inline]
-fn power(mut x: f64, mut exponent: u32) -> f64 {
-    let mut product = 1.0;
-    while exponent > 0 {
-        if exponent & 1 == 1 {
-            product *= x;
-        }
-        x *= x;
-        exponent >>= 1;
-    }
-    product
-}
-
 /// Sum of half axes of the smallest ellipse with foci s0, s1 through a singularity, focal distance 2.
 pub(crate) fn smallest_ellipse(images: &[Complex64], s0: f64, s1: f64) -> f64 {
-    let axes = images.iter().map(|&image| axis(image, s0, s1));
+    let axes = images.iter().map(|v| major_axis(v.re, v.im, s0, s1));
     half_axes(axes.fold(FARTHEST, f64::min))
-}
-
-/// Major axis of the ellipse with foci s0, s1 through a point, focal distance 2.
-#[inline]
-fn axis(point: Complex64, s0: f64, s1: f64) -> f64 {
-    let (middle, inverse) = (0.5 * (s0 + s1), 2.0 / (s1 - s0));
-    let (x, y) = ((point.re - middle) * inverse, point.im * inverse);
-    let (square, twice) = (x * x + y * y + 1.0, 2.0 * x);
-    (square - twice).max(0.0).sqrt() + (square + twice).max(0.0).sqrt()
-}
-
-/// Sum of half axes from the major axis.
-fn half_axes(axis: f64) -> f64 {
-    let half = 0.5 * axis.max(2.0);
-    half + (half * half - 1.0).sqrt().max(1e-9)
 }

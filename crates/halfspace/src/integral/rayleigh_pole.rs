@@ -56,6 +56,10 @@ impl Setting {
         xi: Complex64,
         shallow: bool,
     ) -> RelativeError {
+        let strength = Strength::of::<O>(self.profile);
+        if strength == Strength::Bounded && !shallow {
+            return ROUNDING.into();
+        }
         let radius = self.profile.radius();
         let height = xi.im.abs();
         let gap = [at.r + radius, (at.r - radius).abs()]
@@ -64,9 +68,8 @@ impl Setting {
             .fold(f64::INFINITY, f64::min);
         let size = height + at.r + radius;
         let front = ROUNDING * size / gap.max(f64::EPSILON * size);
-        match Strength::of::<O>(self.profile) {
-            Strength::Bounded if shallow => (ROUNDING + front).into(),
-            Strength::Bounded => ROUNDING.into(),
+        match strength {
+            Strength::Bounded => (ROUNDING + front).into(),
             Strength::InverseRoot => RelativeError {
                 displacement: ROUNDING + ROUNDING.sqrt() * front.sqrt(),
                 stress: ROUNDING + front,

@@ -58,7 +58,7 @@ pub(crate) fn terms_at(distance: f64) -> usize {
 
 /// Even moments M_2j of the chord function.
 #[inline(always)]
-pub(crate) fn moment(profile: Profile, j: usize) -> f64 {
+pub(crate) const fn moment(profile: Profile, j: usize) -> f64 {
     let odd = (2 * j + 1) as f64;
     match profile {
         Profile::Hertz => 1.5 / (PI * odd * (odd + 2.0)),
@@ -67,6 +67,39 @@ pub(crate) fn moment(profile: Profile, j: usize) -> f64 {
         Profile::Point => 0.0,
     }
 }
+
+/// What one term of the series of a profile is multiplied by.
+struct Term {
+    /// M_2j, and the same over k = 2j.
+    moment: f64,
+    moment_over_k: f64,
+    /// 1/(k + 1) and 1/(k + 2).
+    inverse: [f64; 2],
+}
+
+const fn terms_of(profile: Profile) -> [Term; MOST_TERMS] {
+    const NONE: Term = Term {
+        moment: 0.0,
+        moment_over_k: 0.0,
+        inverse: [0.0; 2],
+    };
+    let mut terms = [NONE; MOST_TERMS];
+    let mut j = 0;
+    while j < MOST_TERMS {
+        let (moment, k) = (moment(profile, j), 2.0 * j as f64);
+        terms[j] = Term {
+            moment,
+            moment_over_k: moment / k,
+            inverse: [1.0 / (k + 1.0), 1.0 / (k + 2.0)],
+        };
+        j += 1;
+    }
+    terms
+}
+
+static HERTZ: [Term; MOST_TERMS] = terms_of(Profile::Hertz);
+static PUNCH: [Term; MOST_TERMS] = terms_of(Profile::Punch);
+static POINT: [Term; MOST_TERMS] = terms_of(Profile::Point);
 
 /// The series of the two orders without the terms in M_0 that are not Q_0, Q_1 or V_1.
 ///
@@ -91,10 +124,15 @@ pub(crate) fn sums<O: TimeOrder, T: Scalar>(
     let (mut q_odd, mut q_even) = (zero, q0);
     let (mut v_odd, mut v_even) = (zero, zero);
     let mut sign = 1.0;
-    for j in 0..terms {
+    let table = match profile {
+        Profile::Hertz => &HERTZ,
+        Profile::Punch => &PUNCH,
+        Profile::Point => &POINT,
+    };
+    for (j, term) in table.iter().take(terms).enumerate() {
         let k = 2.0 * j as f64;
-        let m = sign * moment(profile, j);
-        let q_next = (over * q_even * (2.0 * k + 1.0) - inverse2 * q_odd * k) * (1.0 / (k + 1.0));
+        let m = sign * term.moment;
+        let q_next = (over * q_even * (2.0 * k + 1.0) - inverse2 * q_odd * k) * term.inverse[0];
         let v_next = (v_odd + q_even * (2.0 * k + 1.0)) * inverse2;
         match O::ORDER {
             Order::Impulse => {
@@ -106,20 +144,20 @@ pub(crate) fn sums<O: TimeOrder, T: Scalar>(
                 sum.a_lower = sum.a_lower + q_next * (m * (k + 1.0));
                 sum.g_lower = sum.g_lower + v_next * m;
                 if j > 0 {
-                    sum.g_upper = sum.g_upper + v_even * (m / k);
+                    sum.g_upper = sum.g_upper + v_even * (sign * term.moment_over_k);
                 }
             }
             Order::StepIntegral => {
                 sum.a_lower = sum.a_lower + q_even * m;
                 if j > 0 {
-                    sum.a_upper = sum.a_upper + q_odd * (m / k);
+                    sum.a_upper = sum.a_upper + q_odd * (sign * term.moment_over_k);
                     sum.g_upper = sum.g_upper + v_odd * (m / (k * (k - 1.0)));
-                    sum.g_lower = sum.g_lower + v_even * (m / k);
+                    sum.g_lower = sum.g_lower + v_even * (sign * term.moment_over_k);
                 }
             }
         }
         q_even =
-            (over * q_next * (2.0 * k + 3.0) - inverse2 * q_even * (k + 1.0)) * (1.0 / (k + 2.0));
+            (over * q_next * (2.0 * k + 3.0) - inverse2 * q_even * (k + 1.0)) * term.inverse[1];
         q_odd = q_next;
         v_even = (v_even + q_next * (2.0 * k + 3.0)) * inverse2;
         v_odd = v_next;

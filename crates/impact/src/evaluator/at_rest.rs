@@ -1,6 +1,6 @@
 //! The static field under the pressure of an instant, and the units of the fields under a disc.
 
-use crate::error::FieldsError;
+use crate::error::ImpactError;
 use crate::excitation::Excitation;
 use halfspace::{Kernel, Six};
 
@@ -10,7 +10,7 @@ pub(crate) fn static_si(
     kernel: &Kernel,
     [r_m, z_m]: [f64; 2],
     force_n: f64,
-) -> Result<Six, FieldsError> {
+) -> Result<Six, ImpactError> {
     let over = excitation.radius().square(force_n).sqrt();
     if over <= 0.0 {
         return Ok(Six::default());

@@ -23,7 +23,8 @@ impl Past<'_> {
         const PARTS: [f64; 8] = [0.02, 0.1, 0.25, 0.4, 0.6, 0.75, 0.9, 0.98];
         let mut cuts = vec![from_s, until_s];
         let parts_s = PARTS.map(|part| part * self.excitation.end_s());
-        cuts.extend(parts_s.iter().filter(|s| from_s < **s && **s < until_s));
+        let parts_s = parts_s.iter().chain(self.excitation.kinks_s());
+        cuts.extend(parts_s.filter(|s| from_s < **s && **s < until_s));
         // within the passing of the waves, and before it
         let passing_s = (time_s - 1.01 * last_s).clamp(from_s, until_s);
         for [low, high] in [[from_s, passing_s], [passing_s, until_s]] {

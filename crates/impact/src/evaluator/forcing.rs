@@ -262,8 +262,8 @@ impl<'a> Forcing<'a> {
                 let steepest = rises.iter().fold(0.0, |most: f64, d| most.max(d.abs()));
                 let span_s = |cells: &Range<usize>| self.span_s(run, cells);
                 let counts = (run.count, self.tolerance * steepest);
-                let contacts = self.excitation.contacts_s();
-                zones(contacts, &span_s, &own.projection, counts, both)
+                let spans = self.excitation.smooth_s();
+                zones(&spans, &span_s, &own.projection, counts, both)
             }
         };
         force.runs.push(RunForce {

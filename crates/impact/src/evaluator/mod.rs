@@ -29,13 +29,11 @@ mod transform;
 
 pub(crate) use past::Past;
 
-use crate::error::FieldsError;
+use crate::error::ImpactError;
 use crate::excitation::{Excitation, PressureRadius};
 use crate::fields::quantity::{Derivative, Origin, Quantity};
 use crate::grid::Grid;
-use crate::kernels::place::Place;
-use crate::kernels::{CellPlan, Cells, KernelSource};
-use crate::watch::Watch;
+use crate::kernels::{CellPlan, Cells, KernelSource, Place};
 use convolve::Method;
 use discs::Discs;
 use forcing::{DiscForce, Forcing};
@@ -58,7 +56,7 @@ pub(crate) struct Asked<'a> {
     pub(crate) elastic: [f64; 2],
     pub(crate) tolerance: f64,
     /// Who is told of each point.
-    pub(crate) watch: &'a dyn Watch,
+    pub(crate) watch: &'a (dyn Fn() + Sync),
 }
 
 /// What is the same for all points: forces on discs, sampled.
@@ -95,7 +93,7 @@ const MOST_HELD: usize = 1 << 24;
 
 impl<'a> Evaluator<'a> {
     /// Of all that is asked.
-    pub(crate) fn new(asked: Asked<'a>) -> Result<Self, FieldsError> {
+    pub(crate) fn new(asked: Asked<'a>) -> Result<Self, ImpactError> {
         let Asked {
             excitation,
             source,
@@ -168,8 +166,8 @@ impl<'a> Evaluator<'a> {
     /// All that is asked for at a point.
     ///
     /// # Errors
-    /// [`FieldsError`] for a point outside the half-space or the table.
-    pub(crate) fn at(&self, r_m: f64, z_m: f64) -> Result<AtPoint, FieldsError> {
+    /// [`ImpactError`] for a point outside the half-space or the table.
+    pub(crate) fn at(&self, r_m: f64, z_m: f64) -> Result<AtPoint, ImpactError> {
         let sums = self.sums([r_m, z_m])?;
         let mut found = AtPoint {
             values: sums[0].0.to_vec(),
@@ -187,7 +185,7 @@ impl<'a> Evaluator<'a> {
             found.values.push(values);
             found.errors.push(error);
         }
-        self.asked.watch.advance();
+        (self.asked.watch)();
         Ok(found)
     }
 
@@ -201,7 +199,7 @@ impl<'a> Evaluator<'a> {
 
     /// Values and errors of each forcing, under the first choice of discs that leaves little open, or under the one before
     /// where a choice leaves more: the kernels of small discs lose digits far away.
-    fn sums(&self, place_m: [f64; 2]) -> Result<Vec<Resolved>, FieldsError> {
+    fn sums(&self, place_m: [f64; 2]) -> Result<Vec<Resolved>, ImpactError> {
         let serving = self.serving(place_m);
         let mut best = self.under(place_m, serving[0])?;
         let open = |sums: &[Sum<'_>]| sums.iter().map(|sum| sum.open.len()).sum::<usize>();
@@ -251,7 +249,7 @@ impl<'a> Evaluator<'a> {
         &self,
         place_m: [f64; 2],
         choice: usize,
-    ) -> Result<(Vec<Sum<'_>>, Vec<Cells>), FieldsError> {
+    ) -> Result<(Vec<Sum<'_>>, Vec<Cells>), ImpactError> {
         let discs = &self.choices[choice];
         let cells: Vec<Cells> = (discs.radii.iter())
             .map(|&over| self.cells(place_m, over))
@@ -278,7 +276,7 @@ impl<'a> Evaluator<'a> {
     }
 
     /// The kernels of a disc of a radius `over` the largest, as far as the outputs need them.
-    fn cells(&self, [r_m, z_m]: [f64; 2], over: f64) -> Result<Cells, FieldsError> {
+    fn cells(&self, [r_m, z_m]: [f64; 2], over: f64) -> Result<Cells, ImpactError> {
         let Asked {
             excitation,
             source,
@@ -305,6 +303,6 @@ impl<'a> Evaluator<'a> {
             rates,
             tolerance: self.asked.tolerance,
         };
-        Ok(source.cells(excitation.medium().poisson_ratio(), place, plan)?)
+        source.cells(excitation.medium().poisson_ratio(), place, plan)
     }
 }

@@ -15,7 +15,7 @@
 //! Theory: `docs/theory.md` (T55).
 
 use super::at_rest::{static_si, units_si};
-use crate::error::FieldsError;
+use crate::error::ImpactError;
 use crate::excitation::{Excitation, PressureRadius};
 use halfspace::{FIELDS, Kernel, Profile, Six, gauss};
 use std::f64::consts::PI;
@@ -45,7 +45,7 @@ pub(super) struct Instant {
 
 impl<'a> Past<'a> {
     /// To about `tolerance` of the peaks of the fields.
-    pub(crate) fn new(excitation: &'a Excitation, tolerance: f64) -> Result<Self, FieldsError> {
+    pub(crate) fn new(excitation: &'a Excitation, tolerance: f64) -> Result<Self, ImpactError> {
         let medium = excitation.medium();
         let growth = match excitation.radius() {
             PressureRadius::Fixed(_) => Profile::Hertz,
@@ -62,7 +62,7 @@ impl<'a> Past<'a> {
     }
 
     /// The six fields in SI units at a point in m, at a time in s.
-    pub(crate) fn at(&self, place_m: [f64; 2], time_s: f64) -> Result<Six, FieldsError> {
+    pub(crate) fn at(&self, place_m: [f64; 2], time_s: f64) -> Result<Six, ImpactError> {
         let force_n = self.excitation.force_n(time_s);
         let mut sum = static_si(self.excitation, &self.hertz, place_m, force_n)?;
         // rates that are not smooth inside a contact, as under a disc whose memory has ended, need short spans
@@ -94,8 +94,8 @@ impl<'a> Past<'a> {
         })
     }
 
-    /// The cells of a contact whose waves reach a point at a time from near its beginning and its end, where a sum over
-    /// discs does not serve, as far as any front is among them; none where all of the contact is near.
+    /// The cells of a contact whose waves reach a point at a time from near its beginning, its kinks and its end, where a
+    /// sum over discs does not serve, as far as any front is among them; none where all of the contact is near.
     ///
     /// They are cut where no front passes: there the discs and the integral agree instant by instant.
     pub(crate) fn parts(
@@ -128,11 +128,11 @@ impl<'a> Past<'a> {
         // the first clear cut, or the one that is clearest
         let cut_s = |cut: usize| span_s(&(cells.start..cut))[1];
         let best = |cuts: &mut dyn Iterator<Item = usize>| {
-            let mut best = (0, f64::NEG_INFINITY);
+            let mut best = (None, f64::NEG_INFINITY);
             for cut in cuts {
                 let own = clear(time_s - cut_s(cut));
                 if own > best.1 {
-                    best = (cut, own);
+                    best = (Some(cut), own);
                 }
                 if own >= 0.0 {
                     break;
@@ -141,21 +141,36 @@ impl<'a> Past<'a> {
             best.0
         };
         // an output may end before the contact does
-        let ends = self
-            .excitation
-            .contacts_s()
-            .iter()
-            .any(|span| span[1] <= end_s);
-        let half = if ends {
-            cells.start + cells.len() / 2
-        } else {
-            cells.end
+        let contacts = self.excitation.contacts_s();
+        let ends = contacts.iter().any(|span| span[1] <= end_s);
+        let inside = |at_s: &&f64| begin_s < **at_s && **at_s < end_s;
+        let kinks = self.excitation.kinks_s().iter().filter(inside);
+        let kinks = kinks.map(|at_s| cells.start + ((at_s - begin_s) / cell_s) as usize);
+        let marks: Vec<usize> = [cells.start]
+            .into_iter()
+            .chain(kinks)
+            .chain(ends.then_some(cells.end))
+            .collect();
+        // halfway to the next mark
+        let limit = |i: usize| {
+            marks
+                .get(i + 1)
+                .map_or(cells.end, |next| marks[i].midpoint(*next))
         };
-        let first = cells.start..best(&mut (cells.start + least..=half));
-        let last = if ends {
-            best(&mut (half..=cells.end - least).rev())
-        } else {
-            cells.end
+        let around = |(i, &mark): (usize, &usize)| {
+            let from = match i {
+                0 => mark,
+                _ => {
+                    let mut cuts = (limit(i - 1)..=mark.saturating_sub(least)).rev();
+                    best(&mut cuts).unwrap_or(limit(i - 1))
+                }
+            };
+            let to = if mark == cells.end {
+                mark
+            } else {
+                best(&mut (mark + least..=limit(i))).unwrap_or(limit(i))
+            };
+            from..to
         };
         let passed = |part: &Range<usize>| {
             let [from_s, to_s] = span_s(part).map(|t| time_s - t);
@@ -163,10 +178,8 @@ impl<'a> Past<'a> {
                 .iter()
                 .any(|[near, far]| *near < from_s && *far > to_s)
         };
-        [first, last..cells.end]
-            .into_iter()
-            .filter(passed)
-            .collect()
+        let parts = marks.iter().enumerate().map(around);
+        parts.filter(passed).collect()
     }
 
     /// The rate of the waves from a part of the past, by a difference over a small part of a step: behind a Rayleigh wave
@@ -177,7 +190,7 @@ impl<'a> Past<'a> {
         time_s: f64,
         mut span_s: [f64; 2],
         step_s: f64,
-    ) -> Result<Six, FieldsError> {
+    ) -> Result<Six, ImpactError> {
         const PART: f64 = 0.002;
         /// Of a rule at least.
         const NODES: usize = 12;
@@ -208,7 +221,7 @@ impl<'a> Past<'a> {
         place_m: [f64; 2],
         time_s: f64,
         span_s: [f64; 2],
-    ) -> Result<Six, FieldsError> {
+    ) -> Result<Six, ImpactError> {
         const NODES: usize = 6;
         self.with_nodes(NODES, place_m, time_s, span_s)
     }
@@ -219,7 +232,7 @@ impl<'a> Past<'a> {
         [r_m, z_m]: [f64; 2],
         time_s: f64,
         span_s: [f64; 2],
-    ) -> Result<Six, FieldsError> {
+    ) -> Result<Six, ImpactError> {
         /// Radii below this fraction of the distance from the largest edge are continued.
         const NEAR: f64 = 0.031;
         let step_m = NEAR * z_m.hypot(self.excitation.units().disc_radius_m);
@@ -252,7 +265,7 @@ impl<'a> Past<'a> {
         place_m: [f64; 2],
         time_s: f64,
         [from_s, to_s]: [f64; 2],
-    ) -> Result<Six, FieldsError> {
+    ) -> Result<Six, ImpactError> {
         let mut sum = Six::default();
         let span_s = [
             from_s.max(0.0),
@@ -304,7 +317,7 @@ impl<'a> Past<'a> {
         past_s: f64,
         weight: f64,
         sum: &mut Six,
-    ) -> Result<(), FieldsError> {
+    ) -> Result<(), ImpactError> {
         let Some(Instant { over, rate }) = self.past(past_s) else {
             return Ok(());
         };

@@ -5,7 +5,7 @@ use super::discs::Discs;
 use super::ends::open;
 use super::forcing::{DiscForce, Forcing, Reading};
 use super::past::Past;
-use crate::error::FieldsError;
+use crate::error::ImpactError;
 use crate::excitation::PressureRadius;
 use crate::fields::quantity::Derivative;
 use crate::kernels::Cells;
@@ -61,7 +61,7 @@ impl<'a> Sum<'a> {
         kernel: &Kernel,
         place_m: [f64; 2],
         cells: &[Cells],
-    ) -> Result<Self, FieldsError> {
+    ) -> Result<Self, ImpactError> {
         let runs = forcing.runs.iter().zip(&forcing.needed);
         let times = runs.flat_map(|(run, needed)| {
             needed
@@ -165,7 +165,7 @@ impl<'a> Sum<'a> {
     }
 
     /// Adds the static field of the radius of each instant, or its rate.
-    fn add_following_static(&mut self, kernel: &Kernel) -> Result<(), FieldsError> {
+    fn add_following_static(&mut self, kernel: &Kernel) -> Result<(), ImpactError> {
         /// Part of the force over which the static field is differenced: a smooth function of it.
         const PART: f64 = 1e-4;
         let excitation = self.forcing.excitation;
@@ -238,7 +238,7 @@ impl<'a> Sum<'a> {
         mut self,
         past: Option<&Past<'_>>,
         cells: &[Cells],
-    ) -> Result<([Vec<f64>; 6], [f64; 6]), FieldsError> {
+    ) -> Result<([Vec<f64>; 6], [f64; 6]), ImpactError> {
         let following = matches!(
             self.forcing.excitation.radius(),
             PressureRadius::Following { .. }
@@ -349,7 +349,7 @@ impl<'a> Sum<'a> {
         past: &Past<'_>,
         cells: &[Cells],
         (allowed, whole): (&[f64], &mut usize),
-    ) -> Result<(), FieldsError> {
+    ) -> Result<(), ImpactError> {
         let time_s = self.times_s[i];
         let (run, _) = self.in_run(i);
         let grid = &self.forcing.runs[run];

@@ -5,10 +5,12 @@
 use crate::evaluator::{Asked, AtPoint, Evaluator, Past};
 use crate::excitation::{Excitation, PressureRadius};
 use crate::grid::{Grid, Wanted};
+use crate::impact::Impact;
 use crate::kernels::KernelSource;
-use crate::watch::Unwatched;
 use contact::CollisionUnits;
-use contact::{Collision, Exact, HalfSpace, Material, Model, Settings, Solver, Striker};
+use contact::{
+    Collision, Exact, HalfSpace, Material, Model, Plasticity, Settings, Solver, Striker,
+};
 use halfspace::Six;
 use std::fs;
 use std::path::Path;
@@ -102,7 +104,7 @@ fn at(
         quantities: &[],
         elastic: [1.0, 0.3],
         tolerance,
-        watch: &Unwatched,
+        watch: &|| {},
     });
     evaluator.unwrap().at(place[0], place[1]).unwrap()
 }
@@ -263,4 +265,62 @@ fn far_away_few_discs_are_enough() {
         at(1.0)
     );
     assert!(at(0.95) < 1.0 && least > 1.0);
+}
+
+#[test]
+fn what_arrives_from_the_turning_point_of_a_contact_that_yields_is_within_its_estimate() {
+    let named = |name: &str| Material::named(name).unwrap();
+    let block = HalfSpace::new(named("aluminium-6061-t6")).unwrap();
+    let ball = Striker::ball(named("bearing-steel"), 0.005).unwrap();
+    let mut worst = [0.0_f64; 2];
+    for plasticity in [Plasticity::Thornton, Plasticity::Recovery] {
+        let impact = Impact {
+            settings: Settings {
+                plasticity,
+                ..Settings::default()
+            },
+            ..Impact::new(block.clone(), ball.clone(), 2.0)
+        };
+        let run = impact.solve().unwrap();
+        let excitation = run.excitation();
+        let exact = Past::new(excitation, 1e-8).unwrap();
+        let tolerance = 1e-4;
+        let source = KernelSource::direct(excitation.medium(), 0.1 * tolerance).unwrap();
+        for place in [[0.02, 0.0], [0.004, 0.0], [0.003, 0.003]] {
+            let wanted = Wanted {
+                tolerance,
+                step_s: None,
+                duration_s: None,
+                frames: None,
+                farthest_m: Some(0.02),
+            };
+            let grid = Grid::new(&wanted, excitation, Some(&source)).unwrap();
+            let times: Vec<f64> = grid.times_s().collect();
+            let arrivals = excitation.arrivals_s(place);
+            let turned = excitation.kinks_s().last().copied().unwrap();
+            let near = |t: f64| {
+                let of_front = |arrival: &f64| (t - turned - arrival).abs() < 4.0 * grid.step_s;
+                arrivals.iter().any(of_front)
+            };
+            let wanted: Vec<usize> = (0..times.len())
+                .filter(|&n| n % 40 == 0 || near(times[n]))
+                .collect();
+            let point = at((excitation, &source), &grid, &wanted, tolerance, place);
+            let fields = |&n: &usize| exact.at(place, times[n]).unwrap();
+            let exact: Vec<Six> = wanted.iter().map(fields).collect();
+            for f in 0..6 {
+                let peak = exact.iter().fold(0.0_f64, |most, x| most.max(x[f].abs()));
+                let off = |(x, value): (&Six, &f64)| (value - x[f]).abs() / peak;
+                let errors = exact.iter().zip(&point.values[f]).map(off);
+                let error = errors.fold(0.0, f64::max);
+                let estimate = point.errors[f] / peak;
+                worst[usize::from(f > 1)] = worst[usize::from(f > 1)].max(error);
+                if peak > 0.0 {
+                    assert!(error < estimate, "{place:?} {f}: {error:e}, {estimate:e}");
+                }
+            }
+        }
+    }
+    println!("under a contact that yields: error over peak at most {worst:?}");
+    assert!(worst[0] < 2e-4 && worst[1] < 1e-3, "{worst:?}");
 }

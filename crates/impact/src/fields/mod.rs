@@ -1,18 +1,15 @@
 //! Fields of an excitation at points of the half-space.
 //!
-//! At the probes of a scene and on its section (`probes`), their largest values (`peaks`), and what follows from them
-//! (`quantity`).
+//! At the probes of a scene and on its section (`probes`), and what follows from them (`quantity`).
 
-pub(crate) mod peaks;
 pub(crate) mod probes;
 pub(crate) mod quantity;
 
-use crate::error::FieldsError;
+use crate::error::ImpactError;
 use crate::evaluator::{Asked, Evaluator, Past};
 use crate::excitation::Excitation;
 use crate::grid::{Grid, Wanted};
 use crate::kernels::KernelSource;
-use crate::watch::Unwatched;
 use halfspace::{DomainError, Field, Six};
 use std::ops::Index;
 
@@ -43,13 +40,13 @@ impl Excitation {
     /// order of [`halfspace::FIELDS`]; stresses are positive in tension.
     ///
     /// # Errors
-    /// [`FieldsError`] for a point outside the half-space.
+    /// [`ImpactError`] for a point outside the half-space.
     pub fn instant(
         &self,
         place_m: [f64; 2],
         time_s: f64,
         tolerance: f64,
-    ) -> Result<Option<Six>, FieldsError> {
+    ) -> Result<Option<Six>, ImpactError> {
         if self.record().is_some() {
             return Ok(None);
         }
@@ -86,8 +83,8 @@ impl Fields<'_> {
     /// The six fields over time at the distance `r_m` from the axis and the depth `z_m`.
     ///
     /// # Errors
-    /// [`FieldsError`] for a point outside the half-space or the table.
-    pub fn at(&self, r_m: f64, z_m: f64) -> Result<FieldHistory, FieldsError> {
+    /// [`ImpactError`] for a point outside the half-space or the table.
+    pub fn at(&self, r_m: f64, z_m: f64) -> Result<FieldHistory, ImpactError> {
         let wanted = Wanted {
             tolerance: self.tolerance,
             step_s: None,
@@ -106,7 +103,7 @@ impl Fields<'_> {
             quantities: &[],
             elastic: [f64::NAN; 2],
             tolerance: self.tolerance,
-            watch: &Unwatched,
+            watch: &|| {},
         })?;
         let found = evaluator.at(r_m, z_m)?;
         let traces = found.values.into_iter().zip(found.errors);

@@ -1,9 +1,14 @@
-//! Fields at the probes of a scene and on its meridional section.
+//! Fields at the probes of a scene and on its meridional section, and their largest values over time.
 
-use crate::error::FieldsError;
-use crate::evaluator::{AtPoint, Evaluator};
+use crate::cost::Forecast;
+use crate::error::ImpactError;
+use crate::evaluator::{Asked, AtPoint, Evaluator};
+use crate::excitation::Excitation;
 use crate::fields::quantity::Quantity;
-use crate::scene::{Probe, Section};
+use crate::grid::{Grid, Wanted};
+use crate::kernels::KernelSource;
+use crate::kernels::source::{KernelChoice, choose_source};
+use crate::scene::{Probe, Scene, Section};
 use contact::HalfSpace;
 use rayon::prelude::*;
 
@@ -19,23 +24,12 @@ pub struct ProbeFields {
     pub arrival_s: Vec<[f64; 3]>,
     /// When the first echo from the faces of the block arrives, in s, one a probe; infinite where no face is known.
     pub valid_until_s: Vec<f64>,
-    /// Samples of each field (order of [`halfspace::FIELDS`]), one row a probe.
-    pub values: [Vec<Vec<f64>>; 6],
-    /// Estimated error of each field, one value a probe.
-    pub errors: [Vec<f64>; 6],
     /// The quantities that the scene asks for beside the fields.
-    pub more: Vec<ProbeQuantity>,
-}
-
-/// A quantity at the probes, in its SI unit.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ProbeQuantity {
-    /// Which.
-    pub quantity: Quantity,
-    /// Samples, one row a probe.
-    pub values: Vec<Vec<f64>>,
-    /// Estimated error, one value a probe.
-    pub errors: Vec<f64>,
+    pub quantities: Vec<Quantity>,
+    /// Samples of each field (order of [`halfspace::FIELDS`]) and then of each quantity, one row a probe.
+    pub values: Vec<Vec<Vec<f64>>>,
+    /// Estimated error of each, one value a probe.
+    pub errors: Vec<Vec<f64>>,
 }
 
 /// Fields on a meridional section in SI units.
@@ -52,25 +46,14 @@ pub struct SectionFields {
     /// Times of the first P, S and Rayleigh arrival in s at each point; infinite for a Rayleigh wave where there is
     /// none.
     pub arrival_s: [Vec<f64>; 3],
-    /// Each field (order of [`halfspace::FIELDS`]): frames, depths, radii.
-    pub values: [Vec<f32>; 6],
-    /// Estimated error of each field at each point.
-    pub errors: [Vec<f64>; 6],
     /// The quantities that the scene asks for beside the fields.
-    pub more: Vec<SectionQuantity>,
-    /// Largest values over all samples in time, of each field and then of each quantity, where the scene asks for them.
+    pub quantities: Vec<Quantity>,
+    /// Each field (order of [`halfspace::FIELDS`]) and then each quantity: frames, depths, radii.
+    pub values: Vec<Vec<f32>>,
+    /// Estimated error of each at each point.
+    pub errors: Vec<Vec<f64>>,
+    /// Largest values over all samples in time of each, where the scene asks for them.
     pub peaks: Option<Vec<Peaks>>,
-}
-
-/// A quantity on the section, in its SI unit.
-#[derive(Debug, Clone, PartialEq)]
-pub struct SectionQuantity {
-    /// Which.
-    pub quantity: Quantity,
-    /// Frames, depths, radii.
-    pub values: Vec<f32>,
-    /// Estimated error at each point.
-    pub errors: Vec<f64>,
 }
 
 /// Where a history is largest in magnitude.
@@ -123,24 +106,21 @@ pub(crate) fn at_probes(
     evaluator: &Evaluator<'_>,
     block: &HalfSpace,
     probes: &[Probe],
-) -> Result<ProbeFields, FieldsError> {
+) -> Result<ProbeFields, ImpactError> {
     let found: Vec<AtPoint> = probes
         .par_iter()
         .map(|probe| evaluator.at(probe.r_m, probe.z_m))
         .collect::<Result<_, _>>()?;
-    let blank = |&quantity: &Quantity| ProbeQuantity {
-        quantity,
-        values: Vec::new(),
-        errors: Vec::new(),
-    };
+    let quantities = evaluator.asked.quantities.to_vec();
+    let count = 6 + quantities.len();
     let mut fields = ProbeFields {
         r_m: probes.iter().map(|p| p.r_m).collect(),
         z_m: probes.iter().map(|p| p.z_m).collect(),
         arrival_s: Vec::new(),
         valid_until_s: Vec::new(),
-        values: Default::default(),
-        errors: Default::default(),
-        more: evaluator.asked.quantities.iter().map(blank).collect(),
+        quantities,
+        values: vec![Vec::new(); count],
+        errors: vec![Vec::new(); count],
     };
     let excitation = evaluator.asked.excitation;
     let (speeds, radius_m) = (excitation.speeds(), excitation.units().disc_radius_m);
@@ -150,14 +130,8 @@ pub(crate) fn at_probes(
         let echo_s = speeds.first_echo_s(block, place_m, radius_m);
         let valid_s = echo_s.map_or(f64::INFINITY, |t| excitation.start_s() + t);
         fields.valid_until_s.push(valid_s);
-        for (i, (samples, error)) in values.into_iter().zip(errors).enumerate() {
-            let (own, own_errors) = match i.checked_sub(6) {
-                None => (&mut fields.values[i], &mut fields.errors[i]),
-                Some(i) => {
-                    let more = &mut fields.more[i];
-                    (&mut more.values, &mut more.errors)
-                }
-            };
+        let found = fields.values.iter_mut().zip(&mut fields.errors);
+        for ((own, own_errors), (samples, error)) in found.zip(values.into_iter().zip(errors)) {
             own.push(samples);
             own_errors.push(error);
         }
@@ -178,27 +152,23 @@ pub(crate) fn on_section(
     evaluator: &Evaluator<'_>,
     (section, frames): (&Section, &[usize]),
     peaks: bool,
-) -> Result<SectionFields, FieldsError> {
+) -> Result<SectionFields, ImpactError> {
     let all_s = evaluator.times_s();
-    let quantities = evaluator.asked.quantities;
+    let quantities = evaluator.asked.quantities.to_vec();
     let even =
         |end: f64, count: usize| (0..count).map(move |i| end * i as f64 / (count as f64 - 1.0));
     let r_m: Vec<f64> = even(section.r_max_m, section.points[0]).collect();
     let mut z_m: Vec<f64> = even(section.z_max_m, section.points[1]).collect();
     z_m.reverse();
     let (radii, size) = (r_m.len(), r_m.len() * z_m.len());
-    let blank = |&quantity: &Quantity| SectionQuantity {
-        quantity,
-        values: vec![0.0; frames.len() * size],
-        errors: Vec::new(),
-    };
+    let count = 6 + quantities.len();
     let mut fields = SectionFields {
         time_s: frames.iter().map(|&n| all_s[n]).collect(),
         arrival_s: Default::default(),
-        values: std::array::from_fn(|_| vec![0.0; frames.len() * size]),
-        errors: Default::default(),
-        more: quantities.iter().map(blank).collect(),
-        peaks: peaks.then(|| vec![Peaks::default(); 6 + quantities.len()]),
+        quantities,
+        values: vec![vec![0.0; frames.len() * size]; count],
+        errors: vec![Vec::new(); count],
+        peaks: peaks.then(|| vec![Peaks::default(); count]),
         r_m,
         z_m,
     };
@@ -230,24 +200,74 @@ impl SectionFields {
         (place, size): (usize, usize),
         AtPoint { values, errors }: &AtPoint,
     ) {
-        let put = |values: &mut [f32], samples: &[f64]| {
+        let found = self.values.iter_mut().zip(&mut self.errors);
+        for ((own, own_errors), (samples, &error)) in found.zip(values.iter().zip(errors)) {
             for (frame, &n) in frames.iter().enumerate() {
-                values[frame * size + place] = samples[n] as f32;
+                own[frame * size + place] = samples[n] as f32;
             }
-        };
-        for (i, (samples, &error)) in values.iter().zip(errors).enumerate() {
-            let (own, own_errors) = match i.checked_sub(6) {
-                None => (&mut self.values[i], &mut self.errors[i]),
-                Some(i) => {
-                    let more = &mut self.more[i];
-                    (&mut more.values, &mut more.errors)
-                }
-            };
-            put(own, samples);
             own_errors.push(error);
         }
         for (peaks, samples) in self.peaks.iter_mut().flatten().zip(values) {
             peaks.push(all_s, samples);
         }
     }
+}
+
+/// Fields at the probes of a scene, each by its peak.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ProbePeaks {
+    /// Whether the kernels were looked up rather than computed.
+    pub looked_up: bool,
+    /// Of each probe each of the six fields and then each quantity of the scene: the value of largest magnitude over the
+    /// samples, with its sign, when it is reached in s, and the estimated absolute error of the field.
+    pub peaks: Vec<[f64; 3]>,
+}
+
+/// Memory in bytes that the fields of one row may take.
+const MOST_BYTES: f64 = 1e9;
+
+/// The peaks of the fields of an excitation at the probes of a scene.
+///
+/// # Errors
+/// [`ImpactError`].
+pub(crate) fn peaks_at_probes(
+    scene: &Scene,
+    kernels: &KernelChoice,
+    excitation: &Excitation,
+) -> Result<ProbePeaks, ImpactError> {
+    let mut found = ProbePeaks {
+        looked_up: false,
+        peaks: Vec::new(),
+    };
+    let Some((source, _)) = choose_source(scene, kernels, excitation)? else {
+        return Ok(found);
+    };
+    let source = &source;
+    found.looked_up = matches!(source, KernelSource::Table(_));
+    let grid = Grid::new(&Wanted::of(scene), excitation, Some(source))?;
+    // on its own thread: whether a row fails depends on the row alone
+    Forecast::new(scene, excitation, &grid, Some(source), 1)?.check(scene, MOST_BYTES)?;
+    let time_s: Vec<f64> = grid.times_s().collect();
+    let wanted: Vec<usize> = (0..time_s.len()).collect();
+    let material = scene.target.material();
+    let evaluator = Evaluator::new(Asked {
+        excitation,
+        source,
+        grid: &grid,
+        wanted: &wanted,
+        quantities: &scene.quantities,
+        elastic: [material.youngs_modulus_pa, material.poisson_ratio],
+        tolerance: scene.settings.tolerance,
+        watch: &|| {},
+    })?;
+    for probe in &scene.probes {
+        let at_point = evaluator.at(probe.r_m, probe.z_m)?;
+        for (samples, error) in at_point.values.iter().zip(at_point.errors) {
+            let mut peaks = Peaks::default();
+            peaks.push(&time_s, samples);
+            let (value, time_s) = (peaks.values[0], peaks.time_s[0]);
+            found.peaks.push([value, time_s, error]);
+        }
+    }
+    Ok(found)
 }

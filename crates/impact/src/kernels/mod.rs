@@ -1,11 +1,10 @@
 //! Kernels as cell averages at a point: computed, or looked up.
 //!
-//! Where a point is in their units (`place`), and which kernels a scene takes (`source`).
+//! Which kernels a scene takes is chosen in [`source`].
 
-pub(crate) mod place;
 pub mod source;
 
-use crate::kernels::place::{FieldError, Place};
+use crate::error::ImpactError;
 use halfspace::{DomainError, Kernel, Medium, Profile, Six, Trace};
 use lookup::{LookupError, Moments, Table};
 use std::f64::consts::PI;
@@ -106,13 +105,13 @@ impl KernelSource {
     /// The cells at (r, z).
     ///
     /// # Errors
-    /// [`FieldError`] for a point outside the half-space or the table.
+    /// [`ImpactError`] for a point outside the half-space or the table.
     pub fn cells(
         &self,
         poisson_ratio: f64,
         place: Place,
         wanted: CellPlan,
-    ) -> Result<Cells, FieldError> {
+    ) -> Result<Cells, ImpactError> {
         let CellPlan {
             step, count, pulse, ..
         } = wanted;
@@ -164,6 +163,36 @@ impl KernelSource {
     }
 }
 
+/// A point in kernel units, with its unit for messages.
+#[derive(Debug, Clone, Copy)]
+pub struct Place {
+    /// Distance from the axis in disc radii.
+    pub r: f64,
+    /// Depth in disc radii.
+    pub z: f64,
+    /// Unit of length in m.
+    pub disc_radius_m: f64,
+}
+
+impl Place {
+    pub(crate) fn outside(self, source: LookupError) -> ImpactError {
+        ImpactError::OutsideTable {
+            r_m: self.r * self.disc_radius_m,
+            z_m: self.z * self.disc_radius_m,
+            disc_radius_m: self.disc_radius_m,
+            source,
+        }
+    }
+
+    pub(crate) fn domain(self, source: DomainError) -> ImpactError {
+        ImpactError::OutsideBlock {
+            r_m: self.r * self.disc_radius_m,
+            z_m: self.z * self.disc_radius_m,
+            source,
+        }
+    }
+}
+
 /// Which cells a convolution needs; lengths of time in r0/c1.
 #[derive(Debug, Clone, Copy)]
 pub struct CellPlan {
@@ -210,7 +239,7 @@ impl Pulse {
 /// Estimated absolute error of each field looked up, for a force of unit peak.
 ///
 /// Tables are measured with pulses sin^4. Within a time L of its ends a contact of duration T reaches (pi L/T)^(3/2) of its
-/// largest force, as a pulse of that length would: the errors of the shorter pulses count with that share.
+/// largest force, as a pulse of that length would: the errors of the shorter pulses count by that fraction.
 ///
 /// # Errors
 /// [`LookupError`] outside the table.
@@ -227,9 +256,9 @@ pub fn table_error(
             let mut error = of(duration)?;
             let lengths = &table.content().pulse_lengths;
             for &length in lengths.iter().filter(|&&length| length < duration) {
-                let share = (PI * length / duration).powf(1.5).min(1.0);
+                let fraction = (PI * length / duration).powf(1.5).min(1.0);
                 for (all, own) in error.iter_mut().zip(of(length)?) {
-                    *all += share * own;
+                    *all += fraction * own;
                 }
             }
             Ok(error)

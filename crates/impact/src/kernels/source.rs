@@ -1,20 +1,16 @@
 //! Where the kernels of the fields come from: computed, or looked up.
 
 use crate::cost::Cost;
+use crate::error::{ImpactError, TableFault};
 use crate::evaluator::discs::Discs;
 use crate::excitation::Excitation;
 use crate::grid::Wanted;
 use crate::kernels::{self, KernelSource};
 use crate::scene::Scene;
-use halfspace::DomainError;
 use lookup::{LookupError, Table};
-use std::error::Error;
+use std::collections::HashMap;
 use std::fmt;
-use std::sync::Arc;
-use thiserror::Error;
-
-/// Why a table cannot be loaded, in one sentence.
-pub type TableFault = Box<dyn Error + Send + Sync>;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// Something that has kernel tables: one in memory, or a file of which the part that is needed is loaded.
 pub trait Tables: fmt::Debug + Send + Sync {
@@ -58,6 +54,71 @@ impl Tables for lookup::TableFile {
     }
 }
 
+/// Tables a part of which is loaded once for each Poisson's ratio, as far as it reaches.
+///
+/// What it gives does not depend on who asked before.
+/// A ratio takes the memory of a slice, so that it is for a few of them; [`Arc<Table>`] serves any number.
+#[derive(Debug)]
+pub struct Shared {
+    tables: Arc<dyn Tables>,
+    parts: Mutex<HashMap<u64, Part>>,
+    fault: Mutex<Option<String>>,
+}
+
+/// What is known of a ratio.
+type Part = Result<Arc<Table>, LookupError>;
+
+impl Shared {
+    /// Of some tables; nothing is loaded yet.
+    #[must_use]
+    pub fn new(tables: Arc<dyn Tables>) -> Self {
+        Self {
+            tables,
+            parts: Mutex::default(),
+            fault: Mutex::default(),
+        }
+    }
+
+    /// Why a part could not be read, where that has happened: what was computed since may lack it.
+    #[must_use]
+    pub fn fault(&self) -> Option<String> {
+        let fault = self.fault.lock().unwrap_or_else(PoisonError::into_inner);
+        fault.clone()
+    }
+
+    fn known(&self, poisson_ratio: f64) -> Result<Part, TableFault> {
+        let mut parts = self.parts.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(part) = parts.get(&poisson_ratio.to_bits()) {
+            return Ok(part.clone());
+        }
+        let found = self.load(poisson_ratio).map_err(|error| {
+            let mut fault = self.fault.lock().unwrap_or_else(PoisonError::into_inner);
+            fault.get_or_insert(error.to_string());
+            TableFault::from(error.to_string())
+        })?;
+        parts.insert(poisson_ratio.to_bits(), found.clone());
+        Ok(found)
+    }
+
+    fn load(&self, poisson_ratio: f64) -> Result<Part, TableFault> {
+        if let Some(outside) = self.tables.refusal(poisson_ratio, [0.0; 2])? {
+            return Ok(Err(outside));
+        }
+        let part = self.tables.part(poisson_ratio, [f64::INFINITY; 2])?;
+        Ok(Ok(part))
+    }
+}
+
+impl Tables for Shared {
+    fn part(&self, poisson_ratio: f64, _: [f64; 2]) -> Result<Arc<Table>, TableFault> {
+        Ok(self.known(poisson_ratio)??)
+    }
+
+    fn refusal(&self, poisson_ratio: f64, _: [f64; 2]) -> Result<Option<LookupError>, TableFault> {
+        Ok(self.known(poisson_ratio)?.err())
+    }
+}
+
 /// Which kernels the fields shall have.
 #[derive(Debug, Clone)]
 pub enum KernelChoice {
@@ -72,51 +133,30 @@ pub enum KernelChoice {
     Within(Arc<dyn Tables>),
 }
 
-/// Kernels that could not be had.
-#[derive(Debug, Error)]
-pub enum SourceError {
-    /// The table could not be loaded.
-    #[error("{0}")]
-    Table(TableFault),
-    /// A number is outside the physics.
-    #[error(transparent)]
-    Domain(#[from] DomainError),
-}
-
-/// The source chosen and why.
-#[derive(Debug, Clone)]
-pub(crate) struct Chosen {
-    pub(crate) source: KernelSource,
-    pub(crate) reason: String,
-}
-
 /// Computed fields that cost less are not worth a table's error.
 const CHEAP_S: f64 = 0.2;
 
 /// Computed fields that cost more are not worth waiting for, whatever a table's error.
 const DEAR_S: f64 = 10.0;
 
-/// The source of the fields of a scene; none when it asks for none.
+/// The source of the fields of a scene and why it is this one; none when it asks for none.
 pub(crate) fn choose_source(
     scene: &Scene,
     kernels: &KernelChoice,
     excitation: &Excitation,
-) -> Result<Option<Chosen>, SourceError> {
+) -> Result<Option<(KernelSource, String)>, ImpactError> {
     let points = places(scene);
     if points.is_empty() {
         return Ok(None);
     }
     let (medium, tolerance) = (excitation.medium(), scene.settings.tolerance);
-    let direct = |reason: String| -> Result<Option<Chosen>, SourceError> {
+    let direct = |reason: String| -> Result<Option<(KernelSource, String)>, ImpactError> {
         // far away the waves of a slow contact nearly cancel
         let tolerance = (1e-1 * tolerance).clamp(1e-12, 1e-3);
         let source = KernelSource::direct(medium, tolerance)?;
-        Ok(Some(Chosen { source, reason }))
+        Ok(Some((source, reason)))
     };
-    let looked_up = |table: Arc<Table>, reason: String| {
-        let source = KernelSource::Table(table);
-        Some(Chosen { source, reason })
-    };
+    let looked_up = |table: Arc<Table>, reason: String| Some((KernelSource::Table(table), reason));
     let radius = excitation.units().disc_radius_m;
     let farthest = farthest(&points, radius);
     let load = |tables: &Arc<dyn Tables>| {
@@ -124,58 +164,50 @@ pub(crate) fn choose_source(
         let smallest = Discs::looked_up(excitation.radius())[0].smallest();
         tables
             .part(medium.poisson_ratio(), farthest.map(|far| far / smallest))
-            .map_err(SourceError::Table)
+            .map_err(ImpactError::Table)
     };
-    match kernels {
-        KernelChoice::Direct => direct("asked for, or no table is given".to_owned()),
-        KernelChoice::Table(tables) => Ok(looked_up(load(tables)?, "asked for".to_owned())),
-        KernelChoice::Within(tables) => {
-            let refusal = tables.refusal(medium.poisson_ratio(), farthest);
-            if let Some(outside) = refusal.map_err(SourceError::Table)? {
-                return direct(format!("{outside}: computed"));
-            }
-            let table = load(tables)?;
-            match table_error(&table, excitation, &points) {
-                Err(outside) => direct(format!("{outside}: computed")),
-                Ok(error) if error > tolerance => direct(format!(
-                    "the table's error {error:.1e} is above the tolerance {tolerance:.1e}: computed"
-                )),
-                Ok(error) => Ok(looked_up(
-                    table,
-                    format!("the table's error is {error:.1e}: looked up"),
-                )),
-            }
-        }
+    let (tables, cost) = match kernels {
+        KernelChoice::Direct => return direct("asked for, or no table is given".to_owned()),
+        KernelChoice::Table(tables) => return Ok(looked_up(load(tables)?, "asked for".to_owned())),
+        KernelChoice::Within(tables) => (tables, None),
         KernelChoice::Auto(tables) => {
             let cells = Wanted::of(scene).cells(excitation);
             let count = scene.points();
             let threads = rayon::current_num_threads() as f64;
-            let cost = Cost::new(scene, excitation, cells);
-            let cost_s = cost.computed_s() / threads;
+            let cost_s = Cost::new(scene, excitation, cells).computed_s() / threads;
             let cost =
                 format!("{count} points of {cells:.0} cells take about {cost_s:.1e} s to compute");
             if cost_s <= CHEAP_S {
                 return direct(format!("{cost}: computed"));
             }
-            let refusal = tables.refusal(medium.poisson_ratio(), farthest);
-            if let Some(outside) = refusal.map_err(SourceError::Table)? {
-                return direct(format!("{outside}: computed"));
-            }
-            let table = load(tables)?;
-            let error = match table_error(&table, excitation, &points) {
-                Err(outside) => return direct(format!("{outside}: computed")),
-                Ok(error) => error,
-            };
-            if error > tolerance && cost_s <= DEAR_S {
-                direct(format!(
-                    "{cost}, and the table's error {error:.1e} is above the tolerance {tolerance:.1e}: computed"
-                ))
-            } else {
-                let reason = format!("{cost}; the table's error is {error:.1e}: looked up");
-                Ok(looked_up(table, reason))
-            }
+            (tables, Some((cost, cost_s)))
         }
+    };
+    let refusal = tables.refusal(medium.poisson_ratio(), farthest);
+    if let Some(outside) = refusal.map_err(ImpactError::Table)? {
+        return direct(format!("{outside}: computed"));
     }
+    let table = load(tables)?;
+    let error = match table_error(&table, excitation, &points) {
+        Err(outside) => return direct(format!("{outside}: computed")),
+        Ok(error) => error,
+    };
+    let before = |by: &str| {
+        let cost = cost.as_ref();
+        cost.map_or_else(String::new, |(cost, _)| format!("{cost}{by}"))
+    };
+    let is_dear = cost.as_ref().is_some_and(|(_, cost_s)| *cost_s > DEAR_S);
+    if error > tolerance && !is_dear {
+        return direct(format!(
+            "{}the table's error {error:.1e} is above the tolerance {tolerance:.1e}: computed",
+            before(", and ")
+        ));
+    }
+    let reason = format!(
+        "{}the table's error is {error:.1e}: looked up",
+        before("; ")
+    );
+    Ok(looked_up(table, reason))
 }
 
 /// All probes and the corners and edges of the section: (r, z) in m.

@@ -1,11 +1,9 @@
 //! A force history that was measured or invented: linear between its samples.
 //!
-//! How it is treated (`condition`, `low_pass`), in which stretches it changes (`stretch`), and what hints at a slip
-//! (`plausible`).
+//! How it is treated (`condition`, `low_pass`), and in which stretches it changes (`stretch`).
 
 pub(crate) mod condition;
 mod low_pass;
-pub(crate) mod plausible;
 pub(crate) mod stretch;
 
 use crate::evaluator::nodes::Node;
@@ -93,6 +91,11 @@ pub enum RecordError {
 
 /// Largest slope of sin^4(pi t/T) times T: 3 sqrt(3) pi/4.
 const STEEPNESS: f64 = 4.081;
+
+/// Longest record in s that nobody wonders at: impacts last microseconds to milliseconds.
+const LONG_S: f64 = 1.0;
+/// Fraction of the largest force at which a record may begin or end.
+const NOT_AT_REST: f64 = 0.05;
 
 impl ForceRecord {
     /// Of times in s, strictly ascending from 0 or later, and forces in N; positive presses.
@@ -241,14 +244,62 @@ impl ForceRecord {
             most.max((p[1] - p[0]).abs() / (t[1] - t[0]))
         });
         let [from_s, to_s] = self.span_s();
-        let largest_n = self
-            .force_n
-            .iter()
-            .fold(0.0_f64, |most, p| most.max(p.abs()));
         if steepest > 0.0 {
-            (STEEPNESS * largest_n / steepest).min(to_s - from_s)
+            (STEEPNESS * self.largest_n() / steepest).min(to_s - from_s)
         } else {
             to_s - from_s
         }
+    }
+
+    /// What hints at a slip in its units or its cut: sentences for the user, each with its numbers.
+    pub(crate) fn doubts(&self) -> Vec<String> {
+        let mut found = Vec::new();
+        let [start_s, end_s] = self.span_s();
+        let length_s = end_s - start_s;
+        if length_s > LONG_S {
+            found.push(format!(
+                "the record lasts {length_s} s: an impact lasts microseconds to milliseconds; are its times in s?"
+            ));
+        }
+        let largest_n = self.largest_n();
+        let ends = [
+            ("begins", "before it", self.force_n.first()),
+            ("ends", "after it", self.force_n.last()),
+        ];
+        for (verb, side, force_n) in ends {
+            if let Some(force_n) = force_n.filter(|p| p.abs() > NOT_AT_REST * largest_n) {
+                found.push(format!(
+                    "the record {verb} at {force_n} N, {:.0} % of its largest force, which jumps there from or to zero: what was {side} is missing, or a baseline is to be taken away",
+                    100.0 * force_n.abs() / largest_n
+                ));
+            }
+        }
+        found
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn slips_are_told_with_their_numbers() {
+        let of = |unit_s: f64, first_n: f64| {
+            let time_s = vec![0.0, 10.0 * unit_s, 20.0 * unit_s];
+            let record = ForceRecord::new(time_s, vec![first_n, 1000.0, 0.0]);
+            record.unwrap_or_else(|error| panic!("{error}")).doubts()
+        };
+        assert!(of(1e-6, 0.0).is_empty());
+        assert!(of(1e-6, 40.0).is_empty());
+        let seconds = of(1.0, 0.0);
+        assert!(
+            seconds.len() == 1 && seconds[0].contains("lasts 20 s"),
+            "{seconds:?}"
+        );
+        let cut = of(1e-6, 500.0);
+        assert!(
+            cut.len() == 1 && cut[0].contains("begins at 500 N, 50 %"),
+            "{cut:?}"
+        );
     }
 }

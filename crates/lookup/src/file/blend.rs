@@ -46,13 +46,7 @@ impl<'a> Blend<'a> {
         let size = validate::size(self.content, &slice);
         validate::same_size(self.content, &slice, *self.size.get_or_insert(size))?;
         validate::fits(self.content, &slice)?;
-        let numbers = [
-            &slice.remainder,
-            &slice.moment,
-            &slice.curvature,
-            &slice.tail,
-        ];
-        for (sum, values) in self.sums.iter_mut().zip(numbers) {
+        for (sum, (_, values)) in self.sums.iter_mut().zip(slice.lists()) {
             sum.resize(values.len(), 0.0);
             for (s, &value) in sum.iter_mut().zip(values) {
                 *s += weight * f64::from(value);

@@ -4,7 +4,7 @@ use super::error::TableError;
 use super::open::open;
 use crate::content::FIELDS;
 use crate::schema;
-use hdfread::Dataset;
+use ledger::Dataset;
 use std::ops::Range;
 use std::path::Path;
 
@@ -27,7 +27,7 @@ pub struct DamagedPatch {
 /// [`TableError`] when the file cannot be opened, or axes or groups cannot be read.
 pub fn damaged_patches(path: &Path) -> Result<Vec<DamagedPatch>, TableError> {
     let source = open(path)?;
-    let root = source.root()?;
+    let root = source.root();
     let r: Vec<f64> = source.list(&root, schema::R)?;
     let z: Vec<f64> = source.list(&root, schema::Z)?;
     let mut found = Vec::new();
@@ -39,7 +39,7 @@ pub fn damaged_patches(path: &Path) -> Result<Vec<DamagedPatch>, TableError> {
             schema::TAIL,
         ] {
             // One that is not there has no patches; reading the table says that it is not.
-            let Ok(data) = source.dataset::<f32>(&slice.place, dataset, 4) else {
+            let Ok(data) = source.dataset(&slice.place, dataset, 4) else {
                 continue;
             };
             for (across, down) in patches(&data, r.len(), z.len()) {
@@ -63,8 +63,8 @@ pub fn damaged_patches(path: &Path) -> Result<Vec<DamagedPatch>, TableError> {
 
 /// Rows and columns of each chunk; none where the shape is not that of the axes.
 fn patches(data: &Dataset, rows: usize, columns: usize) -> Vec<(Range<usize>, Range<usize>)> {
-    let (shape, chunk) = (data.shape(), data.chunk().unwrap_or_default());
-    let (&[r, z, FIELDS, _], &[high, wide, ..]) = (shape, chunk) else {
+    let chunk = data.chunk().unwrap_or_default();
+    let (&[r, z, FIELDS, _], &[high, wide, ..]) = (data.shape(), chunk.as_slice()) else {
         return Vec::new();
     };
     if r != rows || z != columns {

@@ -9,8 +9,7 @@ use std::ffi::{CString, c_char, c_int, c_uint};
 
 /// A file to be written, in the format that every version of the library reads, whatever the linked one prefers.
 ///
-/// Version 2 of the library would write groups and superblocks of a later format, which neither its versions before 1.8
-/// nor [`hdfread`] and the seal of a table know.
+/// Version 2 of the library would write groups and superblocks of a later format, which its versions before 1.8 do not know.
 #[must_use]
 pub fn new_file() -> FileBuilder {
     let mut file = FileBuilder::new();

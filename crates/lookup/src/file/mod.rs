@@ -2,7 +2,6 @@
 
 mod blend;
 mod damage;
-mod datasets;
 mod error;
 pub mod labels;
 mod open;

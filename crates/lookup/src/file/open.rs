@@ -3,7 +3,7 @@
 use super::error::{BadTable, TableError};
 use super::source::Source;
 use crate::schema;
-use hdfread::HdfError;
+use ledger::{HdfError, HdfFile};
 use std::path::Path;
 
 /// Opens the table at `path` for reading.
@@ -14,17 +14,16 @@ use std::path::Path;
 /// # Errors
 /// [`TableError`].
 pub(super) fn open(path: &Path) -> Result<Source, TableError> {
-    let (file, seal) = ledger::open(path).map_err(|error| {
+    let file = HdfFile::open(path).map_err(|error| {
         let what = match error {
             HdfError::Io(source) => BadTable::Unreadable(source),
-            HdfError::NotAFile => BadTable::Unreadable(std::io::Error::other(error.to_string())),
-            HdfError::Damaged { what } => BadTable::Damaged(what),
+            HdfError::Damaged(what) => BadTable::Damaged(what),
             other => BadTable::NotHdf5(other.to_string()),
         };
         what.of(path)
     })?;
-    let source = Source::new(path, file, seal);
-    let root = source.root()?;
+    let source = Source::new(path, file);
+    let root = source.root();
     let found = source.text(&root, schema::FILE_TYPE).unwrap_or_default();
     if found != schema::FILE_TYPE_VALUE {
         return Err(BadTable::Foreign(found).of(path));

@@ -62,7 +62,7 @@ pub fn check_whole(path: &Path) -> Result<Origin, TableError> {
 /// The SHA-256 that the file at `path` states.
 pub fn stated_hash(path: &Path) -> Result<String, TableError> {
     let source = open(path)?;
-    source.text(&source.root()?, schema::CONTENT_SHA256)
+    source.text(&source.root(), schema::CONTENT_SHA256)
 }
 
 /// The nodes and meshes from 0 on that are read.
@@ -121,7 +121,7 @@ impl Source {
     }
 
     fn same_hash(&self, content: &Content) -> Result<(), TableError> {
-        let stated = self.text(&self.root()?, schema::CONTENT_SHA256)?;
+        let stated = self.text(&self.root(), schema::CONTENT_SHA256)?;
         let found = content_hash(content);
         if stated == found {
             Ok(())
@@ -132,7 +132,7 @@ impl Source {
 
     /// Everything but the slices, valid, and their list by ascending ratio.
     pub(super) fn head(&self) -> Result<(Content, Vec<Listed>), TableError> {
-        let root = self.root()?;
+        let root = self.root();
         let mut content = Content {
             origin: self.origin(&root)?,
             r: self.list(&root, schema::R)?,
@@ -179,8 +179,7 @@ impl Source {
         let needed = [places[0], places[1], content.pulse_lengths.len(), FIELDS];
         let all = self.group(root, schema::BETWEEN)?;
         let mut between = Vec::new();
-        for name in Self::members(&all) {
-            let place = self.group(&all, &name)?;
+        for place in self.groups(&all)? {
             between.push(Between {
                 poisson_ratio: self.number(&place, schema::POISSON_RATIO)?,
                 verification: self.verification(&place, needed, places)?,
@@ -194,8 +193,7 @@ impl Source {
     pub(super) fn listed(&self, root: &Place) -> Result<Vec<Listed>, TableError> {
         let all = self.group(root, schema::SLICES)?;
         let mut listed = Vec::new();
-        for name in Self::members(&all) {
-            let place = self.group(&all, &name)?;
+        for place in self.groups(&all)? {
             let role = self.text(&place, schema::ROLE)?;
             listed.push(Listed {
                 ratio: self.number(&place, schema::POISSON_RATIO)?,

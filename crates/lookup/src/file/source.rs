@@ -2,8 +2,7 @@
 
 use super::error::{BadTable, TableError};
 use crate::error::ContentError;
-use hdfread::{Attribute, Dataset, File, Group, HdfError, Number};
-use ledger::Seal;
+use ledger::{Dataset, Group, H5Type, HdfError, HdfFile};
 use std::cell::Cell;
 use std::path::{Path, PathBuf};
 
@@ -14,9 +13,7 @@ const GROWTH: u64 = 32;
 #[derive(Debug)]
 pub(super) struct Source {
     path: PathBuf,
-    file: File,
-    bytes: u64,
-    seal: Option<Seal>,
+    file: HdfFile,
     /// Bytes of numbers loaded so far.
     loaded: Cell<u64>,
 }
@@ -36,12 +33,10 @@ impl Place {
 }
 
 impl Source {
-    pub(super) fn new(path: &Path, file: File, seal: Option<Seal>) -> Self {
+    pub(super) fn new(path: &Path, file: HdfFile) -> Self {
         Self {
             path: path.to_owned(),
-            bytes: file.length(),
             file,
-            seal,
             loaded: Cell::new(0),
         }
     }
@@ -51,27 +46,29 @@ impl Source {
     }
 
     pub(super) fn is_sealed(&self) -> bool {
-        self.seal.is_some()
+        self.file.is_sealed()
     }
 
     /// Compares all bytes, where the file has a seal.
     pub(super) fn check_seal(&self) -> Result<(), TableError> {
-        let checked = self.seal.as_ref().map_or(Ok(()), Seal::check);
+        let checked = self.file.check();
         checked.map_err(|error| BadTable::Damaged(error.to_string()).of(&self.path))
     }
 
     /// The root.
-    pub(super) fn root(&self) -> Result<Place, TableError> {
-        let group = self.file.root();
-        Ok(Place {
-            group: group.map_err(|error| self.unreadable("/", &error))?,
+    pub(super) fn root(&self) -> Place {
+        Place {
+            group: self.file.root.clone(),
             name: String::new(),
-        })
+        }
     }
 
-    /// Names of what a group holds.
-    pub(super) fn members(place: &Place) -> Vec<String> {
-        place.group.members().map(str::to_owned).collect()
+    /// The groups that a group holds.
+    pub(super) fn groups(&self, parent: &Place) -> Result<Vec<Place>, TableError> {
+        let names = parent.group.members();
+        let names = names.map_err(|error| self.unreadable(&parent.name, &error))?;
+        let groups = names.iter().map(|name| self.group(parent, name));
+        groups.collect()
     }
 
     /// The group `name` in `parent`.
@@ -84,8 +81,8 @@ impl Source {
         })
     }
 
-    /// The dataset `name` of a group, of `rank` dimensions: its numbers are of type `T`, in this file, all of them.
-    pub(super) fn dataset<T: Number>(
+    /// The dataset `name` of a group, of `rank` dimensions.
+    pub(super) fn dataset(
         &self,
         place: &Place,
         name: &str,
@@ -94,33 +91,17 @@ impl Source {
         let item = place.item(name);
         let data = place.group.dataset(name);
         let data = data.map_err(|error| self.unreadable(&item, &error))?;
-        if data.kind() != T::KIND {
-            let detail = format!("its type is {}, needed {}", data.kind(), T::KIND);
-            return Err(self.item(&item, &detail));
-        }
         let found = data.shape().len();
         if found != rank {
             let detail = format!("it has {found} dimensions, needed {rank}");
             return Err(self.item(&item, &detail));
         }
-        let chunk = match data.chunk() {
-            Some(chunk) if data.count() > 0 => chunk,
-            Some(_) | None => return Ok(data),
-        };
-        let fits = |(&part, &whole): (&usize, &usize)| part <= whole;
-        if !chunk.iter().zip(data.shape()).all(fits) {
-            let detail = format!("its chunks are {chunk:?} of {:?}", data.shape());
-            return Err(self.item(&item, &detail));
-        }
-        if !data.has_sums() {
-            return Err(self.item(&item, "its chunks have no Fletcher-32 sum"));
-        }
         Ok(data)
     }
 
     /// A list of numbers.
-    pub(super) fn list<T: Number>(&self, place: &Place, name: &str) -> Result<Vec<T>, TableError> {
-        let data = self.dataset::<T>(place, name, 1)?;
+    pub(super) fn list<T: H5Type>(&self, place: &Place, name: &str) -> Result<Vec<T>, TableError> {
+        let data = self.dataset(place, name, 1)?;
         self.admit(&place.item(name), data.count(), size_of::<T>())?;
         data.numbers(u64::MAX)
             .map_err(|error| self.unreadable(&place.item(name), &error))
@@ -128,7 +109,7 @@ impl Source {
 
     /// Dimensions of a dataset over (r, z, .., ..).
     pub(super) fn dimensions(&self, place: &Place, name: &str) -> Result<[usize; 4], TableError> {
-        let data = self.dataset::<f32>(place, name, 4)?;
+        let data = self.dataset(place, name, 4)?;
         <[usize; 4]>::try_from(data.shape())
             .map_err(|_| self.item(&place.item(name), "no dimensions"))
     }
@@ -142,7 +123,7 @@ impl Source {
         count: [usize; 2],
     ) -> Result<Vec<f32>, TableError> {
         let item = place.item(name);
-        let data = self.dataset::<f32>(place, name, 4)?;
+        let data = self.dataset(place, name, 4)?;
         if data.shape() != needed {
             let (needed, found) = (needed.to_vec(), data.shape().to_vec());
             return Err(BadTable::Dimensions {
@@ -161,36 +142,27 @@ impl Source {
 
     /// A text that is an attribute.
     pub(super) fn text(&self, place: &Place, name: &str) -> Result<String, TableError> {
-        let text = self.attribute(place, name)?.text();
+        let text = place.group.text(name);
         text.map_err(|error| self.unreadable(&place.item(name), &error))
     }
 
     /// A number that is an attribute.
-    pub(super) fn number<T: Number>(&self, place: &Place, name: &str) -> Result<T, TableError> {
-        let number = self.attribute(place, name)?.number();
+    pub(super) fn number<T: H5Type>(&self, place: &Place, name: &str) -> Result<T, TableError> {
+        let number = place.group.number(name);
         number.map_err(|error| self.unreadable(&place.item(name), &error))
     }
 
     /// A list of numbers that is an attribute.
     pub(super) fn numbers(&self, place: &Place, name: &str) -> Result<Vec<f64>, TableError> {
-        let attribute = self.attribute(place, name)?;
-        if attribute.shape().len() != 1 {
-            return Err(self.item(&place.item(name), "it is no list of numbers"));
-        }
-        let numbers = attribute.numbers();
+        let numbers = place.group.numbers(name);
         numbers.map_err(|error| self.unreadable(&place.item(name), &error))
-    }
-
-    fn attribute(&self, place: &Place, name: &str) -> Result<Attribute, TableError> {
-        let found = place.group.attribute(name);
-        found.map_err(|error| self.unreadable(&place.item(name), &error))
     }
 
     /// Counts numbers that are about to be loaded.
     fn admit(&self, item: &str, numbers: usize, width: usize) -> Result<(), TableError> {
         let more = (numbers as u64).saturating_mul(width as u64);
         let needed = self.loaded.get().saturating_add(more);
-        let limit = self.bytes.saturating_mul(GROWTH);
+        let limit = self.file.length().saturating_mul(GROWTH);
         if needed > limit {
             let item = item.to_owned();
             return Err(BadTable::TooLarge {

@@ -1,6 +1,5 @@
 //! Content to file.
 
-use super::datasets::{self, Described};
 use super::error::{BadTable, TableError};
 use super::labels::{attach_scale, new_file, reason, set_scale, text};
 use crate::accuracy::Quantiles;
@@ -32,23 +31,23 @@ pub fn write(path: &Path, content: &Content) -> Result<(), TableError> {
 fn write_file(path: &Path, content: &Content) -> Result<(), hdf5::Error> {
     let file = new_file().create(path)?;
     write_attributes(&file, content)?;
-    let scale = |described: &Described, values: &[f64]| make_scale(&file, described, values);
+    let scale = |name, values: &[f64]| make_scale(&file, name, values);
     let [probe_r, probe_z] = content.probes();
-    let probe_r = scale(&datasets::PROBE_R, &probe_r)?;
-    let probe_z = scale(&datasets::PROBE_Z, &probe_z)?;
-    let pulse = scale(&datasets::PULSE_LENGTH, &content.pulse_lengths)?;
+    let probe_r = scale(schema::PROBE_R, &probe_r)?;
+    let probe_z = scale(schema::PROBE_Z, &probe_z)?;
+    let pulse = scale(schema::PULSE_LENGTH, &content.pulse_lengths)?;
     let names =
         schema::FIELD_NAMES.map(|name| FixedAscii::<16>::from_ascii(name).unwrap_or_default());
-    let field = make_scale(&file, &datasets::FIELD, &names)?;
-    let r = scale(&datasets::R, &content.r)?;
-    let z = scale(&datasets::Z, &content.z)?;
+    let field = make_scale(&file, schema::FIELD, &names)?;
+    let r = scale(schema::R, &content.r)?;
+    let z = scale(schema::Z, &content.z)?;
     let nodes = content.r.len() * content.z.len();
     let terms = content
         .slices
         .first()
         .map_or(0, |slice| slice.tail_terms(nodes));
     let orders: Vec<f64> = (0..terms).map(|k| k as f64).collect();
-    let term = scale(&datasets::TERM, &orders)?;
+    let term = scale(schema::TERM, &orders)?;
     let axes = Axes {
         at_nodes: [&r, &z, &field, &term],
         at_probes: [&probe_r, &probe_z, &pulse, &field],
@@ -58,8 +57,8 @@ fn write_file(path: &Path, content: &Content) -> Result<(), hdf5::Error> {
         let group = slices.create_group(&schema::slice_name(slice.poisson_ratio))?;
         write_slice(&group, content, slice, &axes)?;
     }
-    let between_r = scale(&datasets::BETWEEN_R, &content.between_r)?;
-    let between_z = scale(&datasets::BETWEEN_Z, &content.between_z)?;
+    let between_r = scale(schema::BETWEEN_R, &content.between_r)?;
+    let between_z = scale(schema::BETWEEN_Z, &content.between_z)?;
     let between = file.create_group(schema::BETWEEN)?;
     for place in &content.between {
         let group = between.create_group(&schema::slice_name(place.poisson_ratio))?;
@@ -93,25 +92,17 @@ fn write_slice(
     number(group, schema::CELL_WIDTH, width)?;
     number(group, schema::TIME_END, slice.cells as f64 * width)?;
     let starts: Vec<f64> = (0..slice.cells).map(|j| j as f64 * width).collect();
-    let time = make_scale(group, &datasets::TIME, &starts)?;
+    let time = make_scale(group, schema::TIME, &starts)?;
     let (rows, columns) = (content.r.len(), content.z.len());
     let [r, z, field, term] = axes.at_nodes;
-    let shape = [rows, columns, FIELDS, slice.cells];
-    for (described, values) in [
-        (&datasets::REMAINDER, &slice.remainder),
-        (&datasets::MOMENT, &slice.moment),
-        (&datasets::CURVATURE, &slice.curvature),
-    ] {
-        make_data(group, described, &shape, values, &[r, z, field, &time])?;
+    for (name, values) in slice.lists() {
+        let (last, scale) = match name {
+            schema::TAIL => (slice.tail_terms(rows * columns), term),
+            _ => (slice.cells, &time),
+        };
+        let shape = [rows, columns, FIELDS, last];
+        make_data(group, name, &shape, values, &[r, z, field, scale])?;
     }
-    let shape = [rows, columns, FIELDS, slice.tail_terms(rows * columns)];
-    make_data(
-        group,
-        &datasets::TAIL,
-        &shape,
-        &slice.tail,
-        &[r, z, field, term],
-    )?;
     write_verification(group, &slice.verification, &axes.at_probes)
 }
 
@@ -125,12 +116,8 @@ fn write_verification(
     scales: &[&Dataset; 4],
 ) -> Result<(), hdf5::Error> {
     let shape = scales.map(|scale| scale.size());
-    for (described, values) in [
-        (&datasets::PROBE_DIRECT, &probes.direct),
-        (&datasets::PROBE_LOOKED_UP, &probes.looked_up),
-        (&datasets::PROBE_ERROR, &probes.error),
-    ] {
-        make_data(group, described, &shape, values, scales)?;
+    for (name, values) in probes.lists() {
+        make_data(group, name, &shape, values, scales)?;
     }
     Ok(())
 }
@@ -187,25 +174,21 @@ fn write_errors(file: &File, name: &str, errors: &[[Quantiles; 6]]) -> Result<()
         .write_raw(&numbers)
 }
 
-fn make_scale<T: H5Type>(
-    group: &Group,
-    described: &Described,
-    values: &[T],
-) -> Result<Dataset, hdf5::Error> {
+fn make_scale<T: H5Type>(group: &Group, name: &str, values: &[T]) -> Result<Dataset, hdf5::Error> {
     let dataset = group
         .new_dataset::<T>()
         .shape([values.len()])
         .obj_track_times(false)
-        .create(described.name)?;
+        .create(name)?;
     dataset.write_raw(values)?;
-    set_scale(&dataset, described.name)?;
-    describe(&dataset, described)?;
+    set_scale(&dataset, name)?;
+    describe(&dataset, name)?;
     Ok(dataset)
 }
 
 fn make_data(
     group: &Group,
-    described: &Described,
+    name: &str,
     shape: &[usize; 4],
     values: &[f32],
     scales: &[&Dataset],
@@ -219,16 +202,59 @@ fn make_data(
         .deflate(DEFLATE)
         .fletcher32()
         .obj_track_times(false)
-        .create(described.name)?;
+        .create(name)?;
     let view = ndarray::ArrayView4::from_shape(*shape, values)?;
     dataset.write(view)?;
     for (index, scale) in scales.iter().enumerate() {
         attach_scale(&dataset, scale, index)?;
     }
-    describe(&dataset, described)
+    describe(&dataset, name)
 }
 
-fn describe(dataset: &Dataset, described: &Described) -> Result<(), hdf5::Error> {
-    text(dataset, schema::UNITS, described.units)?;
-    text(dataset, schema::LONG_NAME, described.long_name)
+fn describe(dataset: &Dataset, name: &str) -> Result<(), hdf5::Error> {
+    /// Of everything that holds displacements beside stresses.
+    const FIELD_UNITS: &str = "displacement_r, displacement_z: P/(mu r0); stresses: P/r0^2";
+    let (units, long_name) = match name {
+        schema::R => ("r0", "distance from the axis"),
+        schema::Z => ("r0", "depth below the surface"),
+        schema::PROBE_R => ("r0", "distance of the verification probes from the axis"),
+        schema::PROBE_Z => ("r0", "depth of the verification probes"),
+        schema::PULSE_LENGTH => ("r0/c1", "length T of the verification pulse sin^4(pi t/T)"),
+        schema::FIELD => ("1", "name of the field"),
+        schema::TERM => ("1", "order k of the Chebyshev polynomial"),
+        schema::BETWEEN_R => ("r0", "distance of the probes between slices from the axis"),
+        schema::BETWEEN_Z => ("r0", "depth of the probes between slices"),
+        schema::TIME => ("r0/c1", "start of the time cell"),
+        schema::REMAINDER => (
+            FIELD_UNITS,
+            "average over the time cell of the step response less its static part",
+        ),
+        schema::MOMENT => (
+            FIELD_UNITS,
+            "first moment of the remainder about the centre of the time cell, divided by the squared cell width",
+        ),
+        schema::CURVATURE => (
+            FIELD_UNITS,
+            "second moment of the remainder about the centre of the time cell less 1/12 of the average, divided by the cubed cell width",
+        ),
+        schema::TAIL => (
+            FIELD_UNITS,
+            "coefficients c_k of the remainder u^2 sum c_k T_k(2u - 1), u = time_end/t, after the last cell",
+        ),
+        schema::PROBE_DIRECT => (
+            FIELD_UNITS,
+            "peak in time of the exact response to the verification pulse",
+        ),
+        schema::PROBE_LOOKED_UP => (
+            FIELD_UNITS,
+            "looked-up response at the instant of the exact peak",
+        ),
+        schema::PROBE_ERROR => (
+            FIELD_UNITS,
+            "largest difference in time between the looked-up and the exact response",
+        ),
+        _ => return Err(hdf5::Error::from("a dataset without a meaning")),
+    };
+    text(dataset, schema::UNITS, units)?;
+    text(dataset, schema::LONG_NAME, long_name)
 }

@@ -1,10 +1,8 @@
-//! Figures 4 to 11: `contact` has 4 and 6, `radius` 5, `fields` 7 to 11, and `step` what explains them.
+//! Figures 4 to 11: `contact` has 4 and 6, `dependence` 5 and what explains them, `fields` 7 to 11.
 
 mod contact;
+mod dependence;
 mod fields;
-mod histories;
-mod radius;
-mod step;
 
 use crate::PaperError;
 use crate::case::Runs;
@@ -46,11 +44,11 @@ impl Claim {
 pub(crate) fn all(runs: &Runs) -> Result<Vec<Redrawn>, PaperError> {
     let mut all = vec![
         contact::history(runs),
-        radius::dependence()?,
+        dependence::on_radius()?,
         contact::stress(runs),
     ];
     all.extend(fields::figures(runs)?);
-    all.push(step::dependence()?);
+    all.push(dependence::on_step()?);
     Ok(all)
 }
 

@@ -1,8 +1,7 @@
 //! What is seen along the surface and down the axis of a section: distance against time, and the axis beside the static
 //! field.
 
-use super::frames::Section;
-use super::quantity::Quantity;
+use super::frames::{Quantity, Section};
 use crate::error::PlotError;
 use crate::request::Request;
 use crate::series::curve;
@@ -12,7 +11,6 @@ use figure::{Axis, Image, LabelledPoint, Layer, Legend, Panel, Shading, Style};
 use formats::results::schema::FIELDS;
 use formats::stored::StoredImpact;
 use halfspace::{Kernel, Medium, Profile};
-use impact::FieldsError;
 
 /// Along what.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -175,9 +173,8 @@ fn static_points(
     let field = FIELDS.iter().position(|field| field.0 == quantity.name);
     let stress = quantity.stress();
     let target = &section.impact.scene.target;
-    let fault = |error| PlotError::Fields(FieldsError::Domain(error));
-    let medium = Medium::new(target.material().poisson_ratio).map_err(fault)?;
-    let kernel = Kernel::new(&medium, Profile::Hertz, 1e-10).map_err(fault)?;
+    let medium = Medium::new(target.material().poisson_ratio)?;
+    let kernel = Kernel::new(&medium, Profile::Hertz, 1e-10)?;
     let units = KernelUnits {
         shear_modulus_pa: target.material().shear_modulus_pa(),
         longitudinal_speed_m_s: target.longitudinal_speed_m_s(),
@@ -193,9 +190,7 @@ fn static_points(
     let mut points = Vec::new();
     for i in 0..=POINTS {
         let z_m = most * 1e-4_f64.powf(1.0 - f64::from(i) / f64::from(POINTS));
-        let six = kernel
-            .static_field(0.0, z_m / section.disc_radius_m)
-            .map_err(fault)?;
+        let six = kernel.static_field(0.0, z_m / section.disc_radius_m)?;
         let size = match (field, stress) {
             (Some(field), _) => six[field],
             (None, Some(of)) => of.of([six[2], six[3], six[4], six[5]], [1.0, 0.0]),

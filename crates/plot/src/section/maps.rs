@@ -1,7 +1,6 @@
 //! Maps of a section: frames, chosen so that waves are seen, and the largest value over time at every place.
 
-use super::frames::{Section, quantile_of_sizes};
-use super::quantity::Quantity;
+use super::frames::{Quantity, Section, quantile_of_sizes};
 use crate::error::PlotError;
 use crate::request::Request;
 use crate::words::{unit_of, with_unit};

@@ -35,8 +35,11 @@ const BINS: usize = 20;
 /// Values along a second axis from which on it is a heat map.
 const MANY: usize = 7;
 
-/// The key on the x axis of a picture of losses.
+/// The key on the x axis of a picture of losses or of restitution.
 const VELOCITY: &str = "striker.velocity_m_s";
+
+/// The result that restitution is drawn over, where a sweep has it.
+const AT_YIELD: &str = "yield_velocity_m_s";
 
 /// A result of all rows.
 struct Shown<'a> {
@@ -316,61 +319,68 @@ fn heat_map(
     Ok(panel.layer(Layer::Image(image)))
 }
 
-/// Losses over the velocity of approach on logarithmic axes, with the slope of Hunter's law beside them.
-fn loss(view: &View<'_>, shown: &Shown<'_>) -> Result<Panel, PlotError> {
+/// Results over the velocity of approach, on logarithmic axes.
+fn over_velocity(view: &View<'_>, shown: &Shown<'_>) -> Result<Panel, PlotError> {
     let along = view.along(Some(VELOCITY))?.unwrap_or(0);
     let mut panel = lines(view, along, Some(VELOCITY), shown, Scale::Logarithmic)?;
-    let (name, unit) = of_key(VELOCITY);
-    panel.x = axis(&format!("{name} of approach"), unit, Scale::Logarithmic);
-    let mut points: Vec<(f64, f64)> = Vec::new();
-    for layer in &panel.layers {
-        if let Layer::Line(line) = layer {
-            points.extend(line.points.iter().filter(|p| p.1 > 0.0));
-        }
-    }
-    let first = points.iter().map(|p| p.0).fold(f64::INFINITY, f64::min);
-    let last = points.iter().map(|p| p.0).fold(0.0, f64::max);
-    // above all curves, so that it crosses none of them
-    let above = points.iter().map(|p| p.1 / p.0.powf(0.6));
-    let highest = above.fold(0.0, f64::max);
-    if highest > 0.0 {
-        let on = |v: f64| (v, 1.3 * highest * v.powf(0.6));
-        panel = panel.line("slope 3/5", Style::HeavyDashed, vec![on(first), on(last)]);
-    }
+    panel.x = axis("velocity of approach", "m/s", Scale::Logarithmic);
     Ok(panel.height(380.0))
 }
 
-/// Restitution over velocity, both logarithmic, with Johnson's slope; the velocity over that at which the first row with a
-/// law of flow yields.
+/// The points of the curves of a panel.
+fn points_of(panel: &mut Panel) -> impl Iterator<Item = &mut (f64, f64)> {
+    let curves = panel.layers.iter_mut().filter_map(|layer| match layer {
+        Layer::Line(line) => Some(&mut line.points),
+        _ => None,
+    });
+    curves.flatten()
+}
+
+/// Losses over the velocity of approach, with the slope of Hunter's law beside them.
+fn loss(view: &View<'_>, shown: &Shown<'_>) -> Result<Panel, PlotError> {
+    let mut panel = over_velocity(view, shown)?;
+    let (mut first, mut last) = (f64::INFINITY, 0.0_f64);
+    let (mut lowest, mut highest) = (f64::INFINITY, 0.0_f64);
+    for &mut (x, y) in points_of(&mut panel).filter(|p| p.1 > 0.0) {
+        (first, last) = (first.min(x), last.max(x));
+        let factor = y / x.powf(0.6);
+        (lowest, highest) = (lowest.min(factor / 1.3), highest.max(1.3 * factor));
+    }
+    if highest > 0.0 {
+        // above all curves, or below them where it would leave the losses there are, so that it crosses none of them
+        let leaves = highest * last.powf(0.6) > 1.0;
+        let factor = if leaves { lowest } else { highest };
+        let on = |v: f64| (v, factor * v.powf(0.6));
+        panel = panel.line("slope 3/5", Style::HeavyDashed, vec![on(first), on(last)]);
+    }
+    Ok(panel)
+}
+
+/// Restitution over the velocity of approach; where a law of flow yields, over the velocity at which the first row does,
+/// with Johnson's slope.
 fn restitution(view: &View<'_>, shown: &Shown<'_>) -> Result<Panel, PlotError> {
-    let along = view.along(Some(VELOCITY))?.unwrap_or(0);
-    let mut panel = lines(view, along, Some(VELOCITY), shown, Scale::Logarithmic)?;
-    let at_yield = view.sweep.values("yield_velocity_m_s")?;
-    let yields = at_yield.iter().copied().find(|v| v.is_finite());
-    let (name, unit) = match yields {
-        Some(_) => ("velocity of approach over that of yield".to_owned(), "1"),
-        None => (format!("{} of approach", of_key(VELOCITY).0), "m/s"),
+    let mut panel = over_velocity(view, shown)?;
+    let is_known = |quantity: &StoredQuantity| quantity.name == AT_YIELD;
+    let at_yield = match view.sweep.quantities().iter().any(is_known) {
+        true => view.sweep.values(AT_YIELD)?,
+        false => Vec::new(),
     };
-    panel.x = axis(&name, unit, Scale::Logarithmic);
+    let Some(yields) = at_yield.into_iter().find(|v| v.is_finite()) else {
+        return Ok(panel);
+    };
+    let name = "velocity of approach over that of yield";
+    panel.x = axis(name, "1", Scale::Logarithmic);
     let mut last = (0.0, f64::INFINITY);
-    for layer in &mut panel.layers {
-        if let Layer::Line(line) = layer {
-            for point in &mut line.points {
-                point.0 /= yields.unwrap_or(1.0);
-                if point.0 > last.0 || point.0 == last.0 && point.1 < last.1 {
-                    last = *point;
-                }
-            }
+    for point in points_of(&mut panel) {
+        point.0 /= yields;
+        if point.0 > last.0 || point.0 == last.0 && point.1 < last.1 {
+            last = *point;
         }
     }
     // below all curves
     let on = |x: f64| (x, 0.9 * last.1 * (x / last.0).powf(-0.25));
-    panel = panel.line(
-        "slope -1/4",
-        Style::HeavyDashed,
-        vec![on(0.03 * last.0), on(last.0)],
-    );
-    Ok(panel.height(380.0))
+    let ends = vec![on(0.03 * last.0), on(last.0)];
+    Ok(panel.line("slope -1/4", Style::HeavyDashed, ends))
 }
 
 /// How often values occur, with their quantiles.

@@ -56,8 +56,8 @@ pub(crate) fn talbot(terms: usize) -> Framework {
     rule
 }
 
-/// Gaver-Stehfest, Gaver (1966) and Stehfest (1970): `terms` (even) real nodes k ln 2; the weights alternate and grow as 10^(0.4 terms), so that 14 to 18
-/// terms are the most that a double carries; [`super::extended`] goes on.
+/// Gaver-Stehfest, Gaver (1966) and Stehfest (1970): `terms` (even) real nodes k ln 2; the weights
+/// alternate and grow as 10^(0.4 terms), so that 14 to 18 terms are the most that a double carries.
 pub(crate) fn stehfest(terms: usize) -> Framework {
     let half = terms / 2;
     let factorial = |n: usize| (1..=n).map(|i| i as f64).product::<f64>();

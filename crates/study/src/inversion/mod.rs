@@ -1,8 +1,8 @@
 //! Numerical inversion of the Laplace transform: the way of the source paper to a kernel.
 //!
 //! `framework` and `cme` have the methods that evaluate the transform anew for every time, at nodes beta/t; `series`
-//! those that share their samples among all times of a window; `extended` one of the first kind with 31 digits.
-//! `transform` has the paper's transforms, and `hankel` the quadrature that an inversion needs of them.
+//! those that share their samples among all times of a window. `hankel` has the paper's
+//! transforms with the quadrature that an inversion needs of them.
 //!
 //! ```text
 //! f(t) ~ (1/t) sum_k Re[ weight_k F(beta_k/t) ]                              Abate and Whitt (2006)
@@ -10,13 +10,9 @@
 //! ```
 
 mod cme;
-mod extended;
 mod framework;
 mod hankel;
 mod series;
-mod transform;
-
-pub(crate) use extended::{AxisTransform, ExtendedWeights, stehfest_extended};
 
 use crate::measure::Effort;
 use cme::cme;

@@ -1,7 +1,7 @@
 //! Error of every inversion over time, from before the first arrival to long after the last.
 
 use crate::StudyError;
-use crate::inversion::{ExtendedWeights, Inversion};
+use crate::inversion::Inversion;
 use crate::measure::Effort;
 use crate::picture::Picture;
 use crate::question::kernels::{KernelScene, POISSON_RATIO};
@@ -58,15 +58,6 @@ fn over_scene(
         let label = format!("{}, {}", method.name, method.setting);
         figure.curve(&label, Style::Plain, over_time(scene, &values));
         advance();
-    }
-    if name == "inversions-axis" {
-        // every third time: double-double arithmetic is slow
-        let mut few = scene.clone();
-        few.thin(3);
-        let weights = ExtendedWeights::new(26);
-        let (values, _) = few.extended(medium, &weights);
-        let label = "Gaver-Stehfest, 31 digits, 26 terms";
-        figure.curve(label, Style::Marked, over_time(&few, &values));
     }
     let kernel = Kernel::new(medium, Profile::Hertz, 1e-10)?;
     let own = over_time(scene, &scene.by_kernel(&kernel)?);

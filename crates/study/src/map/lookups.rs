@@ -7,7 +7,7 @@ use crate::StudyError;
 use crate::measure::Effort;
 use crate::picture::Picture;
 use crate::question::kernels::POISSON_RATIO;
-use crate::tables::Density;
+use crate::scenes::Density;
 use figure::{Axis, Interval, Style};
 use halfspace::Medium;
 use lookup::Table;

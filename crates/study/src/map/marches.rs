@@ -188,7 +188,7 @@ pub fn paper_response() -> Result<SurfaceResponse, StudyError> {
 const PAPER_STEPS: [f64; 2] = [54.0, 200.0];
 
 /// A plane of a disc against the step over Hertz's contact time, with what is known of the disc of each column.
-pub(super) struct MarchPlane<C> {
+struct MarchPlane<C> {
     x: Interval,
     y: Interval,
     shape: [usize; 2],
@@ -196,7 +196,7 @@ pub(super) struct MarchPlane<C> {
 }
 
 impl<C> MarchPlane<C> {
-    pub(super) fn new(
+    fn new(
         x: Interval,
         effort: Effort,
         column: impl FnMut(f64) -> Result<C, StudyError>,
@@ -212,7 +212,7 @@ impl<C> MarchPlane<C> {
     }
 
     /// A picture of the class of every cell, from its column and step.
-    pub(super) fn map(
+    fn map(
         &self,
         name: &'static str,
         title: &str,
@@ -231,7 +231,7 @@ impl<C> MarchPlane<C> {
     }
 
     /// A curve of steps, as long as it stays in the plane: x of each.
-    pub(super) fn limit(&self, count: usize, x: impl Fn(f64) -> f64) -> Vec<(f64, f64)> {
+    fn limit(&self, count: usize, x: impl Fn(f64) -> f64) -> Vec<(f64, f64)> {
         let steps = self.y.cells(count).into_iter();
         let points = steps.map(|y| (x(y * CONTACT_TIME), y));
         points.filter(|(x, _)| *x < self.x.high).collect()
@@ -275,7 +275,7 @@ fn mark(figure: &mut Picture, paper: &Converged<'_>, says: impl Fn(f64) -> Strin
     }
 }
 
-/// Draws both maps.
+/// Draws the three maps.
 pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>, StudyError> {
     let response = paper_response()?;
     let disc = paper_disc(&response)?;
@@ -290,7 +290,9 @@ pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>
     advance();
     let implicit = implicit(&plane, &paper);
     advance();
-    Ok(vec![explicit, implicit])
+    let dynamic = dynamic_share(&disc, effort)?;
+    advance();
+    Ok(vec![explicit, implicit, dynamic])
 }
 
 fn explicit(plane: &MarchPlane<Converged<'_>>, paper: &Converged<'_>) -> Picture {
@@ -400,4 +402,99 @@ pub fn linear_growth(disc: &ExactDisc<'_>, stiffness: f64, step: f64) -> f64 {
         }
     }
     (growth / (STEPS / 2) as f64).exp()
+}
+
+/// A disc of another coupling under the `dynamic` share.
+fn dynamic<'a>(disc: &ExactDisc<'a>, coupling: f64) -> ExactDisc<'a> {
+    ExactDisc {
+        coupling,
+        share: StaticShare::Dynamic,
+        ..*disc
+    }
+}
+
+/// What the `dynamic` share makes of an impact at a step: whether it has a solution.
+#[must_use]
+pub fn dynamic_is_solved(disc: &ExactDisc<'_>, step: f64) -> bool {
+    let march = march_implicit(&dynamic(disc, disc.coupling), step);
+    !matches!(march, Err(MarchError::NoSolution { .. }))
+}
+
+/// Largest coupling for which the `dynamic` share has a solution at a step, up to a force of Hertz's peak.
+#[must_use]
+pub fn dynamic_limit(disc: &ExactDisc<'_>, step: f64) -> f64 {
+    // Numerov's weight of the newest force
+    let allowed = 2.0 / 3.0 + 1.25 * step * step / 12.0;
+    bisected(0.0, 1e6, |coupling| {
+        coupling * memory_weights(&dynamic(disc, coupling), step)[0] < allowed
+    })
+}
+
+/// The largest argument that a condition allows, which it does below and not above; relative to 1e-9.
+fn bisected(low: f64, high: f64, allows: impl Fn(f64) -> bool) -> f64 {
+    let (mut low, mut high) = (low, high);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if allows(middle) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    low
+}
+
+/// Largest coupling for which the newest samples of the `dynamic` share settle, up to a force of Hertz's peak.
+#[must_use]
+pub fn dynamic_growth_limit(disc: &ExactDisc<'_>, step: f64) -> f64 {
+    let grows = |coupling: f64| linear_growth(&dynamic(disc, coupling), 1.5, step) > 1.0;
+    bisected(0.0, dynamic_limit(disc, step), |coupling| !grows(coupling))
+}
+
+const DYNAMIC: [&str; 4] = [
+    "restitution within 1e-3",
+    "solved, off by more",
+    "solved only because the step is coarse",
+    "refused: no solution",
+];
+
+/// The `dynamic` share in the plane of coupling and step: where it has no solution, and where a coarse step hides that.
+fn dynamic_share(paper: &ExactDisc<'_>, effort: Effort) -> Result<Picture, StudyError> {
+    let plane = MarchPlane::new(Interval::logarithmic(0.05, 5.0), effort, |coupling| {
+        let disc = dynamic(paper, coupling);
+        Ok((disc, Converged::new(disc).ok()))
+    })?;
+    let mut figure = plane.map(
+        "march-dynamic",
+        "Dynamic share (static part of the deflection taken out)",
+        "static deflection over indentation (coupling)",
+        &DYNAMIC,
+        |(disc, exact), step| match (exact, dynamic_is_solved(disc, step)) {
+            (_, false) => 3,
+            (None, true) => 2,
+            (Some(exact), true) => match exact.implicit(step) {
+                Outcome::Accurate => 0,
+                Outcome::Lossy | Outcome::GainsEnergy | Outcome::Oscillates | Outcome::BlownUp => 1,
+            },
+        },
+    );
+    let count = effort.pick(30, 80);
+    figure.curve(
+        "theory: newest weight times coupling = 2/3, the law folds back",
+        Style::Heavy,
+        plane.limit(count, |step| dynamic_limit(paper, step)),
+    );
+    figure.curve(
+        "theory: a root of the weights beyond 1, the samples grow",
+        Style::HeavyDashed,
+        plane.limit(count, |step| dynamic_growth_limit(paper, step)),
+    );
+    figure.point((paper.coupling, 1.0 / 137.0), "paper's case, 137 steps");
+    figure.caption = "Without its static part the newest weight of the deflection is negative: the contact law \
+        folds back, and beyond a coupling of 2/3 it has no solution. At steps near the memory and beyond \
+        the samples alternate and grow from the dashed line on, until they reach the fold. \
+        A coarse step can hide that there is no solution; the march refuses with a sentence as soon as the step is \
+        halved, which step control does."
+        .to_owned();
+    Ok(figure)
 }

@@ -1,9 +1,8 @@
 //! Maps of where each method works, where it fails, and where theory says it should.
 //!
-//! `marches` and `dynamic`: the steps of marches; `models`: which contact model a scene needs; `inversions`, `kernels`
+//! `marches`: the steps of marches; `models`: which contact model a scene needs; `inversions`, `kernels`
 //! and `lookups`: the errors of kernels and tables.
 
-pub mod dynamic;
 pub(crate) mod inversions;
 pub mod kernels;
 pub(crate) mod lookups;

@@ -7,7 +7,7 @@
 use crate::StudyError;
 use crate::measure::Effort;
 use crate::picture::Picture;
-use crate::question::marching::Results;
+use crate::question::marching::{Results, errors, results};
 use crate::record::Error;
 use crate::scenes::{ROD_RADIUS_M, TABLE_1_PA, ball, collision, paper};
 use contact::law::area_dashpot::AreaDashpot;
@@ -58,9 +58,9 @@ impl ModelErrors {
 }
 
 /// The largest error of a model's results, or infinite where it is beyond its bounds.
-fn error(is_allowed: bool, found: impl Into<Results>, exact: &Results) -> f64 {
+fn error(is_allowed: bool, found: &Summary, exact: &Results) -> f64 {
     if is_allowed {
-        Error::of(&found.into().errors(exact)).max
+        Error::of(&errors(&results(found), exact)).max
     } else {
         f64::INFINITY
     }
@@ -133,7 +133,7 @@ impl Plane {
                 found = summary(&growing, step);
             }
         }
-        let exact = Results::from(&found?);
+        let exact = results(&found?);
         let march = match summary(&growing, 2.0 * step) {
             Ok(coarse) => error(true, &coarse, &exact),
             Err(_) => f64::INFINITY,
@@ -168,7 +168,7 @@ pub fn disc_errors(disc: &ExactDisc<'_>) -> Result<ModelErrors, MarchError> {
     let accuracy = Accuracy::of_contact(ACCURACY, None);
     let march = |step| march_implicit(disc, step);
     let first = springs.contact_time / accuracy.first_steps();
-    let exact = Results::from(&refine(march, first, accuracy)?.summary);
+    let exact = results(&refine(march, first, accuracy)?.summary);
     let with_loss = |lag: f64| quasi_static_radiation(disc.coupling, lag);
     let lag = disc_groups(disc).lag;
     let is_allowed = springs.loss_per_lag * lag <= LOSS * LARGEST_LAG;

@@ -3,7 +3,7 @@
 //! One value is one impact; its error is the largest over peak force, contact time, restitution and
 //! peak displacement against the converged march of the fullest model of its family.
 
-use super::marching::{Order, Results, march};
+use super::marching::{Order, Results, errors, march, results};
 use crate::StudyError;
 use crate::measure::{Candidate, Effort, Run, Scene};
 use crate::record::{Question, Record};
@@ -35,7 +35,7 @@ pub(crate) fn measure(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Record>,
             question: Question::Force,
             name: scene,
             values: 1.0,
-            errors: &|found: &Results| Ok(found.errors(&exact.into()).to_vec()),
+            errors: &|found: &Results| Ok(errors(found, &results(exact)).to_vec()),
         };
         for candidate in candidates {
             records.push(scene.measure(effort, &candidate)?);
@@ -78,14 +78,14 @@ fn work(history: &History, memory: f64) -> u64 {
 fn closed<'a>(
     method: &'static str,
     setting: &str,
-    results: impl Fn() -> Results + 'a,
+    found: impl Fn() -> Results + 'a,
 ) -> Candidate<'a, Results> {
-    Candidate::new(method, setting, move || Ok((results(), Some(1))))
+    Candidate::new(method, setting, move || Ok((found(), Some(1))))
 }
 
 fn hertz<'a>() -> Candidate<'a, Results> {
     closed("hertz", "closed form", || {
-        (&radiation(black_box(0.0))).into()
+        results(&radiation(black_box(0.0)))
     })
 }
 
@@ -109,7 +109,7 @@ fn on_disc<'a>(disc: &'a ExactDisc<'a>, effort: Effort) -> Vec<Candidate<'a, Res
             |disc, step| {
                 let history = march_implicit(disc, step)?;
                 let work = work(&history, disc.memory());
-                Ok(((&Summary::new(&history)?).into(), Some(work)))
+                Ok((results(&Summary::new(&history)?), Some(work)))
             },
             &[16, 64, 256],
             &[12, 16, 24, 32, 64, 128, 256, 512, 1024, 2048],
@@ -130,7 +130,7 @@ fn on_disc<'a>(disc: &'a ExactDisc<'a>, effort: Effort) -> Vec<Candidate<'a, Res
             "wave explicit (the paper's)",
             |disc, step| {
                 let (history, summary) = march_explicit(disc, step)?;
-                Ok(((&summary).into(), Some(work(&history, disc.memory()))))
+                Ok((results(&summary), Some(work(&history, disc.memory()))))
             },
             &[54, 200, 800],
             &[20, 54, 100, 200, 400, 800, 1600, 3200, 6400],
@@ -149,7 +149,7 @@ fn on_disc<'a>(disc: &'a ExactDisc<'a>, effort: Effort) -> Vec<Candidate<'a, Res
         ("two springs, no waves", 0.0),
         ("two springs, first-order loss", lag),
     ] {
-        let found = move || (&quasi_static_radiation(black_box(disc.coupling), lag)).into();
+        let found = move || results(&quasi_static_radiation(black_box(disc.coupling), lag));
         list.push(closed(method, "closed form", found).default_path(true));
     }
     list
@@ -172,7 +172,7 @@ fn halved<'a>(
             Ok(history)
         };
         let found = refine(counted, duration / accuracy.first_steps(), accuracy)?;
-        Ok(((&found.summary).into(), Some(total.get())))
+        Ok((results(&found.summary), Some(total.get())))
     })
 }
 
@@ -204,7 +204,7 @@ fn to_tolerance<'a>(
             let steps = found.summary.contact_time / step;
             let cells = (memory / step).ceil() + 1.0;
             let work = (4.0 / 3.0 * steps * cells) as u64;
-            Ok(((&found.summary).into(), Some(work)))
+            Ok((results(&found.summary), Some(work)))
         };
         let setting = format!("tolerance {tolerance:.0e}");
         let method = "wave implicit, as in sweeps";
@@ -220,7 +220,7 @@ fn by_pieces(contact: GrowingContact<'_>, effort: Effort) -> Vec<Candidate<'_, R
         let solve = move || {
             let accuracy = Accuracy::of_contact(10.0_f64.powi(-digits), None);
             let solved = solve_growing(&contact, &accuracy)?;
-            Ok((solved.summary().into(), Some(solved.pieces() as u64)))
+            Ok((results(solved.summary()), Some(solved.pieces() as u64)))
         };
         Candidate::new("growing, polynomial pieces", setting, solve).default_path(true)
     };
@@ -235,8 +235,8 @@ fn growing_contact<'a>(
     effort: Effort,
 ) -> Vec<Candidate<'a, Results>> {
     let memory = growing.waves.memory() * growing.wave_time;
-    let radiation = move || (&radiation(black_box(lag))).into();
-    let dashpot = move || (&black_box(terms).summary()).into();
+    let radiation = move || results(&radiation(black_box(lag)));
+    let dashpot = move || results(&black_box(terms).summary());
     let mut list: Vec<Candidate<'_, Results>> = vec![
         hertz().default_path(true),
         closed("radiation", "first order", radiation).default_path(true),
@@ -247,7 +247,7 @@ fn growing_contact<'a>(
         list.push(stepped("growing", n, CONTACT_TIME, move |step| {
             let history = march_growing(growing, step)?;
             let work = work(&history, memory);
-            Ok(((&Summary::new(&history)?).into(), Some(work)))
+            Ok((results(&Summary::new(&history)?), Some(work)))
         }));
     }
     for digits in 3..=effort.pick(4, 5) {

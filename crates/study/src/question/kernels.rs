@@ -5,10 +5,10 @@
 
 use super::single_integral::remainder;
 use crate::StudyError;
-use crate::inversion::{AxisTransform, ExtendedWeights, Inversion, stehfest_extended};
+use crate::inversion::Inversion;
 use crate::measure::{Candidate, Effort, Scene};
 use crate::record::{Error, Question, Record};
-use crate::tables::Density;
+use crate::scenes::Density;
 use halfspace::{Arrivals, Deflection, Kernel, Medium, Profile, Six, SurfaceResponse, kausel};
 use std::cell::RefCell;
 use tabulator::Progress;
@@ -34,9 +34,6 @@ pub(crate) const POISSON_RATIO: f64 = 0.3;
 
 /// Off the nodes of every table; inside the disc, so that all fronts pass.
 const INTERIOR: [f64; 2] = [0.55, 0.65];
-
-/// On the axis, where Gaver-Stehfest is run in extended precision.
-const AXIS: [f64; 2] = [0.0, 0.65];
 
 /// How near the fronts are looked at, after and before them: over their times.
 const NEAR: [f64; 2] = [0.01, -0.01];
@@ -70,7 +67,7 @@ impl KernelScene {
 
     /// w on the axis.
     pub(crate) fn axis(medium: &Medium, count: usize, near: &[f64]) -> Result<Self, StudyError> {
-        Self::new("axis, w", medium, AXIS, count, &[1], near)
+        Self::new("axis, w", medium, [0.0, 0.65], count, &[1], near)
     }
 
     /// w at the centre of the surface over its static value: the kernel of the impact equation.
@@ -129,12 +126,6 @@ impl KernelScene {
         Ok(scene)
     }
 
-    /// Keeps every n-th time.
-    pub(crate) fn thin(&mut self, n: usize) {
-        self.times = self.times.iter().step_by(n).copied().collect();
-        self.exact = self.exact.iter().step_by(n).copied().collect();
-    }
-
     /// The whole response of a remainder.
     fn whole(&self, remainder: Six) -> Six {
         std::array::from_fn(|f| (remainder[f] + self.static_part[f]) * self.per_unit)
@@ -145,18 +136,6 @@ impl KernelScene {
         let [r, z] = self.place;
         let value = |&t: &f64| Ok(self.whole(kernel.remainder(r, z, t)?.value));
         self.times.iter().map(value).collect()
-    }
-
-    /// w on the axis by Gaver-Stehfest in double-double arithmetic, and the integrand evaluations.
-    pub(crate) fn extended(&self, medium: &Medium, weights: &ExtendedWeights) -> (Vec<Six>, u64) {
-        let mut work = 0;
-        let values = self.at_centre(|t| {
-            let least = std::f64::consts::LN_2 / t;
-            let transform = AxisTransform::new(medium, self.place[1], least);
-            work += (weights.terms() * transform.nodes()) as u64;
-            stehfest_extended(weights, t, |s| transform.step(s))
-        });
-        (values, work)
     }
 
     /// The values of w alone.
@@ -207,9 +186,6 @@ pub(crate) fn measure(
         candidates.extend(inversions(&medium, scene, effort));
         if scene.place == [0.0, 0.0] {
             candidates.extend(closed_forms(&medium, scene));
-        }
-        if scene.place == AXIS {
-            candidates.extend(extended(&medium, scene, effort));
         }
         work.extend(candidates.into_iter().map(|candidate| (scene, candidate)));
     }
@@ -289,19 +265,6 @@ fn closed_forms<'a>(medium: &'a Medium, scene: &'a KernelScene) -> Candidates<'a
         Candidate::new("surface response", "fitted once", fitted).default_path(true),
         Candidate::new(reference, "no settings", closed),
     ]
-}
-
-fn extended<'a>(medium: &'a Medium, scene: &'a KernelScene, effort: Effort) -> Candidates<'a> {
-    let terms: &[usize] = effort.pick(&[26], &[18, 22, 26, 30]);
-    let at = |&terms: &usize| {
-        let weights = ExtendedWeights::new(terms);
-        let run = move || {
-            let (values, work) = scene.extended(medium, &weights);
-            Ok((values, Some(work)))
-        };
-        Candidate::new("Gaver-Stehfest, 31 digits", format!("{terms} terms"), run)
-    };
-    terms.iter().map(at).collect()
 }
 
 /// Averages over time cells, looked up in tables of several densities with stencils of several orders.

@@ -4,7 +4,7 @@ use crate::measure::Effort;
 use crate::question;
 use crate::ranking::{LEVELS, rankings};
 use crate::record::{Question, Record, distinct};
-use crate::tables::Density;
+use crate::scenes::Density;
 use std::sync::OnceLock;
 use tabulator::Silent;
 
@@ -181,7 +181,7 @@ fn a_table_knows_its_errors_near_the_edge_and_for_short_pulses() {
         (0.45, 0.35),
         (1.62, 0.53),
     ] {
-        let exact = question::interpolation::series(&plan.compute(r, z).unwrap(), width, count);
+        let exact = question::fields::series(&plan.compute(r, z).unwrap(), width, count);
         let mut cells = vec![[0.0; 6]; count];
         table
             .trace_for(Smoothness::Smooth, 0.3, r, z, 0, &mut cells)

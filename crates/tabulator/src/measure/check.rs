@@ -133,22 +133,12 @@ fn place(content: &Content, node: usize) -> [f64; 2] {
     [content.r[node / depths], content.z[node % depths]]
 }
 
-/// The datasets of the nodes of a slice.
-fn datasets(slice: &Slice) -> [(&'static str, &[f32]); 4] {
-    [
-        (schema::REMAINDER, &slice.remainder),
-        (schema::MOMENT, &slice.moment),
-        (schema::CURVATURE, &slice.curvature),
-        (schema::TAIL, &slice.tail),
-    ]
-}
-
 /// Nodes and fields with numbers that are infinite or NaN.
 fn not_finite(content: &Content) -> Vec<BadNode> {
     let nodes = content.r.len() * content.z.len();
     let mut bad = Vec::new();
     for slice in &content.slices {
-        for (dataset, values) in datasets(slice) {
+        for (dataset, values) in slice.lists() {
             let each = (values.len() / (6 * nodes).max(1)).max(1);
             for (index, row) in values.chunks_exact(each).enumerate().take(6 * nodes) {
                 if row.iter().all(|x| x.is_finite()) {
@@ -190,7 +180,7 @@ fn compare(
         (&exact.tail, limit),
     ];
     let (mut largest, mut bad) = (0.0_f64, Vec::new());
-    for ((dataset, values), (exact_values, limit)) in datasets(slice).into_iter().zip(lists) {
+    for ((dataset, values), (exact_values, limit)) in slice.lists().into_iter().zip(lists) {
         let each = exact_values.len();
         for (f, field) in schema::FIELD_NAMES.into_iter().enumerate() {
             let stored = &values[(node * 6 + f) * each..][..each];

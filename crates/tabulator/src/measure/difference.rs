@@ -79,28 +79,9 @@ pub fn differences(first: &Content, second: &Content) -> Vec<Difference> {
     found
 }
 
-fn values(a: &Slice, b: &Slice, found: &mut Vec<Difference>) {
-    for (dataset, first, second) in [
-        (lookup::schema::REMAINDER, &a.remainder, &b.remainder),
-        (lookup::schema::MOMENT, &a.moment, &b.moment),
-        (lookup::schema::CURVATURE, &a.curvature, &b.curvature),
-        (lookup::schema::TAIL, &a.tail, &b.tail),
-        (
-            lookup::schema::PROBE_DIRECT,
-            &a.verification.direct,
-            &b.verification.direct,
-        ),
-        (
-            lookup::schema::PROBE_LOOKED_UP,
-            &a.verification.looked_up,
-            &b.verification.looked_up,
-        ),
-        (
-            lookup::schema::PROBE_ERROR,
-            &a.verification.error,
-            &b.verification.error,
-        ),
-    ] {
+fn values<'a>(a: &'a Slice, b: &'a Slice, found: &mut Vec<Difference>) {
+    let lists = |slice: &'a Slice| slice.lists().into_iter().chain(slice.verification.lists());
+    for ((dataset, first), (_, second)) in lists(a).zip(lists(b)) {
         let pairs = first.iter().zip(second).filter(|(x, y)| x != y);
         let (count, largest) = pairs.fold((0, 0.0_f64), |(count, most), (x, y)| {
             (count + 1, most.max((f64::from(*x) - f64::from(*y)).abs()))

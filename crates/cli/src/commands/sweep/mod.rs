@@ -2,23 +2,20 @@
 
 mod parts;
 mod plan;
-mod tally;
 
-use crate::commands::sweep::tally::Tally;
+use crate::arguments::{Kernels, MemoryLimit, Overwrite, check_rows, say_complete};
 use crate::failure::{Failure, check_stdout, lines, say, show};
-use crate::interrupt;
-use crate::kernels::Kernels;
-use crate::memory::MemoryLimit;
-use crate::overwrite::{Overwrite, check_rows, say_complete};
+use crate::process;
 use crate::progress::Bar;
 use clap::Args;
 use formats::parts::check_complete;
+use formats::sweep::schema::COUNTED;
 use formats::sweep::{
-    Blocks, JournalError, Kept, Precision, Selection, Shard, Spec, SweepError, is_computed,
+    Block, Blocks, JournalError, Kept, Precision, Selection, Shard, Spec, SweepError, is_computed,
     print_csv, row_bytes, run_rows, stage_csv, stage_rows,
 };
-use formats::{Existing, Output, OutputError};
-use output::{CSV, Role, Staged, apart, behind, free_disk, is_standard};
+use formats::{Existing, Output, OutputError, QUANTITIES};
+use output::{CSV, Fault, Role, Staged, apart, behind, free_disk, is_standard};
 use parts::Action;
 use serde_json::{Value, json};
 use std::io::{BufWriter, Write};
@@ -130,9 +127,11 @@ fn compute(arguments: &Run, sweep: &Path, output: &Path) -> Result<(), Failure> 
     let Some(outputs) = Outputs::claim(arguments, sweep, output, &spec, selection)? else {
         return say_complete(output, arguments.json);
     };
-    let Some(kept) =
-        rows(arguments.overwrite, &spec, &outputs).map_err(|error| failure(sweep, error))?
-    else {
+    let kept = rows(arguments.overwrite, &spec, &outputs).map_err(|error| match error {
+        SweepError::Scene(scene) => scene.in_file(sweep).into(),
+        other => failure(other),
+    })?;
+    let Some(kept) = kept else {
         return Err(Failure::work("the sweep was stopped"));
     };
     let computing_s = start.elapsed().as_secs_f64();
@@ -265,7 +264,7 @@ fn rows(overwrite: Overwrite, spec: &Spec, outputs: &Outputs) -> Result<Option<K
     let kept = Arc::new(AtomicUsize::new(0));
     let range = outputs.rows(spec);
     let (count, rows, place) = (Arc::clone(&kept), range.len(), outputs.part.clone());
-    interrupt::say_then(move || {
+    process::say_then(move || {
         format!(
             "{} of {rows} scenes are kept in {}; the same command goes on with them",
             count.load(Ordering::Relaxed),
@@ -284,14 +283,16 @@ fn rows(overwrite: Overwrite, spec: &Spec, outputs: &Outputs) -> Result<Option<K
     Ok(done)
 }
 
-fn failure(sweep: &Path, error: SweepError) -> Failure {
-    match error {
-        SweepError::Scene(scene) => scene.in_file(sweep).into(),
+/// A sweep that could not be run or joined, with what to do.
+fn failure(error: SweepError) -> Failure {
+    let hint = match error {
         SweepError::Journal(JournalError::Other { .. }) => {
-            Failure::from(error).hint("; give --force to drop it, or another output to keep it")
+            "; give --force to drop it, or another output to keep it"
         }
-        other => other.into(),
-    }
+        SweepError::Missing { .. } => "; hertzlamb sweep status lists them",
+        _ => "",
+    };
+    Failure::from(error).hint(hint)
 }
 
 /// Where a sweep goes, claimed before any work.
@@ -417,4 +418,47 @@ fn print_rows(spec: &Spec, blocks: &impl Blocks) -> Result<(), Failure> {
         }
         Ok(()) | Err(_) => Ok(()),
     }
+}
+
+/// What is counted over all rows.
+#[derive(Debug, Default)]
+struct Tally {
+    rows: usize,
+    failed: usize,
+    first: Option<(usize, String)>,
+    yielding: usize,
+    cracking: usize,
+    /// Rows whose fields were looked up, of a sweep with probes.
+    looked_up: Option<usize>,
+}
+
+impl Tally {
+    fn of(spec: &Spec, rows: &impl Blocks) -> Result<Self, Fault> {
+        let mut tally = Self {
+            looked_up: spec.has_probes().then_some(0),
+            ..Self::default()
+        };
+        rows.each(&mut |block| {
+            tally.rows += block.len();
+            tally.failed += block.failures.len();
+            tally.first = tally
+                .first
+                .take()
+                .or_else(|| block.failures.first().cloned());
+            let [yielding, cracking] = COUNTED.map(|name| beyond(block, name));
+            tally.yielding += yielding;
+            tally.cracking += cracking;
+            if let Some(count) = &mut tally.looked_up {
+                *count += block.looked_up();
+            }
+            Ok(())
+        })?;
+        Ok(tally)
+    }
+}
+
+/// Scenes in which a ratio to what the bodies bear is above 1.
+fn beyond(block: &Block, name: &str) -> usize {
+    let place = QUANTITIES.iter().position(|quantity| quantity.name == name);
+    place.map_or(0, |k| block.rows().filter(|row| row[k] > 1.0).count())
 }

@@ -1,10 +1,10 @@
 //! `hertzlamb sweep status` and `merge`: what a folder of parts has and lacks, and all of it in one file.
 
+use super::failure;
+use crate::arguments::{Kernels, Overwrite, check_rows};
 use crate::failure::{Failure, lines, print, say, show};
-use crate::kernels::Kernels;
-use crate::overwrite::{Overwrite, check_rows};
 use clap::Subcommand;
-use formats::parts::{Parts, PartsError};
+use formats::parts::Parts;
 use formats::stored::Part;
 use formats::sweep::{Shard, Spec, Unfinished};
 use output::ROWS;
@@ -243,16 +243,6 @@ fn merge(
     });
     let text = lines([("written", format!("{output}, {rows} rows of {count} parts"))]);
     show(json, &value, text)
-}
-
-fn failure(error: PartsError) -> Failure {
-    let missing = matches!(error, PartsError::Missing { .. });
-    let failure = Failure::from(error);
-    if missing {
-        failure.hint("; hertzlamb sweep status lists them")
-    } else {
-        failure
-    }
 }
 
 #[cfg(test)]

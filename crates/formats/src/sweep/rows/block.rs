@@ -3,6 +3,7 @@
 use crate::quantities::QUANTITIES;
 use contact::{Choice, Model};
 use output::Fault;
+use std::ops::Range;
 
 /// Consecutive rows, of which no more than a block needs to be in memory.
 pub trait Blocks {
@@ -24,10 +25,10 @@ impl<T: AsRef<[Block]> + ?Sized> Blocks for T {
 pub struct Block {
     /// First row.
     pub start: usize,
-    /// Results in the order of [`QUANTITIES`], NaN for a failed scene.
-    pub numbers: Vec<[f64; QUANTITIES.len()]>,
-    /// What the probes bring to each row, one row behind the other, NaN where fields failed; empty without probes.
-    pub probed: Vec<f64>,
+    /// Numbers of a row: those of [`QUANTITIES`], and behind them what the probes bring.
+    pub width: usize,
+    /// All numbers, one row behind the other; NaN where a scene, or its fields, failed.
+    pub numbers: Vec<f64>,
     /// Model of each row as an index into the list of models.
     pub models: Vec<u8>,
     /// Rows that failed, or whose fields did, and why.
@@ -38,65 +39,93 @@ pub struct Block {
 pub const NO_MODEL: u8 = u8::MAX;
 
 impl Block {
-    /// Rows without results, to be filled, with so many that probes bring.
+    /// Rows without results, to be filled.
     pub(crate) fn blank(start: usize, rows: usize, width: usize) -> Self {
         Self {
             start,
-            numbers: vec![[f64::NAN; QUANTITIES.len()]; rows],
-            probed: vec![f64::NAN; width * rows],
-            ..Self::default()
+            width,
+            numbers: vec![f64::NAN; width * rows],
+            models: vec![NO_MODEL; rows],
+            failures: Vec::new(),
         }
     }
 
-    /// Fills a result of a row.
-    pub(crate) fn set(&mut self, row: usize, place: usize, number: f64) {
-        let width = self.width();
-        match place.checked_sub(QUANTITIES.len()) {
-            None => self.numbers[row][place] = number,
-            Some(place) => self.probed[row * width + place] = number,
+    /// How many rows.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.models.len()
+    }
+
+    /// Whether there are none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.models.is_empty()
+    }
+
+    /// The numbers of each row.
+    pub fn rows(&self) -> impl Iterator<Item = &[f64]> {
+        self.numbers.chunks_exact(self.width.max(1))
+    }
+
+    /// Fills a result in all rows.
+    pub(crate) fn fill(&mut self, place: usize, numbers: impl IntoIterator<Item = f64>) {
+        let rows = self.numbers.chunks_exact_mut(self.width.max(1));
+        for (row, number) in rows.zip(numbers) {
+            row[place] = number;
         }
     }
 
-    /// A result of a row of it: one of [`QUANTITIES`], or behind them one of what probes bring.
-    pub(crate) fn number(&self, row: usize, place: usize) -> f64 {
-        match place.checked_sub(QUANTITIES.len()) {
-            None => self.numbers[row][place],
-            Some(place) => self.probed[row * self.width() + place],
+    /// A result in some rows, which count from the first.
+    pub(super) fn column(&self, place: usize, some: Range<usize>) -> impl Iterator<Item = f64> {
+        some.map(move |row| self.numbers[row * self.width + place])
+    }
+
+    /// The failures of some rows, which count from the first.
+    pub(super) fn failures_of(&self, some: &Range<usize>) -> &[(usize, String)] {
+        let before = |end: usize| {
+            self.failures
+                .partition_point(|(row, _)| *row < self.start + end)
+        };
+        &self.failures[before(some.start)..before(some.end)]
+    }
+
+    /// Adds some rows of another block, which count from its first and follow those that are there.
+    pub(crate) fn extend(&mut self, other: &Self, some: Range<usize>) {
+        if self.is_empty() {
+            (self.start, self.width) = (other.start + some.start, other.width);
         }
+        let numbers = some.start * other.width..some.end * other.width;
+        self.numbers.extend_from_slice(&other.numbers[numbers]);
+        self.models.extend_from_slice(&other.models[some.clone()]);
+        self.failures.extend_from_slice(other.failures_of(&some));
     }
 
     /// Rows whose fields were looked up in a table.
     #[must_use]
     pub fn looked_up(&self) -> usize {
-        let rows = self.probed.chunks_exact(self.width().max(1));
-        rows.filter(|row| row[0] == 1.0).count()
-    }
-
-    /// Results that probes bring to a row.
-    pub(crate) fn width(&self) -> usize {
-        self.probed.len() / self.numbers.len().max(1)
+        let first_of_probes = |row: &&[f64]| row.get(QUANTITIES.len()) == Some(&1.0);
+        self.rows().filter(first_of_probes).count()
     }
 
     /// Whether it can have been computed: known models, and a reason within the block for each scene that failed.
     pub(crate) fn holds(&self) -> bool {
-        let rows = self.start..self.start + self.numbers.len();
+        let rows = self.start..self.start + self.len();
         let failed = |model: &u8| *model == NO_MODEL;
         let known = |model: &u8| usize::from(*model) < Model::ALL.len() || failed(model);
         self.models.iter().all(known)
             && self.failures.iter().all(|(row, _)| rows.contains(row))
             && self.failures.is_sorted_by(|a, b| a.0 < b.0)
-            && self.probed.len() == self.width() * self.numbers.len()
+            && self.numbers.len() == self.width * self.len()
             && self.has_reasons(failed)
     }
 
     /// Whether each failed contact has a reason, and nothing else but fields.
     fn has_reasons(&self, failed: impl Fn(&u8) -> bool) -> bool {
         let count = self.models.iter().filter(|m| failed(m)).count();
-        let of_contacts = self
-            .failures
-            .iter()
-            .filter(|(row, _)| failed(&self.models[row - self.start]));
+        let reasons = self.failures.iter();
+        let of_contacts = reasons.filter(|(row, _)| failed(&self.models[row - self.start]));
         let of_contacts = of_contacts.count();
-        count == of_contacts && (of_contacts == self.failures.len() || !self.probed.is_empty())
+        count == of_contacts
+            && (of_contacts == self.failures.len() || self.width > QUANTITIES.len())
     }
 }

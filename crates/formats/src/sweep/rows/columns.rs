@@ -58,7 +58,7 @@ pub(super) fn columns(spec: &Spec) -> Vec<Column<'_>> {
         for key in &axis.columns {
             let described = Described {
                 meaning: format!("scene key {}", key.name()),
-                unit: unit(&key.key),
+                unit: key_unit(&key.key).0,
                 name: key.name(),
             };
             let values = &key.values;
@@ -125,7 +125,7 @@ impl What<'_> {
                 }
             }
             Self::Number(k) => {
-                let numbers = some.map(|row| block.number(row, k));
+                let numbers = block.column(k, some);
                 match spec.fields.precision {
                     Precision::Double => Cells::Double(numbers.collect()),
                     Precision::Single => {
@@ -138,11 +138,8 @@ impl What<'_> {
             Self::Model => Cells::Models(&block.models[some]),
             Self::Failure => {
                 let mut reasons = vec![None; some.len()];
-                let (first, last) = (rows.start, rows.end);
-                let from = block.failures.partition_point(|(row, _)| *row < first);
-                let failures = block.failures[from..].iter();
-                for (row, reason) in failures.take_while(|(row, _)| *row < last) {
-                    reasons[row - first] = Some(reason.as_str());
+                for (row, reason) in block.failures_of(&some) {
+                    reasons[row - rows.start] = Some(reason.as_str());
                 }
                 Cells::Reasons(reasons)
             }
@@ -170,7 +167,7 @@ pub(super) fn each_of(
     let (mut next, mut failed) = (rows.start, 0);
     let missing = |row: usize| Fault::from(format!("row {row} is not there"));
     blocks.each(&mut |block| {
-        let end = block.start + block.numbers.len();
+        let end = block.start + block.len();
         if block.start != next || end > rows.end {
             return Err(missing(next));
         }
@@ -191,16 +188,37 @@ pub(super) fn model_name(index: u8) -> Option<&'static str> {
     Some(Model::ALL.get(usize::from(index))?.name())
 }
 
-/// The unit that a scene key carries in its name.
-pub(super) fn unit(key: &str) -> &'static str {
-    const UNITS: [(&str, &str); 6] = [
-        ("_kg_m3", "kg/m^3"),
-        ("_m_s", "m/s"),
-        ("_kg", "kg"),
-        ("_pa", "Pa"),
-        ("_m", "m"),
-        ("_s", "s"),
+/// The unit that a scene key carries in its name, and the ending that says so; `1` and nothing without one.
+#[must_use]
+pub fn key_unit(key: &str) -> (&'static str, &'static str) {
+    // the longest first
+    const UNITS: [(&str, &str); 7] = [
+        ("Pa m^(1/2)", "_pa_sqrt_m"),
+        ("kg/m^3", "_kg_m3"),
+        ("m/s", "_m_s"),
+        ("kg", "_kg"),
+        ("Pa", "_pa"),
+        ("m", "_m"),
+        ("s", "_s"),
     ];
-    let found = UNITS.iter().find(|(ending, _)| key.ends_with(ending));
-    found.map_or("1", |(_, unit)| unit)
+    let found = UNITS.iter().find(|(_, ending)| key.ends_with(ending));
+    found.copied().unwrap_or(("1", ""))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_unit_is_the_longest_ending() {
+        for (key, expected) in [
+            ("target.fracture_toughness_pa_sqrt_m", "Pa m^(1/2)"),
+            ("target.density_kg_m3", "kg/m^3"),
+            ("striker.tip_radius_m", "m"),
+            ("target.poisson_ratio", "1"),
+        ] {
+            let (unit, ending) = key_unit(key);
+            assert!(unit == expected && key.ends_with(ending), "{key}: {unit}");
+        }
+    }
 }

@@ -1,9 +1,7 @@
 //! The rows of a sweep as text.
 
 use super::block::{Block, Blocks};
-use super::columns::{Column, What, columns, model_name};
-use crate::sweep::axes::Values;
-use crate::sweep::fields::Precision;
+use super::columns::{Cells, Column, columns, model_name};
 use crate::sweep::spec::Spec;
 use output::{Existing, Fault, Output, OutputError, Staged};
 use rayon::prelude::*;
@@ -56,8 +54,9 @@ pub fn print_csv(
     writeln!(file, "{}", names.join(","))?;
     let mut unwritten = None;
     let read = blocks.each(&mut |block| {
-        let rows = (0..block.numbers.len()).into_par_iter().step_by(AT_A_TIME);
-        let parts: Vec<String> = rows.map(|from| lines(spec, columns, block, from)).collect();
+        let rows = (0..block.len()).into_par_iter().step_by(AT_A_TIME);
+        let parts = rows.map(|from| lines(spec, columns, block, from));
+        let parts: Vec<String> = parts.collect::<Result<_, Fault>>()?;
         let mut written = parts.iter().map(|part| file.write_all(part.as_bytes()));
         written.find_map(Result::err).map_or(Ok(()), |error| {
             let fault = Fault::from(error.to_string());
@@ -76,44 +75,38 @@ pub fn print_csv(
 const AT_A_TIME: usize = 1024;
 
 /// Some lines of a block.
-fn lines(spec: &Spec, columns: &[Column<'_>], block: &Block, from: usize) -> String {
-    let to = (from + AT_A_TIME).min(block.numbers.len());
-    let mut failures = block.failures.iter().peekable();
-    let mut text = String::with_capacity(300 * (to - from));
-    for i in from..to {
-        let row = block.start + i;
-        for (k, column) in columns.iter().enumerate() {
+fn lines(spec: &Spec, columns: &[Column<'_>], block: &Block, from: usize) -> Result<String, Fault> {
+    let some = from..(from + AT_A_TIME).min(block.len());
+    let cells = columns.iter().map(|column| {
+        let cells = column.what.cells(spec, block, some.clone())?;
+        Ok((column.what.words(), cells))
+    });
+    let cells: Vec<_> = cells.collect::<Result<_, Fault>>()?;
+    let mut text = String::with_capacity(300 * some.len());
+    for i in 0..some.len() {
+        for (k, (words, cells)) in cells.iter().enumerate() {
             if k > 0 {
                 text.push(',');
             }
             // writing to a string cannot fail
-            let _ = match column.what {
-                What::Row => write!(text, "{row}"),
-                What::Key { stride, values } => {
-                    let place = row / stride % values.len();
-                    match values {
-                        Values::Numbers(numbers) => write!(text, "{}", numbers[place]),
-                        Values::Drawn(drawn) => write!(text, "{}", drawn.at(place)),
-                        Values::Texts(words) => write!(text, "{}", quoted(&words[place])),
-                    }
+            let _ = match cells {
+                Cells::Whole(rows) => write!(text, "{}", rows[i]),
+                // a failed scene has empty fields
+                Cells::Double(numbers) if !numbers[i].is_finite() => Ok(()),
+                Cells::Double(numbers) => write!(text, "{}", numbers[i]),
+                Cells::Single(numbers) if !numbers[i].is_finite() => Ok(()),
+                Cells::Single(numbers) => write!(text, "{}", numbers[i]),
+                Cells::Words(places) => {
+                    let word = words.map_or("", |words| &words[places[i] as usize]);
+                    write!(text, "{}", quoted(word))
                 }
-                What::Number(k) => match (block.number(i, k), spec.fields.precision) {
-                    // a failed scene has empty fields
-                    (number, _) if !number.is_finite() => Ok(()),
-                    (number, Precision::Double) => write!(text, "{number}"),
-                    (number, Precision::Single) => write!(text, "{}", number as f32),
-                },
-                What::Model => write!(text, "{}", model_name(block.models[i]).unwrap_or("")),
-                What::Failure => {
-                    while failures.next_if(|(failed, _)| *failed < row).is_some() {}
-                    let reason = failures.next_if(|(failed, _)| *failed == row);
-                    write!(text, "{}", quoted(reason.map_or("", |(_, reason)| reason)))
-                }
+                Cells::Models(models) => text.write_str(model_name(models[i]).unwrap_or("")),
+                Cells::Reasons(reasons) => write!(text, "{}", quoted(reasons[i].unwrap_or(""))),
             };
         }
         text.push('\n');
     }
-    text
+    Ok(text)
 }
 
 /// In quotation marks where a comma or one of them would break the line.

@@ -179,7 +179,7 @@ impl Footer {
             schema::ROWS: selection.rows.len(),
             schema::FAILED: self.part.failed,
             "columns": described.collect::<Map<_, _>>(),
-            "bits": 8 * fields.width(),
+            "bits": 8 * fields.precision.bytes(),
             "row_groups": self.groups,
             "data_bytes": self.data_bytes,
         })

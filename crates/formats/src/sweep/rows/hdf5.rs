@@ -4,16 +4,16 @@
 //! The datasets are reserved through the library and filled a block at a time.
 
 use super::block::{Block, Blocks};
-use super::boxes::boxes;
-use super::columns::{Cells, Column, What, columns, each_of, unit};
+use super::columns::{Cells, Column, What, columns, each_of, key_unit};
 use crate::hdf::{
     attach_all, attach_scale, describe, new_file, numbers, reason, reserve, set_scale,
     some_at_a_time, text, texts,
 };
-use crate::quantities::QUANTITIES;
+use crate::quantities::{Labels, QUANTITIES};
 use crate::results::schema::COORDINATES;
 use crate::sweep::axes::{Axis, Column as Key, Values};
 use crate::sweep::fields::Precision;
+use crate::sweep::journal::results as kept_results;
 use crate::sweep::schema::{self, part};
 use crate::sweep::shard::Selection;
 use crate::sweep::spec::Spec;
@@ -25,9 +25,6 @@ use std::fs::File;
 use std::io::{Seek, SeekFrom, Write};
 use std::ops::Range;
 use std::path::Path;
-
-/// Name, unit and meaning.
-type Labels<'a> = (&'a str, &'a str, &'a str);
 
 /// Reasons of failures that a file has at most: drawn numbers may make each its own, and all are in memory together.
 const MOST_REASONS: usize = 100_000;
@@ -135,11 +132,10 @@ fn finish(file: hdf5::File, failed: usize, reasons: &[String]) -> Result<(), hdf
 pub fn row_bytes(spec: &Spec) -> (usize, usize) {
     let words = |key: &Key| if key.values.texts().is_some() { 4 } else { 8 };
     let keys: usize = spec.columns().map(words).sum();
-    let results = spec.fields.width() * spec.fields.places.len() + 1;
-    (
-        8 + keys + results + 4,
-        8 * (QUANTITIES.len() + spec.fields.probed()) + 1,
-    )
+    let fields = &spec.fields;
+    let results = fields.precision.bytes() * fields.places.len() + 1;
+    let kept = kept_results(fields).count_ones() as usize + fields.width() - QUANTITIES.len();
+    (8 + keys + results + 4, 8 * kept + 1)
 }
 
 /// A file that is being written: its columns, and those that are reserved in it with the places of their numbers.
@@ -297,7 +293,7 @@ impl<'a> Table<'a> {
         ) -> (Vec<u8>, usize) {
             (values.into_iter().flat_map(bytes).collect(), N)
         }
-        let cells = what.cells(self.spec, block, 0..block.numbers.len())?;
+        let cells = what.cells(self.spec, block, 0..block.len())?;
         Ok(match cells {
             Cells::Whole(values) => all(values, i64::to_ne_bytes),
             Cells::Double(values) => all(values, f64::to_ne_bytes),
@@ -386,7 +382,7 @@ fn write_scales(group: &Group, axes: &[Axis]) -> Result<(Vec<Dataset>, Vec<Strin
 fn write_key(group: &Group, key: &Key) -> Result<Dataset, hdf5::Error> {
     let name = key.name();
     let meaning = format!("scene key {name}");
-    let labels = (name.as_str(), unit(&key.key), meaning.as_str());
+    let labels = (name.as_str(), key_unit(&key.key).0, meaning.as_str());
     match &key.values {
         Values::Numbers(values) => numbers(group, &labels, &[values.len()], values),
         Values::Texts(values) => texts(group, &labels, values),
@@ -428,4 +424,97 @@ fn refer<T: H5Type + Copy + Into<hdf5::types::OwnedDynValue>>(
     let dataset = builder.create(labels.0)?;
     describe(&dataset, labels)?;
     Ok(dataset)
+}
+
+/// Boxes that hold the rows of a range in their order, each once: ranges along the dimensions, the last of which runs
+/// fastest; twice as many as dimensions at most.
+fn boxes(shape: &[usize], rows: Range<usize>) -> Vec<Vec<Range<usize>>> {
+    let mut found = Vec::new();
+    divide(shape, rows, &mut Vec::new(), &mut found);
+    found
+}
+
+fn divide(
+    shape: &[usize],
+    rows: Range<usize>,
+    before: &mut Vec<Range<usize>>,
+    found: &mut Vec<Vec<Range<usize>>>,
+) {
+    if rows.is_empty() {
+        return;
+    }
+    let [_, inner @ ..] = shape else {
+        found.push(before.clone());
+        return;
+    };
+    let stride: usize = inner.iter().product();
+    let within = |at: usize| {
+        rows.start.max(at * stride) - at * stride..rows.end.min((at + 1) * stride) - at * stride
+    };
+    let (first, last) = (rows.start / stride, rows.end.div_ceil(stride));
+    // whole slices are one box; what is left of the first and the last is divided further
+    let whole = rows.start.div_ceil(stride)..rows.end / stride;
+    let mut partial = |at: usize, before: &mut Vec<Range<usize>>| {
+        before.push(at..at + 1);
+        divide(inner, within(at), before, found);
+        before.pop();
+    };
+    if whole.is_empty() {
+        (first..last).for_each(|at| partial(at, before));
+        return;
+    }
+    if first < whole.start {
+        partial(first, before);
+    }
+    let mut slices = before.clone();
+    slices.push(whole.clone());
+    slices.extend(inner.iter().map(|&length| 0..length));
+    found.push(slices);
+    if whole.end < last {
+        let at = whole.end;
+        before.push(at..at + 1);
+        divide(inner, within(at), before, found);
+        before.pop();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Rows of a box in their order.
+    fn rows(shape: &[usize], ranges: &[Range<usize>]) -> Vec<usize> {
+        let mut found = vec![0];
+        for (length, range) in shape.iter().zip(ranges) {
+            found = (found.iter())
+                .flat_map(|row| range.clone().map(move |i| row * length + i))
+                .collect();
+        }
+        found
+    }
+
+    #[test]
+    fn boxes_are_the_rows_in_their_order() {
+        for shape in [
+            &[7][..],
+            &[3, 5],
+            &[2, 3, 4],
+            &[3, 1, 4],
+            &[1, 1],
+            &[2, 2, 3, 2],
+        ] {
+            let all: usize = shape.iter().product();
+            for start in 0..=all {
+                for end in start..=all {
+                    let found = boxes(shape, start..end);
+                    assert!(found.len() <= 2 * shape.len(), "{shape:?} {start}..{end}");
+                    let found: Vec<usize> = found
+                        .iter()
+                        .flat_map(|ranges| rows(shape, ranges))
+                        .collect();
+                    assert_eq!(found, (start..end).collect::<Vec<_>>(), "{shape:?}");
+                }
+            }
+        }
+    }
 }

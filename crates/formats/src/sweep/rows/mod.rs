@@ -4,7 +4,6 @@
 //! them, a few blocks at a time, and `footer` is what a Parquet file says of itself.
 
 mod block;
-mod boxes;
 mod columns;
 mod csv;
 mod footer;
@@ -18,8 +17,8 @@ pub use self::hdf5::{row_bytes, write_sweep};
 #[cfg(feature = "parquet")]
 use self::parquet::stage_parquet;
 pub use block::{Block, Blocks, NO_MODEL};
-pub use columns::column_names;
 pub(crate) use columns::keys;
+pub use columns::{column_names, key_unit};
 pub use csv::{print_csv, stage_csv, write_csv};
 pub use footer::FORMAT_VERSION as PARQUET_VERSION;
 pub(crate) use footer::{Footer, MAGIC};

@@ -23,7 +23,6 @@ use rayon::prelude::*;
 use sha2::{Digest, Sha256};
 use std::fs::File;
 use std::io::BufWriter;
-use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -51,87 +50,57 @@ pub(super) fn stage_parquet<'a>(
         let mut footer = Footer::of(spec, selection);
         let rows = footer.part.selection.rows.clone();
         footer.part.failed = each_of(&rows, blocks, &mut |block| table.take(block))?;
-        table.finish(footer, &columns)?;
+        table.finish(footer)?;
         seal(path).map_err(Fault::from)
     })
-}
-
-/// A column while a group is filled: the values, without those that are not there, and for each row whether it has one.
-struct Filled<'a> {
-    what: What<'a>,
-    described: ColumnDescPtr,
-    values: Kept,
-    there: Vec<i16>,
-    /// Those that are written by their numbers.
-    words: Vec<ByteArray>,
-}
-
-enum Kept {
-    Whole(Vec<i64>),
-    Double(Vec<f64>),
-    Single(Vec<f32>),
-    Text(Vec<ByteArray>),
 }
 
 /// A file that is being written.
 struct Table<'a> {
     spec: &'a Spec,
-    columns: Vec<Filled<'a>>,
+    columns: &'a [Column<'a>],
+    /// The words that a column has by their numbers.
+    words: Vec<Vec<ByteArray>>,
     writer: SerializedFileWriter<BufWriter<File>>,
     /// SHA-256 of each group.
     groups: Vec<String>,
-    /// Rows of the group.
-    held: usize,
+    /// The rows of the group that is being filled.
+    group: Block,
 }
 
 impl<'a> Table<'a> {
-    fn begin(path: &Path, spec: &'a Spec, columns: &[Column<'a>]) -> Result<Self, Fault> {
+    fn begin(path: &Path, spec: &'a Spec, columns: &'a [Column<'a>]) -> Result<Self, Fault> {
         let file = BufWriter::with_capacity(1 << 20, File::create(path)?);
         let schema = schema(spec, columns).map_err(fault)?;
         let properties = Arc::new(properties(columns).map_err(fault)?);
-        let writer = SerializedFileWriter::new(file, schema, properties).map_err(fault)?;
-        let described = writer.schema_descr().columns().iter();
-        let columns = columns.iter().zip(described).map(|(column, described)| {
-            let models = (0..u8::MAX).map_while(model_name).map(ByteArray::from);
-            Filled {
-                what: column.what,
-                described: Arc::clone(described),
-                values: match described.physical_type() {
-                    Physical::INT64 => Kept::Whole(Vec::new()),
-                    Physical::FLOAT => Kept::Single(Vec::new()),
-                    Physical::BYTE_ARRAY => Kept::Text(Vec::new()),
-                    _ => Kept::Double(Vec::new()),
-                },
-                there: Vec::new(),
-                words: match (column.what, column.what.words()) {
-                    (What::Model, _) => models.collect(),
-                    (_, Some(words)) => words.iter().map(|w| w.as_str().into()).collect(),
-                    (_, None) => Vec::new(),
-                },
+        let words = columns.iter().map(|column| match column.what {
+            What::Model => (0..u8::MAX)
+                .map_while(model_name)
+                .map(ByteArray::from)
+                .collect(),
+            what => {
+                let words = what.words().into_iter().flatten();
+                words.map(|word| word.as_str().into()).collect()
             }
         });
         Ok(Self {
             spec,
-            columns: columns.collect(),
-            writer,
+            columns,
+            words: words.collect(),
+            writer: SerializedFileWriter::new(file, schema, properties).map_err(fault)?,
             groups: Vec::new(),
-            held: 0,
+            group: Block::default(),
         })
     }
 
     /// Adds the rows of a block.
     fn take(&mut self, block: &Block) -> Result<(), Fault> {
-        let (mut done, count, spec) = (0, block.numbers.len(), self.spec);
-        while done < count {
-            let more = (count - done).min(GROUP - self.held);
-            let mut filled = Vec::new();
-            (self.columns.par_iter_mut())
-                .map(|column| column.fill(spec, block, done..done + more))
-                .collect_into_vec(&mut filled);
-            filled.into_iter().collect::<Result<(), Fault>>()?;
+        let mut done = 0;
+        while done < block.len() {
+            let more = (block.len() - done).min(GROUP - self.group.len());
+            self.group.extend(block, done..done + more);
             done += more;
-            self.held += more;
-            if self.held == GROUP {
+            if self.group.len() == GROUP {
                 self.write_group()?;
             }
         }
@@ -139,120 +108,105 @@ impl<'a> Table<'a> {
     }
 
     fn write_group(&mut self) -> Result<(), Fault> {
+        let described = self.writer.schema_descr().columns();
         let properties = self.writer.properties();
-        let encoded: Vec<_> = (self.columns.par_iter_mut())
-            .map(|column| column.encode(properties))
+        let columns = self.columns.par_iter().zip(&self.words).zip(described);
+        let encoded: Vec<_> = columns
+            .map(|((column, words), described)| {
+                let rows = 0..self.group.len();
+                let cells = column.what.cells(self.spec, &self.group, rows)?;
+                encode(cells, words, described, properties).map_err(fault)
+            })
             .collect();
         let mut group = self.writer.next_row_group().map_err(fault)?;
         let mut hash = Sha256::new();
         for column in encoded {
-            let (bytes, closed) = column.map_err(fault)?;
+            let (bytes, closed) = column?;
             hash.update(&bytes);
             group.append_column(&bytes, closed).map_err(fault)?;
         }
         group.close().map_err(fault)?;
         self.groups.push(format!("{:x}", hash.finalize()));
-        self.held = 0;
+        self.group = Block::default();
         Ok(())
     }
 
-    fn finish(mut self, mut footer: Footer, columns: &[Column<'_>]) -> Result<(), Fault> {
-        if self.held > 0 {
+    fn finish(mut self, mut footer: Footer) -> Result<(), Fault> {
+        if !self.group.is_empty() {
             self.write_group()?;
         }
         footer.data_bytes = self.writer.bytes_written() as u64;
         footer.groups = self.groups;
-        let text = footer.json(columns.iter().map(|column| &column.described));
+        let text = footer.json(self.columns.iter().map(|column| &column.described));
         let entry = KeyValue::new(KEY.to_owned(), text);
         self.writer.append_key_value_metadata(entry);
         self.writer.close().map(drop).map_err(fault)
     }
 }
 
-impl Filled<'_> {
-    /// Takes some rows of a block; NaN is no value.
-    fn fill(&mut self, spec: &Spec, block: &Block, some: Range<usize>) -> Result<(), Fault> {
-        let word = |index: usize| self.words.get(index).cloned();
-        match (self.what.cells(spec, block, some)?, &mut self.values) {
-            (Cells::Whole(found), Kept::Whole(kept)) => {
-                keep(kept, &mut self.there, found.into_iter().map(Some));
-            }
-            (Cells::Double(found), Kept::Double(kept)) => {
-                let found = found.into_iter().map(|x| Some(x).filter(|x| !x.is_nan()));
-                keep(kept, &mut self.there, found);
-            }
-            (Cells::Single(found), Kept::Single(kept)) => {
-                let found = found.into_iter().map(|x| Some(x).filter(|x| !x.is_nan()));
-                keep(kept, &mut self.there, found);
-            }
-            (Cells::Words(found), Kept::Text(kept)) => {
-                keep(
-                    kept,
-                    &mut self.there,
-                    found.into_iter().map(|i| word(i as usize)),
-                );
-            }
-            (Cells::Models(found), Kept::Text(kept)) => {
-                let found = found.iter().map(|&i| word(usize::from(i)));
-                keep(kept, &mut self.there, found);
-            }
-            (Cells::Reasons(found), Kept::Text(kept)) => {
-                let found = found.into_iter().map(|reason| reason.map(ByteArray::from));
-                keep(kept, &mut self.there, found);
-            }
-            // the type of a column follows from what it holds
-            (_, _) => {}
+/// The bytes of a column in a group; NaN is no value.
+fn encode(
+    cells: Cells<'_>,
+    words: &[ByteArray],
+    described: &ColumnDescPtr,
+    properties: &WriterPropertiesPtr,
+) -> Result<(Bytes, ColumnCloseResult), ParquetError> {
+    use ColumnWriter as Of;
+    let mut sink = TrackedWrite::new(Vec::new());
+    let pages = Box::new(SerializedPageWriter::new(&mut sink));
+    let (described, properties) = (Arc::clone(described), Arc::clone(properties));
+    let mut writer = get_column_writer(described, properties, pages);
+    let word = |place: usize| words.get(place).cloned();
+    match (cells, &mut writer) {
+        (Cells::Whole(rows), Of::Int64ColumnWriter(writer)) => {
+            write(writer, rows.into_iter().map(Some))?;
         }
-        Ok(())
-    }
-
-    /// The bytes of the column in a group; it is empty afterwards.
-    fn encode(
-        &mut self,
-        properties: &WriterPropertiesPtr,
-    ) -> Result<(Bytes, ColumnCloseResult), ParquetError> {
-        let mut sink = TrackedWrite::new(Vec::new());
-        let pages = Box::new(SerializedPageWriter::new(&mut sink));
-        let (described, properties) = (Arc::clone(&self.described), Arc::clone(properties));
-        let mut writer: ColumnWriter<'_> = get_column_writer(described, properties, pages);
-        match (&mut self.values, &mut writer) {
-            (Kept::Whole(values), ColumnWriter::Int64ColumnWriter(writer)) => {
-                write(writer, values, &self.there)?;
-            }
-            (Kept::Double(values), ColumnWriter::DoubleColumnWriter(writer)) => {
-                write(writer, values, &self.there)?;
-            }
-            (Kept::Single(values), ColumnWriter::FloatColumnWriter(writer)) => {
-                write(writer, values, &self.there)?;
-            }
-            (Kept::Text(values), ColumnWriter::ByteArrayColumnWriter(writer)) => {
-                write(writer, values, &self.there)?;
-            }
-            _ => return Err(ParquetError::General("a column of another type".to_owned())),
+        (Cells::Double(numbers), Of::DoubleColumnWriter(writer)) => {
+            write(
+                writer,
+                numbers.into_iter().map(|x| (!x.is_nan()).then_some(x)),
+            )?;
         }
-        self.there.clear();
-        let closed = writer.close()?;
-        Ok((Bytes::from(sink.into_inner()?), closed))
+        (Cells::Single(numbers), Of::FloatColumnWriter(writer)) => {
+            write(
+                writer,
+                numbers.into_iter().map(|x| (!x.is_nan()).then_some(x)),
+            )?;
+        }
+        (Cells::Words(places), Of::ByteArrayColumnWriter(writer)) => {
+            write(writer, places.into_iter().map(|place| word(place as usize)))?;
+        }
+        (Cells::Models(models), Of::ByteArrayColumnWriter(writer)) => {
+            write(writer, models.iter().map(|&model| word(usize::from(model))))?;
+        }
+        (Cells::Reasons(reasons), Of::ByteArrayColumnWriter(writer)) => {
+            write(
+                writer,
+                reasons
+                    .into_iter()
+                    .map(|reason| reason.map(ByteArray::from)),
+            )?;
+        }
+        // the type of a column follows from what it holds
+        _ => return Err(ParquetError::General("a column of another type".to_owned())),
     }
+    let closed = writer.close()?;
+    Ok((Bytes::from(sink.into_inner()?), closed))
 }
 
-/// Keeps the values that are there.
-fn keep<T>(kept: &mut Vec<T>, there: &mut Vec<i16>, found: impl Iterator<Item = Option<T>>) {
-    for value in found {
-        there.push(i16::from(value.is_some()));
-        kept.extend(value);
-    }
-}
-
-/// Writes all values; there are none afterwards.
+/// Writes the values of all rows, those that are there.
 fn write<T: DataType>(
     writer: &mut ColumnWriterImpl<'_, T>,
-    values: &mut Vec<T::T>,
-    there: &[i16],
+    found: impl ExactSizeIterator<Item = Option<T::T>>,
 ) -> Result<(), ParquetError> {
+    let mut there = Vec::with_capacity(found.len());
+    let mut values = Vec::with_capacity(found.len());
+    for value in found {
+        there.push(i16::from(value.is_some()));
+        values.extend(value);
+    }
     let optional = writer.get_descriptor().max_def_level() > 0;
-    writer.write_batch(values, optional.then_some(there), None)?;
-    values.clear();
+    writer.write_batch(&values, optional.then_some(&there[..]), None)?;
     Ok(())
 }
 

@@ -7,7 +7,7 @@ mod pair;
 mod points;
 
 pub(crate) use pair::Pair;
-pub(crate) use points::{Map, Points};
+pub(crate) use points::{Axes, Map, Points, half_axes, major_axis, power};
 
 use crate::numeric::scalar::{Real, Scalar};
 use pulp::{Simd, WithSimd, cast};

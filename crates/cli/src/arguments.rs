@@ -1,0 +1,181 @@
+//! What several commands are told alike: where kernels come from, what happens to an existing output, and how much memory
+//! may be taken.
+
+use crate::failure::{Failure, lines, show};
+use clap::{Args, ValueEnum};
+use formats::sweep::{FieldKernels, Spec};
+use formats::{Existing, Output, OutputError};
+use impact::KernelChoice;
+use lookup::TableFile;
+use output::{Ending, Role, apart};
+use serde_json::json;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// Where the kernels of the fields come from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Kernel {
+    /// Computed for each probe, no table.
+    Direct,
+    /// Looked up in the table given with --table.
+    Table,
+    /// The table or computed: for one impact by the estimated cost and error of both, for rows of a sweep by the error alone.
+    Auto,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Kernels {
+    /// Kernel table for the fields at probes.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) table: Option<PathBuf>,
+    /// Where the kernels of the fields come from.
+    #[arg(long, value_enum, default_value_t = Kernel::Auto)]
+    kernel: Kernel,
+}
+
+impl Kernels {
+    /// The table among the files that are read.
+    pub(crate) fn inputs(&self) -> impl Iterator<Item = Role> {
+        let table = self.table.iter();
+        table.map(|table| Role::new("the kernel table", table))
+    }
+
+    /// Of one impact.
+    pub(crate) fn choice(&self) -> Result<KernelChoice, Failure> {
+        let table = match &self.table {
+            Some(path) => Some(Arc::new(open_table(path)?)),
+            None => None,
+        };
+        match (self.kernel, table) {
+            (Kernel::Table, None) => Err(no_table()),
+            (Kernel::Direct, _) | (Kernel::Auto, None) => Ok(KernelChoice::Direct),
+            (Kernel::Table, Some(table)) => Ok(KernelChoice::Table(table)),
+            (Kernel::Auto, Some(table)) => Ok(KernelChoice::Auto(table)),
+        }
+    }
+
+    /// Which kernels a finished result may have.
+    pub(crate) fn allowed(&self) -> Result<Option<(Kernel, String)>, Failure> {
+        match &self.table {
+            Some(path) if self.kernel != Kernel::Direct => {
+                let table = open_table(path)?;
+                Ok(Some((self.kernel, table.id().to_owned())))
+            }
+            Some(_) | None => Ok(None),
+        }
+    }
+
+    /// A sweep with its fields, where its base scene has probes.
+    pub(crate) fn with_fields(&self, spec: Spec) -> Result<Spec, Failure> {
+        if !spec.has_probes() {
+            return match (self.kernel, &self.table) {
+                (Kernel::Auto, None) => Ok(spec),
+                (_, _) => Err(Failure::input(
+                    "--table and --kernel are for the fields at probes, and the base scene of the sweep has no [[probe]]",
+                )),
+            };
+        }
+        let kernels = match (self.kernel, self.table.as_deref()) {
+            (Kernel::Table, None) => return Err(no_table()),
+            (Kernel::Direct, _) | (Kernel::Auto, None) => FieldKernels::Direct,
+            (Kernel::Table, Some(path)) => FieldKernels::Table(path),
+            (Kernel::Auto, Some(path)) => FieldKernels::Within(path),
+        };
+        Ok(spec.with_fields(kernels)?)
+    }
+}
+
+fn no_table() -> Failure {
+    Failure::input("--kernel table needs a table: give --table FILE, made with hertzlamb tabulate")
+}
+
+/// The table at `path`.
+pub(crate) fn open_table(path: &Path) -> Result<TableFile, Failure> {
+    TableFile::open(path).map_err(Failure::input)
+}
+
+/// Replacing what is there: one flag, the same in every command.
+#[derive(Debug, Clone, Copy, Args)]
+pub(crate) struct Overwrite {
+    /// Replace existing outputs.
+    #[arg(long)]
+    pub(crate) force: bool,
+}
+
+impl Overwrite {
+    pub(crate) fn existing(self) -> Existing {
+        if self.force {
+            Existing::Replace
+        } else {
+            Existing::Keep
+        }
+    }
+
+    /// Claims the one output of a command that reads `inputs`, before any work.
+    pub(crate) fn claim(
+        self,
+        path: &Path,
+        ending: Ending,
+        inputs: &[Role],
+    ) -> Result<Output, Failure> {
+        ending.check(path)?;
+        apart(&[path], inputs)?;
+        Ok(Output::claim(path, self.existing())?)
+    }
+}
+
+/// Whether a name is that of a file of rows that this program can write.
+pub(crate) fn check_rows(path: &Path) -> Result<(), Failure> {
+    formats::sweep::check_rows(path).map_err(|error| {
+        let unbuilt = matches!(error, OutputError::Unbuilt { .. });
+        let failure = Failure::from(error);
+        if unbuilt {
+            failure.hint(": build it with `cargo build --release --package hertzlamb-cli --features parquet`")
+        } else {
+            failure
+        }
+    })
+}
+
+/// What `--skip-complete` says where nothing is left to do.
+pub(crate) fn say_complete(output: &Path, json: bool) -> Result<(), Failure> {
+    let output = output.display().to_string();
+    let text = lines([("complete", format!("{output}, nothing to do"))]);
+    show(json, &json!({ "output": output, "complete": true }), text)
+}
+
+/// One flag, the same in every command that can take much.
+#[derive(Debug, Clone, Copy, Args)]
+pub(crate) struct MemoryLimit {
+    /// Memory that the work may take in GB; what the machine has free otherwise.
+    #[arg(long, value_name = "GB", value_parser = gigabytes)]
+    max_memory: Option<f64>,
+}
+
+impl MemoryLimit {
+    /// The limit in bytes.
+    pub(crate) fn bytes(self) -> f64 {
+        self.max_memory
+            .map_or_else(output::free_memory, |gigabytes| 1e9 * gigabytes)
+    }
+
+    /// Refuses work that takes more.
+    pub(crate) fn check(self, needed: f64, what: &str, change: &str) -> Result<(), Failure> {
+        let limit = self.bytes();
+        if needed <= limit {
+            return Ok(());
+        }
+        Err(Failure::input(format!(
+            "{what} needs about {:.3} GB of memory, more than the {:.3} GB allowed: {change}, or give --max-memory GB",
+            1e-9 * needed,
+            1e-9 * limit
+        )))
+    }
+}
+
+fn gigabytes(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(number) if number > 0.0 && number.is_finite() => Ok(number),
+        Ok(_) | Err(_) => Err("it is outside (0, inf)".to_owned()),
+    }
+}

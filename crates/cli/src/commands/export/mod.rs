@@ -1,0 +1,103 @@
+//! `hertzlamb export`: the contact of a scene as inputs of particle codes, and its rebound over velocities.
+
+mod case;
+mod codes;
+mod table;
+
+use crate::arguments::Overwrite;
+use crate::failure::{Failure, lines, say, show};
+use case::Case;
+use clap::{Args, ValueEnum};
+use formats::{Output, read_with_inputs};
+use output::{CSV, apart};
+use serde_json::json;
+use std::path::PathBuf;
+
+const EXAMPLES: &str = "Examples:
+  hertzlamb export lammps scenes/first-impact.toml -o in.drop
+  hertzlamb export yade scenes/first-impact.toml -o drop.py
+  hertzlamb export table scenes/plastic-drop.toml --velocities 0.01,10 -o drop.csv
+  hertzlamb export lammps scenes/plastic-drop.toml --target-diameter 0.005 -o in.pair
+
+Run them with `lmp -in in.drop` and `yade -n -x drop.py`: both print the restitution.";
+
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Arguments {
+    /// What is written.
+    format: Format,
+    /// Scene file (TOML, see data-schema/scene.md); - is standard input.
+    scene: PathBuf,
+    /// The file to write.
+    #[arg(short, long, value_name = "FILE")]
+    output: PathBuf,
+    /// The target is no block but a ball of this diameter in m, free to move.
+    #[arg(long, value_name = "METRES", allow_negative_numbers = true)]
+    target_diameter: Option<f64>,
+    /// Velocities of a table in m/s, evenly in their logarithm; a hundredth of the scene's up to it otherwise.
+    #[arg(long, value_name = "FROM,TO", value_delimiter = ',', num_args = 1)]
+    velocities: Option<Vec<f64>>,
+    /// Rows of a table.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=10_000))]
+    rows: Option<u32>,
+    #[command(flatten)]
+    overwrite: Overwrite,
+    /// Print one JSON object instead of text.
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// An input of LAMMPS.
+    Lammps,
+    /// A script for YADE.
+    Yade,
+    /// Restitution, loss, contact time and peak force against velocity, as CSV.
+    Table,
+}
+
+pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let Arguments { format, output, .. } = arguments;
+    let is_table = *format == Format::Table;
+    if !is_table && (arguments.velocities.is_some() || arguments.rows.is_some()) {
+        return Err(Failure::input(
+            "--velocities and --rows are those of a table: leave them out",
+        ));
+    }
+    let (scene, inputs) = read_with_inputs(&arguments.scene)?;
+    if is_table {
+        CSV.check(output)?;
+    }
+    apart(&[output], &inputs)?;
+    let claimed = Output::claim(output, arguments.overwrite.existing())?;
+    let case = Case::new(&scene, arguments.target_diameter)?;
+    let text = match format {
+        Format::Lammps => codes::lammps(&case),
+        Format::Yade => codes::yade(&case),
+        Format::Table => table::table(
+            &case,
+            arguments.velocities.as_deref(),
+            arguments.rows.unwrap_or(41),
+        )?,
+    };
+    claimed.write(|part| std::fs::write(part, &text))?;
+    for warning in &case.run.warnings {
+        say(format!("warning: {warning}"));
+    }
+    let value = json!({
+        "output": output.display().to_string(),
+        "restitution": case.run.restitution,
+        "loss": case.run.loss,
+        "contact_time_s": case.run.contact_time_s,
+        "peak_force_n": case.run.peak_force_n,
+        "relative_error_estimate": case.run.relative_error_estimate,
+        "notes": case.notes,
+    });
+    let written = lines([("written", output.display())]);
+    show(
+        arguments.json,
+        &value,
+        format!("{}\n{written}", case.notes.join("\n")),
+    )
+}

@@ -1,0 +1,258 @@
+//! Inputs of particle codes: their numbers are those of the bodies, computed here from the scene alone.
+
+#![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
+
+use std::f64::consts::PI;
+use std::path::Path;
+use std::process::{Command, Output};
+
+/// A ball of 10 mm on the half-space for which Miller and Pursey's J is known to eight digits.
+const SCENE: &str = "\
+[target]
+youngs_modulus_pa = 7e10
+poisson_ratio = 0.25
+density_kg_m3 = 2500
+yield_strength_pa = 2e8
+[striker]
+shape = \"ball\"
+youngs_modulus_pa = 2.1e11
+poisson_ratio = 0.3
+density_kg_m3 = 7800
+diameter_m = 0.01
+velocity_m_s = 1.0
+[contact]
+loss_tolerance = 1e-6
+";
+const J: f64 = 0.148_133_88;
+const MODULUS: f64 = 1.0 / (0.9375 / 7e10 + 0.91 / 2.1e11);
+
+fn export(scene: &str, arguments: &[&str]) -> (Output, String) {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("scene.toml"), scene).unwrap();
+    let done = Command::new(env!("CARGO_BIN_EXE_hertzlamb"))
+        .current_dir(folder.path())
+        .args(["export", arguments[0], "scene.toml", "-o", "out.csv"])
+        .args(&arguments[1..])
+        .output()
+        .unwrap();
+    let text = std::fs::read_to_string(folder.path().join("out.csv"));
+    (done, text.unwrap_or_default())
+}
+
+fn written(scene: &str, arguments: &[&str]) -> String {
+    let (done, text) = export(scene, arguments);
+    assert!(done.status.success(), "{done:?}");
+    text
+}
+
+/// The number behind a name, in the form of LAMMPS or of Python.
+fn number(text: &str, name: &str) -> f64 {
+    let found = text.lines().find_map(|line| {
+        let words: Vec<&str> = line.split_whitespace().collect();
+        match words.as_slice() {
+            ["variable", word, "equal", value, ..] if *word == name => value.parse().ok(),
+            [word, "=", value, ..] if *word == name => value.parse().ok(),
+            _ => None,
+        }
+    });
+    found.unwrap_or_else(|| panic!("{name} in {text}"))
+}
+
+fn close(found: f64, wanted: f64, error: f64) {
+    assert!((found / wanted - 1.0).abs() < error, "{found} {wanted}");
+}
+
+fn mass(radius: f64, density: f64) -> f64 {
+    4.0 / 3.0 * PI * radius.powi(3) * density
+}
+
+/// Loss of a ball on Hertz's spring with the dashpot 4 C E*^2 R d, followed here.
+fn loss_of(modulus: f64, lag: f64, velocity: f64) -> f64 {
+    let (radius, mass) = (0.005_f64, mass(0.005, 7800.0));
+    let force = |d: f64, v: f64| {
+        let d = d.max(0.0);
+        let hertz = 4.0 / 3.0 * modulus * radius.sqrt() * d.powf(1.5);
+        (hertz + 4.0 * lag * modulus * modulus * radius * d * v).max(0.0)
+    };
+    let (mut d, mut v, step) = (0.0, velocity, 1e-8);
+    while d >= 0.0 {
+        // velocity Verlet with the middle of the step
+        let half = v - 0.5 * step * force(d, v) / mass;
+        d += step * half;
+        v = half - 0.5 * step * force(d, half) / mass;
+    }
+    1.0 - (v / velocity).powi(2)
+}
+
+#[test]
+fn lammps_and_yade_are_given_the_law_of_the_bodies() {
+    let (lammps, yade) = (written(SCENE, &["lammps"]), written(SCENE, &["yade"]));
+    let shear = 7e10 / 2.5;
+    let lag = J / (shear * (shear / 2500.0_f64).sqrt());
+    for (text, modulus, name) in [(&lammps, "ES", "C"), (&yade, "E_STAR", "LAG")] {
+        close(number(text, modulus), MODULUS, 1e-14);
+        close(number(text, name), lag, 1e-7);
+        assert!(text.contains("within 1e-3 below"), "{text}");
+    }
+    close(number(&lammps, "R1"), 0.005, 1e-15);
+    close(number(&lammps, "M1"), mass(0.005, 7800.0), 1e-14);
+    close(number(&yade, "R"), 0.005, 1e-15);
+    close(number(&yade, "M"), mass(0.005, 7800.0), 1e-14);
+    assert_eq!(number(&yade, "BETA"), 0.0);
+    let loss = loss_of(MODULUS, lag, 1.0);
+    close(1.0 - number(&lammps, "E0").powi(2), loss, 1e-3);
+    assert!(lammps.contains("fix         block all addforce 0 0 v_fz"));
+    // no waves, no dashpot
+    let hertz = format!("{SCENE}model = \"hertz\"\n");
+    assert_eq!(number(&written(&hertz, &["lammps"]), "C"), 0.0);
+    assert_eq!(number(&written(&hertz, &["yade"]), "LAG"), 0.0);
+}
+
+#[test]
+fn a_ball_on_a_ball_is_the_reduced_contact_without_waves() {
+    let text = written(SCENE, &["yade", "--target-diameter", "0.006"]);
+    let (one, two) = (mass(0.005, 7800.0), mass(0.003, 2500.0));
+    close(number(&text, "R"), 0.005 * 0.003 / 0.008, 1e-14);
+    close(number(&text, "M"), one * two / (one + two), 1e-14);
+    assert_eq!(number(&text, "LAG"), 0.0);
+    assert!(text.contains("# waves: echoes cross the target"), "{text}");
+    let text = written(SCENE, &["lammps", "--target-diameter", "0.006"]);
+    assert_eq!(number(&text, "E0"), 1.0);
+    close(number(&text, "M2"), two, 1e-14);
+    assert!(!text.contains("fix         block"));
+    // one that is large enough is a half-space while the contact lasts
+    let text = written(SCENE, &["yade", "--target-diameter", "10"]);
+    assert!(text.contains("radiates as a half-space"), "{text}");
+    assert!(number(&text, "LAG") > 0.0);
+}
+
+#[test]
+fn a_contact_that_flows_has_the_restitution_of_its_velocity() {
+    let plastic = format!("{SCENE}plasticity = \"thornton\"\nmodel = \"hertz\"\n");
+    // Thornton's restitution in closed form, without waves
+    let pressure: f64 = 2.8 * 2e8;
+    let onset = 1.56 * (pressure.powi(5) / (MODULUS.powi(4) * 7800.0)).sqrt();
+    let s = 1.0 / onset;
+    let q = (1.2 * s * s - 0.2).sqrt();
+    let e = (q / s) * (3.0 / (1.0 + 2.0 * q)).powf(0.25);
+    let text = written(&plastic, &["lammps"]);
+    // 1.56 has three digits
+    close(number(&text, "E0"), e, 1e-3);
+    assert!(text.contains("\nfix block all wall/gran granular hertz"));
+    assert!(text.contains("the loss is within 10 % from"));
+    let beta = number(&written(&plastic, &["yade"]), "BETA");
+    // what Hertz's spring with 2 beta sqrt(m k) makes of it, cut at zero
+    let (d_v, found) = (
+        |d: f64, v: f64| d.powf(1.5) + 2.0 * beta * (1.5 * d.sqrt()).sqrt() * v,
+        0.0,
+    );
+    let (mut d, mut v, step) = (0.0_f64, 1.0_f64, 1e-5);
+    loop {
+        let half = v - 0.5 * step * d_v(d, v).max(0.0);
+        d += step * half;
+        if d <= found {
+            break;
+        }
+        v = half - 0.5 * step * d_v(d, half).max(0.0);
+    }
+    close(-v, e, 3e-3);
+}
+
+#[test]
+fn a_table_has_both_laws_at_every_velocity() {
+    let plastic = format!("{SCENE}plasticity = \"thornton\"\n");
+    let text = written(
+        &plastic,
+        &["table", "--velocities", "0.001,10", "--rows", "5"],
+    );
+    let lines: Vec<&str> = text.lines().filter(|line| !line.starts_with('#')).collect();
+    let names: Vec<&str> = lines[0].split(',').collect();
+    assert_eq!((lines.len(), names.len()), (6, 11));
+    let column = |name: &str| {
+        let place = names.iter().position(|found| *found == name).unwrap();
+        let value = |line: &&str| line.split(',').nth(place).unwrap().parse::<f64>().unwrap();
+        lines[1..].iter().map(value).collect::<Vec<f64>>()
+    };
+    let velocities = column("velocity_m_s");
+    assert_eq!([velocities[0], velocities[4]], [0.001, 10.0]);
+    let (elastic, plastic) = (column("elastic_loss"), column("plastic_loss"));
+    // below yield to the last bit
+    assert_eq!(elastic[0], plastic[0]);
+    assert!(plastic[4] > 10.0 * elastic[4]);
+    let shear = 7e10 / 2.5;
+    let lag = J / (shear * (shear / 2500.0_f64).sqrt());
+    for (v, loss) in velocities.iter().zip(&elastic) {
+        close(*loss, loss_of(MODULUS, lag, *v), 2e-3);
+    }
+    // the power law of the header is the first order, T49
+    let law = text
+        .lines()
+        .find(|line| line.starts_with("# elastic loss"))
+        .unwrap();
+    let factor: f64 = law.split_whitespace().nth(7).unwrap().parse().unwrap();
+    let stiffness: f64 = 4.0 / 3.0 * MODULUS * 0.005_f64.sqrt();
+    let wanted = 3.805_839_78 * lag * stiffness.powf(1.2) * mass(0.005, 7800.0).powf(-0.2);
+    close(factor, wanted, 1e-6);
+    for (name, of) in [
+        ("elastic_restitution", &elastic),
+        ("plastic_restitution", &plastic),
+    ] {
+        for (e, loss) in column(name).iter().zip(of) {
+            close(e * e, 1.0 - loss, 1e-7);
+        }
+    }
+    let alone = written(SCENE, &["table", "--rows", "2"]);
+    assert!(
+        !alone.contains("plastic_loss") && alone.contains("\n0.01,"),
+        "{alone}"
+    );
+}
+
+#[test]
+fn what_no_particle_code_has_is_refused() {
+    let record = "[target]\nmaterial = \"steel\"\n[force]\nfile = \"f.csv\"\n[contact]\ndisc_radius_m = 0.001\n";
+    let disc = format!("{SCENE}disc_radius_m = 0.002\n");
+    let wave = format!("{SCENE}model = \"wave\"\n");
+    let fast = SCENE.replace("velocity_m_s = 1.0", "velocity_m_s = 4000.0");
+    let cases: [(&str, &[&str], &str); 9] = [
+        (&disc, &["lammps"], "disc_radius_m"),
+        (&wave, &["yade"], "fixed disc"),
+        (&fast, &["table"], "velocity_m_s"),
+        (record, &["lammps"], "f.csv"),
+        (SCENE, &["lammps", "--rows", "5"], "--rows"),
+        (SCENE, &["table", "--velocities", "1"], "FROM,TO"),
+        (SCENE, &["table", "--velocities", "2,1"], "0 < FROM < TO"),
+        (SCENE, &["table", "--velocities", "nan,1"], "0 < FROM < TO"),
+        (SCENE, &["yade", "--target-diameter", "-1"], "(0, inf)"),
+    ];
+    for (scene, arguments, part) in cases {
+        let (done, text) = export(scene, arguments);
+        let message = String::from_utf8(done.stderr).unwrap();
+        assert_eq!(done.status.code(), Some(2), "{arguments:?}: {message}");
+        assert_eq!(message.trim().lines().count(), 1, "{message}");
+        assert!(message.contains(part) && text.is_empty(), "{message}");
+    }
+    // an output is not written over, and is no input
+    let folder = tempfile::tempdir().unwrap();
+    let own = |name: &str| folder.path().join(name);
+    std::fs::write(own("scene.toml"), SCENE).unwrap();
+    let run = |to: &Path| {
+        let program = env!("CARGO_BIN_EXE_hertzlamb");
+        let scene = own("scene.toml");
+        let done = Command::new(program)
+            .args(["export", "yade"])
+            .arg(scene)
+            .arg("-o")
+            .arg(to)
+            .output();
+        done.unwrap().status.code()
+    };
+    assert_eq!(
+        [
+            run(&own("a.py")),
+            run(&own("a.py")),
+            run(&own("scene.toml"))
+        ],
+        [Some(0), Some(2), Some(2)]
+    );
+}

@@ -1,0 +1,416 @@
+//! What is written over a plot and above it: vertical lines with their labels side by side above the panel, and single
+//! points with labels beside them, where a plot is empty.
+
+use super::plan::PanelPlan;
+use crate::colour::{MARK, WHITE};
+use crate::figure::Panel;
+use crate::geometry::{Frame, Point, Rect};
+use crate::layers::{LabelledPoint, Layer, Mark, Symbol};
+use crate::look::star;
+use crate::scene::{Anchor, Scene, Shape, Stroke, Text};
+use crate::text::{LINE, Typeface, width as width_of, wrap};
+
+/// The label of a vertical line.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Label {
+    /// The line, from the left side of the plot.
+    line: f64,
+    /// Middle of the label.
+    centre: f64,
+    /// Row of the label, 0 the nearest to the plot.
+    row: usize,
+    /// One line of text.
+    text: String,
+}
+
+/// The vertical lines of a panel.
+fn lines<'a>(plan: &PanelPlan<'a>) -> impl Iterator<Item = &'a Mark> {
+    let interval = plan.x.interval;
+    plan.panel
+        .layers
+        .iter()
+        .filter_map(move |layer| match layer {
+            Layer::Mark(mark) if interval.contains(mark.x) => Some(mark),
+            _ => None,
+        })
+}
+
+/// Labels over a plot of a width, in as few rows as hold them, none over another; and the number of rows.
+pub(super) fn of_marks(plan: &PanelPlan<'_>, width: f64, faces: &Typeface) -> (Vec<Label>, usize) {
+    let frame = plan.frame(Rect::new(0.0, 0.0, width, 1.0));
+    let named = lines(plan).filter(|mark| !mark.label.trim().is_empty());
+    let mut found: Vec<(f64, &str)> = named
+        .map(|mark| (frame.across(mark.x), mark.label.as_str()))
+        .collect();
+    found.sort_by(|a, b| a.0.total_cmp(&b.0));
+    placed(&found, width, faces)
+}
+
+/// Labels of lines from the left side, rising.
+///
+/// A label that has no room above its line is moved aside; one wider than the plot is broken, its lines one above
+/// the other.
+fn placed(marks: &[(f64, &str)], width: f64, faces: &Typeface) -> (Vec<Label>, usize) {
+    let gap = 0.7 * faces.mark;
+    let size = |label: &str| width_of(label, faces.mark) + gap;
+    if marks.iter().any(|(_, label)| size(label) > width) {
+        return stacked(marks, width - gap, faces);
+    }
+    let total: f64 = marks.iter().map(|(_, label)| size(label)).sum();
+    let mut rows = ((total / width).ceil() as usize).max(usize::from(!marks.is_empty()));
+    let members = |row: usize, rows: usize| marks.iter().skip(row).step_by(rows);
+    let length = |row, rows| {
+        members(row, rows)
+            .map(|(_, label)| size(label))
+            .sum::<f64>()
+    };
+    while !(0..rows).all(|row| length(row, rows) <= width) {
+        rows += 1;
+    }
+    let mut placed = Vec::with_capacity(marks.len());
+    for row in 0..rows {
+        let widths: Vec<f64> = members(row, rows).map(|(_, label)| size(label)).collect();
+        let wishes: Vec<f64> = members(row, rows).map(|(line, _)| *line).collect();
+        let centres = spread(&wishes, &widths, width);
+        for ((line, label), centre) in members(row, rows).zip(centres) {
+            placed.push(Label {
+                line: *line,
+                centre,
+                row,
+                text: (*label).to_owned(),
+            });
+        }
+    }
+    (placed, rows)
+}
+
+/// One below the other, each broken to the width of the plot.
+fn stacked(marks: &[(f64, &str)], width: f64, faces: &Typeface) -> (Vec<Label>, usize) {
+    let mut placed = Vec::new();
+    for (line, label) in marks.iter().rev() {
+        for text in wrap(label, faces.mark, width).into_iter().rev() {
+            placed.push(Label {
+                line: *line,
+                centre: 0.5 * width,
+                row: placed.len(),
+                text,
+            });
+        }
+    }
+    let rows = placed.len();
+    (placed, rows)
+}
+
+/// Draws the lines of a panel and their labels.
+pub(super) fn draw_marks(
+    scene: &mut Scene,
+    plan: &PanelPlan<'_>,
+    frame: &Frame,
+    labels: &[Label],
+    faces: &Typeface,
+) {
+    let area = frame.area;
+    for mark in lines(plan) {
+        let x = frame.across(mark.x);
+        let mut line = |stroke| {
+            let ends = [(x, area.bottom), (x, area.top)];
+            scene.shape(Shape::polyline(&ends, stroke));
+        };
+        if plan.is_filled() {
+            line(Stroke::solid(WHITE, 2.2));
+        }
+        line(Stroke::new(MARK, 1.0, &[3.0, 3.0]));
+    }
+    for label in labels {
+        let rise = faces.gap() + (label.row as f64 + 0.2) * LINE * faces.mark;
+        let at = (area.left + label.centre, area.top - rise);
+        scene.text(Text::new(&label.text, at, faces.mark, Anchor::Middle));
+        if label.row == 0 {
+            // from the line to its label, which may have moved aside
+            let from = (area.left + label.line, area.top);
+            let foot = (at.0, area.top - 0.8 * faces.gap());
+            scene.shape(Shape::polyline(&[from, foot], Stroke::solid(MARK, 1.0)));
+        }
+    }
+}
+
+/// Centres of boxes side by side, as near their wishes as they get, within 0 to `width`.
+fn spread(wishes: &[f64], widths: &[f64], width: f64) -> Vec<f64> {
+    // groups of boxes that touch: members, sum of the wishes for the group's left side, width
+    let mut groups: Vec<(usize, f64, f64)> = Vec::new();
+    let left = |&(count, sum, size): &(usize, f64, f64)| {
+        (sum / count as f64).clamp(0.0, (width - size).max(0.0))
+    };
+    for (&wish, &size) in wishes.iter().zip(widths) {
+        let mut group = (1, wish - 0.5 * size, size);
+        while let Some(before) = groups.last() {
+            if left(before) + before.2 <= left(&group) {
+                break;
+            }
+            // its members wish the group's left side to be further left by the width before them
+            let shifted = group.1 - group.0 as f64 * before.2;
+            group = (before.0 + group.0, before.1 + shifted, before.2 + group.2);
+            groups.pop();
+        }
+        groups.push(group);
+    }
+    let mut centres = Vec::with_capacity(wishes.len());
+    for group in &groups {
+        let mut at = left(group);
+        for size in &widths[centres.len()..][..group.0] {
+            centres.push(at + 0.5 * size);
+            at += size;
+        }
+    }
+    centres
+}
+
+/// Half of a star's width.
+const STAR: f64 = 7.0;
+
+/// Draws the points of a panel, each label where it covers least and no place that is taken, such as by the legend.
+pub(super) fn draw_points(
+    scene: &mut Scene,
+    plan: &PanelPlan<'_>,
+    frame: &Frame,
+    taken: Option<Rect>,
+    size: f64,
+) {
+    let mut points: Vec<(&LabelledPoint, Point)> = Vec::new();
+    for layer in &plan.panel.layers {
+        if let Layer::Point(point) = layer
+            && frame.x.contains(point.x)
+            && frame.y.contains(point.y)
+            && let Some(place) = frame.place((point.x, point.y))
+        {
+            points.push((point, place));
+        }
+    }
+    if points.is_empty() {
+        return;
+    }
+    let curves = occupied(plan.panel, frame);
+    let stars = points
+        .iter()
+        .filter(|(point, _)| point.symbol == Symbol::Star);
+    let stars: Vec<Point> = stars.map(|(_, place)| *place).collect();
+    for &at in &stars {
+        star(scene, at, STAR);
+    }
+    let mut written: Vec<Rect> = taken.into_iter().collect();
+    for (point, place) in points {
+        let cost = |lines: &Vec<Text>| {
+            let bounds = bounds(lines);
+            let hidden = stars.iter().filter(|&&s| bounds.grown(STAR - 1.0).has(s));
+            let crossed = curves.iter().filter(|&&c| bounds.has(c));
+            100 * hidden.count() + crossed.count()
+        };
+        let best = candidates(point, place, frame.area, size)
+            .into_iter()
+            .filter(|lines| {
+                let bounds = bounds(lines);
+                frame.area.holds(&bounds) && !written.iter().any(|b| b.grown(1.0).overlaps(&bounds))
+            })
+            .min_by_key(cost);
+        // a plot too small for all labels shows the stars alone
+        for text in best.into_iter().flatten() {
+            written.push(text.bounds());
+            scene.text(text.rimmed());
+        }
+    }
+}
+
+/// Labels around a point, the nearest first, moved into the plot and broken to its width.
+fn candidates(point: &LabelledPoint, (x, y): Point, area: Rect, size: f64) -> Vec<Vec<Text>> {
+    let lines = wrap(&point.label, size, area.width() - 4.0);
+    let mut found = Vec::new();
+    let rises = [0.0, -1.2, 1.2, -2.4, 2.4, -4.0, 4.0, -6.0, 6.0, -9.0, 9.0];
+    let (side, near) = match point.symbol {
+        Symbol::Star => (STAR + 0.35 * size, rises.len()),
+        // a name of its own that has moved away names something else
+        Symbol::Label => (0.5 * size, 3),
+    };
+    for rise in rises.into_iter().take(near) {
+        let above = (x, Anchor::Middle);
+        let beside = [(x + side, Anchor::Start), (x - side, Anchor::End)];
+        let places = match point.symbol {
+            Symbol::Star if rise == 0.0 => beside.to_vec(),
+            Symbol::Star => vec![beside[0], beside[1], above],
+            Symbol::Label => vec![above, beside[0], beside[1]],
+        };
+        for (across, anchor) in places {
+            let first = y + size * (0.35 + rise - 0.5 * LINE * (lines.len() as f64 - 1.0));
+            let block = |dx: f64, dy: f64| -> Vec<Text> {
+                let line = |(i, text): (usize, &String)| {
+                    let down = first + LINE * size * i as f64;
+                    Text::new(text, (across + dx, down + dy), size, anchor)
+                };
+                lines.iter().enumerate().map(line).collect()
+            };
+            let free = bounds(&block(0.0, 0.0));
+            let into = area.grown(-1.5);
+            let shift = |low: f64, high: f64, from: f64, to: f64| {
+                (from - low).max(0.0) + (to - high).min(0.0)
+            };
+            found.push(block(
+                shift(free.left, free.right, into.left, into.right),
+                shift(free.top, free.bottom, into.top, into.bottom),
+            ));
+        }
+    }
+    found
+}
+
+/// The rectangle around all lines.
+fn bounds(lines: &[Text]) -> Rect {
+    let all = lines.iter().map(Text::bounds);
+    all.reduce(Rect::union).unwrap_or_default()
+}
+
+/// Points along everything that is drawn in a plot, in pixels, at most four apart.
+pub(super) fn occupied(panel: &Panel, frame: &Frame) -> Vec<Point> {
+    let mut found = Vec::new();
+    for curve in panel
+        .layers
+        .iter()
+        .flat_map(|layer| layer.kind().curves(frame))
+    {
+        for side in frame.sides(&curve) {
+            trace(&side, frame, &mut found);
+        }
+    }
+    found
+}
+
+fn trace(curve: &[Point], frame: &Frame, found: &mut Vec<Point>) {
+    const STEP: f64 = 4.0;
+    let near = frame.area.grown(STEP);
+    for run in frame.runs(curve) {
+        if run.len() == 1 && near.has(run[0]) {
+            found.push(run[0]);
+        }
+        for pair in run.windows(2) {
+            let ((ax, ay), (bx, by)) = (pair[0], pair[1]);
+            let Some((from, to)) = inside(near, pair[0], pair[1]) else {
+                continue;
+            };
+            let length = (to - from) * (bx - ax).hypot(by - ay);
+            let parts = (length / STEP).ceil().max(1.0) as usize;
+            for i in 0..=parts {
+                let s = from + (to - from) * i as f64 / parts as f64;
+                found.push((ax + s * (bx - ax), ay + s * (by - ay)));
+            }
+        }
+    }
+}
+
+/// The part of a segment that lies in a rectangle, as fractions of it.
+fn inside(area: Rect, (ax, ay): Point, (bx, by): Point) -> Option<Point> {
+    let (mut from, mut to) = (0.0_f64, 1.0_f64);
+    let across = (ax, bx - ax, area.left, area.right);
+    for (a, d, low, high) in [across, (ay, by - ay, area.top, area.bottom)] {
+        if d != 0.0 {
+            let (s, t) = ((low - a) / d, (high - a) / d);
+            from = from.max(s.min(t));
+            to = to.min(s.max(t));
+        } else if !(low..=high).contains(&a) {
+            return None;
+        }
+    }
+    (from <= to).then_some((from, to))
+}
+
+/// A place for a box of a size in a plot that no curve enters: corners first, then along the sides.
+pub(super) fn free(area: Rect, (width, height): Point, air: f64, taken: &[Point]) -> Option<Rect> {
+    let wide = area.width() - width - 2.0 * air;
+    let high = area.height() - height - 2.0 * air;
+    if wide < 0.0 || high < 0.0 {
+        return None;
+    }
+    let corners = [(1.0, 0.0), (0.0, 0.0), (1.0, 1.0), (0.0, 1.0)];
+    let sides = [(0.5, 0.0), (0.5, 1.0), (1.0, 0.5), (0.0, 0.5)];
+    let boxes = corners.into_iter().chain(sides).map(|(x, y)| {
+        let (left, top) = (area.left + air + x * wide, area.top + air + y * high);
+        Rect::new(left, top, width, height)
+    });
+    let is_clear = |found: &Rect| {
+        let reach = found.grown(air);
+        !taken.iter().any(|&point| reach.has(point))
+    };
+    boxes.into_iter().find(is_clear)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::axis::{Axis, Direction, Interval, Mirror};
+    use crate::look::Style;
+
+    fn boxes(marks: &[(f64, &str)], width: f64) -> (Vec<Label>, usize) {
+        placed(marks, width, &Typeface::new(12.0))
+    }
+
+    #[test]
+    fn labels_with_room_stand_above_their_lines() {
+        let (placed, rows) = boxes(&[(50.0, "P"), (150.0, "S"), (250.0, "R")], 300.0);
+        assert_eq!(rows, 1);
+        assert!(placed.iter().all(|m| (m.centre - m.line).abs() < 1e-9));
+    }
+
+    #[test]
+    fn labels_never_overlap_nor_leave_the_plot() {
+        let near = [
+            (1.0, "first front"),
+            (2.0, "S"),
+            (3.0, "Rayleigh"),
+            (299.0, "end"),
+        ];
+        for width in [300.0, 120.0, 70.0, 30.0] {
+            let (placed, rows) = boxes(&near, width);
+            assert!(rows >= 1);
+            for (i, a) in placed.iter().enumerate() {
+                let half = |m: &Label| 0.5 * width_of(&m.text, 0.95 * 12.0);
+                assert!(a.centre - half(a) > -1e-9 && a.centre + half(a) < width + 1e-9);
+                for b in &placed[..i] {
+                    let apart = (a.centre - b.centre).abs() >= half(a) + half(b);
+                    assert!(a.row != b.row || apart, "{width}: {a:?} {b:?}");
+                }
+            }
+        }
+        assert_eq!(boxes(&[], 100.0).1, 0);
+    }
+
+    fn frame() -> Frame {
+        Frame {
+            area: Rect::new(0.0, 0.0, 100.0, 100.0),
+            x: Interval::linear(0.0, 1.0),
+            y: Interval::linear(0.0, 1.0),
+            directions: [Direction::Usual; 2],
+            mirror: Mirror::Off,
+        }
+    }
+
+    #[test]
+    fn a_box_goes_where_no_curve_does() {
+        let axes = || Panel::new(Axis::linear(""), Axis::linear(""));
+        let rising = axes().line("", Style::Plain, vec![(0.0, 0.0), (1.0, 1.0)]);
+        let taken = occupied(&rising, &frame());
+        assert!(taken.len() > 25);
+        let found = free(frame().area, (30.0, 20.0), 4.0, &taken).unwrap();
+        assert_eq!((found.left, found.top), (4.0, 4.0), "the upper left");
+        let cross = rising.line("", Style::Plain, vec![(0.0, 1.0), (1.0, 0.0)]);
+        let taken = occupied(&cross, &frame());
+        let found = free(frame().area, (20.0, 10.0), 4.0, &taken).unwrap();
+        assert!(found.centre().0 > 40.0 && found.centre().0 < 60.0);
+        assert!(free(frame().area, (80.0, 60.0), 4.0, &taken).is_none());
+    }
+
+    #[test]
+    fn curves_far_outside_take_nothing() {
+        let axes = Panel::new(Axis::linear(""), Axis::linear(""));
+        let far = axes.line("", Style::Plain, vec![(0.0, 1e9), (1.0, 2e9), (9.0, 0.5)]);
+        assert!(occupied(&far, &frame()).is_empty());
+        let through = inside(Rect::new(0.0, 0.0, 1.0, 1.0), (-1.0, 0.5), (3.0, 0.5));
+        assert_eq!(through, Some((0.25, 0.5)));
+    }
+}

@@ -1,0 +1,85 @@
+//! What can be wrong with a sweep, or with its parts; scenes that fail are rows, not errors.
+
+use crate::error::SceneError;
+use crate::stored::ReadError;
+use fault::{Class, Culprit, Fault};
+use ledger::JournalError;
+use lookup::TableError;
+use output::OutputError;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use thiserror::Error;
+
+/// A sweep that could not be run, or parts that cannot be joined.
+#[derive(Debug, Error)]
+pub enum SweepError {
+    /// The sweep or its base scene is wrong.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// The table of its fields cannot be used.
+    #[error(transparent)]
+    Table(#[from] TableError),
+    /// The journal cannot be used.
+    #[error(transparent)]
+    Journal(JournalError),
+    /// It cannot be written or read back.
+    #[error(transparent)]
+    Output(#[from] OutputError),
+    /// A part cannot be read.
+    #[error(transparent)]
+    Read(#[from] ReadError),
+    /// Rows that no part has.
+    #[error("rows {} to {} of the sweep are in no part{}", rows.start, rows.end - 1, others(*.more))]
+    Missing {
+        /// The first of them.
+        rows: Range<usize>,
+        /// Ranges beside these.
+        more: usize,
+    },
+    /// A part, or a folder of them, that is not what is needed.
+    #[error("{sentence}")]
+    Part {
+        /// What is wrong, in one sentence that names the file.
+        sentence: String,
+        /// The file or folder.
+        path: PathBuf,
+    },
+}
+
+impl SweepError {
+    pub(crate) fn part(path: &Path, sentence: String) -> Self {
+        let path = path.to_owned();
+        Self::Part { sentence, path }
+    }
+}
+
+impl From<JournalError> for SweepError {
+    fn from(error: JournalError) -> Self {
+        match error {
+            JournalError::Unwritable { path, source } => OutputError::writing(&path, source).into(),
+            other => Self::Journal(other),
+        }
+    }
+}
+
+impl Fault for SweepError {
+    fn culprit(&self) -> Culprit<'_> {
+        match self {
+            Self::Scene(error) => error.culprit(),
+            Self::Table(error) => Culprit::of(Class::Table).file(&error.path),
+            Self::Journal(error) => error.culprit(),
+            Self::Output(error) => error.culprit(),
+            Self::Read(error) => error.culprit(),
+            Self::Missing { .. } => Culprit::of(Class::Scene),
+            Self::Part { path, .. } => Culprit::of(Class::Scene).file(path),
+        }
+    }
+}
+
+fn others(more: usize) -> String {
+    match more {
+        0 => String::new(),
+        1 => ", and those of another range".to_owned(),
+        more => format!(", and those of {more} other ranges"),
+    }
+}

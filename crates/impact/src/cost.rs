@@ -1,0 +1,269 @@
+//! What a scene takes before it is computed: time, memory, disk. By this one model kernels are chosen, and work is
+//! announced and refused.
+//!
+//! Its constants are seconds of one thread, measured with the jobs of `scripts/time-impacts`.
+
+use crate::error::ImpactError;
+use crate::evaluator::convolve::{direct_ns, transform_ns};
+use crate::evaluator::discs::Discs;
+use crate::excitation::{Excitation, PressureRadius};
+use crate::grid::Grid;
+use crate::kernels::KernelSource;
+use crate::scene::{Probe, Scene, Section};
+use halfspace::{Deflection, SurfaceResponse};
+
+/// What any output takes, and the opening of a table.
+const OUTPUT_S: f64 = 1.4e-2;
+const TABLE_S: f64 = 6e-2;
+
+/// A kernel beside a disc, and one of the smaller discs of a contact that follows its load, which are farther.
+const KERNEL_S: f64 = 7e-6;
+const SMALL_DISC: f64 = 1.7;
+
+/// Kernels of a trace whatever its tolerance, and for each digit; for fields with rates so many times more.
+const KERNELS: f64 = 20.0;
+const KERNELS_A_DIGIT: f64 = 18.0;
+const WITH_RATES: f64 = 1.5;
+
+/// Moments of a cell, and what it takes to look it up.
+const CELL_S: f64 = 4e-7;
+const LOOKED_UP_S: f64 = 1e-6;
+
+/// Samples of a point that are integrated over the radii, over the square of the digits, and kernels of each.
+const OPEN: f64 = 0.8;
+const KERNELS_OF_OPEN: f64 = 100.0;
+
+/// What the rates of a contact that follows its load take beside its fields.
+const FOLLOWING_RATES: f64 = 2.0;
+
+/// What the fields of a scene depend on.
+pub(crate) struct Cost<'a> {
+    excitation: &'a Excitation,
+    points: [f64; 2],
+    /// Samples at a probe and at a point of the section.
+    wanted: [f64; 2],
+    cells: f64,
+    tolerance: f64,
+    rates: f64,
+}
+
+impl<'a> Cost<'a> {
+    /// Of a scene whose output has so many samples.
+    pub(crate) fn new(scene: &Scene, excitation: &'a Excitation, samples: f64) -> Self {
+        let frames = match &scene.section {
+            Some(Section { frames, .. }) if !scene.peaks => *frames as f64,
+            Some(_) | None => samples,
+        };
+        let probes = scene.probes.len();
+        Self {
+            excitation,
+            points: [probes, scene.points() - probes].map(|n| n as f64),
+            wanted: [samples, frames.min(samples)],
+            cells: samples,
+            tolerance: scene.settings.tolerance,
+            rates: scene.rates() as f64,
+        }
+    }
+
+    /// Seconds of one thread with kernels that are computed.
+    pub(crate) fn computed_s(&self) -> f64 {
+        let radius = self.excitation.radius();
+        let following = matches!(radius, PressureRadius::Following { .. });
+        let discs = Discs::computed(radius, self.tolerance)[0].radii.len() as f64;
+        let digits = -self.tolerance.log10();
+        let kernels = KERNELS + KERNELS_A_DIGIT * digits;
+        let more = if self.rates > 0.0 { WITH_RATES } else { 1.0 };
+        let small = if following { SMALL_DISC } else { 1.0 };
+        let trace_s = kernels * more * small * KERNEL_S + self.cells * CELL_S;
+        let points_s = self.sum(|wanted| {
+            let past_s = if following {
+                let open = OPEN * digits.powi(2) * wanted / self.cells;
+                open * KERNELS_OF_OPEN * SMALL_DISC * KERNEL_S
+            } else {
+                0.0
+            };
+            let each = discs * self.convolved_s(wanted) + past_s;
+            let rates = if following { FOLLOWING_RATES } else { 1.0 };
+            discs * trace_s + each * (1.0 + rates * self.rates)
+        });
+        OUTPUT_S + points_s
+    }
+
+    /// The same with kernels that are looked up.
+    pub(crate) fn looked_up_s(&self) -> f64 {
+        let discs = Discs::looked_up(self.excitation.radius())[0].radii.len() as f64;
+        let points_s = self.sum(|wanted| {
+            discs * (self.cells * LOOKED_UP_S + (1.0 + self.rates) * self.convolved_s(wanted))
+        });
+        TABLE_S + points_s
+    }
+
+    fn convolved_s(&self, wanted: f64) -> f64 {
+        1e-9 * direct_ns(wanted, self.cells).min(transform_ns(2.0 * self.cells))
+    }
+
+    fn sum(&self, of_point: impl Fn(f64) -> f64) -> f64 {
+        let each = self.points.iter().zip(self.wanted);
+        each.map(|(points, wanted)| points * of_point(wanted)).sum()
+    }
+}
+
+/// What computing and keeping a scene takes, about.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Forecast {
+    /// Points at which fields are asked for.
+    pub points: usize,
+    /// Samples of the output in time.
+    pub samples: f64,
+    /// Time in s.
+    pub seconds: f64,
+    /// Memory in bytes at its largest.
+    pub memory_bytes: f64,
+    /// A results file in bytes.
+    pub disk_bytes: f64,
+}
+
+/// What a scene may take.
+pub struct Allowance<'a> {
+    /// Memory in bytes.
+    pub memory_bytes: f64,
+    /// Told the forecast once the force is known; whether to go on.
+    pub go_on: &'a dyn Fn(&Forecast) -> bool,
+    /// Called when the fields at one more point are computed, from several threads.
+    pub watch: &'a (dyn Fn() + Sync),
+}
+
+impl Default for Allowance<'_> {
+    /// Whatever it takes.
+    fn default() -> Self {
+        Self {
+            memory_bytes: f64::INFINITY,
+            go_on: &|_| true,
+            watch: &|| {},
+        }
+    }
+}
+
+/// Samples of a contact at least, before it is known.
+const FEWEST: f64 = 100.0;
+
+/// Bytes that a sample takes whatever is asked: time, force, deflection, striker, energy, and room to compute them.
+const SAMPLE: f64 = 8.0 * 24.0;
+
+/// Bytes that a sample of the six fields at a probe takes: kept, and once more while a field is written.
+const PROBE_SAMPLE: f64 = 8.0 * (6.0 + 1.0);
+
+/// Bytes that a sample of a quantity beside them takes, at a probe and at a frame of a section's point.
+const QUANTITY_SAMPLE: f64 = 8.0;
+const QUANTITY_FRAME: f64 = 4.0;
+
+/// Bytes that a sample takes in each thread: averages and moments of the kernels, the convolution's room.
+const CELL: f64 = 8.0 * 6.0 * 6.0;
+
+/// Bytes of a point of a section at one frame: six fields in single precision.
+const FRAME_POINT: f64 = 4.0 * 6.0;
+
+/// Bytes of a point of a section whatever the frames: arrivals and errors.
+const POINT: f64 = 8.0 * 9.0;
+
+/// Products of the sum for the deflection of the disc at most, and seconds that one takes.
+const MOST_PRODUCTS: f64 = 1e11;
+const PRODUCT_S: f64 = 1e-9;
+
+impl Forecast {
+    /// The least that a scene takes, before its force is known.
+    #[must_use]
+    pub fn least(scene: &Scene) -> Self {
+        Self::of(scene, FEWEST, rayon::current_num_threads())
+    }
+
+    /// Of a scene whose force and times are known, among so many threads.
+    ///
+    /// # Errors
+    /// [`ImpactError::TooMuchWork`].
+    pub(crate) fn new(
+        scene: &Scene,
+        excitation: &Excitation,
+        grid: &Grid,
+        source: Option<&KernelSource>,
+        threads: usize,
+    ) -> Result<Self, ImpactError> {
+        let samples = grid.count() as f64;
+        let response = SurfaceResponse::new(excitation.medium(), Deflection::Centre);
+        let cells = response.memory() * excitation.units().time_s() / grid.step_s;
+        let products = samples * cells.min(samples);
+        if products > MOST_PRODUCTS {
+            return Err(ImpactError::TooMuchWork {
+                products,
+                limit: MOST_PRODUCTS,
+                cells,
+                samples,
+            });
+        }
+        let cost = Cost::new(scene, excitation, samples);
+        let fields_s = match source {
+            None => 0.0,
+            Some(KernelSource::Direct(_)) => cost.computed_s(),
+            Some(KernelSource::Table(_)) => cost.looked_up_s(),
+        };
+        Ok(Self {
+            seconds: fields_s / threads as f64 + products * PRODUCT_S,
+            ..Self::of(scene, samples, threads)
+        })
+    }
+
+    fn of(scene: &Scene, samples: f64, threads: usize) -> Self {
+        let more = scene.quantities.len() as f64;
+        let of_probe = samples * (PROBE_SAMPLE + more * QUANTITY_SAMPLE) + POINT;
+        let probes = scene.probes.len() as f64 * of_probe;
+        let (mut section, mut kept) = (0.0, 0.0);
+        if let Some(Section { points, frames, .. }) = &scene.section {
+            let [r, z] = points.map(|n| n as f64);
+            let at_frame = FRAME_POINT + more * QUANTITY_FRAME;
+            let peaks = if scene.peaks { 2.0 * (6.0 + more) } else { 0.0 };
+            kept = r * z * (*frames as f64 * at_frame + POINT + 8.0 * (more + peaks));
+            // a row is computed at once, in double precision
+            let wanted = if scene.peaks { samples } else { *frames as f64 };
+            section = kept + r * wanted * 2.0 * at_frame;
+        }
+        let cells = if scene.points() > 0 {
+            threads as f64 * CELL
+        } else {
+            0.0
+        };
+        Self {
+            points: scene.points(),
+            samples,
+            seconds: 0.0,
+            memory_bytes: samples * (SAMPLE + cells) + probes + section,
+            disk_bytes: 8.0 * samples * (10.0 + (6.0 + more) * scene.probes.len() as f64) + kept,
+        }
+    }
+
+    /// Compares it with the memory that there is.
+    ///
+    /// # Errors
+    /// [`ImpactError::TooMuchMemory`] with what to change.
+    pub fn check(&self, scene: &Scene, memory_bytes: f64) -> Result<(), ImpactError> {
+        if self.memory_bytes <= memory_bytes {
+            return Ok(());
+        }
+        let of_probes = scene.probes.len() * size_of::<Probe>() > 0
+            && scene.probes.len() as f64 * self.samples * PROBE_SAMPLE > 0.5 * self.memory_bytes;
+        let change = if of_probes {
+            "fewer probes, a larger step_s or a smaller duration_s"
+        } else if scene.section.is_some() {
+            "fewer points or frames of the map"
+        } else {
+            "a larger step_s or a smaller duration_s"
+        };
+        Err(ImpactError::TooMuchMemory {
+            needed_gb: 1e-9 * self.memory_bytes,
+            limit_gb: 1e-9 * memory_bytes,
+            points: self.points,
+            samples: self.samples,
+            frames: scene.section.map_or(0, |section| section.frames),
+            change,
+        })
+    }
+}

@@ -1,0 +1,336 @@
+//! Reading HDF5 files that nobody vouches for, without the HDF5 library: on damaged or forged metadata it crashes, loops,
+//! follows links into other files, loads code, or takes memory without end.
+//!
+//! `hdf5_reader` has no C code; it compares addresses and lengths with the file and ends at circles. Here it is given bytes
+//! that were compared with the seal, no other file to follow links to, and no more memory than the file can fill.
+
+use crate::seal::Sealed;
+use hdf5_reader::error::Error;
+use hdf5_reader::{
+    Attribute, Datatype, H5Type, Hdf5File, OpenOptions, SliceInfo, SliceInfoElem, StringSize,
+};
+use std::fmt;
+use std::io::{self, ErrorKind};
+use std::ops::Range;
+use std::path::Path;
+use std::sync::Arc;
+
+/// Bytes of numbers that a byte of a file may become: Deflate ends a little above a thousand.
+const GROWTH: usize = 1100;
+
+/// A file that could not be read; none of these names the file, whoever asked for it does.
+#[derive(Debug, thiserror::Error)]
+pub enum HdfError {
+    /// The system says no.
+    #[error("{0}")]
+    Io(#[from] io::Error),
+    /// Bytes that no HDF5 library would write, or not those that were sealed.
+    #[error("it is damaged: {0}")]
+    Damaged(String),
+    /// Nothing of that name.
+    #[error("there is no {0}")]
+    Absent(String),
+    /// No HDF5 file, a part of HDF5 that is not read, another type than asked for, too much memory.
+    #[error("{0}")]
+    Refused(String),
+}
+
+impl From<Error> for HdfError {
+    fn from(error: Error) -> Self {
+        match error {
+            Error::Context { source, .. } => (*source).into(),
+            Error::Io(error) if error.kind() == ErrorKind::InvalidData => {
+                Self::Damaged(error.to_string())
+            }
+            Error::Io(error) => Self::Io(error),
+            Error::InvalidMagic => Self::Refused("it is not an HDF5 file".to_owned()),
+            Error::GroupNotFound(name)
+            | Error::DatasetNotFound(name)
+            | Error::AttributeNotFound(name) => Self::Absent(name),
+            Error::UnsupportedFilter(_) | Error::UnsupportedEncoding(_) => Self::Refused(format!(
+                "{error}; copy the data to a file of plain datasets, such as h5py writes by default"
+            )),
+            Error::ResourceLimit(what) => Self::Refused(what),
+            other => Self::Damaged(other.to_string()),
+        }
+    }
+}
+
+/// An open file; its bytes are compared with its seal, where it has one, when they are read.
+#[derive(Debug, Clone)]
+pub struct HdfFile {
+    bytes: Arc<Sealed>,
+    /// The group that holds all others.
+    pub root: Group,
+}
+
+impl HdfFile {
+    /// Opens the regular file at `path`.
+    ///
+    /// # Errors
+    /// [`HdfError`].
+    pub fn open(path: &Path) -> Result<Self, HdfError> {
+        let bytes = Arc::new(Sealed::open(path)?);
+        let most = (bytes.length as usize).saturating_mul(GROWTH);
+        let options = OpenOptions::default()
+            .with_chunk_cache_bytes(0)
+            .with_max_chunk_bytes(most)
+            .with_max_read_bytes(most)
+            .with_max_object_header_bytes(bytes.length as usize);
+        let file = Hdf5File::from_storage_with_options(Arc::clone(&bytes) as _, options)?;
+        let written = file.superblock().eof_address;
+        if written > bytes.length {
+            return Err(HdfError::Damaged(format!(
+                "it was cut short to {} bytes, {written} were written",
+                bytes.length
+            )));
+        }
+        let root = Group(file.root_group()?);
+        Ok(Self { bytes, root })
+    }
+
+    /// Bytes of the HDF5 part.
+    #[must_use]
+    pub fn length(&self) -> u64 {
+        self.bytes.length
+    }
+
+    /// Whether it has a seal.
+    #[must_use]
+    pub fn is_sealed(&self) -> bool {
+        self.bytes.digests.is_some()
+    }
+
+    /// Compares every byte with the seal, where there is one.
+    ///
+    /// # Errors
+    /// What the system says, or where bytes are not those that were sealed.
+    pub fn check(&self) -> io::Result<()> {
+        self.bytes.check()
+    }
+}
+
+/// A group of a file.
+#[derive(Clone)]
+pub struct Group(hdf5_reader::group::Group);
+
+impl fmt::Debug for Group {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_tuple("Group").field(&self.0.name()).finish()
+    }
+}
+
+impl Group {
+    /// Names of the groups and datasets in it, ascending.
+    pub fn members(&self) -> Result<Vec<String>, HdfError> {
+        let (mut names, datasets) = self.0.member_names()?;
+        names.extend(datasets);
+        names.sort();
+        Ok(names)
+    }
+
+    /// A group that is a member.
+    pub fn group(&self, name: &str) -> Result<Self, HdfError> {
+        Ok(Self(self.0.group(name)?))
+    }
+
+    /// A dataset that is a member.
+    pub fn dataset(&self, name: &str) -> Result<Dataset, HdfError> {
+        let data = self.0.dataset(name)?;
+        let shape = data.shape().iter().map(|&n| n as usize).collect();
+        Ok(Dataset { data, shape })
+    }
+
+    /// The text of an attribute.
+    pub fn text(&self, name: &str) -> Result<String, HdfError> {
+        text(&self.0.attribute(name)?)
+    }
+
+    /// The number of an attribute.
+    pub fn number<T: H5Type>(&self, name: &str) -> Result<T, HdfError> {
+        let attribute = self.0.attribute(name)?;
+        same_type::<T>(&attribute.datatype)?;
+        if !attribute.shape.is_empty() {
+            return Err(HdfError::Refused(
+                "it is a list, needed one number".to_owned(),
+            ));
+        }
+        Ok(attribute.read_scalar()?)
+    }
+
+    /// The list of numbers of an attribute.
+    pub fn numbers<T: H5Type>(&self, name: &str) -> Result<Vec<T>, HdfError> {
+        let attribute = self.0.attribute(name)?;
+        same_type::<T>(&attribute.datatype)?;
+        if attribute.shape.len() != 1 {
+            return Err(HdfError::Refused("it is no list of numbers".to_owned()));
+        }
+        Ok(attribute.read_1d()?)
+    }
+}
+
+/// A dataset of a file.
+pub struct Dataset {
+    data: hdf5_reader::Dataset,
+    shape: Vec<usize>,
+}
+
+impl Dataset {
+    /// Its dimensions; none of a single value.
+    #[must_use]
+    pub fn shape(&self) -> &[usize] {
+        &self.shape
+    }
+
+    /// How many values it has.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.shape.iter().fold(1, |all, &n| all.saturating_mul(n))
+    }
+
+    /// Dimensions of its chunks, if it has them.
+    #[must_use]
+    pub fn chunk(&self) -> Option<Vec<usize>> {
+        let chunk = self.data.chunks()?.into_iter();
+        Some(chunk.map(|n| n as usize).collect())
+    }
+
+    /// The type of its values, in words.
+    #[must_use]
+    pub fn kind(&self) -> String {
+        kind(self.data.dtype())
+    }
+
+    /// Whether its values are texts.
+    #[must_use]
+    pub fn holds_texts(&self) -> bool {
+        self.kind() == TEXT
+    }
+
+    /// Whether its values are numbers of a type.
+    #[must_use]
+    pub fn holds<T: H5Type>(&self) -> bool {
+        same_type::<T>(self.data.dtype()).is_ok()
+    }
+
+    /// The text of an attribute.
+    pub fn text(&self, name: &str) -> Result<String, HdfError> {
+        text(&self.data.attribute(name)?)
+    }
+
+    /// All its numbers, in the order of the file, which take `limit` bytes of memory at most.
+    pub fn numbers<T: H5Type>(&self, limit: u64) -> Result<Vec<T>, HdfError> {
+        let all: Vec<Range<usize>> = self.shape.iter().map(|&n| 0..n).collect();
+        self.block(&all, limit)
+    }
+
+    /// The numbers of a block of it, which take `limit` bytes of memory at most.
+    pub fn block<T: H5Type>(&self, block: &[Range<usize>], limit: u64) -> Result<Vec<T>, HdfError> {
+        same_type::<T>(self.data.dtype())?;
+        let count = block
+            .iter()
+            .fold(1, |all: usize, range| all.saturating_mul(range.len()));
+        admit(count, size_of::<T>(), limit)?;
+        if count == 0 {
+            return Ok(Vec::new());
+        }
+        let slice = |range: &Range<usize>| SliceInfoElem::Slice {
+            start: range.start as u64,
+            end: range.end as u64,
+            step: 1,
+        };
+        let selections = block.iter().map(slice).collect();
+        let found = self.data.read_slice::<T>(&SliceInfo { selections })?;
+        if found.len() != count {
+            let (wide, shape) = (block, &self.shape);
+            return Err(HdfError::Damaged(format!(
+                "{wide:?} is no block of {shape:?}"
+            )));
+        }
+        Ok(found.into_raw_vec_and_offset().0)
+    }
+
+    /// All its numbers, whatever their type, as 64-bit floats.
+    ///
+    /// # Errors
+    /// As [`numbers`](Self::numbers).
+    pub fn as_f64(&self, limit: u64) -> Result<Vec<f64>, HdfError> {
+        admit(self.count(), size_of::<f64>(), limit)?;
+        macro_rules! first_of {
+            ($($number:ty),*) => {
+                $(if self.holds::<$number>() {
+                    let numbers = self.numbers::<$number>(limit)?;
+                    return Ok(numbers.into_iter().map(|x| x as f64).collect());
+                })*
+            };
+        }
+        first_of!(f64, f32, i64, i32, i16, i8, u64, u32, u16, u8);
+        Err(wrong_type(&self.kind(), "numbers"))
+    }
+
+    /// All its texts, which are UTF-8.
+    pub fn texts(&self, limit: u64) -> Result<Vec<String>, HdfError> {
+        admit(self.count(), 16, limit)?;
+        Ok(self.data.read_strings()?)
+    }
+}
+
+const TEXT: &str = "text";
+
+/// A type in words, whatever the order of its bytes.
+fn kind(datatype: &Datatype) -> String {
+    match datatype {
+        Datatype::FloatingPoint { size, .. } => format!("{}-bit float", 8 * u32::from(*size)),
+        Datatype::FixedPoint { size, signed, .. } => {
+            let sign = if *signed { "" } else { "unsigned " };
+            format!("{}-bit {sign}integer", 8 * u32::from(*size))
+        }
+        Datatype::String { .. } => TEXT.to_owned(),
+        Datatype::VarLen { base, .. } if base.is_vlen_string_base() => TEXT.to_owned(),
+        _ => "neither numbers nor text".to_owned(),
+    }
+}
+
+fn same_type<T: H5Type>(found: &Datatype) -> Result<(), HdfError> {
+    let (found, needed) = (kind(found), kind(&T::hdf5_type()));
+    if found == needed {
+        Ok(())
+    } else {
+        Err(wrong_type(&found, &needed))
+    }
+}
+
+fn wrong_type(found: &str, needed: &str) -> HdfError {
+    HdfError::Refused(format!("its type is {found}, needed {needed}"))
+}
+
+/// The one text of an attribute; a reference to a text that cannot be followed is none itself.
+fn text(attribute: &Attribute) -> Result<String, HdfError> {
+    match (&attribute.datatype, attribute.decoded_strings.as_deref()) {
+        (_, Some([text])) => Ok(text.clone()),
+        (_, Some(_)) => Err(HdfError::Refused(
+            "it is a list, needed one text".to_owned(),
+        )),
+        (
+            Datatype::String {
+                size: StringSize::Fixed(_),
+                ..
+            },
+            None,
+        ) => Ok(attribute.read_string()?),
+        (found, None) if kind(found) == TEXT => Err(HdfError::Damaged(
+            "its text is not there or not UTF-8".to_owned(),
+        )),
+        (found, None) => Err(wrong_type(&kind(found), TEXT)),
+    }
+}
+
+fn admit(count: usize, width: usize, limit: u64) -> Result<(), HdfError> {
+    let needed = (count as u64).saturating_mul(width as u64);
+    if needed <= limit {
+        return Ok(());
+    }
+    Err(HdfError::Refused(format!(
+        "it makes {needed} bytes of numbers, more than {limit}"
+    )))
+}
