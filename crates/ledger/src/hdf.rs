@@ -4,57 +4,19 @@
 //! `hdf5_reader` has no C code; it compares addresses and lengths with the file and ends at circles. Here it is given bytes
 //! that were compared with the seal, no other file to follow links to, and no more memory than the file can fill.
 
+use crate::error::HdfError;
 use crate::seal::Sealed;
-use hdf5_reader::error::Error;
 use hdf5_reader::{
     Attribute, Datatype, H5Type, Hdf5File, OpenOptions, SliceInfo, SliceInfoElem, StringSize,
 };
 use std::fmt;
-use std::io::{self, ErrorKind};
+use std::io;
 use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
 /// Bytes of numbers that a byte of a file may become: Deflate ends a little above a thousand.
 const GROWTH: usize = 1100;
-
-/// A file that could not be read; none of these names the file, whoever asked for it does.
-#[derive(Debug, thiserror::Error)]
-pub enum HdfError {
-    /// The system says no.
-    #[error("{0}")]
-    Io(#[from] io::Error),
-    /// Bytes that no HDF5 library would write, or not those that were sealed.
-    #[error("it is damaged: {0}")]
-    Damaged(String),
-    /// Nothing of that name.
-    #[error("there is no {0}")]
-    Absent(String),
-    /// No HDF5 file, a part of HDF5 that is not read, another type than asked for, too much memory.
-    #[error("{0}")]
-    Refused(String),
-}
-
-impl From<Error> for HdfError {
-    fn from(error: Error) -> Self {
-        match error {
-            Error::Context { source, .. } => (*source).into(),
-            Error::Io(error) if error.kind() == ErrorKind::InvalidData => {
-                Self::Damaged(error.to_string())
-            }
-            Error::Io(error) => Self::Io(error),
-            Error::InvalidMagic => Self::Refused("it is not an HDF5 file".to_owned()),
-            Error::GroupNotFound(name)
-            | Error::DatasetNotFound(name)
-            | Error::AttributeNotFound(name) => Self::Absent(name),
-            Error::UnsupportedFilter(_) | Error::UnsupportedEncoding(_) => Self::Refused(format!(
-                "{error}; copy the data to a file of plain datasets, such as h5py writes by default"
-            )),
-            Error::ResourceLimit(what) => Self::Refused(what),
-            other => Self::Damaged(other.to_string()),
-        }
-    }
-}
 
 /// An open file; its bytes are compared with its seal, where it has one, when they are read.
 #[derive(Debug, Clone)]

@@ -5,13 +5,16 @@
 //! - [`Shard`] and [`gaps`]: work in parts, and what of it is not there.
 //! - [`seal`] and [`HdfFile`]: every byte of a finished HDF5 file is compared with what was written before it is used.
 
+mod error;
+mod error;
 mod hdf;
 mod identity;
 mod journal;
 mod seal;
 mod shard;
 
-pub use hdf::{Dataset, Group, HdfError, HdfFile};
+pub use error::HdfError;
+pub use hdf::{Dataset, Group, HdfFile};
 pub use hdf5_reader::H5Type;
 pub use identity::Identity;
 pub use journal::{Journal, JournalError, Record, Records, Title};

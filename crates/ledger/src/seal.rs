@@ -6,7 +6,7 @@
 //! The integer is little-endian. Bytes are compared when they are read, so that a part of a file costs no more than its
 //! own pieces; a piece has its place in the list, so that pieces which were exchanged are seen too.
 
-use crate::hdf::HdfError;
+use crate::error::HdfError;
 use hdf5_reader::error::Error;
 use hdf5_reader::{Storage, StorageBuffer};
 use rayon::prelude::*;

@@ -51,6 +51,10 @@ impl Step<'_> {
         let mut departures = Departures::default();
         let mut matrix = Factors::room(n);
         let mut before = f64::INFINITY;
+        let finite = |values: &Values| values[..=n].iter().all(|x| x.is_finite());
+        if !finite(guess) {
+            return None;
+        }
         // Newton's next change would be about the square
         let enough = (1e-2 * self.accuracy).sqrt().min(1e-5);
         for iteration in 1..=ITERATIONS {
@@ -72,10 +76,11 @@ impl Step<'_> {
                 sought[i] -= factor * change[i - 1];
                 size = size.max(change[i - 1].abs());
             }
-            let relative = size / self.scale(&sought);
-            if !relative.is_finite() {
+            // a matrix that is nearly singular throws the motion out of the numbers
+            if !finite(&sought) {
                 return None;
             }
+            let relative = size / self.scale(&sought);
             if factor == 1.0 && relative < enough {
                 return self.corrected(sought, &matrix);
             }

@@ -153,7 +153,7 @@ impl Turned {
             });
             let mut forces = [[0.0; 3]; NODES];
             let mut matrix = Factors::room(NODES);
-            let mut settled = false;
+            let mut left = f64::INFINITY;
             for _ in 0..ITERATIONS {
                 let mut change = [0.0; NODES];
                 for i in 0..NODES {
@@ -173,21 +173,19 @@ impl Turned {
                 for (rate, change) in rates.iter_mut().zip(change) {
                     *rate -= change;
                 }
-                let largest = change.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+                left = change.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
                 // the next change would be about its square
-                if largest < 1e-7 {
-                    settled = true;
+                if left < 1e-7 {
                     break;
                 }
             }
-            if !settled {
+            if left >= 1e-7 {
                 return None;
             }
             let over = |f: &dyn Fn(usize) -> f64| -> f64 {
                 width * (0..NODES).map(|j| rule.weights[j] * f(j)).sum::<f64>()
             };
-            time +=
-                over(&|j| speed * forces[j][2] / (INVERSE_MASS * (forces[j][0] + forces[j][1])));
+            time += over(&|j| forces[j][2] / (forces[j][0] + forces[j][1]));
             lost += over(&|j| forces[j][1] * rates[j]);
             depth += over(&|j| rates[j]);
             let last = NODES - 1;
@@ -197,10 +195,10 @@ impl Turned {
         let (peak_force, since) = peak_before(fit, lag, depth);
         Some(Self {
             depth,
-            time,
+            time: speed / INVERSE_MASS * time,
             radiated: 2.0 * INVERSE_MASS * lost,
             peak_force,
-            peak_force_time: time - since,
+            peak_force_time: speed / INVERSE_MASS * time - since,
         })
     }
 }

@@ -152,11 +152,8 @@ impl<'a> Past<'a> {
             .chain(ends.then_some(cells.end))
             .collect();
         // halfway to the next mark
-        let limit = |i: usize| {
-            marks
-                .get(i + 1)
-                .map_or(cells.end, |next| marks[i].midpoint(*next))
-        };
+        let next = |i: usize| marks.get(i + 1).copied();
+        let limit = |i: usize| next(i).map_or(cells.end, |next| marks[i].midpoint(next));
         let around = |(i, &mark): (usize, &usize)| {
             let from = match i {
                 0 => mark,
@@ -174,9 +171,8 @@ impl<'a> Past<'a> {
         };
         let passed = |part: &Range<usize>| {
             let [from_s, to_s] = span_s(part).map(|t| time_s - t);
-            windows
-                .iter()
-                .any(|[near, far]| *near < from_s && *far > to_s)
+            let inside = |[near, far]: &[f64; 2]| *near < from_s && *far > to_s;
+            windows.iter().any(inside)
         };
         let parts = marks.iter().enumerate().map(around);
         parts.filter(passed).collect()
