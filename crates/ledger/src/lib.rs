@@ -6,7 +6,6 @@
 //! - [`seal`] and [`HdfFile`]: every byte of a finished HDF5 file is compared with what was written before it is used.
 
 mod error;
-mod error;
 mod hdf;
 mod identity;
 mod journal;
