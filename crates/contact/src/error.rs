@@ -73,12 +73,9 @@ pub enum ContactError {
     },
     /// A yielding contact that could not be followed.
     #[error(
-        "the yielding contact could not be followed{}", if *memory { " to this tolerance; ask for a larger one, or for model \"area_dashpot\"" } else { ": its yield_pressure_pa or yield strength is too far from the pressure of the contact" }
+        "the yielding contact could not be followed: its yield_pressure_pa or yield strength is too far from the pressure of the contact"
     )]
-    NotFollowed {
-        /// Whether with the memory of the half-space.
-        memory: bool,
-    },
+    NotFollowed,
     /// A number that floating-point arithmetic does not hold.
     #[error(
         "the {quantity} comes out as {value:e}: the numbers of the scene are beyond what floating-point arithmetic holds; check their units"

@@ -293,7 +293,7 @@ impl<'a, S: Responses> Solver<'a, S> {
             match yielding.remembered(&contact, asked) {
                 Ok(found) => self.growing = found,
                 Err(_) if plan.is_automatic() => plan.model = Model::AreaDashpot,
-                Err(_) => return Err(ContactError::NotFollowed { memory: true }),
+                Err(error) => return Err(error.into()),
             }
         }
         let memory = plan.model.row().0 == Rung::FullMemory;
@@ -307,7 +307,7 @@ impl<'a, S: Responses> Solver<'a, S> {
                 Some(_) => None,
             };
             if results.is_none() {
-                let lost = |_| ContactError::NotFollowed { memory: false };
+                let lost = |_| ContactError::NotFollowed;
                 self.growing = yielding.damped(lag).map_err(lost)?;
             }
         }

@@ -531,6 +531,29 @@ fn every_law_is_followed_at_every_velocity() {
     }
 }
 
+#[test]
+fn a_yielding_contact_that_the_surface_meets_again_is_refused() {
+    // a ball of a thousandth of its mass at a quarter of the speed of Rayleigh waves
+    let block = HalfSpace::new(Material::named("pmma").unwrap()).unwrap();
+    let mut ball = Striker::ball(Material::named("iron").unwrap(), 0.005).unwrap();
+    ball.mass_kg *= 1e-3;
+    let rayleigh = Medium::new(0.35).unwrap().rayleigh_speed() * block.longitudinal_speed_m_s();
+    let collision = Collision::new(&block, &ball, 0.283 * rayleigh);
+    let solve = |model| {
+        let settings = Settings {
+            plasticity: Plasticity::Recovery,
+            model,
+            ..Settings::default()
+        };
+        Solver::new(&Exact).solve(&collision, &settings)
+    };
+    let refused = solve(Model::Growing).unwrap_err().to_string();
+    assert!(refused.contains("meets the striker again"), "{refused}");
+    // the dashpot has one contact, and no results that count
+    let found = solve(Model::Auto).unwrap();
+    assert!(found.plan.model == Model::AreaDashpot && found.error > 0.5);
+}
+
 /// Errors of `auto` over their estimates on random pairs of metals, from the onset of yield to some hundred times its
 /// velocity; and what the dashpot leaves out over c^2, from which `auto` chooses.
 #[test]

@@ -4,12 +4,14 @@
 //! After the end t_e nothing presses, and what is left of the deflection relaxes as
 //!
 //! ```text
-//! w'(t) = -2 phi sum_k (m_k/X_k) (a_1 - a_2),    T + X_k a = t at two times, T_1 < T_2 < t_e
+//! w'(t) = -phi sum_k (m_k/X_k) (g_1 - g_2),    T + X_k a = t at two times, T_1 < T_2 < t_e
 //! ```
 //!
-//! since waves of the shrinking contact are younger the later they left, but smaller.
+//! with the g = int ds/a of the law, since waves of the shrinking contact are younger the later they left, but smaller.
 
+use crate::growing::GrowingError;
 use crate::growing::arrivals::Piece;
+use crate::growing::solved::SolvedContact;
 use crate::growing::waves::{GrowingContact, Rule};
 
 /// Samples of a piece.
@@ -28,10 +30,25 @@ const NOISE: f64 = 1e-6;
 /// the accuracy only.
 const SMALL: f64 = 1e-2;
 
+/// A contact of which that holds.
+pub(crate) fn passed(
+    solved: SolvedContact,
+    contact: &GrowingContact<'_>,
+) -> Result<SolvedContact, GrowingError> {
+    if let Some(time) = folds(solved.all_pieces(), contact) {
+        return Err(GrowingError::Overtaken { time });
+    }
+    let velocity = -solved.summary().restitution;
+    match strikes_again(solved.all_pieces(), contact, velocity) {
+        Some(time) => Err(GrowingError::StrikesAgain { time }),
+        None => Ok(solved),
+    }
+}
+
 /// When waves that left at different times arrive together, if they do.
 ///
 /// At the arrival t the age of a wave over the radius that it left, (t - T)/a, has to grow with the age.
-pub(crate) fn folds(pieces: &[Piece], contact: &GrowingContact<'_>) -> Option<f64> {
+fn folds(pieces: &[Piece], contact: &GrowingContact<'_>) -> Option<f64> {
     let end = pieces.last()?.to.0;
     let top = (0..pieces.len()).max_by(|&a, &b| pieces[a].to.1.total_cmp(&pieces[b].to.1))?;
     let widest = pieces[top].to.1;
@@ -54,24 +71,21 @@ pub(crate) fn folds(pieces: &[Piece], contact: &GrowingContact<'_>) -> Option<f6
 }
 
 /// When the surface overtakes the striker after the end, if it does.
-pub(crate) fn strikes_again(
-    pieces: &[Piece],
-    contact: &GrowingContact<'_>,
-    velocity: f64,
-) -> Option<f64> {
+fn strikes_again(pieces: &[Piece], contact: &GrowingContact<'_>, velocity: f64) -> Option<f64> {
     let end = pieces.last()?.to.0;
     if velocity >= 0.0 {
         return Some(end);
     }
     let sample = |piece: &Piece, i: usize| {
         let place = i as f64 / SAMPLES as f64;
-        (piece.time.value(place), piece.radius.value(place).max(0.0))
+        let radius = piece.radius.value(place).max(0.0);
+        [piece.time.value(place), radius, piece.law.delayed(radius)]
     };
-    let samples: Vec<(f64, f64)> = pieces
+    let samples: Vec<[f64; 3]> = pieces
         .iter()
         .flat_map(|piece| (1..=SAMPLES).map(move |i| sample(piece, i)))
         .collect();
-    let widest = samples.iter().fold(0.0_f64, |m, &(_, a)| m.max(a));
+    let widest = samples.iter().fold(0.0_f64, |m, &[_, a, _]| m.max(a));
     let memory = contact.waves.memory() * contact.wave_time * widest;
     let rule = contact.waves.rule(LEVEL);
     let gap_rate = |t: f64| velocity - relaxing(&samples, contact, rule, t);
@@ -89,28 +103,28 @@ pub(crate) fn strikes_again(
 }
 
 /// Velocity of the surface at a time after the end.
-fn relaxing(samples: &[(f64, f64)], contact: &GrowingContact<'_>, rule: &Rule, t: f64) -> f64 {
+fn relaxing(samples: &[[f64; 3]], contact: &GrowingContact<'_>, rule: &Rule, t: f64) -> f64 {
     let mut sum = 0.0;
     for (delay, rate) in rule.delays.iter().zip(&rule.rates) {
-        let late = |&(time, radius): &(f64, f64)| time + delay * contact.wave_time * radius - t;
+        let late = |[time, radius, _]: [f64; 3]| time + delay * contact.wave_time * radius - t;
         // from the end back: waves that have not come, then those that have, then the oldest, long gone
-        let mut radii = [0.0; 2];
+        let mut left = [0.0; 2];
         let mut under = true;
         let mut crossings = 0;
         for pair in samples.windows(2).rev() {
-            let (young, old) = (late(&pair[1]), late(&pair[0]));
+            let (young, old) = (late(pair[1]), late(pair[0]));
             if (old < 0.0) != under {
                 let part = young / (young - old);
                 if crossings < 2 {
-                    radii[crossings] = pair[1].1 + part * (pair[0].1 - pair[1].1);
+                    left[crossings] = pair[1][2] + part * (pair[0][2] - pair[1][2]);
                 }
                 crossings += 1;
                 under = !under;
             }
         }
         if crossings >= 2 {
-            sum += rate * (radii[1] - radii[0]);
+            sum += rate * (left[1] - left[0]);
         }
     }
-    -2.0 * contact.target_share * sum / contact.wave_time
+    -contact.target_share * sum / contact.wave_time
 }

@@ -1,5 +1,6 @@
 //! Pieces after pieces from the touch until the contact has mostly opened.
 
+use crate::growing::GrowingError;
 use crate::growing::arrivals::Piece;
 use crate::growing::equations::{Equations, Independent, State, Values};
 use crate::growing::nodes::Nodes;
@@ -130,6 +131,16 @@ impl<'a> March<'a> {
                 self.level -= 1;
             }
             return Some((solution, error));
+        }
+    }
+
+    /// Why it could not go on at a time.
+    pub(crate) fn lost(&self, time: f64) -> GrowingError {
+        GrowingError::NotFollowed {
+            time,
+            tolerance: self.accuracy,
+            target_share: self.contact.target_share,
+            wave_time: self.contact.wave_time,
         }
     }
 

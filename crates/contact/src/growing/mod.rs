@@ -84,7 +84,7 @@ pub enum GrowingError {
     },
     /// The surface comes back and strikes the striker once more.
     #[error(
-        "the surface meets the striker again {time:.4} collision times after the touch: only the first contact is solved"
+        "the surface meets the striker again {time:.4} collision times after the touch, which is not followed: ask for model \"area_dashpot\", to which there is one contact"
     )]
     StrikesAgain {
         /// Time in collision units.
@@ -92,7 +92,7 @@ pub enum GrowingError {
     },
     /// The contact shrinks faster than its waves.
     #[error(
-        "waves that left the contact at {time:.4} collision times are overtaken by later ones: the memory of the half-space is too long for this method"
+        "waves that left the contact at {time:.4} collision times are overtaken by later ones: the memory of the half-space is too long to be followed: ask for model \"area_dashpot\", which has none"
     )]
     Overtaken {
         /// Time in collision units.
@@ -218,21 +218,8 @@ fn excess(estimates: &Estimates, accuracy: &Accuracy) -> f64 {
 fn resolve(contact: &GrowingContact<'_>, piece: f64) -> Result<SolvedContact, GrowingError> {
     let mut march = March::new(*contact, piece);
     let followed = march.load(f64::INFINITY).and_then(|()| march.close());
-    followed.map_err(|time| GrowingError::NotFollowed {
-        time,
-        tolerance: piece,
-        target_share: contact.target_share,
-        wave_time: contact.wave_time,
-    })?;
-    let velocity = march.state.velocity;
-    let solved = SolvedContact::new(march);
-    if let Some(time) = checks::folds(solved.all_pieces(), contact) {
-        return Err(GrowingError::Overtaken { time });
-    }
-    if let Some(time) = checks::strikes_again(solved.all_pieces(), contact, velocity) {
-        return Err(GrowingError::StrikesAgain { time });
-    }
-    Ok(solved)
+    followed.map_err(|time| march.lost(time))?;
+    checks::passed(SolvedContact::new(march), contact)
 }
 
 fn check(contact: &GrowingContact<'_>) -> Result<(), GrowingError> {

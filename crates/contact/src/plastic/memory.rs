@@ -1,6 +1,8 @@
 //! A contact that yields on a half-space with its memory: the march of one that does not, along the branches.
 
 use crate::disc::refine::Accuracy;
+use crate::growing::GrowingError;
+use crate::growing::checks;
 use crate::growing::equations::{Independent, Values};
 use crate::growing::march::March;
 use crate::growing::polynomial::{LARGEST, Polynomial};
@@ -28,32 +30,24 @@ impl Yielding {
     /// The contact with the memory of the half-space, to an accuracy; nothing where waves keep it from yielding.
     ///
     /// # Errors
-    /// The time where no piece is short enough.
+    /// [`GrowingError`].
     pub(crate) fn remembered(
         &self,
         contact: &GrowingContact<'_>,
         asked: &Accuracy,
-    ) -> Result<Option<SolvedContact>, f64> {
-        let mut failed = 0.0;
-        // a stiff striker's last instants may need finer pieces
-        for part in PIECE {
+    ) -> Result<Option<SolvedContact>, GrowingError> {
+        let tried = |part: f64| {
             let mut march = March::new(*contact, (part * asked.tolerance).max(FINEST));
-            match march.follow(self) {
-                Ok(turned) => {
-                    let March {
-                        pieces,
-                        errors,
-                        state,
-                        ..
-                    } = march;
-                    return Ok(turned.map(|turned| {
-                        SolvedContact::yielded(pieces, &errors, state.velocity, self, turned)
-                    }));
-                }
-                Err(time) => failed = time,
-            }
-        }
-        Err(failed)
+            let Some(turned) = march.follow(self).map_err(|time| march.lost(time))? else {
+                return Ok(None);
+            };
+            let (pieces, velocity) = (march.pieces, march.state.velocity);
+            let solved = SolvedContact::yielded(pieces, &march.errors, velocity, self, turned);
+            checks::passed(solved, contact).map(Some)
+        };
+        // a stiff striker's last instants may need finer pieces
+        let [first, second, last] = PIECE;
+        (tried(first).or_else(|_| tried(second))).or_else(|_| tried(last))
     }
 }
 
