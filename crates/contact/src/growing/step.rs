@@ -51,14 +51,10 @@ impl Step<'_> {
         let mut departures = Departures::default();
         let mut matrix = Factors::room(n);
         let mut before = f64::INFINITY;
-        let finite = |values: &Values| values[..=n].iter().all(|x| x.is_finite());
-        if !finite(guess) {
-            return None;
-        }
         // Newton's next change would be about the square
         let enough = (1e-2 * self.accuracy).sqrt().min(1e-5);
         for iteration in 1..=ITERATIONS {
-            let motion = self.equations.motion(&sought);
+            let motion = self.moves(&sought)?;
             let rule = self.rules[0];
             let residual = self
                 .equations
@@ -76,10 +72,6 @@ impl Step<'_> {
                 sought[i] -= factor * change[i - 1];
                 size = size.max(change[i - 1].abs());
             }
-            // a matrix that is nearly singular throws the motion out of the numbers
-            if !finite(&sought) {
-                return None;
-            }
             let relative = size / self.scale(&sought);
             if factor == 1.0 && relative < enough {
                 return self.corrected(sought, &matrix);
@@ -92,10 +84,18 @@ impl Step<'_> {
         None
     }
 
+    /// The motion, unless a matrix that is nearly singular or a law at the end of the numbers threw it out of them.
+    fn moves(&self, sought: &Values) -> Option<Motion> {
+        let motion = self.equations.motion(sought);
+        let of = [&motion.time, &motion.radius, &motion.velocity];
+        let mut all = of.into_iter().flatten();
+        all.all(|x| x.is_finite()).then_some(motion)
+    }
+
     /// One more change, by the finer rule.
     fn corrected(&self, mut sought: Values, matrix: &Factors) -> Option<Solution> {
         let n = self.equations.nodes.degree;
-        let motion = self.equations.motion(&sought);
+        let motion = self.moves(&sought)?;
         let mut departures = Departures::default();
         let residual = self
             .equations
@@ -107,7 +107,7 @@ impl Step<'_> {
             sought[i] -= change[i - 1];
             waves = waves.max(change[i - 1].abs());
         }
-        let motion = self.equations.motion(&sought);
+        let motion = self.moves(&sought)?;
         self.goes_on(&motion)
             .then(|| self.solution(&sought, &motion, waves))
     }

@@ -13,9 +13,9 @@ use contact::law::hertz::CONTACT_TIME;
 use contact::law::quasi_static::{quasi_static, quasi_static_radiation};
 use contact::law::radiation::radiation;
 use contact::{
-    Accuracy, ExactDisc, FixedDisc, GrowingContact, History, MarchError, PunchWaves, ResponseTable,
-    StaticShare, Summary, Workspace, march_explicit, march_growing, march_implicit, refine,
-    solve_disc, solve_growing,
+    Accuracy, Collision, ExactDisc, FixedDisc, GrowingContact, History, MarchError, Model,
+    Outcomes, PunchWaves, Ratios, ResponseTable, Settings, Solver, StaticShare, Summary, Tabulated,
+    Workspace, march_explicit, march_growing, march_implicit, refine, solve_disc, solve_growing,
 };
 use halfspace::{Deflection, Medium, SurfaceResponse};
 use std::cell::{Cell, RefCell};
@@ -49,8 +49,17 @@ pub(crate) fn measure(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Record>,
     let disc = collided.fixed_disc(&response, ROD_RADIUS_M, StaticShare::Full);
     let reference = refine(|step| march_implicit(&disc, step), 0.02, 2e-11)?;
     let table = ResponseTable::new(&response);
+    let responses = Tabulated::new(Ratios::Few);
+    let settings = Settings {
+        model: Model::Wave,
+        static_share: StaticShare::Full,
+        disc_radius_m: Some(ROD_RADIUS_M),
+        ..Settings::default()
+    };
+    let made = series(&responses, (collided, settings), effort);
     let mut candidates = on_disc(&disc, effort);
     candidates.extend(to_tolerance(&disc, &table, effort));
+    candidates.extend(from_series(&responses, &made, &collided)?);
     measure(DISC, &reference.summary, candidates)?;
 
     let collision = collision(&ball("steel", 1.0)?);
@@ -62,8 +71,14 @@ pub(crate) fn measure(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Record>,
     let reference = solve_growing(&growing, &Accuracy::of_contact(1e-10, None))?;
     let lag = collision.lag(&response);
     let terms = AreaDashpot::new(growing.target_share, growing.wave_time, &waves);
+    let settings = Settings {
+        model: Model::Growing,
+        ..Settings::default()
+    };
+    let made = series(&responses, (collision, settings), effort);
     let mut candidates = growing_contact(&growing, lag, terms, effort);
     candidates.extend(by_pieces(growing, effort));
+    candidates.extend(from_series(&responses, &made, &collision)?);
     measure(BALL, reference.summary(), candidates)?;
     Ok(records)
 }
@@ -226,6 +241,45 @@ fn by_pieces(contact: GrowingContact<'_>, effort: Effort) -> Vec<Candidate<'_, R
     };
     let digits: &[i32] = effort.pick(&[4, 6], &[3, 4, 5, 6, 7, 8]);
     digits.iter().map(at).collect()
+}
+
+/// Series for a million contacts alike, by tolerance.
+fn series(
+    responses: &Tabulated,
+    (collision, settings): (Collision, Settings),
+    effort: Effort,
+) -> Vec<(Settings, Outcomes)> {
+    const CONTACTS: usize = 1_000_000;
+    let at = |digits: i32| {
+        let tolerance = 10.0_f64.powi(-digits);
+        let settings = Settings {
+            tolerance,
+            ..settings
+        };
+        let some = std::iter::once((collision, settings));
+        (settings, Solver::new(responses).outcomes(CONTACTS, some))
+    };
+    (3..=effort.pick(4, 8)).map(at).collect()
+}
+
+/// What sweeps do with many contacts of two materials: a series through marches, made before it is timed.
+fn from_series<'a>(
+    responses: &'a Tabulated,
+    made: &'a [(Settings, Outcomes)],
+    collision: &'a Collision,
+) -> Result<Vec<Candidate<'a, Results>>, StudyError> {
+    let mut list = Vec::new();
+    for (settings, outcomes) in made {
+        let solver = RefCell::new(Solver::sharing(responses, outcomes));
+        let solve = move || {
+            let solved = solver.borrow_mut().solve(collision, settings)?;
+            Ok((results(&solved.summary), None))
+        };
+        solve()?;
+        let setting = format!("tolerance {:.0e}", settings.tolerance);
+        list.push(Candidate::new("series, as in large sweeps", setting, solve).default_path(true));
+    }
+    Ok(list)
 }
 
 fn growing_contact<'a>(
