@@ -77,7 +77,7 @@ def test_pictures_show_what_is_asked():
         expected = getattr(run.probes, quantity)[0]
         assert abs(shown @ expected / ((shown @ shown) * (expected @ expected)) ** 0.5 - 1.0) < 1e-12
     axes = run.plot_section(2, "von_mises")
-    assert "von Mises" in axes.get_title() and axes.get_ylim()[1] == 0.0
+    assert "von Mises" in axes.get_title("left") and axes.get_ylim()[1] == 0.0
     with pytest.raises(KeyError, match="not one of displacement_r"):
         run.plot_probes("speed")
     spec = {"scene": {k: scene[k] for k in ("target", "striker")}, "product": {"striker": {"velocity_m_s": [0.5, 1.0, 2.0]}}}
