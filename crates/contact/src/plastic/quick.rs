@@ -10,6 +10,7 @@
 //! Theory: `docs/theory.md` (T65).
 
 use crate::growing::nodes::{Factors, Nodes};
+use crate::growing::polynomial::dot;
 use crate::outcome::series::{LANES, Series};
 use crate::plastic::branch::{Branch, FITTED, Fit};
 use crate::plastic::dashpot::Dashpot;
@@ -153,43 +154,38 @@ impl Turned {
             });
             let mut forces = [[0.0; 3]; NODES];
             let mut matrix = Factors::room(NODES);
-            let mut left = f64::INFINITY;
-            for _ in 0..ITERATIONS {
+            let settled = (0..ITERATIONS).any(|_| {
                 let mut change = [0.0; NODES];
                 for i in 0..NODES {
-                    let sum: f64 = (0..NODES)
-                        .map(|j| rule.integral_row(i + 1)[j] * rates[j])
-                        .sum();
-                    let (rate, here, stiffness) = rate(depth + width * sum, turns[i]);
+                    let row = rule.integral_row(i + 1);
+                    let there = depth + width * dot(row, &rates);
+                    let (rate, here, stiffness) = rate(there, turns[i]);
                     forces[i] = here;
                     change[i] = rates[i] - rate;
                     let by = width * rate * stiffness / (here[0] + here[1]);
                     for (j, entry) in matrix.row(i).iter_mut().enumerate() {
-                        *entry = by * rule.integral_row(i + 1)[j] + f64::from(u8::from(i == j));
+                        *entry = by * row[j] + f64::from(u8::from(i == j));
                     }
                 }
                 if !matrix.eliminate() {
-                    return None;
+                    return false;
                 }
                 matrix.solve(&mut change);
                 for (rate, change) in rates.iter_mut().zip(change) {
                     *rate -= change;
                 }
-                left = change.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
                 // the next change would be about its square
-                if left < 1e-7 {
-                    break;
-                }
-            }
-            if left >= 1e-7 {
+                change.iter().all(|change| change.abs() < 1e-7)
+            });
+            if !settled {
                 return None;
             }
-            let over = |f: &dyn Fn(usize) -> f64| -> f64 {
-                width * (0..NODES).map(|j| rule.weights[j] * f(j)).sum::<f64>()
-            };
-            time += over(&|j| forces[j][2] / (forces[j][0] + forces[j][1]));
-            lost += over(&|j| forces[j][1] * rates[j]);
-            depth += over(&|j| rates[j]);
+            for (j, (weight, [force, damped, sine])) in rule.weights.iter().zip(forces).enumerate()
+            {
+                time += width * weight * sine / (force + damped);
+                lost += width * weight * damped * rates[j];
+                depth += width * weight * rates[j];
+            }
             let last = NODES - 1;
             slope = rates[last] / (turns[last].0 * turns[last].1);
             from = to;
@@ -239,10 +235,7 @@ fn rise(edge: f64, lag: f64) -> Option<(f64, f64, f64)> {
             let moved: [f64; NODES] = std::array::from_fn(|j| width * x[j] * x[j] * x[j] * v[j]);
             let mut change = 0.0_f64;
             for i in 0..NODES {
-                let sum: f64 = (0..NODES)
-                    .map(|j| rule.integral_row(i + 1)[j] * moved[j])
-                    .sum();
-                let next = (rest[i] - factor * sum).sqrt();
+                let next = (rest[i] - factor * dot(rule.integral_row(i + 1), &moved)).sqrt();
                 change = change.max((next - v[i]).abs());
                 v[i] = next;
             }
@@ -250,10 +243,10 @@ fn rise(edge: f64, lag: f64) -> Option<(f64, f64, f64)> {
                 break;
             }
         }
-        let over =
-            |f: &dyn Fn(usize) -> f64| -> f64 { (0..NODES).map(|j| rule.weights[j] * f(j)).sum() };
-        time += width * over(&|j| 2.0 * x[j] / v[j]);
-        lost += width * over(&|j| x[j] * x[j] * x[j] * v[j]);
+        for (weight, (x, v)) in rule.weights.iter().zip(x.iter().zip(v)) {
+            time += 2.0 * width * weight * x / v;
+            lost += width * weight * x * x * x * v;
+        }
         from = to;
     }
     let square = 1.0 - edge.powi(5) - factor * lost;
