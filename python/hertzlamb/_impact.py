@@ -554,7 +554,7 @@ def infer(
     ...         "diameter_m": 0.005, "velocity_m_s": 1.57}, "contact": {"plasticity": "thornton"}}
     >>> found = hl.infer(drop, restitution=0.56)
     >>> found.unknown, round(found.value / 1e9, 3)
-    ('yield_pressure_pa', 0.76)
+    ('yield_pressure_pa', 0.749)
     """
     pair = None if bounces is None else list(bounces)
     one = {"restitution": restitution, "contact_time_s": contact_time_s, "peak_force_n": peak_force_n}
