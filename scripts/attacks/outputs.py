@@ -93,11 +93,11 @@ def attack(name, folder, writing, table):
         twice = os.path.join(folder, "twice")
         refused(["sweep", os.path.join(folder, "s.toml"), "-o", twice, "--csv", f"{folder}/./twice", "--force"], "the same output twice")
         journal = os.path.join(folder, "s.h5.part")
-        for strange in (b"precious", b"x" * 20, b"hertzlamb kernel blocks 9, numbers 1, settings 0 3\n\nabc"):
+        for strange in (b"precious", b"x" * 20, b"hertzlamb journal 1 of a table: 0 3\nabc"):
             write(journal, strange)
             refused(writing.arguments, "a strange journal")
     if name.startswith("tabulate"):
-        for strange in (b"precious", b"x" * 20, b"hlsweep3" + bytes(60)):
+        for strange in (b"precious", b"x" * 20, b"hertzlamb journal 1 of a sweep: 0 3\nabc"):
             write(os.path.join(folder, "t.h5.journal"), strange)
             refused(writing.arguments, "a strange journal")
     tally.show()
