@@ -10,7 +10,7 @@ import re
 import sys
 from pathlib import Path
 
-from validation import dashpot, impacts, inside, radiation, surface
+from validation import dashpot, impacts, inside, plastic, radiation, surface
 from validation.table import Table
 
 DOCUMENT = Path(__file__).resolve().parent.parent / "docs" / "validation.md"
@@ -25,6 +25,7 @@ TABLES = [
     Table("impacts", "contact times, forces, loss", impacts.impacts),
     Table("measured", "measurements and formulas in use", impacts.measured),
     Table("dashpot", "the area dashpot of particle codes", dashpot.dashpot),
+    Table("plastic", "contacts that yield", plastic.plastic),
     Table("lammps", "LAMMPS, run here", dashpot.lammps, quick=False, needs="lammps"),
     Table("pygrt", "pygrt-kit, run here", surface.package, quick=False, needs="pygrt"),
 ]

@@ -12,6 +12,7 @@
 What there is
 -------------
 impact : one impact from a scene (a dictionary, a file or TOML text)
+infer : yield pressure or velocity from a rebound
 collide : many impacts, any key of the scene as an array
 sweep : a sweep file, or any part of its rows
 Table : a kernel table, for fields at many points
@@ -41,7 +42,7 @@ from hertzlamb._errors import (
     WorkError,
 )
 from hertzlamb._fields import Fields
-from hertzlamb._impact import Impact, Probes, Section, impact, resolve
+from hertzlamb._impact import Impact, Inferred, Probes, Section, impact, infer, resolve
 from hertzlamb._materials import Material, Materials, materials
 from hertzlamb._sweep import Collisions, Sweep, collide, sweep
 from hertzlamb._table import Table, Trace, tabulate
@@ -56,6 +57,7 @@ __all__ = [
     "HertzlambWarning",
     "Impact",
     "ImpactError",
+    "Inferred",
     "Material",
     "Materials",
     "OutputError",
@@ -72,6 +74,7 @@ __all__ = [
     "__version__",
     "collide",
     "impact",
+    "infer",
     "kernels",
     "materials",
     "resolve",

@@ -8,7 +8,7 @@ import warnings
 from collections.abc import Mapping
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, Protocol
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Protocol
 
 from hertzlamb import _core
 from hertzlamb._errors import HertzlambWarning, OutputExists, SceneError
@@ -491,6 +491,78 @@ def impact(
     for warning in core.warnings():
         warnings.warn(warning, HertzlambWarning, stacklevel=2)
     return Impact(core)
+
+
+class Inferred(NamedTuple):
+    """What was inferred from a rebound, in SI units, with the contact that has it."""
+
+    unknown: str
+    """What was sought."""
+    value: float
+    """Its value."""
+    low: float | None
+    """The least that the error of the measure allows; None where no contact that yields has that."""
+    high: float | None
+    """The most."""
+    velocity_over_yield: float
+    yield_velocity_m_s: float
+    restitution: float
+    contact_time_s: float
+    peak_force_n: float
+
+
+def infer(
+    scene: Scene,
+    *,
+    restitution: float | None = None,
+    bounces: tuple[float, float] | None = None,
+    contact_time_s: float | None = None,
+    peak_force_n: float | None = None,
+    error: float = 0.0,
+    unknown: Literal["yield_pressure_pa", "velocity_m_s"] = "yield_pressure_pa",
+) -> Inferred:
+    """Yield pressure or velocity of a contact that yields, from one measure of its rebound.
+
+    Parameters
+    ----------
+    scene : dict, path or str
+        A scene with a ``plasticity``; what is sought is not taken from it.
+    restitution, contact_time_s, peak_force_n : float, optional
+        What was measured; one of these or ``bounces``.
+    bounces : two floats, optional
+        Times in s between three bounces: the second over the first is the restitution of the bounce between, whose
+        velocity follows from the first.
+    error : float
+        Absolute error of what was measured, of both times for bounces.
+    unknown : {"yield_pressure_pa", "velocity_m_s"}
+        What is sought.
+
+    Returns
+    -------
+    Inferred
+        The value with the band that the error makes of it, equal to those of ``hertzlamb infer`` to the last bit.
+
+    Raises
+    ------
+    SceneError
+        Not one measure, or no striker.
+    ImpactError
+        No contact that yields has such a measure.
+
+    >>> import hertzlamb as hl
+    >>> drop = {"target": {"material": "aluminium-6061-t6"}, "striker": {"shape": "ball", "material": "bearing-steel",
+    ...         "diameter_m": 0.005, "velocity_m_s": 1.57}, "contact": {"plasticity": "thornton"}}
+    >>> found = hl.infer(drop, restitution=0.56)
+    >>> found.unknown, round(found.value / 1e9, 3)
+    ('yield_pressure_pa', 0.749)
+    """
+    pair = None if bounces is None else list(bounces)
+    one = {"restitution": restitution, "contact_time_s": contact_time_s, "peak_force_n": peak_force_n}
+    given = {name: [value] for name, value in one.items() if value is not None} | ({"bounces": pair} if pair else {})
+    if len(given) != 1:
+        raise SceneError(f"{len(given)} measures are given, not one of {', '.join([*one, 'bounces'])}", key="infer")
+    ((name, values),) = given.items()
+    return Inferred(**_core.infer(scene, name, values, error, unknown))
 
 
 def resolve(scene: Scene) -> dict[str, Any]:

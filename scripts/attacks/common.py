@@ -12,7 +12,6 @@ import shutil
 import signal
 import subprocess
 import sys
-import time
 
 ROOT = os.environ.get("ATTACK_ROOT", os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
 PROGRAM = os.environ.get("HERTZLAMB", os.path.join(ROOT, "target/debug/hertzlamb"))
@@ -74,7 +73,7 @@ velocity_m_s = { distribution = "log_uniform", low = 0.1, high = 10.0 }
 """
 """A sweep of draws without waves."""
 
-Ended = collections.namedtuple("Ended", "code signal hung wall_s rss_mb out err")
+Ended = collections.namedtuple("Ended", "code signal hung busy_s rss_mb out err")
 """How a run ended: `code` is None where a signal ended it."""
 
 
@@ -117,7 +116,6 @@ def run(arguments, limit=60.0, cwd=None, env=None, stdin=subprocess.DEVNULL, lim
     os.makedirs(WORK, exist_ok=True)
     tag = os.path.join(WORK, f".run.{os.getpid()}")
     with open(tag + ".out", "w+b") as out, open(tag + ".err", "w+b") as err:
-        start = time.monotonic()
         child = subprocess.Popen(
             [PROGRAM, *map(str, arguments)], stdin=stdin, stdout=out, stderr=err, cwd=cwd, env=env, preexec_fn=limits
         )
@@ -132,12 +130,13 @@ def run(arguments, limit=60.0, cwd=None, env=None, stdin=subprocess.DEVNULL, lim
         _, status, usage = os.wait4(child.pid, 0)
         signal.setitimer(signal.ITIMER_REAL, 0)
         child.returncode = 0
-        wall_s = time.monotonic() - start
+        # a busy machine takes longer, not more of the processor
+        busy_s = usage.ru_utime + usage.ru_stime
         out.seek(0), err.seek(0)
         texts = [file.read(400_000).decode("utf-8", "replace") for file in (out, err)]
     code = os.waitstatus_to_exitcode(status)
     ended = -code if code < 0 else None
-    return Ended(None if ended else code, ended, bool(hung), wall_s, usage.ru_maxrss / 1024, *texts)
+    return Ended(None if ended else code, ended, bool(hung), busy_s, usage.ru_maxrss / 1024, *texts)
 
 
 def well(arguments, **how):
@@ -162,7 +161,7 @@ def kind(ended, most_mb=2000):
         return "crashed"
     if ended.rss_mb > most_mb:
         return "memory"
-    if ended.code and "error: " not in ended.err:
+    if ended.code and not any(head in ended.err for head in ("error: ", '{"error":')):
         return "unclear"
     return f"exit {ended.code}"
 

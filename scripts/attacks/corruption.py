@@ -71,8 +71,8 @@ def exchanged(good, choice):
 
 def judged(tally, ended, right, note):
     """Counts a run on a damaged file: refused in a sentence, or right."""
-    if ended.rss_mb > MOST_MB or ended.wall_s > MOST_S:
-        tally.fail("exploding", f"{note}: {ended.rss_mb:.0f} MB, {ended.wall_s:.1f} s")
+    if ended.rss_mb > MOST_MB or ended.busy_s > MOST_S:
+        tally.fail("exploding", f"{note}: {ended.rss_mb:.0f} MB, {ended.busy_s:.1f} s")
     elif ended.code == 0:
         tally.good("right") if right else tally.fail("silently wrong", note)
     elif ended.code in (1, 2):

@@ -77,8 +77,8 @@ if __name__ == "__main__":
         fault = wrong(ended.out) if ended.code == 0 else ""
         if fault:
             tally.fail("absurd", f"{fault}: {note}")
-        elif ended.rss_mb > MOST_MB or ended.wall_s > MOST_S:
-            tally.fail("exploding", f"{ended.rss_mb:.0f} MB, {ended.wall_s:.1f} s: {last_line(ended)[:100]} {note}")
+        elif ended.rss_mb > MOST_MB or ended.busy_s > MOST_S:
+            tally.fail("exploding", f"{ended.rss_mb:.0f} MB, {ended.busy_s:.1f} s: {last_line(ended)[:100]} {note}")
         else:
             tally.ended(ended, {0, 1, 2}, note)
     tally.show()

@@ -56,8 +56,8 @@ RIGHT = {"untouched", "no rows", "the whole beside", "a journal of nothing", "a 
 
 def listing(tally, ended, note):
     """Counts a run that lists a folder."""
-    if ended.wall_s > MOST_S:
-        tally.fail("slow", f"{note}: {ended.wall_s:.1f} s")
+    if ended.busy_s > MOST_S:
+        tally.fail("slow", f"{note}: {ended.busy_s:.1f} s")
     elif "\x1b" in ended.out + ended.err:
         tally.fail("control characters", note)
     else:

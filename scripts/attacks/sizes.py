@@ -56,8 +56,8 @@ if __name__ == "__main__":
     tally = Tally("sizes")
     for name, arguments in commands.items():
         ended = run(arguments, limit=30)
-        if ended.rss_mb > MOST_MB or ended.wall_s > MOST_S:
-            tally.fail("exploding", f"{name}: {ended.rss_mb:.0f} MB, {ended.wall_s:.1f} s, {last_line(ended)[:120]}")
+        if ended.rss_mb > MOST_MB or ended.busy_s > MOST_S:
+            tally.fail("exploding", f"{name}: {ended.rss_mb:.0f} MB, {ended.busy_s:.1f} s, {last_line(ended)[:120]}")
         elif ended.code in (1, 2) and len(ended.err.strip().splitlines()) == 1:
             tally.good("refused at once")
         else:

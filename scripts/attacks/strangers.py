@@ -112,8 +112,8 @@ if __name__ == "__main__":
         for what, arguments in uses(folder, path).items():
             ended = run(arguments, limit=20)
             note = f"{os.path.basename(path)} as {what}"
-            if ended.rss_mb > MOST_MB or ended.wall_s > MOST_S:
-                tally.fail("exploding", f"{note}: {ended.rss_mb:.0f} MB, {ended.wall_s:.1f} s")
+            if ended.rss_mb > MOST_MB or ended.busy_s > MOST_S:
+                tally.fail("exploding", f"{note}: {ended.rss_mb:.0f} MB, {ended.busy_s:.1f} s")
             elif ended.code == 0 and not (what.startswith("materials") and os.path.getsize(path) == 0):
                 tally.fail("taken", note)
             else:

@@ -43,6 +43,63 @@ def followed(s, c):
     return depth, force, -down.y[1, -1], down.y[2, -1], rho, max(down.y[0, -1] - left, 0)
 
 
+def at_rest(density, ends, r, z, nu):
+    """Static displacements and stresses (times 4 pi G and 2 pi) under punches: point loads at complex depths z + it."""
+    sum_of = 0
+    for low, high in zip(ends[:-1], ends[1:], strict=True):
+        angle, weight = np.polynomial.legendre.leggauss(40)
+        angle, weight = np.pi / 2 * (angle + 1), np.pi / 2 * weight
+        t = (low + high) / 2 - (high - low) / 2 * np.cos(angle)
+        depth = z + 1j * t
+        far = np.sqrt(r * r + depth * depth)
+        v_z, v_zz, v_rz = -depth / far**3, 3 * depth**2 / far**5 - 1 / far**3, 3 * r * depth / far**5
+        psi_r = r / (far * (far + depth))
+        around = psi_r / r
+        each = [
+            (2 * nu - 1) * psi_r + z * r / far**3,
+            2 * (1 - nu) / far - z * v_z,
+            2 * nu * v_z - z * (3 * r * r / far**5 - 1 / far**3) + (1 - 2 * nu) * (v_z + around),
+            2 * nu * v_z + z / far**3 - (1 - 2 * nu) * around,
+            v_z - z * v_zz,
+            -z * v_rz,
+        ]
+        sum_of = sum_of + np.real(each) @ (density(t) * weight * (high - low) / 2 * np.sin(angle)) * 2
+    return sum_of
+
+
+def beyond(y, top, a):
+    """Largest error of the fields of two of Hertz's pressures for a cut one unloaded to a radius, two to ten radii away."""
+    kink = np.sqrt(top**2 - y * y)
+
+    def chord(x):
+        root = np.sqrt(np.maximum(x, y * y))
+        cut = 1.5 / np.pi * (root**2 * np.arcsin(y / root) + y * np.sqrt(root**2 - y * y))
+        return np.where(x > y * y, cut, 0.75 * x)
+
+    def own(t):
+        return chord(top**2 - t * t) - chord(top**2 - a * a)
+
+    def punches(b, power):
+        return 6 / np.pi * b ** (2 + power) * np.arcsin(min(1, y / np.sqrt(max(top**2 - b * b, y * y))))
+
+    moments = [(2 * k + 3) / 3 * quad(punches, 0, a, args=(2 * k,), points=[min(kink, a)])[0] for k in range(3)]
+    force, second, fourth = moments[0], moments[1] / moments[0] / a**2 - 1, moments[2] / moments[0] / a**4 - 1
+    inner = fourth / second - 1
+    share = second / (inner - 1)
+    worst = 0
+    for distance in (2, 3, 5, 10):
+        for angle in np.linspace(0.1, np.pi / 2, 8):
+            place = distance * top * np.sin(angle), distance * top * np.cos(angle), 0.3
+            two = 0
+            for part, radius in ((1 - share, a), (share, a * np.sqrt(inner))):
+                hertz = lambda t, p=part, b=radius: 0.75 * p * force / b**3 * (b * b - t * t)  # noqa: E731
+                two = two + at_rest(hertz, [0, radius], *place)
+            exact = at_rest(own, sorted({0, min(kink, a), a}), *place)
+            for kind in (slice(0, 2), slice(2, 6)):
+                worst = max(worst, np.abs(two - exact)[kind].max() / np.abs(exact)[kind].max())
+    return worst
+
+
 def check(report):
     """(T62) to (T67)."""
     worst = 0
@@ -74,6 +131,9 @@ def check(report):
     # far beyond yield p* = (3/2) y a^2 and the stroke is (4/pi) y a
     ratio = back * 1.5 * y * (4 / np.pi) * y / (0.4 * (1.5 * y) ** 2)
     report.row("T63", "work that comes back over Thornton's, far beyond yield", abs(ratio - uniform), 1e-9)
+
+    for part, bound in ((1.0, 1e-4), (0.5, 1e-6)):
+        report.row("T63", f"fields beyond two radii at {part} of the largest: two pressures", beyond(0.4, 0.9, part * 0.9), bound)
 
     def green(w, shape, strain):
         spread = 0.14 * np.exp(23 * strain)

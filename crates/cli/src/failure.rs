@@ -34,6 +34,14 @@ impl Failure {
         error.to_string().into()
     }
 
+    /// What stands in the way may go.
+    pub(crate) fn until_later(error: impl Display) -> Self {
+        Self {
+            remedy: Remedy::Wait,
+            ..Self::work(error)
+        }
+    }
+
     /// Work of many parts failed; an output that cannot be written is told as everywhere.
     pub(crate) fn in_part(error: Box<dyn Error + Send + Sync>) -> Self {
         match error.downcast::<OutputError>() {
@@ -51,10 +59,11 @@ impl Failure {
     /// Standard output does not take what is written.
     pub(crate) fn unprintable(error: std::io::Error) -> Self {
         let output::Fault { reason, full } = error.into();
-        let remedy = if full { Remedy::Wait } else { Remedy::Unknown };
-        Self {
-            remedy,
-            ..Self::work(format!("cannot write to standard output: {reason}"))
+        let told = format!("cannot write to standard output: {reason}");
+        if full {
+            Self::until_later(told)
+        } else {
+            Self::work(told)
         }
     }
 

@@ -26,7 +26,8 @@ pub use error::SceneError;
 pub use output::{Existing, Output, OutputError, check, write_whole};
 pub use quantities::{Kind, QUANTITIES, Quantity};
 pub use report::{
-    Choices, accuracy_report, choices, json_report, kernel_name, material_report, table_report,
+    Choices, accuracy_report, choices, infer, json_report, kernel_name, material_report,
+    table_report,
 };
 pub use results::{
     Allowed, check_results, print_results_csv, stage_results, stage_results_csv, write_results,

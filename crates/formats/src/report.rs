@@ -2,7 +2,7 @@
 
 use crate::quantities::{Kind, QUANTITIES};
 use crate::results::schema::TREATMENT;
-use contact::{Choice, Material};
+use contact::{Choice, GRAVITY_M_S2, InferError, Inferred, Material, Measure, Rebound, Unknown};
 use impact::{Cause, Load, Outcome, Scene};
 use lookup::schema::FIELD_NAMES;
 use lookup::{Accuracy, Quantiles, Table};
@@ -79,6 +79,63 @@ pub(crate) fn treatment(scene: &Scene) -> Vec<(&'static str, Option<f64>)> {
 pub fn kernel_name(outcome: &Outcome) -> &'static str {
     let used = outcome.used.as_ref();
     used.map_or("none", |used| used.kernel())
+}
+
+/// What is sought of a scene from a rebound, with its report: from what was measured by name, one number of a [`Measure`] or
+/// two of `bounces`, the times in s between three of them, with their absolute error.
+///
+/// # Errors
+/// [`InferError`].
+pub fn infer(
+    scene: &Scene,
+    (name, values): (&str, &[f64]),
+    mut error: f64,
+    unknown: Unknown,
+) -> Result<(Inferred, Value), InferError> {
+    let refused = |what: String| Err(InferError::Given(what));
+    let Load::Strike(strike) = &scene.load else {
+        let what = "a force record has no rebound: give the scene a [striker]";
+        return refused(what.to_owned());
+    };
+    let mut velocity_m_s = strike.velocity_m_s;
+    let (measure, value) = match (Measure::named(name), values) {
+        (Some(measure), &[value]) => (measure, value),
+        // the second time over the first is the restitution of the bounce between, whose velocity follows from the first
+        (None, &[first, second]) => {
+            velocity_m_s = 0.5 * GRAVITY_M_S2 * first;
+            error *= (1.0 + (second / first).powi(2)).sqrt() / first;
+            (Measure::Restitution, second / first)
+        }
+        _ => return refused(format!("{name} has {} times, not two", values.len())),
+    };
+    let positive = |x: f64| x > 0.0 && x.is_finite();
+    if !(positive(value) && positive(velocity_m_s) && error >= 0.0 && error.is_finite()) {
+        return refused(format!(
+            "{name} = {value} with an error of {error} is outside (0, inf) and [0, inf)"
+        ));
+    }
+    let rebound = Rebound {
+        target: &scene.target,
+        striker: &strike.striker,
+        velocity_m_s,
+        settings: &scene.settings,
+        unknown,
+        measure,
+    };
+    let found = rebound.infer(value, error)?;
+    let ([low, high], results) = (found.band, &found.results);
+    let report = json!({
+        "unknown": unknown.name(),
+        "value": found.value,
+        "low": low,
+        "high": high,
+        "velocity_over_yield": results.plastic.velocity_over_yield,
+        "yield_velocity_m_s": results.plastic.yield_velocity_m_s,
+        "restitution": results.restitution,
+        "contact_time_s": results.contact_time_s,
+        "peak_force_n": results.peak_force_n,
+    });
+    Ok((found, report))
 }
 
 /// All that is reported of a scene, with the time that it took in s.

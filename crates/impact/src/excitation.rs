@@ -59,13 +59,41 @@ impl PressureRadius {
             Self::Following { largest_m, .. } => largest_m,
         }
     }
+}
 
-    /// Square of the radius over that of the largest, under a force in N.
-    pub(crate) fn square(self, force_n: f64) -> f64 {
-        match self {
-            Self::Fixed(_) => 1.0,
-            Self::Following { largest_n, .. } => (force_n / largest_n).max(0.0).cbrt().powi(2),
+/// One of Hertz's pressures that together stand for the one of an instant.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Pressed {
+    /// The force in N and its rate in N/s.
+    pub(crate) force_n: f64,
+    pub(crate) rate: f64,
+    /// Square of the radius over that of the largest, and its rate in 1/s.
+    pub(crate) square: f64,
+    pub(crate) square_rate: f64,
+}
+
+impl Pressed {
+    /// The rate of something, by its difference over a part of the force.
+    pub(crate) fn rate_of<const N: usize, E>(
+        self,
+        part: f64,
+        of: impl Fn(Self) -> Result<[f64; N], E>,
+    ) -> Result<[f64; N], E> {
+        if self.force_n == 0.0 || self.rate == 0.0 {
+            return Ok([0.0; N]);
         }
+        let half_s = part * self.force_n / self.rate;
+        let [more, less] = [half_s, -half_s].map(|seconds| {
+            of(Self {
+                force_n: self.force_n + seconds * self.rate,
+                square: self.square + seconds * self.square_rate,
+                ..self
+            })
+        });
+        let (more, less) = (more?, less?);
+        Ok(std::array::from_fn(|i| {
+            (more[i] - less[i]) / (2.0 * half_s)
+        }))
     }
 }
 
@@ -211,6 +239,40 @@ impl Excitation {
             }
             Force::Record(record) => record.at(time_s),
         }
+    }
+
+    /// Hertz's pressures that together stand for the one at a time: two under a contact that yields and whose pressure is
+    /// known, elsewhere one.
+    pub(crate) fn pressures(&self, time_s: f64) -> [Pressed; 2] {
+        let [force_n, rate] = self.force_and_rate(time_s);
+        let one = |square: f64, square_rate: f64| Pressed {
+            force_n,
+            rate,
+            square,
+            square_rate,
+        };
+        let PressureRadius::Following { largest_n, .. } = self.radius else {
+            return [one(1.0, 0.0), Pressed::default()];
+        };
+        if force_n <= 0.0 {
+            return [Pressed::default(); 2];
+        }
+        if let Force::Contact { yielded, units, .. } = &self.force
+            && let Some(own) = yielded.as_deref()
+            && let Some(found) = own.pressures(time_s / units.time_s)
+        {
+            return found.map(|[part, part_rate, square, square_rate]| Pressed {
+                force_n: part * force_n,
+                rate: part * rate + part_rate * force_n / units.time_s,
+                square,
+                square_rate: square_rate / units.time_s,
+            });
+        }
+        let square = (force_n / largest_n).cbrt().powi(2);
+        [
+            one(square, square * rate / (1.5 * force_n)),
+            Pressed::default(),
+        ]
     }
 
     /// When each contact begins and ends, in s; none of a record.

@@ -79,14 +79,13 @@ impl Scene {
     pub(crate) fn beside(&self, near_m: f64) -> Option<String> {
         let near = |probe: &&Probe| probe.r_m.hypot(probe.z_m) < near_m;
         let probes = self.probes.iter().filter(near).count();
-        let section = if self.section.is_some() {
-            " and the middle of the section"
-        } else {
-            ""
-        };
-        (probes > 0 || self.section.is_some()).then(|| {
+        let probes = (probes > 0).then(|| format!("{probes} of the probes"));
+        let section = self.section.map(|_| "the middle of the section".to_owned());
+        let found: Vec<String> = probes.into_iter().chain(section).collect();
+        (!found.is_empty()).then(|| {
             format!(
-                "{probes} probes{section} lie within {near_m:.3e} m, two contact radii: the stresses there are not those of a yielding block"
+                "within {near_m:.3e} m, two contact radii, stresses are not those of a yielding block: {}",
+                found.join(" and ")
             )
         })
     }

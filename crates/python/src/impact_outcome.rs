@@ -7,6 +7,7 @@ use crate::table::Opened;
 use crate::table::Table;
 use crate::values::{from_json, vector};
 use crate::work::{Way, run};
+use contact::{Choice, Unknown};
 use formats::quantities::{Kind, Labels, QUANTITIES};
 use formats::results::schema;
 use formats::{Existing, Output, json_report, stage_results, stage_results_csv};
@@ -68,6 +69,26 @@ pub(crate) fn run_impact(
             wall_s,
         }),
     })
+}
+
+/// Yield pressure or velocity of a scene from what was measured of a rebound, by name.
+#[pyfunction]
+pub(crate) fn infer<'py>(
+    given: &Bound<'py, PyAny>,
+    measured: String,
+    values: Vec<f64>,
+    error: f64,
+    unknown: &str,
+) -> PyResult<Bound<'py, PyAny>> {
+    let py = given.py();
+    let known: Vec<_> = Unknown::ALL.iter().map(|&one| (one.name(), one)).collect();
+    let unknown = errors::one_of(py, "unknown", unknown, &known)?;
+    let scene = scene(given)?;
+    let found = run(py, &Way::default(), move |_| {
+        formats::infer(&scene, (&measured, &values), error, unknown)
+    })?;
+    let (_, report) = found.map_err(|error| errors::raised(py, error))?;
+    from_json(py, &report)
 }
 
 fn kernels(py: Python<'_>, name: &str, table: Option<Arc<Opened>>) -> PyResult<KernelChoice> {

@@ -31,7 +31,7 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _core {
     #[pymodule_export]
-    use crate::impact_outcome::{Outcome, run_impact};
+    use crate::impact_outcome::{Outcome, infer, run_impact};
     #[pymodule_export]
     use crate::kernels::{arrivals, kernel, medium, static_field, surface, surface_centre};
     #[pymodule_export]

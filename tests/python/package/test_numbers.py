@@ -107,6 +107,21 @@ def test_a_file_gives_what_the_command_gives(name, tmp_path):
     assert compare(here, command, path) > 10
 
 
+@pytest.mark.parametrize(
+    ("asked", "given"),
+    [
+        (["--restitution", "0.56", "--error", "0.01"], {"restitution": 0.56, "error": 0.01}),
+        (["--bounces", "0.32,0.18", "--error", "0.002"], {"bounces": (0.32, 0.18), "error": 0.002}),
+        (["--peak-force", "120", "--unknown", "velocity_m_s"], {"peak_force_n": 120, "unknown": "velocity_m_s"}),
+    ],
+)
+def test_what_is_inferred_is_that_of_the_command(asked, given):
+    scene = SCENES / "plastic-drop.toml"
+    assert hl.infer(scene, **given)._asdict() == run_well("infer", scene, *asked)
+    with pytest.raises(hl.SceneError, match="2 measures are given"):
+        hl.infer(scene, restitution=0.5, bounces=(0.3, 0.1))
+
+
 def test_a_dictionary_gives_what_the_command_gives_with_a_table(tmp_path, table):
     scene = tmp_path / "scene.toml"
     scene.write_text(toml(SECTION))

@@ -1,12 +1,10 @@
 //! `hertzlamb infer`: yield pressure or velocity from a rebound.
 
-use crate::commands::strike;
 use crate::failure::{Failure, show};
 use clap::builder::PossibleValuesParser;
 use clap::{ArgGroup, Args};
-use contact::{Choice, GRAVITY_M_S2, Measure, Rebound, Unknown};
+use contact::{Choice, Measure, Unknown};
 use formats::read_scene;
-use serde_json::json;
 use std::path::PathBuf;
 
 const EXAMPLES: &str = "Examples:
@@ -45,62 +43,19 @@ pub(crate) struct Arguments {
 
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let scene = read_scene(&arguments.scene)?;
-    let mut strike = strike(&scene)?.clone();
     let unknown = Unknown::named(&arguments.unknown).unwrap_or(Unknown::YieldPressure);
-    let mut error = arguments.error;
-    let (measure, value) = match (
-        &arguments.bounces,
-        arguments.restitution,
-        arguments.contact_time,
-        arguments.peak_force,
-    ) {
-        (Some(times), _, _, _) => {
-            let &[first, second] = times.as_slice() else {
-                return Err(Failure::input(format!(
-                    "--bounces has {} times, not two",
-                    times.len()
-                )));
-            };
-            strike.velocity_m_s = 0.5 * GRAVITY_M_S2 * first;
-            error *= (1.0 + (second / first).powi(2)).sqrt() / first;
-            (Measure::Restitution, second / first)
-        }
-        (None, Some(e), _, _) => (Measure::Restitution, e),
-        (None, None, Some(time), _) => (Measure::ContactTime, time),
-        (None, None, None, force) => (Measure::PeakForce, force.unwrap_or(f64::NAN)),
-    };
-    if !(value > 0.0
-        && value.is_finite()
-        && error >= 0.0
-        && error.is_finite()
-        && strike.velocity_m_s > 0.0)
-    {
-        return Err(Failure::input(format!(
-            "{} = {value} with an error of {error} is outside (0, inf) and [0, inf)",
-            measure.name()
-        )));
-    }
-    let rebound = Rebound {
-        target: &scene.target,
-        striker: &strike.striker,
-        velocity_m_s: strike.velocity_m_s,
-        settings: &scene.settings,
-        unknown,
-        measure,
-    };
-    let found = rebound.infer(value, error)?;
+    let one = [
+        (Measure::Restitution, arguments.restitution),
+        (Measure::ContactTime, arguments.contact_time),
+        (Measure::PeakForce, arguments.peak_force),
+    ];
+    let given = one
+        .into_iter()
+        .find_map(|(measure, value)| Some((measure.name(), vec![value?])));
+    let (name, values) =
+        given.unwrap_or_else(|| ("bounces", arguments.bounces.clone().unwrap_or_default()));
+    let (found, value) = formats::infer(&scene, (name, &values), arguments.error, unknown)?;
     let (results, [low, high]) = (&found.results, found.band);
-    let value = json!({
-        "unknown": unknown.name(),
-        "value": found.value,
-        "low": low,
-        "high": high,
-        "velocity_over_yield": results.plastic.velocity_over_yield,
-        "yield_velocity_m_s": results.plastic.yield_velocity_m_s,
-        "restitution": results.restitution,
-        "contact_time_s": results.contact_time_s,
-        "peak_force_n": results.peak_force_n,
-    });
     let end = |end: Option<f64>| end.map_or("beyond yield".to_owned(), |x| format!("{x:.4e}"));
     let text = format!(
         "{}  {:.6e}  ({} to {})\nvelocity over that of yield  {:.4}\nrestitution  {:.4}\ncontact time  {:.4e} s\npeak force  {:.4e} N",

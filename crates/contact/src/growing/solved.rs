@@ -4,7 +4,9 @@ use crate::growing::arrivals::Piece;
 use crate::growing::march::{Errors, March};
 use crate::growing::nodes::Nodes;
 use crate::growing::polynomial::LARGEST;
+use crate::model::Plasticity;
 use crate::numeric::quadrature::{GAUSS_8, gauss, rising_root};
+use crate::plastic::branch::nested;
 use crate::plastic::{Flow, Yielding};
 use crate::summary::{EndOfContact, Estimates, Instant, Summary};
 use crate::units::INVERSE_MASS;
@@ -222,6 +224,40 @@ impl SolvedContact {
             flowed.max(0.0),
             radiated[index] + work_of(piece, place),
         ])
+    }
+
+    /// Hertz's pressures that stand for the one at a time, where that is known, as under `recovery`: part of the force and
+    /// square of the radius over that of [`Flow::disc_radius`], with their rates.
+    #[must_use]
+    pub fn pressures(&self, time: f64) -> Option<[[f64; 4]; 2]> {
+        /// Radii apart, over the radius, between which rates are differences.
+        const APART: f64 = 1e-5;
+        let Yielded {
+            yielding,
+            flow,
+            breaks,
+            ..
+        } = self
+            .yielded
+            .as_ref()
+            .filter(|one| one.yielding.law == Plasticity::Recovery)?;
+        let (piece, place) = self.place(time)?;
+        let (radius, slope) = piece.radius.jet(place);
+        let at = |radius: f64| {
+            let top = if time < breaks[1] {
+                radius
+            } else {
+                flow.radius
+            };
+            nested(yielding.edge(), top, radius)
+        };
+        let [less, here, more] = [1.0 - APART, 1.0, 1.0 + APART].map(|part| at(part * radius));
+        let per = slope / (piece.time.jet(place).1 * 2.0 * APART * radius);
+        let unit = flow.disc_radius * flow.disc_radius;
+        Some([0, 1].map(|i| {
+            let [part_rate, square_rate] = [0, 1].map(|j| per * (more[i][j] - less[i][j]));
+            [here[i][0], part_rate, here[i][1] / unit, square_rate / unit]
+        }))
     }
 
     /// The results.

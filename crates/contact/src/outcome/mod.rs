@@ -15,7 +15,7 @@
 //! alone.
 //! So the numbers of a row depend neither on the order of rows nor on shards, threads and interruptions.
 
-mod series;
+pub(crate) mod series;
 
 use crate::collision::Collision;
 use crate::disc::refine::{Accuracy, Workspace, solve_disc};

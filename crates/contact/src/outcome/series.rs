@@ -3,14 +3,14 @@
 use std::f64::consts::PI;
 
 /// Results of a series, side by side in vector registers.
-pub(super) const LANES: usize = 8;
+pub(crate) const LANES: usize = 8;
 
 /// Most nodes along a variable.
 const MOST: usize = 8;
 
 /// A series in Chebyshev polynomials of two variables between -1 and 1, of the second in rows.
 #[derive(Debug)]
-pub(super) struct Series {
+pub(crate) struct Series {
     /// Coefficients of each row that are kept.
     rows: Vec<usize>,
     coefficients: Vec<[f64; LANES]>,
@@ -43,7 +43,7 @@ fn weight(k: usize, i: usize, n: usize) -> f64 {
 impl Series {
     /// Through values at so many nodes of each variable, without the last coefficients of a row that are all below `least` of
     /// their result's mean; nothing where a value is missing.
-    pub(super) fn through(
+    pub(crate) fn through(
         [across, along]: [usize; 2],
         least: f64,
         mut values: impl FnMut([f64; 2]) -> Option<[f64; LANES]>,
@@ -80,7 +80,7 @@ impl Series {
     }
 
     /// Its values.
-    pub(super) fn at(&self, [x, y]: [f64; 2]) -> [f64; LANES] {
+    pub(crate) fn at(&self, [x, y]: [f64; 2]) -> [f64; LANES] {
         let mut polynomials = [1.0, x, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
         for k in 2..MOST {
             polynomials[k] = 2.0 * x * polynomials[k - 1] - polynomials[k - 2];

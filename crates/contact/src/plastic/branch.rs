@@ -213,6 +213,24 @@ impl Branch {
     }
 }
 
+/// Part of the force and squared radius of two of Hertz's pressures that together have force, second and fourth moment of a
+/// cut pressure from the radius `top` without the punches outside `a`, which is the radius of the first.
+pub(crate) fn nested(edge: f64, top: f64, a: f64) -> [[f64; 2]; 2] {
+    /// Part of the radius below which moments lose digits, and the rest of the inner one is a power.
+    const SMALL: f64 = 0.1;
+    let edge = edge.min(top);
+    let from = a.max(SMALL * top);
+    let [whole, second, fourth] = Cut::new(edge, top, from).moments();
+    let square = from * from;
+    let [more, most] = [second / square, fourth / (square * square)].map(|x| x / whole - 1.0);
+    if more < 1e-9 {
+        return [[1.0, a * a], [0.0; 2]];
+    }
+    let inner = (most / more - 1.0).max(0.0);
+    let share = more / (inner - 1.0) * (a / from).powi(2);
+    [[1.0 - share, a * a], [share, inner * a * a]]
+}
+
 /// The cut pressure from which the punches outside a radius are gone.
 struct Cut {
     edge: f64,
@@ -261,21 +279,24 @@ impl Cut {
     }
 
     fn force(&self) -> f64 {
-        let Self {
-            edge: y,
-            top,
-            a,
-            kink,
-            ..
-        } = *self;
+        let [force, ..] = self.moments();
+        force
+    }
+
+    /// Moments of the pressure in r^0, r^2 and r^4, over those of Hertz's pressure of unit force and radius.
+    fn moments(&self) -> [f64; 3] {
         let [turn, far] = self.turns;
-        let square = top * top;
-        if a >= kink {
-            return y * (1.5 * square - 0.5 * y * y) - (top.powi(3) - a.powi(3));
-        }
-        let rest = ((kink - a) * (kink + a)).sqrt();
-        let inner = y * (0.5 * a * rest - (0.5 * kink * kink + square) * turn);
-        2.0 / PI * (a.powi(3) * self.angle - inner - top.powi(3) * far)
+        let rest = (self.kink * self.kink - self.a * self.a).max(0.0).sqrt();
+        let (square, kink) = (self.top * self.top, self.kink * self.kink);
+        let mut power = self.a;
+        // int b^(2n)/sqrt(kink^2 - b^2) db, and that of y b^(2n)/((L^2 - b^2) sqrt(kink^2 - b^2))
+        let (mut bare, mut over) = (turn, square * far / self.top - self.edge * turn);
+        [1.0, 2.0, 3.0].map(|n| {
+            bare = ((2.0 * n - 1.0) * kink * bare - power * rest) / (2.0 * n);
+            over = square * over - self.edge * bare;
+            power *= self.a * self.a;
+            2.0 / PI * (power * self.angle - over)
+        })
     }
 
     fn delayed(&self) -> f64 {

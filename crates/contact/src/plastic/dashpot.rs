@@ -93,12 +93,12 @@ impl Dashpot {
     /// The time where no piece is short enough.
     pub(crate) fn follow(&mut self, yielding: &Yielding) -> Result<Option<[f64; 3]>, f64> {
         let edge = yielding.edge();
-        if self.until(|here| [edge - here.radius, here.velocity])? == 1 {
+        if self.until(|radius, v, _| [edge - radius, v])? == 1 {
             return Ok(None);
         }
         let onset = self.time;
         (self.place, self.branch) = (edge, yielding.loading());
-        self.until(|here| [here.velocity; 2])?;
+        self.until(|_, v, _| [v; 2])?;
         let (top, turn) = (self.place, self.time);
         self.velocity = 0.0;
         (self.branch, self.place) = yielding.unloading(top);
@@ -124,27 +124,27 @@ impl Dashpot {
     pub(crate) fn open(&mut self) -> Result<(), f64> {
         let lag = self.lag;
         // the force over the square of its slope, of one sign through a radius of zero
-        let left = |here: &Here| {
-            let (force, stiffness) = (here.local.force, here.local.stiffness);
-            let own = if stiffness == 0.0 {
+        let left = |velocity: f64, local: &Local| {
+            let square = local.stiffness * local.stiffness;
+            let own = if square == 0.0 {
                 0.0
             } else {
-                force / (stiffness * stiffness)
+                local.force / square
             };
-            own + lag * here.velocity
+            own + lag * velocity
         };
         if let Branch::Truncated { edge, top } = self.branch {
             let kink = ((top - edge) * (top + edge)).max(0.0).sqrt();
-            if self.until(|here| [here.radius - kink, left(here)])? == 1 {
+            if self.until(|radius, v, local| [radius - kink, left(v, local)])? == 1 {
                 return Ok(());
             }
             (self.kink, self.place) = (Some(kink), 0.0);
         }
-        self.until(|here| [left(here); 2]).map(|_| ())
+        self.until(|_, v, local| [left(v, local); 2]).map(|_| ())
     }
 
-    /// Pieces until one of two things falls through zero: which.
-    fn until(&mut self, events: impl Fn(&Here) -> [f64; 2]) -> Result<usize, f64> {
+    /// Pieces until one of two things, of radius, velocity and law, falls through zero: which.
+    fn until(&mut self, events: impl Fn(f64, f64, &Local) -> [f64; 2]) -> Result<usize, f64> {
         let nodes = Nodes::of(DEGREE);
         for _ in 0..MOST {
             let Some((motion, error)) = self.attempt(nodes, self.length) else {
@@ -159,11 +159,7 @@ impl Dashpot {
                 continue;
             }
             let values: [[f64; 2]; DEGREE + 1] = std::array::from_fn(|i| {
-                events(&Here {
-                    radius: motion.radius[i],
-                    velocity: motion.velocity[i],
-                    local: motion.local[i],
-                })
+                events(motion.radius[i], motion.velocity[i], &motion.local[i])
             });
             let place_of = |which: usize| {
                 let after = (1..=DEGREE).find(|&i| values[i][which] <= 0.0)?;
@@ -279,11 +275,4 @@ impl Dashpot {
         });
         (self.time, self.place, self.velocity) = (time[n], motion.place[n], motion.velocity[n]);
     }
-}
-
-/// Where something may fall through zero.
-struct Here {
-    radius: f64,
-    velocity: f64,
-    local: Local,
 }

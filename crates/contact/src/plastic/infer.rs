@@ -56,6 +56,9 @@ pub enum InferError {
     /// The contact failed.
     #[error(transparent)]
     Contact(#[from] ContactError),
+    /// Nothing that a rebound can be inferred from.
+    #[error("{0}")]
+    Given(String),
     /// No law of flow with that unknown.
     #[error(
         "plasticity = \"{law}\" has no {unknown} to be found: take \"thornton\" or \"recovery\", for velocity_m_s also \"jackson_green\""
@@ -87,6 +90,7 @@ impl Fault for InferError {
         let culprit = Culprit::of(Class::Impact);
         match self {
             Self::Contact(_) => culprit,
+            Self::Given(_) => Culprit::of(Class::Scene),
             Self::NoLaw { law, .. } => Culprit {
                 word: Some(law),
                 ..culprit.key("plasticity")

@@ -9,14 +9,15 @@
 //!
 //! Theory: `docs/theory.md` (T65).
 
-use crate::growing::nodes::Factors;
-use crate::numeric::quadrature::chebyshev;
+use crate::growing::nodes::{Factors, Nodes};
+use crate::growing::polynomial::dot;
+use crate::outcome::series::{LANES, Series};
 use crate::plastic::branch::{Branch, FITTED, Fit};
 use crate::plastic::dashpot::Dashpot;
 use crate::plastic::{Flow, Yielding};
 use crate::summary::{EndOfContact, Summary};
 use crate::units::INVERSE_MASS;
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::FRAC_PI_2;
 use std::sync::OnceLock;
 
 /// Nodes of a panel, and the part of the way to Hertz's turning point that one of the rise takes.
@@ -48,8 +49,7 @@ pub(crate) fn quick(yielding: &Yielding, lag: f64) -> Option<(Summary, Flow)> {
             (found, stored * fifth)
         }
         Branch::Hertzian { .. } | Branch::Hertz | Branch::Line { .. } | Branch::Fit(_) => {
-            let x = 2.0 * own_lag / LARGEST_LAG - 1.0;
-            let [speed, duration, pulled] = fall().each_ref().map(|one| chebyshev(one, x));
+            let [speed, duration, pulled] = fall(own_lag)?;
             let by = 1.0 / back.flatter();
             ([speed * by, duration, pulled * by], back.given_back(from))
         }
@@ -122,7 +122,7 @@ impl Turned {
 
     /// On the fit, from a velocity where it leaves Hertz's law.
     fn of_fit(fit: &Fit, lag: f64, v0: f64) -> Option<Self> {
-        let rule = panel();
+        let rule = Nodes::of(NODES);
         let mut depth = FITTED * fit.critical;
         let energy = v0 * v0 + depth.powf(2.5);
         let speed = energy.sqrt();
@@ -135,7 +135,8 @@ impl Turned {
         for _ in 0..panels as usize {
             let to = ratio * from;
             let width = to - from;
-            let turns = rule.places.map(|place| (from + width * place).sin_cos());
+            let turns: [_; NODES] =
+                std::array::from_fn(|i| (from + width * rule.places[i + 1]).sin_cos());
             let rate = |depth: f64, (sine, cosine): (f64, f64)| {
                 let [force, stiffness] = fit.force(depth);
                 let damped = lag * stiffness * stiffness * speed * cosine;
@@ -145,49 +146,46 @@ impl Turned {
             // a guess by Heun's method from node to node
             let (mut before, mut there) = ((0.0, slope * from.sin() * from.cos()), depth);
             let mut rates: [f64; NODES] = std::array::from_fn(|i| {
-                let step = width * (rule.places[i] - before.0);
+                let step = width * (rule.places[i + 1] - before.0);
                 let (next, ..) = rate(there + step * before.1, turns[i]);
                 there += 0.5 * step * (before.1 + next);
-                before = (rule.places[i], next);
+                before = (rule.places[i + 1], next);
                 next
             });
             let mut forces = [[0.0; 3]; NODES];
             let mut matrix = Factors::room(NODES);
-            let mut left = f64::INFINITY;
-            for _ in 0..ITERATIONS {
+            let settled = (0..ITERATIONS).any(|_| {
                 let mut change = [0.0; NODES];
                 for i in 0..NODES {
-                    let sum: f64 = (0..NODES).map(|j| rule.integral[i][j] * rates[j]).sum();
-                    let (rate, here, stiffness) = rate(depth + width * sum, turns[i]);
+                    let row = rule.integral_row(i + 1);
+                    let there = depth + width * dot(row, &rates);
+                    let (rate, here, stiffness) = rate(there, turns[i]);
                     forces[i] = here;
                     change[i] = rates[i] - rate;
                     let by = width * rate * stiffness / (here[0] + here[1]);
                     for (j, entry) in matrix.row(i).iter_mut().enumerate() {
-                        *entry = by * rule.integral[i][j] + f64::from(u8::from(i == j));
+                        *entry = by * row[j] + f64::from(u8::from(i == j));
                     }
                 }
                 if !matrix.eliminate() {
-                    return None;
+                    return false;
                 }
                 matrix.solve(&mut change);
                 for (rate, change) in rates.iter_mut().zip(change) {
                     *rate -= change;
                 }
-                left = change.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
                 // the next change would be about its square
-                if left < 1e-7 {
-                    break;
-                }
-            }
-            if left >= 1e-7 {
+                change.iter().all(|change| change.abs() < 1e-7)
+            });
+            if !settled {
                 return None;
             }
-            let over = |f: &dyn Fn(usize) -> f64| -> f64 {
-                width * (0..NODES).map(|j| rule.weights[j] * f(j)).sum::<f64>()
-            };
-            time += over(&|j| forces[j][2] / (forces[j][0] + forces[j][1]));
-            lost += over(&|j| forces[j][1] * rates[j]);
-            depth += over(&|j| rates[j]);
+            for (j, (weight, [force, damped, sine])) in rule.weights.iter().zip(forces).enumerate()
+            {
+                time += width * weight * sine / (force + damped);
+                lost += width * weight * damped * rates[j];
+                depth += width * weight * rates[j];
+            }
             let last = NODES - 1;
             slope = rates[last] / (turns[last].0 * turns[last].1);
             from = to;
@@ -224,21 +222,20 @@ fn peak_before(fit: &Fit, lag: f64, depth: f64) -> (f64, f64) {
 
 /// Velocity, time and radiated energy where the radius of contact reaches that of yield.
 fn rise(edge: f64, lag: f64) -> Option<(f64, f64, f64)> {
-    let rule = panel();
+    let rule = Nodes::of(NODES);
     let (mut from, mut time, mut lost) = (0.0, 0.0, 0.0);
     let factor = 11.25 * lag;
     while from < edge {
         let to = edge.min(from + PART * (1.0 - from));
         let width = to - from;
-        let x: [f64; NODES] = std::array::from_fn(|i| from + width * rule.places[i]);
+        let x: [f64; NODES] = std::array::from_fn(|i| from + width * rule.places[i + 1]);
         let rest = x.map(|x| 1.0 - x * x * x * x * x - factor * lost);
         let mut v = rest.map(f64::sqrt);
         for _ in 0..ITERATIONS {
             let moved: [f64; NODES] = std::array::from_fn(|j| width * x[j] * x[j] * x[j] * v[j]);
             let mut change = 0.0_f64;
             for i in 0..NODES {
-                let sum: f64 = (0..NODES).map(|j| rule.integral[i][j] * moved[j]).sum();
-                let next = (rest[i] - factor * sum).sqrt();
+                let next = (rest[i] - factor * dot(rule.integral_row(i + 1), &moved)).sqrt();
                 change = change.max((next - v[i]).abs());
                 v[i] = next;
             }
@@ -246,10 +243,10 @@ fn rise(edge: f64, lag: f64) -> Option<(f64, f64, f64)> {
                 break;
             }
         }
-        let over =
-            |f: &dyn Fn(usize) -> f64| -> f64 { (0..NODES).map(|j| rule.weights[j] * f(j)).sum() };
-        time += width * over(&|j| 2.0 * x[j] / v[j]);
-        lost += width * over(&|j| x[j] * x[j] * x[j] * v[j]);
+        for (weight, (x, v)) in rule.weights.iter().zip(x.iter().zip(v)) {
+            time += 2.0 * width * weight * x / v;
+            lost += width * weight * x * x * x * v;
+        }
         from = to;
     }
     let square = 1.0 - edge.powi(5) - factor * lost;
@@ -259,129 +256,61 @@ fn rise(edge: f64, lag: f64) -> Option<(f64, f64, f64)> {
 /// Iterations of Picard at most: each is smaller by about the lag.
 const ITERATIONS: usize = 30;
 
-/// Gauss's rule on [0, 1] with the integrals up to each node.
-struct Panel {
-    places: [f64; NODES],
-    weights: [f64; NODES],
-    integral: [[f64; NODES]; NODES],
-}
-
-fn panel() -> &'static Panel {
-    static MADE: OnceLock<Panel> = OnceLock::new();
-    MADE.get_or_init(|| {
-        let rule = crate::numeric::quadrature::GAUSS_8;
-        let lagrange = |x: f64, j: usize| -> f64 {
-            let others = (0..NODES).filter(|&k| k != j);
-            others
-                .map(|k| (x - rule[k].0) / (rule[j].0 - rule[k].0))
-                .product()
-        };
-        Panel {
-            places: rule.map(|node| node.0),
-            weights: rule.map(|node| node.1),
-            integral: std::array::from_fn(|i| {
-                std::array::from_fn(|j| {
-                    let upto = rule[i].0;
-                    let parts = rule.iter().map(|&(x, w)| w * lagrange(upto * x, j));
-                    upto * parts.sum::<f64>()
-                })
-            }),
-        }
-    })
-}
-
 /// Largest lag of the fall, and terms of its series.
 const LARGEST_LAG: f64 = 0.25;
 const TERMS: usize = 24;
 
-/// Velocity, duration and the largest radius times velocity of Hertz's contact from rest at radius one, over its lag:
-/// Chebyshev series in 2 c/[`LARGEST_LAG`] - 1.
-fn fall() -> &'static [[f64; TERMS]; 3] {
-    static MADE: OnceLock<[[f64; TERMS]; 3]> = OnceLock::new();
-    MADE.get_or_init(|| {
-        let values: [[f64; 3]; TERMS] = std::array::from_fn(|i| {
-            let lag = 0.5 * LARGEST_LAG * (1.0 + node(i, TERMS).cos());
-            Dashpot::from_rest(Branch::Hertz, lag).unwrap_or([f64::NAN; 3])
-        });
-        std::array::from_fn(|k| std::array::from_fn(|n| term(n, TERMS, |i| values[i][k])))
-    })
-}
-
-/// Angle of a node of Chebyshev's.
-fn node(i: usize, terms: usize) -> f64 {
-    PI * (i as f64 + 0.5) / terms as f64
-}
-
-/// A coefficient of the Chebyshev series through values at the nodes.
-fn term(n: usize, terms: usize, value: impl Fn(usize) -> f64) -> f64 {
-    let sum: f64 = (0..terms)
-        .map(|i| value(i) * (n as f64 * node(i, terms)).cos())
-        .sum();
-    sum * if n == 0 { 1.0 } else { 2.0 } / terms as f64
-}
-
-/// Terms of the series of a cut pressure in the logarithm of the angle asin(y/a) and in the lag.
-const ANGLES: usize = 32;
-const LAGS: usize = 9;
+/// Nodes of the series of a cut pressure in the lag and in the logarithm of the angle asin(y/a).
+const NODES_OF_CUT: [usize; 2] = [8, 32];
 
 /// Range of the angle, and the largest lag: the contact ends with less than the radius where the pressure was cut.
 const RANGE: [f64; 2] = [0.02, 1.3];
 const LARGEST: f64 = 0.1;
 
-/// Velocity, duration and the largest radius times velocity of the unloading of a cut pressure from rest at radius one,
-/// by the radius at yield and the lag, and what it gives back without one; nothing beyond the series.
+/// Part of a result below which the last coefficients are left out.
+const LEAST: f64 = 1e-12;
+
+/// Velocity, duration and the largest radius times velocity of Hertz's contact from rest at radius one.
+fn fall(lag: f64) -> Option<[f64; 3]> {
+    static MADE: OnceLock<Option<Series>> = OnceLock::new();
+    let made = MADE.get_or_init(|| {
+        let lag = |x: f64| 0.5 * LARGEST_LAG * (1.0 + x);
+        Series::through([1, TERMS], LEAST, |[_, x]| {
+            from_rest(Branch::Hertz, lag(x), 1.0)
+        })
+    });
+    let [speed, duration, pulled, ..] = made.as_ref()?.at([0.0, 2.0 * lag / LARGEST_LAG - 1.0]);
+    Some([speed, duration, pulled])
+}
+
+/// The same of the unloading of a cut pressure, by the radius at yield, and what it gives back without a lag; nothing beyond
+/// the series.
 fn fall_of_cut(edge: f64, lag: f64) -> Option<([f64; 3], f64)> {
+    static MADE: OnceLock<Option<Series>> = OnceLock::new();
     let [low, high] = RANGE.map(f64::ln);
-    let x = 2.0 * (edge.asin().ln() - low) / (high - low) - 1.0;
-    let y = 2.0 * lag / LARGEST - 1.0;
-    if !(x.abs() <= 1.0 && y <= 1.0) {
+    let made = MADE.get_or_init(|| {
+        Series::through(NODES_OF_CUT, LEAST, |[x, y]| {
+            let edge = (low + 0.5 * (high - low) * (1.0 + y)).exp().sin();
+            let branch = Branch::Truncated { edge, top: 1.0 };
+            from_rest(branch, 0.5 * LARGEST * (1.0 + x), edge.sqrt())
+        })
+    });
+    let y = 2.0 * (edge.asin().ln() - low) / (high - low) - 1.0;
+    let x = 2.0 * lag / LARGEST - 1.0;
+    if !(y.abs() <= 1.0 && x <= 1.0) {
         return None;
     }
-    let series = cut();
-    let over_angle = |y: f64, of: usize| {
-        let terms: [f64; ANGLES] = std::array::from_fn(|n| chebyshev(&series[of][n], y));
-        chebyshev(&terms, x)
-    };
-    let bare = over_angle(-1.0, 0);
-    let root = edge.sqrt();
-    let [speed, duration, pulled] = [0, 1, 2].map(|of| over_angle(y, of));
+    let (series, root) = (made.as_ref()?, edge.sqrt());
+    let [bare, ..] = series.at([-1.0, y]);
+    let [speed, duration, pulled, ..] = series.at([x, y]);
     let stored = 0.5 / INVERSE_MASS * bare * bare * edge;
     Some(([speed * root, duration / root, pulled * root], stored))
 }
 
-/// Chebyshev series in the lag of those in the angle.
-type Series = [[[f64; LAGS]; ANGLES]; 3];
-
-fn cut() -> &'static Series {
-    static MADE: OnceLock<Box<Series>> = OnceLock::new();
-    MADE.get_or_init(|| {
-        let mut values = Box::new([[[0.0; LAGS]; ANGLES]; 3]);
-        for i in 0..ANGLES {
-            let [low, high] = RANGE.map(f64::ln);
-            let edge = (low + 0.5 * (high - low) * (1.0 + node(i, ANGLES).cos()))
-                .exp()
-                .sin();
-            for j in 0..LAGS {
-                let lag = 0.5 * LARGEST * (1.0 + node(j, LAGS).cos());
-                let branch = Branch::Truncated { edge, top: 1.0 };
-                let [speed, duration, pulled] =
-                    Dashpot::from_rest(branch, lag).unwrap_or([f64::NAN; 3]);
-                let root = edge.sqrt();
-                let found = [speed / root, duration * root, pulled / root];
-                for (k, value) in found.into_iter().enumerate() {
-                    values[k][i][j] = value;
-                }
-            }
-        }
-        let mut made = Box::new([[[0.0; LAGS]; ANGLES]; 3]);
-        for (series, values) in made.iter_mut().zip(values.iter()) {
-            for (n, line) in series.iter_mut().enumerate() {
-                for (m, coefficient) in line.iter_mut().enumerate() {
-                    let over_lag = |i: usize| term(m, LAGS, |j| values[i][j]);
-                    *coefficient = term(n, ANGLES, over_lag);
-                }
-            }
-        }
-        made
-    })
+/// What a series is of: results from rest, over the root of a radius at yield.
+fn from_rest(branch: Branch, lag: f64, root: f64) -> Option<[f64; LANES]> {
+    let [speed, duration, pulled] = Dashpot::from_rest(branch, lag)?;
+    let mut lanes = [0.0; LANES];
+    lanes[..3].copy_from_slice(&[speed / root, duration * root, pulled / root]);
+    Some(lanes)
 }

@@ -1,24 +1,30 @@
 //! The static field under the pressure of an instant, and the units of the fields under a disc.
 
 use crate::error::ImpactError;
-use crate::excitation::Excitation;
+use crate::excitation::{Excitation, Pressed};
 use halfspace::{Kernel, Six};
 
-/// Static field in SI units under a force in N whose pressure has the radius of the instant.
+/// Static field in SI units under the pressures of an instant.
 pub(crate) fn static_si(
     excitation: &Excitation,
     kernel: &Kernel,
     [r_m, z_m]: [f64; 2],
-    force_n: f64,
+    pressures: impl IntoIterator<Item = Pressed>,
 ) -> Result<Six, ImpactError> {
-    let over = excitation.radius().square(force_n).sqrt();
-    if over <= 0.0 {
-        return Ok(Six::default());
+    let mut sum = Six::default();
+    for one in pressures {
+        let over = one.square.sqrt();
+        if over == 0.0 {
+            continue;
+        }
+        let radius_m = over * excitation.units().disc_radius_m;
+        let fixed = kernel.static_field(r_m / radius_m, z_m / radius_m)?;
+        let unit = units_si(excitation, over);
+        for (f, sum) in sum.iter_mut().enumerate() {
+            *sum += one.force_n * unit[f] * fixed[f];
+        }
     }
-    let radius_m = over * excitation.units().disc_radius_m;
-    let fixed = kernel.static_field(r_m / radius_m, z_m / radius_m)?;
-    let unit = units_si(excitation, over);
-    Ok(std::array::from_fn(|f| force_n * unit[f] * fixed[f]))
+    Ok(sum)
 }
 
 /// Units of the fields by a force in N, under a disc of a radius `over` the largest.

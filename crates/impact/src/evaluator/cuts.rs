@@ -5,8 +5,9 @@
 
 use super::past::Past;
 
-/// Kinds of fronts, and the edge of the contact.
-const FAMILIES: usize = 11;
+/// Kinds of fronts, and the edge of the contact; of both pressures that stand for its own.
+const KINDS: usize = 11;
+const FAMILIES: usize = 2 * KINDS;
 
 impl Past<'_> {
     /// Instants of a span of the past between which the integrand is smooth, ascending.
@@ -72,7 +73,7 @@ impl Past<'_> {
     }
 
     /// Times in s that each kind of front takes from a disc of a radius in m.
-    pub(super) fn fronts_s(&self, [r_m, z_m]: [f64; 2], radius_m: f64) -> [f64; FAMILIES - 1] {
+    pub(super) fn fronts_s(&self, [r_m, z_m]: [f64; 2], radius_m: f64) -> [f64; KINDS - 1] {
         let medium = self.excitation.medium();
         let kappa = medium.kappa();
         let span = (1.0 / (kappa * kappa) - 1.0).sqrt();
@@ -107,13 +108,15 @@ impl Past<'_> {
     /// beyond it.
     fn ahead(&self, place_m: [f64; 2], time_s: f64, past_s: f64) -> [f64; FAMILIES] {
         let units = self.excitation.units();
-        let over = self.past(past_s).map_or(0.0, |instant| instant.over);
-        let radius_m = over * units.disc_radius_m;
-        let fronts_s = self.fronts_s(place_m, radius_m);
+        let radii_m = self.overs(past_s).map(|over| over * units.disc_radius_m);
+        let fronts_s = radii_m.map(|radius_m| self.fronts_s(place_m, radius_m));
         let since_s = time_s - past_s;
-        std::array::from_fn(|family| match fronts_s.get(family) {
-            Some(front_s) => since_s - front_s,
-            None => (radius_m - place_m[0]) / units.longitudinal_speed_m_s,
+        std::array::from_fn(|family| {
+            let (which, kind) = (family / KINDS, family % KINDS);
+            match fronts_s[which].get(kind) {
+                Some(front_s) => since_s - front_s,
+                None => (radii_m[which] - place_m[0]) / units.longitudinal_speed_m_s,
+            }
         })
     }
 

@@ -12,13 +12,13 @@ use super::discs::Discs;
 use super::ends::{Zone, zones};
 use super::nodes::CellNodes;
 use super::projection::Projection;
-use crate::excitation::Run;
-use crate::excitation::{Excitation, PressureRadius};
+use crate::excitation::{Excitation, Pressed, PressureRadius, Run};
 use crate::fields::quantity::Derivative;
 use crate::grid::Grid;
 use crate::kernels::Cells;
 use crate::record::stretch::Departure;
 use halfspace::Six;
+use std::convert::Infallible;
 use std::ops::Range;
 
 /// What is read of an excitation.
@@ -157,27 +157,21 @@ impl<'a> Forcing<'a> {
 
     /// The force on disc `k` at a time, and the part that the highest power of the radius brings.
     pub(crate) fn on_disc(&self, discs: &Discs, k: usize, time_s: f64) -> [f64; 2] {
-        let radius = self.excitation.radius();
-        match self.reading {
-            Reading::Force => {
-                let force_n = self.excitation.force_n(time_s);
-                discs
-                    .share(k, radius.square(force_n))
-                    .map(|part| force_n * part)
-            }
-            Reading::Rate => {
-                let [force_n, rate] = self.excitation.force_and_rate(time_s);
-                if rate == 0.0 || discs.radii.len() == 1 {
-                    return [rate, 0.0];
+        /// Part of the force over which a polynomial of the radius is differenced (T61).
+        const PART: f64 = 1e-6;
+        let of = |one: Pressed| discs.share(k, one.square).map(|share| one.force_n * share);
+        let [sum, other] = self
+            .excitation
+            .pressures(time_s)
+            .map(|one| match self.reading {
+                Reading::Force => of(one),
+                Reading::Rate if discs.radii.len() == 1 => [one.rate, 0.0],
+                Reading::Rate => {
+                    let rate = one.rate_of(PART, |one| Ok::<_, Infallible>(of(one)));
+                    rate.unwrap_or_default()
                 }
-                // phi + (2/3) a^2 phi' of a polynomial in a^2 (T61)
-                const APART: f64 = 1e-6;
-                let square = radius.square(force_n);
-                let [here, above, below] =
-                    [0.0, APART, -APART].map(|apart| discs.share(k, square + apart));
-                [0, 1].map(|i| rate * (here[i] + square / 3.0 * (above[i] - below[i]) / APART))
-            }
-        }
+            });
+        [sum[0] + other[0], sum[1] + other[1]]
     }
 
     /// When some cells of a run begin and end, in s.
@@ -225,9 +219,7 @@ impl<'a> Forcing<'a> {
         let in_cells = nodes.places().map(|x| both(run.start_s + x * self.step_s));
         let in_cells: Vec<[f64; 2]> = in_cells.collect();
         let base = match self.reading {
-            Reading::Force => discs
-                .share(k, radius.square(run.base_n))
-                .map(|share| run.base_n * share),
+            Reading::Force => discs.share(k, 1.0).map(|share| run.base_n * share),
             Reading::Rate => [0.0; 2],
         };
         let of = |i: usize, least: f64| {
@@ -290,15 +282,14 @@ impl<'a> Forcing<'a> {
         let excitation = self.excitation;
         let lag_s = excitation.units().time_s() / excitation.medium().rayleigh_speed();
         let steps = lag_s / self.step_s;
-        let over = |t: f64| {
-            let one = |[force_n, value]: [f64; 2]| {
-                value * (excitation.radius().square(force_n) - radius * radius)
-            };
+        let of = |one: Pressed| {
+            let beyond = one.square - radius * radius;
             match self.reading {
-                Reading::Force => one([excitation.force_n(t); 2]),
-                Reading::Rate => one(excitation.force_and_rate(t)),
+                Reading::Force => one.force_n * beyond,
+                Reading::Rate => one.rate * beyond + one.force_n * one.square_rate,
             }
         };
+        let over = |t: f64| excitation.pressures(t).map(of).iter().sum();
         let values: Vec<f64> = (-1..=run.count as isize)
             .map(|n| over(run.start_s + n as f64 * self.step_s))
             .collect();

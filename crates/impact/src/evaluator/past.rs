@@ -27,35 +27,29 @@ const FAR: f64 = 30.0;
 /// Kernels for one excitation, a contact.
 pub(crate) struct Past<'a> {
     pub(super) excitation: &'a Excitation,
-    /// Of the pressure by which the load grows.
-    growth: Kernel,
-    /// The same to fewer digits, for points that are not far.
-    near: Kernel,
-    hertz: Kernel,
+    /// Of a punch and of Hertz's pressure, for points that are far, and to fewer digits for others.
+    punch: [Kernel; 2],
+    hertz: [Kernel; 2],
     /// Nodes of a rule, and radii from which the axis is continued.
     nodes: usize,
     radii: usize,
 }
 
-/// An instant of the past: the radius of the contact over the largest, and the rate of the force in N/s.
-pub(super) struct Instant {
-    pub(super) over: f64,
-    rate: f64,
-}
-
 impl<'a> Past<'a> {
     /// To about `tolerance` of the peaks of the fields.
     pub(crate) fn new(excitation: &'a Excitation, tolerance: f64) -> Result<Self, ImpactError> {
-        let medium = excitation.medium();
-        let growth = match excitation.radius() {
-            PressureRadius::Fixed(_) => Profile::Hertz,
-            PressureRadius::Following { .. } => Profile::Punch,
+        let least = [
+            (1e-6 * tolerance).clamp(1e-12, 1e-10),
+            (1e-3 * tolerance).clamp(1e-12, 1e-6),
+        ];
+        let kernels = |profile| -> Result<[Kernel; 2], ImpactError> {
+            let [far, near] = least.map(|least| Kernel::new(excitation.medium(), profile, least));
+            Ok([far?, near?])
         };
         Ok(Self {
             excitation,
-            near: Kernel::new(medium, growth, (1e-3 * tolerance).clamp(1e-12, 1e-6))?,
-            growth: Kernel::new(medium, growth, (1e-6 * tolerance).clamp(1e-12, 1e-10))?,
-            hertz: Kernel::new(medium, Profile::Hertz, 1e-6)?,
+            punch: kernels(Profile::Punch)?,
+            hertz: kernels(Profile::Hertz)?,
             nodes: (-7.5 * tolerance.log10() - 10.5).clamp(8.0, 40.0) as usize,
             radii: if tolerance < 1e-5 { 4 } else { 2 },
         })
@@ -63,8 +57,8 @@ impl<'a> Past<'a> {
 
     /// The six fields in SI units at a point in m, at a time in s.
     pub(crate) fn at(&self, place_m: [f64; 2], time_s: f64) -> Result<Six, ImpactError> {
-        let force_n = self.excitation.force_n(time_s);
-        let mut sum = static_si(self.excitation, &self.hertz, place_m, force_n)?;
+        let pressures = self.excitation.pressures(time_s);
+        let mut sum = static_si(self.excitation, &self.hertz[1], place_m, pressures)?;
         // rates that are not smooth inside a contact, as under a disc whose memory has ended, need short spans
         const PARTS: usize = 16;
         let graded = |i: usize| {
@@ -232,7 +226,7 @@ impl<'a> Past<'a> {
         /// Radii below this fraction of the distance from the largest edge are continued.
         const NEAR: f64 = 0.031;
         let step_m = NEAR * z_m.hypot(self.excitation.units().disc_radius_m);
-        if r_m >= step_m || self.growth.profile() == Profile::Hertz {
+        if r_m >= step_m || matches!(self.excitation.radius(), PressureRadius::Fixed(_)) {
             return self.off_axis(least, [r_m, z_m], time_s, span_s);
         }
         let radii: Vec<f64> = (1..=self.radii).map(|i| step_m * i as f64).collect();
@@ -276,7 +270,7 @@ impl<'a> Past<'a> {
         /// Nodes at least where fields nearly cancel.
         const LEAST_FAR: usize = 12;
         let far = self.is_far(place_m);
-        let over = |t: f64| self.past(t).map_or(0.0, |instant| instant.over);
+        let over = |t: f64| self.overs(t)[0];
         for pair in self.cuts(place_m, time_s, span_s).windows(2) {
             let (middle, half) = (0.5 * (pair[0] + pair[1]), 0.5 * (pair[1] - pair[0]));
             // small contacts bring little
@@ -300,12 +294,16 @@ impl<'a> Past<'a> {
         r_m.max(z_m) > FAR * self.excitation.units().disc_radius_m
     }
 
-    pub(super) fn past(&self, past_s: f64) -> Option<Instant> {
-        let [force_n, rate] = self.excitation.force_and_rate(past_s);
-        let over = self.excitation.radius().square(force_n).sqrt();
-        (over > 0.0).then_some(Instant { over, rate })
+    /// Radii of the pressures of an instant over the largest; twice that of a single one.
+    pub(super) fn overs(&self, past_s: f64) -> [f64; 2] {
+        let [one, other] = self
+            .excitation
+            .pressures(past_s)
+            .map(|one| one.square.sqrt());
+        [one, if other > 0.0 { other } else { one }]
     }
 
+    /// Adds the waves of what an instant changes: a pressure grows by that of a punch of its radius, and scales as it is.
     fn add(
         &self,
         [r_m, z_m]: [f64; 2],
@@ -314,18 +312,28 @@ impl<'a> Past<'a> {
         weight: f64,
         sum: &mut Six,
     ) -> Result<(), ImpactError> {
-        let Some(Instant { over, rate }) = self.past(past_s) else {
-            return Ok(());
-        };
+        /// Part of the rate that is not told from rounding.
+        const NOTHING: f64 = 1e-12;
         let units = self.excitation.units();
-        let radius_m = over * units.disc_radius_m;
-        let since = (time_s - past_s) / (over * units.time_s());
-        let far = self.is_far([r_m, z_m]);
-        let growth = if far { &self.growth } else { &self.near };
-        let found = growth.remainder(r_m / radius_m, z_m / radius_m, since)?;
-        let unit = units_si(self.excitation, over);
-        for (f, value) in found.value.into_iter().enumerate() {
-            sum[f] += weight * rate * unit[f] * value;
+        let level = usize::from(!self.is_far([r_m, z_m]));
+        for one in self.excitation.pressures(past_s) {
+            let over = one.square.sqrt();
+            if over == 0.0 {
+                continue;
+            }
+            let radius_m = over * units.disc_radius_m;
+            let since = (time_s - past_s) / (over * units.time_s());
+            let unit = units_si(self.excitation, over);
+            let grown = 1.5 * one.force_n * one.square_rate / one.square;
+            for (rate, kernel) in [(grown, &self.punch), (one.rate - grown, &self.hertz)] {
+                if rate.abs() <= NOTHING * one.rate.abs() {
+                    continue;
+                }
+                let found = kernel[level].remainder(r_m / radius_m, z_m / radius_m, since)?;
+                for (f, value) in found.value.into_iter().enumerate() {
+                    sum[f] += weight * rate * unit[f] * value;
+                }
+            }
         }
         Ok(())
     }

@@ -169,22 +169,20 @@ impl<'a> Sum<'a> {
         }
     }
 
-    /// Adds the static field of the radius of each instant, or its rate.
+    /// Adds the static field of the pressures of each instant, or its rate.
     fn add_following_static(&mut self, kernel: &Kernel) -> Result<(), ImpactError> {
         /// Part of the force over which the static field is differenced: a smooth function of it.
         const PART: f64 = 1e-4;
         let excitation = self.forcing.excitation;
         for (i, &time_s) in self.times_s.iter().enumerate() {
-            let of = |force_n: f64| static_si(excitation, kernel, self.place_m, force_n);
+            let of = |one| static_si(excitation, kernel, self.place_m, [one]);
+            let pressures = excitation.pressures(time_s);
             let fixed = match self.forcing.reading {
-                Reading::Force => of(excitation.force_n(time_s))?,
+                Reading::Force => static_si(excitation, kernel, self.place_m, pressures)?,
                 Reading::Rate => {
-                    let [force_n, rate] = excitation.force_and_rate(time_s);
-                    if force_n <= 0.0 || rate == 0.0 {
-                        continue;
-                    }
-                    let (more, less) = (of(force_n * (1.0 + PART))?, of(force_n * (1.0 - PART))?);
-                    std::array::from_fn(|f| rate * (more[f] - less[f]) / (2.0 * PART * force_n))
+                    let [one, other] = pressures.map(|one| one.rate_of(PART, of));
+                    let (one, other) = (one?, other?);
+                    std::array::from_fn(|f| one[f] + other[f])
                 }
             };
             for (samples, value) in self.values.iter_mut().zip(fixed) {

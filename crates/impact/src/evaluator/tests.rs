@@ -9,9 +9,11 @@ use crate::impact::Impact;
 use crate::kernels::KernelSource;
 use contact::CollisionUnits;
 use contact::{
-    Collision, Exact, HalfSpace, Material, Model, Plasticity, Settings, Solver, Striker,
+    Collision, Exact, HalfSpace, Material, Model, Plasticity, Settings, SolvedContact, Solver,
+    Striker,
 };
-use halfspace::Six;
+use halfspace::{Kernel, Profile, Six, gauss};
+use std::f64::consts::PI;
 use std::fs;
 use std::path::Path;
 
@@ -351,4 +353,122 @@ fn what_arrives_from_the_turning_point_of_a_contact_that_yields_is_within_its_es
     }
     println!("under a contact that yields: error over peak at most {worst:?}");
     assert!(worst[0] < 2e-4 && worst[1] < 1e-3, "{worst:?}");
+}
+
+/// Displacements under the pressure of `recovery` itself, cut at that of yield and taken away from outside in: a sum of punches
+/// whose waves are added instant by instant (T54, T63); `punch` is one of a radius and a force, at rest or since a time.
+fn under_the_cut(
+    own: &SolvedContact,
+    (edge, crossing): (f64, f64),
+    time: f64,
+    punch: impl Fn(f64, f64, Option<f64>) -> [f64; 2],
+) -> [f64; 2] {
+    let (top, end) = (
+        own.flow().unwrap().contact_radius,
+        own.summary().contact_time,
+    );
+    let &[onset, turned] = own.kinks() else {
+        panic!()
+    };
+    let density =
+        |b: f64, l: f64| 6.0 / PI * b * b * (edge / (l * l - b * b).max(edge * edge).sqrt()).asin();
+    let largest = |time: f64, radius: f64| if time < turned { radius } else { top };
+    let mut sum = [0.0; 2];
+    let mut add = |found: [f64; 2]| sum = [0, 1].map(|f| sum[f] + found[f]);
+    if let Some(now) = own.at(time) {
+        let l = largest(time, now.radius);
+        let kink = (l * l - edge * edge).max(0.0).sqrt().min(now.radius);
+        let parts = [[0.0, kink], [kink, now.radius]];
+        for [from, to] in parts.into_iter().filter(|[from, to]| from < to) {
+            // roots at the kink
+            for (angle, weight) in gauss::rule(24).on(0.0, PI) {
+                let b = 0.5 * (from + to) - 0.5 * (to - from) * angle.cos();
+                let weight = weight * 0.5 * (to - from) * angle.sin();
+                add(punch(b, weight * density(b, l), None));
+            }
+        }
+    }
+    // waves pass within some radii over their speed
+    let x = (0..=160).map(|i| f64::from(i) / 160.0);
+    let since = x.map(|x| crossing * (12.0 * x + 300.0 * x.powi(6)));
+    let breaks = [0.0, onset, turned, end];
+    let mut ends: Vec<f64> = since.map(|s| time - s).chain(breaks).collect();
+    ends.retain(|&t| (0.0..=end.min(time)).contains(&t));
+    ends.sort_by(f64::total_cmp);
+    for span in ends.windows(2) {
+        for (past, weight) in gauss::rule(4).on(span[0], span[1]) {
+            const APART: f64 = 1e-5;
+            let [before, here, after] =
+                [past - APART, past, past + APART].map(|t| own.at(t).map_or(0.0, |x| x.radius));
+            let rate = weight * (after - before) / (2.0 * APART);
+            let (l, since) = (largest(past, here), Some(time - past));
+            add(punch(here, rate * density(here, l), since));
+            let square = l * l - edge * edge;
+            if past < turned && square > 0.0 {
+                for (angle, weight) in gauss::rule(8).on(0.0, 0.5 * PI) {
+                    let b = square.sqrt() * angle.sin();
+                    let less = -6.0 / PI * b * b * edge * l / (l * l - b * b);
+                    add(punch(b, rate * weight * less, since));
+                }
+            }
+        }
+    }
+    sum
+}
+
+#[test]
+fn beyond_two_radii_two_pressures_stand_for_one_that_was_cut() {
+    let named = |name: &str| Material::named(name).unwrap();
+    let block = HalfSpace::new(named("aluminium-6061-t6")).unwrap();
+    let ball = Striker::ball(named("bearing-steel"), 0.005).unwrap();
+    let impact = Impact {
+        settings: Settings {
+            plasticity: Plasticity::Recovery,
+            model: Model::Growing,
+            ..Settings::default()
+        },
+        ..Impact::new(block.clone(), ball.clone(), 3.0)
+    };
+    let collision = Collision::new(&block, &ball, 3.0);
+    let yielding = collision.yielding(&impact.settings).unwrap().unwrap();
+    let edge = yielding.velocity_ratio().powf(-0.4);
+    let run = impact.solve().unwrap();
+    let excitation = run.excitation();
+    let own = excitation.yielded().unwrap();
+    let (top, length_m) = (
+        own.flow().unwrap().contact_radius,
+        run.results.contact_radius_m,
+    );
+    let (force_n, time_s) = (collision.units().force_n, collision.units().time_s);
+    let kernel = Kernel::new(excitation.medium(), Profile::Punch, 1e-8).unwrap();
+    let crossing = collision.kernel_units(length_m).time_s() / time_s;
+    let by_two = Past::new(excitation, 1e-6).unwrap();
+    for place in [[2.0, 0.0], [1.5, 1.5], [0.3, 2.2], [4.0, 0.0], [2.0, 3.0]] {
+        let punch = |a: f64, force: f64, since: Option<f64>| -> [f64; 2] {
+            let units = collision.kernel_units(a / top * length_m);
+            let [r, z] = place.map(|x| x * top / a);
+            let found = match since {
+                None => kernel.static_field(r, z).unwrap(),
+                Some(since) => {
+                    let since = since * time_s / units.time_s();
+                    kernel.remainder(r, z, since).unwrap().value
+                }
+            };
+            [0, 1].map(|f| force * force_n * units.displacement_m_per_n() * found[f])
+        };
+        let times = (1..=7).map(|i| 0.17 * f64::from(i) * own.summary().contact_time);
+        let pairs: Vec<([f64; 2], Six)> = times
+            .map(|t| {
+                let two = by_two.at(place.map(|x| x * length_m), t * time_s).unwrap();
+                (under_the_cut(own, (edge, crossing), t, punch), two)
+            })
+            .collect();
+        for f in 0..2 {
+            let peak = pairs.iter().fold(0.0_f64, |most, x| most.max(x.0[f].abs()));
+            let errors = pairs.iter().map(|(a, b)| (a[f] - b[f]).abs() / peak);
+            let worst = errors.fold(0.0, f64::max);
+            println!("two pressures at {place:?}, field {f}: error over peak {worst:.1e}");
+            assert!(worst < 2e-4, "{place:?} {f}: {worst:e}");
+        }
+    }
 }

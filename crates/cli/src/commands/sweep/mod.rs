@@ -399,8 +399,8 @@ fn check_disk(spec: &Spec, rows: usize, part: &Path) -> Result<(), Failure> {
     let there = std::fs::metadata(part).map_or(0.0, |journal| journal.len() as f64);
     let needed = rows as f64 * (bytes + kept) as f64 - there;
     match free_disk(part) {
-        Some(free) if needed > free => Err(Failure::input(format!(
-            "{rows} rows need about {:.3} GB of disk while they are written, more than the {:.3} GB free beside {}: ask for fewer, or for a shard of them elsewhere",
+        Some(free) if needed > free => Err(Failure::until_later(format!(
+            "no space left: {rows} rows need about {:.3} GB of disk while they are written, more than the {:.3} GB free beside {}: ask for fewer, or for a shard of them elsewhere",
             1e-9 * needed,
             1e-9 * free,
             part.display()
