@@ -289,10 +289,20 @@ fn fall_of_cut(edge: f64, lag: f64) -> Option<([f64; 3], f64)> {
     static MADE: OnceLock<Option<Series>> = OnceLock::new();
     let [low, high] = RANGE.map(f64::ln);
     let made = MADE.get_or_init(|| {
+        // the first row of nodes has all angles
+        let mut bare = Vec::new();
+        let mut node = 0;
         Series::through(NODES_OF_CUT, LEAST, |[x, y]| {
             let edge = (low + 0.5 * (high - low) * (1.0 + y)).exp().sin();
             let branch = Branch::Truncated { edge, top: 1.0 };
-            from_rest(branch, 0.5 * LARGEST * (1.0 + x), edge.sqrt())
+            let of = |lag: f64| from_rest(branch, lag, edge.sqrt());
+            if bare.len() < NODES_OF_CUT[1] {
+                bare.push(of(0.0)?[0]);
+            }
+            let mut found = of(0.5 * LARGEST * (1.0 + x))?;
+            found[3] = bare[node % NODES_OF_CUT[1]];
+            node += 1;
+            Some(found)
         })
     });
     let y = 2.0 * (edge.asin().ln() - low) / (high - low) - 1.0;
@@ -301,8 +311,7 @@ fn fall_of_cut(edge: f64, lag: f64) -> Option<([f64; 3], f64)> {
         return None;
     }
     let (series, root) = (made.as_ref()?, edge.sqrt());
-    let [bare, ..] = series.at([-1.0, y]);
-    let [speed, duration, pulled, ..] = series.at([x, y]);
+    let [speed, duration, pulled, bare, ..] = series.at([x, y]);
     let stored = 0.5 / INVERSE_MASS * bare * bare * edge;
     Some(([speed * root, duration / root, pulled * root], stored))
 }
