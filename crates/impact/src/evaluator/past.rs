@@ -98,7 +98,7 @@ impl<'a> Past<'a> {
         time_s: f64,
         cells: &Range<usize>,
         span_s: impl Fn(&Range<usize>) -> [f64; 2],
-    ) -> Vec<Range<usize>> {
+    ) -> Option<Vec<Range<usize>>> {
         /// Discs do not serve for this many times that a Rayleigh wave takes over the radius, and for as many cells.
         const SPREAD: f64 = 2.0;
         const NEAR: f64 = 2.0;
@@ -117,7 +117,7 @@ impl<'a> Past<'a> {
         // where the contact's edge passes over the point, fields are not smooth in its radius
         let near = place_m.iter().all(|x| *x < NEAR * units.disc_radius_m);
         if near || 2 * least >= cells.len() {
-            return Vec::new();
+            return None;
         }
         // the first clear cut, or the one that is clearest
         let cut_s = |cut: usize| span_s(&(cells.start..cut))[1];
@@ -169,7 +169,7 @@ impl<'a> Past<'a> {
             windows.iter().any(inside)
         };
         let parts = marks.iter().enumerate().map(around);
-        parts.filter(passed).collect()
+        Some(parts.filter(passed).collect())
     }
 
     /// The rate of the waves from a part of the past, by a difference over a small part of a step: behind a Rayleigh wave

@@ -49,6 +49,11 @@ const BESIDE: f64 = 0.5;
 /// open in its middle.
 const MOST_WHOLE: [usize; 2] = [24, 192];
 
+/// Times that a longitudinal wave takes over the radius, from which on the middle of a contact is smooth: fields away from
+/// it are integrated where the fronts of its ends pass and nowhere else. Between them the discs have more digits than the
+/// integral has, of tractions just below the surface three more.
+const LONG: f64 = 100.0;
+
 /// Error of an integral over a zone, in tolerances.
 const QUADRATURE: f64 = 0.7;
 
@@ -354,11 +359,16 @@ impl<'a> Sum<'a> {
         let span_s = |cells: &Range<usize>| self.forcing.span_s(grid, cells);
         let contacts = self.forcing.contacts(grid);
         let mut parts: Vec<Range<usize>> = Vec::new();
+        let long_s = LONG * self.forcing.excitation.units().time_s();
+        let mut near = self.derivative != Derivative::Field;
         for contact in &contacts {
-            parts.extend(past.parts(self.place_m, time_s, contact, span_s));
+            let found = past.parts(self.place_m, time_s, contact, span_s);
+            let [begin_s, end_s] = span_s(contact);
+            near |= found.is_none() || end_s - begin_s < long_s;
+            parts.extend(found.into_iter().flatten());
         }
         let mut by_discs = self.by_discs(i, &parts, cells);
-        if over(allowed, |f| self.left[f][i] - by_discs[1][f]) > 1.0 && *whole > 0 {
+        if near && *whole > 0 && over(allowed, |f| self.left[f][i] - by_discs[1][f]) > 1.0 {
             *whole -= 1;
             parts = contacts;
             by_discs = self.by_discs(i, &parts, cells);

@@ -270,6 +270,34 @@ fn far_away_few_discs_are_enough() {
 }
 
 #[test]
+fn tractions_below_the_surface_are_within_their_estimate_in_the_middle_of_a_long_contact() {
+    let excitation = contact(0.3, 324.0);
+    let exact = Past::new(&excitation, 1e-7).unwrap();
+    let tolerance = 1e-4;
+    let source = KernelSource::direct(excitation.medium(), 0.1 * tolerance).unwrap();
+    let wanted = Wanted {
+        tolerance,
+        step_s: None,
+        duration_s: None,
+        frames: None,
+        farthest_m: Some(20.0),
+    };
+    let grid = Grid::new(&wanted, &excitation, Some(&source)).unwrap();
+    let times: Vec<f64> = grid.times_s().collect();
+    let middle = |n: &usize| n.is_multiple_of(8) && (60.0..280.0).contains(&times[*n]);
+    let wanted: Vec<usize> = (0..times.len()).filter(middle).collect();
+    for place in [[6.0, 0.27], [11.0, 0.27], [19.0, 0.54]] {
+        let point = at((&excitation, &source), &grid, &wanted, tolerance, place);
+        for (i, &n) in wanted.iter().enumerate() {
+            for (f, exact) in exact.at(place, times[n]).unwrap().into_iter().enumerate() {
+                let (error, estimate) = ((point.values[f][i] - exact).abs(), point.errors[f]);
+                assert!(error < estimate, "{place:?} {f}: {error:e}, {estimate:e}");
+            }
+        }
+    }
+}
+
+#[test]
 fn what_arrives_from_the_turning_point_of_a_contact_that_yields_is_within_its_estimate() {
     let named = |name: &str| Material::named(name).unwrap();
     let block = HalfSpace::new(named("aluminium-6061-t6")).unwrap();
