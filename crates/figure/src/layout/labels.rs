@@ -343,7 +343,7 @@ pub(super) fn free(area: Rect, (width, height): Point, air: f64, taken: &[Point]
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::axis::{Axis, Direction, Interval, Mirror};
+    use crate::axis::{Axis, Interval, Mirror};
     use crate::look::Style;
 
     fn boxes(marks: &[(f64, &str)], width: f64) -> (Vec<Label>, usize) {
@@ -385,7 +385,7 @@ mod tests {
             area: Rect::new(0.0, 0.0, 100.0, 100.0),
             x: Interval::linear(0.0, 1.0),
             y: Interval::linear(0.0, 1.0),
-            directions: [Direction::Usual; 2],
+            reversed: [false; 2],
             mirror: Mirror::Off,
         }
     }

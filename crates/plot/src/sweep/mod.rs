@@ -175,7 +175,7 @@ impl Nodes {
         let Some((column, values)) = view.numbers(number, asked) else {
             return Err(PlotError::no_numbers(&view.sweep.axes[number].name));
         };
-        let (name, unit) = of_key(&column.name);
+        let (name, unit) = of_key(&column.name());
         // grams for kilograms, which have a prefix already
         let factor = if unit == "kg" { 1e3 } else { 1.0 };
         let places: Vec<f64> = values.iter().map(|x| factor * x).collect();
@@ -427,7 +427,7 @@ fn few(view: &View<'_>, slices: Vec<Slice>, most: usize) -> Result<Vec<Slice>, P
         "{} would give {} curves, and {most} can be told apart: choose among them, such as by --at {}=VALUE",
         path.display(),
         slices.len(),
-        key.map_or("", |column| &column.name)
+        key.map_or_else(String::new, |column| column.name())
     );
     Err(PlotError::refused(Some(path), sentence))
 }
