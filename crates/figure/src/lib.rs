@@ -54,8 +54,7 @@ pub use error::{FigureError, Side};
 pub use figure::{Figure, Legend, Panel, Sharing};
 pub use geometry::Rect;
 pub use layers::{
-    Band, Classes, ColourScale, Histogram, Image, LabelledPoint, Layer, Limits, Line, Mark,
-    Shading, Symbol,
+    Band, Classes, ColourScale, Histogram, Image, LabelledPoint, Layer, Limits, Line, Mark, Shading,
 };
 pub use look::Style;
 

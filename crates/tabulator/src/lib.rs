@@ -47,7 +47,7 @@ pub use ledger::{JournalError, Shard};
 pub use lookup::quantile;
 pub use measure::check::{CheckReport, check_table};
 pub use measure::difference::differences;
-pub use measure::refine::{Trial, refine};
+pub use measure::refine::refine;
 pub use numbers::NUMBERS_REVISION;
 pub use output::{Existing, OutputError};
 pub use point::{PointKernels, PointPlan};

@@ -1,7 +1,8 @@
 //! The results of a scene, read back.
 
 use super::error::{FileKind, ReadError};
-use super::open::{Stored, StoredQuantity};
+use super::open::Stored;
+use crate::quantities::Described;
 use crate::results::schema::{
     ARRIVALS, ENERGIES, ENERGY, ERROR_SUFFIX, MAP, MAP_SCALES, PEAK_SUFFIXES, PLACES, PROBES,
     SCENE_SHA256, SERIES,
@@ -204,7 +205,7 @@ impl StoredProbes {
 
     /// What was stored at each probe over time.
     #[must_use]
-    pub fn quantities(&self) -> Vec<StoredQuantity> {
+    pub fn quantities(&self) -> Vec<Described> {
         self.stored
             .quantities(PROBES, &[self.r_m.len(), self.samples])
     }
@@ -261,7 +262,7 @@ impl StoredSection {
 
     /// What was stored in each frame.
     #[must_use]
-    pub fn quantities(&self) -> Vec<StoredQuantity> {
+    pub fn quantities(&self) -> Vec<Described> {
         self.stored.quantities(MAP, &self.shape())
     }
 

@@ -14,7 +14,7 @@ mod sweep;
 pub use crate::sweep::Part;
 pub use error::{FileKind, ReadError};
 pub use impact::{StoredImpact, StoredProbes, StoredSection, StoredValue};
-pub use open::{StoredQuantity, file_kind};
+pub use open::file_kind;
 pub use rows::StoredPart;
 pub(crate) use rows::whole_sweep;
 pub use sweep::StoredSweep;

@@ -1,7 +1,8 @@
 //! The results of a sweep, read back.
 
 use super::error::{FileKind, ReadError};
-use super::open::{Stored, StoredQuantity};
+use super::open::Stored;
+use crate::quantities::Described;
 use crate::sweep::schema::part::PARTS;
 use crate::sweep::schema::{AXES, LIST, RESULTS, SAMPLE, SHA256};
 use crate::sweep::{Axis, Column, Fields, Values};
@@ -58,7 +59,7 @@ impl StoredSweep {
 
     /// The results of every row.
     #[must_use]
-    pub fn quantities(&self) -> Vec<StoredQuantity> {
+    pub fn quantities(&self) -> Vec<Described> {
         let mut found = self.stored.quantities(RESULTS, &self.shape());
         // scales of a sweep with one axis have the same shape
         found.retain(|quantity| {

@@ -5,7 +5,8 @@ use crate::series::{curve, end_s, waves_of};
 use crate::words::{component, of_quantity, unit_of, with_unit};
 use contact::{Model, Settings};
 use figure::{Axis, Legend, Panel, Style};
-use formats::stored::{StoredImpact, StoredProbes, StoredQuantity};
+use formats::quantities::Described;
+use formats::stored::{StoredImpact, StoredProbes};
 use impact::Impact;
 
 /// Probes that are shown beside a contact.
@@ -166,7 +167,7 @@ pub(super) fn probe_panels(
         (given, _) => chosen(first.path(), &known, given)?,
     };
     // one axis has one unit
-    let mut by_unit: Vec<Vec<&StoredQuantity>> = Vec::new();
+    let mut by_unit: Vec<Vec<&Described>> = Vec::new();
     for quantity in &shown {
         match by_unit.iter_mut().find(|of| of[0].unit == quantity.unit) {
             Some(of_unit) => of_unit.push(quantity),
@@ -200,7 +201,7 @@ pub(super) fn probe_panels(
 fn probe_panel(
     impact: &StoredImpact,
     [r_m, z_m]: [f64; 2],
-    shown: &[&StoredQuantity],
+    shown: &[&Described],
     legend: Legend,
 ) -> Result<Panel, PlotError> {
     let quantity = match shown {
@@ -241,7 +242,7 @@ fn with_traces(
     impact: &StoredImpact,
     probes: &StoredProbes,
     probe: usize,
-    shown: &[&StoredQuantity],
+    shown: &[&Described],
     label: Option<&str>,
 ) -> Result<Panel, PlotError> {
     for quantity in shown {

@@ -9,7 +9,8 @@ use figure::{
     Axis, ColourMap, ColourScale, Image, LabelledPoint, Layer, Limits, Line, Mirror, Panel,
     Shading, Style,
 };
-use formats::stored::{ReadError, StoredImpact, StoredQuantity, StoredSection};
+use formats::quantities::Described;
+use formats::stored::{ReadError, StoredImpact, StoredSection};
 use std::f64::consts::FRAC_PI_2;
 use std::path::Path;
 
@@ -258,11 +259,7 @@ const OF_STRESSES: [impact::Quantity; 6] = [
 
 impl Quantity {
     /// The quantity of a name, stored or not.
-    pub(super) fn named(
-        name: &str,
-        stored: &[StoredQuantity],
-        path: &Path,
-    ) -> Result<Self, PlotError> {
+    pub(super) fn named(name: &str, stored: &[Described], path: &Path) -> Result<Self, PlotError> {
         let find = |name: &str| stored.iter().find(|quantity| quantity.name == name);
         let stress = OF_STRESSES.into_iter().find(|of| of.name() == name);
         let (unit, recipe) = match (find(name), stress, name) {

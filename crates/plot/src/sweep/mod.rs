@@ -9,7 +9,8 @@ use figure::{
     Axis, ColourMap, ColourScale, Figure, Histogram, Image, Layer, Legend, Panel, Scale, Shading,
     Style,
 };
-use formats::stored::{StoredQuantity, StoredSweep};
+use formats::quantities::Described;
+use formats::stored::StoredSweep;
 use view::{SHARES, Slice, View, quantiles};
 
 /// Results that are shown when none is asked for.
@@ -134,7 +135,7 @@ fn subtitle(view: &View<'_>, kind: Kind, along: Option<usize>) -> String {
 }
 
 /// A result in words: `peak_force_n` is "peak force".
-fn result_words(quantity: &StoredQuantity) -> String {
+fn result_words(quantity: &Described) -> String {
     if quantity.name == "loss" {
         return "energy lost, 1 \u{2212} e^{2}".to_owned();
     }
@@ -360,7 +361,7 @@ fn loss(view: &View<'_>, shown: &Shown<'_>) -> Result<Panel, PlotError> {
 /// with Johnson's slope.
 fn restitution(view: &View<'_>, shown: &Shown<'_>) -> Result<Panel, PlotError> {
     let mut panel = over_velocity(view, shown)?;
-    let is_known = |quantity: &StoredQuantity| quantity.name == AT_YIELD;
+    let is_known = |quantity: &Described| quantity.name == AT_YIELD;
     let at_yield = match view.sweep.quantities().iter().any(is_known) {
         true => view.sweep.values(AT_YIELD)?,
         false => Vec::new(),
