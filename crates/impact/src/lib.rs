@@ -52,7 +52,7 @@ pub use impact::{Impact, Run};
 pub use kernels::source::{self, KernelChoice, Shared, Tables};
 pub use kernels::{KernelSource, Place};
 pub use outcome::{Cause, FieldsUsed, Outcome, RecordResults, Series, StrikerSeries};
-pub use record::condition::{Treatment, TreatmentError};
+pub use record::condition::TreatmentError;
 pub use record::{ForceRecord, Reading, RecordError, Treated};
 pub use scene::{Load, Probe, Scene, Section, Strike};
 pub use simulate::{simulate, simulate_within};
