@@ -23,6 +23,7 @@ const END: usize = 8 + 8 + DIGEST;
 /// Bytes with a digest of their own.
 const PIECE: usize = 1 << 13;
 const DIGEST: usize = 32;
+type Digest256 = [u8; DIGEST];
 /// Pieces that are read and digested together.
 const TOGETHER: usize = 512;
 /// Pieces that stay in memory: what describes a dataset is read bit by bit.
@@ -52,7 +53,7 @@ pub(crate) struct Sealed {
     /// Bytes of the HDF5 part.
     pub(crate) length: u64,
     /// Digest of each piece.
-    pub(crate) digests: Option<Vec<[u8; DIGEST]>>,
+    pub(crate) digests: Option<Vec<Digest256>>,
     file: Mutex<std::fs::File>,
     /// The pieces that were read last, each with its place.
     held: Mutex<VecDeque<(usize, Vec<u8>)>>,
@@ -146,7 +147,7 @@ impl Storage for Sealed {
 fn read_seal(
     file: &mut std::fs::File,
     whole: u64,
-) -> Result<Option<(u64, Vec<[u8; DIGEST]>)>, HdfError> {
+) -> Result<Option<(u64, Vec<Digest256>)>, HdfError> {
     let mut end = [0; END];
     if whole >= END as u64 {
         file.seek(SeekFrom::End(-(END as i64)))?;
@@ -185,7 +186,7 @@ fn changed(piece: usize) -> io::Error {
 }
 
 /// The digests of the first bytes of a file.
-fn digests(file: &std::fs::File, length: u64) -> io::Result<Vec<[u8; DIGEST]>> {
+fn digests(file: &std::fs::File, length: u64) -> io::Result<Vec<Digest256>> {
     let mut file = file;
     file.rewind()?;
     let mut found = Vec::new();
@@ -195,7 +196,7 @@ fn digests(file: &std::fs::File, length: u64) -> io::Result<Vec<[u8; DIGEST]>> {
         let count = bytes.len().min(left as usize);
         file.read_exact(&mut bytes[..count])?;
         let pieces = bytes[..count].par_chunks(PIECE);
-        found.par_extend(pieces.map(|piece| <[u8; DIGEST]>::from(Sha256::digest(piece))));
+        found.par_extend(pieces.map(|piece| <Digest256>::from(Sha256::digest(piece))));
         left -= count as u64;
     }
     Ok(found)

@@ -31,19 +31,20 @@ fn title(spec: &Spec, rows: &Range<usize>) -> Title {
     }
 }
 
-/// Opens or begins a journal and says which rows it keeps, ascending and apart; that of other rows is replaced where it
-/// `drops`.
+/// Opens or begins a journal and adds to `spans` which rows it keeps, ascending and apart; that of other rows is replaced
+/// where it `drops`.
 pub(super) fn open(
     path: &Path,
     spec: &Spec,
     rows: &Range<usize>,
     drops: bool,
-) -> Result<(Journal, Vec<(Range<usize>, Record)>), JournalError> {
-    let mut spans = Vec::new();
+    spans: &mut Vec<(Range<usize>, Record)>,
+) -> Result<Journal, JournalError> {
     let wanted = results(&spec.fields);
-    let take = |record, kept: &[u8]| take(&mut spans, rows, wanted, record, kept);
+    let take = |record, kept: &[u8]| take(spans, rows, wanted, record, kept);
     let journal = Journal::open(path, &title(spec, rows), |_| drops, take)?;
-    Ok((journal, apart(spans)))
+    apart(spans);
+    Ok(journal)
 }
 
 /// A run that was interrupted or is at work: what its journal says.
@@ -72,7 +73,8 @@ impl Unfinished {
         let (sweep_rows, rows) = (count()?, count()?..count()?);
         let mut spans = Vec::new();
         records.all(|(record, kept)| take(&mut spans, &rows, 0, record, &kept));
-        let kept = apart(spans).iter().map(|(rows, _)| rows.len()).sum();
+        apart(&mut spans);
+        let kept = spans.iter().map(|(rows, _)| rows.len()).sum();
         Some(Self {
             path: path.to_owned(),
             sha256,
@@ -107,7 +109,7 @@ fn take(
 }
 
 /// Each row once, ascending.
-fn apart(mut spans: Vec<(Range<usize>, Record)>) -> Vec<(Range<usize>, Record)> {
+fn apart(spans: &mut Vec<(Range<usize>, Record)>) {
     spans.sort_by_key(|(rows, _)| rows.start);
     let mut end = 0;
     spans.retain(|(rows, _)| {
@@ -115,7 +117,6 @@ fn apart(mut spans: Vec<(Range<usize>, Record)>) -> Vec<(Range<usize>, Record)> 
         end = end.max(rows.end);
         apart
     });
-    spans
 }
 
 /// The results of a contact that are kept, a bit each: those that are written, and those that are counted.

@@ -87,7 +87,8 @@ pub fn run_rows(
 ) -> Result<Option<Kept>, SweepError> {
     let computer = Computer::new(spec)?;
     let drops = existing == Existing::Replace;
-    let (mut journal, mut spans) = journal::open(part, spec, &rows, drops)?;
+    let mut spans = Vec::new();
+    let mut journal = journal::open(part, spec, &rows, drops, &mut spans)?;
     let mut done: usize = spans.iter().map(|(rows, _)| rows.len()).sum();
     let resumed = done;
     if !watch(done) {

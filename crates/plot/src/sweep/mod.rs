@@ -11,6 +11,7 @@ use figure::{
 };
 use formats::quantities::Described;
 use formats::stored::StoredSweep;
+use formats::sweep::Column;
 use view::{SHARES, Slice, View, quantiles};
 
 /// Results that are shown when none is asked for.
@@ -428,7 +429,7 @@ fn few(view: &View<'_>, slices: Vec<Slice>, most: usize) -> Result<Vec<Slice>, P
         "{} would give {} curves, and {most} can be told apart: choose among them, such as by --at {}=VALUE",
         path.display(),
         slices.len(),
-        key.map_or_else(String::new, |column| column.name())
+        key.map_or_else(String::new, Column::name)
     );
     Err(PlotError::refused(Some(path), sentence))
 }
