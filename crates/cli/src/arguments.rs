@@ -3,7 +3,7 @@
 
 use crate::failure::{Failure, lines, show};
 use clap::{Args, ValueEnum};
-use formats::sweep::{FieldKernels, Spec};
+use formats::sweep::Spec;
 use formats::{Existing, Output, OutputError};
 use impact::KernelChoice;
 use lookup::TableFile;
@@ -75,13 +75,12 @@ impl Kernels {
                 )),
             };
         }
-        let kernels = match (self.kernel, self.table.as_deref()) {
-            (Kernel::Table, None) => return Err(no_table()),
-            (Kernel::Direct, _) | (Kernel::Auto, None) => FieldKernels::Direct,
-            (Kernel::Table, Some(path)) => FieldKernels::Table(path),
-            (Kernel::Auto, Some(path)) => FieldKernels::Within(path),
-        };
-        Ok(spec.with_fields(kernels)?)
+        let table = self.table.as_deref();
+        if self.kernel == Kernel::Table && table.is_none() {
+            return Err(no_table());
+        }
+        let table = table.filter(|_| self.kernel != Kernel::Direct);
+        Ok(spec.with_fields(table, self.kernel == Kernel::Auto)?)
     }
 }
 

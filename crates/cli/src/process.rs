@@ -11,10 +11,8 @@ use std::process::exit;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
-type Note = Box<dyn Fn() -> String + Send>;
-
 /// What is kept when the command is stopped now.
-static NOTE: Mutex<Option<Note>> = Mutex::new(None);
+static NOTE: Mutex<Option<Box<dyn Fn() -> String + Send>>> = Mutex::new(None);
 
 /// Signal of a file that grows beyond the limit of the process; without a handler it ends the process.
 #[cfg(unix)]

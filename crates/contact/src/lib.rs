@@ -18,7 +18,7 @@
 //! assert!((results.loss - 0.00663).abs() < 1e-5, "{}", results.loss);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
-
+#![cfg_attr(doctest, doc = include_str!("../README.md"))]
 #![warn(missing_docs)]
 
 pub mod law;
@@ -79,8 +79,3 @@ pub use solver::{Solved, Solver};
 pub use summary::{EndOfContact, Estimates, Instant, Summary};
 pub use units::{CollisionUnits, KernelUnits};
 pub use validity::{Checked, doubts, super_seismic};
-
-/// The README's program runs.
-#[cfg(doctest)]
-#[doc = include_str!("../README.md")]
-struct Readme;

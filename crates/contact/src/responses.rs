@@ -58,14 +58,12 @@ pub enum Ratios {
     Many,
 }
 
-type Cache<K, V> = RwLock<HashMap<K, Arc<V>>>;
-
 /// Tabulated responses, made once and shared by all threads: what a sweep takes.
 #[derive(Debug)]
 pub struct Tabulated {
     ratios: Ratios,
-    tables: Cache<(u64, Deflection), ResponseTable>,
-    waves: Cache<u64, PunchWaves>,
+    tables: RwLock<HashMap<(u64, Deflection), Arc<ResponseTable>>>,
+    waves: RwLock<HashMap<u64, Arc<PunchWaves>>>,
 }
 
 /// Steps of the lattice in sqrt(1/2 - nu), in which every response is smooth.
@@ -80,8 +78,8 @@ impl Tabulated {
     pub fn new(ratios: Ratios) -> Self {
         Self {
             ratios,
-            tables: Cache::default(),
-            waves: Cache::default(),
+            tables: RwLock::default(),
+            waves: RwLock::default(),
         }
     }
 
@@ -100,7 +98,7 @@ impl Tabulated {
     /// What belongs to a ratio: made for it once, or between the two of the lattice.
     fn at<K: Eq + Hash, V>(
         &self,
-        cache: &Cache<K, V>,
+        cache: &RwLock<HashMap<K, Arc<V>>>,
         ratio: f64,
         key: impl Fn(u64) -> K,
         make: impl Fn(&Medium) -> V,

@@ -28,6 +28,9 @@
 use std::fmt::{Debug, Display};
 use std::path::Path;
 
+/// An error of which only the sentence is told.
+pub type AnyError = Box<dyn std::error::Error + Send + Sync>;
+
 /// An error with one face.
 pub trait Fault: Debug + Display {
     /// What it is about.

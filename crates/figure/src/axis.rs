@@ -13,25 +13,6 @@ pub enum Unit {
     Fixed(String),
 }
 
-/// In which direction the values of an axis grow.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Direction {
-    /// To the right, or upward.
-    Usual,
-    /// To the left, or downward: depths.
-    Reversed,
-}
-
-impl Direction {
-    /// The fraction of the way from the left or from below, of that from the low end to the high one.
-    pub(crate) fn turned(self, fraction: f64) -> f64 {
-        match self {
-            Self::Usual => fraction,
-            Self::Reversed => 1.0 - fraction,
-        }
-    }
-}
-
 /// Whether a panel shows its layers at -x as well.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Mirror {
@@ -55,8 +36,8 @@ pub struct Axis {
     pub scale: Scale,
     /// Values from and to; none: those of the panel's layers, with a little air.
     pub range: Option<(f64, f64)>,
-    /// Where it grows to.
-    pub direction: Direction,
+    /// Whether it grows to the left, or downward, as depths do.
+    pub is_reversed: bool,
 }
 
 impl Axis {
@@ -67,7 +48,7 @@ impl Axis {
             unit: Unit::One,
             scale: Scale::Linear,
             range: None,
-            direction: Direction::Usual,
+            is_reversed: false,
         }
     }
 
@@ -108,7 +89,7 @@ impl Axis {
 
     /// Growing downward or to the left.
     pub fn reversed(mut self) -> Self {
-        self.direction = Direction::Reversed;
+        self.is_reversed = true;
         self
     }
 

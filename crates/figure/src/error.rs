@@ -73,14 +73,6 @@ pub enum FigureError {
         expected: usize,
         found: usize,
     },
-}
-
-/// Why a drawn figure could not become a file.
-#[derive(Debug, Error)]
-pub enum RenderError {
-    /// The figure cannot be drawn.
-    #[error(transparent)]
-    Figure(#[from] FigureError),
     /// More pixels than can be held.
     #[error("a picture of {width} by {height} pixels cannot be made")]
     Pixels {

@@ -18,15 +18,6 @@ pub enum Sharing {
     Both,
 }
 
-/// Where the colours of images are explained.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ColourBar {
-    /// At every panel with an image.
-    Each,
-    /// Once, with limits from all images together; the first image says what is shown.
-    Common,
-}
-
 /// A picture: panels in rows.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Figure {
@@ -40,8 +31,9 @@ pub struct Figure {
     pub columns: usize,
     /// Whether panels have one axis in common.
     pub sharing: Sharing,
-    /// Where the colours of images are explained.
-    pub colour_bar: ColourBar,
+    /// Whether colours of images are explained once, with limits from all images together, of which the first says what
+    /// is shown; at every panel with an image otherwise.
+    pub has_common_bar: bool,
     /// Width in pixels; it grows where labels need more. The height follows from the panels.
     pub width: f64,
     /// Height of the text at the ticks in pixels; other text follows.
@@ -57,7 +49,7 @@ impl Figure {
             panels: Vec::new(),
             columns: 1,
             sharing: Sharing::Separate,
-            colour_bar: ColourBar::Each,
+            has_common_bar: false,
             width: 860.0,
             text: 12.0,
         }
@@ -89,7 +81,7 @@ impl Figure {
 
     /// With one colour bar for all panels.
     pub fn common_colour_bar(mut self) -> Self {
-        self.colour_bar = ColourBar::Common;
+        self.has_common_bar = true;
         self
     }
 
@@ -123,15 +115,6 @@ impl Figure {
     }
 }
 
-/// Whether lengths along both axes are equal.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Aspect {
-    /// Each axis fills its side.
-    Free,
-    /// One unit is equally long on both axes: a section through the body. Both axes are linear.
-    Equal,
-}
-
 /// Where a panel's legend is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Legend {
@@ -155,8 +138,8 @@ pub struct Panel {
     pub y: Axis,
     /// What it shows, from the bottom to the top.
     pub layers: Vec<Layer>,
-    /// Whether lengths along both axes are equal.
-    pub aspect: Aspect,
+    /// Whether one unit is equally long on both axes, as in a section through the body; both are linear then.
+    pub has_equal_lengths: bool,
     /// Whether it shows its layers at -x as well.
     pub mirror: Mirror,
     /// Where the legend is.
@@ -173,7 +156,7 @@ impl Panel {
             x,
             y,
             layers: Vec::new(),
-            aspect: Aspect::Free,
+            has_equal_lengths: false,
             mirror: Mirror::Off,
             legend: Legend::Auto,
             height: 260.0,
@@ -200,7 +183,7 @@ impl Panel {
 
     /// With lengths that are equal along both axes.
     pub fn equal_lengths(mut self) -> Self {
-        self.aspect = Aspect::Equal;
+        self.has_equal_lengths = true;
         self
     }
 
@@ -260,7 +243,7 @@ fn check_panel(i: usize, panel: &Panel) -> Result<(), FigureError> {
             });
         }
         let needs_linear =
-            panel.aspect == Aspect::Equal || (panel.mirror != Mirror::Off && side == Side::X);
+            panel.has_equal_lengths || (panel.mirror != Mirror::Off && side == Side::X);
         if needs_linear && axis.scale == Scale::Logarithmic {
             return Err(FigureError::NotLinear { panel: i, side });
         }

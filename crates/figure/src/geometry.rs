@@ -1,6 +1,6 @@
 //! Places on the canvas, in pixels from its upper left corner; and from values to them.
 
-use crate::axis::{Direction, Interval, Mirror};
+use crate::axis::{Interval, Mirror};
 
 /// A rectangle; `top < bottom`.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -89,23 +89,20 @@ pub(crate) struct Frame {
     pub(crate) area: Rect,
     pub(crate) x: Interval,
     pub(crate) y: Interval,
-    pub(crate) directions: [Direction; 2],
+    pub(crate) reversed: [bool; 2],
     pub(crate) mirror: Mirror,
 }
 
 impl Frame {
     /// Pixel along x of a value.
     pub(crate) fn across(&self, x: f64) -> f64 {
-        let fraction = self.directions[0].turned(self.x.fraction(x));
+        let fraction = turned(self.reversed[0], self.x.fraction(x));
         self.area.left + fraction * self.area.width()
     }
 
     /// Pixel along y of a value.
     pub(crate) fn down(&self, y: f64) -> f64 {
-        let fraction = match self.directions[1] {
-            Direction::Usual => 1.0 - self.y.fraction(y),
-            Direction::Reversed => self.y.fraction(y),
-        };
+        let fraction = turned(!self.reversed[1], self.y.fraction(y));
         self.area.top + fraction * self.area.height()
     }
 
@@ -122,8 +119,7 @@ impl Frame {
     pub(crate) fn values(&self, (across, down): Point) -> Point {
         let x = (across - self.area.left) / self.area.width();
         let y = (self.area.bottom - down) / self.area.height();
-        let [along_x, along_y] = self.directions;
-        let (x, y) = (along_x.turned(x), along_y.turned(y));
+        let (x, y) = (turned(self.reversed[0], x), turned(self.reversed[1], y));
         (self.x.value(x), self.y.value(y))
     }
 
@@ -152,36 +148,45 @@ impl Frame {
     }
 }
 
+/// A fraction of the way, told from the other end where the way is reversed.
+fn turned(is_reversed: bool, fraction: f64) -> f64 {
+    if is_reversed {
+        1.0 - fraction
+    } else {
+        fraction
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn frame(y: Interval, direction: Direction) -> Frame {
+    fn frame(y: Interval, is_reversed: bool) -> Frame {
         Frame {
             area: Rect::new(50.0, 10.0, 200.0, 100.0),
             x: Interval::linear(0.0, 4.0),
             y,
-            directions: [Direction::Usual, direction],
+            reversed: [false, is_reversed],
             mirror: Mirror::Off,
         }
     }
 
     #[test]
     fn places_run_over_the_area_and_back() {
-        let usual = frame(Interval::logarithmic(1.0, 100.0), Direction::Usual);
+        let usual = frame(Interval::logarithmic(1.0, 100.0), false);
         assert_eq!(usual.place((0.0, 1.0)), Some((50.0, 110.0)));
         assert_eq!(usual.place((4.0, 100.0)), Some((250.0, 10.0)));
         assert_eq!(usual.place((1.0, 0.0)), None);
         let (x, y) = usual.values((150.0, 60.0));
         assert!((x - 2.0).abs() < 1e-12 && (y - 10.0).abs() < 1e-12);
-        let depth = frame(Interval::linear(0.0, 1.0), Direction::Reversed);
+        let depth = frame(Interval::linear(0.0, 1.0), true);
         assert_eq!(depth.place((0.0, 0.0)), Some((50.0, 10.0)));
         assert_eq!(depth.values((50.0, 110.0)), (0.0, 1.0));
     }
 
     #[test]
     fn a_curve_breaks_where_nothing_can_be_shown() {
-        let frame = frame(Interval::logarithmic(1.0, 100.0), Direction::Usual);
+        let frame = frame(Interval::logarithmic(1.0, 100.0), false);
         let runs = frame.runs(&[
             (0.0, 1.0),
             (1.0, 2.0),

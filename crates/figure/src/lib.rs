@@ -27,11 +27,12 @@
 //!     );
 //! let svg = figure::to_svg(&figure)?;
 //! assert!(svg.contains("force [kN]") && svg.contains("time [µs]"));
-//! # Ok::<(), figure::RenderError>(())
+//! # Ok::<(), figure::FigureError>(())
 //! ```
 //!
 //! Labels may hold raised and lowered parts: `Axis::linear("radius").unit("r_{0}")`. Lengths are in pixels of
 //! 1/96 inch from the upper left corner. The same figure gives the same bytes.
+#![cfg_attr(doctest, doc = include_str!("../README.md"))]
 
 mod axis;
 mod colour;
@@ -47,46 +48,45 @@ mod text;
 mod ticks;
 mod write;
 
-pub use axis::{Axis, Direction, Interval, Mirror, Scale, Unit};
+pub use axis::{Axis, Interval, Mirror, Scale, Unit};
 pub use colour::{Colour, ColourMap};
-pub use error::{FigureError, RenderError, Side};
-pub use figure::{Aspect, ColourBar, Figure, Legend, Panel, Sharing};
+pub use error::{FigureError, Side};
+pub use figure::{Figure, Legend, Panel, Sharing};
 pub use geometry::Rect;
 pub use layers::{
-    Band, Classes, ColourScale, Histogram, Image, LabelledPoint, Layer, Limits, Line, Mark,
-    Shading, Symbol,
+    Band, Classes, ColourScale, Histogram, Image, LabelledPoint, Layer, Limits, Line, Mark, Shading,
 };
 pub use look::Style;
 
 /// The figure as SVG.
 ///
 /// # Errors
-/// [`RenderError`] for a figure that cannot be drawn.
-pub fn to_svg(figure: &Figure) -> Result<String, RenderError> {
+/// [`FigureError`] for a figure that cannot be drawn.
+pub fn to_svg(figure: &Figure) -> Result<String, FigureError> {
     write::svg(&layout::draw(figure)?)
 }
 
 /// The figure as PNG, at `scale` pixels for each of its own.
 ///
 /// # Errors
-/// [`RenderError`] for a figure that cannot be drawn, or a picture that is too large.
-pub fn to_png(figure: &Figure, scale: f32) -> Result<Vec<u8>, RenderError> {
+/// [`FigureError`] for a figure that cannot be drawn, or a picture that is too large.
+pub fn to_png(figure: &Figure, scale: f32) -> Result<Vec<u8>, FigureError> {
     write::png(&layout::draw(figure)?, scale)
 }
 
 /// The figure as PDF: a page of its size, with its font.
 ///
 /// # Errors
-/// [`RenderError`] for a figure that cannot be drawn.
-pub fn to_pdf(figure: &Figure) -> Result<Vec<u8>, RenderError> {
+/// [`FigureError`] for a figure that cannot be drawn.
+pub fn to_pdf(figure: &Figure) -> Result<Vec<u8>, FigureError> {
     write::pdf(&layout::draw(figure)?)
 }
 
 /// Figures as an animated GIF that repeats: a frame each, all of the size of the first, `frame_s` long.
 ///
 /// # Errors
-/// [`RenderError`] for a figure that cannot be drawn, or frames that are not of one size.
-pub fn to_gif(figures: &[Figure], scale: f32, frame_s: f64) -> Result<Vec<u8>, RenderError> {
+/// [`FigureError`] for a figure that cannot be drawn, or frames that are not of one size.
+pub fn to_gif(figures: &[Figure], scale: f32, frame_s: f64) -> Result<Vec<u8>, FigureError> {
     let scenes: Vec<scene::Scene> = figures.iter().map(layout::draw).collect::<Result<_, _>>()?;
     write::gif(&scenes, scale, frame_s)
 }
@@ -118,8 +118,3 @@ pub fn measure(figure: &Figure) -> Result<Measured, FigureError> {
         plots: scene.plots,
     })
 }
-
-/// The README's program runs.
-#[cfg(doctest)]
-#[doc = include_str!("../README.md")]
-struct Readme;

@@ -4,7 +4,7 @@
 
 use figure::{
     Axis, Classes, ColourMap, ColourScale, Figure, FigureError, Histogram, Image, Interval,
-    LabelledPoint, Layer, Panel, RenderError, Scale, Style, Unit, to_pdf, to_png, to_svg,
+    LabelledPoint, Layer, Panel, Scale, Style, Unit, to_pdf, to_png, to_svg,
 };
 use std::path::Path;
 use tiny_skia::{Pixmap, PremultipliedColorU8};
@@ -136,11 +136,7 @@ fn the_pdf_has_its_page_its_font_and_its_pictures() {
 
 #[test]
 fn what_cannot_be_drawn_is_refused_with_its_place() {
-    let refused = |figure: &Figure| match to_svg(figure) {
-        Err(RenderError::Figure(error)) => error,
-        Ok(_) => panic!("drawn"),
-        Err(other) => panic!("{other}"),
-    };
+    let refused = |figure: &Figure| to_svg(figure).expect_err("drawn");
     assert_eq!(refused(&Figure::new("")), FigureError::NoPanels);
     let mut figure = classes();
     figure.panels[0].y.range = Some((0.0, 1.0));

@@ -11,6 +11,7 @@
 //! assert!(report["peak_force_n"].as_f64() > Some(1.0));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+#![cfg_attr(doctest, doc = include_str!("../README.md"))]
 
 mod error;
 mod hdf;
@@ -30,14 +31,9 @@ pub use report::{
     table_report,
 };
 pub use results::{
-    Allowed, check_results, print_results_csv, stage_results, stage_results_csv, write_results,
+    check_results, print_results_csv, stage_results, stage_results_csv, write_results,
 };
 pub use scene::{
     parse_materials, parse_scene, read_materials, read_record, read_scene, read_with_inputs,
     resolved,
 };
-
-/// The README's program runs.
-#[cfg(doctest)]
-#[doc = include_str!("../README.md")]
-struct Readme;

@@ -15,15 +15,6 @@ use std::path::{Path, PathBuf};
 /// What rows are of that do not belong to a sweep.
 const OTHER: &str = "another sweep, or of this one before its files or the program changed";
 
-/// A file in a folder of parts that is none of its sweep.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Foreign {
-    /// The file.
-    pub path: PathBuf,
-    /// What it is, in one sentence that names it.
-    pub reason: String,
-}
-
 /// The parts of one sweep in a folder.
 #[derive(Debug)]
 pub struct Parts {
@@ -35,8 +26,8 @@ pub struct Parts {
     grain: usize,
     /// The parts, by their first rows.
     pub parts: Vec<Part>,
-    /// Files with the ending of HDF5 or Parquet that are none of them.
-    pub foreign: Vec<Foreign>,
+    /// Files with the ending of HDF5 or Parquet that are none of them, each with a sentence that says what it is.
+    pub foreign: Vec<(PathBuf, String)>,
     /// Journals of runs that are at work, or were interrupted.
     pub unfinished: Vec<Unfinished>,
 }
@@ -54,7 +45,7 @@ impl Parts {
                 Ok(part) => all.push(part),
                 Err(error) => {
                     let reason = error.to_string();
-                    foreign.push(Foreign { path, reason });
+                    foreign.push((path, reason));
                 }
             }
         }
@@ -77,7 +68,7 @@ impl Parts {
         parts.sort_by_key(|part| (part.selection.rows.start, part.selection.rows.end));
         foreign.extend(others.into_iter().map(|Part { path, .. }| {
             let reason = format!("{} is a part of {OTHER}", path.display());
-            Foreign { path, reason }
+            (path, reason)
         }));
         Ok(Self {
             sha256,
@@ -181,8 +172,8 @@ impl Parts {
     fn whole(&self, output: &Output) -> Result<Spec, SweepError> {
         // what was merged before may lie beside the parts
         let merged = |path: &Path| file_kind(path) == Ok(FileKind::Sweep);
-        if let Some(foreign) = self.foreign.iter().find(|foreign| !merged(&foreign.path)) {
-            return Err(SweepError::part(&foreign.path, foreign.reason.clone()));
+        if let Some((path, reason)) = self.foreign.iter().find(|(path, _)| !merged(path)) {
+            return Err(SweepError::part(path, reason.clone()));
         }
         if let Some(overlap) = self.overlap() {
             return Err(overlap);

@@ -166,24 +166,28 @@ pub fn labels_of(quantities: &[FieldQuantity]) -> impl Iterator<Item = Labels<'s
 
 /// A column of a file: its name, its unit and what it is.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Described {
-    pub(crate) name: String,
-    pub(crate) unit: &'static str,
-    pub(crate) meaning: String,
+pub struct Described {
+    /// Name in the file.
+    pub name: String,
+    /// Unit; `1` for none.
+    pub unit: String,
+    /// What it is, in a few words.
+    pub meaning: String,
 }
 
-impl From<(&str, &'static str, &str)> for Described {
-    fn from((name, unit, meaning): (&str, &'static str, &str)) -> Self {
+impl From<Labels<'_>> for Described {
+    fn from((name, unit, meaning): Labels<'_>) -> Self {
+        let [name, unit, meaning] = [name, unit, meaning].map(str::to_owned);
         Self {
-            name: name.to_owned(),
+            name,
             unit,
-            meaning: meaning.to_owned(),
+            meaning,
         }
     }
 }
 
 impl Described {
-    pub(crate) fn labels(&self) -> (&str, &str, &str) {
-        (&self.name, self.unit, &self.meaning)
+    pub(crate) fn labels(&self) -> Labels<'_> {
+        (&self.name, &self.unit, &self.meaning)
     }
 }

@@ -6,7 +6,7 @@
 
 use formats::results::schema::TREATMENT;
 use formats::{Existing, json_report, parse_scene, resolved, write_results};
-use impact::{ForceRecord, KernelChoice, Load, Scene, Treatment, simulate};
+use impact::{ForceRecord, KernelChoice, Load, Scene, simulate};
 use std::f64::consts::PI;
 use std::fmt::Write;
 use std::path::Path;
@@ -120,11 +120,7 @@ fn a_pulse_keeps_its_shape_and_its_impulse() {
     let force_n: Vec<f64> = time_s.iter().map(|&t| pulse(t, from_s)).collect();
     let clean = ForceRecord::new(time_s, force_n).unwrap();
     for (cutoff, promised) in [(5.0, 4e-4), (10.0, 2e-5), (20.0, 2e-6), (40.0, 3e-7)] {
-        let asked = Treatment {
-            low_pass_hz: Some(cutoff / PULSE_S),
-            ..Treatment::default()
-        };
-        let found = clean.clone().treat(&asked).unwrap();
+        let found = clean.clone().treat(None, Some(cutoff / PULSE_S)).unwrap();
         let rows = found.time_s().iter().zip(found.force_n());
         let error = rows.fold(0.0_f64, |most, (&t, p)| {
             most.max((p - pulse(t, from_s)).abs())
@@ -145,11 +141,7 @@ fn what_goes_before_zero_is_counted() {
     let time_s: Vec<f64> = (0..=2000).map(|i| f64::from(i) * 5e-9).collect();
     let force_n: Vec<f64> = time_s.iter().map(|&t| pulse(t + 1e-5, 0.0)).collect();
     let cut = ForceRecord::new(time_s, force_n).unwrap();
-    let asked = Treatment {
-        low_pass_hz: Some(5.0 / PULSE_S),
-        ..Treatment::default()
-    };
-    let found = cut.clone().treat(&asked).unwrap();
+    let found = cut.clone().treat(None, Some(5.0 / PULSE_S)).unwrap();
     let lost = found.treated.unwrap().before_zero_n_s;
     let whole = (found.impulse_n_s() + lost) / cut.impulse_n_s();
     println!(

@@ -26,7 +26,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 /// The static field at (r, z), to 2e-15 of the largest field of the same unit.
 pub(crate) fn static_field(nu: f64, r: f64, z: f64) -> Six {
     const P0: f64 = 1.5 / PI;
-    let Spheroidal { c, s } = Spheroidal::at(r, z);
+    let [c, s] = spheroidal(r, z);
     let inverse = 1.0 / (1.0 + s * s);
     let deficit = arc_deficit(s);
     let ring = (1.0 - 2.0 * nu) / 3.0 * (1.0 + c + c * c) / (1.0 + c) * inverse;
@@ -49,24 +49,17 @@ pub(crate) fn static_field(nu: f64, r: f64, z: f64) -> Six {
     ]
 }
 
-/// The two coordinates, neither as a small difference.
-struct Spheroidal {
-    c: f64,
-    s: f64,
-}
-
-impl Spheroidal {
-    fn at(r: f64, z: f64) -> Self {
-        let d = (r - 1.0) * (r + 1.0) + z * z;
-        let root = d.hypot(2.0 * z);
-        if d > 0.0 {
-            let s = (0.5 * (root + d)).sqrt();
-            Self { c: z / s, s }
-        } else {
-            let c = (0.5 * (root - d)).sqrt();
-            let s = if z > 0.0 { z / c } else { 0.0 };
-            Self { c, s }
-        }
+/// The two spheroidal coordinates c and s, neither as a small difference.
+fn spheroidal(r: f64, z: f64) -> [f64; 2] {
+    let d = (r - 1.0) * (r + 1.0) + z * z;
+    let root = d.hypot(2.0 * z);
+    if d > 0.0 {
+        let s = (0.5 * (root + d)).sqrt();
+        [z / s, s]
+    } else {
+        let c = (0.5 * (root - d)).sqrt();
+        let s = if z > 0.0 { z / c } else { 0.0 };
+        [c, s]
     }
 }
 

@@ -58,7 +58,7 @@
 //! The Laplace-Hankel solution is that of the paper on the impact of a rod on an anvil (its equations (22) to
 //! (29), with the coefficient of (24) corrected to 4); the static field is Huber's (1904); the surface-centre
 //! response agrees with the closed form of Kausel (2012).
-
+#![cfg_attr(doctest, doc = include_str!("../README.md"))]
 #![warn(missing_docs)]
 
 mod arrivals;
@@ -87,8 +87,3 @@ pub use numeric::gauss;
 pub use profile::Profile;
 pub use surface::{Deflection, SurfaceResponse};
 pub use trace::Trace;
-
-/// The example of the README is compiled and run.
-#[cfg(doctest)]
-#[doc = include_str!("../README.md")]
-struct Readme;

@@ -24,7 +24,7 @@
 //!
 //! The programs in `examples/` show the force alone, a point inside, a table made and used, a sweep in memory, and
 //! a force that was measured.
-
+#![cfg_attr(doctest, doc = include_str!("../README.md"))]
 #![warn(missing_docs)]
 
 pub use {contact, formats, halfspace, impact, lookup, tabulator};
@@ -39,8 +39,3 @@ pub mod prelude {
     };
     pub use lookup::{Table, TableFile};
 }
-
-/// The README's program runs.
-#[cfg(doctest)]
-#[doc = include_str!("../README.md")]
-struct Readme;

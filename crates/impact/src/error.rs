@@ -1,13 +1,10 @@
 //! Why an impact, or its fields, could not be computed.
 
 use contact::ContactError;
-use fault::{Class, Culprit, Fault};
+use fault::{AnyError, Class, Culprit, Fault};
 use halfspace::DomainError;
 use lookup::LookupError;
 use thiserror::Error;
-
-/// Why a table cannot be loaded, in one sentence.
-pub type TableFault = Box<dyn std::error::Error + Send + Sync>;
 
 /// Why a scene could not be computed.
 #[derive(Debug, Error)]
@@ -25,7 +22,7 @@ pub enum ImpactError {
     },
     /// The table could not be loaded.
     #[error("{0}")]
-    Table(TableFault),
+    Table(AnyError),
     /// A point is outside the table.
     #[error("probe r = {r_m} m, z = {z_m} m with disc radius {disc_radius_m} m: {source}")]
     OutsideTable {
@@ -170,7 +167,7 @@ fn of_contact(error: &ContactError) -> Culprit<'_> {
 
 /// A table that could not be loaded is something to change, whatever is wrong with it.
 #[cfg_attr(not(feature = "hdf5"), allow(unused_variables))]
-fn of_table(fault: &TableFault) -> Culprit<'_> {
+fn of_table(fault: &AnyError) -> Culprit<'_> {
     let culprit = Culprit::of(Class::Table);
     #[cfg(feature = "hdf5")]
     if let Some(lookup::TableError { path, .. }) = fault.downcast_ref() {

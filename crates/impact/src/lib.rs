@@ -18,7 +18,7 @@
 //! assert!(below[Field::StressZz].peak() < -1e7, "compression is negative");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
-
+#![cfg_attr(doctest, doc = include_str!("../README.md"))]
 #![warn(missing_docs)]
 
 mod cost;
@@ -40,7 +40,7 @@ pub mod sweep;
 pub use contact::{HalfSpace, Material, Settings, Striker};
 pub use cost::{Allowance, Forecast};
 pub use energy::EnergySeries;
-pub use error::{ImpactError, TableFault};
+pub use error::ImpactError;
 pub use evaluator::convolve;
 pub use excitation::{Excitation, Motion, PressureRadius};
 pub use fields::probes::{Peaks, ProbeFields, ProbePeaks, SectionFields};
@@ -52,12 +52,7 @@ pub use impact::{Impact, Run};
 pub use kernels::source::{self, KernelChoice, Shared, Tables};
 pub use kernels::{KernelSource, Place};
 pub use outcome::{Cause, FieldsUsed, Outcome, RecordResults, Series, StrikerSeries};
-pub use record::condition::{Treatment, TreatmentError};
+pub use record::condition::TreatmentError;
 pub use record::{ForceRecord, Reading, RecordError, Treated};
 pub use scene::{Load, Probe, Scene, Section, Strike};
 pub use simulate::{simulate, simulate_within};
-
-/// The README's program runs.
-#[cfg(doctest)]
-#[doc = include_str!("../README.md")]
-struct Readme;

@@ -34,7 +34,7 @@ mod tests {
         let responses = Tabulated::new(Ratios::Few);
         let mut solver = Solver::new(&responses);
         let observed = observe(&mut solver, &scene, &KernelChoice::Direct).unwrap();
-        let peaks = observed.peaks.unwrap().peaks;
+        let peaks = observed.peaks.unwrap().unwrap().peaks;
         let rows = [1, 4, 6, 8, 11, 13].map(|i| peaks[i]);
         rows.to_vec()
     }

@@ -9,13 +9,15 @@ use contact::{Collision, ContactError, Model, Outcomes, Results, Settings, Solve
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// A contact of many: its results and the model that gave them.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Collided {
+/// A contact of many: its results, the model that gave them, and what the probes see.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Observed {
     /// The model, never [`Model::Auto`].
     pub model: Model,
     /// Results in SI units.
     pub results: Results,
+    /// The peaks at the probes, or why there are none; nothing where nobody asks for them.
+    pub peaks: Option<Result<ProbePeaks, String>>,
 }
 
 /// The contact of two bodies with a thread's solver.
@@ -23,23 +25,15 @@ pub fn collide(
     solver: &mut Solver<'_, Tabulated>,
     collision: &Collision,
     settings: &Settings,
-) -> Result<Collided, ContactError> {
+) -> Result<Observed, ContactError> {
     collision.check_step(settings)?;
     let solved = solver.solve(collision, settings)?;
     let radiated = solver.radiated(collision, settings, &solved)?;
-    Ok(Collided {
+    Ok(Observed {
         model: solved.plan.model,
         results: Results::new(collision, settings, &solved, radiated).checked()?,
+        peaks: None,
     })
-}
-
-/// A contact with the peaks of its fields, or with why it has none.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Observed {
-    /// The contact.
-    pub collided: Collided,
-    /// The peaks at the probes.
-    pub peaks: Result<ProbePeaks, String>,
 }
 
 /// The contact of a scene as [`crate::simulate()`] solves it, with the peaks of the fields at its probes.
@@ -59,11 +53,9 @@ pub fn observe(
     let run = solve(solver, target, &collision, settings).map_err(|error| error.to_string())?;
     let peaks = peaks_at_probes(scene, kernels, run.excitation()).and_then(finite);
     Ok(Observed {
-        collided: Collided {
-            model: run.solved.plan.model,
-            results: run.results,
-        },
-        peaks: peaks.map_err(|error| error.to_string()),
+        model: run.solved.plan.model,
+        results: run.results,
+        peaks: Some(peaks.map_err(|error| error.to_string())),
     })
 }
 
@@ -118,7 +110,7 @@ pub fn collide_rows<M: Default, E: ToString>(
     rows: Range<usize>,
     (responses, outcomes): (&Tabulated, &Outcomes),
     row: impl Fn(usize, &mut M) -> Result<(Collision, Settings), E> + Sync,
-) -> Vec<Result<Collided, String>> {
+) -> Vec<Result<Observed, String>> {
     let solver = || Solver::sharing(responses, outcomes);
     in_parallel(rows, solver, |index, memory, solver| {
         let (collision, settings) = row(index, memory).map_err(|error| error.to_string())?;

@@ -98,7 +98,7 @@ pub use error::{ContentError, LookupError};
 #[cfg(feature = "hdf5")]
 pub use file::labels;
 #[cfg(feature = "hdf5")]
-pub use file::{BadTable, DamagedPatch, TableError, TableFile, damaged_patches};
+pub use file::{BadTable, TableError, TableFile, damaged_patches};
 #[cfg(feature = "hdf5")]
 pub use file::{check_hash, check_whole, read, stated_hash, write};
 pub use hash::{content_hash, settings_id};

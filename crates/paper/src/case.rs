@@ -1,7 +1,7 @@
 //! The paper's bodies, Table 1 and the numbers of section 4, and the contacts that numbers and figures need.
 
-use crate::PaperError;
 use contact::{HalfSpace, Material, Model, Scheme, Settings, Striker};
+use fault::AnyError;
 use impact::{Impact, Run};
 use std::f64::consts::PI;
 
@@ -46,12 +46,12 @@ pub(crate) fn kmax(force_n: f64, radius_m: f64) -> f64 {
 }
 
 /// The anvil, a half-space of Table 1.
-pub(crate) fn anvil() -> Result<HalfSpace, PaperError> {
+pub(crate) fn anvil() -> Result<HalfSpace, AnyError> {
     Ok(HalfSpace::new(Material::named("steel")?)?)
 }
 
 /// The paper's model of the impact, with copper of a Young's modulus and a radius r0 that is the tip's and the disc's.
-pub(crate) fn coupled(copper_pa: f64, radius_m: f64) -> Result<Impact, PaperError> {
+pub(crate) fn coupled(copper_pa: f64, radius_m: f64) -> Result<Impact, AnyError> {
     let copper = Material {
         youngs_modulus_pa: copper_pa,
         ..Material::named("copper")?
@@ -67,7 +67,7 @@ pub(crate) fn coupled(copper_pa: f64, radius_m: f64) -> Result<Impact, PaperErro
 }
 
 /// The same by (40)-(44) with a step in s.
-pub(crate) fn explicit(copper_pa: f64, step_s: f64) -> Result<Impact, PaperError> {
+pub(crate) fn explicit(copper_pa: f64, step_s: f64) -> Result<Impact, AnyError> {
     let mut impact = coupled(copper_pa, RADIUS_M)?;
     impact.settings.scheme = Scheme::Explicit;
     impact.settings.step_s = Some(step_s);
@@ -75,7 +75,7 @@ pub(crate) fn explicit(copper_pa: f64, step_s: f64) -> Result<Impact, PaperError
 }
 
 /// Without the deflection of the half-space: (45)-(47).
-pub(crate) fn hertz(copper_pa: f64, radius_m: f64) -> Result<Impact, PaperError> {
+pub(crate) fn hertz(copper_pa: f64, radius_m: f64) -> Result<Impact, AnyError> {
     let mut impact = coupled(copper_pa, radius_m)?;
     impact.settings.model = Model::Hertz;
     impact.settings.disc_radius_m = None;
@@ -83,7 +83,7 @@ pub(crate) fn hertz(copper_pa: f64, radius_m: f64) -> Result<Impact, PaperError>
 }
 
 /// A contact whose radius follows the load, on the half-space of Table 1: the static deflection counted once.
-pub(crate) fn growing() -> Result<Impact, PaperError> {
+pub(crate) fn growing() -> Result<Impact, AnyError> {
     let mut impact = hertz(TABLE_1_PA, RADIUS_M)?;
     impact.settings.model = Model::Growing;
     Ok(impact)
@@ -109,7 +109,7 @@ pub(crate) struct Runs {
 }
 
 impl Runs {
-    pub(crate) fn solve() -> Result<Self, PaperError> {
+    pub(crate) fn solve() -> Result<Self, AnyError> {
         Ok(Self {
             table_1: coupled(TABLE_1_PA, RADIUS_M)?.solve()?,
             printed: coupled(PRINTED_PA, RADIUS_M)?.solve()?,

@@ -10,6 +10,7 @@
 //! number that the paper prints of it, to its last digit.
 //!
 //! Equation, figure and table numbers are the paper's.
+#![cfg_attr(doctest, doc = include_str!("../README.md"))]
 
 mod case;
 mod figures;
@@ -19,11 +20,3 @@ mod report;
 pub use figures::{Claim, Redrawn};
 pub use numbers::{Numbers, Row, Section};
 pub use report::Redone;
-
-/// Why the paper could not be redone: a mistake of this library, or a folder that takes no files.
-pub type PaperError = Box<dyn std::error::Error + Send + Sync>;
-
-/// The README's program runs.
-#[cfg(doctest)]
-#[doc = include_str!("../README.md")]
-struct Readme;

@@ -1,11 +1,11 @@
 //! Every number that the paper prints, with ours.
 
-use crate::PaperError;
 use crate::case::{NAMED_STRENGTH_PA, RADIUS_M, Runs, STRENGTH_PA, TABLE_1_PA, VELOCITY_M_S};
 use crate::case::{anvil, coupled, kmax, mean_pa};
 use contact::law::hertz::CONTACT_TIME;
 use contact::super_seismic;
 use contact::{Collision, Material};
+use fault::AnyError;
 use halfspace::{Arrivals, Medium, Profile};
 use impact::Run;
 
@@ -80,12 +80,12 @@ impl Numbers {
     /// Solves the contacts.
     ///
     /// # Errors
-    /// [`PaperError`] where something that must work does not.
-    pub fn compute() -> Result<Self, PaperError> {
+    /// [`AnyError`] where something that must work does not.
+    pub fn compute() -> Result<Self, AnyError> {
         Self::of(&Runs::solve()?)
     }
 
-    pub(crate) fn of(runs: &Runs) -> Result<Self, PaperError> {
+    pub(crate) fn of(runs: &Runs) -> Result<Self, AnyError> {
         let mut here = table_1()?;
         here.extend(hertz(runs));
         here.extend(converged(runs));
@@ -228,7 +228,7 @@ fn sections(here: Vec<f64>) -> Vec<Section> {
 }
 
 /// Wave speeds and Lame's constants from Young's modulus, Poisson's ratio and density.
-fn table_1() -> Result<Vec<f64>, PaperError> {
+fn table_1() -> Result<Vec<f64>, AnyError> {
     let mut here = Vec::new();
     for name in ["copper", "steel"] {
         let material = Material::named(name)?;
@@ -290,7 +290,7 @@ fn strengths(run: &Run) -> Vec<f64> {
 }
 
 /// Times of arrival, and the weight of the super-seismic stage.
-fn arrivals() -> Result<Vec<f64>, PaperError> {
+fn arrivals() -> Result<Vec<f64>, AnyError> {
     let impact = coupled(TABLE_1_PA, RADIUS_M)?;
     let block = anvil()?;
     let medium = Medium::new(block.material().poisson_ratio)?;
@@ -305,7 +305,7 @@ fn arrivals() -> Result<Vec<f64>, PaperError> {
 }
 
 /// What no row can hold, in sentences.
-fn remarks(runs: &Runs) -> Result<Vec<String>, PaperError> {
+fn remarks(runs: &Runs) -> Result<Vec<String>, AnyError> {
     let medium = Medium::new(anvil()?.material().poisson_ratio)?;
     let at = |q: f64| {
         let [printed, right] = surface_stress(&medium, q);

@@ -1,9 +1,9 @@
 //! Everything together, and the folder that it is written into: report.md, numbers, claims, figures and their curves.
 
-use crate::PaperError;
 use crate::case::Runs;
 use crate::figures::{self, Claim, Redrawn};
 use crate::numbers::{Numbers, Row};
+use fault::AnyError;
 use figure::{Layer, to_png, to_svg};
 use output::{Folder, NewFile, OutputError};
 use std::path::Path;
@@ -27,8 +27,8 @@ impl Redone {
     /// Solves the contacts and computes the fields.
     ///
     /// # Errors
-    /// [`PaperError`] where something that must work does not.
-    pub fn compute() -> Result<Self, PaperError> {
+    /// [`AnyError`] where something that must work does not.
+    pub fn compute() -> Result<Self, AnyError> {
         let runs = Runs::solve()?;
         Ok(Self {
             numbers: Numbers::of(&runs)?,
@@ -40,7 +40,7 @@ impl Redone {
     ///
     /// # Errors
     /// The file or the figure, with the reason; no file has changed then.
-    pub fn write(&self, folder: &Folder) -> Result<(), PaperError> {
+    pub fn write(&self, folder: &Folder) -> Result<(), AnyError> {
         let sections = self.numbers.sections.iter();
         let rows = sections.flat_map(|s| s.rows.iter().map(|row| row.cells(s.title)));
         let claims = self.figures.iter().flat_map(|figure| {

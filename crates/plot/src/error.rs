@@ -3,7 +3,8 @@
 use crate::request::Kind;
 use contact::{Choice, nearest};
 use fault::{Class, Culprit, Fault};
-use formats::stored::{FileKind, ReadError, StoredQuantity};
+use formats::quantities::Described;
+use formats::stored::{FileKind, ReadError};
 use halfspace::DomainError;
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
@@ -134,9 +135,9 @@ pub(crate) fn only<T>(given: &[T], kind: Kind) -> Result<&T, PlotError> {
 /// The quantities of some names among those of a file.
 pub(crate) fn chosen(
     path: &Path,
-    known: &[StoredQuantity],
+    known: &[Described],
     names: &[impl AsRef<str>],
-) -> Result<Vec<StoredQuantity>, PlotError> {
+) -> Result<Vec<Described>, PlotError> {
     let find = |name: &str| {
         let found = known.iter().find(|quantity| quantity.name == name);
         let all = || known.iter().map(|quantity| quantity.name.as_str());

@@ -11,6 +11,7 @@
 //! std::fs::write("spectrum.svg", figure::to_svg(&drawn.figure)?)?;
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+#![cfg_attr(doctest, doc = include_str!("../README.md"))]
 
 mod compose;
 mod error;
@@ -25,8 +26,3 @@ mod words;
 pub use compose::{animate, compose};
 pub use error::PlotError;
 pub use request::{Drawn, Kind, Request};
-
-/// The README's program compiles.
-#[cfg(doctest)]
-#[doc = include_str!("../README.md")]
-struct Readme;

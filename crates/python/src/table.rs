@@ -3,8 +3,9 @@
 use crate::errors;
 use crate::values::{from_json, frozen, numbers};
 use crate::work::{Ticker, Way, run};
+use fault::AnyError;
 use formats::table_report;
-use impact::{TableFault, Tables};
+use impact::Tables;
 use lookup::{BadTable, LookupError, Smoothness, TableError, TableFile, TraceInfo};
 use numpy::{PyArrayDyn, PyReadonlyArray1};
 use pyo3::prelude::*;
@@ -228,11 +229,7 @@ impl Opened {
 }
 
 impl Tables for Opened {
-    fn part(
-        &self,
-        poisson_ratio: f64,
-        farthest: [f64; 2],
-    ) -> Result<Arc<lookup::Table>, TableFault> {
+    fn part(&self, poisson_ratio: f64, farthest: [f64; 2]) -> Result<Arc<lookup::Table>, AnyError> {
         let mut kept = self.part.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(part) = &*kept
             && part.poisson_ratio.to_bits() == poisson_ratio.to_bits()
@@ -257,7 +254,7 @@ impl Tables for Opened {
         &self,
         poisson_ratio: f64,
         farthest: [f64; 2],
-    ) -> Result<Option<LookupError>, TableFault> {
+    ) -> Result<Option<LookupError>, AnyError> {
         Tables::refusal(&self.file, poisson_ratio, farthest)
     }
 }

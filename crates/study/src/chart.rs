@@ -1,6 +1,5 @@
 //! The whole chart: what is measured and drawn.
 
-use crate::StudyError;
 use crate::map;
 use crate::measure::Effort;
 use crate::picture::{Picture, diagrams};
@@ -8,6 +7,7 @@ use crate::question::{fields, force, impacts, kernels};
 use crate::ranking::{Ranking, rankings};
 use crate::record::Record;
 use crate::scenes::Density;
+use fault::AnyError;
 use std::time::Instant;
 use tabulator::Progress;
 
@@ -32,8 +32,8 @@ impl Chart {
     /// Measures everything.
     ///
     /// # Errors
-    /// [`StudyError`] where a part that must work does not; failures of the methods compared are results.
-    pub fn run(effort: Effort, progress: &dyn Progress) -> Result<Self, StudyError> {
+    /// [`AnyError`] where a part that must work does not; failures of the methods compared are results.
+    pub fn run(effort: Effort, progress: &dyn Progress) -> Result<Self, AnyError> {
         let started = Instant::now();
         let uniform = [None, Some(0.25), Some(0.125), Some(0.0625)];
         let spacings = &uniform[..effort.pick(1, 4)];

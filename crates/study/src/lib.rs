@@ -27,6 +27,3 @@ pub use measure::Effort;
 pub use picture::Picture;
 pub use record::{Error, Question, Record};
 pub use report::PICTURE_COLUMNS;
-
-/// Why a chart could not be made: a part of it, or a file.
-pub type StudyError = Box<dyn std::error::Error + Send + Sync>;

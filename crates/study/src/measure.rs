@@ -1,7 +1,7 @@
 //! How a method is measured: its error against what is exact, and the median time of repeated runs.
 
-use crate::StudyError;
 use crate::record::{Error, Question, Record};
+use fault::AnyError;
 use std::hint::black_box;
 use std::time::Instant;
 
@@ -60,7 +60,7 @@ fn time<T>(
 }
 
 /// What a run found, and its work where that is counted.
-pub(crate) type Run<T> = Result<(T, Option<u64>), StudyError>;
+pub(crate) type Run<T> = Result<(T, Option<u64>), AnyError>;
 
 /// One method at one setting.
 pub(crate) struct Candidate<'a, T> {
@@ -101,7 +101,7 @@ pub(crate) struct Scene<'a, T> {
     /// Values that a run makes.
     pub(crate) values: f64,
     /// Relative errors of what a run found.
-    pub(crate) errors: &'a dyn Fn(&T) -> Result<Vec<f64>, StudyError>,
+    pub(crate) errors: &'a dyn Fn(&T) -> Result<Vec<f64>, AnyError>,
 }
 
 impl<T> Scene<'_, T> {
@@ -110,7 +110,7 @@ impl<T> Scene<'_, T> {
         &self,
         effort: Effort,
         candidate: &Candidate<'_, T>,
-    ) -> Result<Record, StudyError> {
+    ) -> Result<Record, AnyError> {
         let (found, [cost_ns, cost_spread_ns]) = if cfg!(test) {
             // tests look at errors and work counts, never at times
             ((candidate.run)(), [1.0, 0.0])

@@ -1,11 +1,11 @@
 //! The folder of a chart: rows, pictures, and report.md, which has an answer to each question, generated from the rows.
 
-use crate::StudyError;
 use crate::chart::Chart;
 use crate::measure::Effort;
 use crate::picture::Picture;
 use crate::ranking::{Ranking, rankings, why_not};
 use crate::record::{Question, Record, distinct};
+use fault::AnyError;
 use figure::{to_png, to_svg};
 use output::{Folder, NewFile};
 
@@ -20,7 +20,7 @@ impl Chart {
     ///
     /// # Errors
     /// The file or the picture, with the reason; no file has changed then.
-    pub fn write(&self, folder: &Folder) -> Result<(), StudyError> {
+    pub fn write(&self, folder: &Folder) -> Result<(), AnyError> {
         let rows = || self.records.iter().map(Record::row).collect();
         let mut files = vec![
             csv_file("chart.csv", Record::COLUMNS, rows),

@@ -1,7 +1,7 @@
 //! The impacts of the chart, and its small kernel tables: several densities, each read with stencils of several orders.
 
-use crate::StudyError;
 use contact::{Collision, HalfSpace, Material, Striker};
+use fault::AnyError;
 use impact::Impact;
 use lookup::{Content, Table};
 use tabulator::{Axis, Grid, Silent};
@@ -13,7 +13,7 @@ pub(crate) const ROD_RADIUS_M: f64 = 0.004;
 const BALL_RADIUS_M: f64 = 0.005;
 
 /// The collision of the paper: a copper rod of this Young's modulus in Pa on a steel block.
-pub(crate) fn paper(copper_pa: f64) -> Result<Collision, StudyError> {
+pub(crate) fn paper(copper_pa: f64) -> Result<Collision, AnyError> {
     let block = HalfSpace::new(Material::named("steel")?)?;
     let copper = Material {
         youngs_modulus_pa: copper_pa,
@@ -30,7 +30,7 @@ pub(crate) const TABLE_1_PA: f64 = 123e9;
 pub(crate) const HERTZ_PA: f64 = 129e9;
 
 /// A steel ball of 10 mm on a block of a material of the library.
-pub(crate) fn ball(target: &str, velocity_m_s: f64) -> Result<Impact, StudyError> {
+pub(crate) fn ball(target: &str, velocity_m_s: f64) -> Result<Impact, AnyError> {
     let block = HalfSpace::new(Material::named(target)?)?;
     let mass_kg = 4.0 / 3.0 * std::f64::consts::PI * BALL_RADIUS_M.powi(3) * 7850.0;
     let ball = Striker::new(Material::named("steel")?, mass_kg, BALL_RADIUS_M)?;
@@ -55,7 +55,7 @@ pub(crate) struct Density {
 
 impl Density {
     /// Builds the table at one Poisson ratio.
-    pub(crate) fn build(poisson_ratio: f64, spacing: Option<f64>) -> Result<Self, StudyError> {
+    pub(crate) fn build(poisson_ratio: f64, spacing: Option<f64>) -> Result<Self, AnyError> {
         let folder = tempfile::tempdir()?;
         let path = folder.path().join("table.h5");
         let demo = Grid::demo();
@@ -96,7 +96,7 @@ impl Density {
     }
 
     /// The table read with `points` nodes along each axis.
-    pub(crate) fn with_stencil(&self, points: usize) -> Result<Table, StudyError> {
+    pub(crate) fn with_stencil(&self, points: usize) -> Result<Table, AnyError> {
         let mut content = self.content.clone();
         content.stencil_points = points;
         Ok(Table::new(content).map_err(tabulator::BuildError::from)?)

@@ -24,7 +24,12 @@ pub(crate) fn rows(
     known: Option<&Known>,
     progress: &dyn Progress,
 ) -> Result<Vec<Row>, BuildError> {
-    let plans = Plans::new(grid)?;
+    let slices = grid.slices().into_iter().map(|(nu, _)| grid.point(nu));
+    let between = (0..grid.intervals()).map(|interval| grid.point(grid.between(interval)?));
+    let plans = [
+        slices.collect::<Result<Vec<_>, _>>()?,
+        between.collect::<Result<Vec<_>, _>>()?,
+    ];
     let places = [Kind::Nodes, Kind::Probes, Kind::Between].map(|kind| positions(kind, grid));
     let missing: Vec<Block> = work
         .iter()
@@ -37,8 +42,8 @@ pub(crate) fn rows(
         .with_max_len(1)
         .map(|&block| {
             let [r, z] = &places[block.kind as usize];
-            progress.slice(plans.of(block).kernel().medium().poisson_ratio());
-            let row = row(plans.of(block), block.kind, r[block.row], z, known)?;
+            progress.slice(plan_of(&plans, block).kernel().medium().poisson_ratio());
+            let row = row(plan_of(&plans, block), block.kind, r[block.row], z, known)?;
             if let Some(journal) = journal {
                 let kept = kept(block, &row);
                 let mut journal = journal.lock().unwrap_or_else(PoisonError::into_inner);
@@ -55,31 +60,11 @@ pub(crate) fn rows(
         .collect())
 }
 
-/// What is computed in each slice and between them.
-struct Plans {
-    slices: Vec<PointPlan>,
-    between: Vec<PointPlan>,
-}
-
-impl Plans {
-    fn new(grid: &Grid) -> Result<Self, BuildError> {
-        let slices = grid.slices();
-        Ok(Self {
-            slices: slices
-                .iter()
-                .map(|&(nu, _)| grid.point(nu))
-                .collect::<Result<_, _>>()?,
-            between: (0..grid.intervals())
-                .map(|interval| grid.point(grid.between(interval)?))
-                .collect::<Result<_, _>>()?,
-        })
-    }
-
-    fn of(&self, block: Block) -> &PointPlan {
-        match block.kind {
-            Kind::Nodes | Kind::Probes => &self.slices[block.slice],
-            Kind::Between => &self.between[block.slice],
-        }
+/// What is computed in a block.
+fn plan_of([slices, between]: &[Vec<PointPlan>; 2], block: Block) -> &PointPlan {
+    match block.kind {
+        Kind::Nodes | Kind::Probes => &slices[block.slice],
+        Kind::Between => &between[block.slice],
     }
 }
 

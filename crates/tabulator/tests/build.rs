@@ -164,12 +164,11 @@ fn a_finished_table_passes_its_check_and_a_wrong_one_is_found() {
     content.slices[1].remainder[((2 * depths + 3) * 6 + 4) * cells + 4] += 1e-3;
     lookup::write(&path, &content).unwrap();
     let report = check_table(&path, usize::MAX, 3).unwrap();
-    let bad: Vec<_> = report
-        .bad
-        .iter()
-        .map(|bad| (bad.poisson_ratio, bad.r, bad.z, bad.field))
-        .collect();
-    assert_eq!(bad, [(0.3, 0.25, 0.375, "stress_zz")]);
+    let [bad] = report.bad.as_slice() else {
+        panic!("{:?}", report.bad);
+    };
+    let place = "nu = 0.3, r/r0 = 0.25, z/r0 = 0.375: stress_zz (remainder) differs by ";
+    assert!(bad.starts_with(place), "{bad}");
 }
 
 #[test]

@@ -5,9 +5,7 @@ use crate::failure::{Failure, say, show};
 use crate::progress::Bar;
 use crate::report::{text_report, understood};
 use clap::Args;
-use formats::{
-    Allowed, check_results, json_report, read_with_inputs, stage_results, stage_results_csv,
-};
+use formats::{check_results, json_report, read_with_inputs, stage_results, stage_results_csv};
 use impact::{Allowance, Forecast, ImpactError, KernelChoice, Scene, simulate_within};
 use output::{CSV, Existing, HDF5, Output, Role, Staged};
 use serde_json::json;
@@ -131,12 +129,9 @@ fn is_complete(arguments: &Arguments, scene: &Scene) -> Result<bool, Failure> {
         Output::claim(path, Existing::Replace)?;
     }
     let allowed = arguments.kernels.allowed()?;
-    let allowed = match &allowed {
-        None => Allowed::Direct,
-        Some((Kernel::Table, id)) => Allowed::Table(id),
-        Some((_, id)) => Allowed::Either(id),
-    };
-    check_results(output, scene, allowed).map_err(Failure::work)?;
+    let direct = !matches!(allowed, Some((Kernel::Table, _)));
+    let id = allowed.as_ref().map(|(_, id)| id.as_str());
+    check_results(output, scene, direct, id).map_err(Failure::work)?;
     match &arguments.csv {
         Some(csv) if !csv.exists() => Err(Failure::work(format!(
             "{} is whole, but {} is not there: leave --skip-complete out and give --force to compute both",

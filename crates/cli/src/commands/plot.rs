@@ -5,7 +5,7 @@ use crate::failure::{Failure, print, say};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use contact::Choice;
-use figure::{Figure, RenderError, to_gif, to_pdf, to_png, to_svg};
+use figure::{Figure, FigureError, to_gif, to_pdf, to_png, to_svg};
 use output::{Output, Role, apart};
 use plot::{Kind, Request, animate, compose};
 use std::path::{Path, PathBuf};
@@ -171,7 +171,7 @@ fn sized(mut figure: Figure, width: f64) -> Figure {
     figure.width(width).text(text)
 }
 
-fn rendered(figure: &Figure, format: Format, scale: u8) -> Result<Vec<u8>, RenderError> {
+fn rendered(figure: &Figure, format: Format, scale: u8) -> Result<Vec<u8>, FigureError> {
     match format {
         Format::Svg => to_svg(figure).map(String::into_bytes),
         Format::Png | Format::Gif => to_png(figure, f32::from(scale)),

@@ -6,11 +6,11 @@ use crate::failure::{Failure, print, show};
 use crate::progress::Bar;
 use clap::{Args, Subcommand};
 use formats::table_report;
-use lookup::{Content, DamagedPatch};
+use lookup::Content;
 use output::TABLE;
 use serde_json::json;
 use std::path::{Path, PathBuf};
-use tabulator::{BadNode, Difference, check_table, differences, merge};
+use tabulator::{CheckReport, check_table, differences, merge};
 
 const EXAMPLES: &str = "Examples:
   hertzlamb table info kernels.h5
@@ -130,19 +130,24 @@ fn any_seed() -> u64 {
 fn verify(path: &Path, sample: usize, seed: u64, json: bool) -> Result<(), Failure> {
     let report = check_table(path, sample, seed).map_err(tabulate::failure)?;
     let file = path.display().to_string();
-    let bad: Vec<String> = report.bad.iter().map(bad_node).collect();
-    let damaged: Vec<String> = report.damaged.iter().map(damaged_patch).collect();
-    let (nodes, largest) = (report.nodes_checked, report.largest_difference);
+    let is_good = report.is_good();
+    let CheckReport {
+        nodes_checked: nodes,
+        largest_difference: largest,
+        hash_right,
+        bad,
+        damaged,
+    } = report;
     let value = json!({
         "file": file,
         "nodes_checked": nodes,
         "seed": seed,
         "largest_relative_difference": largest,
-        "hash_right": report.hash_right,
+        "hash_right": hash_right,
         "bad_nodes": bad,
         "damaged_patches": damaged,
     });
-    if report.is_good() {
+    if is_good {
         let text = format!(
             "{file}: complete, checksum right, {nodes} nodes of seed {seed} computed again, largest difference {largest:.1e}"
         );
@@ -163,7 +168,7 @@ fn verify(path: &Path, sample: usize, seed: u64, json: bool) -> Result<(), Failu
     if !damaged.is_empty() {
         let patches = first(&damaged);
         parts.push(format!("damaged, nodes that cannot be read: {patches}"));
-    } else if !report.hash_right {
+    } else if !hash_right {
         parts.push("the content is not that of content_sha256, it was changed".to_owned());
     }
     if !bad.is_empty() {
@@ -176,30 +181,8 @@ fn verify(path: &Path, sample: usize, seed: u64, json: bool) -> Result<(), Failu
     Err(Failure::work(format!("{file}: {}", parts.join("; "))))
 }
 
-fn bad_node(bad: &BadNode) -> String {
-    let what = if bad.relative_difference.is_finite() {
-        format!("differs by {:.1e}", bad.relative_difference)
-    } else {
-        "is not finite".to_owned()
-    };
-    format!(
-        "nu = {}, r/r0 = {}, z/r0 = {}: {} ({}) {what}",
-        bad.poisson_ratio, bad.r, bad.z, bad.field, bad.dataset
-    )
-}
-
-fn damaged_patch(patch: &DamagedPatch) -> String {
-    format!(
-        "nu = {}, r/r0 = {} .. {}, z/r0 = {} .. {}: {}",
-        patch.poisson_ratio, patch.r[0], patch.r[1], patch.z[0], patch.z[1], patch.dataset
-    )
-}
-
 fn diff(first: &Path, second: &Path, json: bool) -> Result<(), Failure> {
-    let found: Vec<String> = differences(&read(first)?, &read(second)?)
-        .iter()
-        .map(describe)
-        .collect();
+    let found = differences(&read(first)?, &read(second)?);
     let same = if found.is_empty() {
         "the tables hold the same".to_owned()
     } else {
@@ -244,34 +227,6 @@ fn join(
         summary.id
     );
     show(json, &value, text)
-}
-
-fn describe(difference: &Difference) -> String {
-    match difference {
-        Difference::Setting { name } => format!("{name} differs"),
-        Difference::Slice {
-            poisson_ratio,
-            in_first: true,
-        } => {
-            format!("nu = {poisson_ratio} is in the first table only")
-        }
-        Difference::Slice {
-            poisson_ratio,
-            in_first: false,
-        } => {
-            format!("nu = {poisson_ratio} is in the second table only")
-        }
-        Difference::Values {
-            poisson_ratio,
-            dataset,
-            count,
-            largest,
-        } => {
-            format!(
-                "nu = {poisson_ratio}: {count} values of {dataset} differ, by up to {largest:.1e}"
-            )
-        }
-    }
 }
 
 fn read(path: &Path) -> Result<Content, Failure> {

@@ -172,12 +172,7 @@ fn grid(arguments: &Arguments) -> Result<Grid, Failure> {
     let progress = Bar::new();
     let (grid, trials) = refine(&grid, tolerance, pulse, &progress).map_err(failure)?;
     progress.finish();
-    for trial in trials {
-        say(format!(
-            "spacing {:.4} r0: {} nodes a slice, error {:.1e} for pulses of {pulse} r0/c1",
-            trial.spacing, trial.nodes, trial.error
-        ));
-    }
+    trials.into_iter().for_each(say);
     Ok(grid)
 }
 

@@ -30,15 +30,6 @@ impl Kind for Mark {
     }
 }
 
-/// What stands at a labelled point.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Symbol {
-    /// A star, with the label beside it.
-    Star,
-    /// The label itself: the name of a curve or of a region.
-    Label,
-}
-
 /// A point with a label.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LabelledPoint {
@@ -48,8 +39,8 @@ pub struct LabelledPoint {
     pub y: f64,
     /// What is written at it.
     pub label: String,
-    /// What stands there.
-    pub symbol: Symbol,
+    /// Whether a star stands there; otherwise the label itself does, the name of a curve or of a region.
+    pub is_starred: bool,
 }
 
 impl LabelledPoint {
@@ -59,14 +50,14 @@ impl LabelledPoint {
             x,
             y,
             label: label.to_owned(),
-            symbol: Symbol::Star,
+            is_starred: true,
         }
     }
 
     /// A label alone, on the point or near it.
     pub fn text(x: f64, y: f64, label: &str) -> Self {
         Self {
-            symbol: Symbol::Label,
+            is_starred: false,
             ..Self::new(x, y, label)
         }
     }

@@ -15,7 +15,7 @@ pub use colours::{ColourScale, Limits};
 pub use curves::{Band, Line};
 pub use histogram::Histogram;
 pub use image::{Image, Shading};
-pub use labels::{LabelledPoint, Mark, Symbol};
+pub use labels::{LabelledPoint, Mark};
 
 pub(crate) use colours::Colours;
 

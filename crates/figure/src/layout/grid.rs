@@ -7,7 +7,7 @@ use super::legend::{Legend, Place};
 use super::plan::{AxisPlan, PanelPlan, plan};
 use crate::colour::WHITE;
 use crate::error::FigureError;
-use crate::figure::{Aspect, ColourBar, Figure};
+use crate::figure::Figure;
 use crate::geometry::{Frame, Rect};
 use crate::layers::Plot;
 use crate::scene::{Anchor, Scene, Shape, Text};
@@ -47,8 +47,11 @@ fn heading(scene: &mut Scene, layout: &Layout<'_>) {
     }
 }
 
-fn draw_panel(scene: &mut Scene, placed: &Placed<'_>, faces: &Typeface) {
-    let (plan, fitted, frame) = placed;
+fn draw_panel(
+    scene: &mut Scene,
+    (plan, fitted, frame): &(PanelPlan<'_>, Fitted, Frame),
+    faces: &Typeface,
+) {
     if !plan.is_filled() {
         fitted.axes.draw_grid(scene, frame);
     }
@@ -78,9 +81,6 @@ fn draw_panel(scene: &mut Scene, placed: &Placed<'_>, faces: &Typeface) {
     }
 }
 
-/// A panel, what is around its plot, and the plot.
-type Placed<'a> = (PanelPlan<'a>, Fitted, Frame);
-
 /// Everything with its place.
 struct Layout<'a> {
     width: f64,
@@ -89,7 +89,8 @@ struct Layout<'a> {
     /// Lines of the title and of the line below it.
     title: Vec<String>,
     subtitle: Vec<String>,
-    panels: Vec<Placed<'a>>,
+    /// Each panel, what is around its plot, and the plot.
+    panels: Vec<(PanelPlan<'a>, Fitted, Frame)>,
     /// The common colour bar and the area of all plots at its left.
     bar: Option<(Bar, Rect)>,
 }
@@ -97,7 +98,7 @@ struct Layout<'a> {
 /// Lays a figure out.
 fn lay_out(figure: &Figure) -> Layout<'_> {
     let mut layout = arrange(figure, 0.0);
-    if figure.colour_bar == ColourBar::Each {
+    if !figure.has_common_bar {
         return layout;
     }
     let colours = layout
@@ -160,7 +161,7 @@ fn rows<'a>(
     columns: &Columns,
     mut top: f64,
     gap: f64,
-) -> (Vec<Placed<'a>>, f64) {
+) -> (Vec<(PanelPlan<'a>, Fitted, Frame)>, f64) {
     let members: Vec<(PanelPlan<'a>, Fitted)> = plans.into_iter().zip(fitted).collect();
     let mut panels = Vec::with_capacity(members.len());
     for row in members.chunk_by(|a, b| a.0.row == b.0.row) {
@@ -179,7 +180,7 @@ fn rows<'a>(
 }
 
 /// From the first plot to the last, with what the last column needs at its right.
-fn plots(panels: &[Placed<'_>]) -> Rect {
+fn plots(panels: &[(PanelPlan<'_>, Fitted, Frame)]) -> Rect {
     let areas = panels.iter().map(|(_, fitted, frame)| Rect {
         right: frame.area.right + fitted.needs.right,
         ..frame.area
@@ -265,16 +266,14 @@ impl Columns {
 /// Equal lengths give the height; a section that is much deeper than wide is narrower than its column.
 fn size(plan: &PanelPlan<'_>, width: f64) -> [f64; 2] {
     const TALLEST: f64 = 1.5;
-    match plan.panel.aspect {
-        Aspect::Free => [width, plan.panel.height],
-        Aspect::Equal => {
-            let length = |of: &AxisPlan<'_>| of.interval.high - of.interval.low;
-            let ratio = length(&plan.y) / length(&plan.x);
-            match ratio > TALLEST {
-                true => [TALLEST * width / ratio, TALLEST * width],
-                false => [width, ratio * width],
-            }
-        }
+    if !plan.panel.has_equal_lengths {
+        return [width, plan.panel.height];
+    }
+    let length = |of: &AxisPlan<'_>| of.interval.high - of.interval.low;
+    let ratio = length(&plan.y) / length(&plan.x);
+    match ratio > TALLEST {
+        true => [TALLEST * width / ratio, TALLEST * width],
+        false => [width, ratio * width],
     }
 }
 

@@ -5,7 +5,7 @@ use super::plan::PanelPlan;
 use crate::colour::{MARK, WHITE};
 use crate::figure::Panel;
 use crate::geometry::{Frame, Point, Rect};
-use crate::layers::{LabelledPoint, Layer, Mark, Symbol};
+use crate::layers::{LabelledPoint, Layer, Mark};
 use crate::look::star;
 use crate::scene::{Anchor, Scene, Shape, Stroke, Text};
 use crate::text::{LINE, Typeface, width as width_of, wrap};
@@ -190,9 +190,7 @@ pub(super) fn draw_points(
         return;
     }
     let curves = occupied(plan.panel, frame);
-    let stars = points
-        .iter()
-        .filter(|(point, _)| point.symbol == Symbol::Star);
+    let stars = points.iter().filter(|(point, _)| point.is_starred);
     let stars: Vec<Point> = stars.map(|(_, place)| *place).collect();
     for &at in &stars {
         star(scene, at, STAR);
@@ -225,18 +223,18 @@ fn candidates(point: &LabelledPoint, (x, y): Point, area: Rect, size: f64) -> Ve
     let lines = wrap(&point.label, size, area.width() - 4.0);
     let mut found = Vec::new();
     let rises = [0.0, -1.2, 1.2, -2.4, 2.4, -4.0, 4.0, -6.0, 6.0, -9.0, 9.0];
-    let (side, near) = match point.symbol {
-        Symbol::Star => (STAR + 0.35 * size, rises.len()),
+    let (side, near) = match point.is_starred {
+        true => (STAR + 0.35 * size, rises.len()),
         // a name of its own that has moved away names something else
-        Symbol::Label => (0.5 * size, 3),
+        false => (0.5 * size, 3),
     };
     for rise in rises.into_iter().take(near) {
         let above = (x, Anchor::Middle);
         let beside = [(x + side, Anchor::Start), (x - side, Anchor::End)];
-        let places = match point.symbol {
-            Symbol::Star if rise == 0.0 => beside.to_vec(),
-            Symbol::Star => vec![beside[0], beside[1], above],
-            Symbol::Label => vec![above, beside[0], beside[1]],
+        let places = match point.is_starred {
+            true if rise == 0.0 => beside.to_vec(),
+            true => vec![beside[0], beside[1], above],
+            false => vec![above, beside[0], beside[1]],
         };
         for (across, anchor) in places {
             let first = y + size * (0.35 + rise - 0.5 * LINE * (lines.len() as f64 - 1.0));
@@ -343,7 +341,7 @@ pub(super) fn free(area: Rect, (width, height): Point, air: f64, taken: &[Point]
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::axis::{Axis, Direction, Interval, Mirror};
+    use crate::axis::{Axis, Interval, Mirror};
     use crate::look::Style;
 
     fn boxes(marks: &[(f64, &str)], width: f64) -> (Vec<Label>, usize) {
@@ -385,7 +383,7 @@ mod tests {
             area: Rect::new(0.0, 0.0, 100.0, 100.0),
             x: Interval::linear(0.0, 1.0),
             y: Interval::linear(0.0, 1.0),
-            directions: [Direction::Usual; 2],
+            reversed: [false; 2],
             mirror: Mirror::Off,
         }
     }

@@ -3,7 +3,7 @@
 
 use crate::axis::{Axis, Interval, Mirror, Scale};
 use crate::error::Side;
-use crate::figure::{ColourBar, Figure, Panel, Sharing};
+use crate::figure::{Figure, Panel, Sharing};
 use crate::geometry::{Frame, Rect};
 use crate::layers::{Colours, Image, Layer};
 use crate::look::Slot;
@@ -41,7 +41,7 @@ impl PanelPlan<'_> {
             area,
             x: self.x.interval,
             y: self.y.interval,
-            directions: [self.panel.x.direction, self.panel.y.direction],
+            reversed: [self.panel.x.is_reversed, self.panel.y.is_reversed],
             mirror: self.panel.mirror,
         }
     }
@@ -58,10 +58,7 @@ fn is_filled(panel: &Panel) -> bool {
 
 /// Plans every panel of a figure.
 pub(crate) fn plan(figure: &Figure) -> Vec<PanelPlan<'_>> {
-    let common = match figure.colour_bar {
-        ColourBar::Common => colours(&figure.panels),
-        ColourBar::Each => None,
-    };
+    let common = colours(&figure.panels).filter(|_| figure.has_common_bar);
     let axis = |panel, axis, side| AxisPlan {
         axis,
         interval: interval(panel, axis, side),
@@ -78,7 +75,7 @@ pub(crate) fn plan(figure: &Figure) -> Vec<PanelPlan<'_>> {
             colours: common
                 .clone()
                 .or_else(|| colours(std::slice::from_ref(panel))),
-            has_bar: figure.colour_bar == ColourBar::Each,
+            has_bar: !figure.has_common_bar,
             slots,
         })
         .collect();

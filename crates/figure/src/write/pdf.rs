@@ -1,7 +1,7 @@
 //! PDF: one page, shapes as shapes and text as text in an embedded font.
 
 use crate::colour::{BLACK, Colour, WHITE};
-use crate::error::RenderError;
+use crate::error::FigureError;
 use crate::font;
 use crate::scene::{Item, Picture, Scene, Segment, Shape, Text, Turn};
 use miniz_oxide::deflate::compress_to_vec_zlib;
@@ -28,7 +28,7 @@ const SYSTEM: SystemInfo<'_> = SystemInfo {
 };
 
 /// Writes a scene.
-pub(crate) fn pdf(scene: &Scene) -> Result<Vec<u8>, RenderError> {
+pub(crate) fn pdf(scene: &Scene) -> Result<Vec<u8>, FigureError> {
     let mut next = 0;
     let mut new = || {
         next += 1;
@@ -126,7 +126,7 @@ struct Subset {
 }
 
 impl Subset {
-    fn of(scene: &Scene) -> Result<Self, RenderError> {
+    fn of(scene: &Scene) -> Result<Self, FigureError> {
         let mut remapper = GlyphRemapper::new();
         let mut letters = BTreeMap::new();
         for item in &scene.items {
@@ -139,7 +139,7 @@ impl Subset {
             }
         }
         let file = subsetter::subset(font::data(), 0, &remapper)
-            .map_err(|error| RenderError::Font(error.to_string()))?;
+            .map_err(|error| FigureError::Font(error.to_string()))?;
         Ok(Self { file, letters })
     }
 

@@ -1,7 +1,7 @@
 //! Pixels: PNG, and GIF of several scenes.
 
 use crate::colour::{BLACK, Colour, WHITE};
-use crate::error::{FigureError, RenderError};
+use crate::error::FigureError;
 use crate::font;
 use crate::geometry::Rect;
 use crate::scene::{Item, Picture, Scene, Segment, Shape, Text, Turn};
@@ -12,7 +12,7 @@ use tiny_skia::{
 };
 
 /// A scene at so many pixels for each of its own.
-pub(crate) fn png(scene: &Scene, scale: f32) -> Result<Vec<u8>, RenderError> {
+pub(crate) fn png(scene: &Scene, scale: f32) -> Result<Vec<u8>, FigureError> {
     encode(&rendered(scene, scale)?)
 }
 
@@ -24,9 +24,9 @@ fn size(scene: &Scene, scale: f32) -> [u32; 2] {
 }
 
 /// The pixels of a scene.
-fn rendered(scene: &Scene, scale: f32) -> Result<Pixmap, RenderError> {
+fn rendered(scene: &Scene, scale: f32) -> Result<Pixmap, FigureError> {
     let [width, height] = size(scene, scale);
-    let map = Pixmap::new(width, height).ok_or(RenderError::Pixels { width, height })?;
+    let map = Pixmap::new(width, height).ok_or(FigureError::Pixels { width, height })?;
     let mut canvas = Canvas {
         map,
         place: Transform::from_scale(scale, scale),
@@ -46,11 +46,11 @@ fn rendered(scene: &Scene, scale: f32) -> Result<Pixmap, RenderError> {
 const SPEED: i32 = 10;
 
 /// The frames as a GIF that repeats, each `frame_s` long, to the hundredth.
-pub(crate) fn gif(scenes: &[Scene], scale: f32, frame_s: f64) -> Result<Vec<u8>, RenderError> {
-    let fault = |error: gif::EncodingError| RenderError::Gif(error.to_string());
+pub(crate) fn gif(scenes: &[Scene], scale: f32, frame_s: f64) -> Result<Vec<u8>, FigureError> {
+    let fault = |error: gif::EncodingError| FigureError::Gif(error.to_string());
     let side = |pixels: u32| {
         u16::try_from(pixels)
-            .map_err(|_| RenderError::Gif(format!("{pixels} pixels is more than 65535")))
+            .map_err(|_| FigureError::Gif(format!("{pixels} pixels is more than 65535")))
     };
     let first = size(scenes.first().ok_or(FigureError::NoPanels)?, scale);
     let (width, height) = (side(first[0])?, side(first[1])?);
@@ -59,7 +59,7 @@ pub(crate) fn gif(scenes: &[Scene], scale: f32, frame_s: f64) -> Result<Vec<u8>,
     for scene in scenes {
         if size(scene, scale) != first {
             let fault = "its frames are not of one size";
-            return Err(RenderError::Gif(fault.to_owned()));
+            return Err(FigureError::Gif(fault.to_owned()));
         }
         // the page is white throughout: no pixel is transparent
         let mut rgba = rendered(scene, scale)?.take();
@@ -68,13 +68,13 @@ pub(crate) fn gif(scenes: &[Scene], scale: f32, frame_s: f64) -> Result<Vec<u8>,
         encoder.write_frame(&frame).map_err(fault)?;
     }
     let bytes = encoder.into_inner();
-    bytes.map_err(|error| RenderError::Gif(error.to_string()))
+    bytes.map_err(|error| FigureError::Gif(error.to_string()))
 }
 
 /// A picture's pixels, transparent where nothing is to be seen.
-pub(super) fn pixels(picture: &Picture) -> Result<Pixmap, RenderError> {
+pub(super) fn pixels(picture: &Picture) -> Result<Pixmap, FigureError> {
     let (width, height) = (picture.columns, picture.rows);
-    let mut map = Pixmap::new(width, height).ok_or(RenderError::Pixels { width, height })?;
+    let mut map = Pixmap::new(width, height).ok_or(FigureError::Pixels { width, height })?;
     for (to, from) in map.pixels_mut().iter_mut().zip(&picture.pixels) {
         *to = match from {
             Some(c) => ColorU8::from_rgba(c.red, c.green, c.blue, 255).premultiply(),
@@ -85,9 +85,9 @@ pub(super) fn pixels(picture: &Picture) -> Result<Pixmap, RenderError> {
 }
 
 /// Pixels as PNG.
-pub(super) fn encode(map: &Pixmap) -> Result<Vec<u8>, RenderError> {
+pub(super) fn encode(map: &Pixmap) -> Result<Vec<u8>, FigureError> {
     map.encode_png()
-        .map_err(|error| RenderError::Png(error.to_string()))
+        .map_err(|error| FigureError::Png(error.to_string()))
 }
 
 struct Canvas {
@@ -150,7 +150,7 @@ impl Canvas {
         });
     }
 
-    fn picture(&mut self, picture: &Picture) -> Result<(), RenderError> {
+    fn picture(&mut self, picture: &Picture) -> Result<(), FigureError> {
         let source = pixels(picture)?;
         if let Some(area) = rectangle(picture.area) {
             let size = [source.width(), source.height()].map(|pixels| pixels as f32);

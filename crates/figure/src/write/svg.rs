@@ -1,7 +1,7 @@
 //! SVG.
 
 use super::png::{encode, pixels};
-use crate::error::RenderError;
+use crate::error::FigureError;
 use crate::font;
 use crate::geometry::Rect;
 use crate::scene::{Item, Part, Picture, Scene, Segment, Shape, Text, Turn};
@@ -15,7 +15,7 @@ use tiny_skia::PathSegment;
 /// Writes a scene.
 ///
 /// Letters are outlines, each defined once, so that no viewer needs the font; what a text says stands in `aria-label`.
-pub(crate) fn svg(scene: &Scene) -> Result<String, RenderError> {
+pub(crate) fn svg(scene: &Scene) -> Result<String, FigureError> {
     // the different areas outside of which something is not drawn
     let mut clips: Vec<Rect> = Vec::new();
     let mut letters: BTreeSet<char> = BTreeSet::new();
@@ -117,7 +117,7 @@ fn outline(segments: &[Segment]) -> String {
     text
 }
 
-fn image(picture: &Picture) -> Result<Image, RenderError> {
+fn image(picture: &Picture) -> Result<Image, FigureError> {
     let png = encode(&pixels(picture)?)?;
     let data = format!("data:image/png;base64,{}", STANDARD.encode(png));
     Ok(placed(Image::new(), picture.area)

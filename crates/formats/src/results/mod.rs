@@ -10,5 +10,5 @@ mod section;
 mod write;
 
 pub use csv::{print_results_csv, stage_results_csv};
-pub use identity::{Allowed, check_results, scene_sha256};
+pub use identity::{check_results, scene_sha256};
 pub use write::{stage_results, write_results};

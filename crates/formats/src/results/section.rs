@@ -50,13 +50,13 @@ pub(super) fn write_section(file: &File, map: &SectionFields) -> Result<(), hdf5
 /// What stands beside a quantity, one number a place: the estimate of its error and, where they are known, its largest
 /// value over time and when it is reached.
 pub(super) fn beside<'v>(
-    (name, unit, meaning): (&str, &'static str, &str),
+    (name, unit, meaning): (&str, &str, &str),
     errors: &'v [f64],
     peaks: Option<&'v Peaks>,
 ) -> Vec<(Described, &'v [f64])> {
-    let of = |suffix: &str, unit, what: &str| Described {
+    let of = |suffix: &str, unit: &str, what: &str| Described {
         name: format!("{name}{suffix}"),
-        unit,
+        unit: unit.to_owned(),
         meaning: format!("{what}: {meaning}"),
     };
     let error = of(schema::ERROR_SUFFIX, unit, "estimated absolute error");

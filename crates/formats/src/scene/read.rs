@@ -7,7 +7,7 @@ use super::section::{Section, parse};
 use super::section::{read_standard, read_text};
 use crate::error::SceneError;
 use contact::{Choice, Conflict, HalfSpace, Library, Settings};
-use impact::{Load, Probe, Reading, Scene, Section as MeridionalSection, Strike, Treatment};
+use impact::{Load, Probe, Reading, Scene, Section as MeridionalSection, Strike};
 use output::{Role, is_standard};
 use std::path::Path;
 use toml::{Table, Value};
@@ -228,10 +228,8 @@ fn read_load(
                     "a prescribed force needs the radius of the disc that it loads",
                 ));
             }
-            let treatment = Treatment {
-                baseline_s: force.number("baseline_s")?,
-                low_pass_hz: force.number("low_pass_hz")?,
-            };
+            let (baseline_s, low_pass_hz) =
+                (force.number("baseline_s")?, force.number("low_pass_hz")?);
             let reading = Reading {
                 columns: force.words("columns")?,
                 units: force.words("units")?,
@@ -240,7 +238,7 @@ fn read_load(
                 sign: force.number("sign")?,
             };
             let record = read_record(&directory.join(file), reading)?;
-            Ok(Load::Record(record.treat(&treatment)?))
+            Ok(Load::Record(record.treat(baseline_s, low_pass_hz)?))
         }
         (Some(_), Some(_)) => Err(SceneError::conflict(
             "[striker]",

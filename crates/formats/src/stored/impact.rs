@@ -1,7 +1,8 @@
 //! The results of a scene, read back.
 
 use super::error::{FileKind, ReadError};
-use super::open::{Stored, StoredQuantity};
+use super::open::Stored;
+use crate::quantities::Described;
 use crate::results::schema::{
     ARRIVALS, ENERGIES, ENERGY, ERROR_SUFFIX, MAP, MAP_SCALES, PEAK_SUFFIXES, PLACES, PROBES,
     SCENE_SHA256, SERIES,
@@ -23,8 +24,12 @@ pub struct StoredImpact {
     pub static_share: String,
     /// Warnings, one a line.
     pub warnings: String,
+    /// The half-space.
+    pub target: HalfSpace,
+    /// The striker; none where the force was given.
+    pub strike: Option<Strike>,
     /// The resolved scene.
-    pub scene: StoredScene,
+    scene: Table,
     /// Time series.
     pub series: Series,
 }
@@ -36,8 +41,9 @@ impl StoredImpact {
     /// [`ReadError`], which says what the file is instead.
     pub fn open(path: &Path) -> Result<Self, ReadError> {
         let stored = Stored::open(path, FileKind::Impact)?;
-        let scene = StoredScene::new(&stored.text("scene")?)
-            .map_err(|error| stored.damaged(format!("its scene cannot be read: {error}")))?;
+        let unread = |error| stored.damaged(format!("its scene cannot be read: {error}"));
+        let scene = parse(&stored.text("scene")?).map_err(unread)?;
+        let (target, strike) = bodies_of(&scene).map_err(unread)?;
         let time_s = stored.vector(SERIES[0].0)?;
         if time_s.len() < 2 {
             return Err(stored.damaged("it has fewer than 2 samples"));
@@ -61,6 +67,8 @@ impl StoredImpact {
             model: stored.text("model")?,
             static_share: stored.text("static_share")?,
             warnings: stored.text("warnings")?,
+            target,
+            strike,
             scene,
             series,
             stored,
@@ -91,6 +99,27 @@ impl StoredImpact {
     #[must_use]
     pub fn number(&self, name: &str) -> Option<f64> {
         self.stored.number(name)
+    }
+
+    /// Every key of its scene with a value, such as `striker.velocity_m_s` and `2.5`, in alphabetical order.
+    ///
+    /// Lists are left out: the probes, the points of a section.
+    #[must_use]
+    pub fn keys(&self) -> Vec<(String, StoredValue)> {
+        let mut found = Vec::new();
+        for (section, value) in &self.scene {
+            let Value::Table(keys) = value else {
+                continue;
+            };
+            for (key, value) in keys {
+                let text = value
+                    .as_str()
+                    .map(|text| StoredValue::Text(text.to_owned()));
+                let value = text.or(as_number(value).map(StoredValue::Number));
+                found.extend(value.map(|value| (format!("{section}.{key}"), value)));
+            }
+        }
+        found
     }
 
     /// The probes; none for a scene without.
@@ -131,49 +160,6 @@ fn energy_of(stored: &Stored, samples: usize) -> Result<Option<EnergySeries>, Re
         radiated_j: column(3)?,
         plastic_j: existing(4)?,
     }))
-}
-
-/// The resolved scene of a results file.
-#[derive(Debug, Clone, PartialEq)]
-pub struct StoredScene {
-    pub target: HalfSpace,
-    /// The striker; none where the force was given.
-    pub strike: Option<Strike>,
-    table: Table,
-}
-
-impl StoredScene {
-    /// From the text in a file.
-    fn new(text: &str) -> Result<Self, String> {
-        let table = parse(text).map_err(|error| error.to_string())?;
-        let (target, strike) = bodies_of(&table).map_err(|error| error.to_string())?;
-        Ok(Self {
-            target,
-            strike,
-            table,
-        })
-    }
-
-    /// Every key with a value, such as `striker.velocity_m_s` and `2.5`, in alphabetical order.
-    ///
-    /// Lists are left out: the probes, the points of a section.
-    #[must_use]
-    pub fn keys(&self) -> Vec<(String, StoredValue)> {
-        let mut found = Vec::new();
-        for (section, value) in &self.table {
-            let Value::Table(keys) = value else {
-                continue;
-            };
-            for (key, value) in keys {
-                let text = value
-                    .as_str()
-                    .map(|text| StoredValue::Text(text.to_owned()));
-                let value = text.or(as_number(value).map(StoredValue::Number));
-                found.extend(value.map(|value| (format!("{section}.{key}"), value)));
-            }
-        }
-        found
-    }
 }
 
 /// The value of a key of a scene.
@@ -219,7 +205,7 @@ impl StoredProbes {
 
     /// What was stored at each probe over time.
     #[must_use]
-    pub fn quantities(&self) -> Vec<StoredQuantity> {
+    pub fn quantities(&self) -> Vec<Described> {
         self.stored
             .quantities(PROBES, &[self.r_m.len(), self.samples])
     }
@@ -276,7 +262,7 @@ impl StoredSection {
 
     /// What was stored in each frame.
     #[must_use]
-    pub fn quantities(&self) -> Vec<StoredQuantity> {
+    pub fn quantities(&self) -> Vec<Described> {
         self.stored.quantities(MAP, &self.shape())
     }
 

@@ -13,8 +13,8 @@ mod sweep;
 
 pub use crate::sweep::Part;
 pub use error::{FileKind, ReadError};
-pub use impact::{StoredImpact, StoredProbes, StoredScene, StoredSection, StoredValue};
-pub use open::{StoredQuantity, file_kind};
+pub use impact::{StoredImpact, StoredProbes, StoredSection, StoredValue};
+pub use open::file_kind;
 pub use rows::StoredPart;
 pub(crate) use rows::whole_sweep;
-pub use sweep::{StoredAxis, StoredColumn, StoredSweep};
+pub use sweep::StoredSweep;

@@ -16,17 +16,6 @@ const MOST_BYTES: u64 = 1 << 29;
 /// Major version of the files that are read.
 const MAJOR: &str = "1";
 
-/// A dataset of a file: its name, unit and meaning.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct StoredQuantity {
-    /// Name in the file.
-    pub name: String,
-    /// Unit; `1` for none.
-    pub unit: String,
-    /// What it is, in a few words.
-    pub meaning: String,
-}
-
 /// An open file of a known kind.
 #[derive(Debug, Clone)]
 pub(super) struct Stored {
@@ -116,7 +105,7 @@ impl Stored {
     }
 
     /// Name, unit and meaning of the datasets of a group that have a shape, in the order of the file.
-    pub(super) fn quantities(&self, group: &str, shape: &[usize]) -> Vec<StoredQuantity> {
+    pub(super) fn quantities(&self, group: &str, shape: &[usize]) -> Vec<Described> {
         let Some(group) = self.group(group) else {
             return Vec::new();
         };
@@ -124,7 +113,7 @@ impl Stored {
         let found = names.filter_map(|name| {
             let dataset = group.dataset(&name).ok()?;
             let described = |attribute| dataset.text(attribute).unwrap_or_default();
-            (dataset.shape() == shape).then(|| StoredQuantity {
+            (dataset.shape() == shape).then(|| Described {
                 unit: described("units"),
                 meaning: described("long_name"),
                 name,

@@ -24,7 +24,8 @@ pub struct StoredPart {
 
 #[derive(Debug, Clone)]
 enum Rows {
-    Hdf5(Hdf5Part),
+    /// An open file, and the reasons of its failures.
+    Hdf5(Stored, Vec<String>),
     Parquet(Footer),
 }
 
@@ -41,11 +42,37 @@ impl StoredPart {
                 rows: Rows::Parquet(rows),
             });
         }
-        let rows = Hdf5Part::open(path)?;
-        Ok(Self {
-            part: rows.part.clone(),
-            rows: Rows::Hdf5(rows),
-        })
+        let stored = Stored::open(path, FileKind::SweepPart)?;
+        let count = |name: &str| {
+            let found = stored.number(name).map(|number| number as usize);
+            found.ok_or_else(|| stored.damaged(format!("the number {name} is missing")))
+        };
+        let (sweep_rows, start) = (count(part::SWEEP_ROWS)?, count(part::FIRST_ROW)?);
+        let end = start.checked_add(count(ROWS)?);
+        let Some(end) = end.filter(|&end| end <= sweep_rows) else {
+            return Err(stored.damaged("it has rows beyond those of its sweep"));
+        };
+        let shard = match stored.text(part::SHARD)?.as_str() {
+            "" => None,
+            text => {
+                let shard = text.parse();
+                Some(shard.map_err(|_| stored.damaged(format!("there is no shard {text}")))?)
+            }
+        };
+        let rows = start..end;
+        let fields = stored.fields(RESULTS, &[rows.len()])?;
+        let part = Part {
+            path: path.to_owned(),
+            sha256: stored.text(SHA256)?,
+            failed: count(FAILED)?,
+            selection: Selection { rows, shard },
+            sweep_rows,
+            fields,
+            sealed: stored.is_sealed(),
+        };
+        let reasons = stored.texts(FAILURES.0)?;
+        let rows = Rows::Hdf5(stored, reasons);
+        Ok(Self { part, rows })
     }
 
     /// Compares every byte of a part that has a seal.
@@ -54,7 +81,7 @@ impl StoredPart {
     /// [`ReadError`].
     pub fn check(&self) -> Result<(), ReadError> {
         match &self.rows {
-            Rows::Hdf5(rows) => rows.stored.check(),
+            Rows::Hdf5(stored, _) => stored.check(),
             Rows::Parquet(rows) => check_groups(rows),
         }
     }
@@ -67,9 +94,9 @@ impl StoredPart {
                 let what = "its sweep is not that of the other parts";
                 Err(ReadError::damaged(&self.part.path, what))
             }
-            Rows::Hdf5(rows) => rows
+            Rows::Hdf5(stored, _) => self
                 .blocks()
-                .try_for_each(|some| rows.check_keys(spec, some)),
+                .try_for_each(|some| self.check_some_keys(stored, spec, some)),
             // the hash of a group is over its keys too
             Rows::Parquet(_) => Ok(()),
         }
@@ -78,7 +105,11 @@ impl StoredPart {
     /// The same without its results: models and failures alone are read; nothing for a part that is not HDF5.
     pub(crate) fn failures(&self) -> Option<impl Blocks> {
         match &self.rows {
-            Rows::Hdf5(rows) => Some(rows.failures()),
+            Rows::Hdf5(..) => {
+                let mut bare = self.clone();
+                bare.part.fields.retain(|_| false);
+                Some(bare)
+            }
             Rows::Parquet(_) => None,
         }
     }
@@ -89,16 +120,96 @@ impl StoredPart {
     /// [`ReadError`] where it is missing.
     pub fn sweep(&self) -> Result<String, ReadError> {
         match &self.rows {
-            Rows::Hdf5(rows) => rows.stored.text("sweep"),
+            Rows::Hdf5(stored, _) => stored.text("sweep"),
             Rows::Parquet(rows) => Ok(rows.sweep.clone()),
         }
+    }
+
+    /// Its rows, counted from its first, as many together as are held in memory.
+    fn blocks(&self) -> impl Iterator<Item = Range<usize>> + use<> {
+        let rows = self.part.selection.rows.len();
+        let starts = (0..rows).step_by(BLOCK);
+        starts.map(move |start| start..(start + BLOCK).min(rows))
+    }
+
+    /// Compares the keys of some of its rows with those of the sweep.
+    fn check_some_keys(
+        &self,
+        stored: &Stored,
+        spec: &Spec,
+        some: Range<usize>,
+    ) -> Result<(), ReadError> {
+        let Selection { rows, .. } = &self.part.selection;
+        for (key, wanted) in keys(spec, &(rows.start + some.start..rows.start + some.end)) {
+            let path = format!("{RESULTS}/{key}");
+            let same = match wanted {
+                Values::Texts(wanted) => {
+                    let words = stored.texts(&format!("{}/{key}", part::WORDS))?;
+                    let found = stored.some::<u32>(&path, rows.len(), some.clone())?;
+                    let mut pairs = found.iter().zip(&wanted);
+                    pairs.all(|(&index, wanted)| words.get(index as usize) == Some(wanted))
+                }
+                wanted => {
+                    let found = stored.some::<f64>(&path, rows.len(), some.clone())?;
+                    Values::Numbers(found) == wanted
+                }
+            };
+            if !same {
+                let what = format!("{key} has other values than its sweep says");
+                return Err(stored.damaged(what));
+            }
+        }
+        Ok(())
+    }
+
+    /// Some of its rows, counted from its first.
+    fn block(
+        &self,
+        stored: &Stored,
+        reasons: &[String],
+        rows: Range<usize>,
+    ) -> Result<Block, ReadError> {
+        let length = self.part.selection.rows.len();
+        let path = |name: &str| format!("{RESULTS}/{name}");
+        let start = self.part.selection.rows.start + rows.start;
+        let mut block = Block::blank(start, rows.len(), self.part.fields.width());
+        block.models = stored.some(&path(MODEL.0), length, rows.clone())?;
+        for (k, quantity) in self.part.fields.quantities() {
+            let (path, rows) = (path(&quantity.name), rows.clone());
+            let column: Vec<f64> = match self.part.fields.precision {
+                Precision::Double => stored.some(&path, length, rows)?,
+                Precision::Single => {
+                    let column = stored.some::<f32>(&path, length, rows)?;
+                    column.into_iter().map(f64::from).collect()
+                }
+            };
+            block.fill(k, column);
+        }
+        let indices = stored.some::<i32>(&path(FAILURE.0), length, rows)?;
+        for (row, index) in (block.start..).zip(indices) {
+            if index == -1 {
+                continue;
+            }
+            let reason = usize::try_from(index).ok();
+            let reason = reason.and_then(|i| reasons.get(i));
+            let what = || format!("row {row} has no reason number {index}");
+            let reason = reason.ok_or_else(|| stored.damaged(what()))?;
+            block.failures.push((row, reason.clone()));
+        }
+        if block.holds() {
+            return Ok(block);
+        }
+        Err(stored.damaged(NOT_HELD))
     }
 }
 
 impl Blocks for StoredPart {
     fn each(&self, visit: &mut dyn FnMut(&Block) -> Result<(), Fault>) -> Result<(), Fault> {
         match &self.rows {
-            Rows::Hdf5(rows) => rows.each(visit),
+            Rows::Hdf5(stored, reasons) => self.blocks().try_for_each(|rows| {
+                let block = self.block(stored, reasons, rows);
+                visit(&block.map_err(|error| Fault::from(error.to_string()))?)
+            }),
             #[cfg(feature = "parquet")]
             Rows::Parquet(rows) => super::groups::each(&rows.part, &rows.groups, visit),
             #[cfg(not(feature = "parquet"))]
@@ -133,133 +244,4 @@ fn check_groups(rows: &Footer) -> Result<(), ReadError> {
         .map_err(|fault| ReadError::damaged(&rows.part.path, fault.reason))?;
     let _ = rows;
     Ok(())
-}
-
-/// An open part in HDF5.
-#[derive(Debug, Clone)]
-struct Hdf5Part {
-    stored: Stored,
-    part: Part,
-    reasons: Vec<String>,
-}
-
-impl Hdf5Part {
-    fn open(path: &Path) -> Result<Self, ReadError> {
-        let stored = Stored::open(path, FileKind::SweepPart)?;
-        let count = |name: &str| {
-            let found = stored.number(name).map(|number| number as usize);
-            found.ok_or_else(|| stored.damaged(format!("the number {name} is missing")))
-        };
-        let (sweep_rows, start) = (count(part::SWEEP_ROWS)?, count(part::FIRST_ROW)?);
-        let end = start.checked_add(count(ROWS)?);
-        let Some(end) = end.filter(|&end| end <= sweep_rows) else {
-            return Err(stored.damaged("it has rows beyond those of its sweep"));
-        };
-        let shard = match stored.text(part::SHARD)?.as_str() {
-            "" => None,
-            text => {
-                let shard = text.parse();
-                Some(shard.map_err(|_| stored.damaged(format!("there is no shard {text}")))?)
-            }
-        };
-        let rows = start..end;
-        let fields = stored.fields(RESULTS, &[rows.len()])?;
-        let part = Part {
-            path: path.to_owned(),
-            sha256: stored.text(SHA256)?,
-            failed: count(FAILED)?,
-            selection: Selection { rows, shard },
-            sweep_rows,
-            fields,
-            sealed: stored.is_sealed(),
-        };
-        Ok(Self {
-            reasons: stored.texts(FAILURES.0)?,
-            part,
-            stored,
-        })
-    }
-
-    /// The same without its results: models and failures alone are read.
-    fn failures(&self) -> Self {
-        let mut bare = self.clone();
-        bare.part.fields.retain(|_| false);
-        bare
-    }
-
-    /// Its rows, counted from its first, as many together as are held in memory.
-    fn blocks(&self) -> impl Iterator<Item = Range<usize>> + use<> {
-        let rows = self.part.selection.rows.len();
-        let starts = (0..rows).step_by(BLOCK);
-        starts.map(move |start| start..(start + BLOCK).min(rows))
-    }
-
-    /// Compares the keys of some of its rows with those of the sweep.
-    fn check_keys(&self, spec: &Spec, some: Range<usize>) -> Result<(), ReadError> {
-        let Selection { rows, .. } = &self.part.selection;
-        for (key, wanted) in keys(spec, &(rows.start + some.start..rows.start + some.end)) {
-            let path = format!("{RESULTS}/{key}");
-            let same = match wanted {
-                Values::Texts(wanted) => {
-                    let words = self.stored.texts(&format!("{}/{key}", part::WORDS))?;
-                    let found = self.stored.some::<u32>(&path, rows.len(), some.clone())?;
-                    let mut pairs = found.iter().zip(&wanted);
-                    pairs.all(|(&index, wanted)| words.get(index as usize) == Some(wanted))
-                }
-                wanted => {
-                    let found = self.stored.some::<f64>(&path, rows.len(), some.clone())?;
-                    Values::Numbers(found) == wanted
-                }
-            };
-            if !same {
-                let what = format!("{key} has other values than its sweep says");
-                return Err(self.stored.damaged(what));
-            }
-        }
-        Ok(())
-    }
-
-    /// Some of its rows, counted from its first.
-    fn block(&self, rows: Range<usize>) -> Result<Block, ReadError> {
-        let length = self.part.selection.rows.len();
-        let path = |name: &str| format!("{RESULTS}/{name}");
-        let start = self.part.selection.rows.start + rows.start;
-        let mut block = Block::blank(start, rows.len(), self.part.fields.width());
-        block.models = self.stored.some(&path(MODEL.0), length, rows.clone())?;
-        for (k, quantity) in self.part.fields.quantities() {
-            let (path, rows) = (path(&quantity.name), rows.clone());
-            let column: Vec<f64> = match self.part.fields.precision {
-                Precision::Double => self.stored.some(&path, length, rows)?,
-                Precision::Single => {
-                    let column = self.stored.some::<f32>(&path, length, rows)?;
-                    column.into_iter().map(f64::from).collect()
-                }
-            };
-            block.fill(k, column);
-        }
-        let indices = self.stored.some::<i32>(&path(FAILURE.0), length, rows)?;
-        for (row, index) in (block.start..).zip(indices) {
-            if index == -1 {
-                continue;
-            }
-            let reason = usize::try_from(index).ok();
-            let reason = reason.and_then(|i| self.reasons.get(i));
-            let what = || format!("row {row} has no reason number {index}");
-            let reason = reason.ok_or_else(|| self.stored.damaged(what()))?;
-            block.failures.push((row, reason.clone()));
-        }
-        if block.holds() {
-            return Ok(block);
-        }
-        Err(self.stored.damaged(NOT_HELD))
-    }
-}
-
-impl Blocks for Hdf5Part {
-    fn each(&self, visit: &mut dyn FnMut(&Block) -> Result<(), Fault>) -> Result<(), Fault> {
-        self.blocks().try_for_each(|rows| {
-            let block = self.block(rows);
-            visit(&block.map_err(|error| Fault::from(error.to_string()))?)
-        })
-    }
 }

@@ -1,10 +1,11 @@
 //! The results of a sweep, read back.
 
 use super::error::{FileKind, ReadError};
-use super::open::{Stored, StoredQuantity};
+use super::open::Stored;
+use crate::quantities::Described;
 use crate::sweep::schema::part::PARTS;
 use crate::sweep::schema::{AXES, LIST, RESULTS, SAMPLE, SHA256};
-use crate::sweep::{Fields, Values};
+use crate::sweep::{Axis, Column, Fields, Values};
 use std::path::Path;
 
 /// An open sweep with its axes; results are read when they are asked for.
@@ -12,39 +13,9 @@ use std::path::Path;
 pub struct StoredSweep {
     stored: Stored,
     /// The axes; the last runs fastest.
-    pub axes: Vec<StoredAxis>,
+    pub axes: Vec<Axis>,
     /// Failed scenes.
     pub failed: u64,
-}
-
-/// One dimension of a sweep: the keys that vary along it.
-#[derive(Debug, Clone, PartialEq)]
-pub struct StoredAxis {
-    /// The name of its only key, `list` or `sample`.
-    pub name: String,
-    /// How many values.
-    pub len: usize,
-    /// The keys.
-    pub columns: Vec<StoredColumn>,
-}
-
-impl StoredAxis {
-    /// Whether it runs over random draws.
-    #[must_use]
-    pub fn is_drawn(&self) -> bool {
-        self.name == SAMPLE
-    }
-}
-
-/// A key that varies.
-#[derive(Debug, Clone, PartialEq)]
-pub struct StoredColumn {
-    /// Full name, such as `striker.velocity_m_s`.
-    pub name: String,
-    /// Unit; `1` for none.
-    pub unit: String,
-    /// Values.
-    pub values: Values,
 }
 
 impl StoredSweep {
@@ -88,7 +59,7 @@ impl StoredSweep {
 
     /// The results of every row.
     #[must_use]
-    pub fn quantities(&self) -> Vec<StoredQuantity> {
+    pub fn quantities(&self) -> Vec<Described> {
         let mut found = self.stored.quantities(RESULTS, &self.shape());
         // scales of a sweep with one axis have the same shape
         found.retain(|quantity| {
@@ -112,15 +83,15 @@ impl StoredSweep {
 }
 
 /// The axes in the order of the dimensions: those of the product by their names, then the list's, then the draws'.
-fn read_axes(stored: &Stored) -> Result<Vec<StoredAxis>, ReadError> {
+fn read_axes(stored: &Stored) -> Result<Vec<Axis>, ReadError> {
     let group = stored
         .group(AXES)
         .ok_or_else(|| stored.damaged(format!("the group {AXES} is missing")))?;
     let names = group.members();
-    let mut axes: Vec<StoredAxis> = Vec::new();
+    let mut axes: Vec<Axis> = Vec::new();
     for name in names.map_err(|error| stored.damaged(error.to_string()))? {
         let path = format!("{AXES}/{name}");
-        let (unit, axis) = stored
+        let (_, axis) = stored
             .labels(&path)
             .ok_or_else(|| stored.damaged(format!("{path} does not name its axis")))?;
         let values = if stored.holds_texts(&path) {
@@ -129,7 +100,14 @@ fn read_axes(stored: &Stored) -> Result<Vec<StoredAxis>, ReadError> {
             Values::Numbers(stored.vector(&path)?)
         };
         let len = values.len();
-        let column = StoredColumn { name, unit, values };
+        let (section, key) = name
+            .split_once('.')
+            .ok_or_else(|| stored.damaged(format!("{path} is no key of a scene")))?;
+        let column = Column {
+            section: section.to_owned(),
+            key: key.to_owned(),
+            values,
+        };
         match axes.iter_mut().find(|known| known.name == axis) {
             Some(known) if known.len == len => known.columns.push(column),
             Some(_) => {
@@ -137,7 +115,7 @@ fn read_axes(stored: &Stored) -> Result<Vec<StoredAxis>, ReadError> {
                     "{path} has {len} values, unlike others of its axis"
                 )));
             }
-            None => axes.push(StoredAxis {
+            None => axes.push(Axis {
                 name: axis,
                 len,
                 columns: vec![column],

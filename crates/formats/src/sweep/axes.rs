@@ -1,6 +1,7 @@
 //! The keys that vary and their values.
 
 use super::draws::Drawn;
+use super::schema::SAMPLE;
 use crate::error::SceneError;
 use crate::scene::keys::{FINITE, POSITIVE};
 use crate::scene::section::{Section, as_number};
@@ -178,6 +179,14 @@ pub struct Axis {
     pub columns: Vec<Column>,
     /// Length.
     pub len: usize,
+}
+
+impl Axis {
+    /// Whether it runs over random draws.
+    #[must_use]
+    pub fn is_drawn(&self) -> bool {
+        self.name == SAMPLE
+    }
 }
 
 /// Number of rows of some axes, or nothing when it is beyond all counting.

@@ -174,7 +174,7 @@ fn of_field(probe: usize, (name, unit, meaning): Labels<'static>) -> [Described;
     ]
     .map(|(suffix, unit, what)| Described {
         name: format!("probe_{probe}_{name}{suffix}"),
-        unit,
+        unit: unit.to_owned(),
         meaning: format!("{what} at probe {probe}: {meaning}"),
     })
 }

@@ -20,13 +20,6 @@ const KIND: &str = "sweep";
 /// Bytes before the numbers of a block: five integers.
 const HEADER: usize = 5 * 8;
 
-/// Rows that a journal keeps.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Span {
-    pub(super) rows: Range<usize>,
-    pub(super) record: Record,
-}
-
 /// The journal of some rows of a sweep.
 fn title(spec: &Spec, rows: &Range<usize>) -> Title {
     let (sha256, of) = (&spec.fingerprint, spec.rows());
@@ -38,19 +31,20 @@ fn title(spec: &Spec, rows: &Range<usize>) -> Title {
     }
 }
 
-/// Opens or begins a journal and says which rows it keeps, ascending and apart; that of other rows is replaced where it
-/// `drops`.
+/// Opens or begins a journal and adds to `spans` which rows it keeps, ascending and apart; that of other rows is replaced
+/// where it `drops`.
 pub(super) fn open(
     path: &Path,
     spec: &Spec,
     rows: &Range<usize>,
     drops: bool,
-) -> Result<(Journal, Vec<Span>), JournalError> {
-    let mut spans = Vec::new();
+    spans: &mut Vec<(Range<usize>, Record)>,
+) -> Result<Journal, JournalError> {
     let wanted = results(&spec.fields);
-    let take = |record, kept: &[u8]| take(&mut spans, rows, wanted, record, kept);
+    let take = |record, kept: &[u8]| take(spans, rows, wanted, record, kept);
     let journal = Journal::open(path, &title(spec, rows), |_| drops, take)?;
-    Ok((journal, apart(spans)))
+    apart(spans);
+    Ok(journal)
 }
 
 /// A run that was interrupted or is at work: what its journal says.
@@ -79,7 +73,8 @@ impl Unfinished {
         let (sweep_rows, rows) = (count()?, count()?..count()?);
         let mut spans = Vec::new();
         records.all(|(record, kept)| take(&mut spans, &rows, 0, record, &kept));
-        let kept = apart(spans).iter().map(|span| span.rows.len()).sum();
+        apart(&mut spans);
+        let kept = spans.iter().map(|(rows, _)| rows.len()).sum();
         Some(Self {
             path: path.to_owned(),
             sha256,
@@ -100,7 +95,7 @@ pub fn is_computed(spec: &Spec, rows: Range<usize>, part: &Path) -> bool {
 
 /// Adds what a record keeps, where that can be rows of a range with these results.
 fn take(
-    spans: &mut Vec<Span>,
+    spans: &mut Vec<(Range<usize>, Record)>,
     wanted: &Range<usize>,
     results: u64,
     record: Record,
@@ -109,20 +104,19 @@ fn take(
     let block = parsed(kept).filter(|(_, held)| held & results == results);
     let rows = block.map(|(block, _)| block.start..block.start + block.len());
     let rows = rows.filter(|rows| wanted.start <= rows.start && rows.end <= wanted.end);
-    spans.extend(rows.clone().map(|rows| Span { rows, record }));
+    spans.extend(rows.clone().map(|rows| (rows, record)));
     rows.is_some()
 }
 
 /// Each row once, ascending.
-fn apart(mut spans: Vec<Span>) -> Vec<Span> {
-    spans.sort_by_key(|span| span.rows.start);
+fn apart(spans: &mut Vec<(Range<usize>, Record)>) {
+    spans.sort_by_key(|(rows, _)| rows.start);
     let mut end = 0;
-    spans.retain(|span| {
-        let apart = span.rows.start >= end;
-        end = end.max(span.rows.end);
+    spans.retain(|(rows, _)| {
+        let apart = rows.start >= end;
+        end = end.max(rows.end);
         apart
     });
-    spans
 }
 
 /// The results of a contact that are kept, a bit each: those that are written, and those that are counted.

@@ -6,17 +6,6 @@ use lookup::{Table, TableError, TableFile, stated_hash};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// What a sweep with probes asks for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum FieldKernels<'a> {
-    /// Kernels that are computed.
-    Direct,
-    /// Those of a table.
-    Table(&'a Path),
-    /// Those of a table where its estimated error is within the tolerance of a row, else computed.
-    Within(&'a Path),
-}
-
 /// Kernels that are ready.
 #[derive(Debug, Clone)]
 pub(crate) struct Kernels {
@@ -35,12 +24,18 @@ impl PartialEq for Kernels {
 }
 
 impl Kernels {
-    pub(super) fn new(asked: FieldKernels<'_>, many: bool) -> Result<Self, TableError> {
+    /// Those of a table or, where there is none, computed ones; `or_computed` where the estimated error of the table is
+    /// beyond the tolerance of a row.
+    pub(super) fn new(
+        path: Option<&Path>,
+        or_computed: bool,
+        many: bool,
+    ) -> Result<Self, TableError> {
         let mut identity = toml::Table::new();
-        let (name, path) = match asked {
-            FieldKernels::Direct => ("direct", None),
-            FieldKernels::Table(path) => ("table", Some(path)),
-            FieldKernels::Within(path) => ("auto", Some(path)),
+        let name = match path {
+            None => "direct",
+            Some(_) if or_computed => "auto",
+            Some(_) => "table",
         };
         identity.insert("kernel".to_owned(), name.into());
         let Some(path) = path else {
@@ -61,10 +56,9 @@ impl Kernels {
             (Arc::clone(&shared) as _, Some(shared))
         };
         Ok(Self {
-            choice: match asked {
-                FieldKernels::Direct => KernelChoice::Direct,
-                FieldKernels::Table(_) => KernelChoice::Table(tables),
-                FieldKernels::Within(_) => KernelChoice::Within(tables),
+            choice: match or_computed {
+                true => KernelChoice::Within(tables),
+                false => KernelChoice::Table(tables),
             },
             shared,
             path: path.to_owned(),

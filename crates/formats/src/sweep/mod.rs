@@ -28,7 +28,6 @@ pub use error::SweepError;
 pub(crate) use fields::stored_columns;
 pub use fields::{Fields, Precision};
 pub use journal::{Unfinished, is_computed};
-pub use kernels::FieldKernels;
 pub use ledger::{JournalError, Shard};
 pub use rows::{
     Block, Blocks, NO_MODEL, PARQUET_VERSION, check_rows, column_names, key_unit, print_csv,

@@ -3,16 +3,17 @@
 use super::axes::place;
 use super::error::SweepError;
 use super::fields::probed_numbers;
-use super::journal::{self, Span};
+use super::journal;
 use super::rows::{Block, Blocks, NO_MODEL};
 use super::shard::BLOCK;
 use super::spec::Spec;
-use super::template::{Scratch, Templates};
+use super::template::Templates;
 use crate::error::SceneError;
 use crate::quantities::QUANTITIES;
 use contact::{Choice, Collision, Model, Outcomes, Ratios, Settings, Tabulated};
-use impact::sweep::{Collided, Observed, collide_rows, observe_rows, outcomes};
-use ledger::{Journal, gaps};
+use impact::Scene;
+use impact::sweep::{Observed, collide_rows, observe_rows, outcomes};
+use ledger::{Journal, Record, gaps};
 use output::{Existing, Fault};
 use std::ops::Range;
 use std::path::Path;
@@ -28,7 +29,7 @@ pub const BLOCK_S: f64 = 2.0;
 #[derive(Debug)]
 pub struct Kept {
     /// Blocks in the order of their rows.
-    spans: Vec<Span>,
+    spans: Vec<(Range<usize>, Record)>,
     /// Rows that an earlier run had computed.
     pub resumed: usize,
     journal: Journal,
@@ -57,8 +58,8 @@ impl Kept {
 impl Blocks for Kept {
     fn each(&self, visit: &mut dyn FnMut(&Block) -> Result<(), Fault>) -> Result<(), Fault> {
         let mut kept = Vec::new();
-        for span in &self.spans {
-            self.journal.read(span.record, &mut kept)?;
+        for (_, record) in &self.spans {
+            self.journal.read(*record, &mut kept)?;
             let found = journal::parsed(&kept);
             let changed = || Fault::from("its journal was changed while it was read".to_owned());
             let (block, _) = found.ok_or_else(changed)?;
@@ -86,25 +87,24 @@ pub fn run_rows(
 ) -> Result<Option<Kept>, SweepError> {
     let computer = Computer::new(spec)?;
     let drops = existing == Existing::Replace;
-    let (mut journal, mut spans) = journal::open(part, spec, &rows, drops)?;
-    let mut done: usize = spans.iter().map(|span| span.rows.len()).sum();
+    let mut spans = Vec::new();
+    let mut journal = journal::open(part, spec, &rows, drops, &mut spans)?;
+    let mut done: usize = spans.iter().map(|(rows, _)| rows.len()).sum();
     let resumed = done;
     if !watch(done) {
         return Ok(None);
     }
     let results = journal::results(&spec.fields);
     let mut size = computer.first_block();
-    let held: Vec<_> = spans.iter().map(|span| span.rows.clone()).collect();
+    let held: Vec<_> = spans.iter().map(|(rows, _)| rows.clone()).collect();
     for gap in gaps(&held, &rows) {
         let mut start = gap.start;
         while start < gap.end {
             let end = (start + size).min(gap.end);
             let block;
             (block, size) = computer.block(start..end, BLOCK_S, |row| row)?;
-            spans.push(Span {
-                rows: start..end,
-                record: journal.append(&journal::kept(&block, results))?,
-            });
+            let record = journal.append(&journal::kept(&block, results))?;
+            spans.push((start..end, record));
             done += block.len();
             if !watch(done) && done < rows.len() {
                 return Ok(None);
@@ -112,7 +112,7 @@ pub fn run_rows(
             start = end;
         }
     }
-    spans.sort_by_key(|span| span.rows.start);
+    spans.sort_by_key(|(rows, _)| rows.start);
     Ok(Some(Kept {
         spans,
         resumed,
@@ -132,7 +132,8 @@ struct Computer<'a> {
 #[derive(Debug, Default)]
 struct Memory {
     place: Vec<usize>,
-    scratch: Scratch,
+    /// The scene of the row before, which the next one likely shares.
+    scratch: Option<(usize, Result<Scene, SceneError>)>,
 }
 
 impl<'a> Computer<'a> {
@@ -187,62 +188,49 @@ impl<'a> Computer<'a> {
         let began = Instant::now();
         let (spec, templates, count) = (self.spec, &self.templates, rows.len());
         let mut block = Block::blank(rows.start, 0, spec.fields.width());
-        if let Some(kernels) = &spec.kernels {
+        let done = if let Some(kernels) = &spec.kernels {
             let of = (&self.responses, &kernels.choice);
-            let done = observe_rows(rows.clone(), of, |row, memory: &mut Memory| {
+            observe_rows(rows.clone(), of, |row, memory: &mut Memory| {
                 place(&spec.axes, row_of(row), &mut memory.place);
                 let scene = templates.scene(&memory.place, &mut memory.scratch)?;
                 Ok::<_, SceneError>(scene.clone())
-            });
-            rows.zip(done)
-                .for_each(|(row, done)| push_observed(&mut block, row, done));
+            })
         } else {
             let of = (&self.responses, &self.outcomes);
-            let done = collide_rows(rows.clone(), of, |row, memory: &mut Memory| {
+            collide_rows(rows.clone(), of, |row, memory: &mut Memory| {
                 self.contact(row_of(row), memory)
-            });
-            rows.zip(done)
-                .for_each(|(row, done)| push(&mut block, row, done));
-        }
+            })
+        };
+        rows.zip(done)
+            .for_each(|(row, done)| push(&mut block, row, done));
         spec.check_kernels()?;
         let took_s = began.elapsed().as_secs_f64();
         Ok((block, next_size(count, took_s, wanted_s)))
     }
 }
 
-/// Adds a row with what the probes bring to it; where its fields alone failed the contact stays.
-fn push_observed(block: &mut Block, row: usize, done: Result<Observed, String>) {
+/// Adds a row; where the fields at its probes alone failed the contact stays.
+fn push(block: &mut Block, row: usize, done: Result<Observed, String>) {
     let end = block.numbers.len() + block.width;
-    match done {
-        Ok(found) => {
-            push(block, row, Ok(found.collided));
-            match found.peaks {
-                Ok(peaks) => block.numbers.extend(probed_numbers(&peaks)),
-                Err(reason) => block.failures.push((row, reason)),
-            }
-        }
-        Err(reason) => push(block, row, Err(reason)),
-    }
-    block.numbers.resize(end, f64::NAN);
-}
-
-fn push(block: &mut Block, row: usize, done: Result<Collided, String>) {
-    let mut model = None;
+    let (mut model, mut peaks) = (None, None);
     match done {
         Ok(found) => {
             let numbers = QUANTITIES.iter();
             let numbers = numbers.map(|quantity| (quantity.of_contact)(&found.results));
             block.numbers.extend(numbers);
             model = Model::ALL.iter().position(|m| *m == found.model);
+            peaks = found.peaks;
         }
-        Err(reason) => {
-            block.numbers.extend([f64::NAN; QUANTITIES.len()]);
-            block.failures.push((row, reason));
-        }
+        Err(reason) => block.failures.push((row, reason)),
     }
-    block
-        .models
-        .push(model.map_or(NO_MODEL, |index| index as u8));
+    match peaks {
+        Some(Ok(peaks)) => block.numbers.extend(probed_numbers(&peaks)),
+        Some(Err(reason)) => block.failures.push((row, reason)),
+        None => {}
+    }
+    block.numbers.resize(end, f64::NAN);
+    let model = model.map_or(NO_MODEL, |index| index as u8);
+    block.models.push(model);
 }
 
 /// Rows that are held in memory together, at most: a hundred bytes each.

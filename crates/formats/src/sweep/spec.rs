@@ -4,7 +4,7 @@ use super::axes::{Axis, Column, Values, rows};
 use super::draws::Drawn;
 use super::error::SweepError;
 use super::fields::{Fields, columns_of_probes, stored_columns};
-use super::kernels::{FieldKernels, Kernels};
+use super::kernels::Kernels;
 use super::schema::{FIELDS, FORMAT_VERSION, LIST, SAMPLE};
 use super::shard::BLOCK;
 use crate::error::SceneError;
@@ -202,12 +202,18 @@ impl Spec {
 
     /// With the peaks of the fields at the probes of its base scene, which are then part of what makes two sweeps the same.
     ///
+    /// Their kernels are those of the table at `path` or, where there is none, computed; with `or_computed` also where the
+    /// estimated error of the table is beyond the tolerance of a row.
     /// Which results are written is chosen after it.
     ///
     /// # Errors
     /// [`SweepError`].
-    pub fn with_fields(mut self, asked: FieldKernels<'_>) -> Result<Self, SweepError> {
-        let kernels = Kernels::new(asked, self.has_many_ratios())?;
+    pub fn with_fields(
+        mut self,
+        path: Option<&Path>,
+        or_computed: bool,
+    ) -> Result<Self, SweepError> {
+        let kernels = Kernels::new(path, or_computed, self.has_many_ratios())?;
         self.fields = own_fields(&self.scene, &self.axes, columns_of_probes(&self.scene)?);
         let mut table = parse(&self.resolved)?;
         table.insert(FIELDS.into(), Value::Table(kernels.identity.clone()));

@@ -32,13 +32,6 @@ pub(crate) struct Templates<'a> {
     ready: Vec<Result<Scene, SceneError>>,
 }
 
-/// The scene of the row before, which the next one likely shares.
-#[derive(Debug, Default)]
-pub(crate) struct Scratch {
-    id: Option<usize>,
-    scene: Option<Result<Scene, SceneError>>,
-}
-
 /// What a row is computed from.
 pub(crate) type Row<'s> = (&'s HalfSpace, &'s Strike, &'s Settings);
 
@@ -111,7 +104,7 @@ impl<'a> Templates<'a> {
     pub(crate) fn contact<'s>(
         &self,
         place: &[usize],
-        scratch: &'s mut Scratch,
+        scratch: &'s mut Option<(usize, Result<Scene, SceneError>)>,
     ) -> Result<Row<'s>, SceneError> {
         let scene = self.scene(place, scratch)?;
         match &scene.load {
@@ -124,24 +117,21 @@ impl<'a> Templates<'a> {
     pub(crate) fn scene<'s>(
         &self,
         place: &[usize],
-        scratch: &'s mut Scratch,
+        scratch: &'s mut Option<(usize, Result<Scene, SceneError>)>,
     ) -> Result<&'s Scene, SceneError> {
         let id = self.slow.iter().fold(0_usize, |id, &axis| {
             id.wrapping_mul(self.spec.axes[axis].len)
                 .wrapping_add(place[axis])
         });
-        if scratch.id != Some(id) {
-            scratch.scene = Some(match self.ready.get(id) {
-                Some(template) => template.clone(),
-                None => self.parse(place),
-            });
-            scratch.id = Some(id);
-        }
-        let scene = match &mut scratch.scene {
-            Some(Ok(scene)) => scene,
-            Some(Err(error)) => return Err(error.clone()),
-            None => unreachable!("it was just put there"),
+        let template = || match self.ready.get(id) {
+            Some(template) => template.clone(),
+            None => self.parse(place),
         };
+        if scratch.as_ref().is_none_or(|(known, _)| *known != id) {
+            *scratch = None;
+        }
+        let (_, scene) = scratch.get_or_insert_with(|| (id, template()));
+        let scene = scene.as_mut().map_err(|error| error.clone())?;
         for fast in &self.fast {
             let number = fast.column.values.number(place[fast.axis]);
             fast.set(scene, number.unwrap_or(f64::NAN))?;

@@ -97,9 +97,6 @@ pub(crate) enum Origin {
     Stress,
 }
 
-/// Stresses of one instant in Pa: radial, hoop, axial, shear.
-pub(crate) type Stresses = [f64; 4];
-
 impl Quantity {
     pub(crate) fn origin(self) -> Origin {
         match self {
@@ -131,7 +128,7 @@ impl Quantity {
     /// assert_eq!(Quantity::StrainRr.of(stresses, [2e11, 0.3]), 6e-6);
     /// ```
     #[must_use]
-    pub fn of(self, [rr, tt, zz, rz]: Stresses, [modulus, ratio]: [f64; 2]) -> f64 {
+    pub fn of(self, [rr, tt, zz, rz]: [f64; 4], [modulus, ratio]: [f64; 2]) -> f64 {
         let strain = |own: f64, others: f64| (own - ratio * others) / modulus;
         match self {
             Self::VelocityR | Self::VelocityZ | Self::AccelerationR | Self::AccelerationZ => {
@@ -162,7 +159,7 @@ impl Quantity {
     /// Tresca      twice that
     /// ```
     #[must_use]
-    pub fn error(self, [rr, tt, zz, rz]: Stresses, [modulus, ratio]: [f64; 2]) -> f64 {
+    pub fn error(self, [rr, tt, zz, rz]: [f64; 4], [modulus, ratio]: [f64; 2]) -> f64 {
         let worst = -ratio.abs();
         match self {
             Self::StrainRr | Self::StrainTt | Self::StrainZz | Self::StrainRz => {
@@ -188,7 +185,7 @@ fn von_mises([a, b, c, rz]: [f64; 4]) -> f64 {
 }
 
 /// Principal stresses, descending.
-fn principal([rr, tt, zz, rz]: Stresses) -> [f64; 3] {
+fn principal([rr, tt, zz, rz]: [f64; 4]) -> [f64; 3] {
     let (middle, radius) = (0.5 * (rr + zz), (0.5 * (rr - zz)).hypot(rz));
     let mut all = [middle + radius, middle - radius, tt];
     all.sort_by(|a, b| b.total_cmp(a));

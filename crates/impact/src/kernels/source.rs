@@ -1,12 +1,13 @@
 //! Where the kernels of the fields come from: computed, or looked up.
 
 use crate::cost::Cost;
-use crate::error::{ImpactError, TableFault};
+use crate::error::ImpactError;
 use crate::evaluator::discs::Discs;
 use crate::excitation::Excitation;
 use crate::grid::Wanted;
 use crate::kernels::{self, KernelSource};
 use crate::scene::Scene;
+use fault::AnyError;
 use lookup::{LookupError, Table};
 use std::collections::HashMap;
 use std::fmt;
@@ -18,7 +19,7 @@ pub trait Tables: fmt::Debug + Send + Sync {
     ///
     /// # Errors
     /// Why it cannot be loaded.
-    fn part(&self, poisson_ratio: f64, farthest: [f64; 2]) -> Result<Arc<Table>, TableFault>;
+    fn part(&self, poisson_ratio: f64, farthest: [f64; 2]) -> Result<Arc<Table>, AnyError>;
 
     /// Why there is no such table, as far as that is known without loading one.
     ///
@@ -28,20 +29,20 @@ pub trait Tables: fmt::Debug + Send + Sync {
         &self,
         _poisson_ratio: f64,
         _farthest: [f64; 2],
-    ) -> Result<Option<LookupError>, TableFault> {
+    ) -> Result<Option<LookupError>, AnyError> {
         Ok(None)
     }
 }
 
 impl Tables for Arc<Table> {
-    fn part(&self, _: f64, _: [f64; 2]) -> Result<Arc<Table>, TableFault> {
+    fn part(&self, _: f64, _: [f64; 2]) -> Result<Arc<Table>, AnyError> {
         Ok(Self::clone(self))
     }
 }
 
 #[cfg(feature = "hdf5")]
 impl Tables for lookup::TableFile {
-    fn part(&self, poisson_ratio: f64, farthest: [f64; 2]) -> Result<Arc<Table>, TableFault> {
+    fn part(&self, poisson_ratio: f64, farthest: [f64; 2]) -> Result<Arc<Table>, AnyError> {
         Ok(Arc::new(Self::part(self, poisson_ratio, farthest)?))
     }
 
@@ -49,7 +50,7 @@ impl Tables for lookup::TableFile {
         &self,
         poisson_ratio: f64,
         farthest: [f64; 2],
-    ) -> Result<Option<LookupError>, TableFault> {
+    ) -> Result<Option<LookupError>, AnyError> {
         Ok(self.serves(poisson_ratio, farthest)?.err())
     }
 }
@@ -86,7 +87,7 @@ impl Shared {
         fault.clone()
     }
 
-    fn known(&self, poisson_ratio: f64) -> Result<Part, TableFault> {
+    fn known(&self, poisson_ratio: f64) -> Result<Part, AnyError> {
         let mut parts = self.parts.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(part) = parts.get(&poisson_ratio.to_bits()) {
             return Ok(part.clone());
@@ -94,13 +95,13 @@ impl Shared {
         let found = self.load(poisson_ratio).map_err(|error| {
             let mut fault = self.fault.lock().unwrap_or_else(PoisonError::into_inner);
             fault.get_or_insert(error.to_string());
-            TableFault::from(error.to_string())
+            AnyError::from(error.to_string())
         })?;
         parts.insert(poisson_ratio.to_bits(), found.clone());
         Ok(found)
     }
 
-    fn load(&self, poisson_ratio: f64) -> Result<Part, TableFault> {
+    fn load(&self, poisson_ratio: f64) -> Result<Part, AnyError> {
         if let Some(outside) = self.tables.refusal(poisson_ratio, [0.0; 2])? {
             return Ok(Err(outside));
         }
@@ -110,11 +111,11 @@ impl Shared {
 }
 
 impl Tables for Shared {
-    fn part(&self, poisson_ratio: f64, _: [f64; 2]) -> Result<Arc<Table>, TableFault> {
+    fn part(&self, poisson_ratio: f64, _: [f64; 2]) -> Result<Arc<Table>, AnyError> {
         Ok(self.known(poisson_ratio)??)
     }
 
-    fn refusal(&self, poisson_ratio: f64, _: [f64; 2]) -> Result<Option<LookupError>, TableFault> {
+    fn refusal(&self, poisson_ratio: f64, _: [f64; 2]) -> Result<Option<LookupError>, AnyError> {
         Ok(self.known(poisson_ratio)?.err())
     }
 }

@@ -4,20 +4,11 @@ use crate::record::low_pass::{allowed_hz, low_pass};
 use crate::record::{ForceRecord, Treated};
 use thiserror::Error;
 
-/// What is to be done to a record, the baseline first.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct Treatment {
-    /// Length in s of the first part of the record whose mean is taken away from all of it.
-    pub baseline_s: Option<f64>,
-    /// Cutoff in Hz of a low pass of zero phase: a gain of 1/(1 + (f/fc)^8), half at the cutoff.
-    pub low_pass_hz: Option<f64>,
-}
-
 /// A treatment that this record cannot have.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[error("{key} = {value} is outside ({least:.4e}, {most:.4e}], {reason}")]
 pub struct TreatmentError {
-    /// Field of [`Treatment`].
+    /// Which of the two, by the name of its scene key.
     pub key: &'static str,
     /// Its value.
     pub value: f64,
@@ -38,21 +29,25 @@ impl ForceRecord {
     ///
     /// # Errors
     /// [`TreatmentError`] with the range that this record allows.
-    pub fn treat(self, asked: &Treatment) -> Result<Self, TreatmentError> {
+    pub fn treat(
+        self,
+        baseline_s: Option<f64>,
+        low_pass_hz: Option<f64>,
+    ) -> Result<Self, TreatmentError> {
         let mut done = Treated {
-            baseline_s: asked.baseline_s,
+            baseline_s,
             baseline_n: 0.0,
-            low_pass_hz: asked.low_pass_hz,
+            low_pass_hz,
             removed_rms_n: 0.0,
             before_zero_n_s: 0.0,
         };
         let mut record = self;
-        if let Some(baseline_s) = asked.baseline_s {
+        if let Some(baseline_s) = baseline_s {
             done.baseline_n = record.mean_n(baseline_s)?;
             let above = record.force_n().iter().map(|p| p - done.baseline_n);
             record = record.with_rows(record.time_s().to_vec(), above.collect());
         }
-        if let Some(cutoff_hz) = asked.low_pass_hz {
+        if let Some(cutoff_hz) = low_pass_hz {
             let [least, most] = allowed_hz(record.time_s());
             if !(cutoff_hz > least && cutoff_hz <= most) {
                 return Err(TreatmentError {
@@ -155,20 +150,17 @@ mod tests {
     #[test]
     fn the_baseline_is_the_mean_over_time_of_the_first_part() {
         let uneven = record(&[1.0, 1.1, 3.0, 4.0], &[2.0, 2.0, 4.0, 0.0]);
-        let asked = |baseline_s| Treatment {
-            baseline_s: Some(baseline_s),
-            low_pass_hz: None,
-        };
-        let found = uneven.clone().treat(&asked(2.0)).unwrap();
+        let treated = |baseline_s| uneven.clone().treat(Some(baseline_s), None);
+        let found = treated(2.0).unwrap();
         // 0.1 of 2, 1.9 of 3
         let mean = (0.2 + 1.9 * 3.0) / 2.0;
         let done = found.treated.unwrap();
         assert!((done.baseline_n - mean).abs() < 1e-15);
         assert!((found.at(3.5) - (2.0 - mean)).abs() < 1e-15);
-        let half = uneven.clone().treat(&asked(0.05)).unwrap();
+        let half = treated(0.05).unwrap();
         assert!((half.treated.unwrap().baseline_n - 2.0).abs() < 1e-14);
         for bad in [0.0, 3.001, f64::NAN, -1.0] {
-            let message = uneven.clone().treat(&asked(bad)).unwrap_err().to_string();
+            let message = treated(bad).unwrap_err().to_string();
             assert!(message.contains("baseline_s"), "{message}");
         }
     }
@@ -176,7 +168,7 @@ mod tests {
     #[test]
     fn nothing_asked_is_nothing_done() {
         let given = record(&[0.0, 1.0], &[1.0, 2.0]);
-        let found = given.clone().treat(&Treatment::default()).unwrap();
+        let found = given.clone().treat(None, None).unwrap();
         assert_eq!(found, given);
         assert_eq!(found.treated, None);
     }
@@ -185,11 +177,11 @@ mod tests {
     fn cutoffs_beyond_the_record_are_refused_with_their_range() {
         let given = record(&[0.0, 1.0, 2.0], &[0.0, 2.0, 0.0]);
         for bad in [0.5, f64::NAN, f64::INFINITY, -1.0, 1e300] {
-            let asked = Treatment {
-                low_pass_hz: Some(bad),
-                ..Treatment::default()
-            };
-            let message = given.clone().treat(&asked).unwrap_err().to_string();
+            let message = given
+                .clone()
+                .treat(None, Some(bad))
+                .unwrap_err()
+                .to_string();
             assert!(
                 message.starts_with("low_pass_hz = ") && message.contains("(5.0000e-1, "),
                 "{message}"

@@ -8,24 +8,11 @@ use ledger::Dataset;
 use std::ops::Range;
 use std::path::Path;
 
-/// Nodes that share a damaged chunk of a dataset.
-#[derive(Debug, Clone, PartialEq)]
-pub struct DamagedPatch {
-    /// Poisson's ratio of the slice.
-    pub poisson_ratio: f64,
-    /// Name of the dataset.
-    pub dataset: &'static str,
-    /// First and last radius in r0.
-    pub r: [f64; 2],
-    /// First and last depth in r0.
-    pub z: [f64; 2],
-}
-
-/// The patches of nodes in the table at `path` that cannot be read; none if all can.
+/// Where nodes of the table at `path` share a damaged chunk of a dataset, in words; nothing if all can be read.
 ///
 /// # Errors
 /// [`TableError`] when the file cannot be opened, or axes or groups cannot be read.
-pub fn damaged_patches(path: &Path) -> Result<Vec<DamagedPatch>, TableError> {
+pub fn damaged_patches(path: &Path) -> Result<Vec<String>, TableError> {
     let source = open(path)?;
     let root = source.root();
     let r: Vec<f64> = source.list(&root, schema::R)?;
@@ -48,12 +35,14 @@ pub fn damaged_patches(path: &Path) -> Result<Vec<DamagedPatch>, TableError> {
                 };
                 let patch = [across.clone(), down.clone(), 0..fields, 0..last];
                 if data.block::<f32>(&patch, u64::MAX).is_err() {
-                    found.push(DamagedPatch {
-                        poisson_ratio: slice.ratio,
-                        dataset,
-                        r: [r[across.start], r[across.end - 1]],
-                        z: [z[down.start], z[down.end - 1]],
-                    });
+                    found.push(format!(
+                        "nu = {}, r/r0 = {} .. {}, z/r0 = {} .. {}: {dataset}",
+                        slice.ratio,
+                        r[across.start],
+                        r[across.end - 1],
+                        z[down.start],
+                        z[down.end - 1]
+                    ));
                 }
             }
         }

@@ -10,7 +10,7 @@ mod source;
 mod table_file;
 mod write;
 
-pub use damage::{DamagedPatch, damaged_patches};
+pub use damage::damaged_patches;
 pub use error::{BadTable, TableError};
 pub use read::{check_hash, check_whole, read, stated_hash};
 pub use table_file::TableFile;

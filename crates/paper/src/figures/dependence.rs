@@ -1,10 +1,10 @@
 //! Figure 5, the contact stress against the radius; and the paper's scheme against its step.
 
 use super::{Claim, HERTZ, Redrawn, WIDTH, printed, single};
-use crate::PaperError;
 use crate::case::{PRINTED_PA, RADIUS_M, STEP_S, TABLE_1_PA, VELOCITY_M_S};
 use crate::case::{coupled, explicit, hertz, kmax};
 use contact::{Collision, Exact, Solver};
+use fault::AnyError;
 use figure::{Axis, Figure, Legend, Panel, Sharing, Style};
 use impact::Impact;
 use rayon::prelude::*;
@@ -18,8 +18,8 @@ const POINTS: u32 = 24;
 
 /// Kmax over the radius in mm.
 fn over_radius(
-    impact: impl Fn(f64) -> Result<Impact, PaperError> + Sync,
-) -> Result<Vec<(f64, f64)>, PaperError> {
+    impact: impl Fn(f64) -> Result<Impact, AnyError> + Sync,
+) -> Result<Vec<(f64, f64)>, AnyError> {
     let [low, high] = RADII_M;
     let points = (0..=POINTS).into_par_iter().map(|i| {
         let radius_m = low * (high / low).powf(f64::from(i) / f64::from(POINTS));
@@ -38,7 +38,7 @@ fn slope(points: &[(f64, f64)]) -> f64 {
 }
 
 /// Fig. 5.
-pub(super) fn on_radius() -> Result<Redrawn, PaperError> {
+pub(super) fn on_radius() -> Result<Redrawn, AnyError> {
     let alone = over_radius(|radius_m| hertz(PRINTED_PA, radius_m))?;
     let on_block = over_radius(|radius_m| coupled(PRINTED_PA, radius_m))?;
     let (of_hertz, of_block) = (slope(&alone), slope(&on_block));
@@ -86,7 +86,7 @@ type Found = (f64, [f64; 3]);
 /// The printed values, and half a unit of their last digit.
 const PRINTED: [(f64, f64); 3] = [(14.11, 0.005), (27.0e-6, 0.05e-6), (0.991, 0.0005)];
 
-fn over_step(copper_pa: f64) -> Result<Vec<Found>, PaperError> {
+fn over_step(copper_pa: f64) -> Result<Vec<Found>, AnyError> {
     let steps: Vec<u32> = STEPS.collect();
     let found = steps.par_iter().map_init(
         || Solver::new(&Exact),
@@ -114,7 +114,7 @@ fn gives_all((_, values): &&Found) -> bool {
 }
 
 /// Kmax, contact time and restitution against the step.
-pub(super) fn on_step() -> Result<Redrawn, PaperError> {
+pub(super) fn on_step() -> Result<Redrawn, AnyError> {
     let (table_1, printed) = (over_step(TABLE_1_PA)?, over_step(PRINTED_PA)?);
     let axes = [
         Axis::linear("K_{max}"),

@@ -1,9 +1,9 @@
 //! Figures 7 to 11: the fields over time.
 
 use super::{Claim, Redrawn, single};
-use crate::PaperError;
 use crate::case::{RADIUS_M, Runs, STRENGTH_PA};
 use contact::WaveSpeeds;
+use fault::AnyError;
 use figure::{Axis, Figure, Legend, Panel, Style};
 use impact::{Field, FieldHistory, Run};
 use rayon::prelude::*;
@@ -127,7 +127,7 @@ impl Shown {
 }
 
 /// Figs 7 to 11.
-pub(super) fn figures(runs: &Runs) -> Result<Vec<Redrawn>, PaperError> {
+pub(super) fn figures(runs: &Runs) -> Result<Vec<Redrawn>, AnyError> {
     let mut places = Along::Surface.places(&SURFACE);
     places.extend(Along::Axis.places(&DEPTHS));
     places.extend(Along::Oblique.places(&OBLIQUE));
@@ -302,7 +302,7 @@ struct History<'a> {
 
 impl Histories {
     /// Computes them.
-    fn new(run: &Run, places: &[[f64; 2]]) -> Result<Self, PaperError> {
+    fn new(run: &Run, places: &[[f64; 2]]) -> Result<Self, AnyError> {
         let excitation = run.excitation();
         let fields = excitation
             .fields(1e-2 * TOLERANCE)?
@@ -310,7 +310,7 @@ impl Histories {
             .to_tolerance(TOLERANCE);
         let at = places.par_iter().map(|&[r, z]| {
             let history = fields.at(r * RADIUS_M, z * RADIUS_M)?;
-            Ok::<_, PaperError>(([r, z], history))
+            Ok::<_, AnyError>(([r, z], history))
         });
         Ok(Self {
             speeds: excitation.speeds(),

@@ -4,8 +4,8 @@ mod contact;
 mod dependence;
 mod fields;
 
-use crate::PaperError;
 use crate::case::Runs;
+use fault::AnyError;
 use figure::{Figure, LabelledPoint, Layer, Panel};
 
 /// A figure of the paper, redrawn, or one that explains it.
@@ -41,7 +41,7 @@ impl Claim {
 }
 
 /// All of them, in order.
-pub(crate) fn all(runs: &Runs) -> Result<Vec<Redrawn>, PaperError> {
+pub(crate) fn all(runs: &Runs) -> Result<Vec<Redrawn>, AnyError> {
     let mut all = vec![
         contact::history(runs),
         dependence::on_radius()?,

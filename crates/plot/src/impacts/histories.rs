@@ -5,7 +5,8 @@ use crate::series::{curve, end_s, waves_of};
 use crate::words::{component, of_quantity, unit_of, with_unit};
 use contact::{Model, Settings};
 use figure::{Axis, Legend, Panel, Style};
-use formats::stored::{StoredImpact, StoredProbes, StoredQuantity};
+use formats::quantities::Described;
+use formats::stored::{StoredImpact, StoredProbes};
 use impact::Impact;
 
 /// Probes that are shown beside a contact.
@@ -65,7 +66,7 @@ pub(super) fn contact_panels(
         }
         let (speeds, start_s) = waves_of(only)?;
         // of the faces of the block, where they are known
-        if let Some(echo_s) = speeds.first_echo_s(&only.scene.target, [0.0; 2], 0.0) {
+        if let Some(echo_s) = speeds.first_echo_s(&only.target, [0.0; 2], 0.0) {
             force = force.mark(start_s + echo_s, "first echo");
         }
         let points = curve(&only.series.time_s, &only.series.deflection_m, end_s);
@@ -124,11 +125,11 @@ fn deflection_name(impact: &StoredImpact) -> &'static str {
 /// Hertz's force for the same bodies: no waves and no disc. None where the file is it, or has no striker.
 fn hertz(impact: &StoredImpact, end_s: f64) -> Option<Vec<(f64, f64)>> {
     const POINTS: u32 = 400;
-    let strike = impact.scene.strike.as_ref()?;
+    let strike = impact.strike.as_ref()?;
     if impact.model == "hertz" {
         return None;
     }
-    let target = impact.scene.target.clone();
+    let target = impact.target.clone();
     let mut alone = Impact::new(target, strike.striker.clone(), strike.velocity_m_s);
     alone.settings = Settings {
         model: Model::Hertz,
@@ -166,7 +167,7 @@ pub(super) fn probe_panels(
         (given, _) => chosen(first.path(), &known, given)?,
     };
     // one axis has one unit
-    let mut by_unit: Vec<Vec<&StoredQuantity>> = Vec::new();
+    let mut by_unit: Vec<Vec<&Described>> = Vec::new();
     for quantity in &shown {
         match by_unit.iter_mut().find(|of| of[0].unit == quantity.unit) {
             Some(of_unit) => of_unit.push(quantity),
@@ -200,7 +201,7 @@ pub(super) fn probe_panels(
 fn probe_panel(
     impact: &StoredImpact,
     [r_m, z_m]: [f64; 2],
-    shown: &[&StoredQuantity],
+    shown: &[&Described],
     legend: Legend,
 ) -> Result<Panel, PlotError> {
     let quantity = match shown {
@@ -218,7 +219,7 @@ fn probe_panel(
             panel = panel.mark(start_s + arrival_s, name);
         }
     }
-    if let Some(echo_s) = speeds.first_echo_s(&impact.scene.target, [r_m, z_m], radius_m) {
+    if let Some(echo_s) = speeds.first_echo_s(&impact.target, [r_m, z_m], radius_m) {
         panel = panel.mark(start_s + echo_s, "valid until the echo");
     }
     Ok(panel)
@@ -241,7 +242,7 @@ fn with_traces(
     impact: &StoredImpact,
     probes: &StoredProbes,
     probe: usize,
-    shown: &[&StoredQuantity],
+    shown: &[&Described],
     label: Option<&str>,
 ) -> Result<Panel, PlotError> {
     for quantity in shown {

@@ -7,25 +7,22 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Most keys that a label names.
 const MOST_KEYS: usize = 3;
 
-/// Keys of a scene with their values.
-type Keys = BTreeMap<String, StoredValue>;
-
 /// One label an impact.
 pub(super) fn labels(impacts: &[StoredImpact]) -> Vec<String> {
     let keys = |impact: &StoredImpact| {
-        let mut keys: Keys = impact.scene.keys().into_iter().collect();
+        let mut keys: BTreeMap<String, StoredValue> = impact.keys().into_iter().collect();
         // what was computed, rather than "auto"
         let model = StoredValue::Text(impact.model.clone());
         keys.insert("contact.model".to_owned(), model);
         keys
     };
-    let scenes: Vec<Keys> = impacts.iter().map(keys).collect();
+    let scenes: Vec<BTreeMap<String, StoredValue>> = impacts.iter().map(keys).collect();
     let stems = || impacts.iter().map(|impact| stem(impact.path())).collect();
     by_difference(&scenes).unwrap_or_else(stems)
 }
 
 /// Labels from the keys that differ; none where there are none, too many, or two scenes get the same.
-fn by_difference(scenes: &[Keys]) -> Option<Vec<String>> {
+fn by_difference(scenes: &[BTreeMap<String, StoredValue>]) -> Option<Vec<String>> {
     let mut keys: BTreeSet<&String> = scenes.iter().flatten().map(|(key, _)| key).collect();
     keys.retain(|&key| {
         scenes
@@ -38,7 +35,7 @@ fn by_difference(scenes: &[Keys]) -> Option<Vec<String>> {
     if keys.is_empty() || keys.len() > MOST_KEYS {
         return None;
     }
-    let label = |scene: &Keys| {
+    let label = |scene: &BTreeMap<String, StoredValue>| {
         let parts = keys.iter().map(|&key| {
             let (name, unit) = of_key(key);
             match scene.get(key) {
@@ -74,8 +71,8 @@ fn is_of_material(key: &str, section: &str) -> bool {
 mod tests {
     use super::*;
 
-    fn scene(velocity: f64, model: &str) -> Keys {
-        Keys::from([
+    fn scene(velocity: f64, model: &str) -> BTreeMap<String, StoredValue> {
+        BTreeMap::from([
             ("striker.mass_kg".into(), StoredValue::Number(3.3e-5)),
             ("striker.velocity_m_s".into(), StoredValue::Number(velocity)),
             ("contact.model".into(), StoredValue::Text(model.into())),

@@ -118,10 +118,10 @@ fn title(impacts: &[StoredImpact]) -> String {
     if impacts.len() > 1 {
         return format!("{} impacts", impacts.len());
     }
-    let Some(strike) = &impacts[0].scene.strike else {
+    let Some(strike) = &impacts[0].strike else {
         return "A given force on the half-space".to_owned();
     };
-    let keys = impacts[0].scene.keys();
+    let keys = impacts[0].keys();
     let material = |section: &str| {
         let key = format!("{section}.material");
         keys.iter().find_map(|(name, value)| match value {

@@ -9,7 +9,8 @@ use figure::{
     Axis, ColourMap, ColourScale, Image, LabelledPoint, Layer, Limits, Line, Mirror, Panel,
     Shading, Style,
 };
-use formats::stored::{ReadError, StoredImpact, StoredQuantity, StoredSection};
+use formats::quantities::Described;
+use formats::stored::{ReadError, StoredImpact, StoredSection};
 use std::f64::consts::FRAC_PI_2;
 use std::path::Path;
 
@@ -233,18 +234,12 @@ pub(super) struct Quantity {
     pub(super) words: String,
     /// Unit without a prefix.
     pub(super) unit: String,
-    recipe: Recipe,
+    /// What it is made of: nothing where it is stored itself, the components of a length, or all stresses.
+    parts: &'static [&'static str],
 }
 
-/// How a quantity follows from what is stored.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Recipe {
-    Stored,
-    /// Length of the vector of two.
-    Length(&'static str, &'static str),
-    /// From the stresses.
-    Stress(impact::Quantity),
-}
+/// Stresses that others follow from.
+const STRESSES: [&str; 4] = ["stress_rr", "stress_tt", "stress_zz", "stress_rz"];
 
 /// What follows from stresses without the elastic constants.
 const OF_STRESSES: [impact::Quantity; 6] = [
@@ -258,21 +253,15 @@ const OF_STRESSES: [impact::Quantity; 6] = [
 
 impl Quantity {
     /// The quantity of a name, stored or not.
-    pub(super) fn named(
-        name: &str,
-        stored: &[StoredQuantity],
-        path: &Path,
-    ) -> Result<Self, PlotError> {
+    pub(super) fn named(name: &str, stored: &[Described], path: &Path) -> Result<Self, PlotError> {
         let find = |name: &str| stored.iter().find(|quantity| quantity.name == name);
         let stress = OF_STRESSES.into_iter().find(|of| of.name() == name);
-        let (unit, recipe) = match (find(name), stress, name) {
-            (Some(found), _, _) => (found.unit.as_str(), Recipe::Stored),
-            (None, Some(of), _) => ("Pa", Recipe::Stress(of)),
-            (None, None, "displacement") => {
-                ("m", Recipe::Length("displacement_r", "displacement_z"))
-            }
+        let (unit, parts): (&str, &'static [&'static str]) = match (find(name), stress, name) {
+            (Some(found), _, _) => (&found.unit, &[]),
+            (None, Some(_), _) => ("Pa", &STRESSES),
+            (None, None, "displacement") => ("m", &["displacement_r", "displacement_z"]),
             (None, None, "speed") if find("velocity_r").and(find("velocity_z")).is_some() => {
-                ("m/s", Recipe::Length("velocity_r", "velocity_z"))
+                ("m/s", &["velocity_r", "velocity_z"])
             }
             (None, None, _) => {
                 let known = stored.iter().map(|quantity| quantity.name.as_str());
@@ -285,7 +274,7 @@ impl Quantity {
             name: name.to_owned(),
             words: of_quantity(name),
             unit: unit.to_owned(),
-            recipe,
+            parts,
         })
     }
 
@@ -315,19 +304,15 @@ impl Quantity {
             let values = section.frame(name, frame)?;
             Ok(values.into_iter().map(f64::from).collect())
         };
-        Ok(match self.recipe {
-            Recipe::Stored => stored(&self.name)?,
-            Recipe::Length(a, b) => {
-                let pairs = stored(a)?.into_iter().zip(stored(b)?);
-                pairs.map(|(a, b)| a.hypot(b)).collect()
-            }
-            Recipe::Stress(of) => {
-                let [rr, tt, zz, rz] =
-                    ["rr", "tt", "zz", "rz"].map(|name| stored(&format!("stress_{name}")));
-                let (rr, tt, zz, rz) = (rr?, tt?, zz?, rz?);
+        let parts = self.parts.iter().map(|name| stored(name));
+        let parts: Vec<Vec<f64>> = parts.collect::<Result<_, _>>()?;
+        Ok(match (parts.as_slice(), self.stress()) {
+            ([a, b], _) => a.iter().zip(b).map(|(a, b)| a.hypot(*b)).collect(),
+            ([rr, tt, zz, rz], Some(of)) => {
                 let at = |i: usize| of.of([rr[i], tt[i], zz[i], rz[i]], [1.0, 0.0]);
                 (0..rr.len()).map(at).collect()
             }
+            (_, _) => stored(&self.name)?,
         })
     }
 }

@@ -172,7 +172,7 @@ fn static_points(
     }
     let field = FIELDS.iter().position(|field| field.0 == quantity.name);
     let stress = quantity.stress();
-    let target = &section.impact.scene.target;
+    let target = &section.impact.target;
     let medium = Medium::new(target.material().poisson_ratio)?;
     let kernel = Kernel::new(&medium, Profile::Hertz, 1e-10)?;
     let units = KernelUnits {

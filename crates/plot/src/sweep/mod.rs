@@ -9,7 +9,9 @@ use figure::{
     Axis, ColourMap, ColourScale, Figure, Histogram, Image, Layer, Legend, Panel, Scale, Shading,
     Style,
 };
-use formats::stored::{StoredQuantity, StoredSweep};
+use formats::quantities::Described;
+use formats::stored::StoredSweep;
+use formats::sweep::Column;
 use view::{SHARES, Slice, View, quantiles};
 
 /// Results that are shown when none is asked for.
@@ -134,7 +136,7 @@ fn subtitle(view: &View<'_>, kind: Kind, along: Option<usize>) -> String {
 }
 
 /// A result in words: `peak_force_n` is "peak force".
-fn result_words(quantity: &StoredQuantity) -> String {
+fn result_words(quantity: &Described) -> String {
     if quantity.name == "loss" {
         return "energy lost, 1 \u{2212} e^{2}".to_owned();
     }
@@ -175,7 +177,7 @@ impl Nodes {
         let Some((column, values)) = view.numbers(number, asked) else {
             return Err(PlotError::no_numbers(&view.sweep.axes[number].name));
         };
-        let (name, unit) = of_key(&column.name);
+        let (name, unit) = of_key(&column.name());
         // grams for kilograms, which have a prefix already
         let factor = if unit == "kg" { 1e3 } else { 1.0 };
         let places: Vec<f64> = values.iter().map(|x| factor * x).collect();
@@ -360,7 +362,7 @@ fn loss(view: &View<'_>, shown: &Shown<'_>) -> Result<Panel, PlotError> {
 /// with Johnson's slope.
 fn restitution(view: &View<'_>, shown: &Shown<'_>) -> Result<Panel, PlotError> {
     let mut panel = over_velocity(view, shown)?;
-    let is_known = |quantity: &StoredQuantity| quantity.name == AT_YIELD;
+    let is_known = |quantity: &Described| quantity.name == AT_YIELD;
     let at_yield = match view.sweep.quantities().iter().any(is_known) {
         true => view.sweep.values(AT_YIELD)?,
         false => Vec::new(),
@@ -427,7 +429,7 @@ fn few(view: &View<'_>, slices: Vec<Slice>, most: usize) -> Result<Vec<Slice>, P
         "{} would give {} curves, and {most} can be told apart: choose among them, such as by --at {}=VALUE",
         path.display(),
         slices.len(),
-        key.map_or("", |column| &column.name)
+        key.map_or_else(String::new, Column::name)
     );
     Err(PlotError::refused(Some(path), sentence))
 }

@@ -3,8 +3,8 @@
 use crate::error::PlotError;
 use crate::request::Request;
 use crate::words::{of_key, with_unit};
-use formats::stored::{StoredColumn, StoredSweep};
-use formats::sweep::Values;
+use formats::stored::StoredSweep;
+use formats::sweep::{Column, Values};
 
 /// Shares of draws below the band, at its middle and below its upper end.
 pub(super) const SHARES: [f64; 3] = [0.05, 0.5, 0.95];
@@ -56,9 +56,9 @@ impl<'a> View<'a> {
         &self,
         axis: usize,
         asked: Option<&str>,
-    ) -> Option<(&'a StoredColumn, &'a [f64])> {
+    ) -> Option<(&'a Column, &'a [f64])> {
         let columns = self.sweep.axes[axis].columns.iter();
-        let mut asked = columns.filter(|column| asked.is_none_or(|name| name == column.name));
+        let mut asked = columns.filter(|column| asked.is_none_or(|name| name == column.name()));
         asked.find_map(|column| match &column.values {
             Values::Numbers(values) => Some((column, values.as_slice())),
             Values::Texts(_) | Values::Drawn(_) => None,
@@ -118,7 +118,7 @@ impl<'a> View<'a> {
     /// What is at a place of an axis, in words: `granite`, `tip radius 2 mm`.
     fn name(&self, axis: usize, index: usize) -> String {
         let parts = self.sweep.axes[axis].columns.iter().map(|column| {
-            let (name, unit) = of_key(&column.name);
+            let (name, unit) = of_key(&column.name());
             match &column.values {
                 Values::Numbers(values) => format!("{name} {}", with_unit(values[index], unit)),
                 Values::Drawn(drawn) => format!("{name} {}", with_unit(drawn.at(index), unit)),
@@ -156,19 +156,20 @@ impl<'a> View<'a> {
 }
 
 /// The axis and the column of a key.
-fn find<'a>(sweep: &'a StoredSweep, key: &str) -> Result<(usize, &'a StoredColumn), PlotError> {
+fn find<'a>(sweep: &'a StoredSweep, key: &str) -> Result<(usize, &'a Column), PlotError> {
     let axes = sweep.axes.iter().enumerate();
     let mut all = axes.flat_map(|(i, axis)| axis.columns.iter().map(move |c| (i, c)));
-    let names = all.clone().map(|(_, column)| column.name.as_str());
-    let found = all.find(|(_, column)| column.name == key);
+    let names: Vec<String> = all.clone().map(|(_, column)| column.name()).collect();
+    let names = names.iter().map(String::as_str);
+    let found = all.find(|(_, column)| column.name() == key);
     found.ok_or_else(|| PlotError::unknown(sweep.path(), format!("the key {key}"), key, names))
 }
 
 /// The index of a value of a key, a number to nine digits.
-fn index_of(sweep: &StoredSweep, column: &StoredColumn, value: &str) -> Result<usize, PlotError> {
+fn index_of(sweep: &StoredSweep, column: &Column, value: &str) -> Result<usize, PlotError> {
     /// Numbers that are told, at most.
     const MOST: usize = 12;
-    let key = &column.name;
+    let key = column.name();
     if let Values::Texts(words) = &column.values {
         let found = words.iter().position(|word| word == value);
         let words = words.iter().map(String::as_str);

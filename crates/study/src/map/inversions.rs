@@ -1,10 +1,10 @@
 //! Error of every inversion over time, from before the first arrival to long after the last.
 
-use crate::StudyError;
 use crate::inversion::Inversion;
 use crate::measure::Effort;
 use crate::picture::Picture;
 use crate::question::kernels::{KernelScene, POISSON_RATIO};
+use fault::AnyError;
 use figure::{Axis, Style};
 use halfspace::{Kernel, Medium, Profile, Six};
 
@@ -15,7 +15,7 @@ const CAPTION: &str = "Fixed Talbot, which is the best of all after the last fro
     the fronts are and does not notice them.";
 
 /// One picture for the surface centre, one for the interior and one for the axis.
-pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>, StudyError> {
+pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>, AnyError> {
     let medium = Medium::new(POISSON_RATIO)?;
     let count = effort.pick(40, 160);
     let draw = |name, what: &str, scene: KernelScene| {
@@ -43,7 +43,7 @@ fn over_scene(
     title: &str,
     effort: Effort,
     advance: &dyn Fn(),
-) -> Result<Picture, StudyError> {
+) -> Result<Picture, AnyError> {
     let last = scene.times.last().copied().unwrap_or(1.0);
     let mut figure = Picture::new(
         name,

@@ -1,9 +1,9 @@
 //! Where the kernels' formulas lose digits: potentials far away, coalescing roots, incompressible solids.
 
-use crate::StudyError;
 use crate::measure::Effort;
 use crate::picture::Picture;
 use crate::question::single_integral::closed_potentials;
+use fault::AnyError;
 use figure::{Axis, Interval, Style};
 use halfspace::gauss::Rule;
 use halfspace::{Deflection, Kernel, Medium, Profile, SurfaceResponse, kausel};
@@ -46,7 +46,7 @@ pub fn closed_form_error(size: f64, direction: f64, r: f64) -> f64 {
 ///
 /// # Errors
 /// None for depths in the domain of the kernels.
-pub fn deep_static_error(medium: &Medium, r: f64, z: f64) -> Result<f64, StudyError> {
+pub fn deep_static_error(medium: &Medium, r: f64, z: f64) -> Result<f64, AnyError> {
     let kernel = Kernel::new(medium, Profile::Hertz, 1e-10)?;
     let [a3, a2] = chord_potentials(z.into(), r);
     let exact = (1.0 - medium.poisson_ratio()) * a3.re + 0.5 * z * a2.re;
@@ -57,7 +57,7 @@ pub fn deep_static_error(medium: &Medium, r: f64, z: f64) -> Result<f64, StudyEr
 ///
 /// # Errors
 /// When the ratio is outside (-1, 0.5).
-pub fn double_root_error(distance: f64) -> Result<f64, StudyError> {
+pub fn double_root_error(distance: f64) -> Result<f64, AnyError> {
     let medium = Medium::new(DOUBLE_ROOT + distance)?;
     let response = SurfaceResponse::new(&medium, Deflection::Centre);
     let worst = (1..40).map(|i| {
@@ -71,7 +71,7 @@ pub fn double_root_error(distance: f64) -> Result<f64, StudyError> {
 ///
 /// # Errors
 /// When the ratio is outside (-1, 0.5).
-pub fn double_root_own_error(distance: f64) -> Result<f64, StudyError> {
+pub fn double_root_own_error(distance: f64) -> Result<f64, AnyError> {
     let medium = Medium::new(DOUBLE_ROOT + distance)?;
     let response = SurfaceResponse::new(&medium, Deflection::Centre);
     let kernel = Kernel::new(&medium, Profile::Hertz, 1e-14)?;
@@ -91,7 +91,7 @@ pub fn double_root_own_error(distance: f64) -> Result<f64, StudyError> {
 ///
 /// # Errors
 /// When the ratio is outside (-1, 0.5).
-pub fn incompressible_error(distance: f64) -> Result<f64, StudyError> {
+pub fn incompressible_error(distance: f64) -> Result<f64, AnyError> {
     let medium = Medium::new(0.5 - distance)?;
     let (coarse, fine) = (
         Kernel::new(&medium, Profile::Hertz, 1e-8)?,
@@ -118,7 +118,7 @@ pub fn incompressible_error(distance: f64) -> Result<f64, StudyError> {
 ///
 /// # Errors
 /// When the ratio is outside (-1, 0.5).
-pub fn incompressible_surface(distance: f64) -> Result<[f64; 2], StudyError> {
+pub fn incompressible_surface(distance: f64) -> Result<[f64; 2], AnyError> {
     let medium = Medium::new(0.5 - distance)?;
     let response = SurfaceResponse::new(&medium, Deflection::Centre);
     Ok([
@@ -128,7 +128,7 @@ pub fn incompressible_surface(distance: f64) -> Result<[f64; 2], StudyError> {
 }
 
 /// All three pictures.
-pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>, StudyError> {
+pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>, AnyError> {
     let done = vec![
         potentials(effort)?,
         double_root(effort)?,
@@ -144,15 +144,15 @@ fn add(
     name: &str,
     style: Style,
     places: &[f64],
-    error: impl Fn(f64) -> Result<f64, StudyError>,
-) -> Result<(), StudyError> {
+    error: impl Fn(f64) -> Result<f64, AnyError>,
+) -> Result<(), AnyError> {
     let point = |&x: &f64| Ok((x, error(x)?.max(1e-17)));
-    let points: Result<_, StudyError> = places.iter().map(point).collect();
+    let points: Result<_, AnyError> = places.iter().map(point).collect();
     figure.curve(name, style, points?);
     Ok(())
 }
 
-fn potentials(effort: Effort) -> Result<Picture, StudyError> {
+fn potentials(effort: Effort) -> Result<Picture, AnyError> {
     let x = Interval::logarithmic(3.0, 1e6);
     let sizes = x.cells(effort.pick(40, 120));
     let mut figure = Picture::new(
@@ -183,7 +183,7 @@ fn potentials(effort: Effort) -> Result<Picture, StudyError> {
     Ok(figure)
 }
 
-fn double_root(effort: Effort) -> Result<Picture, StudyError> {
+fn double_root(effort: Effort) -> Result<Picture, AnyError> {
     let x = Interval::logarithmic(1e-16, 0.1);
     let distances = x.cells(effort.pick(16, 60));
     let mut figure = Picture::new(
@@ -214,7 +214,7 @@ fn double_root(effort: Effort) -> Result<Picture, StudyError> {
     Ok(figure)
 }
 
-fn incompressible(effort: Effort) -> Result<Picture, StudyError> {
+fn incompressible(effort: Effort) -> Result<Picture, AnyError> {
     let x = Interval::logarithmic(1e-9, 0.5);
     let distances = x.cells(effort.pick(12, 40));
     let mut figure = Picture::new(

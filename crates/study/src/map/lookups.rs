@@ -3,11 +3,11 @@
 //! The errors are those that a table carries of itself: measured at the centre of every mesh, the worst place
 //! between its nodes.
 
-use crate::StudyError;
 use crate::measure::Effort;
 use crate::picture::Picture;
 use crate::question::kernels::POISSON_RATIO;
 use crate::scenes::Density;
+use fault::AnyError;
 use figure::{Axis, Interval, Style};
 use halfspace::Medium;
 use lookup::Table;
@@ -43,7 +43,7 @@ fn error_at(table: &Table, i: usize, k: usize, pulse: usize) -> f64 {
 }
 
 /// One picture for the first mesh below the surface and one for half a radius down.
-pub(crate) fn figures(densities: &[Density], effort: Effort) -> Result<Vec<Picture>, StudyError> {
+pub(crate) fn figures(densities: &[Density], effort: Effort) -> Result<Vec<Picture>, AnyError> {
     let Some(density) = densities.iter().find(|d| d.is_default(Density::points())) else {
         return Ok(Vec::new());
     };

@@ -15,7 +15,6 @@
 //! by half a step, which feeds h (25/16) int p^2 into the striker, and w by a step, which takes
 //! h (5/2) int p' w' out again.
 
-use crate::StudyError;
 use crate::measure::Effort;
 use crate::picture::Picture;
 use crate::scenes::{HERTZ_PA, ROD_RADIUS_M, paper};
@@ -24,6 +23,7 @@ use contact::{
     ExactDisc, History, MarchError, StaticShare, Summary, march_explicit, march_implicit,
     memory_weights,
 };
+use fault::AnyError;
 use figure::{Axis, Interval, Style};
 use halfspace::{Deflection, Medium, SurfaceResponse};
 
@@ -175,12 +175,12 @@ fn maxima(force: &[f64]) -> usize {
 }
 
 /// The paper's disc with E = 129 GPa for the copper, which its Hertz values are computed with.
-pub fn paper_disc<'a>(response: &'a SurfaceResponse) -> Result<ExactDisc<'a>, StudyError> {
+pub fn paper_disc<'a>(response: &'a SurfaceResponse) -> Result<ExactDisc<'a>, AnyError> {
     Ok(paper(HERTZ_PA)?.fixed_disc(response, ROD_RADIUS_M, StaticShare::Full))
 }
 
 /// The steel block's response under the paper's disc.
-pub fn paper_response() -> Result<SurfaceResponse, StudyError> {
+pub fn paper_response() -> Result<SurfaceResponse, AnyError> {
     Ok(SurfaceResponse::new(&Medium::new(0.3)?, Deflection::Centre))
 }
 
@@ -199,8 +199,8 @@ impl<C> MarchPlane<C> {
     fn new(
         x: Interval,
         effort: Effort,
-        column: impl FnMut(f64) -> Result<C, StudyError>,
-    ) -> Result<Self, StudyError> {
+        column: impl FnMut(f64) -> Result<C, AnyError>,
+    ) -> Result<Self, AnyError> {
         let shape = effort.pick([16, 14], [48, 40]);
         let columns = x.cells(shape[0]).into_iter().map(column);
         Ok(Self {
@@ -276,7 +276,7 @@ fn mark(figure: &mut Picture, paper: &Converged<'_>, says: impl Fn(f64) -> Strin
 }
 
 /// Draws the three maps.
-pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>, StudyError> {
+pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>, AnyError> {
     let response = paper_response()?;
     let disc = paper_disc(&response)?;
     let plane = MarchPlane::new(Interval::logarithmic(0.1, 100.0), effort, |stiffness| {
@@ -459,7 +459,7 @@ const DYNAMIC: [&str; 4] = [
 ];
 
 /// The `dynamic` share in the plane of coupling and step: where it has no solution, and where a coarse step hides that.
-fn dynamic_share(paper: &ExactDisc<'_>, effort: Effort) -> Result<Picture, StudyError> {
+fn dynamic_share(paper: &ExactDisc<'_>, effort: Effort) -> Result<Picture, AnyError> {
     let plane = MarchPlane::new(Interval::logarithmic(0.05, 5.0), effort, |coupling| {
         let disc = dynamic(paper, coupling);
         Ok((disc, Converged::new(disc).ok()))

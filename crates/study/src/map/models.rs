@@ -4,7 +4,6 @@
 //! that follows the load, and the coupling of a fixed disc, the paper's, whose whole deflection is added to Hertz's
 //! indentation; memory is the time that the waves need across the contact, over Hertz's contact time.
 
-use crate::StudyError;
 use crate::measure::Effort;
 use crate::picture::Picture;
 use crate::question::marching::{Results, errors, results};
@@ -17,6 +16,7 @@ use contact::law::radiation::{LARGEST_LAG, LOSS, radiation};
 use contact::{Accuracy, ExactDisc, GrowingContact, Library, MarchError, PunchWaves};
 use contact::{Family, Groups, Rung, choose};
 use contact::{StaticShare, Summary, march_growing, march_implicit, refine};
+use fault::AnyError;
 use figure::{Axis, Interval, Style};
 use halfspace::{Deflection, Medium, SurfaceResponse};
 use impact::Impact;
@@ -91,7 +91,7 @@ impl Plane {
     ///
     /// # Errors
     /// When the ratio is outside (-1, 0.5).
-    pub fn new(poisson_ratio: f64) -> Result<Self, StudyError> {
+    pub fn new(poisson_ratio: f64) -> Result<Self, AnyError> {
         let medium = Medium::new(poisson_ratio)?;
         Ok(Self {
             waves: PunchWaves::new(&medium),
@@ -231,7 +231,7 @@ fn memory_of_change(low: f64, leaves: Rung, chosen: impl Fn(f64) -> Rung) -> f64
 ///
 /// # Errors
 /// When the library's material makes no scene.
-pub fn place_of(target: &str, velocity_m_s: f64) -> Result<(f64, f64), StudyError> {
+pub fn place_of(target: &str, velocity_m_s: f64) -> Result<(f64, f64), AnyError> {
     let collision = collision(&ball(target, velocity_m_s)?);
     let centre = SurfaceResponse::new(
         &Medium::new(collision.target_poisson_ratio)?,
@@ -245,7 +245,7 @@ pub fn place_of(target: &str, velocity_m_s: f64) -> Result<(f64, f64), StudyErro
 ///
 /// # Errors
 /// When the library's material makes no half-space.
-pub fn ball_impact(target: &str, velocity_m_s: f64, tolerance: f64) -> Result<Impact, StudyError> {
+pub fn ball_impact(target: &str, velocity_m_s: f64, tolerance: f64) -> Result<Impact, AnyError> {
     Ok(ball(target, velocity_m_s)?.to_tolerance(tolerance))
 }
 
@@ -289,7 +289,7 @@ impl Map<'_> {
         &self,
         at: impl Fn(f64, f64) -> Result<ModelErrors, MarchError>,
         advance: &dyn Fn(),
-    ) -> Result<Vec<ModelErrors>, StudyError> {
+    ) -> Result<Vec<ModelErrors>, AnyError> {
         let [x, y] = self.plane;
         let mut errors = Vec::new();
         for &memory in &y.cells(self.shape[1]) {
@@ -334,14 +334,14 @@ impl Map<'_> {
 }
 
 /// A picture a tolerance for contacts that follow the load, then for the paper's disc.
-pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>, StudyError> {
+pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>, AnyError> {
     let mut figures = growing_figures(effort, advance)?;
     figures.extend(disc_figures(effort)?);
     advance();
     Ok(figures)
 }
 
-fn growing_figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>, StudyError> {
+fn growing_figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>, AnyError> {
     let plane = Plane::new(0.3)?;
     let x = Interval::logarithmic(0.01, 1.15);
     let y = Interval::logarithmic(1e-4, 3.0);
@@ -396,7 +396,7 @@ fn growing_figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>, S
     Ok(figures)
 }
 
-fn disc_figures(effort: Effort) -> Result<Vec<Picture>, StudyError> {
+fn disc_figures(effort: Effort) -> Result<Vec<Picture>, AnyError> {
     let response = SurfaceResponse::new(&Medium::new(0.3)?, Deflection::Centre);
     let paper = paper(TABLE_1_PA)?.fixed_disc(&response, ROD_RADIUS_M, StaticShare::Full);
     let map = Map {

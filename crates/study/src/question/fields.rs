@@ -11,10 +11,10 @@
 //! ```
 
 use super::kernels::POISSON_RATIO;
-use crate::StudyError;
 use crate::measure::{Candidate, Effort, Scene};
 use crate::record::{Question, Record};
 use crate::scenes::Density;
+use fault::AnyError;
 use halfspace::gauss::Rule;
 use halfspace::{Arrivals, FIELDS, Kernel, Medium, Profile, Six};
 use impact::convolve::{Convolver, Method};
@@ -55,7 +55,7 @@ pub(crate) fn measure(
     effort: Effort,
     densities: &[Density],
     advance: &dyn Fn(),
-) -> Result<Vec<Record>, StudyError> {
+) -> Result<Vec<Record>, AnyError> {
     let medium = Medium::new(POISSON_RATIO)?;
     let mut scenes = Vec::new();
     for (name, interpolation, place, length) in &SCENES[..effort.pick(1, 3)] {
@@ -91,7 +91,7 @@ fn response(convolver: &Convolver, rest: &Six, cells: &[Six]) -> Vec<Six> {
 }
 
 /// Cells computed for the point itself, for a force that is linear or smooth between samples.
-fn exact_cells(medium: &Medium, compared: &mut Compared<'_>) -> Result<(), StudyError> {
+fn exact_cells(medium: &Medium, compared: &mut Compared<'_>) -> Result<(), AnyError> {
     use Smoothness::{Linear, Smooth};
     // smoothness, kernel tolerance and halvings of the step; the program's own tolerance goes with the scene's
     let settings: [(Smoothness, f64, &[i32], &[i32]); 4] = [
@@ -141,7 +141,7 @@ fn exact_cells(medium: &Medium, compared: &mut Compared<'_>) -> Result<(), Study
 }
 
 /// Tables of several densities and stencils, coarser cells, three ways to sum.
-fn looked_up(densities: &[Density], compared: &mut Compared<'_>) -> Result<(), StudyError> {
+fn looked_up(densities: &[Density], compared: &mut Compared<'_>) -> Result<(), AnyError> {
     use Method::{Direct, Transform};
     use Smoothness::{Linear, Smooth};
     // for which forces, and how they are summed: none is by running sums of the two exponentials of the pulse
@@ -206,7 +206,7 @@ impl PulseReference {
         length: f64,
         every: f64,
         count: usize,
-    ) -> Result<Self, StudyError> {
+    ) -> Result<Self, AnyError> {
         let kernel = Kernel::new(medium, Profile::Hertz, 1e-12)?;
         let arrivals = Arrivals::new(medium, Profile::Hertz, r, z)?;
         let rest = kernel.static_field(r, z)?;
@@ -299,8 +299,8 @@ impl Compared<'_> {
         setting: String,
         default_path: bool,
         width: f64,
-        run: impl Fn() -> Result<Vec<Six>, StudyError>,
-    ) -> Result<(), StudyError> {
+        run: impl Fn() -> Result<Vec<Six>, AnyError>,
+    ) -> Result<(), AnyError> {
         if !self.pulse.meets(width) {
             return Ok(());
         }
@@ -368,7 +368,7 @@ pub(crate) fn series(point: &tabulator::PointKernels, width: f64, count: usize) 
 
 /// Interpolating the whole response against interpolating the remainder beside the exact static part: by the same stencils
 /// over the same exact kernels in double precision.
-fn interpolations(medium: &Medium, compared: &mut Compared<'_>) -> Result<(), StudyError> {
+fn interpolations(medium: &Medium, compared: &mut Compared<'_>) -> Result<(), AnyError> {
     let [r, z] = compared.pulse.place;
     let width = 0.1;
     let count = compared.pulse.count(width);

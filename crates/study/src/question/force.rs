@@ -4,7 +4,6 @@
 //! peak displacement against the converged march of the fullest model of its family.
 
 use super::marching::{Order, Results, errors, march, results};
-use crate::StudyError;
 use crate::measure::{Candidate, Effort, Run, Scene};
 use crate::record::{Question, Record};
 use crate::scenes::{ROD_RADIUS_M, TABLE_1_PA, ball, collision, paper};
@@ -17,6 +16,7 @@ use contact::{
     Outcomes, PunchWaves, Ratios, ResponseTable, Settings, Solver, StaticShare, Summary, Tabulated,
     Workspace, march_explicit, march_growing, march_implicit, refine, solve_disc, solve_growing,
 };
+use fault::AnyError;
 use halfspace::{Deflection, Medium, SurfaceResponse};
 use std::cell::{Cell, RefCell};
 use std::hint::black_box;
@@ -28,7 +28,7 @@ pub(crate) const DISC: &str = "copper rod on steel, fixed disc";
 pub(crate) const BALL: &str = "steel ball on steel at 1 m/s, growing contact";
 
 /// Measures every method in both scenes.
-pub(crate) fn measure(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Record>, StudyError> {
+pub(crate) fn measure(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Record>, AnyError> {
     let mut records = Vec::new();
     let mut measure = |scene, exact: &Summary, candidates: Vec<Candidate<'_, Results>>| {
         let scene = Scene {
@@ -41,7 +41,7 @@ pub(crate) fn measure(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Record>,
             records.push(scene.measure(effort, &candidate)?);
         }
         advance();
-        Ok::<_, StudyError>(())
+        Ok::<_, AnyError>(())
     };
     let collided = paper(TABLE_1_PA)?;
     let medium = Medium::new(collided.target_poisson_ratio)?;
@@ -267,7 +267,7 @@ fn from_series<'a>(
     responses: &'a Tabulated,
     made: &'a [(Settings, Outcomes)],
     collision: &'a Collision,
-) -> Result<Vec<Candidate<'a, Results>>, StudyError> {
+) -> Result<Vec<Candidate<'a, Results>>, AnyError> {
     let mut list = Vec::new();
     for (settings, outcomes) in made {
         let solver = RefCell::new(Solver::sharing(responses, outcomes));

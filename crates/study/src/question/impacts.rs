@@ -4,11 +4,11 @@
 //! field's peak, against an integral over the past of a force that was solved to 1e-9.
 
 use super::kernels::POISSON_RATIO;
-use crate::StudyError;
 use crate::measure::{Candidate, Effort, Scene};
 use crate::record::{Question, Record};
 use crate::scenes::{Density, ROD_RADIUS_M};
 use contact::{Model, Settings};
+use fault::AnyError;
 use halfspace::{FIELDS, Medium, Six};
 use impact::convolve::Convolver;
 use impact::kernels::{CellPlan, Pulse};
@@ -39,7 +39,7 @@ pub(crate) fn measure(
     effort: Effort,
     densities: &[Density],
     advance: &dyn Fn(),
-) -> Result<Vec<Record>, StudyError> {
+) -> Result<Vec<Record>, AnyError> {
     let own = densities.iter().find(|d| d.is_default(Density::points()));
     let mut records = Vec::new();
     for probed in scenes()? {
@@ -49,11 +49,11 @@ pub(crate) fn measure(
             values: 1.0,
             errors: &|found: &Histories| probed.errors(effort, found),
         };
-        let mut add = |method, setting, is_own, run: &dyn Fn() -> Result<Histories, StudyError>| {
+        let mut add = |method, setting, is_own, run: &dyn Fn() -> Result<Histories, AnyError>| {
             let run = || Ok((run()?, None));
             let candidate = Candidate::new(method, setting, run).default_path(is_own);
             records.push(scene.measure(effort, &candidate)?);
-            Ok::<_, StudyError>(())
+            Ok::<_, AnyError>(())
         };
         let tolerances: &[f64] = effort.pick(&[1e-3, 1e-5], &[1e-2, 1e-3, 1e-4, 1e-5, 1e-6]);
         for &tolerance in tolerances {
@@ -87,7 +87,7 @@ pub(crate) fn measure(
 }
 
 /// A copper rod with a round tip on steel, on a fixed disc and with a contact that grows, near it and far away.
-fn scenes() -> Result<Vec<Probed>, StudyError> {
+fn scenes() -> Result<Vec<Probed>, AnyError> {
     let steel = Material {
         poisson_ratio: POISSON_RATIO,
         ..Material::named("steel")?
@@ -119,7 +119,7 @@ fn scenes() -> Result<Vec<Probed>, StudyError> {
 }
 
 impl Probed {
-    fn new(name: &'static str, impact: Impact, place_m: [f64; 2]) -> Result<Self, StudyError> {
+    fn new(name: &'static str, impact: Impact, place_m: [f64; 2]) -> Result<Self, AnyError> {
         let run = impact.clone().to_tolerance(CONVERGED).solve()?;
         let mut scene = Self {
             name,
@@ -143,7 +143,7 @@ impl Probed {
     }
 
     /// The program's own way by kernels computed for the point.
-    fn computed(&self, tolerance: f64) -> Result<Histories, StudyError> {
+    fn computed(&self, tolerance: f64) -> Result<Histories, AnyError> {
         let medium = Medium::new(POISSON_RATIO)?;
         // as the program itself takes them
         let source = KernelSource::direct(&medium, 0.1 * tolerance)?;
@@ -151,7 +151,7 @@ impl Probed {
     }
 
     /// The program's own way.
-    fn fields(&self, tolerance: f64, source: KernelSource) -> Result<Histories, StudyError> {
+    fn fields(&self, tolerance: f64, source: KernelSource) -> Result<Histories, AnyError> {
         let run = self.impact.clone().to_tolerance(tolerance).solve()?;
         let fields = run.excitation().fields_from(source).to_tolerance(tolerance);
         let history = fields.at(self.place_m[0], self.place_m[1])?;
@@ -162,7 +162,7 @@ impl Probed {
 
     /// Cells of a kernel computed for the point under samples of the force: no integration where the contact begins and
     /// ends.
-    fn cells_alone(&self, width: f64) -> Result<Histories, StudyError> {
+    fn cells_alone(&self, width: f64) -> Result<Histories, AnyError> {
         let run = self.impact.clone().to_tolerance(1e-6).solve()?;
         let excitation = run.excitation();
         let units = *excitation.units();
@@ -201,7 +201,7 @@ impl Probed {
     }
 
     /// Largest error of each field over its peak, at instants from the first arrival on.
-    fn errors(&self, effort: Effort, found: &[(f64, Six)]) -> Result<Vec<f64>, StudyError> {
+    fn errors(&self, effort: Effort, found: &[(f64, Six)]) -> Result<Vec<f64>, AnyError> {
         let count = effort.pick(12, 40);
         let [first, ..] = self.reference.arrivals_s(self.place_m);
         let end = self.end_s(&self.reference);

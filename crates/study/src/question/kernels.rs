@@ -4,11 +4,11 @@
 //! integral at a tolerance of 1e-14, or the closed form of Kausel (2012) at the centre of the surface.
 
 use super::single_integral::remainder;
-use crate::StudyError;
 use crate::inversion::Inversion;
 use crate::measure::{Candidate, Effort, Scene};
 use crate::record::{Error, Question, Record};
 use crate::scenes::Density;
+use fault::AnyError;
 use halfspace::{Arrivals, Deflection, Kernel, Medium, Profile, Six, SurfaceResponse, kausel};
 use std::cell::RefCell;
 use tabulator::Progress;
@@ -45,17 +45,13 @@ impl KernelScene {
     /// Six fields at a point inside, from before the first arrival to long after the last.
     ///
     /// `near` are distances from every arrival, over its time, that are looked at too.
-    pub(crate) fn interior(
-        medium: &Medium,
-        count: usize,
-        near: &[f64],
-    ) -> Result<Self, StudyError> {
+    pub(crate) fn interior(medium: &Medium, count: usize, near: &[f64]) -> Result<Self, AnyError> {
         let name = "interior point, across the fronts";
         Self::new(name, medium, INTERIOR, count, &ALL, near)
     }
 
     /// The same point where all fields are smooth: inversions at their best.
-    fn late(medium: &Medium, count: usize) -> Result<Self, StudyError> {
+    fn late(medium: &Medium, count: usize) -> Result<Self, AnyError> {
         let name = "interior point, after the last front";
         let mut scene = Self::new(name, medium, INTERIOR, 3 * count, &ALL, &[])?;
         let last = scene.arrivals.last().copied().unwrap_or(0.0);
@@ -66,12 +62,12 @@ impl KernelScene {
     }
 
     /// w on the axis.
-    pub(crate) fn axis(medium: &Medium, count: usize, near: &[f64]) -> Result<Self, StudyError> {
+    pub(crate) fn axis(medium: &Medium, count: usize, near: &[f64]) -> Result<Self, AnyError> {
         Self::new("axis, w", medium, [0.0, 0.65], count, &[1], near)
     }
 
     /// w at the centre of the surface over its static value: the kernel of the impact equation.
-    pub(crate) fn surface(medium: &Medium, count: usize, near: &[f64]) -> Result<Self, StudyError> {
+    pub(crate) fn surface(medium: &Medium, count: usize, near: &[f64]) -> Result<Self, AnyError> {
         let name = "surface centre, w";
         let mut scene = Self::new(name, medium, [0.0, 0.0], count, &[1], near)?;
         for (exact, t) in scene.exact.iter_mut().zip(&scene.times) {
@@ -89,7 +85,7 @@ impl KernelScene {
         count: usize,
         fields: &[usize],
         near: &[f64],
-    ) -> Result<Self, StudyError> {
+    ) -> Result<Self, AnyError> {
         let kernel = Kernel::new(medium, Profile::Hertz, 1e-14)?;
         let arrivals = Arrivals::new(medium, Profile::Hertz, r, z)?;
         // from before the first arrival to long after the last, even in the logarithm
@@ -132,7 +128,7 @@ impl KernelScene {
     }
 
     /// The values by the program's kernel.
-    pub(crate) fn by_kernel(&self, kernel: &Kernel) -> Result<Vec<Six>, StudyError> {
+    pub(crate) fn by_kernel(&self, kernel: &Kernel) -> Result<Vec<Six>, AnyError> {
         let [r, z] = self.place;
         let value = |&t: &f64| Ok(self.whole(kernel.remainder(r, z, t)?.value));
         self.times.iter().map(value).collect()
@@ -169,7 +165,7 @@ pub(crate) fn measure(
     effort: Effort,
     densities: &[Density],
     progress: &dyn Progress,
-) -> Result<Vec<Record>, StudyError> {
+) -> Result<Vec<Record>, AnyError> {
     let medium = Medium::new(POISSON_RATIO)?;
     let count = effort.pick(8, 40);
     let near = effort.pick(&NEAR[..1], &NEAR[..]);
@@ -205,14 +201,12 @@ pub(crate) fn measure(
     Ok(records)
 }
 
-type Candidates<'a> = Vec<Candidate<'a, Vec<Six>>>;
-
 /// The program's kernel at several tolerances and the fixed rule at several node counts.
 fn single_integrals<'a>(
     medium: &'a Medium,
     scene: &'a KernelScene,
     effort: Effort,
-) -> Result<Candidates<'a>, StudyError> {
+) -> Result<Vec<Candidate<'a, Vec<Six>>>, AnyError> {
     let [r, z] = scene.place;
     let mut candidates = Vec::new();
     for digits in (1..=13).step_by(effort.pick(2, 1)) {
@@ -255,7 +249,7 @@ fn inversions<'a>(
 }
 
 /// What the impact equation uses, and what it is compared with.
-fn closed_forms<'a>(medium: &'a Medium, scene: &'a KernelScene) -> Candidates<'a> {
+fn closed_forms<'a>(medium: &'a Medium, scene: &'a KernelScene) -> Vec<Candidate<'a, Vec<Six>>> {
     let response = SurfaceResponse::new(medium, Deflection::Centre);
     let fitted = move || Ok((scene.at_centre(|t| response.step(t)), None));
     let kausel = |t: f64| kausel::centre_step(medium, medium.kappa() * t);
@@ -273,7 +267,7 @@ fn tables(
     scene: &KernelScene,
     densities: &[Density],
     effort: Effort,
-) -> Result<Vec<Record>, StudyError> {
+) -> Result<Vec<Record>, AnyError> {
     let [r, z] = scene.place;
     let last = scene.times.last().copied().unwrap_or(1.0);
     let exact_kernel = Kernel::new(medium, Profile::Hertz, 1e-12)?;

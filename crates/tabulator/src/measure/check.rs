@@ -4,28 +4,10 @@ use crate::error::BuildError;
 use crate::grid::Grid;
 use crate::point::PointKernels;
 use halfspace::Six;
-use lookup::{BadTable, Content, ContentError, DamagedPatch, Slice, Table};
+use lookup::{BadTable, Content, ContentError, Slice, Table};
 use lookup::{content_hash, damaged_patches, schema};
 use rayon::prelude::*;
 use std::path::Path;
-
-/// A stored number that differs from the exact kernels or is none.
-#[derive(Debug, Clone, PartialEq)]
-pub struct BadNode {
-    /// Poisson's ratio of the slice.
-    pub poisson_ratio: f64,
-    /// Radius of the node in r0.
-    pub r: f64,
-    /// Depth of the node in r0.
-    pub z: f64,
-    /// Name of the field.
-    pub field: &'static str,
-    /// Name of the dataset.
-    pub dataset: &'static str,
-    /// Largest difference from the exact numbers, over the largest cell average of the displacements or stresses
-    /// there; NaN where a stored number is not finite.
-    pub relative_difference: f64,
-}
 
 /// What [`check_table`] found.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -36,10 +18,10 @@ pub struct CheckReport {
     pub largest_difference: f64,
     /// Whether the content is that of the stated SHA-256.
     pub hash_right: bool,
-    /// Nodes beyond the tolerance or not finite.
-    pub bad: Vec<BadNode>,
-    /// Nodes that cannot be read; nothing else is then checked.
-    pub damaged: Vec<DamagedPatch>,
+    /// Numbers beyond the tolerance or not finite: each where it is, and what is wrong with it.
+    pub bad: Vec<String>,
+    /// Where nodes cannot be read; nothing else is then checked.
+    pub damaged: Vec<String>,
 }
 
 impl CheckReport {
@@ -104,7 +86,7 @@ pub fn check_table(path: &Path, sample: usize, seed: u64) -> Result<CheckReport,
         .map(|slice| grid.point(slice.poisson_ratio))
         .collect::<Result<Vec<_>, _>>()?;
     let limit = allowed(grid.tolerance);
-    let found: Vec<(f64, Vec<BadNode>)> = picks(total, sample, seed)
+    let found: Vec<(f64, Vec<String>)> = picks(total, sample, seed)
         .into_par_iter()
         .map(|pick| {
             let (index, node) = (pick / nodes, pick % nodes);
@@ -133,8 +115,14 @@ fn place(content: &Content, node: usize) -> [f64; 2] {
     [content.r[node / depths], content.z[node % depths]]
 }
 
+/// A node of a slice in words.
+fn named(content: &Content, slice: &Slice, node: usize) -> String {
+    let [r, z] = place(content, node);
+    format!("nu = {}, r/r0 = {r}, z/r0 = {z}", slice.poisson_ratio)
+}
+
 /// Nodes and fields with numbers that are infinite or NaN.
-fn not_finite(content: &Content) -> Vec<BadNode> {
+fn not_finite(content: &Content) -> Vec<String> {
     let nodes = content.r.len() * content.z.len();
     let mut bad = Vec::new();
     for slice in &content.slices {
@@ -144,15 +132,9 @@ fn not_finite(content: &Content) -> Vec<BadNode> {
                 if row.iter().all(|x| x.is_finite()) {
                     continue;
                 }
-                let [r, z] = place(content, index / 6);
-                bad.push(BadNode {
-                    poisson_ratio: slice.poisson_ratio,
-                    r,
-                    z,
-                    field: schema::FIELD_NAMES[index % 6],
-                    dataset,
-                    relative_difference: f64::NAN,
-                });
+                let field = schema::FIELD_NAMES[index % 6];
+                let node = named(content, slice, index / 6);
+                bad.push(format!("{node}: {field} ({dataset}) is not finite"));
             }
         }
     }
@@ -166,8 +148,7 @@ fn compare(
     node: usize,
     exact: &PointKernels,
     limit: f64,
-) -> (f64, Vec<BadNode>) {
-    let [r, z] = place(content, node);
+) -> (f64, Vec<String>) {
     let of_moments = if content.origin.numbers_revision == 1 {
         ALLOWED_OF_FIRST_MOMENTS
     } else {
@@ -201,14 +182,9 @@ fn compare(
                 largest = largest.max(relative_difference);
             }
             if relative_difference > limit {
-                bad.push(BadNode {
-                    poisson_ratio: slice.poisson_ratio,
-                    r,
-                    z,
-                    field,
-                    dataset,
-                    relative_difference,
-                });
+                let node = named(content, slice, node);
+                let differs = format!("differs by {relative_difference:.1e}");
+                bad.push(format!("{node}: {field} ({dataset}) {differs}"));
             }
         }
     }

@@ -9,22 +9,11 @@ use crate::progress::Progress;
 use crate::rows::rows;
 use std::collections::HashMap;
 
-/// What was tried on the way to a grid.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Trial {
-    /// Largest spacing in r and z, in r0.
-    pub spacing: f64,
-    /// Nodes of the grid.
-    pub nodes: usize,
-    /// 99 % quantile over the probes of a slice of the relative error of the worst field, as in a table's
-    /// `accuracy_reached`.
-    pub error: f64,
-}
-
 /// Trials at most.
 const MOST_TRIALS: usize = 8;
 
-/// The grid whose errors for pulses `pulse_length` long (r0/c1) are below `tolerance`, and the trials that led to it.
+/// The grid whose errors for pulses `pulse_length` long (r0/c1) are below `tolerance`, and a line about each
+/// trial that led to it.
 ///
 /// All spacings of `grid` are scaled alike, and the pulse joins those that the table is verified with. A trial is
 /// the whole slice with the largest Poisson ratio, whose waves are the shortest, measured as the table will be.
@@ -37,7 +26,7 @@ pub fn refine(
     tolerance: f64,
     pulse_length: f64,
     progress: &dyn Progress,
-) -> Result<(Grid, Vec<Trial>), BuildError> {
+) -> Result<(Grid, Vec<String>), BuildError> {
     within("tol", tolerance, [1e-7, 0.1], "[1e-7, 0.1]")?;
     within("pulse", pulse_length, [0.5, 1000.0], "[0.5, 1000]")?;
     let mut grid = grid.clone();
@@ -47,7 +36,7 @@ pub fn refine(
     }
     let grid = &grid;
     grid.validate()?;
-    let mut trials: Vec<Trial> = Vec::new();
+    let (mut trials, mut best) = (Vec::new(), f64::INFINITY);
     let mut factor = 0.25 / grid.r.spacing.max(grid.z.spacing);
     for _ in 0..MOST_TRIALS {
         let scaled = scale(grid, factor);
@@ -56,11 +45,12 @@ pub fn refine(
         }
         let error = measure(&scaled, pulse_length, progress)?;
         let [r, z] = scaled.nodes();
-        trials.push(Trial {
-            spacing: scaled.r.spacing.max(scaled.z.spacing),
-            nodes: r.len() * z.len(),
-            error,
-        });
+        trials.push(format!(
+            "spacing {:.4} r0: {} nodes a slice, error {error:.1e} for pulses of {pulse_length} r0/c1",
+            scaled.r.spacing.max(scaled.z.spacing),
+            r.len() * z.len()
+        ));
+        best = error.min(best);
         if error <= tolerance {
             return Ok((scaled, trials));
         }
@@ -68,9 +58,6 @@ pub fn refine(
         let order = grid.stencil_points as f64;
         factor *= (0.95 * (tolerance / error).powf(1.0 / order)).clamp(0.5, 0.95);
     }
-    let best = trials
-        .iter()
-        .fold(f64::INFINITY, |least, trial| least.min(trial.error));
     Err(BuildError::TooFine {
         tolerance,
         pulse_length,

@@ -109,7 +109,7 @@ fn status(parts: &Parts, shards: Option<usize>, list: bool, json: bool) -> Resul
         "missing_shards": missing_shards,
         "overlap": overlap,
         "foreign": foreign
-            .map(|found| json!({ "file": found.path.display().to_string(), "reason": found.reason }))
+            .map(|(path, reason)| json!({ "file": path.display().to_string(), "reason": reason }))
             .collect::<Value>(),
         "unfinished": parts.unfinished.iter().map(at_work).collect::<Value>(),
     });
@@ -133,7 +133,7 @@ fn status(parts: &Parts, shards: Option<usize>, list: bool, json: bool) -> Resul
     }
     text.extend(overlap.map(|overlap| ("twice", overlap)));
     let foreign = parts.foreign.iter();
-    text.extend(foreign.map(|foreign| ("foreign", foreign.reason.clone())));
+    text.extend(foreign.map(|(_, reason)| ("foreign", reason.clone())));
     let unfinished = parts.unfinished.iter();
     text.extend(unfinished.map(|run| {
         let (file, rows) = (run.path.display(), run.rows.len());
@@ -218,7 +218,7 @@ fn merge(
     }
     parts
         .foreign
-        .retain(|foreign| !own(&foreign.path) || !claimed.real().exists());
+        .retain(|(path, _)| !own(path) || !claimed.real().exists());
     let staged = if refer {
         parts.merge_virtual(&claimed)
     } else {

@@ -58,7 +58,7 @@ pub(super) fn columns(spec: &Spec) -> Vec<Column<'_>> {
         for key in &axis.columns {
             let described = Described {
                 meaning: format!("scene key {}", key.name()),
-                unit: key_unit(&key.key).0,
+                unit: key_unit(&key.key).0.to_owned(),
                 name: key.name(),
             };
             let values = &key.values;

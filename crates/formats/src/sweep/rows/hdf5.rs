@@ -203,7 +203,7 @@ impl Table<'_> {
                 texts(&words, &(&name, "1", "words of a scene key"), values)?;
                 meaning = format!("index of the {meaning} in /{}/{name}", part::WORDS);
             }
-            let dataset = self.reserve(what, &group, &(&name, unit, &meaning), &shape)?;
+            let dataset = self.reserve(what, &group, &(&name, &unit, &meaning), &shape)?;
             let Some(row) = &row else {
                 set_scale(&dataset, part::ROW.0)?;
                 row = Some(dataset);
