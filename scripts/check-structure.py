@@ -17,7 +17,7 @@ MOST_IN_FOLDER = 14
 CIRCLED = {"contact"}
 # Code without tests, blanks and comments, source files, names of types: these numbers only go down, but for what users get:
 # they rose by 2,123 lines for contacts that yield, and by 600 for seals, records of instruments and errors with one face.
-CEILINGS = {"code lines": 49760, "source files": 381, "type names": 446}
+CEILINGS = {"code lines": 49750, "source files": 381, "type names": 446}
 
 
 def modules(src):

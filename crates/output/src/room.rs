@@ -17,13 +17,12 @@ pub fn free_memory() -> f64 {
     USABLE * least.unwrap_or(UNKNOWN)
 }
 
-/// Bytes that the disk of a file has left, and that it has in all, where the system says so.
+/// Bytes that the disk of a file has left, where the system says so.
 #[must_use]
-pub fn disk(path: &Path) -> Option<[f64; 2]> {
+pub fn free_disk(path: &Path) -> Option<f64> {
     #[cfg(unix)]
     if let Ok(disk) = rustix::fs::statvfs(folder(path)) {
-        let blocks = [disk.f_bavail, disk.f_blocks];
-        return Some(blocks.map(|blocks| blocks as f64 * disk.f_frsize as f64));
+        return Some(disk.f_bavail as f64 * disk.f_frsize as f64);
     }
     let _ = folder(path);
     None

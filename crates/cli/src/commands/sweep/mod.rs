@@ -15,7 +15,7 @@ use formats::sweep::{
     print_csv, row_bytes, run_rows, stage_csv, stage_rows,
 };
 use formats::{Existing, Output, OutputError, QUANTITIES};
-use output::{CSV, Fault, Role, Staged, apart, behind, disk, is_standard};
+use output::{CSV, Fault, Role, Staged, apart, behind, free_disk, is_standard};
 use parts::Action;
 use serde_json::{Value, json};
 use std::io::{BufWriter, Write};
@@ -398,20 +398,15 @@ fn check_disk(spec: &Spec, rows: usize, part: &Path) -> Result<(), Failure> {
     let (bytes, kept) = row_bytes(spec);
     let there = std::fs::metadata(part).map_or(0.0, |journal| journal.len() as f64);
     let needed = rows as f64 * (bytes + kept) as f64 - there;
-    let Some([free, whole]) = disk(part).filter(|[free, _]| needed > *free) else {
-        return Ok(());
-    };
-    let told = format!(
-        "no space left: {rows} rows need about {:.3} GB of disk while they are written, more than the {:.3} GB free beside {}: ask for fewer, or for a shard of them elsewhere",
-        1e-9 * needed,
-        1e-9 * free,
-        part.display()
-    );
-    Err(if needed > whole {
-        Failure::input(told)
-    } else {
-        Failure::until_later(told)
-    })
+    match free_disk(part) {
+        Some(free) if needed > free => Err(Failure::until_later(format!(
+            "no space left: {rows} rows need about {:.3} GB of disk while they are written, more than the {:.3} GB free beside {}: ask for fewer, or for a shard of them elsewhere",
+            1e-9 * needed,
+            1e-9 * free,
+            part.display()
+        ))),
+        Some(_) | None => Ok(()),
+    }
 }
 
 /// Writes the rows to standard output; a closed pipe ends the program quietly.
