@@ -498,7 +498,7 @@ fn what_no_disk_holds_is_not_begun_and_what_is_at_work_is_told() {
     let here = folder.path();
     let endless = SWEEP.replace("samples = 30000", "samples = 200000000000");
     std::fs::write(here.join("endless.toml"), endless).unwrap();
-    refused(here, "sweep endless.toml -o x.h5", 2, "GB of disk");
+    refused(here, "sweep endless.toml -o x.h5", 75, "GB of disk");
     assert!(!here.join("x.h5.part").exists());
     let long = SWEEP.replace("samples = 30000", "samples = 3000000");
     std::fs::write(here.join("long.toml"), long).unwrap();
