@@ -2,8 +2,8 @@
 
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
-use formats::sweep::{Block, Spec, run_rows};
-use formats::{Existing, QUANTITIES, parse_scene, resolved};
+use formats::sweep::{Block, Rows, Spec, compute_rows};
+use formats::{QUANTITIES, SceneError, parse_scene, resolved};
 use impact::{Load, Scene, Strike};
 use std::f64::consts::PI;
 use std::path::Path;
@@ -100,20 +100,22 @@ fn what_follows_cannot_be_given_beside() {
     );
 }
 
+fn every_row(spec: &Spec) -> Result<Option<Block>, SceneError> {
+    let rows = Rows {
+        start: 0,
+        step: 1,
+        count: spec.rows(),
+    };
+    compute_rows(spec, rows, |_| true)
+}
+
 fn rows(axes: &str) -> (Spec, Vec<Block>) {
     let text = format!(
         "[scene.target]\nmaterial = \"granite\"\n[scene.contact]\nmodel = \"hertz\"\n[scene.striker]\n{BALL}drop_height_m = 0.2\n{axes}"
     );
     let spec = Spec::from_toml(&text, Path::new(".")).unwrap();
-    let folder = tempfile::tempdir().unwrap();
-    let done = run_rows(
-        &spec,
-        0..spec.rows(),
-        &folder.path().join("part"),
-        Existing::Keep,
-        |_| true,
-    );
-    (spec, done.unwrap().unwrap().blocks().unwrap())
+    let done = every_row(&spec);
+    (spec, vec![done.unwrap().unwrap()])
 }
 
 fn column(blocks: &[Block], name: &str) -> Vec<f64> {
@@ -161,14 +163,7 @@ fn a_key_that_follows_does_not_vary() {
         "[scene.target]\nmaterial = \"granite\"\n[scene.striker]\n{BALL}velocity_m_s = 1.0\n[product.striker]\nmass_kg = [1.0, 2.0]\n"
     );
     let spec = Spec::from_toml(&text, Path::new(".")).unwrap();
-    let folder = tempfile::tempdir().unwrap();
-    let done = run_rows(
-        &spec,
-        0..spec.rows(),
-        &folder.path().join("part"),
-        Existing::Keep,
-        |_| true,
-    );
+    let done = every_row(&spec);
     let error = done.unwrap_err().to_string();
     assert!(
         error.contains("striker.mass_kg") && error.contains("shape"),

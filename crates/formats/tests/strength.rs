@@ -3,8 +3,8 @@
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
 use contact::Library;
-use formats::sweep::{Block, Spec, run_rows};
-use formats::{Existing, QUANTITIES, parse_scene};
+use formats::sweep::{Block, Rows, Spec, compute_rows};
+use formats::{QUANTITIES, parse_scene};
 use impact::{KernelChoice, simulate};
 use std::path::Path;
 
@@ -30,15 +30,13 @@ velocity_m_s = [0.1, 50.0]
 material = [\"steel\", \"soda-lime-glass\", \"soil-soft\"]
 ";
     let spec = Spec::from_toml(text, Path::new(".")).unwrap();
-    let folder = tempfile::tempdir().unwrap();
-    let done = run_rows(
-        &spec,
-        0..spec.rows(),
-        &folder.path().join("part"),
-        Existing::Keep,
-        |_| true,
-    );
-    let blocks: Vec<Block> = done.unwrap().unwrap().blocks().unwrap();
+    let every = Rows {
+        start: 0,
+        step: 1,
+        count: spec.rows(),
+    };
+    let done = compute_rows(&spec, every, |_| true);
+    let blocks: Vec<Block> = vec![done.unwrap().unwrap()];
     let rows: Vec<&[f64]> = blocks.iter().flat_map(Block::rows).collect();
     let value = |row: usize, name: &str| {
         let place = QUANTITIES.iter().position(|q| q.name == name).unwrap();
