@@ -35,7 +35,7 @@ pub enum FigureError {
         largest: f64,
     },
     /// An axis without length, or a logarithmic one that reaches zero.
-    #[error("panel {panel}: the {side} axis cannot run from {low} to {high}")]
+    #[error("panel {panel}: the {side} axis cannot run from {low:?} to {high:?}")]
     Range {
         /// The panel.
         panel: usize,

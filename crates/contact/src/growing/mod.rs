@@ -49,7 +49,7 @@ use thiserror::Error;
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum GrowingError {
     /// A group outside its range.
-    #[error("{name} = {value} is outside {range}")]
+    #[error("{name} = {} is outside {range}", fault::number(*value))]
     OutOfRange {
         /// Name of the group.
         name: &'static str,

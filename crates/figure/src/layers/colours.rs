@@ -79,9 +79,9 @@ impl ColourScale {
         };
         let found = Interval::new(spread, low, high);
         match spread {
+            Scale::Logarithmic if low <= 0.0 => Interval::logarithmic(1.0, 1.0).with_air(0.0),
             _ if low < high => found,
             // one value only, or none
-            Scale::Logarithmic if low <= 0.0 => Interval::logarithmic(1.0, 1.0).with_air(0.0),
             Scale::Linear | Scale::Logarithmic => found.with_air(0.0),
         }
     }
@@ -155,6 +155,8 @@ mod tests {
         let found = scale.interval([0.0, -3.0, 1e-6, f64::NAN, 10.0].iter());
         assert_eq!(found, Interval::logarithmic(1e-6, 10.0));
         assert!(scale.interval([0.0].iter()).is_valid());
+        let from_zero = scale.limits(Limits::Between(0.0, 1e8));
+        assert!(from_zero.interval([1.0].iter()).low > 0.0);
     }
 
     #[test]

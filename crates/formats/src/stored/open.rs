@@ -232,8 +232,8 @@ impl Stored {
 /// Whether a file begins as Parquet.
 pub(super) fn is_parquet(path: &Path) -> bool {
     let mut head = [0; MAGIC.len()];
-    // looked at before it is opened: a pipe would wait for its other end
-    std::fs::metadata(path).is_ok_and(|there| there.is_file())
+    // looked at before it is opened: a pipe would wait for its other end, and so would some files of the system
+    std::fs::metadata(path).is_ok_and(|there| there.is_file() && there.len() > 0)
         && std::fs::File::open(path).is_ok_and(|mut file| file.read_exact(&mut head).is_ok())
         && head == *MAGIC
 }
