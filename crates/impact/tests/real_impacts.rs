@@ -148,7 +148,9 @@ fn fields_of_real_impacts_hold_the_tolerance() {
             direct.judge(class, &excitation, &computed, place);
             if let Some(table) = &table {
                 let farthest = place.map(|x| x / radius_m);
-                let part = table.part(medium.poisson_ratio(), [5.9, 5.9]).unwrap();
+                let part = table
+                    .part(medium.poisson_ratio(), [[0.0; 2], [5.9; 2]])
+                    .unwrap();
                 assert!(farthest[0] < 5.9);
                 looked_up.judge(
                     class,

@@ -88,6 +88,17 @@ pub(crate) fn weights(
     }))
 }
 
+/// The slices beside a ratio, below and above, of those that serve it with weights: one that is tabulated twice.
+pub(crate) fn beside(
+    slices: &[Served],
+    weights: &[(usize, f64)],
+    poisson_ratio: f64,
+) -> [usize; 2] {
+    let above = weights.partition_point(|&(index, _)| slices[index].ratio <= poisson_ratio);
+    let index = |place: usize| weights[place.min(weights.len() - 1)].0;
+    [index(above.saturating_sub(1)), index(above)]
+}
+
 /// What was measured between the slices around a ratio.
 pub(crate) fn between<'a>(
     content: &'a Content,

@@ -17,6 +17,8 @@ pub struct Table {
     poisson_ratios: Vec<f64>,
     served: Vec<Served>,
     kernels: Vec<Kernel>,
+    /// Meshes served in r and z: the first, and behind the last.
+    first: [usize; 2],
     meshes: [usize; 2],
 }
 
@@ -26,7 +28,13 @@ impl Table {
     /// # Errors
     /// [`ContentError`] when an axis does not ascend, a size does not fit or a value is not finite.
     pub fn new(content: Content) -> Result<Self, ContentError> {
-        validate::content(&content)?;
+        validate::frame(&content)?;
+        Self::part(content, [0; 2])
+    }
+
+    /// Accepts `content`, whose frame is valid, as a part that serves the meshes from the `first` on in r and z.
+    pub(crate) fn part(content: Content, first: [usize; 2]) -> Result<Self, ContentError> {
+        validate::slices(&content)?;
         let kernels = content
             .slices
             .iter()
@@ -39,6 +47,7 @@ impl Table {
             .collect::<Result<_, _>>()?;
         let meshes = content.probes().map(|places| places.len());
         Ok(Self {
+            first,
             meshes,
             id: hash::settings_id(&content.origin.grid),
             poisson_ratios: content
@@ -126,6 +135,11 @@ impl Table {
         self.served[index].coordinate
     }
 
+    /// The slices beside a ratio, see [`ratio::beside`].
+    pub(crate) fn beside(&self, slices: &[(usize, f64)], poisson_ratio: f64) -> [usize; 2] {
+        ratio::beside(&self.served, slices, poisson_ratio)
+    }
+
     /// What was measured between the slices around a ratio.
     pub(crate) fn between(&self, poisson_ratio: f64) -> Option<&Between> {
         ratio::between(&self.content, &self.served, poisson_ratio)
@@ -145,25 +159,23 @@ impl Table {
     ///
     /// # Errors
     /// [`LookupError::Outside`].
-    pub(crate) fn mesh(&self, r: f64, z: f64) -> Result<(usize, usize), LookupError> {
-        let [columns, rows] = self.meshes;
-        let i = locate(&self.content.r[..=columns], r);
-        let k = locate(&self.content.z[..=rows], z);
-        i.zip(k).ok_or_else(|| self.outside(r, z))
-    }
-
-    /// The error of a point outside: axis, value and range.
-    fn outside(&self, r: f64, z: f64) -> LookupError {
-        let (axis, value, max) = if r >= 0.0 && r <= self.r_max() {
-            ("z/r0", z, self.z_max())
-        } else {
-            ("r/r0", r, self.r_max())
-        };
-        LookupError::Outside {
-            axis,
-            value,
-            min: 0.0,
-            max,
+    pub(crate) fn mesh(&self, [r, z]: [f64; 2]) -> Result<[usize; 2], LookupError> {
+        let content = &self.content;
+        let mut mesh = [0; 2];
+        for (axis, (name, nodes, value)) in [("r/r0", &content.r, r), ("z/r0", &content.z, z)]
+            .into_iter()
+            .enumerate()
+        {
+            let (first, last) = (self.first[axis], self.meshes[axis]);
+            let found = locate(&nodes[first..=last], value);
+            mesh[axis] = first
+                + found.ok_or(LookupError::Outside {
+                    axis: name,
+                    value,
+                    min: nodes[first],
+                    max: nodes[last],
+                })?;
         }
+        Ok(mesh)
     }
 }

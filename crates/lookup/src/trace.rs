@@ -189,13 +189,13 @@ impl Plan<'_> {
         })
     }
 
-    fn stencils(&self, [r, z]: [f64; 2]) -> Result<(Stencil, Stencil), LookupError> {
+    fn stencils(&self, place: [f64; 2]) -> Result<(Stencil, Stencil), LookupError> {
         let content = self.table.content();
         let points = content.stencil_points;
-        let mesh = self.table.mesh(r, z)?;
+        let mesh = self.table.mesh(place)?;
         Ok((
-            Stencil::mirrored(&content.r, mesh.0, r, points),
-            Stencil::one_sided(&content.z, mesh.1, z, points),
+            Stencil::mirrored(&content.r, mesh[0], place[0], points),
+            Stencil::one_sided(&content.z, mesh[1], place[1], points),
         ))
     }
 
