@@ -10,7 +10,6 @@ use crate::excitation::{Excitation, PressureRadius};
 use crate::grid::Grid;
 use crate::kernels::KernelSource;
 use crate::scene::{Probe, Scene, Section};
-use halfspace::{Deflection, SurfaceResponse};
 
 /// What any output takes, and the opening of a table.
 const OUTPUT_S: f64 = 1.4e-2;
@@ -189,8 +188,9 @@ impl Forecast {
         threads: usize,
     ) -> Result<Self, ImpactError> {
         let samples = grid.count() as f64;
-        let response = SurfaceResponse::new(excitation.medium(), Deflection::Centre);
-        let cells = response.memory() * excitation.units().time_s() / grid.step_s;
+        // as long as a Rayleigh wave takes from the edge to the centre
+        let memory_s = excitation.units().time_s() / excitation.medium().rayleigh_speed();
+        let cells = memory_s / grid.step_s;
         let products = samples * cells.min(samples);
         if products > MOST_PRODUCTS {
             return Err(ImpactError::TooMuchWork {
