@@ -2,7 +2,7 @@
 
 use crate::content::{Between, Content, FIELDS, Verification};
 use crate::error::LookupError;
-use crate::ratio::ratio_coordinate;
+use crate::ratio::{self, ratio_coordinate};
 use crate::table::Table;
 use halfspace::{DomainError, Six};
 use std::ops::Range;
@@ -102,9 +102,9 @@ impl Table {
     ) -> Result<Six, LookupError> {
         let content = self.content();
         let mut error = [1e-12_f64; FIELDS];
-        let [columns, rows] = self.meshes();
+        let [columns, rows] = self.meshes;
         let (across, down) = (around(mesh[0], columns), around(mesh[1], rows));
-        let beside = self.beside(slices, poisson_ratio);
+        let beside = ratio::beside(&self.served, slices, poisson_ratio);
         for &index in &beside[usize::from(beside[0] == beside[1])..] {
             let measured = Measured {
                 content,
@@ -135,12 +135,12 @@ impl Table {
         error: &mut Six,
     ) -> Result<(), LookupError> {
         let content = self.content();
-        let Some(between) = self.between(poisson_ratio) else {
+        let Some(between) = ratio::between(content, &self.served, poisson_ratio) else {
             // Nothing was measured here, so nothing is known.
             *error = [f64::INFINITY; FIELDS];
             return Ok(());
         };
-        let coordinates = slices.iter().map(|&(index, _)| self.coordinate(index));
+        let coordinates = slices.iter().map(|&(i, _)| self.served[i].coordinate);
         let added = Added::new(content, between, coordinates, poisson_ratio)?;
         let places = added.around(point);
         for (field, value) in error.iter_mut().enumerate() {

@@ -1,11 +1,10 @@
 //! A kernel table in memory: validated once, immutable, shared by any number of threads.
 
-use crate::content::{Between, Content, Role};
+use crate::content::{Content, Role};
 use crate::error::{ContentError, LookupError};
 use crate::ratio::{self, Served, cell_scale};
 use crate::series::stencil::locate;
 use crate::{hash, validate};
-use halfspace::{Kernel, Medium, Profile};
 
 /// A loaded kernel table.
 ///
@@ -15,11 +14,12 @@ pub struct Table {
     content: Content,
     id: String,
     poisson_ratios: Vec<f64>,
-    served: Vec<Served>,
-    kernels: Vec<Kernel>,
+    /// The slices as far as Poisson's ratio goes.
+    pub(crate) served: Vec<Served>,
     /// Meshes served in r and z: the first, and behind the last.
     first: [usize; 2],
-    meshes: [usize; 2],
+    pub(crate) meshes: [usize; 2],
+    decoded_bytes: u64,
 }
 
 impl Table {
@@ -29,17 +29,16 @@ impl Table {
     /// [`ContentError`] when an axis does not ascend, a size does not fit or a value is not finite.
     pub fn new(content: Content) -> Result<Self, ContentError> {
         validate::frame(&content)?;
-        Self::part(content, [0; 2])
+        Self::part(content, [0; 2], 0)
     }
 
     /// Accepts `content`, whose frame is valid, as a part that serves the meshes from the `first` on in r and z.
-    pub(crate) fn part(content: Content, first: [usize; 2]) -> Result<Self, ContentError> {
+    pub(crate) fn part(
+        content: Content,
+        first: [usize; 2],
+        decoded_bytes: u64,
+    ) -> Result<Self, ContentError> {
         validate::slices(&content)?;
-        let kernels = content
-            .slices
-            .iter()
-            .map(|slice| Kernel::new(&Medium::new(slice.poisson_ratio)?, Profile::Hertz, 1e-6))
-            .collect::<Result<_, _>>()?;
         let served = content
             .slices
             .iter()
@@ -49,6 +48,7 @@ impl Table {
         Ok(Self {
             first,
             meshes,
+            decoded_bytes,
             id: hash::settings_id(&content.origin.grid),
             poisson_ratios: content
                 .slices
@@ -56,7 +56,6 @@ impl Table {
                 .map(|slice| slice.poisson_ratio)
                 .collect(),
             served,
-            kernels,
             content,
         })
     }
@@ -71,6 +70,12 @@ impl Table {
     #[must_use]
     pub fn format_version(&self) -> &str {
         &self.content.origin.format_version
+    }
+
+    /// Bytes of numbers that were decoded to load it as a part of a file: what loading took; 0 of any other table.
+    #[must_use]
+    pub fn decoded_bytes(&self) -> u64 {
+        self.decoded_bytes
     }
 
     /// Poisson ratios tabulated, ascending.
@@ -128,31 +133,6 @@ impl Table {
                 max,
             }
         })
-    }
-
-    /// Coordinate of slice `index` across Poisson's ratios.
-    pub(crate) fn coordinate(&self, index: usize) -> f64 {
-        self.served[index].coordinate
-    }
-
-    /// The slices beside a ratio, see [`ratio::beside`].
-    pub(crate) fn beside(&self, slices: &[(usize, f64)], poisson_ratio: f64) -> [usize; 2] {
-        ratio::beside(&self.served, slices, poisson_ratio)
-    }
-
-    /// What was measured between the slices around a ratio.
-    pub(crate) fn between(&self, poisson_ratio: f64) -> Option<&Between> {
-        ratio::between(&self.content, &self.served, poisson_ratio)
-    }
-
-    /// The exact kernels of slice `index`.
-    pub(crate) fn kernel(&self, index: usize) -> &Kernel {
-        &self.kernels[index]
-    }
-
-    /// Numbers of meshes served in r and z.
-    pub(crate) fn meshes(&self) -> [usize; 2] {
-        self.meshes
     }
 
     /// The mesh that holds a point.

@@ -18,6 +18,8 @@ pub(super) struct Source {
     file: HdfFile,
     /// Bytes of numbers loaded so far.
     loaded: Cell<u64>,
+    /// Bytes of the chunks that hold the nodes read so far.
+    pub(super) decoded: Cell<u64>,
 }
 
 /// A group of the file, with its path inside it for messages.
@@ -40,6 +42,7 @@ impl Source {
             path: path.to_owned(),
             file,
             loaded: Cell::new(0),
+            decoded: Cell::new(0),
         }
     }
 
@@ -138,6 +141,14 @@ impl Source {
         let [rows, columns] = wanted.clone();
         let numbers = product(&[rows.len(), columns.len(), needed[2], needed[3]]);
         self.admit(&item, numbers, size_of::<f32>())?;
+        let whole = |range: &Range<usize>, size: usize| {
+            range.end.next_multiple_of(size) - range.start / size * size
+        };
+        let chunk = data.chunk().filter(|chunk| !chunk.contains(&0));
+        let [high, wide] = chunk.map_or([1; 2], |chunk| [chunk[0], chunk[1]]);
+        let nodes = product(&[whole(&rows, high), whole(&columns, wide)]);
+        let decoded = product(&[nodes, needed[2], needed[3], size_of::<f32>()]) as u64;
+        self.decoded.set(self.decoded.get() + decoded);
         data.block(&[rows, columns, 0..needed[2], 0..needed[3]], u64::MAX)
             .map_err(|error| self.unreadable(&item, &error))
     }

@@ -140,7 +140,8 @@ impl TableFile {
             }
         };
         cut(&mut content, &wanted);
-        Table::part(content, first).map_err(|error| source.content(error))
+        let table = Table::part(content, first, source.decoded.get());
+        table.map_err(|error| source.content(error))
     }
 }
 
