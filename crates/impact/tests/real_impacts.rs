@@ -161,11 +161,8 @@ fn fields_of_real_impacts_hold_the_tolerance() {
             let place = [5.5 * draws.next() * radius_m, 5.5 * draws.next() * radius_m];
             direct.judge(class, &excitation, &computed, place);
             if let Some(table) = &table {
-                let farthest = place.map(|x| x / radius_m);
-                let part = table
-                    .part(medium.poisson_ratio(), [[0.0; 2], [5.9; 2]])
-                    .unwrap();
-                assert!(farthest[0] < 5.9);
+                let span = [place.map(|x| x / radius_m), [5.9; 2]];
+                let part = table.part(medium.poisson_ratio(), span).unwrap();
                 looked_up.judge(
                     class,
                     &excitation,

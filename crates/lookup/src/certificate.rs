@@ -79,7 +79,7 @@ impl Table {
         }
         let content = self.content();
         let mesh = self.mesh([r, z])?;
-        let slices = self.slice_weights(poisson_ratio)?;
+        let slices = ratio::weights(&self.served, poisson_ratio)?;
         let (lower, fraction) = bracket(&content.pulse_lengths, pulse_length);
         let upper = (lower + 1).min(content.pulse_lengths.len() - 1);
         let (short, long) = (
@@ -118,35 +118,21 @@ impl Table {
             }
         }
         if slices.len() > 1 {
-            self.add_between(poisson_ratio, point, slices, pulse, &mut error)?;
+            let Some(between) = ratio::between(content, &self.served, poisson_ratio) else {
+                // Nothing was measured here, so nothing is known.
+                return Ok([f64::INFINITY; FIELDS]);
+            };
+            let coordinates = slices.iter().map(|&(i, _)| self.served[i].coordinate);
+            let added = Added::new(content, between, coordinates, poisson_ratio)?;
+            let places = added.around(point);
+            for (field, value) in error.iter_mut().enumerate() {
+                *value += added.most(&places, pulse, field);
+            }
         }
         if point[1] < SHALLOW * content.z[1] {
             error = error.map(|e| AT_SURFACE * e);
         }
         Ok(error)
-    }
-
-    fn add_between(
-        &self,
-        poisson_ratio: f64,
-        point: [f64; 2],
-        slices: &[(usize, f64)],
-        pulse: usize,
-        error: &mut Six,
-    ) -> Result<(), LookupError> {
-        let content = self.content();
-        let Some(between) = ratio::between(content, &self.served, poisson_ratio) else {
-            // Nothing was measured here, so nothing is known.
-            *error = [f64::INFINITY; FIELDS];
-            return Ok(());
-        };
-        let coordinates = slices.iter().map(|&(i, _)| self.served[i].coordinate);
-        let added = Added::new(content, between, coordinates, poisson_ratio)?;
-        let places = added.around(point);
-        for (field, value) in error.iter_mut().enumerate() {
-            *value += added.most(&places, pulse, field);
-        }
-        Ok(())
     }
 }
 

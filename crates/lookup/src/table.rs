@@ -1,8 +1,8 @@
 //! A kernel table in memory: validated once, immutable, shared by any number of threads.
 
-use crate::content::{Content, Role};
+use crate::content::Content;
 use crate::error::{ContentError, LookupError};
-use crate::ratio::{self, Served, cell_scale};
+use crate::ratio::{Served, cell_scale};
 use crate::series::stencil::locate;
 use crate::{hash, validate};
 
@@ -114,25 +114,6 @@ impl Table {
     #[must_use]
     pub fn into_content(self) -> Content {
         self.content
-    }
-
-    /// Slices that serve a Poisson ratio, with their weights.
-    pub(crate) fn slice_weights(
-        &self,
-        poisson_ratio: f64,
-    ) -> Result<Vec<(usize, f64)>, LookupError> {
-        ratio::weights(&self.served, poisson_ratio)?.ok_or_else(|| {
-            let grid = self.served.iter().filter(|slice| slice.role == Role::Grid);
-            let (min, max) = grid.fold((f64::NAN, f64::NAN), |(min, max), slice| {
-                (slice.ratio.min(min), slice.ratio.max(max))
-            });
-            LookupError::Outside {
-                axis: "poisson_ratio",
-                value: poisson_ratio,
-                min,
-                max,
-            }
-        })
     }
 
     /// The mesh that holds a point.

@@ -2,6 +2,7 @@
 
 use crate::content::{FIELDS, Slice};
 use crate::error::LookupError;
+use crate::ratio;
 use crate::series::gather::{gather, nodes};
 use crate::series::smooth;
 use crate::series::stencil::Stencil;
@@ -148,7 +149,7 @@ impl Table {
             smoothness,
             medium: Medium::new(poisson_ratio)?,
             coarsening,
-            slices: self.slice_weights(poisson_ratio)?,
+            slices: ratio::weights(&self.served, poisson_ratio)?,
             width: self.cell_width(poisson_ratio)?,
         })
     }

@@ -2,7 +2,8 @@
 
 use super::error::{BadTable, TableError};
 use super::open::open;
-use super::read::Window;
+use super::read::{Listed, Window};
+use super::source::Source;
 use crate::certificate::{Added, SAFETY};
 use crate::content::{Content, FIELDS, Role, Slice, Verification};
 use crate::error::LookupError;
@@ -10,6 +11,7 @@ use crate::hash::settings_id;
 use crate::ratio::{self, Served};
 use crate::series::stencil::locate;
 use crate::table::Table;
+use halfspace::DomainError;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -64,32 +66,20 @@ impl TableFile {
         poisson_ratio: f64,
         farthest: [f64; 2],
     ) -> Result<Result<(), LookupError>, TableError> {
-        let (content, listed) = open(&self.path)?.head()?;
-        let outside = |axis, value, min, max| {
-            Ok(Err(LookupError::Outside {
-                axis,
-                value,
-                min,
-                max,
-            }))
-        };
+        let source = open(&self.path)?;
+        let (content, listed) = source.head()?;
         let ends = [("r/r0", content.r_max), ("z/r0", content.z_max)];
         for ((axis, max), value) in ends.into_iter().zip(farthest) {
             if value > max {
-                return outside(axis, value, 0.0, max);
+                return Ok(Err(LookupError::Outside {
+                    axis,
+                    value,
+                    min: 0.0,
+                    max,
+                }));
             }
         }
-        let grid = listed.iter().filter(|slice| slice.role == Role::Grid);
-        let (min, max) = grid.fold((f64::NAN, f64::NAN), |(min, max), slice| {
-            (slice.ratio.min(min), slice.ratio.max(max))
-        });
-        let exact = |ratio: f64| (ratio - poisson_ratio).abs() < ratio::SAME;
-        let inside = (min..=max).contains(&poisson_ratio);
-        if inside || listed.iter().any(|slice| exact(slice.ratio)) {
-            Ok(Ok(()))
-        } else {
-            outside("poisson_ratio", poisson_ratio, min, max)
-        }
+        Ok(ratio::weights(&served(&source, &listed)?, poisson_ratio).map(drop))
     }
 
     /// The part for a Poisson ratio and for places (r, z) in r0 from the first to the last of `span`.
@@ -106,18 +96,13 @@ impl TableFile {
         if settings_id(&content.origin.grid) != self.id {
             return Err(BadTable::Changed.of(&self.path));
         }
-        let served = listed
-            .iter()
-            .map(|slice| Served::new(slice.ratio, slice.role))
-            .collect::<Result<Vec<_>, _>>()
-            .map_err(|error| source.content(error))?;
+        let served = served(&source, &listed)?;
         let (wanted, first) = window(&content, span);
-        let weights =
-            ratio::weights(&served, poisson_ratio).map_err(|error| source.content(error))?;
+        let weights = ratio::weights(&served, poisson_ratio);
         let between = ratio::between(&content, &served, poisson_ratio);
         content.slices = match (weights.as_deref(), between) {
-            (Some([(index, _)]), _) => vec![source.slice(&content, &listed[*index], &wanted)?],
-            (Some(weights), Some(between)) => {
+            (Ok([(index, _)]), _) => vec![source.slice(&content, &listed[*index], &wanted)?],
+            (Ok(weights), Some(between)) => {
                 let slices: Vec<_> = weights.iter().map(|&(i, w)| (&listed[i], w)).collect();
                 let sum = source.sum(&content, &slices, &wanted)?;
                 let of = |index: usize| source.errors(&content, &listed[index], &wanted);
@@ -143,6 +128,14 @@ impl TableFile {
         let table = Table::part(content, first, source.decoded.get());
         table.map_err(|error| source.content(error))
     }
+}
+
+/// The slices of a file as far as Poisson's ratio goes.
+fn served(source: &Source, listed: &[Listed]) -> Result<Vec<Served>, TableError> {
+    let slices = listed.iter();
+    let slices = slices.map(|slice| Served::new(slice.ratio, slice.role));
+    let served: Result<_, DomainError> = slices.collect();
+    served.map_err(|error| source.content(error))
 }
 
 /// The nodes that places of a span need, with the meshes beside them, and the first of the meshes read that hold any.
