@@ -174,7 +174,7 @@ impl Asked {
 #[derive(Debug)]
 struct Part {
     poisson_ratio: f64,
-    farthest: [f64; 2],
+    span: [[f64; 2]; 2],
     table: Arc<lookup::Table>,
 }
 
@@ -210,41 +210,33 @@ impl Opened {
         if let Some(table) = self.whole.get() {
             return Ok(Arc::clone(table));
         }
-        let table = self.same(lookup::Table::open(self.path()))?;
-        Ok(Arc::clone(self.whole.get_or_init(|| table)))
-    }
-
-    /// A table that was read, if its file is the one that was opened.
-    fn same(
-        &self,
-        read: Result<lookup::Table, TableError>,
-    ) -> Result<Arc<lookup::Table>, TableError> {
-        let table = read?;
-        if table.id() == self.id() {
-            Ok(Arc::new(table))
-        } else {
-            Err(BadTable::Changed.of(self.path()))
+        let table = lookup::Table::open(self.path())?;
+        if table.id() != self.id() {
+            return Err(BadTable::Changed.of(self.path()));
         }
+        Ok(Arc::clone(self.whole.get_or_init(|| Arc::new(table))))
     }
 }
 
 impl Tables for Opened {
-    fn part(&self, poisson_ratio: f64, farthest: [f64; 2]) -> Result<Arc<lookup::Table>, AnyError> {
+    fn part(
+        &self,
+        poisson_ratio: f64,
+        span: [[f64; 2]; 2],
+    ) -> Result<Arc<lookup::Table>, AnyError> {
         let mut kept = self.part.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(part) = &*kept
             && part.poisson_ratio.to_bits() == poisson_ratio.to_bits()
-            && part
-                .farthest
-                .iter()
-                .zip(farthest)
-                .all(|(&has, wants)| wants <= has)
+            && (0..2).all(|axis| {
+                part.span[0][axis] <= span[0][axis] && span[1][axis] <= part.span[1][axis]
+            })
         {
             return Ok(Arc::clone(&part.table));
         }
-        let table = self.same(self.file.part(poisson_ratio, farthest))?;
+        let table = Arc::new(self.file.part(poisson_ratio, span)?);
         *kept = Some(Part {
             poisson_ratio,
-            farthest,
+            span,
             table: Arc::clone(&table),
         });
         Ok(table)
