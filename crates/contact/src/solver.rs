@@ -105,10 +105,11 @@ impl<'a, S: Responses> Solver<'a, S> {
         collision.check().ok()?;
         let disc = self.disc(collision.target_poisson_ratio, settings.deflection);
         let disc = disc.ok()?;
-        if (collision.yielding(settings).ok()?).is_some_and(|yielding| yielding.begins()) {
-            return None;
+        let yielding = collision.yielding(settings).ok()?.filter(Yielding::begins);
+        let plan = plan(settings, collision, &*disc, yielding.is_some());
+        if let Some(yielding) = yielding {
+            return Place::of_fit(&plan, &yielding, settings);
         }
-        let plan = plan(settings, collision, &*disc, false);
         Place::of(&plan, collision, settings, &*disc)
     }
 
@@ -214,7 +215,7 @@ impl<'a, S: Responses> Solver<'a, S> {
         self.radiated = None;
         if let Some(yielding) = collision.yielding(settings)?.filter(Yielding::begins) {
             let plan = plan(settings, collision, &*disc, true);
-            if let Some(solved) = self.yielded(collision, &yielding, plan, &asked)? {
+            if let Some(solved) = self.yielded(collision, settings, &yielding, plan, &asked)? {
                 return Ok(solved);
             }
         }
@@ -282,11 +283,12 @@ impl<'a, S: Responses> Solver<'a, S> {
     fn yielded(
         &mut self,
         collision: &Collision,
+        settings: &Settings,
         yielding: &Yielding,
         mut plan: Plan,
         asked: &Accuracy,
     ) -> Result<Option<Solved>, ContactError> {
-        let left_out = plan.groups.left_out();
+        let mut left_out = plan.groups.left_out();
         if plan.model.row().0 == Rung::FullMemory {
             let waves = self.waves(collision.target_poisson_ratio)?;
             let contact = collision.growing_contact(&waves);
@@ -303,7 +305,13 @@ impl<'a, S: Responses> Solver<'a, S> {
             let lag = if radiates { plan.groups.lag } else { 0.0 };
             // the history of a single impact has its results too
             results = match asked.deflection {
-                None => quick(yielding, lag),
+                None => match self.fitted(&plan, yielding, settings) {
+                    Some((summary, flow, error)) => {
+                        left_out.contact += error;
+                        Some((summary, flow))
+                    }
+                    None => quick(yielding, lag),
+                },
                 Some(_) => None,
             };
             if results.is_none() {
@@ -329,6 +337,20 @@ impl<'a, S: Responses> Solver<'a, S> {
             step: None,
             flow: Some(flow),
         }))
+    }
+
+    /// The results of a contact on Jackson and Green's fit from a series, and its error.
+    fn fitted(
+        &self,
+        plan: &Plan,
+        yielding: &Yielding,
+        settings: &Settings,
+    ) -> Option<(Summary, Flow, f64)> {
+        let place = Place::of_fit(plan, yielding, settings)?;
+        let (summary, radiated, error) = self.outcomes?.at(&place, self.responses)?;
+        let work = summary.loss - radiated;
+        let flow = Flow::new(yielding, summary.peak_displacement.sqrt(), [work, radiated]);
+        Some((summary, flow, error))
     }
 
     fn disc(&mut self, ratio: f64, deflection: Deflection) -> Result<Arc<S::Disc>, DomainError> {

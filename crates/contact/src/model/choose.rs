@@ -39,7 +39,7 @@ use crate::model::{Model, Plasticity, Rung, Scheme, Settings, StaticShare};
 use crate::names::Choice;
 
 /// The physics that a scene states.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Family {
     /// The contact radius follows the load.
     Growing,

@@ -321,19 +321,34 @@ pub(crate) struct Fit {
     pub(crate) shape: f64,
     /// e_y = S_y/E*.
     pub(crate) strain: f64,
+    /// B of the contact's area, R u (w/1.9)^B.
+    pub(crate) spread: f64,
+    /// ln(pi C e_y/2)
+    edge: f64,
 }
 
 /// Indentation over the critical one from which the fit leaves Hertz's law.
 pub(crate) const FITTED: f64 = 1.9;
+const LOG_FITTED: f64 = 0.641_853_886_172_394_7;
 
 impl Fit {
+    pub(crate) fn new(critical: f64, shape: f64, strain: f64) -> Self {
+        Self {
+            critical,
+            shape,
+            strain,
+            spread: 0.14 * (23.0 * strain).exp(),
+            edge: (0.5 * PI * shape * strain).ln(),
+        }
+    }
+
     /// Force and its slope at an indentation beyond 1.9 w_c.
     pub(crate) fn force(&self, depth: f64) -> [f64; 2] {
         let w = depth / self.critical;
         let log = w.ln();
-        let spread = self.spread();
-        let area = (1.0 + spread) * log - spread * FITTED.ln();
-        let by_radius = (-0.7 * ((0.5 * PI * self.shape * self.strain).ln() + 0.5 * area)).exp();
+        let spread = self.spread;
+        let area = (1.0 + spread) * log - spread * LOG_FITTED;
+        let by_radius = (-0.7 * (self.edge + 0.5 * area)).exp();
         let soft = (-0.82 * by_radius).exp();
         let hardness = 2.84 * (1.0 - soft);
         let hardening = -2.84 * soft * 0.82 * 0.7 * by_radius * 0.5 * (1.0 + spread) / w;
@@ -347,11 +362,6 @@ impl Fit {
             + per * hardening * (1.0 - flowing) * w;
         let unit = self.critical.sqrt();
         [force * unit * self.critical, slope * unit]
-    }
-
-    /// B of the contact's area, R u (w/1.9)^B.
-    pub(crate) fn spread(&self) -> f64 {
-        0.14 * (23.0 * self.strain).exp()
     }
 
     /// Depth that is left after an indentation.

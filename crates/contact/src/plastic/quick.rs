@@ -11,7 +11,7 @@
 
 use crate::growing::nodes::{Factors, Nodes};
 use crate::growing::polynomial::dot;
-use crate::outcome::series::{LANES, Series};
+use crate::numeric::series::Series;
 use crate::plastic::branch::{Branch, FITTED, Fit};
 use crate::plastic::dashpot::Dashpot;
 use crate::plastic::{Flow, Yielding};
@@ -272,21 +272,21 @@ const LEAST: f64 = 1e-12;
 
 /// Velocity, duration and the largest radius times velocity of Hertz's contact from rest at radius one.
 fn fall(lag: f64) -> Option<[f64; 3]> {
-    static MADE: OnceLock<Option<Series>> = OnceLock::new();
+    static MADE: OnceLock<Option<Series<4>>> = OnceLock::new();
     let made = MADE.get_or_init(|| {
         let lag = |x: f64| 0.5 * LARGEST_LAG * (1.0 + x);
         Series::through([1, TERMS], LEAST, |[_, x]| {
             from_rest(Branch::Hertz, lag(x), 1.0)
         })
     });
-    let [speed, duration, pulled, ..] = made.as_ref()?.at([0.0, 2.0 * lag / LARGEST_LAG - 1.0]);
+    let [speed, duration, pulled, _] = made.as_ref()?.at([0.0, 2.0 * lag / LARGEST_LAG - 1.0]);
     Some([speed, duration, pulled])
 }
 
 /// The same of the unloading of a cut pressure, by the radius at yield, and what it gives back without a lag; nothing beyond
 /// the series.
 fn fall_of_cut(edge: f64, lag: f64) -> Option<([f64; 3], f64)> {
-    static MADE: OnceLock<Option<Series>> = OnceLock::new();
+    static MADE: OnceLock<Option<Series<4>>> = OnceLock::new();
     let [low, high] = RANGE.map(f64::ln);
     let made = MADE.get_or_init(|| {
         // the first row of nodes has all angles
@@ -311,15 +311,13 @@ fn fall_of_cut(edge: f64, lag: f64) -> Option<([f64; 3], f64)> {
         return None;
     }
     let (series, root) = (made.as_ref()?, edge.sqrt());
-    let [speed, duration, pulled, bare, ..] = series.at([x, y]);
+    let [speed, duration, pulled, bare] = series.at([x, y]);
     let stored = 0.5 / INVERSE_MASS * bare * bare * edge;
     Some(([speed * root, duration / root, pulled * root], stored))
 }
 
 /// What a series is of: results from rest, over the root of a radius at yield.
-fn from_rest(branch: Branch, lag: f64, root: f64) -> Option<[f64; LANES]> {
+fn from_rest(branch: Branch, lag: f64, root: f64) -> Option<[f64; 4]> {
     let [speed, duration, pulled] = Dashpot::from_rest(branch, lag)?;
-    let mut lanes = [0.0; LANES];
-    lanes[..3].copy_from_slice(&[speed / root, duration * root, pulled / root]);
-    Some(lanes)
+    Some([speed / root, duration * root, pulled / root, 0.0])
 }
