@@ -32,7 +32,7 @@ use crate::plastic::Yielding;
 use crate::plastic::branch::{FITTED, Fit};
 use crate::plastic::quick::quick;
 use crate::responses::Responses;
-use crate::summary::{EndOfContact, Summary, relative};
+use crate::summary::{Summary, relative};
 use crate::units::INVERSE_MASS;
 use halfspace::Deflection;
 use std::collections::BTreeMap;
@@ -358,7 +358,6 @@ fn outcome(lanes: &[f64; 8], [time, coupling]: [f64; 2]) -> (Summary, f64) {
         peak_deflection: lanes[5],
         impulse: (1.0 + restitution) / INVERSE_MASS,
         contacts: 1,
-        end: EndOfContact::Smooth,
     };
     (summary, first * lanes[6])
 }

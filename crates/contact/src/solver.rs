@@ -8,12 +8,12 @@ use crate::disc::refine::{
 use crate::disc::response::DiscResponse;
 use crate::disc::{FixedDisc, stability};
 use crate::energy::{radiated, work};
-use crate::error::ContactError;
+use crate::error::{ContactError, MarchError};
+use crate::growing::solve_growing;
 use crate::growing::solved::SolvedContact;
 use crate::growing::uniform::march_growing;
 use crate::growing::waves::PunchWaves;
 use crate::growing::work::work_on_half_space;
-use crate::growing::{GrowingError, solve_growing};
 use crate::law::area_dashpot::AreaDashpot;
 use crate::law::hertz;
 use crate::law::pulse::pulse;
@@ -384,9 +384,9 @@ impl<'a, S: Responses> Solver<'a, S> {
             Ok(solved) => Some(solved),
             // the march has other limits: a memory far shorter than the contact is one to it
             Err(
-                GrowingError::Overtaken { .. }
-                | GrowingError::StrikesAgain { .. }
-                | GrowingError::NotConverged { .. },
+                MarchError::Overtaken { .. }
+                | MarchError::StrikesAgain { .. }
+                | MarchError::NotReached { .. },
             ) => None,
             Err(error) => return Err(error.into()),
         };

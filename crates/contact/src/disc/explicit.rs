@@ -12,7 +12,7 @@ use crate::disc::FixedDisc;
 use crate::disc::history::{Budget, History};
 use crate::error::MarchError;
 use crate::numeric::quadrature::{find_root, peak};
-use crate::summary::{EndOfContact, Summary};
+use crate::summary::Summary;
 use crate::units::INVERSE_MASS;
 use halfspace::SurfaceResponse;
 
@@ -90,7 +90,6 @@ fn summarise(history: &History) -> Result<Summary, MarchError> {
         peak_deflection: peak(&history.deflection).1,
         impulse: (1.0 - velocity) / INVERSE_MASS,
         contacts: 1,
-        end: EndOfContact::Smooth,
     })
 }
 

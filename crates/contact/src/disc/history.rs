@@ -100,18 +100,16 @@ impl History {
     /// After the contact the deflection is not followed: that sample holds the one at the end.
     #[must_use]
     pub fn of_pieces(solved: &SolvedContact, step: f64) -> Self {
-        let (contact_time, restitution) =
-            (solved.summary().contact_time, solved.summary().restitution);
-        let steps = (contact_time / step) as usize;
-        let mut history = Self::at_touch(step, steps + 2);
-        for i in 1..=steps {
-            if let Some(now) = solved.at(i as f64 * step) {
-                history.push(now.force, now.displacement, now.deflection);
-            }
+        let contact_time = solved.summary().contact_time;
+        let mut history = Self::at_touch(step, (contact_time / step) as usize + 2);
+        let times = (1..).map(|i| f64::from(i) * step);
+        for time in times.take_while(|time| *time < contact_time) {
+            let now = solved.state(time);
+            history.push(now.force, now.displacement, now.deflection);
         }
-        let last = solved.at(contact_time).map_or(0.0, |now| now.displacement);
-        let beyond = history.force.len() as f64 * step - contact_time;
-        history.push(0.0, last - restitution * beyond, last);
+        let beyond = solved.state(history.force.len() as f64 * step);
+        let last = solved.state(contact_time).displacement;
+        history.push(0.0, beyond.displacement, last);
         history.error = solved.estimates().force;
         history.pieces = Some(Arc::new(solved.clone()));
         history

@@ -8,7 +8,7 @@ use crate::model::Plasticity;
 use crate::numeric::quadrature::{GAUSS_8, gauss, rising_root};
 use crate::plastic::branch::nested;
 use crate::plastic::{Flow, Yielding};
-use crate::summary::{EndOfContact, Estimates, Instant, Summary};
+use crate::summary::{Estimates, Instant, Summary};
 use crate::units::INVERSE_MASS;
 
 /// A contact whose radius follows the load, in collision units.
@@ -31,21 +31,6 @@ struct Yielded {
     breaks: [f64; 2],
     /// Work on the waves until each piece, over the kinetic energy.
     radiated: Vec<f64>,
-}
-
-/// The contact at a time, in collision units.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct GrowingInstant {
-    /// Contact force p = a^3.
-    pub force: f64,
-    /// Contact radius a over that at Hertz's largest approach.
-    pub radius: f64,
-    /// Velocity of the striker.
-    pub velocity: f64,
-    /// Displacement of the striker.
-    pub displacement: f64,
-    /// What the displacement is more than Hertz's indentation a^2 under the same force.
-    pub deflection: f64,
 }
 
 /// Loss below which it is taken from the work on the half-space, not from the momentum.
@@ -99,14 +84,10 @@ impl SolvedContact {
             peak_deflection,
             impulse: (1.0 - state.velocity) / INVERSE_MASS,
             contacts: 1,
-            end: EndOfContact::Layer(0.0),
         };
         let estimates = estimates(&summary, &errors, (work - momentum).abs());
         Self {
-            summary: Summary {
-                end: EndOfContact::Layer(estimates.contact_time),
-                ..summary
-            },
+            summary,
             ends: pieces.iter().map(|piece| piece.to.0).collect(),
             pieces,
             estimates,
@@ -162,7 +143,6 @@ impl SolvedContact {
             peak_deflection: deflected.fold(0.0, f64::max),
             impulse: (1.0 - velocity) / INVERSE_MASS,
             contacts: 1,
-            end: EndOfContact::Layer(0.0),
         };
         Self {
             estimates: estimates(&summary, errors, 0.0),
@@ -282,22 +262,12 @@ impl SolvedContact {
         &self.pieces
     }
 
-    /// The contact at a time in [0, contact time]; nothing outside.
+    /// Contact radius at a time over that at Hertz's largest approach; zero outside the contact.
     #[must_use]
-    pub fn at(&self, time: f64) -> Option<GrowingInstant> {
-        if !(time >= 0.0 && time <= self.summary.contact_time) {
-            return None;
-        }
-        let (piece, place) = self.place(time)?;
-        let radius = piece.radius.value(place).max(0.0);
-        let force = piece.force.map(|force| force.value(place).max(0.0));
-        Some(GrowingInstant {
-            force: force.unwrap_or(radius.powi(3)),
-            radius,
-            velocity: piece.velocity.value(place),
-            displacement: piece.displacement.value(place),
-            deflection: deflected(piece, place),
-        })
+    pub fn radius(&self, time: f64) -> f64 {
+        let inside = time >= 0.0 && time <= self.summary.contact_time;
+        let place = self.place(time).filter(|_| inside);
+        place.map_or(0.0, |(piece, place)| piece.radius.value(place).max(0.0))
     }
 
     /// The piece that holds a time.
@@ -342,7 +312,7 @@ impl SolvedContact {
             ..Instant::default()
         };
         let end = self.summary.contact_time;
-        let (Some(now), true) = (self.at(time.max(0.0)), time < end) else {
+        let Some((piece, place)) = self.place(time.max(0.0)).filter(|_| time < end) else {
             let velocity = -self.summary.restitution;
             let last = self.pieces.last();
             let left = last.map_or(0.0, |piece| piece.displacement.value(1.0));
@@ -353,9 +323,9 @@ impl SolvedContact {
             };
         };
         Instant {
-            displacement: now.displacement,
-            velocity: now.velocity,
-            deflection: now.deflection,
+            displacement: piece.displacement.value(place),
+            velocity: piece.velocity.value(place),
+            deflection: deflected(piece, place),
             ..moved
         }
     }

@@ -25,7 +25,7 @@ use crate::disc::history::History;
 use crate::growing::waves::PunchWaves;
 use crate::law::pulse::pulse;
 use crate::numeric::quadrature::chebyshev;
-use crate::summary::{EndOfContact, Estimates, Summary};
+use crate::summary::{Estimates, Summary};
 use crate::units::INVERSE_MASS;
 
 /// The terms of the expansion in the memory, in collision units.
@@ -172,7 +172,6 @@ impl AreaDashpot {
             peak_deflection: c * chebyshev(&AT_ZERO[6], x) + b * chebyshev(&BY_B[6], x),
             impulse: (1.0 + restitution) / INVERSE_MASS,
             contacts: 1,
-            end: EndOfContact::Layer(0.0),
         }
     }
 }

@@ -13,7 +13,7 @@
 //! Theory: `docs/theory.md` (T39, T50).
 
 use crate::numeric::quadrature::{GAUSS_4, GAUSS_8, find_root};
-use crate::summary::{EndOfContact, Summary};
+use crate::summary::Summary;
 use crate::units::INVERSE_MASS;
 
 /// Results of a contact without waves.
@@ -80,7 +80,6 @@ pub fn quasi_static_radiation(coupling: f64, lag: f64) -> Summary {
         peak_deflection: coupling * mean.peak_force,
         impulse: (1.0 + restitution) / INVERSE_MASS,
         contacts: 1,
-        end: EndOfContact::Smooth,
     }
 }
 

@@ -15,7 +15,7 @@
 
 use crate::law::hertz;
 use crate::numeric::cubic::force_root;
-use crate::summary::{EndOfContact, Summary};
+use crate::summary::Summary;
 use crate::units::INVERSE_MASS;
 
 /// int p'^2 dt of Hertz's pulse in collision units times 5/2: 1 - e^2 over c.
@@ -48,7 +48,6 @@ pub fn radiation(lag: f64) -> Summary {
         peak_deflection: lag * STEEPEST,
         impulse: (1.0 + restitution) / INVERSE_MASS,
         contacts: 1,
-        end: EndOfContact::Smooth,
     }
 }
 

@@ -15,7 +15,7 @@ use crate::numeric::series::Series;
 use crate::plastic::branch::{Branch, FITTED, Fit};
 use crate::plastic::dashpot::Dashpot;
 use crate::plastic::{Flow, Yielding};
-use crate::summary::{EndOfContact, Summary};
+use crate::summary::Summary;
 use crate::units::INVERSE_MASS;
 use std::f64::consts::FRAC_PI_2;
 use std::sync::OnceLock;
@@ -71,7 +71,6 @@ pub(crate) fn quick(yielding: &Yielding, lag: f64) -> Option<(Summary, Flow)> {
             peak_deflection: 1.5 * lag * pulled * from * fifth.sqrt(),
             impulse: (1.0 + v) / INVERSE_MASS,
             contacts: 1,
-            end: EndOfContact::Layer(0.0),
         },
         Flow::new(yielding, top, [plastic_work, radiated]),
     ))
