@@ -288,7 +288,7 @@ impl<'a, S: Responses> Solver<'a, S> {
         mut plan: Plan,
         asked: &Accuracy,
     ) -> Result<Option<Solved>, ContactError> {
-        let mut left_out = plan.groups.left_out();
+        let (_, [mut left_out, _]) = plan.groups.without_memory();
         if plan.model.row().0 == Rung::FullMemory {
             let waves = self.waves(collision.target_poisson_ratio)?;
             let contact = collision.growing_contact(&waves);
@@ -307,7 +307,7 @@ impl<'a, S: Responses> Solver<'a, S> {
             results = match asked.deflection {
                 None => match self.fitted(&plan, yielding, settings) {
                     Some((summary, flow, error)) => {
-                        left_out.contact += error;
+                        left_out += error;
                         Some((summary, flow))
                     }
                     None => quick(yielding, lag),
@@ -325,8 +325,8 @@ impl<'a, S: Responses> Solver<'a, S> {
             return Ok(None);
         };
         let error = match plan.model.row().0 {
-            Rung::QuasiStatic => plan.groups.first_order_loss() + left_out.contact,
-            Rung::Radiation | Rung::AreaDashpot => left_out.contact,
+            Rung::QuasiStatic => plan.groups.first_order_loss() + left_out,
+            Rung::Radiation | Rung::AreaDashpot => left_out,
             Rung::FullMemory => YIELDS * followed.map_or(0.0, |one| one.estimates().contact()),
         };
         Ok(Some(Solved {

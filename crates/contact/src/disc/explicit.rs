@@ -9,7 +9,7 @@
 //! First order: the velocity lags the force by half a step, which feeds energy into the rebound.
 
 use crate::disc::FixedDisc;
-use crate::disc::history::{Budget, History};
+use crate::disc::history::{History, affordable, memory_cells};
 use crate::error::MarchError;
 use crate::numeric::quadrature::{find_root, peak};
 use crate::summary::Summary;
@@ -27,8 +27,9 @@ pub fn march_explicit(
     impact: &FixedDisc<'_, SurfaceResponse>,
     step: f64,
 ) -> Result<(History, Summary), MarchError> {
-    let budget = Budget::of_memory(impact.memory(), step)?;
-    let kernel: Vec<f64> = (0..=budget.cells + 1)
+    let memory = impact.memory();
+    let cells = memory_cells(memory, step)?;
+    let kernel: Vec<f64> = (0..=cells + 1)
         .map(|i| {
             let t = i as f64 * step / impact.wave_time;
             impact.coupling * impact.response.impulse(t) * step / impact.wave_time
@@ -62,7 +63,7 @@ pub fn march_explicit(
             });
         }
         if n.is_multiple_of(1024) {
-            budget.check(n)?;
+            affordable(n, cells, memory)?;
         }
     }
 }

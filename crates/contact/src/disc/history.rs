@@ -146,44 +146,38 @@ impl History {
 /// A contact lasts at least this part of Hertz's.
 const SHORTEST: f64 = 0.5;
 
-/// Bounds the work of one march.
-#[derive(Debug)]
-pub(crate) struct Budget {
-    pub(crate) cells: usize,
-    ratio: f64,
+/// Steps of a march, and products of steps and cells of the memory, at most.
+const STEPS: usize = 400_000;
+const WORK: usize = 4_000_000_000;
+
+/// Cells of a memory at a step, both in collision units.
+///
+/// # Errors
+/// [`MarchError::TooLong`], before a march begins whose work is out of bounds.
+pub(crate) fn memory_cells(memory: f64, step: f64) -> Result<usize, MarchError> {
+    let cells = (memory / step).min(1e9) as usize;
+    affordable(cells, cells, memory)?;
+    affordable(least_steps(step), cells, memory)?;
+    Ok(cells)
 }
 
-impl Budget {
-    const STEPS: usize = 400_000;
-    const WORK: usize = 4_000_000_000;
+/// Steps over a contact at least.
+pub(crate) fn least_steps(step: f64) -> usize {
+    (SHORTEST * CONTACT_TIME / step).min(1e9) as usize
+}
 
-    pub(crate) fn new(cells: usize, ratio: f64) -> Self {
-        Self { cells, ratio }
+/// Whether so many steps with so many cells of a `memory` each are within bounds.
+///
+/// # Errors
+/// [`MarchError::TooLong`].
+pub(crate) fn affordable(steps: usize, cells: usize, memory: f64) -> Result<(), MarchError> {
+    let work = steps.saturating_mul(cells.min(steps));
+    if steps > STEPS || work > WORK {
+        return Err(MarchError::TooLong {
+            steps,
+            cells,
+            ratio: memory,
+        });
     }
-
-    /// For a memory and a step; refuses what is out of bounds before the march begins.
-    pub(crate) fn of_memory(memory: f64, step: f64) -> Result<Self, MarchError> {
-        let cells = (memory / step).min(1e9) as usize;
-        let budget = Self::new(cells, memory);
-        budget.check(cells)?;
-        budget.before(step)?;
-        Ok(budget)
-    }
-
-    /// Refuses a march before it begins.
-    pub(crate) fn before(&self, step: f64) -> Result<(), MarchError> {
-        self.check((SHORTEST * CONTACT_TIME / step).min(1e9) as usize)
-    }
-
-    pub(crate) fn check(&self, steps: usize) -> Result<(), MarchError> {
-        let work = steps.saturating_mul(self.cells.min(steps));
-        if steps > Self::STEPS || work > Self::WORK {
-            return Err(MarchError::TooLong {
-                steps,
-                cells: self.cells,
-                ratio: self.ratio,
-            });
-        }
-        Ok(())
-    }
+    Ok(())
 }

@@ -16,8 +16,8 @@
 //!
 //! Theory: `docs/theory.md` (T47, T48).
 
-use crate::disc::history::{Budget, History};
-use crate::disc::striker::{StrikerMotion, TouchCorrection, starting_roots};
+use crate::disc::history::{History, affordable, least_steps};
+use crate::disc::striker::{StrikerMotion, starting_roots};
 use crate::error::MarchError;
 use crate::growing::waves::GrowingContact;
 use crate::numeric::cubic::force_root;
@@ -35,13 +35,12 @@ const ITERATIONS: usize = 30;
 /// [`MarchError::TooLong`] when the work is out of bounds.
 pub fn march_growing(contact: &GrowingContact<'_>, step: f64) -> Result<History, MarchError> {
     let memory = contact.waves.memory() * contact.wave_time;
-    let budget = Budget::new((memory / step).min(1e9) as usize * 8, memory);
-    budget.before(step)?;
-    let start = TouchCorrection::new(step, 0.0, &starting_roots(step, 0.0));
-    let mut striker = StrikerMotion::new(step, start);
+    let cells = (memory / step).min(1e9) as usize * 8;
+    affordable(least_steps(step), cells, memory)?;
+    let mut striker = StrikerMotion::new(step, 0.0, &starting_roots(step, 0.0));
     let inertia = striker.newest_weight();
     let mut history = History::at_touch(step, 256);
-    history.start = start.force;
+    history.start = striker.missed[0];
     history.end_layer = Some(end_layer(contact));
     let mut indentation = vec![0.0_f64];
     let mut widest = 0.0_f64;
@@ -94,7 +93,7 @@ pub fn march_growing(contact: &GrowingContact<'_>, step: f64) -> Result<History,
             }
         }
         if n.is_multiple_of(256) {
-            budget.check(n)?;
+            affordable(n, cells, memory)?;
         }
     }
 }
