@@ -87,7 +87,7 @@ const CAUTION: f64 = 3.0;
 const BESIDE: f64 = 10.0;
 
 /// Part of the tolerance below which a coefficient is left out.
-const LEFT_OUT: f64 = 1e-3;
+const LEFT_OUT: f64 = 5e-2;
 
 impl Place {
     /// Of a contact that would be marched with full memory, and its disc's response.
@@ -113,10 +113,8 @@ impl Place {
             StaticShare::Dynamic => {
                 let radius_m = disc_radius_m(settings, collision);
                 let compliance = response.static_compliance();
-                (
-                    Family::Dynamic,
-                    collision.disc_groups(compliance, radius_m).0,
-                )
+                let (coupling, _) = collision.disc_groups(compliance, radius_m);
+                (Family::Dynamic, coupling)
             }
         };
         let groups = [memory / response.memory(), coupling];

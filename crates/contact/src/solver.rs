@@ -45,14 +45,27 @@ pub struct Solved {
     pub flow: Option<Flow>,
 }
 
+impl Plan {
+    fn solved(self, scheme: Option<Scheme>, found: Found, flow: Option<Flow>) -> Solved {
+        Solved {
+            plan: self,
+            scheme,
+            summary: found.summary,
+            error: found.error,
+            step: found.step,
+            flow,
+        }
+    }
+}
+
 /// Solves contacts one after the other with responses from a cache; one for each thread.
 #[derive(Debug)]
 pub struct Solver<'a, S: Responses> {
     responses: &'a S,
     outcomes: Option<&'a Outcomes>,
     workspace: Workspace,
-    disc: Latest<(u64, Deflection), S::Disc>,
-    waves: Latest<u64, PunchWaves>,
+    disc: Option<((u64, Deflection), Arc<S::Disc>)>,
+    waves: Option<(u64, Arc<PunchWaves>)>,
     /// The contact solved last, where it was one that follows the load and was not marched.
     growing: Option<SolvedContact>,
     /// What the contact solved last radiates, where it was taken from a series.
@@ -225,14 +238,12 @@ impl<'a, S: Responses> Solver<'a, S> {
             && let Some((summary, radiated, error)) = outcomes.at(&place, self.responses)
         {
             self.radiated = Some(radiated);
-            return Ok(Solved {
-                plan,
-                scheme: None,
+            let found = Found {
                 summary,
                 error,
                 step: None,
-                flow: None,
-            });
+            };
+            return Ok(plan.solved(None, found, None));
         }
         let step = settings
             .step_s
@@ -269,14 +280,7 @@ impl<'a, S: Responses> Solver<'a, S> {
                 (Some(Scheme::Explicit), found)
             }
         };
-        Ok(Solved {
-            plan,
-            scheme,
-            summary: found.summary,
-            error: found.error,
-            step: found.step,
-            flow: None,
-        })
+        Ok(plan.solved(scheme, found, None))
     }
 
     /// A contact that yields; nothing where waves keep it from doing so.
@@ -329,14 +333,13 @@ impl<'a, S: Responses> Solver<'a, S> {
             Rung::Radiation | Rung::AreaDashpot => left_out,
             Rung::FullMemory => YIELDS * followed.map_or(0.0, |one| one.estimates().contact()),
         };
-        Ok(Some(Solved {
-            plan,
-            scheme: memory.then_some(Scheme::Implicit),
+        let found = Found {
             summary,
             error: error.min(1.0),
             step: None,
-            flow: Some(flow),
-        }))
+        };
+        let scheme = memory.then_some(Scheme::Implicit);
+        Ok(Some(plan.solved(scheme, found, Some(flow))))
     }
 
     /// The results of a contact on Jackson and Green's fit from a series, and its error.
@@ -420,12 +423,9 @@ impl<'a, S: Responses> Solver<'a, S> {
     }
 }
 
-/// What was made last, with what it was made for.
-type Latest<K, T> = Option<(K, Arc<T>)>;
-
 /// What belongs to a key, made where the last one was another.
 fn remembered<K: PartialEq, T>(
-    latest: &mut Latest<K, T>,
+    latest: &mut Option<(K, Arc<T>)>,
     key: K,
     make: impl FnOnce() -> Result<Arc<T>, DomainError>,
 ) -> Result<Arc<T>, DomainError> {

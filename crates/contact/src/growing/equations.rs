@@ -12,7 +12,7 @@
 
 use crate::growing::arrivals::{Departure, Piece, departures};
 use crate::growing::nodes::{Factors, Nodes};
-use crate::growing::polynomial::{LARGEST, Polynomial, dot};
+use crate::growing::polynomial::{LARGEST, Polynomial, SIZE, dot};
 use crate::growing::waves::{GrowingContact, Rule};
 use crate::plastic::branch::{Law, Local};
 use crate::units::INVERSE_MASS;
@@ -48,9 +48,6 @@ pub(crate) enum Independent {
     Radius,
 }
 
-/// Values at 0 and the nodes.
-pub(crate) type Values = [f64; LARGEST + 1];
-
 /// What the equations of a piece are made of.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Equations<'a> {
@@ -72,12 +69,12 @@ pub(crate) struct Equations<'a> {
 /// Time, radius and what follows from them at 0 and the nodes.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Motion {
-    pub(crate) time: Values,
-    pub(crate) radius: Values,
+    pub(crate) time: [f64; SIZE],
+    pub(crate) radius: [f64; SIZE],
     /// Slopes with respect to the place.
-    pub(crate) time_slope: Values,
-    pub(crate) radius_slope: Values,
-    pub(crate) velocity: Values,
+    pub(crate) time_slope: [f64; SIZE],
+    pub(crate) radius_slope: [f64; SIZE],
+    pub(crate) velocity: [f64; SIZE],
     /// The law at the nodes.
     pub(crate) local: [Local; LARGEST],
 }
@@ -93,7 +90,7 @@ pub(crate) struct Residual {
 
 impl Equations<'_> {
     /// Polynomials of time and radius through values of what is sought.
-    pub(crate) fn polynomials(&self, sought: &Values) -> (Polynomial, Polynomial) {
+    pub(crate) fn polynomials(&self, sought: &[f64; SIZE]) -> (Polynomial, Polynomial) {
         let sought = self.nodes.polynomial(sought);
         match self.known {
             Independent::Time => (self.given, sought),
@@ -102,10 +99,10 @@ impl Equations<'_> {
     }
 
     /// What follows from values of what is sought.
-    pub(crate) fn motion(&self, sought: &Values) -> Motion {
+    pub(crate) fn motion(&self, sought: &[f64; SIZE]) -> Motion {
         let n = self.nodes.degree;
-        let mut given = [0.0; LARGEST + 1];
-        let (mut given_slope, mut sought_slope) = ([0.0; LARGEST + 1], [0.0; LARGEST + 1]);
+        let mut given = [0.0; SIZE];
+        let (mut given_slope, mut sought_slope) = ([0.0; SIZE], [0.0; SIZE]);
         for (i, &s) in self.nodes.places.iter().enumerate() {
             (given[i], given_slope[i]) = self.given.jet(s);
         }
@@ -122,7 +119,7 @@ impl Equations<'_> {
             local[j - 1] = self.law.branch.at(radius[j]);
             impulse[j - 1] = local[j - 1].force * time_slope[j];
         }
-        let mut velocity = [self.start.velocity; LARGEST + 1];
+        let mut velocity = [self.start.velocity; SIZE];
         for (i, v) in velocity.iter_mut().enumerate().take(n + 1).skip(1) {
             *v -= INVERSE_MASS * dot(self.nodes.integral_row(i), &impulse[..n]);
         }
@@ -140,7 +137,7 @@ impl Equations<'_> {
     pub(crate) fn residual(
         &self,
         rule: &Rule,
-        sought: &Values,
+        sought: &[f64; SIZE],
         motion: &Motion,
         residual: &mut Residual,
     ) {
@@ -264,9 +261,9 @@ impl Equations<'_> {
         found: &[Departure],
         delays: &[f64],
         slope: f64,
-    ) -> (Values, f64) {
-        let mut sums = [0.0; LARGEST + 1];
-        let mut basis = [0.0; LARGEST + 1];
+    ) -> ([f64; SIZE], f64) {
+        let mut sums = [0.0; SIZE];
+        let mut basis = [0.0; SIZE];
         let mut own = 0.0;
         for ((left, &delay), &rate) in found.iter().zip(delays).zip(&rule.rates) {
             let speed = left.time_slope + delay * left.radius_slope;

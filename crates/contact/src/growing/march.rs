@@ -2,9 +2,9 @@
 
 use crate::error::MarchError;
 use crate::growing::arrivals::Piece;
-use crate::growing::equations::{Equations, Independent, State, Values};
+use crate::growing::equations::{Equations, Independent, State};
 use crate::growing::nodes::Nodes;
-use crate::growing::polynomial::{LARGEST, Polynomial};
+use crate::growing::polynomial::{Polynomial, SIZE};
 use crate::growing::step::Solution;
 use crate::growing::waves::{GrowingContact, LEVELS};
 use crate::law::hertz::CONTACT_TIME;
@@ -91,7 +91,7 @@ impl<'a> March<'a> {
         &mut self,
         known: Independent,
         given: Polynomial,
-        guess: &Values,
+        guess: &[f64; SIZE],
     ) -> Option<(Solution, f64)> {
         let mut guess = *guess;
         loop {
@@ -275,8 +275,8 @@ impl<'a> March<'a> {
     }
 
     /// A first guess of the radius over the first piece: the law with a relaxation that decays exponentially.
-    fn first_guess(&self, length: f64) -> Values {
-        let mut guess = [0.0; LARGEST + 1];
+    fn first_guess(&self, length: f64) -> [f64; SIZE] {
+        let mut guess = [0.0; SIZE];
         let relaxation = self.contact.waves.relaxation_time() * self.contact.wave_time;
         for (a, s) in guess.iter_mut().zip(&self.nodes.places).skip(1) {
             let t = (length * s).powi(2);
@@ -291,8 +291,8 @@ impl<'a> March<'a> {
     }
 
     /// The law without waves from the state on, as a guess.
-    pub(crate) fn guess(&self, time: &Polynomial) -> Values {
-        let mut guess = [0.0; LARGEST + 1];
+    pub(crate) fn guess(&self, time: &Polynomial) -> [f64; SIZE] {
+        let mut guess = [0.0; SIZE];
         guess[0] = self.state.radius;
         let (mut u, mut rate) = (self.state.radius.powi(2), self.state.slope);
         let least = 0.01 * self.widest * self.widest;

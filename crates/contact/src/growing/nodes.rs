@@ -1,6 +1,6 @@
 //! Collocation at Radau's nodes: what a piece of degree n needs, made once for each n, and its small linear systems.
 
-use crate::growing::polynomial::{LARGEST, Polynomial, dot};
+use crate::growing::polynomial::{LARGEST, Polynomial, SIZE, dot};
 use crate::numeric::gauss::{gauss, legendre, radau};
 use std::sync::OnceLock;
 
@@ -28,7 +28,7 @@ pub(crate) struct Nodes {
 impl Nodes {
     /// The nodes of a degree in [2, `LARGEST`].
     pub(crate) fn of(degree: usize) -> &'static Self {
-        static ALL: [OnceLock<Nodes>; LARGEST + 1] = [const { OnceLock::new() }; LARGEST + 1];
+        static ALL: [OnceLock<Nodes>; SIZE] = [const { OnceLock::new() }; SIZE];
         let degree = degree.clamp(2, LARGEST);
         ALL[degree].get_or_init(|| Self::new(degree))
     }
@@ -108,7 +108,7 @@ impl Nodes {
     /// The polynomial of values at 0 and the nodes.
     pub(crate) fn polynomial(&self, values: &[f64]) -> Polynomial {
         let n = self.degree + 1;
-        let mut modes = [0.0; LARGEST + 1];
+        let mut modes = [0.0; SIZE];
         self.modes(values, &mut modes);
         let mut found = Polynomial::constant(0.0);
         found.degree = self.degree;
@@ -276,7 +276,7 @@ mod tests {
                 assert!((value - f(s)).abs() < error, "{n}");
                 assert_eq!(value, found.value(s));
                 assert!((slope + f(s).powi(2)).abs() < 100.0 * error, "{n}");
-                let mut basis = [0.0; LARGEST + 1];
+                let mut basis = [0.0; SIZE];
                 nodes.lagrange(s, &mut basis);
                 let sum: f64 = basis.iter().zip(&values).map(|(a, b)| a * b).sum();
                 assert!((sum - value).abs() < 1e-13);

@@ -1,9 +1,9 @@
 //! One piece of the contact by collocation and Newton's method.
 
 use crate::growing::arrivals::Piece;
-use crate::growing::equations::{Equations, Independent, Motion, Residual, State, Values};
+use crate::growing::equations::{Equations, Independent, Motion, Residual, State};
 use crate::growing::nodes::Factors;
-use crate::growing::polynomial::{LARGEST, dot};
+use crate::growing::polynomial::{LARGEST, SIZE, dot};
 
 /// A piece that solves its equations at its nodes.
 #[derive(Debug, Clone, Copy)]
@@ -19,7 +19,7 @@ pub(crate) struct Solution {
     /// Change of what was sought by the finer rule over the waves.
     pub(crate) waves: f64,
     /// What was sought, at 0 and the nodes.
-    pub(crate) sought: Values,
+    pub(crate) sought: [f64; SIZE],
 }
 
 /// Newton's iterations at most.
@@ -34,7 +34,7 @@ const SLACK: f64 = 0.3;
 impl Equations<'_> {
     /// Solves the equations from a guess of the values sought; nothing where Newton's method does not settle
     /// or time does not go on.
-    pub(crate) fn solve(&self, guess: &Values) -> Option<Solution> {
+    pub(crate) fn solve(&self, guess: &[f64; SIZE]) -> Option<Solution> {
         let n = self.nodes.degree;
         let mut sought = *guess;
         let mut residual = Residual::default();
@@ -71,7 +71,7 @@ impl Equations<'_> {
     }
 
     /// The motion, unless a matrix that is nearly singular or a law at the end of the numbers threw it out of them.
-    fn moves(&self, sought: &Values) -> Option<Motion> {
+    fn moves(&self, sought: &[f64; SIZE]) -> Option<Motion> {
         let motion = self.motion(sought);
         let of = [&motion.time, &motion.radius, &motion.velocity];
         let mut all = of.into_iter().flatten();
@@ -79,7 +79,7 @@ impl Equations<'_> {
     }
 
     /// One more change, by the finer rule.
-    fn corrected(&self, mut sought: Values, matrix: &Factors) -> Option<Solution> {
+    fn corrected(&self, mut sought: [f64; SIZE], matrix: &Factors) -> Option<Solution> {
         let n = self.nodes.degree;
         let motion = self.moves(&sought)?;
         let mut residual = Residual::default();
@@ -97,7 +97,7 @@ impl Equations<'_> {
     }
 
     /// Size of what is sought.
-    fn scale(&self, sought: &Values) -> f64 {
+    fn scale(&self, sought: &[f64; SIZE]) -> f64 {
         let n = self.nodes.degree;
         match self.known {
             Independent::Time => sought[..=n].iter().fold(0.0_f64, |m, x| m.max(x.abs())),
@@ -106,7 +106,7 @@ impl Equations<'_> {
     }
 
     /// The largest part of Newton's change that keeps the radius positive or the time rising.
-    fn damping(&self, sought: &Values, change: &[f64]) -> f64 {
+    fn damping(&self, sought: &[f64; SIZE], change: &[f64]) -> f64 {
         let mut factor = 1.0_f64;
         for i in 1..=change.len() {
             let (old, fall, least) = match self.known {
@@ -133,7 +133,7 @@ impl Equations<'_> {
         rises && positive && (closed || motion.time_slope[n] > 0.0)
     }
 
-    fn solution(&self, sought: &Values, motion: &Motion, waves: f64) -> Solution {
+    fn solution(&self, sought: &[f64; SIZE], motion: &Motion, waves: f64) -> Solution {
         let nodes = self.nodes;
         let n = nodes.degree;
         let mut travel = [0.0; LARGEST];
@@ -144,12 +144,12 @@ impl Equations<'_> {
             let lag = travel[j - 1] - here.depth_slope * motion.radius_slope[j];
             dissipated += nodes.weights[j - 1] * here.force * lag;
         }
-        let mut displacement = [self.start.displacement; LARGEST + 1];
+        let mut displacement = [self.start.displacement; SIZE];
         for (i, place) in displacement.iter_mut().enumerate().take(n + 1).skip(1) {
             *place += dot(nodes.integral_row(i), &travel[..n]);
         }
         let (time, radius) = self.polynomials(sought);
-        let mut modes = [0.0; LARGEST + 1];
+        let mut modes = [0.0; SIZE];
         nodes.modes(sought, &mut modes);
         Solution {
             piece: Piece {

@@ -3,9 +3,9 @@
 use crate::disc::refine::Accuracy;
 use crate::error::MarchError;
 use crate::growing::checks;
-use crate::growing::equations::{Independent, Values};
+use crate::growing::equations::Independent;
 use crate::growing::march::March;
-use crate::growing::polynomial::{LARGEST, Polynomial};
+use crate::growing::polynomial::{Polynomial, SIZE};
 use crate::growing::solved::SolvedContact;
 use crate::growing::waves::GrowingContact;
 use crate::numeric::quadrature::rising_root;
@@ -145,8 +145,8 @@ impl March<'_> {
     }
 
     /// Times at the nodes of a radius that falls, by the law without waves.
-    fn opening(&self, radius: &Polynomial) -> Values {
-        let mut times = [self.state.time; LARGEST + 1];
+    fn opening(&self, radius: &Polynomial) -> [f64; SIZE] {
+        let mut times = [self.state.time; SIZE];
         let (mut time, mut rate) = (self.state.time, self.state.slope);
         let mut before = self.law.branch.at(self.state.radius);
         for (value, &s) in times.iter_mut().zip(&self.nodes.places).skip(1) {

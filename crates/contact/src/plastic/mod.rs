@@ -110,7 +110,7 @@ impl Yielding {
     pub(crate) fn unloading(&self, top: f64) -> (Branch, f64) {
         let (edge, depth) = (self.edge(), top * top);
         if top <= edge {
-            return (Branch::Hertz, top);
+            return (Branch::HERTZ, top);
         }
         let force = self.loading().at(top).force;
         match (self.fit, self.law) {

@@ -48,7 +48,7 @@ pub(crate) fn quick(yielding: &Yielding, lag: f64) -> Option<(Summary, Flow)> {
             let (found, stored) = fall_of_cut(edge / top, own_lag)?;
             (found, stored * fifth)
         }
-        Branch::Hertzian { .. } | Branch::Hertz | Branch::Line { .. } | Branch::Fit(_) => {
+        Branch::Hertzian { .. } | Branch::Line { .. } | Branch::Fit(_) => {
             let [speed, duration, pulled] = fall(own_lag)?;
             let by = 1.0 / back.flatter();
             ([speed * by, duration, pulled * by], back.given_back(from))
@@ -275,7 +275,7 @@ fn fall(lag: f64) -> Option<[f64; 3]> {
     let made = MADE.get_or_init(|| {
         let lag = |x: f64| 0.5 * LARGEST_LAG * (1.0 + x);
         Series::through([1, TERMS], LEAST, |[_, x]| {
-            from_rest(Branch::Hertz, lag(x), 1.0)
+            from_rest(Branch::HERTZ, lag(x), 1.0)
         })
     });
     let [speed, duration, pulled, _] = made.as_ref()?.at([0.0, 2.0 * lag / LARGEST_LAG - 1.0]);
