@@ -33,7 +33,6 @@ use crate::plastic::branch::{FITTED, Fit};
 use crate::plastic::quick::quick;
 use crate::responses::Responses;
 use crate::summary::{Summary, relative};
-use crate::units::INVERSE_MASS;
 use halfspace::Deflection;
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
@@ -350,12 +349,10 @@ fn outcome(lanes: &[f64; 8], [time, coupling]: [f64; 2]) -> (Summary, f64) {
         peak_force,
         peak_force_time,
         contact_time,
-        restitution,
         loss: first * slower * (1.0 + restitution),
         peak_displacement,
         peak_deflection: lanes[5],
-        impulse: (1.0 + restitution) / INVERSE_MASS,
-        contacts: 1,
+        ..Summary::rebound(restitution)
     };
     (summary, first * lanes[6])
 }

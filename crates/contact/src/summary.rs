@@ -1,5 +1,7 @@
 //! The results of an impact, and its state at an instant.
 
+use crate::units::INVERSE_MASS;
+
 /// The scalar results of an impact in collision units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Summary {
@@ -76,6 +78,21 @@ pub struct Instant {
 }
 
 impl Summary {
+    /// Of one contact with a restitution: loss and impulse follow from it, the rest is for the caller to fill in.
+    pub(crate) fn rebound(restitution: f64) -> Self {
+        Self {
+            peak_force: 0.0,
+            peak_force_time: 0.0,
+            contact_time: 0.0,
+            restitution,
+            loss: (1.0 - restitution) * (1.0 + restitution),
+            peak_displacement: 0.0,
+            peak_deflection: 0.0,
+            impulse: (1.0 + restitution) / INVERSE_MASS,
+            contacts: 1,
+        }
+    }
+
     /// The largest difference of what a tolerance is asked on, relative (restitution: of the velocity
     /// of approach): peak force, contact time, restitution, largest displacement.
     #[must_use]

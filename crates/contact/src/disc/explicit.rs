@@ -85,12 +85,9 @@ fn summarise(history: &History) -> Result<Summary, MarchError> {
         peak_force,
         peak_force_time: place * history.step,
         contact_time: (n as f64 - 1.0 + fraction) * history.step,
-        restitution: -velocity,
-        loss: (1.0 - velocity) * (1.0 + velocity),
         peak_displacement: peak(&history.displacement).1,
         peak_deflection: peak(&history.deflection).1,
-        impulse: (1.0 - velocity) / INVERSE_MASS,
-        contacts: 1,
+        ..Summary::rebound(-velocity)
     })
 }
 

@@ -26,7 +26,6 @@ use crate::growing::waves::PunchWaves;
 use crate::law::pulse::pulse;
 use crate::numeric::quadrature::chebyshev;
 use crate::summary::{Estimates, Summary};
-use crate::units::INVERSE_MASS;
 
 /// The terms of the expansion in the memory, in collision units.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -166,12 +165,10 @@ impl AreaDashpot {
             peak_force: result(0) + third(PEAK_FORCE),
             peak_force_time: result(1) + third(PEAK_FORCE_TIME),
             contact_time: result(2) - self.depth(velocity) / velocity,
-            restitution,
             loss,
             peak_displacement: result(4) + third(PEAK_DISPLACEMENT),
             peak_deflection: c * chebyshev(&AT_ZERO[6], x) + b * chebyshev(&BY_B[6], x),
-            impulse: (1.0 + restitution) / INVERSE_MASS,
-            contacts: 1,
+            ..Summary::rebound(restitution)
         }
     }
 }

@@ -65,12 +65,9 @@ pub(crate) fn quick(yielding: &Yielding, lag: f64) -> Option<(Summary, Flow)> {
             peak_force: turned.peak_force,
             peak_force_time: t0 + turned.peak_force_time,
             contact_time: t0 + turned.time + duration / from.sqrt(),
-            restitution: v,
-            loss: (1.0 - v) * (1.0 + v),
             peak_displacement: turned.depth,
             peak_deflection: 1.5 * lag * pulled * from * fifth.sqrt(),
-            impulse: (1.0 + v) / INVERSE_MASS,
-            contacts: 1,
+            ..Summary::rebound(v)
         },
         Flow::new(yielding, top, [plastic_work, radiated]),
     ))
