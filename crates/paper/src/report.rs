@@ -165,11 +165,7 @@ fn points(redrawn: &Redrawn) -> Vec<[String; 5]> {
             match layer {
                 Layer::Line(line) => line.points.iter().for_each(|&at| add(&line.name, at)),
                 Layer::Point(point) => add("printed in the paper", (point.x, point.y)),
-                Layer::Band(_)
-                | Layer::Classes(_)
-                | Layer::Histogram(_)
-                | Layer::Image(_)
-                | Layer::Mark(_) => {}
+                Layer::Classes(_) | Layer::Image(_) | Layer::Mark(_) => {}
             }
         }
     }

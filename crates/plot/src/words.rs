@@ -1,6 +1,6 @@
 //! Numbers, keys and quantities in words, for titles, axes and legends.
 
-use figure::Unit;
+use figure::{Axis, Scale};
 use formats::sweep::key_unit;
 use std::path::Path;
 
@@ -66,13 +66,15 @@ pub(crate) fn of_key(key: &str) -> (String, &'static str) {
     (name, unit)
 }
 
-/// The unit of a file on an axis: with SI prefixes where it takes them.
-pub(crate) fn unit_of(unit: &str) -> Unit {
+/// An axis with the unit of a file: with SI prefixes where it takes them.
+pub(crate) fn axis(name: &str, unit: &str, scale: Scale) -> Axis {
+    let mut axis = Axis::linear(name);
+    axis.scale = scale;
     match unit {
-        "1" | "" => Unit::One,
-        "kg" => Unit::Si("g".to_owned()),
-        "kg/m^3" => Unit::Fixed("kg/m^{3}".to_owned()),
-        unit => Unit::Si(unit.replace("^2", "^{2}")),
+        "1" | "" => axis,
+        "kg" => axis.si("g"),
+        "kg/m^3" => axis.unit("kg/m^{3}"),
+        unit => axis.si(&unit.replace("^2", "^{2}")),
     }
 }
 

@@ -1,9 +1,9 @@
 //! PDF: one page, shapes as shapes and text as text in an embedded font.
 
 use crate::colour::{BLACK, Colour, WHITE};
-use crate::error::FigureError;
+use crate::figure::FigureError;
 use crate::font;
-use crate::scene::{Item, Picture, Scene, Segment, Shape, Text, Turn};
+use crate::scene::{Item, Picture, Scene, Segment, Shape, Text};
 use miniz_oxide::deflate::compress_to_vec_zlib;
 use pdf_writer::types::{
     CidFontType, FontFlags, LineJoinStyle, SystemInfo, TextRenderingMode, UnicodeCmap,
@@ -139,7 +139,7 @@ impl Subset {
             }
         }
         let file = subsetter::subset(font::data(), 0, &remapper)
-            .map_err(|error| FigureError::Font(error.to_string()))?;
+            .map_err(|error| FigureError(format!("the font cannot be embedded: {error}")))?;
         Ok(Self { file, letters })
     }
 
@@ -265,18 +265,18 @@ fn draw_text(content: &mut Content, text: &Text, font: &Subset) {
     content.set_line_width(3.0);
     content.set_line_join(LineJoinStyle::RoundJoin);
     // the rim below, then the letters
-    let rim = text.rim.then_some(TextRenderingMode::Stroke);
+    let rim = text.has_rim.then_some(TextRenderingMode::Stroke);
     for pass in rim.into_iter().chain([TextRenderingMode::Fill]) {
         content.begin_text();
         content.set_text_rendering_mode(pass);
-        for part in text.parts() {
-            content.set_font(FONT, part.size as f32);
-            let (x, y) = (part.start.0 as f32, part.start.1 as f32);
-            content.set_text_matrix(match text.turn {
-                Turn::Level => [1.0, 0.0, 0.0, -1.0, x, y],
-                Turn::Upward => [0.0, -1.0, -1.0, 0.0, x, y],
+        for (part, size, (x, y)) in text.parts() {
+            content.set_font(FONT, size as f32);
+            let (x, y) = (x as f32, y as f32);
+            content.set_text_matrix(match text.is_upward {
+                true => [0.0, -1.0, -1.0, 0.0, x, y],
+                false => [1.0, 0.0, 0.0, -1.0, x, y],
             });
-            content.show(Str(&font.encode(part.text)));
+            content.show(Str(&font.encode(part)));
         }
         content.end_text();
     }

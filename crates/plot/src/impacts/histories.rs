@@ -2,9 +2,9 @@
 
 use crate::error::{PlotError, chosen};
 use crate::series::{curve, end_s, waves_of};
-use crate::words::{component, of_quantity, unit_of, with_unit};
+use crate::words::{axis, component, of_quantity, with_unit};
 use contact::{Model, Settings};
-use figure::{Axis, Legend, Panel, Style};
+use figure::{Axis, Legend, Panel, Scale, Style};
 use formats::quantities::Described;
 use formats::stored::{StoredImpact, StoredProbes};
 use impact::Impact;
@@ -15,8 +15,7 @@ pub(super) const FEW: usize = 3;
 /// An empty panel over time.
 fn over_time(quantity: &str, unit: &str, end_s: f64, legend: Legend) -> Panel {
     let time = Axis::linear("time").si("s").range(0.0, end_s);
-    let mut value = Axis::linear(quantity);
-    value.unit = unit_of(unit);
+    let value = axis(quantity, unit, Scale::Linear);
     Panel::new(time, value).height(210.0).legend(legend)
 }
 
@@ -257,11 +256,13 @@ fn with_traces(
             continue;
         }
         let points = curve(&impact.series.time_s, &samples, f64::INFINITY);
-        if let Some(error) = probes.error(&quantity.name, probe) {
-            let band = points.iter().map(|&(t, y)| (t, y - error, y + error));
-            panel = panel.band(&name, band.collect());
-        }
-        panel = panel.line(&name, Style::Plain, points);
+        panel = match probes.error(&quantity.name, probe) {
+            Some(error) => {
+                let within = points.iter().map(|&(t, y)| (t, [y - error, y, y + error]));
+                panel.banded(&name, Style::Plain, &within.collect::<Vec<_>>())
+            }
+            None => panel.line(&name, Style::Plain, points),
+        };
     }
     Ok(panel)
 }

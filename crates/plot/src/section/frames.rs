@@ -3,12 +3,9 @@
 use crate::error::PlotError;
 use crate::request::Request;
 use crate::series::{end_s, waves_of};
-use crate::words::{of_quantity, unit_of};
+use crate::words::{axis, of_quantity};
 use contact::{Choice, WaveSpeeds};
-use figure::{
-    Axis, ColourMap, ColourScale, Image, LabelledPoint, Layer, Limits, Line, Mirror, Panel,
-    Shading, Style,
-};
+use figure::{Axis, ColourMap, Image, LabelledPoint, Layer, Line, Panel, Scale, Style};
 use formats::quantities::Described;
 use formats::stored::{ReadError, StoredImpact, StoredSection};
 use std::f64::consts::FRAC_PI_2;
@@ -93,20 +90,20 @@ impl<'a> Section<'a> {
         quantity: &Quantity,
         rows: &[Vec<f64>],
         is_far: &[bool],
-    ) -> ColourScale {
+    ) -> (Axis, ColourMap) {
         let near = self.is_near();
         let shown = rows.iter().flat_map(|row| {
             let pairs = row.iter().zip(is_far).filter(|(_, far)| near || **far);
             pairs.map(|(value, _)| *value)
         });
         let largest = quantile_of_sizes(shown, if near { 0.999 } else { 0.985 });
-        let colours = quantity.colours(largest);
-        match near && !quantity.has_sign() {
-            true => colours
-                .logarithmic()
-                .limits(Limits::Between(1e-3 * largest, largest)),
-            false => colours,
-        }
+        let (scale, low, map) = match (quantity.has_sign(), near) {
+            (true, _) => (Scale::Linear, -largest, ColourMap::Diverging),
+            (false, true) => (Scale::Logarithmic, 1e-3 * largest, ColourMap::Sequential),
+            (false, false) => (Scale::Linear, 0.0, ColourMap::Sequential),
+        };
+        let axis = axis(&quantity.words, &quantity.unit, scale);
+        (axis.range(low, largest), map)
     }
 
     /// Its extents along r and z in m.
@@ -150,20 +147,15 @@ impl<'a> Section<'a> {
     }
 
     /// Values over the section, mirrored at the axis.
-    pub(super) fn map(&self, values: Vec<f64>, colours: ColourScale) -> Panel {
+    pub(super) fn map(&self, values: Vec<f64>, colours: Axis, map: ColourMap) -> Panel {
         let [r_max_m, z_max_m] = self.extent_m();
-        let image = Image {
-            x: self.stored.r_m.clone(),
-            y: self.depths_m(),
-            values,
-            shading: Shading::Smooth,
-            colours,
-        };
+        let (r_m, z_m) = (self.stored.r_m.clone(), self.depths_m());
+        let image = Image::new(r_m, z_m, values, colours, map);
         let distance = Axis::linear("distance from the axis").si("m");
         let depth = Axis::linear("depth").si("m").reversed();
         Panel::new(distance.range(0.0, r_max_m), depth.range(0.0, z_max_m))
             .equal_lengths()
-            .mirrored(Mirror::Even)
+            .mirrored()
             .layer(Layer::Image(image))
     }
 
@@ -175,7 +167,7 @@ impl<'a> Section<'a> {
             return layers;
         }
         let mut line = |points: Vec<(f64, f64)>| {
-            layers.push(Layer::Line(Line::new("", Style::RimmedDashed, points)));
+            layers.push(Layer::Line(Line::new("", Style::Rimmed, points)));
         };
         let [p, s, rayleigh] =
             [self.speeds.p, self.speeds.s, self.speeds.rayleigh].map(|c| c * since);
@@ -286,16 +278,6 @@ impl Quantity {
     /// Whether it has a sign.
     pub(super) fn has_sign(&self) -> bool {
         !["von_mises", "tresca", "max_shear", "displacement", "speed"].contains(&self.name.as_str())
-    }
-
-    /// Colours that suit it, up to a size.
-    pub(super) fn colours(&self, largest: f64) -> ColourScale {
-        let (map, low) = match self.has_sign() {
-            true => (ColourMap::Diverging, -largest),
-            false => (ColourMap::Sequential, 0.0),
-        };
-        ColourScale::new(&self.words, unit_of(&self.unit), map)
-            .limits(Limits::Between(low, largest))
     }
 
     /// Its values in a frame.

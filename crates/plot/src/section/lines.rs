@@ -5,9 +5,9 @@ use super::frames::{Quantity, Section};
 use crate::error::PlotError;
 use crate::request::Request;
 use crate::series::curve;
-use crate::words::{unit_of, with_unit};
+use crate::words::{axis, with_unit};
 use contact::KernelUnits;
-use figure::{Axis, Image, LabelledPoint, Layer, Legend, Panel, Shading, Style};
+use figure::{Axis, Image, LabelledPoint, Layer, Legend, Panel, Scale, Style};
 use formats::results::schema::FIELDS;
 use formats::stored::StoredImpact;
 use halfspace::{Kernel, Medium, Profile};
@@ -51,18 +51,11 @@ pub(crate) fn space_time(
     }
     let near_m = section.near_m(distances[distances.len() - 1]);
     let is_far: Vec<bool> = distances.iter().map(|d| *d > near_m).collect();
-    let colours = section.colours(&quantity, &rows, &is_far);
+    let (colours, map) = section.colours(&quantity, &rows, &is_far);
     let times = chosen.iter().map(|&frame| section.stored.time_s[frame]);
     let along = distances.len();
-    let image = Image {
-        values: (0..along)
-            .flat_map(|i| rows.iter().map(move |row| row[i]))
-            .collect(),
-        x: times.collect(),
-        y: distances,
-        shading: Shading::Smooth,
-        colours,
-    };
+    let values = (0..along).flat_map(|i| rows.iter().map(move |row| row[i]));
+    let image = Image::new(times.collect(), distances, values.collect(), colours, map);
     Ok(panel(&section, image, path))
 }
 
@@ -95,7 +88,7 @@ fn panel(section: &Section<'_>, image: Image, path: Path) -> Panel {
         let points = vec![at(section.start_s), at(end_s)];
         let (x, y) = at(section.start_s + share * (end_s - section.start_s));
         panel = panel
-            .line("", Style::RimmedDashed, points)
+            .line("", Style::Rimmed, points)
             .layer(Layer::Point(LabelledPoint::text(x, y, name)));
     }
     panel
@@ -125,8 +118,8 @@ pub(crate) fn axis_profile(impact: &StoredImpact, request: &Request) -> Result<P
     let depth = Axis::logarithmic("depth")
         .unit("mm")
         .range(1e3 * first_m, 1e3 * last_m);
-    let mut size = Axis::logarithmic(&format!("size of the {}", quantity.words));
-    size.unit = unit_of(&quantity.unit);
+    let words = format!("size of the {}", quantity.words);
+    let size = axis(&words, &quantity.unit, Scale::Logarithmic);
     let mut panel = Panel::new(depth, size).height(380.0);
     let (mut smallest, mut largest) = (f64::INFINITY, 0.0_f64);
     let mut drawn = Vec::new();
