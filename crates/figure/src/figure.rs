@@ -1,14 +1,9 @@
 //! A picture as data: panels in rows, each with two axes and layers.
 
 use crate::axis::{Axis, Interval, Scale};
+use crate::error::FigureError;
 use crate::layers::{Layer, Line, Mark};
 use crate::look::Style;
-use thiserror::Error;
-
-/// What a figure says that cannot be drawn, in a sentence; panels are counted from 0.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("{0}")]
-pub struct FigureError(pub(crate) String);
 
 /// Whether panels have one axis in common.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

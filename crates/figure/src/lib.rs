@@ -34,6 +34,7 @@
 
 mod axis;
 mod colour;
+mod error;
 mod figure;
 mod font;
 mod geometry;
@@ -47,7 +48,8 @@ mod write;
 
 pub use axis::{Axis, Interval, Scale, Unit};
 pub use colour::ColourMap;
-pub use figure::{Figure, FigureError, Legend, Panel, Sharing};
+pub use error::FigureError;
+pub use figure::{Figure, Legend, Panel, Sharing};
 pub use geometry::Rect;
 pub use layers::{Classes, Image, LabelledPoint, Layer, Line, Mark};
 pub use look::Style;

@@ -2,7 +2,7 @@
 
 use super::{Colours, Kind, Swatch, count};
 use crate::axis::Interval;
-use crate::figure::FigureError;
+use crate::error::FigureError;
 use crate::geometry::{Frame, Point, Rect};
 use crate::look::{Slot, fills};
 use crate::scene::{Scene, Shape};

@@ -3,7 +3,7 @@
 use super::{Colours, Kind, count};
 use crate::axis::Axis;
 use crate::colour::ColourMap;
-use crate::figure::FigureError;
+use crate::error::FigureError;
 use crate::geometry::{Frame, Point};
 use crate::look::Slot;
 use crate::scene::{Item, Picture, Scene};

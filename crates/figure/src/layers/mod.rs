@@ -18,7 +18,7 @@ pub(crate) use colours::Colours;
 pub(crate) use curves::{BAND, draw_run};
 
 use crate::colour::Colour;
-use crate::figure::FigureError;
+use crate::error::FigureError;
 use crate::geometry::{Frame, Point};
 use crate::look::{Look, Slot};
 use crate::scene::Scene;

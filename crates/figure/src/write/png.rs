@@ -1,7 +1,7 @@
 //! Pixels: PNG, and GIF of several scenes.
 
 use crate::colour::{BLACK, Colour, WHITE};
-use crate::figure::FigureError;
+use crate::error::FigureError;
 use crate::font;
 use crate::geometry::Rect;
 use crate::scene::{Item, Picture, Scene, Segment, Shape, Text};

@@ -1,7 +1,7 @@
 //! SVG.
 
 use super::png::{encode, pixels};
-use crate::figure::FigureError;
+use crate::error::FigureError;
 use crate::font;
 use crate::geometry::{Point, Rect};
 use crate::scene::{Item, Picture, Scene, Segment, Shape, Text};

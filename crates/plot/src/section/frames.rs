@@ -226,8 +226,10 @@ pub(super) struct Quantity {
     pub(super) words: String,
     /// Unit without a prefix.
     pub(super) unit: String,
-    /// What it is made of: nothing where it is stored itself, the components of a length, or all stresses.
-    parts: &'static [&'static str],
+    /// What it is made of: itself where it is stored, the components of a length, or all stresses.
+    parts: Vec<String>,
+    /// What it is of the stresses, if it is not stored.
+    pub(super) stress: Option<impact::Quantity>,
 }
 
 /// Stresses that others follow from.
@@ -248,8 +250,9 @@ impl Quantity {
     pub(super) fn named(name: &str, stored: &[Described], path: &Path) -> Result<Self, PlotError> {
         let find = |name: &str| stored.iter().find(|quantity| quantity.name == name);
         let stress = OF_STRESSES.into_iter().find(|of| of.name() == name);
-        let (unit, parts): (&str, &'static [&'static str]) = match (find(name), stress, name) {
-            (Some(found), _, _) => (&found.unit, &[]),
+        let stress = stress.filter(|_| find(name).is_none());
+        let (unit, parts): (&str, &[&str]) = match (find(name), stress, name) {
+            (Some(found), _, _) => (&found.unit, &[name]),
             (None, Some(_), _) => ("Pa", &STRESSES),
             (None, None, "displacement") => ("m", &["displacement_r", "displacement_z"]),
             (None, None, "speed") if find("velocity_r").and(find("velocity_z")).is_some() => {
@@ -266,13 +269,9 @@ impl Quantity {
             name: name.to_owned(),
             words: of_quantity(name),
             unit: unit.to_owned(),
-            parts,
+            parts: parts.iter().map(|&part| part.to_owned()).collect(),
+            stress,
         })
-    }
-
-    /// What it is of the stresses, if that is all it is of.
-    pub(super) fn stress(&self) -> Option<impact::Quantity> {
-        OF_STRESSES.into_iter().find(|of| of.name() == self.name)
     }
 
     /// Whether it has a sign.
@@ -282,19 +281,15 @@ impl Quantity {
 
     /// Its values in a frame.
     pub(super) fn at(&self, section: &StoredSection, frame: usize) -> Result<Vec<f64>, ReadError> {
-        let stored = |name: &str| -> Result<Vec<f64>, ReadError> {
-            let values = section.frame(name, frame)?;
-            Ok(values.into_iter().map(f64::from).collect())
-        };
-        let parts = self.parts.iter().map(|name| stored(name));
-        let parts: Vec<Vec<f64>> = parts.collect::<Result<_, _>>()?;
-        Ok(match (parts.as_slice(), self.stress()) {
-            ([a, b], _) => a.iter().zip(b).map(|(a, b)| a.hypot(*b)).collect(),
+        let parts = self.parts.iter().map(|name| section.frame(name, frame));
+        let parts: Vec<Vec<f32>> = parts.collect::<Result<_, _>>()?;
+        let value = |i: usize| match (parts.as_slice(), self.stress) {
             ([rr, tt, zz, rz], Some(of)) => {
-                let at = |i: usize| of.of([rr[i], tt[i], zz[i], rz[i]], [1.0, 0.0]);
-                (0..rr.len()).map(at).collect()
+                of.of([rr[i], tt[i], zz[i], rz[i]].map(f64::from), [1.0, 0.0])
             }
-            (_, _) => stored(&self.name)?,
-        })
+            ([a, b], _) => f64::from(a[i]).hypot(f64::from(b[i])),
+            (parts, _) => f64::from(parts[0][i]),
+        };
+        Ok((0..parts[0].len()).map(value).collect())
     }
 }
