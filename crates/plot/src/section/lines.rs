@@ -99,7 +99,10 @@ pub(crate) fn axis_profile(impact: &StoredImpact, request: &Request) -> Result<P
     let depth = Axis::logarithmic("depth")
         .unit("mm")
         .range(1e3 * first_m, 1e3 * last_m);
-    let words = format!("size of the {}", quantity.words);
+    let words = match quantity.has_sign() {
+        true => format!("size of the {}", quantity.words),
+        false => quantity.words.clone(),
+    };
     let size = axis(&words, &quantity.unit, Scale::Logarithmic);
     let mut panel = Panel::new(depth, size).height(380.0);
     let (mut smallest, mut largest) = (f64::INFINITY, 0.0_f64);
