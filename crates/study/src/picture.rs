@@ -93,11 +93,7 @@ impl Picture {
                     let names = map.class.iter().map(|&class| &*map.names[class]);
                     points.extend(names.zip(cells).map(|(name, (x, y))| (name, x, y)));
                 }
-                Layer::Band(_)
-                | Layer::Histogram(_)
-                | Layer::Image(_)
-                | Layer::Mark(_)
-                | Layer::Point(_) => {}
+                Layer::Image(_) | Layer::Mark(_) | Layer::Point(_) => {}
             }
         }
         points
