@@ -1,6 +1,6 @@
 //! The exact kernels at many places and times, in reduced units.
 
-use crate::errors;
+use crate::errors::{self, OrRaise};
 use crate::values::{frozen, numbers, vector};
 use crate::work::{Ticker, Way, run, run_short};
 use halfspace::{
@@ -14,7 +14,7 @@ use rayon::prelude::*;
 
 /// A medium, or the exception that names its range.
 fn medium_of(py: Python<'_>, nu: f64) -> PyResult<Medium> {
-    Medium::new(nu).map_err(|error| errors::raised(py, error))
+    Medium::new(nu).or_raise(py)
 }
 
 fn profile_of(py: Python<'_>, name: &str) -> PyResult<Profile> {
@@ -91,8 +91,7 @@ pub(crate) fn kernel<'py>(
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Fields<'py>> {
     let (order, profile) = (Order::named(py, order)?, profile_of(py, profile)?);
-    let kernel = Kernel::new(&medium_of(py, nu)?, profile, tolerance);
-    let kernel = kernel.map_err(|error| errors::raised(py, error))?;
+    let kernel = Kernel::new(&medium_of(py, nu)?, profile, tolerance).or_raise(py)?;
     let rows = r.len()?;
     if z.len()? != rows || t.len()? != rows {
         let message = "r, z and t differ in their lengths";
@@ -116,7 +115,7 @@ pub(crate) fn kernel<'py>(
             (0..rows).into_par_iter().map(|i| one(ticker, i)).collect()
         })?
     };
-    let found = found.map_err(|error| errors::raised(py, error))?;
+    let found = found.or_raise(py)?;
     let values: Vec<f64> = found.iter().flat_map(|e| e.value).collect();
     let limits: Vec<f64> = found.iter().flat_map(|e| e.error).collect();
     Ok((
@@ -135,8 +134,8 @@ pub(crate) fn static_field<'py>(
     profile: &str,
 ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
     // no quadrature: the tolerance is of no consequence
-    let kernel = Kernel::new(&medium_of(py, nu)?, profile_of(py, profile)?, 1e-6);
-    let kernel = kernel.map_err(|error| errors::raised(py, error))?;
+    let profile = profile_of(py, profile)?;
+    let kernel = Kernel::new(&medium_of(py, nu)?, profile, 1e-6).or_raise(py)?;
     let rows = r.len()?;
     errors::check_memory(py, rows, 2 * 8 + 2 * 6 * 8)?;
     let (r, z) = (numbers(&r), numbers(&z));
@@ -144,8 +143,7 @@ pub(crate) fn static_field<'py>(
         let places = r.iter().zip(&z);
         places.map(|(&r, &z)| kernel.static_field(r, z)).collect()
     })?;
-    let found = found.map_err(|error| errors::raised(py, error))?;
-    frozen(py, found.into_flattened(), &[rows, 6])
+    frozen(py, found.or_raise(py)?.into_flattened(), &[rows, 6])
 }
 
 /// The deflection of the loaded surface over its static value, or its integral or impulse response.
@@ -220,7 +218,7 @@ pub(crate) fn arrivals<'py>(
     profile: &str,
 ) -> PyResult<Bound<'py, PyDict>> {
     let found = Arrivals::new(&medium_of(py, nu)?, profile_of(py, profile)?, r, z);
-    let found = found.map_err(|error| errors::raised(py, error))?;
+    let found = found.or_raise(py)?;
     let waves = PyDict::new(py);
     waves.set_item("above", found.above)?;
     waves.set_item("p", found.p)?;
