@@ -26,9 +26,11 @@ pub(crate) struct Inversion {
     pub(crate) setting: String,
     /// Digits that the transform needs: those of the result and those that the weights cancel.
     digits: f64,
-    /// Step responses at ascending times.
-    invert: Box<dyn Fn(&Hankel, &[f64]) -> Vec<Six>>,
+    invert: Box<Invert>,
 }
+
+/// Step responses at ascending times.
+type Invert = dyn Fn(&Hankel, &[f64]) -> Vec<Six>;
 
 /// Ratio of times that share the samples of an accelerated series: over more the early ones are not resolved, over
 /// less the samples are not used.
