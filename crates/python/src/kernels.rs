@@ -31,41 +31,43 @@ fn deflection_of(py: Python<'_>, name: &str) -> PyResult<Deflection> {
     errors::one_of(py, "deflection", name, &all)
 }
 
-/// Which function of time.
-#[derive(Debug, Clone, Copy)]
-enum Order {
-    Step,
-    Remainder,
-    Impulse,
-    Integral,
-}
+/// A function of time: as a kernel gives it at (r, z, t), and as the surface does.
+type Order = (
+    fn(&Kernel, [f64; 3]) -> Result<Estimate, DomainError>,
+    fn(&SurfaceResponse, f64) -> f64,
+);
 
-impl Order {
-    fn named(py: Python<'_>, name: &str) -> PyResult<Self> {
-        let all = [
-            ("step", Self::Step),
-            ("remainder", Self::Remainder),
-            ("impulse", Self::Impulse),
-            ("step_integral", Self::Integral),
-        ];
-        errors::one_of(py, "order", name, &all)
-    }
+const ORDERS: [(&str, Order); 4] = [
+    ("step", (step, SurfaceResponse::step)),
+    (
+        "remainder",
+        (
+            |kernel, [r, z, t]| kernel.remainder(r, z, t),
+            |surface, t| surface.step(t) - 1.0,
+        ),
+    ),
+    (
+        "impulse",
+        (
+            |kernel, [r, z, t]| kernel.impulse(r, z, t),
+            SurfaceResponse::impulse,
+        ),
+    ),
+    (
+        "step_integral",
+        (
+            |kernel, [r, z, t]| kernel.step_integral(r, z, t),
+            SurfaceResponse::step_integral,
+        ),
+    ),
+];
 
-    fn at(self, kernel: &Kernel, [r, z, t]: [f64; 3]) -> Result<Estimate, DomainError> {
-        match self {
-            Self::Step => {
-                let rest = kernel.static_field(r, z)?;
-                let found = kernel.remainder(r, z, t)?;
-                Ok(Estimate {
-                    value: std::array::from_fn(|f| rest[f] + found.value[f]),
-                    ..found
-                })
-            }
-            Self::Remainder => kernel.remainder(r, z, t),
-            Self::Impulse => kernel.impulse(r, z, t),
-            Self::Integral => kernel.step_integral(r, z, t),
-        }
-    }
+/// The step response, the static field and the remainder.
+fn step(kernel: &Kernel, [r, z, t]: [f64; 3]) -> Result<Estimate, DomainError> {
+    let rest = kernel.static_field(r, z)?;
+    let mut found = kernel.remainder(r, z, t)?;
+    found.value = std::array::from_fn(|f| rest[f] + found.value[f]);
+    Ok(found)
 }
 
 /// Values and errors, one row of six fields a place.
@@ -90,7 +92,8 @@ pub(crate) fn kernel<'py>(
     threads: Option<usize>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Fields<'py>> {
-    let (order, profile) = (Order::named(py, order)?, profile_of(py, profile)?);
+    let (at, _) = errors::one_of(py, "order", order, &ORDERS)?;
+    let profile = profile_of(py, profile)?;
     let kernel = Kernel::new(&medium_of(py, nu)?, profile, tolerance).or_raise(py)?;
     let rows = r.len()?;
     if z.len()? != rows || t.len()? != rows {
@@ -102,7 +105,7 @@ pub(crate) fn kernel<'py>(
     let (r, z, t) = (numbers(&r), numbers(&z), numbers(&t));
     let one = move |ticker: &Ticker, i: usize| {
         ticker.more(1);
-        order.at(&kernel, [r[i], z[i], t[i]])
+        at(&kernel, [r[i], z[i], t[i]])
     };
     let found: Result<Vec<Estimate>, DomainError> = if rows < 8 {
         run_short(py, || {
@@ -155,19 +158,11 @@ pub(crate) fn surface<'py>(
     t: PyReadonlyArray1<'py, f64>,
     deflection: &str,
 ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-    let order = Order::named(py, order)?;
+    let (_, at) = errors::one_of(py, "order", order, &ORDERS)?;
     let response = SurfaceResponse::new(&medium_of(py, nu)?, deflection_of(py, deflection)?);
     errors::check_memory(py, t.len()?, 2 * 8)?;
     let t = numbers(&t);
-    let found: Vec<f64> = run_short(py, || {
-        let at = |t: f64| match order {
-            Order::Step => response.step(t),
-            Order::Remainder => response.step(t) - 1.0,
-            Order::Impulse => response.impulse(t),
-            Order::Integral => response.step_integral(t),
-        };
-        t.iter().map(|&t| at(t)).collect()
-    })?;
+    let found = run_short(py, || t.iter().map(|&t| at(&response, t)).collect())?;
     vector(py, found)
 }
 

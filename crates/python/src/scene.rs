@@ -23,7 +23,9 @@ impl Given {
         let py = given.py();
         let read = |path: PathBuf| -> PyResult<Self> {
             let text = py.detach(|| read_text(&path)).or_raise(py)?;
-            let table = parse_table(&text).map_err(|error| error.in_file(&path)).or_raise(py)?;
+            let table = parse_table(&text)
+                .map_err(|error| error.in_file(&path))
+                .or_raise(py)?;
             let file = Some(path);
             Ok(Self { table, file })
         };

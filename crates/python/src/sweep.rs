@@ -147,7 +147,10 @@ impl Plan {
                 !ticker.is_stopped()
             })
         })?;
-        let block = found.or_raise(py)?.ok_or("the sweep was stopped").or_raise(py)?;
+        let block = found
+            .or_raise(py)?
+            .ok_or("the sweep was stopped")
+            .or_raise(py)?;
         let shape = [block.len(), QUANTITIES.len()];
         Ok((
             frozen(py, block.numbers, &shape)?,
