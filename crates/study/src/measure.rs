@@ -84,17 +84,20 @@ impl<T> Scene<'_, T> {
         setting: impl Into<String>,
         run: impl Fn() -> Run<T>,
     ) -> Result<&mut Record, AnyError> {
-        let (found, [cost_ns, cost_spread_ns]) = if cfg!(test) {
-            // tests look at errors and work counts, never at times
-            (run(), [1.0, 0.0])
+        let (found, timed) = if cfg!(test) {
+            (run(), None)
         } else {
             let (runs, shortest_s, longest_s) = self.effort.pick((5, 5e-4, 0.06), (11, 5e-3, 1.5));
-            time(runs, shortest_s, longest_s, self.values, run)
+            let (found, timed) = time(runs, shortest_s, longest_s, self.values, run);
+            (found, Some(timed))
         };
         let (errors, work, refusal) = match found {
             Ok((found, work)) => ((self.errors)(&found)?, work, None),
             Err(error) => (vec![f64::NAN], None, Some(error.to_string())),
         };
+        let work = work.map(|work| work as f64 / self.values);
+        // tests look at errors and work, which are the same on every machine
+        let [cost_ns, cost_spread_ns] = timed.unwrap_or([work.unwrap_or(f64::INFINITY), 0.0]);
         let place = self.records.len();
         self.records.push(Record {
             question: self.question,
@@ -105,7 +108,7 @@ impl<T> Scene<'_, T> {
             cost_ns,
             cost_spread_ns,
             error: Error::of(&errors),
-            work: work.map(|work| work as f64 / self.values),
+            work,
             refusal,
         });
         Ok(&mut self.records[place])

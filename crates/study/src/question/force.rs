@@ -30,6 +30,7 @@ pub(crate) const BALL: &str = "steel ball on steel at 1 m/s, growing contact";
 /// Measures every method in both scenes.
 pub(crate) fn measure(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Record>, AnyError> {
     let mut records = Vec::new();
+    type Methods<'a> = &'a dyn Fn(Scene<'_, Results>) -> Result<(), AnyError>;
     let mut measure = |name, exact: Results, methods: Methods<'_>| {
         let scene = Scene {
             effort,
@@ -77,9 +78,6 @@ pub(crate) fn measure(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Record>,
     })?;
     Ok(records)
 }
-
-/// The methods of a scene.
-type Methods<'a> = &'a dyn Fn(Scene<'_, Results>) -> Result<(), AnyError>;
 
 /// Steps of a march times the cells of its memory.
 fn work(history: &History, memory: f64) -> u64 {

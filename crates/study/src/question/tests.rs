@@ -67,12 +67,12 @@ fn the_implicit_march_is_on_the_front_by_work() {
             assert!(other == f64::INFINITY || own <= 1.1 * other, "{level:e}");
         }
     }
-    for ranking in rankings(&records, |r| r.work) {
+    for ranking in rankings(&records) {
         // what is ahead of the program's own way, which finds its step, has a reason
         assert_eq!(ranking.unexplained(), None, "{ranking:?}");
     }
     let reached = |level: f64| {
-        rankings(&records, |r| r.work)
+        rankings(&records)
             .iter()
             .any(|s| s.scene == question::force::DISC && s.level == level && s.own.is_some())
     };
@@ -146,7 +146,7 @@ fn smooth_cells_beat_linear_ones_and_the_remainder_the_whole_response() {
 
 #[test]
 fn the_default_path_is_on_the_front_by_work_or_the_report_says_why_not() {
-    for ranking in rankings(fields(), |r| r.work) {
+    for ranking in rankings(fields()) {
         assert_eq!(ranking.unexplained(), None, "{ranking:?}");
     }
 }
