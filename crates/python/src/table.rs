@@ -1,6 +1,6 @@
 //! A kernel table: opened once, asked often; the parts that impacts have needed are kept for the next ones.
 
-use crate::errors;
+use crate::errors::{self, OrRaise};
 use crate::values::{from_json, frozen, numbers};
 use crate::work::{Ticker, Way, run};
 use fault::AnyError;
@@ -43,8 +43,7 @@ impl Table {
     /// The table of a file.
     #[staticmethod]
     fn open(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        let file = run(py, &Way::default(), move |_| TableFile::open(&path))?;
-        let file = file.map_err(|error| errors::raised(py, error))?;
+        let file = run(py, &Way::default(), move |_| TableFile::open(&path))?.or_raise(py)?;
         Ok(Self {
             opened: Arc::new(Opened::new(file)),
         })
@@ -61,7 +60,7 @@ impl Table {
         let opened = Arc::clone(&self.opened);
         let info = move |_: &Ticker| Ok(table_report(opened.path(), &*opened.whole()?));
         let found: Result<_, TableError> = run(py, &Way::default(), info)?;
-        from_json(py, &found.map_err(|error| errors::raised(py, error))?)
+        from_json(py, &found.or_raise(py)?)
     }
 
     /// Identity of the settings that it was made with.
@@ -102,8 +101,7 @@ impl Table {
         let rows = asked.points.len();
         let opened = Arc::clone(&self.opened);
         let way = Way { threads, progress };
-        let whole = run(py, &way, move |_| opened.whole())?;
-        let table = whole.map_err(|error| errors::raised(py, error))?;
+        let table = run(py, &way, move |_| opened.whole())?.or_raise(py)?;
         let held = table.content().slices.iter().map(|slice| slice.cells).max();
         let cells = cells.unwrap_or((held.unwrap_or(0) >> coarsening.min(31)).max(1));
         // asked for before it is taken: an allocation that fails would end the process

@@ -201,8 +201,8 @@ fn caption(question: Question, scene: &str) -> &'static str {
 /// The border of what the front dominates.
 fn staircase(rows: &[&Record]) -> Vec<(f64, f64)> {
     let mut points: Vec<(f64, f64)> = Vec::new();
-    for i in pareto_front(rows, Record::time_ns) {
-        let (cost, error) = place(rows[i]);
+    for record in pareto_front(rows) {
+        let (cost, error) = place(record);
         if let Some(&(_, before)) = points.last() {
             points.push((cost, before));
         }
