@@ -5,23 +5,13 @@ use super::keys::keys_of;
 use super::section::read_text;
 use super::section::{Section, parse};
 use crate::error::SceneError;
-use contact::{BodyError, Choice, Library, Material, Shape, Striker};
+use contact::{BodyError, Choice, Library, Material, Shape, Striker, choice};
 use contact::{fall_velocity_m_s, from_wave_speeds};
 use impact::Strike;
 use std::path::Path;
-use toml::Table;
 
 /// Relative difference up to which quantities given twice are taken as rounded, not different.
 const ROUNDING: f64 = 0.02;
-
-/// A strength, which may be unknown: its key, and where it is.
-type Strength = (&'static str, fn(&Material) -> Option<f64>);
-
-const YIELD: Strength = ("yield_strength_pa", |m| m.yield_strength_pa);
-const TENSILE: Strength = ("tensile_strength_pa", |m| m.tensile_strength_pa);
-const TOUGHNESS: Strength = ("fracture_toughness_pa_sqrt_m", |m| {
-    m.fracture_toughness_pa_sqrt_m
-});
 
 /// Reads a file of materials: one section a material, the keys of a scene's bodies plus `group` and `source`.
 ///
@@ -72,18 +62,24 @@ fn elastic(section: &Section<'_>, base: Option<&Material>) -> Result<Material, S
     let density = section.number("density_kg_m3")?;
     let density = density.or_else(|| base.and_then(|b| b.density_kg_m3));
     let (youngs_modulus_pa, poisson_ratio) = constants(section, base, density)?;
-    let strength = |(key, of): Strength| -> Result<Option<f64>, SceneError> {
-        let known = section.number(key)?.or(base.and_then(of));
-        Ok(known.filter(|&strength| strength > 0.0))
+    let strength = |key, known: Option<f64>| -> Result<Option<f64>, SceneError> {
+        let strength = section.number(key)?.or(known);
+        Ok(strength.filter(|&strength| strength > 0.0))
     };
     Ok(Material {
         name: base.map_or_else(|| "given".to_owned(), |b| b.name.clone()),
         youngs_modulus_pa,
         poisson_ratio,
         density_kg_m3: density,
-        yield_strength_pa: strength(YIELD)?,
-        tensile_strength_pa: strength(TENSILE)?,
-        fracture_toughness_pa_sqrt_m: strength(TOUGHNESS)?,
+        yield_strength_pa: strength("yield_strength_pa", base.and_then(|b| b.yield_strength_pa))?,
+        tensile_strength_pa: strength(
+            "tensile_strength_pa",
+            base.and_then(|b| b.tensile_strength_pa),
+        )?,
+        fracture_toughness_pa_sqrt_m: strength(
+            "fracture_toughness_pa_sqrt_m",
+            base.and_then(|b| b.fracture_toughness_pa_sqrt_m),
+        )?,
         group: base.map_or_else(String::new, |b| b.group.clone()),
         source: base.map_or_else(|| "the scene".to_owned(), |b| b.source.clone()),
     })
@@ -152,38 +148,6 @@ fn from_speeds(
     Ok(Some(from_wave_speeds(c1, c2, density)))
 }
 
-/// The numbers of a material as TOML keys, for the resolved scene.
-pub(super) fn to_table(material: &Material) -> Table {
-    let mut table = Table::new();
-    // the numbers replace all of it; where one is unknown, 0 says so
-    let named = Library::built_in().get(&material.name);
-    let known = named.filter(|_| material.density_kg_m3.is_some());
-    if known.is_some() {
-        table.insert("material".to_owned(), material.name.as_str().into());
-    }
-    let strength = |(key, of): Strength| {
-        let zero = known.and_then(of).map(|_| 0.0);
-        (key, of(material).or(zero))
-    };
-    let numbers = [
-        ("youngs_modulus_pa", Some(material.youngs_modulus_pa)),
-        ("poisson_ratio", Some(material.poisson_ratio)),
-        ("density_kg_m3", material.density_kg_m3),
-        strength(YIELD),
-        strength(TENSILE),
-        strength(TOUGHNESS),
-    ];
-    put(&mut table, numbers);
-    table
-}
-
-/// Keys with the numbers that are known.
-pub(super) fn put<const N: usize>(table: &mut Table, numbers: [(&str, Option<f64>); N]) {
-    let known = numbers.into_iter();
-    let known = known.filter_map(|(key, number)| Some((key.to_owned(), number?.into())));
-    table.extend(known);
-}
-
 /// What a striker is said to be, where mass and tip follow from it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Form {
@@ -191,13 +155,13 @@ pub(crate) enum Form {
     Rod,
 }
 
-impl Choice for Form {
-    const ALL: &'static [Self] = &[Self::Ball, Self::Rod];
+choice!(Form: Ball = "ball", Rod = "rod");
 
-    fn name(self) -> &'static str {
-        match self {
-            Self::Ball => "ball",
-            Self::Rod => "rod",
+impl Form {
+    pub(super) fn of(shape: Shape) -> Self {
+        match shape {
+            Shape::Ball { .. } => Self::Ball,
+            Shape::Rod { .. } => Self::Rod,
         }
     }
 }

@@ -184,7 +184,11 @@ impl<'a> Section<'a> {
     }
 
     /// A pair of words; a whole number is one, too.
-    pub(super) fn words(&self, key: &str) -> Result<Option<[String; 2]>, SceneError> {
+    pub(crate) fn words(
+        &self,
+        key: &str,
+        expected: &'static str,
+    ) -> Result<Option<[String; 2]>, SceneError> {
         let word = |value: &Value| match value {
             Value::String(text) => Some(text.clone()),
             Value::Integer(number) => Some(number.to_string()),
@@ -197,7 +201,7 @@ impl<'a> Section<'a> {
             Some([first, second]) => word(first).zip(word(second)),
             Some(_) | None => None,
         };
-        let pair = pair.ok_or_else(|| self.wrong_kind(key, value, "a pair of words"));
+        let pair = pair.ok_or_else(|| self.wrong_kind(key, value, expected));
         pair.map(|(first, second)| Some([first, second]))
     }
 
@@ -223,6 +227,12 @@ impl<'a> Section<'a> {
     pub(crate) fn choice<T: Choice>(&self, key: &str) -> Result<Option<T>, SceneError> {
         let word = self.text(key)?;
         word.map(|word| self.named(key, word)).transpose()
+    }
+
+    /// Sets one that is given.
+    pub(super) fn choose<T: Choice>(&self, key: &str, choice: &mut T) -> Result<(), SceneError> {
+        self.choice(key)
+            .map(|given| *choice = given.unwrap_or(*choice))
     }
 
     fn named<T: Choice>(&self, key: &str, word: &str) -> Result<T, SceneError> {

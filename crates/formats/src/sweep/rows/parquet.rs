@@ -47,10 +47,9 @@ pub(super) fn stage_parquet<'a>(
     output.stage(|path| {
         let columns = columns(spec);
         let mut table = Table::begin(path, spec, &columns)?;
-        let mut footer = Footer::of(spec, selection);
-        let rows = footer.part.selection.rows.clone();
-        footer.part.failed = each_of(&rows, blocks, &mut |block| table.take(block))?;
-        table.finish(footer)?;
+        let rows = selection.map_or(0..spec.rows(), |selection| selection.rows.clone());
+        let failed = each_of(&rows, blocks, &mut |block| table.take(block))?;
+        table.finish(Footer::of(spec, selection, &columns, failed))?;
         seal(path).map_err(Fault::from)
     })
 }
@@ -136,8 +135,8 @@ impl<'a> Table<'a> {
             self.write_group()?;
         }
         footer.data_bytes = self.writer.bytes_written() as u64;
-        footer.groups = self.groups;
-        let text = footer.json(self.columns.iter().map(|column| &column.described));
+        footer.row_groups = self.groups;
+        let text = serde_json::to_string(&footer).map_err(|error| error.to_string())?;
         let entry = KeyValue::new(KEY.to_owned(), text);
         self.writer.append_key_value_metadata(entry);
         self.writer.close().map(drop).map_err(fault)
