@@ -82,7 +82,8 @@ impl Parts {
     /// Rows of the sweep that no part has.
     #[must_use]
     pub fn missing(&self) -> Vec<Range<usize>> {
-        gaps(&self.held(), &(0..self.sweep_rows))
+        let held = self.full().map(|part| part.selection.rows.clone());
+        gaps(&held.collect::<Vec<_>>(), &(0..self.sweep_rows))
     }
 
     /// Into how many shards the sweep was divided, where the parts agree on it.
@@ -203,12 +204,6 @@ impl Parts {
     fn full(&self) -> impl Iterator<Item = &Part> {
         let parts = self.parts.iter();
         parts.filter(|part| !part.selection.rows.is_empty())
-    }
-
-    fn held(&self) -> Vec<Range<usize>> {
-        self.full()
-            .map(|part| part.selection.rows.clone())
-            .collect()
     }
 }
 

@@ -1,11 +1,11 @@
 //! Bodies as sections of keys: an elastic one, in scenes and in files of materials, and a striker, which is a mass with a
 //! tip, a ball or a rod, with its velocity.
 
-use super::keys::keys_of;
+use super::keys::{Form, Set, keys_of};
 use super::section::read_text;
 use super::section::{Section, parse};
 use crate::error::SceneError;
-use contact::{BodyError, Choice, Library, Material, Shape, Striker, choice};
+use contact::{BodyError, Choice, Library, Material, Shape, Striker};
 use contact::{fall_velocity_m_s, from_wave_speeds};
 use impact::Strike;
 use std::path::Path;
@@ -59,66 +59,56 @@ pub(super) fn body(section: &Section<'_>, library: &Library) -> Result<Material,
 ///
 /// E and nu may be given by both wave speeds and the density instead.
 fn elastic(section: &Section<'_>, base: Option<&Material>) -> Result<Material, SceneError> {
-    let density = section.number("density_kg_m3")?;
-    let density = density.or_else(|| base.and_then(|b| b.density_kg_m3));
-    let (youngs_modulus_pa, poisson_ratio) = constants(section, base, density)?;
-    let strength = |key, known: Option<f64>| -> Result<Option<f64>, SceneError> {
-        let strength = section.number(key)?.or(known);
-        Ok(strength.filter(|&strength| strength > 0.0))
-    };
-    Ok(Material {
-        name: base.map_or_else(|| "given".to_owned(), |b| b.name.clone()),
-        youngs_modulus_pa,
-        poisson_ratio,
-        density_kg_m3: density,
-        yield_strength_pa: strength("yield_strength_pa", base.and_then(|b| b.yield_strength_pa))?,
-        tensile_strength_pa: strength(
-            "tensile_strength_pa",
-            base.and_then(|b| b.tensile_strength_pa),
-        )?,
-        fracture_toughness_pa_sqrt_m: strength(
-            "fracture_toughness_pa_sqrt_m",
-            base.and_then(|b| b.fracture_toughness_pa_sqrt_m),
-        )?,
-        group: base.map_or_else(String::new, |b| b.group.clone()),
-        source: base.map_or_else(|| "the scene".to_owned(), |b| b.source.clone()),
-    })
-}
-
-/// Young's modulus in Pa and Poisson's ratio: as given, from the wave speeds, or those of `base`.
-fn constants(
-    section: &Section<'_>,
-    base: Option<&Material>,
-    density: Option<f64>,
-) -> Result<(f64, f64), SceneError> {
-    let given = (
-        section.number("youngs_modulus_pa")?,
-        section.number("poisson_ratio")?,
-    );
-    let speeds = from_speeds(section, density)?;
-    if let Some((modulus, ratio)) = speeds {
-        let twice = |quantity, key, given: Option<f64>, speeds: f64, size: f64| match given {
-            Some(first) if (first - speeds).abs() > ROUNDING * size => {
+    let mut material = base.cloned().unwrap_or(Material {
+        name: "given".to_owned(),
+        youngs_modulus_pa: f64::NAN,
+        poisson_ratio: f64::NAN,
+        density_kg_m3: None,
+        yield_strength_pa: None,
+        tensile_strength_pa: None,
+        fracture_toughness_pa_sqrt_m: None,
+        group: String::new(),
+        source: "the scene".to_owned(),
+    });
+    for key in keys_of("body") {
+        let number = section.number(key.name)?;
+        if let (Some(Set::Body(set) | Set::Ball(set)), Some(number)) = (key.set, number) {
+            set(&mut material, None, number);
+        }
+    }
+    let speeds = from_speeds(section, material.density_kg_m3)?;
+    let (modulus, ratio) = (&mut material.youngs_modulus_pa, &mut material.poisson_ratio);
+    let constants = [
+        (
+            "youngs_modulus_pa",
+            "Young's modulus",
+            modulus,
+            speeds.map(|s| [s.0, s.0]),
+        ),
+        (
+            "poisson_ratio",
+            "Poisson's ratio",
+            ratio,
+            speeds.map(|s| [s.1, 0.5]),
+        ),
+    ];
+    for (key, quantity, own, speeds) in constants {
+        match speeds {
+            Some([value, _]) if section.value(key).is_none() => *own = value,
+            Some([value, size]) if (*own - value).abs() > ROUNDING * size => {
                 let (name, by) = (section.name(), "longitudinal_speed_m_s and shear_speed_m_s");
                 let sentence = format!(
-                    "[{name}] gives {quantity} twice: {first} from {key} and {speeds} from {by}; leave one pair out"
+                    "[{name}] gives {quantity} twice: {own} from {key} and {value} from {by}; leave one pair out"
                 );
-                Err(SceneError::of_number(by, speeds, sentence))
+                return Err(SceneError::of_number(by, value, sentence));
             }
-            Some(_) | None => Ok(()),
-        };
-        let key = "youngs_modulus_pa";
-        twice("Young's modulus", key, given.0, modulus, modulus)?;
-        twice("Poisson's ratio", "poisson_ratio", given.1, ratio, 0.5)?;
+            None if own.is_nan() => {
+                return Err(section.missing(key, "give a material, youngs_modulus_pa and poisson_ratio, or both wave speeds and density_kg_m3"));
+            }
+            Some(_) | None => {}
+        }
     }
-    let known = speeds.or(base.map(|b| (b.youngs_modulus_pa, b.poisson_ratio)));
-    let missing = |key: &str| {
-        section.missing(key, "give a material, youngs_modulus_pa and poisson_ratio, or both wave speeds and density_kg_m3")
-    };
-    Ok((
-        (given.0.or(known.map(|k| k.0))).ok_or_else(|| missing("youngs_modulus_pa"))?,
-        (given.1.or(known.map(|k| k.1))).ok_or_else(|| missing("poisson_ratio"))?,
-    ))
+    Ok(material)
 }
 
 /// Young's modulus in Pa and Poisson's ratio from the wave speeds, where they are given.
@@ -146,24 +136,6 @@ fn from_speeds(
         ));
     }
     Ok(Some(from_wave_speeds(c1, c2, density)))
-}
-
-/// What a striker is said to be, where mass and tip follow from it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Form {
-    Ball,
-    Rod,
-}
-
-choice!(Form: Ball = "ball", Rod = "rod");
-
-impl Form {
-    pub(super) fn of(shape: Shape) -> Self {
-        match shape {
-            Shape::Ball { .. } => Self::Ball,
-            Shape::Rod { .. } => Self::Rod,
-        }
-    }
 }
 
 pub(super) fn read_strike(section: &Section<'_>, library: &Library) -> Result<Strike, SceneError> {

@@ -1,10 +1,9 @@
 //! The keys of a scene, each listed once: where it stands, what a number may be, what is told where it is missing, how it is
 //! written in a scene that is spelled out, and how it is set, by the reader or by a sweep in a scene that is parsed already.
 
-use super::body::Form;
-use super::section::Section;
-use crate::error::SceneError;
-use contact::{Choice, Library, Material, Plasticity, Settings, Shape, Striker, fall_velocity_m_s};
+use contact::{
+    Choice, Library, Material, Plasticity, Settings, Shape, Striker, choice, fall_velocity_m_s,
+};
 use impact::{ForceRecord, Load, Scene, Strike};
 use toml::{Table, Value};
 
@@ -63,8 +62,8 @@ pub(crate) struct Key {
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Set {
     Settings(fn(&mut Settings, f64)),
-    /// A word of the section that holds the key of this name.
-    Choice(fn(&mut Settings, &Section<'_>, &str) -> Result<(), SceneError>),
+    /// A word; where it is none of them, these come back.
+    Choice(fn(&mut Settings, &str) -> Result<(), String>),
     Strike(fn(&mut Strike, f64)),
     Body(fn(&mut Material, Option<&mut Shape>, f64)),
     /// The mass of a striker follows from it, and it is plain for a ball only.
@@ -124,19 +123,22 @@ const KEYS: &[Key] = keys! {
     body.density_kg_m3: POSITIVE = |_, m| m.density_kg_m3?, Ball(|m, _, x| m.density_kg_m3 = Some(x)), stands in: 1.0;
     body.longitudinal_speed_m_s: POSITIVE;
     body.shear_speed_m_s: POSITIVE;
-    body.yield_strength_pa: NOT_NEGATIVE = |_, m| strength(m, |m| m.yield_strength_pa)?;
-    body.tensile_strength_pa: NOT_NEGATIVE = |_, m| strength(m, |m| m.tensile_strength_pa)?;
-    body.fracture_toughness_pa_sqrt_m: NOT_NEGATIVE = |_, m| strength(m, |m| m.fracture_toughness_pa_sqrt_m)?;
+    body.yield_strength_pa: NOT_NEGATIVE = |_, m| strength(m, |m| m.yield_strength_pa)?,
+        Body(|m, _, x| m.yield_strength_pa = Some(x).filter(|&x| x > 0.0));
+    body.tensile_strength_pa: NOT_NEGATIVE = |_, m| strength(m, |m| m.tensile_strength_pa)?,
+        Body(|m, _, x| m.tensile_strength_pa = Some(x).filter(|&x| x > 0.0));
+    body.fracture_toughness_pa_sqrt_m: NOT_NEGATIVE = |_, m| strength(m, |m| m.fracture_toughness_pa_sqrt_m)?,
+        Body(|m, _, x| m.fracture_toughness_pa_sqrt_m = Some(x).filter(|&x| x > 0.0));
     contact.disc_radius_m: POSITIVE = |s, _| s.settings.disc_radius_m?, Setting(|s, x| s.disc_radius_m = Some(x)), stands in: 1.0;
-    contact.model = |s, _| s.settings.model.name(), Choose(|s, own, key| own.choose(key, &mut s.model));
-    contact.scheme = |s, _| s.settings.scheme.name(), Choose(|s, own, key| own.choose(key, &mut s.scheme));
-    contact.static_share = |s, _| s.settings.static_share.name(), Choose(|s, own, key| own.choose(key, &mut s.static_share));
-    contact.deflection = |s, _| s.settings.deflection.name(), Choose(|s, own, key| own.choose(key, &mut s.deflection));
+    contact.model = |s, _| s.settings.model.name(), Choose(|s, word| named(word).map(|model| s.model = model));
+    contact.scheme = |s, _| s.settings.scheme.name(), Choose(|s, word| named(word).map(|scheme| s.scheme = scheme));
+    contact.static_share = |s, _| s.settings.static_share.name(), Choose(|s, word| named(word).map(|static_share| s.static_share = static_share));
+    contact.deflection = |s, _| s.settings.deflection.name(), Choose(|s, word| named(word).map(|deflection| s.deflection = deflection));
     contact.tolerance: TOLERANCE = |s, _| s.settings.tolerance, Setting(|s, x| s.tolerance = x), stands in: 1e-4;
     contact.loss_tolerance: TOLERANCE = |s, _| s.settings.loss_tolerance?, Setting(|s, x| s.loss_tolerance = Some(x)), stands in: 1e-3;
     contact.step_s: POSITIVE = |s, _| s.settings.step_s?, Setting(|s, x| s.step_s = Some(x));
     contact.plasticity = |s, _| Some(s.settings.plasticity).filter(|&law| law != Plasticity::None)?.name(),
-        Choose(|s, own, key| own.choose(key, &mut s.plasticity));
+        Choose(|s, word| named(word).map(|plasticity| s.plasticity = plasticity));
     contact.yield_pressure_pa: POSITIVE = |s, _| s.settings.yield_pressure_pa?,
         Setting(|s, x| s.yield_pressure_pa = Some(x)), stands in: 1e9;
     force.file = |s, _| record(s)?.file.as_ref().map(|path| path.display().to_string()).unwrap_or_default();
@@ -158,6 +160,32 @@ const KEYS: &[Key] = keys! {
     output.peaks = |s, _| Some(s.peaks).filter(|&peaks| peaks)?;
     materials.file;
 };
+
+/// What a striker is said to be, where mass and tip follow from it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Form {
+    Ball,
+    Rod,
+}
+
+choice!(Form: Ball = "ball", Rod = "rod");
+
+impl Form {
+    fn of(shape: Shape) -> Self {
+        match shape {
+            Shape::Ball { .. } => Self::Ball,
+            Shape::Rod { .. } => Self::Rod,
+        }
+    }
+}
+
+/// The value of a word, or all words that there are.
+pub(super) fn named<T: Choice>(word: &str) -> Result<T, String> {
+    T::named(word).ok_or_else(|| {
+        let names: Vec<&str> = T::ALL.iter().map(|choice| choice.name()).collect();
+        names.join(", ")
+    })
+}
 
 fn strike(scene: &Scene) -> Option<&Strike> {
     match &scene.load {

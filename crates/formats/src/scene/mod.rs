@@ -9,8 +9,8 @@ mod read;
 mod record;
 pub(crate) mod section;
 
-pub(crate) use body::Form;
 pub use body::{parse_materials, read_materials};
+pub(crate) use keys::Form;
 pub use keys::{resolved, sections_of};
 pub(crate) use read::{bodies_of, scene_with};
 pub use read::{parse_scene, read_scene, read_with_inputs, scene_of};

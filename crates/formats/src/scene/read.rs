@@ -156,7 +156,11 @@ fn read_settings(root: &Section<'_>) -> Result<Settings, SceneError> {
                     .into_iter()
                     .for_each(|number| set(&mut settings, number));
             }
-            Some(Set::Choice(set)) => set(&mut settings, &section, key.name)?,
+            Some(Set::Choice(set)) => {
+                if let Some(word) = section.text(key.name)? {
+                    section.named(key.name, word, |word| set(&mut settings, word))?;
+                }
+            }
             _ => {}
         }
     }

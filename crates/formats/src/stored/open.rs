@@ -147,30 +147,16 @@ impl Stored {
         }
     }
 
-    /// What a dataset holds at one place of its first dimension.
-    pub(super) fn slab<T: H5Type>(
-        &self,
-        path: &str,
-        shape: &[usize],
-        at: usize,
-    ) -> Result<Vec<T>, ReadError> {
-        let dataset = self.of_shape(path, shape)?;
-        let mut block: Vec<_> = shape.iter().map(|&n| 0..n).collect();
-        if let Some(first) = block.first_mut() {
-            *first = at..at.saturating_add(1);
-        }
-        let numbers = dataset.block(&block, MOST_BYTES);
-        numbers.map_err(|error| self.unread(path, &error))
-    }
-
-    /// Some numbers of a dataset with one dimension of a length.
+    /// What a dataset of a shape holds in a range of its first dimension.
     pub(super) fn some<T: H5Type>(
         &self,
         path: &str,
-        length: usize,
-        rows: Range<usize>,
+        shape: &[usize],
+        first: Range<usize>,
     ) -> Result<Vec<T>, ReadError> {
-        let numbers = self.of_shape(path, &[length])?.block(&[rows], MOST_BYTES);
+        let mut block: Vec<_> = shape.iter().map(|&n| 0..n).collect();
+        block[0] = first;
+        let numbers = self.of_shape(path, shape)?.block(&block, MOST_BYTES);
         numbers.map_err(|error| self.unread(path, &error))
     }
 

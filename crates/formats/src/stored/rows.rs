@@ -138,17 +138,18 @@ impl StoredPart {
         some: Range<usize>,
     ) -> Result<(), ReadError> {
         let Selection { rows, .. } = &self.part.selection;
+        let length = [rows.len()];
         for (key, wanted) in keys(spec, &(rows.start + some.start..rows.start + some.end)) {
             let path = format!("{RESULTS}/{key}");
             let same = match wanted {
                 Values::Texts(wanted) => {
                     let words = stored.texts(&format!("{}/{key}", part::WORDS))?;
-                    let found = stored.some::<u32>(&path, rows.len(), some.clone())?;
+                    let found = stored.some::<u32>(&path, &length, some.clone())?;
                     let mut pairs = found.iter().zip(&wanted);
                     pairs.all(|(&index, wanted)| words.get(index as usize) == Some(wanted))
                 }
                 wanted => {
-                    let found = stored.some::<f64>(&path, rows.len(), some.clone())?;
+                    let found = stored.some::<f64>(&path, &length, some.clone())?;
                     Values::Numbers(found) == wanted
                 }
             };
@@ -167,23 +168,23 @@ impl StoredPart {
         reasons: &[String],
         rows: Range<usize>,
     ) -> Result<Block, ReadError> {
-        let length = self.part.selection.rows.len();
+        let length = [self.part.selection.rows.len()];
         let path = |name: &str| format!("{RESULTS}/{name}");
         let start = self.part.selection.rows.start + rows.start;
         let mut block = Block::blank(start, rows.len(), self.part.fields.width());
-        block.models = stored.some(&path(MODEL.0), length, rows.clone())?;
+        block.models = stored.some(&path(MODEL.0), &length, rows.clone())?;
         for (k, quantity) in self.part.fields.quantities() {
             let (path, rows) = (path(&quantity.name), rows.clone());
             let column: Vec<f64> = match self.part.fields.precision {
-                Precision::Double => stored.some(&path, length, rows)?,
+                Precision::Double => stored.some(&path, &length, rows)?,
                 Precision::Single => {
-                    let column = stored.some::<f32>(&path, length, rows)?;
+                    let column = stored.some::<f32>(&path, &length, rows)?;
                     column.into_iter().map(f64::from).collect()
                 }
             };
             block.fill(k, column);
         }
-        let indices = stored.some::<i32>(&path(FAILURE.0), length, rows)?;
+        let indices = stored.some::<i32>(&path(FAILURE.0), &length, rows)?;
         for (row, index) in (block.start..).zip(indices) {
             if index == -1 {
                 continue;

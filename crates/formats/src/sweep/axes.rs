@@ -73,9 +73,8 @@ impl Values {
     /// One of them as TOML.
     pub(super) fn get(&self, index: usize) -> Value {
         match self {
-            Self::Numbers(numbers) => Value::Float(numbers[index]),
             Self::Texts(texts) => Value::String(texts[index].clone()),
-            Self::Drawn(drawn) => Value::Float(drawn.at(index)),
+            Self::Numbers(_) | Self::Drawn(_) => self.number(index).unwrap_or(f64::NAN).into(),
         }
     }
 

@@ -65,7 +65,6 @@ pub(crate) fn stage_hdf5<'a>(
         let file = new_file().create(path).map_err(told)?;
         let mut table = Table {
             spec,
-            columns: columns(spec),
             reserved: Vec::new(),
         };
         let (begun, rows) = match extent {
@@ -106,14 +105,13 @@ pub fn row_bytes(spec: &Spec) -> (usize, usize) {
     (8 + keys + results + 4, 8 * kept + 1)
 }
 
-/// A file that is being written: its columns, and those that are reserved in it with the places of their numbers.
+/// A file that is being written: the columns that are reserved in it, with the places of their numbers.
 struct Table<'a> {
     spec: &'a Spec,
-    columns: Vec<Column<'a>>,
     reserved: Vec<(What<'a>, Option<u64>)>,
 }
 
-impl Table<'_> {
+impl<'a> Table<'a> {
     /// Everything of a whole sweep but the rows.
     fn begin_whole(
         &mut self,
@@ -128,7 +126,7 @@ impl Table<'_> {
         let group = file.create_group(schema::RESULTS)?;
         let (scales, beside) = write_scales(&group, &spec.axes)?;
         let scales: Vec<&Dataset> = scales.iter().collect();
-        for column in std::mem::take(&mut self.columns) {
+        for column in columns(spec) {
             let labels = column.described.labels();
             let dataset = match (column.what, sources, spec.fields.precision) {
                 (What::Row | What::Key { .. }, _, _) => continue,
@@ -168,7 +166,7 @@ impl Table<'_> {
         let group = file.create_group(schema::RESULTS)?;
         let words = file.create_group(part::WORDS)?;
         let (mut row, mut keys) = (None, Vec::new());
-        for Column { described, what } in std::mem::take(&mut self.columns) {
+        for Column { described, what } in columns(spec) {
             let (name, unit, mut meaning) = (described.name, described.unit, described.meaning);
             if let Some(values) = what.words() {
                 texts(&words, &(&name, "1", "words of a scene key"), values)?;
@@ -190,9 +188,7 @@ impl Table<'_> {
         }
         Ok(())
     }
-}
 
-impl<'a> Table<'a> {
     /// Makes the dataset of a column.
     fn reserve(
         &mut self,

@@ -156,39 +156,30 @@ fn encode(
     let (described, properties) = (Arc::clone(described), Arc::clone(properties));
     let mut writer = get_column_writer(described, properties, pages);
     let word = |place: usize| words.get(place).cloned();
-    match (cells, &mut writer) {
-        (Cells::Whole(rows), Of::Int64ColumnWriter(writer)) => {
-            write(writer, rows.into_iter().map(Some))?;
+    let written = match (cells, &mut writer) {
+        (Cells::Whole(rows), Of::Int64ColumnWriter(to)) => write(to, rows.into_iter().map(Some)),
+        (Cells::Double(numbers), Of::DoubleColumnWriter(to)) => {
+            let there = |x: f64| (!x.is_nan()).then_some(x);
+            write(to, numbers.into_iter().map(there))
         }
-        (Cells::Double(numbers), Of::DoubleColumnWriter(writer)) => {
-            write(
-                writer,
-                numbers.into_iter().map(|x| (!x.is_nan()).then_some(x)),
-            )?;
+        (Cells::Single(numbers), Of::FloatColumnWriter(to)) => {
+            let there = |x: f32| (!x.is_nan()).then_some(x);
+            write(to, numbers.into_iter().map(there))
         }
-        (Cells::Single(numbers), Of::FloatColumnWriter(writer)) => {
-            write(
-                writer,
-                numbers.into_iter().map(|x| (!x.is_nan()).then_some(x)),
-            )?;
+        (Cells::Words(places), Of::ByteArrayColumnWriter(to)) => {
+            write(to, places.into_iter().map(|place| word(place as usize)))
         }
-        (Cells::Words(places), Of::ByteArrayColumnWriter(writer)) => {
-            write(writer, places.into_iter().map(|place| word(place as usize)))?;
+        (Cells::Models(models), Of::ByteArrayColumnWriter(to)) => {
+            write(to, models.iter().map(|&model| word(usize::from(model))))
         }
-        (Cells::Models(models), Of::ByteArrayColumnWriter(writer)) => {
-            write(writer, models.iter().map(|&model| word(usize::from(model))))?;
-        }
-        (Cells::Reasons(reasons), Of::ByteArrayColumnWriter(writer)) => {
-            write(
-                writer,
-                reasons
-                    .into_iter()
-                    .map(|reason| reason.map(ByteArray::from)),
-            )?;
+        (Cells::Reasons(reasons), Of::ByteArrayColumnWriter(to)) => {
+            let text = |reason: Option<&str>| reason.map(ByteArray::from);
+            write(to, reasons.into_iter().map(text))
         }
         // the type of a column follows from what it holds
-        _ => return Err(ParquetError::General("a column of another type".to_owned())),
-    }
+        _ => Err(ParquetError::General("a column of another type".to_owned())),
+    };
+    written?;
     let closed = writer.close()?;
     Ok((Bytes::from(sink.into_inner()?), closed))
 }
