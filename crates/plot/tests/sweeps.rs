@@ -3,8 +3,8 @@
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
 use figure::{Figure, Layer, measure};
-use formats::{Existing, Output};
 use formats::sweep::{Spec, run_rows, stage_rows};
+use formats::{Existing, Output};
 use plot::{Kind, Request, compose};
 use std::path::{Path, PathBuf};
 
