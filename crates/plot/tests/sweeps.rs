@@ -3,8 +3,8 @@
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
 use figure::{Figure, Layer, measure};
-use formats::Existing;
-use formats::sweep::{Spec, run_rows, write_sweep};
+use formats::sweep::{Spec, run_rows, stage_rows};
+use formats::{Existing, Output};
 use plot::{Kind, Request, compose};
 use std::path::{Path, PathBuf};
 
@@ -18,7 +18,9 @@ fn sweep(folder: &Path, name: &str, varies: &str) -> PathBuf {
     let path = folder.join(name);
     let part = folder.join("part");
     let done = run_rows(&spec, 0..spec.rows(), &part, Existing::Replace, |_| true).unwrap();
-    write_sweep(&path, &spec, &done.unwrap(), Existing::Keep).unwrap();
+    let output = Output::claim(&path, Existing::Keep).unwrap();
+    let staged = stage_rows(&output, &spec, None, &done.unwrap()).unwrap();
+    staged.commit().unwrap();
     path
 }
 

@@ -121,7 +121,7 @@ impl Plan {
 
     /// Everything spelled out.
     fn resolved<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        from_toml(py, self.spec.resolved())
+        from_toml(py, &self.spec.resolved)
     }
 
     /// Computes the rows from `start` on, every `step`-th.

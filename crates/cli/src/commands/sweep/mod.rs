@@ -184,7 +184,7 @@ fn report(
         "shape": part.map_or(lengths, |part| vec![part.rows.len()]),
         "rows": rows,
         "sweep_rows": spec.rows(),
-        "sweep_sha256": spec.sha256(),
+        "sweep_sha256": spec.sha256,
         "resumed": resumed,
         "failed": failed,
         "yielding": yielding,
