@@ -129,15 +129,6 @@ impl Loading {
             }),
         }
     }
-
-    /// Whether a body yields or cracks by these estimates.
-    #[must_use]
-    pub fn exceeds(&self) -> bool {
-        [self.yield_onset, self.cone_crack_onset]
-            .into_iter()
-            .flatten()
-            .any(|ratio| ratio > 1.0)
-    }
 }
 
 #[cfg(test)]

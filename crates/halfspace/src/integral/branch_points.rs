@@ -4,6 +4,7 @@
 //! slow interval in a stretched one.
 
 use crate::integral::panels::smallest_ellipse;
+use crate::integral::singularities::Singularities;
 use crate::medium::Medium;
 use crate::numeric::complex::{logarithm, root};
 use crate::numeric::lanes::Map;
@@ -15,12 +16,10 @@ use pulp::Simd;
 /// Singularities of the amplitudes, fixed for a medium.
 #[derive(Debug, Clone)]
 pub(crate) struct FixedSingularities {
-    /// In u, of the amplitudes alone.
-    pub(crate) fast: Vec<Complex64>,
-    /// In the stretched variable of the slow interval.
-    pub(crate) slow: Vec<Complex64>,
-    /// In the same variable, infinite slowness.
-    pub(crate) slow_pole: Complex64,
+    /// In u, with the pole at slowness zero, where the argument of the potentials is infinite.
+    pub(crate) fast: Singularities,
+    /// In the stretched variable of the slow interval, with the pole at infinite slowness.
+    pub(crate) slow: Singularities,
     pub(crate) stretch: Stretch,
 }
 
@@ -56,7 +55,7 @@ impl Stretch {
         let centre = nearest.map_or(0.0, |v| v.re.clamp(0.0, 0.5));
         let ellipse = |stretch: &Self| {
             let images: Vec<Complex64> = points.iter().map(|&q| stretch.variable(q)).collect();
-            smallest_ellipse(&images, 0.0, 1.0)
+            smallest_ellipse(&images, [0.0, 1.0])
         };
         (-14..=4)
             .map(|i| Self::new(centre, 2.0_f64.powf(0.5 * f64::from(i))))
@@ -154,10 +153,10 @@ impl FixedSingularities {
             points.dedup_by(|b, a| (*b - *a).norm() < 1e-9);
         }
         let stretch = Stretch::farthest(&slow);
+        let slow = slow.into_iter().map(|q| stretch.variable(q));
         Self {
-            fast,
-            slow_pole: stretch.variable(i),
-            slow: slow.into_iter().map(|q| stretch.variable(q)).collect(),
+            fast: Singularities::new(fast, Complex64::ZERO, &[1.0]),
+            slow: Singularities::new(slow, stretch.variable(i), &[0.0, 1.0]),
             stretch,
         }
     }

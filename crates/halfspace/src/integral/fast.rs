@@ -4,10 +4,10 @@
 
 use crate::field::{Field, Six};
 use crate::integral::fronts;
-use crate::integral::landscape::{Fold, Landscape};
 use crate::integral::panels::ROUNDING;
 use crate::integral::setting::Setting;
 use crate::integral::side_by_side;
+use crate::integral::singularities::Singularities;
 use crate::integral::spectrum::{self, Wave, half_angle};
 use crate::integral::strength::Strength;
 use crate::integral::sum::Sum;
@@ -18,9 +18,6 @@ use crate::potentials::compact::{compact, passed};
 use crate::potentials::order::{Order, StepIntegral, TimeOrder};
 use crate::potentials::shallow;
 use num_complex::Complex64;
-
-/// Slowness zero, where the argument of the potentials is infinite.
-const ORIGIN: Complex64 = Complex64::new(0.0, 0.0);
 
 impl Setting {
     /// Adds one wave in one sense over 0 < x < 1; `passed` is its time integral once it has passed.
@@ -48,21 +45,21 @@ impl Setting {
             Sense::Image if !shallow && at.t + at.z * self.vertical_at_one(wave) >= limit => return,
             Sense::Outgoing | Sense::Image => {}
         }
-        let mut landscape = self.fast_landscape::<O>(at, wave, sense, shallow);
-        for interval in landscape.intervals() {
+        let mut singularities = self.fast_singularities::<O>(at, wave, sense, shallow);
+        for interval in singularities.intervals() {
             let (x, p, _) = half_angle(0.5 * (interval.0 + interval.1));
             let eta = self.eta(at, wave, sense, x, p);
             let at_surface = sense.sign() * at.t / x;
             if eta.abs() < limit || shallow && at_surface.abs() < limit {
-                landscape.visit(interval, self.digits(at, shallow), &mut |nodes| {
+                singularities.visit(interval, self.digits(at, shallow), &mut |nodes| {
                     if side_by_side::applies::<O>(self.profile, at, shallow) {
                         side_by_side::add(self, at, wave, Some(sense), nodes, sum);
                         return;
                     }
-                    for node in nodes {
-                        let (x, p, jacobian) = half_angle(node.place);
+                    for (place, weight, error) in nodes.iter() {
+                        let (x, p, jacobian) = half_angle(place);
                         let term = self.fast_term::<O>(at, wave, sense, (x, p), shallow);
-                        sum.add(node.weight * jacobian, node.error, term);
+                        sum.add(weight * jacobian, error, term);
                     }
                 });
             } else if eta < 0.0 {
@@ -77,27 +74,24 @@ impl Setting {
     }
 
     /// The singularities of one wave in one sense.
-    fn fast_landscape<O: TimeOrder>(
+    #[inline(always)]
+    fn fast_singularities<O: TimeOrder>(
         &self,
         at: Point,
         wave: Wave,
         sense: Sense,
         shallow: bool,
-    ) -> Landscape {
+    ) -> Singularities {
         let strength = Strength::of::<O>(self.profile);
-        let mut landscape = Landscape::new(
-            &self.fixed.fast,
-            ORIGIN,
-            strength,
-            (Fold::Upper, self.front_rounding(at)),
-        );
+        let fixed = &self.fixed.fast;
+        let mut singularities = fixed.with_strength(strength, self.front_rounding(at));
         let radius = self.profile.radius();
-        fronts::add_fast(&mut landscape, at, radius, self.k, wave, sense);
+        fronts::add_fast(&mut singularities, at, radius, self.k, wave, sense);
         if shallow {
             let above = shallow::above(at);
-            fronts::add_fast(&mut landscape, above, radius, self.k, wave, sense);
+            fronts::add_fast(&mut singularities, above, radius, self.k, wave, sense);
         }
-        landscape
+        singularities
     }
 
     /// The integrand at slowness x, p = sqrt(1 - x^2).
@@ -141,18 +135,14 @@ impl Setting {
 
     /// Adds the time integral of an outgoing wave that has passed on an interval.
     fn add_passed(&self, at: Point, wave: Wave, interval: (f64, f64), sum: &mut Sum) {
-        let landscape = Landscape::new(
-            &self.fixed.fast,
-            Complex64::i(),
-            Strength::Bounded,
-            (Fold::Upper, 1.0),
-        );
-        landscape.visit(interval, self.digits(at, false), &mut |nodes| {
-            for node in nodes {
-                let (x, p, jacobian) = half_angle(node.place);
+        let mut singularities = self.fixed.fast.clone();
+        singularities.pole = Complex64::i();
+        singularities.visit(interval, self.digits(at, false), &mut |nodes| {
+            for (place, weight, error) in nodes.iter() {
+                let (x, p, jacobian) = half_angle(place);
                 let psi = passed::<StepIntegral>().map(|v| -x * v);
                 let term = spectrum::fast(wave, self.k, x, p).fields(&psi, at.r);
-                sum.add(node.weight * jacobian, node.error, term);
+                sum.add(weight * jacobian, error, term);
             }
         });
     }
@@ -160,7 +150,7 @@ impl Setting {
     /// Time after which the outgoing wave has passed at every slowness below one.
     fn last_fast(&self, at: Point, wave: Wave, limit: f64) -> f64 {
         let slowness = self.slowness(wave);
-        let reach = at.z.hypot(limit);
+        let reach = (at.z * at.z + limit * limit).sqrt();
         if limit * slowness <= reach {
             slowness * reach
         } else {

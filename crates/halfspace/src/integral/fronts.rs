@@ -20,16 +20,16 @@
 //! Theory: `docs/theory.md` (T18).
 
 use crate::integral::branch_points::Stretch;
-use crate::integral::landscape::Landscape;
+use crate::integral::singularities::Singularities;
 use crate::integral::spectrum::Wave;
 use crate::numeric::complex::root;
 use crate::numeric::lanes::Points;
 use crate::point::{Point, Sense};
 use num_complex::Complex64;
 
-/// Adds the fronts of one wave in one sense to a landscape of the fast interval.
+/// Adds the fronts of one wave in one sense to the singularities of the fast interval.
 pub(crate) fn add_fast(
-    landscape: &mut Landscape,
+    singularities: &mut Singularities,
     at: Point,
     radius: f64,
     k: f64,
@@ -37,24 +37,24 @@ pub(crate) fn add_fast(
     sense: Sense,
 ) {
     for_each_front(at, radius, k, wave, sense, |v| match wave {
-        Wave::P => with_mirror(v, |u| landscape.add(u)),
+        Wave::P => with_mirror(v, |u| singularities.add(u)),
         Wave::S => {
             let (x, y) = (k.sqrt() * sine(v), cosine(v));
             if y.re > 0.0 {
                 let u = x / (1.0 + root(1.0 - x * x));
-                with_mirror(u, |u| landscape.add(u));
-                with_reciprocal(u, |u| landscape.add(u));
+                with_mirror(u, |u| singularities.add(u));
+                with_reciprocal(u, |u| singularities.add(u));
             }
         }
     });
 }
 
-/// Adds the fronts of one wave in both senses to a landscape of the slow interval.
+/// Adds the fronts of one wave in both senses to the singularities of the slow interval.
 ///
 /// Reversing time turns q into its reciprocal, and the other sheet of the root that a wave does not
 /// contain turns it into its negative.
 pub(crate) fn add_slow(
-    landscape: &mut Landscape,
+    singularities: &mut Singularities,
     at: Point,
     radius: f64,
     k: f64,
@@ -68,9 +68,9 @@ pub(crate) fn add_slow(
         with_reciprocal(q, |q| points.push(q));
     };
     // On the surface the roots of a pair are reciprocal and stand for the same two fronts.
-    let twin = |v: Complex64| at.z == 0.0 && v.norm_sqr() > 1.0 && v.im == 0.0;
+    let is_reciprocal = |v: Complex64| at.z == 0.0 && v.norm_sqr() > 1.0 && v.im == 0.0;
     for_each_front(at, radius, k, wave, Sense::Outgoing, |v| match wave {
-        Wave::P | Wave::S if twin(v) => {}
+        Wave::P | Wave::S if is_reciprocal(v) => {}
         Wave::P => {
             let s = Complex64::i() * cosine(v) / span;
             add(s / (1.0 + root(1.0 - s * s)));
@@ -82,7 +82,7 @@ pub(crate) fn add_slow(
     });
     points.map(stretch);
     for point in points.iter() {
-        landscape.add(point);
+        singularities.add(point);
     }
 }
 
@@ -150,7 +150,7 @@ fn for_each_front(
         }
     };
     for e in edges(at.r, radius) {
-        let reach = z.hypot(e);
+        let reach = (z * z + e * e).sqrt();
         let discriminant = (reach - t) * (reach + t);
         if discriminant >= 0.0 {
             let w = e + discriminant.sqrt();

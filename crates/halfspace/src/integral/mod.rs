@@ -11,19 +11,19 @@
 //!
 //! In reading order: the integrand (`spectrum`, `setting`), its two parts below and above slowness 1/c1 (`fast`, `slow`) and
 //! the Rayleigh wave (`rayleigh_pole`, `rayleigh_front`); where it is singular and how strongly (`fronts`, `branch_points`,
-//! `strength`), and the intervals with their Gauss rules that follow (`landscape`, `panels`, `sum`); four nodes at a time
+//! `strength`), and the intervals with their Gauss rules that follow (`singularities`, `panels`, `sum`); several nodes at a time
 //! (`side_by_side`), and the axis (`axis`).
 
 pub(crate) mod axis;
 pub(crate) mod branch_points;
 pub(crate) mod fast;
 pub(crate) mod fronts;
-pub(crate) mod landscape;
 pub(crate) mod panels;
 pub(crate) mod rayleigh_front;
 pub(crate) mod rayleigh_pole;
 pub(crate) mod setting;
 pub(crate) mod side_by_side;
+pub(crate) mod singularities;
 pub(crate) mod slow;
 pub(crate) mod spectrum;
 pub(crate) mod strength;

@@ -7,6 +7,7 @@
 use crate::integral::panels::ROUNDING;
 use crate::integral::rayleigh_front::Front;
 use crate::integral::setting::Setting;
+use crate::integral::side_by_side;
 use crate::integral::spectrum::Pole;
 use crate::integral::strength::{RelativeError, Strength};
 use crate::integral::sum::Sum;
@@ -23,12 +24,17 @@ impl Setting {
         let mut sum = Sum::default();
         let shallow = shallow::applies::<O>(self.profile, at);
         let front = Front::near::<O>(&self.medium, self.profile, at);
-        for pole in poles {
-            let xi = Complex64::new(pole.decay * at.z, -c * at.t);
-            let mut psi = match &front {
-                Some(front) => front.potentials(xi),
-                None => potentials::<O>(self.profile, xi, at.r),
-            };
+        let arguments = poles
+            .each_ref()
+            .map(|pole| Complex64::new(pole.decay * at.z, -c * at.t));
+        let both = match &front {
+            Some(front) => arguments.map(|xi| front.potentials(xi)),
+            None if side_by_side::applies::<O>(self.profile, at, false) => {
+                side_by_side::potentials(self.profile, arguments, at.r)
+            }
+            None => arguments.map(|xi| potentials::<O>(self.profile, xi, at.r)),
+        };
+        for ((pole, xi), mut psi) in poles.iter().zip(arguments).zip(both) {
             // d/dt of order n + 1 is i c times order n
             match O::ORDER {
                 Order::Impulse => psi = psi.map(|v| v * Complex64::new(0.0, c)),

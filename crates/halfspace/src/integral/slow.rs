@@ -4,9 +4,9 @@
 
 use crate::field::Six;
 use crate::integral::fronts;
-use crate::integral::landscape::{Fold, Landscape};
 use crate::integral::setting::Setting;
 use crate::integral::side_by_side;
+use crate::integral::singularities::Singularities;
 use crate::integral::spectrum::{self, Wave};
 use crate::integral::strength::Strength;
 use crate::integral::sum::Sum;
@@ -32,15 +32,15 @@ impl Setting {
     pub(crate) fn slow<O: TimeOrder>(&self, at: Point, wave: Wave, sum: &mut Sum) {
         let span = (self.k - 1.0).sqrt();
         let shallow = shallow::applies::<O>(self.profile, at);
-        let mut landscape = self.slow_landscape::<O>(at, wave, shallow);
-        for interval in landscape.intervals() {
-            landscape.visit(interval, self.digits(at, shallow), &mut |nodes| {
+        let mut singularities = self.slow_singularities::<O>(at, wave, shallow);
+        for interval in singularities.intervals() {
+            singularities.visit(interval, self.digits(at, shallow), &mut |nodes| {
                 if side_by_side::applies::<O>(self.profile, at, shallow) {
                     side_by_side::add(self, at, wave, None, nodes, sum);
                     return;
                 }
-                for node in nodes {
-                    let (q, dq) = self.fixed.stretch.half_angle(node.place);
+                for (place, weight, error) in nodes.iter() {
+                    let (q, dq) = self.fixed.stretch.half_angle(place);
                     let inverse = 1.0 / (1.0 + q * q);
                     let p_abs = span * 2.0 * q * inverse;
                     let y = span * (1.0 - q) * (1.0 + q) * inverse;
@@ -48,29 +48,36 @@ impl Setting {
                     let term = self.slow_term::<O>(at, wave, (x, p_abs, y), shallow);
                     // dx = p^ dp^/x, dp^ = 2 y/(1 + q^2) dq
                     let jacobian = p_abs * 2.0 * y * inverse / x * dq;
-                    sum.add(node.weight * jacobian, node.error, term);
+                    sum.add(weight * jacobian, error, term);
                 }
             });
         }
     }
 
     /// The singularities of one wave in both senses.
-    fn slow_landscape<O: TimeOrder>(&self, at: Point, wave: Wave, shallow: bool) -> Landscape {
-        let fixed = &self.fixed;
-        let strength = Strength::of::<O>(self.profile);
-        let mut landscape = Landscape::new(
-            &fixed.slow,
-            fixed.slow_pole,
-            strength,
-            (Fold::Both, self.front_rounding(at)),
-        );
+    #[inline(always)]
+    fn slow_singularities<O: TimeOrder>(
+        &self,
+        at: Point,
+        wave: Wave,
+        shallow: bool,
+    ) -> Singularities {
+        let (fixed, strength) = (&self.fixed, Strength::of::<O>(self.profile));
+        let mut singularities = fixed.slow.with_strength(strength, self.front_rounding(at));
         let radius = self.profile.radius();
-        fronts::add_slow(&mut landscape, at, radius, self.k, &fixed.stretch, wave);
+        fronts::add_slow(&mut singularities, at, radius, self.k, &fixed.stretch, wave);
         if shallow {
             let above = shallow::above(at);
-            fronts::add_slow(&mut landscape, above, radius, self.k, &fixed.stretch, wave);
+            fronts::add_slow(
+                &mut singularities,
+                above,
+                radius,
+                self.k,
+                &fixed.stretch,
+                wave,
+            );
         }
-        landscape
+        singularities
     }
 
     /// The integrand at slowness x, p = -i `p_abs`, y = sqrt(K - x^2).

@@ -32,18 +32,18 @@ impl Strength {
 
     /// Relative error of a term near a cut.
     ///
-    /// `rule` is that of the quadrature rule, `blur` the rounding error of the place of the cut, `distance` the distance
+    /// `rule` is that of the quadrature rule, `place_error` the rounding error of the place of the cut, `distance` the distance
     /// from it in slowness and `s` in the variable that smooths the singularity.
     pub(crate) fn at_front(
         self,
         rule: RelativeError,
-        blur: f64,
+        place_error: f64,
         distance: f64,
         s: f64,
     ) -> RelativeError {
         /// All nodes beside a front share the error of its place: their errors add up, where squares are added.
         const SHARED: f64 = 5.0;
-        let front = SHARED * blur / distance;
+        let front = SHARED * place_error / distance;
         match self {
             Self::Bounded => rule,
             // displacements have a root there

@@ -2,7 +2,7 @@
 
 use crate::field::Six;
 use crate::integral::strength::RelativeError;
-use crate::numeric::lanes::WIDTH;
+use crate::numeric::lanes::{WIDTH, total};
 
 /// Six fields and their likely errors.
 ///
@@ -34,10 +34,12 @@ impl Sum {
         }
     }
 
-    /// Adds what lanes have summed of one field, and the squares of the errors.
+    /// Adds blocks of values of each field, and of squares of the errors.
     #[inline(always)]
-    pub(crate) fn add_lanes(&mut self, field: usize, terms: [f64; WIDTH], squares: [f64; WIDTH]) {
-        self.value[field] += (terms[0] + terms[1]) + (terms[2] + terms[3]);
-        self.square[field] += (squares[0] + squares[1]) + (squares[2] + squares[3]);
+    pub(crate) fn add_blocks(&mut self, values: &[[f64; WIDTH]; 6], squares: &[[f64; WIDTH]; 6]) {
+        for f in 0..6 {
+            self.value[f] += total(&values[f]);
+            self.square[f] += total(&squares[f]);
+        }
     }
 }

@@ -46,7 +46,7 @@ impl<T: Copy> Potentials<T> {
 
 impl<T> Potentials<T> {
     /// The same with every potential replaced.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn map<U>(self, f: impl Fn(T) -> U) -> Potentials<U> {
         Potentials {
             a_upper: f(self.a_upper),
@@ -57,7 +57,7 @@ impl<T> Potentials<T> {
     }
 
     /// Each potential joined with its counterpart.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn zip<U, V>(self, other: Potentials<U>, f: impl Fn(T, U) -> V) -> Potentials<V> {
         Potentials {
             a_upper: f(self.a_upper, other.a_upper),

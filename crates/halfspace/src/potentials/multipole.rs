@@ -21,7 +21,7 @@ use num_complex::Complex64;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Most terms of the series.
-const MOST_TERMS: usize = 8;
+pub(crate) const MOST_TERMS: usize = 8;
 
 /// Distance from which on the series is taken: farther out the closed forms lose digits, those of the time integral sooner.
 #[inline(always)]

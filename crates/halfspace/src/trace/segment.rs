@@ -249,10 +249,10 @@ impl Segment {
             self.series.push(sum);
         }
         // a time is known to its rounding error
-        let blur = 4.0 * f64::EPSILON * self.times[1] / (self.times[1] - self.times[0]);
+        let rounding = 4.0 * f64::EPSILON * self.times[1] / (self.times[1] - self.times[0]);
         for f in 0..6 {
             let size = |part: &[Six]| part.iter().map(|c| c[f].abs()).sum::<f64>();
-            self.error[f] = self.noise[f] / terms as f64 + blur * size(&self.series[1..]);
+            self.error[f] = self.noise[f] / terms as f64 + rounding * size(&self.series[1..]);
             self.truncation[f] = CAUTION.max(0.25 * terms as f64) * size(&self.series[terms - 2..]);
         }
         Ok(true)

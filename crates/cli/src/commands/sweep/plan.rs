@@ -40,7 +40,7 @@ pub(crate) fn run(
     let bytes_per_shard = sealed(rows_per_shard * bytes);
     let disk_bytes_per_shard = bytes_per_shard + rows_per_shard * kept;
     let seconds_per_shard = rows_per_shard as f64 / rows_per_second;
-    let sha256 = spec.sha256();
+    let sha256 = spec.sha256.clone();
     let value = json!({
         "rows": rows,
         "shards": count,

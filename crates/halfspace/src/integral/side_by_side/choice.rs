@@ -1,6 +1,6 @@
-//! The potentials, each four by the forms that hold for them.
+//! The potentials, each number by the forms that hold for them.
 
-use super::far::{at_far_front, by_series, far_delta, series_on_imaginary_axis};
+use super::far::{at_far_front, by_series, far_delta, far_terms, series_on_imaginary_axis};
 use super::near::{
     by_parts, by_primitives, compact_on_axis, compact_punch, held_primitives, inside,
     primitives_on_imaginary_axis, punch,
@@ -19,9 +19,8 @@ use pulp::Simd;
 /// Where the closed forms hold and where the multipole series takes over.
 struct Reach<S: Simd> {
     distance: Lanes<S>,
-    /// Terms that the series needs; none where no lane is far.
-    terms: usize,
     some_near: bool,
+    some_far: bool,
 }
 
 impl<S: Simd> Reach<S> {
@@ -29,30 +28,21 @@ impl<S: Simd> Reach<S> {
     fn new(xi: Pair<S>, r: f64) -> Self {
         let nearest = multipole::nearest::<Step>(r);
         let gap = (xi.im.abs() - r).abs();
-        let mut reach = Self {
-            distance: gap,
-            terms: 0,
-            some_near: true,
-        };
         if (gap + xi.re).largest() + 1.0 < nearest {
-            return reach;
+            return Self {
+                distance: gap,
+                some_near: true,
+                some_far: false,
+            };
         }
         let square = xi.re * xi.re;
         let (inner, outer) = (gap - 1.0, gap + 1.0);
-        reach.distance = ((inner * inner + square).sqrt() + (outer * outer + square).sqrt()) * 0.5;
-        let mut least = f64::INFINITY;
-        reach.some_near = false;
-        for d in reach.distance.into_array() {
-            if d >= nearest {
-                least = least.min(d);
-            } else {
-                reach.some_near = true;
-            }
+        let distance = ((inner * inner + square).sqrt() + (outer * outer + square).sqrt()) * 0.5;
+        Self {
+            distance,
+            some_near: distance.smallest() < nearest,
+            some_far: distance.largest() >= nearest,
         }
-        if least.is_finite() {
-            reach.terms = multipole::terms_at(least);
-        }
-        reach
     }
 
     #[inline(always)]
@@ -92,10 +82,13 @@ pub(super) fn potentials<S: Simd>(
         Profile::Hertz => by_primitives(xi, r),
         Profile::Punch | Profile::Point => punch(xi, r),
     };
-    let far = match reach.terms {
-        0 => return near,
-        terms if on_axis => series_on_imaginary_axis(profile, xi.im, r, terms),
-        terms => by_series(profile, xi, r, terms),
+    if !reach.some_far {
+        return near;
+    }
+    let far = if on_axis {
+        series_on_imaginary_axis(profile, xi.im, r)
+    } else {
+        by_series(profile, xi, r)
     };
     reach.pick(near, far, r)
 }
@@ -118,9 +111,9 @@ pub(super) fn compact<S: Simd>(profile: Profile, eta: Lanes<S>, r: f64) -> Poten
     let reach = Reach::new(pair(zero, distance), r);
     let mut psi = Potentials::all(pair(zero, zero));
     if reach.some_near {
-        let (delta, terms) = far_delta(eta, r);
+        let delta = far_delta(eta, r);
         let root = [delta[0].max(zero).sqrt(), delta[1].max(zero).sqrt()];
-        let near = far_front::compact_of(far_front::chord(delta, root, terms, r), r);
+        let near = far_front::compact_of(far_front::chord(delta, root, far_terms(r), r), r);
         psi = Potentials {
             a_upper: pair(near.a_upper, zero),
             a_lower: pair(zero, near.a_lower),
@@ -128,10 +121,10 @@ pub(super) fn compact<S: Simd>(profile: Profile, eta: Lanes<S>, r: f64) -> Poten
             g_lower: pair(near.g_lower, zero),
         };
     }
-    if reach.terms > 0 {
+    if reach.some_far {
         psi = reach.pick(
             psi,
-            series_on_imaginary_axis(Profile::Hertz, distance, r, reach.terms),
+            series_on_imaginary_axis(Profile::Hertz, distance, r),
             r,
         );
     }

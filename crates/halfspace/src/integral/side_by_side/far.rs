@@ -5,26 +5,21 @@ use crate::numeric::lanes::{Lanes, Pair};
 use crate::numeric::scalar::Scalar;
 use crate::potentials::Potentials;
 use crate::potentials::far_front::{self, C, Chord};
-use crate::potentials::multipole;
+use crate::potentials::multipole::{self, MOST_TERMS};
 use crate::potentials::order::Step;
 use crate::profile::Profile;
 use pulp::Simd;
 
 /// The multipole series.
 #[inline(always)]
-pub(super) fn by_series<S: Simd>(
-    profile: Profile,
-    xi: Pair<S>,
-    r: f64,
-    terms: usize,
-) -> Potentials<Pair<S>> {
+pub(super) fn by_series<S: Simd>(profile: Profile, xi: Pair<S>, r: f64) -> Potentials<Pair<S>> {
     let inside = (-xi.im + r) * (xi.im + r);
     let rho = root_inside(xi, inside);
     let inverse = rho.reciprocal();
     let square = inverse * inverse;
     let sum = (rho + xi).reciprocal();
     let mut psi =
-        multipole::sums::<Step, Pair<S>>(profile, terms, -1.0, xi * square, square, inverse);
+        multipole::sums::<Step, Pair<S>>(profile, MOST_TERMS, -1.0, xi * square, square, inverse);
     let mass = multipole::moment(profile, 0);
     psi.g_upper = psi.g_upper + inverse * sum * mass;
     psi
@@ -36,7 +31,6 @@ pub(super) fn series_on_imaginary_axis<S: Simd>(
     profile: Profile,
     s: Lanes<S>,
     r: f64,
-    terms: usize,
 ) -> Potentials<Pair<S>> {
     let zero = s.constant(0.0);
     let xi = Pair { re: zero, im: s };
@@ -45,7 +39,7 @@ pub(super) fn series_on_imaginary_axis<S: Simd>(
     let (inverse, inverse2) = (rho.reciprocal(), s.constant(1.0) / square);
     let sum = multipole::sums::<Step, Lanes<S>>(
         profile,
-        terms,
+        MOST_TERMS,
         1.0,
         s * inverse2,
         -inverse2,
@@ -60,22 +54,25 @@ pub(super) fn series_on_imaginary_axis<S: Simd>(
     }
 }
 
-/// delta = r - |eta| -+ 1 of a distant point, and the number of terms that the lanes next to the front need.
+/// delta = r - |eta| -+ 1 of a distant point.
 #[inline(always)]
-pub(super) fn far_delta<S: Simd>(eta: Lanes<S>, r: f64) -> ([Lanes<S>; 2], usize) {
-    /// Farther from the front the multipole series is taken.
-    const LARGEST: f64 = 12.0;
+pub(super) fn far_delta<S: Simd>(eta: Lanes<S>, r: f64) -> [Lanes<S>; 2] {
     let distance = eta.abs();
-    let delta = [-distance + (r - 1.0), -distance + (r + 1.0)];
-    let size = delta[0].abs().max(delta[1].abs()).largest();
-    (delta, far_front::terms(size.min(LARGEST), r))
+    [-distance + (r - 1.0), -distance + (r + 1.0)]
+}
+
+/// Terms that any number needs for which the multipole series is not taken, whatever is beside it in a register.
+#[inline(always)]
+pub(super) fn far_terms(r: f64) -> usize {
+    const LARGEST: f64 = 12.0;
+    far_front::terms(LARGEST, r)
 }
 
 /// The potentials of a distant point.
 #[inline(always)]
 pub(super) fn at_far_front<S: Simd>(xi: Pair<S>, r: f64) -> Potentials<Pair<S>> {
     let zero = xi.re.constant(0.0);
-    let (real, terms) = far_delta(xi.im, r);
+    let real = far_delta(xi.im, r);
     let delta = [
         Pair {
             re: real[0],
@@ -87,7 +84,7 @@ pub(super) fn at_far_front<S: Simd>(xi: Pair<S>, r: f64) -> Potentials<Pair<S>> 
         },
     ];
     let root = [delta[0].root(), delta[1].root()];
-    let Chord { i, k } = far_front::chord(delta, root, terms, r);
+    let Chord { i, k } = far_front::chord(delta, root, far_terms(r), r);
     let ring = C / (r * r);
     let psi = Potentials {
         a_upper: i[0] * C,

@@ -7,7 +7,7 @@ mod choice;
 mod far;
 mod near;
 
-use crate::integral::panels::Node;
+use crate::integral::panels::Nodes;
 use crate::integral::setting::Setting;
 use crate::integral::spectrum::{self, Wave, half_angle};
 use crate::integral::sum::Sum;
@@ -17,7 +17,8 @@ use crate::point::{Point, Sense};
 use crate::potentials::Potentials;
 use crate::potentials::order::{Order, TimeOrder};
 use crate::profile::Profile;
-use choice::{compact, potentials};
+use choice::compact;
+use num_complex::Complex64;
 use pulp::{Simd, WithSimd};
 
 /// Whether the integrands at a point may be taken here.
@@ -36,7 +37,7 @@ pub(crate) fn add(
     at: Point,
     wave: Wave,
     sense: Option<Sense>,
-    nodes: &[Node],
+    nodes: &Nodes,
     sum: &mut Sum,
 ) {
     dispatch(Panel {
@@ -49,51 +50,72 @@ pub(crate) fn add(
     });
 }
 
+/// The potentials at two places.
+pub(crate) fn potentials(
+    profile: Profile,
+    xi: [Complex64; 2],
+    r: f64,
+) -> [Potentials<Complex64>; 2] {
+    dispatch(Two { profile, xi, r })
+}
+
+struct Two {
+    profile: Profile,
+    xi: [Complex64; 2],
+    r: f64,
+}
+
+impl WithSimd for Two {
+    type Output = [Potentials<Complex64>; 2];
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
+        let parts = self.xi.map(|xi| [xi.re, xi.im]);
+        let [re, im] = [0, 1].map(|i| Lanes::two(simd, parts.map(|xi| xi[i])));
+        let psi = choice::potentials(self.profile, Pair { re, im }, self.r, false);
+        let [first, second] = [0, 1].map(|i| psi.map(|v| Complex64::new(v.re.get(i), v.im.get(i))));
+        [first, second]
+    }
+}
+
 struct Panel<'a> {
     setting: &'a Setting,
     at: Point,
     wave: Wave,
     sense: Option<Sense>,
-    nodes: &'a [Node],
+    nodes: &'a Nodes,
     sum: &'a mut Sum,
 }
 
-impl WithSimd for Panel<'_> {
+impl<'a> WithSimd for Panel<'a> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let Some(last) = self.nodes.last() else {
-            return;
-        };
-        let zero = Lanes::all(simd, 0.0);
-        let (mut value, mut square) = ([zero; 6], [zero; 6]);
-        for chunk in self.nodes.chunks(WIDTH) {
-            let node = |i: usize| chunk.get(i).unwrap_or(last);
-            let place = Lanes::new(simd, std::array::from_fn(|i| node(i).place));
-            let weight = Lanes::new(
-                simd,
-                std::array::from_fn(|i| chunk.get(i).map_or(0.0, |node| node.weight)),
-            );
+        let nodes = self.nodes;
+        let (mut values, mut squares) = ([[0.0; WIDTH]; 6], [[0.0; WIDTH]; 6]);
+        let registers =
+            |list: &'a [f64]| Lanes::registers(simd, &list[nodes.in_registers(S::F64_LANES)]);
+        let [displacement, stress] = nodes.errors.each_ref().map(|errors| registers(errors));
+        let all = registers(&nodes.places).zip(registers(&nodes.weights));
+        for (i, ((place, weight), error)) in all.zip(displacement.zip(stress)).enumerate() {
             let (jacobian, term) = match self.sense {
                 Some(sense) => fast(self.setting, self.at, (self.wave, sense), place),
                 None => slow(self.setting, self.at, self.wave, place),
             };
             let weight = weight * jacobian;
-            let displacement =
-                Lanes::new(simd, std::array::from_fn(|i| node(i).error.displacement));
-            let stress = Lanes::new(simd, std::array::from_fn(|i| node(i).error.stress));
+            // of the block
+            let i = i % (WIDTH / S::F64_LANES);
             for f in 0..6 {
                 let x = weight * term[f];
-                let error = if f < 2 { displacement } else { stress } * x;
-                value[f] = value[f] + x;
-                square[f] = square[f] + error * error;
+                let error = if f < 2 { error.0 } else { error.1 } * x;
+                let value = &mut S::as_mut_simd_f64s(&mut values[f]).0[i];
+                *value = (Lanes::of(simd, *value) + x).register;
+                let square = &mut S::as_mut_simd_f64s(&mut squares[f]).0[i];
+                *square = (Lanes::of(simd, *square) + error * error).register;
             }
         }
-        for f in 0..6 {
-            self.sum
-                .add_lanes(f, value[f].into_array(), square[f].into_array());
-        }
+        self.sum.add_blocks(&values, &squares);
     }
 }
 
@@ -136,7 +158,7 @@ fn slow<S: Simd>(
                 re: p_abs * over_x * at.z,
                 im: over_x * -at.t,
             };
-            let psi = potentials(profile, xi, at.r, at.z == 0.0);
+            let psi = choice::potentials(profile, xi, at.r, at.z == 0.0);
             let factor = im * 2.0;
             Potentials {
                 a_upper: factor * psi.a_upper.re,
@@ -155,8 +177,8 @@ fn slow<S: Simd>(
                 re: re_xi,
                 im: (y * at.z + at.t) * over_x,
             };
-            let minus = potentials(profile, minus, at.r, true);
-            let plus = potentials(profile, plus, at.r, true);
+            let minus = choice::potentials(profile, minus, at.r, true);
+            let plus = choice::potentials(profile, plus, at.r, true);
             // the upper ones of A and the lower ones of B over i R, the others over R
             let inverse = Pair { re, im };
             Potentials {

@@ -214,27 +214,29 @@ pub(super) fn by_primitives<S: Simd>(xi: Pair<S>, r: f64) -> Potentials<Pair<S>>
 }
 
 /// The same on the imaginary axis.
+///
+/// The real part vanishes outside the circle around the whole chord, the imaginary part inside the one that it lies in.
 #[inline(always)]
 pub(super) fn primitives_on_imaginary_axis<S: Simd>(eta: Lanes<S>, r: f64) -> Potentials<Pair<S>> {
     let zero = eta.constant(0.0);
-    let s = [eta - 1.0, eta + 1.0];
+    let size = eta.abs();
     let inside = inside(eta, r);
-    let re = held_primitives(eta, r, inside);
-    let w = [(-inside[0]).max(zero).sqrt(), (-inside[1]).max(zero).sqrt()];
-    let modulus = [s[0].abs().at_least(r) + w[0], s[1].abs().at_least(r) + w[1]];
-    let log = [zero, (modulus[0] / modulus[1]).ln()];
-    let w = [w[0].copysign(s[0]), w[1].copysign(s[1])];
-    let im = chord_primitives::<Step, Lanes<S>>(eta, r, log, w);
-    let pair = |re, im| Pair { re, im };
-    from_primitives(
-        Potentials {
-            a_upper: pair(re.a_upper, im.a_upper),
-            a_lower: pair(re.a_lower, im.a_lower),
-            g_upper: pair(re.g_upper, im.g_upper),
-            g_lower: pair(re.g_lower, im.g_lower),
-        },
-        r,
-    )
+    let re = if size.smallest() >= r + 1.0 {
+        Potentials::all(zero)
+    } else {
+        held_primitives(eta, r, inside)
+    };
+    let im = if size.largest() <= r - 1.0 {
+        Potentials::all(zero)
+    } else {
+        let s = [eta - 1.0, eta + 1.0];
+        let w = [(-inside[0]).max(zero).sqrt(), (-inside[1]).max(zero).sqrt()];
+        let modulus = [s[0].abs().at_least(r) + w[0], s[1].abs().at_least(r) + w[1]];
+        let log = [zero, (modulus[0] / modulus[1]).ln()];
+        let w = [w[0].copysign(s[0]), w[1].copysign(s[1])];
+        chord_primitives::<Step, Lanes<S>>(eta, r, log, w)
+    };
+    from_primitives(re.zip(im, |re, im| Pair { re, im }), r)
 }
 
 /// Powers of i from the change of variable, and the part that is free of roots.

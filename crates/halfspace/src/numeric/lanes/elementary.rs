@@ -1,7 +1,6 @@
-//! Angle, logarithm and exponential of four numbers.
+//! Angle, logarithm and exponential of the numbers of a register.
 //!
-//! The polynomials are those of fdlibm (logarithm, exponential; Sun Microsystems, 1993) and of Cephes (arc tangent; Moshier,
-//! 1989): within two units in the last place.
+//! The polynomials are those of fdlibm (Sun Microsystems, 1993): within two units in the last place.
 
 use super::Lanes;
 use crate::numeric::scalar::{Real, Scalar};
@@ -29,22 +28,23 @@ impl<S: Simd> Lanes<S> {
         let low = small.where_below(limit, zero, self.constant(FRAC_PI_4_LOW));
         let high = small.where_below(limit, zero, self.constant(FRAC_PI_4));
         let z = t * t;
-        let upper = z.polynomial([
-            -8.750_608_600_031_904e-1,
-            -1.615_753_718_733_365e1,
-            -7.500_855_792_314_705e1,
-            -1.228_866_684_490_136_1e2,
-            -6.485_021_904_942_025e1,
+        let w = z * z;
+        let even = z * w.polynomial([
+            1.628_582_011_536_578_2e-2,
+            4.976_877_994_615_932e-2,
+            6.661_073_137_387_531e-2,
+            9.090_887_133_436_507e-2,
+            1.428_571_427_250_346_6e-1,
+            3.333_333_333_333_293e-1,
         ]);
-        let lower = z.polynomial([
-            1.0,
-            2.485_846_490_142_306_3e1,
-            1.650_270_098_316_988_5e2,
-            4.328_810_604_912_903e2,
-            4.853_903_996_359_137e2,
-            1.945_506_571_482_614e2,
+        let odd = w * w.polynomial([
+            -3.653_157_274_421_691_6e-2,
+            -5.833_570_133_790_573e-2,
+            -7.691_876_205_044_83e-2,
+            -1.111_111_040_546_235_6e-1,
+            -1.999_999_999_987_648_3e-1,
         ]);
-        let first = high + (t + (t * z * (upper / lower) + low));
+        let first = high + (t - (t * (even + odd) - low));
         let octant = along.where_below(across, -first + FRAC_PI_2, first);
         x.where_below(zero, -octant + PI, octant).copysign(self)
     }
@@ -56,7 +56,7 @@ impl<S: Simd> Lanes<S> {
         const MAGIC: f64 = 4_503_599_627_370_496.0;
         let simd = self.simd;
         let bits = simd.add_u64s(
-            simd.transmute_u64s_f64s(self.four),
+            simd.transmute_u64s_f64s(self.register),
             simd.splat_u64s((0x3ff0_0000 - 0x3fe6_a09e) << 32),
         );
         let fraction = simd.add_u64s(
@@ -109,7 +109,7 @@ impl<S: Simd> Lanes<S> {
         let y = (x * c / (-c + 2.0) - low) + high + 1.0;
         // the exponent of 2^k, shifted out of the last bits of 2^52 + (k + 1023) 2^32
         let biased = (k + 1023.0) * 2.0_f64.powi(32) + 2.0_f64.powi(52);
-        let power = simd.wrapping_dyn_shl_u32s(cast(biased.four), simd.splat_u32s(20));
+        let power = simd.wrapping_dyn_shl_u32s(cast(biased.register), simd.splat_u32s(20));
         y * self.with(cast(power))
     }
 }
@@ -138,15 +138,15 @@ mod tests {
                 for exponent in [-8, -1, 0, 3] {
                     let size = 10.0_f64.powi(exponent) * 1.7;
                     let (y, x) = (size * angle.sin(), size * angle.cos());
-                    let [found, ..] = Lanes::all(simd, y)
+                    let found = Lanes::all(simd, y)
                         .angle_over(Lanes::all(simd, x))
-                        .into_array();
+                        .largest();
                     worst[0] = worst[0].max(units(found, y.atan2(x)));
                     let value = size * (1.0 + f64::from(i) / 1000.0);
-                    let [found, ..] = Lanes::all(simd, value).ln().into_array();
+                    let found = Lanes::all(simd, value).ln().largest();
                     worst[1] = worst[1].max((found - value.ln()).abs() / f64::EPSILON);
                     let value = angle * f64::from(exponent);
-                    let [found, ..] = Lanes::all(simd, value).exp().into_array();
+                    let found = Lanes::all(simd, value).exp().largest();
                     worst[2] = worst[2].max(units(found, value.exp()));
                 }
             }

@@ -1,98 +1,125 @@
-//! Four real or complex numbers side by side in vector registers, with the functions of the closed forms.
+//! Real or complex numbers side by side in vector registers, with the functions of the closed forms.
 //!
-//! No operation is fused and the width is fixed, so that a machine without vector registers finds the same bits.
+//! A register holds four numbers or eight. No operation is fused, and sums are those of blocks of eight, so that every
+//! machine finds the same bits.
 
 mod elementary;
 mod pair;
 mod points;
 
 pub(crate) use pair::Pair;
-pub(crate) use points::{Axes, Map, Points, half_axes, major_axis, power};
+pub(crate) use points::{Map, Points, half_axes, major_axis, power};
 
 use crate::numeric::scalar::{Real, Scalar};
-use pulp::{Simd, WithSimd, cast};
+use pulp::{Simd, WithSimd};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// How many numbers go side by side.
-pub(crate) const WIDTH: usize = 4;
+/// Numbers are kept in blocks of so many, which fill one register or several.
+pub(crate) const WIDTH: usize = 8;
 
 /// Runs `work` with the machine's vector registers, or without any.
 #[inline]
 pub(crate) fn dispatch<W: WithSimd>(work: W) -> W::Output {
     #[cfg(target_arch = "x86_64")]
-    if let Some(simd) = pulp::x86::V3::try_new() {
-        return Simd::vectorize(simd, work);
+    {
+        if let Some(simd) = pulp::x86::V4::try_new() {
+            return Simd::vectorize(simd, work);
+        }
+        if let Some(simd) = pulp::x86::V3::try_new() {
+            return Simd::vectorize(simd, work);
+        }
     }
     Simd::vectorize(pulp::Scalar256b, work)
 }
 
-/// Four real numbers.
+/// The sum of a block.
+#[inline(always)]
+pub(crate) fn total([a, b, c, d, e, f, g, h]: &[f64; WIDTH]) -> f64 {
+    ((a + b) + (c + d)) + ((e + f) + (g + h))
+}
+
+/// The real numbers of one register.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Lanes<S: Simd> {
     simd: S,
-    four: S::f64s,
+    pub(crate) register: S::f64s,
 }
 
 impl<S: Simd> Lanes<S> {
     #[inline(always)]
-    pub(crate) fn new(simd: S, four: [f64; WIDTH]) -> Self {
-        Self {
-            simd,
-            four: cast(four),
-        }
+    pub(crate) fn of(simd: S, register: S::f64s) -> Self {
+        Self { simd, register }
     }
 
     #[inline(always)]
     pub(crate) fn all(simd: S, value: f64) -> Self {
-        Self {
-            simd,
-            four: simd.splat_f64s(value),
-        }
+        Self::of(simd, simd.splat_f64s(value))
+    }
+
+    /// The first of two numbers, and the second in all other places.
+    #[inline(always)]
+    pub(crate) fn two(simd: S, [first, second]: [f64; 2]) -> Self {
+        let mut block = [second; WIDTH];
+        block[0] = first;
+        Self::of(simd, S::as_simd_f64s(&block).0[0])
     }
 
     #[inline(always)]
-    pub(crate) fn into_array(self) -> [f64; WIDTH] {
-        cast(self.four)
+    pub(crate) fn get(self, i: usize) -> f64 {
+        let mut block = [0.0; WIDTH];
+        S::as_mut_simd_f64s(&mut block).0[0] = self.register;
+        block[i]
+    }
+
+    /// The numbers of whole blocks.
+    #[inline(always)]
+    pub(crate) fn registers(simd: S, blocks: &[f64]) -> impl Iterator<Item = Self> {
+        let registers = S::as_simd_f64s(blocks).0.iter();
+        registers.map(move |&register| Self::of(simd, register))
     }
 
     #[inline(always)]
-    fn with(self, four: S::f64s) -> Self {
-        Self { four, ..self }
+    fn with(self, register: S::f64s) -> Self {
+        Self { register, ..self }
     }
 
     #[inline(always)]
     pub(crate) fn abs(self) -> Self {
-        self.with(self.simd.abs_f64s(self.four))
+        self.with(self.simd.abs_f64s(self.register))
     }
 
     #[inline(always)]
     pub(crate) fn max(self, other: Self) -> Self {
-        self.with(self.simd.max_f64s(self.four, other.four))
+        self.with(self.simd.max_f64s(self.register, other.register))
     }
 
     #[inline(always)]
     pub(crate) fn min(self, other: Self) -> Self {
-        self.with(self.simd.min_f64s(self.four, other.four))
+        self.with(self.simd.min_f64s(self.register, other.register))
     }
 
     #[inline(always)]
     pub(crate) fn copysign(self, other: Self) -> Self {
         let Self { simd, .. } = self;
-        let sign = simd.and_f64s(other.four, simd.splat_f64s(-0.0));
-        self.with(simd.or_f64s(self.abs().four, sign))
+        let sign = simd.and_f64s(other.register, simd.splat_f64s(-0.0));
+        self.with(simd.or_f64s(self.abs().register, sign))
     }
 
-    /// The largest of the four.
     #[inline(always)]
     pub(crate) fn largest(self) -> f64 {
-        self.simd.reduce_max_f64s(self.four)
+        self.simd.reduce_max_f64s(self.register)
+    }
+
+    #[inline(always)]
+    pub(crate) fn smallest(self) -> f64 {
+        self.simd.reduce_min_f64s(self.register)
     }
 
     /// `yes` where this is below `limit`, else `no`.
     #[inline(always)]
     pub(crate) fn where_below(self, limit: Self, yes: Self, no: Self) -> Self {
-        let mask = self.simd.less_than_f64s(self.four, limit.four);
-        self.with(self.simd.select_f64s(mask, yes.four, no.four))
+        let mask = self.simd.less_than_f64s(self.register, limit.register);
+        self.with(self.simd.select_f64s(mask, yes.register, no.register))
     }
 
     /// Horner's rule, the highest coefficient first.
@@ -113,7 +140,7 @@ macro_rules! operators {
 
             #[inline(always)]
             fn $method(self, other: Self) -> Self {
-                self.with(self.simd.$vector(self.four, other.four))
+                self.with(self.simd.$vector(self.register, other.register))
             }
         }
 
@@ -140,7 +167,7 @@ impl<S: Simd> Neg for Lanes<S> {
 
     #[inline(always)]
     fn neg(self) -> Self {
-        self.with(self.simd.neg_f64s(self.four))
+        self.with(self.simd.neg_f64s(self.register))
     }
 }
 
@@ -154,7 +181,7 @@ impl<S: Simd> Scalar for Lanes<S> {
 impl<S: Simd> Real for Lanes<S> {
     #[inline(always)]
     fn sqrt(self) -> Self {
-        self.with(self.simd.sqrt_f64s(self.four))
+        self.with(self.simd.sqrt_f64s(self.register))
     }
 
     #[inline(always)]

@@ -1,11 +1,11 @@
-//! Four complex numbers side by side.
+//! Complex numbers side by side.
 
 use super::Lanes;
 use crate::numeric::scalar::{Real, Scalar};
 use pulp::Simd;
 use std::ops::{Add, Mul, Sub};
 
-/// Four complex numbers.
+/// The complex numbers of two registers.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Pair<S: Simd> {
     pub(crate) re: Lanes<S>,

@@ -1,55 +1,57 @@
-//! Points of a complex plane, of which a function is taken four at a time.
+//! Points of a complex plane, of which a function is taken for several at a time.
 
 use super::{Lanes, Pair, WIDTH, dispatch};
 use crate::numeric::scalar::{Real, Scalar};
-use arrayvec::ArrayVec;
 use num_complex::Complex64;
 use pulp::{Simd, WithSimd};
 
-/// Most points, in fours.
-const CAPACITY: usize = 24;
+/// Most points, in whole blocks: each of 16 fronts and 10 fixed points may be a cut too.
+const CAPACITY: usize = 8 * WIDTH;
 
 /// A function of a complex number.
 pub(crate) trait Map {
     fn at<S: Simd>(&self, v: Pair<S>) -> Pair<S>;
 }
 
-/// Real and imaginary parts of four points.
-type Four = [[f64; WIDTH]; 2];
-
-/// Points of a complex plane.
+/// Points of a complex plane, real and imaginary parts side by side.
 #[derive(Debug, Clone)]
 pub(crate) struct Points {
-    fours: ArrayVec<Four, CAPACITY>,
+    re: [f64; CAPACITY],
+    im: [f64; CAPACITY],
     count: usize,
 }
 
+impl FromIterator<Complex64> for Points {
+    fn from_iter<I: IntoIterator<Item = Complex64>>(all: I) -> Self {
+        let mut points = Self::new();
+        all.into_iter().for_each(|point| points.push(point));
+        points
+    }
+}
+
 impl Points {
-    /// Real and imaginary part of what is too far to matter, and of what the last four has no points for.
+    /// Real and imaginary part of what is too far to matter, and of what fills the last register.
     pub(crate) const NOWHERE: f64 = 1e12;
 
+    #[inline]
     pub(crate) fn new() -> Self {
         Self {
-            fours: ArrayVec::new(),
+            re: [Self::NOWHERE; CAPACITY],
+            im: [Self::NOWHERE; CAPACITY],
             count: 0,
         }
     }
 
+    #[inline]
     pub(crate) fn push(&mut self, point: Complex64) {
-        let place = self.count % WIDTH;
-        if place == 0 {
-            self.fours.push([[Self::NOWHERE; WIDTH]; 2]);
-        }
-        if let Some([re, im]) = self.fours.last_mut() {
-            (re[place], im[place]) = (point.re, point.im);
-        }
+        (self.re[self.count], self.im[self.count]) = (point.re, point.im);
         self.count += 1;
     }
 
+    #[inline]
     pub(crate) fn iter(&self) -> impl Iterator<Item = Complex64> {
-        let all = self.fours.iter().flat_map(|[re, im]| re.iter().zip(im));
-        all.take(self.count)
-            .map(|(&re, &im)| Complex64::new(re, im))
+        let all = self.re.iter().zip(&self.im).take(self.count);
+        all.map(|(&re, &im)| Complex64::new(re, im))
     }
 
     /// Replaces each point.
@@ -57,34 +59,16 @@ impl Points {
         dispatch(Mapped { points: self, map });
     }
 
-    /// Puts the major axes of the ellipses with foci s0, s1 through the points, focal distance 2, into `axes`; the smallest.
-    pub(crate) fn axes(&self, s0: f64, s1: f64, axes: &mut Axes) -> f64 {
-        dispatch(AxesOf {
-            points: self,
-            foci: [s0, s1],
+    /// The smallest major axis of the ellipses with two foci through the points, focal distance 2.
+    pub(crate) fn smallest_axis(&self, foci: [f64; 2]) -> f64 {
+        dispatch(SmallestAxis { points: self, foci })
+    }
+
+    /// Sum of 1/rho^`power` over those ellipses of an axis up to `largest`, rho the sum of the half axes.
+    pub(crate) fn sum_of_inverse_powers(&self, foci: [f64; 2], largest: f64, power: u32) -> f64 {
+        let axes = SmallestAxis { points: self, foci };
+        dispatch(InversePowers {
             axes,
-        })
-    }
-}
-
-#[inline(always)]
-fn pair<S: Simd>(simd: S, four: &Four) -> Pair<S> {
-    let [re, im] = four.map(|part| Lanes::new(simd, part));
-    Pair { re, im }
-}
-
-/// One number for each point, and some that are larger.
-pub(crate) struct Axes(ArrayVec<[f64; WIDTH], CAPACITY>);
-
-impl Axes {
-    pub(crate) fn new() -> Self {
-        Self(ArrayVec::new())
-    }
-
-    /// Sum of 1/rho^`power` over the axes up to a largest, rho the sum of the half axes.
-    pub(crate) fn sum_of_inverse_powers(&self, largest: f64, power: u32) -> f64 {
-        dispatch(Powers {
-            axes: self,
             largest,
             power,
         })
@@ -93,7 +77,7 @@ impl Axes {
 
 /// Major axis of the ellipse with foci s0, s1 through a point, focal distance 2.
 #[inline(always)]
-pub(crate) fn major_axis<T: Real>(re: T, im: T, s0: f64, s1: f64) -> T {
+pub(crate) fn major_axis<T: Real>(re: T, im: T, [s0, s1]: [f64; 2]) -> T {
     let (middle, inverse) = (0.5 * (s0 + s1), 2.0 / (s1 - s0));
     let (x, y) = ((re - middle) * inverse, im * inverse);
     let (square, twice) = (x * x + y * y + 1.0, x * 2.0);
@@ -131,65 +115,69 @@ impl<M: Map> WithSimd for Mapped<'_, M> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        for four in &mut self.points.fours {
-            let found = self.map.at(pair(simd, four));
-            *four = [found.re.into_array(), found.im.into_array()];
+        let Points { re, im, count } = self.points;
+        let used = count.next_multiple_of(S::F64_LANES);
+        let (re, _) = S::as_mut_simd_f64s(&mut re[..used]);
+        let (im, _) = S::as_mut_simd_f64s(&mut im[..used]);
+        for (re, im) in re.iter_mut().zip(im) {
+            let found = self.map.at(Pair {
+                re: Lanes::of(simd, *re),
+                im: Lanes::of(simd, *im),
+            });
+            (*re, *im) = (found.re.register, found.im.register);
         }
     }
 }
 
-struct AxesOf<'a> {
+struct SmallestAxis<'a> {
     points: &'a Points,
     foci: [f64; 2],
-    axes: &'a mut Axes,
 }
 
-impl WithSimd for AxesOf<'_> {
+impl SmallestAxis<'_> {
+    /// Calls `f` with the axis of each point.
+    #[inline(always)]
+    fn for_each<S: Simd>(&self, simd: S, mut f: impl FnMut(Lanes<S>)) {
+        let Points { re, im, count } = self.points;
+        let used = count.next_multiple_of(S::F64_LANES);
+        let parts = [re, im].map(|part| Lanes::registers(simd, &part[..used]));
+        let [re, im] = parts;
+        re.zip(im)
+            .for_each(|(re, im)| f(major_axis(re, im, self.foci)));
+    }
+}
+
+impl WithSimd for SmallestAxis<'_> {
     type Output = f64;
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> f64 {
-        let Self {
-            points,
-            foci: [s0, s1],
-            axes: Axes(axes),
-        } = self;
         let mut smallest = Lanes::all(simd, f64::INFINITY);
-        axes.clear();
-        for four in &points.fours {
-            let point = pair(simd, four);
-            let axis = major_axis(point.re, point.im, s0, s1);
-            smallest = smallest.min(axis);
-            axes.push(axis.into_array());
-        }
-        smallest
-            .into_array()
-            .into_iter()
-            .fold(f64::INFINITY, f64::min)
+        self.for_each(simd, |axis| smallest = smallest.min(axis));
+        smallest.smallest()
     }
 }
 
-struct Powers<'a> {
-    axes: &'a Axes,
+struct InversePowers<'a> {
+    axes: SmallestAxis<'a>,
     largest: f64,
     power: u32,
 }
 
-impl WithSimd for Powers<'_> {
+impl WithSimd for InversePowers<'_> {
     type Output = f64;
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> f64 {
         let [zero, one, largest] = [0.0, 1.0, self.largest].map(|v| Lanes::all(simd, v));
-        let Axes(axes) = self.axes;
-        let mut sum = 0.0;
-        for axis in axes {
-            let axis = Lanes::new(simd, *axis);
+        let mut sums = [0.0; WIDTH];
+        let (sums_of, mut next) = (S::as_mut_simd_f64s(&mut sums).0, 0);
+        self.axes.for_each(simd, |axis| {
             let left = one / power(half_axes(axis), self.power);
-            for left in largest.where_below(axis, zero, left).into_array() {
-                sum += left;
-            }
-        }
-        sum
+            let sum = &mut sums_of[next % (WIDTH / S::F64_LANES)];
+            *sum = (Lanes::of(simd, *sum) + largest.where_below(axis, zero, left)).register;
+            next += 1;
+        });
+        super::total(&sums)
     }
 }

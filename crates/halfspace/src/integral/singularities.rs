@@ -1,0 +1,327 @@
+//! Quadrature of a function whose singularities are all known.
+//!
+//! The interval [0, 1] is cut at the singularities that lie on it; toward a cut the variable is squared,
+//! which turns square roots into smooth functions. The pieces are integrated by Gauss rules on panels.
+//!
+//! Theory: `docs/theory.md` (T18).
+
+use crate::integral::panels::{Nodes, ROUNDING, panels};
+use crate::integral::strength::Strength;
+use crate::numeric::complex::root;
+use crate::numeric::lanes::{Map, Pair, Points};
+use crate::numeric::scalar::Scalar;
+use arrayvec::ArrayVec;
+use num_complex::Complex64;
+use pulp::Simd;
+
+/// Power of the variable toward a cut of a single singularity.
+const SQUARE: i32 = 2;
+
+/// Power toward a cut where singularities meet.
+const HIGH: i32 = 6;
+
+/// Cuts at a relative distance below this are one.
+const SAME: f64 = 1e-13;
+
+/// Smaller places are as good as zero once multiplied by [`SAME`].
+const SMALLEST: f64 = 1e-14;
+
+/// Whether two places in [0, 1] are one: just after a plane front cuts of 1e-16 are distinct from zero.
+fn same(a: f64, b: f64) -> bool {
+    (a - b).abs() <= SAME * a.max(b).max(SMALLEST)
+}
+
+/// Most cuts that an integrand of this crate has.
+const CAPACITY: usize = 64;
+
+/// The interval [0, 1] of a smooth variable with everything that is not smooth near it.
+#[derive(Debug, Clone)]
+pub(crate) struct Singularities {
+    cuts: ArrayVec<f64, CAPACITY>,
+    /// All, the cuts among them.
+    points: Points,
+    /// Where the integrand grows as a pole of high order.
+    pub(crate) pole: Complex64,
+    strength: Strength,
+    /// Ends of the interval at which the variable stands for the square root of the distance in slowness.
+    root_ends: &'static [f64],
+    rounding: f64,
+}
+
+impl Singularities {
+    /// An interval with a pole and the given singularities of a bounded integrand, which is a function of the root of the
+    /// distance in slowness from `root_ends`.
+    pub(crate) fn new(
+        fixed: impl IntoIterator<Item = Complex64>,
+        pole: Complex64,
+        root_ends: &'static [f64],
+    ) -> Self {
+        let mut singularities = Self {
+            cuts: ArrayVec::new(),
+            points: Points::new(),
+            pole,
+            strength: Strength::Bounded,
+            root_ends,
+            rounding: ROUNDING,
+        };
+        fixed.into_iter().for_each(|point| singularities.add(point));
+        singularities
+    }
+
+    /// The same for cuts of a strength, where an unbounded integrand has a rounding error of `times` the usual one.
+    #[inline]
+    pub(crate) fn with_strength(&self, strength: Strength, times: f64) -> Self {
+        Self {
+            cuts: self.cuts.clone(),
+            points: self.points.clone(),
+            strength,
+            rounding: times * ROUNDING,
+            ..*self
+        }
+    }
+
+    /// Adds a singularity: a cut if it lies on the interval, a point to keep away from otherwise.
+    ///
+    /// Of a conjugate pair one is enough.
+    pub(crate) fn add(&mut self, point: Complex64) {
+        /// A singularity this close to the interval is worth a cut: the squared variable resolves it sooner.
+        const CLOSE: f64 = 0.02;
+        /// Beyond this distance a singularity costs no node.
+        const FAR: f64 = 1.5;
+        let clear = (point.re - 0.5).abs() - 0.5;
+        if !(clear < FAR && point.im.abs() < FAR) {
+            return;
+        }
+        if clear < CLOSE && point.im.abs() < CLOSE {
+            let cut = point.re.clamp(0.0, 1.0);
+            self.cuts.push(cut);
+            self.points.push(cut.into());
+        }
+        if clear > 0.0 || point.im != 0.0 {
+            self.points.push(Complex64::new(point.re, point.im.abs()));
+        }
+    }
+
+    /// The cuts in order, between the ends of the interval.
+    pub(crate) fn intervals(&mut self) -> impl Iterator<Item = (f64, f64)> + use<> {
+        let cuts = &mut self.cuts;
+        cuts.sort_unstable_by(f64::total_cmp);
+        let mut ends: ArrayVec<f64, { CAPACITY + 2 }> = ArrayVec::new();
+        ends.push(0.0);
+        for &cut in cuts.iter() {
+            if !same(cut, ends[ends.len() - 1]) {
+                ends.push(cut);
+            }
+        }
+        if same(ends[ends.len() - 1], 1.0) {
+            ends.pop();
+        }
+        ends.push(1.0);
+        (1..ends.len()).map(move |i| (ends[i - 1], ends[i]))
+    }
+
+    /// Passes on the nodes of a rule on one interval a panel at a time, accurate to exp(-`digits`) of the size of the
+    /// integrand.
+    #[inline(always)]
+    pub(crate) fn visit(&self, (from, to): (f64, f64), digits: f64, f: &mut impl FnMut(&Nodes)) {
+        match (self.power(from), self.power(to)) {
+            (power, 1) => self.visit_piece(from, to, power, digits, f),
+            (1, power) => self.visit_piece(to, from, power, digits, f),
+            (lower, upper) => {
+                let middle = 0.5 * (from + to);
+                self.visit_piece(from, middle, lower, digits, f);
+                self.visit_piece(to, middle, upper, digits, f);
+            }
+        }
+    }
+
+    /// The power of the variable that smooths the end of an interval.
+    fn power(&self, end: f64) -> i32 {
+        match self.cuts.iter().filter(|&&cut| same(cut, end)).count() {
+            0 => 1,
+            1 => SQUARE,
+            _ => HIGH,
+        }
+    }
+
+    /// v = start + (end - start) s^power.
+    fn visit_piece(
+        &self,
+        start: f64,
+        end: f64,
+        power: i32,
+        digits: f64,
+        f: &mut impl FnMut(&Nodes),
+    ) {
+        let scale = end - start;
+        let is_cut = power > 1;
+        let strength = self.strength;
+        let mut images = self.points.clone();
+        images.map(&Image {
+            start,
+            scale,
+            // the singularity of the cut itself is what the power is for
+            least: if is_cut { SAME } else { 0.0 },
+            square: power == SQUARE,
+        });
+        let mut pole = (self.pole - start) / scale;
+        if power == SQUARE {
+            pole = root(pole);
+        } else if is_cut {
+            let exponent = 1.0 / f64::from(power);
+            images = images.iter().map(|point| point.powf(exponent)).collect();
+            pole = pole.powf(exponent);
+        }
+        let place_error = if is_cut && strength != Strength::Bounded {
+            self.place_error(start)
+        } else {
+            0.0
+        };
+        // A power of a logarithm is left at s = 0: Gauss's rule gains 2 power digits a doubling there.
+        let least = if power == HIGH { 0.7 * digits } else { 3.0 };
+        let finite_part = is_cut && strength == Strength::FinitePart;
+        let mut nodes = Nodes::new();
+        panels(
+            (&images, pole),
+            (digits, least),
+            (finite_part, strength.caution()),
+            &mut |rule, (middle, half), error| {
+                let (slope, panel) = (scale.abs() * f64::from(power), (middle, half));
+                let place = |s: f64, below: f64| (start + scale * (below * s), slope * below);
+                match power {
+                    1 => nodes.take(rule, panel, start, |s| place(s, 1.0)),
+                    SQUARE => nodes.take(rule, panel, start, |s| place(s, s)),
+                    _ => nodes.take(rule, panel, start, |s| place(s, (s * s) * (s * s) * s)),
+                }
+                nodes.set_errors(error);
+                if place_error > 0.0 {
+                    nodes.map_errors(|error, place| {
+                        let distance = (place - start).abs();
+                        let s = (distance / scale.abs()).powf(1.0 / f64::from(power));
+                        strength.at_front(error, place_error, distance, s)
+                    });
+                }
+                f(&nodes);
+            },
+        );
+    }
+
+    /// How far a cut may be from the front it stands for, by rounding, where the integrand is unbounded.
+    ///
+    /// A front and its neighbour are roots of one quadratic: the closer two roots, the worse conditioned each is. The same
+    /// holds for a slowness and its mirror image at an end where the variable stands for a root.
+    fn place_error(&self, cut: f64) -> f64 {
+        /// Fronts that were taken for one leave out what lies between them.
+        const MERGED: f64 = 1e7;
+        /// A neighbour within this fraction of the place may be the other root of the quadratic.
+        const OTHER_ROOT: f64 = 0.1;
+        // beyond its root rounding does not move a root
+        let by = |distance: f64| self.rounding / distance.max(self.rounding.sqrt());
+        let own = || self.cuts.iter().filter(|&&other| same(other, cut));
+        if own().count() > 1 || own().any(|&other| other != cut) {
+            return MERGED;
+        }
+        let distances = self.points.iter().map(|point| (point - cut).norm());
+        let nearest = distances
+            .filter(|distance| *distance > SAME * cut.max(SMALLEST))
+            .fold(1.0, f64::min);
+        let neighbour = if nearest < OTHER_ROOT * cut {
+            by(nearest)
+        } else {
+            0.0
+        };
+        let mirror: f64 = self.root_ends.iter().map(|end| by((end - cut).abs())).sum();
+        // under a disc the plane front is exact however small its place; a point force has none
+        let place = match self.strength {
+            Strength::FinitePart => 1.0,
+            Strength::Bounded | Strength::InverseRoot => cut,
+        };
+        // a mirror image moves a small cut by no more than a fraction of itself
+        self.rounding * place + neighbour + mirror.min(cut)
+    }
+}
+
+/// (v - `start`)/`scale` or its principal square root, but for what is nearer than `least` to zero.
+struct Image {
+    start: f64,
+    scale: f64,
+    least: f64,
+    square: bool,
+}
+
+impl Map for Image {
+    #[inline(always)]
+    fn at<S: Simd>(&self, v: Pair<S>) -> Pair<S> {
+        let scale = v.re.constant(self.scale);
+        let image = Pair {
+            re: (v.re - self.start) / scale,
+            im: v.im / scale,
+        };
+        let least = v.re.constant(self.least * self.least);
+        let nowhere = Pair {
+            re: v.re.constant(Points::NOWHERE),
+            im: v.re.constant(Points::NOWHERE),
+        };
+        let found = Pair::where_below(image.norm_sqr(), least, nowhere, image);
+        if self.square { found.root() } else { found }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const NOWHERE: Complex64 = Complex64::new(1e99, 0.0);
+
+    fn integral(singularity: Complex64, f: impl Fn(f64) -> f64) -> (f64, usize) {
+        let mut singularities = Singularities::new([singularity], NOWHERE, &[1.0]);
+        let (mut sum, mut count) = (0.0, 0);
+        for interval in singularities.intervals() {
+            singularities.visit(interval, 28.0, &mut |nodes| {
+                sum += nodes
+                    .iter()
+                    .map(|(place, weight, _)| weight * f(place))
+                    .sum::<f64>();
+                count += nodes.iter().count();
+            });
+        }
+        (sum, count)
+    }
+
+    #[test]
+    fn square_roots_at_cuts_are_integrated() {
+        let (sum, count) = integral(0.3.into(), |v| (v - 0.3).abs().sqrt());
+        let exact = (0.3_f64.powf(1.5) + 0.7_f64.powf(1.5)) / 1.5;
+        assert!((sum - exact).abs() < 1e-14, "{sum} {exact}");
+        assert!(count < 20, "{count} nodes");
+    }
+
+    #[test]
+    fn logarithms_at_double_cuts_are_integrated() {
+        let mut singularities = Singularities::new([0.3.into(), 0.3.into()], NOWHERE, &[1.0]);
+        let mut sum = 0.0;
+        for interval in singularities.intervals() {
+            singularities.visit(interval, 28.0, &mut |nodes| {
+                let terms = nodes
+                    .iter()
+                    .map(|(place, weight, _)| weight * (place - 0.3).abs().ln());
+                sum += terms.sum::<f64>();
+            });
+        }
+        let exact = 0.3 * 0.3_f64.ln() + 0.7 * 0.7_f64.ln() - 1.0;
+        assert!((sum - exact).abs() < 1e-12, "{sum} {exact}");
+    }
+
+    #[test]
+    fn a_near_pole_is_resolved() {
+        for gap in [0.3, 1e-2, 1e-4, 1e-7] {
+            let pole = Complex64::new(0.4, gap);
+            let (sum, count) = integral(pole, |v| gap / ((v - 0.4).powi(2) + gap * gap));
+            let exact = (0.6 / gap).atan() + (0.4 / gap).atan();
+            // the distance to the pole carries the rounding error of its place
+            let noise = 1e-13 + 1e-16 / gap;
+            assert!((sum - exact).abs() < noise, "{gap}: {sum} {exact}");
+            assert!(count < 1500, "{count} nodes");
+        }
+    }
+}
