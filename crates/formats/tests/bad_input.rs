@@ -96,7 +96,7 @@ const BAD: [(&str, &str, &[&str]); 34] = [
     (
         "model = \"wave\"",
         "tolerance = 1e-12",
-        &["contact.tolerance = 0.000000000001", "[1e-9, 0.1]"],
+        &["contact.tolerance = 1e-12", "[1e-9, 0.1]"],
     ),
     (
         "model = \"wave\"",

@@ -268,7 +268,7 @@ fn open_hdf5(path: &Path) -> Result<HdfFile, ReadError> {
     }
     let mut head = Vec::new();
     std::fs::File::open(path)
-        .and_then(|file| file.take(256).read_to_end(&mut head))
+        .and_then(|file| file.take(data.len().min(256)).read_to_end(&mut head))
         .map_err(unreadable)?;
     let not = |found| ReadError::is(path, format!("is {found}, not a file of results in HDF5"));
     if !head.starts_with(b"\x89HDF\r\n\x1a\n") {
