@@ -27,7 +27,7 @@ mod place;
 mod room;
 mod temporary;
 
-pub use claim::{Existing, Output, Staged, check, write_whole};
+pub use claim::{Existing, Output, Staged, write_whole};
 pub use ending::{CSV, Ending, HDF5, PARQUET, ROWS, SHARD, TABLE};
 pub use error::{Fault, OutputError};
 pub use folder::{Folder, NewFile};

@@ -5,7 +5,7 @@ use crate::impacts::{frames_of, of_impacts};
 use crate::request::{Drawn, Kind, Request};
 use crate::sweep::of_sweep;
 use crate::table::of_table;
-use figure::{ColourMap, Figure, Layer, Limits, Scale};
+use figure::{ColourMap, Figure, Layer, Scale};
 use formats::stored::{FileKind, StoredImpact, StoredSweep, file_kind};
 use std::path::PathBuf;
 
@@ -59,23 +59,21 @@ fn scale(figure: &mut Figure, request: &Request) -> Result<(), PlotError> {
             };
             has_colours = true;
             if request.logarithmic {
-                if image.colours.map == ColourMap::Diverging {
+                if image.map == ColourMap::Diverging {
                     image.colours.quantity = format!("size of the {}", image.colours.quantity);
                     image
                         .values
                         .iter_mut()
                         .for_each(|value| *value = value.abs());
                 }
-                if image.colours.spread == Scale::Linear {
+                if image.colours.scale == Scale::Linear {
                     let largest = image.values.iter().copied().fold(0.0, f64::max);
-                    image.colours.limits = Limits::Between(1e-4 * largest, largest);
+                    image.colours.range = Some((1e-4 * largest, largest));
                 }
-                image.colours.map = ColourMap::Sequential;
-                image.colours.spread = Scale::Logarithmic;
+                image.map = ColourMap::Sequential;
+                image.colours.scale = Scale::Logarithmic;
             }
-            if let Some((low, high)) = request.limits {
-                image.colours.limits = Limits::Between(low, high);
-            }
+            image.colours.range = request.limits.or(image.colours.range);
         }
         if !has_colours {
             if request.logarithmic {

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
-use figure::{Figure, Layer, Limits, measure, to_gif};
+use figure::{Figure, Layer, measure, to_gif};
 use formats::{Existing, parse_scene, write_results};
 use impact::{KernelChoice, simulate};
 use plot::{Kind, Request, animate, compose};
@@ -127,7 +127,7 @@ fn limits_and_ratios_are_those_that_are_asked_for() {
     };
     let figure = compose(std::slice::from_ref(&path), &asked).unwrap().figure;
     let image = images(&figure)[0];
-    assert_eq!(image.colours.limits, Limits::Between(1e3, 1e6));
+    assert_eq!(image.colours.range, Some((1e3, 1e6)));
     assert_eq!(image.colours.quantity, "size of the axial stress");
     assert!(image.values.iter().all(|value| *value >= 0.0));
     texts(&figure);

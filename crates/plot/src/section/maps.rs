@@ -3,8 +3,8 @@
 use super::frames::{Quantity, Section, quantile_of_sizes};
 use crate::error::PlotError;
 use crate::request::Request;
-use crate::words::{unit_of, with_unit};
-use figure::{ColourMap, ColourScale, Legend, Limits, Panel};
+use crate::words::{axis, with_unit};
+use figure::{ColourMap, Legend, Panel, Scale};
 use formats::stored::StoredImpact;
 
 /// Frames from which on a picture is a whole history.
@@ -36,11 +36,11 @@ pub(crate) fn frames(
     for &frame in &chosen {
         images.push(section.values(&quantity, frame)?);
     }
-    let colours = section.colours(&quantity, &images, &section.is_far());
+    let (colours, map) = section.colours(&quantity, &images, &section.is_far());
     let panel = |(&frame, values): (&usize, Vec<f64>)| {
         let time_s = section.stored.time_s[frame];
         let mut panel = section
-            .map(values, colours.clone())
+            .map(values, colours.clone(), map)
             .title(&with_unit(time_s, "s"))
             .legend(Legend::Off);
         panel.layers.extend(section.fronts(time_s));
@@ -93,12 +93,9 @@ pub(crate) fn peak(impact: &StoredImpact, request: &Request) -> Result<Panel, Pl
     for value in &mut values {
         *value = value.max(ends[0]);
     }
-    let (words, unit) = (&quantity.words, unit_of(&quantity.unit));
-    let words = format!("{words}, largest over time");
-    let colours = ColourScale::new(&words, unit, ColourMap::Sequential)
-        .logarithmic()
-        .limits(Limits::Between(ends[0], ends[1]));
-    Ok(section.map(values, colours))
+    let words = format!("{}, largest over time", quantity.words);
+    let colours = axis(&words, &quantity.unit, Scale::Logarithmic).range(ends[0], ends[1]);
+    Ok(section.map(values, colours, ColourMap::Sequential))
 }
 
 /// The largest sizes over the frames, for a file that has none over all samples.

@@ -38,7 +38,7 @@ pub(crate) fn run(
     let disk_bytes_per_shard = bytes_per_shard + rows_per_shard * kept;
     let seconds_per_shard = rows_per_shard as f64 / rows_per_second;
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
-    let sha256 = spec.sha256();
+    let sha256 = spec.sha256.clone();
     let value = json!({
         "rows": rows,
         "shards": count,
