@@ -298,7 +298,7 @@ impl<'a, S: Responses> Solver<'a, S> {
             let contact = collision.growing_contact(&waves);
             match yielding.remembered(&contact, asked) {
                 Ok(found) => self.growing = found,
-                Err(_) if plan.is_automatic() => plan.model = Model::AreaDashpot,
+                Err(_) if plan.chosen.is_some() => plan.model = Model::AreaDashpot,
                 Err(error) => return Err(error.into()),
             }
         }
