@@ -166,7 +166,7 @@ pub enum MarchError {
         steps: usize,
     },
     /// A group of a contact that follows the load outside its range.
-    #[error("{name} = {value} is outside {range}")]
+    #[error("{name} = {} is outside {range}", fault::number(*value))]
     OutOfRange {
         /// Name of the group.
         name: &'static str,

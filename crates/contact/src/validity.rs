@@ -75,7 +75,8 @@ pub fn doubts(half_space: &HalfSpace, striker: &Striker) -> Vec<String> {
             format!("is it in {unit}?")
         };
         Some(format!(
-            "{body}.{field} = {value} is outside the {least:e} to {most:e} {unit} of usual bodies: {meant}"
+            "{body}.{field} = {} is outside the {least:e} to {most:e} {unit} of usual bodies: {meant}",
+            fault::number(value)
         ))
     });
     unusual.chain(doubt(striker)).collect()

@@ -1,7 +1,7 @@
 //! What can be wrong with a scene.
 
 use contact::nearest;
-use fault::{Class, Culprit, Fault};
+use fault::{Class, Culprit, Fault, number};
 use impact::TreatmentError;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
@@ -93,7 +93,7 @@ impl SceneError {
     /// A number outside its range.
     pub fn out_of_range(key: impl Into<String>, value: f64, range: &str) -> Self {
         let key = key.into();
-        let sentence = format!("{key} = {value} is outside {range}");
+        let sentence = format!("{key} = {} is outside {range}", number(value));
         let mut error = Self::of_number(key, value, sentence);
         error.0.range = Some(range.to_owned());
         error
@@ -108,8 +108,10 @@ impl SceneError {
 
     /// A place outside the block, which a key ends.
     pub(crate) fn outside_block(key: String, value: f64, limit_key: &str, limit: f64) -> Self {
-        let sentence =
-            format!("{key} = {value} is outside [0, {limit}], where {limit_key} ends the block");
+        let sentence = format!(
+            "{key} = {} is outside [0, {limit}], where {limit_key} ends the block",
+            number(value)
+        );
         let mut error = Self::of_number(key, value, sentence);
         (error.0.of, error.0.limits) = (Of::Other, Some([0.0, limit]));
         error

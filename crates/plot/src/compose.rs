@@ -31,10 +31,11 @@ pub fn compose(paths: &[PathBuf], request: &Request) -> Result<Drawn, PlotError>
 }
 
 /// Shows what is asked for: limits, and sizes by their ratios; of colours where there are some, else of the y axis.
+/// Limits that are not above zero make a scale linear that a kind of picture chooses to be logarithmic.
 fn scale(figure: &mut Figure, request: &Request) -> Result<(), PlotError> {
     if let Some((low, high)) = request.limits {
         let refused = |why| {
-            let sentence = format!("the limits {low}:{high} are not those of a picture: {why}");
+            let sentence = format!("the limits {low:?}:{high:?} are not those of a picture: {why}");
             Err(PlotError::refused(None, sentence))
         };
         if !(low < high && high.is_finite()) {
@@ -51,6 +52,7 @@ fn scale(figure: &mut Figure, request: &Request) -> Result<(), PlotError> {
             return refused("it shows several quantities, choose one");
         }
     }
+    let is_linear = request.limits.is_some_and(|(low, _)| low <= 0.0);
     for panel in &mut figure.panels {
         let mut has_colours = false;
         for layer in &mut panel.layers {
@@ -73,11 +75,17 @@ fn scale(figure: &mut Figure, request: &Request) -> Result<(), PlotError> {
                 image.map = ColourMap::Sequential;
                 image.colours.scale = Scale::Logarithmic;
             }
+            if is_linear {
+                image.colours.scale = Scale::Linear;
+            }
             image.colours.range = request.limits.or(image.colours.range);
         }
         if !has_colours {
             if request.logarithmic {
                 panel.y.scale = Scale::Logarithmic;
+            }
+            if is_linear {
+                panel.y.scale = Scale::Linear;
             }
             panel.y.range = request.limits.or(panel.y.range);
         }

@@ -63,13 +63,13 @@ impl Library {
         })
     }
 
-    /// Up to three names that contain a word.
+    /// Up to four names that contain a word.
     fn named_like(&self, word: &str) -> Option<String> {
         let word = word.to_lowercase();
         let names = self.materials.keys().map(String::as_str);
         let like: Vec<&str> = names
             .filter(|name| !word.is_empty() && name.to_lowercase().contains(&word))
-            .take(3)
+            .take(4)
             .collect();
         (!like.is_empty()).then(|| like.join(" or "))
     }

@@ -56,9 +56,9 @@ fn limits(axis: &Axis, map: ColourMap, values: impl Iterator<Item = f64>) -> Int
     };
     let found = Interval::new(scale, low, high);
     match scale {
+        Scale::Logarithmic if low <= 0.0 => Interval::logarithmic(1.0, 1.0).with_air(0.0),
         _ if low < high => found,
         // one value only, or none
-        Scale::Logarithmic if low <= 0.0 => Interval::logarithmic(1.0, 1.0).with_air(0.0),
         Scale::Linear | Scale::Logarithmic => found.with_air(0.0),
     }
 }
@@ -79,6 +79,8 @@ mod tests {
         assert_eq!(of(ColourMap::Sequential, &axis, &values), (1e-6, 10.0));
         let none = limits(&axis, ColourMap::Sequential, [0.0].into_iter());
         assert!(none.is_valid());
+        let from_zero = Axis::logarithmic("").range(0.0, 1e8);
+        assert!(of(ColourMap::Sequential, &from_zero, &values).0 > 0.0);
     }
 
     #[test]

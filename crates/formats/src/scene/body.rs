@@ -29,6 +29,14 @@ pub fn parse_materials(text: &str) -> Result<Library, SceneError> {
     let table = parse(text)?;
     let root = Section::root(&table);
     let own = root.names().map(|name| {
+        if name.is_empty() || name.contains(char::is_control) {
+            let shown = format!("\"{}\"", name.escape_default());
+            return Err(SceneError::wrong_kind(
+                "the name of a material".to_owned(),
+                shown,
+                "one or more printed letters",
+            ));
+        }
         let section = root.subsection(name, "a section")?;
         let allowed = keys_of("body").map(|key| key.name);
         section.allow(allowed.chain(["group", "source"]))?;

@@ -336,8 +336,13 @@ pub fn read_text(path: &Path) -> Result<String, SceneError> {
 pub(crate) fn read_text_up_to(path: &Path, most: u64) -> Result<String, SceneError> {
     let fault = |reason: String| SceneError::unreadable(path, reason);
     let system = |error: io::Error| fault(error.to_string());
-    if !std::fs::metadata(path).map_err(system)?.is_file() {
+    let known = std::fs::metadata(path).map_err(system)?;
+    if !known.is_file() {
         return Err(fault("it is not a regular file".to_owned()));
+    }
+    // files of the system itself say that they have nothing, and some, such as /proc/kmsg, wait for good
+    if known.len() == 0 {
+        return Ok(String::new());
     }
     let file = File::open(path).map_err(system)?;
     text_of(file, path, most)

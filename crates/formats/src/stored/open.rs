@@ -206,8 +206,8 @@ impl Stored {
 /// Whether a file begins as Parquet.
 pub(super) fn is_parquet(path: &Path) -> bool {
     let mut head = [0; MAGIC.len()];
-    // looked at before it is opened: a pipe would wait for its other end
-    std::fs::metadata(path).is_ok_and(|there| there.is_file())
+    // looked at before it is opened: a pipe would wait for its other end, and so would some files of the system
+    std::fs::metadata(path).is_ok_and(|there| there.is_file() && there.len() > 0)
         && std::fs::File::open(path).is_ok_and(|mut file| file.read_exact(&mut head).is_ok())
         && head == *MAGIC
 }
@@ -268,7 +268,7 @@ fn open_hdf5(path: &Path) -> Result<HdfFile, ReadError> {
     }
     let mut head = Vec::new();
     std::fs::File::open(path)
-        .and_then(|file| file.take(256).read_to_end(&mut head))
+        .and_then(|file| file.take(data.len().min(256)).read_to_end(&mut head))
         .map_err(unreadable)?;
     let not = |found| ReadError::is(path, format!("is {found}, not a file of results in HDF5"));
     if !head.starts_with(b"\x89HDF\r\n\x1a\n") {

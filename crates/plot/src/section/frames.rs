@@ -74,6 +74,22 @@ impl<'a> Section<'a> {
         self.pulse_s > self.crossing_s()
     }
 
+    /// The frames nearest to the times that somebody asks for.
+    pub(super) fn asked(&self, times_s: &[f64]) -> Result<Vec<usize>, PlotError> {
+        let known = &self.stored.time_s;
+        let (first_s, last_s) = (known[0], known[known.len() - 1]);
+        let outside = times_s
+            .iter()
+            .find(|time_s| !(first_s..=last_s).contains(*time_s));
+        if let Some(time_s) = outside {
+            let sentence = format!(
+                "there is no frame at {time_s:?} s: those of the section are from {first_s:?} to {last_s:?} s"
+            );
+            return Err(PlotError::refused(None, sentence));
+        }
+        Ok(times_s.iter().map(|&time_s| self.nearest(time_s)).collect())
+    }
+
     /// The frame nearest to a time.
     pub(super) fn nearest(&self, time_s: f64) -> usize {
         let known = &self.stored.time_s;

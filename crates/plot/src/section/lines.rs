@@ -87,11 +87,11 @@ const DECADES: f64 = 1e-6;
 pub(crate) fn axis_profile(impact: &StoredImpact, request: &Request) -> Result<Panel, PlotError> {
     let section = Section::of(impact)?;
     let quantity = section.quantity(request, "stress_zz")?;
-    let times_s = match request.times_s.as_slice() {
+    let frames = match request.times_s.as_slice() {
         [] => SHARES
-            .map(|share| section.start_s + share * section.pulse_s)
+            .map(|share| section.nearest(section.start_s + share * section.pulse_s))
             .to_vec(),
-        given => given.to_vec(),
+        given => section.asked(given)?,
     };
     let depths = section.depths_m();
     let depths_mm: Vec<f64> = depths.iter().map(|z| 1e3 * z).collect();
@@ -107,8 +107,7 @@ pub(crate) fn axis_profile(impact: &StoredImpact, request: &Request) -> Result<P
     let mut panel = Panel::new(depth, size).height(380.0);
     let (mut smallest, mut largest) = (f64::INFINITY, 0.0_f64);
     let mut drawn = Vec::new();
-    for time_s in times_s {
-        let frame = section.nearest(time_s);
+    for frame in frames {
         if drawn.contains(&frame) {
             continue;
         }

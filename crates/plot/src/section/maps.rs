@@ -19,7 +19,11 @@ pub(crate) fn frames(
 ) -> Result<(Vec<Panel>, Vec<String>), PlotError> {
     let section = Section::of(impact)?;
     let mut notes = Vec::new();
-    let chosen = instants(&section, &request.times_s, count);
+    let mut chosen = match request.times_s.as_slice() {
+        [] => instants(&section, count),
+        given => section.asked(given)?,
+    };
+    chosen.dedup();
     let quantity = section.quantity(request, section.usual())?;
     if section.is_near() {
         let pulse_m = section.speeds.p * section.pulse_s;
@@ -50,30 +54,23 @@ pub(crate) fn frames(
     Ok((panels, notes))
 }
 
-/// Frames at given times, or evenly: until the longitudinal wave leaves the section, or within a pulse that is longer.
-fn instants(section: &Section<'_>, times_s: &[f64], count: usize) -> Vec<usize> {
-    let wanted: Vec<f64> = if times_s.is_empty() {
-        let (length_s, first, last) = match section.is_near() {
-            true => (
-                section.pulse_s,
-                0.5 / count as f64,
-                1.0 - 0.5 / count as f64,
-            ),
-            // a few frames begin where waves have parted, many where the force does
-            false if count > FEW => (section.crossing_s(), 0.0, 1.0),
-            false => (section.crossing_s(), 0.4, 1.0),
-        };
-        let steps = (count - 1).max(1) as f64;
-        let share = |i: usize| first + (last - first) * (i as f64 + f64::from(count == 1)) / steps;
-        (0..count)
-            .map(|i| section.start_s + share(i) * length_s)
-            .collect()
-    } else {
-        times_s.to_vec()
+/// Frames evenly: until the longitudinal wave leaves the section, or within a pulse that is longer.
+fn instants(section: &Section<'_>, count: usize) -> Vec<usize> {
+    let (length_s, first, last) = match section.is_near() {
+        true => (
+            section.pulse_s,
+            0.5 / count as f64,
+            1.0 - 0.5 / count as f64,
+        ),
+        // a few frames begin where waves have parted, many where the force does
+        false if count > FEW => (section.crossing_s(), 0.0, 1.0),
+        false => (section.crossing_s(), 0.4, 1.0),
     };
-    let mut found: Vec<usize> = wanted.into_iter().map(|t| section.nearest(t)).collect();
-    found.dedup();
-    found
+    let steps = (count - 1).max(1) as f64;
+    let share = |i: usize| first + (last - first) * (i as f64 + f64::from(count == 1)) / steps;
+    (0..count)
+        .map(|i| section.nearest(section.start_s + share(i) * length_s))
+        .collect()
 }
 
 /// The map of the largest sizes over time, in decades of colour.

@@ -8,6 +8,7 @@ use crate::failure::{Failure, check_stdout, lines, say, show};
 use crate::process;
 use crate::progress::Bar;
 use clap::Args;
+use fault::Fault as _;
 use formats::parts::check_complete;
 use formats::sweep::schema::COUNTED;
 use formats::sweep::{
@@ -232,7 +233,13 @@ fn report(
 
 /// The sweep, and what of its results is written.
 fn spec(arguments: &Run, sweep: &Path) -> Result<Spec, Failure> {
-    let spec = Spec::from_file(sweep)?;
+    let spec = Spec::from_file(sweep).map_err(|error| {
+        let hint = match error.culprit().key {
+            Some("scene") => "; one scene is computed by `hertzlamb impact`",
+            _ => "",
+        };
+        Failure::from(error).hint(hint)
+    })?;
     let mut spec = arguments.kernels.with_fields(spec)?;
     if let Some(names) = &arguments.columns {
         spec.fields = spec.fields.only(names)?;
