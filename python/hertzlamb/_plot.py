@@ -30,6 +30,9 @@ _ODD = ("displacement_r", "velocity_r", "acceleration_r", "stress_rz", "strain_r
 _MARK = "#555555"
 _BAND = 0.22
 """Colour of what is marked, and how much of a curve's colour its band has."""
+_UNITS = {"pa_sqrt_m": "Pa m$^{1/2}$", "kg_m3": "kg/m$^3$", "m_s": "m/s", "n_s": "N s", "kg": "g", "pa": "Pa", "n": "N", "j": "J"}
+_UNITS |= {"m": "m", "s": "s"}
+"""Units that keys and results end in, the longest first; masses are told in grams."""
 _Drawn = TypeVar("_Drawn")
 
 
@@ -47,10 +50,18 @@ def _styled(draw: Callable[..., _Drawn]) -> Callable[..., _Drawn]:
 
 
 def _scale(values: NDArray[Any], unit: str) -> tuple[float, str]:
-    """What to multiply values with, and the unit with its prefix."""
+    """What to multiply values with, and the unit with its prefix; tenths of what is no length are read as they are."""
     size = float(np.max(np.abs(values[np.isfinite(values)]), initial=0.0))
+    if 0.1 <= size < 1.0 and unit != "m":
+        return 1.0, unit
     factor, prefix = next((row for row in _PREFIXES if size >= row[0]), (1.0, ""))
     return 1.0 / factor, f"{prefix}{unit}"
+
+
+def _told(value: float, unit: str) -> str:
+    """A value in its unit with a prefix, to four digits."""
+    factor, prefix = next((row for row in _PREFIXES if abs(value) >= row[0]), (1.0, ""))
+    return f"{value / factor:.4g} {prefix}{unit}"
 
 
 def _title(run: Impact) -> str:
@@ -59,24 +70,53 @@ def _title(run: Impact) -> str:
     if striker is None:
         return "A given force on the half-space"
 
-    def told(value: float, unit: str) -> str:
-        scale, unit = _scale(np.array([value]), unit)
-        return f"{scale * value:.4g} {unit}"
-
     shape = striker.get("shape")
     if shape == "ball":
-        body = f"ball of {told(striker['diameter_m'], 'm')}"
+        body = f"ball of {_told(striker['diameter_m'], 'm')}"
     elif shape == "rod":
-        body = f"rod of {told(striker['length_m'], 'm')}, {told(striker['diameter_m'], 'm')} thick,"
+        body = f"rod of {_told(striker['length_m'], 'm')}, {_told(striker['diameter_m'], 'm')} thick,"
     else:
-        body = f"mass of {told(1e3 * striker['mass_kg'], 'g')}, tip radius {told(striker['tip_radius_m'], 'm')},"
+        body = f"mass of {_told(1e3 * striker['mass_kg'], 'g')}, tip radius {_told(striker['tip_radius_m'], 'm')},"
     of, target = striker.get("material", ""), run.scene["target"].get("material", "")
-    return " ".join(f"{of} {body} strikes {target} at {told(striker['velocity_m_s'], 'm/s')}".split())
+    return " ".join(f"{of} {body} strikes {target} at {_told(striker['velocity_m_s'], 'm/s')}".split())
 
 
 def _words(quantity: str) -> str:
     """What a quantity is, without its sign."""
     return _FIELDS[quantity][1].split(",")[0]
+
+
+def _labelled(values: NDArray[Any], name: str, is_log: bool = False) -> tuple[float, str]:
+    """What to multiply the values of a key or a result with, and its name in words with the unit."""
+    section, _, key = name.rpartition(".")
+    ending = next((ending for ending in _UNITS if key.endswith(f"_{ending}")), "")
+    words = key.removesuffix(f"_{ending}").replace("youngs_modulus", "Young's modulus")
+    words = words.replace("poisson_ratio", "Poisson's ratio").replace("_", " ")
+    words = {"loss": "energy lost, 1 − e²"}.get(words, words) + (" of the half-space" if section == "target" else "")
+    if not ending:
+        return 1.0, words
+    own = 1e3 if ending == "kg" else 1.0
+    unit = _UNITS[ending]
+    scale, unit = (1.0, unit) if is_log or "$" in unit else _scale(own * values, unit)
+    return own * scale, f"{words} [{unit}]"
+
+
+def _place(r: float, z: float) -> str:
+    """Where a probe is, in the words of the command's pictures."""
+    r_told, z_told = f"r = {_told(r, 'm')}", f"z = {_told(z, 'm')}"
+    if r > 0.0:
+        return f"{r_told}, {z_told}" if z > 0.0 else f"on the surface, {r_told}"
+    return f"on the axis, {z_told}" if z > 0.0 else "at the centre of the contact"
+
+
+def _marked(axes: Axes, scale: float, marks: dict[str, float], end: float) -> None:
+    """Draws vertical lines at times in s up to an end, each with its name above; what has no time is left out."""
+    low, high = axes.get_ylim()
+    for name, at in marks.items():
+        if 0.0 < at <= end:
+            axes.axvline(scale * at, color=_MARK, linewidth=0.75, linestyle="--")
+            axes.text(scale * at, high, name, ha="center", va="bottom")
+    axes.set_ylim(low, high)
 
 
 def _axes(axes: Axes | None) -> Axes:
@@ -101,10 +141,14 @@ def force(run: Impact, axes: Axes | None) -> Axes:
     (time_scale, time_unit), (scale, unit) = _scale(run.time[shown], "s"), _scale(run.force, "N")
     axes.plot(time_scale * run.time[shown], scale * run.force[shown])
     axes.set_xlabel(f"time [{time_unit}]")
-    axes.set_ylabel(f"contact force [{unit}]")
+    axes.set_ylabel(f"force [{unit}]")
     axes.set_xlim(0.0, time_scale * end)
     axes.set_ylim(bottom=0.0)
-    axes.set_title(_title(run))
+    faces = [run.scene["target"][key] for key in ("thickness_m", "radius_m") if key in run.scene["target"]]
+    if faces:
+        begin = run.time[max(int(np.argmax(run.force != 0.0)) - 1, 0)]
+        _marked(axes, time_scale, {"first echo": begin + 2.0 * min(faces) / _speeds(run)["P"]}, end)
+    axes.set_title(_title(run), pad=16 if faces else None)
     return axes
 
 
@@ -119,7 +163,6 @@ def probes(run: Impact, quantity: str) -> Figure:
     count = len(found.r)
     figure, panels = plt.subplots(count, 1, sharex=True, squeeze=False, layout="constrained", figsize=(7, 1 + 1.8 * count))
     time_scale, time_unit = _scale(found.time, "s")
-    place_scale, place_unit = _scale(np.concatenate([found.r, found.z]), "m")
     for i, panel in enumerate(panels[:, 0]):
         scale, unit = _scale(values[i], _FIELDS[quantity][0])
         (line,) = panel.plot(time_scale * found.time, scale * values[i])
@@ -127,20 +170,13 @@ def probes(run: Impact, quantity: str) -> Figure:
             error = found.error[quantity][i]
             band = (scale * (values[i] - error), scale * (values[i] + error))
             panel.fill_between(time_scale * found.time, *band, color=line.get_color(), alpha=_BAND, linewidth=0)
-        low, high = panel.get_ylim()
-        for wave, at in zip("PSR", found.arrival[i], strict=True):
-            if at <= found.time[-1]:
-                panel.axvline(time_scale * at, color=_MARK, linewidth=0.75, linestyle="--")
-                panel.text(time_scale * at, high, wave, ha="center", va="bottom")
-        panel.set_ylim(low, high)
-        panel.set_ylabel(f"[{unit}]")
-        panel.set_title(
-            f"r = {place_scale * found.r[i]:g} {place_unit}, z = {place_scale * found.z[i]:g} {place_unit}",
-            loc="right",
-        )
+        waves = dict(zip("PSR", found.arrival[i], strict=True))
+        _marked(panel, time_scale, {**waves, "valid until the echo": found.valid_until[i]}, found.time[-1])
+        panel.set_ylabel(f"{_words(quantity)} [{unit}]")
+        panel.set_title(_place(found.r[i], found.z[i]), loc="center", pad=16)
     panels[-1, 0].set_xlabel(f"time [{time_unit}]")
     panels[-1, 0].set_xlim(0.0, time_scale * found.time[-1])
-    figure.suptitle(_words(quantity))
+    figure.suptitle(_title(run), x=0.01, ha="left")
     return figure
 
 
@@ -165,7 +201,7 @@ def section(run: Impact, frame: int, quantity: str, axes: Axes | None) -> Axes:
     image = axes.pcolormesh(
         length * r, length * found.z, scale * both, vmin=-limit, vmax=limit, shading="gouraud"
     )
-    for speed, wave in zip(_speeds(run), ("P", "S"), strict=True):
+    for wave, speed in _speeds(run).items():
         angle = np.linspace(0.0, np.pi, 200)
         reach = speed * time
         x = np.cos(angle) * reach + np.sign(np.cos(angle)) * run.disc_radius_m
@@ -176,23 +212,22 @@ def section(run: Impact, frame: int, quantity: str, axes: Axes | None) -> Axes:
     axes.set_xlim(-length * found.r.max(), length * found.r.max())
     axes.set_ylim(length * found.z.max(), 0.0)
     axes.set_aspect("equal")
-    axes.set_xlabel(f"r [{length_unit}]")
-    axes.set_ylabel(f"z [{length_unit}]")
-    time_scale, time_unit = _scale(np.array([time]), "s")
-    axes.set_title(f"{_words(quantity)} at {time_scale * time:.3g} {time_unit}")
-    axes.figure.colorbar(image, ax=axes, label=f"[{unit}]", extend="both", shrink=0.55)
+    axes.set_xlabel(f"distance from the axis [{length_unit}]")
+    axes.set_ylabel(f"depth [{length_unit}]")
+    axes.set_title(f"{_words(quantity)} at {_told(time, 's')}")
+    axes.figure.colorbar(image, ax=axes, label=f"{_words(quantity)} [{unit}]", extend="both", shrink=0.55)
     return axes
 
 
-def _speeds(run: Impact) -> tuple[float, float]:
-    """Speeds of the longitudinal and of the shear wave in m/s."""
+def _speeds(run: Impact) -> dict[str, float]:
+    """Speeds of the longitudinal wave P and of the shear wave S in m/s."""
     target = run.scene["target"]
     if "material" in target:
         base = next(row for row in _core.materials(target["material"]) if row["name"] == target["material"])
         target = {**base, **target}
     nu, modulus, density = (target[key] for key in ("poisson_ratio", "youngs_modulus_pa", "density_kg_m3"))
     shear = (modulus / (2.0 * (1.0 + nu) * density)) ** 0.5
-    return shear / _core.medium(nu)["shear_speed"], shear
+    return {"P": shear / _core.medium(nu)["shear_speed"], "S": shear}
 
 
 @_styled
@@ -204,32 +239,29 @@ def sweep(out: Sweep, quantity: str, axes: Axes | None) -> Axes:
     drawn = {key for axis, _, columns in out._axes if axis == "sample" for key in columns}
     numbers = [name for name, values in keys.items() if values.dtype.kind == "f" and name not in drawn]
     if not numbers:
-        axes.hist(out[quantity], bins="auto")
-        axes.set_xlabel(_label(quantity))
-        axes.set_ylabel("draws")
+        scale, label = _labelled(out[quantity], quantity)
+        axes.hist(scale * out[quantity], bins="auto")
+        axes.set_xlabel(label)
+        axes.set_ylabel("scenes")
         return axes
     along = numbers[0]
+    values = np.unique(keys[along])
+    is_log = len(values) > 2 and values[0] > 0 and values[-1] > 30 * values[0]
+    (x_scale, x_label), (scale, label) = _labelled(values, along, is_log), _labelled(out[quantity], quantity)
     rest = [name for name in keys if name != along and name not in drawn]
     labels = [", ".join(f"{name.split('.')[-1]} {keys[name][i]}" for name in rest) for i in range(len(out.rows))]
-    for label in dict.fromkeys(labels):
-        chosen = np.array([one == label for one in labels])
+    for name in dict.fromkeys(labels):
+        chosen = np.array([one == name for one in labels])
         x = np.unique(keys[along][chosen])
-        rows = [out[quantity][chosen & (keys[along] == value)] for value in x]
-        (line,) = axes.plot(x, [np.nanmedian(row) for row in rows], label=label or None)
+        rows = [scale * out[quantity][chosen & (keys[along] == value)] for value in x]
+        (line,) = axes.plot(x_scale * x, [np.nanmedian(row) for row in rows], label=name or None)
         if drawn:
             low, high = ([np.nanquantile(row, part) for row in rows] for part in (0.05, 0.95))
-            axes.fill_between(x, low, high, color=line.get_color(), alpha=_BAND, linewidth=0)
-    values = np.unique(keys[along])
-    if len(values) > 2 and values[0] > 0 and values[-1] > 20 * values[0]:
+            axes.fill_between(x_scale * x, low, high, color=line.get_color(), alpha=_BAND, linewidth=0)
+    if is_log:
         axes.set_xscale("log")
-    axes.set_xlabel(along)
-    axes.set_ylabel(_label(quantity))
+    axes.set_xlabel(x_label)
+    axes.set_ylabel(label)
     if rest:
         axes.legend()
     return axes
-
-
-def _label(quantity: str) -> str:
-    unit = QUANTITIES[quantity][0]
-    name = quantity.removesuffix("_" + unit.lower().replace("/", "_").replace(" ", "_")).replace("_", " ")
-    return name if unit == "1" else f"{name} [{unit}]"

@@ -24,25 +24,18 @@ class Report:
 
     def row(self, equation, what, error, bound):
         """One comparison; an error that is not a number fails."""
-        self.equations.update(equation.split(", "))
-        error = float(error)
-        fits = math.isfinite(error) and error <= bound
-        self.rows += 1
-        if not fits:
-            self.failed.append((equation, what))
-        mark = "" if fits else "  TOO LARGE"
-        print(f"{equation:10} | {what:92} | {error:8.1e} | {bound:7.0e}{mark}", flush=True)
+        self._add(equation, what, error, f"{bound:7.0e}", "" if float(error) <= bound else "  TOO LARGE")
 
     def fails(self, equation, what, error, least):
         """A form that must not hold, such as a misprint: its error has to be at least so large."""
+        self._add(equation, what, error, f">{least:6.0e}", "" if float(error) >= least else "  TOO SMALL")
+
+    def _add(self, equation, what, error, bound, mark):
         self.equations.update(equation.split(", "))
-        error = float(error)
-        fits = math.isfinite(error) and error >= least
         self.rows += 1
-        if not fits:
+        if mark or not math.isfinite(float(error)):
             self.failed.append((equation, what))
-        mark = "" if fits else "  TOO SMALL"
-        print(f"{equation:10} | {what:92} | {error:8.1e} | >{least:6.0e}{mark}", flush=True)
+        print(f"{equation:10} | {what:92} | {float(error):8.1e} | {bound}{mark}", flush=True)
 
     def compare_with(self, text):
         """Every equation of the document has to have a row, and every row an equation."""

@@ -88,7 +88,7 @@ impl<E: Fault> From<E> for Failure {
     fn from(error: E) -> Self {
         let culprit = error.culprit();
         let failure = Self {
-            sentence: error.to_string(),
+            sentence: cut(&error.to_string()),
             remedy: culprit.remedy,
             about: about(&culprit),
         };
@@ -103,13 +103,26 @@ impl<E: Fault> From<E> for Failure {
     }
 }
 
+/// A text without its middle, where a file has a word of a megabyte.
+fn cut(text: &str) -> String {
+    /// Letters of each end.
+    const END: usize = 1000;
+    let count = text.chars().count();
+    if count <= 2 * END {
+        return text.to_owned();
+    }
+    let first: String = text.chars().take(END).collect();
+    let last: String = text.chars().skip(count - END).collect();
+    format!("{first}...{last}")
+}
+
 /// What is known of an error.
 fn about(culprit: &Culprit<'_>) -> Map<String, Value> {
     let value = culprit.number.map(Value::from);
     let known = [
         ("class", Some(culprit.class.name().into())),
-        ("key", culprit.key.map(Value::from)),
-        ("value", value.or(culprit.word.map(Value::from))),
+        ("key", culprit.key.map(cut).map(Value::from)),
+        ("value", value.or(culprit.word.map(cut).map(Value::from))),
         ("range", culprit.range.map(Value::from)),
         ("limits", culprit.limits.map(|limits| json!(limits))),
         ("suggestion", culprit.suggestion.map(Value::from)),

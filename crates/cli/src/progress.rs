@@ -1,33 +1,34 @@
 //! How far a long computation is: a bar on a terminal, plain lines elsewhere.
 
 use crate::failure::{is_quiet, say};
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 use tabulator::Progress;
 
-/// A bar on a terminal, a line for each tenth elsewhere: share, slice, rate, time left.
+/// A bar on a terminal, a line for each tenth elsewhere: share, slice, rate, time left; gone when it is dropped.
 pub(crate) struct Bar {
-    bar: Option<ProgressBar>,
+    /// It counts in both cases, and is seen on a terminal alone.
+    bar: ProgressBar,
+    on_terminal: bool,
     /// Time of a stage in which nothing is told: many are over by then.
     patience: Duration,
-    state: Mutex<State>,
+    stage: Mutex<Stage>,
 }
 
 /// Time after which a line is due where there is no terminal.
 const SILENCE: Duration = Duration::from_secs(30);
 
-struct State {
-    stage: String,
+/// A part of the work, and what was told of it.
+struct Stage {
+    name: String,
     total: u64,
-    done: u64,
-    /// Units that were done when the stage began.
-    before: u64,
-    begun: bool,
-    shown: bool,
-    started: Instant,
+    /// Units that were done before, once it is known.
+    before: Option<u64>,
+    began: Instant,
     told: Instant,
+    tenth: u64,
     /// Poisson's ratio where the work is, if it is anywhere.
     slice: Option<f64>,
 }
@@ -39,17 +40,14 @@ impl Bar {
 
     /// One that tells of what takes longer than this.
     pub(crate) fn after(patience: Duration) -> Self {
-        let shown = std::io::stderr().is_terminal() && !is_quiet();
-        let bar = shown.then(|| {
-            let style = "{msg:24} [{bar:40}] {percent:>3} %  {per_sec}  {eta} left";
-            let style = ProgressStyle::with_template(style)
-                .unwrap_or_else(|_| ProgressStyle::default_bar());
-            ProgressBar::new(0).with_style(style.progress_chars("=> "))
-        });
+        let style = "{msg:24} [{bar:40}] {percent:>3} %  {per_sec}  {eta} left";
+        let style = ProgressStyle::with_template(style);
+        let style = style.unwrap_or_else(|_| ProgressStyle::default_bar());
         Self {
-            bar,
+            bar: ProgressBar::hidden().with_style(style.progress_chars("=> ")),
+            on_terminal: std::io::stderr().is_terminal() && !is_quiet(),
             patience,
-            state: Mutex::new(State::of("", 0)),
+            stage: Mutex::new(Stage::of("", 0)),
         }
     }
 
@@ -60,114 +58,96 @@ impl Bar {
 
     /// Says how many units of the stage are done; those of the first call were done before.
     pub(crate) fn set(&self, done: u64) {
-        let before = {
-            let mut state = self.lock();
-            if !state.begun {
-                state.begun = true;
-                (state.done, state.before) = (done, done);
-                if let Some(bar) = &self.bar {
-                    bar.set_position(done);
-                    bar.reset_eta();
-                }
-            }
-            state.done
-        };
-        Progress::advance(self, done.saturating_sub(before));
-    }
-
-    /// Puts the bar of a stage on the terminal.
-    fn show(&self, state: &mut State) {
-        state.shown = true;
-        if let Some(bar) = &self.bar {
-            bar.set_message(state.stage.clone());
-            bar.set_length(state.total);
-            bar.set_position(state.done);
-            bar.reset_elapsed();
-            bar.reset_eta();
+        let mut stage = self.lock();
+        if stage.before.is_none() {
+            (stage.before, stage.tenth) = (Some(done), stage.tenth_of(done));
+            self.bar.set_position(done);
+            self.bar.reset_eta();
         }
+        drop(stage);
+        Progress::advance(self, done.saturating_sub(self.bar.position()));
     }
 
-    fn lock(&self) -> MutexGuard<'_, State> {
-        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    fn lock(&self) -> MutexGuard<'_, Stage> {
+        self.stage.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    pub(crate) fn finish(&self) {
-        if let Some(bar) = self.bar.as_ref().filter(|_| self.lock().shown) {
-            bar.finish_and_clear();
+    /// Shows the bar where the stage takes long enough; whether it does.
+    fn is_due(&self, stage: &Stage) -> bool {
+        let due = stage.began.elapsed() >= self.patience;
+        if due && self.on_terminal && self.bar.is_hidden() {
+            self.bar.set_draw_target(ProgressDrawTarget::stderr());
         }
+        due
     }
 }
 
 impl Progress for Bar {
     fn total(&self, stage: &str, total: u64) {
-        let mut state = self.lock();
-        *state = State::of(stage, total);
-        if self.patience.is_zero() {
-            self.show(&mut state);
-        }
+        let mut now = self.lock();
+        *now = Stage::of(stage, total);
+        self.bar.reset();
+        self.bar.set_length(total);
+        self.bar.set_message(stage.to_owned());
+        self.is_due(&now);
     }
 
     fn slice(&self, poisson_ratio: f64) {
-        let mut state = self.lock();
-        state.slice = Some(poisson_ratio);
-        if let Some(bar) = &self.bar {
-            bar.set_message(format!("{}, nu = {poisson_ratio:.4}", state.stage));
-        }
+        let mut stage = self.lock();
+        stage.slice = Some(poisson_ratio);
+        let message = format!("{}, nu = {poisson_ratio:.4}", stage.name);
+        self.bar.set_message(message);
     }
 
     fn advance(&self, done: u64) {
-        let mut state = self.lock();
-        let before = state.done;
-        state.done += done;
-        if state.started.elapsed() < self.patience {
-            return;
-        }
-        if !state.shown {
-            self.show(&mut state);
-        }
-        if let Some(bar) = &self.bar {
-            bar.set_position(state.done);
-        } else if let Some(line) = state.line(before) {
+        let mut stage = self.lock();
+        self.bar.inc(done);
+        let line = stage.line(self.bar.position(), done);
+        if self.is_due(&stage)
+            && !self.on_terminal
+            && let Some(line) = line
+        {
+            stage.told = Instant::now();
             say(line);
         }
     }
 }
 
-impl State {
+impl Stage {
     /// The beginning of a stage.
-    fn of(stage: &str, total: u64) -> Self {
+    fn of(name: &str, total: u64) -> Self {
+        let now = Instant::now();
         Self {
-            stage: stage.to_owned(),
-            total,
-            done: 0,
-            before: 0,
-            begun: false,
-            shown: false,
-            started: Instant::now(),
-            told: Instant::now(),
+            name: name.to_owned(),
+            total: total.max(1),
+            before: None,
+            began: now,
+            told: now,
+            tenth: 0,
             slice: None,
         }
     }
 
+    fn tenth_of(&self, done: u64) -> u64 {
+        10 * done / self.total
+    }
+
     /// What to say when another tenth is done, or nothing has been said for long.
-    fn line(&mut self, before: u64) -> Option<String> {
-        let total = self.total.max(1);
-        let tenth = |n: u64| 10 * n / total;
-        let silent = self.done == before || self.told.elapsed() < SILENCE;
-        if tenth(self.done) == tenth(before) && silent {
+    fn line(&mut self, done: u64, more: u64) -> Option<String> {
+        let tenth = self.tenth_of(done);
+        let silent = more == 0 || self.told.elapsed() < SILENCE;
+        if std::mem::replace(&mut self.tenth, tenth) == tenth && silent {
             return None;
         }
-        self.told = Instant::now();
-        let rate =
-            (self.done - self.before) as f64 / self.started.elapsed().as_secs_f64().max(1e-9);
-        let left = total.saturating_sub(self.done) as f64 / rate;
-        let slice = self
-            .slice
-            .map_or_else(String::new, |nu| format!(", nu = {nu:.4}"));
+        let new = done - self.before.unwrap_or(0).min(done);
+        let rate = new as f64 / self.began.elapsed().as_secs_f64().max(1e-9);
+        let left = self.total.saturating_sub(done) as f64 / rate;
+        let slice = self.slice.map(|nu| format!(", nu = {nu:.4}"));
         Some(format!(
-            "{} {} %{slice}, {rate:.1} a second, {left:.0} s left",
-            self.stage,
-            100 * self.done / total
+            "{} {} %{}, {rate:.1} a second, {left:.0} s left",
+            self.name,
+            100 * done / self.total,
+            slice.unwrap_or_default()
         ))
     }
 }

@@ -72,11 +72,11 @@ pub(crate) fn understood(scene: &Scene) -> String {
     };
     let target = scene.target.material();
     format!(
-        "impact         {load}, on {}E {}, nu {}, {:.0} kg/m3",
+        "impact         {load}, on {}E {}, nu {}, {} kg/m3",
         named(target).replace(' ', ": "),
         short(target.youngs_modulus_pa, "Pa"),
         (1e4 * target.poisson_ratio).round() / 1e4,
-        scene.target.density_kg_m3()
+        (1e2 * scene.target.density_kg_m3()).round() / 1e2
     )
 }
 

@@ -286,12 +286,22 @@ fn words_are_plain() {
         SCENE.replace("\"steel\"", "\"glass\""),
     )
     .unwrap();
+    let long = SCENE.replace("steel", &"x".repeat(3_000_000));
+    std::fs::write(here.join("long.toml"), long).unwrap();
+    for arguments in [
+        &["impact", "long.toml"][..],
+        &["impact", "long.toml", "--json"],
+    ] {
+        let (_, said) = output_of(&run(here, arguments));
+        assert!(said.len() < 10_000 && said.contains("materials library"));
+    }
     for (arguments, words) in [
         (
             &["impact", "sweep.toml"][..],
             "this is a sweep, not a scene",
         ),
-        (&["impact", "glass.toml"], "glass"),
+        (&["impact", "glass.toml"], "soda-lime-glass"),
+        (&["sweep", "glass.toml", "-o", "x.h5"], "`hertzlamb impact`"),
     ] {
         refused(here, arguments, 2, words);
     }

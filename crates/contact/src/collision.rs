@@ -164,10 +164,8 @@ impl Collision {
             law,
             yield_pressure_pa,
             depth,
-            fit: fit.map(|(strength, shape)| Fit {
-                critical: depth,
-                shape,
-                strain: strength / self.effective_modulus_pa,
+            fit: fit.map(|(strength, shape)| {
+                Fit::new(depth, shape, strength / self.effective_modulus_pa)
             }),
         }))
     }

@@ -1,6 +1,5 @@
 //! Why a contact could not be computed.
 
-use crate::growing::GrowingError;
 use halfspace::DomainError;
 use thiserror::Error;
 
@@ -10,9 +9,6 @@ pub enum ContactError {
     /// The march failed.
     #[error(transparent)]
     March(#[from] MarchError),
-    /// A contact that follows the load could not be solved.
-    #[error(transparent)]
-    Growing(#[from] GrowingError),
     /// An approach that no wave of the surface outruns.
     #[error(
         "the approach at velocity_m_s = {velocity_m_s:.4e} is not below the {limit_m_s:.4e} m/s of the half-space's Rayleigh wave, and contact laws are for slower ones: check the velocity, or the height of the fall, and the target's constants"
@@ -132,7 +128,7 @@ pub enum MarchError {
     NoSolution {
         /// Time in collision units.
         time: f64,
-        /// Static compliance of the half-space over Hertz's, see [`FixedDisc`](crate::disc::FixedDisc).
+        /// Static compliance of the half-space over Hertz's, see [`FixedDisc`](crate::FixedDisc).
         coupling: f64,
     },
     /// The march would need more work than allowed.
@@ -168,5 +164,55 @@ pub enum MarchError {
         force: f64,
         /// Steps taken.
         steps: usize,
+    },
+    /// A group of a contact that follows the load outside its range.
+    #[error("{name} = {} is outside {range}", fault::number(*value))]
+    OutOfRange {
+        /// Name of the group.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+        /// Its range.
+        range: &'static str,
+    },
+    /// The contact could not be followed.
+    #[error(
+        "the growing contact could not be followed beyond {time:.4} collision times at a tolerance of {tolerance:e} (target share {target_share}, wave time {wave_time})"
+    )]
+    NotFollowed {
+        /// Time in collision units.
+        time: f64,
+        /// Tolerance of the attempt.
+        tolerance: f64,
+        /// phi.
+        target_share: f64,
+        /// tau.
+        wave_time: f64,
+    },
+    /// The results do not meet the tolerance by their estimates.
+    #[error(
+        "relative tolerance {tolerance:e} is not reached: the error is estimated as {estimate:e}"
+    )]
+    NotReached {
+        /// What was asked for.
+        tolerance: f64,
+        /// What was reached.
+        estimate: f64,
+    },
+    /// The surface comes back and strikes the striker once more.
+    #[error(
+        "the surface meets the striker again {time:.4} collision times after the touch, which is not followed: ask for model \"area_dashpot\", to which there is one contact"
+    )]
+    StrikesAgain {
+        /// Time in collision units.
+        time: f64,
+    },
+    /// The contact shrinks faster than its waves.
+    #[error(
+        "waves that left the contact at {time:.4} collision times are overtaken by later ones: the memory of the half-space is too long to be followed: ask for model \"area_dashpot\", which has none"
+    )]
+    Overtaken {
+        /// Time in collision units.
+        time: f64,
     },
 }

@@ -15,9 +15,10 @@ pub trait Choice: Copy + PartialEq + 'static {
 }
 
 /// Makes an enum a [`Choice`] from one list of all its values with their names, in the order of documents.
+#[macro_export]
 macro_rules! choice {
     ($choice:ty: $($value:ident = $name:literal),+) => {
-        impl $crate::names::Choice for $choice {
+        impl $crate::Choice for $choice {
             const ALL: &'static [Self] = &[$(Self::$value),+];
 
             fn name(self) -> &'static str {

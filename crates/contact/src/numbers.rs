@@ -6,7 +6,7 @@
 /// output of another one is never taken for this one's. It is raised by hand with every change that alters a result by
 /// more than the rounding of double precision, in this crate or in `halfspace`; a test compares results of every model
 /// with those that were written down for it.
-pub const NUMBERS_REVISION: u32 = 4;
+pub const NUMBERS_REVISION: u32 = 5;
 
 #[cfg(test)]
 mod tests {
@@ -62,14 +62,14 @@ mod tests {
         }
     }
 
-    /// Revision 2.
+    /// Revision 5.
     #[rustfmt::skip]
     const KNOWN: [[f64; 3]; 8] = [
         [1.000_000_000_000_0, 2.943_275_184_324_7, 0.000_000_000_000_0],
         [0.995_210_045_239_2, 2.945_624_878_559_4, 0.015_966_515_869_5],
         [0.995_269_229_917_1, 2.945_591_991_904_2, 0.015_802_410_641_6],
-        [0.995_269_277_934_5, 2.945_580_500_409_8, 0.015_802_430_110_1],
-        [0.995_269_231_435_0, 2.945_591_980_599_3, 0.015_802_426_907_8],
+        [0.995_269_277_934_5, 2.945_580_496_380_2, 0.015_802_430_110_0],
+        [0.995_269_231_434_8, 2.945_591_980_599_2, 0.015_802_426_907_9],
         [0.878_917_389_971_0, 3.245_947_520_551_1, 0.011_176_600_436_8],
         [0.995_343_444_605_2, 2.944_906_453_031_1, 0.015_804_088_865_8],
         [0.995_269_229_917_1, 2.945_591_991_904_2, 0.015_802_410_641_6],

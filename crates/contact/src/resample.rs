@@ -2,7 +2,7 @@
 
 use crate::disc::history::History;
 use crate::growing::solved::SolvedContact;
-use crate::numeric::quadrature::{Local, find_root, hermite};
+use crate::numeric::quadrature::{Local, find_root, hermite, quintic};
 use crate::summary::Instant;
 use crate::units::INVERSE_MASS;
 use std::sync::Arc;
@@ -13,45 +13,60 @@ use std::sync::Arc;
 /// 3/2 there; force, rate and second rate are those of one function.
 #[derive(Debug, Clone)]
 pub struct Resampler {
-    source: Source,
+    /// The contact itself; samples where it was not solved by pieces.
+    pieces: Option<Arc<SolvedContact>>,
+    step: f64,
+    /// Indentation with its slope and curvature over a step, at each sample.
+    indentation: Vec<[f64; 3]>,
+    displacement: Vec<f64>,
+    velocity: Vec<f64>,
     /// Where contacts begin and end.
     breaks: Vec<f64>,
-    /// Where a contact that yields has a kink.
-    kinks: Vec<f64>,
 }
 
-#[derive(Debug, Clone)]
-enum Source {
-    Pieces(Arc<SolvedContact>),
-    Samples(Samples),
-}
+/// Samples through which slopes and curvatures are taken.
+const POINTS: usize = 5;
 
 impl Resampler {
     /// Of a history.
     #[must_use]
     pub fn new(history: History) -> Self {
-        if let Some(solved) = history.pieces {
-            return Self {
-                breaks: vec![0.0, solved.summary().contact_time],
-                kinks: solved.kinks().to_vec(),
-                source: Source::Pieces(solved),
-            };
+        let mut made = Self {
+            step: history.step,
+            indentation: Vec::new(),
+            displacement: Vec::new(),
+            velocity: Vec::new(),
+            breaks: Vec::new(),
+            pieces: history.pieces.clone(),
+        };
+        if let Some(solved) = &made.pieces {
+            made.breaks = vec![0.0, solved.summary().contact_time];
+            return made;
         }
-        let samples = Samples::new(&history);
-        Self {
-            breaks: samples.breaks(),
-            kinks: Vec::new(),
-            source: Source::Samples(samples),
-        }
+        let (d, w) = (&history.displacement, &history.deflection);
+        let values: Vec<f64> = d.iter().zip(w).map(|(d, w)| d - w).collect();
+        let most = values.len().saturating_sub(POINTS);
+        let jet = |i: usize| {
+            let from = i.saturating_sub(POINTS / 2).min(most);
+            let [_, slope, half] = Local::<POINTS>::at(&values, from).jet((i - from) as f64);
+            [values[i], slope, 2.0 * half]
+        };
+        let enough = values.len() >= POINTS;
+        made.indentation = (0..values.len()).filter(|_| enough).map(jet).collect();
+        made.velocity = history.velocities();
+        made.displacement = history.displacement;
+        made.breaks = made.crossings();
+        made
     }
 
     /// The first sample after all contacts, in collision units.
     #[must_use]
     pub fn end(&self) -> f64 {
-        match &self.source {
-            Source::Pieces(solved) => solved.summary().contact_time,
-            Source::Samples(samples) => samples.end(),
+        if let Some(solved) = &self.pieces {
+            return solved.summary().contact_time;
         }
+        let last = self.indentation.iter().rposition(|u| u[0] > 0.0);
+        (last.unwrap_or(0) + 1) as f64 * self.step
     }
 
     /// Where each contact begins and ends, in collision units, ascending.
@@ -63,99 +78,25 @@ impl Resampler {
     /// Where the rate of the force jumps within a contact, in collision units, ascending.
     #[must_use]
     pub fn kinks(&self) -> &[f64] {
-        &self.kinks
+        self.pieces.as_ref().map_or(&[], |solved| solved.kinks())
     }
 
     /// Force, rate and second rate at a time in collision units; zero outside the contacts.
     #[must_use]
     pub fn force(&self, time: f64) -> [f64; 3] {
-        match &self.source {
-            Source::Pieces(solved) => solved.force(time),
-            Source::Samples(samples) => samples.place(time).map_or([0.0; 3], |(cell, x)| {
-                pressed_by(samples.indentation(cell, x))
-            }),
+        if let Some(solved) = &self.pieces {
+            return solved.force(time);
         }
+        let place = self.place(time);
+        place.map_or([0.0; 3], |(cell, x)| pressed_by(self.indentation(cell, x)))
     }
 
     /// The state at a time in collision units, from the touch on.
     #[must_use]
     pub fn at(&self, time: f64) -> Instant {
-        match &self.source {
-            Source::Pieces(solved) => solved.state(time),
-            Source::Samples(samples) => samples.at(time),
+        if let Some(solved) = &self.pieces {
+            return solved.state(time);
         }
-    }
-}
-
-/// The force of an indentation u and its rates: p = u^(3/2).
-fn pressed_by([u, slope, bend]: [f64; 3]) -> [f64; 3] {
-    if u <= 0.0 {
-        return [0.0; 3];
-    }
-    let y = u.sqrt();
-    let second_rate = 1.5 * (y * bend + 0.5 * slope * slope / y);
-    [u * y, 1.5 * y * slope, second_rate]
-}
-
-/// Equidistant samples.
-#[derive(Debug, Clone)]
-struct Samples {
-    step: f64,
-    /// Indentation with its slope and curvature over a step, at each sample.
-    indentation: Vec<[f64; 3]>,
-    displacement: Vec<f64>,
-    velocity: Vec<f64>,
-}
-
-/// Samples through which slopes and curvatures are taken.
-const POINTS: usize = 5;
-
-impl Samples {
-    fn new(history: &History) -> Self {
-        let (d, w) = (&history.displacement, &history.deflection);
-        let values: Vec<f64> = d.iter().zip(w).map(|(d, w)| d - w).collect();
-        let most = values.len().saturating_sub(POINTS);
-        let jet = |i: usize| {
-            let from = i.saturating_sub(POINTS / 2).min(most);
-            let [_, slope, half] = Local::<POINTS>::at(&values, from).jet((i - from) as f64);
-            [values[i], slope, 2.0 * half]
-        };
-        let enough = values.len() >= POINTS;
-        Self {
-            step: history.step,
-            indentation: (0..values.len()).filter(|_| enough).map(jet).collect(),
-            displacement: d.clone(),
-            velocity: history.velocities(),
-        }
-    }
-
-    /// The cell that holds a time, and the place in it; nothing after the last sample.
-    fn place(&self, time: f64) -> Option<(usize, f64)> {
-        let place = (time / self.step).max(0.0);
-        let cell = place as usize;
-        (cell + 1 < self.indentation.len()).then_some((cell, place - cell as f64))
-    }
-
-    /// The indentation, its slope and curvature in time: the polynomial that has all three of both ends.
-    fn indentation(&self, cell: usize, x: f64) -> [f64; 3] {
-        let [u0, a, bend0] = self.indentation[cell];
-        let [u1, slope1, bend1] = self.indentation[cell + 1];
-        let b = 0.5 * bend0;
-        let rise = u1 - u0 - a - b;
-        let tilt = slope1 - a - bend0;
-        let turn = 0.5 * (bend1 - bend0);
-        let c = 10.0 * rise - 4.0 * tilt + turn;
-        let d = -15.0 * rise + 7.0 * tilt - 2.0 * turn;
-        let e = 6.0 * rise - 3.0 * tilt + turn;
-        let per = 1.0 / self.step;
-        [
-            u0 + x * (a + x * (b + x * (c + x * (d + x * e)))),
-            per * (a + x * (2.0 * b + x * (3.0 * c + x * (4.0 * d + x * 5.0 * e)))),
-            per * per * (2.0 * b + x * (6.0 * c + x * (12.0 * d + x * 20.0 * e))),
-        ]
-    }
-
-    fn at(&self, time: f64) -> Instant {
         let Some((cell, x)) = self.place(time) else {
             let last = self.displacement.len() - 1;
             let velocity = self.velocity[last];
@@ -183,12 +124,32 @@ impl Samples {
         }
     }
 
-    fn end(&self) -> f64 {
-        let last = self.indentation.iter().rposition(|u| u[0] > 0.0);
-        (last.unwrap_or(0) + 1) as f64 * self.step
+    /// The cell that holds a time, and the place in it; nothing after the last sample.
+    fn place(&self, time: f64) -> Option<(usize, f64)> {
+        let place = (time / self.step).max(0.0);
+        let cell = place as usize;
+        (cell + 1 < self.indentation.len()).then_some((cell, place - cell as f64))
     }
 
-    fn breaks(&self) -> Vec<f64> {
+    /// The indentation, its slope and curvature in time: the polynomial that has all three of both ends.
+    fn indentation(&self, cell: usize, x: f64) -> [f64; 3] {
+        let [u0, a, bend0] = self.indentation[cell];
+        let [u1, slope1, bend1] = self.indentation[cell + 1];
+        let b = 0.5 * bend0;
+        let rise = u1 - u0 - a - b;
+        let tilt = slope1 - a - bend0;
+        let turn = 0.5 * (bend1 - bend0);
+        let [c, d, e] = quintic(rise, tilt, turn);
+        let per = 1.0 / self.step;
+        [
+            u0 + x * (a + x * (b + x * (c + x * (d + x * e)))),
+            per * (a + x * (2.0 * b + x * (3.0 * c + x * (4.0 * d + x * 5.0 * e)))),
+            per * per * (2.0 * b + x * (6.0 * c + x * (12.0 * d + x * 20.0 * e))),
+        ]
+    }
+
+    /// Where the indentation changes its sign.
+    fn crossings(&self) -> Vec<f64> {
         let mut found = vec![0.0];
         for (cell, pair) in self.indentation.windows(2).enumerate() {
             let [before, after] = [pair[0][0], pair[1][0]];
@@ -206,4 +167,14 @@ impl Samples {
         }
         found
     }
+}
+
+/// The force of an indentation u and its rates: p = u^(3/2).
+fn pressed_by([u, slope, bend]: [f64; 3]) -> [f64; 3] {
+    if u <= 0.0 {
+        return [0.0; 3];
+    }
+    let y = u.sqrt();
+    let second_rate = 1.5 * (y * bend + 0.5 * slope * slope / y);
+    [u * y, 1.5 * y * slope, second_rate]
 }

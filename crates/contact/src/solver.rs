@@ -8,12 +8,12 @@ use crate::disc::refine::{
 use crate::disc::response::DiscResponse;
 use crate::disc::{FixedDisc, stability};
 use crate::energy::{radiated, work};
-use crate::error::ContactError;
+use crate::error::{ContactError, MarchError};
+use crate::growing::solve_growing;
 use crate::growing::solved::SolvedContact;
 use crate::growing::uniform::march_growing;
 use crate::growing::waves::PunchWaves;
 use crate::growing::work::work_on_half_space;
-use crate::growing::{GrowingError, solve_growing};
 use crate::law::area_dashpot::AreaDashpot;
 use crate::law::hertz;
 use crate::law::pulse::pulse;
@@ -43,6 +43,19 @@ pub struct Solved {
     pub step: Option<f64>,
     /// What has flowed; none of a contact that has not yielded.
     pub flow: Option<Flow>,
+}
+
+impl Plan {
+    fn solved(self, scheme: Option<Scheme>, found: Found, flow: Option<Flow>) -> Solved {
+        Solved {
+            plan: self,
+            scheme,
+            summary: found.summary,
+            error: found.error,
+            step: found.step,
+            flow,
+        }
+    }
 }
 
 /// Solves contacts one after the other with responses from a cache; one for each thread.
@@ -105,10 +118,11 @@ impl<'a, S: Responses> Solver<'a, S> {
         collision.check().ok()?;
         let disc = self.disc(collision.target_poisson_ratio, settings.deflection);
         let disc = disc.ok()?;
-        if (collision.yielding(settings).ok()?).is_some_and(|yielding| yielding.begins()) {
-            return None;
+        let yielding = collision.yielding(settings).ok()?.filter(Yielding::begins);
+        let plan = plan(settings, collision, &*disc, yielding.is_some());
+        if let Some(yielding) = yielding {
+            return Place::of_fit(&plan, &yielding, settings);
         }
-        let plan = plan(settings, collision, &*disc, false);
         Place::of(&plan, collision, settings, &*disc)
     }
 
@@ -214,7 +228,7 @@ impl<'a, S: Responses> Solver<'a, S> {
         self.radiated = None;
         if let Some(yielding) = collision.yielding(settings)?.filter(Yielding::begins) {
             let plan = plan(settings, collision, &*disc, true);
-            if let Some(solved) = self.yielded(collision, &yielding, plan, &asked)? {
+            if let Some(solved) = self.yielded(collision, settings, &yielding, plan, &asked)? {
                 return Ok(solved);
             }
         }
@@ -224,14 +238,12 @@ impl<'a, S: Responses> Solver<'a, S> {
             && let Some((summary, radiated, error)) = outcomes.at(&place, self.responses)
         {
             self.radiated = Some(radiated);
-            return Ok(Solved {
-                plan,
-                scheme: None,
+            let found = Found {
                 summary,
                 error,
                 step: None,
-                flow: None,
-            });
+            };
+            return Ok(plan.solved(None, found, None));
         }
         let step = settings
             .step_s
@@ -268,31 +280,25 @@ impl<'a, S: Responses> Solver<'a, S> {
                 (Some(Scheme::Explicit), found)
             }
         };
-        Ok(Solved {
-            plan,
-            scheme,
-            summary: found.summary,
-            error: found.error,
-            step: found.step,
-            flow: None,
-        })
+        Ok(plan.solved(scheme, found, None))
     }
 
     /// A contact that yields; nothing where waves keep it from doing so.
     fn yielded(
         &mut self,
         collision: &Collision,
+        settings: &Settings,
         yielding: &Yielding,
         mut plan: Plan,
         asked: &Accuracy,
     ) -> Result<Option<Solved>, ContactError> {
-        let left_out = plan.groups.left_out();
+        let (_, [mut left_out, _]) = plan.groups.without_memory();
         if plan.model.row().0 == Rung::FullMemory {
             let waves = self.waves(collision.target_poisson_ratio)?;
             let contact = collision.growing_contact(&waves);
             match yielding.remembered(&contact, asked) {
                 Ok(found) => self.growing = found,
-                Err(_) if plan.is_automatic() => plan.model = Model::AreaDashpot,
+                Err(_) if plan.chosen.is_some() => plan.model = Model::AreaDashpot,
                 Err(error) => return Err(error.into()),
             }
         }
@@ -303,7 +309,13 @@ impl<'a, S: Responses> Solver<'a, S> {
             let lag = if radiates { plan.groups.lag } else { 0.0 };
             // the history of a single impact has its results too
             results = match asked.deflection {
-                None => quick(yielding, lag),
+                None => match self.fitted(&plan, yielding, settings) {
+                    Some((summary, flow, error)) => {
+                        left_out += error;
+                        Some((summary, flow))
+                    }
+                    None => quick(yielding, lag),
+                },
                 Some(_) => None,
             };
             if results.is_none() {
@@ -317,18 +329,31 @@ impl<'a, S: Responses> Solver<'a, S> {
             return Ok(None);
         };
         let error = match plan.model.row().0 {
-            Rung::QuasiStatic => plan.groups.first_order_loss() + left_out.contact,
-            Rung::Radiation | Rung::AreaDashpot => left_out.contact,
+            Rung::QuasiStatic => plan.groups.first_order_loss() + left_out,
+            Rung::Radiation | Rung::AreaDashpot => left_out,
             Rung::FullMemory => YIELDS * followed.map_or(0.0, |one| one.estimates().contact()),
         };
-        Ok(Some(Solved {
-            plan,
-            scheme: memory.then_some(Scheme::Implicit),
+        let found = Found {
             summary,
             error: error.min(1.0),
             step: None,
-            flow: Some(flow),
-        }))
+        };
+        let scheme = memory.then_some(Scheme::Implicit);
+        Ok(Some(plan.solved(scheme, found, Some(flow))))
+    }
+
+    /// The results of a contact on Jackson and Green's fit from a series, and its error.
+    fn fitted(
+        &self,
+        plan: &Plan,
+        yielding: &Yielding,
+        settings: &Settings,
+    ) -> Option<(Summary, Flow, f64)> {
+        let place = Place::of_fit(plan, yielding, settings)?;
+        let (summary, radiated, error) = self.outcomes?.at(&place, self.responses)?;
+        let work = summary.loss - radiated;
+        let flow = Flow::new(yielding, summary.peak_displacement.sqrt(), [work, radiated]);
+        Some((summary, flow, error))
     }
 
     fn disc(&mut self, ratio: f64, deflection: Deflection) -> Result<Arc<S::Disc>, DomainError> {
@@ -362,9 +387,9 @@ impl<'a, S: Responses> Solver<'a, S> {
             Ok(solved) => Some(solved),
             // the march has other limits: a memory far shorter than the contact is one to it
             Err(
-                GrowingError::Overtaken { .. }
-                | GrowingError::StrikesAgain { .. }
-                | GrowingError::NotConverged { .. },
+                MarchError::Overtaken { .. }
+                | MarchError::StrikesAgain { .. }
+                | MarchError::NotReached { .. },
             ) => None,
             Err(error) => return Err(error.into()),
         };

@@ -25,15 +25,16 @@ pub fn super_seismic(half_space: &HalfSpace, collision: &Collision, radius_m: f6
 const LIGHT: f64 = 1e-3;
 
 /// What bodies have: field, least and most, unit, and a unit that is often taken for it with its size.
-type Usual = (&'static str, [f64; 2], &'static str, (&'static str, f64));
-const MODULUS: Usual = ("youngs_modulus_pa", [1e3, 2e12], "Pa", ("GPa", 1e9));
-const DENSITY: Usual = ("density_kg_m3", [10.0, 3e4], "kg/m3", ("g/cm3", 1e3));
-const YIELD: Usual = ("yield_strength_pa", [1e3, 1e12], "Pa", ("MPa", 1e6));
-const TENSILE: Usual = ("tensile_strength_pa", [1e3, 1e12], "Pa", ("MPa", 1e6));
-const DIAMETER: Usual = ("diameter_m", [1e-8, 1.0], "m", ("mm", 1e-3));
-const LENGTH: Usual = ("length_m", [1e-8, 30.0], "m", ("mm", 1e-3));
-const RADIUS: Usual = ("tip_radius_m", [1e-9, 10.0], "m", ("mm", 1e-3));
-const MASS: Usual = ("mass_kg", [1e-20, 1e5], "kg", ("g", 1e-3));
+const USUAL: [(&str, [f64; 2], &str, &str, f64); 8] = [
+    ("youngs_modulus_pa", [1e3, 2e12], "Pa", "GPa", 1e9),
+    ("density_kg_m3", [10.0, 3e4], "kg/m3", "g/cm3", 1e3),
+    ("yield_strength_pa", [1e3, 1e12], "Pa", "MPa", 1e6),
+    ("tensile_strength_pa", [1e3, 1e12], "Pa", "MPa", 1e6),
+    ("diameter_m", [1e-8, 1.0], "m", "mm", 1e-3),
+    ("length_m", [1e-8, 30.0], "m", "mm", 1e-3),
+    ("tip_radius_m", [1e-9, 10.0], "m", "mm", 1e-3),
+    ("mass_kg", [1e-20, 1e5], "kg", "g", 1e-3),
+];
 
 /// What hints at slips in the numbers of two bodies, by field.
 #[must_use]
@@ -41,37 +42,41 @@ pub fn doubts(half_space: &HalfSpace, striker: &Striker) -> Vec<String> {
     let target = half_space.material();
     let of_material = |body, material: &Material| {
         [
-            (body, MODULUS, Some(material.youngs_modulus_pa)),
-            (body, DENSITY, material.density_kg_m3),
-            (body, YIELD, material.yield_strength_pa),
-            (body, TENSILE, material.tensile_strength_pa),
+            (body, "youngs_modulus_pa", Some(material.youngs_modulus_pa)),
+            (body, "density_kg_m3", material.density_kg_m3),
+            (body, "yield_strength_pa", material.yield_strength_pa),
+            (body, "tensile_strength_pa", material.tensile_strength_pa),
         ]
     };
     let lengths = match striker.shape {
-        Some(Shape::Ball { diameter_m }) => [(DIAMETER, Some(diameter_m)), (LENGTH, None)],
+        Some(Shape::Ball { diameter_m }) => [("diameter_m", Some(diameter_m)), ("length_m", None)],
         Some(Shape::Rod {
             diameter_m,
             length_m,
             ..
-        }) => [(DIAMETER, Some(diameter_m)), (LENGTH, Some(length_m))],
+        }) => [
+            ("diameter_m", Some(diameter_m)),
+            ("length_m", Some(length_m)),
+        ],
         None => [
-            (RADIUS, Some(striker.tip_radius_m)),
-            (MASS, Some(striker.mass_kg)),
+            ("tip_radius_m", Some(striker.tip_radius_m)),
+            ("mass_kg", Some(striker.mass_kg)),
         ],
     };
-    let lengths = lengths.map(|(usual, value)| ("striker", usual, value));
+    let lengths = lengths.map(|(field, value)| ("striker", field, value));
     let numbers = of_material("striker", &striker.material).into_iter();
     let numbers = numbers.chain(lengths).chain(of_material("target", target));
-    let unusual = numbers.filter_map(|(body, (field, [least, most], unit, other), value)| {
+    let unusual = numbers.filter_map(|(body, field, value)| {
+        let (_, [least, most], unit, name, size) = USUAL.into_iter().find(|row| row.0 == field)?;
         let value = value.filter(|value| !(least..=most).contains(value))?;
-        let (name, size) = other;
         let meant = if (least..=most).contains(&(value * size)) {
             format!("did you mean {:e}, for {value} {name}?", value * size)
         } else {
             format!("is it in {unit}?")
         };
         Some(format!(
-            "{body}.{field} = {value} is outside the {least:e} to {most:e} {unit} of usual bodies: {meant}"
+            "{body}.{field} = {} is outside the {least:e} to {most:e} {unit} of usual bodies: {meant}",
+            fault::number(value)
         ))
     });
     unusual.chain(doubt(striker)).collect()

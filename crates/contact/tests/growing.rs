@@ -8,7 +8,7 @@ mod support;
 
 use contact::law::area_dashpot::AreaDashpot;
 use contact::{
-    Accuracy, GrowingContact, GrowingError, History, PunchWaves, SolvedContact, solve_growing,
+    Accuracy, GrowingContact, History, MarchError, PunchWaves, SolvedContact, solve_growing,
     work_on_half_space,
 };
 use halfspace::Medium;
@@ -24,7 +24,7 @@ struct Case {
     wave_time: f64,
 }
 
-fn solve(case: &Case, accuracy: &Accuracy) -> Result<SolvedContact, GrowingError> {
+fn solve(case: &Case, accuracy: &Accuracy) -> Result<SolvedContact, MarchError> {
     let waves = PunchWaves::new(&Medium::new(case.poisson_ratio).unwrap());
     let (target_share, wave_time) = (case.target_share, case.wave_time);
     solve_growing(
@@ -187,7 +187,7 @@ fn the_history_is_as_accurate_as_the_results() {
         let solved = solve(&case, &Accuracy::of_contact(tolerance, None)).unwrap();
         for i in 0..=1000 {
             let t = end * f64::from(i) / 1000.0 * 0.999_99;
-            let (a, b) = (solved.at(t).unwrap(), exact.at(t).unwrap());
+            let (a, b) = (solved.state(t), exact.state(t));
             assert!(
                 (a.force - b.force).abs() < 3.0 * tolerance,
                 "{t}: {a:?} {b:?}"
@@ -195,10 +195,10 @@ fn the_history_is_as_accurate_as_the_results() {
             assert!((a.displacement - b.displacement).abs() < 3.0 * tolerance);
             assert!((a.velocity - b.velocity).abs() < 3.0 * tolerance);
         }
-        assert!(solved.at(0.0).unwrap().force < 1e-30);
-        assert!(solved.at(-1e-9).is_none() && solved.at(1.01 * end).is_none());
+        assert!(solved.radius(0.0).powi(3) < 1e-30 && solved.force(0.0) == [0.0; 3]);
+        assert!(solved.radius(-1e-9) == 0.0 && solved.radius(1.01 * end) == 0.0);
         let samples = History::of_pieces(&solved, 0.01);
-        assert!((samples.force[100] - exact.at(1.0).unwrap().force).abs() < 3.0 * tolerance);
+        assert!((samples.force[100] - exact.state(1.0).force).abs() < 3.0 * tolerance);
         assert_eq!(*samples.force.last().unwrap(), 0.0);
     }
 }
@@ -218,7 +218,7 @@ fn what_cannot_be_solved_is_said() {
     ] {
         let found = solve(&bad, &Accuracy::of_contact(1e-4, None));
         assert!(
-            matches!(found, Err(GrowingError::OutOfRange { .. })),
+            matches!(found, Err(MarchError::OutOfRange { .. })),
             "{found:?}"
         );
     }
@@ -229,7 +229,7 @@ fn what_cannot_be_solved_is_said() {
         wave_time: 0.4361,
     };
     let found = solve(&long, &Accuracy::of_contact(1e-4, None)).unwrap_err();
-    assert!(matches!(found, GrowingError::Overtaken { .. }), "{found}");
+    assert!(matches!(found, MarchError::Overtaken { .. }), "{found}");
 }
 
 /// Of some random scenes at a tolerance: none is refused, few estimates are exceeded.
@@ -302,7 +302,7 @@ fn the_area_dashpot_keeps_its_bounds() {
             let step = b.contact_time / 512.0;
             let history = terms.history(step);
             let missed = (1..history.force.len()).map(|i| {
-                let at = exact.at(i as f64 * step).map_or(0.0, |now| now.force);
+                let at = exact.state(i as f64 * step).force;
                 (history.force[i] - at).abs() / b.peak_force
             });
             [

@@ -7,8 +7,8 @@
 )]
 
 use contact::{
-    Collision, HalfSpace, Material, Model, Outcomes, Ratios, Settings, Solver, StaticShare,
-    Striker, Tabulated,
+    Collision, HalfSpace, Material, Model, Outcomes, Plasticity, Ratios, Settings, Solver,
+    StaticShare, Striker, Tabulated,
 };
 use halfspace::Deflection;
 
@@ -176,4 +176,65 @@ fn what_a_series_does_not_have_is_marched() {
         solver.solve(collision, &stepped).unwrap().step,
         Some(1e-7 / collision.units().time_s)
     );
+}
+
+/// Balls of a hardened steel on soft metals, from below the onset of yield to some thousand times its velocity.
+#[test]
+fn series_of_the_fit_are_within_their_certificates_and_the_tolerance() {
+    let named = |name: &str| Material::named(name).unwrap();
+    let targets =
+        ["aluminium-6061-t6", "titanium"].map(|name| HalfSpace::new(named(name)).unwrap());
+    for tolerance in [1e-4, 1e-6] {
+        let row = |i: u32| {
+            let part = |root: f64| (f64::from(i) * root.sqrt()).fract();
+            let tip = 1e-3 * 10f64.powf(part(2.0));
+            let mass = 4.19 * tip.powi(3) * 7800.0 * 2f64.powf(part(3.0));
+            let striker = Striker::new(named("bearing-steel"), mass, tip).unwrap();
+            let settings = Settings {
+                model: Model::AreaDashpot,
+                plasticity: Plasticity::JacksonGreen,
+                tolerance,
+                ..Settings::default()
+            };
+            let velocity = 1e-2 * 2e3f64.powf(part(5.0));
+            let collision = Collision::new(&targets[i as usize % 2], &striker, velocity);
+            (collision, settings)
+        };
+        let rows: Vec<_> = (0..2000).map(row).collect();
+        let responses = Tabulated::new(Ratios::Few);
+        let outcomes = series(&rows, &responses);
+        let mut solver = Solver::sharing(&responses, &outcomes);
+        let (mut from_series, mut elastic, mut refused) = (0, 0, 0);
+        let (mut beyond, mut worst) = (0, 0.0_f64);
+        for (collision, settings) in &rows {
+            let exact = Solver::new(&responses).solve(collision, settings);
+            let (Ok(found), Ok(exact)) = (solver.solve(collision, settings), exact) else {
+                refused += 1;
+                continue;
+            };
+            let (Some(flow), Some(own)) = (found.flow, exact.flow) else {
+                elastic += 1;
+                assert!(found == exact);
+                continue;
+            };
+            if found == exact {
+                continue;
+            }
+            from_series += 1;
+            let error = found.summary.distance(&exact.summary);
+            worst = worst.max(error);
+            // the estimate is what the dashpot leaves out, and the certificate
+            beyond += usize::from(error > found.error - exact.error);
+            assert!(error < tolerance, "{error:e}");
+            assert!((flow.radiated - own.radiated).abs() < tolerance);
+            assert!((flow.plastic_work - own.plastic_work).abs() < tolerance);
+            assert!((flow.flatter / own.flatter - 1.0).abs() < 10.0 * tolerance);
+        }
+        println!(
+            "{from_series} of {} from series, {elastic} elastic, {refused} refused; off by {worst:.1e} at most, {beyond} beyond the certificate",
+            rows.len()
+        );
+        assert!(from_series > 1200 && elastic > 20 && refused == 0);
+        assert!(beyond <= from_series / 200);
+    }
 }

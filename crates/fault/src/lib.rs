@@ -167,6 +167,19 @@ impl<'a> Culprit<'a> {
     }
 }
 
+/// A number as sentences have it: with an exponent where it would be a row of zeros.
+///
+/// ```
+/// assert_eq!([-0.25, 1e300].map(fault::number), ["-0.25", "1e300"]);
+/// ```
+#[must_use]
+pub fn number(value: f64) -> String {
+    match value.abs() {
+        0.0 | 1e-7..1e16 => value.to_string(),
+        _ => format!("{value:e}"),
+    }
+}
+
 /// A sentence alone.
 impl Fault for String {
     fn culprit(&self) -> Culprit<'_> {

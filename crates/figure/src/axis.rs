@@ -13,18 +13,17 @@ pub enum Unit {
     Fixed(String),
 }
 
-/// Whether a panel shows its layers at -x as well.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Mirror {
-    /// Only where they are.
-    Off,
-    /// The same at x and -x: what does not depend on the angle, such as a pressure over r.
-    Even,
-    /// As `Even`, images with the other sign at -x: the horizontal component of a radial displacement.
-    Odd,
+impl Unit {
+    /// Its name; empty for a number without unit.
+    pub(crate) fn name(&self) -> &str {
+        match self {
+            Self::One => "",
+            Self::Si(unit) | Self::Fixed(unit) => unit,
+        }
+    }
 }
 
-/// One axis.
+/// One axis, of a panel or of colours.
 #[must_use]
 #[derive(Debug, Clone, PartialEq)]
 pub struct Axis {
@@ -94,17 +93,9 @@ impl Axis {
     }
 
     /// Its interval, where it is given.
-    pub fn interval(&self) -> Option<Interval> {
+    pub(crate) fn interval(&self) -> Option<Interval> {
         let (low, high) = self.range?;
         Some(Interval::new(self.scale, low, high))
-    }
-
-    /// Quantity and unit without a prefix: "time \[s\]".
-    pub fn label(&self) -> String {
-        match &self.unit {
-            Unit::One => self.quantity.clone(),
-            Unit::Si(unit) | Unit::Fixed(unit) => format!("{} [{unit}]", self.quantity),
-        }
     }
 }
 
@@ -234,15 +225,6 @@ impl Interval {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_label_has_its_unit() {
-        assert_eq!(Axis::linear("time").si("s").label(), "time [s]");
-        assert_eq!(Axis::logarithmic("error").label(), "error");
-        let axis = Axis::over(Interval::logarithmic(1.0, 9.0), "length").unit("r0");
-        assert_eq!(axis.interval(), Some(Interval::logarithmic(1.0, 9.0)));
-        assert_eq!(axis.label(), "length [r0]");
-    }
 
     #[test]
     fn places_and_values_are_inverse() {

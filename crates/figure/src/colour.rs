@@ -2,40 +2,25 @@
 
 /// An opaque colour in sRGB.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub struct Colour {
+pub(crate) struct Colour {
     /// Red, 0 to 255.
-    pub red: u8,
+    pub(crate) red: u8,
     /// Green, 0 to 255.
-    pub green: u8,
+    pub(crate) green: u8,
     /// Blue, 0 to 255.
-    pub blue: u8,
+    pub(crate) blue: u8,
 }
 
 impl Colour {
     /// From its hexadecimal number, such as `0x0b5394`.
-    pub const fn new(hex: u32) -> Self {
+    pub(crate) const fn new(hex: u32) -> Self {
         let [_, red, green, blue] = hex.to_be_bytes();
         Self { red, green, blue }
     }
 
     /// As SVG writes it: `#0b5394`.
-    pub fn hex(self) -> String {
+    pub(crate) fn hex(self) -> String {
         format!("#{:02x}{:02x}{:02x}", self.red, self.green, self.blue)
-    }
-
-    /// Relative luminance after Rec. 709: 0 is black, 1 is white.
-    ///
-    /// It is what a print in grey shows.
-    pub fn luminance(self) -> f64 {
-        let linear = |channel: u8| {
-            let x = f64::from(channel) / 255.0;
-            if x <= 0.04045 {
-                x / 12.92
-            } else {
-                ((x + 0.055) / 1.055).powf(2.4)
-            }
-        };
-        0.2126 * linear(self.red) + 0.7152 * linear(self.green) + 0.0722 * linear(self.blue)
     }
 
     fn between(self, other: Self, fraction: f64) -> Self {
@@ -79,7 +64,7 @@ const DIVERGING: [u32; 11] = [
 
 impl ColourMap {
     /// The colour at a fraction of the way from the lower limit to the upper one; beyond them that of the end.
-    pub fn at(self, fraction: f64) -> Colour {
+    pub(crate) fn at(self, fraction: f64) -> Colour {
         let stations = match self {
             Self::Sequential => &SEQUENTIAL,
             Self::Diverging => &DIVERGING,
@@ -94,6 +79,23 @@ impl ColourMap {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    impl Colour {
+        /// Relative luminance after Rec. 709: 0 is black, 1 is white.
+        ///
+        /// It is what a print in grey shows.
+        pub(crate) fn luminance(self) -> f64 {
+            let linear = |channel: u8| {
+                let x = f64::from(channel) / 255.0;
+                if x <= 0.04045 {
+                    x / 12.92
+                } else {
+                    ((x + 0.055) / 1.055).powf(2.4)
+                }
+            };
+            0.2126 * linear(self.red) + 0.7152 * linear(self.green) + 0.0722 * linear(self.blue)
+        }
+    }
 
     #[test]
     fn zero_is_white_and_signs_are_told_apart() {

@@ -1,8 +1,8 @@
 //! A picture as data: panels in rows, each with two axes and layers.
 
-use crate::axis::{Axis, Interval, Mirror, Scale};
-use crate::error::{FigureError, Side};
-use crate::layers::{Band, Layer, Line, Mark};
+use crate::axis::{Axis, Interval, Scale};
+use crate::error::FigureError;
+use crate::layers::{Layer, Line, Mark};
 use crate::look::Style;
 
 /// Whether panels have one axis in common.
@@ -12,9 +12,7 @@ pub enum Sharing {
     Separate,
     /// Those above one another have the same x axis, written below the last.
     X,
-    /// Those side by side have the same y axis, written at the first.
-    Y,
-    /// Both.
+    /// So have those above one another their x axis and those side by side their y axis, written at the first.
     Both,
 }
 
@@ -97,21 +95,14 @@ impl Figure {
         self
     }
 
-    /// Whether it can be drawn.
-    ///
-    /// # Errors
-    /// [`FigureError`] with the first thing that cannot.
-    pub fn check(&self) -> Result<(), FigureError> {
+    /// Whether it can be drawn, or the first thing that cannot.
+    pub(crate) fn check(&self) -> Result<(), FigureError> {
         if self.panels.is_empty() || self.columns == 0 {
-            return Err(FigureError::NoPanels);
+            return Err(FigureError("the figure has no panels".to_owned()));
         }
-        for (name, pixels) in [("width", self.width), ("text height", self.text)] {
-            check_size(name, pixels)?;
-        }
-        for (i, panel) in self.panels.iter().enumerate() {
-            check_panel(i, panel)?;
-        }
-        Ok(())
+        check_size("width", self.width)?;
+        check_size("text height", self.text)?;
+        self.panels.iter().enumerate().try_for_each(check_panel)
     }
 }
 
@@ -140,8 +131,8 @@ pub struct Panel {
     pub layers: Vec<Layer>,
     /// Whether one unit is equally long on both axes, as in a section through the body; both are linear then.
     pub has_equal_lengths: bool,
-    /// Whether it shows its layers at -x as well.
-    pub mirror: Mirror,
+    /// Whether it shows its layers at -x as well: what does not depend on the angle, such as a pressure over r.
+    pub is_mirrored: bool,
     /// Where the legend is.
     pub legend: Legend,
     /// Height of the plot in pixels; of no effect where lengths are equal.
@@ -157,7 +148,7 @@ impl Panel {
             y,
             layers: Vec::new(),
             has_equal_lengths: false,
-            mirror: Mirror::Off,
+            is_mirrored: false,
             legend: Legend::Auto,
             height: 260.0,
         }
@@ -188,8 +179,8 @@ impl Panel {
     }
 
     /// Mirrored at x = 0.
-    pub fn mirrored(mut self, mirror: Mirror) -> Self {
-        self.mirror = mirror;
+    pub fn mirrored(mut self) -> Self {
+        self.is_mirrored = true;
         self
     }
 
@@ -204,9 +195,16 @@ impl Panel {
         self.layer(Layer::Line(Line::new(name, style, points)))
     }
 
-    /// With one more band between two curves: place, lower and upper value.
-    pub fn band(self, name: &str, points: Vec<(f64, f64, f64)>) -> Self {
-        self.layer(Layer::Band(Band::new(name, points)))
+    /// With one more curve within a band, such as of its error: place, and lower end of the band, value and upper end.
+    pub fn banded(self, name: &str, style: Style, points: &[(f64, [f64; 3])]) -> Self {
+        let middle = points.iter().map(|&(x, [_, y, _])| (x, y)).collect();
+        self.layer(Layer::Line(Line {
+            band: points
+                .iter()
+                .map(|&(x, [low, _, high])| (x, low, high))
+                .collect(),
+            ..Line::new(name, style, middle)
+        }))
     }
 
     /// With one more vertical line.
@@ -216,36 +214,26 @@ impl Panel {
 }
 
 /// Largest side of a picture in pixels: a PNG of it at twice the size still has a size.
-pub(crate) const LARGEST_PX: f64 = 16_384.0;
+const LARGEST_PX: f64 = 16_384.0;
 
-fn check_size(name: &'static str, pixels: f64) -> Result<(), FigureError> {
-    if (1.0..=LARGEST_PX).contains(&pixels) {
-        Ok(())
-    } else {
-        Err(FigureError::Size {
-            name,
-            pixels,
-            largest: LARGEST_PX,
-        })
-    }
+fn check_size(name: &str, pixels: f64) -> Result<(), FigureError> {
+    let fault = || format!("{name} of {pixels} px: 1 to {LARGEST_PX} px can be drawn");
+    let is_size = (1.0..=LARGEST_PX).contains(&pixels);
+    is_size.then_some(()).ok_or_else(|| FigureError(fault()))
 }
 
-fn check_panel(i: usize, panel: &Panel) -> Result<(), FigureError> {
+fn check_panel((i, panel): (usize, &Panel)) -> Result<(), FigureError> {
     check_size("panel height", panel.height)?;
-    for (side, axis) in [(Side::X, &panel.x), (Side::Y, &panel.y)] {
+    for (side, axis) in [("x", &panel.x), ("y", &panel.y)] {
+        let fault = |why: String| FigureError(format!("panel {i}: the {side} axis {why}"));
         if let Some(Interval { low, high, .. }) = axis.interval().filter(|given| !given.is_valid())
         {
-            return Err(FigureError::Range {
-                panel: i,
-                side,
-                low,
-                high,
-            });
+            return Err(fault(format!("cannot run from {low:?} to {high:?}")));
         }
-        let needs_linear =
-            panel.has_equal_lengths || (panel.mirror != Mirror::Off && side == Side::X);
+        let needs_linear = panel.has_equal_lengths || panel.is_mirrored && side == "x";
         if needs_linear && axis.scale == Scale::Logarithmic {
-            return Err(FigureError::NotLinear { panel: i, side });
+            let why = "is mirrored or has equal lengths, and must be linear";
+            return Err(fault(why.to_owned()));
         }
     }
     let mut layers = panel.layers.iter();

@@ -15,48 +15,33 @@ pub(crate) fn data() -> &'static [u8] {
     epaint_default_fonts::UBUNTU_LIGHT
 }
 
-struct Font {
-    file: Face<'static>,
-    /// Widths of the characters of ASCII.
-    ascii: [f64; 128],
-}
-
-impl Font {
-    fn get() -> &'static Self {
-        static FONT: OnceLock<Font> = OnceLock::new();
-        FONT.get_or_init(|| {
-            #[expect(clippy::unwrap_used, reason = "the file is part of the program")]
-            let file = Face::parse(data(), 0).unwrap();
-            let width = |i: usize| {
-                let letter = u8::try_from(i).map_or(' ', char::from);
-                width_of(&file, file.glyph_index(letter).unwrap_or_default())
-            };
-            Self {
-                ascii: std::array::from_fn(width),
-                file,
-            }
-        })
-    }
-}
-
-fn width_of(file: &Face<'_>, glyph: GlyphId) -> f64 {
-    let width = file.glyph_hor_advance(glyph).unwrap_or(0);
-    f64::from(width) / f64::from(file.units_per_em())
+fn face() -> &'static Face<'static> {
+    static FACE: OnceLock<Face<'static>> = OnceLock::new();
+    FACE.get_or_init(|| {
+        #[expect(clippy::unwrap_used, reason = "the file is part of the program")]
+        Face::parse(data(), 0).unwrap()
+    })
 }
 
 /// The glyph of a letter; glyph 0, an empty box, for one that the font does not have.
 pub(crate) fn glyph(letter: char) -> GlyphId {
-    Font::get().file.glyph_index(letter).unwrap_or_default()
+    face().glyph_index(letter).unwrap_or_default()
 }
 
 /// Width of a glyph over the font's size.
 pub(crate) fn glyph_width(glyph: GlyphId) -> f64 {
-    width_of(&Font::get().file, glyph)
+    let width = face().glyph_hor_advance(glyph).unwrap_or(0);
+    f64::from(width) / f64::from(face().units_per_em())
+}
+
+/// Width of a text over the font's size, without kerning, which can only narrow it.
+pub(crate) fn width(text: &str) -> f64 {
+    text.chars().map(|letter| glyph_width(glyph(letter))).sum()
 }
 
 /// The letters of a text as one outline, from the origin to the right and y downward; None if they are blanks.
 pub(crate) fn outline(text: &str, size: f64) -> Option<Path> {
-    let file = &Font::get().file;
+    let file = face();
     let mut pen = Pen {
         path: PathBuilder::new(),
         along: 0.0,
@@ -101,17 +86,6 @@ impl OutlineBuilder for Pen {
     fn close(&mut self) {
         self.path.close();
     }
-}
-
-/// Width of a text over the font's size, without kerning, which can only narrow it.
-pub(crate) fn width(text: &str) -> f64 {
-    let font = Font::get();
-    text.chars()
-        .map(|letter| match font.ascii.get(letter as usize) {
-            Some(&width) => width,
-            None => glyph_width(glyph(letter)),
-        })
-        .sum()
 }
 
 #[cfg(test)]

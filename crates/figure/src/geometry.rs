@@ -1,6 +1,6 @@
 //! Places on the canvas, in pixels from its upper left corner; and from values to them.
 
-use crate::axis::{Interval, Mirror};
+use crate::axis::Interval;
 
 /// A rectangle; `top < bottom`.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -90,7 +90,8 @@ pub(crate) struct Frame {
     pub(crate) x: Interval,
     pub(crate) y: Interval,
     pub(crate) reversed: [bool; 2],
-    pub(crate) mirror: Mirror,
+    /// Whether it shows everything at -x as well.
+    pub(crate) is_mirrored: bool,
 }
 
 impl Frame {
@@ -137,14 +138,11 @@ impl Frame {
 
     /// A curve, and where the panel is mirrored also its other half.
     pub(crate) fn sides(&self, points: &[Point]) -> Vec<Vec<Point>> {
-        let own = points.to_vec();
-        match self.mirror {
-            Mirror::Off => vec![own],
-            Mirror::Even | Mirror::Odd => {
-                let other = own.iter().map(|&(x, y)| (-x, y)).collect();
-                vec![own, other]
-            }
+        let mut sides = vec![points.to_vec()];
+        if self.is_mirrored {
+            sides.push(points.iter().map(|&(x, y)| (-x, y)).collect());
         }
+        sides
     }
 }
 
@@ -167,7 +165,7 @@ mod tests {
             x: Interval::linear(0.0, 4.0),
             y,
             reversed: [false, is_reversed],
-            mirror: Mirror::Off,
+            is_mirrored: false,
         }
     }
 

@@ -13,15 +13,13 @@
 //!
 //! let time = || (0..=100).map(|i| f64::from(i) * 0.25e-6);
 //! let pulse = |t: f64| 160e3 * (std::f64::consts::PI * t / 25e-6).sin().powf(1.5);
-//! let force: Vec<_> = time().map(|t| (t, pulse(t))).collect();
-//! let band: Vec<_> = time().map(|t| (t, 0.9 * pulse(t), 1.1 * pulse(t))).collect();
+//! let force: Vec<_> = time().map(|t| (t, [0.9 * pulse(t), pulse(t), 1.1 * pulse(t)])).collect();
 //!
 //! let figure = Figure::new("Copper rod on a steel block")
 //!     .sharing(Sharing::X)
 //!     .panel(
 //!         Panel::new(Axis::linear("time").si("s"), Axis::linear("force").si("N"))
-//!             .band("contact force", band)
-//!             .line("contact force", Style::Plain, force)
+//!             .banded("contact force", Style::Plain, &force)
 //!             .mark(2.0e-6, "P")
 //!             .mark(3.8e-6, "S"),
 //!     );
@@ -48,14 +46,12 @@ mod text;
 mod ticks;
 mod write;
 
-pub use axis::{Axis, Interval, Mirror, Scale, Unit};
-pub use colour::{Colour, ColourMap};
-pub use error::{FigureError, Side};
+pub use axis::{Axis, Interval, Scale, Unit};
+pub use colour::ColourMap;
+pub use error::FigureError;
 pub use figure::{Figure, Legend, Panel, Sharing};
 pub use geometry::Rect;
-pub use layers::{
-    Band, Classes, ColourScale, Histogram, Image, LabelledPoint, Layer, Limits, Line, Mark, Shading,
-};
+pub use layers::{Classes, Image, LabelledPoint, Layer, Line, Mark};
 pub use look::Style;
 
 /// The figure as SVG.

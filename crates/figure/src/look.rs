@@ -24,10 +24,17 @@ pub enum Style {
     Dotted,
     /// Small black dots: a region given by theory.
     Dots,
-    /// Black line with a white rim, readable over an image: a wave front.
+    /// Black dashed line with a white rim, readable over an image: a wave front.
     Rimmed,
-    /// The same, dashed.
-    RimmedDashed,
+    /// Line around a lightly filled area, coloured and dashed by turns: the bars of a histogram.
+    Bars,
+}
+
+impl Style {
+    /// Whether a curve has a colour by its name.
+    pub(crate) fn is_coloured(self) -> bool {
+        matches!(self, Self::Marked | Self::Plain | Self::Points | Self::Bars)
+    }
 }
 
 /// Colours of curves; neighbours differ in lightness as well as in hue.
@@ -77,6 +84,8 @@ pub(crate) struct Look {
     pub(crate) marker: Marker,
     /// Whether it has a white rim.
     pub(crate) rim: bool,
+    /// Whether the area inside is lightly filled.
+    pub(crate) is_filled: bool,
 }
 
 /// What is drawn at the points of a curve.
@@ -92,38 +101,26 @@ pub(crate) enum Marker {
 impl Look {
     /// The look of a name in a style.
     pub(crate) fn new(slot: Slot, style: Style) -> Self {
-        let line = |colour, width, dash| Self {
+        let own = Colour::new(COLOURS[slot.figure % COLOURS.len()]);
+        let dashed = DASHES[slot.panel % DASHES.len()];
+        let (colour, width, dash): (Colour, f64, &[f64]) = match style {
+            Style::Marked | Style::Points => (own, 1.6, &[]),
+            Style::Plain | Style::Bars => (own, 1.6, dashed),
+            Style::Heavy => (BLACK, 2.6, &[]),
+            Style::HeavyDashed => (BLACK, 2.2, &[9.0, 5.0]),
+            Style::Dotted | Style::Dots => (BLACK, 2.2, &[2.0, 4.0]),
+            Style::Rimmed => (BLACK, 1.4, &[6.0, 4.0]),
+        };
+        Self {
             stroke: Stroke::new(colour, width, dash),
-            line: true,
-            marker: Marker::None,
-            rim: false,
-        };
-        let colour = Colour::new(COLOURS[slot.figure % COLOURS.len()]);
-        let marked = Self {
-            marker: Marker::Symbol(slot.figure),
-            ..line(colour, 1.6, &[])
-        };
-        let rimmed = |dash| Self {
-            rim: true,
-            ..line(BLACK, 1.4, dash)
-        };
-        match style {
-            Style::Marked => marked,
-            Style::Plain => line(colour, 1.6, DASHES[slot.panel % DASHES.len()]),
-            Style::Points => Self {
-                line: false,
-                ..marked
+            line: !matches!(style, Style::Points | Style::Dots),
+            marker: match style {
+                Style::Marked | Style::Points => Marker::Symbol(slot.figure),
+                Style::Dots => Marker::Dot,
+                _ => Marker::None,
             },
-            Style::Heavy => line(BLACK, 2.6, &[]),
-            Style::HeavyDashed => line(BLACK, 2.2, &[9.0, 5.0]),
-            Style::Dotted => line(BLACK, 2.2, &[2.0, 4.0]),
-            Style::Dots => Self {
-                line: false,
-                marker: Marker::Dot,
-                ..line(BLACK, 2.2, &[])
-            },
-            Style::Rimmed => rimmed(&[]),
-            Style::RimmedDashed => rimmed(&[6.0, 4.0]),
+            rim: style == Style::Rimmed,
+            is_filled: style == Style::Bars,
         }
     }
 

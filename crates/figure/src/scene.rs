@@ -130,58 +130,43 @@ pub(crate) struct Picture {
     pub(crate) pixels: Vec<Option<Colour>>,
 }
 
-/// Which way a text runs.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Turn {
-    /// From left to right.
-    Level,
-    /// From the bottom to the top.
-    Upward,
-}
-
-/// Which point of a text is at its place.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Anchor {
-    Start,
-    Middle,
-    End,
-}
+/// Which point of a text is at its place, as a fraction of its width.
+pub(crate) const START: f64 = 0.0;
+pub(crate) const MIDDLE: f64 = 0.5;
+pub(crate) const END: f64 = 1.0;
 
 /// A line of text.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Text {
     runs: Vec<Run>,
     /// Its start on the line on which letters stand.
-    pub(crate) start: Point,
-    pub(crate) size: f64,
-    pub(crate) turn: Turn,
+    start: Point,
+    size: f64,
+    /// Whether it runs from the bottom to the top.
+    pub(crate) is_upward: bool,
     /// Whether it has a white rim, to be read over lines.
-    pub(crate) rim: bool,
+    pub(crate) has_rim: bool,
 }
 
 impl Text {
     /// A text at a place on the line on which letters stand.
-    pub(crate) fn new(markup: &str, (x, y): Point, size: f64, anchor: Anchor) -> Self {
-        let mut text = Self {
-            runs: runs(markup),
-            start: (x, y),
+    pub(crate) fn new(markup: &str, (x, y): Point, size: f64, anchor: f64) -> Self {
+        let runs = runs(markup);
+        let width = size * runs.iter().map(Run::width).sum::<f64>();
+        Self {
+            runs,
+            start: (x - anchor * width, y),
             size,
-            turn: Turn::Level,
-            rim: false,
-        };
-        text.start.0 -= match anchor {
-            Anchor::Start => 0.0,
-            Anchor::Middle => 0.5 * text.width(),
-            Anchor::End => text.width(),
-        };
-        text
+            is_upward: false,
+            has_rim: false,
+        }
     }
 
     /// A text that runs upward, its middle at a place.
     pub(crate) fn upward(markup: &str, (x, y): Point, size: f64) -> Self {
-        let mut text = Self::new(markup, (x, y), size, Anchor::Start);
+        let mut text = Self::new(markup, (x, y), size, START);
         text.start.1 += 0.5 * text.width();
-        text.turn = Turn::Upward;
+        text.is_upward = true;
         text
     }
 
@@ -189,34 +174,24 @@ impl Text {
         self.size * self.runs.iter().map(Run::width).sum::<f64>()
     }
 
-    /// With a white rim.
-    pub(crate) fn rimmed(mut self) -> Self {
-        self.rim = true;
-        self
-    }
-
-    /// Its parts from the start on; blanks around one are left out, its place says them.
-    pub(crate) fn parts(&self) -> Vec<Part<'_>> {
+    /// Its parts with their sizes and starts; blanks around one are left out, its place says them.
+    pub(crate) fn parts<'a>(&'a self) -> Vec<(&'a str, f64, Point)> {
         let mut along = 0.0;
-        let mut parts = Vec::with_capacity(self.runs.len());
-        for run in &self.runs {
-            let text = run.text.trim();
-            let width = |text: &str| self.size * run.size * font::width(text);
-            let indent = width(&run.text[..run.text.len() - run.text.trim_start().len()]);
+        let part = |run: &'a Run| {
+            let Run { text, size, rise } = run;
+            let size = self.size * size;
+            let width = |text: &str| size * font::width(text);
+            let indent = width(&text[..text.len() - text.trim_start().len()]);
+            let (start, up) = (along + indent, self.size * rise);
+            along += width(text);
             let (x, y) = self.start;
-            let up = self.size * run.rise;
-            let start = along + indent;
-            parts.push(Part {
-                text,
-                size: self.size * run.size,
-                start: match self.turn {
-                    Turn::Level => (x + start, y - up),
-                    Turn::Upward => (x - up, y - start),
-                },
-            });
-            along += width(&run.text);
-        }
-        parts
+            let place = match self.is_upward {
+                true => (x - up, y - start),
+                false => (x + start, y - up),
+            };
+            (text.trim(), size, place)
+        };
+        self.runs.iter().map(part).collect()
     }
 
     /// The rectangle that it covers.
@@ -229,9 +204,9 @@ impl Text {
             below = below.max(run.size * font::DESCENT - run.rise);
         }
         let (above, below) = (above * self.size, below * self.size);
-        match self.turn {
-            Turn::Level => Rect::new(x, y - above, width, above + below),
-            Turn::Upward => Rect::new(x - above, y - width, above + below, width),
+        match self.is_upward {
+            true => Rect::new(x - above, y - width, above + below, width),
+            false => Rect::new(x, y - above, width, above + below),
         }
     }
 
@@ -239,14 +214,6 @@ impl Text {
     pub(crate) fn plain(&self) -> String {
         self.runs.iter().map(|run| run.text.as_str()).collect()
     }
-}
-
-/// A part of a text at one size and height.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Part<'a> {
-    pub(crate) text: &'a str,
-    pub(crate) size: f64,
-    pub(crate) start: Point,
 }
 
 /// One thing that is drawn.
@@ -283,7 +250,7 @@ mod tests {
 
     #[test]
     fn a_text_covers_what_it_is_anchored_to() {
-        let level = Text::new("10^{6} s", (100.0, 50.0), 12.0, Anchor::End);
+        let level = Text::new("10^{6} s", (100.0, 50.0), 12.0, END);
         let bounds = level.bounds();
         assert!((bounds.right - 100.0).abs() < 1e-9 && bounds.has((90.0, 45.0)));
         assert_eq!(level.plain(), "106 s");
@@ -297,15 +264,15 @@ mod tests {
         let text = Text::upward("r_{0}/c", (10.0, 10.0), 10.0);
         let parts = text.parts();
         assert_eq!(parts.len(), 3);
-        assert!(parts[1].start.0 > parts[0].start.0, "lowered to the right");
-        let width = |part: &Part<'_>| part.size * font::width(part.text);
-        assert!((parts[0].start.1 - width(&parts[0]) - parts[1].start.1).abs() < 1e-12);
+        assert!(parts[1].2.0 > parts[0].2.0, "lowered to the right");
+        let end = |(text, size, start): (&str, f64, Point)| (start, size * font::width(text));
+        let (start, length) = end(parts[0]);
+        assert!((start.1 - length - parts[1].2.1).abs() < 1e-12);
         // a blank after a raised part keeps its place
-        let text = Text::new("10^{6} s", (0.0, 0.0), 10.0, Anchor::Start);
+        let text = Text::new("10^{6} s", (0.0, 0.0), 10.0, START);
         let parts = text.parts();
-        assert_eq!(parts[2].text, "s");
-        assert!(
-            parts[2].start.0 > parts[1].start.0 + parts[1].size * font::width(parts[1].text) + 1.0
-        );
+        assert_eq!(parts[2].0, "s");
+        let (start, length) = end(parts[1]);
+        assert!(parts[2].2.0 > start.0 + length + 1.0);
     }
 }

@@ -1,20 +1,13 @@
 //! Ticks: round values whose labels fit beside one another, in a suitable multiple of the unit.
 
-use crate::axis::{Interval, Scale, Unit};
-use crate::text::{LINE, decimal, power_of_ten};
-
-/// A tick with a label, as markup.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Tick {
-    pub(crate) value: f64,
-    pub(crate) label: String,
-}
+use crate::axis::{Axis, Interval, Scale, Unit};
+use crate::text::{decimal, power_of_ten};
 
 /// Ticks of an axis.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Ticks {
-    /// Those with labels.
-    pub(crate) major: Vec<Tick>,
+    /// Those with labels, as markup.
+    pub(crate) major: Vec<(f64, String)>,
     /// Shorter ones between them.
     pub(crate) minor: Vec<f64>,
 }
@@ -36,30 +29,21 @@ pub(crate) struct Room<'a> {
     /// Wished distance of two labels in pixels.
     pub(crate) distance: f64,
     /// Pixels that a label needs along the axis, with a gap.
-    pub(crate) needs: Box<dyn Fn(&str) -> f64 + 'a>,
+    pub(crate) needs: &'a dyn Fn(&str) -> f64,
 }
 
 impl Room<'_> {
-    /// For labels above one another, of a size.
-    pub(crate) fn of_lines(length: f64, distance: f64, size: f64) -> Self {
-        Self {
-            length,
-            distance,
-            needs: Box::new(move |_| LINE * size),
-        }
-    }
-
     /// The first candidate whose labels fit beside one another, with what belongs to it; without one the coarsest
     /// with a single label.
     fn first_that_fits<T>(
         &self,
         interval: &Interval,
-        candidates: impl Iterator<Item = (Vec<Tick>, T)>,
-    ) -> Option<(Vec<Tick>, T)> {
-        let fits = |ticks: &[Tick]| {
+        candidates: impl Iterator<Item = (Vec<(f64, String)>, T)>,
+    ) -> Option<(Vec<(f64, String)>, T)> {
+        let fits = |ticks: &[(f64, String)]| {
             ticks.windows(2).all(|pair| {
-                let distance = interval.fraction(pair[1].value) - interval.fraction(pair[0].value);
-                let needed = 0.5 * ((self.needs)(&pair[0].label) + (self.needs)(&pair[1].label));
+                let distance = interval.fraction(pair[1].0) - interval.fraction(pair[0].0);
+                let needed = 0.5 * ((self.needs)(&pair[0].1) + (self.needs)(&pair[1].1));
                 distance.abs() * self.length >= needed
             })
         };
@@ -92,11 +76,8 @@ fn linear(interval: &Interval, factor: f64, room: &Room<'_>) -> Ticks {
         .filter(|(_, step, _)| *step >= 0.72 * wished)
         .map(|(exponent, step, parts)| {
             let places = usize::try_from(-exponent).unwrap_or(0);
-            let tick = |shown| Tick {
-                value: shown * factor,
-                label: decimal(shown, places),
-            };
-            let major: Vec<Tick> = multiples(low, high, step).map(tick).collect();
+            let tick = |shown| (shown * factor, decimal(shown, places));
+            let major: Vec<_> = multiples(low, high, step).map(tick).collect();
             (major, (step, parts))
         })
         .take_while(|(major, _)| !major.is_empty());
@@ -138,21 +119,20 @@ fn logarithmic(interval: &Interval, factor: f64, room: &Room<'_>) -> Ticks {
     let inside = |value: f64| interval.contains(value * factor);
     // plain numbers where all are short
     let plain = low > 0.9e-3 && high < 1.1e4;
-    let tick = |digit: u32, exponent: i32| Tick {
-        value: f64::from(digit) * ten(exponent) * factor,
-        label: if plain {
-            let places = usize::try_from(-exponent).unwrap_or(0);
-            decimal(f64::from(digit) * ten(exponent), places)
-        } else {
-            power_of_ten(digit, exponent)
-        },
+    let tick = |digit: u32, exponent: i32| {
+        let shown = f64::from(digit) * ten(exponent);
+        let label = match plain {
+            true => decimal(shown, usize::try_from(-exponent).unwrap_or(0)),
+            false => power_of_ten(digit, exponent),
+        };
+        (shown * factor, label)
     };
     let at = |(digits, stride): (&[u32], i32)| {
-        let major: Vec<Tick> = (first..=last)
+        let major: Vec<_> = (first..=last)
             .filter(|exponent| exponent.rem_euclid(stride) == 0)
             .flat_map(|exponent| digits.iter().map(move |&d| (d, exponent)))
             .map(|(digit, exponent)| tick(digit, exponent))
-            .filter(|t| inside(t.value / factor))
+            .filter(|t| inside(t.0 / factor))
             .collect();
         (major, stride)
     };
@@ -165,7 +145,7 @@ fn logarithmic(interval: &Interval, factor: f64, room: &Room<'_>) -> Ticks {
         .filter(|(major, _)| !major.is_empty());
     let found = room.first_that_fits(interval, candidates);
     let (major, stride) = found.unwrap_or((Vec::new(), 1));
-    let labelled = |value: f64| major.iter().any(|t| (t.value / value - 1.0).abs() < 1e-6);
+    let labelled = |value: f64| major.iter().any(|t| (t.0 / value - 1.0).abs() < 1e-6);
     // multiples where a decade is long enough, the decades themselves where labels skip some
     let fine = room.length / decades >= 40.0 && stride == 1;
     let digits = if fine { 1..=9 } else { 1..=1 };
@@ -191,49 +171,35 @@ const PREFIXES: [&str; 17] = [
 ///
 /// A unit of the SI takes a prefix and any other one a power of ten, so that the largest value has one to three
 /// digits before the point; values from 0.1 on keep the unit itself unless they are lengths, and so does a logarithmic axis.
-pub(crate) fn shown(quantity: &str, unit: &Unit, interval: &Interval) -> (String, f64) {
+pub(crate) fn shown(axis: &Axis, interval: &Interval) -> (String, f64) {
     let largest = interval.low.abs().max(interval.high.abs());
     let exponent = match interval.scale {
         Scale::Linear if largest > 0.0 => largest.log10().floor() as i32,
         Scale::Linear | Scale::Logarithmic => 0,
     };
     let thousands = 3 * exponent.div_euclid(3);
-    let (exponent, unit) = match unit {
+    let (exponent, unit) = match &axis.unit {
+        // tenths are read as they are, but for lengths: 120 mm
+        Unit::Si(unit) if exponent == -1 && unit != "m" => (0, unit.clone()),
         Unit::Si(unit) => {
-            // tenths are read as they are, but for lengths: 120 mm
-            let is_tenth = exponent == -1 && unit != "m";
-            let exponent = if is_tenth {
-                0
-            } else {
-                thousands.clamp(-24, 24)
-            };
+            let exponent = thousands.clamp(-24, 24);
             let prefix = PREFIXES[((exponent + 24) / 3) as usize];
             (exponent, format!("{prefix}{unit}"))
         }
+        Unit::One | Unit::Fixed(_) if (-3..5).contains(&exponent) => {
+            (0, axis.unit.name().to_owned())
+        }
         Unit::One | Unit::Fixed(_) => {
-            let exponent = if (-3..5).contains(&exponent) {
-                0
-            } else {
-                thousands
-            };
-            let power = if exponent == 0 {
-                String::new()
-            } else {
-                power_of_ten(1, exponent)
-            };
-            let unit = match unit {
-                Unit::Fixed(unit) | Unit::Si(unit) => unit,
-                Unit::One => "",
-            };
-            (exponent, format!("{power} {unit}").trim().to_owned())
+            let unit = format!("{} {}", power_of_ten(1, thousands), axis.unit.name());
+            (thousands, unit.trim().to_owned())
         }
     };
-    let unit = if unit.is_empty() {
-        unit
-    } else {
-        format!(" [{unit}]")
+    let label = match unit.as_str() {
+        "" => axis.quantity.clone(),
+        unit => format!("{} [{unit}]", axis.quantity)
+            .trim_start()
+            .to_owned(),
     };
-    let label = format!("{quantity}{unit}").trim_start().to_owned();
     (label, 10.0_f64.powi(exponent))
 }
 
@@ -246,14 +212,14 @@ mod tests {
         let room = Room {
             length,
             distance: 70.0,
-            needs: Box::new(needs),
+            needs: &needs,
         };
         Ticks::new(interval, factor, &room)
     }
 
     fn labels(low: f64, high: f64, factor: f64, length: f64) -> Vec<String> {
         let found = found(&Interval::linear(low, high), factor, length);
-        found.major.into_iter().map(|t| t.label).collect()
+        found.major.into_iter().map(|t| t.1).collect()
     }
 
     #[test]
@@ -311,7 +277,7 @@ mod tests {
                 (2..=12).contains(&found.major.len()),
                 "{low} {high}: {found:?}"
             );
-            let all = found.major.iter().map(|t| &t.value).chain(&found.minor);
+            let all = found.major.iter().map(|t| &t.0).chain(&found.minor);
             assert!(all.clone().all(|&v| interval.contains(v)));
         }
     }
@@ -321,11 +287,11 @@ mod tests {
         let labels: Vec<String> = found(&Interval::logarithmic(0.01, 100.0), 1.0, 500.0)
             .major
             .into_iter()
-            .map(|t| t.label)
+            .map(|t| t.1)
             .collect();
         assert_eq!(labels, ["0.01", "0.1", "1", "10", "100"]);
         assert_eq!(
-            found(&Interval::logarithmic(1e-9, 1.0), 1.0, 900.0).major[0].label,
+            found(&Interval::logarithmic(1e-9, 1.0), 1.0, 900.0).major[0].1,
             "10^{\u{2212}9}"
         );
     }
@@ -343,11 +309,7 @@ mod tests {
     #[test]
     fn units_of_the_si_take_prefixes() {
         let si = |unit: &str, high: f64| {
-            shown(
-                "x",
-                &Unit::Si(unit.to_owned()),
-                &Interval::linear(0.0, high),
-            )
+            shown(&Axis::linear("x").si(unit), &Interval::linear(0.0, high))
         };
         assert_eq!(si("s", 4e-5).0, "x [\u{b5}s]");
         assert_eq!(si("N", 38_200.0).0, "x [kN]");
@@ -357,20 +319,18 @@ mod tests {
         assert_eq!(si("Pa", 0.0).1, 1.0);
         // a logarithmic axis has powers of ten already
         let long = Interval::logarithmic(1e-9, 1e-3);
-        assert_eq!(shown("t", &Unit::Si("s".to_owned()), &long).0, "t [s]");
+        assert_eq!(shown(&Axis::linear("t").si("s"), &long).0, "t [s]");
     }
 
     #[test]
     fn other_units_take_powers_of_ten_where_needed() {
-        let fixed = Unit::Fixed("r0".to_owned());
-        assert_eq!(shown("u", &fixed, &Interval::linear(0.0, 20.0)).0, "u [r0]");
-        let small = shown("u", &fixed, &Interval::linear(-2e-5, 1e-5));
+        let fixed = Axis::linear("u").unit("r0");
+        assert_eq!(shown(&fixed, &Interval::linear(0.0, 20.0)).0, "u [r0]");
+        let small = shown(&fixed, &Interval::linear(-2e-5, 1e-5));
         assert_eq!(small.0, "u [10^{\u{2212}6} r0]");
         assert_eq!(small.1, 1e-6);
-        assert_eq!(
-            shown("n", &Unit::One, &Interval::linear(0.0, 2e6)).0,
-            "n [10^{6}]"
-        );
-        assert_eq!(shown("n", &Unit::One, &Interval::linear(0.0, 12.0)).0, "n");
+        let number = Axis::linear("n");
+        assert_eq!(shown(&number, &Interval::linear(0.0, 2e6)).0, "n [10^{6}]");
+        assert_eq!(shown(&number, &Interval::linear(0.0, 12.0)).0, "n");
     }
 }

@@ -1,7 +1,7 @@
 //! What can be wrong with a scene.
 
 use contact::nearest;
-use fault::{Class, Culprit, Fault};
+use fault::{Class, Culprit, Fault, number};
 use impact::TreatmentError;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
@@ -35,21 +35,21 @@ enum Of {
 }
 
 impl SceneError {
+    /// With what is known beside the sentence.
+    fn told(sentence: String, known: impl FnOnce(&mut About)) -> Self {
+        let mut about = Box::new(About::default());
+        about.sentence = sentence;
+        known(&mut about);
+        Self(about)
+    }
+
     fn of(sentence: String, key: impl Into<String>) -> Self {
-        Self(Box::new(About {
-            sentence,
-            key: Some(key.into()),
-            ..About::default()
-        }))
+        Self::told(sentence, |about| about.key = Some(key.into()))
     }
 
     /// One that is in a file and names it.
     pub(crate) fn in_sentence(path: &Path, sentence: String) -> Self {
-        Self(Box::new(About {
-            sentence,
-            file: Some(path.to_owned()),
-            ..About::default()
-        }))
+        Self::told(sentence, |about| about.file = Some(path.to_owned()))
     }
 
     /// A file that cannot be read.
@@ -59,11 +59,7 @@ impl SceneError {
 
     /// A text that is not TOML, from a line that counts from 1.
     pub(crate) fn syntax(line: usize, reason: &str) -> Self {
-        let sentence = format!("line {line} is not valid TOML: {reason}");
-        Self(Box::new(About {
-            sentence,
-            ..About::default()
-        }))
+        Self::told(format!("line {line} is not valid TOML: {reason}"), |_| {})
     }
 
     /// A key that does not exist, with the nearest that does, or what is said otherwise.
@@ -97,7 +93,7 @@ impl SceneError {
     /// A number outside its range.
     pub fn out_of_range(key: impl Into<String>, value: f64, range: &str) -> Self {
         let key = key.into();
-        let sentence = format!("{key} = {value} is outside {range}");
+        let sentence = format!("{key} = {} is outside {range}", number(value));
         let mut error = Self::of_number(key, value, sentence);
         error.0.range = Some(range.to_owned());
         error
@@ -112,8 +108,10 @@ impl SceneError {
 
     /// A place outside the block, which a key ends.
     pub(crate) fn outside_block(key: String, value: f64, limit_key: &str, limit: f64) -> Self {
-        let sentence =
-            format!("{key} = {value} is outside [0, {limit}], where {limit_key} ends the block");
+        let sentence = format!(
+            "{key} = {} is outside [0, {limit}], where {limit_key} ends the block",
+            number(value)
+        );
         let mut error = Self::of_number(key, value, sentence);
         (error.0.of, error.0.limits) = (Of::Other, Some([0.0, limit]));
         error
@@ -180,10 +178,7 @@ impl SceneError {
 /// A treatment that the force record cannot have.
 impl From<TreatmentError> for SceneError {
     fn from(error: TreatmentError) -> Self {
-        Self(Box::new(About {
-            sentence: format!("force.{error}"),
-            ..About::default()
-        }))
+        Self::told(format!("force.{error}"), |_| {})
     }
 }
 

@@ -40,10 +40,6 @@ pub(crate) fn some_at_a_time<T: H5Type>(
     length: usize,
     number: impl Fn(usize) -> T,
 ) -> Result<Dataset, hdf5::Error> {
-    if length <= AT_A_TIME {
-        let all: Vec<T> = (0..length).map(number).collect();
-        return numbers(group, described, &[length], &all);
-    }
     let dataset = group
         .new_dataset::<T>()
         .shape([length])

@@ -24,15 +24,13 @@ pub mod stored;
 pub mod sweep;
 
 pub use error::SceneError;
-pub use output::{Existing, Output, OutputError, check, write_whole};
+pub use output::{Existing, Output, OutputError, write_whole};
 pub use quantities::{Kind, QUANTITIES, Quantity};
 pub use report::{
     Choices, accuracy_report, choices, infer, json_report, kernel_name, material_report,
     table_report,
 };
-pub use results::{
-    check_results, print_results_csv, stage_results, stage_results_csv, write_results,
-};
+pub use results::{check_results, stage_results, stage_results_csv, write_results};
 pub use scene::{
     parse_materials, parse_scene, read_materials, read_record, read_scene, read_with_inputs,
     resolved,

@@ -2,12 +2,11 @@
 
 use crate::stored::{FileKind, Part, ReadError, StoredPart, file_kind, whole_sweep};
 use crate::sweep::{
-    Block, Blocks, Fields, Selection, Shard, Source, Spec, SweepError, Unfinished, grain,
-    stage_rows, stage_virtual,
+    Block, Blocks, Extent, Selection, Shard, Source, Spec, SweepError, Unfinished, grain,
+    stage_hdf5, stage_rows,
 };
 use ledger::gaps;
 use output::{Fault, HDF5, Output, ROWS, Staged};
-use std::collections::BTreeMap;
 use std::ffi::OsStr;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -55,7 +54,7 @@ impl Parts {
             .filter_map(|path| Unfinished::read(path))
             .collect();
         let (sha256, sweep_rows) = match wanted {
-            Some(spec) => (spec.sha256(), spec.rows()),
+            Some(spec) => (spec.sha256.clone(), spec.rows()),
             None => most(&all, &unfinished).ok_or_else(|| none(folder))?,
         };
         unfinished.retain(|run| run.sha256 == sha256 && run.sweep_rows == sweep_rows);
@@ -83,7 +82,8 @@ impl Parts {
     /// Rows of the sweep that no part has.
     #[must_use]
     pub fn missing(&self) -> Vec<Range<usize>> {
-        gaps(&self.held(), &(0..self.sweep_rows))
+        let held = self.full().map(|part| part.selection.rows.clone());
+        gaps(&held.collect::<Vec<_>>(), &(0..self.sweep_rows))
     }
 
     /// Into how many shards the sweep was divided, where the parts agree on it.
@@ -165,7 +165,8 @@ impl Parts {
             spec: &spec,
             all: false,
         };
-        Ok(stage_virtual(output, &spec, &sources, &rows)?)
+        let extent = Extent::Virtual(&sources);
+        Ok(stage_hdf5(output, &spec, extent, &rows)?)
     }
 
     /// The sweep, where all its rows are there, once.
@@ -203,12 +204,6 @@ impl Parts {
     fn full(&self) -> impl Iterator<Item = &Part> {
         let parts = self.parts.iter();
         parts.filter(|part| !part.selection.rows.is_empty())
-    }
-
-    fn held(&self) -> Vec<Range<usize>> {
-        self.full()
-            .map(|part| part.selection.rows.clone())
-            .collect()
     }
 }
 
@@ -263,40 +258,33 @@ pub fn check_complete(
     spec: &Spec,
     selection: Option<&Selection>,
 ) -> Result<(), String> {
-    let told = |error: ReadError| error.to_string();
-    let other = || format!("{} is of {OTHER}", path.display());
-    let same_fields = |found: &Fields| {
-        if *found == spec.fields {
-            return Ok(());
-        }
-        let path = path.display();
-        Err(format!("{path} has other columns, or another precision"))
+    let of_part = || {
+        let open = StoredPart::open(path)?;
+        open.check().map(|()| open.part)
     };
-    let Some(selection) = selection else {
-        let (sha256, fields) = whole_sweep(path).map_err(told)?;
-        if sha256 != Some(spec.sha256()) {
-            return Err(other());
-        }
-        return same_fields(&fields);
+    let found = match selection {
+        None => whole_sweep(path).map(|(sha256, fields)| (sha256, fields, None)),
+        Some(_) => of_part().map(|part| {
+            let rows = Some(part.selection.rows);
+            (Some(part.sha256), part.fields, rows)
+        }),
     };
-    let open = StoredPart::open(path).map_err(told)?;
-    open.check().map_err(told)?;
-    let found = open.part;
-    if found.sha256 != spec.sha256() {
-        return Err(other());
-    }
-    let (rows, asked) = (&found.selection.rows, &selection.rows);
-    if rows != asked {
-        return Err(format!(
-            "{} has the rows {}:{}, not {}:{}",
-            path.display(),
-            rows.start,
-            rows.end,
-            asked.start,
-            asked.end
-        ));
-    }
-    same_fields(&found.fields)
+    let (sha256, fields, rows) = found.map_err(|error: ReadError| error.to_string())?;
+    let asked = selection.map(|selection| selection.rows.clone());
+    let wrong = if sha256.as_ref() != Some(&spec.sha256) {
+        format!("is of {OTHER}")
+    } else if rows != asked {
+        let [rows, asked] = [rows, asked].map(Option::unwrap_or_default);
+        format!(
+            "has the rows {}:{}, not {}:{}",
+            rows.start, rows.end, asked.start, asked.end
+        )
+    } else if fields != spec.fields {
+        "has other columns, or another precision".to_owned()
+    } else {
+        return Ok(());
+    };
+    Err(format!("{} {wrong}", path.display()))
 }
 
 /// What is said of a place without parts.
@@ -310,12 +298,8 @@ fn files(folder: &Path, named: impl Fn(&Path) -> bool) -> Result<Vec<PathBuf>, S
         let entries = std::fs::read_dir(folder)?;
         entries.map(|entry| Ok(entry?.path())).collect()
     };
-    let mut found = paths().map_err(|reason| {
-        SweepError::part(
-            folder,
-            format!("cannot read {}: {reason}", folder.display()),
-        )
-    })?;
+    let unread = |reason| format!("cannot read {}: {reason}", folder.display());
+    let mut found = paths().map_err(|reason| SweepError::part(folder, unread(reason)))?;
     let hidden = |name: &OsStr| name.as_encoded_bytes().starts_with(b".");
     found.retain(|path| named(path) && !path.file_name().is_some_and(hidden));
     found.sort();
@@ -324,16 +308,16 @@ fn files(folder: &Path, named: impl Fn(&Path) -> bool) -> Result<Vec<PathBuf>, S
 
 /// The sweep that most parts, or else journals, are of, with its rows; the first of several.
 fn most(parts: &[Part], unfinished: &[Unfinished]) -> Option<(String, usize)> {
-    let mut counts: BTreeMap<(&str, usize), usize> = BTreeMap::new();
-    let parts = parts.iter().map(|part| (&part.sha256, part.sweep_rows));
-    let mut of: Vec<_> = parts.collect();
+    let of_parts = parts.iter().map(|part| (&part.sha256, part.sweep_rows));
+    let of_runs = unfinished.iter().map(|run| (&run.sha256, run.sweep_rows));
+    let mut of: Vec<_> = of_parts.collect();
     if of.is_empty() {
-        of.extend((unfinished.iter()).map(|run| (&run.sha256, run.sweep_rows)));
+        of = of_runs.collect();
     }
-    for (sha256, rows) in of {
-        *counts.entry((sha256, rows)).or_default() += 1;
-    }
-    let largest = counts.values().max()?;
-    let (&(sha256, rows), _) = counts.iter().find(|(_, count)| *count == largest)?;
-    Some((sha256.to_owned(), rows))
+    of.sort_unstable();
+    let most = of
+        .chunk_by(|a, b| a == b)
+        .rev()
+        .max_by_key(|same| same.len())?;
+    Some((most[0].0.clone(), most[0].1))
 }

@@ -146,30 +146,38 @@ pub fn json_report(scene: &Scene, outcome: &Outcome, wall_s: f64) -> Value {
     let table = used.and_then(|used| used.table.as_ref());
     let time_s = &outcome.series.time_s;
     let section = outcome.section.as_ref();
-    let head = json!({
-        "model": choices.model,
-        "scheme": choices.scheme,
-        "static_share": choices.static_share,
-        "deflection": choices.deflection,
-        "reason": choices.reason,
-        "kernel": kernel_name(outcome),
-        "kernel_reason": used.map_or("", |used| &used.reason),
-        "convolution": used.map_or("", |used| used.convolution.name()),
-        "table_id": table.map(|[id, _]| id),
-        "steps": time_s.len().saturating_sub(1),
-        "step_s": outcome.step_s(),
-    });
+    let head = [
+        ("model", json!(choices.model)),
+        ("scheme", json!(choices.scheme)),
+        ("static_share", json!(choices.static_share)),
+        ("deflection", json!(choices.deflection)),
+        ("reason", json!(choices.reason)),
+        ("kernel", json!(kernel_name(outcome))),
+        ("kernel_reason", json!(used.map_or("", |used| &used.reason))),
+        (
+            "convolution",
+            json!(used.map_or("", |used| used.convolution.name())),
+        ),
+        ("table_id", json!(table.map(|[id, _]| id))),
+        ("steps", json!(time_s.len().saturating_sub(1))),
+        ("step_s", json!(outcome.step_s())),
+    ];
     let treated = treatment(scene).into_iter();
     let treated: Map<_, _> = treated
         .map(|(name, x)| (name.to_owned(), x.into()))
         .collect();
-    let tail = json!({
-        "probes": outcome.probes.as_ref().map_or(0, |fields| fields.r_m.len()),
-        "map": section.map(|s| [s.time_s.len(), s.z_m.len(), s.r_m.len()]),
-        "wall_s": wall_s,
-        "warnings": outcome.warnings,
-        "force_treatment": (!treated.is_empty()).then_some(treated),
-    });
+    let probes = outcome.probes.as_ref().map_or(0, |fields| fields.r_m.len());
+    let map = section.map(|s| [s.time_s.len(), s.z_m.len(), s.r_m.len()]);
+    let tail = [
+        ("probes", json!(probes)),
+        ("map", json!(map)),
+        ("wall_s", json!(wall_s)),
+        ("warnings", json!(outcome.warnings)),
+        (
+            "force_treatment",
+            json!((!treated.is_empty()).then_some(treated)),
+        ),
+    ];
     let quantities = QUANTITIES.iter().map(|quantity| {
         let value = quantity
             .of(outcome)
@@ -177,19 +185,10 @@ pub fn json_report(scene: &Scene, outcome: &Outcome, wall_s: f64) -> Value {
                 Kind::Real => Value::from(x),
                 Kind::Count => Value::from(x as u64),
             });
-        (quantity.name.to_owned(), value)
+        (quantity.name, value)
     });
-    let pairs = |value: Value| match value {
-        Value::Object(map) => map,
-        _ => Map::new(),
-    };
-    Value::Object(
-        pairs(head)
-            .into_iter()
-            .chain(quantities)
-            .chain(pairs(tail))
-            .collect(),
-    )
+    let all = head.into_iter().chain(quantities).chain(tail);
+    Value::Object(all.map(|(name, value)| (name.to_owned(), value)).collect())
 }
 
 /// A material with its wave speeds.

@@ -98,11 +98,13 @@ fn blocks_are_those_that_were_written() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("part.parquet");
     let mut spec = spec();
-    spec.fields = Fields::of_names(&["restitution", "yield_onset"], Precision::Double).unwrap();
+    spec.fields = Fields::default()
+        .only(&["restitution", "yield_onset"])
+        .unwrap();
     write(&path, &spec, Some(30_000..170_000), 32_768);
     let stored = StoredPart::open(&path).unwrap();
     assert_eq!(stored.part.fields, spec.fields);
-    assert_eq!(stored.part.sha256, spec.sha256());
+    assert_eq!(stored.part.sha256, spec.sha256);
     let computed = rows(&spec, 30_000..170_000, 140_000).remove(0);
     let (mut row, mut failed) = (0, 0);
     stored

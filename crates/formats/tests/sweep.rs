@@ -4,9 +4,9 @@
 
 use contact::{Choice, Model};
 use formats::sweep::{
-    BLOCK, Block, Rows, Spec, compute_rows, is_computed, run_rows, schema, write_csv, write_sweep,
+    BLOCK, Block, Rows, Spec, compute_rows, is_computed, run_rows, schema, stage_csv, stage_rows,
 };
-use formats::{Existing, QUANTITIES, parse_scene};
+use formats::{Existing, Output, QUANTITIES, parse_scene};
 use impact::{KernelChoice, simulate};
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -96,8 +96,12 @@ fn a_failed_scene_is_a_row_with_a_reason() {
     assert!(reasons[1].contains("striker.density_kg_m3 = -7000"));
     let folder = tempfile::tempdir().unwrap();
     let (h5, csv) = (folder.path().join("s.h5"), folder.path().join("s.csv"));
-    write_sweep(&h5, &spec, &blocks, Existing::Keep).unwrap();
-    write_csv(&csv, &spec, &blocks, Existing::Keep).unwrap();
+    let output = |path| Output::claim(path, Existing::Keep).unwrap();
+    let (rows, text) = (output(&h5), output(&csv));
+    let staged = stage_rows(&rows, &spec, None, &blocks).unwrap();
+    staged.commit().unwrap();
+    let staged = stage_csv(&text, &spec, &blocks).unwrap();
+    staged.commit().unwrap();
     let text = std::fs::read_to_string(csv).unwrap();
     let lines: Vec<&str> = text.lines().collect();
     assert_eq!(lines.len(), 4);

@@ -10,7 +10,7 @@ use thiserror::Error;
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum DomainError {
     /// A number outside its range; NaN is outside every range.
-    #[error("{argument} = {value} is outside {range}")]
+    #[error("{argument} = {} is outside {range}", fault::number(*value))]
     Range {
         /// Name of the argument.
         argument: &'static str,

@@ -116,8 +116,7 @@ impl Kernel {
     /// # Errors
     /// [`DomainError`] for r or z outside [0, 1e20], at a point force itself and at the edge of a punch.
     pub fn static_field(&self, r: f64, z: f64) -> Result<Six, DomainError> {
-        check_place_under(self.profile(), r, z)?;
-        Ok(statics::static_field(self.medium(), self.profile(), r, z))
+        self.medium().static_field(self.profile(), r, z)
     }
 
     /// R(r,z,t): the step response less the static field.

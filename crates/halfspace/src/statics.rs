@@ -9,6 +9,8 @@
 //!
 //! Theory: `docs/theory.md` (T15).
 
+use crate::domain::check_place_under;
+use crate::error::DomainError;
 use crate::field::Six;
 use crate::huber;
 use crate::medium::Medium;
@@ -22,6 +24,17 @@ pub(crate) fn static_field(medium: &Medium, profile: Profile, r: f64, z: f64) ->
     match profile {
         Profile::Hertz => huber::static_field(medium.poisson_ratio(), r, z),
         Profile::Punch | Profile::Point => by_potentials(medium, profile, r, z),
+    }
+}
+
+impl Medium {
+    /// The static fields under a unit force: those of [`Kernel::static_field`](crate::Kernel::static_field).
+    ///
+    /// # Errors
+    /// As there.
+    pub fn static_field(&self, profile: Profile, r: f64, z: f64) -> Result<Six, DomainError> {
+        check_place_under(profile, r, z)?;
+        Ok(static_field(self, profile, r, z))
     }
 }
 

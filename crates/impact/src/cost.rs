@@ -10,11 +10,11 @@ use crate::excitation::{Excitation, PressureRadius};
 use crate::grid::Grid;
 use crate::kernels::KernelSource;
 use crate::scene::{Probe, Scene, Section};
-use halfspace::{Deflection, SurfaceResponse};
 
-/// What any output takes, and the opening of a table.
+/// What any output takes, the opening of a table, and a byte of what is decoded of it.
 const OUTPUT_S: f64 = 1.4e-2;
-const TABLE_S: f64 = 6e-2;
+const TABLE_S: f64 = 1e-2;
+const DECODED_S: f64 = 2.7e-9;
 
 /// A kernel beside a disc, and one of the smaller discs of a contact that follows its load, which are farther.
 const KERNEL_S: f64 = 7e-6;
@@ -89,13 +89,12 @@ impl<'a> Cost<'a> {
         OUTPUT_S + points_s
     }
 
-    /// The same with kernels that are looked up.
+    /// The same with kernels that are looked up in a table that is in memory.
     pub(crate) fn looked_up_s(&self) -> f64 {
         let discs = Discs::looked_up(self.excitation.radius())[0].radii.len() as f64;
-        let points_s = self.sum(|wanted| {
+        self.sum(|wanted| {
             discs * (self.cells * LOOKED_UP_S + (1.0 + self.rates) * self.convolved_s(wanted))
-        });
-        TABLE_S + points_s
+        })
     }
 
     fn convolved_s(&self, wanted: f64) -> f64 {
@@ -189,8 +188,9 @@ impl Forecast {
         threads: usize,
     ) -> Result<Self, ImpactError> {
         let samples = grid.count() as f64;
-        let response = SurfaceResponse::new(excitation.medium(), Deflection::Centre);
-        let cells = response.memory() * excitation.units().time_s() / grid.step_s;
+        // as long as a Rayleigh wave takes from the edge to the centre
+        let memory_s = excitation.units().time_s() / excitation.medium().rayleigh_speed();
+        let cells = memory_s / grid.step_s;
         let products = samples * cells.min(samples);
         if products > MOST_PRODUCTS {
             return Err(ImpactError::TooMuchWork {
@@ -201,13 +201,16 @@ impl Forecast {
             });
         }
         let cost = Cost::new(scene, excitation, samples);
-        let fields_s = match source {
-            None => 0.0,
-            Some(KernelSource::Direct(_)) => cost.computed_s(),
-            Some(KernelSource::Table(_)) => cost.looked_up_s(),
+        let (loaded_s, fields_s) = match source {
+            None => (0.0, 0.0),
+            Some(KernelSource::Direct(_)) => (0.0, cost.computed_s()),
+            Some(KernelSource::Table(table)) => {
+                let decoded = table.decoded_bytes() as f64;
+                (TABLE_S + DECODED_S * decoded, cost.looked_up_s())
+            }
         };
         Ok(Self {
-            seconds: fields_s / threads as f64 + products * PRODUCT_S,
+            seconds: loaded_s + fields_s / threads as f64 + products * PRODUCT_S,
             ..Self::of(scene, samples, threads)
         })
     }

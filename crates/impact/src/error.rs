@@ -113,7 +113,8 @@ pub enum ImpactError {
     NoDisc,
     /// A disc so large beside the record that only rounding would be left.
     #[error(
-        "disc_radius_m = {radius_m} is outside (0, {largest_m:.3e}]: waves cross too little of a larger disc while the record lasts"
+        "disc_radius_m = {} is outside (0, {largest_m:.3e}]: waves cross too little of a larger disc while the record lasts",
+        fault::number(*radius_m)
     )]
     TooWide {
         /// Radius of the disc in m.

@@ -22,7 +22,7 @@ const FRAME: u64 = 8 + 8;
 const FLUSH: Duration = Duration::from_secs(5);
 
 /// What a journal is of.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Title {
     /// What is done, such as `sweep`.
     pub kind: &'static str,
@@ -145,17 +145,10 @@ impl Journal {
             path: journal.path.clone(),
             source,
         };
-        let other = |path| JournalError::Other {
-            kind: title.kind,
-            path,
-        };
-        let earlier = Title {
-            kind: title.kind,
-            identity: String::new(),
-            about: String::new(),
-        };
-        let found = Records::read(journal.file.try_clone().map_err(unreadable)?, title.kind);
-        match found.map_err(unreadable)? {
+        let kind = title.kind;
+        let opened = journal.file.try_clone();
+        let found = opened.and_then(|file| Records::read(file, kind));
+        let other = match found.map_err(unreadable)? {
             Some(mut records) if records.title == *title => {
                 journal.end = records.at;
                 while let Some((record, kept)) = records.next() {
@@ -169,16 +162,18 @@ impl Journal {
                     .map_err(unreadable)?;
                 return Ok(journal);
             }
-            Some(records) if !drops(&records.title) => {
-                return Err(other(journal.path));
-            }
-            Some(_) => {}
+            Some(records) => Some(records.title),
             None => match without_title(&journal.file, title).map_err(unreadable)? {
-                Some(false) => {}
-                Some(true) if drops(&earlier) => {}
-                Some(true) => return Err(other(journal.path)),
+                Some(earlier) => earlier.then(|| Title {
+                    kind,
+                    ..Title::default()
+                }),
                 None => return Err(JournalError::Strange { path: journal.path }),
             },
+        };
+        if other.is_some_and(|other| !drops(&other)) {
+            let path = journal.path;
+            return Err(JournalError::Other { kind, path });
         }
         let emptied = journal.file.set_len(0);
         emptied

@@ -1,8 +1,8 @@
 //! The error estimate of a looked-up response, from errors measured off the grid.
 
-use crate::content::{Between, Content, FIELDS, Role, Verification};
+use crate::content::{Between, Content, FIELDS, Verification};
 use crate::error::LookupError;
-use crate::ratio::ratio_coordinate;
+use crate::ratio::{self, ratio_coordinate};
 use crate::table::Table;
 use halfspace::{DomainError, Six};
 use std::ops::Range;
@@ -78,8 +78,8 @@ impl Table {
             });
         }
         let content = self.content();
-        let mesh = self.mesh(r, z)?;
-        let slices = self.slice_weights(poisson_ratio)?;
+        let mesh = self.mesh([r, z])?;
+        let slices = ratio::weights(&self.served, poisson_ratio)?;
         let (lower, fraction) = bracket(&content.pulse_lengths, pulse_length);
         let upper = (lower + 1).min(content.pulse_lengths.len() - 1);
         let (short, long) = (
@@ -96,15 +96,16 @@ impl Table {
         &self,
         poisson_ratio: f64,
         point: [f64; 2],
-        mesh: (usize, usize),
+        mesh: [usize; 2],
         slices: &[(usize, f64)],
         pulse: usize,
     ) -> Result<Six, LookupError> {
         let content = self.content();
         let mut error = [1e-12_f64; FIELDS];
-        let [columns, rows] = self.meshes();
-        let (across, down) = (around(mesh.0, columns), around(mesh.1, rows));
-        for index in beside(content, poisson_ratio, slices) {
+        let [columns, rows] = self.meshes;
+        let (across, down) = (around(mesh[0], columns), around(mesh[1], rows));
+        let beside = ratio::beside(&self.served, slices, poisson_ratio);
+        for &index in &beside[usize::from(beside[0] == beside[1])..] {
             let measured = Measured {
                 content,
                 probes: &content.slices[index].verification,
@@ -112,43 +113,26 @@ impl Table {
             };
             for (field, value) in error.iter_mut().enumerate() {
                 let most = SAFETY * measured.most(&across, &down, pulse, field);
-                let rounding = ROUNDING * measured.peak(mesh.0, mesh.1, pulse, field);
+                let rounding = ROUNDING * measured.peak(mesh[0], mesh[1], pulse, field);
                 *value = value.max(most).max(rounding);
             }
         }
         if slices.len() > 1 {
-            self.add_between(poisson_ratio, point, slices, pulse, &mut error)?;
+            let Some(between) = ratio::between(content, &self.served, poisson_ratio) else {
+                // Nothing was measured here, so nothing is known.
+                return Ok([f64::INFINITY; FIELDS]);
+            };
+            let coordinates = slices.iter().map(|&(i, _)| self.served[i].coordinate);
+            let added = Added::new(content, between, coordinates, poisson_ratio)?;
+            let places = added.around(point);
+            for (field, value) in error.iter_mut().enumerate() {
+                *value += added.most(&places, pulse, field);
+            }
         }
         if point[1] < SHALLOW * content.z[1] {
             error = error.map(|e| AT_SURFACE * e);
         }
         Ok(error)
-    }
-
-    fn add_between(
-        &self,
-        poisson_ratio: f64,
-        point: [f64; 2],
-        slices: &[(usize, f64)],
-        pulse: usize,
-        error: &mut Six,
-    ) -> Result<(), LookupError> {
-        let content = self.content();
-        let Some(between) = self.between(poisson_ratio) else {
-            // Nothing was measured here, so nothing is known.
-            *error = [f64::INFINITY; FIELDS];
-            return Ok(());
-        };
-        let coordinates: Vec<f64> = slices
-            .iter()
-            .map(|&(index, _)| self.coordinate(index))
-            .collect();
-        let added = Added::new(content, between, &coordinates, poisson_ratio)?;
-        let places = added.around(point);
-        for (field, value) in error.iter_mut().enumerate() {
-            *value += added.most(&places, pulse, field);
-        }
-        Ok(())
     }
 }
 
@@ -164,13 +148,12 @@ impl<'a> Added<'a> {
     pub(crate) fn new(
         content: &'a Content,
         between: &'a Between,
-        coordinates: &[f64],
+        coordinates: impl Iterator<Item = f64>,
         poisson_ratio: f64,
     ) -> Result<Self, DomainError> {
         let place = ratio_coordinate(poisson_ratio)?;
         let middle = ratio_coordinate(between.poisson_ratio)?;
         let polynomial: f64 = coordinates
-            .iter()
             .map(|node| (place - node) / (middle - node))
             .product();
         Ok(Self {
@@ -201,18 +184,6 @@ impl<'a> Added<'a> {
     ) -> f64 {
         SAFETY_BETWEEN * self.polynomial * self.measured.most(across, down, pulse, field)
     }
-}
-
-/// The tabulated slice itself, or the two of the grid beside a ratio.
-fn beside(content: &Content, poisson_ratio: f64, slices: &[(usize, f64)]) -> Vec<usize> {
-    if let [(index, _)] = slices {
-        return vec![*index];
-    }
-    let grid = |index: &usize| content.slices[*index].role == Role::Grid;
-    let above = |index: &usize| content.slices[*index].poisson_ratio > poisson_ratio;
-    let all = || (0..content.slices.len()).filter(grid);
-    let low = all().rfind(|index| !above(index));
-    low.into_iter().chain(all().find(above)).collect()
 }
 
 /// A mesh and its neighbours, of `count` meshes.

@@ -98,7 +98,7 @@ pub struct Slice {
     pub moment: Vec<f32>,
     /// Second moments (1/width^3) int R ((t - t_mid)^2 - width^2/12) dt of the cells, shape (r, z, field, time).
     pub curvature: Vec<f32>,
-    /// Coefficients of the tail, shape (r, z, field, term); see [`crate::Tail`].
+    /// Coefficients of the tail, shape (r, z, field, term); see `docs/theory.md` (T21).
     pub tail: Vec<f32>,
     /// What was measured off the grid.
     pub verification: Verification,

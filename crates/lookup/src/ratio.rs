@@ -1,13 +1,14 @@
 //! Interpolation across Poisson's ratio.
 
 use crate::content::{Between, Content, Role};
+use crate::error::LookupError;
 use crate::series::stencil::{Stencil, locate};
 use halfspace::{DomainError, Medium};
 
 /// Slices that take part.
 const POINTS: usize = 8;
 /// Two ratios closer than this are the same slice.
-pub(crate) const SAME: f64 = 1e-12;
+const SAME: f64 = 1e-12;
 /// Poisson's ratio whose cells have the width that a table states.
 const REFERENCE: f64 = 0.3;
 
@@ -56,36 +57,48 @@ impl Served {
 
 /// Slices of `slices` that serve a Poisson ratio, with their weights: one if it is tabulated, else Lagrange's.
 ///
-/// `None` outside the slices that interpolate, and for NaN.
+/// # Errors
+/// [`LookupError::Outside`] outside the slices that interpolate, and for NaN.
 pub(crate) fn weights(
     slices: &[Served],
     poisson_ratio: f64,
-) -> Result<Option<Vec<(usize, f64)>>, DomainError> {
+) -> Result<Vec<(usize, f64)>, LookupError> {
     let same = |slice: &Served| (slice.ratio - poisson_ratio).abs() < SAME;
     if let Some(index) = slices.iter().position(same) {
-        return Ok(Some(vec![(index, 1.0)]));
+        return Ok(vec![(index, 1.0)]);
     }
     let grid: Vec<usize> = (0..slices.len())
         .filter(|&i| slices[i].role == Role::Grid)
         .collect();
-    let inside = match (grid.first(), grid.last()) {
-        (Some(&first), Some(&last)) => {
-            poisson_ratio > slices[first].ratio && poisson_ratio < slices[last].ratio
-        }
-        _ => false,
-    };
-    if !inside {
-        return Ok(None);
-    }
+    let end = |index: Option<&usize>| index.map_or(f64::NAN, |&i| slices[i].ratio);
+    let (min, max) = (end(grid.first()), end(grid.last()));
     let coordinates: Vec<f64> = grid.iter().map(|&i| slices[i].coordinate).collect();
-    // The ends are checked above; rounding of the coordinate must not take the point outside.
+    if !(poisson_ratio > min && poisson_ratio < max) {
+        return Err(LookupError::Outside {
+            axis: "poisson_ratio",
+            value: poisson_ratio,
+            min,
+            max,
+        });
+    }
+    // rounding of the coordinate must not take the point outside
     let place =
         ratio_coordinate(poisson_ratio)?.clamp(coordinates[0], coordinates[coordinates.len() - 1]);
-    Ok(locate(&coordinates, place).map(|interval| {
-        let stencil = Stencil::one_sided(&coordinates, interval, place, POINTS);
-        let nodes = stencil.nodes().iter().map(|&node| grid[node]);
-        nodes.zip(stencil.even().iter().copied()).collect()
-    }))
+    let interval = locate(&coordinates, place).unwrap_or(0);
+    let stencil = Stencil::one_sided(&coordinates, interval, place, POINTS);
+    let nodes = stencil.nodes().iter().map(|&node| grid[node]);
+    Ok(nodes.zip(stencil.even().iter().copied()).collect())
+}
+
+/// The slices beside a ratio, below and above, of those that serve it with weights: one that is tabulated twice.
+pub(crate) fn beside(
+    slices: &[Served],
+    weights: &[(usize, f64)],
+    poisson_ratio: f64,
+) -> [usize; 2] {
+    let above = weights.partition_point(|&(index, _)| slices[index].ratio <= poisson_ratio);
+    let index = |place: usize| weights[place.min(weights.len() - 1)].0;
+    [index(above.saturating_sub(1)), index(above)]
 }
 
 /// What was measured between the slices around a ratio.

@@ -1,11 +1,10 @@
 //! A kernel table in memory: validated once, immutable, shared by any number of threads.
 
-use crate::content::{Between, Content, Role};
+use crate::content::Content;
 use crate::error::{ContentError, LookupError};
-use crate::ratio::{self, Served, cell_scale};
+use crate::ratio::{Served, cell_scale};
 use crate::series::stencil::locate;
 use crate::{hash, validate};
-use halfspace::{Kernel, Medium, Profile};
 
 /// A loaded kernel table.
 ///
@@ -15,9 +14,12 @@ pub struct Table {
     content: Content,
     id: String,
     poisson_ratios: Vec<f64>,
-    served: Vec<Served>,
-    kernels: Vec<Kernel>,
-    meshes: [usize; 2],
+    /// The slices as far as Poisson's ratio goes.
+    pub(crate) served: Vec<Served>,
+    /// Meshes served in r and z: the first, and behind the last.
+    first: [usize; 2],
+    pub(crate) meshes: [usize; 2],
+    decoded_bytes: u64,
 }
 
 impl Table {
@@ -26,12 +28,17 @@ impl Table {
     /// # Errors
     /// [`ContentError`] when an axis does not ascend, a size does not fit or a value is not finite.
     pub fn new(content: Content) -> Result<Self, ContentError> {
-        validate::content(&content)?;
-        let kernels = content
-            .slices
-            .iter()
-            .map(|slice| Kernel::new(&Medium::new(slice.poisson_ratio)?, Profile::Hertz, 1e-6))
-            .collect::<Result<_, _>>()?;
+        validate::frame(&content)?;
+        Self::part(content, [0; 2], 0)
+    }
+
+    /// Accepts `content`, whose frame is valid, as a part that serves the meshes from the `first` on in r and z.
+    pub(crate) fn part(
+        content: Content,
+        first: [usize; 2],
+        decoded_bytes: u64,
+    ) -> Result<Self, ContentError> {
+        validate::slices(&content)?;
         let served = content
             .slices
             .iter()
@@ -39,7 +46,9 @@ impl Table {
             .collect::<Result<_, _>>()?;
         let meshes = content.probes().map(|places| places.len());
         Ok(Self {
+            first,
             meshes,
+            decoded_bytes,
             id: hash::settings_id(&content.origin.grid),
             poisson_ratios: content
                 .slices
@@ -47,7 +56,6 @@ impl Table {
                 .map(|slice| slice.poisson_ratio)
                 .collect(),
             served,
-            kernels,
             content,
         })
     }
@@ -62,6 +70,12 @@ impl Table {
     #[must_use]
     pub fn format_version(&self) -> &str {
         &self.content.origin.format_version
+    }
+
+    /// Bytes of numbers that were decoded to load it as a part of a file: what loading took; 0 of any other table.
+    #[must_use]
+    pub fn decoded_bytes(&self) -> u64 {
+        self.decoded_bytes
     }
 
     /// Poisson ratios tabulated, ascending.
@@ -102,68 +116,27 @@ impl Table {
         self.content
     }
 
-    /// Slices that serve a Poisson ratio, with their weights.
-    pub(crate) fn slice_weights(
-        &self,
-        poisson_ratio: f64,
-    ) -> Result<Vec<(usize, f64)>, LookupError> {
-        ratio::weights(&self.served, poisson_ratio)?.ok_or_else(|| {
-            let grid = self.served.iter().filter(|slice| slice.role == Role::Grid);
-            let (min, max) = grid.fold((f64::NAN, f64::NAN), |(min, max), slice| {
-                (slice.ratio.min(min), slice.ratio.max(max))
-            });
-            LookupError::Outside {
-                axis: "poisson_ratio",
-                value: poisson_ratio,
-                min,
-                max,
-            }
-        })
-    }
-
-    /// Coordinate of slice `index` across Poisson's ratios.
-    pub(crate) fn coordinate(&self, index: usize) -> f64 {
-        self.served[index].coordinate
-    }
-
-    /// What was measured between the slices around a ratio.
-    pub(crate) fn between(&self, poisson_ratio: f64) -> Option<&Between> {
-        ratio::between(&self.content, &self.served, poisson_ratio)
-    }
-
-    /// The exact kernels of slice `index`.
-    pub(crate) fn kernel(&self, index: usize) -> &Kernel {
-        &self.kernels[index]
-    }
-
-    /// Numbers of meshes served in r and z.
-    pub(crate) fn meshes(&self) -> [usize; 2] {
-        self.meshes
-    }
-
     /// The mesh that holds a point.
     ///
     /// # Errors
     /// [`LookupError::Outside`].
-    pub(crate) fn mesh(&self, r: f64, z: f64) -> Result<(usize, usize), LookupError> {
-        let [columns, rows] = self.meshes;
-        let i = locate(&self.content.r[..=columns], r);
-        let k = locate(&self.content.z[..=rows], z);
-        i.zip(k).ok_or_else(|| self.outside(r, z))
-    }
-
-    /// The error of a point outside: axis, value and range.
-    fn outside(&self, r: f64, z: f64) -> LookupError {
-        let (axis, value, max) = if r >= 0.0 && r <= self.r_max() {
-            ("z/r0", z, self.z_max())
-        } else {
-            ("r/r0", r, self.r_max())
-        };
-        LookupError::Outside {
-            axis,
-            value,
-            min: 0.0,
-            max,
+    pub(crate) fn mesh(&self, [r, z]: [f64; 2]) -> Result<[usize; 2], LookupError> {
+        let content = &self.content;
+        let mut mesh = [0; 2];
+        for (axis, (name, nodes, value)) in [("r/r0", &content.r, r), ("z/r0", &content.z, z)]
+            .into_iter()
+            .enumerate()
+        {
+            let (first, last) = (self.first[axis], self.meshes[axis]);
+            let found = locate(&nodes[first..=last], value);
+            mesh[axis] = first
+                + found.ok_or(LookupError::Outside {
+                    axis: name,
+                    value,
+                    min: nodes[first],
+                    max: nodes[last],
+                })?;
         }
+        Ok(mesh)
     }
 }

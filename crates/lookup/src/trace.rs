@@ -2,12 +2,13 @@
 
 use crate::content::{FIELDS, Slice};
 use crate::error::LookupError;
-use crate::series::gather::{Node, gather, nodes};
+use crate::ratio;
+use crate::series::gather::{gather, nodes};
 use crate::series::smooth;
 use crate::series::stencil::Stencil;
 use crate::series::{Moments, Numbers, Series, Smoothness};
 use crate::table::Table;
-use halfspace::{Kernel, Medium, Profile, Six};
+use halfspace::{Medium, Profile, Six};
 
 /// Largest coarsening: a cell of 2^20 table cells.
 const MAX_COARSENING: u32 = 20;
@@ -126,7 +127,7 @@ impl Table {
         let table_cells = (count as f64 * width / plan.width).ceil() as usize;
         let series = plan.series(&across, &down, table_cells);
         Ok((
-            plan.kernel.static_field(r, z)?,
+            plan.medium.static_field(Profile::Hertz, r, z)?,
             series.moments(width, count),
         ))
     }
@@ -143,19 +144,12 @@ impl Table {
                 max: MAX_COARSENING,
             });
         }
-        let slices = self.slice_weights(poisson_ratio)?;
-        let kernel = match slices.as_slice() {
-            [(index, _)] => self.kernel(*index).clone(),
-            // Only its static field is used, which is closed form.
-            _ => Kernel::new(&Medium::new(poisson_ratio)?, Profile::Hertz, 1e-2)?,
-        };
         Ok(Plan {
             table: self,
             smoothness,
-            poisson_ratio,
+            medium: Medium::new(poisson_ratio)?,
             coarsening,
-            slices,
-            kernel,
+            slices: ratio::weights(&self.served, poisson_ratio)?,
             width: self.cell_width(poisson_ratio)?,
         })
     }
@@ -165,21 +159,20 @@ impl Table {
 struct Plan<'a> {
     table: &'a Table,
     smoothness: Smoothness,
-    poisson_ratio: f64,
+    medium: Medium,
     coarsening: u32,
     slices: Vec<(usize, f64)>,
-    kernel: Kernel,
     width: f64,
 }
 
 impl Plan<'_> {
     fn trace(&self, [r, z]: [f64; 2], cells: &mut [Six]) -> Result<TraceInfo, LookupError> {
         let (across, down) = self.stencils([r, z])?;
-        let static_part = self.kernel.static_field(r, z)?;
+        let static_part = self.medium.static_field(Profile::Hertz, r, z)?;
         let cell_width = self.width * f64::from(1_u32 << self.coarsening);
         let error = self
             .table
-            .error(self.poisson_ratio, r, z, 10.0 * cell_width)?;
+            .error(self.medium.poisson_ratio(), r, z, 10.0 * cell_width)?;
         self.series(&across, &down, cells.len())
             .fill(self.smoothness, self.coarsening, cells);
         Ok(TraceInfo {
@@ -189,13 +182,13 @@ impl Plan<'_> {
         })
     }
 
-    fn stencils(&self, [r, z]: [f64; 2]) -> Result<(Stencil, Stencil), LookupError> {
+    fn stencils(&self, place: [f64; 2]) -> Result<(Stencil, Stencil), LookupError> {
         let content = self.table.content();
         let points = content.stencil_points;
-        let mesh = self.table.mesh(r, z)?;
+        let mesh = self.table.mesh(place)?;
         Ok((
-            Stencil::mirrored(&content.r, mesh.0, r, points),
-            Stencil::one_sided(&content.z, mesh.1, z, points),
+            Stencil::mirrored(&content.r, mesh[0], place[0], points),
+            Stencil::one_sided(&content.z, mesh[1], place[1], points),
         ))
     }
 
@@ -215,28 +208,20 @@ impl Plan<'_> {
         let sum = |values: fn(&Slice) -> &[f32], length: usize, used: usize| {
             let mut sums = vec![0.0; FIELDS * used];
             for &(index, weight) in &self.slices {
-                let nodes: Vec<Node> = nodes(across, down, content.z.len(), weight).collect();
-                gather(
-                    values(&content.slices[index]),
-                    length,
-                    &nodes,
-                    used,
-                    &mut sums,
-                );
+                let nodes: Vec<_> = nodes(across, down, content.z.len(), weight).collect();
+                let values = values(&content.slices[index]);
+                gather(values, length, &nodes, used, &mut sums);
             }
             sums
         };
-        let (moments, curvatures) = match self.smoothness {
-            Smoothness::Linear => (Vec::new(), Vec::new()),
-            Smoothness::Smooth => (
-                sum(|slice| &slice.moment, cells, stored),
-                sum(|slice| &slice.curvature, cells, stored),
-            ),
+        let in_cells = match self.smoothness {
+            Smoothness::Linear => 0,
+            Smoothness::Smooth => stored,
         };
         let numbers = Numbers {
             averages: sum(|slice| &slice.remainder, cells, stored),
-            moments,
-            curvatures,
+            moments: sum(|slice| &slice.moment, cells, in_cells),
+            curvatures: sum(|slice| &slice.curvature, cells, in_cells),
             tail: sum(|slice| &slice.tail, terms, terms),
         };
         Series::new(self.width, cells, numbers)

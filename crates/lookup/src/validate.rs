@@ -8,15 +8,6 @@ use crate::series::stencil::MAX_POINTS;
 /// Cells outside this are those of no table.
 const CELL_WIDTHS: [f64; 2] = [1e-4, 1e2];
 
-/// Checks everything.
-///
-/// # Errors
-/// [`ContentError`] with the first item that is wrong.
-pub(crate) fn content(content: &Content) -> Result<(), ContentError> {
-    frame(content)?;
-    slices(content)
-}
-
 /// Checks what a slice is read and interpolated by: axes, stencil, pulses, and what lies between slices.
 pub(crate) fn frame(content: &Content) -> Result<(), ContentError> {
     axis("r", &content.r)?;
@@ -73,14 +64,18 @@ fn between(content: &Content) -> Result<(), ContentError> {
 }
 
 /// Checks the slices against the axes and against each other.
-fn slices(content: &Content) -> Result<(), ContentError> {
+pub(crate) fn slices(content: &Content) -> Result<(), ContentError> {
     let Some(first) = content.slices.first() else {
         return Err(shape("slices", 1, 0));
     };
     let ratios: Vec<f64> = content.slices.iter().map(|s| s.poisson_ratio).collect();
     ascending("poisson_ratio", &ratios)?;
     for slice in &content.slices {
-        same_size(content, slice, size(content, first))?;
+        same_size(
+            slice.poisson_ratio,
+            size(content, slice),
+            size(content, first),
+        )?;
         fits(content, slice)?;
         finite(content, slice)?;
     }
@@ -88,38 +83,36 @@ fn slices(content: &Content) -> Result<(), ContentError> {
 }
 
 /// Numbers of cells and of terms of a slice.
-pub(crate) fn size(content: &Content, slice: &Slice) -> [usize; 2] {
+fn size(content: &Content, slice: &Slice) -> [usize; 2] {
     let nodes = content.r.len() * content.z.len();
     [slice.cells, slice.tail_terms(nodes)]
 }
 
-/// Checks that a slice has as many cells and terms as `needed`: slices are interpolated cell by cell and term by term.
+/// Checks that the slice of a ratio has as many cells and terms as `needed`: slices are interpolated cell by cell and term
+/// by term.
 pub(crate) fn same_size(
-    content: &Content,
-    slice: &Slice,
+    poisson_ratio: f64,
+    size: [usize; 2],
     needed: [usize; 2],
 ) -> Result<(), ContentError> {
     let names = [schema::TIME, schema::TERM];
-    for ((name, found), needed) in names.into_iter().zip(size(content, slice)).zip(needed) {
+    for ((name, found), needed) in names.into_iter().zip(size).zip(needed) {
         if found != needed.max(1) {
-            return Err(shape(
-                format!("{}/{name}", group(slice)),
-                needed.max(1),
-                found,
-            ));
+            let item = format!("{}/{name}", group(poisson_ratio));
+            return Err(shape(item, needed.max(1), found));
         }
     }
     Ok(())
 }
 
-/// Path of the group of a slice.
-fn group(slice: &Slice) -> String {
-    format!("slices/{}", schema::slice_name(slice.poisson_ratio))
+/// Path of the group of the slice of a ratio.
+pub(crate) fn group(poisson_ratio: f64) -> String {
+    format!("slices/{}", schema::slice_name(poisson_ratio))
 }
 
 /// Checks a slice as far as it is indexed by: the lengths of its lists, and what was measured.
-pub(crate) fn fits(content: &Content, slice: &Slice) -> Result<(), ContentError> {
-    let group = group(slice);
+fn fits(content: &Content, slice: &Slice) -> Result<(), ContentError> {
+    let group = group(slice.poisson_ratio);
     let nodes = content.r.len() * content.z.len();
     let [cells, terms] = size(content, slice);
     for ((dataset, list), each) in slice.lists().into_iter().zip([cells, cells, cells, terms]) {
@@ -138,14 +131,15 @@ fn finite(content: &Content, slice: &Slice) -> Result<(), ContentError> {
             let node = bad / (list.len() / nodes);
             let (i, k) = (node / content.z.len(), node % content.z.len());
             let place = format!("(r/r0 = {}, z/r0 = {})", content.r[i], content.z[k]);
-            let item = format!("{}/{dataset} {place}", group(slice));
+            let item = format!("{}/{dataset} {place}", group(slice.poisson_ratio));
             return Err(value(item, f64::from(list[bad]), "finite numbers"));
         }
     }
     Ok(())
 }
 
-fn probes(
+/// Checks what was measured at so many places.
+pub(crate) fn probes(
     content: &Content,
     group: &str,
     probes: &Verification,

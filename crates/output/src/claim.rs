@@ -208,14 +208,6 @@ fn same(one: &Path, other: &Path) -> io::Result<bool> {
     }
 }
 
-/// Checks, before any work, that a file can be written.
-///
-/// # Errors
-/// As [`Output::claim`].
-pub fn check(path: &Path, existing: Existing) -> Result<(), OutputError> {
-    Output::claim(path, existing).map(drop)
-}
-
 /// Writes a file through a closure that is given a name beside the final one.
 ///
 /// # Errors

@@ -84,12 +84,6 @@ pub enum OutputError {
 }
 
 impl OutputError {
-    /// Whether the same may succeed when it is tried again later.
-    #[must_use]
-    pub fn may_be_tried_again(&self) -> bool {
-        matches!(self, Self::Full { .. } | Self::Busy { .. })
-    }
-
     /// A place that cannot be written to.
     pub(crate) fn place(path: &Path, fault: impl Into<Fault>) -> Self {
         match Self::writing(path, fault) {
@@ -113,21 +107,15 @@ impl OutputError {
 
 impl fault::Fault for OutputError {
     fn culprit(&self) -> Culprit<'_> {
-        let (class, path) = match self {
-            Self::Exists { path } => (Class::Exists, path),
+        let (class, remedy, path) = match self {
+            Self::Exists { path } => (Class::Exists, Remedy::Change, path),
+            Self::Failed { path, .. } => (Class::Output, Remedy::Unknown, path),
+            Self::Full { path, .. } | Self::Busy { path } => (Class::Output, Remedy::Wait, path),
             Self::Unwritable { path, .. }
-            | Self::Failed { path, .. }
-            | Self::Full { path, .. }
-            | Self::Busy { path }
             | Self::Ending { path, .. }
             | Self::Unbuilt { path, .. }
             | Self::Input { output: path, .. }
-            | Self::Twice { first: path, .. } => (Class::Output, path),
-        };
-        let remedy = match self {
-            Self::Failed { .. } => Remedy::Unknown,
-            again if again.may_be_tried_again() => Remedy::Wait,
-            _ => Remedy::Change,
+            | Self::Twice { first: path, .. } => (Class::Output, Remedy::Change, path),
         };
         Culprit {
             remedy,

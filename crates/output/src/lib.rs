@@ -27,10 +27,10 @@ mod place;
 mod room;
 mod temporary;
 
-pub use claim::{Existing, Output, Staged, check, write_whole};
+pub use claim::{Existing, Output, Staged, write_whole};
 pub use ending::{CSV, Ending, HDF5, PARQUET, ROWS, SHARD, TABLE};
 pub use error::{Fault, OutputError};
 pub use folder::{Folder, NewFile};
 pub use place::{Role, apart, behind, is_standard};
-pub use room::{free_disk, free_memory};
+pub use room::{free_disk, free_memory, processor_s};
 pub use temporary::abandon;

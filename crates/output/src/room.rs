@@ -1,4 +1,4 @@
-//! What the machine has left.
+//! What the machine has left, and what it has given.
 
 use crate::place::folder;
 use std::fs;
@@ -25,6 +25,19 @@ pub fn free_disk(path: &Path) -> Option<f64> {
         return Some(disk.f_bavail as f64 * disk.f_frsize as f64);
     }
     let _ = folder(path);
+    None
+}
+
+/// Seconds of all threads that the processor has spent on this process, where the system says so.
+#[must_use]
+pub fn processor_s() -> Option<f64> {
+    #[cfg(unix)]
+    {
+        use rustix::time::{ClockId, clock_gettime};
+        let spent = clock_gettime(ClockId::ProcessCPUTime);
+        Some(spent.tv_sec as f64 + 1e-9 * spent.tv_nsec as f64)
+    }
+    #[cfg(not(unix))]
     None
 }
 

@@ -2,7 +2,8 @@
 
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
-use output::{CSV, Existing, HDF5, Output, OutputError, Role, apart, check, write_whole};
+use fault::{Fault as _, Remedy};
+use output::{CSV, Existing, HDF5, Output, OutputError, Role, apart, write_whole};
 use std::io;
 use std::path::Path;
 
@@ -28,7 +29,7 @@ fn a_file_is_written_whole_or_not_at_all() {
         Err(io::Error::from_raw_os_error(28))
     };
     let refused = write_whole(&path, Existing::Keep, full).unwrap_err();
-    assert!(refused.may_be_tried_again());
+    assert_eq!(refused.culprit().remedy, Remedy::Wait);
     assert!(refused.to_string().contains("no space left"), "{refused}");
     assert!(names(folder.path()).is_empty());
 
@@ -57,10 +58,11 @@ fn one_run_at_a_time_and_nothing_of_a_dead_one_stays() {
     }
     let first = Output::claim(&path, Existing::Keep).unwrap();
     let second = Output::claim(&path, Existing::Replace).unwrap_err();
-    assert!(matches!(second, OutputError::Busy { .. }) && second.may_be_tried_again());
+    assert!(matches!(second, OutputError::Busy { .. }));
+    assert_eq!(second.culprit().remedy, Remedy::Wait);
     first.write(new).unwrap();
     drop(first);
-    check(&path, Existing::Replace).unwrap();
+    drop(Output::claim(&path, Existing::Replace).unwrap());
     let mut expected: Vec<String> = others.iter().map(ToString::to_string).collect();
     expected.push("a.h5".to_owned());
     expected.sort();
@@ -116,7 +118,7 @@ fn links_are_written_through_and_permissions_kept() {
     assert!(matches!(second, OutputError::Busy { .. }), "{second}");
     drop(first);
     symlink("loop", at("loop")).unwrap();
-    let looped = check(&at("loop"), Existing::Replace).unwrap_err();
+    let looped = Output::claim(&at("loop"), Existing::Replace).unwrap_err();
     assert!(looped.to_string().contains("link"), "{looped}");
 }
 
@@ -144,7 +146,7 @@ fn what_is_no_file_is_refused_even_to_be_replaced() {
         for existing in [Existing::Keep, Existing::Replace] {
             let refused = write_whole(path, existing, new).unwrap_err();
             assert!(refused.to_string().contains(words), "{refused}");
-            assert!(!refused.may_be_tried_again());
+            assert_ne!(refused.culprit().remedy, Remedy::Wait);
         }
     }
 }

@@ -86,14 +86,8 @@ impl Numbers {
     }
 
     pub(crate) fn of(runs: &Runs) -> Result<Self, AnyError> {
-        let mut here = table_1()?;
-        here.extend(hertz(runs));
-        here.extend(converged(runs));
-        here.extend(of_contact(&runs.scheme, &runs.hertz_printed));
-        here.extend(strengths(&runs.table_1));
-        here.extend(arrivals()?);
         Ok(Self {
-            sections: sections(here),
+            sections: sections(here(runs)?),
             remarks: remarks(runs)?,
         })
     }
@@ -227,8 +221,8 @@ fn sections(here: Vec<f64>) -> Vec<Section> {
     sections
 }
 
-/// Wave speeds and Lame's constants from Young's modulus, Poisson's ratio and density.
-fn table_1() -> Result<Vec<f64>, AnyError> {
+/// Our numbers, in the order of what is printed.
+fn here(runs: &Runs) -> Result<Vec<f64>, AnyError> {
     let mut here = Vec::new();
     for name in ["copper", "steel"] {
         let material = Material::named(name)?;
@@ -240,22 +234,37 @@ fn table_1() -> Result<Vec<f64>, AnyError> {
             mu / 1e9,
         ]);
     }
-    Ok(here)
-}
 
-/// (45)-(47).
-fn hertz(runs: &Runs) -> Vec<f64> {
-    let (table_1, printed) = (&runs.hertz_table_1, &runs.hertz_printed);
+    let alone = [&runs.hertz_table_1, &runs.hertz_printed];
+    here.extend(alone.map(|run| run.peak_force_n));
     // (47) with the factor 2.94 of the paper; exactly it is 2.9433
-    let rounded_us = |run: &Run| US * (run.contact_time_s * 2.94 / CONTACT_TIME);
-    vec![
-        table_1.peak_force_n,
-        printed.peak_force_n,
-        rounded_us(table_1),
-        rounded_us(printed),
-        kmax(printed.peak_force_n, RADIUS_M),
-        mean_pa(printed.peak_force_n, RADIUS_M) / NAMED_STRENGTH_PA,
-    ]
+    here.extend(alone.map(|run| US * (run.contact_time_s * 2.94 / CONTACT_TIME)));
+    let hertz_n = runs.hertz_printed.peak_force_n;
+    here.push(kmax(hertz_n, RADIUS_M));
+    here.push(mean_pa(hertz_n, RADIUS_M) / NAMED_STRENGTH_PA);
+
+    let table_1 = of_contact(&runs.table_1, &runs.hertz_table_1);
+    let printed = of_contact(&runs.printed, &runs.hertz_printed);
+    here.extend((0..3).flat_map(|i| [table_1[i], printed[i]]));
+    here.extend(&printed[3..]);
+    here.extend(of_contact(&runs.scheme, &runs.hertz_printed));
+
+    // what the conclusions say about strength, on the rod and on its mushroom of 6 mm
+    let peak_n = runs.table_1.peak_force_n;
+    let rod_pa = mean_pa(peak_n, RADIUS_M);
+    here.extend([1e9, 1.2e9, STRENGTH_PA].map(|strength_pa| rod_pa / strength_pa));
+    here.push(mean_pa(peak_n, 0.006) / STRENGTH_PA);
+
+    let impact = coupled(TABLE_1_PA, RADIUS_M)?;
+    let block = anvil()?;
+    let medium = Medium::new(block.material().poisson_ratio)?;
+    let unit_us = US * RADIUS_M / block.longitudinal_speed_m_s();
+    for (r, z) in [(0.0, 1.0), (0.0, 3.0), (0.0, 5.0), (5.0, 0.0)] {
+        here.push(unit_us * Arrivals::new(&medium, Profile::Hertz, r, z)?.first());
+    }
+    let collision = Collision::new(&block, &impact.striker, impact.velocity_m_s);
+    here.push(1e3 * super_seismic(&block, &collision, RADIUS_M));
+    Ok(here)
 }
 
 /// Peak force, contact time, restitution, velocity of departure, Kmax, and the drop of the force against Hertz's.
@@ -268,40 +277,6 @@ fn of_contact(run: &Run, hertz: &Run) -> [f64; 6] {
         kmax(run.peak_force_n, RADIUS_M),
         100.0 * (1.0 - run.peak_force_n / hertz.peak_force_n),
     ]
-}
-
-fn converged(runs: &Runs) -> Vec<f64> {
-    let table_1 = of_contact(&runs.table_1, &runs.hertz_table_1);
-    let printed = of_contact(&runs.printed, &runs.hertz_printed);
-    let both = (0..3).flat_map(|i| [table_1[i], printed[i]]);
-    both.chain(printed[3..].iter().copied()).collect()
-}
-
-/// What the conclusions say about strength under impact, on the rod and on its mushroom of 6 mm.
-fn strengths(run: &Run) -> Vec<f64> {
-    let rod_pa = mean_pa(run.peak_force_n, RADIUS_M);
-    let mushroom_pa = mean_pa(run.peak_force_n, 0.006);
-    vec![
-        rod_pa / 1e9,
-        rod_pa / 1.2e9,
-        rod_pa / STRENGTH_PA,
-        mushroom_pa / STRENGTH_PA,
-    ]
-}
-
-/// Times of arrival, and the weight of the super-seismic stage.
-fn arrivals() -> Result<Vec<f64>, AnyError> {
-    let impact = coupled(TABLE_1_PA, RADIUS_M)?;
-    let block = anvil()?;
-    let medium = Medium::new(block.material().poisson_ratio)?;
-    let unit_us = US * RADIUS_M / block.longitudinal_speed_m_s();
-    let mut here = Vec::new();
-    for (r, z) in [(0.0, 1.0), (0.0, 3.0), (0.0, 5.0), (5.0, 0.0)] {
-        here.push(unit_us * Arrivals::new(&medium, Profile::Hertz, r, z)?.first());
-    }
-    let collision = Collision::new(&block, &impact.striker, impact.velocity_m_s);
-    here.push(1e3 * super_seismic(&block, &collision, RADIUS_M));
-    Ok(here)
 }
 
 /// What no row can hold, in sentences.

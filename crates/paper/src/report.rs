@@ -4,7 +4,7 @@ use crate::case::Runs;
 use crate::figures::{self, Claim, Redrawn};
 use crate::numbers::{Numbers, Row};
 use fault::AnyError;
-use figure::{Layer, to_png, to_svg};
+use figure::{Figure, Layer, to_png, to_svg};
 use output::{Folder, NewFile, OutputError};
 use std::path::Path;
 
@@ -61,9 +61,12 @@ impl Redone {
             let png = to_png(&redrawn.figure, SCALE).map_err(failed)?;
             files.push(NewFile::of(format!("{name}.svg"), svg));
             files.push(NewFile::of(format!("{name}.png"), png));
-            let columns = "abscissa ordinate curve x y";
-            let points = points(redrawn).into_iter();
-            files.push(csv_file(&format!("{name}.csv"), columns, points)?);
+            let (columns, points) = ("abscissa ordinate curve x y", points(&redrawn.figure));
+            files.push(csv_file(
+                &format!("{name}.csv"),
+                columns,
+                points.into_iter(),
+            )?);
         }
         Ok(folder.write(files)?)
     }
@@ -148,29 +151,21 @@ fn csv_file<const N: usize>(
 }
 
 /// The points of a figure's curves: times in s, lengths in m, forces in N, speeds in m/s.
-fn points(redrawn: &Redrawn) -> Vec<[String; 5]> {
+fn points(figure: &Figure) -> Vec<[String; 5]> {
     let mut points = Vec::new();
-    for panel in &redrawn.figure.panels {
-        let mut add = |name: &str, (x, y): (f64, f64)| {
-            let [abscissa, ordinate] = [&panel.x, &panel.y].map(|axis| axis.quantity.clone());
-            points.push([
-                abscissa,
-                ordinate,
-                name.to_owned(),
-                x.to_string(),
-                y.to_string(),
-            ]);
-        };
+    for panel in &figure.panels {
         for layer in &panel.layers {
-            match layer {
-                Layer::Line(line) => line.points.iter().for_each(|&at| add(&line.name, at)),
-                Layer::Point(point) => add("printed in the paper", (point.x, point.y)),
-                Layer::Band(_)
-                | Layer::Classes(_)
-                | Layer::Histogram(_)
-                | Layer::Image(_)
-                | Layer::Mark(_) => {}
-            }
+            let (name, found) = match layer {
+                Layer::Line(line) => (line.name.as_str(), line.points.clone()),
+                Layer::Point(point) => ("printed in the paper", vec![(point.x, point.y)]),
+                Layer::Classes(_) | Layer::Image(_) | Layer::Mark(_) => continue,
+            };
+            let names = [&panel.x.quantity, &panel.y.quantity, name];
+            let [abscissa, ordinate, name] = names.map(str::to_owned);
+            points.extend(found.into_iter().map(|(x, y)| {
+                let [x, y] = [x, y].map(|value| value.to_string());
+                [abscissa.clone(), ordinate.clone(), name.clone(), x, y]
+            }));
         }
     }
     points

@@ -5,7 +5,7 @@ use crate::impacts::{frames_of, of_impacts};
 use crate::request::{Drawn, Kind, Request};
 use crate::sweep::of_sweep;
 use crate::table::of_table;
-use figure::{ColourMap, Figure, Layer, Limits, Scale};
+use figure::{ColourMap, Figure, Layer, Scale};
 use formats::stored::{FileKind, StoredImpact, StoredSweep, file_kind};
 use std::path::PathBuf;
 
@@ -31,10 +31,11 @@ pub fn compose(paths: &[PathBuf], request: &Request) -> Result<Drawn, PlotError>
 }
 
 /// Shows what is asked for: limits, and sizes by their ratios; of colours where there are some, else of the y axis.
+/// Limits that are not above zero make a scale linear that a kind of picture chooses to be logarithmic.
 fn scale(figure: &mut Figure, request: &Request) -> Result<(), PlotError> {
     if let Some((low, high)) = request.limits {
         let refused = |why| {
-            let sentence = format!("the limits {low}:{high} are not those of a picture: {why}");
+            let sentence = format!("the limits {low:?}:{high:?} are not those of a picture: {why}");
             Err(PlotError::refused(None, sentence))
         };
         if !(low < high && high.is_finite()) {
@@ -51,6 +52,7 @@ fn scale(figure: &mut Figure, request: &Request) -> Result<(), PlotError> {
             return refused("it shows several quantities, choose one");
         }
     }
+    let is_linear = request.limits.is_some_and(|(low, _)| low <= 0.0);
     for panel in &mut figure.panels {
         let mut has_colours = false;
         for layer in &mut panel.layers {
@@ -59,27 +61,31 @@ fn scale(figure: &mut Figure, request: &Request) -> Result<(), PlotError> {
             };
             has_colours = true;
             if request.logarithmic {
-                if image.colours.map == ColourMap::Diverging {
+                if image.map == ColourMap::Diverging {
                     image.colours.quantity = format!("size of the {}", image.colours.quantity);
                     image
                         .values
                         .iter_mut()
                         .for_each(|value| *value = value.abs());
                 }
-                if image.colours.spread == Scale::Linear {
+                if image.colours.scale == Scale::Linear {
                     let largest = image.values.iter().copied().fold(0.0, f64::max);
-                    image.colours.limits = Limits::Between(1e-4 * largest, largest);
+                    image.colours.range = Some((1e-4 * largest, largest));
                 }
-                image.colours.map = ColourMap::Sequential;
-                image.colours.spread = Scale::Logarithmic;
+                image.map = ColourMap::Sequential;
+                image.colours.scale = Scale::Logarithmic;
             }
-            if let Some((low, high)) = request.limits {
-                image.colours.limits = Limits::Between(low, high);
+            if is_linear {
+                image.colours.scale = Scale::Linear;
             }
+            image.colours.range = request.limits.or(image.colours.range);
         }
         if !has_colours {
             if request.logarithmic {
                 panel.y.scale = Scale::Logarithmic;
+            }
+            if is_linear {
+                panel.y.scale = Scale::Linear;
             }
             panel.y.range = request.limits.or(panel.y.range);
         }

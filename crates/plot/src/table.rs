@@ -3,7 +3,7 @@
 use crate::error::PlotError;
 use crate::request::{Drawn, Request};
 use crate::words::{digits, of_quantity, stem};
-use figure::{Axis, ColourMap, ColourScale, Figure, Image, Layer, Panel, Shading, Sharing, Unit};
+use figure::{Axis, ColourMap, Figure, Image, Layer, Panel, Sharing};
 use formats::results::schema::FIELDS;
 use lookup::{Content, Slice};
 use std::path::Path;
@@ -31,12 +31,7 @@ pub(crate) fn of_table(path: &Path, request: &Request) -> Result<Drawn, PlotErro
         [one] => of_quantity(FIELDS[*one].0),
         _ => "worst field".to_owned(),
     };
-    let colours = ColourScale::new(
-        &format!("relative error, {what}"),
-        Unit::One,
-        ColourMap::Sequential,
-    )
-    .logarithmic();
+    let colours = Axis::logarithmic(&format!("relative error, {what}"));
     let usual = || format!("Errors of the kernel table {}", stem(path));
     let title = request.title.clone().unwrap_or_else(usual);
     let mut figure = Figure::new(&title)
@@ -75,7 +70,7 @@ fn panel(
     slice: &Slice,
     pulse: usize,
     fields: &[usize],
-    colours: &ColourScale,
+    colours: &Axis,
 ) -> Panel {
     let [r, z] = content.probes();
     let pulses = content.pulse_lengths.len();
@@ -101,10 +96,7 @@ fn panel(
         .title(&format!("pulse of {length} r_{{0}}/c_{{1}}"))
         .height(280.0)
         .layer(Layer::Image(Image {
-            x: r,
-            y: z,
-            values,
-            shading: Shading::Cells,
-            colours: colours.clone(),
+            has_cells: true,
+            ..Image::new(r, z, values, colours.clone(), ColourMap::Sequential)
         }))
 }

@@ -1,6 +1,8 @@
 //! Numbers, keys and quantities in words, for titles, axes and legends.
 
-use figure::Unit;
+use contact::Choice;
+use figure::{Axis, Scale};
+use formats::quantities::{FIELD_QUANTITIES, FIELDS};
 use formats::sweep::key_unit;
 use std::path::Path;
 
@@ -66,60 +68,47 @@ pub(crate) fn of_key(key: &str) -> (String, &'static str) {
     (name, unit)
 }
 
-/// The unit of a file on an axis: with SI prefixes where it takes them.
-pub(crate) fn unit_of(unit: &str) -> Unit {
+/// An axis with the unit of a file: with SI prefixes where it takes them.
+pub(crate) fn axis(name: &str, unit: &str, scale: Scale) -> Axis {
+    let mut axis = Axis::linear(name);
+    axis.scale = scale;
     match unit {
-        "1" | "" => Unit::One,
-        "kg" => Unit::Si("g".to_owned()),
-        "kg/m^3" => Unit::Fixed("kg/m^{3}".to_owned()),
-        unit => Unit::Si(unit.replace("^2", "^{2}")),
+        "1" | "" => axis,
+        "kg" => axis.si("g"),
+        "kg/m^3" => axis.unit("kg/m^{3}"),
+        unit => axis.si(&unit.replace("^2", "^{2}")),
     }
 }
 
-/// Name of a stored quantity in words: `displacement_z` is "axial displacement".
+/// Name of a field in words, as files describe it but for its sign: `displacement_z` is "axial displacement".
 pub(crate) fn of_quantity(name: &str) -> String {
-    let (kind, component) = name.rsplit_once('_').unwrap_or((name, ""));
-    // that of the particles, not of a wave
-    let kind = match kind {
-        "velocity" | "acceleration" => format!("particle {kind}"),
-        other => other.to_owned(),
+    let more = FIELD_QUANTITIES.iter().map(|row| (row.0.name(), row.2));
+    let mut known = FIELDS.iter().map(|row| (row.0, row.2)).chain(more);
+    let meaning = match (name, known.find(|row| row.0 == name)) {
+        ("displacement", _) => "length of the displacement",
+        ("speed", _) => "speed of the particles",
+        (_, found) => found.map_or(name, |row| row.1),
     };
-    let words = match (component, name) {
-        ("r" | "rr", _) => return format!("radial {kind}"),
-        ("z" | "zz", _) => return format!("axial {kind}"),
-        ("tt", _) => return format!("hoop {kind}"),
-        ("rz", _) => return format!("shear {kind}"),
-        (_, "von_mises") => "von Mises stress",
-        (_, "tresca") => "Tresca stress",
-        (_, "max_shear") => "largest shear stress",
-        (_, "principal_1") => "largest principal stress",
-        (_, "principal_2") => "middle principal stress",
-        (_, "principal_3") => "smallest principal stress",
-        (_, "speed") => "particle speed",
-        (_, "displacement") => "length of the displacement",
-        (_, other) => other,
-    };
-    words.replace('_', " ")
+    meaning.split(',').take(1).collect()
 }
 
 /// Name of a component for the legend: "axial u_{z}".
 pub(crate) fn component(name: &str) -> String {
-    let (kind, component) = name.rsplit_once('_').unwrap_or((name, ""));
-    let symbol = match kind {
-        "displacement" => "u",
-        "velocity" => "v",
-        "acceleration" => "a",
-        "stress" => "σ",
-        _ => return name.replace('_', " "),
-    };
-    let direction = match component {
-        "r" | "rr" => "radial",
-        "z" | "zz" => "axial",
-        "tt" => "hoop",
-        "rz" => "shear",
-        _ => return name.replace('_', " "),
-    };
-    format!("{direction} {symbol}_{{{component}}}")
+    let symbols = [
+        ("displacement_", "u"),
+        ("velocity_", "v"),
+        ("acceleration_", "a"),
+        ("stress_", "σ"),
+    ];
+    let found = symbols.iter().find_map(|(kind, symbol)| {
+        let words = of_quantity(name);
+        let (direction, _) = words.split_once(' ')?;
+        Some(format!(
+            "{direction} {symbol}_{{{}}}",
+            name.strip_prefix(kind)?
+        ))
+    });
+    found.unwrap_or_else(|| name.replace('_', " "))
 }
 
 /// A file's name without its ending.

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
-use figure::{Figure, Layer, Limits, measure, to_gif};
+use figure::{Figure, Layer, Scale, measure, to_gif};
 use formats::{Existing, parse_scene, write_results};
 use impact::{KernelChoice, simulate};
 use plot::{Kind, Request, animate, compose};
@@ -127,7 +127,7 @@ fn limits_and_ratios_are_those_that_are_asked_for() {
     };
     let figure = compose(std::slice::from_ref(&path), &asked).unwrap().figure;
     let image = images(&figure)[0];
-    assert_eq!(image.colours.limits, Limits::Between(1e3, 1e6));
+    assert_eq!(image.colours.range, Some((1e3, 1e6)));
     assert_eq!(image.colours.quantity, "size of the axial stress");
     assert!(image.values.iter().all(|value| *value >= 0.0));
     texts(&figure);
@@ -135,8 +135,38 @@ fn limits_and_ratios_are_those_that_are_asked_for() {
         limits: Some((1.0, -1.0)),
         ..request(Kind::Waves, "stress_zz")
     };
-    let refused = compose(&[path], &turned).unwrap_err().to_string();
-    assert!(refused.starts_with("the limits 1:-1"), "{refused}");
+    let late = Request {
+        times_s: vec![1e-6, 1e300],
+        ..request(Kind::Waves, "stress_zz")
+    };
+    for (asked, sentence) in [
+        (turned, "the limits 1.0:-1.0"),
+        (late, "there is no frame at 1e300 s"),
+    ] {
+        let refused = compose(std::slice::from_ref(&path), &asked).unwrap_err();
+        assert!(refused.to_string().starts_with(sentence), "{refused}");
+    }
+}
+
+#[test]
+fn limits_from_zero_make_a_scale_linear() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = section(folder.path(), 20, "peaks = true");
+    for kind in [Kind::Peak, Kind::Axis] {
+        let decades = compose(std::slice::from_ref(&path), &request(kind, "von_mises"));
+        let asked = Request {
+            limits: Some((0.0, 1e6)),
+            ..request(kind, "von_mises")
+        };
+        let linear = compose(std::slice::from_ref(&path), &asked);
+        let scales = [decades, linear].map(|drawn| {
+            let figure = drawn.unwrap().figure;
+            texts(&figure);
+            let image = images(&figure).first().map(|image| image.colours.scale);
+            image.unwrap_or(figure.panels[0].y.scale)
+        });
+        assert_eq!(scales, [Scale::Logarithmic, Scale::Linear], "{kind:?}");
+    }
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! One impact: computed, looked at, written.
 
-use crate::errors;
+use crate::errors::{self, OrRaise};
 use crate::fields::{at_probes, on_section};
 use crate::scene::{scene, spelled_out};
 use crate::table::Opened;
@@ -87,8 +87,7 @@ pub(crate) fn infer<'py>(
     let found = run(py, &Way::default(), move |_| {
         formats::infer(&scene, (&measured, &values), error, unknown)
     })?;
-    let (_, report) = found.map_err(|error| errors::raised(py, error))?;
-    from_json(py, &report)
+    from_json(py, &found.or_raise(py)?.1)
 }
 
 fn kernels(py: Python<'_>, name: &str, table: Option<Arc<Opened>>) -> PyResult<KernelChoice> {
@@ -209,7 +208,7 @@ impl Outcome {
 impl Outcome {
     fn write(&self, py: Python<'_>, path: PathBuf, overwrite: bool, csv: bool) -> PyResult<()> {
         let found = Arc::clone(&self.found);
-        let written = run(py, &Way::default(), move |_| {
+        run(py, &Way::default(), move |_| {
             let (ending, existing) = (if csv { CSV } else { HDF5 }, replace(overwrite));
             ending.check(&path)?;
             let output = Output::claim(&path, existing)?;
@@ -219,8 +218,8 @@ impl Outcome {
             } else {
                 stage_results(&output, scene, computed)?.commit()
             }
-        })?;
-        written.map_err(|error| errors::raised(py, error))
+        })?
+        .or_raise(py)
     }
 }
 

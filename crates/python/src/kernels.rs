@@ -1,6 +1,6 @@
 //! The exact kernels at many places and times, in reduced units.
 
-use crate::errors;
+use crate::errors::{self, OrRaise};
 use crate::values::{frozen, numbers, vector};
 use crate::work::{Ticker, Way, run, run_short};
 use halfspace::{
@@ -14,7 +14,7 @@ use rayon::prelude::*;
 
 /// A medium, or the exception that names its range.
 fn medium_of(py: Python<'_>, nu: f64) -> PyResult<Medium> {
-    Medium::new(nu).map_err(|error| errors::raised(py, error))
+    Medium::new(nu).or_raise(py)
 }
 
 fn profile_of(py: Python<'_>, name: &str) -> PyResult<Profile> {
@@ -31,41 +31,43 @@ fn deflection_of(py: Python<'_>, name: &str) -> PyResult<Deflection> {
     errors::one_of(py, "deflection", name, &all)
 }
 
-/// Which function of time.
-#[derive(Debug, Clone, Copy)]
-enum Order {
-    Step,
-    Remainder,
-    Impulse,
-    Integral,
-}
+/// A function of time: as a kernel gives it at (r, z, t), and as the surface does.
+type Order = (
+    fn(&Kernel, [f64; 3]) -> Result<Estimate, DomainError>,
+    fn(&SurfaceResponse, f64) -> f64,
+);
 
-impl Order {
-    fn named(py: Python<'_>, name: &str) -> PyResult<Self> {
-        let all = [
-            ("step", Self::Step),
-            ("remainder", Self::Remainder),
-            ("impulse", Self::Impulse),
-            ("step_integral", Self::Integral),
-        ];
-        errors::one_of(py, "order", name, &all)
-    }
+const ORDERS: [(&str, Order); 4] = [
+    ("step", (step, SurfaceResponse::step)),
+    (
+        "remainder",
+        (
+            |kernel, [r, z, t]| kernel.remainder(r, z, t),
+            |surface, t| surface.step(t) - 1.0,
+        ),
+    ),
+    (
+        "impulse",
+        (
+            |kernel, [r, z, t]| kernel.impulse(r, z, t),
+            SurfaceResponse::impulse,
+        ),
+    ),
+    (
+        "step_integral",
+        (
+            |kernel, [r, z, t]| kernel.step_integral(r, z, t),
+            SurfaceResponse::step_integral,
+        ),
+    ),
+];
 
-    fn at(self, kernel: &Kernel, [r, z, t]: [f64; 3]) -> Result<Estimate, DomainError> {
-        match self {
-            Self::Step => {
-                let rest = kernel.static_field(r, z)?;
-                let found = kernel.remainder(r, z, t)?;
-                Ok(Estimate {
-                    value: std::array::from_fn(|f| rest[f] + found.value[f]),
-                    ..found
-                })
-            }
-            Self::Remainder => kernel.remainder(r, z, t),
-            Self::Impulse => kernel.impulse(r, z, t),
-            Self::Integral => kernel.step_integral(r, z, t),
-        }
-    }
+/// The step response, the static field and the remainder.
+fn step(kernel: &Kernel, [r, z, t]: [f64; 3]) -> Result<Estimate, DomainError> {
+    let rest = kernel.static_field(r, z)?;
+    let mut found = kernel.remainder(r, z, t)?;
+    found.value = std::array::from_fn(|f| rest[f] + found.value[f]);
+    Ok(found)
 }
 
 /// Values and errors, one row of six fields a place.
@@ -90,9 +92,9 @@ pub(crate) fn kernel<'py>(
     threads: Option<usize>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Fields<'py>> {
-    let (order, profile) = (Order::named(py, order)?, profile_of(py, profile)?);
-    let kernel = Kernel::new(&medium_of(py, nu)?, profile, tolerance);
-    let kernel = kernel.map_err(|error| errors::raised(py, error))?;
+    let (at, _) = errors::one_of(py, "order", order, &ORDERS)?;
+    let profile = profile_of(py, profile)?;
+    let kernel = Kernel::new(&medium_of(py, nu)?, profile, tolerance).or_raise(py)?;
     let rows = r.len()?;
     if z.len()? != rows || t.len()? != rows {
         let message = "r, z and t differ in their lengths";
@@ -103,7 +105,7 @@ pub(crate) fn kernel<'py>(
     let (r, z, t) = (numbers(&r), numbers(&z), numbers(&t));
     let one = move |ticker: &Ticker, i: usize| {
         ticker.more(1);
-        order.at(&kernel, [r[i], z[i], t[i]])
+        at(&kernel, [r[i], z[i], t[i]])
     };
     let found: Result<Vec<Estimate>, DomainError> = if rows < 8 {
         run_short(py, || {
@@ -116,7 +118,7 @@ pub(crate) fn kernel<'py>(
             (0..rows).into_par_iter().map(|i| one(ticker, i)).collect()
         })?
     };
-    let found = found.map_err(|error| errors::raised(py, error))?;
+    let found = found.or_raise(py)?;
     let values: Vec<f64> = found.iter().flat_map(|e| e.value).collect();
     let limits: Vec<f64> = found.iter().flat_map(|e| e.error).collect();
     Ok((
@@ -135,8 +137,8 @@ pub(crate) fn static_field<'py>(
     profile: &str,
 ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
     // no quadrature: the tolerance is of no consequence
-    let kernel = Kernel::new(&medium_of(py, nu)?, profile_of(py, profile)?, 1e-6);
-    let kernel = kernel.map_err(|error| errors::raised(py, error))?;
+    let profile = profile_of(py, profile)?;
+    let kernel = Kernel::new(&medium_of(py, nu)?, profile, 1e-6).or_raise(py)?;
     let rows = r.len()?;
     errors::check_memory(py, rows, 2 * 8 + 2 * 6 * 8)?;
     let (r, z) = (numbers(&r), numbers(&z));
@@ -144,8 +146,7 @@ pub(crate) fn static_field<'py>(
         let places = r.iter().zip(&z);
         places.map(|(&r, &z)| kernel.static_field(r, z)).collect()
     })?;
-    let found = found.map_err(|error| errors::raised(py, error))?;
-    frozen(py, found.into_flattened(), &[rows, 6])
+    frozen(py, found.or_raise(py)?.into_flattened(), &[rows, 6])
 }
 
 /// The deflection of the loaded surface over its static value, or its integral or impulse response.
@@ -157,19 +158,11 @@ pub(crate) fn surface<'py>(
     t: PyReadonlyArray1<'py, f64>,
     deflection: &str,
 ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-    let order = Order::named(py, order)?;
+    let (_, at) = errors::one_of(py, "order", order, &ORDERS)?;
     let response = SurfaceResponse::new(&medium_of(py, nu)?, deflection_of(py, deflection)?);
     errors::check_memory(py, t.len()?, 2 * 8)?;
     let t = numbers(&t);
-    let found: Vec<f64> = run_short(py, || {
-        let at = |t: f64| match order {
-            Order::Step => response.step(t),
-            Order::Remainder => response.step(t) - 1.0,
-            Order::Impulse => response.impulse(t),
-            Order::Integral => response.step_integral(t),
-        };
-        t.iter().map(|&t| at(t)).collect()
-    })?;
+    let found = run_short(py, || t.iter().map(|&t| at(&response, t)).collect())?;
     vector(py, found)
 }
 
@@ -220,7 +213,7 @@ pub(crate) fn arrivals<'py>(
     profile: &str,
 ) -> PyResult<Bound<'py, PyDict>> {
     let found = Arrivals::new(&medium_of(py, nu)?, profile_of(py, profile)?, r, z);
-    let found = found.map_err(|error| errors::raised(py, error))?;
+    let found = found.or_raise(py)?;
     let waves = PyDict::new(py);
     waves.set_item("above", found.above)?;
     waves.set_item("p", found.p)?;

@@ -1,6 +1,6 @@
 //! Scenes and sweeps as people give them: a dictionary, a path, or TOML text.
 
-use crate::errors::{self, raised};
+use crate::errors::{self, OrRaise, raised};
 use crate::values::from_json;
 use formats::SceneError;
 use formats::scene::{parse_table, read_text, scene_of};
@@ -21,10 +21,11 @@ impl Given {
     /// A text has more than one line, or is one assignment or section; anything else is a path.
     pub(crate) fn new(given: &Bound<'_, PyAny>) -> PyResult<Self> {
         let py = given.py();
-        let told = |error| raised(py, error);
         let read = |path: PathBuf| -> PyResult<Self> {
-            let text = py.detach(|| read_text(&path)).map_err(told)?;
-            let table = parse_table(&text).map_err(|error| told(error.in_file(&path)))?;
+            let text = py.detach(|| read_text(&path)).or_raise(py)?;
+            let table = parse_table(&text)
+                .map_err(|error| error.in_file(&path))
+                .or_raise(py)?;
             let file = Some(path);
             Ok(Self { table, file })
         };
@@ -33,7 +34,7 @@ impl Given {
             if !text.contains(['\n', '=']) && !text.trim_start().starts_with('[') {
                 return read(PathBuf::from(text));
             }
-            let (table, file) = (parse_table(&text).map_err(told)?, None);
+            let (table, file) = (parse_table(&text).or_raise(py)?, None);
             return Ok(Self { table, file });
         }
         if given.hasattr("__fspath__")? {
@@ -67,7 +68,7 @@ pub(crate) fn scene(given: &Bound<'_, PyAny>) -> PyResult<Scene> {
     let py = given.py();
     let given = Given::new(given)?;
     let found = py.detach(|| given.read(scene_of));
-    found.map_err(|error| raised(py, error))
+    found.or_raise(py)
 }
 
 /// The scene with every default and material spelled out, as a dictionary.
@@ -185,5 +186,5 @@ fn wrong(name: &str, value: &Bound<'_, PyAny>, expected: &'static str) -> PyErr 
 pub(crate) fn from_toml<'py>(py: Python<'py>, text: &str) -> PyResult<Bound<'py, PyAny>> {
     let table: Result<Table, String> = text.parse().map_err(|e: toml::de::Error| e.to_string());
     let value = table.and_then(|table| serde_json::to_value(table).map_err(|e| e.to_string()));
-    from_json(py, &value.map_err(|error| raised(py, error))?)
+    from_json(py, &value.or_raise(py)?)
 }

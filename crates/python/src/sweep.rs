@@ -1,6 +1,6 @@
 //! Many impacts: rows of a sweep, and keys that vary together.
 
-use crate::errors;
+use crate::errors::{self, OrRaise};
 use crate::impact_outcome::replace;
 use crate::scene::{Given, from_toml};
 use crate::values::{frozen, vector};
@@ -67,7 +67,7 @@ pub(crate) fn plan_of_columns(
 const MOST_VALUES: usize = 10_000_000;
 
 fn wrapped(py: Python<'_>, spec: Result<Spec, SceneError>) -> PyResult<Plan> {
-    let spec = spec.map_err(|error| errors::raised(py, error))?;
+    let spec = spec.or_raise(py)?;
     // the axes are handed over as arrays
     if let Some(axis) = spec.axes.iter().find(|axis| axis.len > MOST_VALUES) {
         let error = SceneError::out_of_range(
@@ -121,7 +121,7 @@ impl Plan {
 
     /// Everything spelled out.
     fn resolved<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        from_toml(py, self.spec.resolved())
+        from_toml(py, &self.spec.resolved)
     }
 
     /// Computes the rows from `start` on, every `step`-th.
@@ -147,8 +147,10 @@ impl Plan {
                 !ticker.is_stopped()
             })
         })?;
-        let found = found.map_err(|error| errors::raised(py, error))?;
-        let block = found.ok_or_else(|| errors::raised(py, "the sweep was stopped"))?;
+        let block = found
+            .or_raise(py)?
+            .ok_or("the sweep was stopped")
+            .or_raise(py)?;
         let shape = [block.len(), QUANTITIES.len()];
         Ok((
             frozen(py, block.numbers, &shape)?,
@@ -175,7 +177,7 @@ impl Plan {
             failures,
         };
         let spec = Arc::clone(&self.spec);
-        let written = run(py, &Way::default(), move |_| {
+        run(py, &Way::default(), move |_| {
             let csv = CSV.check(&path).is_ok();
             if !csv {
                 check_rows(&path)?;
@@ -186,7 +188,7 @@ impl Plan {
             } else {
                 stage_rows(&output, &spec, None, &[block])?.commit()
             }
-        })?;
-        written.map_err(|error| errors::raised(py, error))
+        })?
+        .or_raise(py)
     }
 }

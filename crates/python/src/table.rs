@@ -1,6 +1,6 @@
 //! A kernel table: opened once, asked often; the parts that impacts have needed are kept for the next ones.
 
-use crate::errors;
+use crate::errors::{self, OrRaise};
 use crate::values::{from_json, frozen, numbers};
 use crate::work::{Ticker, Way, run};
 use fault::AnyError;
@@ -43,8 +43,7 @@ impl Table {
     /// The table of a file.
     #[staticmethod]
     fn open(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        let file = run(py, &Way::default(), move |_| TableFile::open(&path))?;
-        let file = file.map_err(|error| errors::raised(py, error))?;
+        let file = run(py, &Way::default(), move |_| TableFile::open(&path))?.or_raise(py)?;
         Ok(Self {
             opened: Arc::new(Opened::new(file)),
         })
@@ -61,7 +60,7 @@ impl Table {
         let opened = Arc::clone(&self.opened);
         let info = move |_: &Ticker| Ok(table_report(opened.path(), &*opened.whole()?));
         let found: Result<_, TableError> = run(py, &Way::default(), info)?;
-        from_json(py, &found.map_err(|error| errors::raised(py, error))?)
+        from_json(py, &found.or_raise(py)?)
     }
 
     /// Identity of the settings that it was made with.
@@ -102,8 +101,7 @@ impl Table {
         let rows = asked.points.len();
         let opened = Arc::clone(&self.opened);
         let way = Way { threads, progress };
-        let whole = run(py, &way, move |_| opened.whole())?;
-        let table = whole.map_err(|error| errors::raised(py, error))?;
+        let table = run(py, &way, move |_| opened.whole())?.or_raise(py)?;
         let held = table.content().slices.iter().map(|slice| slice.cells).max();
         let cells = cells.unwrap_or((held.unwrap_or(0) >> coarsening.min(31)).max(1));
         // asked for before it is taken: an allocation that fails would end the process
@@ -174,7 +172,7 @@ impl Asked {
 #[derive(Debug)]
 struct Part {
     poisson_ratio: f64,
-    farthest: [f64; 2],
+    span: [[f64; 2]; 2],
     table: Arc<lookup::Table>,
 }
 
@@ -210,41 +208,33 @@ impl Opened {
         if let Some(table) = self.whole.get() {
             return Ok(Arc::clone(table));
         }
-        let table = self.same(lookup::Table::open(self.path()))?;
-        Ok(Arc::clone(self.whole.get_or_init(|| table)))
-    }
-
-    /// A table that was read, if its file is the one that was opened.
-    fn same(
-        &self,
-        read: Result<lookup::Table, TableError>,
-    ) -> Result<Arc<lookup::Table>, TableError> {
-        let table = read?;
-        if table.id() == self.id() {
-            Ok(Arc::new(table))
-        } else {
-            Err(BadTable::Changed.of(self.path()))
+        let table = lookup::Table::open(self.path())?;
+        if table.id() != self.id() {
+            return Err(BadTable::Changed.of(self.path()));
         }
+        Ok(Arc::clone(self.whole.get_or_init(|| Arc::new(table))))
     }
 }
 
 impl Tables for Opened {
-    fn part(&self, poisson_ratio: f64, farthest: [f64; 2]) -> Result<Arc<lookup::Table>, AnyError> {
+    fn part(
+        &self,
+        poisson_ratio: f64,
+        span: [[f64; 2]; 2],
+    ) -> Result<Arc<lookup::Table>, AnyError> {
         let mut kept = self.part.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(part) = &*kept
             && part.poisson_ratio.to_bits() == poisson_ratio.to_bits()
-            && part
-                .farthest
-                .iter()
-                .zip(farthest)
-                .all(|(&has, wants)| wants <= has)
+            && (0..2).all(|axis| {
+                part.span[0][axis] <= span[0][axis] && span[1][axis] <= part.span[1][axis]
+            })
         {
             return Ok(Arc::clone(&part.table));
         }
-        let table = self.same(self.file.part(poisson_ratio, farthest))?;
+        let table = Arc::new(self.file.part(poisson_ratio, span)?);
         *kept = Some(Part {
             poisson_ratio,
-            farthest,
+            span,
             table: Arc::clone(&table),
         });
         Ok(table)

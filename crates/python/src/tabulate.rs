@@ -1,6 +1,6 @@
 //! Builds and extends kernel tables.
 
-use crate::errors;
+use crate::errors::{self, OrRaise};
 use crate::impact_outcome::replace;
 use crate::scene::table;
 use crate::work::{Way, run};
@@ -12,22 +12,21 @@ use tabulator::{BuildError, Extension, Grid, PRESETS, Summary, build_over, refin
 /// The grid of a preset, a file or a dictionary.
 fn grid_of(given: &Bound<'_, PyAny>) -> PyResult<Grid> {
     let py = given.py();
-    let told = |error| errors::raised(py, error);
     if let Ok(name) = given.cast::<PyString>() {
         let name: String = name.extract()?;
         let path = Path::new(&name);
-        if let Some(grid) = Grid::preset(&name).map_err(told)? {
+        if let Some(grid) = Grid::preset(&name).or_raise(py)? {
             return Ok(grid);
         } else if path.extension().is_some_and(|end| end == "toml") {
-            return Grid::from_file(path).map_err(told);
+            return Grid::from_file(path).or_raise(py);
         }
         let words = format!("{}, or the name of a .toml file", PRESETS.join(", "));
         return Err(errors::unknown(py, "grid", &name, &[&words]));
     }
     if given.hasattr("__fspath__")? {
-        return Grid::from_file(&given.extract::<PathBuf>()?).map_err(told);
+        return Grid::from_file(&given.extract::<PathBuf>()?).or_raise(py);
     }
-    Grid::parse(&table(given, "")?.to_string()).map_err(told)
+    Grid::parse(&table(given, "")?.to_string()).or_raise(py)
 }
 
 /// Builds a table; its points, bytes and time in s.
@@ -102,6 +101,6 @@ pub(crate) fn extend(
 }
 
 fn summary(py: Python<'_>, built: Result<Summary, BuildError>) -> PyResult<(usize, u64, f64)> {
-    let summary = built.map_err(|error| errors::raised(py, error))?;
+    let summary = built.or_raise(py)?;
     Ok((summary.points, summary.bytes, summary.wall_s))
 }

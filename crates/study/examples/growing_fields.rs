@@ -5,10 +5,7 @@
 //! A steel ball of 10 mm strikes steel at 5 m/s. Both loads have the same force; the difference over time is taken over
 //! the largest value of the field at the place.
 
-use figure::{
-    Axis, ColourMap, ColourScale, Figure, Image, Layer, Limits, Panel, Shading, Sharing, Unit,
-    to_svg,
-};
+use figure::{Axis, ColourMap, Figure, Image, Layer, Panel, Sharing, to_svg};
 use impact::{Field, HalfSpace, Impact, Material, Striker};
 use std::error::Error;
 use std::time::{Duration, Instant};
@@ -80,18 +77,16 @@ fn picture(r: &[f64], z: &[f64], values: [Vec<f64>; 2]) -> Figure {
         .into_iter()
         .zip(["vertical displacement", "vertical stress"])
     {
+        let colours = Axis::logarithmic("difference").unit("%").range(0.02, 100.0);
         let image = Image {
-            x: r.to_vec(),
-            y: z.to_vec(),
-            values,
-            shading: Shading::Cells,
-            colours: ColourScale::new(
-                "difference",
-                Unit::Fixed("%".to_owned()),
+            has_cells: true,
+            ..Image::new(
+                r.to_vec(),
+                z.to_vec(),
+                values,
+                colours,
                 ColourMap::Sequential,
             )
-            .logarithmic()
-            .limits(Limits::Between(0.02, 100.0)),
         };
         let panel = Panel::new(
             Axis::linear("distance from the axis").unit("a"),

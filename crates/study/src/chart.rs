@@ -51,13 +51,12 @@ impl Chart {
         records.extend(fields::measure(effort, &densities, &advance)?);
         progress.total("impacts", 4);
         records.extend(impacts::measure(effort, &densities, &advance)?);
-        progress.total("inversions", 21);
+        progress.total("inversions", 15);
         let mut maps = map::inversions::figures(effort, &advance)?;
         progress.total("marches", 3);
         maps.extend(map::marches::figures(effort, &advance)?);
         progress.total("kernel maps", 1);
         maps.extend(map::kernels::figures(effort, &advance)?);
-        maps.extend(map::lookups::figures(&densities, effort)?);
         progress.total("models", map::models::rows(effort) + 1);
         maps.extend(map::models::figures(effort, &advance)?);
         Ok(Self {
@@ -73,7 +72,7 @@ impl Chart {
     /// What is ahead of the default path at 1e-3 to 1e-8 without a reason, in words; empty as it should be.
     #[must_use]
     pub fn unexplained(&self) -> Vec<String> {
-        let rankings = rankings(&self.records, Record::time_ns);
+        let rankings = rankings(&self.records);
         rankings.iter().filter_map(Ranking::unexplained).collect()
     }
 }

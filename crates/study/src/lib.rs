@@ -1,7 +1,7 @@
 //! Methods compared: speed against accuracy, and where each becomes unstable.
 //!
 //! Four questions, answered by measurement: how to compute a kernel, an impact, fields, and the fields of an impact.
-//! Beside the ways that the program takes stand those that it does not: seven numerical inversions of the
+//! Beside the ways that the program takes stand those that it does not: five numerical inversions of the
 //! Laplace transform with the Hankel quadrature that they need, marches of known order, whole-response
 //! interpolation. [`Chart::run`] measures them, [`Chart::write`] writes rows, pictures and a report; the
 //! [`map`]s show where each method works, with the boundary that theory gives.

@@ -62,78 +62,56 @@ fn time<T>(
 /// What a run found, and its work where that is counted.
 pub(crate) type Run<T> = Result<(T, Option<u64>), AnyError>;
 
-/// One method at one setting.
-pub(crate) struct Candidate<'a, T> {
-    method: &'static str,
-    setting: String,
-    default_path: bool,
-    run: Box<dyn Fn() -> Run<T> + 'a>,
-}
-
-impl<'a, T> Candidate<'a, T> {
-    /// A method that the program does not take by itself.
-    pub(crate) fn new(
-        method: &'static str,
-        setting: impl Into<String>,
-        run: impl Fn() -> Run<T> + 'a,
-    ) -> Self {
-        Self {
-            method,
-            setting: setting.into(),
-            default_path: false,
-            run: Box::new(run),
-        }
-    }
-
-    /// The same where the program does take it unless told otherwise, if so.
-    pub(crate) fn default_path(self, default_path: bool) -> Self {
-        Self {
-            default_path,
-            ..self
-        }
-    }
-}
-
-/// A scene of a question.
+/// A scene of a question: what of a method is measured in it.
 pub(crate) struct Scene<'a, T> {
+    pub(crate) effort: Effort,
     pub(crate) question: Question,
     pub(crate) name: &'static str,
     /// Values that a run makes.
     pub(crate) values: f64,
     /// Relative errors of what a run found.
     pub(crate) errors: &'a dyn Fn(&T) -> Result<Vec<f64>, AnyError>,
+    /// Where the rows go.
+    pub(crate) records: &'a mut Vec<Record>,
 }
 
 impl<T> Scene<'_, T> {
-    /// Runs a candidate: one that fails is a row that says why.
-    pub(crate) fn measure(
-        &self,
-        effort: Effort,
-        candidate: &Candidate<'_, T>,
-    ) -> Result<Record, AnyError> {
-        let (found, [cost_ns, cost_spread_ns]) = if cfg!(test) {
-            // tests look at errors and work counts, never at times
-            ((candidate.run)(), [1.0, 0.0])
+    /// Adds a row of one method at one setting, which is not the program's own until it is said to be: a method that
+    /// fails is a row that says why.
+    pub(crate) fn add(
+        &mut self,
+        method: &'static str,
+        setting: impl Into<String>,
+        run: impl Fn() -> Run<T>,
+    ) -> Result<&mut Record, AnyError> {
+        let (found, timed) = if cfg!(test) {
+            (run(), None)
         } else {
-            let (runs, shortest_s, longest_s) = effort.pick((5, 5e-4, 0.06), (11, 5e-3, 1.5));
-            time(runs, shortest_s, longest_s, self.values, &candidate.run)
+            let (runs, shortest_s, longest_s) = self.effort.pick((5, 5e-4, 0.06), (11, 5e-3, 1.5));
+            let (found, timed) = time(runs, shortest_s, longest_s, self.values, run);
+            (found, Some(timed))
         };
         let (errors, work, refusal) = match found {
             Ok((found, work)) => ((self.errors)(&found)?, work, None),
             Err(error) => (vec![f64::NAN], None, Some(error.to_string())),
         };
-        Ok(Record {
+        let work = work.map(|work| work as f64 / self.values);
+        // tests look at errors and work, which are the same on every machine
+        let [cost_ns, cost_spread_ns] = timed.unwrap_or([work.unwrap_or(f64::INFINITY), 0.0]);
+        let place = self.records.len();
+        self.records.push(Record {
             question: self.question,
             scene: self.name,
-            method: candidate.method,
-            setting: candidate.setting.clone(),
-            default_path: candidate.default_path,
+            method,
+            setting: setting.into(),
+            default_path: false,
             cost_ns,
             cost_spread_ns,
             error: Error::of(&errors),
-            work: work.map(|work| work as f64 / self.values),
+            work,
             refusal,
-        })
+        });
+        Ok(&mut self.records[place])
     }
 }
 

@@ -93,11 +93,7 @@ impl Picture {
                     let names = map.class.iter().map(|&class| &*map.names[class]);
                     points.extend(names.zip(cells).map(|(name, (x, y))| (name, x, y)));
                 }
-                Layer::Band(_)
-                | Layer::Histogram(_)
-                | Layer::Image(_)
-                | Layer::Mark(_)
-                | Layer::Point(_) => {}
+                Layer::Image(_) | Layer::Mark(_) | Layer::Point(_) => {}
             }
         }
         points
@@ -205,8 +201,8 @@ fn caption(question: Question, scene: &str) -> &'static str {
 /// The border of what the front dominates.
 fn staircase(rows: &[&Record]) -> Vec<(f64, f64)> {
     let mut points: Vec<(f64, f64)> = Vec::new();
-    for i in pareto_front(rows, Record::time_ns) {
-        let (cost, error) = place(rows[i]);
+    for record in pareto_front(rows) {
+        let (cost, error) = place(record);
         if let Some(&(_, before)) = points.last() {
             points.push((cost, before));
         }

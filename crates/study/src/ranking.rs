@@ -1,6 +1,6 @@
 //! The cheapest method for each accuracy, with the default path beside it, and why others that are ahead are not taken.
 
-use crate::record::{Cost, Question, Record, distinct};
+use crate::record::{Question, Record, distinct};
 
 /// Accuracies at which the default path is to be on the Pareto front.
 pub(crate) const LEVELS: [f64; 6] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8];
@@ -17,20 +17,20 @@ pub(crate) struct Ranking<'a> {
     pub(crate) scene: &'a str,
     /// Accuracy.
     pub(crate) level: f64,
-    /// Cheapest of all methods, with its cost.
-    pub(crate) best: Option<(&'a Record, f64)>,
+    /// Cheapest of all methods.
+    pub(crate) best: Option<&'a Record>,
     /// Cheapest of the default path.
-    pub(crate) own: Option<(&'a Record, f64)>,
+    pub(crate) own: Option<&'a Record>,
     /// Cheapest of every method that is ahead of the default path by more than [`EQUAL`], by ascending cost; all
     /// that reach the accuracy where the default path does not.
-    pub(crate) ahead: Vec<(&'a Record, f64)>,
+    pub(crate) ahead: Vec<&'a Record>,
 }
 
 impl Ranking<'_> {
     /// Whether nothing is cheaper than the default path at this accuracy, by more than [`EQUAL`].
     pub(crate) fn on_front(&self) -> bool {
         match (self.best, self.own) {
-            (Some((_, best)), Some((_, own))) => own <= EQUAL * best,
+            (Some(best), Some(own)) => own.cost_ns <= EQUAL * best.cost_ns,
             (None, None) => true,
             (Some(_), None) | (None, Some(_)) => false,
         }
@@ -38,32 +38,34 @@ impl Ranking<'_> {
 
     /// The cheapest that is ahead of the default path, in words; nothing where it is on the front.
     pub(crate) fn first_ahead(&self) -> Option<String> {
-        Some(self.words(*self.ahead.first()?))
+        Some(self.words(self.ahead.first()?))
     }
 
     /// The cheapest that is ahead of the default path for no reason that is written down, in words.
     ///
     /// A reason excuses its own method and no other one behind it.
     pub(crate) fn unexplained(&self) -> Option<String> {
-        let found = self.ahead.iter().find(|(r, _)| why_not(r.method).is_none());
-        Some(self.words(*found?))
+        let found = self.ahead.iter().find(|r| why_not(r.method).is_none());
+        Some(self.words(found?))
     }
 
-    fn words(&self, (record, cost): (&Record, f64)) -> String {
-        let place = format!("{:.0e} in \"{}\"", self.level, self.scene);
+    fn words(&self, record: &Record) -> String {
+        let (place, method) = (
+            format!("{:.0e} in \"{}\"", self.level, self.scene),
+            record.method,
+        );
         match self.own {
-            Some((_, own)) => format!(
-                "{place} ({} is {:.1} times cheaper)",
-                record.method,
-                own / cost
-            ),
-            None => format!("{place} (only {} reaches it)", record.method),
+            Some(own) => {
+                let times = own.cost_ns / record.cost_ns;
+                format!("{place} ({method} is {times:.1} times cheaper)")
+            }
+            None => format!("{place} (only {method} reaches it)"),
         }
     }
 }
 
 /// Of every scene with a default path at every accuracy.
-pub(crate) fn rankings(records: &[Record], cost: Cost) -> Vec<Ranking<'_>> {
+pub(crate) fn rankings(records: &[Record]) -> Vec<Ranking<'_>> {
     let mut found = Vec::new();
     for question in Question::ALL {
         let mine = || records.iter().filter(move |r| r.question == question);
@@ -71,7 +73,7 @@ pub(crate) fn rankings(records: &[Record], cost: Cost) -> Vec<Ranking<'_>> {
             let rows: Vec<&Record> = mine().filter(|r| r.scene == scene).collect();
             // a scene that only compares other ways has no default path to judge
             if rows.iter().any(|r| r.default_path) {
-                let at = |level| ranking(&rows, cost, level);
+                let at = |level| ranking(&rows, level);
                 found.extend(LEVELS.into_iter().filter_map(at));
             }
         }
@@ -80,21 +82,17 @@ pub(crate) fn rankings(records: &[Record], cost: Cost) -> Vec<Ranking<'_>> {
 }
 
 /// Of the rows of one scene, at one accuracy; none without rows.
-fn ranking<'a>(rows: &[&'a Record], cost: Cost, level: f64) -> Option<Ranking<'a>> {
+fn ranking<'a>(rows: &[&'a Record], level: f64) -> Option<Ranking<'a>> {
     let first = rows.first()?;
-    let mut reached: Vec<(&Record, f64)> = rows
-        .iter()
-        .filter(|r| !r.failed() && r.error.max <= level)
-        .filter_map(|&r| Some((r, cost(r)?)))
-        .collect();
-    reached.sort_by(|a, b| a.1.total_cmp(&b.1));
-    let own = reached.iter().find(|(r, _)| r.default_path).copied();
-    let is_ahead = |cost: f64| own.is_none_or(|(_, own)| own > EQUAL * cost);
-    let mut ahead: Vec<(&Record, f64)> = Vec::new();
-    for &(record, cost) in &reached {
-        let is_known = ahead.iter().any(|(r, _)| r.method == record.method);
-        if is_ahead(cost) && !is_known {
-            ahead.push((record, cost));
+    let reaches = |r: &&&Record| !r.failed() && r.error.max <= level && r.cost_ns.is_finite();
+    let mut reached: Vec<&Record> = rows.iter().filter(reaches).copied().collect();
+    reached.sort_by(|a, b| a.cost_ns.total_cmp(&b.cost_ns));
+    let own = reached.iter().find(|r| r.default_path).copied();
+    let mut ahead: Vec<&Record> = Vec::new();
+    for &record in &reached {
+        let is_known = ahead.iter().any(|r| r.method == record.method);
+        if own.is_none_or(|own| own.cost_ns > EQUAL * record.cost_ns) && !is_known {
+            ahead.push(record);
         }
     }
     Some(Ranking {
@@ -146,7 +144,7 @@ mod tests {
         let own = Record::of("own", true, 100.0, 1e-7);
         let near = Record::of("stranger", false, 90.0, 1e-9);
         let at = |records: &[Record], level: f64| -> (Option<String>, bool) {
-            let found = rankings(records, Record::time_ns);
+            let found = rankings(records);
             let ranking = found.iter().find(|s| s.level == level).unwrap();
             (ranking.first_ahead(), ranking.unexplained().is_some())
         };
@@ -161,7 +159,7 @@ mod tests {
         // a reason does not excuse what is hidden behind its method
         let behind = Record::of("stranger", false, 60.0, 1e-7);
         let rows = [own.clone(), known, behind];
-        let found = rankings(&rows, Record::time_ns);
+        let found = rankings(&rows);
         let ranking = found.iter().find(|s| s.level == 1e-6).unwrap();
         assert!(
             ranking
@@ -175,6 +173,6 @@ mod tests {
         let (ahead, unexplained) = at(&[own, exact], 1e-8);
         assert!(ahead.unwrap().contains("only stranger reaches it") && unexplained);
         // a scene that only compares other ways has nothing to judge
-        assert!(rankings(&[stranger], Record::time_ns).is_empty());
+        assert!(rankings(&[stranger]).is_empty());
     }
 }

@@ -152,37 +152,24 @@ impl Record {
     pub fn failed(&self) -> bool {
         self.refusal.is_some() || self.error.max > FAILED || self.error.max.is_nan()
     }
-
-    /// Cost as time.
-    pub(crate) fn time_ns(&self) -> Option<f64> {
-        Some(self.cost_ns)
-    }
 }
 
-/// What a method costs, where that is known: its time, or its work.
-pub(crate) type Cost = fn(&Record) -> Option<f64>;
-
-/// Indices of the records that no other beats in both cost and error, by ascending cost.
+/// The records that no other beats in both cost and error, by ascending cost.
 ///
-/// Those without a cost, and failures, are left out.
-pub(crate) fn pareto_front(records: &[&Record], cost: Cost) -> Vec<usize> {
-    let mut order: Vec<(usize, f64)> = records
-        .iter()
-        .enumerate()
-        .filter(|(_, record)| !record.failed())
-        .filter_map(|(i, record)| Some((i, cost(record)?)))
-        .collect();
-    order.sort_by(|a, b| {
-        let errors = || records[a.0].error.max.total_cmp(&records[b.0].error.max);
-        a.1.total_cmp(&b.1).then_with(errors)
+/// Failures are left out.
+pub(crate) fn pareto_front<'a>(records: &[&'a Record]) -> Vec<&'a Record> {
+    let mut front: Vec<&Record> = records.iter().filter(|r| !r.failed()).copied().collect();
+    front.sort_by(|a, b| {
+        let errors = || a.error.max.total_cmp(&b.error.max);
+        a.cost_ns.total_cmp(&b.cost_ns).then_with(errors)
     });
     let mut best = f64::INFINITY;
-    order.retain(|&(i, _)| {
-        let better = records[i].error.max < best;
-        best = best.min(records[i].error.max);
+    front.retain(|record| {
+        let better = record.error.max < best;
+        best = best.min(record.error.max);
         better
     });
-    order.into_iter().map(|(i, _)| i).collect()
+    front
 }
 
 /// The different items in the order of their first appearance.
@@ -230,8 +217,6 @@ mod tests {
         ];
         let rows = rows.map(|(cost, error)| Record::of("", false, cost, error));
         let rows: Vec<&Record> = rows.iter().collect();
-        let front = pareto_front(&rows, Record::time_ns);
-        assert_eq!(front, [0, 2, 5]);
-        assert!(pareto_front(&rows, |r| r.work).is_empty());
+        assert_eq!(pareto_front(&rows), [rows[0], rows[2], rows[5]]);
     }
 }

@@ -90,7 +90,7 @@ fn markdown(chart: &Chart) -> String {
         "Setting up (weights, nodes, a table, the force's spectrum) is not part of a cost; everything that a new point, time or impact needs is.".to_owned(),
         "In the diagrams `[default]` marks the ways that the program itself takes, and `(fails)` those whose largest error is above a tenth at every setting; what is above the frame is not drawn.\n".to_owned(),
     ];
-    let all = rankings(&chart.records, Record::time_ns);
+    let all = rankings(&chart.records);
     for question in Question::ALL {
         lines.push(format!("## {}\n", question.title()));
         let mine: Vec<&Ranking<'_>> = all.iter().filter(|s| s.question == question).collect();
@@ -123,7 +123,7 @@ fn shown(picture: &Picture) -> String {
 /// Methods that are ahead somewhere, with the reason why the program does not take them.
 fn not_taken(rankings: &[&Ranking<'_>]) -> Vec<String> {
     let ahead = rankings.iter().flat_map(|s| &s.ahead);
-    let methods = distinct(ahead.map(|(record, _)| record.method));
+    let methods = distinct(ahead.map(|record| record.method));
     let mut lines = Vec::new();
     if !methods.is_empty() {
         lines.push("Ahead of the default path somewhere, and not taken:\n".to_owned());
@@ -141,13 +141,8 @@ fn answer(chart: &Chart, question: Question, rankings: &[&Ranking<'_>]) -> [Stri
     let cheapest = |level: f64| {
         let at = rankings.iter().filter(|s| s.level == level);
         let best = at.filter_map(|s| {
-            let (record, cost) = s.best?;
-            Some(format!(
-                "{} ({}) in \"{}\"",
-                record.method,
-                time(cost),
-                s.scene
-            ))
+            let (method, cost) = (s.best?.method, time(s.best?.cost_ns));
+            Some(format!("{method} ({cost}) in \"{}\"", s.scene))
         });
         match best.collect::<Vec<_>>() {
             list if list.is_empty() => "nothing".to_owned(),
@@ -190,8 +185,8 @@ fn table(rankings: &[&Ranking<'_>]) -> Vec<String> {
         "| scene | error | cheapest of all | cost | default path | cost |".to_owned(),
         "|---|---|---|---|---|---|".to_owned(),
     ];
-    let cell = |found: Option<(&Record, f64)>| match found {
-        Some((r, cost)) => format!("{}, {} | {}", r.method, r.setting, time(cost)),
+    let cell = |found: Option<&Record>| match found {
+        Some(r) => format!("{}, {} | {}", r.method, r.setting, time(r.cost_ns)),
         None => "not reached | ".to_owned(),
     };
     lines.extend(rankings.iter().map(|s| {

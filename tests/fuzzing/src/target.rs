@@ -386,5 +386,5 @@ fn sealed(input: &[u8], folder: &Path) -> bool {
 
 /// A part of a table, between slices.
 fn corner(path: &Path) -> Result<Table, TableError> {
-    TableFile::open(path)?.part(0.28, [0.5, 0.5])
+    TableFile::open(path)?.part(0.28, [[0.0; 2], [0.5; 2]])
 }

@@ -46,9 +46,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
             "note: {old} is of an earlier version and stays; this one writes CSV files"
         ));
     }
-    let progress = Bar::new();
-    let chart = Chart::run(effort, &progress).map_err(Failure::in_part)?;
-    progress.finish();
+    let chart = Chart::run(effort, &Bar::new()).map_err(Failure::in_part)?;
     chart.write(&folder).map_err(Failure::in_part)?;
     print(format!(
         "{}: {} rows, {} pictures, {:.0} s",

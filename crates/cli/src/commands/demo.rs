@@ -86,7 +86,7 @@ fn waves(folder: &Path) -> Result<[PathBuf; 2], Failure> {
         ..Allowance::default()
     };
     let outcome = simulate_within(&scene, &KernelChoice::Direct, &allowance)?;
-    bar.finish();
+    drop(bar);
     let results = folder.join("waves.vtkhdf");
     write_results(&results, &scene, &outcome, Existing::Replace)?;
     let picture = drawn(&results, folder.join("waves.svg"))?;
@@ -111,9 +111,7 @@ fn make_table(path: &Path) -> Result<(), Failure> {
         "making the demo kernel table {} (once)",
         path.display()
     ));
-    let bar = Bar::new();
-    let summary = build(&Grid::demo(), path, &bar)?;
-    bar.finish();
+    let summary = build(&Grid::demo(), path, &Bar::new())?;
     say(format!(
         "{} points in {:.1} s, {} bytes",
         summary.points, summary.wall_s, summary.bytes

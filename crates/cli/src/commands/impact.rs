@@ -72,7 +72,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         watch: &|| progress.advance(1),
     };
     let outcome = simulate_within(&scene, &kernels, &allowance)?;
-    progress.finish();
+    drop(progress);
     // all of them, or none where one fails
     let mut staged = Vec::new();
     if let Some(output) = &output {

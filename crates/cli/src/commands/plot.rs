@@ -90,33 +90,26 @@ fn kinds() -> PossibleValuesParser {
     PossibleValuesParser::new(Kind::ALL.iter().map(value))
 }
 
-/// What the picture becomes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Format {
-    Svg,
-    Png,
-    Pdf,
-    Gif,
-}
+/// What makes a file of a figure, with the pixels of a PNG for each of its own; none for an animation.
+type Write = Option<fn(&Figure, f32) -> Result<Vec<u8>, FigureError>>;
 
-impl Format {
-    fn of(path: &Path) -> Result<Self, Failure> {
-        let ending = path.extension().map(|e| e.to_string_lossy().to_lowercase());
-        match ending.as_deref() {
-            Some("svg") => Ok(Self::Svg),
-            Some("png") => Ok(Self::Png),
-            Some("pdf") => Ok(Self::Pdf),
-            Some("gif") => Ok(Self::Gif),
-            Some(_) | None => Err(Failure::input(format!(
-                "{} does not end in .svg, .png, .pdf or .gif",
-                path.display()
-            ))),
-        }
+/// What the picture becomes, by the end of its name.
+fn write(path: &Path) -> Result<Write, Failure> {
+    let ending = path.extension().map(|e| e.to_string_lossy().to_lowercase());
+    match ending.as_deref() {
+        Some("svg") => Ok(Some(|figure, _| to_svg(figure).map(String::into_bytes))),
+        Some("png") => Ok(Some(to_png)),
+        Some("pdf") => Ok(Some(|figure, _| to_pdf(figure))),
+        Some("gif") => Ok(None),
+        Some(_) | None => Err(Failure::input(format!(
+            "{} does not end in .svg, .png, .pdf or .gif",
+            path.display()
+        ))),
     }
 }
 
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let format = Format::of(&arguments.output)?;
+    let write = write(&arguments.output)?;
     let drawn_from = |path: &PathBuf| Role::new("a file", path);
     let inputs: Vec<Role> = arguments.files.iter().map(drawn_from).collect();
     apart(&[&arguments.output], &inputs)?;
@@ -136,17 +129,14 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         Some(width) => sized(figure, f64::from(width)),
         None => figure,
     };
-    let (bytes, notes) = match format {
-        Format::Gif => {
-            let (figures, notes) = animate(&arguments.files, &request)?;
-            let figures: Vec<Figure> = figures.into_iter().map(size).collect();
-            (to_gif(&figures, 1.0, FRAME_S), notes)
-        }
-        Format::Svg | Format::Png | Format::Pdf => {
-            let drawn = compose(&arguments.files, &request)?;
-            let figure = size(drawn.figure);
-            (rendered(&figure, format, arguments.scale), drawn.notes)
-        }
+    let (bytes, notes) = if let Some(write) = write {
+        let drawn = compose(&arguments.files, &request)?;
+        let scale = f32::from(arguments.scale);
+        (write(&size(drawn.figure), scale), drawn.notes)
+    } else {
+        let (figures, notes) = animate(&arguments.files, &request)?;
+        let figures: Vec<Figure> = figures.into_iter().map(size).collect();
+        (to_gif(&figures, 1.0, FRAME_S), notes)
     };
     let bytes = bytes.map_err(Failure::work)?;
     output.write(|part| std::fs::write(part, &bytes))?;
@@ -169,12 +159,4 @@ fn sized(mut figure: Figure, width: f64) -> Figure {
     }
     let text = (figure.text * (width / figure.width).sqrt()).clamp(8.0, 16.0);
     figure.width(width).text(text)
-}
-
-fn rendered(figure: &Figure, format: Format, scale: u8) -> Result<Vec<u8>, FigureError> {
-    match format {
-        Format::Svg => to_svg(figure).map(String::into_bytes),
-        Format::Png | Format::Gif => to_png(figure, f32::from(scale)),
-        Format::Pdf => to_pdf(figure),
-    }
 }

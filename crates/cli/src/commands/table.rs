@@ -208,10 +208,8 @@ fn join(
     json: bool,
 ) -> Result<(), Failure> {
     TABLE.check(output)?;
-    let progress = Bar::new();
-    let summary =
-        merge(shards, output, overwrite.existing(), &progress).map_err(tabulate::failure)?;
-    progress.finish();
+    let summary = merge(shards, output, overwrite.existing(), &Bar::new());
+    let summary = summary.map_err(tabulate::failure)?;
     let file = output.display().to_string();
     let value = json!({
         "file": file,

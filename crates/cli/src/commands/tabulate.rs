@@ -76,9 +76,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         apart(&[&arguments.output], &[grid])?;
     }
     if let Some(extension) = extension(arguments) {
-        let progress = Bar::new();
-        let summary = extend(&arguments.output, &extension, &progress).map_err(failure)?;
-        progress.finish();
+        let summary = extend(&arguments.output, &extension, &Bar::new()).map_err(failure)?;
         let content = lookup::read(&arguments.output).map_err(Failure::work)?;
         return tell(&Grid::of(&content).map_err(failure)?, arguments, &summary);
     }
@@ -92,17 +90,20 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         return say_complete(&arguments.output, arguments.json);
     }
     let existing = arguments.overwrite.existing();
-    let progress = Bar::new();
     if let Some(shard) = arguments.shard {
-        let blocks = build_shard(&grid, shard, &arguments.output, &progress).map_err(failure)?;
-        progress.finish();
-        return shard_report(arguments, blocks);
+        let blocks = build_shard(&grid, shard, &arguments.output, &Bar::new()).map_err(failure)?;
+        let file = arguments.output.display().to_string();
+        let text = format!("{file}: {blocks} blocks; join all shards with hertzlamb table merge");
+        return show(
+            arguments.json,
+            &json!({ "file": file, "blocks": blocks }),
+            text,
+        );
     }
     let needed = grid.memory_bytes().map_err(failure)?;
     let change = "ask for fewer nodes, fewer slices or wider cells";
     arguments.memory.check(needed, "the table", change)?;
-    let summary = build_over(&grid, &arguments.output, existing, &progress).map_err(failure)?;
-    progress.finish();
+    let summary = build_over(&grid, &arguments.output, existing, &Bar::new()).map_err(failure)?;
     tell(&grid, arguments, &summary)
 }
 
@@ -169,9 +170,7 @@ fn grid(arguments: &Arguments) -> Result<Grid, Failure> {
     let (Some(tolerance), Some(pulse)) = (arguments.tol, arguments.pulse) else {
         return Ok(grid);
     };
-    let progress = Bar::new();
-    let (grid, trials) = refine(&grid, tolerance, pulse, &progress).map_err(failure)?;
-    progress.finish();
+    let (grid, trials) = refine(&grid, tolerance, pulse, &Bar::new()).map_err(failure)?;
     trials.into_iter().for_each(say);
     Ok(grid)
 }
@@ -224,16 +223,6 @@ pub(crate) fn errors_in_words(accuracy: &[Accuracy]) -> String {
         }
     }
     text
-}
-
-fn shard_report(arguments: &Arguments, blocks: usize) -> Result<(), Failure> {
-    let file = arguments.output.display().to_string();
-    let text = format!("{file}: {blocks} blocks; join all shards with hertzlamb table merge");
-    show(
-        arguments.json,
-        &json!({ "file": file, "blocks": blocks }),
-        text,
-    )
 }
 
 /// The grid of a preset or a file.

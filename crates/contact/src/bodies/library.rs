@@ -1,7 +1,7 @@
 //! Materials by name: the built-in library, which a user's materials can extend.
 
-use crate::bodies::library_data::{Elastic, ROWS, Row};
-use crate::bodies::material::{Material, from_wave_speeds};
+use crate::bodies::library_data::materials;
+use crate::bodies::material::Material;
 use crate::names::nearest;
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
@@ -30,8 +30,7 @@ impl Library {
     /// The library that comes with the program.
     #[must_use]
     pub fn built_in() -> &'static Self {
-        static LIBRARY: LazyLock<Library> =
-            LazyLock::new(|| ROWS.iter().map(material).collect::<Library>());
+        static LIBRARY: LazyLock<Library> = LazyLock::new(|| materials().into_iter().collect());
         &LIBRARY
     }
 
@@ -64,13 +63,13 @@ impl Library {
         })
     }
 
-    /// Up to three names that contain a word.
+    /// Up to four names that contain a word.
     fn named_like(&self, word: &str) -> Option<String> {
         let word = word.to_lowercase();
         let names = self.materials.keys().map(String::as_str);
         let like: Vec<&str> = names
             .filter(|name| !word.is_empty() && name.to_lowercase().contains(&word))
-            .take(3)
+            .take(4)
             .collect();
         (!like.is_empty()).then(|| like.join(" or "))
     }
@@ -104,23 +103,5 @@ impl Material {
     /// ```
     pub fn named(name: &str) -> Result<Self, UnknownMaterial> {
         Library::built_in().find(name).cloned()
-    }
-}
-
-fn material(row: &Row) -> Material {
-    let (youngs_modulus_pa, poisson_ratio) = match row.elastic {
-        Elastic::Moduli(modulus, ratio) => (modulus, ratio),
-        Elastic::Speeds(c1, c2) => from_wave_speeds(c1, c2, row.density_kg_m3),
-    };
-    Material {
-        name: row.name.to_owned(),
-        youngs_modulus_pa,
-        poisson_ratio,
-        density_kg_m3: Some(row.density_kg_m3),
-        yield_strength_pa: row.yield_strength_pa,
-        tensile_strength_pa: row.tensile_strength_pa,
-        fracture_toughness_pa_sqrt_m: row.fracture_toughness_pa_sqrt_m,
-        group: row.group.to_owned(),
-        source: row.source.to_owned(),
     }
 }

@@ -8,49 +8,51 @@
 //! read. Of Petrovic the abstract was read; Gercek's abstract says that ranges are given. Handbooks and standards are
 //! cited for the kind of value, not page by page.
 
-/// How a material's elastic constants are given.
-#[derive(Debug, Clone, Copy)]
-pub(crate) enum Elastic {
-    /// Young's modulus in Pa and Poisson's ratio.
-    Moduli(f64, f64),
-    /// Longitudinal and shear wave speed in m/s.
-    Speeds(f64, f64),
+use crate::bodies::material::{Material, from_wave_speeds};
+
+/// A material from its line; strengths and toughness where they are known.
+fn material(
+    [name, group, source]: [&str; 3],
+    (youngs_modulus_pa, poisson_ratio): (f64, f64),
+    density_kg_m3: f64,
+    [
+        yield_strength_pa,
+        tensile_strength_pa,
+        fracture_toughness_pa_sqrt_m,
+    ]: [Option<f64>; 3],
+) -> Material {
+    Material {
+        name: name.to_owned(),
+        youngs_modulus_pa,
+        poisson_ratio,
+        density_kg_m3: Some(density_kg_m3),
+        yield_strength_pa,
+        tensile_strength_pa,
+        fracture_toughness_pa_sqrt_m,
+        group: group.to_owned(),
+        source: source.to_owned(),
+    }
 }
 
-/// A line of the table.
-#[derive(Debug)]
-pub(crate) struct Row {
-    pub(crate) name: &'static str,
-    pub(crate) group: &'static str,
-    pub(crate) elastic: Elastic,
-    pub(crate) density_kg_m3: f64,
-    pub(crate) yield_strength_pa: Option<f64>,
-    pub(crate) tensile_strength_pa: Option<f64>,
-    pub(crate) fracture_toughness_pa_sqrt_m: Option<f64>,
-    pub(crate) source: &'static str,
-}
-
-macro_rules! rows {
+macro_rules! materials {
     ($($name:literal, $group:ident, $kind:ident($a:literal, $b:literal), $density:literal
        $(, yield $yield:literal)? $(, tensile $tensile:literal)? $(, toughness $toughness:literal)? : $source:literal;)*) => {
-        &[$(Row {
-            name: $name,
-            group: stringify!($group),
-            elastic: rows!(@$kind $a $b),
-            density_kg_m3: $density,
-            yield_strength_pa: rows!(@optional $($yield)?),
-            tensile_strength_pa: rows!(@optional $($tensile)?),
-            fracture_toughness_pa_sqrt_m: rows!(@optional $($toughness)?),
-            source: $source,
-        },)*]
+        [$(material(
+            [$name, stringify!($group), $source],
+            materials!(@$kind $a $b $density),
+            $density,
+            [materials!(@optional $($yield)?), materials!(@optional $($tensile)?), materials!(@optional $($toughness)?)],
+        ),)*]
     };
-    (@moduli $a:literal $b:literal) => { Elastic::Moduli($a, $b) };
-    (@speeds $a:literal $b:literal) => { Elastic::Speeds($a, $b) };
+    (@moduli $a:literal $b:literal $density:literal) => { ($a, $b) };
+    (@speeds $a:literal $b:literal $density:literal) => { from_wave_speeds($a, $b, $density) };
     (@optional) => { None };
     (@optional $value:literal) => { Some($value) };
 }
 
-pub(crate) const ROWS: &[Row] = rows! {
+/// All of them.
+pub(crate) fn materials() -> impl IntoIterator<Item = Material> {
+    materials! {
     "steel", metal, moduli(209e9, 0.3), 7830.0, yield 1000e6, tensile 1200e6: "anvil steel of the copper-on-steel Taylor test, Table 1 of the paper";
     "copper", metal, moduli(123e9, 0.34), 8960.0, yield 57e6, tensile 227e6: "rod of the copper-on-steel Taylor test, Table 1 of the paper";
     "bearing-steel", metal, moduli(208e9, 0.29), 7800.0, yield 1700e6, tensile 2240e6: "AISI 52100 hardened; elastic constants and strengths typical of handbooks";
@@ -116,4 +118,5 @@ pub(crate) const ROWS: &[Row] = rows! {
     "soil-medium-dense", soil, moduli(0.36844e9, 0.33), 1900.0: "EN 1998-1 ground type C (shear speed 180 to 360 m/s), small strains";
     "soil-soft", soil, moduli(0.08044e9, 0.4), 1700.0: "EN 1998-1 ground type D (shear speed below 180 m/s), small strains";
     "clay-saturated", soil, moduli(0.12069e9, 0.49), 1800.0: "typical of soft saturated clay, small strains";
-};
+    }
+}

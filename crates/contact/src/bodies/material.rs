@@ -108,7 +108,7 @@ pub enum BodyError {
         purpose: &'static str,
     },
     /// A number outside its range.
-    #[error("{quantity} = {value} is outside {range}")]
+    #[error("{quantity} = {} is outside {range}", fault::number(*value))]
     OutOfRange {
         /// The quantity.
         quantity: &'static str,

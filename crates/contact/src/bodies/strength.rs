@@ -46,7 +46,8 @@ impl Strength {
     /// ```
     ///
     /// Auerbach's law, with the constant for soda-lime glass as it is quoted after Lawn (1998), J. Am. Ceram. Soc. 81,
-    /// 1977; the paper itself was not at hand, so that no more than the order and the first digit is to be trusted.
+    /// 1977; neither the paper nor another source of the number could be opened, so that no more than the order and the
+    /// first digit is to be trusted.
     /// Onsets scatter by a factor of two and more with the flaws of a surface; a polished one bears more, and in a rock
     /// with grains larger than the contact the law is a hint.
     #[must_use]
@@ -128,15 +129,6 @@ impl Loading {
             }),
         }
     }
-
-    /// Whether a body yields or cracks by these estimates.
-    #[must_use]
-    pub fn exceeds(&self) -> bool {
-        [self.yield_onset, self.cone_crack_onset]
-            .into_iter()
-            .flatten()
-            .any(|ratio| ratio > 1.0)
-    }
 }
 
 #[cfg(test)]
@@ -166,11 +158,14 @@ mod tests {
 
     #[test]
     fn glass_cracks_where_experiments_have_it() {
-        // steel balls on soda-lime glass: about 1e5 N for each metre of radius, with the scatter of the law
+        // steel balls on soda-lime glass: about 1e5 N for each metre of radius, with the scatter of the law; no published
+        // number that could be opened is nearer, so physics sees a factor of two here and no more
         let glass = Material::named("soda-lime-glass").unwrap_or_else(|error| panic!("{error}"));
         let force = Strength::new(&glass)
             .cone_crack_force_n(1.0, 56e9)
             .unwrap_or(0.0);
         assert!((5e4..2e5).contains(&force), "{force}");
+        // a slip of the pen is seen all the same: data-schema/results.md tells users 8600 R K^2/E*
+        assert!((force / (8600.0 * 0.75e6 * 0.75e6 / 56e9) - 1.0).abs() < 1e-12);
     }
 }

@@ -9,10 +9,10 @@
 //! First order: the velocity lags the force by half a step, which feeds energy into the rebound.
 
 use crate::disc::FixedDisc;
-use crate::disc::history::{Budget, History};
+use crate::disc::history::{History, affordable, memory_cells};
 use crate::error::MarchError;
 use crate::numeric::quadrature::{find_root, peak};
-use crate::summary::{EndOfContact, Summary};
+use crate::summary::Summary;
 use crate::units::INVERSE_MASS;
 use halfspace::SurfaceResponse;
 
@@ -27,8 +27,9 @@ pub fn march_explicit(
     impact: &FixedDisc<'_, SurfaceResponse>,
     step: f64,
 ) -> Result<(History, Summary), MarchError> {
-    let budget = Budget::of_memory(impact.memory(), step)?;
-    let kernel: Vec<f64> = (0..=budget.cells + 1)
+    let memory = impact.memory();
+    let cells = memory_cells(memory, step)?;
+    let kernel: Vec<f64> = (0..=cells + 1)
         .map(|i| {
             let t = i as f64 * step / impact.wave_time;
             impact.coupling * impact.response.impulse(t) * step / impact.wave_time
@@ -62,7 +63,7 @@ pub fn march_explicit(
             });
         }
         if n.is_multiple_of(1024) {
-            budget.check(n)?;
+            affordable(n, cells, memory)?;
         }
     }
 }
@@ -84,13 +85,9 @@ fn summarise(history: &History) -> Result<Summary, MarchError> {
         peak_force,
         peak_force_time: place * history.step,
         contact_time: (n as f64 - 1.0 + fraction) * history.step,
-        restitution: -velocity,
-        loss: (1.0 - velocity) * (1.0 + velocity),
         peak_displacement: peak(&history.displacement).1,
         peak_deflection: peak(&history.deflection).1,
-        impulse: (1.0 - velocity) / INVERSE_MASS,
-        contacts: 1,
-        end: EndOfContact::Smooth,
+        ..Summary::rebound(-velocity)
     })
 }
 

@@ -100,18 +100,16 @@ impl History {
     /// After the contact the deflection is not followed: that sample holds the one at the end.
     #[must_use]
     pub fn of_pieces(solved: &SolvedContact, step: f64) -> Self {
-        let (contact_time, restitution) =
-            (solved.summary().contact_time, solved.summary().restitution);
-        let steps = (contact_time / step) as usize;
-        let mut history = Self::at_touch(step, steps + 2);
-        for i in 1..=steps {
-            if let Some(now) = solved.at(i as f64 * step) {
-                history.push(now.force, now.displacement, now.deflection);
-            }
+        let contact_time = solved.summary().contact_time;
+        let mut history = Self::at_touch(step, (contact_time / step) as usize + 2);
+        let times = (1..).map(|i| f64::from(i) * step);
+        for time in times.take_while(|time| *time < contact_time) {
+            let now = solved.state(time);
+            history.push(now.force, now.displacement, now.deflection);
         }
-        let last = solved.at(contact_time).map_or(0.0, |now| now.displacement);
-        let beyond = history.force.len() as f64 * step - contact_time;
-        history.push(0.0, last - restitution * beyond, last);
+        let beyond = solved.state(history.force.len() as f64 * step);
+        let last = solved.state(contact_time).displacement;
+        history.push(0.0, beyond.displacement, last);
         history.error = solved.estimates().force;
         history.pieces = Some(Arc::new(solved.clone()));
         history
@@ -148,44 +146,38 @@ impl History {
 /// A contact lasts at least this part of Hertz's.
 const SHORTEST: f64 = 0.5;
 
-/// Bounds the work of one march.
-#[derive(Debug)]
-pub(crate) struct Budget {
-    pub(crate) cells: usize,
-    ratio: f64,
+/// Steps of a march, and products of steps and cells of the memory, at most.
+const STEPS: usize = 400_000;
+const WORK: usize = 4_000_000_000;
+
+/// Cells of a memory at a step, both in collision units.
+///
+/// # Errors
+/// [`MarchError::TooLong`], before a march begins whose work is out of bounds.
+pub(crate) fn memory_cells(memory: f64, step: f64) -> Result<usize, MarchError> {
+    let cells = (memory / step).min(1e9) as usize;
+    affordable(cells, cells, memory)?;
+    affordable(least_steps(step), cells, memory)?;
+    Ok(cells)
 }
 
-impl Budget {
-    const STEPS: usize = 400_000;
-    const WORK: usize = 4_000_000_000;
+/// Steps over a contact at least.
+pub(crate) fn least_steps(step: f64) -> usize {
+    (SHORTEST * CONTACT_TIME / step).min(1e9) as usize
+}
 
-    pub(crate) fn new(cells: usize, ratio: f64) -> Self {
-        Self { cells, ratio }
+/// Whether so many steps with so many cells of a `memory` each are within bounds.
+///
+/// # Errors
+/// [`MarchError::TooLong`].
+pub(crate) fn affordable(steps: usize, cells: usize, memory: f64) -> Result<(), MarchError> {
+    let work = steps.saturating_mul(cells.min(steps));
+    if steps > STEPS || work > WORK {
+        return Err(MarchError::TooLong {
+            steps,
+            cells,
+            ratio: memory,
+        });
     }
-
-    /// For a memory and a step; refuses what is out of bounds before the march begins.
-    pub(crate) fn of_memory(memory: f64, step: f64) -> Result<Self, MarchError> {
-        let cells = (memory / step).min(1e9) as usize;
-        let budget = Self::new(cells, memory);
-        budget.check(cells)?;
-        budget.before(step)?;
-        Ok(budget)
-    }
-
-    /// Refuses a march before it begins.
-    pub(crate) fn before(&self, step: f64) -> Result<(), MarchError> {
-        self.check((SHORTEST * CONTACT_TIME / step).min(1e9) as usize)
-    }
-
-    pub(crate) fn check(&self, steps: usize) -> Result<(), MarchError> {
-        let work = steps.saturating_mul(self.cells.min(steps));
-        if steps > Self::STEPS || work > Self::WORK {
-            return Err(MarchError::TooLong {
-                steps,
-                cells: self.cells,
-                ratio: self.ratio,
-            });
-        }
-        Ok(())
-    }
+    Ok(())
 }

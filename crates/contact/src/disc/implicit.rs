@@ -10,9 +10,9 @@
 
 use crate::disc::FixedDisc;
 use crate::disc::edge::{Edge, RESOLVED, Relaxation};
-use crate::disc::history::{Budget, History};
+use crate::disc::history::{History, affordable, memory_cells};
 use crate::disc::response::DiscResponse;
-use crate::disc::striker::{STARTING, StrikerMotion, TouchCorrection, starting_roots};
+use crate::disc::striker::{STARTING, StrikerMotion, starting_roots};
 use crate::disc::weights::Weights;
 use crate::error::MarchError;
 use crate::model::StaticShare;
@@ -40,12 +40,13 @@ pub(crate) fn march_into(
     history: &mut History,
 ) -> Result<(), MarchError> {
     // before the weights, which need one evaluation a cell
-    let budget = Budget::of_memory(impact.memory(), step)?;
+    let cells = memory_cells(impact.memory(), step)?;
     weights.fill_for(impact, impact.response, step);
     history.restart(step);
     let unit = impact.wave_time / step;
     let relaxation = Relaxation::of(impact.response, impact.coupling, unit);
-    advance(&relaxation, impact.share, weights, &budget, history)?;
+    let bounded = |steps| affordable(steps, cells, impact.memory());
+    advance(&relaxation, impact.share, weights, bounded, history)?;
     history.separate(&relaxation);
     Ok(())
 }
@@ -55,23 +56,22 @@ fn advance(
     relaxation: &Relaxation<impl Fn(f64) -> f64>,
     share: StaticShare,
     weights: &Weights,
-    budget: &Budget,
+    bounded: impl Fn(usize) -> Result<(), MarchError>,
     history: &mut History,
 ) -> Result<(), MarchError> {
     let (step, coupling) = (history.step, relaxation.coupling);
     let newest_weight = weights.values[0];
     let elastic = coupling * (share.factor() - newest_weight);
     let roots = starting_roots(step, elastic);
-    let start = TouchCorrection::new(step, elastic, &roots);
     let missed = missed(
         relaxation,
         weights,
         &Edge::touch(elastic.max(0.0), step),
         &roots,
     );
-    let mut striker = StrikerMotion::new(step, start);
+    let mut striker = StrikerMotion::new(step, elastic, &roots);
     let inertia = striker.newest_weight();
-    history.start = start.force;
+    history.start = striker.missed[0];
     let compliance = inertia + elastic;
     history.compliance = compliance;
     history.elastic = elastic;
@@ -107,7 +107,7 @@ fn advance(
             }
         }
         if n.is_multiple_of(1024) {
-            budget.check(n)?;
+            bounded(n)?;
         }
     }
 }

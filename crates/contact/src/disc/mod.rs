@@ -2,13 +2,14 @@
 //!
 //! In reading order: `response` and `table` are how the loaded surface answers, `stability` says whether there is a contact
 //! at all; `implicit` is the march, with the half-space's memory in `weights`, the striker's motion in `striker`, the force
-//! next to the ends of contact in `edge`, the end itself and the work in `separation`; `refine` chooses the step;
+//! next to the ends of contact in `edge`, the end itself and the work in `separation`; `measured` has the results of the samples, `refine` chooses the step;
 //! `explicit` is the paper's scheme, `history` the samples of all marches.
 
 pub(crate) mod edge;
 pub(crate) mod explicit;
 pub(crate) mod history;
 pub(crate) mod implicit;
+pub(crate) mod measured;
 pub(crate) mod refine;
 pub(crate) mod response;
 pub(crate) mod separation;

@@ -59,9 +59,12 @@ impl Accuracy {
 
     /// Judges the finer of two summaries a halving apart: the estimated error in units of what is allowed, enough where
     /// it is one or less, and that of the contact's results, relative.
-    fn judge(&self, coarse: &Summary, fine: &Summary) -> (f64, f64) {
+    fn judge(
+        &self,
+        coarse: &Summary,
+        (fine, [fraction, stays]): (&Summary, [f64; 2]),
+    ) -> (f64, f64) {
         let change = |of: fn(&Summary) -> f64| relative(of(fine), of(coarse));
-        let (fraction, stays) = fine.end.rest();
         let error = (REST * fine.motion_distance(coarse))
             .max(fraction * change(|summary| summary.contact_time) + stays);
         let parts = [
@@ -106,13 +109,8 @@ const HALVINGS: usize = 14;
 ///
 /// Coarse weights of the dynamic share overstate the part of the newest force, which can cost it its solution.
 fn may_pass(error: &MarchError, attempt: usize) -> bool {
-    match error {
-        MarchError::StepTooLong { .. } => true,
-        MarchError::NoSolution { .. } => attempt < 8,
-        MarchError::TooLong { .. }
-        | MarchError::NotConverged { .. }
-        | MarchError::Unstable { .. } => false,
-    }
+    matches!(error, MarchError::StepTooLong { .. })
+        || attempt < 8 && matches!(error, MarchError::NoSolution { .. })
 }
 
 /// Marches with `step`, halves it until the change over the last halving is within `accuracy`.
@@ -125,7 +123,7 @@ pub fn refine(
     accuracy: impl Into<Accuracy>,
 ) -> Result<Found, MarchError> {
     halve(
-        |step| Summary::new(&march(step)?),
+        |step| Summary::measured(&march(step)?),
         step,
         &accuracy.into(),
         1.0,
@@ -145,7 +143,7 @@ const REPORTED: f64 = 3.0;
 
 /// Halves the step of a march until its results meet `accuracy`; with `caution` the last change counts so many times.
 fn halve(
-    mut march: impl FnMut(f64) -> Result<Summary, MarchError>,
+    mut march: impl FnMut(f64) -> Result<(Summary, [f64; 2]), MarchError>,
     mut step: f64,
     accuracy: &Accuracy,
     caution: f64,
@@ -155,10 +153,10 @@ fn halve(
     for attempt in 0..HALVINGS {
         match march(step) {
             // strongly coupled discs: the scheme itself feeds energy at some steps of a fraction of the memory
-            Ok(summary) if summary.restitution > 1.0 => {}
-            Ok(summary) => {
+            Ok((summary, _)) if summary.restitution > 1.0 => {}
+            Ok((summary, end)) => {
                 if let Some(coarse) = &coarse {
-                    (ratio, error) = accuracy.judge(coarse, &summary);
+                    (ratio, error) = accuracy.judge(coarse, (&summary, end));
                     (ratio, error) = (caution * ratio, caution * error);
                     if ratio <= 1.0 {
                         return Ok(Found {
@@ -174,7 +172,7 @@ fn halve(
             Err(MarchError::TooLong { .. }) if ratio <= LENIENT => {
                 // once more, since what the caller keeps is that of the march that failed
                 return Ok(Found {
-                    summary: march(last)?,
+                    summary: march(last)?.0,
                     error: REPORTED * error,
                     step: Some(last),
                 });
@@ -243,11 +241,11 @@ pub(crate) fn stepped(
 ) -> Result<Found, MarchError> {
     let mut run = |step: f64| {
         march(step, workspace)?;
-        Summary::new(&workspace.history)
+        Summary::measured(&workspace.history)
     };
     if let Some(step) = step {
-        let finer = run(0.5 * step)?;
-        let summary = run(step)?;
+        let (finer, _) = run(0.5 * step)?;
+        let (summary, _) = run(step)?;
         return Ok(Found {
             summary,
             error: summary.distance(&finer) * 4.0 / 3.0,

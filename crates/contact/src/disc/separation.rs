@@ -30,9 +30,9 @@
 use crate::disc::edge::{Edge, Ends, RESOLVED, Relaxation};
 
 use crate::disc::history::{History, Separation};
+use crate::disc::measured::first_separation;
 use crate::disc::response::DiscResponse;
 use crate::numeric::quadrature::Local;
-use crate::summary::first_separation;
 
 /// Search interval for the separation; the last sample in contact is unreliable, and the one before it may be.
 const EARLIEST: f64 = 2.5;

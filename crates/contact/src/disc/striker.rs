@@ -27,48 +27,6 @@ pub(crate) fn starting_roots(step: f64, compliance: f64) -> [f64; STARTING] {
     })
 }
 
-/// What the trapezoidal rule misses at the touch: of int p dt and of int t p dt, the constants of Euler and Maclaurin.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(crate) struct TouchCorrection {
-    /// Of int p dt.
-    pub(crate) force: f64,
-    /// Of int t p dt.
-    moment: f64,
-}
-
-impl TouchCorrection {
-    /// From the first roots of the force, on a surface that gives way by `compliance` times the force at once.
-    ///
-    /// t = y^2 + sigma y^3 makes both integrals and the derivatives at the upper end elementary.
-    pub(crate) fn new(step: f64, compliance: f64, roots: &[f64; STARTING]) -> Self {
-        let sigma = compliance.max(0.0);
-        let (mut force, mut moment) = (0.0, 0.0);
-        for (j, y) in roots.iter().enumerate() {
-            let weight = if j + 1 == STARTING { 0.5 } else { 1.0 };
-            let p = y * y * y * step * weight;
-            force += p;
-            moment += (j + 1) as f64 * step * p;
-        }
-        let (t, y) = (STARTING as f64 * step, roots[STARTING - 1]);
-        let (y2, u) = (y * y, 2.0 + 3.0 * sigma * y);
-        let p = [
-            y2 * y,
-            3.0 * y / u,
-            6.0 / (y * u * u * u),
-            -6.0 * (u + 9.0 * sigma * y) / (y2 * y * u.powi(5)),
-        ];
-        let end =
-            |first: f64, third: f64| step * step / 12.0 * (first - step * step / 60.0 * third);
-        let exact = y2 * y2 * y * (0.4 + 0.5 * sigma * y);
-        let exact_moment =
-            y2 * y2 * y2 * y * (2.0 / 7.0 + sigma * y * (5.0 / 8.0 + sigma * y / 3.0));
-        Self {
-            force: exact - force + end(p[1], p[3]),
-            moment: exact_moment - moment + end(p[0] + t * p[1], 3.0 * p[2] + t * p[3]),
-        }
-    }
-}
-
 /// Running sums of the force samples.
 #[derive(Debug, Clone)]
 pub(crate) struct StrikerMotion {
@@ -78,18 +36,20 @@ pub(crate) struct StrikerMotion {
     sum: f64,
     /// sum over the samples so far of (n - j) p_j, n the next sample.
     double_sum: f64,
-    start: TouchCorrection,
+    /// What the trapezoidal rule misses at the touch of int p dt and of int t p dt.
+    pub(crate) missed: [f64; 2],
 }
 
 impl StrikerMotion {
-    /// At the instant of touch: one sample, p = 0.
-    pub(crate) fn new(step: f64, start: TouchCorrection) -> Self {
+    /// At the instant of touch, one sample, p = 0, on a surface that gives way by `compliance` times the force at once, with
+    /// the first roots of the force.
+    pub(crate) fn new(step: f64, compliance: f64, roots: &[f64; STARTING]) -> Self {
         Self {
             step,
             samples: 1,
             sum: 0.0,
             double_sum: 0.0,
-            start,
+            missed: missed(step, compliance, roots),
         }
     }
 
@@ -97,7 +57,7 @@ impl StrikerMotion {
     pub(crate) fn free_displacement(&self) -> f64 {
         let h = self.step;
         let t = self.samples as f64 * h;
-        let start = self.start.force * t - self.start.moment;
+        let start = self.missed[0] * t - self.missed[1];
         t - INVERSE_MASS * (h * h * self.double_sum + start)
     }
 
@@ -112,6 +72,35 @@ impl StrikerMotion {
         self.double_sum += self.sum;
         self.samples += 1;
     }
+}
+
+/// What the trapezoidal rule misses at the touch of int p dt and of int t p dt: the constants of Euler and Maclaurin.
+///
+/// t = y^2 + sigma y^3 makes both integrals and the derivatives at the upper end elementary.
+fn missed(step: f64, compliance: f64, roots: &[f64; STARTING]) -> [f64; 2] {
+    let sigma = compliance.max(0.0);
+    let (mut force, mut moment) = (0.0, 0.0);
+    for (j, y) in roots.iter().enumerate() {
+        let weight = if j + 1 == STARTING { 0.5 } else { 1.0 };
+        let p = y * y * y * step * weight;
+        force += p;
+        moment += (j + 1) as f64 * step * p;
+    }
+    let (t, y) = (STARTING as f64 * step, roots[STARTING - 1]);
+    let (y2, u) = (y * y, 2.0 + 3.0 * sigma * y);
+    let p = [
+        y2 * y,
+        3.0 * y / u,
+        6.0 / (y * u * u * u),
+        -6.0 * (u + 9.0 * sigma * y) / (y2 * y * u.powi(5)),
+    ];
+    let end = |first: f64, third: f64| step * step / 12.0 * (first - step * step / 60.0 * third);
+    let exact = y2 * y2 * y * (0.4 + 0.5 * sigma * y);
+    let exact_moment = y2 * y2 * y2 * y * (2.0 / 7.0 + sigma * y * (5.0 / 8.0 + sigma * y / 3.0));
+    [
+        exact - force + end(p[1], p[3]),
+        exact_moment - moment + end(p[0] + t * p[1], 3.0 * p[2] + t * p[3]),
+    ]
 }
 
 impl History {
@@ -156,9 +145,8 @@ mod tests {
     fn errors(step: f64, compliance: f64, p: impl Fn(f64) -> f64, exact: [f64; 2]) -> [f64; 2] {
         let n = (1.0 / step).round() as usize;
         let mut history = History::at_touch(step, n);
-        let start = TouchCorrection::new(step, compliance, &starting_roots(step, compliance));
-        let mut striker = StrikerMotion::new(step, start);
-        history.start = start.force;
+        let mut striker = StrikerMotion::new(step, compliance, &starting_roots(step, compliance));
+        history.start = striker.missed[0];
         for i in 1..=n + 2 {
             let force = p(i as f64 * step);
             history.push(force, 0.0, 0.0);

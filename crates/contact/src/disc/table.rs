@@ -3,7 +3,7 @@
 //! One table serves every impact on half-spaces of the same Poisson's ratio, whatever the units.
 
 use crate::disc::response::{DiscResponse, moments};
-use crate::numeric::quadrature::hermite;
+use crate::numeric::quadrature::{hermite, quintic};
 use halfspace::{Deflection, SurfaceResponse};
 
 /// Step response of a disc's deflection with its first and second time integral, by quintic interpolation.
@@ -114,9 +114,7 @@ impl ResponseTable {
         let rise = u1 - u0 - a - b;
         let tilt = v1 * width - a - 2.0 * b;
         let bend = 0.5 * (w1 - w0) * width * width;
-        let c = 10.0 * rise - 4.0 * tilt + bend;
-        let d = -15.0 * rise + 7.0 * tilt - 2.0 * bend;
-        let e = 6.0 * rise - 3.0 * tilt + bend;
+        let [c, d, e] = quintic(rise, tilt, bend);
         let twice = u0 + x * (a + x * (b + x * (c + x * (d + x * e))));
         let once = a + x * (2.0 * b + x * (3.0 * c + x * (4.0 * d + x * 5.0 * e)));
         [once * CELLS as f64 * m, twice * m * m]

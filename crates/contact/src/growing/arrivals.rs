@@ -46,58 +46,47 @@ impl Piece {
     }
 }
 
-/// The piece of an arrival, after all others.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Arrival<'a> {
-    pub(crate) time_of: &'a Polynomial,
-    pub(crate) radius_of: &'a Polynomial,
-    /// Time and radius where the piece starts.
-    pub(crate) from: (f64, f64),
-    /// Place in it.
-    pub(crate) place: f64,
-    /// Time of the arrival.
-    pub(crate) time: f64,
-}
-
-impl Arrival<'_> {
-    /// The departures of waves of some delays, in ascending order: later and later back in time.
-    ///
-    /// `found` holds those of a nearby contact as first guesses, where `again`.
-    pub(crate) fn departures(
-        &self,
-        pieces: &[Piece],
-        delays: &[f64],
-        again: bool,
-        found: &mut [Departure],
-    ) {
-        let mut index = pieces.len();
-        let mut k = 0;
-        while k < delays.len() {
-            let from = |index: usize| pieces.get(index).map_or(self.from, |piece| piece.from);
-            // the piece of the first of those that are left, and those that it holds too
-            while index > 0 && from(index).0 + delays[k] * from(index).1 > self.time {
-                index -= 1;
-            }
-            let start = from(index);
-            let held = delays[k..]
-                .iter()
-                .take(LANES)
-                .take_while(|&delay| index == 0 || start.0 + delay * start.1 <= self.time)
-                .count();
-            let (time, radius, latest) = match pieces.get(index) {
-                Some(piece) => (&piece.time, &piece.radius, 1.0),
-                None => (self.time_of, self.radius_of, self.place),
-            };
-            let roots = Roots {
-                time,
-                radius,
-                arrival: self.time,
-                latest,
-            };
-            let (delays, found) = (&delays[k..k + held], &mut found[k..k + held]);
-            roots.find(delays, index, again, found);
-            k += held;
+/// The departures of waves of some delays that arrive at a place and a time of a piece after all others, in ascending
+/// order: later and later back in time.
+///
+/// `own` has the time and the radius of that piece, `from` both where it starts; `found` holds departures of a nearby
+/// contact as first guesses, where `again`.
+pub(crate) fn departures(
+    pieces: &[Piece],
+    own: [&Polynomial; 2],
+    from: (f64, f64),
+    [place, arrival]: [f64; 2],
+    delays: &[f64],
+    again: bool,
+    found: &mut [Departure],
+) {
+    let mut index = pieces.len();
+    let mut k = 0;
+    while k < delays.len() {
+        let from = |index: usize| pieces.get(index).map_or(from, |piece| piece.from);
+        // the piece of the first of those that are left, and those that it holds too
+        while index > 0 && from(index).0 + delays[k] * from(index).1 > arrival {
+            index -= 1;
         }
+        let start = from(index);
+        let held = delays[k..]
+            .iter()
+            .take(LANES)
+            .take_while(|&delay| index == 0 || start.0 + delay * start.1 <= arrival)
+            .count();
+        let ([time, radius], latest) = match pieces.get(index) {
+            Some(piece) => ([&piece.time, &piece.radius], 1.0),
+            None => (own, place),
+        };
+        let roots = Roots {
+            time,
+            radius,
+            arrival,
+            latest,
+        };
+        let (delays, found) = (&delays[k..k + held], &mut found[k..k + held]);
+        roots.find(delays, index, again, found);
+        k += held;
     }
 }
 
@@ -115,16 +104,16 @@ pub(crate) struct Departure {
 }
 
 /// Roots that are sought together.
-pub(crate) const LANES: usize = 4;
+const LANES: usize = 4;
 
 /// Roots of T + X a - t in a piece.
-pub(crate) struct Roots<'a> {
-    pub(crate) time: &'a Polynomial,
-    pub(crate) radius: &'a Polynomial,
+struct Roots<'a> {
+    time: &'a Polynomial,
+    radius: &'a Polynomial,
     /// t
-    pub(crate) arrival: f64,
+    arrival: f64,
     /// Largest place of a root.
-    pub(crate) latest: f64,
+    latest: f64,
 }
 
 /// Newton's steps for all roots together; those that need more are found one by one.
@@ -132,7 +121,7 @@ const TOGETHER: usize = 4;
 
 impl Roots<'_> {
     /// The roots for up to `LANES` delays; `found` holds first guesses, where `again`.
-    pub(crate) fn find(&self, delays: &[f64], index: usize, again: bool, found: &mut [Departure]) {
+    fn find(&self, delays: &[f64], index: usize, again: bool, found: &mut [Departure]) {
         let mut places = [0.5 * self.latest; LANES];
         let mut lanes = [delays[0]; LANES];
         lanes[..delays.len()].copy_from_slice(delays);

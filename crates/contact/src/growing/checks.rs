@@ -9,7 +9,7 @@
 //!
 //! with the g = int ds/a of the law, since waves of the shrinking contact are younger the later they left, but smaller.
 
-use crate::growing::GrowingError;
+use crate::error::MarchError;
 use crate::growing::arrivals::Piece;
 use crate::growing::solved::SolvedContact;
 use crate::growing::waves::{GrowingContact, Rule};
@@ -34,13 +34,13 @@ const SMALL: f64 = 1e-2;
 pub(crate) fn passed(
     solved: SolvedContact,
     contact: &GrowingContact<'_>,
-) -> Result<SolvedContact, GrowingError> {
+) -> Result<SolvedContact, MarchError> {
     if let Some(time) = folds(solved.all_pieces(), contact) {
-        return Err(GrowingError::Overtaken { time });
+        return Err(MarchError::Overtaken { time });
     }
     let velocity = -solved.summary().restitution;
     match strikes_again(solved.all_pieces(), contact, velocity) {
-        Some(time) => Err(GrowingError::StrikesAgain { time }),
+        Some(time) => Err(MarchError::StrikesAgain { time }),
         None => Ok(solved),
     }
 }

@@ -5,9 +5,9 @@
 //! from a^2 over the velocity to a smaller multiple of it, for a stiff striker to nearly a power one of a.
 
 use crate::growing::arrivals::Piece;
-use crate::growing::equations::{Independent, Values};
+use crate::growing::equations::Independent;
 use crate::growing::march::March;
-use crate::growing::polynomial::{LARGEST, Polynomial};
+use crate::growing::polynomial::{Polynomial, SIZE};
 
 /// Pieces at most, tried ones included.
 const MOST: usize = 200;
@@ -86,8 +86,8 @@ impl March<'_> {
     }
 
     /// Times at the nodes by t = t_0 + left (1 - (a/a_0)^power).
-    fn power_law(&self, radius: &Polynomial, left: f64, power: f64) -> Values {
-        let mut times = [0.0; LARGEST + 1];
+    fn power_law(&self, radius: &Polynomial, left: f64, power: f64) -> [f64; SIZE] {
+        let mut times = [0.0; SIZE];
         for (time, &s) in times.iter_mut().zip(&self.nodes.places) {
             let a = radius.value(s).max(0.0) / self.state.radius;
             *time = self.state.time + left * (1.0 - a.powf(power));

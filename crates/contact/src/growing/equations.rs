@@ -10,9 +10,9 @@
 //! Indentation u, punches s, g = int ds/a and force p over the radius are those of a [`Law`]; Hertz's has u = s = a^2,
 //! g = 2 a and p = a^3.
 
-use crate::growing::arrivals::{Arrival, Departure, Piece};
+use crate::growing::arrivals::{Departure, Piece, departures};
 use crate::growing::nodes::{Factors, Nodes};
-use crate::growing::polynomial::{LARGEST, Polynomial, dot};
+use crate::growing::polynomial::{LARGEST, Polynomial, SIZE, dot};
 use crate::growing::waves::{GrowingContact, Rule};
 use crate::plastic::branch::{Law, Local};
 use crate::units::INVERSE_MASS;
@@ -48,9 +48,6 @@ pub(crate) enum Independent {
     Radius,
 }
 
-/// Values at 0 and the nodes.
-pub(crate) type Values = [f64; LARGEST + 1];
-
 /// What the equations of a piece are made of.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Equations<'a> {
@@ -63,38 +60,37 @@ pub(crate) struct Equations<'a> {
     pub(crate) known: Independent,
     /// What is known: the time or the radius.
     pub(crate) given: Polynomial,
+    /// The rule over the waves that is solved with, and the next finer one that corrects.
+    pub(crate) rules: [&'a Rule; 2],
+    /// Error that is allowed.
+    pub(crate) accuracy: f64,
 }
 
 /// Time, radius and what follows from them at 0 and the nodes.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Motion {
-    pub(crate) time: Values,
-    pub(crate) radius: Values,
+    pub(crate) time: [f64; SIZE],
+    pub(crate) radius: [f64; SIZE],
     /// Slopes with respect to the place.
-    pub(crate) time_slope: Values,
-    pub(crate) radius_slope: Values,
-    pub(crate) velocity: Values,
+    pub(crate) time_slope: [f64; SIZE],
+    pub(crate) radius_slope: [f64; SIZE],
+    pub(crate) velocity: [f64; SIZE],
     /// The law at the nodes.
     pub(crate) local: [Local; LARGEST],
 }
 
-/// The departures of all waves to all nodes.
-#[derive(Debug, Clone, Default)]
-pub(crate) struct Departures {
-    found: Vec<Departure>,
-    delays: Vec<f64>,
-}
-
-/// Residuals and the sums S at the nodes.
-#[derive(Debug, Clone, Copy)]
+/// Residuals and what drives the radius at the nodes, with the departures of all waves to them.
+#[derive(Debug, Default)]
 pub(crate) struct Residual {
     pub(crate) value: [f64; LARGEST],
     drive: [f64; LARGEST],
+    departures: Vec<Departure>,
+    delays: Vec<f64>,
 }
 
 impl Equations<'_> {
     /// Polynomials of time and radius through values of what is sought.
-    pub(crate) fn polynomials(&self, sought: &Values) -> (Polynomial, Polynomial) {
+    pub(crate) fn polynomials(&self, sought: &[f64; SIZE]) -> (Polynomial, Polynomial) {
         let sought = self.nodes.polynomial(sought);
         match self.known {
             Independent::Time => (self.given, sought),
@@ -103,10 +99,10 @@ impl Equations<'_> {
     }
 
     /// What follows from values of what is sought.
-    pub(crate) fn motion(&self, sought: &Values) -> Motion {
+    pub(crate) fn motion(&self, sought: &[f64; SIZE]) -> Motion {
         let n = self.nodes.degree;
-        let mut given = [0.0; LARGEST + 1];
-        let (mut given_slope, mut sought_slope) = ([0.0; LARGEST + 1], [0.0; LARGEST + 1]);
+        let mut given = [0.0; SIZE];
+        let (mut given_slope, mut sought_slope) = ([0.0; SIZE], [0.0; SIZE]);
         for (i, &s) in self.nodes.places.iter().enumerate() {
             (given[i], given_slope[i]) = self.given.jet(s);
         }
@@ -123,7 +119,7 @@ impl Equations<'_> {
             local[j - 1] = self.law.branch.at(radius[j]);
             impulse[j - 1] = local[j - 1].force * time_slope[j];
         }
-        let mut velocity = [self.start.velocity; LARGEST + 1];
+        let mut velocity = [self.start.velocity; SIZE];
         for (i, v) in velocity.iter_mut().enumerate().take(n + 1).skip(1) {
             *v -= INVERSE_MASS * dot(self.nodes.integral_row(i), &impulse[..n]);
         }
@@ -137,14 +133,14 @@ impl Equations<'_> {
         }
     }
 
-    /// Residuals; the departures are those of a nearby motion on entry, or empty.
+    /// Residuals; on entry they are those of a nearby motion, or of none.
     pub(crate) fn residual(
         &self,
         rule: &Rule,
-        sought: &Values,
+        sought: &[f64; SIZE],
         motion: &Motion,
-        departures: &mut Departures,
-    ) -> Residual {
+        residual: &mut Residual,
+    ) {
         let n = self.nodes.degree;
         let GrowingContact {
             target_share,
@@ -153,29 +149,22 @@ impl Equations<'_> {
         } = self.contact;
         let (time_of, radius_of) = self.polynomials(sought);
         let size = rule.delays.len();
-        let again = departures.found.len() == n * size;
+        let again = residual.departures.len() == n * size;
         if !again {
-            departures.found.clear();
-            departures.found.resize(n * size, Departure::default());
-            departures.delays.clear();
-            departures
-                .delays
-                .extend(rule.delays.iter().map(|delay| delay * wave_time));
+            residual.departures = vec![Departure::default(); n * size];
+            residual.delays = rule.delays.iter().map(|delay| delay * wave_time).collect();
         }
-        let mut residual = Residual {
-            value: [0.0; LARGEST],
-            drive: [0.0; LARGEST],
-        };
         for i in 1..=n {
-            let arrival = Arrival {
-                time_of: &time_of,
-                radius_of: &radius_of,
-                from: (self.start.time, self.start.radius),
-                place: self.nodes.places[i],
-                time: motion.time[i],
-            };
-            let found = &mut departures.found[(i - 1) * size..i * size];
-            arrival.departures(self.pieces, &departures.delays, again, found);
+            let found = &mut residual.departures[(i - 1) * size..i * size];
+            departures(
+                self.pieces,
+                [&time_of, &radius_of],
+                (self.start.time, self.start.radius),
+                [self.nodes.places[i], motion.time[i]],
+                &residual.delays,
+                again,
+                found,
+            );
             let delayed = self.law.delayed(motion.radius[i]);
             let parts = rule.rates.iter().zip(found.iter());
             let sum: f64 = parts
@@ -188,7 +177,6 @@ impl Equations<'_> {
             residual.value[i - 1] = drive * motion.time_slope[i] - slope * motion.radius_slope[i];
             residual.drive[i - 1] = drive;
         }
-        residual
     }
 
     /// The law at a departure.
@@ -203,17 +191,16 @@ impl Equations<'_> {
         rule: &Rule,
         motion: &Motion,
         residual: &Residual,
-        departures: &Departures,
         matrix: &mut Factors,
     ) {
         let n = self.nodes.degree;
         let size = rule.delays.len();
         let velocity = self.velocity_by_impulse(motion);
         for i in 1..=n {
-            let found = &departures.found[(i - 1) * size..i * size];
+            let found = &residual.departures[(i - 1) * size..i * size];
             let here = &motion.local[i - 1];
             let slope = self.law.slope(motion.radius[i]);
-            let (sums, own) = self.tension_row(rule, found, &departures.delays, slope);
+            let (sums, own) = self.tension_row(rule, found, &residual.delays, slope);
             let slopes = self.nodes.slope_row(i);
             let line = matrix.row(i - 1);
             let tension = self.contact.target_share / self.contact.wave_time;
@@ -274,9 +261,9 @@ impl Equations<'_> {
         found: &[Departure],
         delays: &[f64],
         slope: f64,
-    ) -> (Values, f64) {
-        let mut sums = [0.0; LARGEST + 1];
-        let mut basis = [0.0; LARGEST + 1];
+    ) -> ([f64; SIZE], f64) {
+        let mut sums = [0.0; SIZE];
+        let mut basis = [0.0; SIZE];
         let mut own = 0.0;
         for ((left, &delay), &rate) in found.iter().zip(delays).zip(&rule.rates) {
             let speed = left.time_slope + delay * left.radius_slope;

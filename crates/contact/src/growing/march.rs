@@ -1,11 +1,11 @@
 //! Pieces after pieces from the touch until the contact has mostly opened.
 
-use crate::growing::GrowingError;
+use crate::error::MarchError;
 use crate::growing::arrivals::Piece;
-use crate::growing::equations::{Equations, Independent, State, Values};
+use crate::growing::equations::{Equations, Independent, State};
 use crate::growing::nodes::Nodes;
-use crate::growing::polynomial::{LARGEST, Polynomial};
-use crate::growing::step::{Solution, Step};
+use crate::growing::polynomial::{Polynomial, SIZE};
+use crate::growing::step::Solution;
 use crate::growing::waves::{GrowingContact, LEVELS};
 use crate::law::hertz::CONTACT_TIME;
 use crate::numeric::quadrature::rising_root;
@@ -91,7 +91,7 @@ impl<'a> March<'a> {
         &mut self,
         known: Independent,
         given: Polynomial,
-        guess: &Values,
+        guess: &[f64; SIZE],
     ) -> Option<(Solution, f64)> {
         let mut guess = *guess;
         loop {
@@ -104,14 +104,10 @@ impl<'a> March<'a> {
                 law: self.law,
                 known,
                 given,
-            };
-            let accuracy = self.accuracy;
-            let solution = Step {
-                equations,
                 rules,
-                accuracy,
-            }
-            .solve(&guess)?;
+                accuracy: self.accuracy,
+            };
+            let solution = equations.solve(&guess)?;
             // of the force where the radius is sought
             let weight = match known {
                 Independent::Time => 3.0 * solution.widest * solution.widest,
@@ -135,8 +131,8 @@ impl<'a> March<'a> {
     }
 
     /// Why it could not go on at a time.
-    pub(crate) fn lost(&self, time: f64) -> GrowingError {
-        GrowingError::NotFollowed {
+    pub(crate) fn lost(&self, time: f64) -> MarchError {
+        MarchError::NotFollowed {
             time,
             tolerance: self.accuracy,
             target_share: self.contact.target_share,
@@ -171,6 +167,18 @@ impl<'a> March<'a> {
         self.state = solution.end;
         self.dissipated += solution.dissipated;
         self.widest = self.widest.max(solution.widest);
+    }
+
+    /// Length of a piece after one that has failed, by its error over the allowed one if it has been solved.
+    ///
+    /// # Errors
+    /// The time where no piece is short enough.
+    pub(crate) fn shorter(&self, length: f64, error: Option<f64>) -> Result<f64, f64> {
+        let length = length * error.map_or(0.3, |error| self.factor(error).min(0.7));
+        if length < 1e-9 {
+            return Err(self.state.time);
+        }
+        Ok(length)
     }
 
     /// Change of length that an error over the allowed one asks for.
@@ -238,13 +246,9 @@ impl<'a> March<'a> {
                     }
                 }
                 Some((_, error)) if first => length *= self.factor(error).powi(2),
-                Some((_, error)) => length *= self.factor(error).min(0.7),
-                None => length *= 0.3,
+                failed => length = self.shorter(length, failed.map(|(_, error)| error))?,
             }
             ends = false;
-            if length < 1e-9 {
-                break;
-            }
         }
         Err(self.state.time)
     }
@@ -271,8 +275,8 @@ impl<'a> March<'a> {
     }
 
     /// A first guess of the radius over the first piece: the law with a relaxation that decays exponentially.
-    fn first_guess(&self, length: f64) -> Values {
-        let mut guess = [0.0; LARGEST + 1];
+    fn first_guess(&self, length: f64) -> [f64; SIZE] {
+        let mut guess = [0.0; SIZE];
         let relaxation = self.contact.waves.relaxation_time() * self.contact.wave_time;
         for (a, s) in guess.iter_mut().zip(&self.nodes.places).skip(1) {
             let t = (length * s).powi(2);
@@ -287,8 +291,8 @@ impl<'a> March<'a> {
     }
 
     /// The law without waves from the state on, as a guess.
-    pub(crate) fn guess(&self, time: &Polynomial) -> Values {
-        let mut guess = [0.0; LARGEST + 1];
+    pub(crate) fn guess(&self, time: &Polynomial) -> [f64; SIZE] {
+        let mut guess = [0.0; SIZE];
         guess[0] = self.state.radius;
         let (mut u, mut rate) = (self.state.radius.powi(2), self.state.slope);
         let least = 0.01 * self.widest * self.widest;

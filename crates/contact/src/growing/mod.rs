@@ -1,6 +1,6 @@
 //! The contact whose radius follows the load, to any accuracy.
 //!
-//! `uniform` steps the equation of the contact as it stands, with the response of a flat punch (`punch`).
+//! `uniform` steps the equation of the contact as it stands, with the response of a flat punch.
 //! Here it is turned into another one, whose terms are all smooth.
 //! The relaxation of a flat punch is a superposition of triangles over the slowness of its waves
 //! ([`PunchWaves`](crate::PunchWaves)), V_p(t) = int (1 - t/X)_+ dmu, so that with du = 2 a da the memory integral can be done:
@@ -31,7 +31,6 @@ pub(crate) mod equations;
 pub(crate) mod march;
 pub(crate) mod nodes;
 pub(crate) mod polynomial;
-pub(crate) mod punch;
 pub(crate) mod solved;
 pub(crate) mod step;
 pub(crate) mod uniform;
@@ -39,66 +38,11 @@ pub(crate) mod waves;
 pub(crate) mod work;
 
 use crate::disc::refine::Accuracy;
+use crate::error::MarchError;
 use crate::growing::march::March;
 use crate::growing::solved::SolvedContact;
 use crate::growing::waves::GrowingContact;
 use crate::summary::Estimates;
-use thiserror::Error;
-
-/// Why a growing contact could not be solved.
-#[derive(Debug, Clone, Copy, PartialEq, Error)]
-pub enum GrowingError {
-    /// A group outside its range.
-    #[error("{name} = {value} is outside {range}")]
-    OutOfRange {
-        /// Name of the group.
-        name: &'static str,
-        /// Its value.
-        value: f64,
-        /// Its range.
-        range: &'static str,
-    },
-    /// The contact could not be followed.
-    #[error(
-        "the growing contact could not be followed beyond {time:.4} collision times at a tolerance of {tolerance:e} (target share {target_share}, wave time {wave_time})"
-    )]
-    NotFollowed {
-        /// Time in collision units.
-        time: f64,
-        /// Tolerance of the attempt.
-        tolerance: f64,
-        /// phi.
-        target_share: f64,
-        /// tau.
-        wave_time: f64,
-    },
-    /// The results do not meet the tolerance by their estimates.
-    #[error(
-        "relative tolerance {tolerance:e} is not reached: the error is estimated as {estimate:e}"
-    )]
-    NotConverged {
-        /// What was asked for.
-        tolerance: f64,
-        /// What was reached.
-        estimate: f64,
-    },
-    /// The surface comes back and strikes the striker once more.
-    #[error(
-        "the surface meets the striker again {time:.4} collision times after the touch, which is not followed: ask for model \"area_dashpot\", to which there is one contact"
-    )]
-    StrikesAgain {
-        /// Time in collision units.
-        time: f64,
-    },
-    /// The contact shrinks faster than its waves.
-    #[error(
-        "waves that left the contact at {time:.4} collision times are overtaken by later ones: the memory of the half-space is too long to be followed: ask for model \"area_dashpot\", which has none"
-    )]
-    Overtaken {
-        /// Time in collision units.
-        time: f64,
-    },
-}
 
 /// Least and largest tolerance.
 const TOLERANCES: [f64; 2] = [1e-11, 1e-2];
@@ -147,11 +91,11 @@ const LENIENT: f64 = 100.0;
 /// ```
 ///
 /// # Errors
-/// [`GrowingError`].
+/// [`MarchError`].
 pub fn solve_growing(
     contact: &GrowingContact<'_>,
     accuracy: &Accuracy,
-) -> Result<SolvedContact, GrowingError> {
+) -> Result<SolvedContact, MarchError> {
     check(contact)?;
     let [least, largest] = TOLERANCES;
     let asked = [Some(accuracy.tolerance), accuracy.loss, accuracy.deflection];
@@ -181,7 +125,7 @@ pub fn solve_growing(
                 piece = (piece * (0.3 / excess).max(0.1)).max(FINEST);
             }
             // pieces that are finer than the last instants allow
-            (Err(GrowingError::NotFollowed { .. }), None) if attempt == 0 => piece *= COARSER,
+            (Err(MarchError::NotFollowed { .. }), None) if attempt == 0 => piece *= COARSER,
             (Err(error), None) => return Err(error),
             // finer pieces than the last instants of a stiff striker allow
             (Err(_), Some(_)) => break,
@@ -189,11 +133,11 @@ pub fn solve_growing(
     }
     match best {
         Some((excess, solved)) if excess <= LENIENT => Ok(solved),
-        Some((excess, _)) => Err(GrowingError::NotConverged {
+        Some((excess, _)) => Err(MarchError::NotReached {
             tolerance: accuracy.tolerance,
             estimate: excess * accuracy.tolerance,
         }),
-        None => Err(GrowingError::NotConverged {
+        None => Err(MarchError::NotReached {
             tolerance: accuracy.tolerance,
             estimate: f64::INFINITY,
         }),
@@ -215,15 +159,15 @@ fn excess(estimates: &Estimates, accuracy: &Accuracy) -> f64 {
 }
 
 /// Solves with pieces that leave an error of `piece` each.
-fn resolve(contact: &GrowingContact<'_>, piece: f64) -> Result<SolvedContact, GrowingError> {
+fn resolve(contact: &GrowingContact<'_>, piece: f64) -> Result<SolvedContact, MarchError> {
     let mut march = March::new(*contact, piece);
     let followed = march.load(f64::INFINITY).and_then(|()| march.close());
     followed.map_err(|time| march.lost(time))?;
     checks::passed(SolvedContact::new(march), contact)
 }
 
-fn check(contact: &GrowingContact<'_>) -> Result<(), GrowingError> {
-    let outside = |name, value, range| Err(GrowingError::OutOfRange { name, value, range });
+fn check(contact: &GrowingContact<'_>) -> Result<(), MarchError> {
+    let outside = |name, value, range| Err(MarchError::OutOfRange { name, value, range });
     let (phi, tau) = (contact.target_share, contact.wave_time);
     if !(phi > 0.0 && phi <= 1.0) {
         return outside("target_share", phi, "(0, 1]");

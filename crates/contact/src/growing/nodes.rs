@@ -1,7 +1,8 @@
 //! Collocation at Radau's nodes: what a piece of degree n needs, made once for each n, and its small linear systems.
 
-use crate::growing::polynomial::{LARGEST, Polynomial, dot};
-use crate::numeric::gauss::{gauss, legendre, radau};
+use crate::growing::polynomial::{LARGEST, Polynomial, SIZE, dot};
+use crate::numeric::gauss::{legendre, radau};
+use halfspace::gauss;
 use std::sync::OnceLock;
 
 /// Matrices of the polynomials of degree n through 0 and the n nodes of Radau's rule on (0, 1].
@@ -28,7 +29,7 @@ pub(crate) struct Nodes {
 impl Nodes {
     /// The nodes of a degree in [2, `LARGEST`].
     pub(crate) fn of(degree: usize) -> &'static Self {
-        static ALL: [OnceLock<Nodes>; LARGEST + 1] = [const { OnceLock::new() }; LARGEST + 1];
+        static ALL: [OnceLock<Nodes>; SIZE] = [const { OnceLock::new() }; SIZE];
         let degree = degree.clamp(2, LARGEST);
         ALL[degree].get_or_init(|| Self::new(degree))
     }
@@ -52,30 +53,30 @@ impl Nodes {
             }
             row[i] = -row.iter().sum::<f64>();
         }
-        let lagrange = |x: f64, j: usize| {
-            let others = (0..n).filter(|&k| k != j);
-            others
-                .map(|k| (x - inner[k]) / (inner[j] - inner[k]))
-                .product::<f64>()
-        };
-        let rule = gauss(n / 2 + 1);
+        // the rule is exact for the polynomials through the nodes times those of the same degree
+        let rule = gauss::rule(n + 1);
         let mut integral = vec![0.0; n * n];
         for i in 0..n {
-            for j in 0..n {
-                integral[i * n + j] = rule
-                    .iter()
-                    .map(|&(x, w)| w * inner[i] * lagrange(inner[i] * x, j))
-                    .sum();
+            for (x, weight) in rule.on(0.0, inner[i]) {
+                for j in 0..n {
+                    integral[i * n + j] += weight * lagrange(&inner, j, x);
+                }
             }
         }
         let weights = integral[(n - 1) * n..].to_vec();
-        let vandermonde: Vec<f64> = places
-            .iter()
-            .flat_map(|s| (0..=n).map(move |k| legendre(k, 2.0 * s - 1.0).1))
-            .collect();
+        let mut modes = vec![0.0; (n + 1) * (n + 1)];
+        for (s, weight) in rule.on(0.0, 1.0) {
+            for k in 0..=n {
+                let [_, value] = legendre(k, 2.0 * s - 1.0);
+                for j in 0..=n {
+                    let part = (2 * k + 1) as f64 * weight * value;
+                    modes[k * (n + 1) + j] += part * lagrange(&places, j, s);
+                }
+            }
+        }
         Self {
             degree: n,
-            modes: inverse(&vandermonde, n + 1),
+            modes,
             powers: powers(n),
             places,
             weights,
@@ -108,7 +109,7 @@ impl Nodes {
     /// The polynomial of values at 0 and the nodes.
     pub(crate) fn polynomial(&self, values: &[f64]) -> Polynomial {
         let n = self.degree + 1;
-        let mut modes = [0.0; LARGEST + 1];
+        let mut modes = [0.0; SIZE];
         self.modes(values, &mut modes);
         let mut found = Polynomial::constant(0.0);
         found.degree = self.degree;
@@ -230,33 +231,12 @@ impl Factors {
     }
 }
 
-/// The inverse of a matrix of n <= `LARGEST` + 1 rows, by Gauss and Jordan.
-pub(crate) fn inverse(matrix: &[f64], n: usize) -> Vec<f64> {
-    let mut left = matrix.to_vec();
-    let mut right: Vec<f64> = (0..n * n)
-        .map(|i| if i % (n + 1) == 0 { 1.0 } else { 0.0 })
-        .collect();
-    for k in 0..n {
-        let size = |i: usize| left[i * n + k].abs();
-        let pivot = (k + 1..n).fold(k, |best, i| if size(i) > size(best) { i } else { best });
-        for j in 0..n {
-            left.swap(k * n + j, pivot * n + j);
-            right.swap(k * n + j, pivot * n + j);
-        }
-        let diagonal = left[k * n + k];
-        for j in 0..n {
-            left[k * n + j] /= diagonal;
-            right[k * n + j] /= diagonal;
-        }
-        for i in (0..n).filter(|&i| i != k) {
-            let factor = left[i * n + k];
-            for j in 0..n {
-                left[i * n + j] -= factor * left[k * n + j];
-                right[i * n + j] -= factor * right[k * n + j];
-            }
-        }
-    }
-    right
+/// The polynomial that is one at the j-th of some places and zero at the others.
+fn lagrange(places: &[f64], j: usize, x: f64) -> f64 {
+    let others = (0..places.len()).filter(|&k| k != j);
+    others
+        .map(|k| (x - places[k]) / (places[j] - places[k]))
+        .product()
 }
 
 #[cfg(test)]
@@ -276,7 +256,7 @@ mod tests {
                 assert!((value - f(s)).abs() < error, "{n}");
                 assert_eq!(value, found.value(s));
                 assert!((slope + f(s).powi(2)).abs() < 100.0 * error, "{n}");
-                let mut basis = [0.0; LARGEST + 1];
+                let mut basis = [0.0; SIZE];
                 nodes.lagrange(s, &mut basis);
                 let sum: f64 = basis.iter().zip(&values).map(|(a, b)| a * b).sum();
                 assert!((sum - value).abs() < 1e-13);
@@ -304,15 +284,6 @@ mod tests {
         factors.solve(&mut found);
         for (x, expected) in found.iter().zip([1.0, 2.0, 3.0]) {
             assert!((x - expected).abs() < 1e-14, "{found:?}");
-        }
-        let inverse = inverse(&matrix, 3);
-        for (i, expected) in [1.0, 2.0, 3.0].iter().enumerate() {
-            let row: f64 = inverse[3 * i..3 * i + 3]
-                .iter()
-                .zip([7.0, 3.0, 6.0])
-                .map(|(a, b)| a * b)
-                .sum();
-            assert!((row - expected).abs() < 1e-14);
         }
         let mut singular = Factors::room(2);
         assert!(!singular.eliminate());

@@ -8,13 +8,13 @@ pub(crate) struct Polynomial {
     /// Degree.
     pub(crate) degree: usize,
     /// Coefficients of the powers.
-    pub(crate) powers: [f64; LARGEST + 1],
+    pub(crate) powers: [f64; SIZE],
 }
 
 impl Polynomial {
     /// The constant.
     pub(crate) fn constant(value: f64) -> Self {
-        let mut powers = [0.0; LARGEST + 1];
+        let mut powers = [0.0; SIZE];
         powers[0] = value;
         Self { degree: 0, powers }
     }
@@ -94,6 +94,9 @@ impl Polynomial {
 
 /// Largest degree of a piece.
 pub(crate) const LARGEST: usize = 16;
+
+/// Values at 0 and the nodes of such a piece.
+pub(crate) const SIZE: usize = LARGEST + 1;
 
 /// Scalar product.
 pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {

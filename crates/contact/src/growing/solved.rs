@@ -8,7 +8,7 @@ use crate::model::Plasticity;
 use crate::numeric::quadrature::{GAUSS_8, gauss, rising_root};
 use crate::plastic::branch::nested;
 use crate::plastic::{Flow, Yielding};
-use crate::summary::{EndOfContact, Estimates, Instant, Summary};
+use crate::summary::{Estimates, Instant, Summary};
 use crate::units::INVERSE_MASS;
 
 /// A contact whose radius follows the load, in collision units.
@@ -33,21 +33,6 @@ struct Yielded {
     radiated: Vec<f64>,
 }
 
-/// The contact at a time, in collision units.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct GrowingInstant {
-    /// Contact force p = a^3.
-    pub force: f64,
-    /// Contact radius a over that at Hertz's largest approach.
-    pub radius: f64,
-    /// Velocity of the striker.
-    pub velocity: f64,
-    /// Displacement of the striker.
-    pub displacement: f64,
-    /// What the displacement is more than Hertz's indentation a^2 under the same force.
-    pub deflection: f64,
-}
-
 /// Loss below which it is taken from the work on the half-space, not from the momentum.
 const SMALL_LOSS: f64 = 0.03;
 
@@ -70,18 +55,17 @@ impl SolvedContact {
             errors,
             ..
         } = march;
-        let (widest, peak_force_time) =
-            largest(&pieces, |p, s| p.radius.value(s), |p, s| p.radius.jet(s).1);
-        let (peak_displacement, _) = largest(
-            &pieces,
-            |p, s| p.displacement.value(s),
-            |p, s| p.velocity.value(s),
-        );
+        let (widest, peak_force_time) = largest(&pieces, |p, s| p.radius.curve(s));
+        let (peak_displacement, _) = largest(&pieces, |p, s| p.displacement.curve(s));
         let late = pieces
             .iter()
             .take_while(|piece| piece.to.0 <= peak_force_time)
             .count();
-        let (peak_deflection, _) = largest(&pieces[late..], deflected, deflection_slope);
+        let (peak_deflection, _) = largest(&pieces[late..], |piece, place| {
+            let [d, d1, d2] = piece.displacement.curve(place);
+            let [a, a1, a2] = piece.radius.curve(place);
+            [d - a * a, d1 - 2.0 * a * a1, d2 - 2.0 * (a1 * a1 + a * a2)]
+        });
         let work = 2.0 * INVERSE_MASS * dissipated;
         let momentum = (1.0 - state.velocity) * (1.0 + state.velocity);
         let (restitution, loss) = if work < SMALL_LOSS {
@@ -93,20 +77,15 @@ impl SolvedContact {
             peak_force: widest.powi(3),
             peak_force_time,
             contact_time: state.time,
-            restitution,
             loss,
             peak_displacement,
             peak_deflection,
             impulse: (1.0 - state.velocity) / INVERSE_MASS,
-            contacts: 1,
-            end: EndOfContact::Layer(0.0),
+            ..Summary::rebound(restitution)
         };
         let estimates = estimates(&summary, &errors, (work - momentum).abs());
         Self {
-            summary: Summary {
-                end: EndOfContact::Layer(estimates.contact_time),
-                ..summary
-            },
+            summary,
             ends: pieces.iter().map(|piece| piece.to.0).collect(),
             pieces,
             estimates,
@@ -129,13 +108,8 @@ impl SolvedContact {
             let values: Vec<f64> = nodes.places.iter().map(force).collect();
             piece.force = Some(nodes.polynomial(&values));
         }
-        let slope = |piece: &Piece, place: f64| piece.force(place)[1];
-        let (peak_force, peak_force_time) = largest(&pieces, |p, s| p.force(s)[0], slope);
-        let (peak_displacement, _) = largest(
-            &pieces,
-            |p, s| p.displacement.value(s),
-            |p, s| p.displacement.jet(s).1,
-        );
+        let (peak_force, peak_force_time) = largest(&pieces, Piece::force);
+        let (peak_displacement, _) = largest(&pieces, |p, s| p.displacement.curve(s));
         let mut radiated = vec![0.0];
         for piece in &pieces {
             let before = radiated.last().copied().unwrap_or(0.0);
@@ -156,13 +130,9 @@ impl SolvedContact {
             peak_force,
             peak_force_time,
             contact_time,
-            restitution: -velocity,
-            loss: (1.0 - velocity) * (1.0 + velocity),
             peak_displacement,
             peak_deflection: deflected.fold(0.0, f64::max),
-            impulse: (1.0 - velocity) / INVERSE_MASS,
-            contacts: 1,
-            end: EndOfContact::Layer(0.0),
+            ..Summary::rebound(-velocity)
         };
         Self {
             estimates: estimates(&summary, errors, 0.0),
@@ -282,22 +252,12 @@ impl SolvedContact {
         &self.pieces
     }
 
-    /// The contact at a time in [0, contact time]; nothing outside.
+    /// Contact radius at a time over that at Hertz's largest approach; zero outside the contact.
     #[must_use]
-    pub fn at(&self, time: f64) -> Option<GrowingInstant> {
-        if !(time >= 0.0 && time <= self.summary.contact_time) {
-            return None;
-        }
-        let (piece, place) = self.place(time)?;
-        let radius = piece.radius.value(place).max(0.0);
-        let force = piece.force.map(|force| force.value(place).max(0.0));
-        Some(GrowingInstant {
-            force: force.unwrap_or(radius.powi(3)),
-            radius,
-            velocity: piece.velocity.value(place),
-            displacement: piece.displacement.value(place),
-            deflection: deflected(piece, place),
-        })
+    pub fn radius(&self, time: f64) -> f64 {
+        let inside = time >= 0.0 && time <= self.summary.contact_time;
+        let place = self.place(time).filter(|_| inside);
+        place.map_or(0.0, |(piece, place)| piece.radius.value(place).max(0.0))
     }
 
     /// The piece that holds a time.
@@ -342,7 +302,7 @@ impl SolvedContact {
             ..Instant::default()
         };
         let end = self.summary.contact_time;
-        let (Some(now), true) = (self.at(time.max(0.0)), time < end) else {
+        let Some((piece, place)) = self.place(time.max(0.0)).filter(|_| time < end) else {
             let velocity = -self.summary.restitution;
             let last = self.pieces.last();
             let left = last.map_or(0.0, |piece| piece.displacement.value(1.0));
@@ -353,18 +313,12 @@ impl SolvedContact {
             };
         };
         Instant {
-            displacement: now.displacement,
-            velocity: now.velocity,
-            deflection: now.deflection,
+            displacement: piece.displacement.value(place),
+            velocity: piece.velocity.value(place),
+            deflection: deflected(piece, place),
             ..moved
         }
     }
-}
-
-fn deflection_slope(piece: &Piece, place: f64) -> f64 {
-    let (radius, radius_slope) = piece.radius.jet(place);
-    let time_slope = piece.time.jet(place).1;
-    piece.velocity.value(place) * time_slope - 2.0 * radius * radius_slope
 }
 
 /// Places of a piece among which the largest deflection of a contact that yields is.
@@ -419,82 +373,29 @@ fn estimates(summary: &Summary, errors: &Errors, energy: f64) -> Estimates {
 /// Parts of a piece in which an extremum is looked for.
 const PARTS: usize = 4;
 
-/// The largest of a quantity over pieces and its time: from its value at a place of a piece, and what has the sign of its
-/// slope.
-fn largest(
-    pieces: &[Piece],
-    value: impl Fn(&Piece, f64) -> f64,
-    slope: impl Fn(&Piece, f64) -> f64,
-) -> (f64, f64) {
+/// The largest of a quantity over pieces and its time: from its value, slope and curvature at a place of a piece.
+fn largest(pieces: &[Piece], curve: impl Fn(&Piece, f64) -> [f64; 3]) -> (f64, f64) {
     let mut best = (0.0, 0.0);
     let mut candidate = |piece: &Piece, place: f64| {
-        let found = value(piece, place);
+        let [found, ..] = curve(piece, place);
         if found > best.0 {
             best = (found, piece.time.value(place));
         }
     };
     for piece in pieces {
         candidate(piece, 1.0);
-        let mut before = slope(piece, 0.0);
+        let rises = |part: usize| curve(piece, part as f64 / PARTS as f64)[1] > 0.0;
         for part in 1..=PARTS {
-            let end = part as f64 / PARTS as f64;
-            let after = slope(piece, end);
-            if before > 0.0 && after <= 0.0 {
-                let start = end - 1.0 / PARTS as f64;
-                candidate(piece, falling_zero(|place| slope(piece, place), start, end));
+            if rises(part - 1) && !rises(part) {
+                let ends = [part - 1, part].map(|part| part as f64 / PARTS as f64);
+                let fall = |place: f64| {
+                    let [_, slope, bend] = curve(piece, place);
+                    (-slope, -bend)
+                };
+                let [_, top] = rising_root(fall, ends, 0.5 * (ends[0] + ends[1]), 1e-15);
+                candidate(piece, top);
             }
-            before = after;
         }
     }
     best
-}
-
-/// A zero of f between two places, positive at the first and not at the second: the false position,
-/// with the value of an end that stays halved.
-fn falling_zero(f: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
-    let (mut above, mut below) = (f(low), f(high));
-    let mut stays = 0_i32;
-    let mut place = high;
-    for _ in 0..100 {
-        let next = (low * below - high * above) / (below - above);
-        let middle = 0.5 * (low + high);
-        let next = if next > low && next < high {
-            next
-        } else {
-            middle
-        };
-        let value = f(next);
-        let still = (next - place).abs() <= 1e-15 || value == 0.0;
-        place = next;
-        if still {
-            break;
-        }
-        if value > 0.0 {
-            (low, above) = (next, value);
-            if stays == 1 {
-                below *= 0.5;
-            }
-            stays = 1;
-        } else {
-            (high, below) = (next, value);
-            if stays == -1 {
-                above *= 0.5;
-            }
-            stays = -1;
-        }
-    }
-    place
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_zero_is_found_to_the_last_digits() {
-        let found = falling_zero(|x| 0.3 - x.powi(5), 0.0, 1.0);
-        assert!((found.powi(5) - 0.3).abs() < 1e-14);
-        let found = falling_zero(|x| 1e-3 - x.sqrt(), 0.0, 1.0);
-        assert!((found - 1e-6).abs() < 1e-14, "{found}");
-    }
 }

@@ -1,10 +1,9 @@
 //! One piece of the contact by collocation and Newton's method.
 
 use crate::growing::arrivals::Piece;
-use crate::growing::equations::{Departures, Equations, Independent, Motion, State, Values};
+use crate::growing::equations::{Equations, Independent, Motion, Residual, State};
 use crate::growing::nodes::Factors;
-use crate::growing::polynomial::{LARGEST, dot};
-use crate::growing::waves::Rule;
+use crate::growing::polynomial::{LARGEST, SIZE, dot};
 
 /// A piece that solves its equations at its nodes.
 #[derive(Debug, Clone, Copy)]
@@ -20,17 +19,7 @@ pub(crate) struct Solution {
     /// Change of what was sought by the finer rule over the waves.
     pub(crate) waves: f64,
     /// What was sought, at 0 and the nodes.
-    pub(crate) sought: Values,
-}
-
-/// The problem of one piece.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Step<'a> {
-    pub(crate) equations: Equations<'a>,
-    /// The rule over the waves that is solved with, and the next finer one that corrects.
-    pub(crate) rules: [&'a Rule; 2],
-    /// Error that is allowed.
-    pub(crate) accuracy: f64,
+    pub(crate) sought: [f64; SIZE],
 }
 
 /// Newton's iterations at most.
@@ -42,13 +31,13 @@ const SETTLED: usize = 6;
 /// Error of the time that the last instants may have, over the accuracy.
 const SLACK: f64 = 0.3;
 
-impl Step<'_> {
+impl Equations<'_> {
     /// Solves the equations from a guess of the values sought; nothing where Newton's method does not settle
     /// or time does not go on.
-    pub(crate) fn solve(&self, guess: &Values) -> Option<Solution> {
-        let n = self.equations.nodes.degree;
+    pub(crate) fn solve(&self, guess: &[f64; SIZE]) -> Option<Solution> {
+        let n = self.nodes.degree;
         let mut sought = *guess;
-        let mut departures = Departures::default();
+        let mut residual = Residual::default();
         let mut matrix = Factors::room(n);
         let mut before = f64::INFINITY;
         // Newton's next change would be about the square
@@ -56,11 +45,8 @@ impl Step<'_> {
         for iteration in 1..=ITERATIONS {
             let motion = self.moves(&sought)?;
             let rule = self.rules[0];
-            let residual = self
-                .equations
-                .residual(rule, &sought, &motion, &mut departures);
-            self.equations
-                .jacobian(rule, &motion, &residual, &departures, &mut matrix);
+            self.residual(rule, &sought, &motion, &mut residual);
+            self.jacobian(rule, &motion, &residual, &mut matrix);
             if !matrix.eliminate() {
                 return None;
             }
@@ -85,21 +71,19 @@ impl Step<'_> {
     }
 
     /// The motion, unless a matrix that is nearly singular or a law at the end of the numbers threw it out of them.
-    fn moves(&self, sought: &Values) -> Option<Motion> {
-        let motion = self.equations.motion(sought);
+    fn moves(&self, sought: &[f64; SIZE]) -> Option<Motion> {
+        let motion = self.motion(sought);
         let of = [&motion.time, &motion.radius, &motion.velocity];
         let mut all = of.into_iter().flatten();
         all.all(|x| x.is_finite()).then_some(motion)
     }
 
     /// One more change, by the finer rule.
-    fn corrected(&self, mut sought: Values, matrix: &Factors) -> Option<Solution> {
-        let n = self.equations.nodes.degree;
+    fn corrected(&self, mut sought: [f64; SIZE], matrix: &Factors) -> Option<Solution> {
+        let n = self.nodes.degree;
         let motion = self.moves(&sought)?;
-        let mut departures = Departures::default();
-        let residual = self
-            .equations
-            .residual(self.rules[1], &sought, &motion, &mut departures);
+        let mut residual = Residual::default();
+        self.residual(self.rules[1], &sought, &motion, &mut residual);
         let mut change = residual.value;
         matrix.solve(&mut change[..n]);
         let mut waves = 0.0_f64;
@@ -113,19 +97,19 @@ impl Step<'_> {
     }
 
     /// Size of what is sought.
-    fn scale(&self, sought: &Values) -> f64 {
-        let n = self.equations.nodes.degree;
-        match self.equations.known {
+    fn scale(&self, sought: &[f64; SIZE]) -> f64 {
+        let n = self.nodes.degree;
+        match self.known {
             Independent::Time => sought[..=n].iter().fold(0.0_f64, |m, x| m.max(x.abs())),
             Independent::Radius => (sought[n] - sought[0]).abs(),
         }
     }
 
     /// The largest part of Newton's change that keeps the radius positive or the time rising.
-    fn damping(&self, sought: &Values, change: &[f64]) -> f64 {
+    fn damping(&self, sought: &[f64; SIZE], change: &[f64]) -> f64 {
         let mut factor = 1.0_f64;
         for i in 1..=change.len() {
-            let (old, fall, least) = match self.equations.known {
+            let (old, fall, least) = match self.known {
                 Independent::Time => (sought[i], change[i - 1], 0.2),
                 Independent::Radius => {
                     let before = if i == 1 { 0.0 } else { change[i - 2] };
@@ -141,7 +125,7 @@ impl Step<'_> {
 
     /// Whether time rises and the radius stays positive; the last instants may be shorter than their error.
     fn goes_on(&self, motion: &Motion) -> bool {
-        let n = self.equations.nodes.degree;
+        let n = self.nodes.degree;
         let closed = motion.radius[n] <= 0.0;
         let slack = if closed { SLACK * self.accuracy } else { 0.0 };
         let rises = motion.time[..=n].windows(2).all(|t| t[1] >= t[0] - slack);
@@ -149,8 +133,8 @@ impl Step<'_> {
         rises && positive && (closed || motion.time_slope[n] > 0.0)
     }
 
-    fn solution(&self, sought: &Values, motion: &Motion, waves: f64) -> Solution {
-        let nodes = self.equations.nodes;
+    fn solution(&self, sought: &[f64; SIZE], motion: &Motion, waves: f64) -> Solution {
+        let nodes = self.nodes;
         let n = nodes.degree;
         let mut travel = [0.0; LARGEST];
         let mut dissipated = 0.0;
@@ -160,23 +144,23 @@ impl Step<'_> {
             let lag = travel[j - 1] - here.depth_slope * motion.radius_slope[j];
             dissipated += nodes.weights[j - 1] * here.force * lag;
         }
-        let mut displacement = [self.equations.start.displacement; LARGEST + 1];
+        let mut displacement = [self.start.displacement; SIZE];
         for (i, place) in displacement.iter_mut().enumerate().take(n + 1).skip(1) {
             *place += dot(nodes.integral_row(i), &travel[..n]);
         }
-        let (time, radius) = self.equations.polynomials(sought);
-        let mut modes = [0.0; LARGEST + 1];
+        let (time, radius) = self.polynomials(sought);
+        let mut modes = [0.0; SIZE];
         nodes.modes(sought, &mut modes);
         Solution {
             piece: Piece {
-                law: self.equations.law,
+                law: self.law,
                 time,
                 radius,
                 velocity: nodes.polynomial(&motion.velocity),
                 displacement: nodes.polynomial(&displacement),
                 force: None,
                 lag: None,
-                from: (self.equations.start.time, self.equations.start.radius),
+                from: (self.start.time, self.start.radius),
                 to: (motion.time[n], motion.radius[n]),
             },
             end: State {

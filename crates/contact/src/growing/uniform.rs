@@ -8,7 +8,7 @@
 //! d(t) = u(t) - phi int_0^t V_p((t - t') c1/a(t')) du(t'),     phi = E* (1 - nu^2)/E
 //! ```
 //!
-//! with V_p = 1 - step response of the punch, [`PunchResponse`].
+//! with V_p = 1 - step response of the punch ([`PunchWaves`](crate::PunchWaves)).
 //! No radius is free, and no static part is counted twice.
 //! Because du carries phi <= 1 of itself at most, the equation is well posed for every pair of
 //! materials; with increments shaped like Hertz's pressure it would not be for phi > 2/3.
@@ -16,10 +16,9 @@
 //!
 //! Theory: `docs/theory.md` (T47, T48).
 
-use crate::disc::history::{Budget, History};
-use crate::disc::striker::{StrikerMotion, TouchCorrection, starting_roots};
+use crate::disc::history::{History, affordable, least_steps};
+use crate::disc::striker::{StrikerMotion, starting_roots};
 use crate::error::MarchError;
-use crate::growing::punch::PunchResponse;
 use crate::growing::waves::GrowingContact;
 use crate::numeric::cubic::force_root;
 use std::ops::Range;
@@ -35,15 +34,13 @@ const ITERATIONS: usize = 30;
 /// # Errors
 /// [`MarchError::TooLong`] when the work is out of bounds.
 pub fn march_growing(contact: &GrowingContact<'_>, step: f64) -> Result<History, MarchError> {
-    let punch = contact.waves.punch();
-    let memory = punch.memory() * contact.wave_time;
-    let budget = Budget::new((memory / step).min(1e9) as usize * 8, memory);
-    budget.before(step)?;
-    let start = TouchCorrection::new(step, 0.0, &starting_roots(step, 0.0));
-    let mut striker = StrikerMotion::new(step, start);
+    let memory = contact.waves.memory() * contact.wave_time;
+    let cells = (memory / step).min(1e9) as usize * 8;
+    affordable(least_steps(step), cells, memory)?;
+    let mut striker = StrikerMotion::new(step, 0.0, &starting_roots(step, 0.0));
     let inertia = striker.newest_weight();
     let mut history = History::at_touch(step, 256);
-    history.start = start.force;
+    history.start = striker.missed[0];
     history.end_layer = Some(end_layer(contact));
     let mut indentation = vec![0.0_f64];
     let mut widest = 0.0_f64;
@@ -59,11 +56,10 @@ pub fn march_growing(contact: &GrowingContact<'_>, step: f64) -> Result<History,
         indentation.push(newest);
         // Cells that end before the newest sample are summed once.
         let guess = widest.max(newest.sqrt());
-        let (past, _) = relaxing(contact, punch, step, &indentation, guess, FIXED..n);
+        let (past, _) = relaxing(contact, step, &indentation, guess, FIXED..n);
         for _ in 0..ITERATIONS {
             indentation[n] = newest;
-            let (recent, prompt) =
-                relaxing(contact, punch, step, &indentation, guess, 0..FIXED.min(n));
+            let (recent, prompt) = relaxing(contact, step, &indentation, guess, 0..FIXED.min(n));
             deflection = -contact.target_share * (past + recent);
             // the part that follows the newest increment is solved for, not iterated
             let stiffness = 1.0 - contact.target_share * prompt;
@@ -97,7 +93,7 @@ pub fn march_growing(contact: &GrowingContact<'_>, step: f64) -> Result<History,
             }
         }
         if n.is_multiple_of(256) {
-            budget.check(n)?;
+            affordable(n, cells, memory)?;
         }
     }
 }
@@ -107,11 +103,10 @@ pub fn march_growing(contact: &GrowingContact<'_>, step: f64) -> Result<History,
 /// Collision units; of second order in the step.
 #[must_use]
 pub fn superposed(contact: &GrowingContact<'_>, step: f64, indentation: &[f64]) -> Vec<f64> {
-    let punch = contact.waves.punch();
     let mut widest = 0.0_f64;
     let mut at = |n: usize| {
         widest = widest.max(indentation[n].max(0.0).sqrt());
-        let (sum, _) = relaxing(contact, punch, step, &indentation[..=n], widest, 0..n);
+        let (sum, _) = relaxing(contact, step, &indentation[..=n], widest, 0..n);
         -contact.target_share * sum
     };
     (0..indentation.len()).map(&mut at).collect()
@@ -131,17 +126,13 @@ const THIN: f64 = 0.4;
 ///
 /// f is fitted to marches that resolve the layer for phi up to 0.95 and thin layers, 1 for small phi, where u = v t undisturbed gives int V_p(sqrt(x)) dx = 2 m.
 fn end_layer(contact: &GrowingContact<'_>) -> [f64; 2] {
-    let (phi, tau, punch) = (
-        contact.target_share,
-        contact.wave_time,
-        contact.waves.punch(),
-    );
-    let memory = punch.memory() * tau;
+    let (phi, tau) = (contact.target_share, contact.wave_time);
+    let memory = contact.waves.memory() * tau;
     if memory > THIN {
         return [0.0; 2];
     }
     let factor = 1.0 - 0.78 * phi + 0.08 * phi * phi;
-    let depth = 2.0 * phi * punch.first_moment() * factor * tau * tau;
+    let depth = 2.0 * phi * (contact.waves.moment(2) / 6.0) * factor * tau * tau;
     [depth, memory * memory]
 }
 
@@ -155,14 +146,13 @@ const FIXED: usize = 2;
 /// the newest value.
 fn relaxing(
     contact: &GrowingContact<'_>,
-    punch: &PunchResponse,
     step: f64,
     indentation: &[f64],
     widest: f64,
     cells: Range<usize>,
 ) -> (f64, f64) {
     let n = indentation.len() - 1;
-    let memory = punch.memory() * contact.wave_time;
+    let memory = contact.waves.memory() * contact.wave_time;
     let mut sum = 0.0;
     let mut prompt = 0.0;
     for j in cells {
@@ -194,8 +184,8 @@ fn relaxing(
                 continue;
             }
             let time = contact.wave_time * u.sqrt();
-            let weight = time
-                * (punch.relaxation_integral(to / time) - punch.relaxation_integral(from / time));
+            let [until, before] = [to, from].map(|t| contact.waves.relaxation(t / time)[1]);
+            let weight = time * (until - before);
             sum += weight * (slope + curvature * (s - 0.5 * step));
             if j == 0 {
                 prompt += weight / step;

@@ -25,39 +25,6 @@ const SAMPLES: [usize; 2] = [48, 192];
 const LEVELS: [usize; 2] = [1, 3];
 const COARSE: f64 = 1e-5;
 
-/// The radius over the angle q, t = T sin^2(q/2).
-struct Radii {
-    duration: f64,
-    values: Vec<f64>,
-}
-
-impl Radii {
-    fn of(solved: &SolvedContact, samples: usize) -> Self {
-        let duration = solved.summary().contact_time;
-        let at = |i: usize| {
-            let time = duration * time_part(i as f64 / samples as f64);
-            solved.at(time.min(duration)).map_or(0.0, |now| now.radius)
-        };
-        Self {
-            duration,
-            values: (0..=samples).map(at).collect(),
-        }
-    }
-
-    /// Force at a time; zero after the contact.
-    fn force(&self, time: f64) -> f64 {
-        let last = self.values.len() - 1;
-        let part = time / self.duration;
-        if part >= 1.0 {
-            return 0.0;
-        }
-        let place = 2.0 * part.sqrt().asin() / PI * last as f64;
-        let from = (place as usize).saturating_sub(1).min(last - 3);
-        let radius = Local::<4>::at(&self.values, from).value(place - from as f64);
-        radius.max(0.0).powi(3)
-    }
-}
-
 /// Part of the duration at a part of the angle.
 fn time_part(part: f64) -> f64 {
     (0.5 * PI * part).sin().powi(2)
@@ -75,16 +42,29 @@ pub fn work_on_half_space(
     tolerance: f64,
 ) -> f64 {
     let choice = usize::from(tolerance < COARSE);
-    let radii = Radii::of(solved, SAMPLES[choice]);
-    let rule = contact.waves.rule(LEVELS[choice]);
-    let samples = radii.values.len() - 1;
+    let (samples, rule) = (SAMPLES[choice], contact.waves.rule(LEVELS[choice]));
+    let duration = solved.summary().contact_time;
+    let time_of = |i: usize| duration * time_part(i as f64 / samples as f64);
+    let radii: Vec<f64> = (0..=samples)
+        .map(|i| solved.radius(time_of(i).min(duration)))
+        .collect();
+    // the force at a time, zero after the contact
+    let force_at = |time: f64| {
+        let part = time / duration;
+        if part >= 1.0 {
+            return 0.0;
+        }
+        let place = 2.0 * part.sqrt().asin() / PI * samples as f64;
+        let from = (place as usize).saturating_sub(1).min(samples - 3);
+        let radius = Local::<4>::at(&radii, from).value(place - from as f64);
+        radius.max(0.0).powi(3)
+    };
     let met: Vec<f64> = (0..=samples)
         .map(|i| {
-            let time = radii.duration * time_part(i as f64 / samples as f64);
-            let (radius, force) = (radii.values[i], radii.values[i].powi(3));
-            let crossing = contact.wave_time * radius;
-            let reach = (radii.duration - time) / crossing.max(f64::MIN_POSITIVE);
-            let more = |x: f64| radii.force(time + crossing * x) - force;
+            let (time, force) = (time_of(i), radii[i].powi(3));
+            let crossing = contact.wave_time * radii[i];
+            let reach = (duration - time) / crossing.max(f64::MIN_POSITIVE);
+            let more = |x: f64| force_at(time + crossing * x) - force;
             // a wave of delay X passes at any time up to it alike; after the contact there is no force
             let waves = rule.delays.iter().zip(&rule.rates);
             waves
@@ -100,6 +80,6 @@ pub fn work_on_half_space(
                 .sum()
         })
         .collect();
-    let indentation: Vec<f64> = radii.values.iter().map(|a| a * a).collect();
+    let indentation: Vec<f64> = radii.iter().map(|a| a * a).collect();
     contact.target_share * work(&met, &indentation)
 }

@@ -25,8 +25,7 @@ use crate::disc::history::History;
 use crate::growing::waves::PunchWaves;
 use crate::law::pulse::pulse;
 use crate::numeric::quadrature::chebyshev;
-use crate::summary::{EndOfContact, Estimates, Summary};
-use crate::units::INVERSE_MASS;
+use crate::summary::{Estimates, Summary};
 
 /// The terms of the expansion in the memory, in collision units.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -166,13 +165,10 @@ impl AreaDashpot {
             peak_force: result(0) + third(PEAK_FORCE),
             peak_force_time: result(1) + third(PEAK_FORCE_TIME),
             contact_time: result(2) - self.depth(velocity) / velocity,
-            restitution,
             loss,
             peak_displacement: result(4) + third(PEAK_DISPLACEMENT),
             peak_deflection: c * chebyshev(&AT_ZERO[6], x) + b * chebyshev(&BY_B[6], x),
-            impulse: (1.0 + restitution) / INVERSE_MASS,
-            contacts: 1,
-            end: EndOfContact::Layer(0.0),
+            ..Summary::rebound(restitution)
         }
     }
 }

@@ -13,8 +13,7 @@
 //! Theory: `docs/theory.md` (T39, T50).
 
 use crate::numeric::quadrature::{GAUSS_4, GAUSS_8, find_root};
-use crate::summary::{EndOfContact, Summary};
-use crate::units::INVERSE_MASS;
+use crate::summary::Summary;
 
 /// Results of a contact without waves.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -74,13 +73,10 @@ pub fn quasi_static_radiation(coupling: f64, lag: f64) -> Summary {
         peak_force: mean.peak_force,
         peak_force_time: 0.5 * still.contact_time + lag * peak_time_per_lag(coupling),
         contact_time: mean.contact_time,
-        restitution,
         loss,
         peak_displacement: mean.peak_displacement,
         peak_deflection: coupling * mean.peak_force,
-        impulse: (1.0 + restitution) / INVERSE_MASS,
-        contacts: 1,
-        end: EndOfContact::Smooth,
+        ..Summary::rebound(restitution)
     }
 }
 

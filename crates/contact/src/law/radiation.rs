@@ -15,8 +15,7 @@
 
 use crate::law::hertz;
 use crate::numeric::cubic::force_root;
-use crate::summary::{EndOfContact, Summary};
-use crate::units::INVERSE_MASS;
+use crate::summary::Summary;
 
 /// int p'^2 dt of Hertz's pulse in collision units times 5/2: 1 - e^2 over c.
 pub const LOSS: f64 = 3.979_536_606;
@@ -41,14 +40,11 @@ pub fn radiation(lag: f64) -> Summary {
         peak_force: 1.0 + PEAK_FORCE * lag,
         peak_force_time: 0.5 * hertz::CONTACT_TIME + PEAK_FORCE_TIME * lag,
         contact_time: hertz::CONTACT_TIME + CONTACT_TIME * lag,
-        restitution,
         loss,
         peak_displacement: 1.0 + PEAK_DISPLACEMENT * lag,
         // -w' has its largest value in the rebound: max of (3/2) sqrt(d (1 - d^(5/2)))
         peak_deflection: lag * STEEPEST,
-        impulse: (1.0 + restitution) / INVERSE_MASS,
-        contacts: 1,
-        end: EndOfContact::Smooth,
+        ..Summary::rebound(restitution)
     }
 }
 

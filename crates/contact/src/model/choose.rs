@@ -39,7 +39,7 @@ use crate::model::{Model, Plasticity, Rung, Scheme, Settings, StaticShare};
 use crate::names::Choice;
 
 /// The physics that a scene states.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Family {
     /// The contact radius follows the load.
     Growing,
@@ -49,6 +49,20 @@ pub enum Family {
     Dynamic,
     /// The contact radius follows the load, and the softer body flows.
     Yielding,
+}
+
+impl Family {
+    /// Its model with so much memory: without any, a disc whose static deflection is left out is no disc.
+    fn model(self, rung: Rung) -> Model {
+        let on_disc = match self {
+            Self::Growing | Self::Yielding => false,
+            Self::Full => true,
+            Self::Dynamic => rung == Rung::FullMemory,
+        };
+        let mut models = Model::ALL.iter().copied();
+        let found = models.find(|model| model.row() == (rung, on_disc));
+        found.unwrap_or(Model::Wave)
+    }
 }
 
 /// What the choice depends on, in collision units.
@@ -64,28 +78,18 @@ pub struct Groups {
     pub memory: f64,
 }
 
-/// Estimated relative errors of a rung.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Estimate {
-    /// Of peak force, contact time, restitution, largest displacement: the largest.
-    pub contact: f64,
-    /// Of the loss 1 - e^2.
-    pub loss: f64,
-}
-
 /// The rung chosen and why.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Chosen {
-    /// The family.
-    pub family: Family,
     /// The rung.
     pub rung: Rung,
     /// Estimated relative error of that rung; zero for full memory, whose error is its step's.
     pub error: f64,
     /// What radiation changes, l/2.
     pub radiation: f64,
-    /// What the best rung without memory leaves out.
-    pub left_out: Estimate,
+    /// What the best rung without memory leaves out: the largest relative error of peak force, contact time, restitution and
+    /// displacement, and that of the loss 1 - e^2.
+    pub left_out: [f64; 2],
 }
 
 /// What the dashpot of a yielding contact leaves out over c^2, of its loss over c.
@@ -108,71 +112,63 @@ impl Groups {
         }
     }
 
-    /// What the first order of radiation leaves out.
+    /// What the first order of radiation leaves out, as of [`Chosen::left_out`].
     #[must_use]
-    pub fn beyond_radiation(&self) -> Estimate {
+    pub fn beyond_radiation(&self) -> [f64; 2] {
         let (l, t) = (self.first_order_loss(), self.memory);
         if l > LARGEST_LOSS || t > LARGEST_MEMORY {
-            return Estimate {
-                contact: 1.0,
-                loss: 1.0,
-            };
+            return [1.0; 2];
         }
-        let fixed = |coupling: f64| Estimate {
-            contact: 0.4 * l * l + (0.12 + 0.07 * coupling) * l * t.sqrt(),
-            loss: 0.75 * l + 0.8 * t * t,
+        let fixed = |coupling: f64| {
+            let contact = 0.4 * l * l + (0.12 + 0.07 * coupling) * l * t.sqrt();
+            [contact, 0.75 * l + 0.8 * t * t]
         };
         match self.family {
             Family::Full => fixed(self.coupling),
             Family::Dynamic => fixed(0.0),
-            Family::Growing | Family::Yielding => Estimate {
-                contact: 0.4 * l * l + 0.3 * l * t + 0.06 * l * t.sqrt(),
-                loss: 0.75 * l + 0.25 * t * t,
-            },
+            Family::Growing | Family::Yielding => {
+                let contact = 0.4 * l * l + 0.3 * l * t + 0.06 * l * t.sqrt();
+                [contact, 0.75 * l + 0.25 * t * t]
+            }
         }
-    }
-
-    /// What the rung without memory leaves out.
-    pub(crate) fn left_out(&self) -> Estimate {
-        self.without_memory().1
     }
 
     /// The rung of this family that radiates without memory, and what it leaves out.
-    fn without_memory(&self) -> (Rung, Estimate) {
-        if self.family == Family::Yielding {
+    pub(crate) fn without_memory(&self) -> (Rung, [f64; 2]) {
+        match self.family {
             // the turning point is a corner: of first order in the memory
-            let (contact, loss) = (YIELDING[0] * self.lag * self.lag, YIELDING[1] * self.lag);
-            return (Rung::AreaDashpot, Estimate { contact, loss });
+            Family::Yielding => {
+                let contact = YIELDING[0] * self.lag * self.lag;
+                (Rung::AreaDashpot, [contact, YIELDING[1] * self.lag])
+            }
+            Family::Growing => {
+                let errors = left_out(self.lag, self.memory);
+                let contact = errors.contact().max(errors.force);
+                (Rung::AreaDashpot, [contact, errors.loss])
+            }
+            Family::Full | Family::Dynamic => (Rung::Radiation, self.beyond_radiation()),
         }
-        if self.family != Family::Growing {
-            return (Rung::Radiation, self.beyond_radiation());
-        }
-        let errors = left_out(self.lag, self.memory);
-        let contact = errors.contact().max(errors.force);
-        let loss = errors.loss;
-        (Rung::AreaDashpot, Estimate { contact, loss })
     }
 
     /// The cheapest rung that meets the accuracy asked for.
     #[must_use]
     pub fn choose(&self, accuracy: &Accuracy) -> Chosen {
         let radiation = 0.5 * self.first_order_loss();
-        let first_order = self.beyond_radiation();
+        let [first_order, _] = self.beyond_radiation();
         let (radiating, left_out) = self.without_memory();
         let choice = |rung, error| Chosen {
-            family: self.family,
             rung,
             error,
             radiation,
             left_out,
         };
-        let quasi_static = radiation + first_order.contact;
+        let quasi_static = radiation + first_order;
         if accuracy.loss.is_none() && quasi_static <= accuracy.tolerance {
             return choice(Rung::QuasiStatic, quasi_static);
         }
-        let loss_is_met = accuracy.loss.is_none_or(|asked| left_out.loss <= asked);
-        if left_out.contact <= accuracy.tolerance && loss_is_met {
-            return choice(radiating, left_out.contact);
+        let loss_is_met = accuracy.loss.is_none_or(|asked| left_out[1] <= asked);
+        if left_out[0] <= accuracy.tolerance && loss_is_met {
+            return choice(radiating, left_out[0]);
         }
         choice(Rung::FullMemory, 0.0)
     }
@@ -190,54 +186,6 @@ pub fn choose(lag: f64, memory: f64, tolerance: f64, loss_tolerance: Option<f64>
     groups.choose(&Accuracy::of_contact(tolerance, loss_tolerance))
 }
 
-impl Chosen {
-    /// The model of this family with this memory: without any, a disc whose static deflection is left out is no disc.
-    fn model(&self) -> Model {
-        let on_disc = match self.family {
-            Family::Growing | Family::Yielding => false,
-            Family::Full => true,
-            Family::Dynamic => self.rung == Rung::FullMemory,
-        };
-        let mut models = Model::ALL.iter().copied();
-        let found = models.find(|model| model.row() == (self.rung, on_disc));
-        found.unwrap_or(Model::Wave)
-    }
-
-    /// The reason in words.
-    #[must_use]
-    pub fn reason(&self, accuracy: &Accuracy) -> String {
-        let (first, tolerance) = (self.radiation, accuracy.tolerance);
-        let Estimate {
-            contact: second,
-            loss,
-        } = self.left_out;
-        let change = format!("radiation changes the results by {first:.1e}");
-        let rung = match self.family {
-            Family::Growing | Family::Yielding => "the area dashpot",
-            Family::Full | Family::Dynamic => "its first order",
-        };
-        match self.rung {
-            Rung::QuasiStatic => {
-                format!("{change}, below the tolerance {tolerance:.1e}: no waves needed")
-            }
-            Rung::Radiation => format!(
-                "{change}; what its first order leaves out, {second:.1e}, is below the tolerance {tolerance:.1e}"
-            ),
-            Rung::AreaDashpot => format!(
-                "{change}; what the area dashpot leaves out, {second:.1e} and {loss:.1e} of the loss, is below the tolerance {tolerance:.1e}: no memory needed"
-            ),
-            Rung::FullMemory => match accuracy.loss {
-                Some(asked) if second <= tolerance => format!(
-                    "{rung} alone would miss the loss by {loss:.1e} of it, above the loss_tolerance {asked:.1e}: full memory"
-                ),
-                Some(_) | None => format!(
-                    "{change}; {rung} alone would miss them by {second:.1e}, above the tolerance {tolerance:.1e}: full memory"
-                ),
-            },
-        }
-    }
-}
-
 /// First-order loss 1 - e^2 up to which the radiation models are used: half of the energy.
 const LARGEST_FIRST_ORDER: f64 = 0.5;
 
@@ -248,7 +196,7 @@ pub struct Plan {
     pub model: Model,
     /// Groups of the family that the scene states.
     pub groups: Groups,
-    chosen: Option<Chosen>,
+    pub(crate) chosen: Option<Chosen>,
 }
 
 /// The model that is asked for or that `auto` chooses.
@@ -271,10 +219,10 @@ pub(crate) fn plan(
         && chosen.rung == Rung::FullMemory
     {
         // the fit jumps where it leaves Hertz's law: it has no memory
-        (chosen.rung, chosen.error) = (Rung::AreaDashpot, chosen.left_out.contact);
+        (chosen.rung, chosen.error) = (Rung::AreaDashpot, chosen.left_out[0]);
     }
     let model = match &chosen {
-        Some(chosen) => chosen.model(),
+        Some(chosen) => groups.family.model(chosen.rung),
         None if settings.model == Model::Auto => Model::Wave,
         None => settings.model,
     };
@@ -319,7 +267,7 @@ impl Plan {
         if lag > 0.0 && loss > LARGEST_FIRST_ORDER {
             return Err(ContactError::LossTooLarge { loss });
         }
-        let left_out = self.groups.beyond_radiation().contact.min(1.0);
+        let left_out = self.groups.beyond_radiation()[0].min(1.0);
         let (_, on_disc) = self.model.row();
         Ok(Found {
             summary: if on_disc {
@@ -355,11 +303,6 @@ impl Plan {
         })
     }
 
-    /// Whether `auto` has chosen.
-    pub(crate) fn is_automatic(&self) -> bool {
-        self.chosen.is_some()
-    }
-
     /// Why this model, in words.
     #[must_use]
     pub fn reason(&self, settings: &Settings) -> String {
@@ -376,19 +319,45 @@ impl Plan {
             Family::Full => "disc_radius_m and the full static share: the paper's disc",
             Family::Dynamic => "disc_radius_m and the dynamic share",
         };
-        match (&self.chosen, settings.model) {
-            (Some(chosen), _)
-                if chosen.family == Family::Yielding && chosen.error > settings.tolerance =>
-            {
-                let left_out = chosen.error;
-                format!("{family}; the fit has a dashpot at most, which leaves out {left_out:.1e}")
+        let yielding = self.groups.family == Family::Yielding;
+        match &self.chosen {
+            Some(Chosen { error, .. }) if yielding && *error > settings.tolerance => {
+                format!("{family}; the fit has a dashpot at most, which leaves out {error:.1e}")
             }
-            (Some(chosen), _) => format!("{family}; {}", chosen.reason(&accuracy(settings))),
-            (None, Model::Auto) => "the explicit scheme marches a fixed disc".to_owned(),
-            (None, _) if self.groups.family == Family::Yielding => {
-                format!("asked for by the scene; {family}")
+            Some(chosen) => format!("{family}; {}", self.choice(chosen, &accuracy(settings))),
+            None if settings.model == Model::Auto => {
+                "the explicit scheme marches a fixed disc".to_owned()
             }
-            (None, _) => "asked for by the scene".to_owned(),
+            None if yielding => format!("asked for by the scene; {family}"),
+            None => "asked for by the scene".to_owned(),
+        }
+    }
+
+    /// Why `auto` has chosen so, in words.
+    fn choice(&self, chosen: &Chosen, accuracy: &Accuracy) -> String {
+        let (first, tolerance) = (chosen.radiation, accuracy.tolerance);
+        let [second, loss] = chosen.left_out;
+        let change = format!("radiation changes the results by {first:.1e}");
+        let rung = match self.groups.family {
+            Family::Growing | Family::Yielding => "the area dashpot",
+            Family::Full | Family::Dynamic => "its first order",
+        };
+        match (chosen.rung, accuracy.loss) {
+            (Rung::QuasiStatic, _) => {
+                format!("{change}, below the tolerance {tolerance:.1e}: no waves needed")
+            }
+            (Rung::Radiation, _) => format!(
+                "{change}; what its first order leaves out, {second:.1e}, is below the tolerance {tolerance:.1e}"
+            ),
+            (Rung::AreaDashpot, _) => format!(
+                "{change}; what the area dashpot leaves out, {second:.1e} and {loss:.1e} of the loss, is below the tolerance {tolerance:.1e}: no memory needed"
+            ),
+            (Rung::FullMemory, Some(asked)) if second <= tolerance => format!(
+                "{rung} alone would miss the loss by {loss:.1e} of it, above the loss_tolerance {asked:.1e}: full memory"
+            ),
+            (Rung::FullMemory, _) => format!(
+                "{change}; {rung} alone would miss them by {second:.1e}, above the tolerance {tolerance:.1e}: full memory"
+            ),
         }
     }
 }

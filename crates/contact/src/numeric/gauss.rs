@@ -1,9 +1,9 @@
-//! Gauss's rules: of any number of nodes on [0, 1], Radau's, and that of a measure given by many point masses.
+//! Rules beside Gauss and Legendre's: Radau's, and Gauss's of a measure given by many point masses.
 
 use std::f64::consts::PI;
 
-/// P_(n-1), P_n and the slope of P_n at x in (-1, 1); at both ends there is no slope.
-pub(crate) fn legendre(n: usize, x: f64) -> (f64, f64, f64) {
+/// P_(n-1) and P_n at x.
+pub(crate) fn legendre(n: usize, x: f64) -> [f64; 2] {
     let (mut before, mut value) = (0.0, 1.0);
     for k in 1..=n {
         let k = k as f64;
@@ -12,29 +12,7 @@ pub(crate) fn legendre(n: usize, x: f64) -> (f64, f64, f64) {
             ((2.0 * k - 1.0) * x * value - (k - 1.0) * before) / k,
         );
     }
-    let slope = n as f64 * (before - x * value) / ((1.0 - x) * (1.0 + x));
-    (before, value, slope)
-}
-
-/// Nodes and weights of the Gauss-Legendre rule of n nodes on [0, 1], ascending.
-pub(crate) fn gauss(n: usize) -> Vec<(f64, f64)> {
-    let mut rule = vec![(0.0, 0.0); n];
-    for (i, entry) in rule.iter_mut().enumerate() {
-        let mut x = -(PI * (i as f64 + 0.75) / (n as f64 + 0.5)).cos();
-        for _ in 0..20 {
-            let (_, value, slope) = legendre(n, x);
-            x -= value / slope;
-            if (value / slope).abs() < 1e-16 {
-                break;
-            }
-        }
-        let slope = legendre(n, x).2;
-        *entry = (
-            0.5 * (1.0 + x),
-            1.0 / ((1.0 - x) * (1.0 + x) * slope * slope),
-        );
-    }
-    rule
+    [before, value]
 }
 
 /// The n nodes of Radau's rule on (0, 1] that holds the right end, ascending.
@@ -43,7 +21,7 @@ pub(crate) fn gauss(n: usize) -> Vec<(f64, f64)> {
 pub(crate) fn radau(n: usize) -> Vec<f64> {
     // (P_(n-1) - P_n)/(1 - x) = (P'_(n-1) + P'_n)/n changes sign between neighbours of a fine cosine grid
     let function = |x: f64| {
-        let (before, value, _) = legendre(n, x);
+        let [before, value] = legendre(n, x);
         (before - value) / (1.0 - x)
     };
     let cells = 40 * n;
@@ -152,16 +130,6 @@ fn eigen(diagonal: &mut [f64], beside: &mut [f64]) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn gauss_integrates_its_degree() {
-        for n in [1, 2, 5, 12, 20] {
-            for k in 0..2 * n {
-                let sum: f64 = gauss(n).iter().map(|&(x, w)| w * x.powi(k as i32)).sum();
-                assert!((sum * (k as f64 + 1.0) - 1.0).abs() < 1e-13, "{n} {k}");
-            }
-        }
-    }
 
     #[test]
     fn radau_nodes_of_three() {

@@ -28,6 +28,17 @@ pub(crate) fn hermite([v0, s0]: [f64; 2], [v1, s1]: [f64; 2], x: f64) -> f64 {
     v0 + x * (s0 + x * (rise - s0 - cubic + x * cubic))
 }
 
+/// The third to fifth coefficient of the quintic on [0, 1] whose first three are known, from what its value, its slope and
+/// half its curvature at one are more than theirs.
+#[inline]
+pub(crate) fn quintic(rise: f64, tilt: f64, turn: f64) -> [f64; 3] {
+    [
+        10.0 * rise - 4.0 * tilt + turn,
+        -15.0 * rise + 7.0 * tilt - 2.0 * turn,
+        6.0 * rise - 3.0 * tilt + turn,
+    ]
+}
+
 /// The integral of f by one of these rules.
 pub(crate) fn gauss(rule: &[(f64, f64)], from: f64, to: f64, f: impl Fn(f64) -> f64) -> f64 {
     let width = to - from;

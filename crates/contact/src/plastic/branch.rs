@@ -4,7 +4,6 @@
 //! On any branch the load is carried by punches, dp = (3/2) a ds: s is the indentation where nothing flows.
 //!
 //! ```text
-//! Hertz         u = a^2                                p = a^3                     slope (3/2) a
 //! line          u = a^2                                p = y^3 + (3/2) y (a^2 - y^2)     (3/2) y
 //! fit           u = a^2                                p of Jackson and Green
 //! Hertzian      u = u_p + a^2/rho                      p = a^3/rho                 (3/2) a
@@ -24,13 +23,11 @@ use std::f64::consts::{FRAC_PI_2, PI};
 /// A law on one side of the turning point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Branch {
-    /// Nothing has flowed.
-    Hertz,
     /// The pressure is cut at that of yield; `edge` the radius at yield.
     Line { edge: f64 },
     /// Jackson and Green's fit.
     Fit(Fit),
-    /// Unloading to a dent of depth `left` as a sphere `flatter` times as flat.
+    /// Hertz's law of a sphere `flatter` times as flat on a dent of depth `left`: unloading, and [`Branch::HERTZ`].
     Hertzian { left: f64, flatter: f64 },
     /// Unloading of a cut pressure from the radius `top`.
     Truncated { edge: f64, top: f64 },
@@ -46,7 +43,7 @@ pub(crate) struct Law {
 impl Law {
     /// A contact that has not yielded.
     pub(crate) const HERTZ: Self = Self {
-        branch: Branch::Hertz,
+        branch: Branch::HERTZ,
         offset: 0.0,
     };
 
@@ -64,7 +61,7 @@ impl Law {
     /// Its slope in the radius.
     pub(crate) fn slope(&self, radius: f64) -> f64 {
         match self.branch {
-            Branch::Hertz | Branch::Fit(_) => 2.0,
+            Branch::Fit(_) => 2.0,
             Branch::Line { edge } => 2.0 * edge / radius,
             Branch::Hertzian { flatter, .. } => 2.0 / flatter,
             Branch::Truncated { edge, top } => 4.0 / PI * Cut::new(edge, top, radius).angle,
@@ -92,6 +89,12 @@ pub(crate) struct Local {
 }
 
 impl Branch {
+    /// Nothing has flowed.
+    pub(crate) const HERTZ: Self = Self::Hertzian {
+        left: 0.0,
+        flatter: 1.0,
+    };
+
     /// At a radius.
     pub(crate) fn at(&self, a: f64) -> Local {
         let of = |depth, depth_slope, bend, force| Local {
@@ -104,10 +107,6 @@ impl Branch {
             braking: INVERSE_MASS * 1.5 * a * depth_slope,
         };
         match *self {
-            Self::Hertz => Local {
-                braking: INVERSE_MASS * 3.0 * a * a,
-                ..of(a * a, 2.0 * a, 2.0, a * a * a)
-            },
             Self::Line { edge } => Local {
                 punch_slope: 2.0 * edge,
                 bends: [2.0, 0.0],
@@ -137,7 +136,7 @@ impl Branch {
             Self::Truncated { edge, top } => {
                 let cut = Cut::new(edge, top, a);
                 let slope = 4.0 / PI * cut.angle;
-                of(cut.depth(), a * slope, slope, cut.force())
+                of(cut.depth(), a * slope, slope, cut.moments()[0])
             }
         }
     }
@@ -145,15 +144,17 @@ impl Branch {
     /// Force of a loading branch at an indentation.
     pub(crate) fn pressed(&self, depth: f64) -> f64 {
         match self {
-            Self::Hertz => depth.powf(1.5),
-            branch => branch.at(depth.sqrt()).force,
+            Self::Hertzian { .. } => depth.powf(1.5),
+            Self::Line { .. } | Self::Fit(_) | Self::Truncated { .. } => {
+                self.at(depth.sqrt()).force
+            }
         }
     }
 
     /// int ds/a, but for a constant.
     pub(crate) fn delayed(&self, a: f64) -> f64 {
         match *self {
-            Self::Hertz | Self::Fit(_) => 2.0 * a,
+            Self::Fit(_) => 2.0 * a,
             Self::Line { edge } => 2.0 * edge * (1.0 + (a / edge).ln()),
             Self::Hertzian { flatter, .. } => 2.0 * a / flatter,
             Self::Truncated { edge, top } => Cut::new(edge, top, a).delayed(),
@@ -163,7 +164,7 @@ impl Branch {
     /// Indentation that is left where an unloading branch ends.
     pub(crate) fn left(&self) -> f64 {
         match *self {
-            Self::Hertz | Self::Line { .. } | Self::Fit(_) => 0.0,
+            Self::Line { .. } | Self::Fit(_) => 0.0,
             Self::Hertzian { left, .. } => left,
             Self::Truncated { .. } => self.at(0.0).depth,
         }
@@ -172,7 +173,7 @@ impl Branch {
     /// R_p/R at the end of an unloading branch.
     pub(crate) fn flatter(&self) -> f64 {
         match *self {
-            Self::Hertz | Self::Line { .. } | Self::Fit(_) => 1.0,
+            Self::Line { .. } | Self::Fit(_) => 1.0,
             Self::Hertzian { flatter, .. } => flatter,
             Self::Truncated { edge, top } => FRAC_PI_2 / (edge / top).asin(),
         }
@@ -181,7 +182,7 @@ impl Branch {
     /// Work that an unloading branch gives back from a radius on, int p du.
     pub(crate) fn given_back(&self, a: f64) -> f64 {
         match *self {
-            Self::Hertz | Self::Line { .. } | Self::Fit(_) => 0.4 * a.powi(5),
+            Self::Line { .. } | Self::Fit(_) => 0.4 * a.powi(5),
             Self::Hertzian { flatter, .. } => 0.4 * a.powi(5) / (flatter * flatter),
             Self::Truncated { edge, top } => {
                 let kink = (top * top - edge * edge).max(0.0).sqrt();
@@ -278,11 +279,6 @@ impl Cut {
         square - stroke((square - self.a * self.a).max(0.0))
     }
 
-    fn force(&self) -> f64 {
-        let [force, ..] = self.moments();
-        force
-    }
-
     /// Moments of the pressure in r^0, r^2 and r^4, over those of Hertz's pressure of unit force and radius.
     fn moments(&self) -> [f64; 3] {
         let [turn, far] = self.turns;
@@ -321,19 +317,34 @@ pub(crate) struct Fit {
     pub(crate) shape: f64,
     /// e_y = S_y/E*.
     pub(crate) strain: f64,
+    /// B of the contact's area, R u (w/1.9)^B.
+    pub(crate) spread: f64,
+    /// ln(pi C e_y/2)
+    edge: f64,
 }
 
 /// Indentation over the critical one from which the fit leaves Hertz's law.
 pub(crate) const FITTED: f64 = 1.9;
+const LOG_FITTED: f64 = 0.641_853_886_172_394_7;
 
 impl Fit {
+    pub(crate) fn new(critical: f64, shape: f64, strain: f64) -> Self {
+        Self {
+            critical,
+            shape,
+            strain,
+            spread: 0.14 * (23.0 * strain).exp(),
+            edge: (0.5 * PI * shape * strain).ln(),
+        }
+    }
+
     /// Force and its slope at an indentation beyond 1.9 w_c.
     pub(crate) fn force(&self, depth: f64) -> [f64; 2] {
         let w = depth / self.critical;
         let log = w.ln();
-        let spread = self.spread();
-        let area = (1.0 + spread) * log - spread * FITTED.ln();
-        let by_radius = (-0.7 * ((0.5 * PI * self.shape * self.strain).ln() + 0.5 * area)).exp();
+        let spread = self.spread;
+        let area = (1.0 + spread) * log - spread * LOG_FITTED;
+        let by_radius = (-0.7 * (self.edge + 0.5 * area)).exp();
         let soft = (-0.82 * by_radius).exp();
         let hardness = 2.84 * (1.0 - soft);
         let hardening = -2.84 * soft * 0.82 * 0.7 * by_radius * 0.5 * (1.0 + spread) / w;
@@ -347,11 +358,6 @@ impl Fit {
             + per * hardening * (1.0 - flowing) * w;
         let unit = self.critical.sqrt();
         [force * unit * self.critical, slope * unit]
-    }
-
-    /// B of the contact's area, R u (w/1.9)^B.
-    pub(crate) fn spread(&self) -> f64 {
-        0.14 * (23.0 * self.strain).exp()
     }
 
     /// Depth that is left after an indentation.

@@ -11,7 +11,7 @@
 use crate::growing::arrivals::Piece;
 use crate::growing::march::Errors;
 use crate::growing::nodes::Nodes;
-use crate::growing::polynomial::{LARGEST, dot};
+use crate::growing::polynomial::{LARGEST, SIZE, dot};
 use crate::growing::solved::SolvedContact;
 use crate::growing::step::last_term;
 use crate::numeric::quadrature::rising_root;
@@ -48,11 +48,11 @@ pub(crate) struct Dashpot {
 /// Radius, velocity and law at the nodes of a piece, and the length of time over that of the arc.
 #[derive(Clone, Copy)]
 struct Motion {
-    place: [f64; LARGEST + 1],
-    velocity: [f64; LARGEST + 1],
-    radius: [f64; LARGEST + 1],
-    pace: [f64; LARGEST + 1],
-    local: [Local; LARGEST + 1],
+    place: [f64; SIZE],
+    velocity: [f64; SIZE],
+    radius: [f64; SIZE],
+    pace: [f64; SIZE],
+    local: [Local; SIZE],
 }
 
 impl Yielding {
@@ -61,7 +61,7 @@ impl Yielding {
     /// # Errors
     /// The time where no piece is short enough.
     pub(crate) fn damped(&self, lag: f64) -> Result<Option<SolvedContact>, f64> {
-        let mut march = Dashpot::new(lag, Branch::Hertz, 0.0, 1.0);
+        let mut march = Dashpot::new(lag, Branch::HERTZ, 0.0, 1.0);
         let turned = march.follow(self)?;
         let Dashpot {
             pieces, velocity, ..
@@ -188,11 +188,11 @@ impl Dashpot {
     fn attempt(&self, nodes: &Nodes, length: f64) -> Option<(Motion, f64)> {
         let n = nodes.degree;
         let mut motion = Motion {
-            place: [self.place; LARGEST + 1],
-            velocity: [self.velocity; LARGEST + 1],
-            radius: [0.0; LARGEST + 1],
-            pace: [0.0; LARGEST + 1],
-            local: [Local::default(); LARGEST + 1],
+            place: [self.place; SIZE],
+            velocity: [self.velocity; SIZE],
+            radius: [0.0; SIZE],
+            pace: [0.0; SIZE],
+            local: [Local::default(); SIZE],
         };
         let along = if self.kink.is_some() { -1.0 } else { 1.0 };
         for (place, s) in motion.place.iter_mut().zip(&nodes.places) {
@@ -237,7 +237,7 @@ impl Dashpot {
             if change < SETTLED {
                 let mut error = 0.0_f64;
                 for values in [&motion.velocity, &motion.place] {
-                    let mut modes = [0.0; LARGEST + 1];
+                    let mut modes = [0.0; SIZE];
                     nodes.modes(&values[..=n], &mut modes);
                     error = error.max(last_term(&modes[..=n]));
                 }
@@ -249,11 +249,7 @@ impl Dashpot {
 
     fn accept(&mut self, nodes: &Nodes, motion: &Motion) {
         let n = nodes.degree;
-        let (mut time, mut force, mut depth) = (
-            [self.time; LARGEST + 1],
-            [0.0; LARGEST + 1],
-            [0.0; LARGEST + 1],
-        );
+        let (mut time, mut force, mut depth) = ([self.time; SIZE], [0.0; SIZE], [0.0; SIZE]);
         for i in 0..=n {
             let here = &motion.local[i];
             force[i] = here.force + self.lag * here.stiffness.powi(2) * motion.velocity[i];

@@ -1,11 +1,11 @@
 //! A contact that yields on a half-space with its memory: the march of one that does not, along the branches.
 
 use crate::disc::refine::Accuracy;
-use crate::growing::GrowingError;
+use crate::error::MarchError;
 use crate::growing::checks;
-use crate::growing::equations::{Independent, Values};
+use crate::growing::equations::Independent;
 use crate::growing::march::March;
-use crate::growing::polynomial::{LARGEST, Polynomial};
+use crate::growing::polynomial::{Polynomial, SIZE};
 use crate::growing::solved::SolvedContact;
 use crate::growing::waves::GrowingContact;
 use crate::numeric::quadrature::rising_root;
@@ -30,12 +30,12 @@ impl Yielding {
     /// The contact with the memory of the half-space, to an accuracy; nothing where waves keep it from yielding.
     ///
     /// # Errors
-    /// [`GrowingError`].
+    /// [`MarchError`].
     pub(crate) fn remembered(
         &self,
         contact: &GrowingContact<'_>,
         asked: &Accuracy,
-    ) -> Result<Option<SolvedContact>, GrowingError> {
+    ) -> Result<Option<SolvedContact>, MarchError> {
         let tried = |part: f64| {
             let mut march = March::new(*contact, (part * asked.tolerance).max(FINEST));
             let Some(turned) = march.follow(self).map_err(|time| march.lost(time))? else {
@@ -112,13 +112,9 @@ impl March<'_> {
                     }
                     length = (length * self.factor(error)).min(left(self).max(length));
                 }
-                Some((_, error)) => length *= self.factor(error).min(0.7),
-                None => length *= 0.3,
+                failed => length = self.shorter(length, failed.map(|(_, error)| error))?,
             }
             turns = false;
-            if length < 1e-9 {
-                break;
-            }
         }
         Err(self.state.time)
     }
@@ -142,19 +138,15 @@ impl March<'_> {
                     }
                     rise *= self.factor(error);
                 }
-                Some((_, error)) => rise *= self.factor(error).min(0.7),
-                None => rise *= 0.3,
-            }
-            if rise < 1e-9 {
-                break;
+                failed => rise = self.shorter(rise, failed.map(|(_, error)| error))?,
             }
         }
         Err(self.state.time)
     }
 
     /// Times at the nodes of a radius that falls, by the law without waves.
-    fn opening(&self, radius: &Polynomial) -> Values {
-        let mut times = [self.state.time; LARGEST + 1];
+    fn opening(&self, radius: &Polynomial) -> [f64; SIZE] {
+        let mut times = [self.state.time; SIZE];
         let (mut time, mut rate) = (self.state.time, self.state.slope);
         let mut before = self.law.branch.at(self.state.radius);
         for (value, &s) in times.iter_mut().zip(&self.nodes.places).skip(1) {

@@ -62,7 +62,7 @@ impl Yielding {
     /// Radius of contact whose square is the indentation, to the one of the law: the fit's is wider.
     pub(crate) fn true_radius(&self, radius: f64) -> f64 {
         let over = (radius / self.edge()).max(1.0);
-        radius * self.fit.map_or(1.0, |fit| over.powf(fit.spread()))
+        radius * self.fit.map_or(1.0, |fit| over.powf(fit.spread))
     }
 
     /// Radius of Hertz's pressure with the second moment of the loading's at a radius of contact.
@@ -110,7 +110,7 @@ impl Yielding {
     pub(crate) fn unloading(&self, top: f64) -> (Branch, f64) {
         let (edge, depth) = (self.edge(), top * top);
         if top <= edge {
-            return (Branch::Hertz, top);
+            return (Branch::HERTZ, top);
         }
         let force = self.loading().at(top).force;
         match (self.fit, self.law) {

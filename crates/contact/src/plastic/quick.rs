@@ -11,11 +11,11 @@
 
 use crate::growing::nodes::{Factors, Nodes};
 use crate::growing::polynomial::dot;
-use crate::outcome::series::{LANES, Series};
+use crate::numeric::series::Series;
 use crate::plastic::branch::{Branch, FITTED, Fit};
 use crate::plastic::dashpot::Dashpot;
 use crate::plastic::{Flow, Yielding};
-use crate::summary::{EndOfContact, Summary};
+use crate::summary::Summary;
 use crate::units::INVERSE_MASS;
 use std::f64::consts::FRAC_PI_2;
 use std::sync::OnceLock;
@@ -48,7 +48,7 @@ pub(crate) fn quick(yielding: &Yielding, lag: f64) -> Option<(Summary, Flow)> {
             let (found, stored) = fall_of_cut(edge / top, own_lag)?;
             (found, stored * fifth)
         }
-        Branch::Hertzian { .. } | Branch::Hertz | Branch::Line { .. } | Branch::Fit(_) => {
+        Branch::Hertzian { .. } | Branch::Line { .. } | Branch::Fit(_) => {
             let [speed, duration, pulled] = fall(own_lag)?;
             let by = 1.0 / back.flatter();
             ([speed * by, duration, pulled * by], back.given_back(from))
@@ -65,13 +65,9 @@ pub(crate) fn quick(yielding: &Yielding, lag: f64) -> Option<(Summary, Flow)> {
             peak_force: turned.peak_force,
             peak_force_time: t0 + turned.peak_force_time,
             contact_time: t0 + turned.time + duration / from.sqrt(),
-            restitution: v,
-            loss: (1.0 - v) * (1.0 + v),
             peak_displacement: turned.depth,
             peak_deflection: 1.5 * lag * pulled * from * fifth.sqrt(),
-            impulse: (1.0 + v) / INVERSE_MASS,
-            contacts: 1,
-            end: EndOfContact::Layer(0.0),
+            ..Summary::rebound(v)
         },
         Flow::new(yielding, top, [plastic_work, radiated]),
     ))
@@ -272,21 +268,21 @@ const LEAST: f64 = 1e-12;
 
 /// Velocity, duration and the largest radius times velocity of Hertz's contact from rest at radius one.
 fn fall(lag: f64) -> Option<[f64; 3]> {
-    static MADE: OnceLock<Option<Series>> = OnceLock::new();
+    static MADE: OnceLock<Option<Series<4>>> = OnceLock::new();
     let made = MADE.get_or_init(|| {
         let lag = |x: f64| 0.5 * LARGEST_LAG * (1.0 + x);
         Series::through([1, TERMS], LEAST, |[_, x]| {
-            from_rest(Branch::Hertz, lag(x), 1.0)
+            from_rest(Branch::HERTZ, lag(x), 1.0)
         })
     });
-    let [speed, duration, pulled, ..] = made.as_ref()?.at([0.0, 2.0 * lag / LARGEST_LAG - 1.0]);
+    let [speed, duration, pulled, _] = made.as_ref()?.at([0.0, 2.0 * lag / LARGEST_LAG - 1.0]);
     Some([speed, duration, pulled])
 }
 
 /// The same of the unloading of a cut pressure, by the radius at yield, and what it gives back without a lag; nothing beyond
 /// the series.
 fn fall_of_cut(edge: f64, lag: f64) -> Option<([f64; 3], f64)> {
-    static MADE: OnceLock<Option<Series>> = OnceLock::new();
+    static MADE: OnceLock<Option<Series<4>>> = OnceLock::new();
     let [low, high] = RANGE.map(f64::ln);
     let made = MADE.get_or_init(|| {
         // the first row of nodes has all angles
@@ -311,15 +307,13 @@ fn fall_of_cut(edge: f64, lag: f64) -> Option<([f64; 3], f64)> {
         return None;
     }
     let (series, root) = (made.as_ref()?, edge.sqrt());
-    let [speed, duration, pulled, bare, ..] = series.at([x, y]);
+    let [speed, duration, pulled, bare] = series.at([x, y]);
     let stored = 0.5 / INVERSE_MASS * bare * bare * edge;
     Some(([speed * root, duration / root, pulled * root], stored))
 }
 
 /// What a series is of: results from rest, over the root of a radius at yield.
-fn from_rest(branch: Branch, lag: f64, root: f64) -> Option<[f64; LANES]> {
+fn from_rest(branch: Branch, lag: f64, root: f64) -> Option<[f64; 4]> {
     let [speed, duration, pulled] = Dashpot::from_rest(branch, lag)?;
-    let mut lanes = [0.0; LANES];
-    lanes[..3].copy_from_slice(&[speed / root, duration * root, pulled / root]);
-    Some(lanes)
+    Some([speed / root, duration * root, pulled / root, 0.0])
 }

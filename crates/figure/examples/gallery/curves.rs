@@ -2,8 +2,8 @@
 
 use crate::waves::{even, pulse};
 use figure::{
-    Axis, Classes, Figure, Histogram, Interval, LabelledPoint, Layer, Legend, Line, Panel, Scale,
-    Sharing, Style,
+    Axis, Classes, Figure, Interval, LabelledPoint, Layer, Legend, Line, Panel, Scale, Sharing,
+    Style,
 };
 
 /// Panels over one time axis, with an error band and arrivals.
@@ -13,7 +13,8 @@ pub(crate) fn histories() -> Figure {
     let force = |t: f64| 159e3 * pulse(t, 27.2e-6);
     let striker = |t: f64| 1e-3 * (1.0 - ((t - 13.6e-6) / 15e-6).powi(2));
     let block = |t: f64| 0.14e-3 * pulse(t - 1e-6, 28e-6);
-    let band = times.iter().map(|&t| (t, 0.93 * force(t), 1.07 * force(t)));
+    let within = |t: f64| (t, [0.93 * force(t), force(t), 1.07 * force(t)]);
+    let forces: Vec<_> = times.iter().map(|&t| within(t)).collect();
     let time = || Axis::linear("time").si("s").range(0.0, 32e-6);
     Figure::new("Copper rod on a steel block, 100 m/s")
         .subtitle("peak force 159 kN, contact 27.2 µs, restitution 0.981 (model wave, implicit)")
@@ -21,8 +22,7 @@ pub(crate) fn histories() -> Figure {
         .panel(
             Panel::new(time(), Axis::linear("force").si("N"))
                 .height(190.0)
-                .band("contact force P", band.collect())
-                .line("contact force P", Style::Plain, curve(&force))
+                .banded("contact force P", Style::Plain, &forces)
                 .mark(2.0e-6, "P")
                 .mark(3.7e-6, "S")
                 .mark(4.0e-6, "R")
@@ -97,7 +97,7 @@ pub(crate) fn styles() -> Figure {
         .subtitle("curves of one name look the same in all panels")
         .columns(2)
         .width(960.0)
-        .sharing(Sharing::Y)
+        .sharing(Sharing::Both)
         .panel(plain)
         .panel(marked)
 }
@@ -157,13 +157,13 @@ pub(crate) fn histograms() -> Figure {
         .width(900.0)
         .panel(
             Panel::new(Axis::linear("restitution"), Axis::linear("impacts"))
-                .layer(Layer::Histogram(Histogram::of(
+                .layer(Layer::Line(Line::histogram(
                     "glass on steel",
                     &first,
                     40,
                     Scale::Linear,
                 )))
-                .layer(Layer::Histogram(Histogram::of(
+                .layer(Layer::Line(Line::histogram(
                     "steel on steel",
                     &second,
                     40,
@@ -175,7 +175,7 @@ pub(crate) fn histograms() -> Figure {
                 Axis::logarithmic("relative error"),
                 Axis::logarithmic("impacts"),
             )
-            .layer(Layer::Histogram(Histogram::of(
+            .layer(Layer::Line(Line::histogram(
                 "against the march",
                 &errors,
                 40,

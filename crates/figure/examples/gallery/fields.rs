@@ -1,27 +1,37 @@
 //! Fields: sections, frames, magnitudes.
 
 use crate::waves::{SPEEDS, even, velocity};
-use figure::{
-    Axis, ColourMap, ColourScale, Figure, Image, Layer, Legend, Limits, Mirror, Panel, Sharing,
-    Style, Unit,
-};
+use figure::{Axis, ColourMap, Figure, Image, Layer, Legend, Panel, Sharing, Style};
 
 fn depth() -> Axis {
     Axis::linear("depth z").si("m").reversed()
 }
 
-fn scale() -> ColourScale {
-    ColourScale::new(
-        "vertical velocity",
-        Unit::Si("m/s".to_owned()),
-        ColourMap::Diverging,
-    )
-    .limits(Limits::Percentile(99.5))
+/// A field over its nodes, in colours up to a size below which a fraction of the values lies.
+fn image(
+    [x, y]: [Vec<f64>; 2],
+    colours: Axis,
+    map: ColourMap,
+    fraction: f64,
+    value: impl Fn(f64, f64) -> f64,
+) -> Layer {
+    let values: Vec<f64> = y
+        .iter()
+        .flat_map(|&y| x.iter().map(move |&x| (x, y)))
+        .map(|(x, y)| value(x, y))
+        .collect();
+    let mut sizes: Vec<f64> = values.iter().map(|value| value.abs()).collect();
+    sizes.sort_by(f64::total_cmp);
+    let largest = sizes[(fraction * (sizes.len() - 1) as f64).round() as usize];
+    Layer::Image(Image::new(x, y, values, colours.range(0.0, largest), map))
 }
 
 fn field(time: f64, nodes: usize) -> Layer {
     let (r, z) = (even(0.0, 0.04, nodes), even(0.0, 0.03, nodes));
-    Layer::Image(Image::of(r, z, scale(), |r, z| velocity(r, z, time)))
+    let colours = Axis::linear("vertical velocity").si("m/s");
+    image([r, z], colours, ColourMap::Diverging, 0.995, |r, z| {
+        velocity(r, z, time)
+    })
 }
 
 /// A quarter circle of a radius.
@@ -36,14 +46,10 @@ fn snapshot(time: f64, nodes: usize) -> Panel {
     Panel::new(Axis::linear("distance x from the axis").si("m"), depth())
         .title(&format!("t = {:.0} µs", 1e6 * time))
         .equal_lengths()
-        .mirrored(Mirror::Even)
+        .mirrored()
         .layer(field(time, nodes))
         .line("P front", Style::Rimmed, front(SPEEDS[0] * (time - 0.8e-6)))
-        .line(
-            "S front",
-            Style::RimmedDashed,
-            front(SPEEDS[1] * (time - 0.8e-6)),
-        )
+        .line("S front", Style::Rimmed, front(SPEEDS[1] * (time - 0.8e-6)))
 }
 
 /// A mirrored section with wave fronts.
@@ -71,12 +77,7 @@ pub(crate) fn frames() -> Figure {
 pub(crate) fn magnitude() -> Figure {
     let r: Vec<f64> = (0..60).map(|i| 0.05 * 1.08_f64.powi(i)).collect();
     let z = even(0.02, 6.0, 80);
-    let colours = ColourScale::new(
-        "largest shear stress τ",
-        Unit::Fixed("P/r_{0}^{2}".to_owned()),
-        ColourMap::Sequential,
-    )
-    .limits(Limits::Percentile(99.0));
+    let colours = Axis::linear("largest shear stress τ").unit("P/r_{0}^{2}");
     let stress = |r: f64, z: f64| 0.31 * z / (z * z + 0.5 * r * r + 0.25).powf(1.5);
     Figure::new("Static field").width(620.0).panel(
         Panel::new(
@@ -84,7 +85,7 @@ pub(crate) fn magnitude() -> Figure {
             Axis::linear("depth").unit("r_{0}").reversed(),
         )
         .height(320.0)
-        .layer(Layer::Image(Image::of(r, z, colours, stress)))
+        .layer(image([r, z], colours, ColourMap::Sequential, 0.99, stress))
         .mark(1.0, "edge of the disc"),
     )
 }

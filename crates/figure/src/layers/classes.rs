@@ -1,9 +1,9 @@
 //! A map of a few classes.
 
-use super::{Kind, Plot, Swatch, count};
+use super::{Colours, Kind, Swatch, count};
 use crate::axis::Interval;
 use crate::error::FigureError;
-use crate::geometry::{Point, Rect};
+use crate::geometry::{Frame, Point, Rect};
 use crate::look::{Slot, fills};
 use crate::scene::{Scene, Shape};
 
@@ -50,10 +50,6 @@ impl Kind for Classes {
         Vec::new()
     }
 
-    fn fills(&self) -> bool {
-        true
-    }
-
     fn swatches(&self, _: Slot) -> Vec<(&str, Swatch)> {
         let fills = fills(self.names.len()).map(Swatch::Fill);
         self.names.iter().map(String::as_str).zip(fills).collect()
@@ -61,12 +57,12 @@ impl Kind for Classes {
 
     /// One shape a class, each over the lighter ones: it covers the cells of its own class and of all darker ones, so
     /// that no background shines through where two classes meet.
-    fn draw(&self, scene: &mut Scene, plot: &Plot<'_>, _: Slot) {
+    fn draw(&self, scene: &mut Scene, frame: &Frame, _: Option<&Colours>, _: Slot) {
         let [columns, rows] = self.shape;
         if columns == 0 || rows == 0 {
             return;
         }
-        let area = plot.frame.area;
+        let area = frame.area;
         let (width, height) = (area.width() / columns as f64, area.height() / rows as f64);
         for (least, colour) in fills(self.names.len()).enumerate() {
             let mut shape = Shape::default();
@@ -76,12 +72,8 @@ impl Kind for Classes {
                 for run in cells.chunk_by(|&a, &b| (a >= least) == (b >= least)) {
                     if run[0] >= least {
                         let left = area.left + width * start as f64;
-                        let cells = Rect {
-                            left,
-                            top: bottom - height,
-                            right: left + width * run.len() as f64,
-                            bottom,
-                        };
+                        let cells =
+                            Rect::new(left, bottom - height, width * run.len() as f64, height);
                         shape.segments.extend(Shape::rectangle(cells).segments);
                     }
                     start += run.len();

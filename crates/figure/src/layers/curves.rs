@@ -1,10 +1,15 @@
-//! Curves, and the areas between two of them.
+//! Curves: lines, points, the bars of a histogram, and the bands around them.
 
-use super::{Kind, Plot, Swatch};
+use super::{Kind, Swatch};
+use crate::axis::{Interval, Scale};
 use crate::colour::WHITE;
-use crate::geometry::{Frame, Point};
+use crate::geometry::{Frame, Point, Rect};
+use crate::layers::Colours;
 use crate::look::{Look, Slot, Style};
 use crate::scene::{Scene, Shape, Stroke};
+
+/// How much a band hides.
+pub(crate) const BAND: f64 = 0.22;
 
 /// One curve.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,116 +20,65 @@ pub struct Line {
     pub points: Vec<(f64, f64)>,
     /// How it is drawn.
     pub style: Style,
+    /// What it may be wrong by, in its colour: place, lower and upper value; empty for none.
+    pub band: Vec<(f64, f64, f64)>,
 }
 
 impl Line {
-    /// A curve.
+    /// A curve without a band.
     pub fn new(name: &str, style: Style, points: Vec<(f64, f64)>) -> Self {
         Self {
             name: name.to_owned(),
             points,
             style,
-        }
-    }
-}
-
-impl Kind for Line {
-    fn name(&self) -> &str {
-        &self.name
-    }
-
-    fn places(&self) -> Vec<Point> {
-        self.points.clone()
-    }
-
-    fn is_coloured(&self) -> bool {
-        matches!(self.style, Style::Marked | Style::Plain | Style::Points)
-    }
-
-    fn swatches(&self, slot: Slot) -> Vec<(&str, Swatch)> {
-        let line = Some(Look::new(slot, self.style));
-        vec![(&self.name, Swatch::Curve { line, band: None })]
-    }
-
-    fn draw(&self, scene: &mut Scene, plot: &Plot<'_>, slot: Slot) {
-        let look = Look::new(slot, self.style);
-        let area = plot.frame.area;
-        for points in plot.frame.sides(&self.points) {
-            let runs = plot.frame.runs(&points);
-            for run in runs.iter().filter(|run| look.line && run.len() > 1) {
-                if look.rim {
-                    let rim = Stroke::solid(WHITE, look.stroke.width + 2.4);
-                    scene.shape(Shape::polyline(run, rim).clipped(area));
-                }
-                scene.shape(Shape::polyline(run, look.stroke).clipped(area));
-            }
-            for &at in runs.iter().flatten() {
-                // whole markers at the sides of a plot, none of points beyond them
-                if area.grown(0.01).has(at) {
-                    look.mark(scene, at);
-                }
-            }
-        }
-    }
-}
-
-/// The area between two curves over the same places: what a curve may be wrong by.
-///
-/// It takes the colour of the curve with the same name, and shares its line in the legend.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Band {
-    /// Its name in the legend; empty for none.
-    pub name: String,
-    /// Place, lower and upper value.
-    pub points: Vec<(f64, f64, f64)>,
-}
-
-impl Band {
-    /// How much a band hides.
-    pub(crate) const OPACITY: f64 = 0.22;
-
-    /// A band.
-    pub fn new(name: &str, points: Vec<(f64, f64, f64)>) -> Self {
-        Self {
-            name: name.to_owned(),
-            points,
+            band: Vec::new(),
         }
     }
 
-    /// Its lower and its upper side.
+    /// A histogram: counts of values over `bins` bins that are equally long on an axis of the given scale.
+    ///
+    /// Values that such an axis cannot show (NaN, or negative on a logarithmic one) are not counted. The curve runs along
+    /// the tops of the bars, from zero to zero.
+    pub fn histogram(name: &str, values: &[f64], bins: usize, scale: Scale) -> Self {
+        let bins = bins.max(1);
+        let interval = match Interval::around(scale, values.iter().copied()) {
+            Some(found) if found.low < found.high => found,
+            Some(single) => single.with_air(0.0),
+            None => Interval::linear(0.0, 1.0),
+        };
+        let mut counts = vec![0.0; bins];
+        for &value in values.iter().filter(|&&v| scale.shows(v)) {
+            let bin = (interval.fraction(value) * bins as f64) as usize;
+            counts[bin.min(bins - 1)] += 1.0;
+        }
+        let edge = |i: usize| interval.value(i as f64 / bins as f64);
+        let mut points = vec![(edge(0), 0.0)];
+        for (i, count) in counts.into_iter().enumerate() {
+            points.extend([(edge(i), count), (edge(i + 1), count)]);
+        }
+        points.push((edge(bins), 0.0));
+        Self::new(name, Style::Bars, points)
+    }
+
+    /// Its points on the axes of a plot: a logarithmic axis has no zero, bars stand on its end.
+    fn standing(&self, frame: &Frame) -> Vec<Point> {
+        let mut points = self.points.clone();
+        if self.style == Style::Bars {
+            points.iter_mut().for_each(|p| p.1 = p.1.max(frame.y.low));
+        }
+        points
+    }
+
+    /// The lower and the upper side of its band.
     fn edges(&self) -> [Vec<Point>; 2] {
-        let lower = self.points.iter().map(|&(x, low, _)| (x, low));
-        let upper = self.points.iter().map(|&(x, _, high)| (x, high));
+        let lower = self.band.iter().map(|&(x, low, _)| (x, low));
+        let upper = self.band.iter().map(|&(x, _, high)| (x, high));
         [lower.collect(), upper.collect()]
     }
-}
 
-impl Kind for Band {
-    fn name(&self) -> &str {
-        &self.name
-    }
-
-    fn places(&self) -> Vec<Point> {
-        self.edges().concat()
-    }
-
-    fn is_coloured(&self) -> bool {
-        true
-    }
-
-    fn curves(&self, _: &Frame) -> Vec<Vec<Point>> {
-        self.edges().to_vec()
-    }
-
-    fn swatches(&self, slot: Slot) -> Vec<(&str, Swatch)> {
-        let band = Some(Look::new(slot, Style::Plain).stroke.colour);
-        vec![(&self.name, Swatch::Curve { line: None, band })]
-    }
-
-    fn draw(&self, scene: &mut Scene, plot: &Plot<'_>, slot: Slot) {
-        let colour = Look::new(slot, Style::Plain).stroke.colour;
-        let place = |point: &Point| plot.frame.place(*point);
-        let [lower, upper] = self.edges().map(|edge| plot.frame.sides(&edge));
+    fn draw_band(&self, scene: &mut Scene, frame: &Frame, look: &Look) {
+        let place = |point: &Point| frame.place(*point);
+        let [lower, upper] = self.edges().map(|edge| frame.sides(&edge));
         for (lower, upper) in lower.iter().zip(&upper) {
             let pairs = lower.iter().zip(upper);
             let pairs: Vec<_> = pairs.map(|(a, b)| place(a).zip(place(b))).collect();
@@ -132,9 +86,83 @@ impl Kind for Band {
                 let run = || run.iter().flatten();
                 let back = run().rev().map(|pair| pair.1);
                 let outline: Vec<Point> = run().map(|pair| pair.0).chain(back).collect();
-                let area = Shape::polygon(&outline).filled(colour, Self::OPACITY);
-                scene.shape(area.clipped(plot.frame.area));
+                let area = Shape::polygon(&outline).filled(look.stroke.colour, BAND);
+                scene.shape(area.clipped(frame.area));
             }
         }
+    }
+}
+
+/// Draws a line through points in pixels, over its rim or the light filling of its bars, which lie over one another.
+pub(crate) fn draw_run(scene: &mut Scene, run: &[Point], look: &Look, clip: Rect) {
+    if look.is_filled {
+        let fill = Shape::polygon(run).filled(look.stroke.colour, 0.18);
+        scene.shape(fill.clipped(clip));
+    }
+    if look.rim {
+        let rim = Stroke::solid(WHITE, look.stroke.width + 2.4);
+        scene.shape(Shape::polyline(run, rim).clipped(clip));
+    }
+    scene.shape(Shape::polyline(run, look.stroke).clipped(clip));
+}
+
+impl Kind for Line {
+    fn places(&self) -> Vec<Point> {
+        let [lower, upper] = self.edges();
+        [lower, upper, self.points.clone()].concat()
+    }
+
+    /// Whole bars, not only their tops.
+    fn curves(&self, frame: &Frame) -> Vec<Vec<Point>> {
+        let points = self.standing(frame);
+        let mut curves = self.edges().to_vec();
+        if self.style == Style::Bars {
+            let base = frame.y.low.max(0.0);
+            curves.extend(points.iter().map(|&(x, y)| vec![(x, base), (x, y)]));
+        }
+        curves.push(points);
+        curves
+    }
+
+    fn swatches(&self, slot: Slot) -> Vec<(&str, Swatch)> {
+        let has_band = !self.band.is_empty();
+        let look = Look::new(slot, self.style);
+        vec![(&self.name, Swatch::Curve { look, has_band })]
+    }
+
+    fn draw(&self, scene: &mut Scene, frame: &Frame, _: Option<&Colours>, slot: Slot) {
+        let look = Look::new(slot, self.style);
+        self.draw_band(scene, frame, &look);
+        for points in frame.sides(&self.standing(frame)) {
+            let runs = frame.runs(&points);
+            for run in runs.iter().filter(|run| look.line && run.len() > 1) {
+                draw_run(scene, run, &look, frame.area);
+            }
+            for &at in runs.iter().flatten() {
+                // whole markers at the sides of a plot, none of points beyond them
+                if frame.area.grown(0.01).has(at) {
+                    look.mark(scene, at);
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_value_that_can_be_shown_is_counted_once() {
+        let values = [1.0, 10.0, 99.0, 100.0, -3.0, f64::NAN, 1000.0];
+        let found = Line::histogram("", &values, 3, Scale::Logarithmic).points;
+        let tops: Vec<f64> = found[1..].chunks_exact(2).map(|bar| bar[0].1).collect();
+        assert_eq!(tops, [1.0, 2.0, 2.0]);
+        assert!((found[2].0 - 10.0).abs() < 1e-12 && found.len() == 8);
+        assert_eq!((found[0].1, found[7].1), (0.0, 0.0));
+        let same = Line::histogram("", &[5.0, 5.0], 4, Scale::Linear).points;
+        assert_eq!(same.iter().map(|p| p.1).sum::<f64>(), 2.0 * 2.0);
+        let none = Line::histogram("", &[], 2, Scale::Linear).points;
+        assert!(none.iter().all(|p| p.1 == 0.0));
     }
 }

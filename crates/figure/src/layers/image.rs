@@ -1,20 +1,12 @@
 //! A field as colours.
 
-use super::{ColourScale, Colours, Kind, Plot, count};
-use crate::axis::Mirror;
-use crate::error::{FigureError, Side};
+use super::{Colours, Kind, count};
+use crate::axis::Axis;
+use crate::colour::ColourMap;
+use crate::error::FigureError;
 use crate::geometry::{Frame, Point};
 use crate::look::Slot;
 use crate::scene::{Item, Picture, Scene};
-
-/// How colours change between the nodes of a field.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Shading {
-    /// Each node colours its own cell.
-    Cells,
-    /// Bilinear between the nodes.
-    Smooth,
-}
 
 /// A field on a grid, which need not be even.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,38 +17,32 @@ pub struct Image {
     pub y: Vec<f64>,
     /// Values at the nodes, x runs fastest; NaN is left white.
     pub values: Vec<f64>,
-    /// How colours change between the nodes.
-    pub shading: Shading,
-    /// What colours mean.
-    pub colours: ColourScale,
+    /// What colours mean; its range has the values at their ends, equal in size where they have a sign.
+    pub colours: Axis,
+    /// Colours.
+    pub map: ColourMap,
+    /// Whether each node colours its own cell; colours change evenly between the nodes otherwise.
+    pub has_cells: bool,
 }
 
 impl Image {
-    /// A smoothly shaded field, from a function of x and y.
-    pub fn of(
-        x: Vec<f64>,
-        y: Vec<f64>,
-        colours: ColourScale,
-        mut value: impl FnMut(f64, f64) -> f64,
-    ) -> Self {
-        let mut values = Vec::with_capacity(x.len() * y.len());
-        for &b in &y {
-            values.extend(x.iter().map(|&a| value(a, b)));
-        }
+    /// A field whose colours change evenly between its nodes.
+    pub fn new(x: Vec<f64>, y: Vec<f64>, values: Vec<f64>, colours: Axis, map: ColourMap) -> Self {
         Self {
             x,
             y,
             values,
-            shading: Shading::Smooth,
             colours,
+            map,
+            has_cells: false,
         }
     }
 
     /// The field at a place; NaN outside its grid.
-    pub fn at(&self, x: f64, y: f64) -> f64 {
+    fn at(&self, x: f64, y: f64) -> f64 {
         let (Some((i, a)), Some((k, b))) = (
-            locate(&self.x, x, self.shading),
-            locate(&self.y, y, self.shading),
+            locate(&self.x, x, self.has_cells),
+            locate(&self.y, y, self.has_cells),
         ) else {
             return f64::NAN;
         };
@@ -77,11 +63,8 @@ impl Image {
             let across = (f64::from(column) + 0.5) / columns * frame.area.width();
             let down = (f64::from(row) + 0.5) / rows * frame.area.height();
             let (x, y) = frame.values((frame.area.left + across, frame.area.top + down));
-            colours.of_value(match frame.mirror {
-                Mirror::Off => self.at(x, y),
-                Mirror::Even => self.at(x.abs(), y),
-                Mirror::Odd => self.at(x.abs(), y) * x.signum(),
-            })
+            let x = if frame.is_mirrored { x.abs() } else { x };
+            colours.of_value(self.at(x, y))
         };
         let places = (0..rows as u32).flat_map(|row| (0..columns as u32).map(move |i| (i, row)));
         Picture {
@@ -95,10 +78,11 @@ impl Image {
 
 impl Kind for Image {
     fn check(&self, panel: usize) -> Result<(), FigureError> {
-        for (side, nodes) in [(Side::X, &self.x), (Side::Y, &self.y)] {
+        for (side, nodes) in [("x", &self.x), ("y", &self.y)] {
             let rising = nodes.windows(2).all(|pair| pair[0] < pair[1]);
             if nodes.is_empty() || !rising || nodes.iter().any(|n| !n.is_finite()) {
-                return Err(FigureError::Nodes { panel, side });
+                let must = "nodes of an image must be finite and rise";
+                return Err(FigureError(format!("panel {panel}: the {side} {must}")));
             }
         }
         let expected = self.x.len() * self.y.len();
@@ -107,23 +91,17 @@ impl Kind for Image {
 
     /// Two opposite corners of what it covers.
     fn places(&self) -> Vec<Point> {
-        let [x, y] = [&self.x, &self.y].map(|nodes| extent(nodes, self.shading));
+        let [x, y] = [&self.x, &self.y].map(|nodes| extent(nodes, self.has_cells));
         vec![(x.0, y.0), (x.1, y.1)]
-    }
-
-    fn fills(&self) -> bool {
-        true
     }
 
     fn curves(&self, _: &Frame) -> Vec<Vec<Point>> {
         Vec::new()
     }
 
-    fn draw(&self, scene: &mut Scene, plot: &Plot<'_>, _: Slot) {
-        if let Some(colours) = plot.colours {
-            let picture = self.pixels(plot.frame, colours);
-            scene.items.push(Item::Picture(picture));
-        }
+    fn draw(&self, scene: &mut Scene, frame: &Frame, colours: Option<&Colours>, _: Slot) {
+        let picture = colours.map(|colours| self.pixels(frame, colours));
+        scene.items.extend(picture.map(Item::Picture));
     }
 }
 
@@ -136,22 +114,22 @@ fn blend(a: f64, fraction: f64, b: impl Fn() -> f64) -> f64 {
 }
 
 /// What the nodes of an axis cover.
-fn extent(nodes: &[f64], shading: Shading) -> (f64, f64) {
+fn extent(nodes: &[f64], has_cells: bool) -> (f64, f64) {
     let n = nodes.len();
-    match (nodes, shading) {
-        ([], _) => (f64::NAN, f64::NAN),
-        ([only], _) => (only - 0.5, only + 0.5),
-        ([first, .., last], Shading::Smooth) => (*first, *last),
-        ([first, .., last], Shading::Cells) => (
+    match nodes {
+        [] => (f64::NAN, f64::NAN),
+        [only] => (only - 0.5, only + 0.5),
+        [first, .., last] if has_cells => (
             first - 0.5 * (nodes[1] - first),
             last + 0.5 * (last - nodes[n - 2]),
         ),
+        [first, .., last] => (*first, *last),
     }
 }
 
 /// The node below a place and the fraction of the way to the next one.
-fn locate(nodes: &[f64], at: f64, shading: Shading) -> Option<(usize, f64)> {
-    let (low, high) = extent(nodes, shading);
+fn locate(nodes: &[f64], at: f64, has_cells: bool) -> Option<(usize, f64)> {
+    let (low, high) = extent(nodes, has_cells);
     if !(low..=high).contains(&at) {
         return None;
     }
@@ -163,30 +141,30 @@ fn locate(nodes: &[f64], at: f64, shading: Shading) -> Option<(usize, f64)> {
         return Some((lower, 0.0));
     }
     let fraction = ((at - nodes[lower]) / (nodes[upper] - nodes[lower])).max(0.0);
-    match shading {
-        Shading::Smooth => Some((lower, fraction)),
-        Shading::Cells => Some((if fraction < 0.5 { lower } else { upper }, 0.0)),
-    }
+    Some(match has_cells {
+        true => (lower + usize::from(fraction >= 0.5), 0.0),
+        false => (lower, fraction),
+    })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::axis::Unit;
-    use crate::colour::ColourMap;
 
-    fn plane(shading: Shading) -> Image {
-        let scale = ColourScale::new("", Unit::One, ColourMap::Sequential);
-        let mut image = Image::of(vec![0.0, 1.0, 3.0], vec![0.0, 2.0], scale, |x, y| {
-            x + 10.0 * y
-        });
-        image.shading = shading;
-        image
+    /// x + 10 y.
+    fn plane(has_cells: bool) -> Image {
+        let (x, y) = (vec![0.0, 1.0, 3.0], vec![0.0, 2.0]);
+        let values = vec![0.0, 1.0, 3.0, 20.0, 21.0, 23.0];
+        let colours = Axis::linear("");
+        Image {
+            has_cells,
+            ..Image::new(x, y, values, colours, ColourMap::Sequential)
+        }
     }
 
     #[test]
     fn smooth_shading_reproduces_a_plane_on_an_uneven_grid() {
-        let image = plane(Shading::Smooth);
+        let image = plane(false);
         for (x, y) in [(0.0, 0.0), (0.5, 1.0), (2.5, 0.3), (3.0, 2.0)] {
             assert!((image.at(x, y) - (x + 10.0 * y)).abs() < 1e-12, "{x} {y}");
         }
@@ -196,7 +174,7 @@ mod tests {
 
     #[test]
     fn cells_reach_half_way_to_their_neighbours() {
-        let image = plane(Shading::Cells);
+        let image = plane(true);
         assert_eq!(image.places(), [(-0.5, -1.0), (4.0, 3.0)]);
         for (x, node) in [
             (-0.4, 0.0),

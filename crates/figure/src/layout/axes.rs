@@ -1,10 +1,10 @@
 //! The two axes of a panel: ticks, numbers and labels, fitted and drawn.
 
 use super::plan::{AxisPlan, PanelPlan};
+use crate::axis::{Axis, Interval};
 use crate::colour::{BLACK, GRID};
-use crate::error::Side;
 use crate::geometry::Frame;
-use crate::scene::{Anchor, Scene, Shape, Stroke, Text};
+use crate::scene::{END, MIDDLE, Scene, Shape, Stroke, Text};
 use crate::text::{LINE, Typeface, width as width_of, wrap};
 use crate::ticks::{Room, Ticks, shown};
 
@@ -19,27 +19,46 @@ pub(crate) struct Needs {
 
 /// An axis fitted to a length.
 #[derive(Debug, Clone, PartialEq)]
-struct FittedAxis {
-    ticks: Ticks,
+pub(super) struct FittedAxis {
+    pub(super) ticks: Ticks,
+    /// Width of the widest number.
+    pub(super) numbers: f64,
     /// Lines of the label.
-    label: Vec<String>,
+    pub(super) label: Vec<String>,
     /// Whether numbers and label are written.
     labelled: bool,
 }
 
-/// Both axes fitted to a plot.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Axes {
-    x: FittedAxis,
-    y: FittedAxis,
-    /// Width of the widest number at the y axis.
-    y_numbers: f64,
-}
+impl FittedAxis {
+    pub(super) fn new(axis: &Axis, interval: &Interval, room: &Room<'_>, faces: &Typeface) -> Self {
+        let (label, factor) = shown(axis, interval);
+        let ticks = Ticks::new(interval, factor, room);
+        let widths = ticks.major.iter().map(|tick| width_of(&tick.1, faces.tick));
+        Self {
+            numbers: widths.fold(0.0, f64::max),
+            ticks,
+            label: wrap(&label, faces.label, room.length),
+            labelled: true,
+        }
+    }
 
-/// Width of the widest number of some ticks.
-pub(super) fn widest(ticks: &Ticks, size: f64) -> f64 {
-    let widths = ticks.major.iter().map(|tick| width_of(&tick.label, size));
-    widths.fold(0.0, f64::max)
+    /// Of a panel, which may leave writing to another one.
+    fn of(plan: &AxisPlan<'_>, room: &Room<'_>, faces: &Typeface) -> Self {
+        let mut fitted = Self::new(plan.axis, &plan.interval, room, faces);
+        fitted.labelled = plan.labelled;
+        if !plan.labelled {
+            fitted.label.clear();
+        }
+        fitted
+    }
+
+    /// Places of all ticks, with their lengths.
+    pub(super) fn lengths(&self, faces: &Typeface) -> impl Iterator<Item = (f64, f64)> {
+        let (long, short) = (faces.tick_length(), faces.minor_length());
+        let major = self.ticks.major.iter().map(move |tick| (tick.0, long));
+        let minor = self.ticks.minor.iter().map(move |&value| (value, short));
+        major.chain(minor)
+    }
 }
 
 /// The thin line around a plot and of its ticks.
@@ -47,49 +66,29 @@ pub(crate) fn thin() -> Stroke {
     Stroke::solid(BLACK, 1.0)
 }
 
-/// Places of all ticks, with their lengths.
-pub(super) fn lengths(ticks: &Ticks, faces: &Typeface) -> Vec<(f64, f64)> {
-    let long = ticks
-        .major
-        .iter()
-        .map(|tick| (tick.value, faces.tick_length()));
-    let short = ticks
-        .minor
-        .iter()
-        .map(|&value| (value, faces.minor_length()));
-    long.chain(short).collect()
-}
-
-impl FittedAxis {
-    fn new(plan: &AxisPlan<'_>, side: Side, length: f64, faces: &Typeface) -> Self {
-        let (label, factor) = shown(&plan.axis.quantity, &plan.axis.unit, &plan.interval);
-        let room = match side {
-            Side::X => Room {
-                length,
-                distance: 6.6 * faces.tick,
-                needs: Box::new(|text| width_of(text, faces.tick) + 0.9 * faces.tick),
-            },
-            Side::Y => Room::of_lines(length, 3.6 * faces.tick, faces.tick),
-        };
-        Self {
-            ticks: Ticks::new(&plan.interval, factor, &room),
-            label: match plan.labelled {
-                true => wrap(&label, faces.label, length),
-                false => Vec::new(),
-            },
-            labelled: plan.labelled,
-        }
-    }
+/// Both axes fitted to a plot.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Axes {
+    x: FittedAxis,
+    y: FittedAxis,
 }
 
 impl Axes {
     /// Fits the axes to a plot of a size.
     pub(super) fn new(plan: &PanelPlan<'_>, [width, height]: [f64; 2], faces: &Typeface) -> Self {
-        let y = FittedAxis::new(&plan.y, Side::Y, height, faces);
+        let beside = Room {
+            length: width,
+            distance: 6.6 * faces.tick,
+            needs: &|text| width_of(text, faces.tick) + 0.9 * faces.tick,
+        };
+        let above = Room {
+            length: height,
+            distance: 3.6 * faces.tick,
+            needs: &|_| LINE * faces.tick,
+        };
         Self {
-            x: FittedAxis::new(&plan.x, Side::X, width, faces),
-            y_numbers: widest(&y.ticks, faces.tick),
-            y,
+            x: FittedAxis::of(&plan.x, &beside, faces),
+            y: FittedAxis::of(&plan.y, &above, faces),
         }
     }
 
@@ -97,7 +96,7 @@ impl Axes {
     pub(super) fn needs(&self, plan: &PanelPlan<'_>, width: f64, faces: &Typeface) -> Needs {
         let mut needs = Needs::default();
         if self.y.labelled {
-            needs.left = faces.tick_length() + 0.35 * faces.tick + self.y_numbers;
+            needs.left = faces.tick_length() + 0.35 * faces.tick + self.y.numbers;
             if !self.y.label.is_empty() {
                 needs.left += faces.gap() + Typeface::lines(faces.label, self.y.label.len());
             }
@@ -106,10 +105,10 @@ impl Axes {
         if self.x.labelled {
             // how far the numbers at the ends reach beyond the nearer end of the axis
             let ends = [self.x.ticks.major.first(), self.x.ticks.major.last()].map(|tick| {
-                tick.map_or(0.0, |tick| {
-                    let fraction = plan.x.interval.fraction(tick.value);
+                tick.map_or(0.0, |(value, label)| {
+                    let fraction = plan.x.interval.fraction(*value);
                     let inside = width * fraction.min(1.0 - fraction);
-                    (0.5 * width_of(&tick.label, faces.tick) - inside).max(0.0)
+                    (0.5 * width_of(label, faces.tick) - inside).max(0.0)
                 })
             });
             needs.left = needs.left.max(ends[0]);
@@ -126,11 +125,11 @@ impl Axes {
     pub(crate) fn draw_grid(&self, scene: &mut Scene, frame: &Frame) {
         let area = frame.area;
         let upright = self.x.ticks.major.iter().map(|tick| {
-            let x = frame.across(tick.value);
+            let x = frame.across(tick.0);
             [(x, area.top), (x, area.bottom)]
         });
         let level = self.y.ticks.major.iter().map(|tick| {
-            let y = frame.down(tick.value);
+            let y = frame.down(tick.0);
             [(area.left, y), (area.right, y)]
         });
         scene.shape(Shape::lines(upright.chain(level)).stroked(Stroke::solid(GRID, 1.0)));
@@ -139,42 +138,37 @@ impl Axes {
     /// Draws frame, ticks, numbers and labels.
     pub(crate) fn draw(&self, scene: &mut Scene, frame: &Frame, faces: &Typeface) {
         let area = frame.area;
-        let below = lengths(&self.x.ticks, faces)
-            .into_iter()
-            .map(|(value, length)| {
-                let x = frame.across(value);
-                [(x, area.bottom), (x, area.bottom + length)]
-            });
-        let beside = lengths(&self.y.ticks, faces)
-            .into_iter()
-            .map(|(value, length)| {
-                let y = frame.down(value);
-                [(area.left - length, y), (area.left, y)]
-            });
+        let below = self.x.lengths(faces).map(|(value, length)| {
+            let x = frame.across(value);
+            [(x, area.bottom), (x, area.bottom + length)]
+        });
+        let beside = self.y.lengths(faces).map(|(value, length)| {
+            let y = frame.down(value);
+            [(area.left - length, y), (area.left, y)]
+        });
         scene.shape(Shape::lines(below.chain(beside)).stroked(thin()));
         scene.shape(Shape::rectangle(area).stroked(thin()));
         let middle = area.centre();
         if self.x.labelled {
             let mut line = area.bottom + faces.tick_length() + 0.2 * faces.tick + faces.tick;
-            for tick in &self.x.ticks.major {
-                let at = (frame.across(tick.value), line);
-                scene.text(Text::new(&tick.label, at, faces.tick, Anchor::Middle));
+            for (value, label) in &self.x.ticks.major {
+                let at = (frame.across(*value), line);
+                scene.text(Text::new(label, at, faces.tick, MIDDLE));
             }
             line += 0.55 * faces.tick + faces.label;
             for label in &self.x.label {
-                let at = (middle.0, line);
-                scene.text(Text::new(label, at, faces.label, Anchor::Middle));
+                scene.text(Text::new(label, (middle.0, line), faces.label, MIDDLE));
                 line += LINE * faces.label;
             }
         }
         if self.y.labelled {
             let right = area.left - faces.tick_length() - 0.35 * faces.tick;
-            for tick in &self.y.ticks.major {
-                let at = (right, frame.down(tick.value) + 0.35 * faces.tick);
-                scene.text(Text::new(&tick.label, at, faces.tick, Anchor::End));
+            for (value, label) in &self.y.ticks.major {
+                let at = (right, frame.down(*value) + 0.35 * faces.tick);
+                scene.text(Text::new(label, at, faces.tick, END));
             }
             // upward text stands on its right side, its first line at the left
-            let mut line = right - self.y_numbers - faces.gap() - 0.25 * faces.label;
+            let mut line = right - self.y.numbers - faces.gap() - 0.25 * faces.label;
             for label in self.y.label.iter().rev() {
                 scene.text(Text::upward(label, (line, middle.1), faces.label));
                 line -= LINE * faces.label;

@@ -1,11 +1,11 @@
 //! The colour bar beside a panel or beside all of them, fitted and drawn.
 
-use super::axes::{lengths, thin, widest};
+use super::axes::{FittedAxis, thin};
 use crate::geometry::Rect;
 use crate::layers::Colours;
-use crate::scene::{Anchor, Item, Picture, Scene, Shape, Text};
-use crate::text::{LINE, Typeface, wrap};
-use crate::ticks::{Room, Ticks, shown};
+use crate::scene::{Item, Picture, START, Scene, Shape, Text};
+use crate::text::{LINE, Typeface};
+use crate::ticks::Room;
 
 /// Width of the strip of colours in pixels.
 const STRIP: f64 = 14.0;
@@ -17,9 +17,8 @@ const STEPS: u32 = 256;
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Bar {
     colours: Colours,
-    ticks: Ticks,
-    /// Lines of the label, which runs upward at the right.
-    label: Vec<String>,
+    /// Its label runs upward at the right.
+    axis: FittedAxis,
     /// Left and right side of the strip.
     strip: [f64; 2],
     /// Where the numbers start.
@@ -33,22 +32,22 @@ pub(crate) struct Bar {
 impl Bar {
     /// Fits a bar of a height.
     pub(super) fn new(colours: &Colours, height: f64, faces: &Typeface) -> Self {
-        let interval = colours.limits;
-        let (label, factor) = shown(&colours.scale.quantity, &colours.scale.unit, &interval);
-        let room = Room::of_lines(height, 3.4 * faces.tick, faces.tick);
-        let ticks = Ticks::new(&interval, factor, &room);
-        let label = wrap(&label, faces.label, height);
+        let room = Room {
+            length: height,
+            distance: 3.4 * faces.tick,
+            needs: &|_| LINE * faces.tick,
+        };
+        let axis = FittedAxis::new(&colours.axis, &colours.limits, &room, faces);
         let left = 1.2 * faces.tick;
         let numbers = left + STRIP + faces.tick_length() + 0.3 * faces.tick;
-        let text = numbers + widest(&ticks, faces.tick) + faces.gap() + 0.5 * LINE * faces.label;
+        let text = numbers + axis.numbers + faces.gap() + 0.5 * LINE * faces.label;
         Self {
             colours: colours.clone(),
-            ticks,
             strip: [left, left + STRIP],
             numbers,
             text,
-            width: text + LINE * faces.label * (label.len() as f64 - 0.5).max(0.0),
-            label,
+            width: text + LINE * faces.label * (axis.label.len() as f64 - 0.5).max(0.0),
+            axis,
         }
     }
 
@@ -62,22 +61,17 @@ impl Bar {
         };
         let body = self.draw_strip(scene, strip);
         let down = |value: f64| body.bottom - self.colours.limits.fraction(value) * body.height();
-        for tick in &self.ticks.major {
-            let start = (
-                plot.right + self.numbers,
-                down(tick.value) + 0.35 * faces.tick,
-            );
-            scene.text(Text::new(&tick.label, start, faces.tick, Anchor::Start));
+        for (value, label) in &self.axis.ticks.major {
+            let start = (plot.right + self.numbers, down(*value) + 0.35 * faces.tick);
+            scene.text(Text::new(label, start, faces.tick, START));
         }
-        let ticks = lengths(&self.ticks, faces)
-            .into_iter()
-            .map(|(value, length)| {
-                let y = down(value);
-                [(right, y), (right + length, y)]
-            });
+        let ticks = self.axis.lengths(faces).map(|(value, length)| {
+            let y = down(value);
+            [(right, y), (right + length, y)]
+        });
         scene.shape(Shape::lines(ticks).stroked(thin()));
         let mut line = plot.right + self.text + 0.3 * faces.label;
-        for label in &self.label {
+        for label in &self.axis.label {
             scene.text(Text::upward(label, (line, plot.centre().1), faces.label));
             line += LINE * faces.label;
         }
@@ -85,7 +79,7 @@ impl Bar {
 
     /// The strip of colours with arrows where values go on beyond its limits; gives the strip between the arrows.
     fn draw_strip(&self, scene: &mut Scene, strip: Rect) -> Rect {
-        let at = |fraction: f64| self.colours.scale.map.at(fraction);
+        let at = |fraction: f64| self.colours.map.at(fraction);
         let Rect { left, right, .. } = strip;
         let beyond = self.colours.beyond;
         // within the height of the plot

@@ -9,8 +9,7 @@ use crate::colour::WHITE;
 use crate::error::FigureError;
 use crate::figure::Figure;
 use crate::geometry::{Frame, Rect};
-use crate::layers::Plot;
-use crate::scene::{Anchor, Scene, Shape, Text};
+use crate::scene::{MIDDLE, START, Scene, Shape, Text};
 use crate::text::{LINE, Typeface, wrap};
 
 /// Everything that a figure shows, with places in pixels.
@@ -42,7 +41,7 @@ fn heading(scene: &mut Scene, layout: &Layout<'_>) {
     let titles = layout.title.iter().map(|line| (line, faces.title));
     let subtitles = layout.subtitle.iter().map(|line| (line, faces.subtitle));
     for (line, size) in titles.chain(subtitles) {
-        scene.text(Text::new(line, (PAD, top + size), size, Anchor::Start));
+        scene.text(Text::new(line, (PAD, top + size), size, START));
         top += Typeface::lines(size, 1);
     }
 }
@@ -55,19 +54,16 @@ fn draw_panel(
     if !plan.is_filled() {
         fitted.axes.draw_grid(scene, frame);
     }
-    let plot = Plot {
-        frame,
-        colours: plan.colours.as_ref(),
-    };
     for (layer, &slot) in plan.panel.layers.iter().zip(&plan.slots) {
-        layer.kind().draw(scene, &plot, slot);
+        let colours = plan.colours.as_ref();
+        layer.kind().draw(scene, frame, colours, slot);
     }
     labels::draw_marks(scene, plan, frame, &fitted.marks, faces);
     fitted.axes.draw(scene, frame, faces);
     let mut line = frame.area.top - faces.gap() - Typeface::lines(faces.mark, fitted.mark_rows);
     for title in fitted.title.iter().rev() {
         let at = (frame.area.centre().0, line - 0.2 * faces.panel);
-        scene.text(Text::new(title, at, faces.panel, Anchor::Middle));
+        scene.text(Text::new(title, at, faces.panel, MIDDLE));
         line -= LINE * faces.panel;
     }
     let legend = fitted.legend.as_ref();

@@ -7,7 +7,7 @@ use crate::figure::Panel;
 use crate::geometry::{Frame, Point, Rect};
 use crate::layers::{LabelledPoint, Layer, Mark};
 use crate::look::star;
-use crate::scene::{Anchor, Scene, Shape, Stroke, Text};
+use crate::scene::{END, MIDDLE, START, Scene, Shape, Stroke, Text};
 use crate::text::{LINE, Typeface, width as width_of, wrap};
 
 /// The label of a vertical line.
@@ -124,7 +124,7 @@ pub(super) fn draw_marks(
     for label in labels {
         let rise = faces.gap() + (label.row as f64 + 0.2) * LINE * faces.mark;
         let at = (area.left + label.centre, area.top - rise);
-        scene.text(Text::new(&label.text, at, faces.mark, Anchor::Middle));
+        scene.text(Text::new(&label.text, at, faces.mark, MIDDLE));
         if label.row == 0 {
             // from the line to its label, which may have moved aside
             let from = (area.left + label.line, area.top);
@@ -211,9 +211,10 @@ pub(super) fn draw_points(
             })
             .min_by_key(cost);
         // a plot too small for all labels shows the stars alone
-        for text in best.into_iter().flatten() {
+        for mut text in best.into_iter().flatten() {
             written.push(text.bounds());
-            scene.text(text.rimmed());
+            text.has_rim = true;
+            scene.text(text);
         }
     }
 }
@@ -229,8 +230,8 @@ fn candidates(point: &LabelledPoint, (x, y): Point, area: Rect, size: f64) -> Ve
         false => (0.5 * size, 3),
     };
     for rise in rises.into_iter().take(near) {
-        let above = (x, Anchor::Middle);
-        let beside = [(x + side, Anchor::Start), (x - side, Anchor::End)];
+        let above = (x, MIDDLE);
+        let beside = [(x + side, START), (x - side, END)];
         let places = match point.is_starred {
             true if rise == 0.0 => beside.to_vec(),
             true => vec![beside[0], beside[1], above],
@@ -341,7 +342,7 @@ pub(super) fn free(area: Rect, (width, height): Point, air: f64, taken: &[Point]
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::axis::{Axis, Interval, Mirror};
+    use crate::axis::{Axis, Interval};
     use crate::look::Style;
 
     fn boxes(marks: &[(f64, &str)], width: f64) -> (Vec<Label>, usize) {
@@ -384,7 +385,7 @@ mod tests {
             x: Interval::linear(0.0, 1.0),
             y: Interval::linear(0.0, 1.0),
             reversed: [false; 2],
-            mirror: Mirror::Off,
+            is_mirrored: false,
         }
     }
 

@@ -3,12 +3,11 @@
 use super::axes::Needs;
 use super::labels::{free, occupied};
 use super::plan::PanelPlan;
-use crate::axis::Mirror;
 use crate::colour::{Colour, MARK, WHITE};
 use crate::figure::Legend as Wish;
 use crate::geometry::{Point, Rect};
-use crate::layers::{Band, Histogram, Swatch};
-use crate::scene::{Anchor, Scene, Shape, Stroke, Text};
+use crate::layers::{BAND, Swatch, draw_run};
+use crate::scene::{START, Scene, Shape, Stroke, Text};
 use crate::text::{LINE, Typeface, width as width_of, wrap};
 
 /// Width of the sample of a curve.
@@ -58,7 +57,7 @@ impl Legend {
             return None;
         }
         // the other half of a mirrored section is full as well
-        let may_be_inside = !plan.is_filled() && plan.panel.mirror == Mirror::Off;
+        let may_be_inside = !plan.is_filled() && !plan.panel.is_mirrored;
         if plan.panel.legend == Wish::Auto && may_be_inside {
             let mut legend = Self::block(&named, 0.62 * width, 1, faces.legend);
             let air = 0.7 * faces.tick;
@@ -145,33 +144,22 @@ impl Legend {
             sample(scene, &entry.swatch, (x, line - 0.33 * size), size);
             for text in &entry.lines {
                 let at = (x + SWATCH + 0.5 * size, line);
-                scene.text(Text::new(text, at, size, Anchor::Start));
+                scene.text(Text::new(text, at, size, START));
                 line += LINE * size;
             }
         }
     }
 }
 
-/// Names of a panel with their samples; a band and a line of the same name are one.
+/// Names of a panel with their samples, each curve once.
 fn named<'a>(plan: &PanelPlan<'a>) -> Vec<(&'a str, Swatch)> {
     let mut found: Vec<(&str, Swatch)> = Vec::new();
     let layers = plan.panel.layers.iter().zip(&plan.slots);
     let all = layers.flat_map(|(layer, &slot)| layer.kind().swatches(slot));
     for (name, swatch) in all.filter(|(name, _)| !name.is_empty()) {
-        let known = found.iter_mut().find(|(known, _)| *known == name);
-        match (known, swatch) {
-            (
-                Some((_, Swatch::Curve { line, band })),
-                Swatch::Curve {
-                    line: more,
-                    band: wider,
-                },
-            ) => {
-                *line = line.or(more);
-                *band = band.or(wider);
-            }
-            (None, swatch) | (Some(_), swatch @ Swatch::Fill(_)) => found.push((name, swatch)),
-            (Some(_), Swatch::Bars(_) | Swatch::Curve { .. }) => {}
+        let is_class = matches!(swatch, Swatch::Fill(_));
+        if is_class || !found.iter().any(|(known, _)| *known == name) {
+            found.push((name, swatch));
         }
     }
     found
@@ -185,25 +173,23 @@ fn sample(scene: &mut Scene, swatch: &Swatch, (x, y): Point, size: f64) {
             let edge = Stroke::solid(MARK, 0.8);
             scene.shape(Shape::rectangle(patch).filled(*colour, 1.0).stroked(edge));
         }
-        Swatch::Bars(look) => {
+        Swatch::Curve { look, .. } if look.is_filled => {
             let bar = [
                 (patch.left, patch.bottom),
                 (patch.left, patch.top),
                 (patch.right, patch.top),
                 (patch.right, patch.bottom),
             ];
-            Histogram::draw_outline(scene, &bar, look, patch.grown(2.0));
+            draw_run(scene, &bar, look, patch.grown(2.0));
         }
-        Swatch::Curve { line, band } => {
-            if let Some(colour) = *band {
-                scene.shape(Shape::rectangle(patch).filled(colour, Band::OPACITY));
+        Swatch::Curve { look, has_band } => {
+            if *has_band {
+                scene.shape(Shape::rectangle(patch).filled(look.stroke.colour, BAND));
             }
-            if let Some(look) = line {
-                if look.line {
-                    scene.shape(Shape::polyline(&[(x, y), (x + SWATCH, y)], look.stroke));
-                }
-                look.mark(scene, (x + 0.5 * SWATCH, y));
+            if look.line {
+                scene.shape(Shape::polyline(&[(x, y), (x + SWATCH, y)], look.stroke));
             }
+            look.mark(scene, (x + 0.5 * SWATCH, y));
         }
     }
 }

@@ -1,11 +1,10 @@
 //! What is known of each panel before its size: its place in the grid, the intervals of its axes, the limits of its
 //! colours, the looks of its curves.
 
-use crate::axis::{Axis, Interval, Mirror, Scale};
-use crate::error::Side;
+use crate::axis::{Axis, Interval, Scale};
 use crate::figure::{Figure, Panel, Sharing};
-use crate::geometry::{Frame, Rect};
-use crate::layers::{Colours, Image, Layer};
+use crate::geometry::{Frame, Point, Rect};
+use crate::layers::{Colours, Layer};
 use crate::look::Slot;
 use std::collections::BTreeMap;
 
@@ -42,7 +41,7 @@ impl PanelPlan<'_> {
             x: self.x.interval,
             y: self.y.interval,
             reversed: [self.panel.x.is_reversed, self.panel.y.is_reversed],
-            mirror: self.panel.mirror,
+            is_mirrored: self.panel.is_mirrored,
         }
     }
 
@@ -53,64 +52,58 @@ impl PanelPlan<'_> {
 }
 
 fn is_filled(panel: &Panel) -> bool {
-    panel.layers.iter().any(|layer| layer.kind().fills())
+    let mut layers = panel.layers.iter();
+    layers.any(|layer| matches!(layer, Layer::Image(_) | Layer::Classes(_)))
 }
 
 /// Plans every panel of a figure.
 pub(crate) fn plan(figure: &Figure) -> Vec<PanelPlan<'_>> {
     let common = colours(&figure.panels).filter(|_| figure.has_common_bar);
-    let axis = |panel, axis, side| AxisPlan {
-        axis,
-        interval: interval(panel, axis, side),
-        labelled: true,
-    };
     let panels = figure.panels.iter().zip(slots(figure)).enumerate();
     let mut plans: Vec<PanelPlan<'_>> = panels
-        .map(|(i, (panel, slots))| PanelPlan {
-            panel,
-            row: i / figure.columns,
-            column: i % figure.columns,
-            x: axis(panel, &panel.x, Side::X),
-            y: axis(panel, &panel.y, Side::Y),
-            colours: common
-                .clone()
-                .or_else(|| colours(std::slice::from_ref(panel))),
-            has_bar: !figure.has_common_bar,
-            slots,
+        .map(|(i, (panel, slots))| {
+            let axis = |axis, interval| AxisPlan {
+                axis,
+                interval,
+                labelled: true,
+            };
+            let [x, y] = intervals(panel);
+            let own = || colours(std::slice::from_ref(panel));
+            PanelPlan {
+                panel,
+                row: i / figure.columns,
+                column: i % figure.columns,
+                x: axis(&panel.x, x),
+                y: axis(&panel.y, y),
+                colours: common.clone().or_else(own),
+                has_bar: !figure.has_common_bar,
+                slots,
+            }
         })
         .collect();
-    let shared: &[Side] = match figure.sharing {
-        Sharing::Separate => &[],
-        Sharing::X => &[Side::X],
-        Sharing::Y => &[Side::Y],
-        Sharing::Both => &[Side::X, Side::Y],
-    };
-    for &side in shared {
-        share(&mut plans, side);
+    if figure.sharing != Sharing::Separate {
+        share(&mut plans, |plan| (plan.column, &mut plan.x), true);
+    }
+    if figure.sharing == Sharing::Both {
+        share(&mut plans, |plan| (plan.row, &mut plan.y), false);
     }
     plans
 }
 
-/// Gives panels above one another the same x axis, written at the last, or those side by side the same y axis,
-/// written at the first.
-fn share(plans: &mut [PanelPlan<'_>], side: Side) {
-    let mut lines: BTreeMap<usize, Vec<&mut AxisPlan<'_>>> = BTreeMap::new();
-    for plan in plans {
-        let (line, axis) = match side {
-            Side::X => (plan.column, &mut plan.x),
-            Side::Y => (plan.row, &mut plan.y),
-        };
+/// Gives the axes of one row or column of panels the same interval, written at the last or the first of them.
+fn share<'a>(
+    plans: &mut [PanelPlan<'a>],
+    of: impl for<'b> Fn(&'b mut PanelPlan<'a>) -> (usize, &'b mut AxisPlan<'a>),
+    at_last: bool,
+) {
+    let mut lines: BTreeMap<usize, Vec<&mut AxisPlan<'a>>> = BTreeMap::new();
+    for (line, axis) in plans.iter_mut().map(of) {
         lines.entry(line).or_default().push(axis);
     }
     for line in lines.values_mut() {
-        let union = line
-            .iter()
-            .map(|axis| axis.interval)
-            .reduce(Interval::union);
-        let written = match side {
-            Side::X => line.len() - 1,
-            Side::Y => 0,
-        };
+        let intervals = line.iter().map(|axis| axis.interval);
+        let union = intervals.reduce(Interval::union);
+        let written = if at_last { line.len() - 1 } else { 0 };
         for (i, axis) in line.iter_mut().enumerate() {
             axis.interval = union.unwrap_or(axis.interval);
             axis.labelled = i == written;
@@ -118,58 +111,51 @@ fn share(plans: &mut [PanelPlan<'_>], side: Side) {
     }
 }
 
-/// The values that an axis shows: those that it is given, or those of the layers; on both sides where it is mirrored.
-fn interval(panel: &Panel, axis: &Axis, side: Side) -> Interval {
-    let given = axis.interval();
-    let found = given.unwrap_or_else(|| automatic(panel, axis.scale, side));
-    match (side, panel.mirror) {
-        (Side::X, Mirror::Even | Mirror::Odd) => {
-            let most = found.low.abs().max(found.high.abs());
-            Interval::linear(-most, most)
-        }
-        (Side::X, Mirror::Off) | (Side::Y, _) => found,
-    }
-}
-
-/// Holds all layers; along y only what lies within a given x axis.
+/// The values that the axes of a panel show: those that they are given, or those of its layers; along y only what lies
+/// within a given x axis, and along x both sides where the panel is mirrored.
 ///
 /// Along x curves run from end to end, and images fill their panel, whatever is drawn over them: there is air
 /// above and below curves alone.
-fn automatic(panel: &Panel, scale: Scale, side: Side) -> Interval {
+fn intervals(panel: &Panel) -> [Interval; 2] {
     let is_image = |layer: &&Layer| matches!(layer, Layer::Image(_));
     let has_image = panel.layers.iter().any(|layer| is_image(&layer));
     let layers = panel.layers.iter();
-    let places = layers
-        .filter(|layer| !has_image || is_image(layer))
-        .flat_map(|layer| layer.kind().places());
-    let found = match side {
-        Side::X => Interval::around(scale, places.map(|(x, _)| x)),
-        Side::Y => {
-            let within = panel.x.interval();
-            let seen = places.filter(|(x, _)| within.is_none_or(|found| found.contains(*x)));
-            Interval::around(scale, seen.map(|(_, y)| y))
-        }
+    let shown = layers.filter(|layer| !has_image || is_image(layer));
+    let places: Vec<Point> = shown.flat_map(|layer| layer.kind().places()).collect();
+    let automatic = |scale: Scale, values: Vec<f64>, air: f64| {
+        let found = Interval::around(scale, values.into_iter());
+        let found = found.unwrap_or(match scale {
+            Scale::Linear => Interval::linear(0.0, 1.0),
+            Scale::Logarithmic => Interval::logarithmic(1.0, 10.0),
+        });
+        found.with_air(air)
     };
-    let found = found.unwrap_or(match scale {
-        Scale::Linear => Interval::linear(0.0, 1.0),
-        Scale::Logarithmic => Interval::logarithmic(1.0, 10.0),
+    let given = panel.x.interval();
+    let mut x = given.unwrap_or_else(|| {
+        let values = places.iter().map(|place| place.0);
+        automatic(panel.x.scale, values.collect(), 0.0)
     });
-    found.with_air(match side {
-        Side::Y if !is_filled(panel) => 0.05,
-        Side::X | Side::Y => 0.0,
-    })
+    if panel.is_mirrored {
+        let most = x.low.abs().max(x.high.abs());
+        x = Interval::linear(-most, most);
+    }
+    let y = panel.y.interval().unwrap_or_else(|| {
+        let is_seen = |(x, _): &&Point| given.is_none_or(|found| found.contains(*x));
+        let values = places.iter().filter(is_seen).map(|place| place.1);
+        let air = if is_filled(panel) { 0.0 } else { 0.05 };
+        automatic(panel.y.scale, values.collect(), air)
+    });
+    [x, y]
 }
 
 /// What the colours of all images of some panels mean.
 fn colours(panels: &[Panel]) -> Option<Colours> {
     let layers = panels.iter().flat_map(|panel| &panel.layers);
-    let mut images: Vec<&Image> = Vec::new();
-    for layer in layers {
-        if let Layer::Image(image) = layer {
-            images.push(image);
-        }
-    }
-    Colours::of(&images)
+    let images = layers.filter_map(|layer| match layer {
+        Layer::Image(image) => Some(image),
+        _ => None,
+    });
+    Colours::of(&images.collect::<Vec<_>>())
 }
 
 /// The numbers of each layer of each panel.
@@ -203,11 +189,14 @@ fn slots(figure: &Figure) -> Vec<Vec<Slot>> {
     figure.panels.iter().map(of_panel).collect()
 }
 
-/// Layers that have a colour of their own, each with its name; one without a name is named by its number in the panel.
+/// Curves that have a colour of their own, each with its name; one without a name is named by its number in the panel.
 fn coloured(layers: &[Layer]) -> impl Iterator<Item = (usize, String)> + '_ {
     let layers = layers.iter().enumerate();
-    let own = layers.filter(|(_, layer)| layer.kind().is_coloured());
-    own.enumerate().map(|(n, (i, layer))| match layer.name() {
+    let own = layers.filter_map(|(i, layer)| match layer {
+        Layer::Line(line) if line.style.is_coloured() => Some((i, &line.name)),
+        _ => None,
+    });
+    own.enumerate().map(|(n, (i, name))| match name.as_str() {
         "" => (i, format!("\0{n}")),
         name => (i, name.to_owned()),
     })
@@ -245,11 +234,11 @@ mod tests {
 
     #[test]
     fn a_given_x_axis_chooses_the_values_that_count() {
-        let mut panel = panel(10.0).mirrored(Mirror::Off);
+        let mut panel = panel(10.0);
         panel.x = panel.x.range(0.0, 1.0);
         let figure = Figure::new("").panel(panel.clone());
         assert!(plan(&figure)[0].y.interval.high <= 1.0);
-        let figure = Figure::new("").panel(panel.mirrored(Mirror::Even));
+        let figure = Figure::new("").panel(panel.mirrored());
         assert_eq!(plan(&figure)[0].x.interval, Interval::linear(-1.0, 1.0));
     }
 
@@ -265,8 +254,7 @@ mod tests {
             )
             .panel(
                 panel()
-                    .band("b", vec![])
-                    .line("b", Style::Plain, vec![])
+                    .banded("b", Style::Plain, &[])
                     .line("c", Style::Plain, vec![]),
             );
         let numbers = |panel: usize| -> Vec<[usize; 2]> {
@@ -275,6 +263,6 @@ mod tests {
         };
         assert_eq!(numbers(0), [[0, 0], [0, 0], [1, 1]]);
         // a name keeps its numbers, and no dash comes twice in a panel
-        assert_eq!(numbers(1), [[1, 1], [1, 1], [2, 0]]);
+        assert_eq!(numbers(1), [[1, 1], [2, 0]]);
     }
 }

@@ -3,13 +3,13 @@
 use crate::colour::{BLACK, Colour, WHITE};
 use crate::error::FigureError;
 use crate::font;
-use crate::scene::{Item, Picture, Scene, Segment, Shape, Text, Turn};
+use crate::scene::{Item, Picture, Scene, Segment, Shape, Text};
 use miniz_oxide::deflate::compress_to_vec_zlib;
 use pdf_writer::types::{
     CidFontType, FontFlags, LineJoinStyle, SystemInfo, TextRenderingMode, UnicodeCmap,
 };
 use pdf_writer::{Content, Filter, Finish, Name, Pdf, Rect, Ref, Str};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use subsetter::GlyphRemapper;
 
 /// Points over pixels: 96 pixels and 72 points are an inch.
@@ -29,26 +29,16 @@ const SYSTEM: SystemInfo<'_> = SystemInfo {
 
 /// Writes a scene.
 pub(crate) fn pdf(scene: &Scene) -> Result<Vec<u8>, FigureError> {
-    let mut next = 0;
-    let mut new = || {
-        next += 1;
-        Ref::new(next)
-    };
-    let (catalog, tree, page, content) = (new(), new(), new(), new());
     let subset = Subset::of(scene)?;
-    let font = new();
-    let font_parts = [new(), new(), new(), new()];
+    let mut next = Ref::new(1);
+    let [catalog, tree, page, content, font] = std::array::from_fn(|_| next.bump());
+    let font_parts = std::array::from_fn(|_| next.bump());
     let mut pictures: Vec<(Ref, &Picture)> = Vec::new();
-    let mut opacities: Vec<f64> = Vec::new();
+    let mut opacities: BTreeSet<u32> = BTreeSet::new();
     for item in &scene.items {
         match item {
-            Item::Picture(picture) => pictures.push((new(), picture)),
-            Item::Shape(shape) => {
-                let opacity = shape.fill.map_or(1.0, |(_, opacity)| opacity);
-                if opacity < 1.0 && !opacities.contains(&opacity) {
-                    opacities.push(opacity);
-                }
-            }
+            Item::Picture(picture) => pictures.push((next.bump(), picture)),
+            Item::Shape(shape) => opacities.extend(shape.fill.map(|fill| permille(fill.1))),
             Item::Text(_) => {}
         }
     }
@@ -58,20 +48,19 @@ pub(crate) fn pdf(scene: &Scene) -> Result<Vec<u8>, FigureError> {
     let (width, height) = (scene.width as f32, scene.height as f32);
     let mut sheet = pdf.page(page);
     sheet.media_box(Rect::new(0.0, 0.0, POINT * width, POINT * height));
-    sheet.parent(tree);
-    sheet.contents(content);
+    sheet.parent(tree).contents(content);
     let mut resources = sheet.resources();
     resources.fonts().pair(FONT, font);
     let mut objects = resources.x_objects();
     for (i, (id, _)) in pictures.iter().enumerate() {
-        objects.pair(Name(picture_name(i).as_bytes()), *id);
+        objects.pair(Name(format!("I{i}").as_bytes()), *id);
     }
     objects.finish();
     let mut states = resources.ext_g_states();
     for opacity in opacities {
-        let mut state = states.insert(Name(state_name(opacity).as_bytes())).dict();
-        state.pair(Name(b"ca"), opacity as f32);
-        state.finish();
+        let name = format!("G{opacity}");
+        let mut state = states.insert(Name(name.as_bytes())).dict();
+        state.pair(Name(b"ca"), opacity as f32 / 1000.0);
     }
     states.finish();
     resources.finish();
@@ -90,18 +79,13 @@ pub(crate) fn pdf(scene: &Scene) -> Result<Vec<u8>, FigureError> {
     Ok(pdf.finish())
 }
 
+/// An opacity in thousandths, which name its state.
+fn permille(opacity: f64) -> u32 {
+    (1000.0 * opacity).round() as u32
+}
+
 fn compressed(bytes: &[u8]) -> Vec<u8> {
     compress_to_vec_zlib(bytes, 6)
-}
-
-/// Name of the n-th picture.
-fn picture_name(n: usize) -> String {
-    format!("I{n}")
-}
-
-/// Name of the state with an opacity.
-fn state_name(opacity: f64) -> String {
-    format!("G{:.0}", 1000.0 * opacity)
 }
 
 /// The pixels of a picture; white where there is nothing.
@@ -113,9 +97,8 @@ fn write_picture(pdf: &mut Pdf, id: Ref, picture: &Picture) {
     image.filter(Filter::FlateDecode);
     image.width(picture.columns.cast_signed());
     image.height(picture.rows.cast_signed());
-    image.color_space().device_rgb();
     image.bits_per_component(8);
-    image.finish();
+    image.color_space().device_rgb();
 }
 
 /// The letters of the font that a scene uses, embedded.
@@ -139,7 +122,7 @@ impl Subset {
             }
         }
         let file = subsetter::subset(font::data(), 0, &remapper)
-            .map_err(|error| FigureError::Font(error.to_string()))?;
+            .map_err(|error| FigureError(format!("the font cannot be embedded: {error}")))?;
         Ok(Self { file, letters })
     }
 
@@ -204,7 +187,7 @@ fn paint(content: &mut Content, scene: &Scene, font: &Subset) {
                 let (width, height) = (area.width() as f32, area.height() as f32);
                 let place = [area.left as f32, area.bottom as f32];
                 content.transform([width, 0.0, 0.0, -height, place[0], place[1]]);
-                content.x_object(Name(picture_name(pictures).as_bytes()));
+                content.x_object(Name(format!("I{pictures}").as_bytes()));
                 pictures += 1;
             }
             Item::Text(text) => draw_text(content, text, font),
@@ -227,9 +210,8 @@ fn draw_shape(content: &mut Content, shape: &Shape) {
     if let Some((colour, opacity)) = shape.fill {
         let [r, g, b] = rgb(colour);
         content.set_fill_rgb(r, g, b);
-        if opacity < 1.0 {
-            content.set_parameters(Name(state_name(opacity).as_bytes()));
-        }
+        let state = format!("G{}", permille(opacity));
+        content.set_parameters(Name(state.as_bytes()));
     }
     if let Some(stroke) = shape.stroke {
         let [r, g, b] = rgb(stroke.colour);
@@ -265,18 +247,18 @@ fn draw_text(content: &mut Content, text: &Text, font: &Subset) {
     content.set_line_width(3.0);
     content.set_line_join(LineJoinStyle::RoundJoin);
     // the rim below, then the letters
-    let rim = text.rim.then_some(TextRenderingMode::Stroke);
+    let rim = text.has_rim.then_some(TextRenderingMode::Stroke);
     for pass in rim.into_iter().chain([TextRenderingMode::Fill]) {
         content.begin_text();
         content.set_text_rendering_mode(pass);
-        for part in text.parts() {
-            content.set_font(FONT, part.size as f32);
-            let (x, y) = (part.start.0 as f32, part.start.1 as f32);
-            content.set_text_matrix(match text.turn {
-                Turn::Level => [1.0, 0.0, 0.0, -1.0, x, y],
-                Turn::Upward => [0.0, -1.0, -1.0, 0.0, x, y],
+        for (part, size, (x, y)) in text.parts() {
+            content.set_font(FONT, size as f32);
+            let (x, y) = (x as f32, y as f32);
+            content.set_text_matrix(match text.is_upward {
+                true => [0.0, -1.0, -1.0, 0.0, x, y],
+                false => [1.0, 0.0, 0.0, -1.0, x, y],
             });
-            content.show(Str(&font.encode(part.text)));
+            content.show(Str(&font.encode(part)));
         }
         content.end_text();
     }

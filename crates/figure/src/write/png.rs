@@ -4,8 +4,9 @@ use crate::colour::{BLACK, Colour, WHITE};
 use crate::error::FigureError;
 use crate::font;
 use crate::geometry::Rect;
-use crate::scene::{Item, Picture, Scene, Segment, Shape, Text, Turn};
+use crate::scene::{Item, Picture, Scene, Segment, Shape, Text};
 use gif::{Encoder, Frame, Repeat};
+use std::fmt::Display;
 use tiny_skia::{
     ColorU8, FillRule, FilterQuality, LineJoin, Mask, Paint, PathBuilder, Pattern, Pixmap,
     SpreadMode, Stroke, StrokeDash, Transform,
@@ -26,9 +27,8 @@ fn size(scene: &Scene, scale: f32) -> [u32; 2] {
 /// The pixels of a scene.
 fn rendered(scene: &Scene, scale: f32) -> Result<Pixmap, FigureError> {
     let [width, height] = size(scene, scale);
-    let map = Pixmap::new(width, height).ok_or(FigureError::Pixels { width, height })?;
     let mut canvas = Canvas {
-        map,
+        map: pixmap(width, height)?,
         place: Transform::from_scale(scale, scale),
         clip: None,
     };
@@ -47,39 +47,39 @@ const SPEED: i32 = 10;
 
 /// The frames as a GIF that repeats, each `frame_s` long, to the hundredth.
 pub(crate) fn gif(scenes: &[Scene], scale: f32, frame_s: f64) -> Result<Vec<u8>, FigureError> {
-    let fault = |error: gif::EncodingError| FigureError::Gif(error.to_string());
-    let side = |pixels: u32| {
-        u16::try_from(pixels)
-            .map_err(|_| FigureError::Gif(format!("{pixels} pixels is more than 65535")))
-    };
-    let first = size(scenes.first().ok_or(FigureError::NoPanels)?, scale);
-    let (width, height) = (side(first[0])?, side(first[1])?);
-    let mut encoder = Encoder::new(Vec::new(), width, height, &[]).map_err(fault)?;
-    encoder.set_repeat(Repeat::Infinite).map_err(fault)?;
+    let fault = |why: &dyn Display| FigureError(format!("the GIF cannot be encoded: {why}"));
+    let first = scenes.first().map_or([0, 0], |scene| size(scene, scale));
+    let [width, height] = first.map(|pixels| u16::try_from(pixels).unwrap_or(0));
+    let encoder = Encoder::new(Vec::new(), width, height, &[]);
+    let mut encoder = encoder.map_err(|error| fault(&error))?;
+    let repeated = encoder.set_repeat(Repeat::Infinite);
+    repeated.map_err(|error| fault(&error))?;
     for scene in scenes {
-        if size(scene, scale) != first {
-            let fault = "its frames are not of one size";
-            return Err(FigureError::Gif(fault.to_owned()));
+        if size(scene, scale) != [width, height].map(u32::from) {
+            return Err(fault(&"its frames are not of one size, below 65536 pixels"));
         }
         // the page is white throughout: no pixel is transparent
         let mut rgba = rendered(scene, scale)?.take();
         let mut frame = Frame::from_rgba_speed(width, height, &mut rgba, SPEED);
         frame.delay = (100.0 * frame_s).round().clamp(2.0, 6000.0) as u16;
-        encoder.write_frame(&frame).map_err(fault)?;
+        encoder.write_frame(&frame).map_err(|error| fault(&error))?;
     }
-    let bytes = encoder.into_inner();
-    bytes.map_err(|error| FigureError::Gif(error.to_string()))
+    encoder.into_inner().map_err(|error| fault(&error))
+}
+
+/// Room for pixels.
+fn pixmap(width: u32, height: u32) -> Result<Pixmap, FigureError> {
+    let fault = || format!("a picture of {width} by {height} pixels cannot be made");
+    Pixmap::new(width, height).ok_or_else(|| FigureError(fault()))
 }
 
 /// A picture's pixels, transparent where nothing is to be seen.
 pub(super) fn pixels(picture: &Picture) -> Result<Pixmap, FigureError> {
-    let (width, height) = (picture.columns, picture.rows);
-    let mut map = Pixmap::new(width, height).ok_or(FigureError::Pixels { width, height })?;
+    let mut map = pixmap(picture.columns, picture.rows)?;
     for (to, from) in map.pixels_mut().iter_mut().zip(&picture.pixels) {
-        *to = match from {
-            Some(c) => ColorU8::from_rgba(c.red, c.green, c.blue, 255).premultiply(),
-            None => ColorU8::from_rgba(0, 0, 0, 0).premultiply(),
-        };
+        if let Some(Colour { red, green, blue }) = *from {
+            *to = ColorU8::from_rgba(red, green, blue, 255).premultiply();
+        }
     }
     Ok(map)
 }
@@ -87,7 +87,7 @@ pub(super) fn pixels(picture: &Picture) -> Result<Pixmap, FigureError> {
 /// Pixels as PNG.
 pub(super) fn encode(map: &Pixmap) -> Result<Vec<u8>, FigureError> {
     map.encode_png()
-        .map_err(|error| FigureError::Png(error.to_string()))
+        .map_err(|error| FigureError(format!("the PNG cannot be encoded: {error}")))
 }
 
 struct Canvas {
@@ -167,23 +167,22 @@ impl Canvas {
         Ok(())
     }
 
-    fn text(&mut self, text: &Text) {
+    fn text(&mut self, label: &Text) {
         let rim = Stroke {
             width: 3.0,
             line_join: LineJoin::Round,
             ..Stroke::default()
         };
-        for part in text.parts() {
-            let (x, y) = (part.start.0 as f32, part.start.1 as f32);
-            let turned = match text.turn {
-                Turn::Level => Transform::from_translate(x, y),
-                Turn::Upward => Transform::from_translate(x, y).pre_rotate(-90.0),
-            };
+        for (text, size, (x, y)) in label.parts() {
+            let mut turned = Transform::from_translate(x as f32, y as f32);
+            if label.is_upward {
+                turned = turned.pre_rotate(-90.0);
+            }
             let place = self.place.pre_concat(turned);
-            let Some(letters) = font::outline(part.text, part.size) else {
+            let Some(letters) = font::outline(text, size) else {
                 continue;
             };
-            if text.rim {
+            if label.has_rim {
                 let white = paint(WHITE, 1.0);
                 self.map.stroke_path(&letters, &white, &rim, place, None);
             }

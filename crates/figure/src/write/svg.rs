@@ -3,8 +3,8 @@
 use super::png::{encode, pixels};
 use crate::error::FigureError;
 use crate::font;
-use crate::geometry::Rect;
-use crate::scene::{Item, Part, Picture, Scene, Segment, Shape, Text, Turn};
+use crate::geometry::{Point, Rect};
+use crate::scene::{Item, Picture, Scene, Segment, Shape, Text};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use std::collections::BTreeSet;
@@ -31,7 +31,7 @@ pub(crate) fn svg(scene: &Scene) -> Result<String, FigureError> {
                     clips.push(area);
                 }
             }
-            Item::Text(text) => letters.extend(text.parts().iter().flat_map(|p| p.text.chars())),
+            Item::Text(text) => letters.extend(text.parts().iter().flat_map(|p| p.0.chars())),
             Item::Picture(_) => {}
         }
     }
@@ -149,34 +149,30 @@ fn letter_outline(letter: char) -> Option<String> {
 /// A text, its raised and lowered parts each on its own; a rim lies below all letters.
 fn label(text: &Text) -> Group {
     let mut group = Group::new().set("aria-label", text.plain());
-    if text.rim {
+    if text.has_rim {
         for part in text.parts() {
-            let rim = letters(&part, text.turn)
+            let rim = letters(part, text.is_upward)
                 .set("stroke", "#ffffff")
-                .set("stroke-width", number(3.0 * UNITS / part.size))
+                .set("stroke-width", number(3.0 * UNITS / part.1))
                 .set("stroke-linejoin", "round");
             group = group.add(rim);
         }
     }
     for part in text.parts() {
-        group = group.add(letters(&part, text.turn).set("fill", "#111111"));
+        group = group.add(letters(part, text.is_upward).set("fill", "#111111"));
     }
     group
 }
 
-fn letters(part: &Part<'_>, turn: Turn) -> Group {
-    let (x, y) = part.start;
-    let turned = match turn {
-        Turn::Level => "",
-        Turn::Upward => "rotate(-90)",
-    };
-    let (x, y, size) = (number(x), number(y), part.size / UNITS);
+fn letters((text, size, (x, y)): (&str, f64, Point), is_upward: bool) -> Group {
+    let turned = if is_upward { "rotate(-90)" } else { "" };
+    let (x, y, size) = (number(x), number(y), size / UNITS);
     let mut group = Group::new().set(
         "transform",
         format!("translate({x} {y}){turned}scale({size:.5})"),
     );
     let mut along = 0.0;
-    for letter in part.text.chars() {
+    for letter in text.chars() {
         if !letter.is_whitespace() {
             let link = format!("#{}", letter_id(letter));
             group = group.add(with_numbers(

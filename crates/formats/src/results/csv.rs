@@ -3,11 +3,7 @@
 use super::schema;
 use impact::{Outcome, Scene};
 use output::{Output, OutputError, Staged};
-use std::fmt::Write as _;
-use std::io::{self, BufWriter, Write};
-
-/// A column: its name, which ends with the unit, and its samples.
-type Column<'a> = (String, &'a [f64]);
+use std::io::{BufWriter, Write};
 
 /// Writes the time series and the traces of the probes, one line a sample, into an output that was claimed.
 ///
@@ -20,48 +16,28 @@ pub fn stage_results_csv<'a>(
 ) -> Result<Staged<'a>, OutputError> {
     output.stage(|part| {
         let mut file = BufWriter::new(std::fs::File::create(part)?);
-        print_results_csv(&mut file, scene, outcome)?;
+        for (i, probe) in (1..).zip(&scene.probes) {
+            let (r_m, z_m) = (probe.r_m, probe.z_m);
+            writeln!(file, "# probe{i}: r = {r_m} m, z = {z_m} m")?;
+        }
+        let columns = columns(outcome);
+        let names: Vec<&str> = columns.iter().map(|(name, _)| name.as_str()).collect();
+        writeln!(file, "{}", names.join(","))?;
+        for i in 0..outcome.series.time_s.len() {
+            for (k, (_, samples)) in columns.iter().enumerate() {
+                let comma = if k == 0 { "" } else { "," };
+                write!(file, "{comma}{:?}", samples[i])?;
+            }
+            writeln!(file)?;
+        }
         file.flush()
     })
 }
 
-/// The same to something that is open.
-///
-/// # Errors
-/// What the system says.
-pub fn print_results_csv(
-    file: &mut impl Write,
-    scene: &Scene,
-    outcome: &Outcome,
-) -> io::Result<()> {
-    for (i, probe) in scene.probes.iter().enumerate() {
-        writeln!(
-            file,
-            "# probe{}: r = {} m, z = {} m",
-            i + 1,
-            probe.r_m,
-            probe.z_m
-        )?;
-    }
-    let columns = columns(outcome);
-    let names: Vec<&str> = columns.iter().map(|(name, _)| name.as_str()).collect();
-    writeln!(file, "{}", names.join(","))?;
-    let mut line = String::new();
-    for i in 0..outcome.series.time_s.len() {
-        line.clear();
-        for (k, (_, samples)) in columns.iter().enumerate() {
-            let comma = if k == 0 { "" } else { "," };
-            // writing to a string cannot fail
-            let _ = write!(line, "{comma}{:?}", samples[i]);
-        }
-        writeln!(file, "{line}")?;
-    }
-    Ok(())
-}
-
-fn columns(outcome: &Outcome) -> Vec<Column<'_>> {
+/// Names, which end with the unit, and samples.
+fn columns(outcome: &Outcome) -> Vec<(String, &[f64])> {
     let series = schema::samples(&outcome.series);
-    let mut found: Vec<Column<'_>> = series
+    let mut found: Vec<_> = series
         .map(|((name, unit, _), samples)| (format!("{name}{}", ending(unit)), samples))
         .collect();
     for ((name, unit, _), values, _) in outcome.probes.iter().flat_map(schema::histories) {

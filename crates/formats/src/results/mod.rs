@@ -9,6 +9,6 @@ pub mod schema;
 mod section;
 mod write;
 
-pub use csv::{print_results_csv, stage_results_csv};
+pub use csv::stage_results_csv;
 pub use identity::{check_results, scene_sha256};
 pub use write::{stage_results, write_results};

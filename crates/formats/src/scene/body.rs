@@ -1,7 +1,7 @@
 //! Bodies as sections of keys: an elastic one, in scenes and in files of materials, and a striker, which is a mass with a
 //! tip, a ball or a rod, with its velocity.
 
-use super::keys::keys_of;
+use super::keys::{Form, Set, keys_of};
 use super::section::read_text;
 use super::section::{Section, parse};
 use crate::error::SceneError;
@@ -9,19 +9,9 @@ use contact::{BodyError, Choice, Library, Material, Shape, Striker};
 use contact::{fall_velocity_m_s, from_wave_speeds};
 use impact::Strike;
 use std::path::Path;
-use toml::Table;
 
 /// Relative difference up to which quantities given twice are taken as rounded, not different.
 const ROUNDING: f64 = 0.02;
-
-/// A strength, which may be unknown: its key, and where it is.
-type Strength = (&'static str, fn(&Material) -> Option<f64>);
-
-const YIELD: Strength = ("yield_strength_pa", |m| m.yield_strength_pa);
-const TENSILE: Strength = ("tensile_strength_pa", |m| m.tensile_strength_pa);
-const TOUGHNESS: Strength = ("fracture_toughness_pa_sqrt_m", |m| {
-    m.fracture_toughness_pa_sqrt_m
-});
 
 /// Reads a file of materials: one section a material, the keys of a scene's bodies plus `group` and `source`.
 ///
@@ -39,6 +29,14 @@ pub fn parse_materials(text: &str) -> Result<Library, SceneError> {
     let table = parse(text)?;
     let root = Section::root(&table);
     let own = root.names().map(|name| {
+        if name.is_empty() || name.contains(char::is_control) {
+            let shown = format!("\"{}\"", name.escape_default());
+            return Err(SceneError::wrong_kind(
+                "the name of a material".to_owned(),
+                shown,
+                "one or more printed letters",
+            ));
+        }
         let section = root.subsection(name, "a section")?;
         let allowed = keys_of("body").map(|key| key.name);
         section.allow(allowed.chain(["group", "source"]))?;
@@ -69,60 +67,56 @@ pub(super) fn body(section: &Section<'_>, library: &Library) -> Result<Material,
 ///
 /// E and nu may be given by both wave speeds and the density instead.
 fn elastic(section: &Section<'_>, base: Option<&Material>) -> Result<Material, SceneError> {
-    let density = section.number("density_kg_m3")?;
-    let density = density.or_else(|| base.and_then(|b| b.density_kg_m3));
-    let (youngs_modulus_pa, poisson_ratio) = constants(section, base, density)?;
-    let strength = |(key, of): Strength| -> Result<Option<f64>, SceneError> {
-        let known = section.number(key)?.or(base.and_then(of));
-        Ok(known.filter(|&strength| strength > 0.0))
-    };
-    Ok(Material {
-        name: base.map_or_else(|| "given".to_owned(), |b| b.name.clone()),
-        youngs_modulus_pa,
-        poisson_ratio,
-        density_kg_m3: density,
-        yield_strength_pa: strength(YIELD)?,
-        tensile_strength_pa: strength(TENSILE)?,
-        fracture_toughness_pa_sqrt_m: strength(TOUGHNESS)?,
-        group: base.map_or_else(String::new, |b| b.group.clone()),
-        source: base.map_or_else(|| "the scene".to_owned(), |b| b.source.clone()),
-    })
-}
-
-/// Young's modulus in Pa and Poisson's ratio: as given, from the wave speeds, or those of `base`.
-fn constants(
-    section: &Section<'_>,
-    base: Option<&Material>,
-    density: Option<f64>,
-) -> Result<(f64, f64), SceneError> {
-    let given = (
-        section.number("youngs_modulus_pa")?,
-        section.number("poisson_ratio")?,
-    );
-    let speeds = from_speeds(section, density)?;
-    if let Some((modulus, ratio)) = speeds {
-        let twice = |quantity, key, given: Option<f64>, speeds: f64, size: f64| match given {
-            Some(first) if (first - speeds).abs() > ROUNDING * size => {
+    let mut material = base.cloned().unwrap_or(Material {
+        name: "given".to_owned(),
+        youngs_modulus_pa: f64::NAN,
+        poisson_ratio: f64::NAN,
+        density_kg_m3: None,
+        yield_strength_pa: None,
+        tensile_strength_pa: None,
+        fracture_toughness_pa_sqrt_m: None,
+        group: String::new(),
+        source: "the scene".to_owned(),
+    });
+    for key in keys_of("body") {
+        let number = section.number(key.name)?;
+        if let (Some(Set::Body(set) | Set::Ball(set)), Some(number)) = (key.set, number) {
+            set(&mut material, None, number);
+        }
+    }
+    let speeds = from_speeds(section, material.density_kg_m3)?;
+    let (modulus, ratio) = (&mut material.youngs_modulus_pa, &mut material.poisson_ratio);
+    let constants = [
+        (
+            "youngs_modulus_pa",
+            "Young's modulus",
+            modulus,
+            speeds.map(|s| [s.0, s.0]),
+        ),
+        (
+            "poisson_ratio",
+            "Poisson's ratio",
+            ratio,
+            speeds.map(|s| [s.1, 0.5]),
+        ),
+    ];
+    for (key, quantity, own, speeds) in constants {
+        match speeds {
+            Some([value, _]) if section.value(key).is_none() => *own = value,
+            Some([value, size]) if (*own - value).abs() > ROUNDING * size => {
                 let (name, by) = (section.name(), "longitudinal_speed_m_s and shear_speed_m_s");
                 let sentence = format!(
-                    "[{name}] gives {quantity} twice: {first} from {key} and {speeds} from {by}; leave one pair out"
+                    "[{name}] gives {quantity} twice: {own} from {key} and {value} from {by}; leave one pair out"
                 );
-                Err(SceneError::of_number(by, speeds, sentence))
+                return Err(SceneError::of_number(by, value, sentence));
             }
-            Some(_) | None => Ok(()),
-        };
-        let key = "youngs_modulus_pa";
-        twice("Young's modulus", key, given.0, modulus, modulus)?;
-        twice("Poisson's ratio", "poisson_ratio", given.1, ratio, 0.5)?;
+            None if own.is_nan() => {
+                return Err(section.missing(key, "give a material, youngs_modulus_pa and poisson_ratio, or both wave speeds and density_kg_m3"));
+            }
+            Some(_) | None => {}
+        }
     }
-    let known = speeds.or(base.map(|b| (b.youngs_modulus_pa, b.poisson_ratio)));
-    let missing = |key: &str| {
-        section.missing(key, "give a material, youngs_modulus_pa and poisson_ratio, or both wave speeds and density_kg_m3")
-    };
-    Ok((
-        (given.0.or(known.map(|k| k.0))).ok_or_else(|| missing("youngs_modulus_pa"))?,
-        (given.1.or(known.map(|k| k.1))).ok_or_else(|| missing("poisson_ratio"))?,
-    ))
+    Ok(material)
 }
 
 /// Young's modulus in Pa and Poisson's ratio from the wave speeds, where they are given.
@@ -150,56 +144,6 @@ fn from_speeds(
         ));
     }
     Ok(Some(from_wave_speeds(c1, c2, density)))
-}
-
-/// The numbers of a material as TOML keys, for the resolved scene.
-pub(super) fn to_table(material: &Material) -> Table {
-    let mut table = Table::new();
-    // the numbers replace all of it; where one is unknown, 0 says so
-    let named = Library::built_in().get(&material.name);
-    let known = named.filter(|_| material.density_kg_m3.is_some());
-    if known.is_some() {
-        table.insert("material".to_owned(), material.name.as_str().into());
-    }
-    let strength = |(key, of): Strength| {
-        let zero = known.and_then(of).map(|_| 0.0);
-        (key, of(material).or(zero))
-    };
-    let numbers = [
-        ("youngs_modulus_pa", Some(material.youngs_modulus_pa)),
-        ("poisson_ratio", Some(material.poisson_ratio)),
-        ("density_kg_m3", material.density_kg_m3),
-        strength(YIELD),
-        strength(TENSILE),
-        strength(TOUGHNESS),
-    ];
-    put(&mut table, numbers);
-    table
-}
-
-/// Keys with the numbers that are known.
-pub(super) fn put<const N: usize>(table: &mut Table, numbers: [(&str, Option<f64>); N]) {
-    let known = numbers.into_iter();
-    let known = known.filter_map(|(key, number)| Some((key.to_owned(), number?.into())));
-    table.extend(known);
-}
-
-/// What a striker is said to be, where mass and tip follow from it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Form {
-    Ball,
-    Rod,
-}
-
-impl Choice for Form {
-    const ALL: &'static [Self] = &[Self::Ball, Self::Rod];
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::Ball => "ball",
-            Self::Rod => "rod",
-        }
-    }
 }
 
 pub(super) fn read_strike(section: &Section<'_>, library: &Library) -> Result<Strike, SceneError> {

@@ -1,8 +1,11 @@
-//! The keys of a scene, each listed once: where it stands, what a number may be, what is told where it is missing, and how
-//! a sweep sets it in a scene that is parsed already.
+//! The keys of a scene, each listed once: where it stands, what a number may be, what is told where it is missing, how it is
+//! written in a scene that is spelled out, and how it is set, by the reader or by a sweep in a scene that is parsed already.
 
-use contact::{Material, Settings, Shape, fall_velocity_m_s};
-use impact::{Load, Scene, Strike};
+use contact::{
+    Choice, Library, Material, Plasticity, Settings, Shape, Striker, choice, fall_velocity_m_s,
+};
+use impact::{ForceRecord, Load, Scene, Strike};
+use toml::{Table, Value};
 
 /// A range of numbers.
 #[derive(Debug, Clone, Copy)]
@@ -38,7 +41,6 @@ pub(crate) const TOLERANCE: Range = Range {
 };
 
 /// A key of a scene.
-#[derive(Debug)]
 pub(crate) struct Key {
     /// Its section; `body` for both bodies.
     section: &'static str,
@@ -47,89 +49,172 @@ pub(crate) struct Key {
     pub(crate) range: Option<Range>,
     /// What to give, where it is needed.
     pub(crate) hint: &'static str,
-    /// A number that stands in for it while a scene is parsed, and how it is set afterwards.
-    pub(crate) set: Option<(f64, Set)>,
+    /// Its value in a scene that is spelled out, from the scene and the material of the key's section; none where it is not
+    /// written.
+    pub(super) get: fn(&Scene, &Material) -> Option<Value>,
+    /// How it is set in a scene.
+    pub(crate) set: Option<Set>,
+    /// A number that stands in for one that a sweep sets after a scene is parsed.
+    pub(crate) stand_in: Option<f64>,
 }
 
-/// Where a plain number goes.
+/// Where a value goes.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Set {
     Settings(fn(&mut Settings, f64)),
+    /// A word; where it is none of them, these come back.
+    Choice(fn(&mut Settings, &str) -> Result<(), String>),
     Strike(fn(&mut Strike, f64)),
     Body(fn(&mut Material, Option<&mut Shape>, f64)),
     /// The mass of a striker follows from it, and it is plain for a ball only.
     Ball(fn(&mut Material, Option<&mut Shape>, f64)),
 }
-use Set::{Ball, Body, Settings as Setting, Strike as Approach};
+use Set::{Ball, Body, Choice as Choose, Settings as Setting, Strike as Approach};
 
 macro_rules! keys {
-    ($($section:ident.$name:ident $(: $range:ident)? $(($hint:literal))? $([$stand_in:literal] $set:expr)?;)*) => {
+    ($($section:ident.$name:ident $(: $range:ident)? $(($hint:literal))?
+        $(= |$scene:pat_param, $body:pat_param| $get:expr)? $(, $set:expr $(, stands in: $stand_in:literal)?)?;)*) => {
         &[$(Key {
             section: stringify!($section),
             name: stringify!($name),
             range: keys!(@some $($range)?),
             hint: concat!("", $($hint)?),
-            set: keys!(@some $(($stand_in, $set))?),
+            get: keys!(@get $(|$scene, $body| $get)?),
+            set: keys!(@some $($set)?),
+            stand_in: keys!(@some $($($stand_in)?)?),
         },)*]
     };
     (@some) => { None };
     (@some $value:expr) => { Some($value) };
+    (@get) => { |_, _| None };
+    (@get |$scene:pat_param, $body:pat_param| $get:expr) => {
+        |$scene: &Scene, $body: &Material| Some(Value::from($get))
+    };
 }
 
-/// All of them, in the order in which messages list them: section, name, range, hint, stand-in, setter.
+/// All of them, in the order in which messages list them: section, name, range, hint, how it is written, how it is set, and what
+/// stands in for it.
 const KEYS: &[Key] = keys! {
-    target.material;
-    target.thickness_m: POSITIVE;
-    target.radius_m: POSITIVE;
-    striker.material;
-    striker.shape;
-    striker.diameter_m: POSITIVE ("the diameter of the striker") [1.0] Ball(|_, shape, x| {
+    target.material = |_, m| known(m)?.name.as_str();
+    target.thickness_m: POSITIVE = |s, _| s.target.thickness_m?;
+    target.radius_m: POSITIVE = |s, _| s.target.radius_m?;
+    striker.material = |_, m| known(m)?.name.as_str();
+    striker.shape = |s, _| Form::of(striker(s)?.shape?).name();
+    striker.diameter_m: POSITIVE ("the diameter of the striker") = |s, _| match striker(s)?.shape? {
+        Shape::Ball { diameter_m } | Shape::Rod { diameter_m, .. } => diameter_m,
+    }, Ball(|_, shape, x| {
         if let Some(Shape::Ball { diameter_m }) = shape {
             *diameter_m = x;
         }
-    });
-    striker.length_m: POSITIVE ("the length of the rod");
-    striker.mass_kg: POSITIVE ("the mass of the striker; or shape = \"ball\" with diameter_m") [1.0] Approach(|s, x| s.striker.mass_kg = x);
-    striker.tip_radius_m: POSITIVE ("the radius of the striker's tip") [1.0] Approach(|s, x| s.striker.tip_radius_m = x);
-    striker.velocity_m_s: POSITIVE ("the velocity of approach, or drop_height_m for a fall from rest") [1.0] Approach(|s, x| s.velocity_m_s = x);
-    striker.drop_height_m: POSITIVE [1.0] Approach(|s, x| s.velocity_m_s = fall_velocity_m_s(x));
-    body.youngs_modulus_pa: POSITIVE [1.0] Body(|m, _, x| m.youngs_modulus_pa = x);
-    body.poisson_ratio: POISSON [0.25] Body(|m, _, x| m.poisson_ratio = x);
-    body.density_kg_m3: POSITIVE [1.0] Ball(|m, _, x| m.density_kg_m3 = Some(x));
+    }), stands in: 1.0;
+    striker.length_m: POSITIVE ("the length of the rod") = |s, _| striker(s)?.length_m?;
+    striker.mass_kg: POSITIVE ("the mass of the striker; or shape = \"ball\" with diameter_m")
+        = |s, _| striker(s).filter(|striker| striker.shape.is_none())?.mass_kg, Approach(|s, x| s.striker.mass_kg = x), stands in: 1.0;
+    striker.tip_radius_m: POSITIVE ("the radius of the striker's tip") = |s, _| match striker(s)?.shape {
+        None => striker(s)?.tip_radius_m,
+        Some(Shape::Ball { .. }) => return None,
+        Some(Shape::Rod { tip_radius_m, .. }) => tip_radius_m?,
+    }, Approach(|s, x| s.striker.tip_radius_m = x), stands in: 1.0;
+    striker.velocity_m_s: POSITIVE ("the velocity of approach, or drop_height_m for a fall from rest")
+        = |s, _| strike(s)?.velocity_m_s, Approach(|s, x| s.velocity_m_s = x), stands in: 1.0;
+    striker.drop_height_m: POSITIVE, Approach(|s, x| s.velocity_m_s = fall_velocity_m_s(x)), stands in: 1.0;
+    body.youngs_modulus_pa: POSITIVE = |_, m| m.youngs_modulus_pa, Body(|m, _, x| m.youngs_modulus_pa = x), stands in: 1.0;
+    body.poisson_ratio: POISSON = |_, m| m.poisson_ratio, Body(|m, _, x| m.poisson_ratio = x), stands in: 0.25;
+    body.density_kg_m3: POSITIVE = |_, m| m.density_kg_m3?, Ball(|m, _, x| m.density_kg_m3 = Some(x)), stands in: 1.0;
     body.longitudinal_speed_m_s: POSITIVE;
     body.shear_speed_m_s: POSITIVE;
-    body.yield_strength_pa: NOT_NEGATIVE;
-    body.tensile_strength_pa: NOT_NEGATIVE;
-    body.fracture_toughness_pa_sqrt_m: NOT_NEGATIVE;
-    contact.disc_radius_m: POSITIVE [1.0] Setting(|s, x| s.disc_radius_m = Some(x));
-    contact.model;
-    contact.scheme;
-    contact.static_share;
-    contact.deflection;
-    contact.tolerance: TOLERANCE [1e-4] Setting(|s, x| s.tolerance = x);
-    contact.loss_tolerance: TOLERANCE [1e-3] Setting(|s, x| s.loss_tolerance = Some(x));
-    contact.step_s: POSITIVE;
-    contact.plasticity;
-    contact.yield_pressure_pa: POSITIVE [1e9] Setting(|s, x| s.yield_pressure_pa = Some(x));
-    force.file;
-    force.columns;
-    force.units;
-    force.start_s: FINITE;
-    force.end_s: FINITE;
-    force.sign: SIGN;
-    force.low_pass_hz: POSITIVE;
-    force.baseline_s: POSITIVE;
+    body.yield_strength_pa: NOT_NEGATIVE = |_, m| strength(m, |m| m.yield_strength_pa)?,
+        Body(|m, _, x| m.yield_strength_pa = Some(x).filter(|&x| x > 0.0));
+    body.tensile_strength_pa: NOT_NEGATIVE = |_, m| strength(m, |m| m.tensile_strength_pa)?,
+        Body(|m, _, x| m.tensile_strength_pa = Some(x).filter(|&x| x > 0.0));
+    body.fracture_toughness_pa_sqrt_m: NOT_NEGATIVE = |_, m| strength(m, |m| m.fracture_toughness_pa_sqrt_m)?,
+        Body(|m, _, x| m.fracture_toughness_pa_sqrt_m = Some(x).filter(|&x| x > 0.0));
+    contact.disc_radius_m: POSITIVE = |s, _| s.settings.disc_radius_m?, Setting(|s, x| s.disc_radius_m = Some(x)), stands in: 1.0;
+    contact.model = |s, _| s.settings.model.name(), Choose(|s, word| named(word).map(|model| s.model = model));
+    contact.scheme = |s, _| s.settings.scheme.name(), Choose(|s, word| named(word).map(|scheme| s.scheme = scheme));
+    contact.static_share = |s, _| s.settings.static_share.name(), Choose(|s, word| named(word).map(|static_share| s.static_share = static_share));
+    contact.deflection = |s, _| s.settings.deflection.name(), Choose(|s, word| named(word).map(|deflection| s.deflection = deflection));
+    contact.tolerance: TOLERANCE = |s, _| s.settings.tolerance, Setting(|s, x| s.tolerance = x), stands in: 1e-4;
+    contact.loss_tolerance: TOLERANCE = |s, _| s.settings.loss_tolerance?, Setting(|s, x| s.loss_tolerance = Some(x)), stands in: 1e-3;
+    contact.step_s: POSITIVE = |s, _| s.settings.step_s?, Setting(|s, x| s.step_s = Some(x));
+    contact.plasticity = |s, _| Some(s.settings.plasticity).filter(|&law| law != Plasticity::None)?.name(),
+        Choose(|s, word| named(word).map(|plasticity| s.plasticity = plasticity));
+    contact.yield_pressure_pa: POSITIVE = |s, _| s.settings.yield_pressure_pa?,
+        Setting(|s, x| s.yield_pressure_pa = Some(x)), stands in: 1e9;
+    force.file = |s, _| record(s)?.file.as_ref().map(|path| path.display().to_string()).unwrap_or_default();
+    force.columns = |s, _| record(s)?.reading.columns.clone()?.to_vec();
+    force.units = |s, _| record(s)?.reading.units.clone()?.to_vec();
+    force.start_s: FINITE = |s, _| record(s)?.reading.start_s?;
+    force.end_s: FINITE = |s, _| record(s)?.reading.end_s?;
+    force.sign: SIGN = |s, _| record(s)?.reading.sign?;
+    force.low_pass_hz: POSITIVE = |s, _| record(s)?.treated?.low_pass_hz?;
+    force.baseline_s: POSITIVE = |s, _| record(s)?.treated?.baseline_s?;
     probe.r_m: NOT_NEGATIVE ("the distance from the axis");
     probe.z_m: NOT_NEGATIVE ("the depth below the surface");
-    map.r_max_m: POSITIVE ("the width of the section");
-    map.z_max_m: POSITIVE ("the depth of the section");
-    map.points;
-    map.frames;
-    output.duration_s: POSITIVE;
-    output.quantities;
-    output.peaks;
+    map.r_max_m: POSITIVE ("the width of the section") = |s, _| s.section?.r_max_m;
+    map.z_max_m: POSITIVE ("the depth of the section") = |s, _| s.section?.z_max_m;
+    map.points = |s, _| s.section?.points.map(|n| n as i64).to_vec();
+    map.frames = |s, _| s.section?.frames as i64;
+    output.duration_s: POSITIVE = |s, _| s.duration_s?;
+    output.quantities = |s, _| Some(&s.quantities).filter(|q| !q.is_empty())?.iter().map(|q| q.name()).collect::<Vec<_>>();
+    output.peaks = |s, _| Some(s.peaks).filter(|&peaks| peaks)?;
     materials.file;
 };
+
+/// What a striker is said to be, where mass and tip follow from it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Form {
+    Ball,
+    Rod,
+}
+
+choice!(Form: Ball = "ball", Rod = "rod");
+
+impl Form {
+    fn of(shape: Shape) -> Self {
+        match shape {
+            Shape::Ball { .. } => Self::Ball,
+            Shape::Rod { .. } => Self::Rod,
+        }
+    }
+}
+
+/// The value of a word, or all words that there are.
+pub(super) fn named<T: Choice>(word: &str) -> Result<T, String> {
+    T::named(word).ok_or_else(|| {
+        let names: Vec<&str> = T::ALL.iter().map(|choice| choice.name()).collect();
+        names.join(", ")
+    })
+}
+
+fn strike(scene: &Scene) -> Option<&Strike> {
+    match &scene.load {
+        Load::Strike(strike) => Some(strike),
+        Load::Record(_) => None,
+    }
+}
+
+fn striker(scene: &Scene) -> Option<&Striker> {
+    strike(scene).map(|strike| &strike.striker)
+}
+
+fn record(scene: &Scene) -> Option<&ForceRecord> {
+    match &scene.load {
+        Load::Strike(_) => None,
+        Load::Record(record) => Some(record),
+    }
+}
+
+/// The material of the library whose name a spelled-out body keeps; its numbers replace all of it.
+fn known(material: &Material) -> Option<&'static Material> {
+    let named = Library::built_in().get(&material.name);
+    named.filter(|_| material.density_kg_m3.is_some())
+}
+
+/// A strength; where it is unknown, but that of the named material is known, 0 says so.
+fn strength(material: &Material, of: fn(&Material) -> Option<f64>) -> Option<f64> {
+    of(material).or(known(material).and_then(of).map(|_| 0.0))
+}
 
 /// The sections, in the order in which messages list them.
 pub(crate) const SECTIONS: [&str; 8] = [
@@ -179,6 +264,34 @@ pub fn sections_of(key: &str) -> Vec<&'static str> {
     SECTIONS[..3].iter().copied().filter(has).collect()
 }
 
+/// The scene with every default and material spelled out, as TOML.
+#[must_use]
+pub fn resolved(scene: &Scene) -> String {
+    let mut root = Table::new();
+    for section in SECTIONS {
+        let body = match section {
+            "striker" => striker(scene).map(|striker| &striker.material),
+            _ => Some(scene.target.material()),
+        };
+        let keys = body.into_iter().flat_map(|body| {
+            let written = move |key: &Key| Some((key.name.to_owned(), (key.get)(scene, body)?));
+            keys_of(section).filter_map(written)
+        });
+        let table: Table = keys.collect();
+        if !table.is_empty() {
+            root.insert(section.to_owned(), table.into());
+        }
+    }
+    let probes = scene.probes.iter().map(|probe| {
+        let keys = [("r_m", probe.r_m), ("z_m", probe.z_m)];
+        Table::from_iter(keys.map(|(key, place)| (key.to_owned(), place.into())))
+    });
+    if !scene.probes.is_empty() {
+        root.insert("probe".into(), probes.collect::<Vec<_>>().into());
+    }
+    root.to_string()
+}
+
 impl Set {
     /// Sets a number that is in its range; false where it makes no body.
     pub(crate) fn apply(self, scene: &mut Scene, section: &str, x: f64) -> bool {
@@ -197,9 +310,43 @@ impl Set {
                     (strike.striker).change_shape(|material, shape| set(material, shape, x));
                 return changed.is_ok();
             }
-            // the first template was checked for a striker
-            (Self::Strike(_) | Self::Body(_) | Self::Ball(_), Load::Record(_)) => {}
+            // the first template was checked for a striker, and words are not set so
+            (Self::Strike(_) | Self::Body(_) | Self::Ball(_) | Self::Choice(_), _) => {}
         }
         true
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Every key has a row in its section of the document, which gives the range of a number.
+    #[test]
+    fn the_document_has_every_key_with_its_range() {
+        let document = include_str!("../../../../data-schema/scene.md");
+        for section in SECTIONS {
+            let own = document.split("\n## ").filter(|part| {
+                let heading = part.lines().next().unwrap_or_default();
+                // the striker has the elastic keys of the target
+                let bodies = section == "striker" && heading.contains("[target]");
+                heading.contains(&format!("[{section}]")) || bodies
+            });
+            let rows: Vec<&str> = own.flat_map(str::lines).collect();
+            for key in keys_of(section) {
+                let names =
+                    |row: &&&str| row.starts_with('|') && row.contains(&format!("`{}`", key.name));
+                let mut found = rows.iter().filter(names).peekable();
+                assert!(found.peek().is_some(), "{section}.{}", key.name);
+                // those of a record are told in words
+                if let Some(range) = key.range.filter(|_| section != "force") {
+                    let name = key.name;
+                    assert!(
+                        found.any(|row| row.contains(range.name)),
+                        "{section}.{name}"
+                    );
+                }
+            }
+        }
     }
 }

@@ -1,7 +1,7 @@
 //! Reading scenes.
 
 use super::body::{body, read_materials, read_strike};
-use super::keys::SECTIONS;
+use super::keys::{SECTIONS, Set, keys_of};
 use super::record::read_record;
 use super::section::{Section, parse};
 use super::section::{read_standard, read_text};
@@ -148,26 +148,25 @@ fn read_settings(root: &Section<'_>) -> Result<Settings, SceneError> {
     let section = root.section("contact")?;
     let section = section.unwrap_or(Section::of("contact", &none));
     section.allow_keys_of("contact")?;
-    settings.disc_radius_m = section.number("disc_radius_m")?;
-    settings.step_s = section.number("step_s")?;
-    settings.loss_tolerance = section.number("loss_tolerance")?;
-    put(&mut settings.tolerance, section.number("tolerance")?);
-    put(&mut settings.model, section.choice("model")?);
-    put(&mut settings.scheme, section.choice("scheme")?);
-    put(&mut settings.static_share, section.choice("static_share")?);
-    put(&mut settings.deflection, section.choice("deflection")?);
-    put(&mut settings.plasticity, section.choice("plasticity")?);
-    settings.yield_pressure_pa = section.number("yield_pressure_pa")?;
+    for key in keys_of("contact") {
+        match key.set {
+            Some(Set::Settings(set)) => {
+                section
+                    .number(key.name)?
+                    .into_iter()
+                    .for_each(|number| set(&mut settings, number));
+            }
+            Some(Set::Choice(set)) => {
+                if let Some(word) = section.text(key.name)? {
+                    section.named(key.name, word, |word| set(&mut settings, word))?;
+                }
+            }
+            _ => {}
+        }
+    }
     settings
         .conflict()
         .map_or(Ok(settings), |conflict| Err(in_words(conflict)))
-}
-
-/// What is given in place of a default.
-fn put<T>(setting: &mut T, given: Option<T>) {
-    if let Some(given) = given {
-        *setting = given;
-    }
 }
 
 /// Settings that exclude each other, in the words of a scene.
@@ -231,8 +230,8 @@ fn read_load(
             let (baseline_s, low_pass_hz) =
                 (force.number("baseline_s")?, force.number("low_pass_hz")?);
             let reading = Reading {
-                columns: force.words("columns")?,
-                units: force.words("units")?,
+                columns: force.words("columns", "a pair of words")?,
+                units: force.words("units", "a pair of words")?,
                 start_s: force.number("start_s")?,
                 end_s: force.number("end_s")?,
                 sign: force.number("sign")?,

@@ -2,7 +2,7 @@
 //!
 //! A file is regular, of a bounded size, and UTF-8.
 
-use super::keys::{FINITE, Range, full_name, keys_of, number};
+use super::keys::{FINITE, Range, full_name, keys_of, named, number};
 use crate::error::SceneError;
 use contact::{Choice, nearest};
 use std::fs::File;
@@ -184,7 +184,11 @@ impl<'a> Section<'a> {
     }
 
     /// A pair of words; a whole number is one, too.
-    pub(super) fn words(&self, key: &str) -> Result<Option<[String; 2]>, SceneError> {
+    pub(crate) fn words(
+        &self,
+        key: &str,
+        expected: &'static str,
+    ) -> Result<Option<[String; 2]>, SceneError> {
         let word = |value: &Value| match value {
             Value::String(text) => Some(text.clone()),
             Value::Integer(number) => Some(number.to_string()),
@@ -197,7 +201,7 @@ impl<'a> Section<'a> {
             Some([first, second]) => word(first).zip(word(second)),
             Some(_) | None => None,
         };
-        let pair = pair.ok_or_else(|| self.wrong_kind(key, value, "a pair of words"));
+        let pair = pair.ok_or_else(|| self.wrong_kind(key, value, expected));
         pair.map(|(first, second)| Some([first, second]))
     }
 
@@ -222,14 +226,17 @@ impl<'a> Section<'a> {
     /// One of the values of a choice.
     pub(crate) fn choice<T: Choice>(&self, key: &str) -> Result<Option<T>, SceneError> {
         let word = self.text(key)?;
-        word.map(|word| self.named(key, word)).transpose()
+        word.map(|word| self.named(key, word, named)).transpose()
     }
 
-    fn named<T: Choice>(&self, key: &str, word: &str) -> Result<T, SceneError> {
-        let names = || T::ALL.iter().map(|choice| choice.name());
-        T::named(word).ok_or_else(|| {
-            SceneError::unknown_choice(self.key(key), word, &names().collect::<Vec<_>>().join(", "))
-        })
+    /// What one of the words of a choice says, which are told where it is none of them.
+    pub(super) fn named<T>(
+        &self,
+        key: &str,
+        word: &str,
+        by: impl FnOnce(&str) -> Result<T, String>,
+    ) -> Result<T, SceneError> {
+        by(word).map_err(|known| SceneError::unknown_choice(self.key(key), word, &known))
     }
 
     /// Different values of a choice, as a list; none where the key is not there.
@@ -243,7 +250,7 @@ impl<'a> Section<'a> {
         for item in items {
             let word = item.as_str();
             let word = word.ok_or_else(|| self.wrong_kind(key, item, "a word"))?;
-            let choice = self.named(key, word)?;
+            let choice = self.named(key, word, named)?;
             if found.contains(&choice) {
                 return Err(SceneError::conflict(
                     format!("{} = \"{word}\"", self.key(key)),
@@ -329,8 +336,13 @@ pub fn read_text(path: &Path) -> Result<String, SceneError> {
 pub(crate) fn read_text_up_to(path: &Path, most: u64) -> Result<String, SceneError> {
     let fault = |reason: String| SceneError::unreadable(path, reason);
     let system = |error: io::Error| fault(error.to_string());
-    if !std::fs::metadata(path).map_err(system)?.is_file() {
+    let known = std::fs::metadata(path).map_err(system)?;
+    if !known.is_file() {
         return Err(fault("it is not a regular file".to_owned()));
+    }
+    // files of the system itself say that they have nothing, and some, such as /proc/kmsg, wait for good
+    if known.len() == 0 {
+        return Ok(String::new());
     }
     let file = File::open(path).map_err(system)?;
     text_of(file, path, most)

@@ -15,28 +15,24 @@ pub struct ReadError {
 }
 
 impl ReadError {
+    fn told(path: &Path, sentence: String) -> Self {
+        let path = path.to_owned();
+        Self { path, sentence }
+    }
+
     /// The file is not what it should be: a sentence that its name begins.
     pub(super) fn is(path: &Path, what: impl fmt::Display) -> Self {
-        Self {
-            path: path.to_owned(),
-            sentence: format!("{} {what}", path.display()),
-        }
+        Self::told(path, format!("{} {what}", path.display()))
     }
 
     /// Something that every such file has is missing or wrong.
     pub(crate) fn damaged(path: &Path, what: impl fmt::Display) -> Self {
-        Self {
-            path: path.to_owned(),
-            sentence: format!("{}: {what}", path.display()),
-        }
+        Self::told(path, format!("{}: {what}", path.display()))
     }
 
     /// The file is not there, or is no regular file, or may not be read.
     pub(super) fn unreadable(path: &Path, reason: impl fmt::Display) -> Self {
-        Self {
-            path: path.to_owned(),
-            sentence: format!("cannot read {}: {reason}", path.display()),
-        }
+        Self::told(path, format!("cannot read {}: {reason}", path.display()))
     }
 }
 
@@ -71,38 +67,34 @@ impl FileKind {
         Self::Chart,
     ];
 
-    /// Minor version of the format from which on its files have a seal.
-    pub(super) fn sealed_from(self) -> u32 {
-        match self {
-            Self::Impact => 8,
-            Self::Sweep => 6,
-            Self::SweepPart => 2,
-            Self::Table => lookup::schema::SEALED_FROM,
-            Self::Chart => u32::MAX,
-        }
-    }
-
     /// Value of the attribute `file_type`.
     #[must_use]
     pub fn file_type(self) -> &'static str {
+        self.row().0
+    }
+
+    /// The value of the attribute `file_type`, what the file is, and the minor version of the format from which on its files
+    /// have a seal.
+    pub(super) fn row(self) -> (&'static str, &'static str, u32) {
         match self {
-            Self::Impact => results::schema::FILE_TYPE,
-            Self::Sweep => sweep::schema::FILE_TYPE,
-            Self::SweepPart => sweep::schema::part::FILE_TYPE,
-            Self::Table => lookup::schema::FILE_TYPE_VALUE,
-            Self::Chart => "hertzlamb chart",
+            Self::Impact => (results::schema::FILE_TYPE, "the results of an impact", 8),
+            Self::Sweep => (sweep::schema::FILE_TYPE, "a sweep", 6),
+            Self::SweepPart => (sweep::schema::part::FILE_TYPE, "a part of a sweep", 2),
+            Self::Table => {
+                let sealed_from = lookup::schema::SEALED_FROM;
+                (
+                    lookup::schema::FILE_TYPE_VALUE,
+                    "a kernel table",
+                    sealed_from,
+                )
+            }
+            Self::Chart => ("hertzlamb chart", "a chart", u32::MAX),
         }
     }
 }
 
 impl fmt::Display for FileKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Impact => "the results of an impact",
-            Self::Sweep => "a sweep",
-            Self::SweepPart => "a part of a sweep",
-            Self::Table => "a kernel table",
-            Self::Chart => "a chart",
-        })
+        f.write_str(self.row().1)
     }
 }

@@ -104,16 +104,16 @@ fn block(
     start: usize,
 ) -> Result<Block, ParquetError> {
     let rows = usize::try_from(group.num_rows()).unwrap_or(0);
-    let read = |name: &str| Column::read(group, places[name], bytes, rows);
+    let read = |name: &str| pages(group, places[name], bytes, rows);
     let quantities: Vec<_> = part.fields.quantities().collect();
     let columns: Vec<_> = (quantities.par_iter())
-        .map(|(_, quantity)| read(&quantity.name)?.numbers(part.fields.precision))
+        .map(|(_, quantity)| numbers(read(&quantity.name)?, rows, part.fields.precision))
         .collect::<Result<_, _>>()?;
     let mut block = Block::blank(start, rows, part.fields.width());
     for ((k, _), column) in quantities.into_iter().zip(columns) {
         block.fill(k, column);
     }
-    let models = read(MODEL.0)?.texts()?.into_iter().map(|name| {
+    let models = texts(read(MODEL.0)?, rows)?.into_iter().map(|name| {
         let Some(name) = name else {
             return Ok(NO_MODEL);
         };
@@ -125,7 +125,7 @@ fn block(
             .ok_or_else(|| wrong("a model is not known"))
     });
     block.models = models.collect::<Result<_, _>>()?;
-    let reasons = read(FAILURE.0)?.texts()?.into_iter();
+    let reasons = texts(read(FAILURE.0)?, rows)?.into_iter();
     for (row, reason) in (start..).zip(reasons) {
         if let Some(reason) = reason {
             let reason = reason.as_utf8()?.to_owned();
@@ -135,83 +135,58 @@ fn block(
     Ok(block)
 }
 
-/// A column of a group: for each row, whether it has a value, and these.
-struct Column {
-    there: Vec<i16>,
-    values: Values,
-}
-
-enum Values {
-    Double(Vec<f64>),
-    Single(Vec<f32>),
-    Text(Vec<ByteArray>),
-}
-
-impl Column {
-    fn read(
-        group: &RowGroupMetaData,
-        place: usize,
-        bytes: &Arc<Group>,
-        rows: usize,
-    ) -> Result<Self, ParquetError> {
-        let chunk = group.column(place);
-        let pages = SerializedPageReader::new(Arc::clone(bytes), chunk, rows, None)?;
-        let mut there = Vec::new();
-        let values = match get_column_reader(chunk.column_descr_ptr(), Box::new(pages)) {
-            ColumnReader::DoubleColumnReader(reader) => {
-                Values::Double(read_all(reader, rows, &mut there)?)
-            }
-            ColumnReader::FloatColumnReader(reader) => {
-                Values::Single(read_all(reader, rows, &mut there)?)
-            }
-            ColumnReader::ByteArrayColumnReader(reader) => {
-                Values::Text(read_all(reader, rows, &mut there)?)
-            }
-            _ => return Err(wrong("a column has another type")),
-        };
-        Ok(Self { there, values })
-    }
-
-    /// Numbers, NaN where there is none.
-    fn numbers(self, precision: Precision) -> Result<Vec<f64>, ParquetError> {
-        let values: Vec<f64> = match (self.values, precision) {
-            (Values::Double(values), Precision::Double) => values,
-            (Values::Single(values), Precision::Single) => {
-                values.into_iter().map(f64::from).collect()
-            }
-            _ => return Err(wrong("its results are not of one precision")),
-        };
-        let mut values = values.into_iter();
-        let spread = self.there.iter().map(|&one| match one {
-            0 => Some(f64::NAN),
-            _ => values.next(),
-        });
-        let spread: Option<Vec<f64>> = spread.collect();
-        spread.ok_or_else(|| wrong("a column has not all values"))
-    }
-
-    fn texts(self) -> Result<Vec<Option<ByteArray>>, ParquetError> {
-        let Values::Text(values) = self.values else {
-            return Err(wrong("a column of words has another type"));
-        };
-        let mut values = values.into_iter();
-        let text = |one: &i16| if *one == 0 { None } else { values.next() };
-        Ok(self.there.iter().map(text).collect())
-    }
-}
-
-/// The values of all rows.
-fn read_all<T: DataType>(
-    mut reader: ColumnReaderImpl<T>,
+/// The pages of a column of a group.
+fn pages(
+    group: &RowGroupMetaData,
+    place: usize,
+    bytes: &Arc<Group>,
     rows: usize,
-    there: &mut Vec<i16>,
-) -> Result<Vec<T::T>, ParquetError> {
-    let mut values = Vec::new();
-    let found = reader.read_records(rows, Some(there), None, &mut values)?;
+) -> Result<ColumnReader, ParquetError> {
+    let chunk = group.column(place);
+    let pages = SerializedPageReader::new(Arc::clone(bytes), chunk, rows, None)?;
+    Ok(get_column_reader(chunk.column_descr_ptr(), Box::new(pages)))
+}
+
+/// The numbers of a column, NaN where there is none.
+fn numbers(
+    pages: ColumnReader,
+    rows: usize,
+    precision: Precision,
+) -> Result<Vec<f64>, ParquetError> {
+    let found: Vec<Option<f64>> = match (pages, precision) {
+        (ColumnReader::DoubleColumnReader(pages), Precision::Double) => all(pages, rows)?,
+        (ColumnReader::FloatColumnReader(pages), Precision::Single) => {
+            let found = all(pages, rows)?.into_iter();
+            found.map(|x| x.map(f64::from)).collect()
+        }
+        _ => return Err(wrong("its results are not of one precision")),
+    };
+    Ok(found.into_iter().map(|x| x.unwrap_or(f64::NAN)).collect())
+}
+
+fn texts(pages: ColumnReader, rows: usize) -> Result<Vec<Option<ByteArray>>, ParquetError> {
+    match pages {
+        ColumnReader::ByteArrayColumnReader(pages) => all(pages, rows),
+        _ => Err(wrong("a column of words has another type")),
+    }
+}
+
+/// For each row its value, where it has one.
+fn all<T: DataType>(
+    mut pages: ColumnReaderImpl<T>,
+    rows: usize,
+) -> Result<Vec<Option<T::T>>, ParquetError> {
+    let (mut there, mut values) = (Vec::new(), Vec::new());
+    let found = pages.read_records(rows, Some(&mut there), None, &mut values)?;
     if found.0 != rows || there.len() != rows {
         return Err(wrong("a column has not all rows"));
     }
-    Ok(values)
+    let mut values = values.into_iter();
+    let value = |one: i16| match one {
+        0 => Ok(None),
+        _ => (values.next().map(Some)).ok_or_else(|| wrong("a column has not all values")),
+    };
+    there.into_iter().map(value).collect()
 }
 
 fn wrong(what: &str) -> ParquetError {

@@ -216,8 +216,8 @@ impl StoredProbes {
     /// [`ReadError`] for a quantity that is not there.
     pub fn trace(&self, quantity: &str, probe: usize) -> Result<Vec<f64>, ReadError> {
         let path = format!("{PROBES}/{quantity}");
-        self.stored
-            .slab(&path, &[self.r_m.len(), self.samples], probe)
+        let (shape, end) = ([self.r_m.len(), self.samples], probe.saturating_add(1));
+        self.stored.some(&path, &shape, probe..end)
     }
 
     /// The estimated error of a quantity at a probe, where it is there.
@@ -272,13 +272,11 @@ impl StoredSection {
     /// [`ReadError`] for a quantity or a frame that is not there.
     pub fn frame(&self, quantity: &str, frame: usize) -> Result<Vec<f32>, ReadError> {
         if frame >= self.time_s.len() {
-            let last = self.time_s.len() - 1;
-            return Err(self
-                .stored
-                .damaged(format!("frame {frame} is outside [0, {last}]")));
+            let what = format!("frame {frame} is outside [0, {}]", self.time_s.len() - 1);
+            return Err(self.stored.damaged(what));
         }
-        self.stored
-            .slab(&format!("{MAP}/{quantity}"), &self.shape(), frame)
+        let path = format!("{MAP}/{quantity}");
+        self.stored.some(&path, &self.shape(), frame..frame + 1)
     }
 
     /// The largest value of a quantity over all samples at each place, where the file has it.

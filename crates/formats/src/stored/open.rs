@@ -4,7 +4,7 @@ use super::error::{FileKind, ReadError};
 use crate::quantities::Described;
 use crate::scene::section::parse;
 use crate::sweep::schema::TEXTS;
-use crate::sweep::{Fields, Footer, MAGIC, Precision, stored_columns};
+use crate::sweep::{Fields, Footer, MAGIC, Part, Precision, stored_columns};
 use ledger::{Dataset, Group, H5Type, HdfError, HdfFile};
 use std::io::Read;
 use std::ops::Range;
@@ -37,7 +37,7 @@ impl Stored {
             .split('.')
             .nth(1)
             .and_then(|minor| minor.parse().ok());
-        let sealed = minor.is_none_or(|minor: u32| minor >= wanted.sealed_from());
+        let sealed = minor.is_none_or(|minor: u32| minor >= wanted.row().2);
         if sealed != stored.is_sealed() {
             return Err(stored.damaged(
                 "its seal is gone: it was cut short, or something has written to it since it was made",
@@ -91,7 +91,7 @@ impl Stored {
     }
 
     /// A dataset, where it is there.
-    fn dataset(&self, path: &str) -> Option<Dataset> {
+    pub(super) fn dataset(&self, path: &str) -> Option<Dataset> {
         let path = path.trim_start_matches('/');
         match path.rsplit_once('/') {
             Some((group, name)) => self.group(group)?.dataset(name).ok(),
@@ -147,42 +147,16 @@ impl Stored {
         }
     }
 
-    /// Unit of a dataset and the axis that it belongs to.
-    pub(super) fn labels(&self, path: &str) -> Option<(String, String)> {
-        let dataset = self.dataset(path)?;
-        let unit = dataset.text("units").unwrap_or_default();
-        Some((unit, dataset.text("axis").ok()?))
-    }
-
-    /// Whether a list holds texts.
-    pub(super) fn holds_texts(&self, path: &str) -> bool {
-        self.dataset(path).is_some_and(|list| list.holds_texts())
-    }
-
-    /// What a dataset holds at one place of its first dimension.
-    pub(super) fn slab<T: H5Type>(
-        &self,
-        path: &str,
-        shape: &[usize],
-        at: usize,
-    ) -> Result<Vec<T>, ReadError> {
-        let dataset = self.of_shape(path, shape)?;
-        let mut block: Vec<_> = shape.iter().map(|&n| 0..n).collect();
-        if let Some(first) = block.first_mut() {
-            *first = at..at.saturating_add(1);
-        }
-        let numbers = dataset.block(&block, MOST_BYTES);
-        numbers.map_err(|error| self.unread(path, &error))
-    }
-
-    /// Some numbers of a dataset with one dimension of a length.
+    /// What a dataset of a shape holds in a range of its first dimension.
     pub(super) fn some<T: H5Type>(
         &self,
         path: &str,
-        length: usize,
-        rows: Range<usize>,
+        shape: &[usize],
+        first: Range<usize>,
     ) -> Result<Vec<T>, ReadError> {
-        let numbers = self.of_shape(path, &[length])?.block(&[rows], MOST_BYTES);
+        let mut block: Vec<_> = shape.iter().map(|&n| 0..n).collect();
+        block[0] = first;
+        let numbers = self.of_shape(path, shape)?.block(&block, MOST_BYTES);
         numbers.map_err(|error| self.unread(path, &error))
     }
 
@@ -232,27 +206,27 @@ impl Stored {
 /// Whether a file begins as Parquet.
 pub(super) fn is_parquet(path: &Path) -> bool {
     let mut head = [0; MAGIC.len()];
-    // looked at before it is opened: a pipe would wait for its other end
-    std::fs::metadata(path).is_ok_and(|there| there.is_file())
+    // looked at before it is opened: a pipe would wait for its other end, and so would some files of the system
+    std::fs::metadata(path).is_ok_and(|there| there.is_file() && there.len() > 0)
         && std::fs::File::open(path).is_ok_and(|mut file| file.read_exact(&mut head).is_ok())
         && head == *MAGIC
 }
 
 /// Opens a file of rows in Parquet, all or some, and checks its seal and its length; rows are read a group at a time.
-fn open_parquet(path: &Path) -> Result<(FileKind, Footer), ReadError> {
+fn open_parquet(path: &Path) -> Result<(FileKind, Footer, Part), ReadError> {
     let foreign = || ReadError::is(path, "is a Parquet file, but none of hertzlamb's");
     let found = Footer::read(path).map_err(|what| ReadError::damaged(path, what))?;
-    let found = found.ok_or_else(foreign)?;
-    check_version(path, &found.version)?;
+    let (footer, part) = found.ok_or_else(foreign)?;
+    check_version(path, &footer.format_version)?;
     let mut kinds = [FileKind::Sweep, FileKind::SweepPart].into_iter();
-    let kind = kinds.find(|kind| kind.file_type() == found.file_type);
-    Ok((kind.ok_or_else(foreign)?, found))
+    let kind = kinds.find(|kind| kind.file_type() == footer.file_type);
+    Ok((kind.ok_or_else(foreign)?, footer, part))
 }
 
 /// [`open_parquet`] for a file of a kind.
-pub(super) fn parquet_of_kind(path: &Path, wanted: FileKind) -> Result<Footer, ReadError> {
-    let (kind, found) = open_parquet(path)?;
-    check_kind(path, kind, wanted).map(|()| found)
+pub(super) fn parquet_of_kind(path: &Path, wanted: FileKind) -> Result<(Footer, Part), ReadError> {
+    let (kind, footer, part) = open_parquet(path)?;
+    check_kind(path, kind, wanted).map(|()| (footer, part))
 }
 
 fn check_kind(path: &Path, found: FileKind, wanted: FileKind) -> Result<(), ReadError> {
@@ -276,7 +250,7 @@ fn check_version(path: &Path, found: &str) -> Result<(), ReadError> {
 /// [`ReadError`] for a file that is not one of the program.
 pub fn file_kind(path: &Path) -> Result<FileKind, ReadError> {
     if is_parquet(path) {
-        return open_parquet(path).map(|(kind, _)| kind);
+        return open_parquet(path).map(|(kind, ..)| kind);
     }
     let found = open_hdf5(path)?.root.text("file_type").ok();
     found
@@ -294,7 +268,7 @@ fn open_hdf5(path: &Path) -> Result<HdfFile, ReadError> {
     }
     let mut head = Vec::new();
     std::fs::File::open(path)
-        .and_then(|file| file.take(256).read_to_end(&mut head))
+        .and_then(|file| file.take(data.len().min(256)).read_to_end(&mut head))
         .map_err(unreadable)?;
     let not = |found| ReadError::is(path, format!("is {found}, not a file of results in HDF5"));
     if !head.starts_with(b"\x89HDF\r\n\x1a\n") {

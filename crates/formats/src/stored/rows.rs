@@ -36,11 +36,9 @@ impl StoredPart {
     /// [`ReadError`], which says what the file is instead.
     pub fn open(path: &Path) -> Result<Self, ReadError> {
         if is_parquet(path) {
-            let rows = parquet_of_kind(path, FileKind::SweepPart)?;
-            return Ok(Self {
-                part: rows.part.clone(),
-                rows: Rows::Parquet(rows),
-            });
+            let (footer, part) = parquet_of_kind(path, FileKind::SweepPart)?;
+            let rows = Rows::Parquet(footer);
+            return Ok(Self { part, rows });
         }
         let stored = Stored::open(path, FileKind::SweepPart)?;
         let count = |name: &str| {
@@ -82,7 +80,7 @@ impl StoredPart {
     pub fn check(&self) -> Result<(), ReadError> {
         match &self.rows {
             Rows::Hdf5(stored, _) => stored.check(),
-            Rows::Parquet(rows) => check_groups(rows),
+            Rows::Parquet(footer) => check_groups(&self.part, footer),
         }
     }
 
@@ -121,7 +119,7 @@ impl StoredPart {
     pub fn sweep(&self) -> Result<String, ReadError> {
         match &self.rows {
             Rows::Hdf5(stored, _) => stored.text("sweep"),
-            Rows::Parquet(rows) => Ok(rows.sweep.clone()),
+            Rows::Parquet(footer) => Ok(footer.sweep.clone()),
         }
     }
 
@@ -140,17 +138,18 @@ impl StoredPart {
         some: Range<usize>,
     ) -> Result<(), ReadError> {
         let Selection { rows, .. } = &self.part.selection;
+        let length = [rows.len()];
         for (key, wanted) in keys(spec, &(rows.start + some.start..rows.start + some.end)) {
             let path = format!("{RESULTS}/{key}");
             let same = match wanted {
                 Values::Texts(wanted) => {
                     let words = stored.texts(&format!("{}/{key}", part::WORDS))?;
-                    let found = stored.some::<u32>(&path, rows.len(), some.clone())?;
+                    let found = stored.some::<u32>(&path, &length, some.clone())?;
                     let mut pairs = found.iter().zip(&wanted);
                     pairs.all(|(&index, wanted)| words.get(index as usize) == Some(wanted))
                 }
                 wanted => {
-                    let found = stored.some::<f64>(&path, rows.len(), some.clone())?;
+                    let found = stored.some::<f64>(&path, &length, some.clone())?;
                     Values::Numbers(found) == wanted
                 }
             };
@@ -169,23 +168,23 @@ impl StoredPart {
         reasons: &[String],
         rows: Range<usize>,
     ) -> Result<Block, ReadError> {
-        let length = self.part.selection.rows.len();
+        let length = [self.part.selection.rows.len()];
         let path = |name: &str| format!("{RESULTS}/{name}");
         let start = self.part.selection.rows.start + rows.start;
         let mut block = Block::blank(start, rows.len(), self.part.fields.width());
-        block.models = stored.some(&path(MODEL.0), length, rows.clone())?;
+        block.models = stored.some(&path(MODEL.0), &length, rows.clone())?;
         for (k, quantity) in self.part.fields.quantities() {
             let (path, rows) = (path(&quantity.name), rows.clone());
             let column: Vec<f64> = match self.part.fields.precision {
-                Precision::Double => stored.some(&path, length, rows)?,
+                Precision::Double => stored.some(&path, &length, rows)?,
                 Precision::Single => {
-                    let column = stored.some::<f32>(&path, length, rows)?;
+                    let column = stored.some::<f32>(&path, &length, rows)?;
                     column.into_iter().map(f64::from).collect()
                 }
             };
             block.fill(k, column);
         }
-        let indices = stored.some::<i32>(&path(FAILURE.0), length, rows)?;
+        let indices = stored.some::<i32>(&path(FAILURE.0), &length, rows)?;
         for (row, index) in (block.start..).zip(indices) {
             if index == -1 {
                 continue;
@@ -211,12 +210,12 @@ impl Blocks for StoredPart {
                 visit(&block.map_err(|error| Fault::from(error.to_string()))?)
             }),
             #[cfg(feature = "parquet")]
-            Rows::Parquet(rows) => super::groups::each(&rows.part, &rows.groups, visit),
+            Rows::Parquet(footer) => super::groups::each(&self.part, &footer.row_groups, visit),
             #[cfg(not(feature = "parquet"))]
-            Rows::Parquet(rows) => Err(Fault::from(format!(
+            Rows::Parquet(footer) => Err(Fault::from(format!(
                 "{} is a Parquet file, the {} groups of which this program was built without reading",
-                rows.part.path.display(),
-                rows.groups.len()
+                self.part.path.display(),
+                footer.row_groups.len()
             ))),
         }
     }
@@ -229,19 +228,19 @@ impl Blocks for StoredPart {
 /// [`ReadError`], which says what the file is instead.
 pub(crate) fn whole_sweep(path: &Path) -> Result<(Option<String>, Fields), ReadError> {
     if is_parquet(path) {
-        let found = parquet_of_kind(path, FileKind::Sweep)?;
-        check_groups(&found)?;
-        return Ok((Some(found.part.sha256), found.part.fields));
+        let (footer, part) = parquet_of_kind(path, FileKind::Sweep)?;
+        check_groups(&part, &footer)?;
+        return Ok((Some(part.sha256), part.fields));
     }
     let found = StoredSweep::open(path)?;
     Ok((found.sha256(), found.fields()?))
 }
 
 /// Compares the rows of a Parquet file with their hashes, where the program can read them.
-fn check_groups(rows: &Footer) -> Result<(), ReadError> {
+fn check_groups(part: &Part, footer: &Footer) -> Result<(), ReadError> {
     #[cfg(feature = "parquet")]
-    super::groups::check(&rows.part, &rows.groups)
-        .map_err(|fault| ReadError::damaged(&rows.part.path, fault.reason))?;
-    let _ = rows;
+    super::groups::check(part, &footer.row_groups)
+        .map_err(|fault| ReadError::damaged(&part.path, fault.reason))?;
+    let _ = (part, footer);
     Ok(())
 }

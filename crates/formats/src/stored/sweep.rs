@@ -91,10 +91,10 @@ fn read_axes(stored: &Stored) -> Result<Vec<Axis>, ReadError> {
     let mut axes: Vec<Axis> = Vec::new();
     for name in names.map_err(|error| stored.damaged(error.to_string()))? {
         let path = format!("{AXES}/{name}");
-        let (_, axis) = stored
-            .labels(&path)
-            .ok_or_else(|| stored.damaged(format!("{path} does not name its axis")))?;
-        let values = if stored.holds_texts(&path) {
+        let data = stored.dataset(&path);
+        let axis = data.as_ref().and_then(|data| data.text("axis").ok());
+        let axis = axis.ok_or_else(|| stored.damaged(format!("{path} does not name its axis")))?;
+        let values = if data.is_some_and(|data| data.holds_texts()) {
             Values::Texts(stored.texts(&path)?)
         } else {
             Values::Numbers(stored.vector(&path)?)

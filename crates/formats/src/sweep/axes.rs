@@ -5,7 +5,7 @@ use super::schema::SAMPLE;
 use crate::error::SceneError;
 use crate::scene::keys::{FINITE, POSITIVE};
 use crate::scene::section::{Section, as_number};
-use contact::Choice;
+use contact::choice;
 use toml::{Table, Value};
 
 /// Values of an axis at most, but for draws: they are held in memory.
@@ -73,9 +73,8 @@ impl Values {
     /// One of them as TOML.
     pub(super) fn get(&self, index: usize) -> Value {
         match self {
-            Self::Numbers(numbers) => Value::Float(numbers[index]),
             Self::Texts(texts) => Value::String(texts[index].clone()),
-            Self::Drawn(drawn) => Value::Float(drawn.at(index)),
+            Self::Numbers(_) | Self::Drawn(_) => self.number(index).unwrap_or(f64::NAN).into(),
         }
     }
 
@@ -95,16 +94,7 @@ enum Spacing {
     Log,
 }
 
-impl Choice for Spacing {
-    const ALL: &'static [Self] = &[Self::Linear, Self::Log];
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::Linear => "linear",
-            Self::Log => "log",
-        }
-    }
-}
+choice!(Spacing: Linear = "linear", Log = "log");
 
 fn spaced(range: &Section<'_>) -> Result<Vec<f64>, SceneError> {
     range.allow(["from", "to", "count", "spacing"])?;

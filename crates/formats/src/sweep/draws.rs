@@ -9,10 +9,9 @@
 use crate::error::SceneError;
 use crate::scene::keys::{FINITE, POSITIVE, Range};
 use crate::scene::section::Section;
-use contact::Choice;
+use contact::choice;
 use std::f64::consts::{FRAC_1_SQRT_2, TAU};
 use std::sync::Arc;
-use toml::Value;
 
 /// The draws of one key.
 #[derive(Debug, Clone, PartialEq)]
@@ -116,23 +115,7 @@ enum Kind {
     LogNormal,
 }
 
-impl Choice for Kind {
-    const ALL: &'static [Self] = &[
-        Self::Uniform,
-        Self::LogUniform,
-        Self::Normal,
-        Self::LogNormal,
-    ];
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::Uniform => "uniform",
-            Self::LogUniform => "log_uniform",
-            Self::Normal => "normal",
-            Self::LogNormal => "log_normal",
-        }
-    }
-}
+choice!(Kind: Uniform = "uniform", LogUniform = "log_uniform", Normal = "normal", LogNormal = "log_normal");
 
 impl Distribution {
     fn read(section: &Section<'_>) -> Result<Self, SceneError> {
@@ -249,11 +232,8 @@ fn correlations(random: &Section<'_>, keys: &[String]) -> Result<Vec<Vec<f64>>, 
         let section = Section::of(&name, table);
         section.allow(["keys", "coefficient"])?;
         let [i, j] = pair(&section, keys)?;
-        let coefficient = section.required(
-            "coefficient",
-            COEFFICIENT,
-            "the correlation of the two keys",
-        )?;
+        let hint = "the correlation of the two keys";
+        let coefficient = section.required("coefficient", COEFFICIENT, hint)?;
         if matrix[i][j] != 0.0 || i == j {
             return Err(SceneError::conflict(
                 format!("{name} of {}", keys[i]),
@@ -276,28 +256,16 @@ fn correlations(random: &Section<'_>, keys: &[String]) -> Result<Vec<Vec<f64>>, 
 fn pair(section: &Section<'_>, keys: &[String]) -> Result<[usize; 2], SceneError> {
     let hint =
         "two keys that are drawn, such as [\"striker.diameter_m\", \"striker.velocity_m_s\"]";
-    let value = section
-        .value("keys")
-        .ok_or_else(|| section.missing("keys", hint))?;
-    let wrong = || section.wrong_kind("keys", value, "a pair of keys that are drawn");
-    let Value::Array(items) = value else {
-        return Err(wrong());
-    };
-    let place = |item: &Value| {
-        let word = item.as_str().ok_or_else(wrong)?;
-        let found = keys.iter().position(|key| key == word);
+    let words = section.words("keys", "a pair of keys that are drawn")?;
+    let [first, second] = words.ok_or_else(|| section.missing("keys", hint))?;
+    let place = |word: String| {
+        let found = keys.iter().position(|key| *key == word);
         found.ok_or_else(|| {
-            SceneError::unknown_choice(
-                section.key("keys"),
-                word,
-                &format!("the keys that are drawn: {}", keys.join(", ")),
-            )
+            let drawn = format!("the keys that are drawn: {}", keys.join(", "));
+            SceneError::unknown_choice(section.key("keys"), &word, &drawn)
         })
     };
-    match items.as_slice() {
-        [first, second] => Ok([place(first)?, place(second)?]),
-        _ => Err(wrong()),
-    }
+    Ok([place(first)?, place(second)?])
 }
 
 /// The lower factor; none where the matrix is not positive definite.

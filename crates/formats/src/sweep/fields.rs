@@ -74,18 +74,6 @@ impl Fields {
         self.width() > QUANTITIES.len()
     }
 
-    /// The results of these names, without probes.
-    ///
-    /// # Errors
-    /// [`SceneError`] for a name that is none of them.
-    pub fn of_names<S: AsRef<str>>(names: &[S], precision: Precision) -> Result<Self, SceneError> {
-        let all = Self {
-            precision,
-            ..Self::default()
-        };
-        all.only(names)
-    }
-
     /// Those of these names alone.
     ///
     /// # Errors

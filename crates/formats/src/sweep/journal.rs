@@ -22,7 +22,7 @@ const HEADER: usize = 5 * 8;
 
 /// The journal of some rows of a sweep.
 fn title(spec: &Spec, rows: &Range<usize>) -> Title {
-    let (sha256, of) = (&spec.fingerprint, spec.rows());
+    let (sha256, of) = (&spec.sha256, spec.rows());
     let about = format!("{sha256} {of} {} {}", rows.start, rows.end);
     Title {
         kind: KIND,
@@ -89,7 +89,7 @@ impl Unfinished {
 #[must_use]
 pub fn is_computed(spec: &Spec, rows: Range<usize>, part: &Path) -> bool {
     Unfinished::read(part).is_some_and(|found| {
-        found.sha256 == spec.fingerprint && found.rows == rows && found.kept == rows.len()
+        found.sha256 == spec.sha256 && found.rows == rows && found.kept == rows.len()
     })
 }
 

@@ -4,6 +4,7 @@ use super::axes::place;
 use super::error::SweepError;
 use super::fields::probed_numbers;
 use super::journal;
+use super::kernels::Kernels;
 use super::rows::{Block, Blocks, NO_MODEL};
 use super::shard::BLOCK;
 use super::spec::Spec;
@@ -203,7 +204,7 @@ impl<'a> Computer<'a> {
         };
         rows.zip(done)
             .for_each(|(row, done)| push(&mut block, row, done));
-        spec.check_kernels()?;
+        spec.kernels.as_ref().map_or(Ok(()), Kernels::check)?;
         let took_s = began.elapsed().as_secs_f64();
         Ok((block, next_size(count, took_s, wanted_s)))
     }
@@ -236,18 +237,6 @@ fn push(block: &mut Block, row: usize, done: Result<Observed, String>) {
 /// Rows that are held in memory together, at most: a hundred bytes each.
 const MOST_AT_ONCE: usize = 10_000_000;
 
-/// Refuses more rows than are held in memory.
-fn admit(rows: usize) -> Result<(), SceneError> {
-    if rows <= MOST_AT_ONCE {
-        return Ok(());
-    }
-    Err(SceneError::out_of_range(
-        "the number of rows in memory",
-        rows as f64,
-        "[0, 10000000]",
-    ))
-}
-
 /// Some rows of a sweep: `count` of them from `start` on, every `step`-th.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Rows {
@@ -275,7 +264,10 @@ pub fn compute_rows(
     mut watch: impl FnMut(usize) -> bool,
 ) -> Result<Option<Block>, SceneError> {
     let Rows { start, step, count } = rows;
-    admit(count)?;
+    if count > MOST_AT_ONCE {
+        let (key, range) = ("the number of rows in memory", "[0, 10000000]");
+        return Err(SceneError::out_of_range(key, count as f64, range));
+    }
     let last = step.checked_mul(count.saturating_sub(1));
     let last = last.and_then(|way| way.checked_add(start));
     if count > 0 && last.is_none_or(|last| last >= spec.rows()) {

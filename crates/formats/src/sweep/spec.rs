@@ -31,11 +31,12 @@ pub struct Spec {
     /// Axes: the product's in alphabetical order, then the list's, then that of the draws.
     pub axes: Vec<Axis>,
     /// Everything spelled out, as TOML.
-    pub(crate) resolved: String,
+    pub resolved: String,
     /// What was read beside it.
-    files: Files,
-    /// What makes two sweeps the same: the identity of everything that is asked and was read, and of the program's version and numbers.
-    pub(crate) fingerprint: String,
+    pub(super) files: Files,
+    /// SHA-256, in hexadecimal, of everything that is asked and was read and of the program's version and numbers: two sweeps
+    /// with the same have the same rows.
+    pub sha256: String,
     /// What of the results is written.
     pub fields: Fields,
     /// Where the fields at probes have their kernels from, where they are asked for.
@@ -85,26 +86,36 @@ impl Spec {
         let (scene, directory, file) = base(&root, table, directory)?;
         let axes = axes(&root)?;
         in_range(&axes)?;
-        let mut files = Files::read(&scene, &axes, &directory)?;
-        files.inputs.extend(file);
         let mut resolved = table.clone();
         resolved.insert("scene".into(), Value::Table(scene.clone()));
-        let resolved = resolved.to_string();
-        let fields = own_fields(&scene, &axes, Vec::new());
+        let mut spec = Self::new(scene, &directory, axes, resolved.to_string(), &[])?;
+        spec.files.inputs.extend(file);
+        Ok(spec)
+    }
+
+    /// One of a contact alone, with what makes it another one than its text says.
+    fn new(
+        scene: Table,
+        directory: &Path,
+        axes: Vec<Axis>,
+        resolved: String,
+        unspelled: &[Axis],
+    ) -> Result<Self, SceneError> {
+        let files = Files::read(&scene, &axes, directory)?;
         Ok(Self {
-            fingerprint: fingerprint(&resolved, &files.texts, &[]),
+            sha256: identity(&resolved, &files.texts, unspelled),
+            fields: own_fields(&scene, &axes, Vec::new()),
+            directory: directory.to_owned(),
             scene,
-            directory,
             axes,
             resolved,
             files,
-            fields,
             kernels: None,
         })
     }
 
     /// The sweep that a file holds, with everything spelled out: its axes and rows, not what computes them.
-    pub(crate) fn of_stored(resolved: &str, fingerprint: String) -> Result<Self, SceneError> {
+    pub(crate) fn of_stored(resolved: &str, sha256: String) -> Result<Self, SceneError> {
         let table = parse(resolved)?;
         let axes = axes(&Section::root(&table))?;
         let probed = stored_columns(&table)?;
@@ -114,7 +125,7 @@ impl Spec {
             axes,
             resolved: resolved.to_owned(),
             files: Files::default(),
-            fingerprint,
+            sha256,
             fields: Fields::all(probed),
             kernels: None,
         })
@@ -122,7 +133,7 @@ impl Spec {
 
     /// The sweep of a scene some keys of which take values together, as those of a list do.
     ///
-    /// The values are not spelled out in [`Self::resolved`]: they may be millions.
+    /// The values are not spelled out in [`Self::resolved`](Self#structfield.resolved): they may be millions.
     ///
     /// # Errors
     /// [`SceneError`].
@@ -133,38 +144,14 @@ impl Spec {
     ) -> Result<Self, SceneError> {
         let axes = vec![together(columns)?];
         check(&axes)?;
-        let files = Files::read(scene, &axes, directory)?;
-        let resolved = scene.to_string();
-        let fields = own_fields(scene, &axes, Vec::new());
-        Ok(Self {
-            fingerprint: fingerprint(&resolved, &files.texts, &axes),
-            resolved,
-            scene: scene.clone(),
-            directory: directory.to_owned(),
-            axes,
-            files,
-            fields,
-            kernels: None,
-        })
-    }
-
-    /// Everything spelled out, as TOML.
-    #[must_use]
-    pub fn resolved(&self) -> &str {
-        &self.resolved
+        let (unspelled, resolved) = (axes.clone(), scene.to_string());
+        Self::new(scene.clone(), directory, axes, resolved, &unspelled)
     }
 
     /// The files that were read beside the sweep itself: its base scene and its materials.
     #[must_use]
     pub fn inputs(&self) -> &[Role] {
         &self.files.inputs
-    }
-
-    /// SHA-256, in hexadecimal, of everything that is asked and was read and of the program's version and numbers: two sweeps with
-    /// the same have the same rows.
-    #[must_use]
-    pub fn sha256(&self) -> String {
-        self.fingerprint.clone()
     }
 
     /// Memory in bytes that a run takes, about: it does not depend on the number of rows.
@@ -176,11 +163,6 @@ impl Spec {
             .sum();
         let probed = 2 * BLOCK * (self.fields.width() - QUANTITIES.len());
         (RUN_BYTES + (values + probed) * 8) as f64
-    }
-
-    /// The materials of a scene of it.
-    pub(super) fn library(&self, scene: &Table) -> &Library {
-        self.files.library(scene)
     }
 
     /// Number of scenes.
@@ -218,18 +200,13 @@ impl Spec {
         let mut table = parse(&self.resolved)?;
         table.insert(FIELDS.into(), Value::Table(kernels.identity.clone()));
         self.resolved = table.to_string();
-        self.fingerprint = Identity::default()
-            .with("sweep", self.fingerprint)
+        self.sha256 = Identity::default()
+            .with("sweep", self.sha256)
             .with("numbers of fields", FIELDS_REVISION.to_le_bytes())
             .with("kernels", kernels.identity.to_string())
             .hex();
         self.kernels = Some(kernels);
         Ok(self)
-    }
-
-    /// Fails where kernels could not be read while rows were computed.
-    pub(super) fn check_kernels(&self) -> Result<(), SceneError> {
-        self.kernels.as_ref().map_or(Ok(()), Kernels::check)
     }
 
     /// Whether the targets have more Poisson's ratios than have responses of their own each.
@@ -259,7 +236,7 @@ fn own_fields(scene: &Table, axes: &[Axis], probed: Vec<Described>) -> Fields {
 
 /// Of the program's version, the revision of its numbers, the format, everything spelled out, the files that were read, and
 /// axes whose values are not spelled out.
-fn fingerprint(resolved: &str, files: &[String], axes: &[Axis]) -> String {
+fn identity(resolved: &str, files: &[String], axes: &[Axis]) -> String {
     let mut identity = Identity::default()
         .with("software", env!("CARGO_PKG_VERSION"))
         .with("numbers", NUMBERS_REVISION.to_le_bytes())
@@ -282,7 +259,7 @@ fn fingerprint(resolved: &str, files: &[String], axes: &[Axis]) -> String {
 
 /// What was read: rows are computed from it, whatever becomes of the files.
 #[derive(Debug, Clone, PartialEq, Default)]
-struct Files {
+pub(super) struct Files {
     /// Where each file is.
     inputs: Vec<Role>,
     /// Materials by the name of their file.
@@ -318,7 +295,7 @@ impl Files {
     }
 
     /// The materials of a scene.
-    fn library(&self, scene: &Table) -> &Library {
+    pub(super) fn library(&self, scene: &Table) -> &Library {
         named(scene)
             .and_then(|name| self.libraries.get(name))
             .unwrap_or(Library::built_in())

@@ -10,12 +10,11 @@ use impact::{Load, Scene, Strike};
 use std::collections::BTreeSet;
 use toml::Value;
 
-/// A column of plain numbers: its axis, what it is, its values.
+/// A column of plain numbers, which are set after a scene was parsed with another number.
 #[derive(Debug)]
 struct Fast<'a> {
     axis: usize,
     column: &'a Column,
-    name: String,
     range: Range,
     stand_in: f64,
     set: Set,
@@ -155,15 +154,15 @@ impl<'a> Templates<'a> {
         let mut table = self.spec.scene.clone();
         for (axis, &index) in self.spec.axes.iter().zip(place) {
             for column in &axis.columns {
-                let name = column.name();
-                let value = match self.fast.iter().find(|fast| fast.name == name) {
+                let is_of = |fast: &&Fast<'_>| std::ptr::eq(fast.column, column);
+                let value = match self.fast.iter().find(is_of) {
                     Some(fast) => Value::Float(fast.stand_in),
                     None => column.values.get(index),
                 };
                 column.put(&mut table, value)?;
             }
         }
-        let library = self.spec.library(&table);
+        let library = self.spec.files.library(&table);
         scene_with(&table, &self.spec.directory, library)
     }
 }
@@ -193,7 +192,7 @@ fn contacts_only(found: &str) -> SceneError {
 /// The column as plain numbers, if that is what it is.
 fn fast<'a>(spec: &'a Spec, axis: usize, column: &'a Column) -> Option<Fast<'a>> {
     let key = keys_of(&column.section).find(|key| key.name == column.key)?;
-    let ((stand_in, set), range) = (key.set?, key.range?);
+    let (set, stand_in, range) = (key.set?, key.stand_in?, key.range?);
     let needs_ball = matches!(set, Set::Ball(_)) && column.section == "striker";
     if matches!(column.values, Values::Texts(_)) || needs_ball && !always_ball(spec) {
         return None;
@@ -205,7 +204,6 @@ fn fast<'a>(spec: &'a Spec, axis: usize, column: &'a Column) -> Option<Fast<'a>>
     let varies = (spec.columns()).any(|other| other.section == column.section && speed(&other.key));
     (!in_scene && !varies).then(|| Fast {
         axis,
-        name: column.name(),
         column,
         range,
         stand_in,
@@ -232,6 +230,6 @@ impl Fast<'_> {
         } else {
             return Ok(());
         };
-        Err(SceneError::out_of_range(self.name.clone(), value, range))
+        Err(SceneError::out_of_range(self.column.name(), value, range))
     }
 }

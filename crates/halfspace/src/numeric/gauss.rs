@@ -6,7 +6,7 @@
 //! assert!((sum - (1.0_f64.exp() - 1.0)).abs() < 1e-15);
 //! ```
 
-use std::sync::LazyLock;
+use std::sync::OnceLock;
 
 /// Largest number of nodes of a rule that is kept.
 pub const MAX_NODES: usize = 40;
@@ -70,8 +70,8 @@ impl Rule {
 /// Where n is not from 1 to [`MAX_NODES`].
 #[must_use]
 pub fn rule(n: usize) -> &'static Rule {
-    static RULES: LazyLock<Vec<Rule>> = LazyLock::new(|| (1..=MAX_NODES).map(Rule::new).collect());
-    &RULES[n - 1]
+    static RULES: [OnceLock<Rule>; MAX_NODES] = [const { OnceLock::new() }; MAX_NODES];
+    RULES[n - 1].get_or_init(|| Rule::new(n))
 }
 
 /// The rule with `n` nodes on [0, 1] for integrands g(s)/s^2, g smooth with g'(0) = 0, in Hadamard's sense.
@@ -82,9 +82,8 @@ pub fn rule(n: usize) -> &'static Rule {
 ///
 /// The weights multiply g(s)/s^2; g(0) and g'(0) are those of the polynomial through the nodes.
 pub(crate) fn finite_part_rule(n: usize) -> &'static Rule {
-    static RULES: LazyLock<Vec<Rule>> =
-        LazyLock::new(|| (1..=MAX_NODES).map(finite_part).collect());
-    &RULES[n - 1]
+    static RULES: [OnceLock<Rule>; MAX_NODES] = [const { OnceLock::new() }; MAX_NODES];
+    RULES[n - 1].get_or_init(|| finite_part(n))
 }
 
 fn finite_part(n: usize) -> Rule {

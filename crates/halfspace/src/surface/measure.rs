@@ -70,18 +70,18 @@ impl Measure {
     /// Adds the moments between two angles of a zone.
     pub(super) fn add(&self, zone: Zone, from: f64, to: f64, sum: &mut Moments) {
         for (angle, weight) in gauss::rule(16).on(from, to) {
-            let mass = weight * self.density(zone, angle);
-            let inverse = 1.0 / zone.slowness(self.k, angle);
+            let sine = angle.sin();
+            let mass = weight * self.density(zone, angle, sine);
+            let inverse = 1.0 / zone.slowness(self.k, sine);
             for (moment, power) in sum.iter_mut().zip(POWERS) {
                 *moment += mass * inverse.powi(power);
             }
         }
     }
 
-    /// Density in the angle of a zone.
-    pub(super) fn density(&self, zone: Zone, angle: f64) -> f64 {
+    /// Density in the angle of a zone, given the sine s of the angle.
+    fn density(&self, zone: Zone, angle: f64, s: f64) -> f64 {
         let k = self.k;
-        let s = angle.sin();
         // cos from the distance to pi/2, which the panels near slowness one resolve
         let c = (FRAC_PI_2 - angle).sin();
         self.scale

@@ -180,7 +180,7 @@ impl SurfaceResponse {
         };
         let angle = zone.angle(self.shear_slowness, x);
         self.impulse[zone as usize].value(0, angle, |panel, angle| {
-            let t = chord.support * zone.slowness(self.measure.k, angle);
+            let t = chord.support * zone.slowness(self.measure.k, angle.sin());
             let above = self.measure.above(zone, panel, angle);
             let terms = chord.terms(t).zip(&above[1..]);
             let sum = terms.map(|((k, term), moment)| f64::from(k) * term * moment);
@@ -196,7 +196,7 @@ impl SurfaceResponse {
         let angle = zone.angle(self.shear_slowness, x);
         let curve = &self.curves[zone as usize];
         Some(curve.value(which, angle, |panel, angle| {
-            let t = chord.support * zone.slowness(self.measure.k, angle);
+            let t = chord.support * zone.slowness(self.measure.k, angle.sin());
             let above = self.measure.above(zone, panel, angle);
             let integral = t - chord.overlap_integral(t, &self.total, &above);
             [1.0 - chord.overlap(t, &above), integral]

@@ -22,8 +22,8 @@ impl Zone {
         }
     }
 
-    pub(super) fn slowness(self, k: f64, angle: f64) -> f64 {
-        let s = angle.sin();
+    /// The slowness at an angle whose sine is s.
+    pub(super) fn slowness(self, k: f64, s: f64) -> f64 {
         match self {
             Self::Fast => s,
             Self::Slow => (1.0 + (k - 1.0) * s * s).sqrt(),

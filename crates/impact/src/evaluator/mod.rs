@@ -126,7 +126,7 @@ impl<'a> Evaluator<'a> {
             (derivative, of)
         };
         let past = match (radius, excitation.record()) {
-            (PressureRadius::Following { .. }, None) if computed => {
+            (PressureRadius::Following { .. }, None) => {
                 Some(Past::new(excitation, PART_OF_PAST * tolerance)?)
             }
             (_, _) => None,
@@ -219,8 +219,10 @@ impl<'a> Evaluator<'a> {
             best = next;
         }
         let (sums, cells) = best;
+        // of a disc alone the parts are not known
+        let past = self.past.as_ref().filter(|_| cells.len() > 1);
         sums.into_iter()
-            .map(|sum| sum.resolved(self.past.as_ref(), &cells))
+            .map(|sum| sum.resolved(past, &cells))
             .collect()
     }
 
@@ -236,7 +238,9 @@ impl<'a> Evaluator<'a> {
             let smallest = self.choices[choice].smallest();
             r <= smallest * reach[0] && z <= smallest * reach[1]
         };
-        let found: Vec<usize> = (0..count).filter(served).collect();
+        // a table's choices have as many discs each
+        let tried = if computed { count } else { 1 };
+        let found: Vec<usize> = (0..count).filter(served).take(tried).collect();
         match (found.is_empty(), computed) {
             (false, _) => found,
             (true, true) => vec![0],

@@ -375,10 +375,11 @@ fn under_the_cut(
     let largest = |time: f64, radius: f64| if time < turned { radius } else { top };
     let mut sum = [0.0; 2];
     let mut add = |found: [f64; 2]| sum = [0, 1].map(|f| sum[f] + found[f]);
-    if let Some(now) = own.at(time) {
-        let l = largest(time, now.radius);
-        let kink = (l * l - edge * edge).max(0.0).sqrt().min(now.radius);
-        let parts = [[0.0, kink], [kink, now.radius]];
+    let radius = own.radius(time);
+    if radius > 0.0 {
+        let l = largest(time, radius);
+        let kink = (l * l - edge * edge).max(0.0).sqrt().min(radius);
+        let parts = [[0.0, kink], [kink, radius]];
         for [from, to] in parts.into_iter().filter(|[from, to]| from < to) {
             // roots at the kink
             for (angle, weight) in gauss::rule(24).on(0.0, PI) {
@@ -398,8 +399,7 @@ fn under_the_cut(
     for span in ends.windows(2) {
         for (past, weight) in gauss::rule(4).on(span[0], span[1]) {
             const APART: f64 = 1e-5;
-            let [before, here, after] =
-                [past - APART, past, past + APART].map(|t| own.at(t).map_or(0.0, |x| x.radius));
+            let [before, here, after] = [past - APART, past, past + APART].map(|t| own.radius(t));
             let rate = weight * (after - before) / (2.0 * APART);
             let (l, since) = (largest(past, here), Some(time - past));
             add(punch(here, rate * density(here, l), since));

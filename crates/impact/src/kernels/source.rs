@@ -10,16 +10,17 @@ use crate::scene::Scene;
 use fault::AnyError;
 use lookup::{LookupError, Table};
 use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 use std::fmt;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// Something that has kernel tables: one in memory, or a file of which the part that is needed is loaded.
 pub trait Tables: fmt::Debug + Send + Sync {
-    /// A table for a Poisson's ratio that reaches to r and z in disc radii.
+    /// A table for a Poisson's ratio that serves places (r, z) in disc radii from the first to the last of `span`.
     ///
     /// # Errors
     /// Why it cannot be loaded.
-    fn part(&self, poisson_ratio: f64, farthest: [f64; 2]) -> Result<Arc<Table>, AnyError>;
+    fn part(&self, poisson_ratio: f64, span: [[f64; 2]; 2]) -> Result<Arc<Table>, AnyError>;
 
     /// Why there is no such table, as far as that is known without loading one.
     ///
@@ -35,15 +36,15 @@ pub trait Tables: fmt::Debug + Send + Sync {
 }
 
 impl Tables for Arc<Table> {
-    fn part(&self, _: f64, _: [f64; 2]) -> Result<Arc<Table>, AnyError> {
+    fn part(&self, _: f64, _: [[f64; 2]; 2]) -> Result<Arc<Table>, AnyError> {
         Ok(Self::clone(self))
     }
 }
 
 #[cfg(feature = "hdf5")]
 impl Tables for lookup::TableFile {
-    fn part(&self, poisson_ratio: f64, farthest: [f64; 2]) -> Result<Arc<Table>, AnyError> {
-        Ok(Arc::new(Self::part(self, poisson_ratio, farthest)?))
+    fn part(&self, poisson_ratio: f64, span: [[f64; 2]; 2]) -> Result<Arc<Table>, AnyError> {
+        Ok(Arc::new(Self::part(self, poisson_ratio, span)?))
     }
 
     fn refusal(
@@ -55,19 +56,27 @@ impl Tables for lookup::TableFile {
     }
 }
 
-/// Tables a part of which is loaded once for each Poisson's ratio, as far as it reaches.
+/// Tables a part of which is loaded for each Poisson's ratio, and a larger one when a place lies beyond it.
 ///
-/// What it gives does not depend on who asked before.
-/// A ratio takes the memory of a slice, so that it is for a few of them; [`Arc<Table>`] serves any number.
+/// What it gives does not depend on who asked before: a part answers as the whole does.
+/// A ratio may take the memory of a slice, so that it is for a few of them; [`Arc<Table>`] serves any number.
 #[derive(Debug)]
 pub struct Shared {
     tables: Arc<dyn Tables>,
-    parts: Mutex<HashMap<u64, Part>>,
+    known: Mutex<HashMap<u64, Known>>,
     fault: Mutex<Option<String>>,
 }
 
 /// What is known of a ratio.
-type Part = Result<Arc<Table>, LookupError>;
+#[derive(Debug)]
+struct Known {
+    refusal: Option<LookupError>,
+    /// The part that was loaded, and the places that it was loaded for.
+    part: Option<([[f64; 2]; 2], Arc<Table>)>,
+}
+
+/// How much farther than was asked a part reaches that takes the place of another: places of a sweep wander.
+const FARTHER: f64 = 1.5;
 
 impl Shared {
     /// Of some tables; nothing is loaded yet.
@@ -75,7 +84,7 @@ impl Shared {
     pub fn new(tables: Arc<dyn Tables>) -> Self {
         Self {
             tables,
-            parts: Mutex::default(),
+            known: Mutex::default(),
             fault: Mutex::default(),
         }
     }
@@ -87,36 +96,57 @@ impl Shared {
         fault.clone()
     }
 
-    fn known(&self, poisson_ratio: f64) -> Result<Part, AnyError> {
-        let mut parts = self.parts.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(part) = parts.get(&poisson_ratio.to_bits()) {
-            return Ok(part.clone());
-        }
-        let found = self.load(poisson_ratio).map_err(|error| {
+    /// What `read` finds with what is known of a ratio; where that fails, the reason is kept.
+    fn with<T>(
+        &self,
+        poisson_ratio: f64,
+        read: impl FnOnce(&mut Known) -> Result<T, AnyError>,
+    ) -> Result<T, AnyError> {
+        let mut all = self.known.lock().unwrap_or_else(PoisonError::into_inner);
+        let found = match all.entry(poisson_ratio.to_bits()) {
+            Entry::Occupied(known) => read(known.into_mut()),
+            Entry::Vacant(none) => {
+                let refusal = self.tables.refusal(poisson_ratio, [0.0; 2]);
+                refusal.and_then(|refusal| {
+                    read(none.insert(Known {
+                        refusal,
+                        part: None,
+                    }))
+                })
+            }
+        };
+        found.inspect_err(|error| {
             let mut fault = self.fault.lock().unwrap_or_else(PoisonError::into_inner);
             fault.get_or_insert(error.to_string());
-            AnyError::from(error.to_string())
-        })?;
-        parts.insert(poisson_ratio.to_bits(), found.clone());
-        Ok(found)
-    }
-
-    fn load(&self, poisson_ratio: f64) -> Result<Part, AnyError> {
-        if let Some(outside) = self.tables.refusal(poisson_ratio, [0.0; 2])? {
-            return Ok(Err(outside));
-        }
-        let part = self.tables.part(poisson_ratio, [f64::INFINITY; 2])?;
-        Ok(Ok(part))
+        })
     }
 }
 
 impl Tables for Shared {
-    fn part(&self, poisson_ratio: f64, _: [f64; 2]) -> Result<Arc<Table>, AnyError> {
-        Ok(self.known(poisson_ratio)??)
+    fn part(&self, poisson_ratio: f64, span: [[f64; 2]; 2]) -> Result<Arc<Table>, AnyError> {
+        self.with(poisson_ratio, |known| {
+            let mut wanted = span;
+            if let Some((held, table)) = &known.part {
+                for axis in 0..2 {
+                    wanted[0][axis] = held[0][axis].min(span[0][axis]);
+                    wanted[1][axis] = held[1][axis].max(span[1][axis]);
+                }
+                if wanted == *held {
+                    return Ok(Arc::clone(table));
+                }
+                wanted = [
+                    wanted[0].map(|near| near / FARTHER),
+                    wanted[1].map(|far| far * FARTHER),
+                ];
+            }
+            let table = self.tables.part(poisson_ratio, wanted)?;
+            known.part = Some((wanted, Arc::clone(&table)));
+            Ok(table)
+        })
     }
 
     fn refusal(&self, poisson_ratio: f64, _: [f64; 2]) -> Result<Option<LookupError>, AnyError> {
-        Ok(self.known(poisson_ratio)?.err())
+        self.with(poisson_ratio, |known| Ok(known.refusal.clone()))
     }
 }
 
@@ -159,12 +189,13 @@ pub(crate) fn choose_source(
     };
     let looked_up = |table: Arc<Table>, reason: String| Some((KernelSource::Table(table), reason));
     let radius = excitation.units().disc_radius_m;
-    let farthest = farthest(&points, radius);
+    let [nearest, farthest] = span(&points, radius);
     let load = |tables: &Arc<dyn Tables>| {
         // as far as the smallest disc that stands for the load sees the places
         let smallest = Discs::looked_up(excitation.radius())[0].smallest();
+        let span = [nearest, farthest.map(|far| far / smallest)];
         tables
-            .part(medium.poisson_ratio(), farthest.map(|far| far / smallest))
+            .part(medium.poisson_ratio(), span)
             .map_err(ImpactError::Table)
     };
     let (tables, cost) = match kernels {
@@ -226,10 +257,15 @@ fn places(scene: &Scene) -> Vec<(f64, f64)> {
     probes.chain(section).collect()
 }
 
-/// The largest r and z of some places, in radii.
-fn farthest(places: &[(f64, f64)], radius: f64) -> [f64; 2] {
-    places.iter().fold([0.0_f64; 2], |far, &(r_m, z_m)| {
-        [far[0].max(r_m / radius), far[1].max(z_m / radius)]
+/// The smallest and the largest r and z of some places, in radii.
+fn span(places: &[(f64, f64)], radius: f64) -> [[f64; 2]; 2] {
+    let none = [[f64::INFINITY; 2], [0.0; 2]];
+    places.iter().fold(none, |[near, far], &(r_m, z_m)| {
+        let place = [r_m / radius, z_m / radius];
+        let of = |least: fn(f64, f64) -> f64, so_far: [f64; 2]| {
+            [0, 1].map(|axis| least(so_far[axis], place[axis]))
+        };
+        [of(f64::min, near), of(f64::max, far)]
     })
 }
 

@@ -1,6 +1,5 @@
 //! The HDF5 file of a table: everything that knows the HDF5 library.
 
-mod blend;
 mod damage;
 mod error;
 pub mod labels;

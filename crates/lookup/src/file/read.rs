@@ -7,6 +7,7 @@ use crate::content::{Between, Content, FIELDS, Origin, Role, Slice, Verification
 use crate::hash::content_hash;
 use crate::table::Table;
 use crate::{schema, validate};
+use std::ops::Range;
 use std::path::Path;
 
 impl Table {
@@ -65,29 +66,19 @@ pub fn stated_hash(path: &Path) -> Result<String, TableError> {
     source.text(&source.root(), schema::CONTENT_SHA256)
 }
 
-/// The nodes and meshes from 0 on that are read.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Nodes {
-    /// Nodes in the file, in r and z.
-    pub(super) stored: [usize; 2],
-    /// Meshes in the file, of which probes tell the error.
-    pub(super) stored_meshes: [usize; 2],
-    /// Nodes read.
-    pub(super) nodes: [usize; 2],
-    /// Meshes read.
-    pub(super) meshes: [usize; 2],
+/// The nodes that are read and the meshes of which probes tell the error, along r and z.
+#[derive(Debug, Clone)]
+pub(super) struct Window {
+    pub(super) nodes: [Range<usize>; 2],
+    pub(super) meshes: [Range<usize>; 2],
 }
 
-impl Nodes {
+impl Window {
     /// All of a table.
     pub(super) fn all(content: &Content) -> Self {
-        let stored = [content.r.len(), content.z.len()];
-        let meshes = content.probes().map(|places| places.len());
         Self {
-            stored,
-            stored_meshes: meshes,
-            nodes: stored,
-            meshes,
+            nodes: [content.r.len(), content.z.len()].map(|count| 0..count),
+            meshes: content.probes().map(|places| 0..places.len()),
         }
     }
 }
@@ -104,10 +95,11 @@ impl Source {
     pub(super) fn everything(&self) -> Result<Content, TableError> {
         self.check_seal()?;
         let (mut content, listed) = self.head()?;
-        let whole = Nodes::all(&content);
-        for slice in &listed {
-            content.slices.push(self.slice(&content, slice, &whole)?);
-        }
+        let whole = Window::all(&content);
+        let slices = listed
+            .iter()
+            .map(|slice| self.slice(&content, slice, &whole));
+        content.slices = slices.collect::<Result<_, _>>()?;
         Ok(content)
     }
 
@@ -176,13 +168,12 @@ impl Source {
     /// What was measured between slices, by ascending ratio.
     fn between(&self, root: &Place, content: &Content) -> Result<Vec<Between>, TableError> {
         let places = [content.between_r.len(), content.between_z.len()];
-        let needed = [places[0], places[1], content.pulse_lengths.len(), FIELDS];
-        let all = self.group(root, schema::BETWEEN)?;
+        let all = places.map(|count| 0..count);
         let mut between = Vec::new();
-        for place in self.groups(&all)? {
+        for place in self.groups(&self.group(root, schema::BETWEEN)?)? {
             between.push(Between {
                 poisson_ratio: self.number(&place, schema::POISSON_RATIO)?,
-                verification: self.verification(&place, needed, places)?,
+                verification: self.verification(&place, content, places, &all)?,
             });
         }
         between.sort_by(|a, b| a.poisson_ratio.total_cmp(&b.poisson_ratio));
@@ -213,38 +204,85 @@ impl Source {
         &self,
         content: &Content,
         listed: &Listed,
-        wanted: &Nodes,
+        wanted: &Window,
     ) -> Result<Slice, TableError> {
-        let place = &listed.place;
-        let [rows, columns] = wanted.stored;
-        let [.., cells] = self.dimensions(place, schema::REMAINDER)?;
-        let [.., terms] = self.dimensions(place, schema::TAIL)?;
-        let at_nodes = |name, last| {
-            let needed = [rows, columns, FIELDS, last];
-            self.corner(place, name, needed, wanted.nodes)
-        };
-        let [across, down] = wanted.stored_meshes;
-        let probes = [across, down, content.pulse_lengths.len(), FIELDS];
         Ok(Slice {
-            poisson_ratio: listed.ratio,
-            role: listed.role,
-            cells,
-            remainder: at_nodes(schema::REMAINDER, cells)?,
-            moment: at_nodes(schema::MOMENT, cells)?,
-            curvature: at_nodes(schema::CURVATURE, cells)?,
-            tail: at_nodes(schema::TAIL, terms)?,
-            verification: self.verification(place, probes, wanted.meshes)?,
+            verification: self.errors(content, listed, wanted)?,
+            ..self.sum(content, &[(listed, 1.0)], wanted)?
         })
     }
 
-    /// What was measured at the first `count` places of a grid of them, of the dimensions `needed`.
+    /// The sum of slices with their weights at the nodes wanted, without what was measured off them.
+    pub(super) fn sum(
+        &self,
+        content: &Content,
+        slices: &[(&Listed, f64)],
+        wanted: &Window,
+    ) -> Result<Slice, TableError> {
+        let first = slices[0].0;
+        let size = |listed: &Listed| -> Result<[usize; 2], TableError> {
+            let [.., cells] = self.dimensions(&listed.place, schema::REMAINDER)?;
+            let [.., terms] = self.dimensions(&listed.place, schema::TAIL)?;
+            Ok([cells, terms])
+        };
+        let [cells, terms] = size(first)?;
+        for (listed, _) in &slices[1..] {
+            validate::same_size(listed.ratio, size(listed)?, [cells, terms])
+                .map_err(|error| self.content(error))?;
+        }
+        let list = |name, last| {
+            let needed = [content.r.len(), content.z.len(), FIELDS, last];
+            let read = |listed: &Listed| self.block(&listed.place, name, needed, &wanted.nodes);
+            if let [(one, _)] = slices {
+                return read(one);
+            }
+            let mut sums = Vec::new();
+            for (listed, weight) in slices {
+                let values = read(listed)?;
+                sums.resize(values.len(), 0.0);
+                for (sum, value) in sums.iter_mut().zip(values) {
+                    *sum += weight * f64::from(value);
+                }
+            }
+            Ok(sums.into_iter().map(|sum| sum as f32).collect())
+        };
+        Ok(Slice {
+            poisson_ratio: first.ratio,
+            role: first.role,
+            cells,
+            remainder: list(schema::REMAINDER, cells)?,
+            moment: list(schema::MOMENT, cells)?,
+            curvature: list(schema::CURVATURE, cells)?,
+            tail: list(schema::TAIL, terms)?,
+            verification: Verification::default(),
+        })
+    }
+
+    /// What was measured of a slice at the meshes wanted.
+    pub(super) fn errors(
+        &self,
+        content: &Content,
+        listed: &Listed,
+        wanted: &Window,
+    ) -> Result<Verification, TableError> {
+        let places = content.probes().map(|places| places.len());
+        let found = self.verification(&listed.place, content, places, &wanted.meshes)?;
+        let count = wanted.meshes.iter().map(Range::len).product();
+        validate::probes(content, &validate::group(listed.ratio), &found, count)
+            .map_err(|error| self.content(error))?;
+        Ok(found)
+    }
+
+    /// What was measured at some of a grid of places.
     fn verification(
         &self,
         place: &Place,
-        needed: [usize; 4],
-        count: [usize; 2],
+        content: &Content,
+        [across, down]: [usize; 2],
+        wanted: &[Range<usize>; 2],
     ) -> Result<Verification, TableError> {
-        let of = |name| self.corner(place, name, needed, count);
+        let needed = [across, down, content.pulse_lengths.len(), FIELDS];
+        let of = |name| self.block(place, name, needed, wanted);
         Ok(Verification {
             direct: of(schema::PROBE_DIRECT)?,
             looked_up: of(schema::PROBE_LOOKED_UP)?,

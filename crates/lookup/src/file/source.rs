@@ -2,8 +2,10 @@
 
 use super::error::{BadTable, TableError};
 use crate::error::ContentError;
+use crate::validate::product;
 use ledger::{Dataset, Group, H5Type, HdfError, HdfFile};
 use std::cell::Cell;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 /// Bytes of numbers that a byte of a file may become: tables have 2 to 4, the compression itself ends at a thousand.
@@ -16,6 +18,8 @@ pub(super) struct Source {
     file: HdfFile,
     /// Bytes of numbers loaded so far.
     loaded: Cell<u64>,
+    /// Bytes of the chunks that hold the nodes read so far.
+    pub(super) decoded: Cell<u64>,
 }
 
 /// A group of the file, with its path inside it for messages.
@@ -38,6 +42,7 @@ impl Source {
             path: path.to_owned(),
             file,
             loaded: Cell::new(0),
+            decoded: Cell::new(0),
         }
     }
 
@@ -114,13 +119,13 @@ impl Source {
             .map_err(|_| self.item(&place.item(name), "no dimensions"))
     }
 
-    /// The first `count` entries along the first two dimensions of a dataset, which has the dimensions `needed`.
-    pub(super) fn corner(
+    /// The entries `wanted` along the first two dimensions of a dataset, which has the dimensions `needed`.
+    pub(super) fn block(
         &self,
         place: &Place,
         name: &str,
         needed: [usize; 4],
-        count: [usize; 2],
+        wanted: &[Range<usize>; 2],
     ) -> Result<Vec<f32>, TableError> {
         let item = place.item(name);
         let data = self.dataset(place, name, 4)?;
@@ -133,10 +138,18 @@ impl Source {
             }
             .of(&self.path));
         }
-        let [rows, columns] = [count[0].min(needed[0]), count[1].min(needed[1])];
-        let numbers = crate::validate::product(&[rows, columns, needed[2], needed[3]]);
+        let [rows, columns] = wanted.clone();
+        let numbers = product(&[rows.len(), columns.len(), needed[2], needed[3]]);
         self.admit(&item, numbers, size_of::<f32>())?;
-        data.block(&[0..rows, 0..columns, 0..needed[2], 0..needed[3]], u64::MAX)
+        let whole = |range: &Range<usize>, size: usize| {
+            range.end.next_multiple_of(size) - range.start / size * size
+        };
+        let chunk = data.chunk().filter(|chunk| !chunk.contains(&0));
+        let [high, wide] = chunk.map_or([1; 2], |chunk| [chunk[0], chunk[1]]);
+        let nodes = product(&[whole(&rows, high), whole(&columns, wide)]);
+        let decoded = product(&[nodes, needed[2], needed[3], size_of::<f32>()]) as u64;
+        self.decoded.set(self.decoded.get() + decoded);
+        data.block(&[rows, columns, 0..needed[2], 0..needed[3]], u64::MAX)
             .map_err(|error| self.unreadable(&item, &error))
     }
 

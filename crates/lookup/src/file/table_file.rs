@@ -1,21 +1,23 @@
 //! A table on disk, of which the part that a question needs is loaded.
 
-use super::blend::Blend;
-use super::error::TableError;
+use super::error::{BadTable, TableError};
 use super::open::open;
-use super::read::Nodes;
-use crate::content::{Content, Role};
+use super::read::{Listed, Window};
+use super::source::Source;
+use crate::certificate::{Added, SAFETY};
+use crate::content::{Content, FIELDS, Role, Slice, Verification};
 use crate::error::LookupError;
 use crate::hash::settings_id;
 use crate::ratio::{self, Served};
 use crate::series::stencil::locate;
 use crate::table::Table;
+use halfspace::DomainError;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 /// A kernel table on disk.
 ///
-/// A part of it is a [`Table`] of its own: one slice at a Poisson ratio, at the nodes that places up to some distance
-/// and depth need.
+/// A part of it is a [`Table`] of its own: one slice at a Poisson ratio, at the nodes that some places need.
 /// It answers there as the whole does, between slices but for the rounding of stored values.
 #[derive(Debug, Clone)]
 pub struct TableFile {
@@ -64,100 +66,142 @@ impl TableFile {
         poisson_ratio: f64,
         farthest: [f64; 2],
     ) -> Result<Result<(), LookupError>, TableError> {
-        let (content, listed) = open(&self.path)?.head()?;
-        let outside = |axis, value, min, max| {
-            Ok(Err(LookupError::Outside {
-                axis,
-                value,
-                min,
-                max,
-            }))
-        };
+        let source = open(&self.path)?;
+        let (content, listed) = source.head()?;
         let ends = [("r/r0", content.r_max), ("z/r0", content.z_max)];
         for ((axis, max), value) in ends.into_iter().zip(farthest) {
             if value > max {
-                return outside(axis, value, 0.0, max);
+                return Ok(Err(LookupError::Outside {
+                    axis,
+                    value,
+                    min: 0.0,
+                    max,
+                }));
             }
         }
-        let grid = listed.iter().filter(|slice| slice.role == Role::Grid);
-        let (min, max) = grid.fold((f64::NAN, f64::NAN), |(min, max), slice| {
-            (slice.ratio.min(min), slice.ratio.max(max))
-        });
-        let exact = |ratio: f64| (ratio - poisson_ratio).abs() < ratio::SAME;
-        let inside = (min..=max).contains(&poisson_ratio);
-        if inside || listed.iter().any(|slice| exact(slice.ratio)) {
-            Ok(Ok(()))
-        } else {
-            outside("poisson_ratio", poisson_ratio, min, max)
-        }
+        Ok(ratio::weights(&served(&source, &listed)?, poisson_ratio).map(drop))
     }
 
-    /// The part for a Poisson ratio and for places (r, z) in r0 no farther than `farthest`.
+    /// The part for a Poisson ratio and for places (r, z) in r0 from the first to the last of `span`.
     ///
     /// Between slices their numbers are interpolated once, here.
-    /// Where the table does not serve the ratio or reach so far, its slices or nodes are loaded whole, so that the
-    /// answers can say what range is.
+    /// Where the table does not serve the ratio, its slices are loaded whole, so that the answers can say what range is;
+    /// where it does not reach so far, as far as it reaches.
     ///
     /// # Errors
-    /// As [`Table::open`].
-    pub fn part(&self, poisson_ratio: f64, farthest: [f64; 2]) -> Result<Table, TableError> {
+    /// As [`Table::open`], and [`BadTable::Changed`].
+    pub fn part(&self, poisson_ratio: f64, span: [[f64; 2]; 2]) -> Result<Table, TableError> {
         let source = open(&self.path)?;
         let (mut content, listed) = source.head()?;
-        let served = listed
-            .iter()
-            .map(|slice| Served::new(slice.ratio, slice.role))
-            .collect::<Result<Vec<_>, _>>()
-            .map_err(|error| source.content(error))?;
-        let wanted = nodes(&content, farthest).unwrap_or(Nodes::all(&content));
-        cut(&mut content, &wanted);
-        let weights =
-            ratio::weights(&served, poisson_ratio).map_err(|error| source.content(error))?;
-        match weights.as_deref() {
-            Some([(index, _)]) => {
-                let slice = source.slice(&content, &listed[*index], &wanted)?;
-                content.slices.push(slice);
-            }
-            Some(weights) if ratio::between(&content, &served, poisson_ratio).is_some() => {
-                let mut blend = Blend::new(&content, &served, poisson_ratio);
-                for &(index, weight) in weights {
-                    let slice = source.slice(&content, &listed[index], &wanted)?;
-                    let added = blend.add(index, weight, slice);
-                    added.map_err(|error| source.content(error))?;
-                }
-                let slice = blend.finish().map_err(|error| source.content(error))?;
-                content.slices.push(slice);
-            }
-            Some(_) | None => {
-                for slice in &listed {
-                    let slice = source.slice(&content, slice, &wanted)?;
-                    content.slices.push(slice);
-                }
-            }
+        if settings_id(&content.origin.grid) != self.id {
+            return Err(BadTable::Changed.of(&self.path));
         }
-        Table::new(content).map_err(|error| source.content(error))
+        let served = served(&source, &listed)?;
+        let (wanted, first) = window(&content, span);
+        let weights = ratio::weights(&served, poisson_ratio);
+        let between = ratio::between(&content, &served, poisson_ratio);
+        content.slices = match (weights.as_deref(), between) {
+            (Ok([(index, _)]), _) => vec![source.slice(&content, &listed[*index], &wanted)?],
+            (Ok(weights), Some(between)) => {
+                let slices: Vec<_> = weights.iter().map(|&(i, w)| (&listed[i], w)).collect();
+                let sum = source.sum(&content, &slices, &wanted)?;
+                let of = |index: usize| source.errors(&content, &listed[index], &wanted);
+                let [below, above] = ratio::beside(&served, weights, poisson_ratio);
+                let beside = [of(above)?, of(below)?];
+                let coordinates = weights.iter().map(|&(i, _)| served[i].coordinate);
+                let added = Added::new(&content, between, coordinates, poisson_ratio);
+                let added = added.map_err(|error| source.content(error))?;
+                vec![Slice {
+                    poisson_ratio,
+                    role: Role::Exact,
+                    verification: blended(&content, &wanted.meshes, beside, &added),
+                    ..sum
+                }]
+            }
+            (_, _) => {
+                let slices = listed.iter();
+                let slices = slices.map(|slice| source.slice(&content, slice, &wanted));
+                slices.collect::<Result<_, _>>()?
+            }
+        };
+        cut(&mut content, &wanted);
+        let table = Table::part(content, first, source.decoded.get());
+        table.map_err(|error| source.content(error))
     }
 }
 
-/// The nodes that places up to `farthest` need, with the meshes beside them; nothing where the table ends before.
-fn nodes(content: &Content, farthest: [f64; 2]) -> Option<Nodes> {
-    let mut wanted = Nodes::all(content);
+/// The slices of a file as far as Poisson's ratio goes.
+fn served(source: &Source, listed: &[Listed]) -> Result<Vec<Served>, TableError> {
+    let slices = listed.iter();
+    let slices = slices.map(|slice| Served::new(slice.ratio, slice.role));
+    let served: Result<_, DomainError> = slices.collect();
+    served.map_err(|error| source.content(error))
+}
+
+/// The nodes that places of a span need, with the meshes beside them, and the first of the meshes read that hold any.
+fn window(content: &Content, span: [[f64; 2]; 2]) -> (Window, [usize; 2]) {
+    let mut wanted = Window::all(content);
+    let mut first = [0; 2];
     for (axis, nodes) in [&content.r, &content.z].into_iter().enumerate() {
-        let served = nodes.get(..=wanted.meshes[axis])?;
+        let served = &nodes[..=wanted.meshes[axis].end];
+        let end = served[served.len() - 1];
+        let [nearest, farthest] = span.map(|place| locate(served, place[axis].min(end)));
+        let (Some(nearest), Some(farthest)) = (nearest, farthest) else {
+            continue;
+        };
         // the neighbours of a mesh tell its error too, and a table has at least the nodes of one stencil
         let beyond = content.stencil_points / 2;
-        let meshes = (locate(served, farthest[axis])? + 2).max(beyond);
-        wanted.meshes[axis] = meshes.min(wanted.meshes[axis]);
-        wanted.nodes[axis] = (wanted.meshes[axis] + beyond).min(nodes.len());
+        let last = nodes.len() - content.stencil_points;
+        let from = nearest.saturating_sub(beyond.max(1)).min(last);
+        let to = (farthest + 2)
+            .max(from + beyond)
+            .min(wanted.meshes[axis].end);
+        wanted.meshes[axis] = from..to;
+        wanted.nodes[axis] = from..(to + beyond).min(nodes.len());
+        first[axis] = if from == 0 { 0 } else { nearest - from };
     }
-    Some(wanted)
+    (wanted, first)
 }
 
 /// Cuts the axes to the nodes read.
-fn cut(content: &mut Content, wanted: &Nodes) {
-    let [columns, rows] = wanted.meshes;
-    if let (Some(&r_max), Some(&z_max)) = (content.r.get(columns), content.z.get(rows)) {
-        (content.r_max, content.z_max) = (r_max, z_max);
+fn cut(content: &mut Content, wanted: &Window) {
+    let Content { r, z, .. } = content;
+    for (axis, nodes) in [r, z].into_iter().enumerate() {
+        let Range { start, end } = wanted.nodes[axis];
+        nodes.truncate(end);
+        nodes.drain(..start);
     }
-    content.r.truncate(wanted.nodes[0]);
-    content.z.truncate(wanted.nodes[1]);
+    let [across, down] = [0, 1].map(|axis| wanted.meshes[axis].len());
+    (content.r_max, content.z_max) = (content.r[across], content.z[down]);
+}
+
+/// Errors of numbers interpolated between two slices: the larger of theirs and, in proportion to the node polynomial, what
+/// was measured between them.
+fn blended(
+    content: &Content,
+    meshes: &[Range<usize>; 2],
+    [above, below]: [Verification; 2],
+    added: &Added<'_>,
+) -> Verification {
+    let mut found = above;
+    for (i, &error) in below.error.iter().enumerate() {
+        found.error[i] = found.error[i].max(error);
+        if below.direct[i].abs() > found.direct[i].abs() {
+            (found.direct[i], found.looked_up[i]) = (below.direct[i], below.looked_up[i]);
+        }
+    }
+    let [across, down] = content.probes();
+    let [across, down] = [&across[meshes[0].clone()], &down[meshes[1].clone()]];
+    let places = across
+        .iter()
+        .flat_map(|&r| down.iter().map(move |&z| [r, z]));
+    let of_place = content.pulse_lengths.len() * FIELDS;
+    for (place, errors) in places.zip(found.error.chunks_exact_mut(of_place)) {
+        let around = added.around(place);
+        for (index, error) in errors.iter_mut().enumerate() {
+            let more = added.most(&around, index / FIELDS, index % FIELDS);
+            *error += (more / SAFETY) as f32;
+        }
+    }
+    found
 }

@@ -48,14 +48,12 @@ fn write_file(path: &Path, content: &Content) -> Result<(), hdf5::Error> {
         .map_or(0, |slice| slice.tail_terms(nodes));
     let orders: Vec<f64> = (0..terms).map(|k| k as f64).collect();
     let term = scale(schema::TERM, &orders)?;
-    let axes = Axes {
-        at_nodes: [&r, &z, &field, &term],
-        at_probes: [&probe_r, &probe_z, &pulse, &field],
-    };
+    let at_nodes = [&r, &z, &field, &term];
+    let at_probes = [&probe_r, &probe_z, &pulse, &field];
     let slices = file.create_group(schema::SLICES)?;
     for slice in &content.slices {
         let group = slices.create_group(&schema::slice_name(slice.poisson_ratio))?;
-        write_slice(&group, content, slice, &axes)?;
+        write_slice(&group, content, slice, [at_nodes, at_probes])?;
     }
     let between_r = scale(schema::BETWEEN_R, &content.between_r)?;
     let between_z = scale(schema::BETWEEN_Z, &content.between_z)?;
@@ -70,19 +68,12 @@ fn write_file(path: &Path, content: &Content) -> Result<(), hdf5::Error> {
     file.close()
 }
 
-/// Scales that slices share.
-struct Axes<'a> {
-    /// r, z, field, term.
-    at_nodes: [&'a Dataset; 4],
-    /// r, z, pulse, field of the probes.
-    at_probes: [&'a Dataset; 4],
-}
-
+/// Writes a slice over scales that all share: r, z, field and term, and r, z, pulse and field of the probes.
 fn write_slice(
     group: &Group,
     content: &Content,
     slice: &Slice,
-    axes: &Axes<'_>,
+    [at_nodes, at_probes]: [[&Dataset; 4]; 2],
 ) -> Result<(), hdf5::Error> {
     // The ratio of a slice was accepted by the physics.
     let scale = cell_scale(slice.poisson_ratio).map_err(|error| error.to_string())?;
@@ -94,7 +85,7 @@ fn write_slice(
     let starts: Vec<f64> = (0..slice.cells).map(|j| j as f64 * width).collect();
     let time = make_scale(group, schema::TIME, &starts)?;
     let (rows, columns) = (content.r.len(), content.z.len());
-    let [r, z, field, term] = axes.at_nodes;
+    let [r, z, field, term] = at_nodes;
     for (name, values) in slice.lists() {
         let (last, scale) = match name {
             schema::TAIL => (slice.tail_terms(rows * columns), term),
@@ -103,7 +94,7 @@ fn write_slice(
         let shape = [rows, columns, FIELDS, last];
         make_data(group, name, &shape, values, &[r, z, field, scale])?;
     }
-    write_verification(group, &slice.verification, &axes.at_probes)
+    write_verification(group, &slice.verification, &at_probes)
 }
 
 fn number(place: &Group, name: &str, value: f64) -> Result<(), hdf5::Error> {

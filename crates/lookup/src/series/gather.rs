@@ -7,38 +7,33 @@ use halfspace::Field;
 /// Rows of numbers that are added at a time, so that the sums are loaded and stored a fourth as often.
 const ROWS: usize = 4;
 
-/// A node of the grid with its weights for fields even and odd across r = 0.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Node {
-    pub(crate) index: usize,
-    even: f64,
-    odd: f64,
-}
-
-/// Nodes of a patch `across` by `down`, of a grid with `depths` depths, times `weight`; those that weigh nothing are left out.
+/// Nodes of a patch `across` by `down`, of a grid with `depths` depths, each with `weight` times its weights for fields even
+/// and odd across r = 0; those that weigh nothing are left out.
 pub(crate) fn nodes(
     across: &Stencil,
     down: &Stencil,
     depths: usize,
     weight: f64,
-) -> impl Iterator<Item = Node> {
+) -> impl Iterator<Item = (usize, [f64; 2])> {
     let columns = across.nodes().iter().zip(across.even()).zip(across.odd());
     columns.flat_map(move |((&i, &even), &odd)| {
         let rows = down.nodes().iter().zip(down.even());
         rows.filter_map(move |(&k, &own)| {
             let row = weight * own;
-            let node = Node {
-                index: i * depths + k,
-                even: even * row,
-                odd: odd * row,
-            };
-            (node.even != 0.0 || node.odd != 0.0).then_some(node)
+            let weights = [even * row, odd * row];
+            (weights != [0.0; 2]).then_some((i * depths + k, weights))
         })
     })
 }
 
 /// Adds the first `used` of `length` numbers of each field of the nodes to `sums`, of shape (field, used).
-pub(crate) fn gather(values: &[f32], length: usize, nodes: &[Node], used: usize, sums: &mut [f64]) {
+pub(crate) fn gather(
+    values: &[f32],
+    length: usize,
+    nodes: &[(usize, [f64; 2])],
+    used: usize,
+    sums: &mut [f64],
+) {
     #[cfg(target_arch = "x86_64")]
     if std::arch::is_x86_feature_detected!("avx2") {
         // SAFETY: the processor has the feature that the function is compiled for.
@@ -54,12 +49,24 @@ pub(crate) fn gather(values: &[f32], length: usize, nodes: &[Node], used: usize,
 /// [`gather_rows`] for wide registers, without fused operations: the results are the same to the last bit.
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
-fn gather_wide(values: &[f32], length: usize, nodes: &[Node], used: usize, sums: &mut [f64]) {
+fn gather_wide(
+    values: &[f32],
+    length: usize,
+    nodes: &[(usize, [f64; 2])],
+    used: usize,
+    sums: &mut [f64],
+) {
     gather_rows(values, length, nodes, used, sums);
 }
 
 #[inline(always)]
-fn gather_rows(values: &[f32], length: usize, nodes: &[Node], used: usize, sums: &mut [f64]) {
+fn gather_rows(
+    values: &[f32],
+    length: usize,
+    nodes: &[(usize, [f64; 2])],
+    used: usize,
+    sums: &mut [f64],
+) {
     if used == 0 {
         return;
     }
@@ -70,15 +77,15 @@ fn gather_rows(values: &[f32], length: usize, nodes: &[Node], used: usize, sums:
             let mut weights = [0.0; ROWS];
             let mut rows: [&[f32]; ROWS] = [&[]; ROWS];
             for (slot, (weight, row)) in weights.iter_mut().zip(&mut rows).enumerate() {
-                let node = group.get(slot).unwrap_or(&group[0]);
+                let (node, parity) = group.get(slot).unwrap_or(&group[0]);
                 if slot < group.len() {
-                    *weight = if ODD[field] { node.odd } else { node.even };
+                    *weight = parity[usize::from(ODD[field])];
                 }
-                let start = (node.index * FIELDS + field) * length;
+                let start = (node * FIELDS + field) * length;
                 *row = &values[start..start + used];
             }
-            for node in next.iter().take(ROWS) {
-                let start = (node.index * FIELDS + field) * length;
+            for (node, _) in next.iter().take(ROWS) {
+                let start = (node * FIELDS + field) * length;
                 fetch(&values[start..start + used]);
             }
             add_rows(weights, rows, sum);

@@ -8,7 +8,7 @@ pub(crate) mod stencil;
 pub(crate) mod tail;
 
 use crate::content::FIELDS;
-use crate::series::tail::{Integrals, Tail};
+use crate::series::tail::Tail;
 use halfspace::Six;
 
 /// What is assumed of the force between samples one cell apart.
@@ -24,16 +24,13 @@ pub enum Smoothness {
     Smooth,
 }
 
-/// The remainder at one point in all its fields: averages, moments and curvatures of the table's cells, tails.
+/// The remainder at one point in all its fields: averages, moments and curvatures of the table's cells, and the tail.
 #[derive(Debug, Clone)]
 pub struct Series {
     width: f64,
-    stored: usize,
-    averages: Vec<f64>,
-    moments: Vec<f64>,
-    curvatures: Vec<f64>,
-    tails: Vec<Tail>,
-    integrals: Integrals,
+    /// Averages, moments and curvatures, cell by cell; the last two may be empty.
+    cells: [Vec<Six>; 3],
+    tail: Tail,
 }
 
 /// Averages, first and second moments of the remainder over consecutive cells, see [`Series::moments`].
@@ -87,21 +84,16 @@ impl Series {
     /// A series from its numbers; `width` is that of a cell, and the tail follows after `cells` of them.
     #[must_use]
     pub fn new(width: f64, cells: usize, numbers: Numbers) -> Self {
-        let terms = (numbers.tail.len() / FIELDS).max(1);
-        let end = cells as f64 * width;
-        let tails: Vec<Tail> = numbers
-            .tail
-            .chunks_exact(terms)
-            .map(|c| Tail::new(end, c))
-            .collect();
+        let lists = [numbers.averages, numbers.moments, numbers.curvatures];
+        let by_cell = |list: Vec<f64>| -> Vec<Six> {
+            let count = list.len() / FIELDS;
+            let cell = |k| std::array::from_fn(|field| list[field * count + k]);
+            (0..count).map(cell).collect()
+        };
         Self {
             width,
-            stored: numbers.averages.len() / FIELDS,
-            integrals: Integrals::new(&tails),
-            tails,
-            averages: numbers.averages,
-            moments: numbers.moments,
-            curvatures: numbers.curvatures,
+            cells: lists.map(by_cell),
+            tail: Tail::new(cells as f64 * width, &numbers.tail),
         }
     }
 
@@ -113,21 +105,16 @@ impl Series {
 
     /// Fills `cells` with averages over 2^`coarsening` table cells, corrected as `smoothness` says.
     pub fn fill(&self, smoothness: Smoothness, coarsening: u32, cells: &mut [Six]) {
-        let fine = 1_usize << coarsening;
-        let whole = (self.stored / fine).min(cells.len());
-        for field in 0..FIELDS {
-            let averages = self.row(&self.averages, field);
-            for (j, cell) in cells[..whole].iter_mut().enumerate() {
-                cell[field] = match fine {
-                    1 => averages[j],
-                    _ => pairwise(&averages[j * fine..(j + 1) * fine]) / fine as f64,
-                };
-            }
-        }
-        self.continue_from(whole, fine, cells);
+        let part = f64::from(coarsening).exp2();
         match smoothness {
-            Smoothness::Linear => {}
-            Smoothness::Smooth => self.correct(fine, cells),
+            Smoothness::Linear => {
+                self.for_each_cell::<1>(part, cells.len(), |j, [average]| cells[j] = average);
+            }
+            Smoothness::Smooth => {
+                let count = cells.len() + smooth::BEYOND;
+                let moments = self.moments(part * self.width, count);
+                cells.copy_from_slice(&moments.absorbed());
+            }
         }
     }
 
@@ -141,7 +128,7 @@ impl Series {
     #[must_use]
     pub fn moments(&self, width: f64, count: usize) -> Moments {
         let part = width / self.width;
-        // a width that is a power of two of cells to rounding is exactly that
+        // a width that is a whole number of cells to rounding is exactly that
         let whole = part.round();
         let part = if (part - whole).abs() < 1e-9 * part {
             whole
@@ -149,212 +136,108 @@ impl Series {
             part
         };
         let mut found = Moments::zero(count);
-        for (field, tail) in self.tails.iter().enumerate() {
-            let rows =
-                [&self.averages, &self.moments, &self.curvatures].map(|v| self.row(v, field));
-            for j in 0..count {
-                let (from, to) = (j as f64 * part, (j + 1) as f64 * part);
-                let [average, first, second] = self.over(rows, tail, from, to);
-                found.averages[j][field] = average;
-                found.first[j][field] = first;
-                found.second[j][field] = second;
-            }
-        }
+        self.for_each_cell(part, count, |j, [average, first, second]| {
+            found.averages[j] = average;
+            found.first[j] = first;
+            found.second[j] = second;
+        });
         found
     }
 
-    /// The three numbers of one field over [from, to], in table cells.
-    fn over(&self, rows: [&[f64]; 3], tail: &Tail, from: f64, to: f64) -> [f64; 3] {
-        let (width, centre) = (to - from, 0.5 * (from + to));
-        let stored = self.stored as f64;
-        let mut sums = [0.0; 3];
-        let mut add = |x: f64, part: f64, [average, moment, bend]: [f64; 3]| {
-            sums[0] += part * average;
-            sums[1] += part * (x * average + part * moment);
-            sums[2] += part
-                * (x * x * average
-                    + 2.0 * x * part * moment
-                    + part * part * (bend + average / 12.0));
-        };
-        let mut k = from.min(stored) as usize;
-        while (k as f64) < to && k < self.stored {
-            let (start, end) = (from.max(k as f64), to.min((k + 1) as f64));
-            let numbers = [rows[0][k], rows[1][k], rows[2][k]];
-            let x = 0.5 * (start + end) - centre;
-            if end - start == 1.0 {
-                add(x, 1.0, numbers);
-            } else if end > start {
-                add(
-                    x,
-                    end - start,
-                    of_part(numbers, start - k as f64, end - k as f64),
-                );
-            }
-            k += 1;
-        }
-        if to > stored {
-            let start = from.max(stored);
-            let edges = thirds(start, to - start, self.width);
-            let [a, b, c] = [0, 1, 2].map(|i| tail.average(edges[i], edges[i + 1]));
-            add(0.5 * (start + to) - centre, to - start, of_thirds(a, b, c));
-        }
-        let average = sums[0] / width;
-        [
-            average,
-            sums[1] / (width * width),
-            sums[2] / (width * width * width) - average / 12.0,
-        ]
-    }
-
-    fn correct(&self, fine: usize, cells: &mut [Six]) {
-        let count = cells.len() + smooth::BEYOND;
-        // Of these cells a part is stored, of those after them none.
-        let mixed = self.stored.div_ceil(fine);
-        let (mut moments, mut curvatures) =
-            (vec![[0.0; FIELDS]; count], vec![[0.0; FIELDS]; count]);
-        for (field, tail) in self.tails.iter().enumerate() {
-            for j in 0..count.min(mixed) {
-                [moments[j][field], curvatures[j][field]] = self.moments_of(field, tail, j, fine);
-            }
-        }
-        self.continue_moments(mixed, fine, &mut moments, &mut curvatures);
-        smooth::absorb(cells, &moments, &curvatures);
-    }
-
-    /// Fills the moments of the cells from `first` on, which the tail has whole: all fields at once, each edge once.
-    fn continue_moments(
+    /// Tells `keep` the first `N` numbers of each of `count` cells that are `part` table cells wide.
+    fn for_each_cell<const N: usize>(
         &self,
-        first: usize,
-        fine: usize,
-        moments: &mut [Six],
-        curvatures: &mut [Six],
+        part: f64,
+        count: usize,
+        mut keep: impl FnMut(usize, [Six; N]),
     ) {
+        let stored = self.cells[0].len() as f64;
+        // the tail's integral where the cell before ended
         let mut near = None;
-        for j in first..moments.len() {
-            let [t0, t1, t2, t3] = thirds((j * fine) as f64, fine as f64, self.width);
-            let g0 = near.unwrap_or_else(|| self.integrals.at(t0));
-            let [g1, g2, g3] = [t1, t2, t3].map(|t| self.integrals.at(t));
-            for f in 0..FIELDS {
-                let a = self.integrals.average(g0[f] - g1[f], t1 - t0);
-                let b = self.integrals.average(g1[f] - g2[f], t2 - t1);
-                let c = self.integrals.average(g2[f] - g3[f], t3 - t2);
-                [_, moments[j][f], curvatures[j][f]] = of_thirds(a, b, c);
+        for j in 0..count {
+            let (from, to) = (j as f64 * part, (j + 1) as f64 * part);
+            let mut sums = [[0.0; FIELDS]; N];
+            let (width, centre) = (to - from, 0.5 * (from + to));
+            let mut start = from;
+            while start < to.min(stored) {
+                let k = start as usize;
+                let edge = (k + 1) as f64;
+                let end = to.min(edge);
+                let place = [
+                    (0.5 * (start + end) - centre) / width,
+                    (end - start) / width,
+                ];
+                let own = std::array::from_fn(|i| self.cells[i][k]);
+                if end - start == 1.0 {
+                    add(place, &own, &mut sums);
+                } else {
+                    let within = [start - k as f64, end - k as f64];
+                    add(place, &of_part(&own, within), &mut sums);
+                }
+                start = end;
             }
-            near = Some(g3);
-        }
-    }
-
-    fn row<'a>(&self, values: &'a [f64], field: usize) -> &'a [f64] {
-        &values[field * self.stored..(field + 1) * self.stored]
-    }
-
-    /// Fills the cells from `whole` on, of which the tail has all or a part: all fields at once, each edge once.
-    fn continue_from(&self, whole: usize, fine: usize, cells: &mut [Six]) {
-        let mut near = None;
-        for (j, cell) in cells.iter_mut().enumerate().skip(whole) {
-            let (from, to) = (j * fine, (j + 1) * fine);
-            let start = from.max(self.stored) as f64 * self.width;
-            let end = to as f64 * self.width;
-            let before = near.unwrap_or_else(|| self.integrals.at(start));
-            let after = self.integrals.at(end);
-            for field in 0..FIELDS {
-                let stored = self.row(&self.averages, field);
-                let sum = pairwise(&stored[from.min(self.stored)..]);
-                let tail = self
-                    .integrals
-                    .average(before[field] - after[field], end - start);
-                cell[field] =
-                    (sum * self.width + tail * (end - start)) / (fine as f64 * self.width);
+            if to > stored {
+                // after the last arrival R is smooth: differences of thirds
+                let start = from.max(stored);
+                let edge = |i: f64| (start + (to - start) * i / 3.0) * self.width;
+                let at = |i: f64| self.tail.integral(edge(i));
+                let begun = near.unwrap_or_else(|| at(0.0));
+                let ended = at(3.0);
+                let over = |[from, to]: [&Six; 2], [start, end]: [f64; 2]| -> Six {
+                    let duration = edge(end) - edge(start);
+                    std::array::from_fn(|f| self.tail.average(from[f] - to[f], duration))
+                };
+                let mut own = [[0.0; FIELDS]; N];
+                let (duration, nominal) = (edge(3.0) - edge(0.0), (to - start) * self.width);
+                own[0] = over([&begun, &ended], [0.0, 3.0]).map(|a| a * duration / nominal);
+                if N > 1 {
+                    let (second, third) = (at(1.0), at(2.0));
+                    let a = over([&begun, &second], [0.0, 1.0]);
+                    let b = over([&second, &third], [1.0, 2.0]);
+                    let c = over([&third, &ended], [2.0, 3.0]);
+                    own[1] = std::array::from_fn(|f| (c[f] - a[f]) / 8.0);
+                    own[2] = std::array::from_fn(|f| (a[f] - 2.0 * b[f] + c[f]) / 40.0);
+                }
+                near = Some(ended);
+                let place = [(0.5 * (start + to) - centre) / width, (to - start) / width];
+                add(place, &own, &mut sums);
             }
-            near = Some(after);
+            keep(j, sums);
         }
-    }
-
-    /// First and second moment over coarse cell `j` from its parts.
-    ///
-    /// With s = (x + y)/F, x the centre of a part and y within it, both in table cells.
-    fn moments_of(&self, field: usize, tail: &Tail, j: usize, fine: usize) -> [f64; 2] {
-        let (from, to) = (j * fine, (j + 1) * fine);
-        let averages = self.row(&self.averages, field);
-        let (moments, curvatures) = (
-            self.row(&self.moments, field),
-            self.row(&self.curvatures, field),
-        );
-        let inside = from.min(self.stored)..to.min(self.stored);
-        let width = fine as f64;
-        if fine == 1 && inside.len() == 1 {
-            return [moments[j], curvatures[j]];
-        }
-        let (mut first, mut second) = (0.0, 0.0);
-        let mut add = |x: f64, part: f64, average: f64, moment: f64, curvature: f64| {
-            // int R s ds and int R (s^2 - 1/12) ds over a part that is `part` table cells wide
-            first += part * (x * average + part * moment) / width;
-            let square = x * x * average
-                + 2.0 * x * part * moment
-                + part * part * (curvature + average / 12.0);
-            second += part * (square / (width * width) - average / 12.0);
-        };
-        let centre = 0.5 * (from + to) as f64;
-        for k in inside {
-            add(
-                k as f64 + 0.5 - centre,
-                1.0,
-                averages[k],
-                moments[k],
-                curvatures[k],
-            );
-        }
-        if to > self.stored {
-            // After the last arrival R is smooth: differences of thirds.
-            let start = from.max(self.stored) as f64;
-            let part = to as f64 - start;
-            let edges = thirds(start, part, self.width);
-            let [a, b, c] = [0, 1, 2].map(|i| tail.average(edges[i], edges[i + 1]));
-            let [average, moment, curvature] = of_thirds(a, b, c);
-            add(
-                start + 0.5 * part - centre,
-                part,
-                average,
-                moment,
-                curvature,
-            );
-        }
-        [first / width, second / width]
     }
 }
 
-/// The three numbers of the part [from, to] of a cell [0, 1] from those of the whole.
-fn of_part([average, moment, bend]: [f64; 3], from: f64, to: f64) -> [f64; 3] {
+/// Adds to the numbers of a cell those of a part of it that lies `x` cells from its centre and is `part` of a cell wide.
+fn add<const N: usize>([x, part]: [f64; 2], own: &[Six; N], sums: &mut [Six; N]) {
+    for f in 0..FIELDS {
+        let average = own[0][f];
+        sums[0][f] += part * average;
+        if N > 1 {
+            let (moment, bend) = (own[1][f], own[2][f]);
+            let (square, wide) = (x * x, part * part);
+            sums[1][f] += part * (x * average + part * moment);
+            sums[2][f] += part
+                * (2.0 * x * part * moment
+                    + wide * bend
+                    + (square + (wide - 1.0) / 12.0) * average);
+        }
+    }
+}
+
+/// The numbers of the part [from, to] of a cell [0, 1] from those of the whole.
+fn of_part<const N: usize>(whole: &[Six; N], [from, to]: [f64; 2]) -> [Six; N] {
     let (x, width) = (0.5 * (from + to) - 0.5, to - from);
-    // R = average + 12 moment y + 180 bend (y^2 - 1/12)
-    let (slope, curve) = (12.0 * moment, 180.0 * bend);
-    [
-        average + slope * x + curve * (x * x + (width * width - 1.0) / 12.0),
-        (slope + 2.0 * curve * x) * width / 12.0,
-        curve * width * width / 180.0,
-    ]
-}
-
-/// Times of the ends and the thirds of a part of a cell, `start` and `part` in table cells.
-fn thirds(start: f64, part: f64, width: f64) -> [f64; 4] {
-    [0.0, 1.0, 2.0, 3.0].map(|i| (start + part * i / 3.0) * width)
-}
-
-/// Average, first and second moment from the averages over thirds.
-fn of_thirds(a: f64, b: f64, c: f64) -> [f64; 3] {
-    [(a + b + c) / 3.0, (c - a) / 8.0, (a - 2.0 * b + c) / 40.0]
-}
-
-/// Sum by halves: a coarse cell is then exactly the mean of its two halves.
-fn pairwise(values: &[f64]) -> f64 {
-    match values {
-        [] => 0.0,
-        [one] => *one,
-        _ => {
-            let (left, right) = values.split_at(values.len().next_power_of_two() / 2);
-            pairwise(left) + pairwise(right)
+    let mut part = *whole;
+    if N > 1 {
+        for f in 0..FIELDS {
+            // R = average + 12 moment y + 180 bend (y^2 - 1/12)
+            let (slope, curve) = (12.0 * whole[1][f], 180.0 * whole[2][f]);
+            part[0][f] += slope * x + curve * (x * x + (width * width - 1.0) / 12.0);
+            part[1][f] = (slope + 2.0 * curve * x) * width / 12.0;
+            part[2][f] = curve * width * width / 180.0;
         }
     }
+    part
 }
 
 #[cfg(test)]
@@ -377,7 +260,7 @@ mod tests {
         };
         let series = Series::new(1.0, 16, numbers);
         // any width, also where edges cut table cells
-        for width in [0.37, 1.0, 1.9, 4.0] {
+        for width in [0.37, 1.0, 1.9, 2.0, 4.0, 8.0] {
             let count = (15.9 / width) as usize;
             let found = series.moments(width, count);
             for j in 0..count {
@@ -392,15 +275,6 @@ mod tests {
                 for (a, b) in own.iter().zip(exact) {
                     assert!((a - b).abs() < 1e-10, "{width} {j}: {own:?} {exact:?}");
                 }
-            }
-        }
-        for fine in [1, 2, 4, 8] {
-            for j in 0..16 / fine {
-                let width = fine as f64;
-                let centre = (j as f64 + 0.5) * width;
-                let [first, second] = series.moments_of(2, &series.tails[2], j, fine);
-                assert!((first - centre * width / 6.0).abs() < 1e-11);
-                assert!((second - width * width / 180.0).abs() < 1e-11);
             }
         }
     }

@@ -48,7 +48,10 @@ fn a_flipped_bit_anywhere_is_found_or_changes_nothing_that_is_read() {
     let whole = std::fs::read(&path).unwrap();
     let reference = content_hash(&sliced());
     let file = TableFile::open(&path).unwrap();
-    let part = file.part(0.13, [0.5, 0.5]).unwrap().into_content();
+    let part = file
+        .part(0.13, [[0.0; 2], [0.5; 2]])
+        .unwrap()
+        .into_content();
     let (mut found, mut kept) = (0, 0);
     for place in (0..whole.len()).step_by(whole.len() / 97) {
         let mut bytes = whole.clone();
@@ -57,7 +60,7 @@ fn a_flipped_bit_anywhere_is_found_or_changes_nothing_that_is_read() {
         // All of it: no byte is without a sum.
         assert!(read(&path).is_err(), "byte {place}");
         // A part of it: refused, or what was hit was not read.
-        match TableFile::open(&path).and_then(|file| file.part(0.13, [0.5, 0.5])) {
+        match TableFile::open(&path).and_then(|file| file.part(0.13, [[0.0; 2], [0.5; 2]])) {
             Ok(table) => {
                 assert_eq!(table.into_content(), part, "byte {place}");
                 kept += 1;
@@ -102,7 +105,7 @@ fn numbers_that_cannot_be_right_are_named() {
     write(&path, &bad).unwrap();
     let error = TableFile::open(&path)
         .unwrap()
-        .part(0.13, [0.5, 0.5])
+        .part(0.13, [[0.0; 2], [0.5; 2]])
         .unwrap_err();
     one_sentence(&error, &path);
     assert!(

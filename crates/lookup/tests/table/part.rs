@@ -20,20 +20,26 @@ fn a_part_of_a_file_gives_the_same_answers() {
         (0.01, false),
         (0.39, false),
     ] {
-        for farthest in [
-            [0.0, 0.0],
-            [whole.content().r[1], z_max],
-            [0.3 * r_max, 0.4 * z_max],
-            [r_max, 0.1 * z_max],
-            [r_max, z_max],
+        for [nearest, farthest] in [
+            [[0.0; 2]; 2],
+            [[0.0; 2], [whole.content().r[1], z_max]],
+            [[0.0; 2], [0.3 * r_max, 0.4 * z_max]],
+            [[0.0; 2], [r_max, 0.1 * z_max]],
+            [[0.0; 2], [r_max, z_max]],
+            [[0.7 * r_max, 0.6 * z_max]; 2],
+            [[0.6 * r_max, 0.0], [0.7 * r_max, z_max]],
+            [[r_max, z_max]; 2],
         ] {
-            let part = file.part(nu, farthest).unwrap();
+            let part = file.part(nu, [nearest, farthest]).unwrap();
             assert_eq!(part.poisson_ratios(), [nu]);
             assert!(part.r_max() >= farthest[0] && part.z_max() >= farthest[1]);
-            assert!(farthest[0] > 0.0 || nodes(&part)[0] < nodes(&whole)[0]);
+            let smaller = farthest[0] == 0.0 || nearest[0] > 0.5 * r_max;
+            assert!(!smaller || nodes(&part)[0] < nodes(&whole)[0]);
             for x in [0.0, 0.31, 0.77, 1.0] {
                 for y in [0.0, 0.12, 0.9, 1.0] {
-                    let (r, z) = (x * farthest[0], y * farthest[1]);
+                    let between = |a: f64, b: f64, x: f64| (a + x * (b - a)).min(b);
+                    let r = between(nearest[0], farthest[0], x);
+                    let z = between(nearest[1], farthest[1], y);
                     let answer = |table: &Table| {
                         let mut cells = vec![[0.0; 6]; CELLS];
                         let info = table.trace(nu, r, z, 0, &mut cells).unwrap();
@@ -41,7 +47,7 @@ fn a_part_of_a_file_gives_the_same_answers() {
                     };
                     let (found, exact) = (answer(&part), answer(&whole));
                     if tabulated {
-                        assert_eq!(found, exact, "{nu} {farthest:?}: {r} {z}");
+                        assert_eq!(found, exact, "{nu} {nearest:?} {farthest:?}: {r} {z}");
                         continue;
                     }
                     for field in 0..6 {
@@ -65,8 +71,26 @@ fn a_part_of_what_is_not_served_has_the_ranges_of_the_whole() {
     write(&path, &sliced()).unwrap();
     let whole = Table::open(&path).unwrap();
     let file = TableFile::open(&path).unwrap();
-    let part = file.part(0.08, [whole.r_max() + 1e-9, 0.0]).unwrap();
-    assert_eq!((part.r_max(), part.z_max()), (whole.r_max(), whole.z_max()));
-    let part = file.part(0.45, [0.1, 0.1]).unwrap();
+    let beyond = [0.0, whole.z_max() + 1e-9];
+    let part = file.part(0.08, [beyond; 2]).unwrap();
+    assert_eq!(part.z_max(), whole.z_max());
+    let part = file.part(0.45, [[0.1; 2]; 2]).unwrap();
     assert_eq!(part.poisson_ratios(), whole.poisson_ratios());
+}
+
+#[test]
+fn a_part_refuses_what_it_was_not_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("t.h5");
+    write(&path, &sliced()).unwrap();
+    let (r, z) = (1.7, 0.1);
+    let part = TableFile::open(&path)
+        .unwrap()
+        .part(0.08, [[r, z]; 2])
+        .unwrap();
+    assert!(part.error(0.08, r, z, 10.0).is_ok());
+    for far in [0.0, 0.3, 1.0] {
+        let error = part.error(0.08, far, z, 10.0).unwrap_err();
+        assert!(error.to_string().starts_with("r/r0 = "), "{error}");
+    }
 }

@@ -19,35 +19,15 @@ const OBLIQUE: [f64; 3] = [2.0, 3.0, 5.0];
 /// Name of the curves under the paper's force.
 const PAPER_FORCE: &str = "under the paper's force";
 
-/// Where the points of a figure lie.
-#[derive(Debug, Clone, Copy)]
-enum Along {
-    Surface,
-    Axis,
-    /// At 45 degrees.
-    Oblique,
-}
+/// Where points lie: how their distance from the centre is called, and r and z over it.
+type Along = (&'static str, [f64; 2]);
 
-impl Along {
-    /// Points at distances in r0.
-    fn places(self, distances: &[f64]) -> Vec<[f64; 2]> {
-        let place = |&d: &f64| match self {
-            Self::Surface => [d, 0.0],
-            Self::Axis => [0.0, d],
-            Self::Oblique => [d * FRAC_1_SQRT_2, d * FRAC_1_SQRT_2],
-        };
-        distances.iter().map(place).collect()
-    }
+const ON_SURFACE: Along = ("r", [1.0, 0.0]);
+const ON_AXIS: Along = ("z", [0.0, 1.0]);
+const AT_45_DEGREES: Along = ("√(r^{2} + z^{2})", [FRAC_1_SQRT_2; 2]);
 
-    /// How the distance is called.
-    fn name(self) -> &'static str {
-        match self {
-            Self::Surface => "r",
-            Self::Axis => "z",
-            Self::Oblique => "√(r^{2} + z^{2})",
-        }
-    }
-}
+/// A field over time: time in s and value.
+type Curve = Vec<(f64, f64)>;
 
 /// What a figure shows.
 struct Shown {
@@ -59,7 +39,7 @@ struct Shown {
     distances: &'static [f64],
     caption: &'static str,
     /// What is said of it, from its curves.
-    claims: fn(&[History<'_>], &Histories) -> Vec<Claim>,
+    claims: fn(&[Curve], &WaveSpeeds) -> Vec<Claim>,
 }
 
 const SHOWN: [Shown; 5] = [
@@ -67,7 +47,7 @@ const SHOWN: [Shown; 5] = [
         name: "fig-07",
         title: "Fig. 7: deflection w(r, 0, t) of the surface",
         field: Field::DisplacementZ,
-        along: Along::Surface,
+        along: ON_SURFACE,
         distances: &SURFACE,
         caption: "",
         claims: of_surface,
@@ -76,7 +56,7 @@ const SHOWN: [Shown; 5] = [
         name: "fig-08",
         title: "Fig. 8: displacement w(0, z, t) on the axis",
         field: Field::DisplacementZ,
-        along: Along::Axis,
+        along: ON_AXIS,
         distances: &DEPTHS,
         caption: "Caption and text of the paper's figure disagree: z = 0 in one, \"r = 0.1 r0\" in the other; here it is z = 0.",
         claims: of_depths,
@@ -85,7 +65,7 @@ const SHOWN: [Shown; 5] = [
         name: "fig-09",
         title: "Fig. 9: stress on the axis over the tensile strength of copper",
         field: Field::StressZz,
-        along: Along::Axis,
+        along: ON_AXIS,
         distances: &[1.0, 3.0, 5.0],
         caption: "Compression is negative.",
         claims: |curves, _| vec![amplitude(curves, 1.0 / STRENGTH_PA, "")],
@@ -94,7 +74,7 @@ const SHOWN: [Shown; 5] = [
         name: "fig-10",
         title: "Fig. 10: stress at 45 degrees over the tensile strength of copper",
         field: Field::StressZz,
-        along: Along::Oblique,
+        along: AT_45_DEGREES,
         distances: &OBLIQUE,
         caption: "Caption and text of the paper disagree on the first point, 2 r0/√2 from both axes; here it is that.",
         claims: of_reversal,
@@ -103,7 +83,7 @@ const SHOWN: [Shown; 5] = [
         name: "fig-11",
         title: "Fig. 11: radial stress on the surface over the tensile strength of copper",
         field: Field::StressRr,
-        along: Along::Surface,
+        along: ON_SURFACE,
         distances: &[1.0, 3.0, 5.0],
         caption: "",
         claims: of_quiet,
@@ -111,75 +91,96 @@ const SHOWN: [Shown; 5] = [
 ];
 
 impl Shown {
-    /// The ordinate, and what the field is divided by.
-    fn ordinate(&self) -> (Axis, f64) {
-        if self.field == Field::DisplacementZ {
-            return (Axis::linear("axial displacement w").si("m"), 1.0);
-        }
-        let component = if self.field == Field::StressRr {
-            "rr"
-        } else {
-            "zz"
+    /// Its points, r and z in r0.
+    fn places(&self) -> impl Iterator<Item = [f64; 2]> {
+        let (_, direction) = self.along;
+        let place = move |&d: &f64| direction.map(|part| d * part);
+        self.distances.iter().map(place)
+    }
+
+    /// Its curves among the fields at all points.
+    fn curves(&self, fields: &[([f64; 2], FieldHistory)]) -> Vec<Curve> {
+        let find = |place| fields.iter().find(|(other, _)| *other == place);
+        let found = self.places().filter_map(find);
+        let curve = |(_, history): &([f64; 2], FieldHistory)| {
+            let samples = history[self.field].samples.iter().copied();
+            history.time_s.iter().copied().zip(samples).collect()
         };
-        let axis = Axis::linear(&format!("σ_{{{component}}}/R_{{m}}"));
-        (axis, STRENGTH_PA)
+        found.map(curve).collect()
+    }
+
+    fn draw(&self, ours: &[Curve], theirs: &[Curve], speeds: &WaveSpeeds) -> Figure {
+        let (axis, scale) = match self.field {
+            Field::DisplacementZ => (Axis::linear("axial displacement w").si("m"), 1.0),
+            Field::StressRr => (Axis::linear("σ_{rr}/R_{m}"), STRENGTH_PA),
+            _ => (Axis::linear("σ_{zz}/R_{m}"), STRENGTH_PA),
+        };
+        let scaled = |curve: &Curve| curve.iter().map(|&(t, x)| (t, x / scale)).collect();
+        let mut panel = Panel::new(Axis::linear("time").si("s"), axis)
+            .height(420.0)
+            .legend(Legend::Outside);
+        for curve in theirs {
+            panel = panel.line(PAPER_FORCE, Style::Dotted, scaled(curve));
+        }
+        let (along, _) = self.along;
+        for (curve, distance) in ours.iter().zip(self.distances) {
+            let name = match distance {
+                0.0 => format!("{along} = 0"),
+                1.0 => format!("{along} = r_{{0}}"),
+                _ => format!("{along} = {distance} r_{{0}}"),
+            };
+            panel.x.range = curve.last().map(|end| (0.0, end.0));
+            panel = panel.line(&name, Style::Plain, scaled(curve));
+        }
+        for ([r, z], distance) in self.places().zip(self.distances) {
+            let first_s = speeds.arrivals_s(r * RADIUS_M, z * RADIUS_M, RADIUS_M)[0];
+            if first_s > 0.0 {
+                panel = panel.mark(first_s, &format!("P, {distance}"));
+            }
+        }
+        let subtitle = "copper of 123 GPa, converged; P: first wave at each distance in r_{0}";
+        single(self.title, subtitle, panel)
     }
 }
 
 /// Figs 7 to 11.
 pub(super) fn figures(runs: &Runs) -> Result<Vec<Redrawn>, AnyError> {
-    let mut places = Along::Surface.places(&SURFACE);
-    places.extend(Along::Axis.places(&DEPTHS));
-    places.extend(Along::Oblique.places(&OBLIQUE));
-    let ours = Histories::new(&runs.table_1, &places)?;
-    let theirs = Histories::new(&runs.scheme, &places)?;
+    let (ours, theirs) = (fields(&runs.table_1)?, fields(&runs.scheme)?);
+    let speeds = runs.table_1.excitation().speeds();
     let redrawn = |shown: &Shown| {
-        let places = shown.along.places(shown.distances);
-        let curves: Vec<History<'_>> = ours.of(shown.field, &places).collect();
+        let curves = shown.curves(&ours);
         Redrawn {
             name: shown.name,
             title: shown.title,
-            figure: draw(shown, &ours, &theirs),
+            figure: shown.draw(&curves, &shown.curves(&theirs), &speeds),
             caption: shown.caption,
-            claims: (shown.claims)(&curves, &ours),
+            claims: (shown.claims)(&curves, &speeds),
         }
     };
     Ok(SHOWN.iter().map(redrawn).collect())
 }
 
-fn draw(shown: &Shown, ours: &Histories, theirs: &Histories) -> Figure {
-    let mut end_s = 0.0_f64;
-    let places = shown.along.places(shown.distances);
-    let (axis, scale) = shown.ordinate();
-    let mut panel = Panel::new(Axis::linear("time").si("s"), axis)
-        .height(420.0)
-        .legend(Legend::Outside);
-    for history in theirs.of(shown.field, &places) {
-        panel = panel.line(PAPER_FORCE, Style::Dotted, history.curve(scale));
-    }
-    let along = shown.along.name();
-    for (history, distance) in ours.of(shown.field, &places).zip(shown.distances) {
-        let name = match distance {
-            0.0 => format!("{along} = 0"),
-            1.0 => format!("{along} = r_{{0}}"),
-            _ => format!("{along} = {distance} r_{{0}}"),
-        };
-        end_s = history.time_s.last().copied().unwrap_or(0.0);
-        panel = panel.line(&name, Style::Plain, history.curve(scale));
-    }
-    for ([r, z], distance) in places.iter().zip(shown.distances) {
-        let first_s = ours.speeds.arrivals_s(r * RADIUS_M, z * RADIUS_M, RADIUS_M)[0];
-        if first_s > 0.0 {
-            panel = panel.mark(first_s, &format!("P, {distance}"));
+/// The fields of a run at the points of all figures, each once.
+fn fields(run: &Run) -> Result<Vec<([f64; 2], FieldHistory)>, AnyError> {
+    let mut places: Vec<[f64; 2]> = Vec::new();
+    for place in SHOWN.iter().flat_map(Shown::places) {
+        if !places.contains(&place) {
+            places.push(place);
         }
     }
-    panel.x = panel.x.range(0.0, end_s);
-    let subtitle = "copper of 123 GPa, converged; P: first wave at each distance in r_{0}";
-    single(shown.title, subtitle, panel)
+    let fields = run.excitation().fields(1e-2 * TOLERANCE)?;
+    let fields = fields
+        .until(UNTIL * run.contact_time_s)
+        .to_tolerance(TOLERANCE);
+    let at = places.into_par_iter().map(|[r, z]| {
+        let history = fields.at(r * RADIUS_M, z * RADIUS_M)?;
+        Ok(([r, z], history))
+    });
+    at.collect()
 }
 
 /// Values in words, from the nearest point to the farthest.
-fn list(curves: &[History<'_>], of: impl Fn(&History<'_>) -> f64, digits: usize) -> String {
+fn list(curves: &[Curve], of: impl Fn(&Curve) -> f64, digits: usize) -> String {
     let values: Vec<String> = curves
         .iter()
         .map(|c| format!("{:.digits$}", of(c)))
@@ -188,43 +189,45 @@ fn list(curves: &[History<'_>], of: impl Fn(&History<'_>) -> f64, digits: usize)
 }
 
 /// Whether values fall or rise from point to point.
-fn falls(curves: &[History<'_>], of: impl Fn(&History<'_>) -> f64) -> bool {
+fn falls(curves: &[Curve], of: impl Fn(&Curve) -> f64) -> bool {
     curves.windows(2).all(|pair| of(&pair[1]) < of(&pair[0]))
 }
 
-fn amplitude(curves: &[History<'_>], scale: f64, unit: &str) -> Claim {
+fn amplitude(curves: &[Curve], scale: f64, unit: &str) -> Claim {
     Claim::new(
         "away from the source the amplitude decreases",
-        falls(curves, |c| c.peak().abs()),
-        format!("{} {unit}", list(curves, |c| scale * c.peak(), 2))
+        falls(curves, |c| peak(c).abs()),
+        format!("{} {unit}", list(curves, |c| scale * peak(c), 2))
             .trim_end()
             .to_owned(),
     )
 }
 
-fn width(curves: &[History<'_>]) -> Claim {
+fn width(curves: &[Curve]) -> Claim {
     Claim::new(
         "away from the source the disturbance widens",
-        falls(curves, |c| -c.width_s()),
+        falls(curves, |c| -width_s(c)),
         format!(
             "time above half the peak {} us",
-            list(curves, |c| 1e6 * c.width_s(), 2)
+            list(curves, |c| 1e6 * width_s(c), 2)
         ),
     )
 }
 
 /// A deflection against the main one, beyond a fraction of it, at the points after the first ones.
-fn negative(curves: &[History<'_>], fraction: f64, places: &str) -> Claim {
+fn negative(curves: &[Curve], fraction: f64, places: &str) -> Claim {
     Claim::new(
         "away from the source a slight negative deflection appears",
-        curves.iter().all(|c| c.other() < -fraction * c.peak()),
-        format!("{} um at {places}", list(curves, |c| 1e6 * c.other(), 2)),
+        curves.iter().all(|c| other(c) < -fraction * peak(c)),
+        format!("{} um at {places}", list(curves, |c| 1e6 * other(c), 2)),
     )
 }
 
-fn of_surface(curves: &[History<'_>], ours: &Histories) -> Vec<Claim> {
-    let rayleigh_s = ours.speeds.arrivals_s(5.0 * RADIUS_M, 0.0, RADIUS_M)[2];
-    let at_rayleigh = curves[3].share_at(rayleigh_s);
+fn of_surface(curves: &[Curve], speeds: &WaveSpeeds) -> Vec<Claim> {
+    let rayleigh_s = speeds.arrivals_s(5.0 * RADIUS_M, 0.0, RADIUS_M)[2];
+    // of its peak
+    let after = curves[3].iter().find(|(t, _)| *t >= rayleigh_s);
+    let at_rayleigh = after.map_or(0.0, |(_, x)| x / peak(&curves[3]));
     vec![
         amplitude(curves, 1e6, "um"),
         width(curves),
@@ -240,7 +243,7 @@ fn of_surface(curves: &[History<'_>], ours: &Histories) -> Vec<Claim> {
     ]
 }
 
-fn of_depths(curves: &[History<'_>], _: &Histories) -> Vec<Claim> {
+fn of_depths(curves: &[Curve], _: &WaveSpeeds) -> Vec<Claim> {
     vec![
         amplitude(curves, 1e6, "um"),
         width(curves),
@@ -248,23 +251,27 @@ fn of_depths(curves: &[History<'_>], _: &Histories) -> Vec<Claim> {
     ]
 }
 
-fn of_reversal(curves: &[History<'_>], _: &Histories) -> Vec<Claim> {
+fn of_reversal(curves: &[Curve], _: &WaveSpeeds) -> Vec<Claim> {
     vec![
         amplitude(curves, 1.0 / STRENGTH_PA, ""),
         Claim::new(
             "at the end of the disturbance the stress changes its sign into tension",
-            curves.iter().all(|c| c.other() > 1e-3 * c.peak().abs()),
+            curves.iter().all(|c| other(c) > 1e-3 * peak(c).abs()),
             format!(
                 "largest tension {} Rm",
-                list(curves, |c| c.other() / STRENGTH_PA, 3)
+                list(curves, |c| other(c) / STRENGTH_PA, 3)
             ),
         ),
     ]
 }
 
-fn of_quiet(curves: &[History<'_>], ours: &Histories) -> Vec<Claim> {
-    let first_s = ours.speeds.arrivals_s(5.0 * RADIUS_M, 0.0, RADIUS_M)[0];
-    let found_s = curves.last().map_or(f64::NAN, |c| c.first_s(1e-9));
+fn of_quiet(curves: &[Curve], speeds: &WaveSpeeds) -> Vec<Claim> {
+    let first_s = speeds.arrivals_s(5.0 * RADIUS_M, 0.0, RADIUS_M)[0];
+    let found_s = curves.last().map_or(f64::NAN, |curve| {
+        let most = 1e-9 * peak(curve).abs();
+        let first = curve.iter().find(|(_, x)| x.abs() > most);
+        first.map_or(f64::INFINITY, |(t, _)| *t)
+    });
     vec![
         amplitude(curves, 1.0 / STRENGTH_PA, ""),
         Claim::new(
@@ -285,99 +292,33 @@ const UNTIL: f64 = 1.6;
 /// Relative tolerance of the fields.
 const TOLERANCE: f64 = 1e-4;
 
-/// The fields of a run at points, r and z in r0.
-#[derive(Debug, Clone)]
-struct Histories {
-    /// Wave speeds of the anvil.
-    speeds: WaveSpeeds,
-    at: Vec<([f64; 2], FieldHistory)>,
+/// The value of a curve that is farthest from zero.
+fn peak(curve: &Curve) -> f64 {
+    let larger = |most: f64, &(_, x): &(f64, f64)| if x.abs() > most.abs() { x } else { most };
+    curve.iter().fold(0.0, larger)
 }
 
-/// A field at a point.
-#[derive(Debug, Clone, Copy)]
-struct History<'a> {
-    time_s: &'a [f64],
-    samples: &'a [f64],
+/// The value farthest on the other side of zero than the peak, with its sign.
+fn other(curve: &Curve) -> f64 {
+    let sign = peak(curve).signum();
+    let farther = |most: f64, &(_, x): &(f64, f64)| if x * sign < most * sign { x } else { most };
+    curve.iter().fold(0.0, farther)
 }
 
-impl Histories {
-    /// Computes them.
-    fn new(run: &Run, places: &[[f64; 2]]) -> Result<Self, AnyError> {
-        let excitation = run.excitation();
-        let fields = excitation
-            .fields(1e-2 * TOLERANCE)?
-            .until(UNTIL * run.contact_time_s)
-            .to_tolerance(TOLERANCE);
-        let at = places.par_iter().map(|&[r, z]| {
-            let history = fields.at(r * RADIUS_M, z * RADIUS_M)?;
-            Ok::<_, AnyError>(([r, z], history))
-        });
-        Ok(Self {
-            speeds: excitation.speeds(),
-            at: at.collect::<Result<_, _>>()?,
-        })
+/// The time in s for which a curve is above half its peak.
+fn width_s(curve: &Curve) -> f64 {
+    let (peak, mut width) = (peak(curve), 0.0);
+    for pair in curve.windows(2) {
+        let ((before_s, before), (after_s, after)) = (pair[0], pair[1]);
+        let above = |x: f64| (x / peak).max(0.5) - 0.5 > 0.0;
+        width += match (above(before), above(after)) {
+            (true, true) => after_s - before_s,
+            (false, false) => 0.0,
+            (left, _) => {
+                let share = (0.5 * peak - before) / (after - before);
+                (after_s - before_s) * if left { share } else { 1.0 - share }
+            }
+        };
     }
-
-    /// A field at each of some points, which are among those computed.
-    fn of<'a>(&'a self, field: Field, places: &'a [[f64; 2]]) -> impl Iterator<Item = History<'a>> {
-        let of_place = move |place: &[f64; 2]| self.at.iter().find(|(other, _)| other == place);
-        places
-            .iter()
-            .filter_map(of_place)
-            .map(move |(_, history)| History {
-                time_s: &history.time_s,
-                samples: &history[field].samples,
-            })
-    }
-}
-
-impl History<'_> {
-    /// The points of a curve, over `scale`.
-    fn curve(&self, scale: f64) -> Vec<(f64, f64)> {
-        let points = self.time_s.iter().zip(self.samples);
-        points.map(|(&t, &x)| (t, x / scale)).collect()
-    }
-
-    /// The value that is farthest from zero.
-    fn peak(&self) -> f64 {
-        let larger = |most: f64, &x: &f64| if x.abs() > most.abs() { x } else { most };
-        self.samples.iter().fold(0.0, larger)
-    }
-
-    /// The value farthest on the other side of zero than the peak, with its sign.
-    fn other(&self) -> f64 {
-        let sign = self.peak().signum();
-        let farther = |most: f64, &x: &f64| if x * sign < most * sign { x } else { most };
-        self.samples.iter().fold(0.0, farther)
-    }
-
-    /// The time in s for which it is above half its peak.
-    fn width_s(&self) -> f64 {
-        let (peak, mut width) = (self.peak(), 0.0);
-        for (times, values) in self.time_s.windows(2).zip(self.samples.windows(2)) {
-            let above = |x: f64| (x / peak).max(0.5) - 0.5 > 0.0;
-            width += match (above(values[0]), above(values[1])) {
-                (true, true) => times[1] - times[0],
-                (false, false) => 0.0,
-                (left, _) => {
-                    let share = (0.5 * peak - values[0]) / (values[1] - values[0]);
-                    (times[1] - times[0]) * if left { share } else { 1.0 - share }
-                }
-            };
-        }
-        width
-    }
-
-    /// Its value at a time, in its peak.
-    fn share_at(&self, time_s: f64) -> f64 {
-        let after = self.time_s.partition_point(|&t| t < time_s);
-        self.samples.get(after).map_or(0.0, |x| x / self.peak())
-    }
-
-    /// When it first exceeds a share of its peak, in s.
-    fn first_s(&self, share: f64) -> f64 {
-        let most = share * self.peak().abs();
-        let first = self.samples.iter().position(|x| x.abs() > most);
-        first.map_or(f64::INFINITY, |i| self.time_s[i])
-    }
+    width
 }

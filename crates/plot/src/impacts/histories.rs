@@ -2,9 +2,9 @@
 
 use crate::error::{PlotError, chosen};
 use crate::series::{curve, end_s, waves_of};
-use crate::words::{component, of_quantity, unit_of, with_unit};
+use crate::words::{axis, component, of_quantity, with_unit};
 use contact::{Model, Settings};
-use figure::{Axis, Legend, Panel, Style};
+use figure::{Axis, Legend, Panel, Scale, Style};
 use formats::quantities::Described;
 use formats::stored::{StoredImpact, StoredProbes};
 use impact::Impact;
@@ -15,8 +15,7 @@ pub(super) const FEW: usize = 3;
 /// An empty panel over time.
 fn over_time(quantity: &str, unit: &str, end_s: f64, legend: Legend) -> Panel {
     let time = Axis::linear("time").si("s").range(0.0, end_s);
-    let mut value = Axis::linear(quantity);
-    value.unit = unit_of(unit);
+    let value = axis(quantity, unit, Scale::Linear);
     Panel::new(time, value).height(210.0).legend(legend)
 }
 
@@ -34,32 +33,52 @@ pub(super) fn contact_panels(
         [only] => Some(only),
         _ => None,
     };
-    // several impacts have the same colours in all panels, and one legend
-    let legend = single.map_or(Legend::Off, |_| Legend::Auto);
-    let empty = |quantity, unit| over_time(quantity, unit, end_s, legend);
-    let with_all = |mut panel: Panel, name, samples: fn(&StoredImpact) -> Option<&Vec<f64>>| {
-        for (impact, label) in impacts.iter().zip(labels) {
-            if let Some(samples) = samples(impact) {
-                let name = single.map_or(label.as_str(), |_| name);
-                let points = curve(&impact.series.time_s, samples, end_s);
-                panel = panel.line(name, Style::Plain, points);
+    type Samples = fn(&StoredImpact) -> Option<&Vec<f64>>;
+    let force: Samples = |impact| Some(&impact.series.force_n);
+    let displacement: Samples = |impact| Some(&impact.series.striker.as_ref()?.displacement_m);
+    let velocity: Samples = |impact| Some(&impact.series.striker.as_ref()?.velocity_m_s);
+    let deflection: Samples = |impact| Some(&impact.series.deflection_m);
+    // quantity and unit of each panel, and its curves: of several impacts one each, which have one legend and the same
+    // colours in all panels
+    let (shown, legend) = match single {
+        Some(only) => {
+            let moved = vec![
+                ("striker", displacement),
+                (deflection_name(only), deflection),
+            ];
+            let panels = vec![
+                ("force", "N", vec![("contact force", force)]),
+                ("displacement", "m", moved),
+                ("velocity of the striker", "m/s", vec![("", velocity)]),
+            ];
+            (panels, Legend::Auto)
+        }
+        None => {
+            let panels = vec![
+                ("force", "N", vec![("", force)]),
+                ("displacement of the striker", "m", vec![("", displacement)]),
+                ("deflection of the half-space", "m", vec![("", deflection)]),
+                ("velocity of the striker", "m/s", vec![("", velocity)]),
+            ];
+            (panels, Legend::Off)
+        }
+    };
+    let mut panels: Vec<Panel> = Vec::new();
+    for (quantity, unit, curves) in shown {
+        let mut panel = over_time(quantity, unit, end_s, legend);
+        for (name, samples) in curves {
+            for (impact, label) in impacts.iter().zip(labels) {
+                if let Some(samples) = samples(impact) {
+                    let name = single.map_or(label.as_str(), |_| name);
+                    let points = curve(&impact.series.time_s, samples, end_s);
+                    panel = panel.line(name, Style::Plain, points);
+                }
             }
         }
-        panel
-    };
-    let force = empty("force", "N").legend(Legend::Auto);
-    let mut force = with_all(force, "contact force", |i| Some(&i.series.force_n));
-    let displacement = match single {
-        Some(_) => empty("displacement", "m"),
-        None => empty("displacement of the striker", "m"),
-    };
-    let mut displacement = with_all(displacement, "striker", |i| {
-        Some(&i.series.striker.as_ref()?.displacement_m)
-    });
-    let velocity = with_all(empty("velocity of the striker", "m/s"), "", |i| {
-        Some(&i.series.striker.as_ref()?.velocity_m_s)
-    });
-    let has_striker = !velocity.layers.is_empty();
+        panels.push(panel);
+    }
+    panels.retain(|panel| !panel.layers.is_empty());
+    let mut force = panels.remove(0).legend(Legend::Auto);
     if let Some(only) = single {
         if let Some(hertz) = hertz(only, end_s) {
             force = force.line("Hertz, without waves", Style::Plain, hertz);
@@ -69,30 +88,18 @@ pub(super) fn contact_panels(
         if let Some(echo_s) = speeds.first_echo_s(&only.target, [0.0; 2], 0.0) {
             force = force.mark(start_s + echo_s, "first echo");
         }
-        let points = curve(&only.series.time_s, &only.series.deflection_m, end_s);
-        displacement = displacement.line(deflection_name(only), Style::Plain, points);
     }
-    let mut panels = vec![force];
-    if has_striker || single.is_some() {
-        panels.push(displacement);
-    }
-    if single.is_none() {
-        let deflection = empty("deflection of the half-space", "m");
-        panels.push(with_all(deflection, "", |i| Some(&i.series.deflection_m)));
-    }
-    if has_striker {
-        panels.push(velocity);
-    }
+    panels.insert(0, force);
     Ok(panels)
 }
 
 /// Force against the displacement of the striker, one curve an impact.
 pub(super) fn loop_panel(impacts: &[StoredImpact], labels: &[String]) -> Result<Panel, PlotError> {
-    let axes = [("approach", "m"), ("force", "N")].map(|(name, unit)| Axis::linear(name).si(unit));
-    let [approach, force] = axes;
-    let mut panel = Panel::new(approach, force)
-        .height(380.0)
-        .legend(Legend::Auto);
+    let (approach, force) = (
+        Axis::linear("approach").si("m"),
+        Axis::linear("force").si("N"),
+    );
+    let mut panel = Panel::new(approach, force).height(380.0);
     for (impact, label) in impacts.iter().zip(labels) {
         let series = &impact.series;
         let Some(striker) = &series.striker else {
@@ -102,11 +109,8 @@ pub(super) fn loop_panel(impacts: &[StoredImpact], labels: &[String]) -> Result<
         let pairs = striker.displacement_m.iter().zip(&series.force_n);
         let pressed = |pair: &(&f64, &f64)| *pair.1 > 0.0;
         let points = pairs.clone().take(1).chain(pairs.filter(pressed));
-        panel = panel.line(
-            label,
-            Style::Plain,
-            points.map(|(&d, &p)| (d, p)).collect::<Vec<_>>(),
-        );
+        let points = points.map(|(&d, &p)| (d, p)).collect();
+        panel = panel.line(label, Style::Plain, points);
     }
     Ok(panel)
 }
@@ -185,8 +189,8 @@ pub(super) fn probe_panels(
             let legend = if is_told { Legend::Off } else { Legend::Auto };
             let mut panel = probe_panel(first, place, of_unit, legend)?;
             for (impact, label, other) in &files {
-                let at = |i: &usize| [other.r_m[*i], other.z_m[*i]] == place;
-                if let Some(found) = (0..other.r_m.len()).find(at) {
+                let mut all = other.r_m.iter().zip(&other.z_m);
+                if let Some(found) = all.position(|(r_m, z_m)| [*r_m, *z_m] == place) {
                     let label = (files.len() > 1).then_some(label.as_str());
                     panel = with_traces(panel, impact, other, found, of_unit, label)?;
                 }
@@ -257,11 +261,13 @@ fn with_traces(
             continue;
         }
         let points = curve(&impact.series.time_s, &samples, f64::INFINITY);
-        if let Some(error) = probes.error(&quantity.name, probe) {
-            let band = points.iter().map(|&(t, y)| (t, y - error, y + error));
-            panel = panel.band(&name, band.collect());
-        }
-        panel = panel.line(&name, Style::Plain, points);
+        panel = match probes.error(&quantity.name, probe) {
+            Some(error) => {
+                let within = points.iter().map(|&(t, y)| (t, [y - error, y, y + error]));
+                panel.banded(&name, Style::Plain, &within.collect::<Vec<_>>())
+            }
+            None => panel.line(&name, Style::Plain, points),
+        };
     }
     Ok(panel)
 }

@@ -9,7 +9,7 @@ mod spectrum;
 
 use crate::error::{PlotError, only};
 use crate::request::{Drawn, Kind, Request};
-use crate::section::{Path, axis_profile, frames, peak, space_time};
+use crate::section::{axis_profile, frames, peak, space_time};
 use crate::words::with_unit;
 use contact::Shape;
 use figure::{Figure, Panel, Sharing};
@@ -43,8 +43,8 @@ pub(crate) fn of_impacts(impacts: &[StoredImpact], request: &Request) -> Result<
         Kind::Spectrum => Ok(single(spectrum(impacts, &labels(impacts))?)),
         Kind::Peak => Ok(single(peak(one()?, request)?)),
         Kind::Axis => Ok(single(axis_profile(one()?, request)?)),
-        Kind::Surface => Ok(single(space_time(one()?, request, Path::Surface)?)),
-        Kind::Depth => Ok(single(space_time(one()?, request, Path::Axis)?)),
+        Kind::Surface => Ok(single(space_time(one()?, request, true)?)),
+        Kind::Depth => Ok(single(space_time(one()?, request, false)?)),
         Kind::Sweep | Kind::Loss | Kind::Restitution | Kind::Histogram | Kind::Errors => Err(
             PlotError::unsuitable(impacts[0].path(), FileKind::Impact, kind),
         ),

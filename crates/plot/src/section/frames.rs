@@ -3,12 +3,9 @@
 use crate::error::PlotError;
 use crate::request::Request;
 use crate::series::{end_s, waves_of};
-use crate::words::{of_quantity, unit_of};
+use crate::words::{axis, of_quantity};
 use contact::{Choice, WaveSpeeds};
-use figure::{
-    Axis, ColourMap, ColourScale, Image, LabelledPoint, Layer, Limits, Line, Mirror, Panel,
-    Shading, Style,
-};
+use figure::{Axis, ColourMap, Image, LabelledPoint, Layer, Line, Panel, Scale, Style};
 use formats::quantities::Described;
 use formats::stored::{ReadError, StoredImpact, StoredSection};
 use std::f64::consts::FRAC_PI_2;
@@ -77,6 +74,22 @@ impl<'a> Section<'a> {
         self.pulse_s > self.crossing_s()
     }
 
+    /// The frames nearest to the times that somebody asks for.
+    pub(super) fn asked(&self, times_s: &[f64]) -> Result<Vec<usize>, PlotError> {
+        let known = &self.stored.time_s;
+        let (first_s, last_s) = (known[0], known[known.len() - 1]);
+        let outside = times_s
+            .iter()
+            .find(|time_s| !(first_s..=last_s).contains(*time_s));
+        if let Some(time_s) = outside {
+            let sentence = format!(
+                "there is no frame at {time_s:?} s: those of the section are from {first_s:?} to {last_s:?} s"
+            );
+            return Err(PlotError::refused(None, sentence));
+        }
+        Ok(times_s.iter().map(|&time_s| self.nearest(time_s)).collect())
+    }
+
     /// The frame nearest to a time.
     pub(super) fn nearest(&self, time_s: f64) -> usize {
         let known = &self.stored.time_s;
@@ -93,20 +106,20 @@ impl<'a> Section<'a> {
         quantity: &Quantity,
         rows: &[Vec<f64>],
         is_far: &[bool],
-    ) -> ColourScale {
+    ) -> (Axis, ColourMap) {
         let near = self.is_near();
         let shown = rows.iter().flat_map(|row| {
             let pairs = row.iter().zip(is_far).filter(|(_, far)| near || **far);
             pairs.map(|(value, _)| *value)
         });
         let largest = quantile_of_sizes(shown, if near { 0.999 } else { 0.985 });
-        let colours = quantity.colours(largest);
-        match near && !quantity.has_sign() {
-            true => colours
-                .logarithmic()
-                .limits(Limits::Between(1e-3 * largest, largest)),
-            false => colours,
-        }
+        let (scale, low, map) = match (quantity.has_sign(), near) {
+            (true, _) => (Scale::Linear, -largest, ColourMap::Diverging),
+            (false, true) => (Scale::Logarithmic, 1e-3 * largest, ColourMap::Sequential),
+            (false, false) => (Scale::Linear, 0.0, ColourMap::Sequential),
+        };
+        let axis = axis(&quantity.words, &quantity.unit, scale);
+        (axis.range(low, largest), map)
     }
 
     /// Its extents along r and z in m.
@@ -150,20 +163,15 @@ impl<'a> Section<'a> {
     }
 
     /// Values over the section, mirrored at the axis.
-    pub(super) fn map(&self, values: Vec<f64>, colours: ColourScale) -> Panel {
+    pub(super) fn map(&self, values: Vec<f64>, colours: Axis, map: ColourMap) -> Panel {
         let [r_max_m, z_max_m] = self.extent_m();
-        let image = Image {
-            x: self.stored.r_m.clone(),
-            y: self.depths_m(),
-            values,
-            shading: Shading::Smooth,
-            colours,
-        };
+        let (r_m, z_m) = (self.stored.r_m.clone(), self.depths_m());
+        let image = Image::new(r_m, z_m, values, colours, map);
         let distance = Axis::linear("distance from the axis").si("m");
         let depth = Axis::linear("depth").si("m").reversed();
         Panel::new(distance.range(0.0, r_max_m), depth.range(0.0, z_max_m))
             .equal_lengths()
-            .mirrored(Mirror::Even)
+            .mirrored()
             .layer(Layer::Image(image))
     }
 
@@ -175,7 +183,7 @@ impl<'a> Section<'a> {
             return layers;
         }
         let mut line = |points: Vec<(f64, f64)>| {
-            layers.push(Layer::Line(Line::new("", Style::RimmedDashed, points)));
+            layers.push(Layer::Line(Line::new("", Style::Rimmed, points)));
         };
         let [p, s, rayleigh] =
             [self.speeds.p, self.speeds.s, self.speeds.rayleigh].map(|c| c * since);
@@ -234,8 +242,10 @@ pub(super) struct Quantity {
     pub(super) words: String,
     /// Unit without a prefix.
     pub(super) unit: String,
-    /// What it is made of: nothing where it is stored itself, the components of a length, or all stresses.
-    parts: &'static [&'static str],
+    /// What it is made of: itself where it is stored, the components of a length, or all stresses.
+    parts: Vec<String>,
+    /// What it is of the stresses, if it is not stored.
+    pub(super) stress: Option<impact::Quantity>,
 }
 
 /// Stresses that others follow from.
@@ -256,8 +266,9 @@ impl Quantity {
     pub(super) fn named(name: &str, stored: &[Described], path: &Path) -> Result<Self, PlotError> {
         let find = |name: &str| stored.iter().find(|quantity| quantity.name == name);
         let stress = OF_STRESSES.into_iter().find(|of| of.name() == name);
-        let (unit, parts): (&str, &'static [&'static str]) = match (find(name), stress, name) {
-            (Some(found), _, _) => (&found.unit, &[]),
+        let stress = stress.filter(|_| find(name).is_none());
+        let (unit, parts): (&str, &[&str]) = match (find(name), stress, name) {
+            (Some(found), _, _) => (&found.unit, &[name]),
             (None, Some(_), _) => ("Pa", &STRESSES),
             (None, None, "displacement") => ("m", &["displacement_r", "displacement_z"]),
             (None, None, "speed") if find("velocity_r").and(find("velocity_z")).is_some() => {
@@ -274,13 +285,9 @@ impl Quantity {
             name: name.to_owned(),
             words: of_quantity(name),
             unit: unit.to_owned(),
-            parts,
+            parts: parts.iter().map(|&part| part.to_owned()).collect(),
+            stress,
         })
-    }
-
-    /// What it is of the stresses, if that is all it is of.
-    pub(super) fn stress(&self) -> Option<impact::Quantity> {
-        OF_STRESSES.into_iter().find(|of| of.name() == self.name)
     }
 
     /// Whether it has a sign.
@@ -288,31 +295,17 @@ impl Quantity {
         !["von_mises", "tresca", "max_shear", "displacement", "speed"].contains(&self.name.as_str())
     }
 
-    /// Colours that suit it, up to a size.
-    pub(super) fn colours(&self, largest: f64) -> ColourScale {
-        let (map, low) = match self.has_sign() {
-            true => (ColourMap::Diverging, -largest),
-            false => (ColourMap::Sequential, 0.0),
-        };
-        ColourScale::new(&self.words, unit_of(&self.unit), map)
-            .limits(Limits::Between(low, largest))
-    }
-
     /// Its values in a frame.
     pub(super) fn at(&self, section: &StoredSection, frame: usize) -> Result<Vec<f64>, ReadError> {
-        let stored = |name: &str| -> Result<Vec<f64>, ReadError> {
-            let values = section.frame(name, frame)?;
-            Ok(values.into_iter().map(f64::from).collect())
-        };
-        let parts = self.parts.iter().map(|name| stored(name));
-        let parts: Vec<Vec<f64>> = parts.collect::<Result<_, _>>()?;
-        Ok(match (parts.as_slice(), self.stress()) {
-            ([a, b], _) => a.iter().zip(b).map(|(a, b)| a.hypot(*b)).collect(),
+        let parts = self.parts.iter().map(|name| section.frame(name, frame));
+        let parts: Vec<Vec<f32>> = parts.collect::<Result<_, _>>()?;
+        let value = |i: usize| match (parts.as_slice(), self.stress) {
             ([rr, tt, zz, rz], Some(of)) => {
-                let at = |i: usize| of.of([rr[i], tt[i], zz[i], rz[i]], [1.0, 0.0]);
-                (0..rr.len()).map(at).collect()
+                of.of([rr[i], tt[i], zz[i], rz[i]].map(f64::from), [1.0, 0.0])
             }
-            (_, _) => stored(&self.name)?,
-        })
+            ([a, b], _) => f64::from(a[i]).hypot(f64::from(b[i])),
+            (parts, _) => f64::from(parts[0][i]),
+        };
+        Ok((0..parts[0].len()).map(value).collect())
     }
 }

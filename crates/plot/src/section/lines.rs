@@ -5,89 +5,63 @@ use super::frames::{Quantity, Section};
 use crate::error::PlotError;
 use crate::request::Request;
 use crate::series::curve;
-use crate::words::{unit_of, with_unit};
+use crate::words::{axis, with_unit};
 use contact::KernelUnits;
-use figure::{Axis, Image, LabelledPoint, Layer, Legend, Panel, Shading, Style};
+use figure::{Axis, Image, LabelledPoint, Layer, Legend, Panel, Scale, Style};
 use formats::results::schema::FIELDS;
 use formats::stored::StoredImpact;
 use halfspace::{Kernel, Medium, Profile};
 
-/// Along what.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Path {
-    /// The surface: distances from the axis.
-    Surface,
-    /// The axis: depths.
-    Axis,
-}
-
 /// Instants that are drawn, at most.
 const MOST_INSTANTS: usize = 600;
 
-/// A diagram along a path.
+/// Distances along the surface against time, or depths on the axis, with the fronts that pass there.
 pub(crate) fn space_time(
     impact: &StoredImpact,
     request: &Request,
-    path: Path,
+    is_surface: bool,
 ) -> Result<Panel, PlotError> {
     let section = Section::of(impact)?;
-    let frames = section.stored.time_s.len();
-    let chosen: Vec<usize> = (0..frames)
-        .step_by(frames.div_ceil(MOST_INSTANTS))
-        .collect();
-    let (usual, distances) = match path {
-        Path::Surface => (section.usual(), section.stored.r_m.clone()),
-        Path::Axis => ("stress_zz", section.depths_m()),
+    let (frames, width) = (section.stored.time_s.len(), section.stored.r_m.len());
+    let chosen = (0..frames).step_by(frames.div_ceil(MOST_INSTANTS));
+    let distance = Axis::linear("distance from the axis").si("m");
+    let (usual, distances, distance, start_m, fronts) = match is_surface {
+        true => {
+            let (r_m, start_m) = (section.stored.r_m.clone(), section.disc_radius_m);
+            (section.usual(), r_m, distance, start_m, 3)
+        }
+        false => {
+            let depth = Axis::linear("depth").si("m").reversed();
+            ("stress_zz", section.depths_m(), depth, 0.0, 2)
+        }
     };
     let quantity = section.quantity(request, usual)?;
-    let mut rows: Vec<Vec<f64>> = Vec::new();
-    for &frame in &chosen {
+    let (mut rows, mut times): (Vec<Vec<f64>>, Vec<f64>) = (Vec::new(), Vec::new());
+    for frame in chosen {
         let image = section.values(&quantity, frame)?;
-        let width = section.stored.r_m.len();
-        rows.push(match path {
-            Path::Surface => image[..width].to_vec(),
-            Path::Axis => image.iter().step_by(width).copied().collect(),
+        times.push(section.stored.time_s[frame]);
+        rows.push(match is_surface {
+            true => image[..width].to_vec(),
+            false => image.iter().step_by(width).copied().collect(),
         });
     }
-    let near_m = section.near_m(distances[distances.len() - 1]);
+    let (along, most) = (distances.len(), distances[distances.len() - 1]);
+    let near_m = section.near_m(most);
     let is_far: Vec<bool> = distances.iter().map(|d| *d > near_m).collect();
-    let colours = section.colours(&quantity, &rows, &is_far);
-    let times = chosen.iter().map(|&frame| section.stored.time_s[frame]);
-    let along = distances.len();
-    let image = Image {
-        values: (0..along)
-            .flat_map(|i| rows.iter().map(move |row| row[i]))
-            .collect(),
-        x: times.collect(),
-        y: distances,
-        shading: Shading::Smooth,
-        colours,
-    };
-    Ok(panel(&section, image, path))
-}
-
-fn panel(section: &Section<'_>, image: Image, path: Path) -> Panel {
-    let (first_s, last_s) = (image.x[0], image.x[image.x.len() - 1]);
-    let most = image.y[image.y.len() - 1];
-    let time = Axis::linear("time").si("s").range(first_s, last_s);
-    let distance = match path {
-        Path::Surface => Axis::linear("distance from the axis").si("m"),
-        Path::Axis => Axis::linear("depth").si("m").reversed(),
-    };
+    let (colours, map) = section.colours(&quantity, &rows, &is_far);
+    let values = (0..along).flat_map(|i| rows.iter().map(move |row| row[i]));
+    let last_s = times[times.len() - 1];
+    let time = Axis::linear("time").si("s").range(times[0], last_s);
+    let image = Image::new(times, distances, values.collect(), colours, map);
     let mut panel = Panel::new(time, distance.range(0.0, most))
         .height(380.0)
         .legend(Legend::Off)
         .layer(Layer::Image(image));
-    let speeds = section.speeds;
-    let (start_m, fronts) = match path {
-        Path::Surface => (section.disc_radius_m, 3),
-        Path::Axis => (0.0, 2),
-    };
     // S and R are close together: their names are not
     let named = [
-        ("P", speeds.p, 0.8),
-        ("S", speeds.s, 0.9),
-        ("R", speeds.rayleigh, 0.68),
+        ("P", section.speeds.p, 0.8),
+        ("S", section.speeds.s, 0.9),
+        ("R", section.speeds.rayleigh, 0.68),
     ];
     for (name, speed, share) in named.into_iter().take(fronts) {
         let at = |time_s: f64| (time_s, start_m + speed * (time_s - section.start_s));
@@ -95,10 +69,10 @@ fn panel(section: &Section<'_>, image: Image, path: Path) -> Panel {
         let points = vec![at(section.start_s), at(end_s)];
         let (x, y) = at(section.start_s + share * (end_s - section.start_s));
         panel = panel
-            .line("", Style::RimmedDashed, points)
+            .line("", Style::Rimmed, points)
             .layer(Layer::Point(LabelledPoint::text(x, y, name)));
     }
-    panel
+    Ok(panel)
 }
 
 /// Instants without times that are asked for: these shares of the pulse.
@@ -113,11 +87,11 @@ const DECADES: f64 = 1e-6;
 pub(crate) fn axis_profile(impact: &StoredImpact, request: &Request) -> Result<Panel, PlotError> {
     let section = Section::of(impact)?;
     let quantity = section.quantity(request, "stress_zz")?;
-    let times_s = match request.times_s.as_slice() {
+    let frames = match request.times_s.as_slice() {
         [] => SHARES
-            .map(|share| section.start_s + share * section.pulse_s)
+            .map(|share| section.nearest(section.start_s + share * section.pulse_s))
             .to_vec(),
-        given => given.to_vec(),
+        given => section.asked(given)?,
     };
     let depths = section.depths_m();
     let depths_mm: Vec<f64> = depths.iter().map(|z| 1e3 * z).collect();
@@ -125,13 +99,15 @@ pub(crate) fn axis_profile(impact: &StoredImpact, request: &Request) -> Result<P
     let depth = Axis::logarithmic("depth")
         .unit("mm")
         .range(1e3 * first_m, 1e3 * last_m);
-    let mut size = Axis::logarithmic(&format!("size of the {}", quantity.words));
-    size.unit = unit_of(&quantity.unit);
+    let words = match quantity.has_sign() {
+        true => format!("size of the {}", quantity.words),
+        false => quantity.words.clone(),
+    };
+    let size = axis(&words, &quantity.unit, Scale::Logarithmic);
     let mut panel = Panel::new(depth, size).height(380.0);
     let (mut smallest, mut largest) = (f64::INFINITY, 0.0_f64);
     let mut drawn = Vec::new();
-    for time_s in times_s {
-        let frame = section.nearest(time_s);
+    for frame in frames {
         if drawn.contains(&frame) {
             continue;
         }
@@ -164,14 +140,11 @@ fn static_points(
     section: &Section<'_>,
     quantity: &Quantity,
 ) -> Result<Option<Vec<(f64, f64)>>, PlotError> {
-    let Some(force_n) = section.impact.number("peak_force_n") else {
+    let force_n = section.impact.number("peak_force_n");
+    let Some(force_n) = force_n.filter(|_| section.disc_radius_m > 0.0) else {
         return Ok(None);
     };
-    if section.disc_radius_m <= 0.0 {
-        return Ok(None);
-    }
     let field = FIELDS.iter().position(|field| field.0 == quantity.name);
-    let stress = quantity.stress();
     let target = &section.impact.target;
     let medium = Medium::new(target.material().poisson_ratio)?;
     let kernel = Kernel::new(&medium, Profile::Hertz, 1e-10)?;
@@ -180,10 +153,9 @@ fn static_points(
         longitudinal_speed_m_s: target.longitudinal_speed_m_s(),
         disc_radius_m: section.disc_radius_m,
     };
-    let unit = if quantity.unit == "m" {
-        units.displacement_m_per_n()
-    } else {
-        units.stress_pa_per_n()
+    let unit = match quantity.unit.as_str() {
+        "m" => units.displacement_m_per_n(),
+        _ => units.stress_pa_per_n(),
     };
     const POINTS: u32 = 400;
     let most = section.extent_m()[1];
@@ -191,7 +163,7 @@ fn static_points(
     for i in 0..=POINTS {
         let z_m = most * 1e-4_f64.powf(1.0 - f64::from(i) / f64::from(POINTS));
         let six = kernel.static_field(0.0, z_m / section.disc_radius_m)?;
-        let size = match (field, stress) {
+        let size = match (field, quantity.stress) {
             (Some(field), _) => six[field],
             (None, Some(of)) => of.of([six[2], six[3], six[4], six[5]], [1.0, 0.0]),
             (None, None) => return Ok(None),

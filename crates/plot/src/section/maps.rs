@@ -3,8 +3,8 @@
 use super::frames::{Quantity, Section, quantile_of_sizes};
 use crate::error::PlotError;
 use crate::request::Request;
-use crate::words::{unit_of, with_unit};
-use figure::{ColourMap, ColourScale, Legend, Limits, Panel};
+use crate::words::{axis, with_unit};
+use figure::{ColourMap, Legend, Panel, Scale};
 use formats::stored::StoredImpact;
 
 /// Frames from which on a picture is a whole history.
@@ -19,7 +19,11 @@ pub(crate) fn frames(
 ) -> Result<(Vec<Panel>, Vec<String>), PlotError> {
     let section = Section::of(impact)?;
     let mut notes = Vec::new();
-    let chosen = instants(&section, &request.times_s, count);
+    let mut chosen = match request.times_s.as_slice() {
+        [] => instants(&section, count),
+        given => section.asked(given)?,
+    };
+    chosen.dedup();
     let quantity = section.quantity(request, section.usual())?;
     if section.is_near() {
         let pulse_m = section.speeds.p * section.pulse_s;
@@ -36,11 +40,11 @@ pub(crate) fn frames(
     for &frame in &chosen {
         images.push(section.values(&quantity, frame)?);
     }
-    let colours = section.colours(&quantity, &images, &section.is_far());
+    let (colours, map) = section.colours(&quantity, &images, &section.is_far());
     let panel = |(&frame, values): (&usize, Vec<f64>)| {
         let time_s = section.stored.time_s[frame];
         let mut panel = section
-            .map(values, colours.clone())
+            .map(values, colours.clone(), map)
             .title(&with_unit(time_s, "s"))
             .legend(Legend::Off);
         panel.layers.extend(section.fronts(time_s));
@@ -50,30 +54,23 @@ pub(crate) fn frames(
     Ok((panels, notes))
 }
 
-/// Frames at given times, or evenly: until the longitudinal wave leaves the section, or within a pulse that is longer.
-fn instants(section: &Section<'_>, times_s: &[f64], count: usize) -> Vec<usize> {
-    let wanted: Vec<f64> = if times_s.is_empty() {
-        let (length_s, first, last) = match section.is_near() {
-            true => (
-                section.pulse_s,
-                0.5 / count as f64,
-                1.0 - 0.5 / count as f64,
-            ),
-            // a few frames begin where waves have parted, many where the force does
-            false if count > FEW => (section.crossing_s(), 0.0, 1.0),
-            false => (section.crossing_s(), 0.4, 1.0),
-        };
-        let steps = (count - 1).max(1) as f64;
-        let share = |i: usize| first + (last - first) * (i as f64 + f64::from(count == 1)) / steps;
-        (0..count)
-            .map(|i| section.start_s + share(i) * length_s)
-            .collect()
-    } else {
-        times_s.to_vec()
+/// Frames evenly: until the longitudinal wave leaves the section, or within a pulse that is longer.
+fn instants(section: &Section<'_>, count: usize) -> Vec<usize> {
+    let (length_s, first, last) = match section.is_near() {
+        true => (
+            section.pulse_s,
+            0.5 / count as f64,
+            1.0 - 0.5 / count as f64,
+        ),
+        // a few frames begin where waves have parted, many where the force does
+        false if count > FEW => (section.crossing_s(), 0.0, 1.0),
+        false => (section.crossing_s(), 0.4, 1.0),
     };
-    let mut found: Vec<usize> = wanted.into_iter().map(|t| section.nearest(t)).collect();
-    found.dedup();
-    found
+    let steps = (count - 1).max(1) as f64;
+    let share = |i: usize| first + (last - first) * (i as f64 + f64::from(count == 1)) / steps;
+    (0..count)
+        .map(|i| section.nearest(section.start_s + share(i) * length_s))
+        .collect()
 }
 
 /// The map of the largest sizes over time, in decades of colour.
@@ -93,12 +90,9 @@ pub(crate) fn peak(impact: &StoredImpact, request: &Request) -> Result<Panel, Pl
     for value in &mut values {
         *value = value.max(ends[0]);
     }
-    let (words, unit) = (&quantity.words, unit_of(&quantity.unit));
-    let words = format!("{words}, largest over time");
-    let colours = ColourScale::new(&words, unit, ColourMap::Sequential)
-        .logarithmic()
-        .limits(Limits::Between(ends[0], ends[1]));
-    Ok(section.map(values, colours))
+    let words = format!("{}, largest over time", quantity.words);
+    let colours = axis(&words, &quantity.unit, Scale::Logarithmic).range(ends[0], ends[1]);
+    Ok(section.map(values, colours, ColourMap::Sequential))
 }
 
 /// The largest sizes over the frames, for a file that has none over all samples.

@@ -6,5 +6,5 @@ mod frames;
 mod lines;
 mod maps;
 
-pub(crate) use lines::{Path, axis_profile, space_time};
+pub(crate) use lines::{axis_profile, space_time};
 pub(crate) use maps::{frames, peak};

@@ -4,11 +4,8 @@ mod view;
 
 use crate::error::{PlotError, chosen};
 use crate::request::{Drawn, Kind, Request};
-use crate::words::{of_key, stem, unit_of};
-use figure::{
-    Axis, ColourMap, ColourScale, Figure, Histogram, Image, Layer, Legend, Panel, Scale, Shading,
-    Style,
-};
+use crate::words::{axis, of_key, stem};
+use figure::{Axis, ColourMap, Figure, Image, Layer, Legend, Line, Panel, Scale, Style};
 use formats::quantities::Described;
 use formats::stored::StoredSweep;
 use formats::sweep::Column;
@@ -155,13 +152,6 @@ fn scale_of(values: &[f64]) -> Scale {
     }
 }
 
-fn axis(name: &str, unit: &str, scale: Scale) -> Axis {
-    let mut axis = Axis::linear(name);
-    axis.scale = scale;
-    axis.unit = unit_of(unit);
-    axis
-}
-
 /// The numbers of a key along an axis.
 struct Nodes {
     axis: Axis,
@@ -252,12 +242,13 @@ fn lines(
             Some((places[i], found))
         };
         let found: Vec<(f64, [f64; 3])> = order.iter().filter_map(at).collect();
-        if view.drawn.is_some() {
-            let band = found.iter().map(|&(x, q)| (x, q[0], q[2])).collect();
-            panel = panel.band(&slice.label, band);
-        }
-        let middle = found.iter().map(|&(x, q)| (x, q[1])).collect();
-        panel = panel.line(&slice.label, style, middle);
+        panel = match view.drawn {
+            Some(_) => panel.banded(&slice.label, style, &found),
+            None => {
+                let middle = found.iter().map(|&(x, q)| (x, q[1])).collect();
+                panel.line(&slice.label, style, middle)
+            }
+        };
     }
     Ok(panel)
 }
@@ -281,12 +272,7 @@ fn over_draws(
         Some((x[1], quantiles(bin.iter().map(|pair| pair.1), SHARES)?))
     };
     let bins = pairs.chunks(pairs.len().div_ceil(BINS)).filter_map(of);
-    let bins: Vec<(f64, [f64; 3])> = bins.collect();
-    let band = bins.iter().map(|&(x, q)| (x, q[0], q[2])).collect();
-    let middle = bins.iter().map(|&(x, q)| (x, q[1])).collect();
-    panel
-        .band(&slice.label, band)
-        .line(&slice.label, Style::Marked, middle)
+    panel.banded(&slice.label, Style::Marked, &bins.collect::<Vec<_>>())
 }
 
 fn heat_map(
@@ -307,16 +293,8 @@ fn heat_map(
             values.push(found.map_or(f64::NAN, |q| q[1]));
         }
     }
-    let unit = unit_of(shown.unit);
-    let mut colours = ColourScale::new(&shown.words, unit, ColourMap::Sequential);
-    colours.spread = scale_of(&values);
-    let image = Image {
-        x: columns,
-        y: rows,
-        values,
-        shading: Shading::Smooth,
-        colours,
-    };
+    let colours = axis(&shown.words, shown.unit, scale_of(&values));
+    let image = Image::new(columns, rows, values, colours, ColourMap::Sequential);
     let panel = Panel::new(x.axis, y.axis).height(280.0);
     Ok(panel.layer(Layer::Image(image)))
 }
@@ -405,7 +383,7 @@ fn histogram(view: &View<'_>, shown: &Shown<'_>) -> Result<Panel, PlotError> {
     }
     for (label, found) in &groups {
         let bins = (2.0 * (found.len() as f64).cbrt()).ceil().clamp(5.0, 60.0) as usize;
-        panel = panel.layer(Layer::Histogram(Histogram::of(label, found, bins, scale)));
+        panel = panel.layer(Layer::Line(Line::histogram(label, found, bins, scale)));
     }
     if let [(_, found)] = groups.as_slice()
         && let Some(quantiles) = quantiles(found.iter().copied(), SHARES)

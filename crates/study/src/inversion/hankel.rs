@@ -91,17 +91,12 @@ impl Hankel {
         self.digits * LN_10 / self.z
     }
 
-    /// The rule of a panel for the digits asked for.
-    fn rule(&self) -> Rule {
-        Rule::new((2.0 + 1.2 * self.digits).ceil() as usize)
-    }
-
     /// Nodes that serve every s with Re s >= `least` and |Im s| <= `widest`.
     pub(crate) fn nodes(&self, least: f64, widest: f64) -> Vec<Node> {
         let slowest = self.slowest();
         let end = widest * slowest + self.reach() + 4.0 * least;
         let width = 3.5 / (1.0 + self.r);
-        let rule = self.rule();
+        let rule = Rule::new((2.0 + 1.2 * self.digits).ceil() as usize);
         let mut nodes = Vec::new();
         let mut from = 0.0;
         while from < end {
@@ -150,33 +145,50 @@ impl Hankel {
         let (height, widest) = path(s, slowest, clearance);
         let widest = widest.min(1.5 * clearance);
         let end = s.im.abs() * slowest + self.reach();
-        let rule = self.rule();
         let mut sum = [Complex64::default(); 6];
-        let mut count = 0;
         let mut leg = |from: Complex64, to: Complex64| {
-            let length = (to - from).norm();
-            for pair in cuts(length, 0.7 * s.norm(), widest).windows(2) {
-                for (x, weight) in rule.on(pair[0] / length, pair[1] / length) {
-                    let k = from + (to - from) * x;
-                    let scale = weight * (to - from) * load(k);
-                    let [j0, j1] = bessel(k * self.r);
-                    let ratio = if k.norm() * self.r < 1e-6 {
-                        0.5.into()
-                    } else {
-                        j1 / (k * self.r)
-                    };
-                    self.add(&mut sum, k, s, [j0, j1, ratio].map(|j| scale * j));
-                    count += 1;
-                }
-            }
+            let rule = Rule::new((2.0 + 1.2 * self.digits).ceil() as usize);
+            self.along(&rule, [from, to], [0.7 * s.norm(), widest], |k, weight| {
+                let scale = weight * load(k);
+                let [j0, j1] = bessel(k * self.r);
+                let ratio = if k.norm() * self.r < 1e-6 {
+                    0.5.into()
+                } else {
+                    j1 / (k * self.r)
+                };
+                self.add(&mut sum, k, s, [j0, j1, ratio].map(|j| scale * j));
+            });
         };
         let corner = Complex64::new(0.0, height);
         if height > 0.0 {
             leg(Complex64::default(), corner);
         }
         leg(corner, corner + end);
-        self.count(count);
         sum.map(|v| v / s)
+    }
+
+    /// Goes along a straight part of a path in the k plane: every k with its weight, on panels no wider than `widest`,
+    /// and than `least` near the beginning, where the singularities of k = 0 are as near as s.
+    fn along(
+        &self,
+        rule: &Rule,
+        [from, to]: [Complex64; 2],
+        [least, widest]: [f64; 2],
+        mut f: impl FnMut(Complex64, Complex64),
+    ) {
+        let length = (to - from).norm();
+        let direction = (to - from) / length;
+        let mut at = 0.0;
+        while at < length * (1.0 - 1e-12) {
+            let end = (at + least.max(0.5 * at).min(widest)).min(length);
+            let mut count = 0;
+            for (x, weight) in rule.on(at, end) {
+                f(from + direction * x, weight * direction);
+                count += 1;
+            }
+            self.count(count);
+            at = end;
+        }
     }
 
     /// w at the centre of the surface over its static value, at any s with Im s >= 0, continued through the
@@ -184,23 +196,14 @@ impl Hankel {
     pub(crate) fn surface(&self, s: Complex64) -> Complex64 {
         let rest = 1.0 - self.medium.poisson_ratio();
         let slowest = self.slowest();
-        let rule = Rule::new((3.0 + 1.3 * self.digits).ceil() as usize);
         let near = |k: Complex64| Roots::new(&self.medium, k, s).surface(s) - rest / k;
         let far = |k: Complex64| Roots::far(&self.medium, k, s).surface(s) - rest / k;
         let mut sum = Complex64::default();
-        let mut count = 0;
         let (height, widest) = path(s, slowest, 1.0);
-        let widest = widest.min(2.0);
-        let least = (0.7 * s.norm()).min(1.0);
+        let widths = [(0.7 * s.norm()).min(1.0), widest.min(2.0)];
+        let rule = Rule::new((3.0 + 1.3 * self.digits).ceil() as usize);
         let mut leg = |from: Complex64, to: Complex64, f: &dyn Fn(Complex64) -> Complex64| {
-            let length = (to - from).norm();
-            for pair in cuts(length, least, widest).windows(2) {
-                for (x, weight) in rule.on(pair[0], pair[1]) {
-                    let direction = (to - from) / length;
-                    sum += weight * direction * f(from + direction * x);
-                    count += 1;
-                }
-            }
+            self.along(&rule, [from, to], widths, |k, weight| sum += weight * f(k));
         };
         let corner = Complex64::new(0.0, height);
         let start = corner + s.norm() * slowest + 4.0;
@@ -216,20 +219,8 @@ impl Hankel {
             let half = |k: Complex64| 0.75 / PI * (i * k).exp() * (-i - k) / (k * k) * far(k);
             leg(start, start + i * depth, &half);
         }
-        self.count(count);
         (1.0 + sum / (0.375 * rest)) / s
     }
-}
-
-/// Ends of the panels of a path from 0: no wider than `widest`, and than `least` near k = 0, where the singularities
-/// are as near as s.
-fn cuts(length: f64, least: f64, widest: f64) -> Vec<f64> {
-    let (mut at, mut cuts) = (0.0, vec![0.0]);
-    while at < length * (1.0 - 1e-12) {
-        at = (at + least.max(0.5 * at).min(widest)).min(length);
-        cuts.push(at);
-    }
-    cuts
 }
 
 /// J0 and J1 of a complex argument.

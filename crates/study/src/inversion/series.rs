@@ -1,5 +1,5 @@
 //! Methods that share their samples among all times of a window: the Fourier series of Dubner and Abate (1968),
-//! summed in three ways.
+//! summed in two ways.
 
 use num_complex::Complex64;
 use std::f64::consts::PI;
@@ -10,9 +10,9 @@ pub(crate) struct Window {
     /// Half the period T of the series; times up to it are inverted.
     half_period: f64,
     /// Distance a of the path from the imaginary axis.
-    pub(crate) damping: f64,
+    damping: f64,
     /// Number of samples.
-    pub(crate) samples: usize,
+    samples: usize,
 }
 
 impl Window {
@@ -26,69 +26,43 @@ impl Window {
         }
     }
 
-    /// The node of sample k.
-    pub(crate) fn node(&self, k: usize) -> Complex64 {
-        let step = PI / self.half_period;
-        Complex64::new(self.damping, step * k as f64)
-    }
-
     /// The nodes of all samples.
     pub(crate) fn nodes(&self) -> Vec<Complex64> {
-        (0..self.samples).map(|k| self.node(k)).collect()
+        let step = PI / self.half_period;
+        let node = |k| Complex64::new(self.damping, step * k as f64);
+        (0..self.samples).map(node).collect()
     }
 
     /// f at some times from the samples of its transform.
-    pub(crate) fn invert(&self, series: &Series, samples: &[Complex64], times: &[f64]) -> Vec<f64> {
-        let terms = (series.prepare)(samples);
-        let at = |&t: &f64| {
-            let turn = Complex64::from_polar(1.0, PI * t / self.half_period);
-            (self.damping * t).exp() / self.half_period * (series.sum)(&terms, turn)
-        };
-        times.iter().map(at).collect()
+    pub(crate) fn invert(&self, series: Series, samples: &[Complex64], times: &[f64]) -> Vec<f64> {
+        let turn = |t: &f64| Complex64::from_polar(1.0, PI * t / self.half_period);
+        let sums = series(samples, &times.iter().map(turn).collect::<Vec<_>>());
+        let scale = |(sum, t): (f64, &f64)| (self.damping * t).exp() / self.half_period * sum;
+        sums.into_iter().zip(times).map(scale).collect()
     }
 }
 
-/// A way to sum the series: what is made of the samples once, and the sum for e^{i pi t/T}.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Series {
-    prepare: fn(&[Complex64]) -> Vec<Complex64>,
-    sum: fn(&[Complex64], Complex64) -> f64,
-}
+/// A way to sum the series: from its samples, the sums for some e^{i pi t/T}.
+pub(crate) type Series = fn(&[Complex64], &[Complex64]) -> Vec<f64>;
 
 /// Durbin (1974): the tail of the series is cut off.
-pub(crate) const DURBIN: Series = Series {
-    prepare: <[Complex64]>::to_vec,
-    sum: |samples, turn| {
+pub(crate) fn durbin(samples: &[Complex64], turns: &[Complex64]) -> Vec<f64> {
+    let sum = |turn: &Complex64| {
         // Horner from the last term
         let rest = samples[1..].iter().rev();
         let sum = rest.fold(Complex64::default(), |sum, &sample| (sum + sample) * turn);
         0.5 * samples[0].re + sum.re
-    },
-};
-
-/// Crump (1976): Wynn's epsilon algorithm.
-pub(crate) const CRUMP: Series = Series {
-    prepare: <[Complex64]>::to_vec,
-    sum: |samples, turn| {
-        let mut power = Complex64::new(1.0, 0.0);
-        let mut sum = Complex64::default();
-        let mut partial = Vec::with_capacity(samples.len());
-        for (k, &sample) in samples.iter().enumerate() {
-            sum += if k == 0 { 0.5 * sample } else { sample * power };
-            power *= turn;
-            partial.push(sum);
-        }
-        epsilon(&partial).re
-    },
-};
+    };
+    turns.iter().map(sum).collect()
+}
 
 /// De Hoog, Knight and Stokes (1982): a continued fraction by the quotient-difference scheme, with the remainder
 /// estimate of the authors; from an odd number of samples.
-pub(crate) const DE_HOOG: Series = Series {
-    prepare: fraction,
-    sum: |coefficients, z| {
-        let last = coefficients.len() - 1;
-        let one = Complex64::new(1.0, 0.0);
+pub(crate) fn de_hoog(samples: &[Complex64], turns: &[Complex64]) -> Vec<f64> {
+    let coefficients = fraction(samples);
+    let last = coefficients.len() - 1;
+    let one = Complex64::new(1.0, 0.0);
+    let sum = |z: &Complex64| {
         let (mut a0, mut a1) = (Complex64::default(), coefficients[0]);
         let (mut b0, mut b1) = (one, one);
         for &d in &coefficients[1..last] {
@@ -99,31 +73,8 @@ pub(crate) const DE_HOOG: Series = Series {
         let rest = -half * (one - (one + coefficients[last] * z / (half * half)).sqrt());
         let (a, b) = (a1 + rest * a0, b1 + rest * b0);
         (a / b).re
-    },
-};
-
-/// Limit of a sequence: the last even column of Wynn's table, stopped where two entries coincide.
-fn epsilon(partial: &[Complex64]) -> Complex64 {
-    let mut before = vec![Complex64::default(); partial.len() + 1];
-    let mut column = partial.to_vec();
-    let mut best = partial.last().copied().unwrap_or_default();
-    let mut order = 0;
-    while column.len() > 1 {
-        let mut next = Vec::with_capacity(column.len() - 1);
-        for i in 0..column.len() - 1 {
-            let difference = column[i + 1] - column[i];
-            if difference.norm() <= 1e-15 * column[i].norm() {
-                return best;
-            }
-            next.push(before[i + 1] + difference.inv());
-        }
-        order += 1;
-        (before, column) = (column, next);
-        if order % 2 == 0 {
-            best = column.last().copied().unwrap_or(best);
-        }
-    }
-    best
+    };
+    turns.iter().map(sum).collect()
 }
 
 /// Coefficients d_0 .. d_2M of the fraction d_0/(1 + d_1 z/(1 + d_2 z/ ...)).

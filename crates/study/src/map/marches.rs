@@ -420,18 +420,8 @@ pub fn dynamic_is_solved(disc: &ExactDisc<'_>, step: f64) -> bool {
     !matches!(march, Err(MarchError::NoSolution { .. }))
 }
 
-/// Largest coupling for which the `dynamic` share has a solution at a step, up to a force of Hertz's peak.
-#[must_use]
-pub fn dynamic_limit(disc: &ExactDisc<'_>, step: f64) -> f64 {
-    // Numerov's weight of the newest force
-    let allowed = 2.0 / 3.0 + 1.25 * step * step / 12.0;
-    bisected(0.0, 1e6, |coupling| {
-        coupling * memory_weights(&dynamic(disc, coupling), step)[0] < allowed
-    })
-}
-
 /// The largest argument that a condition allows, which it does below and not above; relative to 1e-9.
-fn bisected(low: f64, high: f64, allows: impl Fn(f64) -> bool) -> f64 {
+pub(super) fn bisected(low: f64, high: f64, allows: impl Fn(f64) -> bool) -> f64 {
     let (mut low, mut high) = (low, high);
     for _ in 0..60 {
         let middle = 0.5 * (low + high);
@@ -442,6 +432,16 @@ fn bisected(low: f64, high: f64, allows: impl Fn(f64) -> bool) -> f64 {
         }
     }
     low
+}
+
+/// Largest coupling for which the `dynamic` share has a solution at a step, up to a force of Hertz's peak.
+#[must_use]
+pub fn dynamic_limit(disc: &ExactDisc<'_>, step: f64) -> f64 {
+    // Numerov's weight of the newest force
+    let allowed = 2.0 / 3.0 + 1.25 * step * step / 12.0;
+    bisected(0.0, 1e6, |coupling| {
+        coupling * memory_weights(&dynamic(disc, coupling), step)[0] < allowed
+    })
 }
 
 /// Largest coupling for which the newest samples of the `dynamic` share settle, up to a force of Hertz's peak.

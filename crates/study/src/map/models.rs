@@ -4,6 +4,7 @@
 //! that follows the load, and the coupling of a fixed disc, the paper's, whose whole deflection is added to Hertz's
 //! indentation; memory is the time that the waves need across the contact, over Hertz's contact time.
 
+use super::marches::bisected;
 use crate::measure::Effort;
 use crate::picture::Picture;
 use crate::question::marching::{Results, errors, results};
@@ -210,21 +211,12 @@ pub fn disc_at<'a>(like: &ExactDisc<'a>, coupling: f64, memory: f64) -> ExactDis
 
 /// Largest memory, from `low` to 1e3, at which `auto` has not yet left a rung for the next.
 fn memory_of_change(low: f64, leaves: Rung, chosen: impl Fn(f64) -> Rung) -> f64 {
-    let (mut low, mut high) = (low, 1e3_f64);
-    for _ in 0..60 {
-        let middle = (low * high).sqrt();
-        let cheap = match chosen(middle) {
-            Rung::QuasiStatic => true,
-            Rung::Radiation | Rung::AreaDashpot => leaves != Rung::QuasiStatic,
-            Rung::FullMemory => false,
-        };
-        if cheap {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    low
+    let stays = |memory: f64| match chosen(memory.exp()) {
+        Rung::QuasiStatic => true,
+        Rung::Radiation | Rung::AreaDashpot => leaves != Rung::QuasiStatic,
+        Rung::FullMemory => false,
+    };
+    bisected(low.ln(), 1e3_f64.ln(), stays).exp()
 }
 
 /// Where a steel ball on a material of the library lies in the plane.

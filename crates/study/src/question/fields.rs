@@ -11,7 +11,7 @@
 //! ```
 
 use super::kernels::POISSON_RATIO;
-use crate::measure::{Candidate, Effort, Scene};
+use crate::measure::{Effort, Run, Scene};
 use crate::record::{Question, Record};
 use crate::scenes::Density;
 use fault::AnyError;
@@ -65,33 +65,47 @@ pub(crate) fn measure(
     }
     let mut records = Vec::new();
     for (name, interpolation, pulse) in &scenes {
-        let mut compared = Compared {
+        let mut rows = Scene {
             effort,
-            scene: name,
-            pulse,
+            question: Question::Fields,
+            name,
+            values: pulse.end(),
+            errors: &|(samples, width): &Samples| Ok(pulse.errors(samples, *width)),
             records: &mut records,
         };
-        exact_cells(&medium, &mut compared)?;
+        exact_cells(&medium, pulse, &mut rows)?;
         advance();
-        looked_up(densities, &mut compared)?;
+        looked_up(densities, pulse, &mut rows)?;
         advance();
-        compared.scene = interpolation;
-        interpolations(&medium, &mut compared)?;
+        rows.name = interpolation;
+        interpolations(&medium, pulse, &mut rows)?;
         advance();
     }
     Ok(records)
 }
 
+/// Fields at samples so far apart.
+type Samples = (Vec<Six>, f64);
+
+/// Samples with their number, the work.
+fn counted(samples: Vec<Six>, width: f64) -> Run<Samples> {
+    let count = samples.len() as u64;
+    Ok(((samples, width), Some(count)))
+}
+
 /// The response at all samples.
 fn response(convolver: &Convolver, rest: &Six, cells: &[Six]) -> Vec<Six> {
     let fields = convolver.fields(rest, cells);
-    (0..fields[0].len())
-        .map(|n| std::array::from_fn(|f| fields[f][n]))
-        .collect()
+    let samples = 0..fields[0].len();
+    samples.map(|n| fields.each_ref().map(|f| f[n])).collect()
 }
 
 /// Cells computed for the point itself, for a force that is linear or smooth between samples.
-fn exact_cells(medium: &Medium, compared: &mut Compared<'_>) -> Result<(), AnyError> {
+fn exact_cells(
+    medium: &Medium,
+    pulse: &PulseReference,
+    rows: &mut Scene<'_, Samples>,
+) -> Result<(), AnyError> {
     use Smoothness::{Linear, Smooth};
     // smoothness, kernel tolerance and halvings of the step; the program's own tolerance goes with the scene's
     let settings: [(Smoothness, f64, &[i32], &[i32]); 4] = [
@@ -100,14 +114,13 @@ fn exact_cells(medium: &Medium, compared: &mut Compared<'_>) -> Result<(), AnyEr
         (Smooth, 1e-4, &[], &[1, 2, 3]),
         (Linear, 1e-8, &[3], &[0, 1, 2, 3, 4, 5]),
     ];
-    let [r, z] = compared.pulse.place;
+    let [r, z] = pulse.place;
     for (smoothness, tolerance, quick, full) in settings {
         let source = KernelSource::direct(medium, tolerance)?;
-        for &halvings in compared.effort.pick(quick, full) {
+        for &halvings in rows.effort.pick(quick, full) {
             let width = EVERY * 0.5_f64.powi(halvings);
-            let force = compared.force(width);
+            let force = pulse.force(width);
             let convolver = Convolver::new(&force);
-            let pulse = Pulse::Smooth(compared.pulse.length);
             let run = || {
                 let place = Place {
                     r,
@@ -117,7 +130,7 @@ fn exact_cells(medium: &Medium, compared: &mut Compared<'_>) -> Result<(), AnyEr
                 let plan = CellPlan {
                     step: width,
                     count: force.len() + lookup::BEYOND,
-                    pulse,
+                    pulse: Pulse::Smooth(pulse.length),
                     rates: false,
                     tolerance,
                 };
@@ -126,22 +139,26 @@ fn exact_cells(medium: &Medium, compared: &mut Compared<'_>) -> Result<(), AnyEr
                     Linear => &cells.moments.averages,
                     Smooth => &cells.smooth,
                 };
-                Ok(response(&convolver, &cells.static_part, of_force))
+                counted(response(&convolver, &cells.static_part, of_force), width)
             };
             let method = match smoothness {
                 Linear => "direct, linear cells",
                 Smooth => "direct",
             };
             let setting = format!("step {width}, kernel {tolerance:.0e}");
-            let is_own = smoothness == Smooth && tolerance < 1e-7;
-            compared.add(method, setting, is_own, width, run)?;
+            let row = rows.add(method, setting, run)?;
+            row.default_path = smoothness == Smooth && tolerance < 1e-7;
         }
     }
     Ok(())
 }
 
 /// Tables of several densities and stencils, coarser cells, three ways to sum.
-fn looked_up(densities: &[Density], compared: &mut Compared<'_>) -> Result<(), AnyError> {
+fn looked_up(
+    densities: &[Density],
+    pulse: &PulseReference,
+    rows: &mut Scene<'_, Samples>,
+) -> Result<(), AnyError> {
     use Method::{Direct, Transform};
     use Smoothness::{Linear, Smooth};
     // for which forces, and how they are summed: none is by running sums of the two exponentials of the pulse
@@ -153,8 +170,8 @@ fn looked_up(densities: &[Density], compared: &mut Compared<'_>) -> Result<(), A
     ];
     let method = "table, other nodes or points";
     let other = [(method, Smooth, Some(Transform), false)];
-    let effort = compared.effort;
-    let [r, z] = compared.pulse.place;
+    let effort = rows.effort;
+    let [r, z] = pulse.place;
     for density in densities {
         for points in effort.pick(vec![Density::points()], vec![4, 6, Density::points()]) {
             let table = density.with_stencil(points)?;
@@ -165,8 +182,8 @@ fn looked_up(densities: &[Density], compared: &mut Compared<'_>) -> Result<(), A
             };
             for coarsening in (0..=coarsest).step_by(effort.pick(2, 1)) {
                 let width = table.cell_width(POISSON_RATIO)? * f64::from(1_u32 << coarsening);
-                let force = compared.force(width);
-                let pulse = PulseSum::new(compared.pulse.length, width);
+                let force = pulse.force(width);
+                let sums = PulseSum::new(pulse.length, width);
                 let spacing = density.label();
                 for &(method, smoothness, sum, is_own) in ways {
                     let convolver = sum.map(|sum| Convolver::by(&force, sum));
@@ -174,13 +191,14 @@ fn looked_up(densities: &[Density], compared: &mut Compared<'_>) -> Result<(), A
                         let mut cells = vec![[0.0; 6]; force.len()];
                         let nu = POISSON_RATIO;
                         let info = table.trace_for(smoothness, nu, r, z, coarsening, &mut cells)?;
-                        Ok(match &convolver {
+                        let samples = match &convolver {
                             Some(convolver) => response(convolver, &info.static_part, &cells),
-                            None => pulse.response(&info.static_part, &cells),
-                        })
+                            None => sums.response(&info.static_part, &cells),
+                        };
+                        counted(samples, width)
                     };
                     let setting = format!("step {width}, {spacing}, {points} points");
-                    compared.add(method, setting, is_own, width, run)?;
+                    rows.add(method, setting, run)?.default_path = is_own;
                 }
             }
         }
@@ -260,71 +278,25 @@ impl PulseReference {
         self.times.last().copied().unwrap_or(1.0)
     }
 
-    /// Samples that are needed at a width.
-    fn count(&self, width: f64) -> usize {
-        (self.end() / width).round() as usize + 1
-    }
-
-    /// Whether samples `width` apart meet the times.
-    fn meets(&self, width: f64) -> bool {
-        let off = |t: &f64| ((t / width).round() * width - t).abs();
-        self.times.iter().all(|t| off(t) <= 1e-9 * t)
-    }
-
-    /// Relative errors of samples `width` apart.
-    fn errors(&self, samples: &[Six], width: f64) -> Vec<f64> {
-        let pairs = self.exact.iter().zip(&self.times);
-        pairs
-            .flat_map(|(exact, t)| {
-                let value = samples[(t / width).round() as usize];
-                (0..6).map(move |f| (value[f] - exact[f]) / self.peak[f])
-            })
-            .collect()
-    }
-}
-
-/// What is compared under a pulse.
-struct Compared<'a> {
-    effort: Effort,
-    scene: &'static str,
-    pulse: &'a PulseReference,
-    records: &'a mut Vec<Record>,
-}
-
-impl Compared<'_> {
-    /// Adds a method whose samples are `width` apart, where they meet the times of the reference.
-    fn add(
-        &mut self,
-        method: &'static str,
-        setting: String,
-        default_path: bool,
-        width: f64,
-        run: impl Fn() -> Result<Vec<Six>, AnyError>,
-    ) -> Result<(), AnyError> {
-        if !self.pulse.meets(width) {
-            return Ok(());
-        }
-        let scene = Scene {
-            question: Question::Fields,
-            name: self.scene,
-            values: self.pulse.end(),
-            errors: &|samples: &Vec<Six>| Ok(self.pulse.errors(samples, width)),
-        };
-        let counted = || {
-            let samples = run()?;
-            let count = samples.len() as u64;
-            Ok((samples, Some(count)))
-        };
-        let candidate = Candidate::new(method, setting, counted).default_path(default_path);
-        self.records.push(scene.measure(self.effort, &candidate)?);
-        Ok(())
-    }
-
-    /// Samples of the pulse.
+    /// Samples of the pulse so far apart, as many as are needed.
     fn force(&self, width: f64) -> Vec<f64> {
-        let pulse = PulseSum::new(self.pulse.length, width);
-        (0..self.pulse.count(width))
-            .map(|n| pulse.force(n))
+        let pulse = PulseSum::new(self.length, width);
+        let count = (self.end() / width).round() as usize + 1;
+        (0..count).map(|n| pulse.force(n)).collect()
+    }
+
+    /// Relative errors of samples `width` apart, some of which are at the times.
+    fn errors(&self, samples: &[Six], width: f64) -> Vec<f64> {
+        let errors = |(exact, t): (&Six, &f64)| {
+            let place = (t / width).round();
+            debug_assert!((place * width - t).abs() <= 1e-9 * t, "no sample at {t}");
+            let value = samples[place as usize];
+            std::array::from_fn::<_, 6, _>(|f| (value[f] - exact[f]) / self.peak[f])
+        };
+        self.exact
+            .iter()
+            .zip(&self.times)
+            .flat_map(errors)
             .collect()
     }
 }
@@ -368,15 +340,19 @@ pub(crate) fn series(point: &tabulator::PointKernels, width: f64, count: usize) 
 
 /// Interpolating the whole response against interpolating the remainder beside the exact static part: by the same stencils
 /// over the same exact kernels in double precision.
-fn interpolations(medium: &Medium, compared: &mut Compared<'_>) -> Result<(), AnyError> {
-    let [r, z] = compared.pulse.place;
+fn interpolations(
+    medium: &Medium,
+    pulse: &PulseReference,
+    rows: &mut Scene<'_, Samples>,
+) -> Result<(), AnyError> {
+    let [r, z] = pulse.place;
     let width = 0.1;
-    let count = compared.pulse.count(width);
+    let count = pulse.force(width).len();
     let plan = PointPlan::new(medium.poisson_ratio(), 1e-9, width, count + 4, 4)?;
     let kernel = plan.kernel();
     let rest = kernel.static_field(r, z)?;
-    let pulse = PulseSum::new(compared.pulse.length, width);
-    let effort = compared.effort;
+    let pulse = PulseSum::new(pulse.length, width);
+    let effort = rows.effort;
     for spacing in effort.pick(vec![0.125], vec![0.25, 0.125, 0.0625]) {
         let nodes = Axis::uniform(3.0, spacing).nodes();
         for points in effort.pick(vec![6], vec![4, 6, 8]) {
@@ -416,10 +392,11 @@ fn interpolations(medium: &Medium, compared: &mut Compared<'_>) -> Result<(), An
                             }
                         }
                     }
-                    Ok(pulse.response(&rest.map(|rest| (1.0 - inside) * rest), &sum))
+                    let outside = rest.map(|rest| (1.0 - inside) * rest);
+                    counted(pulse.response(&outside, &sum), width)
                 };
                 let setting = format!("spacing {spacing} r0, {points} points, step {width}");
-                compared.add(method, setting, false, width, run)?;
+                rows.add(method, setting, run)?;
             }
         }
     }

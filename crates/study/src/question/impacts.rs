@@ -4,7 +4,7 @@
 //! field's peak, against an integral over the past of a force that was solved to 1e-9.
 
 use super::kernels::POISSON_RATIO;
-use crate::measure::{Candidate, Effort, Scene};
+use crate::measure::{Effort, Scene};
 use crate::record::{Question, Record};
 use crate::scenes::{Density, ROD_RADIUS_M};
 use contact::{Model, Settings};
@@ -43,28 +43,25 @@ pub(crate) fn measure(
     let own = densities.iter().find(|d| d.is_default(Density::points()));
     let mut records = Vec::new();
     for probed in scenes()? {
-        let scene = Scene {
+        let mut scene = Scene {
+            effort,
             question: Question::Impacts,
             name: probed.name,
             values: 1.0,
             errors: &|found: &Histories| probed.errors(effort, found),
+            records: &mut records,
         };
-        let mut add = |method, setting, is_own, run: &dyn Fn() -> Result<Histories, AnyError>| {
-            let run = || Ok((run()?, None));
-            let candidate = Candidate::new(method, setting, run).default_path(is_own);
-            records.push(scene.measure(effort, &candidate)?);
-            Ok::<_, AnyError>(())
-        };
+        let at = |tolerance: f64| format!("tolerance {tolerance:.0e}");
         let tolerances: &[f64] = effort.pick(&[1e-3, 1e-5], &[1e-2, 1e-3, 1e-4, 1e-5, 1e-6]);
         for &tolerance in tolerances {
-            let setting = format!("tolerance {tolerance:.0e}");
-            add("computed", setting, true, &|| probed.computed(tolerance))?;
+            let run = || Ok((probed.computed(tolerance)?, None));
+            scene.add("computed", at(tolerance), run)?.default_path = true;
         }
         if probed.impact.settings.model == Model::Wave {
             for halvings in effort.pick(vec![3], vec![1, 3, 5, 7]) {
                 let width = 0.5_f64.powi(halvings);
-                let setting = format!("step {width} r0/c1");
-                add("cells alone", setting, false, &|| probed.cells_alone(width))?;
+                let run = || Ok((probed.cells_alone(width)?, None));
+                scene.add("cells alone", format!("step {width} r0/c1"), run)?;
             }
         }
         if let Some(density) = own {
@@ -72,13 +69,8 @@ pub(crate) fn measure(
             let tolerances: &[f64] = effort.pick(&[1e-3], &[1e-2, 1e-3, 1e-4]);
             for &tolerance in tolerances.iter().filter(|_| probed.is_within(&table)) {
                 let source = KernelSource::Table(table.clone());
-                let run = || probed.fields(tolerance, source.clone());
-                add(
-                    "looked up",
-                    format!("tolerance {tolerance:.0e}"),
-                    true,
-                    &run,
-                )?;
+                let run = || Ok((probed.fields(tolerance, source.clone())?, None));
+                scene.add("looked up", at(tolerance), run)?.default_path = true;
             }
         }
         advance();

@@ -3,9 +3,8 @@
 //! One value is the fields at one point and time after a unit step of force; the reference is the single
 //! integral at a tolerance of 1e-14, or the closed form of Kausel (2012) at the centre of the surface.
 
-use super::single_integral::remainder;
 use crate::inversion::Inversion;
-use crate::measure::{Candidate, Effort, Scene};
+use crate::measure::{Effort, Scene};
 use crate::record::{Error, Question, Record};
 use crate::scenes::Density;
 use fault::AnyError;
@@ -176,89 +175,46 @@ pub(crate) fn measure(
         KernelScene::axis(&medium, count, near)?,
         KernelScene::surface(&medium, count, near)?,
     ];
-    let mut work = Vec::new();
+    let inversions = Inversion::all(effort);
+    progress.total("kernels", (scenes.len() * (inversions.len() + 1)) as u64);
     for scene in &scenes {
-        let mut candidates = single_integrals(&medium, scene, effort)?;
-        candidates.extend(inversions(&medium, scene, effort));
-        if scene.place == [0.0, 0.0] {
-            candidates.extend(closed_forms(&medium, scene));
-        }
-        work.extend(candidates.into_iter().map(|candidate| (scene, candidate)));
-    }
-    progress.total("kernels", work.len() as u64 + 1);
-    for (scene, candidate) in &work {
-        let scene = Scene {
+        let mut rows = Scene {
+            effort,
             question: Question::Kernels,
             name: scene.name,
             values: scene.times.len() as f64,
             errors: &|values: &Vec<Six>| Ok(scene.errors(values)),
+            records: &mut records,
         };
-        records.push(scene.measure(effort, candidate)?);
+        for digits in (1..=13).step_by(effort.pick(2, 1)) {
+            let tolerance = 10.0_f64.powi(-digits);
+            let kernel = Kernel::new(&medium, Profile::Hertz, tolerance)?;
+            let setting = format!("tolerance {tolerance:.0e}");
+            let run = || Ok((scene.by_kernel(&kernel)?, None));
+            rows.add("single integral", setting, run)?.default_path = scene.place[1] > 0.0;
+        }
         progress.advance(1);
+        for inversion in &inversions {
+            rows.add(inversion.name, &inversion.setting, || {
+                let (values, work) = inversion.run(&medium, scene.place, &scene.times);
+                Ok((values, Some(work)))
+            })?;
+            progress.advance(1);
+        }
+        if scene.place == [0.0, 0.0] {
+            // what the impact equation uses, and what it is compared with
+            let response = SurfaceResponse::new(&medium, Deflection::Centre);
+            let fitted = || Ok((scene.at_centre(|t| response.step(t)), None));
+            rows.add("surface response", "fitted once", fitted)?
+                .default_path = true;
+            let kausel = |t: f64| kausel::centre_step(&medium, medium.kappa() * t);
+            let closed = || Ok((scene.at_centre(kausel), None));
+            let reference = "closed form (Kausel): the reference";
+            rows.add(reference, "no settings", closed)?;
+        }
     }
-    records.extend(tables(&medium, &scenes[0], densities, effort)?);
-    progress.advance(1);
+    tables(&medium, &scenes[0], densities, effort, &mut records)?;
     Ok(records)
-}
-
-/// The program's kernel at several tolerances and the fixed rule at several node counts.
-fn single_integrals<'a>(
-    medium: &'a Medium,
-    scene: &'a KernelScene,
-    effort: Effort,
-) -> Result<Vec<Candidate<'a, Vec<Six>>>, AnyError> {
-    let [r, z] = scene.place;
-    let mut candidates = Vec::new();
-    for digits in (1..=13).step_by(effort.pick(2, 1)) {
-        let tolerance = 10.0_f64.powi(-digits);
-        let kernel = Kernel::new(medium, Profile::Hertz, tolerance)?;
-        let setting = format!("tolerance {tolerance:.0e}");
-        let run = move || Ok((scene.by_kernel(&kernel)?, None));
-        candidates.push(Candidate::new("single integral", setting, run).default_path(z > 0.0));
-    }
-    let points: &[usize] = effort.pick(&[6, 12, 24], &[4, 6, 8, 12, 16, 24, 32, 48]);
-    for &points in points {
-        let run = move || {
-            let mut work = 0;
-            let value = |&t: &f64| {
-                // the closed forms do not know causality
-                let (value, count) = remainder(medium, [r, z, t], points);
-                work += count;
-                scene.whole(value)
-            };
-            Ok((scene.times.iter().map(value).collect(), Some(work)))
-        };
-        let (method, setting) = ("single integral, fixed rule", "nodes a panel");
-        candidates.push(Candidate::new(method, format!("{points} {setting}"), run));
-    }
-    Ok(candidates)
-}
-
-fn inversions<'a>(
-    medium: &'a Medium,
-    scene: &'a KernelScene,
-    effort: Effort,
-) -> impl Iterator<Item = Candidate<'a, Vec<Six>>> {
-    Inversion::all(effort).into_iter().map(move |inversion| {
-        let setting = inversion.setting.clone();
-        Candidate::new(inversion.name, setting, move || {
-            let (values, work) = inversion.run(medium, scene.place, &scene.times);
-            Ok((values, Some(work)))
-        })
-    })
-}
-
-/// What the impact equation uses, and what it is compared with.
-fn closed_forms<'a>(medium: &'a Medium, scene: &'a KernelScene) -> Vec<Candidate<'a, Vec<Six>>> {
-    let response = SurfaceResponse::new(medium, Deflection::Centre);
-    let fitted = move || Ok((scene.at_centre(|t| response.step(t)), None));
-    let kausel = |t: f64| kausel::centre_step(medium, medium.kappa() * t);
-    let closed = move || Ok((scene.at_centre(kausel), None));
-    let reference = "closed form (Kausel): the reference";
-    vec![
-        Candidate::new("surface response", "fitted once", fitted).default_path(true),
-        Candidate::new(reference, "no settings", closed),
-    ]
 }
 
 /// Averages over time cells, looked up in tables of several densities with stencils of several orders.
@@ -267,11 +223,11 @@ fn tables(
     scene: &KernelScene,
     densities: &[Density],
     effort: Effort,
-) -> Result<Vec<Record>, AnyError> {
+    records: &mut Vec<Record>,
+) -> Result<(), AnyError> {
     let [r, z] = scene.place;
     let last = scene.times.last().copied().unwrap_or(1.0);
     let exact_kernel = Kernel::new(medium, Profile::Hertz, 1e-12)?;
-    let mut records = Vec::new();
     for density in densities {
         for points in effort.pick(vec![4, Density::points()], vec![2, 4, 6, 8]) {
             let table = density.with_stencil(points)?;
@@ -286,23 +242,22 @@ fn tables(
                 table.trace(medium.poisson_ratio(), r, z, 0, &mut cells.borrow_mut())?;
                 Ok(((), Some(0)))
             };
-            let errors = |(): &()| {
-                let cells = cells.borrow();
-                let pairs = cells.iter().zip(&exact);
-                let errors = |(a, b): (&Six, &Six)| ALL.map(|f| (a[f] - b[f]) / scene.scale[f]);
-                Ok(pairs.flat_map(errors).collect())
-            };
-            let scene = Scene {
+            let mut rows = Scene {
+                effort,
                 question: Question::Kernels,
                 name: scene.name,
                 values: count as f64,
-                errors: &errors,
+                errors: &|(): &()| {
+                    let cells = cells.borrow();
+                    let pairs = cells.iter().zip(&exact);
+                    let errors = |(a, b): (&Six, &Six)| ALL.map(|f| (a[f] - b[f]) / scene.scale[f]);
+                    Ok(pairs.flat_map(errors).collect())
+                },
+                records: &mut *records,
             };
             let setting = format!("{}, {points} points", density.label());
-            let is_own = density.is_default(points);
-            let candidate = Candidate::new("table", setting, run).default_path(is_own);
-            records.push(scene.measure(effort, &candidate)?);
+            rows.add("table", setting, run)?.default_path = density.is_default(points);
         }
     }
-    Ok(records)
+    Ok(())
 }

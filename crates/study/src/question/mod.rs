@@ -1,13 +1,12 @@
 //! The four questions: methods, settings and scenes, and what each costs.
 //!
-//! A question a file: `kernels`, `force`, `fields`, `impacts`. `single_integral` and `marching` have what the
-//! program itself does not do.
+//! A question a file: `kernels`, `force`, `fields`, `impacts`. `marching` has marches that
+//! the program itself does not take.
 
 pub(crate) mod fields;
 pub(crate) mod force;
 pub(crate) mod impacts;
 pub(crate) mod kernels;
 pub(crate) mod marching;
-pub(crate) mod single_integral;
 #[cfg(test)]
 mod tests;

@@ -8,10 +8,11 @@ use crate::failure::{Failure, check_stdout, lines, say, show};
 use crate::process;
 use crate::progress::Bar;
 use clap::Args;
+use fault::Fault as _;
 use formats::parts::check_complete;
 use formats::sweep::schema::COUNTED;
 use formats::sweep::{
-    Block, Blocks, JournalError, Kept, Precision, Selection, Shard, Spec, SweepError, is_computed,
+    Blocks, JournalError, Kept, Precision, Selection, Shard, Spec, SweepError, is_computed,
     print_csv, row_bytes, run_rows, stage_csv, stage_rows,
 };
 use formats::{Existing, Output, OutputError, QUANTITIES};
@@ -172,14 +173,8 @@ fn report(
     [wall_s, computing_s]: [f64; 2],
     resumed: usize,
 ) -> (Value, String) {
-    let Tally {
-        rows,
-        failed,
-        yielding,
-        cracking,
-        looked_up,
-        ..
-    } = *tally;
+    let [yielding, cracking] = tally.beyond;
+    let (rows, failed) = (tally.rows, tally.failed);
     let output = outputs.results.path().display().to_string();
     let part = outputs.selection.as_ref();
     let shard = part.and_then(|part| Some(part.shard?.to_string()));
@@ -190,7 +185,7 @@ fn report(
         "shape": part.map_or(lengths, |part| vec![part.rows.len()]),
         "rows": rows,
         "sweep_rows": spec.rows(),
-        "sweep_sha256": spec.sha256(),
+        "sweep_sha256": spec.sha256,
         "resumed": resumed,
         "failed": failed,
         "yielding": yielding,
@@ -223,7 +218,7 @@ fn report(
             "{yielding} yield (yield_onset above 1), {cracking} may crack (cone_crack_onset above 1)"
         )));
     }
-    if let Some(count) = looked_up {
+    if let Some(count) = tally.looked_up {
         value["looked_up"] = count.into();
         let fields = format!("{count} of {rows} scenes looked up, the others computed");
         text.push(("fields", fields));
@@ -238,7 +233,13 @@ fn report(
 
 /// The sweep, and what of its results is written.
 fn spec(arguments: &Run, sweep: &Path) -> Result<Spec, Failure> {
-    let spec = Spec::from_file(sweep)?;
+    let spec = Spec::from_file(sweep).map_err(|error| {
+        let hint = match error.culprit().key {
+            Some("scene") => "; one scene is computed by `hertzlamb impact`",
+            _ => "",
+        };
+        Failure::from(error).hint(hint)
+    })?;
     let mut spec = arguments.kernels.with_fields(spec)?;
     if let Some(names) = &arguments.columns {
         spec.fields = spec.fields.only(names)?;
@@ -262,7 +263,7 @@ fn selection(arguments: &Run, spec: &Spec) -> Result<Option<Selection>, Failure>
 /// Computes the rows; what is done is kept from moment to moment.
 fn rows(overwrite: Overwrite, spec: &Spec, outputs: &Outputs) -> Result<Option<Kept>, SweepError> {
     let kept = Arc::new(AtomicUsize::new(0));
-    let range = outputs.rows(spec);
+    let range = outputs.rows.clone();
     let (count, rows, place) = (Arc::clone(&kept), range.len(), outputs.part.clone());
     process::say_then(move || {
         format!(
@@ -274,13 +275,11 @@ fn rows(overwrite: Overwrite, spec: &Spec, outputs: &Outputs) -> Result<Option<K
     let progress = Bar::new();
     progress.start("scenes", rows as u64);
     let existing = overwrite.existing();
-    let done = run_rows(spec, range, &outputs.part, existing, |rows| {
+    run_rows(spec, range, &outputs.part, existing, |rows| {
         kept.store(rows, Ordering::Relaxed);
         progress.set(rows as u64);
         true
-    })?;
-    progress.finish();
-    Ok(done)
+    })
 }
 
 /// A sweep that could not be run or joined, with what to do.
@@ -301,6 +300,7 @@ struct Outputs {
     csv: Option<Output>,
     /// The rows, where they are not the whole sweep in its own shape.
     selection: Option<Selection>,
+    rows: Range<usize>,
     /// Whether the rows go to standard output.
     print: bool,
     /// Where finished blocks are kept until all are there: beside the results, under their name and `.part`.
@@ -343,9 +343,8 @@ impl Outputs {
         let (results, csv) = (claim(output)?, csv.map(claim).transpose()?);
         // a run that was killed while it gave its outputs their names has left some of them
         let wanted = arguments.overwrite.existing();
-        let rows = selection
-            .as_ref()
-            .map_or(0..spec.rows(), |s| s.rows.clone());
+        let some = selection.as_ref().map(|some| some.rows.clone());
+        let rows = some.unwrap_or(0..spec.rows());
         let finish = wanted == Existing::Keep && is_computed(spec, rows.clone(), &part);
         if arguments.skip_complete && !finish && results.real().exists() {
             check_complete(output, spec, selection.as_ref()).map_err(Failure::work)?;
@@ -369,17 +368,10 @@ impl Outputs {
             results: results.over(existing)?,
             csv: csv.map(|csv| csv.over(existing)).transpose()?,
             selection,
+            rows,
             print,
             part,
         }))
-    }
-
-    fn rows(&self, spec: &Spec) -> Range<usize> {
-        let rows = self
-            .selection
-            .as_ref()
-            .map(|selection| selection.rows.clone());
-        rows.unwrap_or(0..spec.rows())
     }
 
     /// Writes all outputs, then gives them their names.
@@ -426,8 +418,8 @@ struct Tally {
     rows: usize,
     failed: usize,
     first: Option<(usize, String)>,
-    yielding: usize,
-    cracking: usize,
+    /// Scenes in which a ratio to what the bodies bear is above 1: those that yield, and those that may crack.
+    beyond: [usize; 2],
     /// Rows whose fields were looked up, of a sweep with probes.
     looked_up: Option<usize>,
 }
@@ -441,13 +433,12 @@ impl Tally {
         rows.each(&mut |block| {
             tally.rows += block.len();
             tally.failed += block.failures.len();
-            tally.first = tally
-                .first
-                .take()
-                .or_else(|| block.failures.first().cloned());
-            let [yielding, cracking] = COUNTED.map(|name| beyond(block, name));
-            tally.yielding += yielding;
-            tally.cracking += cracking;
+            let first = || block.failures.first().cloned();
+            tally.first = tally.first.take().or_else(first);
+            for (count, name) in tally.beyond.iter_mut().zip(COUNTED) {
+                let place = QUANTITIES.iter().position(|quantity| quantity.name == name);
+                *count += place.map_or(0, |k| block.rows().filter(|row| row[k] > 1.0).count());
+            }
             if let Some(count) = &mut tally.looked_up {
                 *count += block.looked_up();
             }
@@ -455,10 +446,4 @@ impl Tally {
         })?;
         Ok(tally)
     }
-}
-
-/// Scenes in which a ratio to what the bodies bear is above 1.
-fn beyond(block: &Block, name: &str) -> usize {
-    let place = QUANTITIES.iter().position(|quantity| quantity.name == name);
-    place.map_or(0, |k| block.rows().filter(|row| row[k] > 1.0).count())
 }

@@ -2,6 +2,7 @@
 
 use crate::failure::{Failure, lines, show};
 use formats::sweep::{Rows, Spec, column_names, compute_rows, grain, row_bytes};
+use output::processor_s;
 use serde_json::json;
 use std::path::Path;
 use std::time::Instant;
@@ -21,7 +22,9 @@ pub(crate) fn run(
     shards: Option<u32>,
     json: bool,
 ) -> Result<(), Failure> {
-    let (measured_rows, rows_per_second) = measure(spec).map_err(|error| error.in_file(sweep))?;
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    let (measured_rows, rows_per_second) =
+        measure(spec, threads).map_err(|error| error.in_file(sweep))?;
     let rows = spec.rows();
     let seconds = rows as f64 / rows_per_second;
     let grain = grain(&spec.fields);
@@ -37,8 +40,7 @@ pub(crate) fn run(
     let bytes_per_shard = sealed(rows_per_shard * bytes);
     let disk_bytes_per_shard = bytes_per_shard + rows_per_shard * kept;
     let seconds_per_shard = rows_per_shard as f64 / rows_per_second;
-    let threads = std::thread::available_parallelism().map_or(1, usize::from);
-    let sha256 = spec.sha256();
+    let sha256 = spec.sha256.clone();
     let value = json!({
         "rows": rows,
         "shards": count,
@@ -86,19 +88,23 @@ pub(crate) fn run(
     show(json, &value, text)
 }
 
-/// Rows spread over the sweep, and how many of them a second takes.
-fn measure(spec: &Spec) -> Result<(usize, f64), formats::SceneError> {
+/// Rows spread over the sweep, and how many of them a second takes; time is that of the processor, which other work on
+/// the machine changes little.
+fn measure(spec: &Spec, threads: usize) -> Result<(usize, f64), formats::SceneError> {
     let mut count = FIRST_ROWS.min(spec.rows());
     loop {
         let step = (spec.rows() / count).max(1);
-        let began = Instant::now();
+        let (began, spent_s) = (Instant::now(), processor_s());
         let rows = Rows {
             start: 0,
             step,
             count,
         };
         compute_rows(spec, rows, |_| true)?;
-        let took_s = began.elapsed().as_secs_f64().max(1e-6);
+        let spent_s = processor_s()
+            .zip(spent_s)
+            .map(|(after, before)| (after - before) / threads as f64);
+        let took_s = spent_s.unwrap_or(began.elapsed().as_secs_f64()).max(1e-6);
         let more = (count as f64 * (MEASURED_S / took_s).min(16.0)) as usize;
         if took_s > MEASURED_S / 2.0 || count >= spec.rows().min(1 << 20) {
             return Ok((count, count as f64 / took_s));

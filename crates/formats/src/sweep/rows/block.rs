@@ -116,16 +116,13 @@ impl Block {
             && self.failures.iter().all(|(row, _)| rows.contains(row))
             && self.failures.is_sorted_by(|a, b| a.0 < b.0)
             && self.numbers.len() == self.width * self.len()
-            && self.has_reasons(failed)
-    }
-
-    /// Whether each failed contact has a reason, and nothing else but fields.
-    fn has_reasons(&self, failed: impl Fn(&u8) -> bool) -> bool {
-        let count = self.models.iter().filter(|m| failed(m)).count();
-        let reasons = self.failures.iter();
-        let of_contacts = reasons.filter(|(row, _)| failed(&self.models[row - self.start]));
-        let of_contacts = of_contacts.count();
-        count == of_contacts
-            && (of_contacts == self.failures.len() || self.width > QUANTITIES.len())
+            && {
+                // each failed contact has a reason, and nothing else but fields
+                let count = self.models.iter().filter(|m| failed(m)).count();
+                let of_contact = |row: usize| failed(&self.models[row - self.start]);
+                let reasons = self.failures.iter();
+                count == reasons.filter(|(row, _)| of_contact(*row)).count()
+                    && (count == self.failures.len() || self.width > QUANTITIES.len())
+            }
     }
 }

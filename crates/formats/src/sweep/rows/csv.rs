@@ -3,27 +3,13 @@
 use super::block::{Block, Blocks};
 use super::columns::{Cells, Column, columns, model_name};
 use crate::sweep::spec::Spec;
-use output::{Existing, Fault, Output, OutputError, Staged};
+use output::{Fault, Output, OutputError, Staged};
 use rayon::prelude::*;
 use std::fmt::Write as _;
 use std::io::{self, BufWriter, Write};
-use std::path::Path;
 
-/// Writes one line a row: the varied keys, the results, the model, the reason of a failure.
-///
-/// # Errors
-/// [`OutputError`].
-pub fn write_csv(
-    path: &Path,
-    spec: &Spec,
-    blocks: &(impl Blocks + ?Sized),
-    existing: Existing,
-) -> Result<(), OutputError> {
-    let output = Output::claim(path, existing)?;
-    stage_csv(&output, spec, blocks)?.commit()
-}
-
-/// The same into an output that was claimed before the work, under its name when it is committed.
+/// Writes one line a row: the varied keys, the results, the model, the reason of a failure; into an output that was claimed
+/// before the work, under its name when it is committed.
 ///
 /// # Errors
 /// [`OutputError`].

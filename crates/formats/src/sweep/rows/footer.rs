@@ -4,20 +4,22 @@
 
 use crate::scene::section::parse;
 use crate::sweep::fields::{Fields, Precision, stored_columns};
-use crate::sweep::schema::{self, part};
 use crate::sweep::shard::{Part, Selection};
-#[cfg(feature = "parquet")]
-use crate::{quantities::Described, sweep::spec::Spec};
-use serde_json::Value;
-#[cfg(feature = "parquet")]
-use serde_json::{Map, json};
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
 use sha2::{Digest, Sha256};
 use std::fs::File;
-#[cfg(feature = "parquet")]
-use std::io::Write;
 use std::io::{self, Read, Seek, SeekFrom};
 use std::ops::Range;
 use std::path::Path;
+#[cfg(feature = "parquet")]
+use {
+    super::columns::Column,
+    crate::sweep::schema::{self, part},
+    crate::sweep::spec::Spec,
+    serde_json::json,
+    std::io::Write,
+};
 
 /// Version of the format: the first number changes when a reader of the old one would fail.
 pub const FORMAT_VERSION: &str = "1.2";
@@ -36,27 +38,39 @@ const TAIL: u64 = 8;
 #[cfg(feature = "parquet")]
 pub(super) const KEY: &str = "hertzlamb";
 
-/// What is in the text.
-#[derive(Debug, Clone, PartialEq, Eq)]
+/// The text, key by key.
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub(crate) struct Footer {
     /// `hertzlamb sweep` or `hertzlamb sweep part`.
     pub(crate) file_type: String,
-    pub(crate) version: String,
+    /// Blank until the file is written.
+    seal: String,
+    pub(crate) format_version: String,
+    software_version: String,
     /// The sweep with its base scene, as TOML.
     pub(crate) sweep: String,
-    pub(crate) part: Part,
-    /// SHA-256 of the bytes of each row group.
-    pub(crate) groups: Vec<String>,
+    sweep_sha256: String,
+    shard: String,
+    sweep_rows: usize,
+    first_row: usize,
+    rows: usize,
+    failed: usize,
+    /// Unit and meaning of each.
+    columns: Map<String, Value>,
+    bits: usize,
+    /// SHA-256 of the bytes of each.
+    pub(crate) row_groups: Vec<String>,
     /// Bytes before the footer.
-    pub(crate) data_bytes: u64,
+    pub(super) data_bytes: u64,
 }
 
 impl Footer {
-    /// Reads the text of a file that begins like Parquet; nothing where it is none of the program's.
+    /// Reads the text of a file that begins like Parquet, with what it says of the rows; nothing where it is none of the
+    /// program's.
     ///
     /// # Errors
     /// What is wrong with it, in a few words.
-    pub(crate) fn read(path: &Path) -> Result<Option<Self>, String> {
+    pub(crate) fn read(path: &Path) -> Result<Option<(Self, Part)>, String> {
         let (bytes, length) = footer_of(path).map_err(|error| error.to_string())?;
         let Some(bytes) = bytes else {
             return Err("it has no end: it was cut short".to_owned());
@@ -69,16 +83,16 @@ impl Footer {
             return Err("its footer was changed".to_owned());
         }
         let mut texts = serde_json::Deserializer::from_slice(&bytes[begin..]).into_iter();
-        let text: Option<Value> = texts.next().and_then(Result::ok);
-        let found = text.as_ref().and_then(|text| Self::parsed(text, path));
-        let found = found.ok_or("its footer does not say what it has")?;
-        if found.part.selection.rows.end > found.part.sweep_rows {
+        let found: Option<Self> = texts.next().and_then(Result::ok);
+        let found = found.and_then(|found| Some((found.part(path)?, found)));
+        let (part, found) = found.ok_or("its footer does not say what it has")?;
+        if part.selection.rows.end > part.sweep_rows {
             return Err("it has rows beyond those of its sweep".to_owned());
         }
         if found.data_bytes.checked_add(bytes.len() as u64 + TAIL) != Some(length) {
             return Err("its length is not what its footer says".to_owned());
         }
-        Ok(Some(found))
+        Ok(Some((found, part)))
     }
 
     /// All of the footer, as Parquet has it.
@@ -87,103 +101,62 @@ impl Footer {
         Ok(footer_of(path)?.0.unwrap_or_default())
     }
 
-    fn parsed(text: &Value, path: &Path) -> Option<Self> {
-        let string = |name: &str| Some(text.get(name)?.as_str()?.to_owned());
-        let count = |name: &str| usize::try_from(text.get(name)?.as_u64()?).ok();
-        let start = count(part::FIRST_ROW)?;
-        let shard = match string(part::SHARD)?.as_str() {
+    fn part(&self, path: &Path) -> Option<Part> {
+        let shard = match self.shard.as_str() {
             "" => None,
             shard => Some(shard.parse().ok()?),
         };
-        let columns = text.get("columns")?.as_object()?;
-        let sweep = string("sweep")?;
-        let mut fields = Fields::all(stored_columns(&parse(&sweep).ok()?).ok()?);
-        fields.retain(|name| columns.contains_key(name));
-        fields.precision = match count("bits")? {
-            64 => Precision::Double,
-            32 => Precision::Single,
-            _ => return None,
-        };
-        let groups = text.get("row_groups")?.as_array()?.iter();
-        Some(Self {
-            file_type: string("file_type")?,
-            version: string("format_version")?,
-            sweep,
-            part: Part {
-                path: path.to_owned(),
-                sha256: string(schema::SHA256)?,
-                sweep_rows: count(part::SWEEP_ROWS)?,
-                selection: Selection {
-                    rows: start..start.checked_add(count(schema::ROWS)?)?,
-                    shard,
-                },
-                failed: count(schema::FAILED)?,
-                fields,
-                sealed: true,
+        let mut fields = Fields::all(stored_columns(&parse(&self.sweep).ok()?).ok()?);
+        fields.retain(|name| self.columns.contains_key(name));
+        let mut precisions = [Precision::Double, Precision::Single].into_iter();
+        fields.precision = precisions.find(|precision| self.bits == 8 * precision.bytes())?;
+        Some(Part {
+            path: path.to_owned(),
+            sha256: self.sweep_sha256.clone(),
+            sweep_rows: self.sweep_rows,
+            selection: Selection {
+                rows: self.first_row..self.first_row.checked_add(self.rows)?,
+                shard,
             },
-            groups: groups
-                .map(|group| Some(group.as_str()?.to_owned()))
-                .collect::<Option<_>>()?,
-            data_bytes: text.get("data_bytes")?.as_u64()?,
+            failed: self.failed,
+            fields,
+            sealed: true,
         })
     }
-}
 
-#[cfg(feature = "parquet")]
-impl Footer {
-    /// Of all rows of a sweep or of some, before any is written.
-    pub(super) fn of(spec: &Spec, selection: Option<&Selection>) -> Self {
-        let whole = || Selection {
-            rows: 0..spec.rows(),
-            shard: None,
-        };
-        let file_type = selection.map_or(schema::FILE_TYPE, |_| part::FILE_TYPE);
+    /// Of all rows of a sweep or of some, before their groups are known.
+    #[cfg(feature = "parquet")]
+    pub(super) fn of(
+        spec: &Spec,
+        selection: Option<&Selection>,
+        columns: &[Column<'_>],
+        failed: usize,
+    ) -> Self {
+        let described = columns.iter().map(|Column { described, .. }| {
+            let labels = json!({ "units": described.unit, "long_name": described.meaning });
+            (described.name.clone(), labels)
+        });
+        let rows = selection.map_or(0..spec.rows(), |selection| selection.rows.clone());
+        let shard = selection.and_then(|selection| selection.shard);
         Self {
-            file_type: file_type.to_owned(),
-            version: FORMAT_VERSION.to_owned(),
+            file_type: selection
+                .map_or(schema::FILE_TYPE, |_| part::FILE_TYPE)
+                .to_owned(),
+            seal: "0".repeat(DIGITS),
+            format_version: FORMAT_VERSION.to_owned(),
+            software_version: env!("CARGO_PKG_VERSION").to_owned(),
             sweep: spec.resolved.clone(),
-            part: Part {
-                path: std::path::PathBuf::new(),
-                sha256: spec.sha256(),
-                sweep_rows: spec.rows(),
-                selection: selection.cloned().unwrap_or_else(whole),
-                failed: 0,
-                fields: spec.fields.clone(),
-                sealed: true,
-            },
-            groups: Vec::new(),
+            sweep_sha256: spec.sha256.clone(),
+            shard: shard.map_or_else(String::new, |shard| shard.to_string()),
+            sweep_rows: spec.rows(),
+            first_row: rows.start,
+            rows: rows.len(),
+            failed,
+            columns: described.collect(),
+            bits: 8 * spec.fields.precision.bytes(),
+            row_groups: Vec::new(),
             data_bytes: 0,
         }
-    }
-
-    /// The text, whose seal is still blank.
-    pub(super) fn json<'c>(&self, columns: impl Iterator<Item = &'c Described>) -> String {
-        let described = columns.map(|column| {
-            let labels = json!({ "units": column.unit, "long_name": column.meaning });
-            (column.name.clone(), labels)
-        });
-        let Part {
-            selection, fields, ..
-        } = &self.part;
-        let shard = selection.shard.map(|shard| shard.to_string());
-        json!({
-            "file_type": self.file_type,
-            "seal": "0".repeat(DIGITS),
-            "format_version": self.version,
-            "software_version": env!("CARGO_PKG_VERSION"),
-            "sweep": self.sweep,
-            schema::SHA256: self.part.sha256,
-            part::SHARD: shard.unwrap_or_default(),
-            part::SWEEP_ROWS: self.part.sweep_rows,
-            part::FIRST_ROW: selection.rows.start,
-            schema::ROWS: selection.rows.len(),
-            schema::FAILED: self.part.failed,
-            "columns": described.collect::<Map<_, _>>(),
-            "bits": 8 * fields.precision.bytes(),
-            "row_groups": self.groups,
-            "data_bytes": self.data_bytes,
-        })
-        .to_string()
     }
 }
 

@@ -19,7 +19,7 @@ use crate::sweep::shard::Selection;
 use crate::sweep::spec::Spec;
 use contact::{Choice, Model};
 use hdf5::{Dataset, Group, H5Type, Hyperslab, SliceOrIndex};
-use output::{Existing, Fault, Output, OutputError, Staged};
+use output::{Fault, Output, OutputError, Staged};
 use std::collections::HashMap;
 use std::fs::File;
 use std::io::{Seek, SeekFrom, Write};
@@ -33,10 +33,12 @@ const OTHER_REASON: &str = "a reason unlike the first 100000: compute the row by
 
 /// Which file is written.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Extent<'a> {
+pub(crate) enum Extent<'a> {
     Whole,
     Part(&'a Selection),
-    /// The whole, whose results lie in files that have some of the rows each.
+    /// The whole, whose results lie in files that have some of the rows each: only which failure a scene has is copied,
+    /// because each of them counts its own, and nothing but the failures is taken of the blocks. What is not there when it is
+    /// read is NaN, and model 255.
     Virtual(&'a [Source]),
 }
 
@@ -49,40 +51,10 @@ pub(crate) struct Source {
     pub(crate) rows: Range<usize>,
 }
 
-/// Writes the results of a sweep whose blocks are all there, in order.
-///
-/// # Errors
-/// [`OutputError`].
-pub fn write_sweep(
-    path: &Path,
-    spec: &Spec,
-    blocks: &(impl Blocks + ?Sized),
-    existing: Existing,
-) -> Result<(), OutputError> {
-    let output = Output::claim(path, existing)?;
-    stage_hdf5(&output, spec, Extent::Whole, blocks)?.commit()
-}
-
-/// Writes the file of a whole sweep that refers to its parts; only which failure a scene has is copied, because each part
-/// counts its own. Of the blocks nothing but the failures is taken.
-///
-/// What is not there when it is read is NaN, and model 255.
-///
-/// # Errors
-/// [`OutputError`].
-pub(crate) fn stage_virtual<'a>(
-    output: &'a Output,
-    spec: &Spec,
-    sources: &[Source],
-    blocks: &(impl Blocks + ?Sized),
-) -> Result<Staged<'a>, OutputError> {
-    stage_hdf5(output, spec, Extent::Virtual(sources), blocks)
-}
-
 /// Writes rows, whose blocks are all there in order, into an output that was claimed before the work.
 ///
 /// No more than a block is in memory, and the bytes do not depend on how rows are divided into blocks.
-pub(super) fn stage_hdf5<'a>(
+pub(crate) fn stage_hdf5<'a>(
     output: &'a Output,
     spec: &Spec,
     extent: Extent<'_>,
@@ -93,25 +65,20 @@ pub(super) fn stage_hdf5<'a>(
         let file = new_file().create(path).map_err(told)?;
         let mut table = Table {
             spec,
-            columns: columns(spec),
             reserved: Vec::new(),
         };
-        let rows = match extent {
+        let (begun, rows) = match extent {
             Extent::Part(selection) => {
-                table.begin_part(&file, selection).map_err(told)?;
-                selection.rows.clone()
+                let begun = table.begin_part(&file, selection);
+                (begun, selection.rows.clone())
             }
-            Extent::Whole => {
-                table.begin_whole(&file, None).map_err(told)?;
-                0..spec.rows()
-            }
+            Extent::Whole => (table.begin_whole(&file, None), 0..spec.rows()),
             Extent::Virtual(sources) => {
-                table.begin_whole(&file, Some(sources)).map_err(told)?;
-                let places: Vec<&str> = sources.iter().map(|s| s.path.as_str()).collect();
-                text(&file, part::PARTS, &places.join("\n")).map_err(told)?;
-                0..spec.rows()
+                let begun = table.begin_whole(&file, Some(sources));
+                (begun, 0..spec.rows())
             }
         };
+        begun.map_err(told)?;
         let (failed, reasons) = table.fill(path, &rows, blocks)?;
         finish(file, failed, &reasons).map_err(told)?;
         ledger::seal(path).map_err(Fault::from)
@@ -138,14 +105,13 @@ pub fn row_bytes(spec: &Spec) -> (usize, usize) {
     (8 + keys + results + 4, 8 * kept + 1)
 }
 
-/// A file that is being written: its columns, and those that are reserved in it with the places of their numbers.
+/// A file that is being written: the columns that are reserved in it, with the places of their numbers.
 struct Table<'a> {
     spec: &'a Spec,
-    columns: Vec<Column<'a>>,
     reserved: Vec<(What<'a>, Option<u64>)>,
 }
 
-impl Table<'_> {
+impl<'a> Table<'a> {
     /// Everything of a whole sweep but the rows.
     fn begin_whole(
         &mut self,
@@ -160,7 +126,7 @@ impl Table<'_> {
         let group = file.create_group(schema::RESULTS)?;
         let (scales, beside) = write_scales(&group, &spec.axes)?;
         let scales: Vec<&Dataset> = scales.iter().collect();
-        for column in std::mem::take(&mut self.columns) {
+        for column in columns(spec) {
             let labels = column.described.labels();
             let dataset = match (column.what, sources, spec.fields.precision) {
                 (What::Row | What::Key { .. }, _, _) => continue,
@@ -181,7 +147,10 @@ impl Table<'_> {
                 text(&dataset, COORDINATES, &beside.join(" "))?;
             }
         }
-        Ok(())
+        sources.map_or(Ok(()), |sources| {
+            let places: Vec<&str> = sources.iter().map(|s| s.path.as_str()).collect();
+            text(file, part::PARTS, &places.join("\n"))
+        })
     }
 
     /// Everything of a part but the rows.
@@ -197,7 +166,7 @@ impl Table<'_> {
         let group = file.create_group(schema::RESULTS)?;
         let words = file.create_group(part::WORDS)?;
         let (mut row, mut keys) = (None, Vec::new());
-        for Column { described, what } in std::mem::take(&mut self.columns) {
+        for Column { described, what } in columns(spec) {
             let (name, unit, mut meaning) = (described.name, described.unit, described.meaning);
             if let Some(values) = what.words() {
                 texts(&words, &(&name, "1", "words of a scene key"), values)?;
@@ -219,9 +188,7 @@ impl Table<'_> {
         }
         Ok(())
     }
-}
 
-impl<'a> Table<'a> {
     /// Makes the dataset of a column.
     fn reserve(
         &mut self,
@@ -319,7 +286,7 @@ fn write_texts(
     version: &str,
 ) -> Result<(), hdf5::Error> {
     let software = env!("CARGO_PKG_VERSION");
-    let values = [file_type, version, software, &spec.resolved, &spec.sha256()];
+    let values = [file_type, version, software, &spec.resolved, &spec.sha256];
     let mut named = schema::TEXTS.into_iter().zip(values);
     named.try_for_each(|(name, value)| text(file, name, value))
 }
@@ -429,53 +396,30 @@ fn refer<T: H5Type + Copy + Into<hdf5::types::OwnedDynValue>>(
 /// Boxes that hold the rows of a range in their order, each once: ranges along the dimensions, the last of which runs
 /// fastest; twice as many as dimensions at most.
 fn boxes(shape: &[usize], rows: Range<usize>) -> Vec<Vec<Range<usize>>> {
-    let mut found = Vec::new();
-    divide(shape, rows, &mut Vec::new(), &mut found);
+    let (mut found, mut at) = (Vec::new(), rows.start);
+    while at < rows.end {
+        // the largest slices that begin here and fit, and as many as follow each other along their dimension
+        let (mut along, mut slice) = (shape.len() - 1, 1);
+        while along > 0 {
+            let larger = slice * shape[along];
+            if at % larger != 0 || at + larger > rows.end {
+                break;
+            }
+            (along, slice) = (along - 1, larger);
+        }
+        let first = at / slice % shape[along];
+        let count = ((rows.end - at) / slice).min(shape[along] - first);
+        let mut ranges: Vec<_> = shape.iter().map(|&length| 0..length).collect();
+        ranges[along] = first..first + count;
+        let mut outer = at / slice / shape[along];
+        for range in ranges[..along].iter_mut().rev() {
+            let (place, length) = (outer % range.end, range.end);
+            (*range, outer) = (place..place + 1, outer / length);
+        }
+        found.push(ranges);
+        at += count * slice;
+    }
     found
-}
-
-fn divide(
-    shape: &[usize],
-    rows: Range<usize>,
-    before: &mut Vec<Range<usize>>,
-    found: &mut Vec<Vec<Range<usize>>>,
-) {
-    if rows.is_empty() {
-        return;
-    }
-    let [_, inner @ ..] = shape else {
-        found.push(before.clone());
-        return;
-    };
-    let stride: usize = inner.iter().product();
-    let within = |at: usize| {
-        rows.start.max(at * stride) - at * stride..rows.end.min((at + 1) * stride) - at * stride
-    };
-    let (first, last) = (rows.start / stride, rows.end.div_ceil(stride));
-    // whole slices are one box; what is left of the first and the last is divided further
-    let whole = rows.start.div_ceil(stride)..rows.end / stride;
-    let mut partial = |at: usize, before: &mut Vec<Range<usize>>| {
-        before.push(at..at + 1);
-        divide(inner, within(at), before, found);
-        before.pop();
-    };
-    if whole.is_empty() {
-        (first..last).for_each(|at| partial(at, before));
-        return;
-    }
-    if first < whole.start {
-        partial(first, before);
-    }
-    let mut slices = before.clone();
-    slices.push(whole.clone());
-    slices.extend(inner.iter().map(|&length| 0..length));
-    found.push(slices);
-    if whole.end < last {
-        let at = whole.end;
-        before.push(at..at + 1);
-        divide(inner, within(at), before, found);
-        before.pop();
-    }
 }
 
 #[cfg(test)]

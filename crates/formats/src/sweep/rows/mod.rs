@@ -11,15 +11,14 @@ mod hdf5;
 #[cfg(feature = "parquet")]
 mod parquet;
 
-use self::hdf5::{Extent, stage_hdf5};
-pub(crate) use self::hdf5::{Source, stage_virtual};
-pub use self::hdf5::{row_bytes, write_sweep};
+pub use self::hdf5::row_bytes;
+pub(crate) use self::hdf5::{Extent, Source, stage_hdf5};
 #[cfg(feature = "parquet")]
 use self::parquet::stage_parquet;
 pub use block::{Block, Blocks, NO_MODEL};
 pub(crate) use columns::keys;
 pub use columns::{column_names, key_unit};
-pub use csv::{print_csv, stage_csv, write_csv};
+pub use csv::{print_csv, stage_csv};
 pub use footer::FORMAT_VERSION as PARQUET_VERSION;
 pub(crate) use footer::{Footer, MAGIC};
 

@@ -47,10 +47,9 @@ pub(super) fn stage_parquet<'a>(
     output.stage(|path| {
         let columns = columns(spec);
         let mut table = Table::begin(path, spec, &columns)?;
-        let mut footer = Footer::of(spec, selection);
-        let rows = footer.part.selection.rows.clone();
-        footer.part.failed = each_of(&rows, blocks, &mut |block| table.take(block))?;
-        table.finish(footer)?;
+        let rows = selection.map_or(0..spec.rows(), |selection| selection.rows.clone());
+        let failed = each_of(&rows, blocks, &mut |block| table.take(block))?;
+        table.finish(Footer::of(spec, selection, &columns, failed))?;
         seal(path).map_err(Fault::from)
     })
 }
@@ -136,8 +135,8 @@ impl<'a> Table<'a> {
             self.write_group()?;
         }
         footer.data_bytes = self.writer.bytes_written() as u64;
-        footer.groups = self.groups;
-        let text = footer.json(self.columns.iter().map(|column| &column.described));
+        footer.row_groups = self.groups;
+        let text = serde_json::to_string(&footer).map_err(|error| error.to_string())?;
         let entry = KeyValue::new(KEY.to_owned(), text);
         self.writer.append_key_value_metadata(entry);
         self.writer.close().map(drop).map_err(fault)
@@ -157,39 +156,30 @@ fn encode(
     let (described, properties) = (Arc::clone(described), Arc::clone(properties));
     let mut writer = get_column_writer(described, properties, pages);
     let word = |place: usize| words.get(place).cloned();
-    match (cells, &mut writer) {
-        (Cells::Whole(rows), Of::Int64ColumnWriter(writer)) => {
-            write(writer, rows.into_iter().map(Some))?;
+    let written = match (cells, &mut writer) {
+        (Cells::Whole(rows), Of::Int64ColumnWriter(to)) => write(to, rows.into_iter().map(Some)),
+        (Cells::Double(numbers), Of::DoubleColumnWriter(to)) => {
+            let there = |x: f64| (!x.is_nan()).then_some(x);
+            write(to, numbers.into_iter().map(there))
         }
-        (Cells::Double(numbers), Of::DoubleColumnWriter(writer)) => {
-            write(
-                writer,
-                numbers.into_iter().map(|x| (!x.is_nan()).then_some(x)),
-            )?;
+        (Cells::Single(numbers), Of::FloatColumnWriter(to)) => {
+            let there = |x: f32| (!x.is_nan()).then_some(x);
+            write(to, numbers.into_iter().map(there))
         }
-        (Cells::Single(numbers), Of::FloatColumnWriter(writer)) => {
-            write(
-                writer,
-                numbers.into_iter().map(|x| (!x.is_nan()).then_some(x)),
-            )?;
+        (Cells::Words(places), Of::ByteArrayColumnWriter(to)) => {
+            write(to, places.into_iter().map(|place| word(place as usize)))
         }
-        (Cells::Words(places), Of::ByteArrayColumnWriter(writer)) => {
-            write(writer, places.into_iter().map(|place| word(place as usize)))?;
+        (Cells::Models(models), Of::ByteArrayColumnWriter(to)) => {
+            write(to, models.iter().map(|&model| word(usize::from(model))))
         }
-        (Cells::Models(models), Of::ByteArrayColumnWriter(writer)) => {
-            write(writer, models.iter().map(|&model| word(usize::from(model))))?;
-        }
-        (Cells::Reasons(reasons), Of::ByteArrayColumnWriter(writer)) => {
-            write(
-                writer,
-                reasons
-                    .into_iter()
-                    .map(|reason| reason.map(ByteArray::from)),
-            )?;
+        (Cells::Reasons(reasons), Of::ByteArrayColumnWriter(to)) => {
+            let text = |reason: Option<&str>| reason.map(ByteArray::from);
+            write(to, reasons.into_iter().map(text))
         }
         // the type of a column follows from what it holds
-        _ => return Err(ParquetError::General("a column of another type".to_owned())),
-    }
+        _ => Err(ParquetError::General("a column of another type".to_owned())),
+    };
+    written?;
     let closed = writer.close()?;
     Ok((Bytes::from(sink.into_inner()?), closed))
 }

@@ -1,7 +1,10 @@
-//! Outcomes of contacts with the full memory of the half-space from series, where a sweep has rows enough to pay for them.
+//! Outcomes of contacts that are marched from series, where a sweep has rows enough to pay for them.
+//!
+//! These are contacts with the full memory of the half-space, and those on Jackson and Green's fit with a dashpot.
 //!
 //! An outcome depends on few numbers: that of a contact that follows the load, between given materials, on tau = a/c1 alone,
-//! that on a fixed disc, for a given Poisson's ratio, on theta = r0/c1 and the coupling.
+//! that on a fixed disc, for a given Poisson's ratio, on theta = r0/c1 and the coupling, and that on the fit, for a given
+//! material, on the lag and on sqrt(s^2 - 1), s the velocity over that at which the fit leaves Hertz's law.
 //! Over an octave of each it is nearly a polynomial of low degree in their logarithms, so the plane of these is cut into
 //! cells of an octave, each with a Chebyshev [`Series`] through marches at its nodes.
 //! The power that a result has to first order is divided out.
@@ -15,8 +18,6 @@
 //! alone.
 //! So the numbers of a row depend neither on the order of rows nor on shards, threads and interruptions.
 
-pub(crate) mod series;
-
 use crate::collision::Collision;
 use crate::disc::refine::{Accuracy, Workspace, solve_disc};
 use crate::disc::response::DiscResponse;
@@ -24,12 +25,14 @@ use crate::disc::{FixedDisc, stability};
 use crate::energy;
 use crate::growing::solve_growing;
 use crate::growing::waves::GrowingContact;
-use crate::model::choose::{Plan, disc_radius_m};
-use crate::model::{Rung, Scheme, Settings, StaticShare};
-use crate::outcome::series::{LANES, Series};
+use crate::model::choose::{Family, Plan, disc_radius_m};
+use crate::model::{Plasticity, Rung, Scheme, Settings, StaticShare};
+use crate::numeric::series::Series;
+use crate::plastic::Yielding;
+use crate::plastic::branch::{FITTED, Fit};
+use crate::plastic::quick::quick;
 use crate::responses::Responses;
-use crate::summary::{EndOfContact, Summary, relative};
-use crate::units::INVERSE_MASS;
+use crate::summary::{Summary, relative};
 use halfspace::Deflection;
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
@@ -37,12 +40,13 @@ use std::sync::OnceLock;
 /// A cell: an octave of each free group of a family of contacts, at given others.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Cell {
-    /// Logarithms to the base of two of tau or theta, and of the coupling, rounded down.
+    /// Logarithms to the base of two of the free groups, rounded down.
     octaves: [i32; 2],
-    /// Poisson's ratio and, of a contact that follows the load, phi; in bits.
+    family: Family,
+    /// Whether the deflection of a fixed disc is the mean.
+    mean: bool,
+    /// Poisson's ratio and, of a contact that follows the load, phi; C and e_y of the fit; in bits.
     fixed: [u64; 2],
-    /// Of a fixed disc: whether its share is the dynamic one, and whether its deflection is the mean.
-    disc: Option<[bool; 2]>,
     /// Tolerance, and that of the loss or zero; in bits.
     tolerances: [u64; 2],
 }
@@ -58,11 +62,8 @@ pub(crate) struct Place {
 /// The series that the contacts of a sweep share, each with its certificate, made when it is first asked for.
 #[derive(Debug, Default)]
 pub struct Outcomes {
-    cells: BTreeMap<Cell, OnceLock<Option<(Series, f64)>>>,
+    cells: BTreeMap<Cell, OnceLock<Option<(Series<8>, f64)>>>,
 }
-
-/// Summary of a contact, its radiated over its kinetic energy, and the error of the summary.
-pub(crate) type Outcome = (Summary, f64, f64);
 
 /// Rows in a cell over the marches of its series from which on it pays: one at a node takes as long as two or three rows.
 const PAYS: f64 = 4.0;
@@ -70,9 +71,9 @@ const PAYS: f64 = 4.0;
 /// Tolerance of the marches over that of the rows.
 const FINER: f64 = 0.1;
 
-/// Tolerance from which on the lower degree serves, and the nodes along a group: of it, and below.
+/// Tolerance from which on the lower degree serves, and the nodes along a group: of it, below, and of the fit.
 const COARSE: f64 = 1e-5;
-const NODES: [usize; 2] = [5, 7];
+const NODES: [usize; 3] = [5, 7, 8];
 
 /// Marches between the nodes, of one free group and of two; they are equidistributed, with these steps.
 const PROBES: [usize; 2] = [4, 8];
@@ -85,7 +86,7 @@ const CAUTION: f64 = 3.0;
 const BESIDE: f64 = 10.0;
 
 /// Part of the tolerance below which a coefficient is left out.
-const LEFT_OUT: f64 = 1e-3;
+const LEFT_OUT: f64 = 5e-2;
 
 impl Place {
     /// Of a contact that would be marched with full memory, and its disc's response.
@@ -100,37 +101,51 @@ impl Place {
         if rung != Rung::FullMemory || !is_refined {
             return None;
         }
-        let nu = collision.target_poisson_ratio.to_bits();
-        let memory = plan.groups.memory;
-        let (groups, fixed, disc) = if on_disc {
-            let dynamic = settings.static_share == StaticShare::Dynamic;
-            let mean = settings.deflection == Deflection::Mean;
-            let coupling = if dynamic {
+        let (nu, memory) = (collision.target_poisson_ratio, plan.groups.memory);
+        if !on_disc {
+            let fixed = [nu, collision.target_share()];
+            let groups = [memory / response.punch_memory(), 1.0];
+            return Some(Self::new(settings, Family::Growing, fixed, groups));
+        }
+        let (family, coupling) = match settings.static_share {
+            StaticShare::Full => (Family::Full, plan.groups.coupling),
+            StaticShare::Dynamic => {
                 let radius_m = disc_radius_m(settings, collision);
                 let compliance = response.static_compliance();
-                collision.disc_groups(compliance, radius_m).0
-            } else {
-                plan.groups.coupling
-            };
-            let groups = [memory / response.memory(), coupling];
-            (groups, [nu, 0], Some([dynamic, mean]))
-        } else {
-            let phi = collision.target_share().to_bits();
-            ([memory / response.punch_memory(), 1.0], [nu, phi], None)
+                let (coupling, _) = collision.disc_groups(compliance, radius_m);
+                (Family::Dynamic, coupling)
+            }
         };
-        let tolerances = [settings.tolerance, settings.loss_tolerance.unwrap_or(0.0)];
+        let groups = [memory / response.memory(), coupling];
+        Some(Self::new(settings, family, [nu, 0.0], groups))
+    }
+
+    /// Of a contact on Jackson and Green's fit with a dashpot.
+    pub(crate) fn of_fit(plan: &Plan, yielding: &Yielding, settings: &Settings) -> Option<Self> {
+        let fit = yielding.fit?;
+        if plan.model.row().0 != Rung::AreaDashpot {
+            return None;
+        }
+        let groups = [(yielding.edge().powi(-5) - 1.0).sqrt(), plan.groups.lag];
+        let fixed = [fit.shape, fit.strain];
+        Some(Self::new(settings, Family::Yielding, fixed, groups))
+    }
+
+    fn new(settings: &Settings, family: Family, fixed: [f64; 2], groups: [f64; 2]) -> Self {
         let octaves = groups.map(octave);
+        let tolerances = [settings.tolerance, settings.loss_tolerance.unwrap_or(0.0)];
         let cell = Cell {
             octaves: octaves.map(|(octave, _)| octave),
-            fixed,
-            disc,
+            family,
+            mean: settings.deflection == Deflection::Mean,
+            fixed: fixed.map(f64::to_bits),
             tolerances: tolerances.map(f64::to_bits),
         };
-        Some(Self {
+        Self {
             cell,
             groups,
             inside: octaves.map(|(_, part)| 2.0 * part.log2() - 1.0),
-        })
+        }
     }
 }
 
@@ -166,8 +181,12 @@ impl Outcomes {
         }
     }
 
-    /// The outcome at a place; nothing where it has to be marched.
-    pub(crate) fn at(&self, place: &Place, responses: &impl Responses) -> Option<Outcome> {
+    /// The outcome at a place, what it radiates over its kinetic energy, and its error; nothing where it has to be marched.
+    pub(crate) fn at(
+        &self,
+        place: &Place,
+        responses: &impl Responses,
+    ) -> Option<(Summary, f64, f64)> {
         let series = self.cells.get(&place.cell)?;
         let made = || place.cell.contract(responses);
         let (series, error) = series.get_or_init(made).as_ref()?;
@@ -177,29 +196,35 @@ impl Outcomes {
 }
 
 impl Cell {
-    /// Nodes along each group.
-    fn nodes(&self) -> [usize; 2] {
-        let nodes = NODES[usize::from(f64::from_bits(self.tolerances[0]) < COARSE)];
-        [nodes, if self.disc.is_some() { nodes } else { 1 }]
-    }
-
-    fn probes(&self) -> usize {
-        PROBES[usize::from(self.disc.is_some())]
+    /// Nodes along each group, and marches between them.
+    fn nodes(&self) -> ([usize; 2], usize) {
+        let fine = usize::from(f64::from_bits(self.tolerances[0]) < COARSE);
+        match self.family {
+            Family::Growing => ([NODES[fine], 1], PROBES[0]),
+            Family::Full | Family::Dynamic => ([NODES[fine]; 2], PROBES[1]),
+            Family::Yielding => ([NODES[2]; 2], PROBES[1]),
+        }
     }
 
     /// Marches of a contraction.
     fn marches(&self) -> usize {
-        self.nodes().iter().product::<usize>() + self.probes()
+        let ([across, along], probes) = self.nodes();
+        across * along + probes
     }
 
     /// The groups at a place in it.
     fn groups(&self, inside: [f64; 2]) -> [f64; 2] {
         let group = |k: usize| (f64::from(self.octaves[k]) + 0.5 * (inside[k] + 1.0)).exp2();
-        [group(0), self.disc.map_or(1.0, |_| group(1))]
+        let second = if self.family == Family::Growing {
+            1.0
+        } else {
+            group(1)
+        };
+        [group(0), second]
     }
 
     /// The series with its certificate, where that meets the tolerance.
-    fn contract(&self, responses: &impl Responses) -> Option<(Series, f64)> {
+    fn contract(&self, responses: &impl Responses) -> Option<(Series<8>, f64)> {
         let [tolerance, of_loss] = self.tolerances.map(f64::from_bits);
         let of_loss = Some(of_loss).filter(|&asked| asked > 0.0);
         let asked = Accuracy::of_contact(FINER * tolerance, of_loss.map(|asked| FINER * asked));
@@ -215,9 +240,10 @@ impl Cell {
             let (summary, radiated, groups) = march(inside)?;
             Some(lanes(&summary, radiated, groups))
         };
-        let series = Series::through(self.nodes(), LEFT_OUT * tolerance, values)?;
+        let (nodes, probes) = self.nodes();
+        let series = Series::through(nodes, LEFT_OUT * tolerance, values)?;
         let mut missed = 0.0_f64;
-        for k in 1..=self.probes() {
+        for k in 1..=probes {
             let inside = STEPS.map(|step| 2.0 * (k as f64 * step).fract() - 1.0);
             let (exact, work, groups) = march(inside)?;
             let (found, radiated) = outcome(&series.at(inside), groups);
@@ -235,41 +261,53 @@ impl Cell {
         (error <= tolerance).then_some((series, error))
     }
 
-    /// The outcome at some groups by a march; nothing where the contact is refused or is not one.
+    /// The outcome at some groups by a march, as of [`Outcomes::at`]; nothing where the contact is refused or is not one.
     fn march<S: Responses>(
         &self,
-        [time, coupling]: [f64; 2],
+        [first, second]: [f64; 2],
         asked: Accuracy,
         responses: &S,
         workspace: &mut Workspace,
-    ) -> Option<Outcome> {
-        let [nu, target_share] = self.fixed.map(f64::from_bits);
-        let Some([dynamic, mean]) = self.disc else {
-            let waves = responses.waves(nu).ok()?;
-            let contact = GrowingContact {
-                waves: &waves,
-                target_share,
-                wave_time: time,
-            };
-            let solved = solve_growing(&contact, &asked).ok()?;
-            let summary = *solved.summary();
-            return Some((summary, summary.loss, solved.estimates().contact()));
+    ) -> Option<(Summary, f64, f64)> {
+        let fixed = self.fixed.map(f64::from_bits);
+        let share = match self.family {
+            Family::Growing => {
+                let waves = responses.waves(fixed[0]).ok()?;
+                let contact = GrowingContact {
+                    waves: &waves,
+                    target_share: fixed[1],
+                    wave_time: first,
+                };
+                let solved = solve_growing(&contact, &asked).ok()?;
+                let summary = *solved.summary();
+                return Some((summary, summary.loss, solved.estimates().contact()));
+            }
+            Family::Yielding => {
+                let depth = (1.0 + first * first).powf(-0.4) / FITTED;
+                let [shape, strain] = fixed;
+                let yielding = Yielding {
+                    law: Plasticity::JacksonGreen,
+                    yield_pressure_pa: f64::NAN,
+                    depth,
+                    fit: Some(Fit::new(depth, shape, strain)),
+                };
+                let (summary, flow) = quick(&yielding, second)?;
+                return Some((summary, flow.radiated, 0.0));
+            }
+            Family::Full => StaticShare::Full,
+            Family::Dynamic => StaticShare::Dynamic,
         };
-        let of_mean = responses.disc(nu, Deflection::Mean).ok()?;
-        let response = if mean {
+        let of_mean = responses.disc(fixed[0], Deflection::Mean).ok()?;
+        let response = if self.mean {
             of_mean.clone()
         } else {
-            responses.disc(nu, Deflection::Centre).ok()?
+            responses.disc(fixed[0], Deflection::Centre).ok()?
         };
         let impact = FixedDisc {
             response: &*response,
-            coupling,
-            wave_time: time,
-            share: if dynamic {
-                StaticShare::Dynamic
-            } else {
-                StaticShare::Full
-            },
+            coupling: second,
+            wave_time: first,
+            share,
         };
         stability::check(&impact, workspace).ok()?;
         let found = solve_disc(workspace, &impact, None, asked).ok()?;
@@ -281,7 +319,7 @@ impl Cell {
 }
 
 /// What a series has of an outcome: without the power of the groups that it has to first order.
-fn lanes(summary: &Summary, radiated: f64, [time, coupling]: [f64; 2]) -> [f64; LANES] {
+fn lanes(summary: &Summary, radiated: f64, [time, coupling]: [f64; 2]) -> [f64; 8] {
     let first = time * coupling;
     [
         summary.peak_force,
@@ -296,7 +334,7 @@ fn lanes(summary: &Summary, radiated: f64, [time, coupling]: [f64; 2]) -> [f64; 
 }
 
 /// The way back; all other results follow from these.
-fn outcome(lanes: &[f64; LANES], [time, coupling]: [f64; 2]) -> (Summary, f64) {
+fn outcome(lanes: &[f64; 8], [time, coupling]: [f64; 2]) -> (Summary, f64) {
     let &[
         peak_force,
         peak_force_time,
@@ -311,13 +349,10 @@ fn outcome(lanes: &[f64; LANES], [time, coupling]: [f64; 2]) -> (Summary, f64) {
         peak_force,
         peak_force_time,
         contact_time,
-        restitution,
         loss: first * slower * (1.0 + restitution),
         peak_displacement,
         peak_deflection: lanes[5],
-        impulse: (1.0 + restitution) / INVERSE_MASS,
-        contacts: 1,
-        end: EndOfContact::Smooth,
+        ..Summary::rebound(restitution)
     };
     (summary, first * lanes[6])
 }

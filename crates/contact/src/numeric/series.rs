@@ -2,18 +2,16 @@
 
 use std::f64::consts::PI;
 
-/// Results of a series, side by side in vector registers.
-pub(crate) const LANES: usize = 8;
-
 /// Most nodes along a variable.
 const MOST: usize = 8;
 
-/// A series in Chebyshev polynomials of two variables between -1 and 1, of the second in rows.
+/// A series in Chebyshev polynomials of two variables between -1 and 1, of the second in rows, of N results side by side
+/// in vector registers.
 #[derive(Debug)]
-pub(crate) struct Series {
+pub(crate) struct Series<const N: usize> {
     /// Coefficients of each row that are kept.
     rows: Vec<usize>,
-    coefficients: Vec<[f64; LANES]>,
+    coefficients: Vec<[f64; N]>,
 }
 
 /// The i-th of n Lobatto nodes; the middle of one.
@@ -40,13 +38,13 @@ fn weight(k: usize, i: usize, n: usize) -> f64 {
     2.0 * halved(k) * halved(i) * angle.cos() / (n - 1) as f64
 }
 
-impl Series {
+impl<const N: usize> Series<N> {
     /// Through values at so many nodes of each variable, without the last coefficients of a row that are all below `least` of
     /// their result's mean; nothing where a value is missing.
     pub(crate) fn through(
         [across, along]: [usize; 2],
         least: f64,
-        mut values: impl FnMut([f64; 2]) -> Option<[f64; LANES]>,
+        mut values: impl FnMut([f64; 2]) -> Option<[f64; N]>,
     ) -> Option<Self> {
         let mut at_nodes = Vec::with_capacity(across * along);
         for i in 0..across {
@@ -55,7 +53,7 @@ impl Series {
             }
         }
         let coefficient = |k: usize, l: usize| {
-            let mut sum = [0.0; LANES];
+            let mut sum = [0.0; N];
             for (place, value) in at_nodes.iter().enumerate() {
                 let part = weight(k, place / along, across) * weight(l, place % along, along);
                 for (sum, value) in sum.iter_mut().zip(value) {
@@ -65,7 +63,7 @@ impl Series {
             sum
         };
         let mean = coefficient(0, 0);
-        let counts = |found: &[f64; LANES]| {
+        let counts = |found: &[f64; N]| {
             let mut lanes = found.iter().zip(&mean);
             lanes.any(|(part, mean)| part.abs() > least * mean.abs())
         };
@@ -80,16 +78,16 @@ impl Series {
     }
 
     /// Its values.
-    pub(crate) fn at(&self, [x, y]: [f64; 2]) -> [f64; LANES] {
+    pub(crate) fn at(&self, [x, y]: [f64; 2]) -> [f64; N] {
         let mut polynomials = [1.0, x, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
         for k in 2..MOST {
             polynomials[k] = 2.0 * x * polynomials[k - 1] - polynomials[k - 2];
         }
         let mut rest = &self.coefficients[..];
-        let (mut all, mut before, mut now) = ([0.0; LANES], y, 1.0);
+        let (mut all, mut before, mut now) = ([0.0; N], y, 1.0);
         for &kept in &self.rows {
             let (row, after) = rest.split_at(kept);
-            let mut sum = [0.0; LANES];
+            let mut sum = [0.0; N];
             for (coefficients, polynomial) in row.iter().zip(polynomials) {
                 for (sum, coefficient) in sum.iter_mut().zip(coefficients) {
                     *sum += polynomial * coefficient;
@@ -111,7 +109,7 @@ mod tests {
 
     #[test]
     fn a_polynomial_is_its_own_series() {
-        let of = |[x, y]: [f64; 2]| -> [f64; LANES] {
+        let of = |[x, y]: [f64; 2]| -> [f64; 8] {
             std::array::from_fn(|k| {
                 1.0 + k as f64 * x.powi(3) * y + (y * y - x) * y * y - 0.3 * x.powi(4)
             })
@@ -126,15 +124,15 @@ mod tests {
                 }
             }
         }
-        let line = Series::through([7, 1], 1e-15, |[x, _]| Some([x.powi(6); LANES])).unwrap();
+        let line = Series::through([7, 1], 1e-15, |[x, _]| Some([x.powi(6); 8])).unwrap();
         assert!((line.at([0.3, 0.0])[7] - 0.3_f64.powi(6)).abs() < 1e-15);
-        assert!(Series::through([5, 1], 0.0, |[x, _]| (x > -0.9).then_some([x; LANES])).is_none());
+        assert!(Series::through([5, 1], 0.0, |[x, _]| (x > -0.9).then_some([x; 8])).is_none());
     }
 
     #[test]
     fn what_is_small_is_left_out() {
         let series = Series::through([7, 7], 1e-6, |[x, y]| {
-            Some([1.0 + 0.1 * x + 0.1 * y + 1e-8 * x.powi(5) * y.powi(5); LANES])
+            Some([1.0 + 0.1 * x + 0.1 * y + 1e-8 * x.powi(5) * y.powi(5); 8])
         });
         assert_eq!(series.unwrap().rows, [2, 1, 0, 0, 0, 0, 0]);
     }
