@@ -31,7 +31,7 @@ pub(crate) use past::Past;
 
 use crate::error::ImpactError;
 use crate::excitation::{Excitation, PressureRadius};
-use crate::fields::quantity::{Derivative, Origin, Quantity};
+use crate::fields::quantity::{Derivative, Quantity};
 use crate::grid::Grid;
 use crate::kernels::{CellPlan, Cells, KernelSource, Place};
 use convolve::Method;
@@ -115,7 +115,7 @@ impl<'a> Evaluator<'a> {
         }
         let mut derivatives = vec![Derivative::Field];
         for quantity in asked.quantities {
-            if let Origin::Rate(derivative, _) = quantity.origin()
+            if let Some((derivative, _)) = quantity.rate()
                 && !derivatives.contains(&derivative)
             {
                 derivatives.push(derivative);
@@ -174,13 +174,13 @@ impl<'a> Evaluator<'a> {
             errors: sums[0].1.to_vec(),
         };
         for &quantity in self.asked.quantities {
-            let (values, error) = match quantity.origin() {
-                Origin::Rate(derivative, component) => {
+            let (values, error) = match quantity.rate() {
+                Some((derivative, component)) => {
                     let place = self.forcings.iter().position(|(own, _)| *own == derivative);
                     let (values, errors) = &sums[place.unwrap_or(0)];
                     (values[component].clone(), errors[component])
                 }
-                Origin::Stress => self.of_stresses(quantity, &sums[0]),
+                None => self.of_stresses(quantity, &sums[0]),
             };
             found.values.push(values);
             found.errors.push(error);

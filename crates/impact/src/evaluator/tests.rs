@@ -399,8 +399,7 @@ fn under_the_cut(
     for span in ends.windows(2) {
         for (past, weight) in gauss::rule(4).on(span[0], span[1]) {
             const APART: f64 = 1e-5;
-            let [before, here, after] =
-                [past - APART, past, past + APART].map(|t| own.radius(t));
+            let [before, here, after] = [past - APART, past, past + APART].map(|t| own.radius(t));
             let rate = weight * (after - before) / (2.0 * APART);
             let (l, since) = (largest(past, here), Some(time - past));
             add(punch(here, rate * density(here, l), since));
