@@ -152,48 +152,29 @@ impl Results {
     /// # Errors
     /// [`ContactError::NotFinite`], [`ContactError::Unreliable`].
     pub fn checked(self) -> Result<Self, ContactError> {
-        let Self {
-            peak_force_n,
-            peak_force_time_s,
-            contact_time_s,
-            rebound_velocity_m_s,
-            restitution,
-            loss,
-            peak_displacement_m,
-            peak_deflection_m,
-            impulse_n_s,
-            initial_energy_j,
-            radiated_energy_j,
-            energy_residual,
-            contact_radius_m,
-            disc_radius_m,
-            loading,
-            plastic,
-            contacts: _,
-            march_steps: _,
-            march_step_s,
-            relative_error_estimate,
-        } = self;
         let numbers = [
-            ("peak force", peak_force_n),
-            ("time of the peak force", peak_force_time_s),
-            ("contact time", contact_time_s),
-            ("rebound velocity", rebound_velocity_m_s),
-            ("restitution", restitution),
-            ("loss", loss),
-            ("largest displacement", peak_displacement_m),
-            ("largest deflection", peak_deflection_m),
-            ("impulse", impulse_n_s),
-            ("kinetic energy", initial_energy_j),
-            ("radiated energy", radiated_energy_j),
-            ("residual of the energy", energy_residual),
-            ("contact radius", contact_radius_m),
-            ("disc's radius", disc_radius_m),
-            ("mean pressure", loading.mean_pressure_pa),
-            ("plastic work", plastic.plastic_work_j.unwrap_or(0.0)),
-            ("yield velocity", plastic.yield_velocity_m_s.unwrap_or(0.0)),
-            ("march's step", march_step_s),
-            ("error estimate", relative_error_estimate),
+            ("peak force", self.peak_force_n),
+            ("time of the peak force", self.peak_force_time_s),
+            ("contact time", self.contact_time_s),
+            ("rebound velocity", self.rebound_velocity_m_s),
+            ("restitution", self.restitution),
+            ("loss", self.loss),
+            ("largest displacement", self.peak_displacement_m),
+            ("largest deflection", self.peak_deflection_m),
+            ("impulse", self.impulse_n_s),
+            ("kinetic energy", self.initial_energy_j),
+            ("radiated energy", self.radiated_energy_j),
+            ("residual of the energy", self.energy_residual),
+            ("contact radius", self.contact_radius_m),
+            ("disc's radius", self.disc_radius_m),
+            ("mean pressure", self.loading.mean_pressure_pa),
+            ("plastic work", self.plastic.plastic_work_j.unwrap_or(0.0)),
+            (
+                "yield velocity",
+                self.plastic.yield_velocity_m_s.unwrap_or(0.0),
+            ),
+            ("march's step", self.march_step_s),
+            ("error estimate", self.relative_error_estimate),
         ];
         if let Some((quantity, value)) = numbers.into_iter().find(|(_, x)| !x.is_finite()) {
             return Err(ContactError::NotFinite { quantity, value });
@@ -203,10 +184,9 @@ impl Results {
         if let Some((quantity, value)) = vanished.into_iter().find(|(_, x)| *x <= 0.0) {
             return Err(ContactError::NotFinite { quantity, value });
         }
-        if relative_error_estimate > MOST_ERROR {
-            return Err(ContactError::Unreliable {
-                error: relative_error_estimate,
-            });
+        let error = self.relative_error_estimate;
+        if error > MOST_ERROR {
+            return Err(ContactError::Unreliable { error });
         }
         Ok(self)
     }

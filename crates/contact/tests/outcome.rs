@@ -182,7 +182,8 @@ fn what_a_series_does_not_have_is_marched() {
 #[test]
 fn series_of_the_fit_are_within_their_certificates_and_the_tolerance() {
     let named = |name: &str| Material::named(name).unwrap();
-    let targets = ["aluminium-6061-t6", "copper"].map(|name| HalfSpace::new(named(name)).unwrap());
+    let targets =
+        ["aluminium-6061-t6", "titanium"].map(|name| HalfSpace::new(named(name)).unwrap());
     for tolerance in [1e-4, 1e-6] {
         let row = |i: u32| {
             let part = |root: f64| (f64::from(i) * root.sqrt()).fract();
@@ -195,7 +196,7 @@ fn series_of_the_fit_are_within_their_certificates_and_the_tolerance() {
                 tolerance,
                 ..Settings::default()
             };
-            let velocity = 1e-3 * 1e4f64.powf(part(5.0));
+            let velocity = 1e-2 * 2e3f64.powf(part(5.0));
             let collision = Collision::new(&targets[i as usize % 2], &striker, velocity);
             (collision, settings)
         };
@@ -203,10 +204,14 @@ fn series_of_the_fit_are_within_their_certificates_and_the_tolerance() {
         let responses = Tabulated::new(Ratios::Few);
         let outcomes = series(&rows, &responses);
         let mut solver = Solver::sharing(&responses, &outcomes);
-        let (mut from_series, mut elastic, mut beyond, mut worst) = (0, 0, 0, 0.0_f64);
+        let (mut from_series, mut elastic, mut refused) = (0, 0, 0);
+        let (mut beyond, mut worst) = (0, 0.0_f64);
         for (collision, settings) in &rows {
-            let found = solver.solve(collision, settings).unwrap();
-            let exact = Solver::new(&responses).solve(collision, settings).unwrap();
+            let exact = Solver::new(&responses).solve(collision, settings);
+            let (Ok(found), Ok(exact)) = (solver.solve(collision, settings), exact) else {
+                refused += 1;
+                continue;
+            };
             let (Some(flow), Some(own)) = (found.flow, exact.flow) else {
                 elastic += 1;
                 assert!(found == exact);
@@ -226,9 +231,10 @@ fn series_of_the_fit_are_within_their_certificates_and_the_tolerance() {
             assert!((flow.flatter / own.flatter - 1.0).abs() < 10.0 * tolerance);
         }
         println!(
-            "{from_series} of {} from series, {elastic} elastic; off by {worst:.1e} at most, {beyond} beyond the certificate",
+            "{from_series} of {} from series, {elastic} elastic, {refused} refused; off by {worst:.1e} at most, {beyond} beyond the certificate",
             rows.len()
         );
-        assert!(from_series > 1500 && elastic > 20 && beyond <= from_series / 200);
+        assert!(from_series > 1200 && elastic > 20 && refused == 0);
+        assert!(beyond <= from_series / 200);
     }
 }

@@ -196,7 +196,7 @@ pub struct Plan {
     pub model: Model,
     /// Groups of the family that the scene states.
     pub groups: Groups,
-    chosen: Option<Chosen>,
+    pub(crate) chosen: Option<Chosen>,
 }
 
 /// The model that is asked for or that `auto` chooses.
@@ -301,11 +301,6 @@ impl Plan {
             error,
             step: None,
         })
-    }
-
-    /// Whether `auto` has chosen.
-    pub(crate) fn is_automatic(&self) -> bool {
-        self.chosen.is_some()
     }
 
     /// Why this model, in words.

@@ -136,7 +136,7 @@ impl Branch {
             Self::Truncated { edge, top } => {
                 let cut = Cut::new(edge, top, a);
                 let slope = 4.0 / PI * cut.angle;
-                of(cut.depth(), a * slope, slope, cut.force())
+                of(cut.depth(), a * slope, slope, cut.moments()[0])
             }
         }
     }
@@ -277,11 +277,6 @@ impl Cut {
             2.0 / PI * (u * (self.edge / u.sqrt()).asin() + self.edge * (u - y2).sqrt())
         };
         square - stroke((square - self.a * self.a).max(0.0))
-    }
-
-    fn force(&self) -> f64 {
-        let [force, ..] = self.moments();
-        force
     }
 
     /// Moments of the pressure in r^0, r^2 and r^4, over those of Hertz's pressure of unit force and radius.
