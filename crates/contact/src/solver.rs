@@ -64,8 +64,8 @@ pub struct Solver<'a, S: Responses> {
     responses: &'a S,
     outcomes: Option<&'a Outcomes>,
     workspace: Workspace,
-    disc: Option<((u64, Deflection), Arc<S::Disc>)>,
-    waves: Option<(u64, Arc<PunchWaves>)>,
+    disc: Latest<(u64, Deflection), S::Disc>,
+    waves: Latest<u64, PunchWaves>,
     /// The contact solved last, where it was one that follows the load and was not marched.
     growing: Option<SolvedContact>,
     /// What the contact solved last radiates, where it was taken from a series.
@@ -423,9 +423,12 @@ impl<'a, S: Responses> Solver<'a, S> {
     }
 }
 
+/// What was made last, with what it was made for.
+type Latest<K, T> = Option<(K, Arc<T>)>;
+
 /// What belongs to a key, made where the last one was another.
 fn remembered<K: PartialEq, T>(
-    latest: &mut Option<(K, Arc<T>)>,
+    latest: &mut Latest<K, T>,
     key: K,
     make: impl FnOnce() -> Result<Arc<T>, DomainError>,
 ) -> Result<Arc<T>, DomainError> {

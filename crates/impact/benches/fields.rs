@@ -16,7 +16,7 @@ fn sums(c: &mut Criterion) {
         let cells: Vec<[f64; 6]> = (0..samples)
             .map(|j| std::array::from_fn(|f| 1.0 / (1.0 + (j * (f + 1)) as f64)))
             .collect();
-        for method in [Method::Direct, Method::Transform, Method::Chosen] {
+        for method in [Method::Direct, Method::Transform] {
             let convolver = Convolver::by(&force, method);
             group.bench_function(BenchmarkId::new(format!("{method:?}"), samples), |b| {
                 b.iter(|| black_box(convolver.fields(&[1.0; 6], black_box(&cells))));

@@ -9,7 +9,7 @@ use crate::evaluator::discs::Discs;
 use crate::excitation::{Excitation, PressureRadius};
 use crate::grid::Grid;
 use crate::kernels::KernelSource;
-use crate::scene::{Probe, Scene, Section};
+use crate::scene::{Scene, Section};
 
 /// What any output takes, the opening of a table, and a byte of what is decoded of it.
 const OUTPUT_S: f64 = 1.4e-2;
@@ -251,8 +251,8 @@ impl Forecast {
         if self.memory_bytes <= memory_bytes {
             return Ok(());
         }
-        let of_probes = scene.probes.len() * size_of::<Probe>() > 0
-            && scene.probes.len() as f64 * self.samples * PROBE_SAMPLE > 0.5 * self.memory_bytes;
+        let of_probes =
+            scene.probes.len() as f64 * self.samples * PROBE_SAMPLE > 0.5 * self.memory_bytes;
         let change = if of_probes {
             "fewer probes, a larger step_s or a smaller duration_s"
         } else if scene.section.is_some() {

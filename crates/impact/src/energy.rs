@@ -48,10 +48,11 @@ impl EnergySeries {
     ) -> Option<Self> {
         let (end_s, units) = excitation.contacts()?;
         let initial_j = 0.4 * units.force_n * units.length_m;
-        let kinetic = |t: f64| {
+        let kinetic = |&t: &f64| {
             let v = excitation.motion(t).map_or(0.0, |m| m.velocity_m_s);
             initial_j * (v / units.velocity_m_s()).powi(2)
         };
+        let kinetic_j = Some(time_s.iter().map(kinetic).collect());
         if let Some(yielded) = excitation.yielded() {
             let energies = time_s
                 .iter()
@@ -60,11 +61,11 @@ impl EnergySeries {
             let [stored_j, plastic_j, radiated_j] =
                 [0, 1, 2].map(|i| energies.iter().map(|e| e[i]).collect());
             return Some(Self {
-                kinetic_j: Some(time_s.iter().map(|&t| kinetic(t)).collect()),
-                work_j: None,
+                kinetic_j,
                 stored_j,
                 radiated_j,
                 plastic_j: Some(plastic_j),
+                ..Self::default()
             });
         }
         let step_s = end_s / SAMPLES;
@@ -110,14 +111,13 @@ impl EnergySeries {
             initial_j * (p / units.force_n).powf(5.0 / 3.0) + 0.5 * static_m_per_n * p * p
         };
         Some(Self {
-            plastic_j: None,
-            kinetic_j: Some(time_s.iter().map(|&t| kinetic(t)).collect()),
-            work_j: None,
+            kinetic_j,
             stored_j: time_s.iter().map(|&t| stored(t)).collect(),
             radiated_j: time_s
                 .iter()
                 .map(|&t| between(&work_j, t / step_s))
                 .collect(),
+            ..Self::default()
         })
     }
 
@@ -145,11 +145,10 @@ impl EnergySeries {
         let parts = stored_j.iter().zip(&radiated_j);
         let work_j = parts.map(|(stored, radiated)| stored + radiated).collect();
         Self {
-            plastic_j: None,
-            kinetic_j: None,
             work_j: Some(work_j),
             stored_j,
             radiated_j,
+            ..Self::default()
         }
     }
 

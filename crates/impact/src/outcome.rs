@@ -182,25 +182,15 @@ fn finite(
 }
 
 fn of_record(results: &RecordResults) -> Result<(), ImpactError> {
-    let RecordResults {
-        peak_force_n,
-        peak_force_time_s,
-        duration_s,
-        impulse_n_s,
-        peak_deflection_m,
-        disc_radius_m,
-        relative_error_estimate,
-        radiated_energy_j,
-    } = *results;
     for (name, value) in [
-        ("the peak force", peak_force_n),
-        ("the time of the peak force", peak_force_time_s),
-        ("the duration", duration_s),
-        ("the impulse", impulse_n_s),
-        ("the largest deflection", peak_deflection_m),
-        ("the disc's radius", disc_radius_m),
-        ("the error estimate", relative_error_estimate),
-        ("the radiated energy", radiated_energy_j),
+        ("the peak force", results.peak_force_n),
+        ("the time of the peak force", results.peak_force_time_s),
+        ("the duration", results.duration_s),
+        ("the impulse", results.impulse_n_s),
+        ("the largest deflection", results.peak_deflection_m),
+        ("the disc's radius", results.disc_radius_m),
+        ("the error estimate", results.relative_error_estimate),
+        ("the radiated energy", results.radiated_energy_j),
     ] {
         finite(|| name.to_owned(), [value])?;
     }

@@ -1,7 +1,6 @@
 //! A scene: what loads which half-space, and what is asked.
 
-use crate::fields::quantity::Derivative;
-use crate::fields::quantity::{Origin, Quantity};
+use crate::fields::quantity::{Derivative, Quantity};
 use crate::record::ForceRecord;
 use contact::{HalfSpace, Settings, Striker};
 
@@ -94,8 +93,8 @@ impl Scene {
     #[must_use]
     pub fn rates(&self) -> usize {
         let has = |derivative| {
-            let of = |origin| matches!(origin, Origin::Rate(own, _) if own == derivative);
-            usize::from(self.quantities.iter().any(|q| of(q.origin())))
+            let of = |q: &Quantity| q.rate().is_some_and(|(own, _)| own == derivative);
+            usize::from(self.quantities.iter().any(of))
         };
         has(Derivative::First) + has(Derivative::Second)
     }

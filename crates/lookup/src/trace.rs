@@ -144,12 +144,14 @@ impl Table {
                 max: MAX_COARSENING,
             });
         }
+        // before the medium, so that a ratio outside the physics is one outside the table too
+        let slices = ratio::weights(&self.served, poisson_ratio)?;
         Ok(Plan {
             table: self,
             smoothness,
             medium: Medium::new(poisson_ratio)?,
             coarsening,
-            slices: ratio::weights(&self.served, poisson_ratio)?,
+            slices,
             width: self.cell_width(poisson_ratio)?,
         })
     }

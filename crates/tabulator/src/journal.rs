@@ -103,12 +103,14 @@ pub(crate) fn kept(block: Block, row: &Row) -> Vec<u8> {
         Kind::Between => 2,
     };
     let lengths = arrays.map(<[f32]>::len);
-    let header = [block.slice, kind, block.row].into_iter().chain(lengths);
-    let header = header.flat_map(|number| (number as u64).to_le_bytes());
-    let numbers = arrays.into_iter().flatten();
-    header
-        .chain(numbers.flat_map(|value| value.to_le_bytes()))
-        .collect()
+    let mut bytes = Vec::with_capacity(HEADER + 4 * lengths.iter().sum::<usize>());
+    for number in [block.slice, kind, block.row].into_iter().chain(lengths) {
+        bytes.extend_from_slice(&(number as u64).to_le_bytes());
+    }
+    for value in arrays.into_iter().flatten() {
+        bytes.extend_from_slice(&value.to_le_bytes());
+    }
+    bytes
 }
 
 fn parsed(kept: &[u8]) -> Option<(Block, Row)> {

@@ -35,14 +35,23 @@ const MOMENT_ACCURACY: f64 = 1e-5;
 const TRACE: f64 = 30.0;
 
 impl Grid {
-    /// What is computed at every point of one slice.
+    /// What is computed at every node of one slice.
     ///
     /// # Errors
     /// [`BuildError::Domain`] when the exact kernels refuse the ratio.
     pub fn point(&self, poisson_ratio: f64) -> Result<PointPlan, BuildError> {
+        self.plan(poisson_ratio, self.tolerance)
+    }
+
+    /// The same for the points at which errors of the nodes' interpolation are measured, which need a digit less.
+    pub(crate) fn probe(&self, poisson_ratio: f64) -> Result<PointPlan, BuildError> {
+        self.plan(poisson_ratio, (10.0 * self.tolerance).min(0.1))
+    }
+
+    fn plan(&self, poisson_ratio: f64, tolerance: f64) -> Result<PointPlan, BuildError> {
         let width = self.cell_width * lookup::cell_scale(poisson_ratio)?;
         let (cells, terms) = (self.cells()?, self.tail_terms);
-        PointPlan::new(poisson_ratio, self.tolerance, width, cells, terms)
+        PointPlan::new(poisson_ratio, tolerance, width, cells, terms)
     }
 }
 

@@ -24,11 +24,14 @@ pub(crate) fn rows(
     known: Option<&Known>,
     progress: &dyn Progress,
 ) -> Result<Vec<Row>, BuildError> {
-    let slices = grid.slices().into_iter().map(|(nu, _)| grid.point(nu));
-    let between = (0..grid.intervals()).map(|interval| grid.point(grid.between(interval)?));
-    let plans = [
-        slices.collect::<Result<Vec<_>, _>>()?,
-        between.collect::<Result<Vec<_>, _>>()?,
+    let slices = || grid.slices().into_iter();
+    let nodes = slices().map(|(nu, _)| grid.point(nu));
+    let probes = slices().map(|(nu, _)| grid.probe(nu));
+    let between = (0..grid.intervals()).map(|interval| grid.probe(grid.between(interval)?));
+    let plans: [Vec<PointPlan>; 3] = [
+        nodes.collect::<Result<_, _>>()?,
+        probes.collect::<Result<_, _>>()?,
+        between.collect::<Result<_, _>>()?,
     ];
     let places = [Kind::Nodes, Kind::Probes, Kind::Between].map(|kind| positions(kind, grid));
     let missing: Vec<Block> = work
@@ -42,8 +45,9 @@ pub(crate) fn rows(
         .with_max_len(1)
         .map(|&block| {
             let [r, z] = &places[block.kind as usize];
-            progress.slice(plan_of(&plans, block).kernel().medium().poisson_ratio());
-            let row = row(plan_of(&plans, block), block.kind, r[block.row], z, known)?;
+            let plan = &plans[block.kind as usize][block.slice];
+            progress.slice(plan.kernel().medium().poisson_ratio());
+            let row = row(plan, block.kind, r[block.row], z, known)?;
             if let Some(journal) = journal {
                 let kept = kept(block, &row);
                 let mut journal = journal.lock().unwrap_or_else(PoisonError::into_inner);
@@ -58,14 +62,6 @@ pub(crate) fn rows(
         .iter()
         .filter_map(|block| finished.remove(block))
         .collect())
-}
-
-/// What is computed in a block.
-fn plan_of([slices, between]: &[Vec<PointPlan>; 2], block: Block) -> &PointPlan {
-    match block.kind {
-        Kind::Nodes | Kind::Probes => &slices[block.slice],
-        Kind::Between => &between[block.slice],
-    }
 }
 
 /// Computes one row of points (`r`, `depths`), of which known cells keep their numbers.

@@ -26,7 +26,7 @@ pub struct StoredPart {
 enum Rows {
     /// An open file, and the reasons of its failures.
     Hdf5(Stored, Vec<String>),
-    Parquet(Footer),
+    Parquet(Box<Footer>),
 }
 
 impl StoredPart {
@@ -37,7 +37,7 @@ impl StoredPart {
     pub fn open(path: &Path) -> Result<Self, ReadError> {
         if is_parquet(path) {
             let (footer, part) = parquet_of_kind(path, FileKind::SweepPart)?;
-            let rows = Rows::Parquet(footer);
+            let rows = Rows::Parquet(Box::new(footer));
             return Ok(Self { part, rows });
         }
         let stored = Stored::open(path, FileKind::SweepPart)?;

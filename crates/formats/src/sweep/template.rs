@@ -202,7 +202,7 @@ fn fast<'a>(spec: &'a Spec, axis: usize, column: &'a Column) -> Option<Fast<'a>>
     let section = spec.scene.get(&column.section).and_then(Value::as_table);
     let in_scene = section.is_some_and(|section| section.keys().any(|key| speed(key)));
     let varies = (spec.columns()).any(|other| other.section == column.section && speed(&other.key));
-    (!in_scene && !varies).then(|| Fast {
+    (!in_scene && !varies).then_some(Fast {
         axis,
         column,
         range,

@@ -36,7 +36,7 @@ impl Setting {
                 match O::ORDER {
                     Order::Impulse | Order::Step => {}
                     Order::StepIntegral => {
-                        sum.add(1.0, ROUNDING, [0.0, passed, 0.0, 0.0, 0.0, 0.0]);
+                        sum.add(1.0, [ROUNDING; 2], [0.0, passed, 0.0, 0.0, 0.0, 0.0]);
                     }
                 }
                 return;
@@ -114,8 +114,8 @@ impl Setting {
                 Wave::S => (self.k - x * x).sqrt(),
             };
             let (surface, step) = (sense.sign() * at.t / x, at.z * root / x);
-            let difference = shallow::compact_difference(surface, step, eta, at.r);
-            amplitudes.set_traction(&mut term, difference.a, difference.g, at.r);
+            let (a, g) = shallow::compact_difference(surface, step, eta, at.r);
+            amplitudes.set_traction(&mut term, a, g, at.r);
         }
         term
     }

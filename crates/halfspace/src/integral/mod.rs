@@ -96,7 +96,7 @@ impl Integral {
             }
             self.setting.slow::<O>(at, wave, &mut spectrum);
         }
-        total.add(1.0 / PI, 0.0, spectrum.value);
+        total.add(1.0 / PI, [0.0; 2], spectrum.value);
         let mut floor = rounding_floor::<O>(self.setting.profile, at.r);
         if at.r > CLEAR_OF_EDGE && shallow::applies::<O>(self.setting.profile, at) {
             for field in [Field::StressZz, Field::StressRz] {

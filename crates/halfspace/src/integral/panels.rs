@@ -6,7 +6,6 @@
 //!
 //! Theory: `docs/theory.md` (T18).
 
-use crate::integral::strength::RelativeError;
 use crate::numeric::gauss;
 use crate::numeric::lanes::{Points, WIDTH, half_axes, major_axis, power};
 use arrayvec::ArrayVec;
@@ -85,11 +84,10 @@ impl Nodes {
     }
 
     /// Errors that depend on the place.
-    pub(crate) fn map_errors(&mut self, map: impl Fn(RelativeError, f64) -> RelativeError) {
+    pub(crate) fn map_errors(&mut self, map: impl Fn([f64; 2], f64) -> [f64; 2]) {
         for i in self.in_registers(WIDTH) {
             let (place, _, error) = self.get(i);
-            let error = map(error, place);
-            (self.errors[0][i], self.errors[1][i]) = (error.displacement, error.stress);
+            [self.errors[0][i], self.errors[1][i]] = map(error, place);
         }
     }
 
@@ -98,18 +96,15 @@ impl Nodes {
         0..self.count.next_multiple_of(lanes)
     }
 
-    /// Place, weight and error of each.
-    pub(crate) fn iter(&self) -> impl Iterator<Item = (f64, f64, RelativeError)> {
+    /// Place, weight and errors of each.
+    pub(crate) fn iter(&self) -> impl Iterator<Item = (f64, f64, [f64; 2])> {
         (0..self.count).map(|i| self.get(i))
     }
 
     #[inline]
-    fn get(&self, i: usize) -> (f64, f64, RelativeError) {
-        let error = RelativeError {
-            displacement: self.errors[0][i],
-            stress: self.errors[1][i],
-        };
-        (self.places[i], self.weights[i], error)
+    fn get(&self, i: usize) -> (f64, f64, [f64; 2]) {
+        let errors = [self.errors[0][i], self.errors[1][i]];
+        (self.places[i], self.weights[i], errors)
     }
 }
 

@@ -1,4 +1,4 @@
-//! The Rayleigh wave near its arrival, just below the surface.
+//! The Rayleigh wave near its arrival, below the surface.
 //!
 //! Theory: `docs/theory.md` (T19).
 
@@ -10,7 +10,7 @@ use crate::potentials::Potentials;
 use crate::potentials::chord_integral::{chord_primitives, from_primitives};
 use crate::potentials::far_front;
 use crate::potentials::order::{Order, Step, TimeOrder};
-use crate::potentials::shallow::{DEEPEST, Difference, difference, gap, is_short};
+use crate::potentials::shallow::{difference, gap, is_short};
 use crate::profile::Profile;
 use num_complex::Complex64;
 use std::f64::consts::PI;
@@ -29,12 +29,13 @@ pub(crate) struct Front {
 impl Front {
     /// None away from the arrivals, where rounding does no harm.
     pub(crate) fn near<O: TimeOrder>(medium: &Medium, profile: Profile, at: Point) -> Option<Self> {
+        /// Depth, and distance from the arrival, within which rounding is seen.
         const NEAR: f64 = 1e-2;
         let Point { r, z, t } = at;
         let xi = Complex64::new(0.0, medium.rayleigh_speed() * t);
         if O::ORDER != Order::Step
             || profile != Profile::Hertz
-            || z >= DEEPEST
+            || z >= NEAR
             || r <= NEAREST
             || gap(xi, r) > NEAR
         {
@@ -63,12 +64,11 @@ impl Front {
     }
 
     /// [`difference`] for xi = -i c t and a real step.
-    pub(crate) fn difference(&self, xi: Complex64, step: f64) -> Difference<Complex64> {
+    pub(crate) fn difference(&self, xi: Complex64, step: f64) -> (Complex64, Complex64) {
         if is_short(xi, step, self.r) {
             return difference(xi, step.into(), self.r);
         }
-        let (a, g) = step_at_front(xi, step, self.r, self.factors);
-        Difference { a, g }
+        step_at_front(xi, step, self.r, self.factors)
     }
 }
 

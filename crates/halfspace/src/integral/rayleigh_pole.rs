@@ -9,12 +9,12 @@ use crate::integral::rayleigh_front::Front;
 use crate::integral::setting::Setting;
 use crate::integral::side_by_side;
 use crate::integral::spectrum::Pole;
-use crate::integral::strength::{RelativeError, Strength};
+use crate::integral::strength::Strength;
 use crate::integral::sum::Sum;
 use crate::point::Point;
 use crate::potentials::closed_form::potentials;
 use crate::potentials::order::{Order, TimeOrder};
-use crate::potentials::shallow::{self, Difference};
+use crate::potentials::shallow;
 use num_complex::Complex64;
 
 impl Setting {
@@ -44,7 +44,7 @@ impl Setting {
             let mut term = pole.amplitudes.fields(&psi.map(|v| v.re), at.r);
             if shallow {
                 let surface = Complex64::new(0.0, xi.im);
-                let Difference { a, g } = match &front {
+                let (a, g) = match &front {
                     Some(front) => front.difference(surface, xi.re),
                     None => shallow::difference(surface, xi.re.into(), at.r),
                 };
@@ -55,35 +55,27 @@ impl Setting {
         sum
     }
 
-    /// Relative error of the Rayleigh wave from rounding of its distance to the edges of the disc.
-    fn error_at_front<O: TimeOrder>(
-        &self,
-        at: Point,
-        xi: Complex64,
-        shallow: bool,
-    ) -> RelativeError {
+    /// Relative errors of displacements and stresses of the Rayleigh wave from rounding of its distance to the edges of the disc.
+    fn error_at_front<O: TimeOrder>(&self, at: Point, xi: Complex64, shallow: bool) -> [f64; 2] {
         let strength = Strength::of::<O>(self.profile);
-        if strength == Strength::Bounded && !shallow {
-            return ROUNDING.into();
-        }
         let radius = self.profile.radius();
         let height = xi.im.abs();
         let gap = [at.r + radius, (at.r - radius).abs()]
-            .map(|edge| (height - edge).hypot(xi.re))
+            .map(|edge| ((height - edge).powi(2) + xi.re * xi.re).sqrt())
             .into_iter()
             .fold(f64::INFINITY, f64::min);
         let size = height + at.r + radius;
         let front = ROUNDING * size / gap.max(f64::EPSILON * size);
         match strength {
-            Strength::Bounded => (ROUNDING + front).into(),
-            Strength::InverseRoot => RelativeError {
-                displacement: ROUNDING + ROUNDING.sqrt() * front.sqrt(),
-                stress: ROUNDING + front,
-            },
-            Strength::FinitePart => RelativeError {
-                displacement: ROUNDING + front,
-                stress: ROUNDING + 3.0 * front,
-            },
+            // where the two waves cancel
+            Strength::Bounded if shallow => [ROUNDING + front; 2],
+            // stresses have a root there
+            Strength::Bounded => [
+                ROUNDING * (1.0 + size),
+                ROUNDING * (1.0 + size / gap.max(f64::EPSILON * size).sqrt()),
+            ],
+            Strength::InverseRoot => [ROUNDING + ROUNDING.sqrt() * front.sqrt(), ROUNDING + front],
+            Strength::FinitePart => [ROUNDING + front, ROUNDING + 3.0 * front],
         }
     }
 }

@@ -14,7 +14,7 @@ use crate::point::Point;
 use crate::potentials::Potentials;
 use crate::potentials::closed_form::potentials;
 use crate::potentials::order::{Order, TimeOrder};
-use crate::potentials::shallow::{self, Difference};
+use crate::potentials::shallow;
 use num_complex::Complex64;
 
 /// One slowness with the vertical slownesses that belong to it and 1/R = re + i im.
@@ -104,7 +104,7 @@ impl Setting {
         let amplitudes = spectrum::slow(wave, self.k, x, p_abs, y);
         let mut term = amplitudes.fields(&psi, at.r);
         if shallow {
-            let Difference { a, g } = match wave {
+            let (a, g) = match wave {
                 Wave::P => longitudinal_difference(at, slowness),
                 Wave::S => shear_difference(at, slowness),
             };
@@ -154,25 +154,19 @@ impl Setting {
 }
 
 /// The longitudinal potentials of the tractions less their values at the surface.
-fn longitudinal_difference(at: Point, n: Slowness) -> Difference<f64> {
+fn longitudinal_difference(at: Point, n: Slowness) -> (f64, f64) {
     let surface = Complex64::new(0.0, -at.t / n.x);
     let step = Complex64::new(at.z * n.p_abs / n.x, 0.0);
-    let Difference { a, g } = shallow::difference(surface, step, at.r);
+    let (a, g) = shallow::difference(surface, step, at.r);
     let factor = 2.0 * n.im;
-    Difference {
-        a: factor * a.re,
-        g: factor * g.re,
-    }
+    (factor * a.re, factor * g.re)
 }
 
 /// The same of the shear wave.
-fn shear_difference(at: Point, n: Slowness) -> Difference<f64> {
+fn shear_difference(at: Point, n: Slowness) -> (f64, f64) {
     let step = Complex64::new(0.0, at.z * n.y / n.x);
     let [minus, plus] =
         [-at.t, at.t].map(|t| shallow::difference(Complex64::new(0.0, t / n.x), step, at.r));
-    let (a, g) = (minus.a + plus.a, minus.g + plus.g);
-    Difference {
-        a: n.re * a.re - n.im * a.im,
-        g: n.im * g.re + n.re * g.im,
-    }
+    let (a, g) = (minus.0 + plus.0, minus.1 + plus.1);
+    (n.re * a.re - n.im * a.im, n.im * g.re + n.re * g.im)
 }

@@ -30,31 +30,25 @@ impl Strength {
         }
     }
 
-    /// Relative error of a term near a cut.
+    /// Relative errors of displacements and stresses near a cut, from those of the quadrature rule.
     ///
-    /// `rule` is that of the quadrature rule, `place_error` the rounding error of the place of the cut, `distance` the distance
+    /// `place_error` is the rounding error of the place of the cut, `distance` the distance
     /// from it in slowness and `s` in the variable that smooths the singularity.
     pub(crate) fn at_front(
         self,
-        rule: RelativeError,
+        [displacement, stress]: [f64; 2],
         place_error: f64,
         distance: f64,
         s: f64,
-    ) -> RelativeError {
+    ) -> [f64; 2] {
         /// All nodes beside a front share the error of its place: their errors add up, where squares are added.
         const SHARED: f64 = 5.0;
         let front = SHARED * place_error / distance;
         match self {
-            Self::Bounded => rule,
+            Self::Bounded => [displacement, stress],
             // displacements have a root there
-            Self::InverseRoot => RelativeError {
-                displacement: rule.displacement + front * s,
-                stress: rule.stress + front,
-            },
-            Self::FinitePart => RelativeError {
-                displacement: rule.displacement + front,
-                stress: rule.stress + 3.0 * front,
-            },
+            Self::InverseRoot => [displacement + front * s, stress + front],
+            Self::FinitePart => [displacement + front, stress + 3.0 * front],
         }
     }
 
@@ -67,22 +61,6 @@ impl Strength {
             Self::Bounded => BOUNDED,
             Self::InverseRoot => 3.0 * BOUNDED,
             Self::FinitePart => 60.0 * BOUNDED,
-        }
-    }
-}
-
-/// Likely error of a term over its size.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct RelativeError {
-    pub(crate) displacement: f64,
-    pub(crate) stress: f64,
-}
-
-impl From<f64> for RelativeError {
-    fn from(error: f64) -> Self {
-        Self {
-            displacement: error,
-            stress: error,
         }
     }
 }

@@ -1,7 +1,6 @@
 //! A running sum of six fields that carries its own error estimate.
 
 use crate::field::Six;
-use crate::integral::strength::RelativeError;
 use crate::numeric::lanes::{WIDTH, total};
 
 /// Six fields and their likely errors.
@@ -19,13 +18,9 @@ impl Sum {
         self.square.map(f64::sqrt)
     }
 
-    /// Adds `weight` times `term` of a relative error.
+    /// Adds `weight` times `term`, of relative errors of displacements and stresses.
     #[inline]
-    pub(crate) fn add(&mut self, weight: f64, error: impl Into<RelativeError>, term: Six) {
-        let RelativeError {
-            displacement: d,
-            stress: s,
-        } = error.into();
+    pub(crate) fn add(&mut self, weight: f64, [d, s]: [f64; 2], term: Six) {
         let relative = [d, d, s, s, s, s];
         for (f, relative) in relative.into_iter().enumerate() {
             let x = weight * term[f];

@@ -18,7 +18,7 @@ use crate::profile::Profile;
 use num_complex::Complex64;
 
 /// Depth from which on the stresses have digits to spare.
-pub(crate) const DEEPEST: f64 = 1e-4;
+const DEEPEST: f64 = 1e-4;
 
 /// Radius down to which the compact parts of every order hold: nearer the axis sigma_rz vanishes as r.
 const NEAREST: f64 = 1e-6;
@@ -28,13 +28,6 @@ const SHORT: f64 = 1e-3;
 
 /// Places of the two points of Gauss's rule on [0, 1].
 const PLACES: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
-
-/// A_2 and B_2/r less their values at the surface.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Difference<T> {
-    pub(crate) a: T,
-    pub(crate) g: T,
-}
 
 /// Whether sigma_zz and sigma_rz are taken from differences.
 pub(crate) fn applies<O: TimeOrder>(profile: Profile, at: Point) -> bool {
@@ -63,42 +56,36 @@ pub(crate) fn is_short(xi: Complex64, step: f64, r: f64) -> bool {
     step < SHORT * gap(xi, r)
 }
 
-/// The difference between xi + step and xi.
-pub(crate) fn difference(xi: Complex64, step: Complex64, r: f64) -> Difference<Complex64> {
+/// A_2 and B_2/r at xi + step less those at xi.
+pub(crate) fn difference(xi: Complex64, step: Complex64, r: f64) -> (Complex64, Complex64) {
     if is_short(xi, step.norm(), r) {
         let [first, second] =
             PLACES.map(|place| potentials::<Impulse>(Profile::Hertz, xi + place * step, r));
-        Difference {
-            a: -0.5 * step * (first.a_lower + second.a_lower),
-            g: -0.5 * step * (first.g_lower + second.g_lower),
-        }
+        (
+            -0.5 * step * (first.a_lower + second.a_lower),
+            -0.5 * step * (first.g_lower + second.g_lower),
+        )
     } else {
         let from = potentials::<Step>(Profile::Hertz, xi, r);
         let to = potentials::<Step>(Profile::Hertz, xi + step, r);
-        Difference {
-            a: to.a_lower - from.a_lower,
-            g: to.g_lower - from.g_lower,
-        }
+        (to.a_lower - from.a_lower, to.g_lower - from.g_lower)
     }
 }
 
 /// The same of the compact parts, between eta = surface + step and the surface.
 ///
 /// Just after the plane front both are large and eta is not, so it is not taken from their sum.
-pub(crate) fn compact_difference(surface: f64, step: f64, eta: f64, r: f64) -> Difference<f64> {
+pub(crate) fn compact_difference(surface: f64, step: f64, eta: f64, r: f64) -> (f64, f64) {
     if is_short(Complex64::new(0.0, surface), step.abs(), r) {
         let [first, second] =
             PLACES.map(|place| compact::<Impulse>(Profile::Hertz, surface + place * step, r));
-        Difference {
-            a: 0.5 * step * (first.a_lower + second.a_lower),
-            g: 0.5 * step * (first.g_lower + second.g_lower),
-        }
+        (
+            0.5 * step * (first.a_lower + second.a_lower),
+            0.5 * step * (first.g_lower + second.g_lower),
+        )
     } else {
         let from = compact::<Step>(Profile::Hertz, surface, r);
         let to = compact::<Step>(Profile::Hertz, eta, r);
-        Difference {
-            a: to.a_lower - from.a_lower,
-            g: to.g_lower - from.g_lower,
-        }
+        (to.a_lower - from.a_lower, to.g_lower - from.g_lower)
     }
 }

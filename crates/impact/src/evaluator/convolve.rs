@@ -51,14 +51,9 @@ impl Convolver {
     #[must_use]
     pub fn by(force: &[f64], method: Method) -> Self {
         let mut convolver = Self::new(force);
-        match method {
-            Method::Direct => convolver.transform = None,
-            Method::Transform => {
-                let size = (2 * force.len()).next_power_of_two();
-                convolver.transform = Some(Transform::new(&convolver.rise, size));
-            }
-            Method::Chosen => {}
-        }
+        let size = (2 * force.len()).next_power_of_two();
+        convolver.transform =
+            (method == Method::Transform).then(|| Transform::new(&convolver.rise, size));
         convolver
     }
 
@@ -88,7 +83,7 @@ impl Convolver {
         &self.rise
     }
 
-    /// How the sum is done: never [`Method::Chosen`].
+    /// How the sum is done: the way that is estimated to be faster.
     pub(crate) fn method(&self) -> Method {
         match self.transform {
             Some(_) => Method::Transform,
@@ -137,8 +132,6 @@ pub enum Method {
     Direct,
     /// Fast Fourier transform.
     Transform,
-    /// The one that is estimated to be faster.
-    Chosen,
 }
 
 impl Method {
@@ -148,7 +141,6 @@ impl Method {
         match self {
             Self::Direct => "direct sum",
             Self::Transform => "fast Fourier transform",
-            Self::Chosen => "chosen by cost",
         }
     }
 }

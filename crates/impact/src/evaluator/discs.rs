@@ -10,6 +10,9 @@
 //! so that the waves under a growing contact are those of a few discs, each with a force of its own. The static field needs
 //! none of it: it is that of the radius of the instant.
 //!
+//! Beside the load the nodes are Chebyshev's. Some radii away from it waves are long beside the contact but in its first and
+//! last instants, when it is small: there a disc that is nearly a point stands for these, and one or two for the rest.
+//!
 //! Theory: `docs/theory.md` (T60).
 
 use crate::excitation::PressureRadius;
@@ -22,7 +25,29 @@ pub(crate) struct Discs {
     pub(crate) radii: Vec<f64>,
     /// Smallest square of a radius that the nodes cover.
     least: f64,
+    /// What the discs leave, where they stand for the load some radii away.
+    pub(crate) omitted: Option<Omitted>,
 }
+
+/// The next term of the series in the square of the radius over the length of waves, of which Rayleigh's are the shortest:
+/// in the divided difference of the discs' kernels, times (a_max/c_R)^2 d^2/dt^2 of the load times the product of a^2 less
+/// the square of each radius.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Omitted {
+    /// What the kernel of each disc counts in the divided difference, with the term's coefficient.
+    pub(crate) counts: Vec<f64>,
+}
+
+/// Squares of the radii some radii away from the load, and how many of them two choices have.
+const APART: [f64; 3] = [0.75, 0.003, 0.35];
+const COUNTS_APART: [usize; 2] = [2, 3];
+
+/// Digits up to which these serve.
+const DIGITS_APART: f64 = 5.0;
+
+/// Terms of 3 j1(ka)/(ka) over those before, as many times as in the first instants, when waves are short, a front may bring.
+const OMITTED: [f64; 2] = [1.0 / 28.0, 1.0 / 54.0];
+const CAUTION: f64 = 50.0;
 
 /// Discs for each digit of the tolerance where kernels are computed: more of them near the load.
 const A_DIGIT: [f64; 4] = [0.75, 2.0, 4.0, 8.0];
@@ -33,16 +58,19 @@ const LOOKED_UP: usize = 4;
 const COVERED: [f64; 4] = [0.0, 0.25, 0.5, 0.75];
 
 impl Discs {
-    /// Those for kernels that are computed, the fewest first.
+    /// Those for kernels that are computed, the fewest first: some radii away from the load, and beside it or far away.
     pub(crate) fn computed(radius: PressureRadius, tolerance: f64) -> Vec<Self> {
         let digits = (-tolerance.log10()).clamp(2.0, 8.0);
         let count = |a_digit: f64| (a_digit * digits).round() as usize;
         match radius {
             PressureRadius::Fixed(_) => vec![Self::one()],
-            PressureRadius::Following { .. } => A_DIGIT
-                .map(|d| Self::following(count(d), 0.0))
-                .into_iter()
-                .collect(),
+            PressureRadius::Following { .. } => {
+                let apart = COUNTS_APART.into_iter().filter(|_| digits <= DIGITS_APART);
+                apart
+                    .map(Self::apart)
+                    .chain(A_DIGIT.map(|d| Self::following(count(d), 0.0)))
+                    .collect()
+            }
         }
     }
 
@@ -60,7 +88,39 @@ impl Discs {
 
     /// The smallest radius over the largest.
     pub(crate) fn smallest(&self) -> f64 {
-        self.radii[self.radii.len() - 1]
+        self.radii.iter().copied().fold(1.0, f64::min)
+    }
+
+    /// Those that stand for the load some radii away from it.
+    fn apart(count: usize) -> Self {
+        let squares = &APART[..count];
+        let of = |own: &f64| {
+            let others = squares.iter().filter(|other| *other != own);
+            let difference: f64 = others.map(|other| own - other).product();
+            CAUTION * OMITTED[count - COUNTS_APART[0]] / difference
+        };
+        Self {
+            radii: squares.iter().map(|square| square.sqrt()).collect(),
+            least: 0.0,
+            omitted: Some(Omitted {
+                counts: squares.iter().map(of).collect(),
+            }),
+        }
+    }
+
+    /// The largest part of the load, over its own largest, that disc `k` bears some radii away; beside the load all count
+    /// alike, since their differences tell what is left.
+    pub(crate) fn largest_share(&self, k: usize) -> f64 {
+        const TRIALS: u32 = 64;
+        let squares = (1..=TRIALS).map(|i| f64::from(i) / f64::from(TRIALS));
+        let of = |square: f64| (square.powf(1.5) * self.share(k, square)[0]).abs();
+        let largest = |_| squares.map(of).fold(0.0, f64::max);
+        self.omitted.as_ref().map_or(1.0, largest)
+    }
+
+    /// The product of a^2 less the square of each radius.
+    pub(crate) fn product(&self, square: f64) -> f64 {
+        self.radii.iter().map(|b| square - b * b).product()
     }
 
     /// One disc that takes all.
@@ -68,6 +128,7 @@ impl Discs {
         Self {
             radii: vec![1.0],
             least: 1.0,
+            omitted: None,
         }
     }
 
@@ -81,6 +142,7 @@ impl Discs {
         Self {
             radii: radii.collect(),
             least,
+            omitted: None,
         }
     }
 
@@ -90,6 +152,13 @@ impl Discs {
         let count = self.radii.len();
         if count == 1 {
             return [1.0, 0.0];
+        }
+        if self.omitted.is_some() {
+            let squares = self.radii.iter().map(|b| b * b).enumerate();
+            let own = self.radii[k] * self.radii[k];
+            let others = squares.filter(|&(j, _)| j != k);
+            let share = others.map(|(_, other)| (square - other) / (own - other));
+            return [share.product(), 0.0];
         }
         let x = (2.0 * square - 1.0 - self.least) / (1.0 - self.least);
         let node = (PI * (2 * k + 1) as f64 / (2 * count) as f64).cos();
@@ -114,6 +183,15 @@ mod tests {
 
     #[test]
     fn shares_reproduce_powers_of_the_squared_radius() {
+        for count in COUNTS_APART {
+            let discs = Discs::apart(count);
+            for square in [0.0, 0.1, 0.63, 1.0] {
+                let sum: f64 = (0..count)
+                    .map(|k| discs.share(k, square)[0] * discs.radii[k].powi(2))
+                    .sum();
+                assert!((sum - square).abs() < 1e-12, "{count} {square}");
+            }
+        }
         for (count, smallest) in [(1, 1.0), (2, 0.5), (6, 0.0), (9, 0.2)] {
             let discs = if count == 1 {
                 Discs::one()

@@ -98,6 +98,9 @@ impl Sampled {
     }
 }
 
+/// Part of the force over which a polynomial of the radius is differenced (T61).
+const PART: f64 = 1e-6;
+
 /// Slopes and bends below this fraction of the largest sample are left to the differences of the samples.
 const NEGLIGIBLE: f64 = 1e-9;
 
@@ -157,8 +160,6 @@ impl<'a> Forcing<'a> {
 
     /// The force on disc `k` at a time, and the part that the highest power of the radius brings.
     pub(crate) fn on_disc(&self, discs: &Discs, k: usize, time_s: f64) -> [f64; 2] {
-        /// Part of the force over which a polynomial of the radius is differenced (T61).
-        const PART: f64 = 1e-6;
         let of = |one: Pressed| discs.share(k, one.square).map(|share| one.force_n * share);
         let [sum, other] = self
             .excitation
@@ -242,6 +243,12 @@ impl<'a> Forcing<'a> {
         force.half_variation += 0.5 * changes.iter().map(|d| d.abs()).sum::<f64>();
         let last = match radius {
             PressureRadius::Fixed(_) => None,
+            PressureRadius::Following { .. } if discs.omitted.is_some() => {
+                // as its samples are
+                let nodes = CellNodes::new(run.count.saturating_sub(1), |_, _| {});
+                let left = self.omitted(discs, k, run);
+                Some(Sampled::new(0.0, &left, &nodes, (needed, 1.0)))
+            }
             PressureRadius::Following { .. } if discs.radii.len() == 1 => Some(Sampled {
                 convolver: Convolver::at(&self.left_out(discs.radii[0], run), needed.clone()),
                 projection: Projection::default(),
@@ -279,9 +286,6 @@ impl<'a> Forcing<'a> {
     /// The force whose waves one disc of radius b leaves out, far from it: (a_max/c_R)^2/10 times the second derivative of
     /// P (a^2 - b^2)/a_max^2.
     fn left_out(&self, radius: f64, run: &Run) -> Vec<f64> {
-        let excitation = self.excitation;
-        let lag_s = excitation.units().time_s() / excitation.medium().rayleigh_speed();
-        let steps = lag_s / self.step_s;
         let of = |one: Pressed| {
             let beyond = one.square - radius * radius;
             match self.reading {
@@ -289,12 +293,37 @@ impl<'a> Forcing<'a> {
                 Reading::Rate => one.rate * beyond + one.force_n * one.square_rate,
             }
         };
-        let over = |t: f64| excitation.pressures(t).map(of).iter().sum();
+        self.bent(0.1, of, run)
+    }
+
+    /// The force on disc k of what some discs leave some radii away.
+    fn omitted(&self, discs: &Discs, k: usize, run: &Run) -> Vec<f64> {
+        let count = discs
+            .omitted
+            .as_ref()
+            .map_or(0.0, |omitted| omitted.counts[k]);
+        let beyond = |one: Pressed| one.force_n * discs.product(one.square);
+        let of = |one: Pressed| match self.reading {
+            Reading::Force => beyond(one),
+            Reading::Rate => {
+                let rate = one.rate_of(PART, |one| Ok::<_, Infallible>([beyond(one)]));
+                rate.unwrap_or_default()[0]
+            }
+        };
+        self.bent(count, of, run)
+    }
+
+    /// A number times (a_max/c_R)^2 times the second derivative of a function of the pressures.
+    fn bent(&self, count: f64, of: impl Fn(Pressed) -> f64, run: &Run) -> Vec<f64> {
+        let excitation = self.excitation;
+        let lag_s = excitation.units().time_s() / excitation.medium().rayleigh_speed();
+        let steps = lag_s / self.step_s;
+        let over = |t: f64| excitation.pressures(t).map(&of).iter().sum();
         let values: Vec<f64> = (-1..=run.count as isize)
             .map(|n| over(run.start_s + n as f64 * self.step_s))
             .collect();
         let second = values.windows(3).map(|v| v[2] - 2.0 * v[1] + v[0]);
-        second.map(|bend| 0.1 * steps * steps * bend).collect()
+        second.map(|bend| count * steps * steps * bend).collect()
     }
 }
 

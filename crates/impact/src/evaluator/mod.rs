@@ -31,7 +31,7 @@ pub(crate) use past::Past;
 
 use crate::error::ImpactError;
 use crate::excitation::{Excitation, PressureRadius};
-use crate::fields::quantity::{Derivative, Origin, Quantity};
+use crate::fields::quantity::{Derivative, Quantity};
 use crate::grid::Grid;
 use crate::kernels::{CellPlan, Cells, KernelSource, Place};
 use convolve::Method;
@@ -88,6 +88,10 @@ pub(crate) type Resolved = ([Vec<f64>; 6], [f64; 6]);
 /// Tolerances that a part of the past may have, which brings a part of the field.
 const PART_OF_PAST: f64 = 10.0;
 
+/// Largest radii from the load between which waves are long beside the contact and kernels of small discs have their digits.
+const APART: f64 = 4.0;
+const FAR: f64 = 30.0;
+
 /// Samples of forces on discs that are held at most.
 const MOST_HELD: usize = 1 << 24;
 
@@ -115,7 +119,7 @@ impl<'a> Evaluator<'a> {
         }
         let mut derivatives = vec![Derivative::Field];
         for quantity in asked.quantities {
-            if let Origin::Rate(derivative, _) = quantity.origin()
+            if let Some((derivative, _)) = quantity.rate()
                 && !derivatives.contains(&derivative)
             {
                 derivatives.push(derivative);
@@ -174,13 +178,13 @@ impl<'a> Evaluator<'a> {
             errors: sums[0].1.to_vec(),
         };
         for &quantity in self.asked.quantities {
-            let (values, error) = match quantity.origin() {
-                Origin::Rate(derivative, component) => {
+            let (values, error) = match quantity.rate() {
+                Some((derivative, component)) => {
                     let place = self.forcings.iter().position(|(own, _)| *own == derivative);
                     let (values, errors) = &sums[place.unwrap_or(0)];
                     (values[component].clone(), errors[component])
                 }
-                Origin::Stress => self.of_stresses(quantity, &sums[0]),
+                None => self.of_stresses(quantity, &sums[0]),
             };
             found.values.push(values);
             found.errors.push(error);
@@ -201,18 +205,18 @@ impl<'a> Evaluator<'a> {
     /// where a choice leaves more: the kernels of small discs lose digits far away.
     fn sums(&self, place_m: [f64; 2]) -> Result<Vec<Resolved>, ImpactError> {
         let serving = self.serving(place_m);
-        let mut best = self.under(place_m, serving[0])?;
+        let mut best = self.under(place_m, serving[0], None)?;
         let open = |sums: &[Sum<'_>]| sums.iter().map(|sum| sum.open.len()).sum::<usize>();
-        // far away the kernels of the smallest discs lose digits
-        const NEAR: f64 = 4.0;
-        let near =
-            place_m[0].hypot(place_m[1]) < NEAR * self.asked.excitation.units().disc_radius_m;
-        for &choice in &serving[1..] {
+        let is_near = self.distance(place_m) < APART;
+        for pair in serving.windows(2) {
             // to integrate a sample costs less than a disc
-            if self.past.is_none() || open(&best.0) <= self.choices[choice].radii.len() || !near {
+            let next = &self.choices[pair[1]];
+            let enough = open(&best.0) <= next.radii.len();
+            // far away the kernels of the smallest discs lose digits
+            if self.past.is_none() || enough || !(is_near || next.omitted.is_some()) {
                 break;
             }
-            let next = self.under(place_m, choice)?;
+            let next = self.under(place_m, pair[1], Some((pair[0], &best.1)))?;
             if open(&next.0) >= open(&best.0) {
                 break;
             }
@@ -240,23 +244,46 @@ impl<'a> Evaluator<'a> {
         };
         // a table's choices have as many discs each
         let tried = if computed { count } else { 1 };
-        let found: Vec<usize> = (0..count).filter(served).take(tried).collect();
+        // whose force has a kink begins short waves where it is large, too
+        let smooth = self.asked.excitation.kinks_s().is_empty();
+        let apart = computed && smooth && (APART..FAR).contains(&self.distance(place_m));
+        let fits = |choice: &usize| self.choices[*choice].omitted.is_some() == apart;
+        let mut found: Vec<usize> = (0..count).filter(served).take(tried).collect();
+        if found.iter().any(fits) {
+            found.retain(fits);
+        }
         match (found.is_empty(), computed) {
             (false, _) => found,
-            (true, true) => vec![0],
+            (true, true) => (0..count).filter(fits).take(1).collect(),
             (true, false) => vec![count - 1],
         }
     }
 
-    /// The sums of all forcings over the discs of one choice, with the kernels of the discs.
+    /// Distance from the load in largest radii.
+    fn distance(&self, [r_m, z_m]: [f64; 2]) -> f64 {
+        r_m.hypot(z_m) / self.asked.excitation.units().disc_radius_m
+    }
+
+    /// The sums of all forcings over the discs of one choice, with the kernels of the discs; those of another are known.
     fn under(
         &self,
         place_m: [f64; 2],
         choice: usize,
+        known: Option<(usize, &[Cells])>,
     ) -> Result<(Vec<Sum<'_>>, Vec<Cells>), ImpactError> {
         let discs = &self.choices[choice];
-        let cells: Vec<Cells> = (discs.radii.iter())
-            .map(|&over| self.cells(place_m, over))
+        let of = |(k, &over): (usize, &f64)| {
+            let known = known.and_then(|(choice, cells)| {
+                let mut known = self.choices[choice].radii.iter().zip(cells);
+                known.find(|(radius, _)| **radius == over)
+            });
+            match known {
+                Some((_, cells)) => Ok(cells.clone()),
+                None => self.cells(place_m, over, discs.largest_share(k)),
+            }
+        };
+        let cells: Vec<Cells> = (discs.radii.iter().enumerate())
+            .map(of)
             .collect::<Result<_, _>>()?;
         let forces = self.forces[choice].get_or_init(|| {
             let of = |(_, forcing): &(_, Forcing<'_>)| forcing.on_discs(discs);
@@ -279,8 +306,8 @@ impl<'a> Evaluator<'a> {
         Ok((sums.collect::<Result<_, _>>()?, cells))
     }
 
-    /// The kernels of a disc of a radius `over` the largest, as far as the outputs need them.
-    fn cells(&self, [r_m, z_m]: [f64; 2], over: f64) -> Result<Cells, ImpactError> {
+    /// The kernels of a disc of a radius `over` the largest that bears a share of the load, as far as the outputs need them.
+    fn cells(&self, [r_m, z_m]: [f64; 2], over: f64, share: f64) -> Result<Cells, ImpactError> {
         let Asked {
             excitation,
             source,
@@ -305,7 +332,7 @@ impl<'a> Evaluator<'a> {
             count: grid.longest() + more.unwrap_or(0) + BEYOND,
             pulse: excitation.pulse(over),
             rates,
-            tolerance: self.asked.tolerance,
+            tolerance: self.asked.tolerance / share.min(1.0),
         };
         source.cells(excitation.medium().poisson_ratio(), place, plan)
     }

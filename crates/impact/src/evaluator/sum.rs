@@ -310,7 +310,9 @@ impl<'a> Sum<'a> {
         let unit = units_si(self.forcing.excitation, over);
         let unit_s = over * self.forcing.excitation.units().time_s();
         let own = &self.forces[k].runs[run];
-        let both = [Some(&own.force), own.last.as_ref()];
+        // some radii away it is known at the samples alone
+        let last = own.last.as_ref().filter(|_| self.discs.omitted.is_none());
+        let both = [Some(&own.force), last];
         let mut change = [Six::default(); 2];
         for zone in &own.zones {
             let part = zone.cells.start.max(among.start)..zone.cells.end.min(among.end);

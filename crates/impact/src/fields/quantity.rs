@@ -4,8 +4,6 @@
 //! von Mises and Tresca.
 //! Their errors are bounds: each is at most what the errors of the four stresses can move it by, whatever their signs.
 
-use contact::Choice;
-
 /// Which derivative in time of the fields is meant.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Derivative {
@@ -50,60 +48,32 @@ pub enum Quantity {
     Principal3,
 }
 
-impl Choice for Quantity {
-    const ALL: &'static [Self] = &[
-        Self::VelocityR,
-        Self::VelocityZ,
-        Self::AccelerationR,
-        Self::AccelerationZ,
-        Self::StrainRr,
-        Self::StrainTt,
-        Self::StrainZz,
-        Self::StrainRz,
-        Self::VonMises,
-        Self::Tresca,
-        Self::MaxShear,
-        Self::Principal1,
-        Self::Principal2,
-        Self::Principal3,
-    ];
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::VelocityR => "velocity_r",
-            Self::VelocityZ => "velocity_z",
-            Self::AccelerationR => "acceleration_r",
-            Self::AccelerationZ => "acceleration_z",
-            Self::StrainRr => "strain_rr",
-            Self::StrainTt => "strain_tt",
-            Self::StrainZz => "strain_zz",
-            Self::StrainRz => "strain_rz",
-            Self::VonMises => "von_mises",
-            Self::Tresca => "tresca",
-            Self::MaxShear => "max_shear",
-            Self::Principal1 => "principal_1",
-            Self::Principal2 => "principal_2",
-            Self::Principal3 => "principal_3",
-        }
-    }
-}
-
-/// How a quantity is had.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Origin {
-    /// A component of the velocity or of the acceleration.
-    Rate(Derivative, usize),
-    /// From the stresses of the same instant.
-    Stress,
-}
+contact::choice!(Quantity:
+    VelocityR = "velocity_r",
+    VelocityZ = "velocity_z",
+    AccelerationR = "acceleration_r",
+    AccelerationZ = "acceleration_z",
+    StrainRr = "strain_rr",
+    StrainTt = "strain_tt",
+    StrainZz = "strain_zz",
+    StrainRz = "strain_rz",
+    VonMises = "von_mises",
+    Tresca = "tresca",
+    MaxShear = "max_shear",
+    Principal1 = "principal_1",
+    Principal2 = "principal_2",
+    Principal3 = "principal_3"
+);
 
 impl Quantity {
-    pub(crate) fn origin(self) -> Origin {
+    /// Of a velocity or an acceleration which derivative it is, and its component; none of what follows from the stresses of
+    /// the same instant.
+    pub(crate) fn rate(self) -> Option<(Derivative, usize)> {
         match self {
-            Self::VelocityR => Origin::Rate(Derivative::First, 0),
-            Self::VelocityZ => Origin::Rate(Derivative::First, 1),
-            Self::AccelerationR => Origin::Rate(Derivative::Second, 0),
-            Self::AccelerationZ => Origin::Rate(Derivative::Second, 1),
+            Self::VelocityR => Some((Derivative::First, 0)),
+            Self::VelocityZ => Some((Derivative::First, 1)),
+            Self::AccelerationR => Some((Derivative::Second, 0)),
+            Self::AccelerationZ => Some((Derivative::Second, 1)),
             Self::StrainRr
             | Self::StrainTt
             | Self::StrainZz
@@ -113,7 +83,7 @@ impl Quantity {
             | Self::MaxShear
             | Self::Principal1
             | Self::Principal2
-            | Self::Principal3 => Origin::Stress,
+            | Self::Principal3 => None,
         }
     }
 
@@ -195,6 +165,7 @@ fn principal([rr, tt, zz, rz]: [f64; 4]) -> [f64; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use contact::Choice;
 
     const STEEL: [f64; 2] = [209e9, 0.3];
 
@@ -262,7 +233,7 @@ mod tests {
     fn errors_are_bounds() {
         let errors = [3e5, 1e5, 4e5, 2e5];
         for &quantity in Quantity::ALL {
-            if quantity.origin() != Origin::Stress {
+            if quantity.rate().is_some() {
                 continue;
             }
             let bound = quantity.error(errors, STEEL);
