@@ -130,7 +130,7 @@ impl<'a> Evaluator<'a> {
             (derivative, of)
         };
         let past = match (radius, excitation.record()) {
-            (PressureRadius::Following { .. }, None) => {
+            (PressureRadius::Following { .. }, None) if computed => {
                 Some(Past::new(excitation, PART_OF_PAST * tolerance)?)
             }
             (_, _) => None,
@@ -223,10 +223,8 @@ impl<'a> Evaluator<'a> {
             best = next;
         }
         let (sums, cells) = best;
-        // of a disc alone the parts are not known
-        let past = self.past.as_ref().filter(|_| cells.len() > 1);
         sums.into_iter()
-            .map(|sum| sum.resolved(past, &cells))
+            .map(|sum| sum.resolved(self.past.as_ref(), &cells))
             .collect()
     }
 
@@ -242,13 +240,11 @@ impl<'a> Evaluator<'a> {
             let smallest = self.choices[choice].smallest();
             r <= smallest * reach[0] && z <= smallest * reach[1]
         };
-        // a table's choices have as many discs each
-        let tried = if computed { count } else { 1 };
         // whose force has a kink begins short waves where it is large, too
         let smooth = self.asked.excitation.kinks_s().is_empty();
         let apart = computed && smooth && (APART..FAR).contains(&self.distance(place_m));
         let fits = |choice: &usize| self.choices[*choice].omitted.is_some() == apart;
-        let mut found: Vec<usize> = (0..count).filter(served).take(tried).collect();
+        let mut found: Vec<usize> = (0..count).filter(served).collect();
         if found.iter().any(fits) {
             found.retain(fits);
         }
