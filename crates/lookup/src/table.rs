@@ -133,7 +133,7 @@ impl Table {
                 + found.ok_or(LookupError::Outside {
                     axis: name,
                     value,
-                    min: nodes[first],
+                    min: 0.0,
                     max: nodes[last],
                 })?;
         }
