@@ -75,8 +75,8 @@ const FINER: f64 = 0.1;
 const COARSE: f64 = 1e-5;
 const NODES: [usize; 3] = [5, 7, 8];
 
-/// Marches between the nodes, of one free group and of two; they are equidistributed, with these steps.
-const PROBES: [usize; 2] = [4, 8];
+/// Marches between the nodes, of one free group, of two and of the fit; they are equidistributed, with these steps.
+const PROBES: [usize; 3] = [4, 8, 16];
 const STEPS: [f64; 2] = [0.754_877_666, 0.569_840_291];
 
 /// Times their largest difference that the certificate has.
@@ -202,7 +202,7 @@ impl Cell {
         match self.family {
             Family::Growing => ([NODES[fine], 1], PROBES[0]),
             Family::Full | Family::Dynamic => ([NODES[fine]; 2], PROBES[1]),
-            Family::Yielding => ([NODES[2]; 2], PROBES[1]),
+            Family::Yielding => ([NODES[2]; 2], PROBES[2]),
         }
     }
 
