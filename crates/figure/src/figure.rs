@@ -228,7 +228,8 @@ fn check_panel((i, panel): (usize, &Panel)) -> Result<(), FigureError> {
         let fault = |why: String| FigureError(format!("panel {i}: the {side} axis {why}"));
         if let Some(Interval { low, high, .. }) = axis.interval().filter(|given| !given.is_valid())
         {
-            return Err(fault(format!("cannot run from {low:?} to {high:?}")));
+            let [low, high] = [low, high].map(fault::number);
+            return Err(fault(format!("cannot run from {low} to {high}")));
         }
         let needs_linear = panel.has_equal_lengths || panel.is_mirrored && side == "x";
         if needs_linear && axis.scale == Scale::Logarithmic {

@@ -144,7 +144,7 @@ fn what_cannot_be_drawn_is_refused_with_its_place() {
     let mut figure = classes();
     figure.panels[0].y.range = Some((0.0, 1.0));
     let message = refused(&figure).to_string();
-    assert_eq!(message, "panel 0: the y axis cannot run from 0.0 to 1.0");
+    assert_eq!(message, "panel 0: the y axis cannot run from 0 to 1");
     let mut figure = image();
     if let Layer::Image(image) = &mut figure.panels[0].layers[0] {
         image.values.pop();
