@@ -35,7 +35,8 @@ pub fn compose(paths: &[PathBuf], request: &Request) -> Result<Drawn, PlotError>
 fn scale(figure: &mut Figure, request: &Request) -> Result<(), PlotError> {
     if let Some((low, high)) = request.limits {
         let refused = |why| {
-            let sentence = format!("the limits {low:?}:{high:?} are not those of a picture: {why}");
+            let [low, high] = [low, high].map(fault::number);
+            let sentence = format!("the limits {low}:{high} are not those of a picture: {why}");
             Err(PlotError::refused(None, sentence))
         };
         if !(low < high && high.is_finite()) {

@@ -140,7 +140,7 @@ fn limits_and_ratios_are_those_that_are_asked_for() {
         ..request(Kind::Waves, "stress_zz")
     };
     for (asked, sentence) in [
-        (turned, "the limits 1.0:-1.0"),
+        (turned, "the limits 1:-1"),
         (late, "there is no frame at 1e300 s"),
     ] {
         let refused = compose(std::slice::from_ref(&path), &asked).unwrap_err();

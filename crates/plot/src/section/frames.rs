@@ -81,9 +81,10 @@ impl<'a> Section<'a> {
         let outside = times_s
             .iter()
             .find(|time_s| !(first_s..=last_s).contains(*time_s));
-        if let Some(time_s) = outside {
+        if let Some(&time_s) = outside {
+            let [time, first, last] = [time_s, first_s, last_s].map(fault::number);
             let sentence = format!(
-                "there is no frame at {time_s:?} s: those of the section are from {first_s:?} to {last_s:?} s"
+                "there is no frame at {time} s: those of the section are from {first} to {last} s"
             );
             return Err(PlotError::refused(None, sentence));
         }
