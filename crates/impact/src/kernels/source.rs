@@ -75,7 +75,8 @@ struct Known {
     part: Option<([[f64; 2]; 2], Arc<Table>)>,
 }
 
-/// How much farther than was asked a part reaches that takes the place of another: places of a sweep wander.
+/// How much farther than was asked a part reaches that takes the place of another: places of a sweep wander. It begins in
+/// the centre, so that places that come nearer are read once more at most.
 const FARTHER: f64 = 1.5;
 
 impl Shared {
@@ -127,17 +128,12 @@ impl Tables for Shared {
         self.with(poisson_ratio, |known| {
             let mut wanted = span;
             if let Some((held, table)) = &known.part {
-                for axis in 0..2 {
-                    wanted[0][axis] = held[0][axis].min(span[0][axis]);
-                    wanted[1][axis] = held[1][axis].max(span[1][axis]);
-                }
-                if wanted == *held {
+                let mut axes = 0..2;
+                if axes.all(|i| held[0][i] <= span[0][i] && span[1][i] <= held[1][i]) {
                     return Ok(Arc::clone(table));
                 }
-                wanted = [
-                    wanted[0].map(|near| near / FARTHER),
-                    wanted[1].map(|far| far * FARTHER),
-                ];
+                let farthest = |i: usize| FARTHER * held[1][i].max(span[1][i]);
+                wanted = [[0.0; 2], [farthest(0), farthest(1)]];
             }
             let table = self.tables.part(poisson_ratio, wanted)?;
             known.part = Some((wanted, Arc::clone(&table)));
