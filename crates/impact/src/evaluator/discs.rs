@@ -21,21 +21,15 @@ use std::f64::consts::PI;
 /// Radii over the largest, with the polynomials that share the load out.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Discs {
-    /// Radii over the largest, descending.
+    /// Radii over the largest, the largest of them first.
     pub(crate) radii: Vec<f64>,
     /// Smallest square of a radius that the nodes cover.
     least: f64,
-    /// What the discs leave, where they stand for the load some radii away.
-    pub(crate) omitted: Option<Omitted>,
-}
-
-/// The next term of the series in the square of the radius over the length of waves, of which Rayleigh's are the shortest:
-/// in the divided difference of the discs' kernels, times (a_max/c_R)^2 d^2/dt^2 of the load times the product of a^2 less
-/// the square of each radius.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Omitted {
-    /// What the kernel of each disc counts in the divided difference, with the term's coefficient.
-    pub(crate) counts: Vec<f64>,
+    /// Where the discs stand for the load some radii away, what each counts in what they leave: in the next term of the
+    /// series in the square of the radius over the length of waves, of which Rayleigh's are the shortest. That is the divided
+    /// difference of the discs' kernels, times (a_max/c_R)^2 d^2/dt^2 of the load times the product of a^2 less the square of
+    /// each radius.
+    pub(crate) omitted: Option<Vec<f64>>,
 }
 
 /// Squares of the radii some radii away from the load, and how many of them two choices have.
@@ -102,9 +96,7 @@ impl Discs {
         Self {
             radii: squares.iter().map(|square| square.sqrt()).collect(),
             least: 0.0,
-            omitted: Some(Omitted {
-                counts: squares.iter().map(of).collect(),
-            }),
+            omitted: Some(squares.iter().map(of).collect()),
         }
     }
 

@@ -298,10 +298,7 @@ impl<'a> Forcing<'a> {
 
     /// The force on disc k of what some discs leave some radii away.
     fn omitted(&self, discs: &Discs, k: usize, run: &Run) -> Vec<f64> {
-        let count = discs
-            .omitted
-            .as_ref()
-            .map_or(0.0, |omitted| omitted.counts[k]);
+        let count = discs.omitted.as_ref().map_or(0.0, |counts| counts[k]);
         let beyond = |one: Pressed| one.force_n * discs.product(one.square);
         let of = |one: Pressed| match self.reading {
             Reading::Force => beyond(one),

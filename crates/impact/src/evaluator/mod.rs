@@ -250,7 +250,7 @@ impl<'a> Evaluator<'a> {
         }
         match (found.is_empty(), computed) {
             (false, _) => found,
-            (true, true) => (0..count).filter(fits).take(1).collect(),
+            (true, true) => vec![(0..count).find(fits).unwrap_or(0)],
             (true, false) => vec![count - 1],
         }
     }
