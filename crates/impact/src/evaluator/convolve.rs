@@ -12,6 +12,7 @@
 
 use super::transform::Transform;
 use halfspace::Six;
+use pulp::{Arch, Simd, WithSimd};
 
 /// A sampled force, ready to be convolved with the cells of any number of points.
 pub struct Convolver {
@@ -108,21 +109,36 @@ impl Convolver {
     }
 
     fn direct_sum(&self, averages: &[Six]) -> [Vec<f64>; 6] {
-        let mut out: [Vec<f64>; 6] = std::array::from_fn(|_| Vec::with_capacity(self.wanted.len()));
-        for &n in &self.wanted {
+        // before the first wave there is nothing
+        let still = averages.iter().take_while(|cell| **cell == [0.0; 6]);
+        let still = still.count();
+        let of = |&n: &usize| {
+            let until = self.live.min((n + 1).saturating_sub(still));
+            let rises = self.rise[..until].iter().copied();
+            weighted_sum(rises.zip(averages[..=n].iter().rev()))
+        };
+        let sums: Vec<Six> = self.wanted.iter().map(of).collect();
+        std::array::from_fn(|f| sums.iter().map(|sum| sum[f]).collect())
+    }
+}
+
+/// The sum of weighted cells, in vector registers; the same bits on every machine.
+pub(crate) fn weighted_sum<'a>(cells: impl Iterator<Item = (f64, &'a Six)>) -> Six {
+    struct Weighted<I>(I);
+    impl<'a, I: Iterator<Item = (f64, &'a Six)>> WithSimd for Weighted<I> {
+        type Output = Six;
+        #[inline(always)]
+        fn with_simd<S: Simd>(self, _: S) -> Six {
             let mut sum = [0.0; 6];
-            let past = self.rise[..self.live.min(n + 1)].iter();
-            for (d, cell) in past.zip(averages[..=n].iter().rev()) {
-                for (s, c) in sum.iter_mut().zip(cell) {
-                    *s += d * c;
+            for (weight, cell) in self.0 {
+                for (sum, value) in sum.iter_mut().zip(cell) {
+                    *sum += weight * value;
                 }
             }
-            for (samples, s) in out.iter_mut().zip(sum) {
-                samples.push(s);
-            }
+            sum
         }
-        out
     }
+    Arch::new().dispatch(Weighted(cells))
 }
 
 /// How a convolution is done.

@@ -11,6 +11,7 @@
 //!
 //! Theory: `docs/theory.md` (T24).
 
+use super::convolve::weighted_sum;
 use super::nodes::{CellNodes, Node};
 use crate::record::stretch::Departure;
 use halfspace::Six;
@@ -87,17 +88,20 @@ impl Projection {
                     2 => 0,
                     _ => list.partition_point(|missing| missing.cell < newest - own as isize),
                 };
-                for missing in &list[from..until] {
-                    let Ok(j) = usize::try_from(newest - missing.cell) else {
-                        continue;
-                    };
-                    let (Some(first), Some(second)) = (cells.first.get(j), cells.second.get(j))
-                    else {
-                        continue;
-                    };
-                    for f in 0..6 {
-                        sum[f] += missing.slope * first[f] + missing.bend * second[f];
-                    }
+                // as far as there are cells
+                let of = |missing: &Unabsorbed| (newest - missing.cell) as usize;
+                let until = until.max(from);
+                let list = &list[from..until];
+                let list =
+                    &list[list.partition_point(|missing| of(missing) >= cells.first.len())..];
+                let slopes = list
+                    .iter()
+                    .map(|missing| (missing.slope, &cells.first[of(missing)]));
+                let bends = list
+                    .iter()
+                    .map(|missing| (missing.bend, &cells.second[of(missing)]));
+                for part in [weighted_sum(slopes), weighted_sum(bends)] {
+                    sum = std::array::from_fn(|f| sum[f] + part[f]);
                 }
             }
             for (samples, s) in out.iter_mut().zip(sum) {
