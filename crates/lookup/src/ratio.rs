@@ -4,6 +4,7 @@ use crate::content::{Between, Content, Role};
 use crate::error::LookupError;
 use crate::series::stencil::{Stencil, locate};
 use halfspace::{DomainError, Medium};
+use std::sync::LazyLock;
 
 /// Slices that take part.
 const POINTS: usize = 8;
@@ -20,8 +21,8 @@ const REFERENCE: f64 = 0.3;
 /// # Errors
 /// [`DomainError`] for a ratio outside (-1, 0.5).
 pub fn cell_scale(poisson_ratio: f64) -> Result<f64, DomainError> {
-    let speed = |ratio| Medium::new(ratio).map(|medium| medium.rayleigh_speed());
-    Ok(speed(REFERENCE)? / speed(poisson_ratio)?)
+    static REFERENCE_SPEED: LazyLock<Result<f64, DomainError>> = LazyLock::new(|| speed(REFERENCE));
+    Ok(REFERENCE_SPEED.clone()? / speed(poisson_ratio)?)
 }
 
 /// Coordinate in which slices are interpolated: nu/5 - c_R/c1, ascending in nu.
@@ -33,7 +34,11 @@ pub fn cell_scale(poisson_ratio: f64) -> Result<f64, DomainError> {
 /// # Errors
 /// [`DomainError`] for a ratio outside (-1, 0.5).
 pub fn ratio_coordinate(poisson_ratio: f64) -> Result<f64, DomainError> {
-    Ok(0.2 * poisson_ratio - Medium::new(poisson_ratio)?.rayleigh_speed())
+    Ok(0.2 * poisson_ratio - speed(poisson_ratio)?)
+}
+
+fn speed(poisson_ratio: f64) -> Result<f64, DomainError> {
+    Ok(Medium::new(poisson_ratio)?.rayleigh_speed())
 }
 
 /// A slice as far as Poisson's ratio goes.

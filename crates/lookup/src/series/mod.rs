@@ -10,6 +10,7 @@ pub(crate) mod tail;
 use crate::content::FIELDS;
 use crate::series::tail::Tail;
 use halfspace::Six;
+use pulp::{Arch, Simd, WithSimd};
 
 /// What is assumed of the force between samples one cell apart.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -135,16 +136,28 @@ impl Series {
         } else {
             part
         };
-        let mut found = Moments::zero(count);
-        self.for_each_cell(part, count, |j, [average, first, second]| {
-            found.averages[j] = average;
-            found.first[j] = first;
-            found.second[j] = second;
-        });
-        found
+        /// In vector registers; the same bits on every machine.
+        struct Work<'a>(&'a Series, f64, usize);
+        impl WithSimd for Work<'_> {
+            type Output = Moments;
+
+            #[inline(always)]
+            fn with_simd<S: Simd>(self, _: S) -> Moments {
+                let Self(series, part, count) = self;
+                let mut found = Moments::zero(count);
+                series.for_each_cell(part, count, |j, [average, first, second]| {
+                    found.averages[j] = average;
+                    found.first[j] = first;
+                    found.second[j] = second;
+                });
+                found
+            }
+        }
+        Arch::new().dispatch(Work(self, part, count))
     }
 
     /// Tells `keep` the first `N` numbers of each of `count` cells that are `part` table cells wide.
+    #[inline(always)]
     fn for_each_cell<const N: usize>(
         &self,
         part: f64,
@@ -208,6 +221,7 @@ impl Series {
 }
 
 /// Adds to the numbers of a cell those of a part of it that lies `x` cells from its centre and is `part` of a cell wide.
+#[inline(always)]
 fn add<const N: usize>([x, part]: [f64; 2], own: &[Six; N], sums: &mut [Six; N]) {
     for f in 0..FIELDS {
         let average = own[0][f];
@@ -225,6 +239,7 @@ fn add<const N: usize>([x, part]: [f64; 2], own: &[Six; N], sums: &mut [Six; N])
 }
 
 /// The numbers of the part [from, to] of a cell [0, 1] from those of the whole.
+#[inline(always)]
 fn of_part<const N: usize>(whole: &[Six; N], [from, to]: [f64; 2]) -> [Six; N] {
     let (x, width) = (0.5 * (from + to) - 0.5, to - from);
     let mut part = *whole;

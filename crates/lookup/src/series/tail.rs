@@ -42,6 +42,7 @@ impl Tail {
     }
 
     /// G at time `t`.
+    #[inline(always)]
     pub(super) fn integral(&self, t: f64) -> Six {
         let x = 2.0 * (self.time_end / t) - 1.0;
         let (mut b1, mut b2): (Six, Six) = ([0.0; 6], [0.0; 6]);
@@ -53,6 +54,7 @@ impl Tail {
     }
 
     /// The average of R over a time that long, between whose ends G differs by `difference`.
+    #[inline(always)]
     pub(super) fn average(&self, difference: f64, duration: f64) -> f64 {
         self.time_end * difference / duration
     }
