@@ -57,39 +57,32 @@ pub(crate) fn chord<D: Scalar, T: Scalar + Mul<D, Output = T>>(
     let zero = root[0].constant(0.0);
     // sigma = e + delta
     let e = delta[1].constant(1.0) - delta[1];
-    let inside = (e.constant(1.0) - e) * (e + 1.0);
-    let twice = e + e;
-    // D_m = [delta^{m + 1/2}]/(m + 1/2) over (2 r)^m
-    let scale = 1.0 / (2.0 * r);
-    let mut powers = root;
-    let mut d = [zero; 4];
-    let (mut i, mut k) = ([zero; 2], [zero; 2]);
-    let mut coefficient = 1.0;
+    // D_m = [delta^{m + 1/2}]/(m + 1/2) over (2 r)^m, and sums of the series over D_m to D_{m + 3}
     let up = 2.0 * r;
+    let scale = 1.0 / up;
+    let steps = [delta[0] * scale, delta[1] * scale];
+    let mut powers = root;
+    let (mut d, mut sums) = ([zero; 4], [zero; 4]);
+    let mut coefficient = 1.0;
     for m in 0..terms + 3 {
-        d = [
-            d[1],
-            d[2],
-            d[3],
-            (powers[1] - powers[0]) * (1.0 / (m as f64 + 0.5)),
-        ];
-        powers = [powers[0] * delta[0] * scale, powers[1] * delta[1] * scale];
+        let half = 1.0 / (m as f64 + 0.5);
+        d = [d[1], d[2], d[3], (powers[1] - powers[0]) * half];
+        powers = [powers[0] * steps[0], powers[1] * steps[1]];
         if m < 3 {
             continue;
         }
-        for j in 0..2 {
-            // delta^j lifts the order by j, a factor (2 r)^j of what is held
-            let lift = if j == 0 {
-                coefficient
-            } else {
-                coefficient * up
-            };
-            let bent = d[j] * inside - (d[j + 1] * twice + d[j + 2] * up) * up;
-            i[j] = i[j] + bent * lift;
-            k[j] = k[j] + (d[j] * e + d[j + 1] * up) * lift;
+        for j in 0..4 {
+            sums[j] = sums[j] + d[j] * coefficient;
         }
         let before = (m - 3) as f64;
         coefficient *= (before + 0.5) / (before + 1.0);
+    }
+    // delta^j lifts the order by j, a factor (2 r)^j of what is held
+    let inside = (e.constant(1.0) - e) * (e + 1.0);
+    let (mut i, mut k) = ([zero; 2], [zero; 2]);
+    for (j, lift) in [1.0, up].into_iter().enumerate() {
+        let bent = sums[j] * inside - (sums[j + 1] * (e + e) + sums[j + 2] * up) * up;
+        (i[j], k[j]) = (bent * lift, (sums[j] * e + sums[j + 1] * up) * lift);
     }
     let front = scale.sqrt();
     Chord {

@@ -76,7 +76,7 @@ pub(super) fn potentials<S: Simd>(
     let reach = Reach::new(xi, r);
     let near = match profile {
         _ if !reach.some_near => Potentials::all(xi.constant(0.0)),
-        Profile::Hertz if r > FAR => at_far_front(xi, r),
+        Profile::Hertz if r > FAR => at_far_front(xi, r, on_axis),
         Profile::Hertz if r <= SMALL_RADIUS => by_parts(xi, r),
         Profile::Hertz if on_axis => primitives_on_imaginary_axis(xi.im, r),
         Profile::Hertz => by_primitives(xi, r),

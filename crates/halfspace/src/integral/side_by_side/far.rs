@@ -2,7 +2,7 @@
 
 use super::near::root_inside;
 use crate::numeric::lanes::{Lanes, Pair};
-use crate::numeric::scalar::Scalar;
+use crate::numeric::scalar::{Real, Scalar};
 use crate::potentials::Potentials;
 use crate::potentials::far_front::{self, C, Chord};
 use crate::potentials::multipole::{self, MOST_TERMS};
@@ -47,10 +47,10 @@ pub(super) fn series_on_imaginary_axis<S: Simd>(
     );
     let mass = multipole::moment(profile, 0);
     Potentials {
-        a_upper: inverse.times(sum.a_upper),
-        a_lower: inverse.times(sum.a_lower).times_i(),
-        g_upper: inverse.times(sum.g_upper).times_i() + inverse * (rho + xi).reciprocal() * mass,
-        g_lower: inverse.times(-sum.g_lower),
+        a_upper: inverse * sum.a_upper,
+        a_lower: (inverse * sum.a_lower).times_i(),
+        g_upper: (inverse * sum.g_upper).times_i() + inverse * (rho + xi).reciprocal() * mass,
+        g_lower: inverse * -sum.g_lower,
     }
 }
 
@@ -68,23 +68,28 @@ pub(super) fn far_terms(r: f64) -> usize {
     far_front::terms(LARGEST, r)
 }
 
-/// The potentials of a distant point.
 #[inline(always)]
-pub(super) fn at_far_front<S: Simd>(xi: Pair<S>, r: f64) -> Potentials<Pair<S>> {
+fn root_of_real<S: Simd>(value: Lanes<S>) -> Pair<S> {
+    let zero = value.constant(0.0);
+    Pair {
+        re: value.max(zero).sqrt(),
+        im: (-value).max(zero).sqrt(),
+    }
+}
+
+/// The potentials of a distant point, on the imaginary axis or off it.
+#[inline(always)]
+pub(super) fn at_far_front<S: Simd>(xi: Pair<S>, r: f64, on_axis: bool) -> Potentials<Pair<S>> {
     let zero = xi.re.constant(0.0);
-    let real = far_delta(xi.im, r);
-    let delta = [
-        Pair {
-            re: real[0],
-            im: xi.re,
-        },
-        Pair {
-            re: real[1],
-            im: xi.re,
-        },
-    ];
-    let root = [delta[0].root(), delta[1].root()];
-    let Chord { i, k } = far_front::chord(delta, root, far_terms(r), r);
+    let (real, terms) = (far_delta(xi.im, r), far_terms(r));
+    let Chord { i, k } = if on_axis {
+        let root = [root_of_real(real[0]), root_of_real(real[1])];
+        far_front::chord(real, root, terms, r)
+    } else {
+        let (re, im) = (real, xi.re);
+        let delta = [Pair { re: re[0], im }, Pair { re: re[1], im }];
+        far_front::chord(delta, [delta[0].root(), delta[1].root()], terms, r)
+    };
     let ring = C / (r * r);
     let psi = Potentials {
         a_upper: i[0] * C,

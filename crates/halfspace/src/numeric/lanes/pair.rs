@@ -26,14 +26,6 @@ impl<S: Simd> Pair<S> {
         }
     }
 
-    #[inline(always)]
-    pub(crate) fn times(self, real: Lanes<S>) -> Self {
-        Self {
-            re: self.re * real,
-            im: self.im * real,
-        }
-    }
-
     /// i times this.
     #[inline(always)]
     pub(crate) fn times_i(self) -> Self {
@@ -116,6 +108,18 @@ impl<S: Simd> Mul for Pair<S> {
         Self {
             re: self.re * other.re - self.im * other.im,
             im: self.re * other.im + self.im * other.re,
+        }
+    }
+}
+
+impl<S: Simd> Mul<Lanes<S>> for Pair<S> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn mul(self, real: Lanes<S>) -> Self {
+        Self {
+            re: self.re * real,
+            im: self.im * real,
         }
     }
 }
