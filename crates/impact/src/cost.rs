@@ -18,7 +18,7 @@ const DECODED_S: f64 = 2.7e-9;
 
 /// A kernel beside a disc, and one of the smaller discs of a contact that follows its load, which are farther.
 const KERNEL_S: f64 = 7e-6;
-const SMALL_DISC: f64 = 1.7;
+const SMALL_DISC: f64 = 1.1;
 
 /// Kernels of a trace whatever its tolerance, and for each digit; for fields with rates so many times more.
 const KERNELS: f64 = 20.0;
@@ -27,7 +27,7 @@ const WITH_RATES: f64 = 1.5;
 
 /// Moments of a cell, and what it takes to look it up.
 const CELL_S: f64 = 4e-7;
-const LOOKED_UP_S: f64 = 1e-6;
+const LOOKED_UP_S: f64 = 4.5e-7;
 
 /// Samples of a point that are integrated over the radii, over the square of the digits, and kernels of each.
 const OPEN: f64 = 0.8;
