@@ -15,8 +15,6 @@ pub(crate) struct Piece {
     pub(crate) displacement: Polynomial,
     /// Force where it is not the cube of the radius.
     pub(crate) force: Option<Polynomial>,
-    /// c of a half-space that answers at once.
-    pub(crate) lag: Option<f64>,
     /// Time and radius where it starts.
     pub(crate) from: (f64, f64),
     /// Time and radius where it ends.

@@ -25,6 +25,9 @@ impl March<'_> {
     /// # Errors
     /// The time in collision units where no piece is short enough.
     pub(crate) fn close(&mut self) -> Result<(), f64> {
+        if self.law.lag.is_some() {
+            return Ok(());
+        }
         let mut ratio = 0.3;
         // dt/da ~ a^(power - 1)
         let mut power = 2.0_f64;
@@ -115,7 +118,6 @@ impl March<'_> {
             velocity: Polynomial::constant(from.velocity),
             displacement: self.nodes.polynomial(&places),
             force: None,
-            lag: None,
             from: (from.time, from.radius),
             to: (self.state.time, 0.0),
         });

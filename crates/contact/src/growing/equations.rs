@@ -4,8 +4,10 @@
 //!
 //! ```text
 //! (v - phi S) T' = (u_a - phi s_a) a',    S = sum_k (m_k/X_k) (g - g_k),    T_k + X_k a_k = t
-//! v = v_0 - (5/4) int p T' ds
+//! v = v_0 - (5/4) int (p T' + c p_u^2 u_a a') ds
 //! ```
+//!
+//! c is zero but for a half-space that answers at once, without waves, phi = 0.
 //!
 //! Indentation u, punches s, g = int ds/a and force p over the radius are those of a [`Law`]; Hertz's has u = s = a^2,
 //! g = 2 a and p = a^3.
@@ -116,8 +118,9 @@ impl Equations<'_> {
         let mut impulse = [0.0; LARGEST];
         let mut local = [Local::default(); LARGEST];
         for j in 1..=n {
-            local[j - 1] = self.law.branch.at(radius[j]);
-            impulse[j - 1] = local[j - 1].force * time_slope[j];
+            let here = self.law.branch.at(radius[j]);
+            impulse[j - 1] = here.force * time_slope[j] + self.law.damping(&here) * radius_slope[j];
+            local[j - 1] = here;
         }
         let mut velocity = [self.start.velocity; SIZE];
         for (i, v) in velocity.iter_mut().enumerate().take(n + 1).skip(1) {
@@ -208,10 +211,13 @@ impl Equations<'_> {
             // what the indentation is more than the punches
             let more = here.depth_slope - here.punch_slope;
             let more_bend = here.bends[0] - here.bends[1];
+            let damped = INVERSE_MASS * self.law.damping(here);
             for l in 1..=n {
                 let by_velocity: f64 = match self.known {
                     Independent::Time => {
-                        self.nodes.integral_row(i)[l - 1] * velocity[(l - 1) * n + l - 1]
+                        // the integral of what is a function of the radius
+                        let spent = if l == i { damped } else { 0.0 };
+                        self.nodes.integral_row(i)[l - 1] * velocity[(l - 1) * n + l - 1] - spent
                     }
                     Independent::Radius => {
                         let integral = self.nodes.integral_row(i);

@@ -6,7 +6,7 @@ use crate::growing::equations::{Equations, Independent, State};
 use crate::growing::nodes::Nodes;
 use crate::growing::polynomial::{Polynomial, SIZE};
 use crate::growing::step::Solution;
-use crate::growing::waves::{GrowingContact, LEVELS};
+use crate::growing::waves::{GrowingContact, LEVELS, NO_WAVES};
 use crate::law::hertz::CONTACT_TIME;
 use crate::numeric::quadrature::rising_root;
 use crate::plastic::branch::Law;
@@ -43,6 +43,9 @@ pub(crate) struct Errors {
     /// Of the work done on the half-space.
     pub(crate) work: f64,
 }
+
+/// Error of a piece without a memory.
+const DAMPED: f64 = 1e-11;
 
 /// What is left of a change by the finer rule over the waves, at most.
 const LEFT: f64 = 0.3;
@@ -83,6 +86,18 @@ impl<'a> March<'a> {
             dissipated: 0.0,
             errors: Errors::default(),
         }
+    }
+
+    /// On a half-space that answers at once, with a lag.
+    pub(crate) fn damped(lag: f64) -> Self {
+        let contact = GrowingContact {
+            waves: &NO_WAVES,
+            target_share: 0.0,
+            wave_time: 1.0,
+        };
+        let mut march = Self::new(contact, DAMPED);
+        march.law.lag = Some(lag);
+        march
     }
 
     /// Tries a piece, with a rule over the waves that is fine enough: its solution and the estimated error
@@ -224,13 +239,15 @@ impl<'a> March<'a> {
                 self.guess(&given)
             };
             match self.attempt(Independent::Time, given, &guess) {
-                Some((solution, _)) if solution.end.radius > limit && !ends => {
+                Some((solution, _)) if solution.widest > limit && !ends => {
                     // once more, until there
                     let rising = |s| {
                         let (radius, slope) = solution.piece.radius.jet(s);
                         (radius - limit, slope)
                     };
-                    length *= rising_root(rising, [0.0, 1.0], 0.5, 1e-16)[1];
+                    let over = |s: &f64| rising(*s).0 > 0.0;
+                    let above = self.nodes.places.iter().copied().find(over).unwrap_or(1.0);
+                    length *= rising_root(rising, [0.0, above], 0.5 * above, 1e-16)[1];
                     ends = true;
                     continue;
                 }

@@ -104,7 +104,11 @@ impl SolvedContact {
     ) -> Self {
         let nodes = Nodes::of(LARGEST);
         for piece in pieces.iter_mut().filter(|piece| piece.force.is_none()) {
-            let force = |&s: &f64| piece.law.branch.at(piece.radius.value(s).max(0.0)).force;
+            let force = |&s: &f64| {
+                piece
+                    .law
+                    .pressed(piece.radius.value(s), piece.velocity.value(s))
+            };
             let values: Vec<f64> = nodes.places.iter().map(force).collect();
             piece.force = Some(nodes.polynomial(&values));
         }
@@ -327,10 +331,10 @@ const SAMPLES: u32 = 16;
 /// What deflects the surface beside the law's indentation: of a dashpot, which has no displacement for it, by its force.
 fn deflected(piece: &Piece, place: f64) -> f64 {
     let here = piece.law.branch.at(piece.radius.value(place).max(0.0));
-    if let Some(lag) = piece.lag {
-        return -lag * here.stiffness * piece.velocity.value(place);
+    match piece.law.lag {
+        Some(lag) => -lag * here.stiffness * piece.velocity.value(place),
+        None => piece.displacement.value(place) - here.depth,
     }
-    piece.displacement.value(place) - here.depth
 }
 
 /// Work on the waves from the start of a piece to a place, over the kinetic energy before the contact.

@@ -31,6 +31,9 @@ const SETTLED: usize = 6;
 /// Error of the time that the last instants may have, over the accuracy.
 const SLACK: f64 = 0.3;
 
+/// Radius that is zero but for rounding.
+const CLOSED: f64 = 1e-14;
+
 impl Equations<'_> {
     /// Solves the equations from a guess of the values sought; nothing where Newton's method does not settle
     /// or time does not go on.
@@ -126,7 +129,7 @@ impl Equations<'_> {
     /// Whether time rises and the radius stays positive; the last instants may be shorter than their error.
     fn goes_on(&self, motion: &Motion) -> bool {
         let n = self.nodes.degree;
-        let closed = motion.radius[n] <= 0.0;
+        let closed = motion.radius[n] <= CLOSED;
         let slack = if closed { SLACK * self.accuracy } else { 0.0 };
         let rises = motion.time[..=n].windows(2).all(|t| t[1] >= t[0] - slack);
         let positive = motion.radius[1..n].iter().all(|&a| a > 0.0);
@@ -159,7 +162,6 @@ impl Equations<'_> {
                 velocity: nodes.polynomial(&motion.velocity),
                 displacement: nodes.polynomial(&displacement),
                 force: None,
-                lag: None,
                 from: (self.start.time, self.start.radius),
                 to: (motion.time[n], motion.radius[n]),
             },

@@ -40,8 +40,18 @@ pub struct PunchWaves {
     neighbours: Option<(Arc<PunchWaves>, Arc<PunchWaves>, f64)>,
 }
 
+/// None: a half-space that answers at once.
+pub(crate) static NO_WAVES: PunchWaves = PunchWaves {
+    memory: 0.0,
+    moments: [0.0; 4],
+    rules: [const { OnceLock::new() }; LEVELS],
+    points: Vec::new(),
+    sums: Vec::new(),
+    neighbours: None,
+};
+
 /// A rule for the measure: delays X in a/c1, ascending, and the mass over the delay of each.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(crate) struct Rule {
     pub(crate) delays: Vec<f64>,
     pub(crate) rates: Vec<f64>,
@@ -171,6 +181,7 @@ impl PunchWaves {
     pub(crate) fn rule(&self, level: usize) -> &Rule {
         let level = level.min(LEVELS - 1);
         self.rules[level].get_or_init(|| match &self.neighbours {
+            None if self.points.is_empty() => Rule::default(),
             None => {
                 let (nodes, masses) = gauss_rule(&self.points, SIZES[level]);
                 let delays: Vec<f64> = nodes.iter().map(|x| x * self.memory).collect();

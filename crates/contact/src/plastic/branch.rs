@@ -38,6 +38,8 @@ pub(crate) enum Branch {
 pub(crate) struct Law {
     pub(crate) branch: Branch,
     offset: f64,
+    /// c of a half-space that answers at once; none of one with a memory.
+    pub(crate) lag: Option<f64>,
 }
 
 impl Law {
@@ -45,12 +47,29 @@ impl Law {
     pub(crate) const HERTZ: Self = Self {
         branch: Branch::HERTZ,
         offset: 0.0,
+        lag: None,
     };
 
     /// Another branch from a radius on.
     pub(crate) fn followed_by(&self, branch: Branch, radius: f64) -> Self {
         let offset = self.delayed(radius) - branch.delayed(radius);
-        Self { branch, offset }
+        let lag = self.lag;
+        Self {
+            branch,
+            offset,
+            lag,
+        }
+    }
+
+    /// What the dashpot adds to the force over the velocity, times the slope of the indentation in the radius.
+    pub(crate) fn damping(&self, here: &Local) -> f64 {
+        self.lag.unwrap_or(0.0) * here.stiffness * here.stiffness * here.depth_slope
+    }
+
+    /// Force at a radius and a velocity.
+    pub(crate) fn pressed(&self, radius: f64, velocity: f64) -> f64 {
+        let here = self.branch.at(radius.max(0.0));
+        here.force + self.lag.unwrap_or(0.0) * here.stiffness * here.stiffness * velocity
     }
 
     /// g = int ds/a from the touch.
@@ -136,7 +155,12 @@ impl Branch {
             Self::Truncated { edge, top } => {
                 let cut = Cut::new(edge, top, a);
                 let slope = 4.0 / PI * cut.angle;
-                of(cut.depth(), a * slope, slope, cut.moments()[0])
+                let force = if a < LITTLE * cut.kink {
+                    0.5 * slope * a * a * a
+                } else {
+                    cut.moments()[0]
+                };
+                of(cut.depth(), a * slope, slope, force)
             }
         }
     }
@@ -213,6 +237,9 @@ impl Branch {
         }
     }
 }
+
+/// Radius over that inside which the pressure was cut below which the force of a truncated branch goes with its cube.
+const LITTLE: f64 = 1e-3;
 
 /// Part of the force and squared radius of two of Hertz's pressures that together have force, second and fourth moment of a
 /// cut pressure from the radius `top` without the punches outside `a`, which is the radius of the first.

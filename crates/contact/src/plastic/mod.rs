@@ -1,8 +1,8 @@
 //! Contacts that yield: loading until the indentation turns, unloading as a sphere on a dent.
 //!
 //! The laws are branches of a growing contact (`branch`); [`Yielding`] says which follows which.
-//! `memory` follows them with the memory of the half-space, by the pieces of a contact that does not yield; `dashpot` with
-//! a dashpot on the contact's area; `quick` has the results of that without a march.
+//! `march` follows them by the pieces of a contact that does not yield, with the memory of the half-space or with a dashpot
+//! on the contact's area; `quick` has the results of the dashpot without a march.
 //!
 //! ```text
 //! v' = -(5/4) p
@@ -16,9 +16,8 @@
 //! Theory: `docs/theory.md` (T62 to T67).
 
 pub(crate) mod branch;
-pub(crate) mod dashpot;
 pub(crate) mod infer;
-pub(crate) mod memory;
+pub(crate) mod march;
 pub(crate) mod quick;
 
 use crate::model::Plasticity;

@@ -9,11 +9,11 @@
 //!
 //! Theory: `docs/theory.md` (T65).
 
+use crate::growing::march::March;
 use crate::growing::nodes::{Factors, Nodes};
 use crate::growing::polynomial::dot;
 use crate::numeric::series::Series;
 use crate::plastic::branch::{Branch, FITTED, Fit};
-use crate::plastic::dashpot::Dashpot;
 use crate::plastic::{Flow, Yielding};
 use crate::summary::Summary;
 use crate::units::INVERSE_MASS;
@@ -314,6 +314,6 @@ fn fall_of_cut(edge: f64, lag: f64) -> Option<([f64; 3], f64)> {
 
 /// What a series is of: results from rest, over the root of a radius at yield.
 fn from_rest(branch: Branch, lag: f64, root: f64) -> Option<[f64; 4]> {
-    let [speed, duration, pulled] = Dashpot::from_rest(branch, lag)?;
+    let [speed, duration, pulled] = March::from_rest(branch, lag)?;
     Some([speed / root, duration * root, pulled / root, 0.0])
 }

@@ -1,0 +1,251 @@
+//! A contact that yields: the march of one that does not, along the branches, on a half-space with its memory or one that
+//! answers at once, with a lag.
+//!
+//! The lag is that of a dashpot on the contact's area, c F_u^2 u'; with it the force is gone before the radius is.
+
+use crate::disc::refine::Accuracy;
+use crate::error::MarchError;
+use crate::growing::arrivals::Piece;
+use crate::growing::checks;
+use crate::growing::equations::{Independent, State};
+use crate::growing::march::March;
+use crate::growing::polynomial::{Polynomial, SIZE};
+use crate::growing::solved::SolvedContact;
+use crate::growing::waves::GrowingContact;
+use crate::numeric::quadrature::rising_root;
+use crate::plastic::Yielding;
+use crate::plastic::branch::Branch;
+use crate::units::INVERSE_MASS;
+
+/// Pieces at most, tried ones included.
+const MOST: usize = 300;
+
+/// First piece of the flow over the time until the striker turns: waves from before the yield arrive with another slope.
+const FIRST: f64 = 0.1;
+
+/// Part of a base at which the radius that falls from it is mostly gone.
+const LOW: f64 = 0.45;
+
+/// Error of a piece with memory over the tolerance, in the order in which they are tried, and the least.
+const PIECE: [f64; 3] = [0.3, 0.03, 0.003];
+const FINEST: f64 = 1e-10;
+
+impl Yielding {
+    /// The contact with the memory of the half-space, to an accuracy; nothing where waves keep it from yielding.
+    ///
+    /// # Errors
+    /// [`MarchError`].
+    pub(crate) fn remembered(
+        &self,
+        contact: &GrowingContact<'_>,
+        asked: &Accuracy,
+    ) -> Result<Option<SolvedContact>, MarchError> {
+        let tried = |part: f64| {
+            let march = March::new(*contact, (part * asked.tolerance).max(FINEST));
+            let found = march.follow(self)?;
+            found
+                .map(|solved| checks::passed(solved, contact))
+                .transpose()
+        };
+        // a stiff striker's last instants may need finer pieces
+        let [first, second, last] = PIECE;
+        (tried(first).or_else(|_| tried(second))).or_else(|_| tried(last))
+    }
+
+    /// The contact with a dashpot on its area; nothing where that keeps it from yielding.
+    ///
+    /// # Errors
+    /// [`MarchError::NotFollowed`].
+    pub(crate) fn damped(&self, lag: f64) -> Result<Option<SolvedContact>, MarchError> {
+        March::damped(lag).follow(self)
+    }
+}
+
+impl March<'_> {
+    /// Velocity, duration and the largest product of radius and velocity of a contact with a dashpot that opens along a
+    /// branch from rest at radius one.
+    pub(crate) fn from_rest(branch: Branch, lag: f64) -> Option<[f64; 3]> {
+        let mut march = Self::damped(lag);
+        march.law.branch = branch;
+        march.state = State {
+            radius: 1.0,
+            velocity: 0.0,
+            slope: 0.0,
+            ..State::TOUCH
+        };
+        march.unload().ok()?;
+        let pull = |one: &Piece, s: f64| one.radius.value(s) * -one.velocity.value(s);
+        let pieces = march.pieces.iter();
+        let samples = pieces.flat_map(|one| (0..=64).map(move |i| pull(one, f64::from(i) / 64.0)));
+        let pulled = samples.fold(0.0, f64::max);
+        Some([-march.state.velocity, march.state.time, pulled])
+    }
+
+    /// The whole contact; nothing where waves keep it from yielding.
+    ///
+    /// # Errors
+    /// [`MarchError::NotFollowed`].
+    fn follow(mut self, yielding: &Yielding) -> Result<Option<SolvedContact>, MarchError> {
+        let turned = self.turns(yielding).map_err(|time| self.lost(time))?;
+        let velocity = self.state.velocity;
+        Ok(turned.map(|turned| {
+            SolvedContact::yielded(self.pieces, &self.errors, velocity, yielding, turned)
+        }))
+    }
+
+    /// Its pieces: its radius and the times of yield and of the turning point.
+    fn turns(&mut self, yielding: &Yielding) -> Result<Option<[f64; 3]>, f64> {
+        let edge = yielding.edge();
+        self.load(edge)?;
+        if self.state.radius < edge || self.state.slope <= 0.0 {
+            return Ok(None);
+        }
+        let onset = self.state.time;
+        self.law = self.law.followed_by(yielding.loading(), edge);
+        self.flow()?;
+        let (top, turn) = (self.state.radius, self.state.time);
+        let (branch, from) = yielding.unloading(top);
+        self.law = self.law.followed_by(branch, top);
+        self.state.radius = from;
+        self.unload()?;
+        Ok(Some([top, onset, turn]))
+    }
+
+    /// Pieces from where the striker turned until the force is gone.
+    fn unload(&mut self) -> Result<(), f64> {
+        let mut base = self.state.radius;
+        if let Branch::Truncated { edge, top } = self.law.branch {
+            // where the pressure was cut the branch has a root
+            let kink = ((top - edge) * (top + edge)).max(0.0).sqrt();
+            if self.open(base, kink)? || self.state.radius > kink {
+                return self.close();
+            }
+            base = kink;
+        }
+        self.open(base, 0.0)?;
+        self.close()
+    }
+
+    /// Pieces in time until the indentation turns.
+    ///
+    /// Without waves they are polynomials of the root of time, in which the radius is smooth however early it yields.
+    fn flow(&mut self) -> Result<(), f64> {
+        let (power, first) = match self.law.lag {
+            Some(_) => (2, 1.0),
+            None => (1, FIRST),
+        };
+        let root = |time: f64| if power == 2 { time.sqrt() } else { time };
+        let left = |march: &Self| {
+            let State { time, slope, .. } = march.state;
+            let force = march.law.branch.at(march.state.radius).force;
+            root(time + 1.2 * slope / (INVERSE_MASS * force)) - root(time)
+        };
+        let mut length = first * left(self);
+        let mut turns = false;
+        for _ in 0..MOST {
+            let given = Polynomial::power(root(self.state.time), length, power);
+            let guess = self.guess(&given);
+            match self.attempt(Independent::Time, given, &guess) {
+                Some((solution, error)) if error <= 1.0 && solution.end.slope < 0.0 && !turns => {
+                    let slowing = |s| {
+                        let [_, slope, bend] = solution.piece.radius.curve(s);
+                        (-slope, -bend)
+                    };
+                    length *= rising_root(slowing, [0.0, 1.0], 0.5, 1e-16)[1];
+                    turns = true;
+                    continue;
+                }
+                Some((solution, error)) if error <= 1.0 => {
+                    self.accept(Independent::Time, &solution);
+                    if turns {
+                        self.state.slope = 0.0;
+                        if self.law.lag.is_some() {
+                            self.state.velocity = 0.0;
+                        }
+                        return Ok(());
+                    }
+                    length = (length * self.factor(error)).min(left(self).max(length));
+                }
+                failed => length = self.shorter(length, failed.map(|(_, error)| error))?,
+            }
+            turns = false;
+        }
+        Err(self.state.time)
+    }
+
+    /// Pieces in the root of the distance from a radius, down to another one or until it is mostly gone; whether a dashpot's
+    /// force was gone before.
+    fn open(&mut self, base: f64, floor: f64) -> Result<bool, f64> {
+        let goal = match self.law.lag {
+            Some(_) => floor,
+            None => floor.max(LOW * base),
+        };
+        let mut rise = f64::INFINITY;
+        let mut ends = false;
+        for _ in 0..MOST {
+            let [from, to] = [self.state.radius, goal].map(|a| (base - a).max(0.0).sqrt());
+            let whole = rise >= to - from;
+            rise = rise.min(to - from);
+            let given = Polynomial::power(from, rise, 2).below(base);
+            let guess = self.opening(&given);
+            match self.attempt(Independent::Radius, given, &guess) {
+                Some((solution, error)) if error <= 1.0 => {
+                    if let Some(part) = self.released(&solution.piece).filter(|_| !ends) {
+                        (rise, ends) = (part * rise, true);
+                        continue;
+                    }
+                    self.accept(Independent::Radius, &solution);
+                    if whole && !ends {
+                        self.state.radius = goal;
+                    }
+                    if whole || ends {
+                        return Ok(ends);
+                    }
+                    rise *= self.factor(error);
+                }
+                failed => rise = self.shorter(rise, failed.map(|(_, error)| error))?,
+            }
+            ends = false;
+        }
+        Err(self.state.time)
+    }
+
+    /// Where in a piece the force of a dashpot's contact is gone, if it is.
+    fn released(&self, piece: &Piece) -> Option<f64> {
+        let lag = self.law.lag?;
+        // over the square of its slope, of one sign through a radius of zero
+        let pull = |s: f64| {
+            let here = self.law.branch.at(piece.radius.value(s));
+            let square = here.stiffness * here.stiffness;
+            let own = if square == 0.0 {
+                0.0
+            } else {
+                here.force / square
+            };
+            -own - lag * piece.velocity.value(s)
+        };
+        if pull(1.0) < 0.0 {
+            return None;
+        }
+        let values: Vec<f64> = self.nodes.places.iter().map(|&s| pull(s)).collect();
+        let pull = self.nodes.polynomial(&values);
+        Some(rising_root(|s| pull.jet(s), [0.0, 1.0], 0.5, 1e-16)[1])
+    }
+
+    /// Times at the nodes of a radius that falls, by the law without waves.
+    fn opening(&self, radius: &Polynomial) -> [f64; SIZE] {
+        let mut times = [self.state.time; SIZE];
+        let (mut time, mut rate) = (self.state.time, self.state.slope);
+        let mut before = self.law.branch.at(self.state.radius);
+        for (value, &s) in times.iter_mut().zip(&self.nodes.places).skip(1) {
+            let here = self.law.branch.at(radius.value(s));
+            let risen = here.depth - before.depth;
+            let square = rate * rate - INVERSE_MASS * risen * (before.force + here.force);
+            let next = -square.max(0.0).sqrt();
+            time += 2.0 * risen / (rate + next);
+            (rate, before) = (next, here);
+            *value = time;
+        }
+        times
+    }
+}
