@@ -1,7 +1,5 @@
 //! Rules beside Gauss and Legendre's: Radau's, and Gauss's of a measure given by many point masses.
 
-use std::f64::consts::PI;
-
 /// P_(n-1) and P_n at x.
 pub(crate) fn legendre(n: usize, x: f64) -> [f64; 2] {
     let (mut before, mut value) = (0.0, 1.0);
@@ -15,37 +13,17 @@ pub(crate) fn legendre(n: usize, x: f64) -> [f64; 2] {
     [before, value]
 }
 
-/// The n nodes of Radau's rule on (0, 1] that holds the right end, ascending.
-///
-/// They are the zeros of P_(n-1) - P_n, one of which is the end.
+/// The n nodes of Radau's rule on (0, 1] that holds the right end, ascending: eigenvalues of Legendre's Jacobi matrix whose
+/// last entry makes the end one of them.
 pub(crate) fn radau(n: usize) -> Vec<f64> {
-    // (P_(n-1) - P_n)/(1 - x) = (P'_(n-1) + P'_n)/n changes sign between neighbours of a fine cosine grid
-    let function = |x: f64| {
-        let [before, value] = legendre(n, x);
-        (before - value) / (1.0 - x)
-    };
-    let cells = 40 * n;
-    let place = |i: usize| -((i as f64 + 0.5) * PI / cells as f64).cos();
-    let mut nodes = vec![];
-    for i in 0..cells - 1 {
-        let (mut low, mut high) = (place(i), place(i + 1));
-        let sign = function(low) > 0.0;
-        if sign == (function(high) > 0.0) {
-            continue;
-        }
-        for _ in 0..60 {
-            let middle = 0.5 * (low + high);
-            if (function(middle) > 0.0) == sign {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
-        nodes.push(0.25 * (low + high) + 0.5);
-    }
-    nodes.push(1.0);
-    debug_assert_eq!(nodes.len(), n);
-    nodes
+    let mut diagonal = vec![0.0; n];
+    diagonal[n - 1] = n as f64 / (2 * n - 1) as f64;
+    let beside = |k: usize| k as f64 / ((4 * k * k - 1) as f64).sqrt();
+    let mut beside: Vec<f64> = (1..=n).map(beside).collect();
+    eigen(&mut diagonal, &mut beside);
+    diagonal.sort_by(f64::total_cmp);
+    diagonal[n - 1] = 1.0;
+    diagonal.iter().map(|x| 0.5 + 0.5 * x).collect()
 }
 
 /// Gauss's rule of n nodes for a sum of point masses, ascending: Stieltjes' recurrence and its Jacobi matrix.

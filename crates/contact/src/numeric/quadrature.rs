@@ -129,33 +129,12 @@ impl<const N: usize> Local<N> {
 
 /// A zero of f (value and slope) between two places of different sign.
 pub(crate) fn find_root(f: impl Fn(f64) -> (f64, f64), from: f64, to: f64) -> f64 {
-    let (mut low, mut high) = (from, to);
-    let rising = f(low).0 < 0.0;
-    let mut x = 0.5 * (low + high);
-    for _ in 0..80 {
+    let sign = if f(from).0 < 0.0 { 1.0 } else { -1.0 };
+    let rising = |x: f64| {
         let (value, slope) = f(x);
-        if value == 0.0 {
-            break;
-        }
-        if (value < 0.0) == rising {
-            low = x;
-        } else {
-            high = x;
-        }
-        let newton = x - value / slope;
-        let next = if newton > low.min(high) && newton < low.max(high) {
-            newton
-        } else {
-            0.5 * (low + high)
-        };
-        // Newton's error is squared each time: the next one would be below the last digit
-        let enough = if next == newton { 1e-8 } else { 1e-15 };
-        if (next - x).abs() <= enough * x.abs().max(1e-30) {
-            return next;
-        }
-        x = next;
-    }
-    x
+        (sign * value, sign * slope)
+    };
+    rising_root(rising, [from, to], 0.5 * (from + to), 1e-15)[1]
 }
 
 /// A zero of a rising function (value and slope) in [low, high] by Newton's method from `start`, with bisection where

@@ -3,14 +3,14 @@
 //! ```text
 //! rise    x = sqrt(u):  v^2 = 1 - x^5 - (45/4) c int x^3 v dx,  t = int 2 x dx/v     Gauss and Picard
 //! flow    Thornton's line: p = k X + c k^2 v,  X'' = -(5/4) p,  k = (3/2) y         a damped oscillator
-//!         the fit: v = V cos(angle),  du = V^2 sin cos d(angle)/((5/4) p)            Gauss and Picard
+//!         the fit: v = V cos(angle),  du = V^2 sin cos d(angle)/((5/4) p)            Gragg and Bulirsch
 //! fall    from rest at radius one, with a lag c a^1.5; of a cut pressure also y/a    series, made once
 //! ```
 //!
 //! Theory: `docs/theory.md` (T65).
 
 use crate::growing::march::March;
-use crate::growing::nodes::{Factors, Nodes};
+use crate::growing::nodes::Nodes;
 use crate::growing::polynomial::dot;
 use crate::numeric::series::Series;
 use crate::plastic::branch::{Branch, FITTED, Fit};
@@ -24,19 +24,20 @@ use std::sync::OnceLock;
 const NODES: usize = 8;
 const PART: f64 = 0.6;
 
-/// Growth of the panels of the flow of the fit.
-const GROWTH: f64 = 8.0;
+/// Longest step of the flow of the fit in the logarithm of the angle, and columns of its extrapolation.
+const LONGEST: f64 = 0.65;
+const COLUMNS: usize = 5;
 
 /// Results to 1e-9 for a lag, of the fit to 1e-8; nothing for a lag beyond the series, where waves keep the contact from yielding, and where
 /// the force is largest before it does.
 pub(crate) fn quick(yielding: &Yielding, lag: f64) -> Option<(Summary, Flow)> {
     let edge = yielding.edge();
     let (v0, t0, lost) = rise(edge, lag)?;
-    let turned = match yielding.fit {
-        None => Turned::of_line(edge, lag, v0)?,
-        Some(fit) => Turned::of_fit(&fit, lag, v0)?,
+    let ([depth, time, flowing], [peak_force, peak_force_time]) = match yielding.fit {
+        None => turned_on_line(edge, lag, v0)?,
+        Some(fit) => turned_on_fit(&fit, lag, v0),
     };
-    let top = turned.depth.sqrt();
+    let top = depth.sqrt();
     let (back, from) = yielding.unloading(top);
     let own_lag = lag * from * from.sqrt();
     if own_lag.is_nan() || own_lag > LARGEST_LAG {
@@ -55,165 +56,123 @@ pub(crate) fn quick(yielding: &Yielding, lag: f64) -> Option<(Summary, Flow)> {
         }
     };
     let v = speed * fifth.sqrt();
-    let radiated = lost + turned.radiated + 2.0 * INVERSE_MASS * stored - v * v;
+    let spent = lost + flowing + 2.0 * INVERSE_MASS * stored;
     let plastic_work = match yielding.fit {
         None => 2.0 * INVERSE_MASS * (yielding.work(top) - stored),
-        Some(_) => 1.0 - lost - turned.radiated - 2.0 * INVERSE_MASS * stored,
+        Some(_) => 1.0 - spent,
     };
     Some((
         Summary {
-            peak_force: turned.peak_force,
-            peak_force_time: t0 + turned.peak_force_time,
-            contact_time: t0 + turned.time + duration / from.sqrt(),
-            peak_displacement: turned.depth,
+            peak_force,
+            peak_force_time: t0 + peak_force_time,
+            contact_time: t0 + time + duration / from.sqrt(),
+            peak_displacement: depth,
             peak_deflection: 1.5 * lag * pulled * from * fifth.sqrt(),
             ..Summary::rebound(v)
         },
-        Flow::new(yielding, top, [plastic_work, radiated]),
+        Flow::new(yielding, top, [plastic_work, spent - v * v]),
     ))
 }
 
-/// What the flow has come to where the indentation turns; times since it began.
-struct Turned {
-    depth: f64,
-    time: f64,
-    radiated: f64,
-    peak_force: f64,
-    peak_force_time: f64,
+/// What the flow has come to where the indentation turns: indentation, time since it began and energy radiated meanwhile,
+/// and the largest force with its time.
+type Turned = ([f64; 3], [f64; 2]);
+
+/// On Thornton's line, from a velocity at its beginning; nothing where the force falls from there on.
+fn turned_on_line(edge: f64, lag: f64, v0: f64) -> Option<Turned> {
+    let stiffness = 1.5 * edge;
+    let (square, damping) = (
+        INVERSE_MASS * stiffness,
+        0.5 * INVERSE_MASS * lag * stiffness * stiffness,
+    );
+    let frequency = (square - damping * damping).sqrt();
+    // place and size of the extremum of a damped oscillation with a value and a slope
+    let extremum = |value: f64, slope: f64| {
+        let angle = (slope * frequency).atan2(damping * slope + square * value);
+        let time = angle / frequency;
+        let (sine, cosine) = angle.sin_cos();
+        let size = value * cosine + (slope + damping * value) / frequency * sine;
+        (time, (-damping * time).exp() * size)
+    };
+    let place = edge * edge / 1.5;
+    let push = stiffness * place + lag * stiffness * stiffness * v0;
+    let rate = stiffness * v0 - INVERSE_MASS * lag * stiffness * stiffness * push;
+    if frequency.is_nan() || rate <= 0.0 {
+        return None;
+    }
+    let (peak_force_time, peak_force) = extremum(push, rate);
+    let (time, far) = extremum(place, v0);
+    let radiated = v0 * v0 - INVERSE_MASS * stiffness * (far - place) * (far + place);
+    let turned = [edge * edge + far - place, time, radiated];
+    Some((turned, [peak_force, peak_force_time]))
 }
 
-impl Turned {
-    /// On Thornton's line, from a velocity at its beginning.
-    fn of_line(edge: f64, lag: f64, v0: f64) -> Option<Self> {
-        let stiffness = 1.5 * edge;
-        let (square, damping) = (
-            INVERSE_MASS * stiffness,
-            0.5 * INVERSE_MASS * lag * stiffness * stiffness,
-        );
-        let frequency = (square - damping * damping).sqrt();
-        // place and size of the extremum of a damped oscillation with a value and a slope
-        let extremum = |value: f64, slope: f64| {
-            let angle = (slope * frequency).atan2(damping * slope + square * value);
-            let time = angle / frequency;
-            let (sine, cosine) = angle.sin_cos();
-            let size = value * cosine + (slope + damping * value) / frequency * sine;
-            (time, (-damping * time).exp() * size)
-        };
-        let place = edge * edge / 1.5;
-        let push = stiffness * place + lag * stiffness * stiffness * v0;
-        let rate = stiffness * v0 - INVERSE_MASS * lag * stiffness * stiffness * push;
-        if frequency.is_nan() || rate <= 0.0 {
-            return None;
-        }
-        let (peak_force_time, peak_force) = extremum(push, rate);
-        let (time, far) = extremum(place, v0);
-        Some(Self {
-            depth: edge * edge + far - place,
-            time,
-            radiated: v0 * v0 - INVERSE_MASS * stiffness * (far - place) * (far + place),
-            peak_force,
-            peak_force_time,
-        })
-    }
-
-    /// On the fit, from a velocity where it leaves Hertz's law.
-    fn of_fit(fit: &Fit, lag: f64, v0: f64) -> Option<Self> {
-        let rule = Nodes::of(NODES);
-        let mut depth = FITTED * fit.critical;
-        let energy = v0 * v0 + depth.powf(2.5);
-        let speed = energy.sqrt();
-        let mut from = (v0 / speed).acos();
-        let (mut time, mut lost) = (0.0, 0.0);
-        // slope of the indentation in the angle over its sine and cosine
-        let mut slope = energy / (INVERSE_MASS * fit.force(depth)[0]);
-        let panels = ((FRAC_PI_2 / from).ln() / GROWTH.ln()).ceil().max(2.0);
-        let ratio = (FRAC_PI_2 / from).powf(1.0 / panels);
-        for _ in 0..panels as usize {
-            let to = ratio * from;
-            let width = to - from;
-            let turns: [_; NODES] =
-                std::array::from_fn(|i| (from + width * rule.places[i + 1]).sin_cos());
-            let rate = |depth: f64, (sine, cosine): (f64, f64)| {
-                let [force, stiffness] = fit.force(depth);
-                let damped = lag * stiffness * stiffness * speed * cosine;
-                let rate = energy * sine * cosine / (INVERSE_MASS * (force + damped));
-                (rate, [force, damped, sine], stiffness)
-            };
-            // a guess by Heun's method from node to node
-            let (mut before, mut there) = ((0.0, slope * from.sin() * from.cos()), depth);
-            let mut rates: [f64; NODES] = std::array::from_fn(|i| {
-                let step = width * (rule.places[i + 1] - before.0);
-                let (next, ..) = rate(there + step * before.1, turns[i]);
-                there += 0.5 * step * (before.1 + next);
-                before = (rule.places[i + 1], next);
-                next
-            });
-            let mut forces = [[0.0; 3]; NODES];
-            let mut matrix = Factors::room(NODES);
-            let settled = (0..ITERATIONS).any(|_| {
-                let mut change = [0.0; NODES];
-                for i in 0..NODES {
-                    let row = rule.integral_row(i + 1);
-                    let there = depth + width * dot(row, &rates);
-                    let (rate, here, stiffness) = rate(there, turns[i]);
-                    forces[i] = here;
-                    change[i] = rates[i] - rate;
-                    let by = width * rate * stiffness / (here[0] + here[1]);
-                    for (j, entry) in matrix.row(i).iter_mut().enumerate() {
-                        *entry = by * row[j] + f64::from(u8::from(i == j));
-                    }
-                }
-                if !matrix.eliminate() {
-                    return false;
-                }
-                matrix.solve(&mut change);
-                for (rate, change) in rates.iter_mut().zip(change) {
-                    *rate -= change;
-                }
-                // the next change would be about its square
-                change.iter().all(|change| change.abs() < 1e-7)
-            });
-            if !settled {
-                return None;
-            }
-            for (j, (weight, [force, damped, sine])) in rule.weights.iter().zip(forces).enumerate()
-            {
-                time += width * weight * sine / (force + damped);
-                lost += width * weight * damped * rates[j];
-                depth += width * weight * rates[j];
-            }
-            let last = NODES - 1;
-            slope = rates[last] / (turns[last].0 * turns[last].1);
-            from = to;
-        }
-        let (peak_force, since) = peak_before(fit, lag, depth);
-        Some(Self {
-            depth,
-            time: speed / INVERSE_MASS * time,
-            radiated: 2.0 * INVERSE_MASS * lost,
-            peak_force,
-            peak_force_time: speed / INVERSE_MASS * time - since,
-        })
-    }
-}
-
-/// The largest force on the fit and how long before the turning point it is: back over the velocity there, by Runge and
-/// Kutta.
-fn peak_before(fit: &Fit, lag: f64, depth: f64) -> (f64, f64) {
+/// On the fit, from a velocity where it leaves Hertz's law.
+fn turned_on_fit(fit: &Fit, lag: f64, v0: f64) -> Turned {
+    let depth = FITTED * fit.critical;
+    let energy = v0 * v0 + depth.powf(2.5);
+    let speed = energy.sqrt();
     let pressed = |depth: f64, v: f64| {
         let [force, stiffness] = fit.force(depth);
-        force + lag * stiffness * stiffness * v
+        let damped = lag * stiffness * stiffness * v;
+        (force + damped, damped)
     };
+    // in the logarithm of the angle
+    let rates = |log: f64, [depth, ..]: &[f64; 3]| {
+        let (sine, cosine) = log.exp().sin_cos();
+        let (force, damped) = pressed(*depth, speed * cosine);
+        let time = speed * sine * log.exp() / (INVERSE_MASS * force);
+        let risen = time * speed * cosine;
+        [risen, time, 2.0 * INVERSE_MASS * damped * risen]
+    };
+    let from = (v0 / speed).acos().ln();
+    let steps = ((FRAC_PI_2.ln() - from) / LONGEST).ceil();
+    let step = (FRAC_PI_2.ln() - from) / steps;
+    let turned = (0..steps as usize).fold([depth, 0.0, 0.0], |state, i| {
+        extrapolated(rates, from + i as f64 * step, step, state)
+    });
+    // back over the velocity to the largest force, where it is of first order in the lag
+    let [depth, time, _] = turned;
     let [force, stiffness] = fit.force(depth);
     let v = INVERSE_MASS * lag * stiffness * force;
-    let fall = |depth: f64, at: f64| -at / (INVERSE_MASS * pressed(depth, at));
-    let half = 0.5 * v;
-    let first = fall(depth, half);
-    let second = fall(depth + half * first, half);
-    let third = fall(depth + v * second, v);
-    let before = depth + v / 6.0 * (2.0 * first + 2.0 * second + third);
-    let peak_force = pressed(before, v);
-    (peak_force, v / (INVERSE_MASS * 0.5 * (force + peak_force)))
+    let back = |v: f64, [depth, _]: &[f64; 2]| {
+        let slowing = INVERSE_MASS * pressed(*depth, v).0;
+        [-v / slowing, -1.0 / slowing]
+    };
+    let [before, at] = extrapolated(back, 0.0, v, [depth, time]);
+    (turned, [pressed(before, v).0, at])
+}
+
+/// A step of an ordinary equation by Gragg's midpoint rule, extrapolated to the order of twice its columns.
+fn extrapolated<const N: usize>(
+    rates: impl Fn(f64, &[f64; N]) -> [f64; N],
+    from: f64,
+    step: f64,
+    state: [f64; N],
+) -> [f64; N] {
+    let moved = |state: &[f64; N], by: f64, rates: [f64; N]| {
+        std::array::from_fn(|i| state[i] + by * rates[i])
+    };
+    let first = rates(from, &state);
+    let mut table = [[0.0; N]; COLUMNS];
+    for k in 0..COLUMNS {
+        let parts = 2 * (k + 1);
+        let part = step / parts as f64;
+        let (mut before, mut now) = (state, moved(&state, part, first));
+        for i in 1..parts {
+            let next = moved(&before, 2.0 * part, rates(from + i as f64 * part, &now));
+            (before, now) = (now, next);
+        }
+        let end = moved(&before, part, rates(from + step, &now));
+        table[k] = std::array::from_fn(|i| 0.5 * (now[i] + end[i]));
+        for j in (0..k).rev() {
+            let ratio = (k + 1) as f64 / (j + 1) as f64;
+            let (coarse, fine) = (table[j], table[j + 1]);
+            let change = std::array::from_fn(|i| fine[i] - coarse[i]);
+            table[j] = moved(&fine, 1.0 / (ratio * ratio - 1.0), change);
+        }
+    }
+    table[0]
 }
 
 /// Velocity, time and radiated energy where the radius of contact reaches that of yield.
