@@ -9,7 +9,7 @@ use crate::growing::step::Solution;
 use crate::growing::waves::{GrowingContact, LEVELS, NO_WAVES};
 use crate::law::hertz::CONTACT_TIME;
 use crate::numeric::quadrature::rising_root;
-use crate::plastic::branch::Law;
+use crate::plastic::branch::{Branch, Law};
 use crate::units::INVERSE_MASS;
 
 /// A contact on its way.
@@ -319,7 +319,13 @@ impl<'a> March<'a> {
             let step = now - before;
             before = now;
             let middle = u + 0.5 * step * rate;
-            rate -= step * INVERSE_MASS * self.law.branch.pressed(middle.max(0.0));
+            let depth = middle.max(0.0);
+            let force = if let Branch::Hertzian { .. } = self.law.branch {
+                depth.powf(1.5)
+            } else {
+                self.law.branch.at(depth.sqrt()).force
+            };
+            rate -= step * INVERSE_MASS * force;
             u = (middle + 0.5 * step * rate).max(least);
             *a = u.sqrt();
         }

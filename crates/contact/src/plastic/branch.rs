@@ -16,7 +16,7 @@
 //!
 //! Theory: `docs/theory.md` (T62 to T65).
 
-use crate::numeric::quadrature::{GAUSS_8, gauss};
+use crate::numeric::quadrature::in_panels;
 use crate::units::INVERSE_MASS;
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -165,16 +165,6 @@ impl Branch {
         }
     }
 
-    /// Force of a loading branch at an indentation.
-    pub(crate) fn pressed(&self, depth: f64) -> f64 {
-        match self {
-            Self::Hertzian { .. } => depth.powf(1.5),
-            Self::Line { .. } | Self::Fit(_) | Self::Truncated { .. } => {
-                self.at(depth.sqrt()).force
-            }
-        }
-    }
-
     /// int ds/a, but for a constant.
     pub(crate) fn delayed(&self, a: f64) -> f64 {
         match *self {
@@ -185,29 +175,17 @@ impl Branch {
         }
     }
 
-    /// Indentation that is left where an unloading branch ends.
-    pub(crate) fn left(&self) -> f64 {
-        match *self {
-            Self::Line { .. } | Self::Fit(_) => 0.0,
-            Self::Hertzian { left, .. } => left,
-            Self::Truncated { .. } => self.at(0.0).depth,
-        }
-    }
-
-    /// R_p/R at the end of an unloading branch.
+    /// R_p/R: what contact's relative curvature has become where an unloading branch ends.
     pub(crate) fn flatter(&self) -> f64 {
-        match *self {
-            Self::Line { .. } | Self::Fit(_) => 1.0,
-            Self::Hertzian { flatter, .. } => flatter,
-            Self::Truncated { edge, top } => FRAC_PI_2 / (edge / top).asin(),
-        }
+        2.0 / self.at(0.0).bends[0]
     }
 
     /// Work that an unloading branch gives back from a radius on, int p du.
     pub(crate) fn given_back(&self, a: f64) -> f64 {
         match *self {
-            Self::Line { .. } | Self::Fit(_) => 0.4 * a.powi(5),
-            Self::Hertzian { flatter, .. } => 0.4 * a.powi(5) / (flatter * flatter),
+            Self::Line { .. } | Self::Fit(_) | Self::Hertzian { .. } => {
+                0.4 * a.powi(5) / self.flatter().powi(2)
+            }
             Self::Truncated { edge, top } => {
                 let kink = (top * top - edge * edge).max(0.0).sqrt();
                 let part = |turn: f64| {
@@ -218,13 +196,7 @@ impl Branch {
                 };
                 let place = |b: f64| ((1.0 - b / kink).max(0.0).sqrt() * kink / edge).asinh();
                 let curved = if kink > 0.0 {
-                    let (from, to) = (place(a.min(kink)), place(0.0));
-                    let width = 0.25 * (to - from);
-                    let panels = [0.0, 1.0, 2.0, 3.0].map(|i| from + i * width);
-                    panels
-                        .map(|at| gauss(&GAUSS_8, at, at + width, part))
-                        .iter()
-                        .sum()
+                    in_panels(place(a.min(kink)), place(0.0), part)
                 } else {
                     0.0
                 };

@@ -11,6 +11,7 @@ use crate::growing::equations::{Independent, State};
 use crate::growing::march::March;
 use crate::growing::polynomial::{Polynomial, SIZE};
 use crate::growing::solved::SolvedContact;
+use crate::growing::step::Solution;
 use crate::growing::waves::GrowingContact;
 use crate::numeric::quadrature::rising_root;
 use crate::plastic::Yielding;
@@ -140,37 +141,25 @@ impl March<'_> {
             let force = march.law.branch.at(march.state.radius).force;
             root(time + 1.2 * slope / (INVERSE_MASS * force)) - root(time)
         };
-        let mut length = first * left(self);
-        let mut turns = false;
-        for _ in 0..MOST {
-            let given = Polynomial::power(root(self.state.time), length, power);
-            let guess = self.guess(&given);
-            match self.attempt(Independent::Time, given, &guess) {
-                Some((solution, error)) if error <= 1.0 && solution.end.slope < 0.0 && !turns => {
-                    let slowing = |s| {
-                        let [_, slope, bend] = solution.piece.radius.curve(s);
-                        (-slope, -bend)
-                    };
-                    length *= rising_root(slowing, [0.0, 1.0], 0.5, 1e-16)[1];
-                    turns = true;
-                    continue;
-                }
-                Some((solution, error)) if error <= 1.0 => {
-                    self.accept(Independent::Time, &solution);
-                    if turns {
-                        self.state.slope = 0.0;
-                        if self.law.lag.is_some() {
-                            self.state.velocity = 0.0;
-                        }
-                        return Ok(());
-                    }
-                    length = (length * self.factor(error)).min(left(self).max(length));
-                }
-                failed => length = self.shorter(length, failed.map(|(_, error)| error))?,
-            }
-            turns = false;
+        let longest = first * left(self);
+        let piece = |march: &Self, length: &mut f64| {
+            *length = length.min(left(march));
+            let given = Polynomial::power(root(march.state.time), *length, power);
+            (given, march.guess(&given), false)
+        };
+        self.until(Independent::Time, longest, piece, |_, solution| {
+            let slowing = |s| {
+                let [_, slope, bend] = solution.piece.radius.curve(s);
+                (-slope, -bend)
+            };
+            let turns = solution.end.slope < 0.0;
+            turns.then(|| rising_root(slowing, [0.0, 1.0], 0.5, 1e-16)[1])
+        })?;
+        self.state.slope = 0.0;
+        if self.law.lag.is_some() {
+            self.state.velocity = 0.0;
         }
-        Err(self.state.time)
+        Ok(())
     }
 
     /// Pieces in the root of the distance from a radius, down to another one or until it is mostly gone; whether a dashpot's
@@ -180,30 +169,46 @@ impl March<'_> {
             Some(_) => floor,
             None => floor.max(LOW * base),
         };
-        let mut rise = f64::INFINITY;
+        let piece = |march: &Self, rise: &mut f64| {
+            let [from, to] = [march.state.radius, goal].map(|a| (base - a).max(0.0).sqrt());
+            let whole = *rise >= to - from;
+            *rise = rise.min(to - from);
+            let given = Polynomial::power(from, *rise, 2).below(base);
+            (given, march.opening(&given), whole)
+        };
+        let gone = |march: &Self, solution: &Solution| march.released(&solution.piece);
+        let ends = self.until(Independent::Radius, f64::INFINITY, piece, gone)?;
+        if !ends {
+            self.state.radius = goal;
+        }
+        Ok(ends)
+    }
+
+    /// Pieces of a length, which give what is known, a guess of the rest and whether they are the last, until something
+    /// happens at a place of one: whether it has.
+    fn until(
+        &mut self,
+        known: Independent,
+        mut length: f64,
+        piece: impl Fn(&Self, &mut f64) -> (Polynomial, [f64; SIZE], bool),
+        event: impl Fn(&Self, &Solution) -> Option<f64>,
+    ) -> Result<bool, f64> {
         let mut ends = false;
         for _ in 0..MOST {
-            let [from, to] = [self.state.radius, goal].map(|a| (base - a).max(0.0).sqrt());
-            let whole = rise >= to - from;
-            rise = rise.min(to - from);
-            let given = Polynomial::power(from, rise, 2).below(base);
-            let guess = self.opening(&given);
-            match self.attempt(Independent::Radius, given, &guess) {
+            let (given, guess, whole) = piece(self, &mut length);
+            match self.attempt(known, given, &guess) {
                 Some((solution, error)) if error <= 1.0 => {
-                    if let Some(part) = self.released(&solution.piece).filter(|_| !ends) {
-                        (rise, ends) = (part * rise, true);
+                    if let Some(part) = event(self, &solution).filter(|_| !ends) {
+                        (length, ends) = (part * length, true);
                         continue;
                     }
-                    self.accept(Independent::Radius, &solution);
-                    if whole && !ends {
-                        self.state.radius = goal;
-                    }
+                    self.accept(known, &solution);
                     if whole || ends {
                         return Ok(ends);
                     }
-                    rise *= self.factor(error);
+                    length *= self.factor(error);
                 }
-                failed => rise = self.shorter(rise, failed.map(|(_, error)| error))?,
+                failed => length = self.shorter(length, failed.map(|(_, error)| error))?,
             }
             ends = false;
         }

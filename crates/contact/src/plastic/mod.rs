@@ -21,11 +21,8 @@ pub(crate) mod march;
 pub(crate) mod quick;
 
 use crate::model::Plasticity;
-use crate::numeric::quadrature::{GAUSS_8, gauss};
+use crate::numeric::quadrature::in_panels;
 use crate::plastic::branch::{Branch, FITTED, Fit};
-
-/// Panels of the work of the loading.
-const PANELS: usize = 4;
 
 /// What a contact that may yield is, in collision units.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -97,12 +94,7 @@ impl Yielding {
             let here = loading.at(a);
             here.force * here.depth_slope
         };
-        let width = (radius - edge) / PANELS as f64;
-        let panels = (0..PANELS).map(|i| edge + i as f64 * width);
-        0.4 * edge.powi(5)
-            + panels
-                .map(|from| gauss(&GAUSS_8, from, from + width, part))
-                .sum::<f64>()
+        0.4 * edge.powi(5) + in_panels(edge, radius, part)
     }
 
     /// Unloading from a radius of contact, and the radius with which it begins: the fit's is another one.
@@ -163,7 +155,7 @@ impl Flow {
             disc_radius: yielding.disc_radius(radius),
             contact_radius: yielding.true_radius(radius),
             peak_indentation: radius * radius,
-            residual_indentation: back.left(),
+            residual_indentation: back.at(0.0).depth,
             flatter: back.flatter(),
         }
     }
