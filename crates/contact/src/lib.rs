@@ -57,7 +57,7 @@ pub use disc::refine::{Accuracy, Found, Workspace, refine, solve_disc};
 pub use disc::response::DiscResponse;
 pub use disc::table::ResponseTable;
 pub use disc::weights::{Weights, memory_weights};
-pub use disc::{CENTRE_COUPLING, ExactDisc, FixedDisc};
+pub use disc::{CENTRE_COUPLING, FixedDisc};
 pub use energy::work_until_j;
 pub use error::{ContactError, MarchError};
 pub use growing::solve_growing;

@@ -64,8 +64,9 @@ pub struct Solver<'a, S: Responses> {
     responses: &'a S,
     outcomes: Option<&'a Outcomes>,
     workspace: Workspace,
-    disc: Latest<(u64, Deflection), S::Disc>,
-    waves: Latest<u64, PunchWaves>,
+    /// What was made last, with the bits of its Poisson's ratio.
+    disc: Option<(u64, Arc<S::Disc>)>,
+    waves: Option<(u64, Arc<PunchWaves>)>,
     /// The contact solved last, where it was one that follows the load and was not marched.
     growing: Option<SolvedContact>,
     /// What the contact solved last radiates, where it was taken from a series.
@@ -258,15 +259,7 @@ impl<'a, S: Responses> Solver<'a, S> {
             ((Rung::QuasiStatic | Rung::Radiation, _), _) => (None, plan.closed_form()?),
             ((Rung::AreaDashpot, _), _) => (None, plan.dashpot(&self.dashpot(collision)?)?),
             ((Rung::FullMemory, false), _) => {
-                let followed = match step {
-                    None => self.follow(collision, &asked)?,
-                    Some(_) => None,
-                };
-                let found = match followed {
-                    Some(found) => found,
-                    None => self.march_growing(collision, step, asked)?,
-                };
-                (Some(Scheme::Implicit), found)
+                (Some(Scheme::Implicit), self.grow(collision, step, asked)?)
             }
             ((Rung::FullMemory, true), Scheme::Implicit) => {
                 let impact = disc_of(collision, settings, &*disc);
@@ -292,7 +285,6 @@ impl<'a, S: Responses> Solver<'a, S> {
         mut plan: Plan,
         asked: &Accuracy,
     ) -> Result<Option<Solved>, ContactError> {
-        let (_, [mut left_out, _]) = plan.groups.without_memory();
         if plan.model.row().0 == Rung::FullMemory {
             let waves = self.waves(collision.target_poisson_ratio)?;
             let contact = collision.growing_contact(&waves);
@@ -302,22 +294,21 @@ impl<'a, S: Responses> Solver<'a, S> {
                 Err(error) => return Err(error.into()),
             }
         }
-        let memory = plan.model.row().0 == Rung::FullMemory;
+        let (_, [mut left_out, _]) = plan.groups.without_memory();
+        let (rung, _) = plan.model.row();
+        let memory = rung == Rung::FullMemory;
         let mut results = None;
         if !memory {
-            let radiates = plan.model.row().0 != Rung::QuasiStatic;
+            let radiates = rung != Rung::QuasiStatic;
             let lag = if radiates { plan.groups.lag } else { 0.0 };
             // the history of a single impact has its results too
-            results = match asked.deflection {
-                None => match self.fitted(&plan, yielding, settings) {
-                    Some((summary, flow, error)) => {
-                        left_out += error;
-                        Some((summary, flow))
-                    }
-                    None => quick(yielding, lag),
-                },
-                Some(_) => None,
-            };
+            if asked.deflection.is_none() {
+                let fitted = self.fitted(&plan, yielding, settings);
+                left_out += fitted.map_or(0.0, |(_, error)| error);
+                results = fitted
+                    .map(|(found, _)| found)
+                    .or_else(|| quick(yielding, lag));
+            }
             if results.is_none() {
                 let lost = |_| ContactError::NotFollowed;
                 self.growing = yielding.damped(lag).map_err(lost)?;
@@ -328,7 +319,7 @@ impl<'a, S: Responses> Solver<'a, S> {
         let Some((summary, flow)) = results.or(pieces) else {
             return Ok(None);
         };
-        let error = match plan.model.row().0 {
+        let error = match rung {
             Rung::QuasiStatic => plan.groups.first_order_loss() + left_out,
             Rung::Radiation | Rung::AreaDashpot => left_out,
             Rung::FullMemory => YIELDS * followed.map_or(0.0, |one| one.estimates().contact()),
@@ -348,23 +339,24 @@ impl<'a, S: Responses> Solver<'a, S> {
         plan: &Plan,
         yielding: &Yielding,
         settings: &Settings,
-    ) -> Option<(Summary, Flow, f64)> {
+    ) -> Option<((Summary, Flow), f64)> {
         let place = Place::of_fit(plan, yielding, settings)?;
         let (summary, radiated, error) = self.outcomes?.at(&place, self.responses)?;
         let work = summary.loss - radiated;
         let flow = Flow::new(yielding, summary.peak_displacement.sqrt(), [work, radiated]);
-        Some((summary, flow, error))
+        Some(((summary, flow), error))
     }
 
     fn disc(&mut self, ratio: f64, deflection: Deflection) -> Result<Arc<S::Disc>, DomainError> {
-        let made = || self.responses.disc(ratio, deflection);
-        remembered(&mut self.disc, (ratio.to_bits(), deflection), made)
+        self.disc
+            .take_if(|(_, disc)| disc.deflection() != deflection);
+        remembered(&mut self.disc, ratio, || {
+            self.responses.disc(ratio, deflection)
+        })
     }
 
     fn waves(&mut self, ratio: f64) -> Result<Arc<PunchWaves>, DomainError> {
-        remembered(&mut self.waves, ratio.to_bits(), || {
-            self.responses.waves(ratio)
-        })
+        remembered(&mut self.waves, ratio, || self.responses.waves(ratio))
     }
 
     /// The terms of the expansion in the memory of a contact that follows the load.
@@ -374,34 +366,9 @@ impl<'a, S: Responses> Solver<'a, S> {
         Ok(AreaDashpot::new(target_share, wave_time, &waves))
     }
 
-    /// A contact that follows the load by polynomial pieces; nothing where they do not serve: with a memory as long as
-    /// the contact, or a second contact.
-    fn follow(
-        &mut self,
-        collision: &Collision,
-        asked: &Accuracy,
-    ) -> Result<Option<Found>, ContactError> {
-        let waves = self.waves(collision.target_poisson_ratio)?;
-        let contact = collision.growing_contact(&waves);
-        self.growing = match solve_growing(&contact, asked) {
-            Ok(solved) => Some(solved),
-            // the march has other limits: a memory far shorter than the contact is one to it
-            Err(
-                MarchError::Overtaken { .. }
-                | MarchError::StrikesAgain { .. }
-                | MarchError::NotReached { .. },
-            ) => None,
-            Err(error) => return Err(error.into()),
-        };
-        Ok(self.growing.as_ref().map(|growing| Found {
-            summary: *growing.summary(),
-            error: growing.estimates().contact(),
-            step: None,
-        }))
-    }
-
-    /// The same contact with a uniform step.
-    fn march_growing(
+    /// A contact that follows the load: by polynomial pieces, and with a uniform step where one is given or they do not
+    /// serve, with a memory as long as the contact, or a second contact.
+    fn grow(
         &mut self,
         collision: &Collision,
         step: Option<f64>,
@@ -409,35 +376,47 @@ impl<'a, S: Responses> Solver<'a, S> {
     ) -> Result<Found, ContactError> {
         let waves = self.waves(collision.target_poisson_ratio)?;
         let contact = collision.growing_contact(&waves);
-        let room = &mut self.workspace;
-        Ok(stepped(
-            room,
-            step,
-            (hertz::CONTACT_TIME, 1.0),
-            asked,
-            |step, room| {
-                room.history = march_growing(&contact, step)?;
-                Ok(())
-            },
-        )?)
+        if step.is_none() {
+            match solve_growing(&contact, &asked) {
+                Ok(solved) => {
+                    let (summary, error) = (*solved.summary(), solved.estimates().contact());
+                    self.growing = Some(solved);
+                    let step = None;
+                    return Ok(Found {
+                        summary,
+                        error,
+                        step,
+                    });
+                }
+                // the march has other limits: a memory far shorter than the contact is one to it
+                Err(
+                    MarchError::Overtaken { .. }
+                    | MarchError::StrikesAgain { .. }
+                    | MarchError::NotReached { .. },
+                ) => {}
+                Err(error) => return Err(error.into()),
+            }
+        }
+        let march = |step, room: &mut Workspace| {
+            room.history = march_growing(&contact, step)?;
+            Ok(())
+        };
+        let (room, begin) = (&mut self.workspace, (hertz::CONTACT_TIME, 1.0));
+        Ok(stepped(room, step, begin, asked, march)?)
     }
 }
 
-/// What was made last, with what it was made for.
-type Latest<K, T> = Option<(K, Arc<T>)>;
-
-/// What belongs to a key, made where the last one was another.
-fn remembered<K: PartialEq, T>(
-    latest: &mut Latest<K, T>,
-    key: K,
+/// What belongs to a Poisson's ratio, made where the latest is another's.
+fn remembered<T>(
+    latest: &mut Option<(u64, Arc<T>)>,
+    ratio: f64,
     make: impl FnOnce() -> Result<Arc<T>, DomainError>,
 ) -> Result<Arc<T>, DomainError> {
     match latest {
-        Some((last, made)) if *last == key => Ok(Arc::clone(made)),
+        Some((bits, made)) if *bits == ratio.to_bits() => Ok(Arc::clone(made)),
         Some(_) | None => {
-            let made = make()?;
-            *latest = Some((key, Arc::clone(&made)));
-            Ok(made)
+            let (_, made) = latest.insert((ratio.to_bits(), make()?));
+            Ok(Arc::clone(made))
         }
     }
 }

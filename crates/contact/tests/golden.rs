@@ -7,7 +7,7 @@ mod solids;
 
 use contact::CollisionUnits;
 use contact::{
-    Choice, Collision, Exact, ExactDisc, HalfSpace, Model, Results, Settings, Solver, StaticShare,
+    Choice, Collision, Exact, FixedDisc, HalfSpace, Model, Results, Settings, Solver, StaticShare,
     Striker, Summary, march_explicit, march_implicit,
 };
 use halfspace::{Deflection, Medium, SurfaceResponse};
@@ -91,12 +91,12 @@ fn every_row_to_1e_6_at_tolerance_1e_7() {
 }
 
 /// The paper's case with copper at 129 GPa.
-fn paper(response: &SurfaceResponse, share: StaticShare) -> (ExactDisc<'_>, CollisionUnits) {
+fn paper(response: &SurfaceResponse, share: StaticShare) -> (FixedDisc<'_>, CollisionUnits) {
     let e_star = 1.0 / ((1.0 - 0.34_f64.powi(2)) / 129e9 + (1.0 - 0.09) / 209e9);
     let units = CollisionUnits::new(4.0 / 3.0 * e_star * 0.004_f64.sqrt(), 0.0122, 100.0);
     let mu = 209e9 / 2.6;
     let c1 = (mu * 3.5 / 7830.0_f64).sqrt();
-    let impact = ExactDisc {
+    let impact = FixedDisc {
         response,
         coupling: response.static_compliance() * units.force_n / (mu * 0.004 * units.length_m),
         wave_time: 0.004 / c1 / units.time_s,

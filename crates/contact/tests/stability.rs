@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
 use contact::law::quasi_static::expected_contact_time;
-use contact::{ExactDisc as FixedDisc, StaticShare, Summary, march_implicit};
+use contact::{FixedDisc, StaticShare, Summary, march_implicit};
 use halfspace::{Deflection, Medium, SurfaceResponse};
 
 /// Cells of memory in a step, most of them where the compliance of an alternating force is smallest.

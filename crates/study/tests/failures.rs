@@ -5,7 +5,7 @@
 use contact::Rung;
 use contact::law::hertz::CONTACT_TIME;
 use contact::{
-    ExactDisc, Model, StaticShare, Summary, march_explicit, march_growing, march_implicit,
+    FixedDisc, Model, StaticShare, Summary, march_explicit, march_growing, march_implicit,
 };
 use halfspace::Medium;
 use std::f64::consts::PI;
@@ -72,7 +72,7 @@ fn the_explicit_march_blows_up_beyond_its_boundary_and_not_well_below() {
     let response = paper_response().unwrap();
     let paper = paper_disc(&response).unwrap();
     for scale in [3.0, 10.0, 30.0] {
-        let disc = ExactDisc {
+        let disc = FixedDisc {
             coupling: scale * paper.coupling,
             ..paper
         };
@@ -98,7 +98,7 @@ fn the_implicit_march_is_stable_on_the_papers_plane_and_gains_no_energy() {
     let response = paper_response().unwrap();
     let disc = paper_disc(&response).unwrap();
     for scale in [0.1, 1.0, 3.0] {
-        let disc = ExactDisc {
+        let disc = FixedDisc {
             coupling: scale * disc.coupling,
             ..disc
         };
@@ -119,7 +119,7 @@ fn on_a_very_soft_half_space_steps_near_the_memory_settle() {
     let response = paper_response().unwrap();
     let paper = paper_disc(&response).unwrap();
     // k/Z = 50 a collision time: with the curvature of the newest cell extrapolated in full the force blew up here
-    let disc = ExactDisc {
+    let disc = FixedDisc {
         coupling: paper.coupling * 50.0 / (1.5 * admittance(&paper)),
         ..paper
     };
@@ -142,7 +142,7 @@ fn the_dynamic_share_is_refused_where_it_has_no_solution() {
     for step in [1e-3, 0.01] {
         let limit = dynamic_limit(&paper, step * CONTACT_TIME);
         let at = |coupling: f64| {
-            let disc = ExactDisc { coupling, ..paper };
+            let disc = FixedDisc { coupling, ..paper };
             dynamic_is_solved(&disc, step * CONTACT_TIME)
         };
         assert!(
@@ -154,7 +154,7 @@ fn the_dynamic_share_is_refused_where_it_has_no_solution() {
     for step in [0.1, 0.18] {
         let step = step * CONTACT_TIME;
         let at = |coupling: f64| {
-            let disc = ExactDisc { coupling, ..paper };
+            let disc = FixedDisc { coupling, ..paper };
             dynamic_is_solved(&disc, step)
         };
         let (grows, folds) = (
@@ -167,7 +167,7 @@ fn the_dynamic_share_is_refused_where_it_has_no_solution() {
             "{grows} {folds} at {step}"
         );
     }
-    let disc = ExactDisc {
+    let disc = FixedDisc {
         coupling: 2.0,
         share: StaticShare::Dynamic,
         ..paper

@@ -26,9 +26,9 @@ use halfspace::SurfaceResponse;
 /// between 0 and 0.45: its compliance at some frequencies is real and down to -0.14 of the static one.
 pub const CENTRE_COUPLING: f64 = 5.0;
 
-/// An impact on a disc of fixed radius, in dimensionless groups; the response is exact or tabulated.
+/// An impact on a disc of fixed radius, in dimensionless groups; the response is exact, or tabulated where that is said.
 #[derive(Debug)]
-pub struct FixedDisc<'a, R> {
+pub struct FixedDisc<'a, R = SurfaceResponse> {
     /// Step response of the deflection of the disc.
     pub response: &'a R,
     /// Static deflection of the disc under Hertz's largest force over Hertz's largest approach.
@@ -38,9 +38,6 @@ pub struct FixedDisc<'a, R> {
     /// Which part of the deflection enters.
     pub share: StaticShare,
 }
-
-/// One with the exact response.
-pub type ExactDisc<'a> = FixedDisc<'a, SurfaceResponse>;
 
 impl<R> Clone for FixedDisc<'_, R> {
     fn clone(&self) -> Self {

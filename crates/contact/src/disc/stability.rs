@@ -66,7 +66,7 @@ pub(crate) fn check(
     if steepness * (at_once + negative) <= MARGIN {
         return Ok(());
     }
-    let springs = quasi_static(still);
+    let (springs, _) = quasi_static(still);
     if impact.memory() < SHORT * springs.contact_time {
         return Err(match impact.share {
             StaticShare::Dynamic => no_solution(impact, 0.5 * springs.contact_time),

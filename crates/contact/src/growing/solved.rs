@@ -19,16 +19,10 @@ pub struct SolvedContact {
     ends: Vec<f64>,
     summary: Summary,
     estimates: Estimates,
-    yielded: Option<Yielded>,
-}
-
-/// What a contact has that has yielded.
-#[derive(Debug, Clone)]
-struct Yielded {
-    yielding: Yielding,
-    flow: Flow,
+    /// What has flowed of a contact that has yielded.
+    flow: Option<Flow>,
     /// When yield begins and when the indentation turns.
-    breaks: [f64; 2],
+    breaks: Vec<f64>,
     /// Work on the waves until each piece, over the kinetic energy.
     radiated: Vec<f64>,
 }
@@ -89,7 +83,9 @@ impl SolvedContact {
             ends: pieces.iter().map(|piece| piece.to.0).collect(),
             pieces,
             estimates,
-            yielded: None,
+            flow: None,
+            breaks: Vec::new(),
+            radiated: Vec::new(),
         }
     }
 
@@ -143,37 +139,30 @@ impl SolvedContact {
             ends: pieces.iter().map(|piece| piece.to.0).collect(),
             pieces,
             summary,
-            yielded: Some(Yielded {
-                yielding: *yielding,
-                flow: Flow::new(yielding, top, [flowed, lost]),
-                breaks: [onset, turn],
-                radiated,
-            }),
+            flow: Some(Flow::new(yielding, top, [flowed, lost])),
+            breaks: vec![onset, turn],
+            radiated,
         }
     }
 
     /// What has flowed, where the contact has yielded.
     #[must_use]
     pub fn flow(&self) -> Option<&Flow> {
-        self.yielded.as_ref().map(|yielded| &yielded.flow)
+        self.flow.as_ref()
     }
 
     /// When the rate of the force jumps within the contact: the onset of yield and the turning point of one that yields.
     #[must_use]
     pub fn kinks(&self) -> &[f64] {
-        self.yielded.as_ref().map_or(&[], |yielded| &yielded.breaks)
+        &self.breaks
     }
 
     /// Stored energy, plastic work and work on the waves until a time, over the kinetic energy before; nothing of a contact
     /// that has not yielded.
     #[must_use]
     pub fn energies(&self, time: f64) -> Option<[f64; 3]> {
-        let Yielded {
-            yielding,
-            flow,
-            breaks,
-            radiated,
-        } = self.yielded.as_ref()?;
+        let flow = self.flow.as_ref()?;
+        let yielding = &flow.yielding;
         if !(time >= 0.0 && time < self.summary.contact_time) {
             return Some([0.0, flow.plastic_work, flow.radiated]);
         }
@@ -181,7 +170,7 @@ impl SolvedContact {
         let piece = self.pieces.get(index)?;
         let place = place_of(piece, time);
         let radius = piece.radius.value(place).max(0.0);
-        let turned = time >= breaks[1];
+        let turned = self.turned(time);
         let (back, from) = if turned {
             (piece.law.branch, radius)
         } else {
@@ -196,7 +185,7 @@ impl SolvedContact {
         Some([
             stored,
             flowed.max(0.0),
-            radiated[index] + work_of(piece, place),
+            self.radiated[index] + work_of(piece, place),
         ])
     }
 
@@ -206,24 +195,16 @@ impl SolvedContact {
     pub fn pressures(&self, time: f64) -> Option<[[f64; 4]; 2]> {
         /// Radii apart, over the radius, between which rates are differences.
         const APART: f64 = 1e-5;
-        let Yielded {
-            yielding,
-            flow,
-            breaks,
-            ..
-        } = self
-            .yielded
-            .as_ref()
-            .filter(|one| one.yielding.law == Plasticity::Recovery)?;
+        let flow = (self.flow.as_ref()).filter(|one| one.yielding.law == Plasticity::Recovery)?;
         let (piece, place) = self.place(time)?;
         let (radius, slope) = piece.radius.jet(place);
         let at = |radius: f64| {
-            let top = if time < breaks[1] {
-                radius
-            } else {
+            let top = if self.turned(time) {
                 flow.radius
+            } else {
+                radius
             };
-            nested(yielding.edge(), top, radius)
+            nested(flow.yielding.edge(), top, radius)
         };
         let [less, here, more] = [1.0 - APART, 1.0, 1.0 + APART].map(|part| at(part * radius));
         let per = slope / (piece.time.jet(place).1 * 2.0 * APART * radius);
@@ -232,6 +213,11 @@ impl SolvedContact {
             let [part_rate, square_rate] = [0, 1].map(|j| per * (more[i][j] - less[i][j]));
             [here[i][0], part_rate, here[i][1] / unit, square_rate / unit]
         }))
+    }
+
+    /// Whether the indentation of a contact that has yielded has turned.
+    fn turned(&self, time: f64) -> bool {
+        self.breaks.last().is_some_and(|&turn| time >= turn)
     }
 
     /// The results.

@@ -107,7 +107,7 @@ impl Groups {
     #[must_use]
     pub fn first_order_loss(&self) -> f64 {
         match self.family {
-            Family::Full => quasi_static(self.coupling).loss_per_lag * self.lag,
+            Family::Full => quasi_static(self.coupling).1 * self.lag,
             Family::Growing | Family::Dynamic | Family::Yielding => LOSS * self.lag,
         }
     }

@@ -126,6 +126,7 @@ pub struct Flow {
     pub plastic_work: f64,
     /// Work on the half-space's waves.
     pub radiated: f64,
+    pub(crate) yielding: Yielding,
     /// Root of the largest indentation.
     pub(crate) radius: f64,
     /// Largest radius of contact.
@@ -151,6 +152,7 @@ impl Flow {
         Self {
             plastic_work,
             radiated,
+            yielding: *yielding,
             radius,
             disc_radius: yielding.disc_radius(radius),
             contact_radius: yielding.true_radius(radius),

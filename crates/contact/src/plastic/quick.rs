@@ -74,12 +74,10 @@ pub(crate) fn quick(yielding: &Yielding, lag: f64) -> Option<(Summary, Flow)> {
     ))
 }
 
-/// What the flow has come to where the indentation turns: indentation, time since it began and energy radiated meanwhile,
-/// and the largest force with its time.
-type Turned = ([f64; 3], [f64; 2]);
-
-/// On Thornton's line, from a velocity at its beginning; nothing where the force falls from there on.
-fn turned_on_line(edge: f64, lag: f64, v0: f64) -> Option<Turned> {
+/// What the flow on Thornton's line has come to where the indentation turns, from a velocity at its beginning: indentation,
+/// time since then and energy radiated meanwhile, and the largest force with its time; nothing where the force falls at
+/// once.
+fn turned_on_line(edge: f64, lag: f64, v0: f64) -> Option<([f64; 3], [f64; 2])> {
     let stiffness = 1.5 * edge;
     let (square, damping) = (
         INVERSE_MASS * stiffness,
@@ -107,8 +105,8 @@ fn turned_on_line(edge: f64, lag: f64, v0: f64) -> Option<Turned> {
     Some((turned, [peak_force, peak_force_time]))
 }
 
-/// On the fit, from a velocity where it leaves Hertz's law.
-fn turned_on_fit(fit: &Fit, lag: f64, v0: f64) -> Turned {
+/// The same on the fit, from a velocity where it leaves Hertz's law.
+fn turned_on_fit(fit: &Fit, lag: f64, v0: f64) -> ([f64; 3], [f64; 2]) {
     let depth = FITTED * fit.critical;
     let energy = v0 * v0 + depth.powf(2.5);
     let speed = energy.sqrt();

@@ -20,7 +20,7 @@ use crate::picture::Picture;
 use crate::scenes::{HERTZ_PA, ROD_RADIUS_M, paper};
 use contact::law::hertz::CONTACT_TIME;
 use contact::{
-    ExactDisc, History, MarchError, StaticShare, Summary, march_explicit, march_implicit,
+    FixedDisc, History, MarchError, StaticShare, Summary, march_explicit, march_implicit,
     memory_weights,
 };
 use fault::AnyError;
@@ -53,7 +53,7 @@ const OUTCOMES: [&str; 5] = [
 /// A disc with its converged impact and what first-order theory needs of it.
 #[derive(Debug, Clone)]
 pub struct Converged<'a> {
-    disc: ExactDisc<'a>,
+    disc: FixedDisc<'a>,
     /// Its results.
     pub summary: Summary,
     /// Maxima of its force.
@@ -67,7 +67,7 @@ impl<'a> Converged<'a> {
     ///
     /// # Errors
     /// Those of the march.
-    pub fn new(disc: ExactDisc<'a>) -> Result<Self, MarchError> {
+    pub fn new(disc: FixedDisc<'a>) -> Result<Self, MarchError> {
         let history = march_implicit(&disc, CONTACT_TIME / 800.0)?;
         let summary = Summary::new(&history)?;
         let steps = (summary.contact_time / history.step).ceil() as usize;
@@ -149,7 +149,7 @@ impl<'a> Converged<'a> {
 
 /// 1/Z = G(0) in collision units.
 #[must_use]
-pub fn admittance(disc: &ExactDisc<'_>) -> f64 {
+pub fn admittance(disc: &FixedDisc<'_>) -> f64 {
     disc.coupling * disc.response.impulse(0.0) / disc.wave_time
 }
 
@@ -175,7 +175,7 @@ fn maxima(force: &[f64]) -> usize {
 }
 
 /// The paper's disc with E = 129 GPa for the copper, which its Hertz values are computed with.
-pub fn paper_disc<'a>(response: &'a SurfaceResponse) -> Result<ExactDisc<'a>, AnyError> {
+pub fn paper_disc<'a>(response: &'a SurfaceResponse) -> Result<FixedDisc<'a>, AnyError> {
     Ok(paper(HERTZ_PA)?.fixed_disc(response, ROD_RADIUS_M, StaticShare::Full))
 }
 
@@ -283,7 +283,7 @@ pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>
         // another stiffness over impedance at the same wave time
         let scale = stiffness / (1.5 * admittance(&disc));
         let coupling = disc.coupling * scale;
-        Ok(Converged::new(ExactDisc { coupling, ..disc })?)
+        Ok(Converged::new(FixedDisc { coupling, ..disc })?)
     })?;
     let paper = Converged::new(disc)?;
     let explicit = explicit(&plane, &paper);
@@ -369,7 +369,7 @@ fn explain(paper: &Converged<'_>) -> String {
 /// The largest root, in modulus, of p_n/k + coupling [p_n - sum_j g_j (p_{n-j} - p_{n-j-1})] = 0, for the dynamic
 /// share without the first p_n in brackets, from a long run of the recurrence; below one the samples settle.
 #[must_use]
-pub fn linear_growth(disc: &ExactDisc<'_>, stiffness: f64, step: f64) -> f64 {
+pub fn linear_growth(disc: &FixedDisc<'_>, stiffness: f64, step: f64) -> f64 {
     const STEPS: usize = 400;
     let lag = memory_weights(disc, step);
     let still = match disc.share {
@@ -405,8 +405,8 @@ pub fn linear_growth(disc: &ExactDisc<'_>, stiffness: f64, step: f64) -> f64 {
 }
 
 /// A disc of another coupling under the `dynamic` share.
-fn dynamic<'a>(disc: &ExactDisc<'a>, coupling: f64) -> ExactDisc<'a> {
-    ExactDisc {
+fn dynamic<'a>(disc: &FixedDisc<'a>, coupling: f64) -> FixedDisc<'a> {
+    FixedDisc {
         coupling,
         share: StaticShare::Dynamic,
         ..*disc
@@ -415,7 +415,7 @@ fn dynamic<'a>(disc: &ExactDisc<'a>, coupling: f64) -> ExactDisc<'a> {
 
 /// What the `dynamic` share makes of an impact at a step: whether it has a solution.
 #[must_use]
-pub fn dynamic_is_solved(disc: &ExactDisc<'_>, step: f64) -> bool {
+pub fn dynamic_is_solved(disc: &FixedDisc<'_>, step: f64) -> bool {
     let march = march_implicit(&dynamic(disc, disc.coupling), step);
     !matches!(march, Err(MarchError::NoSolution { .. }))
 }
@@ -436,7 +436,7 @@ pub(super) fn bisected(low: f64, high: f64, allows: impl Fn(f64) -> bool) -> f64
 
 /// Largest coupling for which the `dynamic` share has a solution at a step, up to a force of Hertz's peak.
 #[must_use]
-pub fn dynamic_limit(disc: &ExactDisc<'_>, step: f64) -> f64 {
+pub fn dynamic_limit(disc: &FixedDisc<'_>, step: f64) -> f64 {
     // Numerov's weight of the newest force
     let allowed = 2.0 / 3.0 + 1.25 * step * step / 12.0;
     bisected(0.0, 1e6, |coupling| {
@@ -446,7 +446,7 @@ pub fn dynamic_limit(disc: &ExactDisc<'_>, step: f64) -> f64 {
 
 /// Largest coupling for which the newest samples of the `dynamic` share settle, up to a force of Hertz's peak.
 #[must_use]
-pub fn dynamic_growth_limit(disc: &ExactDisc<'_>, step: f64) -> f64 {
+pub fn dynamic_growth_limit(disc: &FixedDisc<'_>, step: f64) -> f64 {
     let grows = |coupling: f64| linear_growth(&dynamic(disc, coupling), 1.5, step) > 1.0;
     bisected(0.0, dynamic_limit(disc, step), |coupling| !grows(coupling))
 }
@@ -459,7 +459,7 @@ const DYNAMIC: [&str; 4] = [
 ];
 
 /// The `dynamic` share in the plane of coupling and step: where it has no solution, and where a coarse step hides that.
-fn dynamic_share(paper: &ExactDisc<'_>, effort: Effort) -> Result<Picture, AnyError> {
+fn dynamic_share(paper: &FixedDisc<'_>, effort: Effort) -> Result<Picture, AnyError> {
     let plane = MarchPlane::new(Interval::logarithmic(0.05, 5.0), effort, |coupling| {
         let disc = dynamic(paper, coupling);
         Ok((disc, Converged::new(disc).ok()))

@@ -14,7 +14,7 @@ use contact::law::area_dashpot::AreaDashpot;
 use contact::law::hertz::CONTACT_TIME;
 use contact::law::quasi_static::{quasi_static, quasi_static_radiation};
 use contact::law::radiation::{LARGEST_LAG, LOSS, radiation};
-use contact::{Accuracy, ExactDisc, GrowingContact, Library, MarchError, PunchWaves};
+use contact::{Accuracy, FixedDisc, GrowingContact, Library, MarchError, PunchWaves};
 use contact::{Family, Groups, Rung, choose};
 use contact::{StaticShare, Summary, march_growing, march_implicit, refine};
 use fault::AnyError;
@@ -164,15 +164,15 @@ const ACCURACY: f64 = 1e-5;
 ///
 /// # Errors
 /// Those of the march.
-pub fn disc_errors(disc: &ExactDisc<'_>) -> Result<ModelErrors, MarchError> {
-    let springs = quasi_static(disc.coupling);
+pub fn disc_errors(disc: &FixedDisc<'_>) -> Result<ModelErrors, MarchError> {
+    let (springs, loss_per_lag) = quasi_static(disc.coupling);
     let accuracy = Accuracy::of_contact(ACCURACY, None);
     let march = |step| march_implicit(disc, step);
     let first = springs.contact_time / accuracy.first_steps();
     let exact = results(&refine(march, first, accuracy)?.summary);
     let with_loss = |lag: f64| quasi_static_radiation(disc.coupling, lag);
     let lag = disc_groups(disc).lag;
-    let is_allowed = springs.loss_per_lag * lag <= LOSS * LARGEST_LAG;
+    let is_allowed = loss_per_lag * lag <= LOSS * LARGEST_LAG;
     Ok(ModelErrors {
         quasi_static: error(true, &with_loss(0.0), &exact),
         radiation: error(is_allowed, &with_loss(lag), &exact),
@@ -183,13 +183,13 @@ pub fn disc_errors(disc: &ExactDisc<'_>) -> Result<ModelErrors, MarchError> {
 
 /// What `auto` chooses for a disc at a tolerance.
 #[must_use]
-pub fn disc_chosen(disc: &ExactDisc<'_>, tolerance: f64) -> Rung {
+pub fn disc_chosen(disc: &FixedDisc<'_>, tolerance: f64) -> Rung {
     disc_groups(disc)
         .choose(&Accuracy::of_contact(tolerance, None))
         .rung
 }
 
-fn disc_groups(disc: &ExactDisc<'_>) -> Groups {
+fn disc_groups(disc: &FixedDisc<'_>) -> Groups {
     Groups {
         family: Family::Full,
         coupling: disc.coupling,
@@ -200,8 +200,8 @@ fn disc_groups(disc: &ExactDisc<'_>) -> Groups {
 
 /// The paper's disc with other groups.
 #[must_use]
-pub fn disc_at<'a>(like: &ExactDisc<'a>, coupling: f64, memory: f64) -> ExactDisc<'a> {
-    ExactDisc {
+pub fn disc_at<'a>(like: &FixedDisc<'a>, coupling: f64, memory: f64) -> FixedDisc<'a> {
+    FixedDisc {
         coupling,
         wave_time: memory * CONTACT_TIME / like.response.memory(),
         share: StaticShare::Full,
@@ -419,7 +419,7 @@ fn disc_figures(effort: Effort) -> Result<Vec<Picture>, AnyError> {
         // half of the first-order loss is the error of the restitution of two springs
         let loss = 2.0 * tolerance;
         let theory = map.line(|coupling| {
-            let lag = loss / quasi_static(coupling).loss_per_lag;
+            let lag = loss / quasi_static(coupling).1;
             let wave_time = lag / (coupling * response.relaxation_time());
             wave_time * response.memory() / CONTACT_TIME
         });

@@ -12,9 +12,9 @@ use contact::law::hertz::CONTACT_TIME;
 use contact::law::quasi_static::{quasi_static, quasi_static_radiation};
 use contact::law::radiation::radiation;
 use contact::{
-    Accuracy, Collision, ExactDisc, FixedDisc, GrowingContact, History, MarchError, Model,
-    PunchWaves, Ratios, ResponseTable, Settings, Solver, StaticShare, Summary, Tabulated,
-    Workspace, march_explicit, march_growing, march_implicit, refine, solve_disc, solve_growing,
+    Accuracy, Collision, FixedDisc, GrowingContact, History, MarchError, Model, PunchWaves, Ratios,
+    ResponseTable, Settings, Solver, StaticShare, Summary, Tabulated, Workspace, march_explicit,
+    march_growing, march_implicit, refine, solve_disc, solve_growing,
 };
 use fault::AnyError;
 use halfspace::{Deflection, Medium, SurfaceResponse};
@@ -86,8 +86,8 @@ fn work(history: &History, memory: f64) -> u64 {
 }
 
 /// The marches of a fixed disc by their numbers of steps, and the closed forms.
-fn on_disc(scene: &mut Scene<'_, Results>, disc: &ExactDisc<'_>) -> Result<(), AnyError> {
-    type March = fn(&ExactDisc<'_>, f64) -> Run<Results>;
+fn on_disc(scene: &mut Scene<'_, Results>, disc: &FixedDisc<'_>) -> Result<(), AnyError> {
+    type March = fn(&FixedDisc<'_>, f64) -> Run<Results>;
     let marches: [(&str, March, &[usize], &[usize]); 4] = [
         (
             "wave implicit",
@@ -121,7 +121,7 @@ fn on_disc(scene: &mut Scene<'_, Results>, disc: &ExactDisc<'_>) -> Result<(), A
             &[20, 54, 100, 200, 400, 800, 1600, 3200, 6400],
         ),
     ];
-    let duration = quasi_static(disc.coupling).contact_time;
+    let duration = quasi_static(disc.coupling).0.contact_time;
     for (method, march, quick, full) in marches {
         for &n in scene.effort.pick(quick, full) {
             // the program halves its step instead: nobody tells it how many are enough
@@ -184,8 +184,8 @@ fn tolerances(digits: impl IntoIterator<Item = i32>) -> impl Iterator<Item = f64
 }
 
 /// The marches whose step is halved until a tolerance is met: for one scene, and for the scenes of a sweep.
-fn to_tolerance(scene: &mut Scene<'_, Results>, disc: &ExactDisc<'_>) -> Result<(), AnyError> {
-    let (duration, memory) = (quasi_static(disc.coupling).contact_time, disc.memory());
+fn to_tolerance(scene: &mut Scene<'_, Results>, disc: &FixedDisc<'_>) -> Result<(), AnyError> {
+    let (duration, memory) = (quasi_static(disc.coupling).0.contact_time, disc.memory());
     let table = ResponseTable::new(disc.response);
     for tolerance in tolerances(3..=scene.effort.pick(5, 9)) {
         let method = "wave implicit, step halved to tolerance";

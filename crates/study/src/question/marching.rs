@@ -8,7 +8,7 @@
 //!
 //! Product integration after Linz (1985); collision units as in [`contact::CollisionUnits`].
 
-use contact::ExactDisc;
+use contact::FixedDisc;
 
 /// Shape of the force within a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -40,7 +40,7 @@ pub(crate) fn errors(found: &Results, exact: &Results) -> Results {
 }
 
 /// Marches until the first separation; the results and the work, steps times cells of memory.
-pub(crate) fn march(impact: &ExactDisc<'_>, step: f64, order: Order) -> (Results, Option<u64>) {
+pub(crate) fn march(impact: &FixedDisc<'_>, step: f64, order: Order) -> (Results, Option<u64>) {
     const MOST_STEPS: usize = 1_000_000;
     let cell = step / impact.wave_time;
     let cells = (impact.response.memory() / cell).ceil() as usize + 1;
@@ -135,7 +135,7 @@ mod tests {
     #[test]
     fn each_march_converges_with_its_order() {
         let response = SurfaceResponse::new(&Medium::new(0.3).unwrap(), Deflection::Centre);
-        let impact = ExactDisc {
+        let impact = FixedDisc {
             response: &response,
             coupling: 0.14,
             wave_time: 0.08,
