@@ -103,18 +103,15 @@ impl Results {
     pub fn new(collision: &Collision, settings: &Settings, solved: &Solved, radiated: f64) -> Self {
         let (s, units) = (&solved.summary, collision.units());
         let peak_force_n = s.peak_force * units.force_n;
-        let contact_radius_m = match &solved.flow {
-            Some(flow) => flow.contact_radius * (collision.tip_radius_m * units.length_m).sqrt(),
-            None => collision.contact_radius_m(peak_force_n),
-        };
         let plastic_work = solved.flow.map_or(0.0, |flow| flow.plastic_work);
-        let disc_radius_m = match &solved.flow {
-            Some(flow) => flow.disc_radius * (collision.tip_radius_m * units.length_m).sqrt(),
-            None => {
-                fixed_disc_m(solved.plan.model, settings, collision).unwrap_or(contact_radius_m)
-            }
+        let length_m = (collision.tip_radius_m * units.length_m).sqrt();
+        let [contact_radius_m, disc_radius_m, loaded_m] = if let Some(flow) = &solved.flow {
+            [flow.contact_radius, flow.disc_radius, flow.contact_radius].map(|one| one * length_m)
+        } else {
+            let radius_m = collision.contact_radius_m(peak_force_n);
+            let disc_m = fixed_disc_m(solved.plan.model, settings, collision).unwrap_or(radius_m);
+            [radius_m, disc_m, disc_m]
         };
-        let loaded_m = solved.flow.map_or(disc_radius_m, |_| contact_radius_m);
         let steps = solved
             .step
             .map_or(0.0, |step| (s.contact_time / step).ceil());

@@ -11,7 +11,7 @@
 use crate::disc::FixedDisc;
 use crate::disc::history::{History, affordable, memory_cells};
 use crate::error::MarchError;
-use crate::numeric::quadrature::{find_root, peak};
+use crate::numeric::quadrature::peak;
 use crate::summary::Summary;
 use crate::units::INVERSE_MASS;
 use halfspace::SurfaceResponse;
@@ -77,7 +77,8 @@ fn summarise(history: &History) -> Result<Summary, MarchError> {
         });
     }
     let indentation = |i: usize| history.displacement[i] - history.deflection[i];
-    let fraction = linear_crossing(indentation(n - 1), indentation(n));
+    let (inside, outside) = (indentation(n - 1), indentation(n));
+    let fraction = inside / (inside - outside);
     let (before, after) = (history.velocity[n - 1], history.velocity[n]);
     let velocity = before + fraction * (after - before);
     let (place, peak_force) = peak(&history.force);
@@ -89,13 +90,4 @@ fn summarise(history: &History) -> Result<Summary, MarchError> {
         peak_deflection: peak(&history.deflection).1,
         ..Summary::rebound(-velocity)
     })
-}
-
-/// Time at which a linearly interpolated decreasing quantity passes zero after sample `i`.
-fn linear_crossing(before: f64, after: f64) -> f64 {
-    find_root(
-        |x| (before + x * (after - before), after - before),
-        0.0,
-        1.0,
-    )
 }

@@ -43,6 +43,7 @@ pub fn work_on_half_space(
 ) -> f64 {
     let choice = usize::from(tolerance < COARSE);
     let (samples, rule) = (SAMPLES[choice], contact.waves.rule(LEVELS[choice]));
+    let points = [&GAUSS_4[..], &GAUSS_8[..]][choice];
     let duration = solved.summary().contact_time;
     let time_of = |i: usize| duration * time_part(i as f64 / samples as f64);
     let radii: Vec<f64> = (0..=samples)
@@ -70,11 +71,7 @@ pub fn work_on_half_space(
             waves
                 .map(|(&delay, rate)| {
                     let until = delay.min(reach);
-                    let pressed = if choice == 0 {
-                        gauss(&GAUSS_4, 0.0, until, more)
-                    } else {
-                        gauss(&GAUSS_8, 0.0, until, more)
-                    };
+                    let pressed = gauss(points, 0.0, until, more);
                     rate * (pressed - force * (delay - until))
                 })
                 .sum()

@@ -147,7 +147,7 @@ impl Rebound<'_> {
             Unknown::Velocity => self.velocity_m_s,
         };
         // s goes with V and with p_y^-2.5
-        let ratio = self.at(start)?.plastic.velocity_over_yield.unwrap_or(1.0);
+        let ratio = self.at(start)?.0.plastic.velocity_over_yield.unwrap_or(1.0);
         let at_ratio = |s: f64| match self.unknown {
             Unknown::YieldPressure => start * (ratio / s).powf(0.4),
             Unknown::Velocity => start * s / ratio,
@@ -158,7 +158,7 @@ impl Rebound<'_> {
             most = most.sqrt();
         }
         let bracket = [1.0, most].map(at_ratio);
-        let ends = [self.measured(bracket[0])?, self.measured(bracket[1])?];
+        let ends = [self.at(bracket[0])?.1, self.at(bracket[1])?.1];
         let Some(found) = self.halved(bracket, ends, value)? else {
             return Err(InferError::Outside {
                 measure: self.measure.name(),
@@ -176,12 +176,12 @@ impl Rebound<'_> {
         Ok(Inferred {
             value: found,
             band: [low?, high?],
-            results: self.at(found)?,
+            results: self.at(found)?.0,
         })
     }
 
-    /// The contact with a value of the unknown.
-    fn at(&self, x: f64) -> Result<Results, ContactError> {
+    /// The contact with a value of the unknown, and what is measured of it.
+    fn at(&self, x: f64) -> Result<(Results, f64), ContactError> {
         let (mut settings, mut velocity_m_s) = (*self.settings, self.velocity_m_s);
         match self.unknown {
             Unknown::YieldPressure => settings.yield_pressure_pa = Some(x),
@@ -191,16 +191,13 @@ impl Rebound<'_> {
         let collision = Collision::new(self.target, self.striker, velocity_m_s);
         let solved = solver.solve(&collision, &settings)?;
         let radiated = solver.radiated(&collision, &settings, &solved)?;
-        Results::new(&collision, &settings, &solved, radiated).checked()
-    }
-
-    fn measured(&self, x: f64) -> Result<f64, ContactError> {
-        let results = self.at(x)?;
-        Ok(match self.measure {
+        let results = Results::new(&collision, &settings, &solved, radiated).checked()?;
+        let measured = match self.measure {
             Measure::Restitution => results.restitution,
             Measure::ContactTime => results.contact_time_s,
             Measure::PeakForce => results.peak_force_n,
-        })
+        };
+        Ok((results, measured))
     }
 
     /// The unknown between two values whose measures are known; nothing outside them.
@@ -216,7 +213,7 @@ impl Rebound<'_> {
         let [mut near, mut far] = bracket.map(f64::ln);
         for _ in 0..HALVINGS {
             let middle = 0.5 * (near + far);
-            if (self.measured(middle.exp())? > value) == (ends[0] > ends[1]) {
+            if (self.at(middle.exp())?.1 > value) == (ends[0] > ends[1]) {
                 near = middle;
             } else {
                 far = middle;

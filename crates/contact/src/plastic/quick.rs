@@ -44,18 +44,13 @@ pub(crate) fn quick(yielding: &Yielding, lag: f64) -> Option<(Summary, Flow)> {
         return None;
     }
     let fifth = from.powi(5);
-    let ([speed, duration, pulled], stored) = match back {
-        Branch::Truncated { edge, top } => {
-            let (found, stored) = fall_of_cut(edge / top, own_lag)?;
-            (found, stored * fifth)
-        }
+    let ([speed, duration, pulled, stored], by) = match back {
+        Branch::Truncated { edge, top } => (fall_of_cut(edge / top, own_lag)?, 1.0),
         Branch::Hertzian { .. } | Branch::Line { .. } | Branch::Fit(_) => {
-            let [speed, duration, pulled] = fall(own_lag)?;
-            let by = 1.0 / back.flatter();
-            ([speed * by, duration, pulled * by], back.given_back(from))
+            (fall(own_lag)?, 1.0 / back.flatter())
         }
     };
-    let v = speed * fifth.sqrt();
+    let (v, stored) = (by * speed * fifth.sqrt(), by * by * stored * fifth);
     let spent = lost + flowing + 2.0 * INVERSE_MASS * stored;
     let plastic_work = match yielding.fit {
         None => 2.0 * INVERSE_MASS * (yielding.work(top) - stored),
@@ -67,7 +62,7 @@ pub(crate) fn quick(yielding: &Yielding, lag: f64) -> Option<(Summary, Flow)> {
             peak_force_time: t0 + peak_force_time,
             contact_time: t0 + time + duration / from.sqrt(),
             peak_displacement: depth,
-            peak_deflection: 1.5 * lag * pulled * from * fifth.sqrt(),
+            peak_deflection: 1.5 * lag * by * pulled * from * fifth.sqrt(),
             ..Summary::rebound(v)
         },
         Flow::new(yielding, top, [plastic_work, spent - v * v]),
@@ -223,39 +218,28 @@ const LARGEST: f64 = 0.1;
 /// Part of a result below which the last coefficients are left out.
 const LEAST: f64 = 1e-12;
 
-/// Velocity, duration and the largest radius times velocity of Hertz's contact from rest at radius one.
-fn fall(lag: f64) -> Option<[f64; 3]> {
+/// Velocity, duration and the largest radius times velocity of Hertz's contact from rest at radius one, and what it gives
+/// back without a lag.
+fn fall(lag: f64) -> Option<[f64; 4]> {
     static MADE: OnceLock<Option<Series<4>>> = OnceLock::new();
     let made = MADE.get_or_init(|| {
         let lag = |x: f64| 0.5 * LARGEST_LAG * (1.0 + x);
-        Series::through([1, TERMS], LEAST, |[_, x]| {
-            from_rest(Branch::HERTZ, lag(x), 1.0)
-        })
+        let at = |[_, x]: [f64; 2]| from_rest(Branch::HERTZ, lag(x), 1.0);
+        Series::through([1, TERMS], LEAST, at)
     });
-    let [speed, duration, pulled, _] = made.as_ref()?.at([0.0, 2.0 * lag / LARGEST_LAG - 1.0]);
-    Some([speed, duration, pulled])
+    let x = 2.0 * lag / LARGEST_LAG - 1.0;
+    Some(made.as_ref()?.at([0.0, x]))
 }
 
-/// The same of the unloading of a cut pressure, by the radius at yield, and what it gives back without a lag; nothing beyond
-/// the series.
-fn fall_of_cut(edge: f64, lag: f64) -> Option<([f64; 3], f64)> {
+/// The same of the unloading of a cut pressure, by the radius at yield; nothing beyond the series.
+fn fall_of_cut(edge: f64, lag: f64) -> Option<[f64; 4]> {
     static MADE: OnceLock<Option<Series<4>>> = OnceLock::new();
     let [low, high] = RANGE.map(f64::ln);
     let made = MADE.get_or_init(|| {
-        // the first row of nodes has all angles
-        let mut bare = Vec::new();
-        let mut node = 0;
         Series::through(NODES_OF_CUT, LEAST, |[x, y]| {
             let edge = (low + 0.5 * (high - low) * (1.0 + y)).exp().sin();
             let branch = Branch::Truncated { edge, top: 1.0 };
-            let of = |lag: f64| from_rest(branch, lag, edge.sqrt());
-            if bare.len() < NODES_OF_CUT[1] {
-                bare.push(of(0.0)?[0]);
-            }
-            let mut found = of(0.5 * LARGEST * (1.0 + x))?;
-            found[3] = bare[node % NODES_OF_CUT[1]];
-            node += 1;
-            Some(found)
+            from_rest(branch, 0.5 * LARGEST * (1.0 + x), edge)
         })
     });
     let y = 2.0 * (edge.asin().ln() - low) / (high - low) - 1.0;
@@ -263,14 +247,14 @@ fn fall_of_cut(edge: f64, lag: f64) -> Option<([f64; 3], f64)> {
     if !(y.abs() <= 1.0 && x <= 1.0) {
         return None;
     }
-    let (series, root) = (made.as_ref()?, edge.sqrt());
-    let [speed, duration, pulled, bare] = series.at([x, y]);
-    let stored = 0.5 / INVERSE_MASS * bare * bare * edge;
-    Some(([speed * root, duration / root, pulled * root], stored))
+    let [speed, duration, pulled, stored] = made.as_ref()?.at([x, y]);
+    let root = edge.sqrt();
+    Some([speed * root, duration / root, pulled * root, stored * edge])
 }
 
 /// What a series is of: results from rest, over the root of a radius at yield.
-fn from_rest(branch: Branch, lag: f64, root: f64) -> Option<[f64; 4]> {
+fn from_rest(branch: Branch, lag: f64, edge: f64) -> Option<[f64; 4]> {
     let [speed, duration, pulled] = March::from_rest(branch, lag)?;
-    Some([speed / root, duration * root, pulled / root, 0.0])
+    let (root, stored) = (edge.sqrt(), branch.given_back(1.0));
+    Some([speed / root, duration * root, pulled / root, stored / edge])
 }
