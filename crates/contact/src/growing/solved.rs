@@ -89,15 +89,13 @@ impl SolvedContact {
         }
     }
 
-    /// Of a contact that has yielded, from its pieces with the velocity after it: its largest radius, and when yield began
-    /// and the indentation turned.
+    /// Of a contact that has yielded: its largest radius, and when yield began and the indentation turned.
     pub(crate) fn yielded(
-        mut pieces: Vec<Piece>,
-        errors: &Errors,
-        velocity: f64,
+        march: March<'_>,
         yielding: &Yielding,
         [top, onset, turn]: [f64; 3],
     ) -> Self {
+        let (mut pieces, contact_time) = (march.pieces, march.state.time);
         let nodes = Nodes::of(LARGEST);
         for piece in pieces.iter_mut().filter(|piece| piece.force.is_none()) {
             let force = |&s: &f64| {
@@ -121,7 +119,6 @@ impl SolvedContact {
         let (back, from) = yielding.unloading(top);
         let flowed = 2.0 * INVERSE_MASS * (yielding.work(top) - back.given_back(from));
         let lost = radiated.last().copied().unwrap_or(0.0) + 2.0 * INVERSE_MASS * kept;
-        let contact_time = last.map_or(0.0, |one| one.to.0);
         let deflected = pieces.iter().flat_map(|piece| {
             let places = (0..=SAMPLES).map(|i| f64::from(i) / f64::from(SAMPLES));
             places.map(|place| deflected(piece, place))
@@ -132,10 +129,10 @@ impl SolvedContact {
             contact_time,
             peak_displacement,
             peak_deflection: deflected.fold(0.0, f64::max),
-            ..Summary::rebound(-velocity)
+            ..Summary::rebound(-march.state.velocity)
         };
         Self {
-            estimates: estimates(&summary, errors, 0.0),
+            estimates: estimates(&summary, &march.errors, 0.0),
             ends: pieces.iter().map(|piece| piece.to.0).collect(),
             pieces,
             summary,

@@ -213,6 +213,12 @@ impl Branch {
 /// Radius over that inside which the pressure was cut below which the force of a truncated branch goes with its cube.
 const LITTLE: f64 = 1e-3;
 
+/// Radius of Hertz's pressure with the second moment of a cut pressure of the radius `top`.
+pub(crate) fn spread(edge: f64, top: f64) -> f64 {
+    let [whole, second, _] = Cut::new(edge.min(top), top, top).moments();
+    (second / whole).sqrt()
+}
+
 /// Part of the force and squared radius of two of Hertz's pressures that together have force, second and fourth moment of a
 /// cut pressure from the radius `top` without the punches outside `a`, which is the radius of the first.
 pub(crate) fn nested(edge: f64, top: f64, a: f64) -> [[f64; 2]; 2] {

@@ -88,10 +88,7 @@ impl March<'_> {
     /// [`MarchError::NotFollowed`].
     fn follow(mut self, yielding: &Yielding) -> Result<Option<SolvedContact>, MarchError> {
         let turned = self.turns(yielding).map_err(|time| self.lost(time))?;
-        let velocity = self.state.velocity;
-        Ok(turned.map(|turned| {
-            SolvedContact::yielded(self.pieces, &self.errors, velocity, yielding, turned)
-        }))
+        Ok(turned.map(|turned| SolvedContact::yielded(self, yielding, turned)))
     }
 
     /// Its pieces: its radius and the times of yield and of the turning point.

@@ -22,7 +22,7 @@ pub(crate) mod quick;
 
 use crate::model::Plasticity;
 use crate::numeric::quadrature::in_panels;
-use crate::plastic::branch::{Branch, FITTED, Fit};
+use crate::plastic::branch::{Branch, FITTED, Fit, spread};
 
 /// What a contact that may yield is, in collision units.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -63,15 +63,10 @@ impl Yielding {
 
     /// Radius of Hertz's pressure with the second moment of the loading's at a radius of contact.
     pub(crate) fn disc_radius(&self, radius: f64) -> f64 {
-        let (y, square) = (self.edge().min(radius), radius * radius);
         match self.fit {
             // of a flat pressure
             Some(_) => self.true_radius(radius) * 1.25_f64.sqrt(),
-            None => {
-                let flat = square - y * y;
-                let moment = y * (0.25 * flat * flat + square * y * y / 3.0 - 0.2 * y.powi(4));
-                (7.5 * moment / Branch::Line { edge: y }.at(radius).force).sqrt()
-            }
+            None => spread(self.edge(), radius),
         }
     }
 
