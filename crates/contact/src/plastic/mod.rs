@@ -144,6 +144,7 @@ impl Flow {
         [plastic_work, radiated]: [f64; 2],
     ) -> Self {
         let (back, _) = yielding.unloading(radius);
+        let end = back.at(0.0);
         Self {
             plastic_work,
             radiated,
@@ -152,8 +153,8 @@ impl Flow {
             disc_radius: yielding.disc_radius(radius),
             contact_radius: yielding.true_radius(radius),
             peak_indentation: radius * radius,
-            residual_indentation: back.at(0.0).depth,
-            flatter: back.flatter(),
+            residual_indentation: end.depth,
+            flatter: 2.0 / end.bends[0],
         }
     }
 }
