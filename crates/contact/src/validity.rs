@@ -199,7 +199,7 @@ impl Checked<'_> {
             );
             if let Some(crack_n) = crack.filter(|&crack_n| force_n > crack_n) {
                 found.push(format!(
-                    "the peak force {force_n:.4e} N is {:.2} times {crack_n:.4e} N, where a cone crack in the {body} is expected (Auerbach's law, within a factor of two)",
+                    "the peak force {force_n:.4e} N is {:.2} times {crack_n:.4e} N, where a cone crack in the {body} is expected (Auerbach's law, good to the order and the first digit)",
                     force_n / crack_n
                 ));
             }

@@ -94,6 +94,20 @@ fn what_follows_cannot_be_given_beside() {
         &format!("{}{fast}", BALL.replace("shape = \"ball\"\n", "")),
         &["striker.shape is missing", "diameter_m"],
     );
+    // a mass that no number holds is told by what the scene has
+    let sized = |body: &str, old: &str, new: &str| format!("{}{fast}", body.replace(old, new));
+    refused(
+        &sized(BALL, "diameter_m = 3e-3", "diameter_m = 1e-200"),
+        &["striker.diameter_m = 1e-200", "[1e-30, 1e30] kg"],
+    );
+    refused(
+        &sized(
+            ROD,
+            "length_m = 0.1\ndiameter_m = 0.01",
+            "length_m = 1e307\ndiameter_m = 10.0",
+        ),
+        &["striker.length_m = 1e307", "[1e-30, 1e30] kg"],
+    );
     refused(
         "shape = \"ball\"\nyoungs_modulus_pa = 2e11\npoisson_ratio = 0.3\ndiameter_m = 1e-3\nvelocity_m_s = 1.0\n",
         &["striker.density_kg_m3 is missing"],

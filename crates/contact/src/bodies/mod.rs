@@ -122,6 +122,19 @@ impl Striker {
             }
         };
         let mass_kg = density * shape.volume_m3();
+        let (quantity, size_m) = match shape {
+            Shape::Rod { length_m, .. } if mass_kg > 1.0 => ("length_m", length_m),
+            Shape::Ball { diameter_m } | Shape::Rod { diameter_m, .. } => {
+                ("diameter_m", diameter_m)
+            }
+        };
+        let has_mass = mass_kg > 0.0 && mass_kg < f64::INFINITY;
+        within(
+            quantity,
+            size_m,
+            "the sizes whose mass is in [1e-30, 1e30] kg",
+            has_mass,
+        )?;
         let mut striker = Self::new(material, mass_kg, shape.tip_radius_m())?;
         striker.length_m = shape.length_m();
         striker.shape = Some(shape);
