@@ -125,8 +125,11 @@ fn arrange(figure: &Figure, bar: f64) -> Layout<'_> {
     let plans = plan(figure);
     let count = figure.columns.min(plans.len());
     let legend_width = (0.34 * figure.width / count as f64).min(22.0 * faces.tick);
-    let fit =
-        |plan: &PanelPlan<'_>, plot| Fitted::new(plan, size(plan, plot), &faces, legend_width);
+    // beside the last column alone: elsewhere it would tear the columns apart
+    let fit = |plan: &PanelPlan<'_>, plot| {
+        let most_right = legend_width * f64::from(u8::from(plan.column + 1 == count));
+        Fitted::new(plan, size(plan, plot), &faces, most_right)
+    };
     let (columns, fitted) = Columns::fit(&plans, count, figure.width - bar, 1.4 * faces.tick, &fit);
     let width = columns.width();
     let line = |text: &str, size: f64| wrap(text, size, width + bar - 2.0 * PAD);
