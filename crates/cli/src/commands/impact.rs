@@ -147,13 +147,18 @@ fn outputs(arguments: &Arguments, mut read: Vec<Role>) -> Result<[Option<Output>
     let wanted = [(&arguments.output, HDF5), (&arguments.csv, CSV)];
     read.extend(arguments.kernels.inputs());
     let mut claimed = [None, None];
+    let mut refused = None;
+    // both, also where one is refused: claiming removes what a killed run has left beside it
     for (place, (path, ending)) in claimed.iter_mut().zip(wanted) {
         if let Some(path) = path {
-            *place = Some(arguments.overwrite.claim(path, ending, &read)?);
+            match arguments.overwrite.claim(path, ending, &read) {
+                Ok(output) => *place = Some(output),
+                Err(why) => refused = refused.or(Some(why)),
+            }
             read.push(Role::new("another output", path));
         }
     }
-    Ok(claimed)
+    refused.map_or(Ok(claimed), Err)
 }
 
 /// Seconds from which on a scene says what it will take.
