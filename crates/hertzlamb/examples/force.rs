@@ -2,7 +2,6 @@
 //!
 //! `cargo run --release --package hertzlamb --example force`
 
-use hertzlamb::contact::Choice;
 use hertzlamb::prelude::*;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {

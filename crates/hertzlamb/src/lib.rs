@@ -4,9 +4,9 @@
 //! use hertzlamb::prelude::*;
 //!
 //! let block = HalfSpace::new(Material::named("steel")?)?;
-//! let ball = Striker::ball(Material::named("copper")?, 0.004)?;
+//! let ball = Striker::ball(Material::named("copper")?, 0.004)?; // its radius in m
 //! let run = Impact::new(block, ball, 1.0).solve()?;
-//! let fields = run.excitation().fields(1e-8)?;
+//! let fields = run.excitation().fields(1e-8)?; // tolerance of the kernels
 //! let under = fields.at(0.0, 0.004)?;
 //! println!("{} N, {} Pa", run.peak_force_n, under[Field::StressZz].peak());
 //! # assert!((run.peak_force_n / 269.98 - 1.0).abs() < 1e-3, "{}", run.peak_force_n);
@@ -31,7 +31,7 @@ pub use {contact, formats, halfspace, impact, lookup, tabulator};
 
 /// What most programs need.
 pub mod prelude {
-    pub use contact::{HalfSpace, Library, Material, Model, Results, Settings, Striker};
+    pub use contact::{Choice, HalfSpace, Library, Material, Model, Results, Settings, Striker};
     pub use formats::{parse_scene, read_scene, write_results};
     pub use halfspace::Field;
     pub use impact::{

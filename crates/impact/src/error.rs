@@ -59,7 +59,8 @@ pub enum ImpactError {
     },
     /// More memory than there is.
     #[error(
-        "the scene needs about {needed_gb:.3} GB of memory, more than the {limit_gb:.3} GB allowed ({points} points, {samples:.3e} samples, {frames} frames): ask for {change}"
+        "the scene needs about {needed_gb:.3} GB of memory, more than the {limit_gb:.3} GB allowed ({points} points, {} samples, {frames} frames): ask for {change}",
+        fault::number(*samples)
     )]
     TooMuchMemory {
         /// Needed in GB.

@@ -40,7 +40,7 @@ kinds! {
     Impact "impact" of Impact => "force beside Hertz's, displacement, velocity, and the first probes";
     Loop "loop" of Impact => "force against approach: the area inside is the energy lost";
     Probes "probes" of Impact => "histories at the probes with arrivals and error bands";
-    Spectrum "spectrum" of Impact => "amplitude spectrum of the force, its corner frequency and its zeros";
+    Spectrum "spectrum" of Impact => "amplitude spectrum of the force, its corner frequency (half of the amplitude at 0 Hz), its zeros";
     Waves "waves" of Impact => "frames of the section until the first wave leaves it; .gif: all of them";
     Peak "peak" of Impact => "largest value over time at every place of the section";
     Surface "x-t" of Impact => "distance along the surface against time, with fronts";

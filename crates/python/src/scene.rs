@@ -122,7 +122,7 @@ fn to_toml(value: &Bound<'_, PyAny>, name: &str, deep: usize) -> PyResult<Option
         return Ok(None);
     }
     if deep > MOST_DEEP {
-        return Err(wrong("a value", value, "no more than 80 containers deep"));
+        return Err(wrong("a value", value, "at most 80 containers deep"));
     }
     if value.cast::<PyDict>().is_ok() {
         return Ok(Some(Value::Table(table_in(value, name, deep)?)));
