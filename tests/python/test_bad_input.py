@@ -194,7 +194,7 @@ def test_output_in_a_missing_folder(tmp_path, table):
 
 def test_output_that_is_a_folder(tmp_path, table):
     (tmp_path / "out.h5").mkdir()
-    refused("impact", write(tmp_path, SCENE), "--table", table, "-o", tmp_path / "out.h5", "--force", names=["out.h5"])
+    refused("impact", write(tmp_path, SCENE), "--table", table, "-o", tmp_path / "out.h5", "--force", names=["out.h5", "folder"])
 
 
 @pytest.mark.skipif(os.geteuid() == 0, reason="root writes everywhere")
@@ -211,10 +211,15 @@ def test_nothing_is_left_behind_by_a_refusal(tmp_path, table):
 
 
 @pytest.mark.parametrize(
-    "arguments",
-    [["nosuch"], ["impact"], ["impact", "a.toml", "--nosuch"], ["tabulate", "--grid", "nosuch", "-o", "x.h5"]],
+    ("arguments", "names"),
+    [
+        (["nosuch"], "subcommand 'nosuch'"),
+        (["impact"], "<SCENE>"),
+        (["impact", "a.toml", "--nosuch"], "argument '--nosuch'"),
+        (["tabulate", "--grid", "nosuch", "-o", "x.h5"], "demo, standard, wide"),
+    ],
 )
-def test_bad_usage(tmp_path, arguments):
+def test_bad_usage(tmp_path, arguments, names):
     done = run(*arguments, cwd=tmp_path)
-    assert done.returncode == 2
+    assert done.returncode == 2 and names in done.stderr
     assert list(tmp_path.iterdir()) == []
