@@ -14,8 +14,9 @@ MOST_LINES = 700
 MOST_FUNCTION = 80
 MOST_IN_FOLDER = 14
 # Code without tests, blanks and comments, source files, names of types: these numbers only go down, but for what users get:
-# they rose by 2,123 lines for contacts that yield, and by 600 for seals, records of instruments and errors with one face.
-CEILINGS = {"code lines": 47335, "source files": 374, "type names": 413}
+# they rose by 2,123 lines for contacts that yield, by 600 for seals, records of instruments and errors with one face, and
+# by 20 for what killed runs leave, sizes without a mass and legends.
+CEILINGS = {"code lines": 47355, "source files": 374, "type names": 413}
 
 
 def modules(src):
