@@ -93,7 +93,7 @@ fn peak_line(force_n: f64, time_s: f64) -> String {
 }
 
 fn contact_lines(r: &contact::Results) -> Vec<String> {
-    vec![
+    let mut lines = vec![
         peak_line(r.peak_force_n, r.peak_force_time_s),
         format!("contact time   {}", si(r.contact_time_s, "s")),
         format!(
@@ -109,8 +109,23 @@ fn contact_lines(r: &contact::Results) -> Vec<String> {
             si(r.initial_energy_j, "J"),
             r.energy_residual
         ),
-        format!("error estimate {:.1e} relative", r.relative_error_estimate),
-    ]
+    ];
+    let flow = &r.plastic;
+    if let (Some(from_m_s), Some(work_j), Some(left_m)) = (
+        flow.yield_velocity_m_s,
+        flow.plastic_work_j,
+        flow.residual_indentation_m,
+    ) {
+        lines.push(format!(
+            "yield          from {} on; {} of plastic work, an indentation of {} remains",
+            si(from_m_s, "m/s"),
+            si(work_j, "J"),
+            si(left_m, "m")
+        ));
+    }
+    let error = r.relative_error_estimate;
+    lines.push(format!("error estimate {error:.1e} relative"));
+    lines
 }
 
 /// What was done to a record.

@@ -170,12 +170,15 @@ fn stopped_it_says_what_is_kept_and_two_at_once_are_one() {
     let here = folder.path();
     std::fs::write(here.join("long.toml"), sweep(5_000_000)).unwrap();
     let long = ["sweep", "long.toml", "-o", "long.h5"];
-    let child = command(here, &long)
+    let mut child = command(here, &long)
         .stdout(Stdio::null())
         .stderr(Stdio::piped())
         .spawn()
         .unwrap();
     while std::fs::metadata(here.join("long.h5.part")).map_or(0, |data| data.len()) < 100_000 {
+        if child.try_wait().unwrap().is_some() {
+            panic!("{:?}", child.wait_with_output().unwrap());
+        }
         std::thread::sleep(Duration::from_millis(5));
     }
     let second = run(here, &[&long[..], &["--force"]].concat());
