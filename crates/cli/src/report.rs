@@ -22,9 +22,8 @@ pub(crate) fn text_report(scene: &Scene, outcome: &Outcome) -> String {
             lines.extend(contact_lines(results));
         }
         Cause::Record(results) => {
-            if let Load::Record(record) = &scene.load {
-                lines.extend(record.treated.iter().map(treated_line));
-            }
+            let treated = scene.record().and_then(|record| record.treated);
+            lines.extend(treated.iter().map(treated_line));
             lines.extend(record_lines(results));
         }
     }

@@ -3,7 +3,7 @@
 use crate::quantities::{Kind, QUANTITIES};
 use crate::results::schema::TREATMENT;
 use contact::{Choice, GRAVITY_M_S2, InferError, Inferred, Material, Measure, Rebound, Unknown};
-use impact::{Cause, Load, Outcome, Scene};
+use impact::{Cause, Outcome, Scene};
 use lookup::schema::FIELD_NAMES;
 use lookup::{Accuracy, Quantiles, Table};
 use serde_json::{Map, Value, json};
@@ -57,10 +57,7 @@ pub fn choices<'a>(scene: &Scene, outcome: &'a Outcome) -> Choices<'a> {
 
 /// What was done to a force record, by the names of files: empty where nothing was.
 pub(crate) fn treatment(scene: &Scene) -> Vec<(&'static str, Option<f64>)> {
-    let Load::Record(record) = &scene.load else {
-        return Vec::new();
-    };
-    let Some(done) = record.treated else {
+    let Some(done) = scene.record().and_then(|record| record.treated) else {
         return Vec::new();
     };
     let low_passed = |value: f64| done.low_pass_hz.map(|_| value);
@@ -93,7 +90,7 @@ pub fn infer(
     unknown: Unknown,
 ) -> Result<(Inferred, Value), InferError> {
     let refused = |what: String| Err(InferError::Given(what));
-    let Load::Strike(strike) = &scene.load else {
+    let Some(strike) = scene.strike() else {
         let what = "a force record has no rebound: give the scene a [striker]";
         return refused(what.to_owned());
     };

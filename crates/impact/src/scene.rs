@@ -66,6 +66,24 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// The striker with its velocity; none of a force record.
+    #[must_use]
+    pub fn strike(&self) -> Option<&Strike> {
+        match &self.load {
+            Load::Strike(strike) => Some(strike),
+            Load::Record(_) => None,
+        }
+    }
+
+    /// The force record; none of a striker.
+    #[must_use]
+    pub fn record(&self) -> Option<&ForceRecord> {
+        match &self.load {
+            Load::Strike(_) => None,
+            Load::Record(record) => Some(record),
+        }
+    }
+
     /// Distance in m from the centre of the load to the farthest point that is asked for; zero without one.
     #[must_use]
     pub fn farthest_m(&self) -> f64 {

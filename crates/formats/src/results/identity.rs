@@ -15,11 +15,9 @@ use std::path::Path;
 pub fn scene_sha256(scene: &Scene) -> String {
     // wherever its record lies
     let mut placeless = scene.clone();
+    let mut samples = Vec::new();
     if let Load::Record(record) = &mut placeless.load {
         record.file = None;
-    }
-    let mut samples = Vec::new();
-    if let Load::Record(record) = &scene.load {
         let numbers = record.time_s().iter().chain(record.force_n());
         samples.extend(numbers.flat_map(|number| number.to_le_bytes()));
     }

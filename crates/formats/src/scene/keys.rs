@@ -4,7 +4,7 @@
 use contact::{
     Choice, Library, Material, Plasticity, Settings, Shape, Striker, choice, fall_velocity_m_s,
 };
-use impact::{ForceRecord, Load, Scene, Strike};
+use impact::{Load, Scene, Strike};
 use toml::{Table, Value};
 
 /// A range of numbers.
@@ -116,7 +116,7 @@ const KEYS: &[Key] = keys! {
         Some(Shape::Rod { tip_radius_m, .. }) => tip_radius_m?,
     }, Approach(|s, x| s.striker.tip_radius_m = x), stands in: 1.0;
     striker.velocity_m_s: POSITIVE ("the velocity of approach, or drop_height_m for a fall from rest")
-        = |s, _| strike(s)?.velocity_m_s, Approach(|s, x| s.velocity_m_s = x), stands in: 1.0;
+        = |s, _| s.strike()?.velocity_m_s, Approach(|s, x| s.velocity_m_s = x), stands in: 1.0;
     striker.drop_height_m: POSITIVE, Approach(|s, x| s.velocity_m_s = fall_velocity_m_s(x)), stands in: 1.0;
     body.youngs_modulus_pa: POSITIVE = |_, m| m.youngs_modulus_pa, Body(|m, _, x| m.youngs_modulus_pa = x), stands in: 1.0;
     body.poisson_ratio: POISSON = |_, m| m.poisson_ratio, Body(|m, _, x| m.poisson_ratio = x), stands in: 0.25;
@@ -141,14 +141,14 @@ const KEYS: &[Key] = keys! {
         Choose(|s, word| named(word).map(|plasticity| s.plasticity = plasticity));
     contact.yield_pressure_pa: POSITIVE = |s, _| s.settings.yield_pressure_pa?,
         Setting(|s, x| s.yield_pressure_pa = Some(x)), stands in: 1e9;
-    force.file = |s, _| record(s)?.file.as_ref().map(|path| path.display().to_string()).unwrap_or_default();
-    force.columns = |s, _| record(s)?.reading.columns.clone()?.to_vec();
-    force.units = |s, _| record(s)?.reading.units.clone()?.to_vec();
-    force.start_s: FINITE = |s, _| record(s)?.reading.start_s?;
-    force.end_s: FINITE = |s, _| record(s)?.reading.end_s?;
-    force.sign: SIGN = |s, _| record(s)?.reading.sign?;
-    force.low_pass_hz: POSITIVE = |s, _| record(s)?.treated?.low_pass_hz?;
-    force.baseline_s: POSITIVE = |s, _| record(s)?.treated?.baseline_s?;
+    force.file = |s, _| s.record()?.file.as_ref().map(|path| path.display().to_string()).unwrap_or_default();
+    force.columns = |s, _| s.record()?.reading.columns.clone()?.to_vec();
+    force.units = |s, _| s.record()?.reading.units.clone()?.to_vec();
+    force.start_s: FINITE = |s, _| s.record()?.reading.start_s?;
+    force.end_s: FINITE = |s, _| s.record()?.reading.end_s?;
+    force.sign: SIGN = |s, _| s.record()?.reading.sign?;
+    force.low_pass_hz: POSITIVE = |s, _| s.record()?.treated?.low_pass_hz?;
+    force.baseline_s: POSITIVE = |s, _| s.record()?.treated?.baseline_s?;
     probe.r_m: NOT_NEGATIVE ("the distance from the axis");
     probe.z_m: NOT_NEGATIVE ("the depth below the surface");
     map.r_max_m: POSITIVE ("the width of the section") = |s, _| s.section?.r_max_m;
@@ -187,22 +187,8 @@ pub(super) fn named<T: Choice>(word: &str) -> Result<T, String> {
     })
 }
 
-fn strike(scene: &Scene) -> Option<&Strike> {
-    match &scene.load {
-        Load::Strike(strike) => Some(strike),
-        Load::Record(_) => None,
-    }
-}
-
 fn striker(scene: &Scene) -> Option<&Striker> {
-    strike(scene).map(|strike| &strike.striker)
-}
-
-fn record(scene: &Scene) -> Option<&ForceRecord> {
-    match &scene.load {
-        Load::Strike(_) => None,
-        Load::Record(record) => Some(record),
-    }
+    scene.strike().map(|strike| &strike.striker)
 }
 
 /// The material of the library whose name a spelled-out body keeps; its numbers replace all of it.

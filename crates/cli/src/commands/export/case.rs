@@ -1,6 +1,5 @@
 //! The contact of a scene as a particle code has it.
 
-use crate::commands::strike;
 use crate::failure::Failure;
 use crate::report::{short, si, understood};
 use contact::law::radiation::LOSS;
@@ -33,7 +32,9 @@ pub(super) struct Case {
 impl Case {
     /// Of a scene, whose target may be a ball of a diameter in m.
     pub(super) fn new(scene: &Scene, target_diameter_m: Option<f64>) -> Result<Self, Failure> {
-        let strike = strike(scene)?;
+        let strike = scene.strike().ok_or_else(|| {
+            Failure::input("a force record has no rebound: give the scene a [striker]")
+        })?;
         let mut settings = scene.settings;
         let on_disc = settings.model.row().1 && settings.model != Model::Auto;
         if on_disc || settings.disc_radius_m.is_some() || settings.scheme == Scheme::Explicit {
