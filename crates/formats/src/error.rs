@@ -15,7 +15,8 @@ pub struct SceneError(Box<About>);
 #[derive(Debug, Clone, Default, PartialEq)]
 struct About {
     sentence: String,
-    of: Of,
+    /// Of numbers that other rows of a sweep may not have.
+    of_numbers: bool,
     key: Option<String>,
     number: Option<f64>,
     word: Option<String>,
@@ -23,15 +24,6 @@ struct About {
     limits: Option<[f64; 2]>,
     suggestion: Option<String>,
     file: Option<PathBuf>,
-}
-
-/// What the rows of a sweep may differ in.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-enum Of {
-    Numbers,
-    Words,
-    #[default]
-    Other,
 }
 
 impl SceneError {
@@ -86,7 +78,7 @@ impl SceneError {
     #[must_use]
     pub fn wrong_kind(key: String, value: String, expected: &str) -> Self {
         let mut error = Self::of(format!("{key} = {value} is not {expected}"), key);
-        (error.0.of, error.0.word) = (Of::Words, Some(value));
+        error.0.word = Some(value);
         error
     }
 
@@ -102,7 +94,7 @@ impl SceneError {
     /// A number that is wrong beside others.
     pub(crate) fn of_number(key: impl Into<String>, value: f64, sentence: String) -> Self {
         let mut error = Self::of(sentence, key);
-        (error.0.of, error.0.number) = (Of::Numbers, Some(value));
+        (error.0.of_numbers, error.0.number) = (true, Some(value));
         error
     }
 
@@ -113,7 +105,7 @@ impl SceneError {
             number(value)
         );
         let mut error = Self::of_number(key, value, sentence);
-        (error.0.of, error.0.limits) = (Of::Other, Some([0.0, limit]));
+        (error.0.of_numbers, error.0.limits) = (false, Some([0.0, limit]));
         error
     }
 
@@ -136,8 +128,7 @@ impl SceneError {
 
     fn unknown_word(sentence: String, key: String, value: &str, near: Option<String>) -> Self {
         let mut error = Self::of(sentence, key);
-        (error.0.of, error.0.word) = (Of::Words, Some(value.to_owned()));
-        error.0.suggestion = near;
+        (error.0.word, error.0.suggestion) = (Some(value.to_owned()), near);
         error
     }
 
@@ -150,7 +141,7 @@ impl SceneError {
         let first = first.into();
         let sentence = format!("{first} cannot be combined with {second}: {reason}");
         let mut error = Self::of(sentence, first);
-        error.0.of = Of::Numbers;
+        error.0.of_numbers = true;
         error
     }
 
@@ -166,12 +157,12 @@ impl SceneError {
 
     /// Whether it is of numbers that other rows of a sweep may not have.
     pub(crate) fn is_of_numbers(&self) -> bool {
-        self.0.of == Of::Numbers
+        self.0.of_numbers
     }
 
     /// Whether it is of a word that is not known.
     pub(crate) fn is_of_words(&self) -> bool {
-        self.0.of == Of::Words
+        self.0.word.is_some()
     }
 }
 

@@ -43,29 +43,6 @@ impl Quantity {
     }
 }
 
-/// A field of the results as a number.
-trait Number {
-    fn number(self) -> f64;
-}
-
-impl Number for f64 {
-    fn number(self) -> f64 {
-        self
-    }
-}
-
-impl Number for usize {
-    fn number(self) -> f64 {
-        self as f64
-    }
-}
-
-impl Number for Option<f64> {
-    fn number(self) -> f64 {
-        self.unwrap_or(f64::NAN)
-    }
-}
-
 macro_rules! quantities {
     ($($name:ident: $kind:ident $unit:literal of $($contact:ident).+ $(, $record:ident)? => $meaning:literal;)*) => {
         [$(Quantity {
@@ -74,10 +51,12 @@ macro_rules! quantities {
             meaning: $meaning,
             kind: Kind::$kind,
             is_of_flow: quantities!(@flow $($contact)+),
-            of_contact: |r| r.$($contact).+.number(),
+            of_contact: |r| quantities!(@$kind r.$($contact).+),
             of_record: quantities!(@record $($record)?),
         },)*]
     };
+    (@Real $field:expr) => { Option::<f64>::from($field).unwrap_or(f64::NAN) };
+    (@Count $field:expr) => { $field as f64 };
     (@flow plastic $field:ident) => { true };
     (@flow $($other:ident)+) => { false };
     (@record) => { None };

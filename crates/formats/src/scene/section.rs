@@ -70,6 +70,17 @@ impl<'a> Section<'a> {
         self.table.get(key)
     }
 
+    /// What a key holds, where it is there; otherwise it is not what was expected.
+    fn typed<T>(
+        &self,
+        key: &str,
+        expected: &'static str,
+        of: impl FnOnce(&'a Value) -> Option<T>,
+    ) -> Result<Option<T>, SceneError> {
+        let typed = |value| of(value).ok_or_else(|| self.wrong_kind(key, value, expected));
+        self.value(key).map(typed).transpose()
+    }
+
     /// The table of a key that holds one.
     pub(crate) fn inner(&self, key: &'a str) -> Option<Section<'a>> {
         let table = self.value(key)?.as_table()?;
@@ -88,20 +99,17 @@ impl<'a> Section<'a> {
 
     /// A subsection such as [target].
     pub(crate) fn section(&self, key: &'a str) -> Result<Option<Section<'a>>, SceneError> {
-        let there = self.value(key).is_some();
-        there.then(|| self.subsection(key, "a section")).transpose()
+        let table = self.typed(key, "a section", Value::as_table)?;
+        Ok(table.map(|table| Section { name: key, table }))
     }
 
     /// A list of subsections such as [[probe]], with the names of their elements.
     pub(crate) fn list(&self, key: &str) -> Result<Vec<(String, &'a Table)>, SceneError> {
-        let wrong = |value| self.wrong_kind(key, value, "a list of sections [[..]]");
-        let items = match self.value(key) {
-            None => return Ok(Vec::new()),
-            Some(Value::Array(items)) => items.iter().enumerate(),
-            Some(value) => return Err(wrong(value)),
-        };
-        let named = items.map(|(i, item)| {
-            let table = item.as_table().ok_or_else(|| wrong(item))?;
+        let expected = "a list of sections [[..]]";
+        let items = self.typed(key, expected, Value::as_array)?;
+        let named = items.into_iter().flatten().enumerate().map(|(i, item)| {
+            let table = item.as_table();
+            let table = table.ok_or_else(|| self.wrong_kind(key, item, expected))?;
             Ok((format!("{}[{}]", self.key(key), i + 1), table))
         });
         named.collect()
@@ -128,14 +136,12 @@ impl<'a> Section<'a> {
     }
 
     pub(crate) fn number_in(&self, key: &str, range: Range) -> Result<Option<f64>, SceneError> {
-        let Some(value) = self.value(key) else {
-            return Ok(None);
-        };
-        let number = as_number(value).ok_or_else(|| self.wrong_kind(key, value, "a number"))?;
-        if (range.holds)(number) {
-            return Ok(Some(number));
+        match self.typed(key, "a number", as_number)? {
+            Some(x) if !(range.holds)(x) => {
+                Err(SceneError::out_of_range(self.key(key), x, range.name))
+            }
+            found => Ok(found),
         }
-        Err(SceneError::out_of_range(self.key(key), number, range.name))
     }
 
     pub(crate) fn required(&self, key: &str, range: Range, hint: &str) -> Result<f64, SceneError> {
@@ -148,11 +154,7 @@ impl<'a> Section<'a> {
     }
 
     pub(crate) fn text(&self, key: &str) -> Result<Option<&'a str>, SceneError> {
-        let text = |value: &'a Value| {
-            let text = value.as_str();
-            text.ok_or_else(|| self.wrong_kind(key, value, "a string"))
-        };
-        self.value(key).map(text).transpose()
+        self.typed(key, "a string", Value::as_str)
     }
 
     /// A whole number in a range.
@@ -174,13 +176,10 @@ impl<'a> Section<'a> {
         name: &'static str,
     ) -> Result<Option<[usize; 2]>, SceneError> {
         let whole = |value| self.whole(key, value, &range, name);
-        match self.value(key) {
-            None => Ok(None),
-            Some(Value::Array(items)) if items.len() == 2 => {
-                Ok(Some([whole(&items[0])?, whole(&items[1])?]))
-            }
-            Some(other) => Err(self.wrong_kind(key, other, "a pair of whole numbers")),
-        }
+        let pair = |value: &'a Value| value.as_array().filter(|items| items.len() == 2);
+        let pair = self.typed(key, "a pair of whole numbers", pair)?;
+        pair.map(|items| Ok([whole(&items[0])?, whole(&items[1])?]))
+            .transpose()
     }
 
     /// A pair of words; a whole number is one, too.
@@ -194,15 +193,12 @@ impl<'a> Section<'a> {
             Value::Integer(number) => Some(number.to_string()),
             _ => None,
         };
-        let Some(value) = self.value(key) else {
-            return Ok(None);
-        };
-        let pair = match value.as_array().map(Vec::as_slice) {
-            Some([first, second]) => word(first).zip(word(second)),
-            Some(_) | None => None,
-        };
-        let pair = pair.ok_or_else(|| self.wrong_kind(key, value, expected));
-        pair.map(|(first, second)| Some([first, second]))
+        self.typed(key, expected, |value| {
+            let [first, second] = value.as_array()?.as_slice() else {
+                return None;
+            };
+            Some([word(first)?, word(second)?])
+        })
     }
 
     fn whole(
@@ -241,13 +237,9 @@ impl<'a> Section<'a> {
 
     /// Different values of a choice, as a list; none where the key is not there.
     pub(crate) fn choices<T: Choice>(&self, key: &str) -> Result<Vec<T>, SceneError> {
-        let items = match self.value(key) {
-            None => return Ok(Vec::new()),
-            Some(Value::Array(items)) => items,
-            Some(other) => return Err(self.wrong_kind(key, other, "a list of words")),
-        };
+        let items = self.typed(key, "a list of words", Value::as_array)?;
         let mut found: Vec<T> = Vec::new();
-        for item in items {
+        for item in items.into_iter().flatten() {
             let word = item.as_str();
             let word = word.ok_or_else(|| self.wrong_kind(key, item, "a word"))?;
             let choice = self.named(key, word, named)?;
@@ -265,11 +257,8 @@ impl<'a> Section<'a> {
 
     /// Whether a key says true; no where it is not there.
     pub(super) fn flag(&self, key: &str) -> Result<bool, SceneError> {
-        let flag = |value: &Value| {
-            let flag = value.as_bool();
-            flag.ok_or_else(|| self.wrong_kind(key, value, "true or false"))
-        };
-        self.value(key).map_or(Ok(false), flag)
+        let flag = self.typed(key, "true or false", Value::as_bool)?;
+        Ok(flag.unwrap_or(false))
     }
 
     pub(crate) fn wrong_kind(
