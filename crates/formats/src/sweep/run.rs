@@ -1,6 +1,5 @@
 //! Computes the rows of a sweep, block by block.
 
-use super::axes::place;
 use super::error::SweepError;
 use super::fields::probed_numbers;
 use super::journal;
@@ -8,11 +7,10 @@ use super::kernels::Kernels;
 use super::rows::{Block, Blocks, NO_MODEL};
 use super::shard::BLOCK;
 use super::spec::Spec;
-use super::template::Templates;
+use super::template::{Memory, Templates};
 use crate::error::SceneError;
 use crate::quantities::QUANTITIES;
-use contact::{Choice, Collision, Model, Outcomes, Ratios, Settings, Tabulated};
-use impact::Scene;
+use contact::{Choice, Model, Outcomes, Ratios, Tabulated};
 use impact::sweep::{Observed, collide_rows, observe_rows, outcomes};
 use ledger::{Journal, Record, gaps};
 use output::{Existing, Fault};
@@ -129,14 +127,6 @@ struct Computer<'a> {
     outcomes: Outcomes,
 }
 
-/// What a thread remembers of the row before.
-#[derive(Debug, Default)]
-struct Memory {
-    place: Vec<usize>,
-    /// The scene of the row before, which the next one likely shares.
-    scratch: Option<(usize, Result<Scene, SceneError>)>,
-}
-
 impl<'a> Computer<'a> {
     fn new(spec: &'a Spec) -> Result<Self, SceneError> {
         let ratios = if spec.has_many_ratios() {
@@ -151,23 +141,10 @@ impl<'a> Computer<'a> {
             outcomes: Outcomes::default(),
         };
         if spec.kernels.is_none() {
-            let row = |row, memory: &mut Memory| computer.contact(row, memory);
+            let row = |row, memory: &mut Memory| computer.templates.contact(row, memory);
             computer.outcomes = outcomes(spec.rows(), &computer.responses, row);
         }
         Ok(computer)
-    }
-
-    /// The contact of a row.
-    fn contact(
-        &self,
-        row: usize,
-        memory: &mut Memory,
-    ) -> Result<(Collision, Settings), SceneError> {
-        place(&self.spec.axes, row, &mut memory.place);
-        let (target, strike, settings) =
-            self.templates.contact(&memory.place, &mut memory.scratch)?;
-        let collision = Collision::new(target, &strike.striker, strike.velocity_m_s);
-        Ok((collision, *settings))
     }
 
     /// Rows of a first block: with probes one may take seconds.
@@ -192,14 +169,12 @@ impl<'a> Computer<'a> {
         let done = if let Some(kernels) = &spec.kernels {
             let of = (&self.responses, &kernels.choice);
             observe_rows(rows.clone(), of, |row, memory: &mut Memory| {
-                place(&spec.axes, row_of(row), &mut memory.place);
-                let scene = templates.scene(&memory.place, &mut memory.scratch)?;
-                Ok::<_, SceneError>(scene.clone())
+                templates.scene(row_of(row), memory).cloned()
             })
         } else {
             let of = (&self.responses, &self.outcomes);
             collide_rows(rows.clone(), of, |row, memory: &mut Memory| {
-                self.contact(row_of(row), memory)
+                templates.contact(row_of(row), memory)
             })
         };
         rows.zip(done)

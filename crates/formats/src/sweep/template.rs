@@ -1,12 +1,12 @@
 //! From a row's place to its scene: parsed once for all rows that differ in plain numbers only.
 
-use super::axes::{Column, Values};
+use super::axes::{Column, Values, place};
 use super::spec::Spec;
 use crate::error::SceneError;
 use crate::scene::keys::{Range, Set, keys_of};
 use crate::scene::{Form, scene_with};
-use contact::{Choice, HalfSpace, Settings};
-use impact::{Load, Scene, Strike};
+use contact::{Choice, Collision, Settings};
+use impact::Scene;
 use std::collections::BTreeSet;
 use toml::Value;
 
@@ -31,8 +31,13 @@ pub(crate) struct Templates<'a> {
     ready: Vec<Result<Scene, SceneError>>,
 }
 
-/// What a row is computed from.
-pub(crate) type Row<'s> = (&'s HalfSpace, &'s Strike, &'s Settings);
+/// What a thread remembers of the row before.
+#[derive(Debug, Default)]
+pub(crate) struct Memory {
+    place: Vec<usize>,
+    /// Its template and scene, which the next row likely shares.
+    scratch: Option<(usize, Result<Scene, SceneError>)>,
+}
 
 /// Templates that are parsed ahead.
 const READY: usize = 4096;
@@ -99,32 +104,33 @@ impl<'a> Templates<'a> {
         Ok(())
     }
 
-    /// The bodies and settings of a row at a place along all axes.
-    pub(crate) fn contact<'s>(
+    /// The contact of a row.
+    pub(crate) fn contact(
         &self,
-        place: &[usize],
-        scratch: &'s mut Option<(usize, Result<Scene, SceneError>)>,
-    ) -> Result<Row<'s>, SceneError> {
-        let scene = self.scene(place, scratch)?;
-        match &scene.load {
-            Load::Strike(strike) => Ok((&scene.target, strike, &scene.settings)),
-            Load::Record(_) => Err(contacts_only("[force]")),
-        }
+        row: usize,
+        memory: &mut Memory,
+    ) -> Result<(Collision, Settings), SceneError> {
+        let scene = self.scene(row, memory)?;
+        let strike = scene.strike().ok_or_else(|| contacts_only("[force]"))?;
+        let collision = Collision::new(&scene.target, &strike.striker, strike.velocity_m_s);
+        Ok((collision, scene.settings))
     }
 
-    /// The scene of a row at a place along all axes.
-    pub(crate) fn scene<'s>(
+    /// The scene of a row.
+    pub(crate) fn scene<'m>(
         &self,
-        place: &[usize],
-        scratch: &'s mut Option<(usize, Result<Scene, SceneError>)>,
-    ) -> Result<&'s Scene, SceneError> {
+        row: usize,
+        memory: &'m mut Memory,
+    ) -> Result<&'m Scene, SceneError> {
+        let Memory { place: at, scratch } = memory;
+        place(&self.spec.axes, row, at);
         let id = self.slow.iter().fold(0_usize, |id, &axis| {
             id.wrapping_mul(self.spec.axes[axis].len)
-                .wrapping_add(place[axis])
+                .wrapping_add(at[axis])
         });
         let template = || match self.ready.get(id) {
             Some(template) => template.clone(),
-            None => self.parse(place),
+            None => self.parse(at),
         };
         if scratch.as_ref().is_none_or(|(known, _)| *known != id) {
             *scratch = None;
@@ -132,7 +138,7 @@ impl<'a> Templates<'a> {
         let (_, scene) = scratch.get_or_insert_with(|| (id, template()));
         let scene = scene.as_mut().map_err(|error| error.clone())?;
         for fast in &self.fast {
-            let number = fast.column.values.number(place[fast.axis]);
+            let number = fast.column.values.number(at[fast.axis]);
             fast.set(scene, number.unwrap_or(f64::NAN))?;
         }
         Ok(scene)
@@ -169,7 +175,7 @@ impl<'a> Templates<'a> {
 
 /// A sweep is about contacts, and what probes see of them where their kernels are known.
 fn contact_only(scene: &Scene, observed: bool) -> Result<(), SceneError> {
-    let found = if matches!(scene.load, Load::Record(_)) {
+    let found = if scene.record().is_some() {
         "[force]"
     } else if !scene.probes.is_empty() && !observed {
         "[[probe]]"
