@@ -2,8 +2,7 @@
 
 use crate::stored::{FileKind, Part, ReadError, StoredPart, file_kind, whole_sweep};
 use crate::sweep::{
-    Block, Blocks, Extent, Selection, Shard, Source, Spec, SweepError, Unfinished, grain,
-    stage_hdf5, stage_rows,
+    Block, Blocks, Selection, Shard, Spec, SweepError, Unfinished, grain, stage_hdf5, stage_rows,
 };
 use ledger::gaps;
 use output::{Fault, HDF5, Output, ROWS, Staged};
@@ -109,7 +108,7 @@ impl Parts {
 
     /// The first rows that two parts have, if there are any.
     #[must_use]
-    pub fn overlap(&self) -> Option<SweepError> {
+    pub fn overlap(&self) -> Option<ReadError> {
         let full: Vec<&Part> = self.full().collect();
         full.windows(2).find_map(|pair| {
             let [first, second] = [pair[0], pair[1]];
@@ -119,7 +118,7 @@ impl Parts {
                 let [one, two] = [first, second].map(|part| part.path.display());
                 let sentence =
                     format!("rows {from} to {to} are in {one} and in {two}: remove one of the two");
-                SweepError::part(&first.path, sentence)
+                ReadError::told(&first.path, sentence)
             })
         })
     }
@@ -141,14 +140,13 @@ impl Parts {
     /// Writes an HDF5 file of the whole sweep whose results lie in the parts, which are to stay where they are, seen from it.
     ///
     /// # Errors
-    /// Those of [`Self::merge`], and [`SweepError::Part`] for a part that it cannot refer to.
+    /// Those of [`Self::merge`], and [`SweepError::Read`] for a part that it cannot refer to.
     pub fn merge_virtual<'a>(&self, output: &'a Output) -> Result<Staged<'a>, SweepError> {
         HDF5.check(output.path())?;
         let spec = self.whole(output)?;
         let sources = self.full().map(|part| {
             let unreferred = |reason: &str| {
-                let sentence = format!("{} cannot be referred to: {reason}", part.path.display());
-                SweepError::part(&part.path, sentence)
+                ReadError::is(&part.path, format!("cannot be referred to: {reason}"))
             };
             if HDF5.check(&part.path).is_err() || StoredPart::open(&part.path)?.failures().is_none()
             {
@@ -157,16 +155,15 @@ impl Parts {
             let path = seen_from(output.real(), &part.path);
             let rows = part.selection.rows.clone();
             let path = path.ok_or_else(|| unreferred("its path is no text"))?;
-            Ok(Source { path, rows })
+            Ok((path, rows))
         });
-        let sources = sources.collect::<Result<Vec<_>, _>>()?;
+        let sources = sources.collect::<Result<Vec<_>, ReadError>>()?;
         let rows = Checked {
             parts: self,
             spec: &spec,
             all: false,
         };
-        let extent = Extent::Virtual(&sources);
-        Ok(stage_hdf5(output, &spec, extent, &rows)?)
+        Ok(stage_hdf5(output, &spec, None, Some(&sources), &rows)?)
     }
 
     /// The sweep, where all its rows are there, once.
@@ -174,10 +171,10 @@ impl Parts {
         // what was merged before may lie beside the parts
         let merged = |path: &Path| file_kind(path) == Ok(FileKind::Sweep);
         if let Some((path, reason)) = self.foreign.iter().find(|(path, _)| !merged(path)) {
-            return Err(SweepError::part(path, reason.clone()));
+            return Err(ReadError::told(path, reason.clone()).into());
         }
         if let Some(overlap) = self.overlap() {
-            return Err(overlap);
+            return Err(overlap.into());
         }
         let missing = self.missing();
         if let Some(rows) = missing.first() {
@@ -187,15 +184,15 @@ impl Parts {
             });
         }
         let Some(first) = self.parts.first() else {
-            return Err(none(output.path()));
+            return Err(none(output.path()).into());
         };
         let sweep = StoredPart::open(&first.path)?.sweep()?;
         let mut spec = Spec::of_stored(&sweep, self.sha256.clone())?;
         spec.fields = first.fields.clone();
         if let Some(other) = self.parts.iter().find(|part| part.fields != spec.fields) {
-            let [one, two] = [first, other].map(|part| part.path.display());
-            let sentence = format!("{one} and {two} have other columns, or another precision");
-            return Err(SweepError::part(&first.path, sentence));
+            let other = other.path.display();
+            let sentence = format!("and {other} have other columns, or another precision");
+            return Err(ReadError::is(&first.path, sentence).into());
         }
         Ok(spec)
     }
@@ -288,18 +285,17 @@ pub fn check_complete(
 }
 
 /// What is said of a place without parts.
-fn none(path: &Path) -> SweepError {
-    SweepError::part(path, format!("{} has no part of a sweep", path.display()))
+fn none(path: &Path) -> ReadError {
+    ReadError::is(path, "has no part of a sweep")
 }
 
 /// Files of a folder with some names, by name; those that begin with a dot belong to runs.
-fn files(folder: &Path, named: impl Fn(&Path) -> bool) -> Result<Vec<PathBuf>, SweepError> {
+fn files(folder: &Path, named: impl Fn(&Path) -> bool) -> Result<Vec<PathBuf>, ReadError> {
     let paths = || -> std::io::Result<Vec<PathBuf>> {
         let entries = std::fs::read_dir(folder)?;
         entries.map(|entry| Ok(entry?.path())).collect()
     };
-    let unread = |reason| format!("cannot read {}: {reason}", folder.display());
-    let mut found = paths().map_err(|reason| SweepError::part(folder, unread(reason)))?;
+    let mut found = paths().map_err(|reason| ReadError::unreadable(folder, reason))?;
     let hidden = |name: &OsStr| name.as_encoded_bytes().starts_with(b".");
     found.retain(|path| named(path) && !path.file_name().is_some_and(hidden));
     found.sort();

@@ -394,7 +394,7 @@ fn the_format_is_written_down() {
     let numbers = QUANTITIES.iter().map(|q| q.name);
     let names = numbers
         .chain(schema::TEXTS)
-        .chain(schema::COUNTS)
+        .chain([schema::ROWS, schema::FAILED])
         .chain([schema::MODEL.0, schema::FAILURE.0, schema::FAILURES.0])
         .chain([
             schema::AXES,

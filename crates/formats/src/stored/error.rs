@@ -15,13 +15,14 @@ pub struct ReadError {
 }
 
 impl ReadError {
-    fn told(path: &Path, sentence: String) -> Self {
+    /// A sentence that names the file.
+    pub(crate) fn told(path: &Path, sentence: String) -> Self {
         let path = path.to_owned();
         Self { path, sentence }
     }
 
     /// The file is not what it should be: a sentence that its name begins.
-    pub(super) fn is(path: &Path, what: impl fmt::Display) -> Self {
+    pub(crate) fn is(path: &Path, what: impl fmt::Display) -> Self {
         Self::told(path, format!("{} {what}", path.display()))
     }
 
@@ -31,7 +32,7 @@ impl ReadError {
     }
 
     /// The file is not there, or is no regular file, or may not be read.
-    pub(super) fn unreadable(path: &Path, reason: impl fmt::Display) -> Self {
+    pub(crate) fn unreadable(path: &Path, reason: impl fmt::Display) -> Self {
         Self::told(path, format!("cannot read {}: {reason}", path.display()))
     }
 }

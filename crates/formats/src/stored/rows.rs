@@ -5,7 +5,7 @@ use super::open::{Stored, is_parquet, parquet_of_kind};
 use super::sweep::StoredSweep;
 use crate::sweep::schema::{FAILED, FAILURE, FAILURES, MODEL, RESULTS, ROWS, SHA256, part};
 use crate::sweep::{
-    BLOCK, Block, Blocks, Fields, Footer, Part, Precision, Selection, Spec, Values, keys,
+    BLOCK, Block, Blocks, Cells, Fields, Footer, Part, Precision, Selection, Spec, What, columns,
 };
 use output::Fault;
 use std::ops::Range;
@@ -137,21 +137,26 @@ impl StoredPart {
         spec: &Spec,
         some: Range<usize>,
     ) -> Result<(), ReadError> {
-        let Selection { rows, .. } = &self.part.selection;
-        let length = [rows.len()];
-        for (key, wanted) in keys(spec, &(rows.start + some.start..rows.start + some.end)) {
+        let length = [self.part.selection.rows.len()];
+        let block = Block {
+            start: self.part.selection.rows.start,
+            ..Block::default()
+        };
+        let keys = columns(spec).into_iter();
+        for column in keys.filter(|column| matches!(column.what, What::Key { .. })) {
+            let key = &column.described.name;
             let path = format!("{RESULTS}/{key}");
-            let same = match wanted {
-                Values::Texts(wanted) => {
+            let wanted = column.what.cells(spec, &block, some.clone());
+            let same = match wanted.map_err(|fault| stored.damaged(fault.reason))? {
+                Cells::Words(wanted) => {
                     let words = stored.texts(&format!("{}/{key}", part::WORDS))?;
                     let found = stored.some::<u32>(&path, &length, some.clone())?;
-                    let mut pairs = found.iter().zip(&wanted);
-                    pairs.all(|(&index, wanted)| words.get(index as usize) == Some(wanted))
+                    column.what.words() == Some(&words) && found == wanted
                 }
-                wanted => {
-                    let found = stored.some::<f64>(&path, &length, some.clone())?;
-                    Values::Numbers(found) == wanted
+                Cells::Double(wanted) => {
+                    wanted == stored.some::<f64>(&path, &length, some.clone())?
                 }
+                Cells::Whole(_) | Cells::Single(_) | Cells::Models(_) | Cells::Reasons(_) => false,
             };
             if !same {
                 let what = format!("{key} has other values than its sweep says");

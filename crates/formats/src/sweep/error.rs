@@ -7,7 +7,6 @@ use ledger::JournalError;
 use lookup::TableError;
 use output::OutputError;
 use std::ops::Range;
-use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 /// A sweep that could not be run, or parts that cannot be joined.
@@ -25,7 +24,7 @@ pub enum SweepError {
     /// It cannot be written or read back.
     #[error(transparent)]
     Output(#[from] OutputError),
-    /// A part cannot be read.
+    /// A part, or a folder of them, cannot be read or is not what is needed.
     #[error(transparent)]
     Read(#[from] ReadError),
     /// Rows that no part has.
@@ -36,21 +35,6 @@ pub enum SweepError {
         /// Ranges beside these.
         more: usize,
     },
-    /// A part, or a folder of them, that is not what is needed.
-    #[error("{sentence}")]
-    Part {
-        /// What is wrong, in one sentence that names the file.
-        sentence: String,
-        /// The file or folder.
-        path: PathBuf,
-    },
-}
-
-impl SweepError {
-    pub(crate) fn part(path: &Path, sentence: String) -> Self {
-        let path = path.to_owned();
-        Self::Part { sentence, path }
-    }
 }
 
 impl From<JournalError> for SweepError {
@@ -71,7 +55,6 @@ impl Fault for SweepError {
             Self::Output(error) => error.culprit(),
             Self::Read(error) => error.culprit(),
             Self::Missing { .. } => Culprit::of(Class::Scene),
-            Self::Part { path, .. } => Culprit::of(Class::Scene).file(path),
         }
     }
 }

@@ -33,7 +33,7 @@ pub use rows::{
     Block, Blocks, NO_MODEL, PARQUET_VERSION, check_rows, column_names, key_unit, print_csv,
     row_bytes, stage_csv, stage_rows,
 };
-pub(crate) use rows::{Extent, Footer, MAGIC, Source, keys, stage_hdf5};
+pub(crate) use rows::{Cells, Footer, MAGIC, What, columns, stage_hdf5};
 pub use run::{BLOCK_S, FIRST_BLOCK, Kept, Rows, compute_rows, run_rows};
 pub use shard::{BLOCK, Part, Selection, grain};
 pub use spec::Spec;

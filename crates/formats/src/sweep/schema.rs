@@ -47,8 +47,6 @@ pub const ROWS: &str = "rows";
 pub const COUNTED: [&str; 2] = ["yield_onset", "cone_crack_onset"];
 /// Number attribute of the root: rows that failed.
 pub const FAILED: &str = "failed";
-/// Number attributes of the root.
-pub const COUNTS: [&str; 2] = [ROWS, FAILED];
 /// Attribute of the models: their names.
 pub const NAMES: &str = "names";
 

@@ -5,6 +5,7 @@ use crate::quantities::Described;
 use crate::sweep::axes::Values;
 use crate::sweep::fields::Precision;
 use crate::sweep::schema::{FAILURE, MODEL, part};
+use crate::sweep::shard::Selection;
 use crate::sweep::spec::Spec;
 use contact::{Choice, Model};
 use output::Fault;
@@ -12,7 +13,7 @@ use std::ops::Range;
 
 /// What a column holds.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum What<'a> {
+pub(crate) enum What<'a> {
     /// The number of the row in the sweep.
     Row,
     /// The value of a key that varies.
@@ -30,14 +31,14 @@ pub(super) enum What<'a> {
 
 /// A column of such a file.
 #[derive(Debug)]
-pub(super) struct Column<'a> {
-    pub(super) described: Described,
-    pub(super) what: What<'a>,
+pub(crate) struct Column<'a> {
+    pub(crate) described: Described,
+    pub(crate) what: What<'a>,
 }
 
 /// The values of a column in some rows.
 #[derive(Debug)]
-pub(super) enum Cells<'b> {
+pub(crate) enum Cells<'b> {
     Whole(Vec<i64>),
     Double(Vec<f64>),
     Single(Vec<f32>),
@@ -49,7 +50,7 @@ pub(super) enum Cells<'b> {
 }
 
 /// The number of the row, the keys that vary, the results, the model and the reason of a failure.
-pub(super) fn columns(spec: &Spec) -> Vec<Column<'_>> {
+pub(crate) fn columns(spec: &Spec) -> Vec<Column<'_>> {
     let fixed = |described, what| Column { described, what };
     let mut found = vec![fixed(part::ROW.into(), What::Row)];
     let mut stride = spec.rows();
@@ -72,24 +73,6 @@ pub(super) fn columns(spec: &Spec) -> Vec<Column<'_>> {
     found
 }
 
-/// The keys that vary, with their values in some rows.
-pub(crate) fn keys(spec: &Spec, rows: &Range<usize>) -> Vec<(String, Values)> {
-    let keys = columns(spec).into_iter().filter_map(|column| {
-        let What::Key { stride, values } = column.what else {
-            return None;
-        };
-        let places = rows.clone().map(|row| row / stride % values.len());
-        let found = match values {
-            Values::Texts(words) => Values::Texts(places.map(|i| words[i].clone()).collect()),
-            Values::Numbers(_) | Values::Drawn(_) => {
-                Values::Numbers(places.filter_map(|i| values.number(i)).collect())
-            }
-        };
-        Some((column.described.name, found))
-    });
-    keys.collect()
-}
-
 /// Names of the columns of a part.
 #[must_use]
 pub fn column_names(spec: &Spec) -> Vec<String> {
@@ -99,7 +82,7 @@ pub fn column_names(spec: &Spec) -> Vec<String> {
 
 impl What<'_> {
     /// Whether it is a word of a list.
-    pub(super) fn words(&self) -> Option<&Vec<String>> {
+    pub(crate) fn words(&self) -> Option<&Vec<String>> {
         match self {
             Self::Key { values, .. } => values.texts(),
             Self::Row | Self::Number(_) | Self::Model | Self::Failure => None,
@@ -107,7 +90,7 @@ impl What<'_> {
     }
 
     /// The values of some rows of a block, which count from its first.
-    pub(super) fn cells<'b>(
+    pub(crate) fn cells<'b>(
         &self,
         spec: &Spec,
         block: &'b Block,
@@ -156,6 +139,11 @@ fn single(number: f64, row: usize, name: &str) -> Result<f32, Fault> {
         )));
     }
     Ok(rounded)
+}
+
+/// The rows of a selection, or all of a sweep.
+pub(super) fn rows_of(spec: &Spec, selection: Option<&Selection>) -> Range<usize> {
+    selection.map_or(0..spec.rows(), |selection| selection.rows.clone())
 }
 
 /// Shows blocks that have to be all rows of a range, in order; gives the number of failed ones.

@@ -14,7 +14,7 @@ use std::ops::Range;
 use std::path::Path;
 #[cfg(feature = "parquet")]
 use {
-    super::columns::Column,
+    super::columns::{Column, rows_of},
     crate::sweep::schema::{self, part},
     crate::sweep::spec::Spec,
     serde_json::json,
@@ -136,7 +136,7 @@ impl Footer {
             let labels = json!({ "units": described.unit, "long_name": described.meaning });
             (described.name.clone(), labels)
         });
-        let rows = selection.map_or(0..spec.rows(), |selection| selection.rows.clone());
+        let rows = rows_of(spec, selection);
         let shard = selection.and_then(|selection| selection.shard);
         Self {
             file_type: selection

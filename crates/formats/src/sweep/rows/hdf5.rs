@@ -4,7 +4,7 @@
 //! The datasets are reserved through the library and filled a block at a time.
 
 use super::block::{Block, Blocks};
-use super::columns::{Cells, Column, What, columns, each_of, key_unit};
+use super::columns::{Cells, Column, What, columns, each_of, key_unit, rows_of};
 use crate::hdf::{
     attach_all, attach_scale, describe, new_file, numbers, reason, reserve, set_scale,
     some_at_a_time, text, texts,
@@ -31,33 +31,19 @@ const MOST_REASONS: usize = 100_000;
 /// What stands for all later ones.
 const OTHER_REASON: &str = "a reason unlike the first 100000: compute the row by itself";
 
-/// Which file is written.
-#[derive(Debug, Clone, Copy)]
-pub(crate) enum Extent<'a> {
-    Whole,
-    Part(&'a Selection),
-    /// The whole, whose results lie in files that have some of the rows each: only which failure a scene has is copied,
-    /// because each of them counts its own, and nothing but the failures is taken of the blocks. What is not there when it is
-    /// read is NaN, and model 255.
-    Virtual(&'a [Source]),
-}
-
-/// A file with some of the rows.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Source {
-    /// Where it lies, seen from the folder of the output.
-    pub(crate) path: String,
-    /// Its rows.
-    pub(crate) rows: Range<usize>,
-}
-
-/// Writes rows, whose blocks are all there in order, into an output that was claimed before the work.
+/// Writes rows, whose blocks are all there in order, into an output that was claimed before the work: a selection as a part, or
+/// all of them.
+///
+/// With `sources` the results of the whole lie in files that have some of the rows each, with their paths seen from the folder
+/// of the output: only which failure a scene has is copied, because each of them counts its own, and nothing but the failures
+/// is taken of the blocks. What is not there when it is read is NaN, and model 255.
 ///
 /// No more than a block is in memory, and the bytes do not depend on how rows are divided into blocks.
 pub(crate) fn stage_hdf5<'a>(
     output: &'a Output,
     spec: &Spec,
-    extent: Extent<'_>,
+    selection: Option<&Selection>,
+    sources: Option<&[(String, Range<usize>)]>,
     blocks: &(impl Blocks + ?Sized),
 ) -> Result<Staged<'a>, OutputError> {
     output.stage(|path| {
@@ -67,19 +53,12 @@ pub(crate) fn stage_hdf5<'a>(
             spec,
             reserved: Vec::new(),
         };
-        let (begun, rows) = match extent {
-            Extent::Part(selection) => {
-                let begun = table.begin_part(&file, selection);
-                (begun, selection.rows.clone())
-            }
-            Extent::Whole => (table.begin_whole(&file, None), 0..spec.rows()),
-            Extent::Virtual(sources) => {
-                let begun = table.begin_whole(&file, Some(sources));
-                (begun, 0..spec.rows())
-            }
+        let begun = match selection {
+            Some(selection) => table.begin_part(&file, selection),
+            None => table.begin_whole(&file, sources),
         };
         begun.map_err(told)?;
-        let (failed, reasons) = table.fill(path, &rows, blocks)?;
+        let (failed, reasons) = table.fill(path, &rows_of(spec, selection), blocks)?;
         finish(file, failed, &reasons).map_err(told)?;
         ledger::seal(path).map_err(Fault::from)
     })
@@ -116,7 +95,7 @@ impl<'a> Table<'a> {
     fn begin_whole(
         &mut self,
         file: &hdf5::File,
-        sources: Option<&[Source]>,
+        sources: Option<&[(String, Range<usize>)]>,
     ) -> Result<(), hdf5::Error> {
         let spec = self.spec;
         write_texts(file, spec, schema::FILE_TYPE, schema::FORMAT_VERSION)?;
@@ -148,7 +127,7 @@ impl<'a> Table<'a> {
             }
         }
         sources.map_or(Ok(()), |sources| {
-            let places: Vec<&str> = sources.iter().map(|s| s.path.as_str()).collect();
+            let places: Vec<&str> = sources.iter().map(|(path, _)| path.as_str()).collect();
             text(file, part::PARTS, &places.join("\n"))
         })
     }
@@ -362,7 +341,7 @@ fn refer<T: H5Type + Copy + Into<hdf5::types::OwnedDynValue>>(
     group: &Group,
     labels: &Labels<'_>,
     shape: &[usize],
-    sources: &[Source],
+    sources: &[(String, Range<usize>)],
     missing: T,
 ) -> Result<Dataset, hdf5::Error> {
     let mut builder = group
@@ -370,17 +349,17 @@ fn refer<T: H5Type + Copy + Into<hdf5::types::OwnedDynValue>>(
         .shape(shape)
         .fill_value(missing)
         .obj_track_times(false);
-    for source in sources {
+    for (path, rows) in sources {
         let name = format!("/{}/{}", schema::RESULTS, labels.0);
         let mut from = 0;
-        for ranges in boxes(shape, source.rows.clone()) {
+        for ranges in boxes(shape, rows.clone()) {
             let count: usize = ranges.iter().map(ExactSizeIterator::len).product();
             let slices: Vec<SliceOrIndex> = ranges.into_iter().map(SliceOrIndex::from).collect();
             // the library takes %b for the number of a file
             builder = builder.virtual_map(
-                source.path.replace('%', "%%"),
+                path.replace('%', "%%"),
                 &name,
-                [source.rows.len()],
+                [rows.len()],
                 from..from + count,
                 shape,
                 Hyperslab::from(slices),

@@ -12,11 +12,11 @@ mod hdf5;
 mod parquet;
 
 pub use self::hdf5::row_bytes;
-pub(crate) use self::hdf5::{Extent, Source, stage_hdf5};
+pub(crate) use self::hdf5::stage_hdf5;
 #[cfg(feature = "parquet")]
 use self::parquet::stage_parquet;
 pub use block::{Block, Blocks, NO_MODEL};
-pub(crate) use columns::keys;
+pub(crate) use columns::{Cells, What, columns};
 pub use columns::{column_names, key_unit};
 pub use csv::{print_csv, stage_csv};
 pub use footer::FORMAT_VERSION as PARQUET_VERSION;
@@ -59,6 +59,5 @@ pub fn stage_rows<'a>(
     if PARQUET.is_of(output.path()) {
         return stage_parquet(output, spec, selection, blocks);
     }
-    let extent = selection.map_or(Extent::Whole, Extent::Part);
-    stage_hdf5(output, spec, extent, blocks)
+    stage_hdf5(output, spec, selection, None, blocks)
 }

@@ -1,7 +1,7 @@
 //! Rows as Parquet, as `data-schema/sweep.md` writes it down: groups of rows, each column of one encoded by itself.
 
 use super::block::{Block, Blocks};
-use super::columns::{Cells, Column, What, columns, each_of, model_name};
+use super::columns::{Cells, Column, What, columns, each_of, model_name, rows_of};
 use super::footer::{Footer, KEY, seal};
 use crate::sweep::axes::Values;
 use crate::sweep::fields::Precision;
@@ -47,8 +47,9 @@ pub(super) fn stage_parquet<'a>(
     output.stage(|path| {
         let columns = columns(spec);
         let mut table = Table::begin(path, spec, &columns)?;
-        let rows = selection.map_or(0..spec.rows(), |selection| selection.rows.clone());
-        let failed = each_of(&rows, blocks, &mut |block| table.take(block))?;
+        let failed = each_of(&rows_of(spec, selection), blocks, &mut |block| {
+            table.take(block)
+        })?;
         table.finish(Footer::of(spec, selection, &columns, failed))?;
         seal(path).map_err(Fault::from)
     })
