@@ -2,9 +2,7 @@
 //! error against cost, one curve a method, the Pareto front drawn.
 
 use crate::record::{Question, Record, distinct, pareto_front};
-use figure::{
-    Axis, Classes, Figure, Interval, LabelledPoint, Layer, Legend, Line, Mark, Panel, Style,
-};
+use figure::{Axis, Figure, Interval, LabelledPoint, Layer, Legend, Line, Mark, Panel, Style};
 
 /// A picture of the chart.
 #[derive(Debug, Clone, PartialEq)]
@@ -40,18 +38,6 @@ impl Picture {
     pub(crate) fn curve(&mut self, name: &str, style: Style, points: Vec<(f64, f64)>) {
         let line = Line::new(name, style, points);
         self.panel.layers.push(Layer::Line(line));
-    }
-
-    /// Adds a map: the class of each cell of a plane from its centre.
-    pub(crate) fn map(
-        &mut self,
-        plane: [Interval; 2],
-        shape: [usize; 2],
-        names: &[&str],
-        class: impl FnMut(f64, f64) -> usize,
-    ) {
-        let classes = Classes::of(plane, shape, names, class);
-        self.panel.layers.push(Layer::Classes(classes));
     }
 
     /// Adds a vertical line.

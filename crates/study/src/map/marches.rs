@@ -15,6 +15,7 @@
 //! by half a step, which feeds h (25/16) int p^2 into the striker, and w by a step, which takes
 //! h (5/2) int p' w' out again.
 
+use super::Map;
 use crate::measure::Effort;
 use crate::picture::Picture;
 use crate::scenes::{HERTZ_PA, ROD_RADIUS_M, paper};
@@ -24,7 +25,7 @@ use contact::{
     memory_weights,
 };
 use fault::AnyError;
-use figure::{Axis, Interval, Style};
+use figure::{Interval, Style};
 use halfspace::{Deflection, Medium, SurfaceResponse};
 
 /// What a march made of an impact.
@@ -187,83 +188,23 @@ pub fn paper_response() -> Result<SurfaceResponse, AnyError> {
 /// Steps over the paper's contact at which its scheme is looked at: the second gives its restitution.
 const PAPER_STEPS: [f64; 2] = [54.0, 200.0];
 
-/// A plane of a disc against the step over Hertz's contact time, with what is known of the disc of each column.
-struct MarchPlane<C> {
-    x: Interval,
-    y: Interval,
-    shape: [usize; 2],
-    columns: Vec<C>,
-}
-
-impl<C> MarchPlane<C> {
-    fn new(
-        x: Interval,
-        effort: Effort,
-        column: impl FnMut(f64) -> Result<C, AnyError>,
-    ) -> Result<Self, AnyError> {
-        let shape = effort.pick([16, 14], [48, 40]);
-        let columns = x.cells(shape[0]).into_iter().map(column);
-        Ok(Self {
-            x,
-            y: Interval::logarithmic(1e-3, 0.2),
-            shape,
-            columns: columns.collect::<Result<_, _>>()?,
-        })
-    }
-
-    /// A picture of the class of every cell, from its column and step.
-    fn map(
-        &self,
-        name: &'static str,
-        title: &str,
-        quantity: &str,
-        classes: &[&str],
-        class: impl Fn(&C, f64) -> usize,
-    ) -> Picture {
-        let x = Axis::over(self.x, quantity);
-        let y = Axis::over(self.y, "step over Hertz's contact time");
-        let mut figure = Picture::new(name, title, x, y);
-        figure.map([self.x, self.y], self.shape, classes, |x, y| {
-            let column = (self.x.fraction(x) * self.shape[0] as f64) as usize;
-            class(&self.columns[column], y * CONTACT_TIME)
-        });
-        figure
-    }
-
-    /// A curve of steps, as long as it stays in the plane: x of each.
-    fn limit(&self, count: usize, x: impl Fn(f64) -> f64) -> Vec<(f64, f64)> {
-        let steps = self.y.cells(count).into_iter();
-        let points = steps.map(|y| (x(y * CONTACT_TIME), y));
-        points.filter(|(x, _)| *x < self.x.high).collect()
-    }
-
-    /// The columns at their places.
-    fn placed(&self) -> impl Iterator<Item = (f64, &C)> {
-        self.x.cells(self.shape[0]).into_iter().zip(&self.columns)
+/// A map of discs, from side to side, against the step over Hertz's contact time.
+fn map<'a>(x: [f64; 2], quantity: &'a str, classes: &'a [&'a str], effort: Effort) -> Map<'a> {
+    Map {
+        plane: [x, [1e-3, 0.2]].map(|[low, high]| Interval::logarithmic(low, high)),
+        quantities: [quantity, "step over Hertz's contact time"],
+        shape: effort.pick([16, 14], [48, 40]),
+        classes,
     }
 }
 
-impl<'a> MarchPlane<Converged<'a>> {
-    /// What a scheme makes of every cell, by contact stiffness over impedance.
-    fn outcomes(
-        &self,
-        name: &'static str,
-        title: &str,
-        outcome: impl Fn(&Converged<'a>, f64) -> Outcome,
-    ) -> Picture {
-        let stiffness = "contact stiffness over impedance, k/Z, per collision time";
-        self.map(name, title, stiffness, &OUTCOMES, |exact, step| {
-            outcome(exact, step) as usize
-        })
-    }
-
-    /// A step of each column as a curve.
-    fn line(&self, step: impl Fn(&Converged<'a>) -> f64) -> Vec<(f64, f64)> {
-        let columns = self.placed();
-        columns
-            .map(|(x, exact)| (x, step(exact) / CONTACT_TIME))
-            .collect()
-    }
+/// A step of each column as a curve.
+fn line<'a>(
+    columns: &[(f64, Converged<'a>)],
+    step: impl Fn(&Converged<'a>) -> f64,
+) -> Vec<(f64, f64)> {
+    let point = |(x, exact): &(f64, Converged<'a>)| (*x, step(exact) / CONTACT_TIME);
+    columns.iter().map(point).collect()
 }
 
 /// Marks the paper's case at its steps, with something to say of each.
@@ -279,30 +220,38 @@ fn mark(figure: &mut Picture, paper: &Converged<'_>, says: impl Fn(f64) -> Strin
 pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>, AnyError> {
     let response = paper_response()?;
     let disc = paper_disc(&response)?;
-    let plane = MarchPlane::new(Interval::logarithmic(0.1, 100.0), effort, |stiffness| {
+    let stiffness = "contact stiffness over impedance, k/Z, per collision time";
+    let map = map([0.1, 100.0], stiffness, &OUTCOMES, effort);
+    let column = |stiffness: f64| {
         // another stiffness over impedance at the same wave time
         let scale = stiffness / (1.5 * admittance(&disc));
         let coupling = disc.coupling * scale;
-        Ok(Converged::new(FixedDisc { coupling, ..disc })?)
-    })?;
+        let exact = Converged::new(FixedDisc { coupling, ..disc })?;
+        Ok((stiffness, exact))
+    };
+    let columns = map.columns().into_iter().map(column);
+    let columns = columns.collect::<Result<Vec<_>, AnyError>>()?;
     let paper = Converged::new(disc)?;
-    let explicit = explicit(&plane, &paper);
+    let explicit = explicit(&map, &columns, &paper);
     advance();
-    let implicit = implicit(&plane, &paper);
+    let implicit = implicit(&map, &columns, &paper);
     advance();
-    let dynamic = dynamic_share(&disc, effort)?;
+    let dynamic = dynamic_share(&disc, effort);
     advance();
     Ok(vec![explicit, implicit, dynamic])
 }
 
-fn explicit(plane: &MarchPlane<Converged<'_>>, paper: &Converged<'_>) -> Picture {
+fn explicit(map: &Map<'_>, columns: &[(f64, Converged<'_>)], paper: &Converged<'_>) -> Picture {
     let title = "Explicit march (the paper's scheme)";
-    let mut figure = plane.outcomes("march-explicit", title, Converged::explicit);
-    let stable = plane.line(Converged::stable_step);
+    let mut figure = map.picture("march-explicit", title, |cell, y| {
+        columns[cell % columns.len()].1.explicit(y * CONTACT_TIME) as usize
+    });
+    let stable = line(columns, Converged::stable_step);
     figure.curve("theory: h k/Z = 2", Style::Heavy, stable);
     let complex = "theory: roots turn complex, h k/Z = 0.34";
-    figure.curve(complex, Style::Dotted, plane.line(Converged::smooth_step));
-    let gain = plane.line(Converged::energy_step);
+    let smooth = line(columns, Converged::smooth_step);
+    figure.curve(complex, Style::Dotted, smooth);
+    let gain = line(columns, Converged::energy_step);
     figure.curve("theory: gain = radiated loss", Style::HeavyDashed, gain);
     mark(&mut figure, paper, |step| {
         match march_explicit(&paper.disc, step) {
@@ -314,21 +263,23 @@ fn explicit(plane: &MarchPlane<Converged<'_>>, paper: &Converged<'_>) -> Picture
     figure
 }
 
-fn implicit(plane: &MarchPlane<Converged<'_>>, paper: &Converged<'_>) -> Picture {
+fn implicit(map: &Map<'_>, columns: &[(f64, Converged<'_>)], paper: &Converged<'_>) -> Picture {
     let title = "Implicit march (the default)";
-    let mut figure = plane.outcomes("march-implicit", title, Converged::implicit);
-    let steps = plane.y.cells(4 * plane.shape[1]);
+    let mut figure = map.picture("march-implicit", title, |cell, y| {
+        columns[cell % columns.len()].1.implicit(y * CONTACT_TIME) as usize
+    });
+    let steps = map.plane[1].cells(4 * map.shape[1]);
     let mut growing = Vec::new();
-    for (x, exact) in plane.placed() {
+    for (x, exact) in columns {
         let growth = |y: f64| linear_growth(&exact.disc, exact.stiffness(), y * CONTACT_TIME);
         let grows = steps.iter().filter(|y| growth(**y) > 1.0);
-        growing.extend(grows.map(|&y| (x, y)));
+        growing.extend(grows.map(|&y| (*x, y)));
     }
     let root = "theory: a root of the weights beyond 1";
     figure.curve(root, Style::Dots, growing);
     let fewest = "eight samples in contact, the fewest that are interpolated";
     let step = |exact: &Converged<'_>| exact.summary.contact_time / 8.0;
-    figure.curve(fewest, Style::Dotted, plane.line(step));
+    figure.curve(fewest, Style::Dotted, line(columns, step));
     let cells = figure.points();
     let gains = cells
         .iter()
@@ -459,36 +410,48 @@ const DYNAMIC: [&str; 4] = [
 ];
 
 /// The `dynamic` share in the plane of coupling and step: where it has no solution, and where a coarse step hides that.
-fn dynamic_share(paper: &FixedDisc<'_>, effort: Effort) -> Result<Picture, AnyError> {
-    let plane = MarchPlane::new(Interval::logarithmic(0.05, 5.0), effort, |coupling| {
+fn dynamic_share(paper: &FixedDisc<'_>, effort: Effort) -> Picture {
+    let coupling = "static deflection over indentation (coupling)";
+    let map = map([0.05, 5.0], coupling, &DYNAMIC, effort);
+    let column = |coupling| {
         let disc = dynamic(paper, coupling);
-        Ok((disc, Converged::new(disc).ok()))
-    })?;
-    let mut figure = plane.map(
-        "march-dynamic",
-        "Dynamic share (static part of the deflection taken out)",
-        "static deflection over indentation (coupling)",
-        &DYNAMIC,
-        |(disc, exact), step| match (exact, dynamic_is_solved(disc, step)) {
+        (disc, Converged::new(disc).ok())
+    };
+    let columns: Vec<_> = map.columns().into_iter().map(column).collect();
+    let title = "Dynamic share (static part of the deflection taken out)";
+    let mut figure = map.picture("march-dynamic", title, |cell, y| {
+        let ((disc, exact), step) = (&columns[cell % columns.len()], y * CONTACT_TIME);
+        match (exact, dynamic_is_solved(disc, step)) {
             (_, false) => 3,
             (None, true) => 2,
             (Some(exact), true) => match exact.implicit(step) {
                 Outcome::Accurate => 0,
                 Outcome::Lossy | Outcome::GainsEnergy | Outcome::Oscillates | Outcome::BlownUp => 1,
             },
-        },
-    );
-    let count = effort.pick(30, 80);
-    figure.curve(
-        "theory: newest weight times coupling = 2/3, the law folds back",
-        Style::Heavy,
-        plane.limit(count, |step| dynamic_limit(paper, step)),
-    );
-    figure.curve(
-        "theory: a root of the weights beyond 1, the samples grow",
-        Style::HeavyDashed,
-        plane.limit(count, |step| dynamic_growth_limit(paper, step)),
-    );
+        }
+    });
+    let [x, y] = map.plane;
+    let steps = y.cells(effort.pick(30, 80));
+    for (name, style, limit) in [
+        (
+            "theory: newest weight times coupling = 2/3, the law folds back",
+            Style::Heavy,
+            dynamic_limit as fn(&FixedDisc<'_>, f64) -> f64,
+        ),
+        (
+            "theory: a root of the weights beyond 1, the samples grow",
+            Style::HeavyDashed,
+            dynamic_growth_limit,
+        ),
+    ] {
+        let points = steps.iter().map(|&y| (limit(paper, y * CONTACT_TIME), y));
+        // as long as it stays in the plane
+        figure.curve(
+            name,
+            style,
+            points.filter(|point| point.0 < x.high).collect(),
+        );
+    }
     figure.point((paper.coupling, 1.0 / 137.0), "paper's case, 137 steps");
     figure.caption = "Without its static part the newest weight of the deflection is negative: the contact law \
         folds back, and beyond a coupling of 2/3 it has no solution. At steps near the memory and beyond \
@@ -496,5 +459,5 @@ fn dynamic_share(paper: &FixedDisc<'_>, effort: Effort) -> Result<Picture, AnyEr
         A coarse step can hide that there is no solution; the march refuses with a sentence as soon as the step is \
         halved, which step control does."
         .to_owned();
-    Ok(figure)
+    figure
 }

@@ -7,3 +7,48 @@ pub(crate) mod inversions;
 pub mod kernels;
 pub mod marches;
 pub mod models;
+
+use crate::picture::Picture;
+use figure::{Axis, Classes, Interval, Layer};
+
+/// A plane that is divided into cells, each of a class.
+struct Map<'a> {
+    plane: [Interval; 2],
+    /// What its axes are.
+    quantities: [&'a str; 2],
+    /// Columns and rows of cells.
+    shape: [usize; 2],
+    classes: &'a [&'a str],
+}
+
+impl Map<'_> {
+    /// A picture of the class of every cell, from its number, by rows, and its ordinate.
+    fn picture(
+        &self,
+        name: &'static str,
+        title: &str,
+        class: impl Fn(usize, f64) -> usize,
+    ) -> Picture {
+        let [x, y] = [0, 1].map(|side| Axis::over(self.plane[side], self.quantities[side]));
+        let mut figure = Picture::new(name, title, x, y);
+        let mut cell = 0;
+        let class = |_, y| {
+            cell += 1;
+            class(cell - 1, y)
+        };
+        let classes = Classes::of(self.plane, self.shape, self.classes, class);
+        figure.panel.layers.push(Layer::Classes(classes));
+        figure
+    }
+
+    /// The abscissas of its columns.
+    fn columns(&self) -> Vec<f64> {
+        self.plane[0].cells(self.shape[0])
+    }
+
+    /// A curve of so many points from side to side.
+    fn line(&self, count: usize, ordinate: impl Fn(f64) -> f64) -> Vec<(f64, f64)> {
+        let places = self.plane[0].cells(count).into_iter();
+        places.map(|x| (x, ordinate(x))).collect()
+    }
+}

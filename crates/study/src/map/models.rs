@@ -4,6 +4,7 @@
 //! that follows the load, and the coupling of a fixed disc, the paper's, whose whole deflection is added to Hertz's
 //! indentation; memory is the time that the waves need across the contact, over Hertz's contact time.
 
+use super::Map;
 use super::marches::bisected;
 use crate::measure::Effort;
 use crate::picture::Picture;
@@ -18,7 +19,7 @@ use contact::{Accuracy, FixedDisc, GrowingContact, Library, MarchError, PunchWav
 use contact::{Family, Groups, Rung, choose};
 use contact::{StaticShare, Summary, march_growing, march_implicit, refine};
 use fault::AnyError;
-use figure::{Axis, Interval, Style};
+use figure::{Interval, Style};
 use halfspace::{Deflection, Medium, SurfaceResponse};
 use impact::Impact;
 
@@ -260,69 +261,42 @@ pub(crate) fn rows(effort: Effort) -> u64 {
     shape(effort)[1] as u64
 }
 
-/// A plane of errors, and the memory at which `auto` leaves a model for the next.
-struct Map<'a> {
-    /// Static deflection over indentation, and memory over contact time.
-    plane: [Interval; 2],
-    quantity: &'a str,
-    shape: [usize; 2],
-    /// From the lightest to the darkest region.
-    classes: &'a [&'a str],
-    /// How many points of a line.
-    count: usize,
-    /// Lines of the models that `auto` leaves, the first solid.
-    leaves: [(&'a str, Rung); 2],
-    boundary: &'a dyn Fn(f64, f64, Rung) -> f64,
+/// The ordinate of both planes.
+const MEMORY: &str = "memory over contact time";
+
+/// The errors of the models in each cell of a map.
+fn computed(
+    map: &Map<'_>,
+    at: impl Fn(f64, f64) -> Result<ModelErrors, MarchError>,
+    advance: &dyn Fn(),
+) -> Result<Vec<ModelErrors>, AnyError> {
+    let (columns, mut errors) = (map.columns(), Vec::new());
+    for memory in map.plane[1].cells(map.shape[1]) {
+        for &deflection in &columns {
+            errors.push(at(deflection, memory)?);
+        }
+        advance();
+    }
+    Ok(errors)
 }
 
-impl Map<'_> {
-    /// The errors at the centres of the cells, row by row.
-    fn errors(
-        &self,
-        at: impl Fn(f64, f64) -> Result<ModelErrors, MarchError>,
-        advance: &dyn Fn(),
-    ) -> Result<Vec<ModelErrors>, AnyError> {
-        let [x, y] = self.plane;
-        let mut errors = Vec::new();
-        for &memory in &y.cells(self.shape[1]) {
-            for &deflection in &x.cells(self.shape[0]) {
-                errors.push(at(deflection, memory)?);
-            }
-            advance();
-        }
-        Ok(errors)
+/// The cheapest model that meets a tolerance in each cell, and the memory at which `auto` leaves some.
+fn picture(
+    map: &Map<'_>,
+    [name, what]: [&'static str; 2],
+    tolerance: f64,
+    errors: &[ModelErrors],
+    leaves: [(&str, Vec<(f64, f64)>); 2],
+) -> Picture {
+    let title = format!("{what} that meets {tolerance:.0e}");
+    let last = map.classes.len() - 1;
+    let class = |cell: usize, _| errors[cell].cheapest(tolerance).min(last);
+    let mut figure = map.picture(name, &title, class);
+    let styles = [Style::Heavy, Style::HeavyDashed];
+    for ((label, line), style) in leaves.into_iter().zip(styles) {
+        figure.curve(label, style, line);
     }
-
-    /// The picture of a tolerance, without a caption.
-    fn picture(
-        &self,
-        name: &'static str,
-        what: &str,
-        tolerance: f64,
-        errors: &[ModelErrors],
-    ) -> Picture {
-        let [x, y] = self.plane;
-        let title = format!("{what} that meets {tolerance:.0e}");
-        let time = Axis::over(y, "memory over contact time");
-        let mut figure = Picture::new(name, &title, Axis::over(x, self.quantity), time);
-        let mut cells = errors.iter();
-        let last = self.classes.len() - 1;
-        figure.map(self.plane, self.shape, self.classes, |_, _| {
-            let errors = cells.next();
-            errors.map_or(last, |errors| errors.cheapest(tolerance).min(last))
-        });
-        let styles = [Style::Heavy, Style::HeavyDashed];
-        for ((label, rung), style) in self.leaves.into_iter().zip(styles) {
-            let line = self.line(|x| (self.boundary)(x, tolerance, rung));
-            figure.curve(label, style, line);
-        }
-        figure
-    }
-
-    fn line(&self, memory: impl Fn(f64) -> f64) -> Vec<(f64, f64)> {
-        let places = self.plane[0].cells(self.count).into_iter();
-        places.map(|x| (x, memory(x))).collect()
-    }
+    figure
 }
 
 /// A picture a tolerance for contacts that follow the load, then for the paper's disc.
@@ -340,7 +314,10 @@ fn growing_figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>, A
     let shape = shape(effort);
     let map = Map {
         plane: [x, y],
-        quantity: "static deflection of the half-space over indentation",
+        quantities: [
+            "static deflection of the half-space over indentation",
+            MEMORY,
+        ],
         shape,
         classes: &[
             "hertz",
@@ -349,17 +326,11 @@ fn growing_figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>, A
             "growing",
             "growing, not yet converged to 1e-2",
         ],
-        count: 40,
-        leaves: [
-            ("auto leaves hertz", Rung::QuasiStatic),
-            ("auto leaves the area dashpot", Rung::AreaDashpot),
-        ],
-        boundary: &|share, tolerance, rung| plane.boundary(share, tolerance, rung),
     };
     let steps = effort.pick(128, 192);
     // the half-space has all of the compliance at most
     let at = |share: f64, memory| plane.errors(share.min(1.0), memory, steps);
-    let errors = map.errors(at, advance)?;
+    let errors = computed(&map, at, advance)?;
     // `auto`'s estimate of what hertz leaves out over the error found, in the middle of the plane
     let (i, k) = (shape[0] / 2, shape[1] / 2);
     let (lag, memory) = plane.groups(x.cells(shape[0])[i], y.cells(shape[1])[k]);
@@ -368,7 +339,12 @@ fn growing_figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>, A
     let mut figures = Vec::new();
     let names = ["models-1e-2", "models-1e-3", "models-1e-4"];
     for (name, tolerance) in names.into_iter().zip(TOLERANCES) {
-        let mut figure = map.picture(name, "Cheapest model", tolerance, &errors);
+        let leaves = [
+            ("auto leaves hertz", Rung::QuasiStatic),
+            ("auto leaves the area dashpot", Rung::AreaDashpot),
+        ]
+        .map(|(label, rung)| (label, map.line(40, |x| plane.boundary(x, tolerance, rung))));
+        let mut figure = picture(&map, [name, "Cheapest model"], tolerance, &errors, leaves);
         for speed in SPEEDS_M_S {
             let targets = targets();
             let places = targets.iter().map(|target| place_of(target, speed));
@@ -396,29 +372,30 @@ fn disc_figures(effort: Effort) -> Result<Vec<Picture>, AnyError> {
             Interval::logarithmic(1e-3, 10.0),
             Interval::logarithmic(1e-4, 1.0),
         ],
-        quantity: "static deflection over indentation (coupling)",
+        quantities: ["static deflection over indentation (coupling)", MEMORY],
         shape: effort.pick([14, 12], [40, 40]),
         classes: &["two springs", "two springs and first-order loss", "wave"],
-        count: 60,
-        leaves: [
-            ("auto leaves two springs", Rung::QuasiStatic),
-            ("auto leaves the first-order loss", Rung::Radiation),
-        ],
-        boundary: &|coupling, tolerance, rung| {
-            memory_of_change(1e-12, rung, |memory| {
-                disc_chosen(&disc_at(&paper, coupling, memory), tolerance)
-            })
-        },
     };
     let at = |coupling, memory| disc_errors(&disc_at(&paper, coupling, memory));
-    let errors = map.errors(at, &|| ())?;
+    let errors = computed(&map, at, &|| ())?;
     let what = "Cheapest model of the paper's fixed disc";
     let names = ["models-disc-1e-2", "models-disc-1e-3", "models-disc-1e-4"];
     let figures = names.into_iter().zip(TOLERANCES).map(|(name, tolerance)| {
-        let mut figure = map.picture(name, what, tolerance, &errors);
+        let leaves = [
+            ("auto leaves two springs", Rung::QuasiStatic),
+            ("auto leaves the first-order loss", Rung::Radiation),
+        ]
+        .map(|(label, rung)| {
+            let chosen = |coupling, memory| {
+                disc_chosen(&disc_at(&paper, coupling, memory), tolerance)
+            };
+            let memory = |coupling| memory_of_change(1e-12, rung, |m| chosen(coupling, m));
+            (label, map.line(60, memory))
+        });
+        let mut figure = picture(&map, [name, what], tolerance, &errors, leaves);
         // half of the first-order loss is the error of the restitution of two springs
         let loss = 2.0 * tolerance;
-        let theory = map.line(|coupling| {
+        let theory = map.line(60, |coupling| {
             let lag = loss / quasi_static(coupling).1;
             let wave_time = lag / (coupling * response.relaxation_time());
             wave_time * response.memory() / CONTACT_TIME

@@ -30,8 +30,7 @@ pub(crate) const BALL: &str = "steel ball on steel at 1 m/s, growing contact";
 /// Measures every method in both scenes.
 pub(crate) fn measure(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Record>, AnyError> {
     let mut records = Vec::new();
-    type Methods<'a> = &'a dyn Fn(Scene<'_, Results>) -> Result<(), AnyError>;
-    let mut measure = |name, exact: Results, methods: Methods<'_>| {
+    let mut measure = |name, exact, methods: &dyn Fn(Scene<'_, _>) -> Result<(), AnyError>| {
         let scene = Scene {
             effort,
             question: Question::Force,
