@@ -176,9 +176,8 @@ fn stopped_it_says_what_is_kept_and_two_at_once_are_one() {
         .spawn()
         .unwrap();
     while std::fs::metadata(here.join("long.h5.part")).map_or(0, |data| data.len()) < 100_000 {
-        if child.try_wait().unwrap().is_some() {
-            panic!("{:?}", child.wait_with_output().unwrap());
-        }
+        let ended = child.try_wait().unwrap();
+        assert!(ended.is_none(), "{:?}", child.wait_with_output().unwrap());
         std::thread::sleep(Duration::from_millis(5));
     }
     let second = run(here, &[&long[..], &["--force"]].concat());
