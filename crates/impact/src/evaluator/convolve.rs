@@ -109,12 +109,8 @@ impl Convolver {
     }
 
     fn direct_sum(&self, averages: &[Six]) -> [Vec<f64>; 6] {
-        // before the first wave there is nothing
-        let still = averages.iter().take_while(|cell| **cell == [0.0; 6]);
-        let still = still.count();
         let of = |&n: &usize| {
-            let until = self.live.min((n + 1).saturating_sub(still));
-            let rises = self.rise[..until].iter().copied();
+            let rises = self.rise[..self.live.min(n + 1)].iter().copied();
             weighted_sum(rises.zip(averages[..=n].iter().rev()))
         };
         let sums: Vec<Six> = self.wanted.iter().map(of).collect();

@@ -80,26 +80,16 @@ impl Projection {
             let mut sum = Six::default();
             let newest = n as isize;
             for (own, list) in self.unabsorbed.iter().enumerate() {
-                let until = match own {
-                    2 => list.partition_point(|missing| missing.cell <= newest - 2),
-                    _ => list.partition_point(|missing| missing.cell <= newest - own as isize),
-                };
-                let from = match own {
-                    2 => 0,
-                    _ => list.partition_point(|missing| missing.cell < newest - own as isize),
-                };
+                let last = newest - own as isize;
+                let first = if own == 2 { isize::MIN } else { last };
                 // as far as there are cells
+                let first = first.max(newest + 1 - cells.first.len() as isize);
+                let from = list.partition_point(|missing| missing.cell < first);
+                let until = list.partition_point(|missing| missing.cell <= last);
+                let list = &list[from..until.max(from)];
                 let of = |missing: &Unabsorbed| (newest - missing.cell) as usize;
-                let until = until.max(from);
-                let list = &list[from..until];
-                let list =
-                    &list[list.partition_point(|missing| of(missing) >= cells.first.len())..];
-                let slopes = list
-                    .iter()
-                    .map(|missing| (missing.slope, &cells.first[of(missing)]));
-                let bends = list
-                    .iter()
-                    .map(|missing| (missing.bend, &cells.second[of(missing)]));
+                let slopes = list.iter().map(|one| (one.slope, &cells.first[of(one)]));
+                let bends = list.iter().map(|one| (one.bend, &cells.second[of(one)]));
                 for part in [weighted_sum(slopes), weighted_sum(bends)] {
                     sum = std::array::from_fn(|f| sum[f] + part[f]);
                 }
