@@ -36,11 +36,14 @@ pub(crate) struct Chord<T> {
     pub(crate) k: [T; 2],
 }
 
-/// Terms of the series that reach rounding for delta up to `size`.
+/// Digits that reach rounding.
+pub(crate) const ALL: f64 = 37.0;
+
+/// Terms of the series that leave exp(-`digits`) for delta up to `size`.
 #[inline(always)]
-pub(crate) fn terms(size: f64, r: f64) -> usize {
+pub(crate) fn terms(size: f64, r: f64, digits: f64) -> usize {
     let ratio = size / (2.0 * r);
-    ((-37.0 / ratio.ln()) as usize + 1).clamp(4, MOST_TERMS)
+    ((-digits.min(ALL) / ratio.ln()) as usize + 1).clamp(4, MOST_TERMS)
 }
 
 /// The integrals from delta and its square root at both ends, sigma = -1 and 1.
@@ -97,7 +100,7 @@ pub(crate) fn chord<D: Scalar, T: Scalar + Mul<D, Output = T>>(
 pub(crate) fn compact(delta: [f64; 2], r: f64) -> Potentials<f64> {
     let root = delta.map(|delta| delta.max(0.0).sqrt());
     let size = delta[0].abs().max(delta[1].abs());
-    compact_of(chord(delta, root, terms(size, r), r), r)
+    compact_of(chord(delta, root, terms(size, r, ALL), r), r)
 }
 
 /// The compact parts from real chord integrals.
@@ -122,7 +125,7 @@ pub(crate) fn potentials(delta: [Complex64; 2], r: f64) -> Potentials<Complex64>
         }
     });
     let size = delta[0].norm().max(delta[1].norm());
-    let Chord { i, k } = chord(delta, root, terms(size, r), r);
+    let Chord { i, k } = chord(delta, root, terms(size, r, ALL), r);
     let ring = C / (r * r);
     let times_minus_i = |v: Complex64| Complex64::new(v.im, -v.re);
     Potentials {

@@ -21,7 +21,7 @@ use num_complex::Complex64;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Most terms of the series.
-pub(crate) const MOST_TERMS: usize = 8;
+const MOST_TERMS: usize = 8;
 
 /// Distance from which on the series is taken: farther out the closed forms lose digits, those of the time integral sooner.
 #[inline(always)]
@@ -54,6 +54,13 @@ pub(crate) fn terms_at(distance: f64) -> usize {
     let terms = [(60.0, 4), (25.0, 5), (14.0, 6), (9.5, 7)];
     let found = terms.into_iter().find(|(least, _)| distance >= *least);
     found.map_or(MOST_TERMS, |(_, n)| n)
+}
+
+/// Those that leave exp(-`digits`) at the nearest distance at which the series is taken.
+#[inline(always)]
+pub(crate) fn terms_to(digits: f64, nearest: f64) -> usize {
+    let terms = digits / (2.0 * nearest.ln());
+    (terms.ceil() as usize).clamp(2, MOST_TERMS)
 }
 
 /// Even moments M_2j of the chord function.

@@ -73,13 +73,12 @@ fn is_converged(segment: &Segment, allowed: &Six) -> bool {
 
 /// The intervals between fronts and after the last, in the order of time.
 ///
-/// Beside fronts that are long apart R varies as fast as the disc is passed: such an interval is two, each with a square of
-/// its variable.
+/// Beside fronts that are long apart R varies as fast as the disc is passed: such an interval is two, each beside its front.
 fn pieces(arrivals: &[f64], first: f64, end: f64) -> Vec<Piece> {
     /// Radii from one front to the next, or of time before the last, that are not long.
     const SHORT: f64 = 6.0;
-    /// Radii after the last front that need more than one polynomial where it is far.
-    const LONG: f64 = 20.0;
+    /// Logarithm of twice the radii after the last front that one polynomial serves where it is far.
+    const LONG: f64 = 3.5;
     /// Time over which R falls after the last front, over the time of that front.
     const DECAY: f64 = 0.5;
     /// Fronts this close to each other are one.
@@ -100,25 +99,18 @@ fn pieces(arrivals: &[f64], first: f64, end: f64) -> Vec<Piece> {
                 pieces.push(Piece::new(course, end));
             }
             None => {
-                let mut rest = Piece::new(Course::After([from, end - from, 0.0]), end);
-                let mut late = vec![];
-                while rest.times()[1] - from > LONG {
-                    let [before, after] = rest.halves();
-                    late.push(after);
-                    rest = before;
-                }
-                pieces.push(rest);
-                pieces.extend(late.into_iter().rev());
+                let rest = Piece::new(Course::beside(from, end), end);
+                let parts = ((2.0 * (end - from)).ln() / LONG).ceil();
+                pieces.extend(rest.parts(parts.max(1.0) as u32));
             }
             Some(&to) if to - from < SHORT => {
                 pieces.push(Piece::new(Course::Between([from, to]), end));
             }
             Some(&to) => {
-                let half = 0.5 * (to - from);
-                let after = Course::After([from, half, 0.0]);
-                pieces.push(Piece::new(after, end.min(from + half)));
-                if end > from + half {
-                    pieces.push(Piece::new(Course::Before([to, half]), end.min(to)));
+                let middle = 0.5 * (from + to);
+                pieces.push(Piece::new(Course::beside(from, middle), end.min(middle)));
+                if end > middle {
+                    pieces.push(Piece::new(Course::beside(to, middle), end.min(to)));
                 }
             }
         }

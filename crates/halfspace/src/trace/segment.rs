@@ -3,10 +3,12 @@
 //! ```text
 //! t = a + (b - a) sin^2(pi s/2)             between fronts a and b
 //! t = a + scale s^2/(1 - bend s^2)          after the last front a
-//! t = b - scale (1 - s)^2                   before a front b, where the last is far
+//! t = a + (w - 1)^2/(2 w), w = e^(Y s)      after a front a whose next is far; before one likewise
 //! ```
 //!
 //! All turn the roots at the fronts into smooth functions, the second also 1/t, in which R is smooth in the end.
+//! The third is t - a + 1 = cosh(Y s): what is as far beyond the front as the disc is wide, where its other edge's waves have
+//! a root too, is as far from the s in question however long the interval.
 //!
 //! The nodes are a Leja sequence, taken in pairs: each set holds the one before, so that a segment has as many as it needs,
 //! and none lies on a front.
@@ -17,9 +19,9 @@ use crate::numeric::gauss;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::LazyLock;
 
-/// Nodes of a segment at most, fewer where time is a square, and at first.
+/// Nodes of a segment at most, fewer beside a front, and at first.
 const MOST: usize = 39;
-const MOST_OF_SQUARE: usize = 15;
+const MOST_BESIDE: usize = 15;
 const FEWEST: usize = 3;
 
 /// What is left of a series over its last terms: beside a front they fall as a power, and many of the same size follow.
@@ -36,15 +38,26 @@ pub(crate) enum Course {
     Between([f64; 2]),
     /// After a front: its time, the scale, and how much of 1 is bent.
     After([f64; 3]),
-    /// Before a front: its time and the scale.
-    Before([f64; 2]),
+    /// Beside a front, on the side of the sign: its time, Y and the sign.
+    Beside([f64; 3]),
 }
 
 impl Course {
-    /// Whether time is a square of s, or of 1 - s.
-    fn is_square(&self) -> bool {
-        matches!(self, Self::Before(_) | Self::After([_, _, 0.0]))
+    /// From a front to a time on either side.
+    pub(crate) fn beside(front: f64, other: f64) -> Self {
+        let distance = other - front;
+        Self::Beside([front, turn(distance.abs()), distance.signum()])
     }
+
+    /// s at a distance over Y, or that of an s: on either side of the front it ascends with time.
+    fn directed(sign: f64, s: f64) -> f64 {
+        if sign > 0.0 { s } else { 1.0 - s }
+    }
+}
+
+/// y at which cosh y - 1 is a distance.
+fn turn(distance: f64) -> f64 {
+    (distance + (distance * (distance + 2.0)).sqrt()).ln_1p()
 }
 
 /// An interval of time as one of s.
@@ -82,9 +95,12 @@ impl Piece {
                 let time = (from - origin) + scale * s * s * unbent;
                 (time, 2.0 * scale * s * unbent * unbent)
             }
-            Course::Before([to, scale]) => {
-                let left = 1.0 - s;
-                ((to - origin) - scale * left * left, 2.0 * scale * left)
+            Course::Beside([front, most, sign]) => {
+                // w - 1, and 1/2 of 1/w
+                let more = (most * Course::directed(sign, s)).exp_m1();
+                let half = 0.5 / (1.0 + more);
+                let time = (front - origin) + sign * more * more * half;
+                (time, most * more * (more + 2.0) * half)
             }
         }
     }
@@ -100,7 +116,9 @@ impl Piece {
                 let x = (t - from) / scale;
                 (x / (1.0 + bend * x)).max(0.0).sqrt()
             }
-            Course::Before([to, scale]) => 1.0 - ((to - t) / scale).max(0.0).sqrt(),
+            Course::Beside([front, most, sign]) => {
+                Course::directed(sign, turn((sign * (t - front)).max(0.0)) / most)
+            }
         };
         s.clamp(self.s[0], self.s[1])
     }
@@ -109,6 +127,18 @@ impl Piece {
     fn middle(&self) -> (f64, f64) {
         let [low, high] = self.s;
         (0.5 * (low + high), 0.5 * (high - low))
+    }
+
+    /// Parts equal in s.
+    pub(crate) fn parts(self, count: u32) -> impl Iterator<Item = Self> {
+        let at = move |i: u32| {
+            let part = f64::from(i) / f64::from(count);
+            self.s[0] + (self.s[1] - self.s[0]) * part
+        };
+        (0..count).map(move |i| Self {
+            s: [at(i), at(i + 1)],
+            ..self
+        })
     }
 
     /// Its halves in s.
@@ -219,8 +249,8 @@ impl Segment {
         &mut self,
         mut remainder: impl FnMut(f64) -> Result<Estimate, DomainError>,
     ) -> Result<bool, DomainError> {
-        let most = if self.piece.course.is_square() {
-            MOST_OF_SQUARE
+        let most = if let Course::Beside(_) = self.piece.course {
+            MOST_BESIDE
         } else {
             MOST
         };
@@ -295,8 +325,8 @@ impl Segment {
         let terms = self.series.len();
         let nodes = if part < SHORT {
             4
-        } else if self.piece.course.is_square() {
-            terms / 2 + SQUARE
+        } else if let Course::Beside([_, most, _]) = self.piece.course {
+            terms / 2 + SQUARE + (most * (high - low)).ceil() as usize
         } else {
             // toward an end of the segment the terms vary over its root
             let whole = 0.5 * terms as f64 + WAVE;

@@ -1,6 +1,6 @@
 //! The potentials, each number by the forms that hold for them.
 
-use super::far::{at_far_front, by_series, far_delta, far_terms, series_on_imaginary_axis};
+use super::far::{Terms, at_far_front, by_series, far_delta, series_on_imaginary_axis};
 use super::near::{
     by_parts, by_primitives, compact_on_axis, compact_punch, held_primitives, inside,
     primitives_on_imaginary_axis, punch,
@@ -70,13 +70,13 @@ impl<S: Simd> Reach<S> {
 pub(super) fn potentials<S: Simd>(
     profile: Profile,
     xi: Pair<S>,
-    r: f64,
+    (r, terms): (f64, Terms),
     on_axis: bool,
 ) -> Potentials<Pair<S>> {
     let reach = Reach::new(xi, r);
     let near = match profile {
         _ if !reach.some_near => Potentials::all(xi.constant(0.0)),
-        Profile::Hertz if r > FAR => at_far_front(xi, r, on_axis),
+        Profile::Hertz if r > FAR => at_far_front(xi, (r, terms), on_axis),
         Profile::Hertz if r <= SMALL_RADIUS => by_parts(xi, r),
         Profile::Hertz if on_axis => primitives_on_imaginary_axis(xi.im, r),
         Profile::Hertz => by_primitives(xi, r),
@@ -86,16 +86,20 @@ pub(super) fn potentials<S: Simd>(
         return near;
     }
     let far = if on_axis {
-        series_on_imaginary_axis(profile, xi.im, r)
+        series_on_imaginary_axis(profile, xi.im, (r, terms))
     } else {
-        by_series(profile, xi, r)
+        by_series(profile, xi, (r, terms))
     };
     reach.pick(near, far, r)
 }
 
 /// The compact parts.
 #[inline(always)]
-pub(super) fn compact<S: Simd>(profile: Profile, eta: Lanes<S>, r: f64) -> Potentials<Lanes<S>> {
+pub(super) fn compact<S: Simd>(
+    profile: Profile,
+    eta: Lanes<S>,
+    (r, terms): (f64, Terms),
+) -> Potentials<Lanes<S>> {
     if profile != Profile::Hertz {
         return compact_punch(eta, r);
     }
@@ -113,7 +117,7 @@ pub(super) fn compact<S: Simd>(profile: Profile, eta: Lanes<S>, r: f64) -> Poten
     if reach.some_near {
         let delta = far_delta(eta, r);
         let root = [delta[0].max(zero).sqrt(), delta[1].max(zero).sqrt()];
-        let near = far_front::compact_of(far_front::chord(delta, root, far_terms(r), r), r);
+        let near = far_front::compact_of(far_front::chord(delta, root, terms.front, r), r);
         psi = Potentials {
             a_upper: pair(near.a_upper, zero),
             a_lower: pair(zero, near.a_lower),
@@ -124,7 +128,7 @@ pub(super) fn compact<S: Simd>(profile: Profile, eta: Lanes<S>, r: f64) -> Poten
     if reach.some_far {
         psi = reach.pick(
             psi,
-            series_on_imaginary_axis(Profile::Hertz, distance, r),
+            series_on_imaginary_axis(Profile::Hertz, distance, (r, terms)),
             r,
         );
     }

@@ -15,9 +15,11 @@ use crate::numeric::lanes::{Lanes, Pair, WIDTH, dispatch};
 use crate::numeric::scalar::{Real, Scalar};
 use crate::point::{Point, Sense};
 use crate::potentials::Potentials;
+use crate::potentials::far_front;
 use crate::potentials::order::{Order, TimeOrder};
 use crate::profile::Profile;
 use choice::compact;
+use far::Terms;
 use num_complex::Complex64;
 use pulp::{Simd, WithSimd};
 
@@ -72,7 +74,8 @@ impl WithSimd for Two {
     fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
         let parts = self.xi.map(|xi| [xi.re, xi.im]);
         let [re, im] = [0, 1].map(|i| Lanes::two(simd, parts.map(|xi| xi[i])));
-        let psi = choice::potentials(self.profile, Pair { re, im }, self.r, false);
+        let terms = Terms::new(far_front::ALL, self.r);
+        let psi = choice::potentials(self.profile, Pair { re, im }, (self.r, terms), false);
         let [first, second] = [0, 1].map(|i| psi.map(|v| Complex64::new(v.re.get(i), v.im.get(i))));
         [first, second]
     }
@@ -93,6 +96,7 @@ impl<'a> WithSimd for Panel<'a> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
         let nodes = self.nodes;
+        let terms = Terms::new(self.setting.digits(self.at, false), self.at.r);
         let (mut values, mut squares) = ([[0.0; WIDTH]; 6], [[0.0; WIDTH]; 6]);
         let registers =
             |list: &'a [f64]| Lanes::registers(simd, &list[nodes.in_registers(S::F64_LANES)]);
@@ -100,8 +104,8 @@ impl<'a> WithSimd for Panel<'a> {
         let all = registers(&nodes.places).zip(registers(&nodes.weights));
         for (i, ((place, weight), error)) in all.zip(displacement.zip(stress)).enumerate() {
             let (jacobian, term) = match self.sense {
-                Some(sense) => fast(self.setting, self.at, (self.wave, sense), place),
-                None => slow(self.setting, self.at, self.wave, place),
+                Some(sense) => fast(self.setting, (self.at, terms), (self.wave, sense), place),
+                None => slow(self.setting, (self.at, terms), self.wave, place),
             };
             let weight = weight * jacobian;
             // of the block
@@ -123,13 +127,13 @@ impl<'a> WithSimd for Panel<'a> {
 #[inline(always)]
 fn fast<S: Simd>(
     setting: &Setting,
-    at: Point,
+    (at, terms): (Point, Terms),
     (wave, sense): (Wave, Sense),
     u: Lanes<S>,
 ) -> (Lanes<S>, [Lanes<S>; 6]) {
     let (x, p, jacobian) = half_angle(u);
     let eta = setting.eta(at, wave, sense, x, p);
-    let psi = compact(setting.profile, eta, at.r);
+    let psi = compact(setting.profile, eta, (at.r, terms));
     let amplitudes = spectrum::fast(wave, setting.k, x, p);
     (jacobian, amplitudes.fields(&psi, at.r))
 }
@@ -138,7 +142,7 @@ fn fast<S: Simd>(
 #[inline(always)]
 fn slow<S: Simd>(
     setting: &Setting,
-    at: Point,
+    (at, terms): (Point, Terms),
     wave: Wave,
     s: Lanes<S>,
 ) -> (Lanes<S>, [Lanes<S>; 6]) {
@@ -158,7 +162,7 @@ fn slow<S: Simd>(
                 re: p_abs * over_x * at.z,
                 im: over_x * -at.t,
             };
-            let psi = choice::potentials(profile, xi, at.r, at.z == 0.0);
+            let psi = choice::potentials(profile, xi, (at.r, terms), at.z == 0.0);
             let factor = im * 2.0;
             Potentials {
                 a_upper: factor * psi.a_upper.re,
@@ -177,8 +181,8 @@ fn slow<S: Simd>(
                 re: re_xi,
                 im: (y * at.z + at.t) * over_x,
             };
-            let minus = choice::potentials(profile, minus, at.r, true);
-            let plus = choice::potentials(profile, plus, at.r, true);
+            let minus = choice::potentials(profile, minus, (at.r, terms), true);
+            let plus = choice::potentials(profile, plus, (at.r, terms), true);
             // the upper ones of A and the lower ones of B over i R, the others over R
             let inverse = Pair { re, im };
             Potentials {
