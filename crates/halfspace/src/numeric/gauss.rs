@@ -9,7 +9,7 @@
 use std::sync::OnceLock;
 
 /// Largest number of nodes of a rule that is kept.
-pub const MAX_NODES: usize = 40;
+pub const MAX_NODES: usize = 80;
 
 /// Nodes and weights of one Gauss-Legendre rule on [-1, 1], nodes ascending.
 #[derive(Debug, Clone)]

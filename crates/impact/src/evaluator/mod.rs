@@ -207,6 +207,7 @@ impl<'a> Evaluator<'a> {
         let serving = self.serving(place_m);
         let mut best = self.under(place_m, serving[0], None)?;
         let open = |sums: &[Sum<'_>]| sums.iter().map(|sum| sum.open.len()).sum::<usize>();
+        let worst = |sums: &[Sum<'_>]| sums.iter().map(Sum::worst).fold(0.0, f64::max);
         let is_near = self.distance(place_m) < APART;
         for pair in serving.windows(2) {
             // to integrate a sample costs less than a disc
@@ -217,7 +218,8 @@ impl<'a> Evaluator<'a> {
                 break;
             }
             let next = self.under(place_m, pair[1], Some((pair[0], &best.1)))?;
-            if open(&next.0) >= open(&best.0) {
+            // steps that do not follow the forces on many discs leave more
+            if open(&next.0) >= open(&best.0) || worst(&next.0) > worst(&best.0) {
                 break;
             }
             best = next;

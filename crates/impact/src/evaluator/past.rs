@@ -269,6 +269,10 @@ impl<'a> Past<'a> {
         const NODES_A_DIGIT: f64 = 2.0;
         /// Nodes at least where fields nearly cancel.
         const LEAST_FAR: usize = 12;
+        /// Just below the surface the wave of Rayleigh has a peak for a front, as long as the depth: nodes over those of an
+        /// interval that is no longer, at most.
+        const SHARP: f64 = 3.0;
+        let depth_s = place_m[1] / self.excitation.units().longitudinal_speed_m_s;
         let far = self.is_far(place_m);
         let over = |t: f64| self.overs(t)[0];
         for pair in self.cuts(place_m, time_s, span_s).windows(2) {
@@ -278,7 +282,13 @@ impl<'a> Past<'a> {
             let nodes = if far {
                 self.nodes.max(LEAST_FAR)
             } else {
-                (self.nodes as f64 + NODES_A_DIGIT * digits).max(least as f64) as usize
+                let sharp = if depth_s > 0.0 {
+                    (half / depth_s).sqrt().clamp(1.0, SHARP)
+                } else {
+                    1.0
+                };
+                let nodes = (self.nodes as f64 + NODES_A_DIGIT * digits).max(least as f64);
+                (sharp * nodes).min(gauss::MAX_NODES as f64) as usize
             };
             for (angle, weight) in gauss::rule(nodes).on(0.0, PI) {
                 let past_s = middle - half * angle.cos();

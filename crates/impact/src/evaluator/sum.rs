@@ -38,7 +38,7 @@ const NEAR: f64 = 2.0;
 
 /// Part of the tolerance up to which what is left of a sample is let be; a tenth of it for each difference.
 const SURE: f64 = 0.5;
-/// Of more than a few discs the highest power says little of those below it: less is let be.
+/// Of more than a few discs the highest power says little of those below it: less is let be, and what is left counts for more.
 const FEW: usize = 5;
 const OF_MANY: f64 = 0.2;
 
@@ -46,8 +46,9 @@ const OF_MANY: f64 = 0.2;
 const BESIDE: f64 = 0.5;
 
 /// Samples of a point for which a whole contact is integrated at most, of fields and of rates: those that the discs leave
-/// open in its middle.
+/// open in its middle. Of fields to more than four digits so many times more for each.
 const MOST_WHOLE: [usize; 2] = [24, 192];
+const MORE_WHOLE: f64 = 3.0;
 
 /// Times that a longitudinal wave takes over the radius, from which on the middle of a contact is smooth: fields away from
 /// it are integrated where the fronts of its ends pass and nowhere else. Between them the discs have more digits than the
@@ -202,17 +203,35 @@ impl<'a> Sum<'a> {
         }
     }
 
-    /// What may be left of a sample of each field.
-    fn allowed(&self) -> Vec<f64> {
-        let many = if self.discs.radii.len() > FEW {
+    /// Part of what may be left that the discs tell.
+    fn sure(&self) -> f64 {
+        if self.discs.radii.len() > FEW {
             OF_MANY
         } else {
             1.0
-        };
+        }
+    }
+
+    /// What may be left of a sample of each field.
+    fn allowed(&self) -> Vec<f64> {
         let differences = 0.1_f64.powi(self.forcing.differences as i32);
-        let part = many * SURE * self.forcing.tolerance * differences;
-        let fields = self.values.iter().take(self.components());
-        fields.map(|samples| part * peak(samples)).collect()
+        let part = self.sure() * SURE * self.forcing.tolerance * differences;
+        /// Fields that are smaller beside their kind are not resolved on their own: just below the surface tractions vanish.
+        const SMALL: f64 = 1e-4;
+        let peaks = self.values.each_ref().map(|samples| peak(samples));
+        let kinds = [&peaks[..2], &peaks[2..]].map(|kind| kind.iter().copied().fold(0.0, f64::max));
+        let least = |f: usize| SMALL * kinds[usize::from(f >= 2)];
+        (0..self.components())
+            .map(|f| part * peaks[f].max(least(f)))
+            .collect()
+    }
+
+    /// The most that is left of a sample over what is allowed, but for as many as may be integrated as a whole.
+    pub(crate) fn worst(&self) -> f64 {
+        let allowed = self.allowed();
+        let skipped = most_whole(self.derivative, self.forcing.tolerance);
+        let next = self.open.get(skipped);
+        next.map_or(0.0, |&i| over(&allowed, |f| self.left[f][i]))
     }
 
     /// The samples that are left with more than is allowed, the worst first; what is left of those beside counts with a
@@ -261,15 +280,16 @@ impl<'a> Sum<'a> {
             let mut whole = if past.is_far(self.place_m) {
                 0
             } else {
-                MOST_WHOLE[usize::from(self.derivative != Derivative::Field)]
+                most_whole(self.derivative, self.forcing.tolerance)
             };
             for i in std::mem::take(&mut self.open) {
                 self.integrate_past(i, past, cells, (&allowed, &mut whole))?;
             }
         }
+        let sure = self.sure();
         for (left, rough) in self.left.iter_mut().zip(&self.rough) {
             for (left, rough) in left.iter_mut().zip(rough) {
-                *left = left.abs() + rough;
+                *left = left.abs() / sure + rough;
             }
         }
         for (error, left) in self.errors.iter_mut().zip(&self.left) {
@@ -434,6 +454,16 @@ impl<'a> Sum<'a> {
             _ => (samples[i + 2] - 2.0 * samples[i + 1] + samples[i]) / (step_s * step_s),
         };
         self.forcing.outputs.iter().map(of).collect()
+    }
+}
+
+/// Samples of a point for which a whole contact is integrated at most.
+fn most_whole(derivative: Derivative, tolerance: f64) -> usize {
+    let [fields, rates] = MOST_WHOLE;
+    let digits = (-tolerance.log10() - 4.0).max(0.0);
+    match derivative {
+        Derivative::Field => (fields as f64 * MORE_WHOLE.powf(digits)) as usize,
+        Derivative::First | Derivative::Second => rates,
     }
 }
 
