@@ -6,7 +6,9 @@
 use crate::error::ImpactError;
 use crate::evaluator::convolve::{direct_ns, transform_ns};
 use crate::evaluator::discs::Discs;
+use crate::evaluator::sum::most_whole;
 use crate::excitation::{Excitation, PressureRadius};
+use crate::fields::quantity::Derivative;
 use crate::grid::Grid;
 use crate::kernels::KernelSource;
 use crate::scene::{Scene, Section};
@@ -33,6 +35,11 @@ const LOOKED_UP_S: f64 = 4.5e-7;
 const OPEN: f64 = 0.8;
 const KERNELS_OF_OPEN: f64 = 100.0;
 
+/// Radii from the axis and below the surface within which whole contacts are integrated, and kernels of each over the square
+/// of the digits.
+const BESIDE: [f64; 2] = [3.0, 1.4];
+const KERNELS_OF_WHOLE: f64 = 20.0;
+
 /// What the rates of a contact that follows its load take beside its fields.
 const FOLLOWING_RATES: f64 = 2.0;
 
@@ -40,6 +47,8 @@ const FOLLOWING_RATES: f64 = 2.0;
 pub(crate) struct Cost<'a> {
     excitation: &'a Excitation,
     points: [f64; 2],
+    /// Those of them that are beside the contact.
+    beside: f64,
     /// Samples at a probe and at a point of the section.
     wanted: [f64; 2],
     cells: f64,
@@ -55,14 +64,31 @@ impl<'a> Cost<'a> {
             Some(_) | None => samples,
         };
         let probes = scene.probes.len();
+        let radius_m = excitation.units().disc_radius_m;
+        let [far_m, deep_m] = BESIDE.map(|radii| radii * radius_m);
+        let beside = |r_m: f64, z_m: f64| (far_m / r_m).min(1.0) * (deep_m / z_m).min(1.0);
+        let probes_beside = (scene.probes.iter())
+            .filter(|probe| probe.r_m < far_m && probe.z_m < deep_m)
+            .count();
+        let section_beside = scene.section.map_or(0.0, |s| {
+            (s.points[0] * s.points[1]) as f64 * beside(s.r_max_m, s.z_max_m)
+        });
         Self {
             excitation,
             points: [probes, scene.points() - probes].map(|n| n as f64),
+            beside: probes_beside as f64 + section_beside,
             wanted: [samples, frames.min(samples)],
             cells: samples,
             tolerance: scene.settings.tolerance,
             rates: scene.rates() as f64,
         }
+    }
+
+    /// Threads that have something to do.
+    pub(crate) fn busy(&self, threads: usize) -> f64 {
+        (threads as f64)
+            .min(self.points[0] + self.points[1])
+            .max(1.0)
     }
 
     /// Seconds of one thread with kernels that are computed.
@@ -86,7 +112,14 @@ impl<'a> Cost<'a> {
             let rates = if following { FOLLOWING_RATES } else { 1.0 };
             discs * trace_s + each * (1.0 + rates * self.rates)
         });
-        OUTPUT_S + points_s
+        let beside_s = if following {
+            let whole = most_whole(Derivative::Field, self.tolerance) as f64;
+            let kernels = KERNELS_OF_WHOLE * digits.powi(2);
+            self.beside * whole * kernels * SMALL_DISC * KERNEL_S
+        } else {
+            0.0
+        };
+        OUTPUT_S + points_s + beside_s
     }
 
     /// The same with kernels that are looked up in a table that is in memory.
@@ -210,7 +243,7 @@ impl Forecast {
             }
         };
         Ok(Self {
-            seconds: loaded_s + fields_s / threads as f64 + products * PRODUCT_S,
+            seconds: loaded_s + fields_s / cost.busy(threads) + products * PRODUCT_S,
             ..Self::of(scene, samples, threads)
         })
     }

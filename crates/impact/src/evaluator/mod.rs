@@ -22,7 +22,7 @@ mod past;
 pub(crate) mod projection;
 #[cfg(test)]
 mod rate_tests;
-mod sum;
+pub(crate) mod sum;
 #[cfg(test)]
 mod tests;
 mod transform;

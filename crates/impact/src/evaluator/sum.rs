@@ -458,7 +458,7 @@ impl<'a> Sum<'a> {
 }
 
 /// Samples of a point for which a whole contact is integrated at most.
-fn most_whole(derivative: Derivative, tolerance: f64) -> usize {
+pub(crate) fn most_whole(derivative: Derivative, tolerance: f64) -> usize {
     let [fields, rates] = MOST_WHOLE;
     let digits = (-tolerance.log10() - 4.0).max(0.0);
     match derivative {

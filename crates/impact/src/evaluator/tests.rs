@@ -297,6 +297,47 @@ fn tractions_below_the_surface_are_within_their_estimate_in_the_middle_of_a_long
     }
 }
 
+/// Just below the surface the Rayleigh waves of the smallest contacts are peaks as long as the depth, and a depth of a
+/// rounding error is none.
+#[test]
+fn fields_just_below_the_surface_beside_a_contact_are_within_their_estimate() {
+    let excitation = contact(0.22, 80.0);
+    let exact = Past::new(&excitation, 1e-8).unwrap();
+    for tolerance in [1e-4, 1e-5] {
+        let source = KernelSource::direct(excitation.medium(), 0.1 * tolerance).unwrap();
+        let wanted = Wanted {
+            tolerance,
+            step_s: None,
+            duration_s: None,
+            frames: None,
+            farthest_m: Some(1.2),
+        };
+        let grid = Grid::new(&wanted, &excitation, Some(&source)).unwrap();
+        let times: Vec<f64> = grid.times_s().collect();
+        let all: Vec<usize> = (0..times.len()).collect();
+        for place in [[1.12, 0.044], [1.4, 0.01], [1.3, 1e-16]] {
+            let point = at((&excitation, &source), &grid, &all, tolerance, place);
+            // the first and last instants and some between
+            let parts = [
+                0.01, 0.02, 0.035, 0.05, 0.08, 0.3, 0.42, 0.7, 0.9, 0.93, 0.99,
+            ];
+            // at the surface the reference's tractions are rounding errors
+            let known = if place[1] < 1e-9 { 4 } else { 6 };
+            for n in parts.map(|part| (part * times.len() as f64) as usize) {
+                let exact = exact.at(place, times[n]).unwrap();
+                for (f, exact) in exact.into_iter().enumerate().take(known) {
+                    let (error, estimate) = ((point.values[f][n] - exact).abs(), point.errors[f]);
+                    assert!(
+                        error < estimate,
+                        "{place:?}, sample {n} of {}, field {f}: {error:e}, {estimate:e}",
+                        times.len()
+                    );
+                }
+            }
+        }
+    }
+}
+
 #[test]
 fn what_arrives_from_the_turning_point_of_a_contact_that_yields_is_within_its_estimate() {
     let named = |name: &str| Material::named(name).unwrap();

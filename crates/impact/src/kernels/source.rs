@@ -201,8 +201,8 @@ pub(crate) fn choose_source(
         KernelChoice::Auto(tables) => {
             let cells = Wanted::of(scene).cells(excitation);
             let count = scene.points();
-            let threads = rayon::current_num_threads() as f64;
-            let cost_s = Cost::new(scene, excitation, cells).computed_s() / threads;
+            let cost = Cost::new(scene, excitation, cells);
+            let cost_s = cost.computed_s() / cost.busy(rayon::current_num_threads());
             let cost =
                 format!("{count} points of {cells:.0} cells take about {cost_s:.1e} s to compute");
             if cost_s <= CHEAP_S {
