@@ -41,9 +41,12 @@ const SURE: f64 = 0.5;
 /// Of more than a few discs the highest power says little of those below it: less is let be, and what is left counts for more.
 const FEW: usize = 5;
 const OF_MANY: f64 = 0.2;
+const UNDER: f64 = 0.1;
 
-/// What is left has a sign: a sample beside one that is left with more may have met a zero of it, and counts with a part.
+/// What is left has a sign: a sample beside one that is left with more, or so many away under the contact, may have met a zero
+/// of it, and counts with a part.
 const BESIDE: f64 = 0.5;
+const BESIDE_UNDER: usize = 3;
 
 /// Samples of a point for which a whole contact is integrated at most, of fields and of rates: those that the discs leave
 /// open in its middle. Of fields to more than four digits so many times more for each.
@@ -203,12 +206,17 @@ impl<'a> Sum<'a> {
         }
     }
 
+    /// Whether the contact's edge passes over the point: there powers fall slowly.
+    fn is_under(&self) -> bool {
+        self.place_m[0] < self.forcing.excitation.units().disc_radius_m
+    }
+
     /// Part of what may be left that the discs tell.
     fn sure(&self) -> f64 {
-        if self.discs.radii.len() > FEW {
-            OF_MANY
-        } else {
-            1.0
+        match self.discs.radii.len() {
+            2.. if self.is_under() => UNDER,
+            0..=FEW => 1.0,
+            _ => OF_MANY,
         }
     }
 
@@ -240,11 +248,11 @@ impl<'a> Sum<'a> {
         let allowed = self.allowed();
         let each = |i: usize| over(&allowed, |f| left[f][i]);
         let each: Vec<f64> = (0..self.times_s.len()).map(each).collect();
+        let reach = if self.is_under() { BESIDE_UNDER } else { 1 };
+        let most_s = (reach as f64 + 0.5) * self.forcing.step_s;
         let off = |i: usize| {
-            let next = [i.saturating_sub(1), (i + 1).min(each.len() - 1)];
-            let near =
-                |&j: &usize| (self.times_s[i] - self.times_s[j]).abs() < 1.5 * self.forcing.step_s;
-            let next = next.into_iter().filter(near);
+            let near = |&j: &usize| (self.times_s[i] - self.times_s[j]).abs() < most_s;
+            let next = (i.saturating_sub(reach)..(i + reach + 1).min(each.len())).filter(near);
             (i, next.fold(each[i], |most, j| most.max(beside * each[j])))
         };
         // nothing is left before the first wave
