@@ -18,7 +18,7 @@ use crate::potentials::Potentials;
 use crate::potentials::order::{Order, TimeOrder};
 use crate::profile::Profile;
 use num_complex::Complex64;
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::PI;
 
 /// Most terms of the series.
 const MOST_TERMS: usize = 8;
@@ -58,9 +58,10 @@ pub(crate) fn terms_at(distance: f64) -> usize {
 
 /// Those that leave exp(-`digits`) at the nearest distance at which the series is taken.
 #[inline(always)]
-pub(crate) fn terms_to(digits: f64, nearest: f64) -> usize {
-    let terms = digits / (2.0 * nearest.ln());
-    (terms.ceil() as usize).clamp(2, MOST_TERMS)
+pub(crate) fn terms_to(digits: f64) -> usize {
+    /// 1 over twice the logarithm of the nearest distance.
+    const A_DIGIT: f64 = 0.257;
+    ((A_DIGIT * digits).ceil() as usize).clamp(2, MOST_TERMS)
 }
 
 /// Even moments M_2j of the chord function.
@@ -184,9 +185,6 @@ pub(crate) fn multipole<O: TimeOrder>(
     xi: Complex64,
     r: f64,
 ) -> Potentials<Complex64> {
-    if O::ORDER != Order::Impulse && xi.re == 0.0 && xi.im.abs() > r {
-        return on_imaginary_axis::<O>(profile, terms, xi.im, r);
-    }
     let rho = root_with_circle(xi, r);
     let inverse = reciprocal(rho);
     let square = inverse * inverse;
@@ -203,37 +201,4 @@ pub(crate) fn multipole<O: TimeOrder>(
         }
     }
     psi
-}
-
-/// At zeta = i s with |s| > r all is real up to powers of i: Q_k = (-i)^{k+1} q_k, V_k = (-i)^{k+2} v_k.
-fn on_imaginary_axis<O: TimeOrder>(
-    profile: Profile,
-    terms: usize,
-    s: f64,
-    r: f64,
-) -> Potentials<Complex64> {
-    let far = s.abs();
-    let side = 1.0_f64.copysign(s);
-    let w2 = (far - r) * (far + r);
-    let inverse = 1.0 / w2.sqrt();
-    let square = inverse * inverse;
-    let sum = 1.0 / (w2 * inverse + far);
-    let mass = moment(profile, 0);
-    let psi = sums::<O, f64>(profile, terms, 1.0, s * square, square, side * inverse);
-    let (real, imaginary) = (|v| Complex64::new(v, 0.0), |v| Complex64::new(0.0, v));
-    match O::ORDER {
-        Order::Impulse => unreachable!("the impulse response takes the complex series"),
-        Order::Step => Potentials {
-            a_upper: imaginary(-psi.a_upper),
-            a_lower: real(-psi.a_lower),
-            g_upper: real(-psi.g_upper - mass * inverse * sum),
-            g_lower: imaginary(psi.g_lower),
-        },
-        Order::StepIntegral => Potentials {
-            a_upper: Complex64::new(psi.a_upper + mass * sum.ln(), -mass * side * FRAC_PI_2),
-            a_lower: imaginary(-psi.a_lower),
-            g_upper: imaginary(-psi.g_upper - mass * side * sum),
-            g_lower: real(-psi.g_lower - mass * inverse * sum),
-        },
-    }
 }

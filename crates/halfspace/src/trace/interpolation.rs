@@ -52,9 +52,9 @@ pub(crate) fn segments(
                 break;
             }
             if !segment.refine(&remainder)? {
-                let [early, late] = segment.piece.halves();
-                stack.push(Segment::fit(late, &remainder)?);
-                stack.push(Segment::fit(early, &remainder)?);
+                for half in segment.piece.parts(2).rev() {
+                    stack.push(Segment::fit(half, &remainder)?);
+                }
                 break;
             }
         }

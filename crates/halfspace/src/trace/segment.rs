@@ -130,7 +130,7 @@ impl Piece {
     }
 
     /// Parts equal in s.
-    pub(crate) fn parts(self, count: u32) -> impl Iterator<Item = Self> {
+    pub(crate) fn parts(self, count: u32) -> impl DoubleEndedIterator<Item = Self> {
         let at = move |i: u32| {
             let part = f64::from(i) / f64::from(count);
             self.s[0] + (self.s[1] - self.s[0]) * part
@@ -139,12 +139,6 @@ impl Piece {
             s: [at(i), at(i + 1)],
             ..self
         })
-    }
-
-    /// Its halves in s.
-    pub(crate) fn halves(self) -> [Self; 2] {
-        let ([low, high], (middle, _)) = (self.s, self.middle());
-        [[low, middle], [middle, high]].map(|s| Self { s, ..self })
     }
 
     /// Start and end in time.

@@ -1,6 +1,6 @@
 //! The potentials, each number by the forms that hold for them.
 
-use super::far::{Terms, at_far_front, by_series, far_delta, series_on_imaginary_axis};
+use super::far::{at_far_front, by_series, far_delta, far_terms, series_on_imaginary_axis};
 use super::near::{
     by_parts, by_primitives, compact_on_axis, compact_punch, held_primitives, inside,
     primitives_on_imaginary_axis, punch,
@@ -70,13 +70,13 @@ impl<S: Simd> Reach<S> {
 pub(super) fn potentials<S: Simd>(
     profile: Profile,
     xi: Pair<S>,
-    (r, terms): (f64, Terms),
+    (r, digits): (f64, f64),
     on_axis: bool,
 ) -> Potentials<Pair<S>> {
     let reach = Reach::new(xi, r);
     let near = match profile {
         _ if !reach.some_near => Potentials::all(xi.constant(0.0)),
-        Profile::Hertz if r > FAR => at_far_front(xi, (r, terms), on_axis),
+        Profile::Hertz if r > FAR => at_far_front(xi, (r, digits), on_axis),
         Profile::Hertz if r <= SMALL_RADIUS => by_parts(xi, r),
         Profile::Hertz if on_axis => primitives_on_imaginary_axis(xi.im, r),
         Profile::Hertz => by_primitives(xi, r),
@@ -86,9 +86,9 @@ pub(super) fn potentials<S: Simd>(
         return near;
     }
     let far = if on_axis {
-        series_on_imaginary_axis(profile, xi.im, (r, terms))
+        series_on_imaginary_axis(profile, xi.im, (r, digits))
     } else {
-        by_series(profile, xi, (r, terms))
+        by_series(profile, xi, (r, digits))
     };
     reach.pick(near, far, r)
 }
@@ -98,7 +98,7 @@ pub(super) fn potentials<S: Simd>(
 pub(super) fn compact<S: Simd>(
     profile: Profile,
     eta: Lanes<S>,
-    (r, terms): (f64, Terms),
+    (r, digits): (f64, f64),
 ) -> Potentials<Lanes<S>> {
     if profile != Profile::Hertz {
         return compact_punch(eta, r);
@@ -117,7 +117,7 @@ pub(super) fn compact<S: Simd>(
     if reach.some_near {
         let delta = far_delta(eta, r);
         let root = [delta[0].max(zero).sqrt(), delta[1].max(zero).sqrt()];
-        let near = far_front::compact_of(far_front::chord(delta, root, terms.front, r), r);
+        let near = far_front::compact_of(far_front::chord(delta, root, far_terms(r, digits), r), r);
         psi = Potentials {
             a_upper: pair(near.a_upper, zero),
             a_lower: pair(zero, near.a_lower),
@@ -128,7 +128,7 @@ pub(super) fn compact<S: Simd>(
     if reach.some_far {
         psi = reach.pick(
             psi,
-            series_on_imaginary_axis(Profile::Hertz, distance, (r, terms)),
+            series_on_imaginary_axis(Profile::Hertz, distance, (r, digits)),
             r,
         );
     }

@@ -10,37 +10,12 @@ use crate::potentials::order::Step;
 use crate::profile::Profile;
 use pulp::Simd;
 
-/// Terms of the multipole series, and of that of a distant front.
-#[derive(Clone, Copy)]
-pub(super) struct Terms {
-    series: usize,
-    pub(super) front: usize,
-}
-
-impl Terms {
-    /// Those that leave exp(-`digits`) at a radius of any number for which a series is taken, whatever is beside it in a
-    /// register.
-    pub(super) fn new(digits: f64, r: f64) -> Self {
-        /// Largest distance behind a front at which the multipole series is not taken.
-        const LARGEST: f64 = 12.0;
-        let front = if r > far_front::FAR {
-            far_front::terms(LARGEST, r, digits)
-        } else {
-            0
-        };
-        Self {
-            series: multipole::terms_to(digits, multipole::nearest::<Step>(r)),
-            front,
-        }
-    }
-}
-
 /// The multipole series.
 #[inline(always)]
 pub(super) fn by_series<S: Simd>(
     profile: Profile,
     xi: Pair<S>,
-    (r, terms): (f64, Terms),
+    (r, digits): (f64, f64),
 ) -> Potentials<Pair<S>> {
     let inside = (-xi.im + r) * (xi.im + r);
     let rho = root_inside(xi, inside);
@@ -48,8 +23,14 @@ pub(super) fn by_series<S: Simd>(
     let square = inverse * inverse;
     let sum = (rho + xi).reciprocal();
     let over = xi * square;
-    let mut psi =
-        multipole::sums::<Step, Pair<S>>(profile, terms.series, -1.0, over, square, inverse);
+    let mut psi = multipole::sums::<Step, Pair<S>>(
+        profile,
+        multipole::terms_to(digits),
+        -1.0,
+        over,
+        square,
+        inverse,
+    );
     let mass = multipole::moment(profile, 0);
     psi.g_upper = psi.g_upper + inverse * sum * mass;
     psi
@@ -60,7 +41,7 @@ pub(super) fn by_series<S: Simd>(
 pub(super) fn series_on_imaginary_axis<S: Simd>(
     profile: Profile,
     s: Lanes<S>,
-    (r, terms): (f64, Terms),
+    (r, digits): (f64, f64),
 ) -> Potentials<Pair<S>> {
     let zero = s.constant(0.0);
     let xi = Pair { re: zero, im: s };
@@ -69,7 +50,7 @@ pub(super) fn series_on_imaginary_axis<S: Simd>(
     let (inverse, inverse2) = (rho.reciprocal(), s.constant(1.0) / square);
     let sum = multipole::sums::<Step, Lanes<S>>(
         profile,
-        terms.series,
+        multipole::terms_to(digits),
         1.0,
         s * inverse2,
         -inverse2,
@@ -91,6 +72,14 @@ pub(super) fn far_delta<S: Simd>(eta: Lanes<S>, r: f64) -> [Lanes<S>; 2] {
     [-distance + (r - 1.0), -distance + (r + 1.0)]
 }
 
+/// Terms that leave exp(-`digits`) of any number for which the multipole series is not taken, whatever is beside it in a
+/// register.
+#[inline(always)]
+pub(super) fn far_terms(r: f64, digits: f64) -> usize {
+    const LARGEST: f64 = 12.0;
+    far_front::terms(LARGEST, r, digits)
+}
+
 #[inline(always)]
 fn root_of_real<S: Simd>(value: Lanes<S>) -> Pair<S> {
     let zero = value.constant(0.0);
@@ -104,11 +93,11 @@ fn root_of_real<S: Simd>(value: Lanes<S>) -> Pair<S> {
 #[inline(always)]
 pub(super) fn at_far_front<S: Simd>(
     xi: Pair<S>,
-    (r, terms): (f64, Terms),
+    (r, digits): (f64, f64),
     on_axis: bool,
 ) -> Potentials<Pair<S>> {
     let zero = xi.re.constant(0.0);
-    let (real, terms) = (far_delta(xi.im, r), terms.front);
+    let (real, terms) = (far_delta(xi.im, r), far_terms(r, digits));
     let Chord { i, k } = if on_axis {
         let root = [root_of_real(real[0]), root_of_real(real[1])];
         far_front::chord(real, root, terms, r)

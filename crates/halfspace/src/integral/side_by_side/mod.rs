@@ -15,11 +15,10 @@ use crate::numeric::lanes::{Lanes, Pair, WIDTH, dispatch};
 use crate::numeric::scalar::{Real, Scalar};
 use crate::point::{Point, Sense};
 use crate::potentials::Potentials;
-use crate::potentials::far_front;
+use crate::potentials::far_front::ALL;
 use crate::potentials::order::{Order, TimeOrder};
 use crate::profile::Profile;
 use choice::compact;
-use far::Terms;
 use num_complex::Complex64;
 use pulp::{Simd, WithSimd};
 
@@ -74,8 +73,7 @@ impl WithSimd for Two {
     fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
         let parts = self.xi.map(|xi| [xi.re, xi.im]);
         let [re, im] = [0, 1].map(|i| Lanes::two(simd, parts.map(|xi| xi[i])));
-        let terms = Terms::new(far_front::ALL, self.r);
-        let psi = choice::potentials(self.profile, Pair { re, im }, (self.r, terms), false);
+        let psi = choice::potentials(self.profile, Pair { re, im }, (self.r, ALL), false);
         let [first, second] = [0, 1].map(|i| psi.map(|v| Complex64::new(v.re.get(i), v.im.get(i))));
         [first, second]
     }
@@ -96,7 +94,7 @@ impl<'a> WithSimd for Panel<'a> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
         let nodes = self.nodes;
-        let terms = Terms::new(self.setting.digits(self.at, false), self.at.r);
+        let digits = self.setting.digits(self.at, false);
         let (mut values, mut squares) = ([[0.0; WIDTH]; 6], [[0.0; WIDTH]; 6]);
         let registers =
             |list: &'a [f64]| Lanes::registers(simd, &list[nodes.in_registers(S::F64_LANES)]);
@@ -104,8 +102,8 @@ impl<'a> WithSimd for Panel<'a> {
         let all = registers(&nodes.places).zip(registers(&nodes.weights));
         for (i, ((place, weight), error)) in all.zip(displacement.zip(stress)).enumerate() {
             let (jacobian, term) = match self.sense {
-                Some(sense) => fast(self.setting, (self.at, terms), (self.wave, sense), place),
-                None => slow(self.setting, (self.at, terms), self.wave, place),
+                Some(sense) => fast(self.setting, (self.at, digits), (self.wave, sense), place),
+                None => slow(self.setting, (self.at, digits), self.wave, place),
             };
             let weight = weight * jacobian;
             // of the block
@@ -127,13 +125,13 @@ impl<'a> WithSimd for Panel<'a> {
 #[inline(always)]
 fn fast<S: Simd>(
     setting: &Setting,
-    (at, terms): (Point, Terms),
+    (at, digits): (Point, f64),
     (wave, sense): (Wave, Sense),
     u: Lanes<S>,
 ) -> (Lanes<S>, [Lanes<S>; 6]) {
     let (x, p, jacobian) = half_angle(u);
     let eta = setting.eta(at, wave, sense, x, p);
-    let psi = compact(setting.profile, eta, (at.r, terms));
+    let psi = compact(setting.profile, eta, (at.r, digits));
     let amplitudes = spectrum::fast(wave, setting.k, x, p);
     (jacobian, amplitudes.fields(&psi, at.r))
 }
@@ -142,7 +140,7 @@ fn fast<S: Simd>(
 #[inline(always)]
 fn slow<S: Simd>(
     setting: &Setting,
-    (at, terms): (Point, Terms),
+    (at, digits): (Point, f64),
     wave: Wave,
     s: Lanes<S>,
 ) -> (Lanes<S>, [Lanes<S>; 6]) {
@@ -162,7 +160,7 @@ fn slow<S: Simd>(
                 re: p_abs * over_x * at.z,
                 im: over_x * -at.t,
             };
-            let psi = choice::potentials(profile, xi, (at.r, terms), at.z == 0.0);
+            let psi = choice::potentials(profile, xi, (at.r, digits), at.z == 0.0);
             let factor = im * 2.0;
             Potentials {
                 a_upper: factor * psi.a_upper.re,
@@ -181,8 +179,8 @@ fn slow<S: Simd>(
                 re: re_xi,
                 im: (y * at.z + at.t) * over_x,
             };
-            let minus = choice::potentials(profile, minus, (at.r, terms), true);
-            let plus = choice::potentials(profile, plus, (at.r, terms), true);
+            let minus = choice::potentials(profile, minus, (at.r, digits), true);
+            let plus = choice::potentials(profile, plus, (at.r, digits), true);
             // the upper ones of A and the lower ones of B over i R, the others over R
             let inverse = Pair { re, im };
             Potentials {
