@@ -75,12 +75,10 @@ fn is_converged(segment: &Segment, allowed: &Six) -> bool {
 ///
 /// Beside fronts that are long apart R varies as fast as the disc is passed: such an interval is two, each beside its front.
 fn pieces(arrivals: &[f64], first: f64, end: f64) -> Vec<Piece> {
-    /// Radii from one front to the next, or of time before the last, that are not long.
+    /// Radii from one front to the next that are not long.
     const SHORT: f64 = 6.0;
-    /// Logarithm of twice the radii after the last front that one polynomial serves where it is far.
+    /// Logarithm of twice the radii after the last front that one polynomial serves.
     const LONG: f64 = 3.5;
-    /// Time over which R falls after the last front, over the time of that front.
-    const DECAY: f64 = 0.5;
     /// Fronts this close to each other are one.
     const SAME: f64 = 1e-13;
     let mut fronts = vec![first];
@@ -93,11 +91,6 @@ fn pieces(arrivals: &[f64], first: f64, end: f64) -> Vec<Piece> {
     let mut pieces = vec![];
     for (i, &from) in fronts.iter().enumerate().filter(|(_, t)| **t < end) {
         match fronts.get(i + 1) {
-            None if from < SHORT => {
-                let bend = (1.0 - DECAY * from / (end - from)).clamp(0.0, 1.0 - 1e-6);
-                let course = Course::After([from, (end - from) * (1.0 - bend), bend]);
-                pieces.push(Piece::new(course, end));
-            }
             None => {
                 let rest = Piece::new(Course::beside(from, end), end);
                 let parts = ((2.0 * (end - from)).ln() / LONG).ceil();

@@ -2,12 +2,11 @@
 //!
 //! ```text
 //! t = a + (b - a) sin^2(pi s/2)             between fronts a and b
-//! t = a + scale s^2/(1 - bend s^2)          after the last front a
-//! t = a + (w - 1)^2/(2 w), w = e^(Y s)      after a front a whose next is far; before one likewise
+//! t = a + (w - 1)^2/(2 w), w = e^(Y s)      after a front a whose next is far, or the last; before one likewise
 //! ```
 //!
-//! All turn the roots at the fronts into smooth functions, the second also 1/t, in which R is smooth in the end.
-//! The third is t - a + 1 = cosh(Y s): what is as far beyond the front as the disc is wide, where its other edge's waves have
+//! Both turn the roots at the fronts into smooth functions, the second also 1/t, in which R is smooth in the end.
+//! It is t - a + 1 = cosh(Y s): what is as far beyond the front as the disc is wide, where its other edge's waves have
 //! a root too, is as far from the s in question however long the interval.
 //!
 //! The nodes are a Leja sequence, taken in pairs: each set holds the one before, so that a segment has as many as it needs,
@@ -36,8 +35,6 @@ const NOISE: f64 = 0.12;
 pub(crate) enum Course {
     /// Between two fronts.
     Between([f64; 2]),
-    /// After a front: its time, the scale, and how much of 1 is bent.
-    After([f64; 3]),
     /// Beside a front, on the side of the sign: its time, Y and the sign.
     Beside([f64; 3]),
 }
@@ -90,11 +87,6 @@ impl Piece {
                 };
                 (time, PI * length * sin * cos)
             }
-            Course::After([from, scale, bend]) => {
-                let unbent = 1.0 / (1.0 - bend * s * s);
-                let time = (from - origin) + scale * s * s * unbent;
-                (time, 2.0 * scale * s * unbent * unbent)
-            }
             Course::Beside([front, most, sign]) => {
                 // w - 1, and 1/2 of 1/w
                 let more = (most * Course::directed(sign, s)).exp_m1();
@@ -111,10 +103,6 @@ impl Piece {
             Course::Between([from, to]) => {
                 let [x, y] = [t - from, to - t].map(|x| x.max(0.0).sqrt());
                 x.atan2(y) / FRAC_PI_2
-            }
-            Course::After([from, scale, bend]) => {
-                let x = (t - from) / scale;
-                (x / (1.0 + bend * x)).max(0.0).sqrt()
             }
             Course::Beside([front, most, sign]) => {
                 Course::directed(sign, turn((sign * (t - front)).max(0.0)) / most)
