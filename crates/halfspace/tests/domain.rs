@@ -100,16 +100,12 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 2000, failure_persistence: Some(Box::new(FileFailurePersistence::WithSource("regressions"))), ..ProptestConfig::default() })]
 
     #[test]
-    fn a_medium_is_one_or_an_error(nu in any_number(), speed in any_number()) {
+    fn a_medium_is_one_or_an_error(nu in any_number()) {
         match Medium::new(nu) {
             Ok(medium) => {
                 let numbers = [medium.kappa(), medium.lambda_over_mu(), medium.rayleigh_speed(), medium.rayleigh_slope()];
                 prop_assert!(numbers.iter().all(|v| v.is_finite()), "{nu:e} {numbers:?}");
                 prop_assert!(medium.rayleigh_speed() < medium.kappa());
-                match medium.rayleigh_function(speed) {
-                    Ok(value) => prop_assert!(value.is_finite()),
-                    Err(error) => prop_assert!(names(&error, &[("speed", speed)])),
-                }
             }
             Err(error) => prop_assert!(names(&error, &[("poisson_ratio", nu)])),
         }

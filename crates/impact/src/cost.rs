@@ -112,13 +112,9 @@ impl<'a> Cost<'a> {
             let rates = if following { FOLLOWING_RATES } else { 1.0 };
             discs * trace_s + each * (1.0 + rates * self.rates)
         });
-        let beside_s = if following {
-            let whole = most_whole(Derivative::Field, self.tolerance) as f64;
-            let kernels = KERNELS_OF_WHOLE * digits.powi(2);
-            self.beside * whole * kernels * SMALL_DISC * KERNEL_S
-        } else {
-            0.0
-        };
+        let whole = most_whole(Derivative::Field, self.tolerance) as f64;
+        let beside = if following { self.beside } else { 0.0 };
+        let beside_s = beside * whole * KERNELS_OF_WHOLE * digits.powi(2) * SMALL_DISC * KERNEL_S;
         OUTPUT_S + points_s + beside_s
     }
 

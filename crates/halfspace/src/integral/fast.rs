@@ -86,10 +86,8 @@ impl Setting {
         let fixed = &self.fixed.fast;
         let mut singularities = fixed.with_strength(strength, self.front_rounding(at));
         let radius = self.profile.radius();
-        fronts::add_fast(&mut singularities, at, radius, self.k, wave, sense);
-        if shallow {
-            let above = shallow::above(at);
-            fronts::add_fast(&mut singularities, above, radius, self.k, wave, sense);
+        for at in [at].into_iter().chain(shallow.then(|| shallow::above(at))) {
+            fronts::add_fast(&mut singularities, at, radius, self.k, wave, sense);
         }
         singularities
     }

@@ -65,17 +65,8 @@ impl Setting {
         let (fixed, strength) = (&self.fixed, Strength::of::<O>(self.profile));
         let mut singularities = fixed.slow.with_strength(strength, self.front_rounding(at));
         let radius = self.profile.radius();
-        fronts::add_slow(&mut singularities, at, radius, self.k, &fixed.stretch, wave);
-        if shallow {
-            let above = shallow::above(at);
-            fronts::add_slow(
-                &mut singularities,
-                above,
-                radius,
-                self.k,
-                &fixed.stretch,
-                wave,
-            );
+        for at in [at].into_iter().chain(shallow.then(|| shallow::above(at))) {
+            fronts::add_slow(&mut singularities, at, radius, self.k, &fixed.stretch, wave);
         }
         singularities
     }

@@ -468,11 +468,10 @@ impl<'a> Sum<'a> {
 /// Samples of a point for which a whole contact is integrated at most.
 pub(crate) fn most_whole(derivative: Derivative, tolerance: f64) -> usize {
     let [fields, rates] = MOST_WHOLE;
-    let digits = (-tolerance.log10() - 4.0).max(0.0);
-    match derivative {
-        Derivative::Field => (fields as f64 * MORE_WHOLE.powf(digits)) as usize,
-        Derivative::First | Derivative::Second => rates,
+    if derivative != Derivative::Field {
+        return rates;
     }
+    (fields as f64 * MORE_WHOLE.powf((-tolerance.log10() - 4.0).max(0.0))) as usize
 }
 
 /// The largest of what is left of the fields over what is allowed.

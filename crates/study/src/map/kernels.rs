@@ -213,13 +213,8 @@ fn double_root(effort: Effort) -> Result<Picture, AnyError> {
         add(&mut figure, name, Style::Marked, &distances, error)?;
     }
     let own = "the program, against the single integral";
-    add(
-        &mut figure,
-        own,
-        Style::Points,
-        &distances,
-        double_root_own_error,
-    )?;
+    let error = double_root_own_error;
+    add(&mut figure, own, Style::Points, &distances, error)?;
     let theory = "theory, at most: machine epsilon over root distance";
     let error = |distance: f64| Ok(f64::EPSILON / distance.sqrt());
     add(&mut figure, theory, Style::HeavyDashed, &x.cells(40), error)?;
@@ -240,24 +235,12 @@ fn incompressible(effort: Effort) -> Result<Picture, AnyError> {
         Axis::logarithmic("relative error; c2/c1").range(1e-17, 10.0),
     );
     let kernels = "kernels asked for 1e-8 at (0.5, 0.6) r0";
-    add(
-        &mut figure,
-        kernels,
-        Style::Marked,
-        &distances,
-        incompressible_error,
-    )?;
+    let error = incompressible_error;
+    add(&mut figure, kernels, Style::Marked, &distances, error)?;
     let surface = "surface response against closed form";
-    add(
-        &mut figure,
-        surface,
-        Style::Marked,
-        &distances,
-        |distance| {
-            let [own, closed] = incompressible_surface(distance)?;
-            Ok((own - closed).abs())
-        },
-    )?;
+    let error =
+        |distance| incompressible_surface(distance).map(|[own, closed]| (own - closed).abs());
+    add(&mut figure, surface, Style::Marked, &distances, error)?;
     let theory = "theory: c2/c1 = sqrt(d/(1/2 + d))";
     let ratio = |d: f64| Ok((d / (0.5 + d)).sqrt());
     add(&mut figure, theory, Style::HeavyDashed, &distances, ratio)?;

@@ -1,6 +1,6 @@
 //! The potentials, each number by the forms that hold for them.
 
-use super::far::{at_far_front, by_series, far_delta, far_terms, series_on_imaginary_axis};
+use super::far::{LARGEST, at_far_front, by_series, far_delta, series_on_imaginary_axis};
 use super::near::{
     by_parts, by_primitives, compact_on_axis, compact_punch, held_primitives, inside,
     primitives_on_imaginary_axis, punch,
@@ -117,7 +117,10 @@ pub(super) fn compact<S: Simd>(
     if reach.some_near {
         let delta = far_delta(eta, r);
         let root = [delta[0].max(zero).sqrt(), delta[1].max(zero).sqrt()];
-        let near = far_front::compact_of(far_front::chord(delta, root, far_terms(r, digits), r), r);
+        let near = far_front::compact_of(
+            far_front::chord(delta, root, far_front::terms(LARGEST, r, digits), r),
+            r,
+        );
         psi = Potentials {
             a_upper: pair(near.a_upper, zero),
             a_lower: pair(zero, near.a_lower),

@@ -10,6 +10,9 @@ use crate::potentials::order::Step;
 use crate::profile::Profile;
 use pulp::Simd;
 
+/// Largest distance behind a front for which the multipole series is not taken, whatever is beside it in a register.
+pub(super) const LARGEST: f64 = 12.0;
+
 /// The multipole series.
 #[inline(always)]
 pub(super) fn by_series<S: Simd>(
@@ -72,14 +75,6 @@ pub(super) fn far_delta<S: Simd>(eta: Lanes<S>, r: f64) -> [Lanes<S>; 2] {
     [-distance + (r - 1.0), -distance + (r + 1.0)]
 }
 
-/// Terms that leave exp(-`digits`) of any number for which the multipole series is not taken, whatever is beside it in a
-/// register.
-#[inline(always)]
-pub(super) fn far_terms(r: f64, digits: f64) -> usize {
-    const LARGEST: f64 = 12.0;
-    far_front::terms(LARGEST, r, digits)
-}
-
 #[inline(always)]
 fn root_of_real<S: Simd>(value: Lanes<S>) -> Pair<S> {
     let zero = value.constant(0.0);
@@ -97,7 +92,7 @@ pub(super) fn at_far_front<S: Simd>(
     on_axis: bool,
 ) -> Potentials<Pair<S>> {
     let zero = xi.re.constant(0.0);
-    let (real, terms) = (far_delta(xi.im, r), far_terms(r, digits));
+    let (real, terms) = (far_delta(xi.im, r), far_front::terms(LARGEST, r, digits));
     let Chord { i, k } = if on_axis {
         let root = [root_of_real(real[0]), root_of_real(real[1])];
         far_front::chord(real, root, terms, r)
