@@ -18,8 +18,9 @@ use crate::numeric::gauss;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::LazyLock;
 
-/// Nodes of a segment at most, and at first.
+/// Nodes of a segment at most, fewer beside a front, and at first.
 const MOST: usize = 39;
+const MOST_BESIDE: usize = 15;
 const FEWEST: usize = 3;
 
 /// What is left of a series over its last terms: beside a front they fall as a power, and many of the same size follow.
@@ -230,9 +231,13 @@ impl Segment {
         &mut self,
         mut remainder: impl FnMut(f64) -> Result<Estimate, DomainError>,
     ) -> Result<bool, DomainError> {
+        let most = match self.piece.course {
+            Course::Between(_) => MOST,
+            Course::Beside(_) => MOST_BESIDE,
+        };
         let terms = match self.values.len() {
             0 => FEWEST,
-            some if some == MOST => return Ok(false),
+            some if some == most => return Ok(false),
             some => some + 2,
         };
         let (middle, half) = self.piece.middle();

@@ -237,8 +237,9 @@ impl<'a> Sum<'a> {
     /// The most that is left of a sample over what is allowed, but for as many as may be integrated as a whole.
     pub(crate) fn worst(&self) -> f64 {
         let allowed = self.allowed();
-        let skipped = most_whole(self.derivative, self.forcing.tolerance);
-        let next = self.open.get(skipped);
+        let next = self
+            .open
+            .get(most_whole(self.derivative, self.forcing.tolerance));
         next.map_or(0.0, |&i| over(&allowed, |f| self.left[f][i]))
     }
 
@@ -249,9 +250,9 @@ impl<'a> Sum<'a> {
         let each = |i: usize| over(&allowed, |f| left[f][i]);
         let each: Vec<f64> = (0..self.times_s.len()).map(each).collect();
         let reach = if self.is_under() { BESIDE_UNDER } else { 1 };
-        let most_s = (reach as f64 + 0.5) * self.forcing.step_s;
         let off = |i: usize| {
-            let near = |&j: &usize| (self.times_s[i] - self.times_s[j]).abs() < most_s;
+            let steps = |j: usize| (self.times_s[i] - self.times_s[j]).abs() / self.forcing.step_s;
+            let near = |&j: &usize| steps(j) < reach as f64 + 0.5;
             let next = (i.saturating_sub(reach)..(i + reach + 1).min(each.len())).filter(near);
             (i, next.fold(each[i], |most, j| most.max(beside * each[j])))
         };
@@ -273,17 +274,14 @@ impl<'a> Sum<'a> {
             self.forcing.excitation.radius(),
             PressureRadius::Following { .. }
         );
-        if following || self.integrated.contains(&true) {
-            for f in 0..6 {
-                self.errors[f] += QUADRATURE * self.forcing.tolerance * peak(&self.values[f]);
-            }
+        let anew = past.filter(|_| !self.open.is_empty());
+        let integrals = u8::from(following || self.integrated.contains(&true));
+        let integrals = f64::from(integrals + u8::from(anew.is_some()));
+        for f in 0..6 {
+            self.errors[f] +=
+                integrals * QUADRATURE * self.forcing.tolerance * peak(&self.values[f]);
         }
-        if let Some(past) = past
-            && !self.open.is_empty()
-        {
-            for f in 0..6 {
-                self.errors[f] += QUADRATURE * self.forcing.tolerance * peak(&self.values[f]);
-            }
+        if let Some(past) = anew {
             let allowed = self.allowed();
             let mut whole = if past.is_far(self.place_m) {
                 0
