@@ -270,24 +270,19 @@ impl<'a> Sum<'a> {
         past: Option<&Past<'_>>,
         cells: &[Cells],
     ) -> Result<([Vec<f64>; 6], [f64; 6]), ImpactError> {
-        let following = matches!(
-            self.forcing.excitation.radius(),
-            PressureRadius::Following { .. }
-        );
+        let radius = self.forcing.excitation.radius();
+        let zones = matches!(radius, PressureRadius::Following { .. });
+        let zones = zones || self.integrated.contains(&true);
         let anew = past.filter(|_| !self.open.is_empty());
-        let integrals = u8::from(following || self.integrated.contains(&true));
-        let integrals = f64::from(integrals + u8::from(anew.is_some()));
+        let integrals = f64::from(u8::from(zones) + u8::from(anew.is_some()));
         for f in 0..6 {
             self.errors[f] +=
                 integrals * QUADRATURE * self.forcing.tolerance * peak(&self.values[f]);
         }
         if let Some(past) = anew {
             let allowed = self.allowed();
-            let mut whole = if past.is_far(self.place_m) {
-                0
-            } else {
-                most_whole(self.derivative, self.forcing.tolerance)
-            };
+            let near = usize::from(!past.is_far(self.place_m));
+            let mut whole = near * most_whole(self.derivative, self.forcing.tolerance);
             for i in std::mem::take(&mut self.open) {
                 self.integrate_past(i, past, cells, (&allowed, &mut whole))?;
             }
