@@ -88,8 +88,8 @@ impl Medium {
         Double::sum(self.rayleigh_speed, self.rayleigh_rest)
     }
 
-    /// Derivative of Rayleigh's function D(c) = (2 - v)^2 - 4 sqrt((1 - c^2)(1 - v)), v = (c/kappa)^2, at the Rayleigh speed: D'(c) in
-    /// the pole term.
+    /// D'(c) in the pole term: the derivative of Rayleigh's function D(c) = (2 - v)^2 - 4 sqrt((1 - c^2)(1 - v)), v = (c/kappa)^2,
+    /// at the Rayleigh speed.
     #[must_use]
     pub fn rayleigh_slope(&self) -> f64 {
         let (c, k) = (self.rayleigh_speed, self.shear_slowness_squared());

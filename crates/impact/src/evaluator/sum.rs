@@ -206,9 +206,9 @@ impl<'a> Sum<'a> {
         }
     }
 
-    /// Whether the contact's edge passes over the point: there powers fall slowly.
+    /// Whether the contact's edge passes close over the point: there powers fall slowly.
     fn is_under(&self) -> bool {
-        self.place_m[0] < self.forcing.excitation.units().disc_radius_m
+        self.place_m[0].max(self.place_m[1]) < self.forcing.excitation.units().disc_radius_m
     }
 
     /// Part of what may be left that the discs tell.
