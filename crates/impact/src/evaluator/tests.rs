@@ -90,6 +90,18 @@ pub(crate) fn contact(poisson_ratio: f64, duration: f64) -> Excitation {
     Excitation::of_contact(&half_space, radius, history, units, duration, 0.0).unwrap()
 }
 
+/// The grid that would be chosen for all of a contact's waves to a distance.
+fn grid((excitation, source): (&Excitation, &KernelSource), tolerance: f64, farthest: f64) -> Grid {
+    let wanted = Wanted {
+        tolerance,
+        step_s: None,
+        duration_s: None,
+        frames: None,
+        farthest_m: Some(farthest),
+    };
+    Grid::new(&wanted, excitation, Some(source)).unwrap()
+}
+
 /// The six fields at a place, at some samples of a grid.
 fn at(
     (excitation, source): (&Excitation, &KernelSource),
@@ -275,14 +287,7 @@ fn tractions_below_the_surface_are_within_their_estimate_in_the_middle_of_a_long
     let exact = Past::new(&excitation, 1e-7).unwrap();
     let tolerance = 1e-4;
     let source = KernelSource::direct(excitation.medium(), 0.1 * tolerance).unwrap();
-    let wanted = Wanted {
-        tolerance,
-        step_s: None,
-        duration_s: None,
-        frames: None,
-        farthest_m: Some(20.0),
-    };
-    let grid = Grid::new(&wanted, &excitation, Some(&source)).unwrap();
+    let grid = grid((&excitation, &source), tolerance, 20.0);
     let times: Vec<f64> = grid.times_s().collect();
     let middle = |n: &usize| n.is_multiple_of(8) && (60.0..280.0).contains(&times[*n]);
     let wanted: Vec<usize> = (0..times.len()).filter(middle).collect();
@@ -305,14 +310,7 @@ fn fields_just_below_the_surface_about_a_contact_are_within_their_estimate() {
     let exact = Past::new(&excitation, 1e-8).unwrap();
     for tolerance in [1e-4, 1e-5] {
         let source = KernelSource::direct(excitation.medium(), 0.1 * tolerance).unwrap();
-        let wanted = Wanted {
-            tolerance,
-            step_s: None,
-            duration_s: None,
-            frames: None,
-            farthest_m: Some(1.2),
-        };
-        let grid = Grid::new(&wanted, &excitation, Some(&source)).unwrap();
+        let grid = grid((&excitation, &source), tolerance, 1.2);
         let times: Vec<f64> = grid.times_s().collect();
         let all: Vec<usize> = (0..times.len()).collect();
         let under = [[0.41, 0.047], [0.45, 0.0]];
