@@ -27,6 +27,7 @@ impl Setting {
         wave: Wave,
         sense: Sense,
         passed: f64,
+        singularities: &mut Singularities,
         sum: &mut Sum,
     ) {
         let limit = at.r + self.profile.radius();
@@ -45,8 +46,9 @@ impl Setting {
             Sense::Image if !shallow && at.t + at.z * self.vertical_at_one(wave) >= limit => return,
             Sense::Outgoing | Sense::Image => {}
         }
-        let mut singularities = self.fast_singularities::<O>(at, wave, sense, shallow);
-        for interval in singularities.intervals() {
+        self.fast_singularities::<O>(at, wave, sense, singularities);
+        for i in singularities.intervals() {
+            let interval = singularities.interval(i);
             let (x, p, _) = half_angle(0.5 * (interval.0 + interval.1));
             let eta = self.eta(at, wave, sense, x, p);
             let at_surface = sense.sign() * at.t / x;
@@ -80,16 +82,15 @@ impl Setting {
         at: Point,
         wave: Wave,
         sense: Sense,
-        shallow: bool,
-    ) -> Singularities {
-        let strength = Strength::of::<O>(self.profile);
-        let fixed = &self.fixed.fast;
-        let mut singularities = fixed.with_strength(strength, self.front_rounding(at));
+        singularities: &mut Singularities,
+    ) {
+        let (fixed, strength) = (&self.fixed.fast, Strength::of::<O>(self.profile));
+        singularities.take(fixed, strength, self.front_rounding(at));
         let radius = self.profile.radius();
+        let shallow = shallow::applies::<O>(self.profile, at);
         for at in [at].into_iter().chain(shallow.then(|| shallow::above(at))) {
-            fronts::add_fast(&mut singularities, at, radius, self.k, wave, sense);
+            fronts::add_fast(singularities, at, radius, self.k, wave, sense);
         }
-        singularities
     }
 
     /// The integrand at slowness x, p = sqrt(1 - x^2).
@@ -160,7 +161,7 @@ impl Setting {
     fn vertical_at_one(&self, wave: Wave) -> f64 {
         match wave {
             Wave::P => 0.0,
-            Wave::S => (self.k - 1.0).sqrt(),
+            Wave::S => self.span,
         }
     }
 
@@ -169,7 +170,7 @@ impl Setting {
     pub(crate) fn eta<T: Real>(&self, at: Point, wave: Wave, sense: Sense, x: T, p: T) -> T {
         let (vertical, root) = match wave {
             Wave::P => (1.0, p),
-            Wave::S => (self.k.sqrt(), (-(x * x) + self.k).sqrt()),
+            Wave::S => (self.root_k, (-(x * x) + self.k).sqrt()),
         };
         // gamma^ = vertical - x^2/(vertical + gamma^)
         x.constant(at.z * vertical + sense.sign() * at.t) / x - x * at.z / (root + vertical)

@@ -80,8 +80,9 @@ pub(crate) fn add_slow(
             add(root(1.0 - c * c) / (1.0 + c));
         }
     });
-    points.map(stretch);
-    for point in points.iter() {
+    let mut stretched = Points::new();
+    stretched.take_images(&points, stretch);
+    for point in stretched.iter() {
         singularities.add(point);
     }
 }

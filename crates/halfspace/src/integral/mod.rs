@@ -38,7 +38,9 @@ use crate::potentials::far_front;
 use crate::potentials::order::{Order, TimeOrder};
 use crate::potentials::shallow;
 use crate::profile::Profile;
+use num_complex::Complex64;
 use setting::Setting;
+use singularities::Singularities;
 use spectrum::{Pole, Wave};
 use std::f64::consts::PI;
 use sum::Sum;
@@ -88,13 +90,15 @@ impl Integral {
         const CLEAR_OF_EDGE: f64 = 1.01;
         let mut total = self.setting.rayleigh_wave::<O>(&self.poles, at);
         let mut spectrum = Sum::default();
+        let mut singularities = Singularities::new([], Complex64::ZERO, &[]);
         for wave in [Wave::P, Wave::S] {
             for sense in [Sense::Outgoing, Sense::Image] {
                 let passed = self.passed[wave as usize];
                 self.setting
-                    .fast::<O>(at, wave, sense, passed, &mut spectrum);
+                    .fast::<O>(at, wave, sense, passed, &mut singularities, &mut spectrum);
             }
-            self.setting.slow::<O>(at, wave, &mut spectrum);
+            self.setting
+                .slow::<O>(at, wave, &mut singularities, &mut spectrum);
         }
         total.add(1.0 / PI, [0.0; 2], spectrum.value);
         let mut floor = rounding_floor::<O>(self.setting.profile, at.r);

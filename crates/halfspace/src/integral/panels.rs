@@ -6,8 +6,10 @@
 //!
 //! Theory: `docs/theory.md` (T18).
 
+use crate::integral::strength::Strength;
 use crate::numeric::gauss;
-use crate::numeric::lanes::{Points, WIDTH, half_axes, major_axis, power};
+use crate::numeric::lanes::{Points, half_axes, major_axis, power};
+use crate::numeric::scalar::Real;
 use arrayvec::ArrayVec;
 use num_complex::Complex64;
 
@@ -29,97 +31,79 @@ const POLE: f64 = 30.0;
 /// Relative rounding error of a term.
 pub(crate) const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
-/// Nodes of a rule, side by side: in whole blocks, the last filled with the last node at no weight.
+/// One end of an interval and where it goes: v = start + scale s^power for s in [0, 1].
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Piece {
+    pub(crate) start: f64,
+    pub(crate) scale: f64,
+    pub(crate) power: i32,
+    pub(crate) strength: Strength,
+    /// Rounding error of `start`, where that counts.
+    pub(crate) place_error: f64,
+}
+
+/// Nodes of a rule on a panel of a piece.
 #[derive(Debug)]
 pub(crate) struct Nodes {
-    count: usize,
-    pub(crate) places: [f64; MOST_NODES],
-    pub(crate) weights: [f64; MOST_NODES],
-    /// Relative errors of the integrand for displacements and stresses; squares add up.
-    pub(crate) errors: [[f64; MOST_NODES]; 2],
+    pub(crate) rule: &'static gauss::Rule,
+    middle: f64,
+    half: f64,
+    piece: Piece,
+    /// Of the integrand, relative.
+    error: f64,
 }
 
 impl Nodes {
-    pub(crate) fn new() -> Self {
-        Self {
-            count: 0,
-            places: [0.0; MOST_NODES],
-            weights: [0.0; MOST_NODES],
-            errors: [[0.0; MOST_NODES]; 2],
-        }
-    }
-
-    /// Takes a rule on [-1, 1] at `middle + half x`, of which `map` gives place and slope; leaves out nodes at `from`.
+    /// Place, weight and relative errors for displacements and stresses of a node of the rule and its weight; squares of
+    /// errors add up. What rounds to the start of the piece has no weight, and is elsewhere.
     #[inline(always)]
-    pub(crate) fn take(
-        &mut self,
-        rule: &gauss::Rule,
-        (middle, half): (f64, f64),
-        from: f64,
-        map: impl Fn(f64) -> (f64, f64),
-    ) {
-        self.count = rule.nodes.len();
-        let nodes = rule.nodes.iter().zip(&rule.weights);
-        let own = self.places.iter_mut().zip(&mut self.weights);
-        for ((x, rule_weight), (place, weight)) in nodes.zip(own) {
-            let (v, slope) = map(middle + half * x);
-            (*place, *weight) = (v, half * rule_weight * slope);
-        }
-        let lost = self.places[..self.count]
-            .iter()
-            .take_while(|place| **place == from);
-        let lost = lost.count();
-        if lost > 0 {
-            self.places.copy_within(lost..self.count, 0);
-            self.weights.copy_within(lost..self.count, 0);
-            self.count -= lost;
-        }
-        for i in self.count..self.count.next_multiple_of(WIDTH) {
-            (self.places[i], self.weights[i]) = (self.places[self.count - 1], 0.0);
-        }
-    }
-
-    pub(crate) fn set_errors(&mut self, error: f64) {
-        self.errors = [[error; MOST_NODES]; 2];
-    }
-
-    /// Errors that depend on the place.
-    pub(crate) fn map_errors(&mut self, map: impl Fn([f64; 2], f64) -> [f64; 2]) {
-        for i in self.in_registers(WIDTH) {
-            let (place, _, error) = self.get(i);
-            [self.errors[0][i], self.errors[1][i]] = map(error, place);
-        }
-    }
-
-    /// The nodes in whole registers of `lanes` numbers.
-    pub(crate) fn in_registers(&self, lanes: usize) -> std::ops::Range<usize> {
-        0..self.count.next_multiple_of(lanes)
+    pub(crate) fn at<T: Real>(&self, node: T, weight: T) -> (T, T, [T; 2]) {
+        let Piece {
+            start,
+            scale,
+            power: exponent,
+            ..
+        } = self.piece;
+        let s = node * self.half + self.middle;
+        let below = power(s, exponent as u32 - 1);
+        let (least, zero) = (s.constant(f64::MIN_POSITIVE), s.constant(0.0));
+        let exact = below * s * scale;
+        let distance = (exact + start - start).abs();
+        let along = distance.where_below(least, s.constant(0.5 * scale), exact);
+        let slope = scale.abs() * f64::from(exponent) * self.half;
+        let error = [s.constant(self.error); 2];
+        let errors = if self.piece.place_error > 0.0 {
+            let (piece, distance) = (self.piece, along.abs());
+            piece
+                .strength
+                .at_front(error, piece.place_error, distance, s)
+        } else {
+            error
+        };
+        let weight = distance.where_below(least, zero, below * weight * slope);
+        (along + start, weight, errors)
     }
 
     /// Place, weight and errors of each.
     pub(crate) fn iter(&self) -> impl Iterator<Item = (f64, f64, [f64; 2])> {
-        (0..self.count).map(|i| self.get(i))
-    }
-
-    #[inline]
-    fn get(&self, i: usize) -> (f64, f64, [f64; 2]) {
-        let errors = [self.errors[0][i], self.errors[1][i]];
-        (self.places[i], self.weights[i], errors)
+        let rule = self.rule.nodes().iter().zip(self.rule.weights());
+        rule.map(|(&node, &weight)| self.at(node, weight))
     }
 }
 
-/// Calls `f` with the Gauss rule of each panel, at least `least` nodes, with the middle and half width and the relative
-/// error; the panels of [0, 1] keep clear of the singularities, to exp(-`digits`) of the integrand.
+/// Calls `f` with the nodes of each panel of a piece, at least `least`; the panels of [0, 1] keep clear of the singularities,
+/// to exp(-`digits`) of the integrand.
 ///
-/// The integral may be the finite part of an inverse square at zero; `caution` is the error over the sum of what the
-/// singularities would leave one by one.
+/// The integral may be the finite part of an inverse square at zero.
 #[inline(always)]
 pub(crate) fn panels(
     (singularities, pole): (&Points, Complex64),
-    (digits, least): (f64, f64),
-    (finite_part, caution): (bool, f64),
-    f: &mut impl FnMut(&gauss::Rule, (f64, f64), f64),
+    (digits, least): (f64, usize),
+    piece: Piece,
+    f: &mut impl FnMut(&Nodes),
 ) {
+    let finite_part = piece.power > 1 && piece.strength == Strength::FinitePart;
+    let caution = piece.strength.caution();
     let mut stack: ArrayVec<[f64; 2], 64> = ArrayVec::new();
     stack.push([0.0, 1.0]);
     while let Some(ends) = stack.pop() {
@@ -131,23 +115,31 @@ pub(crate) fn panels(
         // Gauss's rule has twice the degree of one that only interpolates.
         let degree = if at_cut { 1.0 } else { 2.0 };
         let least_nodes = (digits / rate).max((digits + POLE.ln()) / pole_rate);
-        let nodes = (least_nodes / degree).ceil() + 1.0;
+        let nodes = (least_nodes / degree) as usize;
         let (middle, half) = (0.5 * (s0 + s1), 0.5 * (s1 - s0));
-        if nodes > MOST_NODES as f64 && s1 - s0 > NARROWEST {
+        if nodes > MOST_NODES - 2 && s1 - s0 > NARROWEST {
             stack.push([middle, s1]);
             stack.push([s0, middle]);
             continue;
         }
-        let n = (nodes.max(least) as usize).min(MOST_NODES);
+        let n = nodes.saturating_add(2).max(least).min(MOST_NODES);
         let exponent = degree as u32 * n as u32;
         let all = singularities.sum_of_inverse_powers(ends, NEAR * smallest, exponent);
         // of the whole panel, as if one node had it
         let of_rule = caution * (all + POLE * power(pole, exponent).recip()) * (n as f64).sqrt();
-        if at_cut {
-            f(gauss::finite_part_rule(n), (0.0, s1), of_rule + ROUNDING);
+        let (rule, middle, half) = if at_cut {
+            (gauss::finite_part_rule(n), 0.0, s1)
         } else {
-            f(gauss::rule(n), (middle, half), of_rule + ROUNDING);
-        }
+            (gauss::rule(n), middle, half)
+        };
+        let error = of_rule + ROUNDING;
+        f(&Nodes {
+            rule,
+            middle,
+            half,
+            piece,
+            error,
+        });
     }
 }
 

@@ -12,18 +12,28 @@ pub(crate) struct Setting {
     pub(crate) medium: Medium,
     pub(crate) profile: Profile,
     pub(crate) tolerance: f64,
+    /// Relative accuracy of each quadrature rule away from the surface, see [`Self::digits`].
+    pub(crate) deep_digits: f64,
     /// 1/kappa^2.
     pub(crate) k: f64,
+    /// 1/kappa.
+    pub(crate) root_k: f64,
+    /// sqrt(1/kappa^2 - 1).
+    pub(crate) span: f64,
     pub(crate) fixed: FixedSingularities,
 }
 
 impl Setting {
     pub(crate) fn new(medium: &Medium, profile: Profile, tolerance: f64) -> Self {
+        let k = medium.shear_slowness_squared();
         Self {
             medium: medium.clone(),
             profile,
             tolerance,
-            k: medium.shear_slowness_squared(),
+            deep_digits: digits(tolerance),
+            k,
+            root_k: k.sqrt(),
+            span: (k - 1.0).sqrt(),
             fixed: FixedSingularities::new(medium),
         }
     }
@@ -33,15 +43,11 @@ impl Setting {
     /// The rules are a little better than the tolerance because the waves cancel in the sum.
     /// Just below the surface (`shallow`) the terms are of order z/t and the peak of the field is of order sqrt(z).
     pub(crate) fn digits(&self, at: Point, shallow: bool) -> f64 {
-        const MARGIN: f64 = 0.1;
-        // beyond the last digit of a double, and what 24 nodes reach beside a finite part
-        const MOST: f64 = 40.0;
-        let peak = if shallow {
-            (at.t / at.z.sqrt()).min(1.0)
+        if shallow {
+            digits(self.tolerance * (at.t / at.z.sqrt()).min(1.0))
         } else {
-            1.0
-        };
-        (-(MARGIN * self.tolerance * peak).ln()).min(MOST)
+            self.deep_digits
+        }
     }
 
     /// Rounding of the distance to the nearest edge, in units of that of the distance itself.
@@ -60,7 +66,7 @@ impl Setting {
     pub(crate) fn slowness(&self, wave: Wave) -> f64 {
         match wave {
             Wave::P => 1.0,
-            Wave::S => self.k.sqrt(),
+            Wave::S => self.root_k,
         }
     }
 
@@ -68,4 +74,11 @@ impl Setting {
     pub(crate) fn first_arrival(&self, r: f64, z: f64) -> f64 {
         (r - self.profile.radius()).max(0.0).hypot(z)
     }
+}
+
+fn digits(tolerance: f64) -> f64 {
+    const MARGIN: f64 = 0.1;
+    // beyond the last digit of a double, and what 24 nodes reach beside a finite part
+    const MOST: f64 = 40.0;
+    (-(MARGIN * tolerance).ln()).min(MOST)
 }

@@ -5,7 +5,7 @@
 //!
 //! Theory: `docs/theory.md` (T18).
 
-use crate::integral::panels::{Nodes, ROUNDING, panels};
+use crate::integral::panels::{Nodes, Piece, ROUNDING, panels};
 use crate::integral::strength::Strength;
 use crate::numeric::complex::root;
 use crate::numeric::lanes::{Map, Pair, Points};
@@ -13,6 +13,7 @@ use crate::numeric::scalar::Scalar;
 use arrayvec::ArrayVec;
 use num_complex::Complex64;
 use pulp::Simd;
+use std::ops::Range;
 
 /// Power of the variable toward a cut of a single singularity.
 const SQUARE: i32 = 2;
@@ -46,6 +47,10 @@ pub(crate) struct Singularities {
     /// Ends of the interval at which the variable stands for the square root of the distance in slowness.
     root_ends: &'static [f64],
     rounding: f64,
+    /// The cuts in order, between the ends of the interval.
+    ends: ArrayVec<f64, { CAPACITY + 2 }>,
+    /// The points as the last piece of the interval saw them.
+    images: Points,
 }
 
 impl Singularities {
@@ -63,21 +68,22 @@ impl Singularities {
             strength: Strength::Bounded,
             root_ends,
             rounding: ROUNDING,
+            ends: ArrayVec::new(),
+            images: Points::new(),
         };
         fixed.into_iter().for_each(|point| singularities.add(point));
         singularities
     }
 
-    /// The same for cuts of a strength, where an unbounded integrand has a rounding error of `times` the usual one.
+    /// Becomes another interval with cuts of a strength, where an unbounded integrand has a rounding error of `times` the
+    /// usual one.
     #[inline]
-    pub(crate) fn with_strength(&self, strength: Strength, times: f64) -> Self {
-        Self {
-            cuts: self.cuts.clone(),
-            points: self.points.clone(),
-            strength,
-            rounding: times * ROUNDING,
-            ..*self
-        }
+    pub(crate) fn take(&mut self, fixed: &Self, strength: Strength, times: f64) {
+        self.cuts.clear();
+        self.cuts.extend(fixed.cuts.iter().copied());
+        self.points.copy(&fixed.points);
+        (self.pole, self.root_ends) = (fixed.pole, fixed.root_ends);
+        (self.strength, self.rounding) = (strength, times * ROUNDING);
     }
 
     /// Adds a singularity: a cut if it lies on the interval, a point to keep away from otherwise.
@@ -102,11 +108,11 @@ impl Singularities {
         }
     }
 
-    /// The cuts in order, between the ends of the interval.
-    pub(crate) fn intervals(&mut self) -> impl Iterator<Item = (f64, f64)> + use<> {
-        let cuts = &mut self.cuts;
+    /// Numbers of the intervals between cuts, in order.
+    pub(crate) fn intervals(&mut self) -> Range<usize> {
+        let Self { cuts, ends, .. } = self;
         cuts.sort_unstable_by(f64::total_cmp);
-        let mut ends: ArrayVec<f64, { CAPACITY + 2 }> = ArrayVec::new();
+        ends.clear();
         ends.push(0.0);
         for &cut in cuts.iter() {
             if !same(cut, ends[ends.len() - 1]) {
@@ -117,13 +123,23 @@ impl Singularities {
             ends.pop();
         }
         ends.push(1.0);
-        (1..ends.len()).map(move |i| (ends[i - 1], ends[i]))
+        0..ends.len() - 1
+    }
+
+    /// Ends of interval `i`.
+    pub(crate) fn interval(&self, i: usize) -> (f64, f64) {
+        (self.ends[i], self.ends[i + 1])
     }
 
     /// Passes on the nodes of a rule on one interval a panel at a time, accurate to exp(-`digits`) of the size of the
     /// integrand.
     #[inline(always)]
-    pub(crate) fn visit(&self, (from, to): (f64, f64), digits: f64, f: &mut impl FnMut(&Nodes)) {
+    pub(crate) fn visit(
+        &mut self,
+        (from, to): (f64, f64),
+        digits: f64,
+        f: &mut impl FnMut(&Nodes),
+    ) {
         match (self.power(from), self.power(to)) {
             (power, 1) => self.visit_piece(from, to, power, digits, f),
             (1, power) => self.visit_piece(to, from, power, digits, f),
@@ -136,6 +152,7 @@ impl Singularities {
     }
 
     /// The power of the variable that smooths the end of an interval.
+    #[inline]
     fn power(&self, end: f64) -> i32 {
         match self.cuts.iter().filter(|&&cut| same(cut, end)).count() {
             0 => 1,
@@ -146,7 +163,7 @@ impl Singularities {
 
     /// v = start + (end - start) s^power.
     fn visit_piece(
-        &self,
+        &mut self,
         start: f64,
         end: f64,
         power: i32,
@@ -156,20 +173,20 @@ impl Singularities {
         let scale = end - start;
         let is_cut = power > 1;
         let strength = self.strength;
-        let mut images = self.points.clone();
-        images.map(&Image {
+        let image = Image {
             start,
             scale,
             // the singularity of the cut itself is what the power is for
             least: if is_cut { SAME } else { 0.0 },
             square: power == SQUARE,
-        });
+        };
+        self.images.take_images(&self.points, &image);
         let mut pole = (self.pole - start) / scale;
         if power == SQUARE {
             pole = root(pole);
         } else if is_cut {
             let exponent = 1.0 / f64::from(power);
-            images = images.iter().map(|point| point.powf(exponent)).collect();
+            self.images.replace(|point| point.powf(exponent));
             pole = pole.powf(exponent);
         }
         let place_error = if is_cut && strength != Strength::Bounded {
@@ -178,32 +195,19 @@ impl Singularities {
             0.0
         };
         // A power of a logarithm is left at s = 0: Gauss's rule gains 2 power digits a doubling there.
-        let least = if power == HIGH { 0.7 * digits } else { 3.0 };
-        let finite_part = is_cut && strength == Strength::FinitePart;
-        let mut nodes = Nodes::new();
-        panels(
-            (&images, pole),
-            (digits, least),
-            (finite_part, strength.caution()),
-            &mut |rule, (middle, half), error| {
-                let (slope, panel) = (scale.abs() * f64::from(power), (middle, half));
-                let place = |s: f64, below: f64| (start + scale * (below * s), slope * below);
-                match power {
-                    1 => nodes.take(rule, panel, start, |s| place(s, 1.0)),
-                    SQUARE => nodes.take(rule, panel, start, |s| place(s, s)),
-                    _ => nodes.take(rule, panel, start, |s| place(s, (s * s) * (s * s) * s)),
-                }
-                nodes.set_errors(error);
-                if place_error > 0.0 {
-                    nodes.map_errors(|error, place| {
-                        let distance = (place - start).abs();
-                        let s = (distance / scale.abs()).powf(1.0 / f64::from(power));
-                        strength.at_front(error, place_error, distance, s)
-                    });
-                }
-                f(&nodes);
-            },
-        );
+        let least = if power == HIGH {
+            (0.7 * digits) as usize
+        } else {
+            3
+        };
+        let piece = Piece {
+            start,
+            scale,
+            power,
+            strength,
+            place_error,
+        };
+        panels((&self.images, pole), (digits, least), piece, f);
     }
 
     /// How far a cut may be from the front it stands for, by rounding, where the integrand is unbounded.
@@ -276,8 +280,8 @@ mod tests {
     fn integral(singularity: Complex64, f: impl Fn(f64) -> f64) -> (f64, usize) {
         let mut singularities = Singularities::new([singularity], NOWHERE, &[1.0]);
         let (mut sum, mut count) = (0.0, 0);
-        for interval in singularities.intervals() {
-            singularities.visit(interval, 28.0, &mut |nodes| {
+        for i in singularities.intervals() {
+            singularities.visit(singularities.interval(i), 28.0, &mut |nodes| {
                 sum += nodes
                     .iter()
                     .map(|(place, weight, _)| weight * f(place))
@@ -300,8 +304,8 @@ mod tests {
     fn logarithms_at_double_cuts_are_integrated() {
         let mut singularities = Singularities::new([0.3.into(), 0.3.into()], NOWHERE, &[1.0]);
         let mut sum = 0.0;
-        for interval in singularities.intervals() {
-            singularities.visit(interval, 28.0, &mut |nodes| {
+        for i in singularities.intervals() {
+            singularities.visit(singularities.interval(i), 28.0, &mut |nodes| {
                 let terms = nodes
                     .iter()
                     .map(|(place, weight, _)| weight * (place - 0.3).abs().ln());

@@ -29,28 +29,38 @@ struct Slowness {
 
 impl Setting {
     /// Adds both senses of one wave over 1 < x < 1/kappa.
-    pub(crate) fn slow<O: TimeOrder>(&self, at: Point, wave: Wave, sum: &mut Sum) {
-        let span = (self.k - 1.0).sqrt();
+    pub(crate) fn slow<O: TimeOrder>(
+        &self,
+        at: Point,
+        wave: Wave,
+        singularities: &mut Singularities,
+        sum: &mut Sum,
+    ) {
+        let span = self.span;
         let shallow = shallow::applies::<O>(self.profile, at);
-        let mut singularities = self.slow_singularities::<O>(at, wave, shallow);
-        for interval in singularities.intervals() {
-            singularities.visit(interval, self.digits(at, shallow), &mut |nodes| {
-                if side_by_side::applies::<O>(self.profile, at, shallow) {
-                    side_by_side::add(self, at, wave, None, nodes, sum);
-                    return;
-                }
-                for (place, weight, error) in nodes.iter() {
-                    let (q, dq) = self.fixed.stretch.half_angle(place);
-                    let inverse = 1.0 / (1.0 + q * q);
-                    let p_abs = span * 2.0 * q * inverse;
-                    let y = span * (1.0 - q) * (1.0 + q) * inverse;
-                    let x = (1.0 + p_abs * p_abs).sqrt();
-                    let term = self.slow_term::<O>(at, wave, (x, p_abs, y), shallow);
-                    // dx = p^ dp^/x, dp^ = 2 y/(1 + q^2) dq
-                    let jacobian = p_abs * 2.0 * y * inverse / x * dq;
-                    sum.add(weight * jacobian, error, term);
-                }
-            });
+        self.slow_singularities::<O>(at, wave, singularities);
+        for i in singularities.intervals() {
+            singularities.visit(
+                singularities.interval(i),
+                self.digits(at, shallow),
+                &mut |nodes| {
+                    if side_by_side::applies::<O>(self.profile, at, shallow) {
+                        side_by_side::add(self, at, wave, None, nodes, sum);
+                        return;
+                    }
+                    for (place, weight, error) in nodes.iter() {
+                        let (q, dq) = self.fixed.stretch.half_angle(place);
+                        let inverse = 1.0 / (1.0 + q * q);
+                        let p_abs = span * 2.0 * q * inverse;
+                        let y = span * (1.0 - q) * (1.0 + q) * inverse;
+                        let x = (1.0 + p_abs * p_abs).sqrt();
+                        let term = self.slow_term::<O>(at, wave, (x, p_abs, y), shallow);
+                        // dx = p^ dp^/x, dp^ = 2 y/(1 + q^2) dq
+                        let jacobian = p_abs * 2.0 * y * inverse / x * dq;
+                        sum.add(weight * jacobian, error, term);
+                    }
+                },
+            );
         }
     }
 
@@ -60,15 +70,15 @@ impl Setting {
         &self,
         at: Point,
         wave: Wave,
-        shallow: bool,
-    ) -> Singularities {
+        singularities: &mut Singularities,
+    ) {
         let (fixed, strength) = (&self.fixed, Strength::of::<O>(self.profile));
-        let mut singularities = fixed.slow.with_strength(strength, self.front_rounding(at));
+        singularities.take(&fixed.slow, strength, self.front_rounding(at));
         let radius = self.profile.radius();
+        let shallow = shallow::applies::<O>(self.profile, at);
         for at in [at].into_iter().chain(shallow.then(|| shallow::above(at))) {
-            fronts::add_slow(&mut singularities, at, radius, self.k, &fixed.stretch, wave);
+            fronts::add_slow(singularities, at, radius, self.k, &fixed.stretch, wave);
         }
-        singularities
     }
 
     /// The integrand at slowness x, p = -i `p_abs`, y = sqrt(K - x^2).

@@ -1,5 +1,6 @@
 //! How singular an integrand is at the fronts, and the relative error that follows from it.
 
+use crate::numeric::scalar::Real;
 use crate::potentials::order::{Order, TimeOrder};
 use crate::profile::Profile;
 
@@ -34,21 +35,22 @@ impl Strength {
     ///
     /// `place_error` is the rounding error of the place of the cut, `distance` the distance
     /// from it in slowness and `s` in the variable that smooths the singularity.
-    pub(crate) fn at_front(
+    #[inline(always)]
+    pub(crate) fn at_front<T: Real>(
         self,
-        [displacement, stress]: [f64; 2],
+        [displacement, stress]: [T; 2],
         place_error: f64,
-        distance: f64,
-        s: f64,
-    ) -> [f64; 2] {
+        distance: T,
+        s: T,
+    ) -> [T; 2] {
         /// All nodes beside a front share the error of its place: their errors add up, where squares are added.
         const SHARED: f64 = 5.0;
-        let front = SHARED * place_error / distance;
+        let front = s.constant(SHARED * place_error) / distance;
         match self {
             Self::Bounded => [displacement, stress],
             // displacements have a root there
             Self::InverseRoot => [displacement + front * s, stress + front],
-            Self::FinitePart => [displacement + front, stress + 3.0 * front],
+            Self::FinitePart => [displacement + front, stress + front * 3.0],
         }
     }
 

@@ -6,6 +6,7 @@
 //! assert!((sum - (1.0_f64.exp() - 1.0)).abs() < 1e-15);
 //! ```
 
+use crate::numeric::lanes::WIDTH;
 use std::sync::OnceLock;
 
 /// Largest number of nodes of a rule that is kept.
@@ -14,8 +15,10 @@ pub const MAX_NODES: usize = 80;
 /// Nodes and weights of one Gauss-Legendre rule on [-1, 1], nodes ascending.
 #[derive(Debug, Clone)]
 pub struct Rule {
-    pub(crate) nodes: Vec<f64>,
-    pub(crate) weights: Vec<f64>,
+    count: usize,
+    /// In whole blocks, the last filled with a node of no weight.
+    nodes: Vec<f64>,
+    weights: Vec<f64>,
 }
 
 impl Rule {
@@ -45,21 +48,44 @@ impl Rule {
         if n % 2 == 1 {
             nodes[n / 2] = 0.0;
         }
-        Self { nodes, weights }
+        Self::of(nodes, weights)
+    }
+
+    fn of(mut nodes: Vec<f64>, mut weights: Vec<f64>) -> Self {
+        let count = nodes.len();
+        nodes.resize(count.next_multiple_of(WIDTH), nodes[0]);
+        weights.resize(nodes.len(), 0.0);
+        Self {
+            count,
+            nodes,
+            weights,
+        }
+    }
+
+    /// Nodes and weights in whole registers of `lanes` numbers.
+    #[inline]
+    pub(crate) fn in_registers(&self, lanes: usize) -> [&[f64]; 2] {
+        let used = self.count.next_multiple_of(lanes);
+        [&self.nodes[..used], &self.weights[..used]]
     }
 
     /// Nodes on [-1, 1], ascending.
     #[must_use]
     pub fn nodes(&self) -> &[f64] {
-        &self.nodes
+        &self.nodes[..self.count]
+    }
+
+    /// Their weights.
+    pub(crate) fn weights(&self) -> &[f64] {
+        &self.weights[..self.count]
     }
 
     /// Node and weight pairs carried over to the interval [a, b].
     pub fn on(&self, a: f64, b: f64) -> impl Iterator<Item = (f64, f64)> + '_ {
         let (mid, half) = (0.5 * (a + b), 0.5 * (b - a));
-        self.nodes
+        self.nodes()
             .iter()
-            .zip(&self.weights)
+            .zip(self.weights())
             .map(move |(&x, &w)| (mid + half * x, half * w))
     }
 }
@@ -104,7 +130,7 @@ fn finite_part(n: usize) -> Rule {
             plain[i] - nodes[i] * nodes[i] * (value * value_cost + slope * slope_cost)
         })
         .collect();
-    Rule { nodes, weights }
+    Rule::of(nodes, weights)
 }
 
 /// Legendre polynomial of degree n >= 1 and its derivative at |x| < 1.
@@ -130,7 +156,7 @@ mod tests {
         for n in 3..=20 {
             let rule = finite_part_rule(n);
             for power in (0..n as i32).filter(|&k| k != 1).map(|k| k - 2) {
-                let terms = rule.nodes.iter().zip(&rule.weights);
+                let terms = rule.nodes().iter().zip(rule.weights());
                 let sum: f64 = terms.map(|(s, w)| w * s.powi(power)).sum();
                 let exact = 1.0 / (f64::from(power) + 1.0);
                 assert!((sum - exact).abs() < 1e-10, "n = {n}, s^{power}: {sum}");

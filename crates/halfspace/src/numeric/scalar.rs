@@ -21,7 +21,11 @@ pub(crate) trait Scalar:
 pub(crate) trait Real: Scalar + Div<Output = Self> + Neg<Output = Self> {
     fn sqrt(self) -> Self;
     fn exp(self) -> Self;
+    fn abs(self) -> Self;
     fn at_least(self, least: f64) -> Self;
+
+    /// `yes` where this is below `limit`, else `no`.
+    fn where_below(self, limit: Self, yes: Self, no: Self) -> Self;
 }
 
 impl Scalar for f64 {
@@ -43,8 +47,18 @@ impl Real for f64 {
     }
 
     #[inline(always)]
+    fn abs(self) -> Self {
+        f64::abs(self)
+    }
+
+    #[inline(always)]
     fn at_least(self, least: f64) -> Self {
         self.max(least)
+    }
+
+    #[inline(always)]
+    fn where_below(self, limit: Self, yes: Self, no: Self) -> Self {
+        if self < limit { yes } else { no }
     }
 }
 

@@ -94,13 +94,14 @@ impl<'a> WithSimd for Panel<'a> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
         let nodes = self.nodes;
-        let digits = self.setting.digits(self.at, false);
+        let digits = self.setting.deep_digits;
         let (mut values, mut squares) = ([[0.0; WIDTH]; 6], [[0.0; WIDTH]; 6]);
-        let registers =
-            |list: &'a [f64]| Lanes::registers(simd, &list[nodes.in_registers(S::F64_LANES)]);
-        let [displacement, stress] = nodes.errors.each_ref().map(|errors| registers(errors));
-        let all = registers(&nodes.places).zip(registers(&nodes.weights));
-        for (i, ((place, weight), error)) in all.zip(displacement.zip(stress)).enumerate() {
+        let [rule, weights] = nodes
+            .rule
+            .in_registers(S::F64_LANES)
+            .map(|list| Lanes::registers(simd, list));
+        for (i, (node, weight)) in rule.zip(weights).enumerate() {
+            let (place, weight, error) = nodes.at(node, weight);
             let (jacobian, term) = match self.sense {
                 Some(sense) => fast(self.setting, (self.at, digits), (self.wave, sense), place),
                 None => slow(self.setting, (self.at, digits), self.wave, place),
@@ -110,7 +111,7 @@ impl<'a> WithSimd for Panel<'a> {
             let i = i % (WIDTH / S::F64_LANES);
             for f in 0..6 {
                 let x = weight * term[f];
-                let error = if f < 2 { error.0 } else { error.1 } * x;
+                let error = error[usize::from(f >= 2)] * x;
                 let value = &mut S::as_mut_simd_f64s(&mut values[f]).0[i];
                 *value = (Lanes::of(simd, *value) + x).register;
                 let square = &mut S::as_mut_simd_f64s(&mut squares[f]).0[i];
@@ -145,12 +146,11 @@ fn slow<S: Simd>(
     s: Lanes<S>,
 ) -> (Lanes<S>, [Lanes<S>; 6]) {
     let (k, profile) = (setting.k, setting.profile);
-    let span = (k - 1.0).sqrt();
     let (q, dq) = setting.fixed.stretch.half_angle(s);
     let one = s.constant(1.0);
     let inverse = one / (q * q + 1.0);
-    let p_abs = q * inverse * (2.0 * span);
-    let y = (one - q) * (one + q) * inverse * span;
+    let p_abs = q * inverse * (2.0 * setting.span);
+    let y = (one - q) * (one + q) * inverse * setting.span;
     let x = (p_abs * p_abs + 1.0).sqrt();
     let over_x = one / x;
     let (re, im) = spectrum::inverse_rayleigh(k, x, p_abs, y);

@@ -84,11 +84,6 @@ impl<S: Simd> Lanes<S> {
     }
 
     #[inline(always)]
-    pub(crate) fn abs(self) -> Self {
-        self.with(self.simd.abs_f64s(self.register))
-    }
-
-    #[inline(always)]
     pub(crate) fn max(self, other: Self) -> Self {
         self.with(self.simd.max_f64s(self.register, other.register))
     }
@@ -113,13 +108,6 @@ impl<S: Simd> Lanes<S> {
     #[inline(always)]
     pub(crate) fn smallest(self) -> f64 {
         self.simd.reduce_min_f64s(self.register)
-    }
-
-    /// `yes` where this is below `limit`, else `no`.
-    #[inline(always)]
-    pub(crate) fn where_below(self, limit: Self, yes: Self, no: Self) -> Self {
-        let mask = self.simd.less_than_f64s(self.register, limit.register);
-        self.with(self.simd.select_f64s(mask, yes.register, no.register))
     }
 
     /// Horner's rule, the highest coefficient first.
@@ -187,6 +175,17 @@ impl<S: Simd> Real for Lanes<S> {
     #[inline(always)]
     fn exp(self) -> Self {
         self.exponential()
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        self.with(self.simd.abs_f64s(self.register))
+    }
+
+    #[inline(always)]
+    fn where_below(self, limit: Self, yes: Self, no: Self) -> Self {
+        let mask = self.simd.less_than_f64s(self.register, limit.register);
+        self.with(self.simd.select_f64s(mask, yes.register, no.register))
     }
 
     #[inline(always)]

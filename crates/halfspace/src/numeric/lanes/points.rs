@@ -2,6 +2,7 @@
 
 use super::{Lanes, Pair, WIDTH, dispatch};
 use crate::numeric::scalar::{Real, Scalar};
+use arrayvec::ArrayVec;
 use num_complex::Complex64;
 use pulp::{Simd, WithSimd};
 
@@ -16,17 +17,10 @@ pub(crate) trait Map {
 /// Points of a complex plane, real and imaginary parts side by side.
 #[derive(Debug, Clone)]
 pub(crate) struct Points {
-    re: [f64; CAPACITY],
-    im: [f64; CAPACITY],
+    /// In whole blocks, the last filled with what is nowhere.
+    re: ArrayVec<f64, CAPACITY>,
+    im: ArrayVec<f64, CAPACITY>,
     count: usize,
-}
-
-impl FromIterator<Complex64> for Points {
-    fn from_iter<I: IntoIterator<Item = Complex64>>(all: I) -> Self {
-        let mut points = Self::new();
-        all.into_iter().for_each(|point| points.push(point));
-        points
-    }
 }
 
 impl Points {
@@ -36,14 +30,18 @@ impl Points {
     #[inline]
     pub(crate) fn new() -> Self {
         Self {
-            re: [Self::NOWHERE; CAPACITY],
-            im: [Self::NOWHERE; CAPACITY],
+            re: ArrayVec::new(),
+            im: ArrayVec::new(),
             count: 0,
         }
     }
 
     #[inline]
     pub(crate) fn push(&mut self, point: Complex64) {
+        if self.count == self.re.len() {
+            extend(&mut self.re, &[Self::NOWHERE; WIDTH]);
+            extend(&mut self.im, &[Self::NOWHERE; WIDTH]);
+        }
         (self.re[self.count], self.im[self.count]) = (point.re, point.im);
         self.count += 1;
     }
@@ -54,9 +52,43 @@ impl Points {
         all.map(|(&re, &im)| Complex64::new(re, im))
     }
 
-    /// Replaces each point.
-    pub(crate) fn map(&mut self, map: &impl Map) {
-        dispatch(Mapped { points: self, map });
+    /// Becomes the points of another.
+    #[inline]
+    pub(crate) fn copy(&mut self, points: &Self) {
+        self.clear();
+        extend(&mut self.re, &points.re);
+        extend(&mut self.im, &points.im);
+        self.count = points.count;
+    }
+
+    #[inline]
+    pub(crate) fn clear(&mut self) {
+        self.re.clear();
+        self.im.clear();
+        self.count = 0;
+    }
+
+    /// Becomes the images of other points.
+    #[inline]
+    pub(crate) fn take_images(&mut self, points: &Self, map: &impl Map) {
+        self.clear();
+        for _ in 0..points.re.len() / WIDTH {
+            extend(&mut self.re, &[Self::NOWHERE; WIDTH]);
+            extend(&mut self.im, &[Self::NOWHERE; WIDTH]);
+        }
+        self.count = points.count;
+        dispatch(Mapped {
+            points,
+            map,
+            images: self,
+        });
+    }
+
+    /// Replaces each point, one by one.
+    pub(crate) fn replace(&mut self, map: impl Fn(Complex64) -> Complex64) {
+        for (re, im) in self.re.iter_mut().zip(&mut self.im).take(self.count) {
+            Complex64 { re: *re, im: *im } = map(Complex64::new(*re, *im));
+        }
     }
 
     /// The smallest major axis of the ellipses with two foci through the points, focal distance 2.
@@ -105,9 +137,17 @@ pub(crate) fn power<T: Scalar>(mut x: T, mut exponent: u32) -> T {
     product
 }
 
+/// Adds numbers for which there is room.
+#[inline(always)]
+fn extend<const N: usize>(numbers: &mut ArrayVec<f64, N>, more: &[f64]) {
+    let added = numbers.try_extend_from_slice(more);
+    debug_assert!(added.is_ok());
+}
+
 struct Mapped<'a, M> {
-    points: &'a mut Points,
+    points: &'a Points,
     map: &'a M,
+    images: &'a mut Points,
 }
 
 impl<M: Map> WithSimd for Mapped<'_, M> {
@@ -115,16 +155,14 @@ impl<M: Map> WithSimd for Mapped<'_, M> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let Points { re, im, count } = self.points;
-        let used = count.next_multiple_of(S::F64_LANES);
-        let (re, _) = S::as_mut_simd_f64s(&mut re[..used]);
-        let (im, _) = S::as_mut_simd_f64s(&mut im[..used]);
-        for (re, im) in re.iter_mut().zip(im) {
-            let found = self.map.at(Pair {
-                re: Lanes::of(simd, *re),
-                im: Lanes::of(simd, *im),
-            });
-            (*re, *im) = (found.re.register, found.im.register);
+        let used = self.points.count.next_multiple_of(S::F64_LANES);
+        let [re, im] =
+            [&self.points.re, &self.points.im].map(|part| Lanes::registers(simd, &part[..used]));
+        let (image_re, _) = S::as_mut_simd_f64s(&mut self.images.re);
+        let (image_im, _) = S::as_mut_simd_f64s(&mut self.images.im);
+        for ((re, im), (image_re, image_im)) in re.zip(im).zip(image_re.iter_mut().zip(image_im)) {
+            let found = self.map.at(Pair { re, im });
+            (*image_re, *image_im) = (found.re.register, found.im.register);
         }
     }
 }
