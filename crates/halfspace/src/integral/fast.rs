@@ -129,7 +129,7 @@ impl Setting {
             t: 0.0,
         };
         self.add_passed(anywhere, wave, (0.0, 1.0), &mut sum);
-        sum.value[Field::DisplacementZ.index()]
+        sum.value()[Field::DisplacementZ.index()]
     }
 
     /// Adds the time integral of an outgoing wave that has passed on an interval.

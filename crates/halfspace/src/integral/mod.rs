@@ -88,28 +88,28 @@ impl Integral {
     fn integrate<O: TimeOrder>(&self, at: Point) -> Estimate {
         /// Outside the disc the pressure is zero, and at a distance from the edge so are its rounding errors.
         const CLEAR_OF_EDGE: f64 = 1.01;
-        let mut total = self.setting.rayleigh_wave::<O>(&self.poles, at);
-        let mut spectrum = Sum::default();
+        let mut sum = Sum::default();
+        self.setting.rayleigh_wave::<O>(&self.poles, at, &mut sum);
         let mut singularities = Singularities::new([], Complex64::ZERO, &[]);
         for wave in [Wave::P, Wave::S] {
             for sense in [Sense::Outgoing, Sense::Image] {
                 let passed = self.passed[wave as usize];
                 self.setting
-                    .fast::<O>(at, wave, sense, passed, &mut singularities, &mut spectrum);
+                    .fast::<O>(at, wave, sense, passed, &mut singularities, &mut sum);
             }
             self.setting
-                .slow::<O>(at, wave, &mut singularities, &mut spectrum);
+                .slow::<O>(at, wave, &mut singularities, &mut sum);
         }
-        total.add(1.0 / PI, [0.0; 2], spectrum.value);
         let mut floor = rounding_floor::<O>(self.setting.profile, at.r);
         if at.r > CLEAR_OF_EDGE && shallow::applies::<O>(self.setting.profile, at) {
             for field in [Field::StressZz, Field::StressRz] {
                 floor[field.index()] *= 8.0 * at.z.sqrt();
             }
         }
+        let error = sum.error();
         Estimate {
-            value: total.value,
-            error: std::array::from_fn(|f| total.error()[f] + spectrum.error()[f] / PI + floor[f]),
+            value: sum.value().map(|v| v / PI),
+            error: std::array::from_fn(|f| error[f] / PI + floor[f]),
         }
     }
 }

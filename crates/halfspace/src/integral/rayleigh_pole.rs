@@ -16,12 +16,12 @@ use crate::potentials::closed_form::potentials;
 use crate::potentials::order::{Order, TimeOrder};
 use crate::potentials::shallow;
 use num_complex::Complex64;
+use std::f64::consts::PI;
 
 impl Setting {
-    /// The Rayleigh wave at a point: the residues of P and S.
-    pub(crate) fn rayleigh_wave<O: TimeOrder>(&self, poles: &[Pole; 2], at: Point) -> Sum {
+    /// Adds pi times the Rayleigh wave at a point: the residues of P and S.
+    pub(crate) fn rayleigh_wave<O: TimeOrder>(&self, poles: &[Pole; 2], at: Point, sum: &mut Sum) {
         let c = self.medium.rayleigh_speed();
-        let mut sum = Sum::default();
         let shallow = shallow::applies::<O>(self.profile, at);
         let front = Front::near::<O>(&self.medium, self.profile, at);
         let arguments = poles
@@ -50,9 +50,8 @@ impl Setting {
                 };
                 pole.amplitudes.set_traction(&mut term, a.re, g.re, at.r);
             }
-            sum.add(1.0, self.error_at_front::<O>(at, xi, shallow), term);
+            sum.add(PI, self.error_at_front::<O>(at, xi, shallow), term);
         }
-        sum
     }
 
     /// Relative errors of displacements and stresses of the Rayleigh wave from rounding of its distance to the edges of the disc.

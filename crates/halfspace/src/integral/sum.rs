@@ -3,19 +3,23 @@
 use crate::field::Six;
 use crate::numeric::lanes::{WIDTH, total};
 
-/// Six fields and their likely errors.
+/// Six fields and the squares of their likely errors, in blocks that are added up at the end.
 ///
 /// The errors of panels and of rounding are as often positive as negative: their squares add up.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Default)]
 pub(crate) struct Sum {
-    pub(crate) value: Six,
-    pub(crate) square: Six,
+    pub(crate) values: [[f64; WIDTH]; 6],
+    pub(crate) squares: [[f64; WIDTH]; 6],
 }
 
 impl Sum {
+    pub(crate) fn value(&self) -> Six {
+        self.values.map(|block| total(&block))
+    }
+
     /// Likely error of each field.
     pub(crate) fn error(&self) -> Six {
-        self.square.map(f64::sqrt)
+        self.squares.map(|block| total(&block).sqrt())
     }
 
     /// Adds `weight` times `term`, of relative errors of displacements and stresses.
@@ -24,17 +28,8 @@ impl Sum {
         let relative = [d, d, s, s, s, s];
         for (f, relative) in relative.into_iter().enumerate() {
             let x = weight * term[f];
-            self.value[f] += x;
-            self.square[f] += (relative * x) * (relative * x);
-        }
-    }
-
-    /// Adds blocks of values of each field, and of squares of the errors.
-    #[inline(always)]
-    pub(crate) fn add_blocks(&mut self, values: &[[f64; WIDTH]; 6], squares: &[[f64; WIDTH]; 6]) {
-        for f in 0..6 {
-            self.value[f] += total(&values[f]);
-            self.square[f] += total(&squares[f]);
+            self.values[f][0] += x;
+            self.squares[f][0] += (relative * x) * (relative * x);
         }
     }
 }

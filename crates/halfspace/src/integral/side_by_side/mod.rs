@@ -93,9 +93,8 @@ impl<'a> WithSimd for Panel<'a> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let nodes = self.nodes;
+        let (nodes, sum) = (self.nodes, self.sum);
         let digits = self.setting.deep_digits;
-        let (mut values, mut squares) = ([[0.0; WIDTH]; 6], [[0.0; WIDTH]; 6]);
         let [rule, weights] = nodes
             .rule
             .in_registers(S::F64_LANES)
@@ -112,13 +111,12 @@ impl<'a> WithSimd for Panel<'a> {
             for f in 0..6 {
                 let x = weight * term[f];
                 let error = error[usize::from(f >= 2)] * x;
-                let value = &mut S::as_mut_simd_f64s(&mut values[f]).0[i];
+                let value = &mut S::as_mut_simd_f64s(&mut sum.values[f]).0[i];
                 *value = (Lanes::of(simd, *value) + x).register;
-                let square = &mut S::as_mut_simd_f64s(&mut squares[f]).0[i];
+                let square = &mut S::as_mut_simd_f64s(&mut sum.squares[f]).0[i];
                 *square = (Lanes::of(simd, *square) + error * error).register;
             }
         }
-        self.sum.add_blocks(&values, &squares);
     }
 }
 
