@@ -9,7 +9,7 @@ use crate::disc::weights::Weights;
 use crate::error::MarchError;
 use crate::law::quasi_static::expected_contact_time;
 use crate::model::StaticShare;
-use crate::resample::Resampler;
+use crate::numeric::quadrature::Local;
 use crate::summary::{Summary, relative};
 use halfspace::SurfaceResponse;
 
@@ -300,7 +300,7 @@ pub(crate) fn march_finely(
     loop {
         step *= 0.5;
         let mut fine = march_implicit(impact, step)?;
-        fine.error = distance(coarse, &fine);
+        fine.error = distance(&coarse, &fine);
         if fine.error <= ENOUGH * tolerance || duration > 0.5 * MOST * step {
             return Ok(fine);
         }
@@ -308,11 +308,32 @@ pub(crate) fn march_finely(
     }
 }
 
-/// Largest difference of the force at the samples of the finer and between those of the coarser history, relative.
-fn distance(coarse: History, fine: &History) -> f64 {
-    let coarse = Resampler::new(coarse);
+/// Largest difference of the force at the samples of the finer of two histories a halving apart, relative; in the middle
+/// between samples the indentation of the coarser is the polynomial through the six around.
+fn distance(coarse: &History, fine: &History) -> f64 {
+    const MIDDLE: [f64; 6] = [3.0, -25.0, 150.0, 150.0, -25.0, 3.0];
+    let parts = coarse.displacement.iter().zip(&coarse.deflection);
+    let indentation: Vec<f64> = parts.map(|(d, w)| d - w).collect();
+    let Some(last) = indentation.len().checked_sub(MIDDLE.len()) else {
+        return f64::INFINITY;
+    };
+    let middle = |cell: usize| {
+        let from = cell.saturating_sub(2).min(last);
+        let u = if from + 2 == cell {
+            let around = indentation[from..].iter().zip(MIDDLE);
+            around.map(|(u, weight)| weight * u).sum::<f64>() / 256.0
+        } else {
+            Local::<6>::at(&indentation, from).value((cell - from) as f64 + 0.5)
+        };
+        u.max(0.0) * u.max(0.0).sqrt()
+    };
     let differences = fine.force.iter().enumerate().map(|(i, p)| {
-        let [other, ..] = coarse.force(i as f64 * fine.step);
+        let cell = i / 2;
+        let other = match coarse.force.get(cell) {
+            Some(q) if i % 2 == 0 => *q,
+            Some(_) if cell + 1 < indentation.len() => middle(cell),
+            Some(_) | None => 0.0,
+        };
         (other - p).abs()
     });
     let largest = fine.force.iter().copied().fold(0.0, f64::max);

@@ -217,8 +217,12 @@ impl<'a> Forcing<'a> {
         let radius = self.excitation.radius();
         let both = |t: f64| self.on_disc(discs, k, t);
         let samples: Vec<[f64; 2]> = self.times_s(run).map(both).collect();
-        let in_cells = nodes.places().map(|x| both(run.start_s + x * self.step_s));
-        let in_cells: Vec<[f64; 2]> = in_cells.collect();
+        let in_cells: Vec<[f64; 2]> = if discs.radii.len() == 1 && self.reading == Reading::Force {
+            nodes.forces().map(|force| [force, 0.0]).collect()
+        } else {
+            let places = nodes.places();
+            places.map(|x| both(run.start_s + x * self.step_s)).collect()
+        };
         let base = match self.reading {
             Reading::Force => discs.share(k, 1.0).map(|share| run.base_n * share),
             Reading::Rate => [0.0; 2],

@@ -51,6 +51,11 @@ impl CellNodes {
         })
     }
 
+    /// The forces at all places.
+    pub(crate) fn forces(&self) -> impl Iterator<Item = f64> {
+        self.nodes.iter().map(|node| node.force)
+    }
+
     /// Those of one cell.
     pub(crate) fn of(&self, cell: usize) -> &[Node] {
         &self.nodes[self.starts[cell]..self.starts[cell + 1]]
