@@ -9,7 +9,6 @@ use crate::integral::setting::Setting;
 use crate::integral::side_by_side;
 use crate::integral::singularities::Singularities;
 use crate::integral::spectrum::{self, Wave, half_angle};
-use crate::integral::strength::Strength;
 use crate::integral::sum::Sum;
 use crate::numeric::scalar::Real;
 use crate::point::{Point, Sense};
@@ -46,7 +45,7 @@ impl Setting {
             Sense::Image if !shallow && at.t + at.z * self.vertical_at_one(wave) >= limit => return,
             Sense::Outgoing | Sense::Image => {}
         }
-        self.fast_singularities::<O>(at, wave, sense, singularities);
+        fronts::singular::<O>(self, at, wave, Some(sense), singularities);
         for i in singularities.intervals() {
             let interval = singularities.interval(i);
             let (x, p, _) = half_angle(0.5 * (interval.0 + interval.1));
@@ -72,24 +71,6 @@ impl Setting {
                     }
                 }
             }
-        }
-    }
-
-    /// The singularities of one wave in one sense.
-    #[inline(always)]
-    fn fast_singularities<O: TimeOrder>(
-        &self,
-        at: Point,
-        wave: Wave,
-        sense: Sense,
-        singularities: &mut Singularities,
-    ) {
-        let (fixed, strength) = (&self.fixed.fast, Strength::of::<O>(self.profile));
-        singularities.take(fixed, strength, self.front_rounding(at));
-        let radius = self.profile.radius();
-        let shallow = shallow::applies::<O>(self.profile, at);
-        for at in [at].into_iter().chain(shallow.then(|| shallow::above(at))) {
-            fronts::add_fast(singularities, at, radius, self.k, wave, sense);
         }
     }
 

@@ -20,15 +20,45 @@
 //! Theory: `docs/theory.md` (T18).
 
 use crate::integral::branch_points::Stretch;
+use crate::integral::setting::Setting;
 use crate::integral::singularities::Singularities;
 use crate::integral::spectrum::Wave;
+use crate::integral::strength::Strength;
 use crate::numeric::complex::root;
 use crate::numeric::lanes::Points;
 use crate::point::{Point, Sense};
+use crate::potentials::order::TimeOrder;
+use crate::potentials::shallow;
 use num_complex::Complex64;
 
+/// The singularities of one wave: in one sense on the fast interval, in both on the slow one.
+#[inline(always)]
+pub(crate) fn singular<O: TimeOrder>(
+    setting: &Setting,
+    at: Point,
+    wave: Wave,
+    sense: Option<Sense>,
+    singularities: &mut Singularities,
+) {
+    let (fixed, profile) = (&setting.fixed, setting.profile);
+    let own = if sense.is_some() {
+        &fixed.fast
+    } else {
+        &fixed.slow
+    };
+    singularities.take(own, Strength::of::<O>(profile), setting.front_rounding(at));
+    let (radius, k) = (profile.radius(), setting.k);
+    let shallow = shallow::applies::<O>(profile, at);
+    for at in [at].into_iter().chain(shallow.then(|| shallow::above(at))) {
+        match sense {
+            Some(sense) => add_fast(singularities, at, radius, k, wave, sense),
+            None => add_slow(singularities, at, radius, k, &fixed.stretch, wave),
+        }
+    }
+}
+
 /// Adds the fronts of one wave in one sense to the singularities of the fast interval.
-pub(crate) fn add_fast(
+fn add_fast(
     singularities: &mut Singularities,
     at: Point,
     radius: f64,
@@ -53,7 +83,7 @@ pub(crate) fn add_fast(
 ///
 /// Reversing time turns q into its reciprocal, and the other sheet of the root that a wave does not
 /// contain turns it into its negative.
-pub(crate) fn add_slow(
+fn add_slow(
     singularities: &mut Singularities,
     at: Point,
     radius: f64,
@@ -80,9 +110,8 @@ pub(crate) fn add_slow(
             add(root(1.0 - c * c) / (1.0 + c));
         }
     });
-    let mut stretched = Points::new();
-    stretched.take_images(&points, stretch);
-    for point in stretched.iter() {
+    points.map(stretch);
+    for point in points.iter() {
         singularities.add(point);
     }
 }

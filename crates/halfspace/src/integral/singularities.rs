@@ -180,7 +180,8 @@ impl Singularities {
             least: if is_cut { SAME } else { 0.0 },
             square: power == SQUARE,
         };
-        self.images.take_images(&self.points, &image);
+        self.images.copy(&self.points);
+        self.images.map(&image);
         let mut pole = (self.pole - start) / scale;
         if power == SQUARE {
             pole = root(pole);

@@ -8,7 +8,6 @@ use crate::integral::setting::Setting;
 use crate::integral::side_by_side;
 use crate::integral::singularities::Singularities;
 use crate::integral::spectrum::{self, Wave};
-use crate::integral::strength::Strength;
 use crate::integral::sum::Sum;
 use crate::point::Point;
 use crate::potentials::Potentials;
@@ -38,7 +37,7 @@ impl Setting {
     ) {
         let span = self.span;
         let shallow = shallow::applies::<O>(self.profile, at);
-        self.slow_singularities::<O>(at, wave, singularities);
+        fronts::singular::<O>(self, at, wave, None, singularities);
         for i in singularities.intervals() {
             singularities.visit(
                 singularities.interval(i),
@@ -61,23 +60,6 @@ impl Setting {
                     }
                 },
             );
-        }
-    }
-
-    /// The singularities of one wave in both senses.
-    #[inline(always)]
-    fn slow_singularities<O: TimeOrder>(
-        &self,
-        at: Point,
-        wave: Wave,
-        singularities: &mut Singularities,
-    ) {
-        let (fixed, strength) = (&self.fixed, Strength::of::<O>(self.profile));
-        singularities.take(&fixed.slow, strength, self.front_rounding(at));
-        let radius = self.profile.radius();
-        let shallow = shallow::applies::<O>(self.profile, at);
-        for at in [at].into_iter().chain(shallow.then(|| shallow::above(at))) {
-            fronts::add_slow(singularities, at, radius, self.k, &fixed.stretch, wave);
         }
     }
 

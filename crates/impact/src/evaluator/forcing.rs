@@ -221,7 +221,9 @@ impl<'a> Forcing<'a> {
             nodes.forces().map(|force| [force, 0.0]).collect()
         } else {
             let places = nodes.places();
-            places.map(|x| both(run.start_s + x * self.step_s)).collect()
+            places
+                .map(|x| both(run.start_s + x * self.step_s))
+                .collect()
         };
         let base = match self.reading {
             Reading::Force => discs.share(k, 1.0).map(|share| run.base_n * share),

@@ -55,36 +55,20 @@ impl Points {
     /// Becomes the points of another.
     #[inline]
     pub(crate) fn copy(&mut self, points: &Self) {
-        self.clear();
+        self.re.clear();
+        self.im.clear();
         extend(&mut self.re, &points.re);
         extend(&mut self.im, &points.im);
         self.count = points.count;
     }
 
+    /// Replaces each point.
     #[inline]
-    pub(crate) fn clear(&mut self) {
-        self.re.clear();
-        self.im.clear();
-        self.count = 0;
+    pub(crate) fn map(&mut self, map: &impl Map) {
+        dispatch(Mapped { points: self, map });
     }
 
-    /// Becomes the images of other points.
-    #[inline]
-    pub(crate) fn take_images(&mut self, points: &Self, map: &impl Map) {
-        self.clear();
-        for _ in 0..points.re.len() / WIDTH {
-            extend(&mut self.re, &[Self::NOWHERE; WIDTH]);
-            extend(&mut self.im, &[Self::NOWHERE; WIDTH]);
-        }
-        self.count = points.count;
-        dispatch(Mapped {
-            points,
-            map,
-            images: self,
-        });
-    }
-
-    /// Replaces each point, one by one.
+    /// The same, one by one.
     pub(crate) fn replace(&mut self, map: impl Fn(Complex64) -> Complex64) {
         for (re, im) in self.re.iter_mut().zip(&mut self.im).take(self.count) {
             Complex64 { re: *re, im: *im } = map(Complex64::new(*re, *im));
@@ -145,9 +129,8 @@ fn extend<const N: usize>(numbers: &mut ArrayVec<f64, N>, more: &[f64]) {
 }
 
 struct Mapped<'a, M> {
-    points: &'a Points,
+    points: &'a mut Points,
     map: &'a M,
-    images: &'a mut Points,
 }
 
 impl<M: Map> WithSimd for Mapped<'_, M> {
@@ -155,14 +138,16 @@ impl<M: Map> WithSimd for Mapped<'_, M> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let used = self.points.count.next_multiple_of(S::F64_LANES);
-        let [re, im] =
-            [&self.points.re, &self.points.im].map(|part| Lanes::registers(simd, &part[..used]));
-        let (image_re, _) = S::as_mut_simd_f64s(&mut self.images.re);
-        let (image_im, _) = S::as_mut_simd_f64s(&mut self.images.im);
-        for ((re, im), (image_re, image_im)) in re.zip(im).zip(image_re.iter_mut().zip(image_im)) {
-            let found = self.map.at(Pair { re, im });
-            (*image_re, *image_im) = (found.re.register, found.im.register);
+        let Points { re, im, count } = self.points;
+        let used = count.next_multiple_of(S::F64_LANES);
+        let (re, _) = S::as_mut_simd_f64s(&mut re[..used]);
+        let (im, _) = S::as_mut_simd_f64s(&mut im[..used]);
+        for (re, im) in re.iter_mut().zip(im) {
+            let found = self.map.at(Pair {
+                re: Lanes::of(simd, *re),
+                im: Lanes::of(simd, *im),
+            });
+            (*re, *im) = (found.re.register, found.im.register);
         }
     }
 }
