@@ -4,7 +4,6 @@
 //! `wave_speeds` when waves and echoes arrive.
 
 pub(crate) mod library;
-mod library_data;
 pub(crate) mod material;
 pub(crate) mod shape;
 pub(crate) mod strength;
