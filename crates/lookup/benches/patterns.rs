@@ -57,9 +57,7 @@ fn main() {
         ] {
             let (median, most) = timed(|i| {
                 let [r, z] = place(&table, i);
-                table
-                    .trace_for(smoothness, 0.3, r, z, 0, &mut cells)
-                    .unwrap();
+                table.trace(smoothness, 0.3, r, z, 0, &mut cells).unwrap();
             });
             println!("  {pattern:16} {name:22} {median:7.1} {most:7.1}");
             if pattern == "random" && smoothness == Smoothness::Linear {
@@ -91,7 +89,9 @@ fn cold(table: &Table, place: fn(&Table, usize) -> [f64; 2], cells: &mut [[f64; 
             black_box(&other);
             let [r, z] = place(table, i);
             let start = Instant::now();
-            table.trace(0.3, r, z, 0, cells).unwrap();
+            table
+                .trace(Smoothness::Linear, 0.3, r, z, 0, cells)
+                .unwrap();
             start.elapsed().as_secs_f64() * 1e6
         })
         .collect();

@@ -23,7 +23,7 @@ fn traces(criterion: &mut Criterion) {
         group.bench_function(name, |bencher| {
             bencher.iter(|| {
                 let place = (black_box(2.03), black_box(1.71));
-                table.trace_for(smoothness, 0.3, place.0, place.1, 0, &mut cells)
+                table.trace(smoothness, 0.3, place.0, place.1, 0, &mut cells)
             });
         });
     }

@@ -23,7 +23,7 @@
 //! What a table holds is a [`Content`]; a [`Table`] is a valid one that answers questions.
 //!
 //! ```
-//! use lookup::{Content, Origin, Role, Slice, Table, Verification};
+//! use lookup::{Content, Origin, Role, Slice, Smoothness, Table, Verification};
 //!
 //! // Four by four nodes, five cells, two terms of the decay: one field that is 1 in all cells and decays like 1/t^2.
 //! let axis = vec![0.0, 0.5, 1.0, 1.5];
@@ -66,7 +66,7 @@
 //!     between: Vec::new(),
 //! })?;
 //! let mut cells = [[0.0; 6]; 6];
-//! let info = table.trace(0.3, 0.7, 0.2, 0, &mut cells)?;
+//! let info = table.trace(Smoothness::Linear, 0.3, 0.7, 0.2, 0, &mut cells)?;
 //! assert!((cells[4][1] - 1.0).abs() < 1e-12);
 //! // The sixth cell, from 1.0 to 1.2 r0/c1, is of the decay: the average of 1/t^2 there.
 //! assert!((cells[5][1] - 1.0 / 1.2).abs() < 1e-12);

@@ -26,7 +26,8 @@ pub struct TraceInfo {
 }
 
 impl Table {
-    /// Fills `cells[j]` with the average of R over [j w, (j + 1) w], w = 2^`coarsening` table cells.
+    /// Fills `cells[j]` with the average of R over [j w, (j + 1) w], w = 2^`coarsening` table cells, corrected as
+    /// `smoothness` says of the force.
     ///
     /// Any number of cells may be asked for: beyond the tabulated ones the tail continues them.
     ///
@@ -37,21 +38,6 @@ impl Table {
     /// # Errors
     /// [`LookupError`] when a coordinate, Poisson's ratio or the coarsening is outside the table.
     pub fn trace(
-        &self,
-        poisson_ratio: f64,
-        r: f64,
-        z: f64,
-        coarsening: u32,
-        cells: &mut [Six],
-    ) -> Result<TraceInfo, LookupError> {
-        self.trace_for(Smoothness::Linear, poisson_ratio, r, z, coarsening, cells)
-    }
-
-    /// [`Self::trace`] with the cells that suit what is known of the force.
-    ///
-    /// # Errors
-    /// As [`Self::trace`].
-    pub fn trace_for(
         &self,
         smoothness: Smoothness,
         poisson_ratio: f64,
@@ -64,7 +50,7 @@ impl Table {
             .trace([r, z], cells)
     }
 
-    /// [`Self::trace_for`] at many points (r, z): `cells` and `infos` hold the traces one after the other.
+    /// [`Self::trace`] at many points (r, z): `cells` and `infos` hold the traces one after the other.
     ///
     /// What depends on Poisson's ratio alone is done once; several threads may each fill a part of the
     /// points. `cells` is divided evenly among the points.

@@ -86,7 +86,14 @@ fn stencils(content: &Content, points: usize, label: &str) -> Result<(), Failure
         .map(|i| {
             let place = [0.1 + 0.0137 * f64::from(i), 5.9 - 0.0141 * f64::from(i)];
             let start = Instant::now();
-            let done = table.trace(0.3, place[0], place[1], 0, &mut cells);
+            let done = table.trace(
+                lookup::Smoothness::Linear,
+                0.3,
+                place[0],
+                place[1],
+                0,
+                &mut cells,
+            );
             (start.elapsed().as_secs_f64() * 1e6, done)
         })
         .map(|(time, done)| done.map(|_| time))

@@ -45,7 +45,7 @@ fn response(table: &Table, row: &Golden) -> [f64; 6] {
     let count = (row.t / width).ceil() as usize + 1;
     let mut cells = vec![[0.0; 6]; count];
     let info = table
-        .trace_for(Smoothness::Smooth, 0.3, row.r, row.z, 0, &mut cells)
+        .trace(Smoothness::Smooth, 0.3, row.r, row.z, 0, &mut cells)
         .unwrap();
     let force = |t: f64| {
         if t > 0.0 && t < row.length {

@@ -5,7 +5,7 @@ use formats::stored::StoredPart;
 use formats::sweep::{Block, Blocks, Kept, Spec, SweepError, run_rows};
 use formats::{SceneError, json_report, parse_materials, parse_scene, read_record};
 use impact::{Allowance, Forecast, KernelChoice, Load, Reading, simulate_within};
-use lookup::{Content, Table, TableError, TableFile};
+use lookup::{Content, Smoothness, Table, TableError, TableFile};
 use output::Existing;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -344,7 +344,7 @@ fn table(input: &[u8], folder: &Path) -> bool {
     let whole = match Table::open(&path) {
         Ok(table) => {
             let mut cells = [[0.0; 6]; 24];
-            let _ = table.trace(0.27, 0.4, 0.3, 0, &mut cells);
+            let _ = table.trace(Smoothness::Linear, 0.27, 0.4, 0.3, 0, &mut cells);
             true
         }
         Err(error) => sentence(&error),

@@ -19,7 +19,6 @@
 //!
 //! Theory: `docs/theory.md` (T18).
 
-use crate::integral::branch_points::Stretch;
 use crate::integral::setting::Setting;
 use crate::integral::singularities::Singularities;
 use crate::integral::spectrum::Wave;
@@ -47,12 +46,11 @@ pub(crate) fn singular<O: TimeOrder>(
         &fixed.slow
     };
     singularities.take(own, Strength::of::<O>(profile), setting.front_rounding(at));
-    let (radius, k) = (profile.radius(), setting.k);
     let shallow = shallow::applies::<O>(profile, at);
     for at in [at].into_iter().chain(shallow.then(|| shallow::above(at))) {
         match sense {
-            Some(sense) => add_fast(singularities, at, radius, k, wave, sense),
-            None => add_slow(singularities, at, radius, k, &fixed.stretch, wave),
+            Some(sense) => add_fast(singularities, setting, at, wave, sense),
+            None => add_slow(singularities, setting, at, wave),
         }
     }
 }
@@ -60,16 +58,15 @@ pub(crate) fn singular<O: TimeOrder>(
 /// Adds the fronts of one wave in one sense to the singularities of the fast interval.
 fn add_fast(
     singularities: &mut Singularities,
+    setting: &Setting,
     at: Point,
-    radius: f64,
-    k: f64,
     wave: Wave,
     sense: Sense,
 ) {
-    for_each_front(at, radius, k, wave, sense, |v| match wave {
+    for_each_front(setting, at, wave, sense, |v| match wave {
         Wave::P => with_mirror(v, |u| singularities.add(u)),
         Wave::S => {
-            let (x, y) = (k.sqrt() * sine(v), cosine(v));
+            let (x, y) = (setting.root_k * sine(v), cosine(v));
             if y.re > 0.0 {
                 let u = x / (1.0 + root(1.0 - x * x));
                 with_mirror(u, |u| singularities.add(u));
@@ -83,15 +80,8 @@ fn add_fast(
 ///
 /// Reversing time turns q into its reciprocal, and the other sheet of the root that a wave does not
 /// contain turns it into its negative.
-fn add_slow(
-    singularities: &mut Singularities,
-    at: Point,
-    radius: f64,
-    k: f64,
-    stretch: &Stretch,
-    wave: Wave,
-) {
-    let span = (k - 1.0).sqrt();
+fn add_slow(singularities: &mut Singularities, setting: &Setting, at: Point, wave: Wave) {
+    let span = setting.span;
     let mut points = Points::new();
     let mut add = |q: Complex64| {
         with_mirror(q, |q| points.push(q));
@@ -99,18 +89,18 @@ fn add_slow(
     };
     // On the surface the roots of a pair are reciprocal and stand for the same two fronts.
     let is_reciprocal = |v: Complex64| at.z == 0.0 && v.norm_sqr() > 1.0 && v.im == 0.0;
-    for_each_front(at, radius, k, wave, Sense::Outgoing, |v| match wave {
+    for_each_front(setting, at, wave, Sense::Outgoing, |v| match wave {
         Wave::P | Wave::S if is_reciprocal(v) => {}
         Wave::P => {
             let s = Complex64::i() * cosine(v) / span;
             add(s / (1.0 + root(1.0 - s * s)));
         }
         Wave::S => {
-            let c = cosine(v) * (k.sqrt() / span);
+            let c = cosine(v) * (setting.root_k / span);
             add(root(1.0 - c * c) / (1.0 + c));
         }
     });
-    points.map(stretch);
+    points.map(&setting.fixed.stretch);
     for point in points.iter() {
         singularities.add(point);
     }
@@ -162,24 +152,19 @@ fn edges(r: f64, radius: f64) -> impl Iterator<Item = f64> {
 /// Roots u of (sense t - z) u^2 - 2 e u + (z + sense t) = 0, t in units of the slowness of the wave, for
 /// both e > 0; those for -e are their negatives. Of a conjugate pair one is given.
 fn for_each_front(
+    setting: &Setting,
     at: Point,
-    radius: f64,
-    k: f64,
     wave: Wave,
     sense: Sense,
     mut f: impl FnMut(Complex64),
 ) {
-    let slowness = match wave {
-        Wave::P => 1.0,
-        Wave::S => k.sqrt(),
-    };
-    let (z, t) = (at.z, sense.sign() * at.t / slowness);
+    let (z, t) = (at.z, sense.sign() * at.t / setting.slowness(wave));
     let mut emit = |u: Complex64| {
         if u.is_finite() {
             f(u);
         }
     };
-    for e in edges(at.r, radius) {
+    for e in edges(at.r, setting.profile.radius()) {
         let reach = (z * z + e * e).sqrt();
         let discriminant = (reach - t) * (reach + t);
         if discriminant >= 0.0 {

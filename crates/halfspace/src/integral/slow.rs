@@ -35,7 +35,6 @@ impl Setting {
         singularities: &mut Singularities,
         sum: &mut Sum,
     ) {
-        let span = self.span;
         let shallow = shallow::applies::<O>(self.profile, at);
         fronts::singular::<O>(self, at, wave, None, singularities);
         for i in singularities.intervals() {
@@ -50,8 +49,8 @@ impl Setting {
                     for (place, weight, error) in nodes.iter() {
                         let (q, dq) = self.fixed.stretch.half_angle(place);
                         let inverse = 1.0 / (1.0 + q * q);
-                        let p_abs = span * 2.0 * q * inverse;
-                        let y = span * (1.0 - q) * (1.0 + q) * inverse;
+                        let p_abs = self.span * 2.0 * q * inverse;
+                        let y = self.span * (1.0 - q) * (1.0 + q) * inverse;
                         let x = (1.0 + p_abs * p_abs).sqrt();
                         let term = self.slow_term::<O>(at, wave, (x, p_abs, y), shallow);
                         // dx = p^ dp^/x, dp^ = 2 y/(1 + q^2) dq

@@ -131,7 +131,7 @@ fn moments_raise_the_order_in_the_cell_width() {
         let count = (at / width).ceil() as usize;
         let mut found = vec![[0.0; 6]; count];
         table
-            .trace_for(smoothness, 0.3, 0.45, 0.0, coarsening, &mut found)
+            .trace(smoothness, 0.3, 0.45, 0.0, coarsening, &mut found)
             .unwrap();
         let response: f64 = found
             .iter()
@@ -163,7 +163,7 @@ fn outside_is_an_error_that_names_axis_value_and_range() {
     let mut cells = vec![[0.0; 6]; 4];
     let mut message = |nu, r, z| {
         table
-            .trace(nu, r, z, 0, &mut cells)
+            .trace(Smoothness::Linear, nu, r, z, 0, &mut cells)
             .unwrap_err()
             .to_string()
     };
@@ -185,7 +185,9 @@ fn outside_is_an_error_that_names_axis_value_and_range() {
     }
     assert!(message(0.3, 0.0, z.next_up()).starts_with("z/r0 = "));
     assert!(message(f64::NAN, 0.0, 0.0).starts_with("poisson_ratio = "));
-    let coarse = table.trace(0.3, 0.0, 0.0, 40, &mut cells).unwrap_err();
+    let coarse = table
+        .trace(Smoothness::Linear, 0.3, 0.0, 0.0, 40, &mut cells)
+        .unwrap_err();
     assert_eq!(coarse, LookupError::Coarsening { value: 40, max: 20 });
 }
 

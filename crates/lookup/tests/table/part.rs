@@ -42,7 +42,9 @@ fn a_part_of_a_file_gives_the_same_answers() {
                     let z = between(nearest[1], farthest[1], y);
                     let answer = |table: &Table| {
                         let mut cells = vec![[0.0; 6]; CELLS];
-                        let info = table.trace(nu, r, z, 0, &mut cells).unwrap();
+                        let info = table
+                            .trace(lookup::Smoothness::Linear, nu, r, z, 0, &mut cells)
+                            .unwrap();
                         (cells, info, table.error(nu, r, z, 10.0).unwrap())
                     };
                     let (found, exact) = (answer(&part), answer(&whole));

@@ -56,7 +56,9 @@ pub(crate) fn sliced() -> Content {
 
 fn cells(table: &Table, nu: f64) -> Vec<[f64; 6]> {
     let mut cells = vec![[0.0; 6]; CELLS];
-    table.trace(nu, 0.4, 0.3, 0, &mut cells).unwrap();
+    table
+        .trace(Smoothness::Linear, nu, 0.4, 0.3, 0, &mut cells)
+        .unwrap();
     cells
 }
 
@@ -93,7 +95,9 @@ fn a_slice_serves_its_own_ratio_exactly_and_one_ulp_beside_it() {
     }
     let mut memory = vec![[0.0; 6]; 1];
     for nu in [-1e-9, 0.4 + 1e-9, f64::NAN, 0.6] {
-        let error = table.trace(nu, 0.4, 0.3, 0, &mut memory).unwrap_err();
+        let error = table
+            .trace(Smoothness::Linear, nu, 0.4, 0.3, 0, &mut memory)
+            .unwrap_err();
         assert!(matches!(
             error,
             LookupError::Outside {
@@ -131,7 +135,7 @@ fn a_batch_fills_the_memory_given_as_single_traces_do() {
         .unwrap();
     for (i, [r, z]) in points.into_iter().enumerate() {
         let mut single = vec![[0.0; 6]; 50];
-        let info = table.trace_for(smooth, 0.3, r, z, 1, &mut single).unwrap();
+        let info = table.trace(smooth, 0.3, r, z, 1, &mut single).unwrap();
         assert_eq!(single, memory[50 * i..50 * (i + 1)]);
         assert_eq!(info, infos[i]);
     }

@@ -98,7 +98,14 @@ pub(crate) fn table() -> Table {
 pub(crate) fn cells(table: &Table, r: f64, z: f64, coarsening: u32, count: usize) -> Vec<Six> {
     let mut cells = vec![[0.0; 6]; count];
     table
-        .trace(0.3, r, z, coarsening, &mut cells)
+        .trace(
+            lookup::Smoothness::Linear,
+            0.3,
+            r,
+            z,
+            coarsening,
+            &mut cells,
+        )
         .expect("inside the table");
     cells
 }

@@ -190,7 +190,7 @@ fn looked_up(
                     let run = || {
                         let mut cells = vec![[0.0; 6]; force.len()];
                         let nu = POISSON_RATIO;
-                        let info = table.trace_for(smoothness, nu, r, z, coarsening, &mut cells)?;
+                        let info = table.trace(smoothness, nu, r, z, coarsening, &mut cells)?;
                         let samples = match &convolver {
                             Some(convolver) => response(convolver, &info.static_part, &cells),
                             None => sums.response(&info.static_part, &cells),

@@ -239,7 +239,14 @@ fn tables(
                 .for_each_cell(width, count, |j, [average, ..]| exact[j] = average)?;
             let cells = RefCell::new(vec![[0.0; 6]; count]);
             let run = || {
-                table.trace(medium.poisson_ratio(), r, z, 0, &mut cells.borrow_mut())?;
+                table.trace(
+                    lookup::Smoothness::Linear,
+                    medium.poisson_ratio(),
+                    r,
+                    z,
+                    0,
+                    &mut cells.borrow_mut(),
+                )?;
                 Ok(((), Some(0)))
             };
             let mut rows = Scene {

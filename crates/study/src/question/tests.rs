@@ -169,7 +169,7 @@ fn a_table_knows_its_errors_near_the_edge_and_for_short_pulses() {
         let exact = question::fields::series(&plan.compute(r, z).unwrap(), width, count);
         let mut cells = vec![[0.0; 6]; count];
         table
-            .trace_for(Smoothness::Smooth, 0.3, r, z, 0, &mut cells)
+            .trace(Smoothness::Smooth, 0.3, r, z, 0, &mut cells)
             .unwrap();
         for (cell, exact) in cells.iter_mut().zip(&exact) {
             for f in 0..6 {

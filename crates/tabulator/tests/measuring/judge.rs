@@ -208,7 +208,7 @@ impl Values {
         let [nu, r, z] = self.place;
         let pulse = Pulse { length };
         let mut looked_up = vec![[0.0; 6]; self.cells];
-        let info = table.trace_for(Smoothness::Smooth, nu, r, z, 0, &mut looked_up)?;
+        let info = table.trace(Smoothness::Smooth, nu, r, z, 0, &mut looked_up)?;
         let (mut peak, mut error) = ([0.0_f64; 6], [0.0_f64; 6]);
         // every third sample: errors last longer than a cell
         for n in (1..=self.cells).step_by(3) {

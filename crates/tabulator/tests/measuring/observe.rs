@@ -113,7 +113,7 @@ fn compare(
     let count = table.content().slices[0].cells * 2 / 3 + (pulse_length / width) as usize + 1;
     let (mut direct, mut found) = (vec![[0.0; 6]; count], vec![[0.0; 6]; count]);
     exact.fill(Smoothness::Smooth, 0, &mut direct);
-    let info = table.trace_for(Smoothness::Smooth, nu, r, z, 0, &mut found)?;
+    let info = table.trace(Smoothness::Smooth, nu, r, z, 0, &mut found)?;
     for (a, b) in found.iter_mut().zip(&direct) {
         for f in 0..6 {
             a[f] -= b[f];
