@@ -19,7 +19,12 @@ impl Past<'_> {
     ) -> Vec<f64> {
         /// Instants between which crossings are looked for, dense toward both ends.
         const TRIALS: usize = 40;
-        let last_s = self.last_s(place_m);
+        let fronts_s = self.fronts_s(place_m, self.excitation.units().disc_radius_m);
+        let last_s = fronts_s.into_iter().fold(0.0, f64::max);
+        let families = match self.excitation.yielded() {
+            Some(_) => FAMILIES,
+            None => KINDS,
+        };
         /// Parts of a contact at which it is cut, so that rules follow the rate of its force.
         const PARTS: [f64; 8] = [0.02, 0.1, 0.25, 0.4, 0.6, 0.75, 0.9, 0.98];
         let mut cuts = vec![from_s, until_s];
@@ -41,7 +46,7 @@ impl Past<'_> {
             let mut before = (low, self.ahead(place_m, time_s, low));
             for past_s in (1..=TRIALS).map(graded) {
                 let after = (past_s, self.ahead(place_m, time_s, past_s));
-                for family in 0..FAMILIES {
+                for family in 0..families {
                     let signs = [before.1[family], after.1[family]];
                     if (signs[0] < 0.0) != (signs[1] < 0.0) {
                         let span = [(before.0, signs[0]), (after.0, signs[1])];
@@ -63,13 +68,6 @@ impl Past<'_> {
         let shortest = 1e-12 * until_s;
         cuts.dedup_by(|later, earlier| *later - *earlier < shortest);
         cuts
-    }
-
-    /// Time in s after which the last front from the largest contact has passed.
-    fn last_s(&self, place_m: [f64; 2]) -> f64 {
-        let units = self.excitation.units();
-        let times = self.fronts_s(place_m, units.disc_radius_m);
-        times.into_iter().fold(0.0, f64::max)
     }
 
     /// Times in s that each kind of front takes from a disc of a radius in m.
