@@ -58,30 +58,21 @@ impl Nodes {
     /// errors add up. What rounds to the start of the piece has no weight, and is elsewhere.
     #[inline(always)]
     pub(crate) fn at<T: Real>(&self, node: T, weight: T) -> (T, T, [T; 2]) {
-        let Piece {
-            start,
-            scale,
-            power: exponent,
-            ..
-        } = self.piece;
+        let piece = self.piece;
         let s = node * self.half + self.middle;
-        let below = power(s, exponent as u32 - 1);
+        let below = power(s, piece.power as u32 - 1);
         let (least, zero) = (s.constant(f64::MIN_POSITIVE), s.constant(0.0));
-        let exact = below * s * scale;
-        let distance = (exact + start - start).abs();
-        let along = distance.where_below(least, s.constant(0.5 * scale), exact);
-        let slope = scale.abs() * f64::from(exponent) * self.half;
-        let error = [s.constant(self.error); 2];
-        let errors = if self.piece.place_error > 0.0 {
-            let (piece, distance) = (self.piece, along.abs());
-            piece
-                .strength
-                .at_front(error, piece.place_error, distance, s)
-        } else {
-            error
-        };
+        let exact = below * s * piece.scale;
+        let distance = (exact + piece.start - piece.start).abs();
+        let along = distance.where_below(least, s.constant(0.5 * piece.scale), exact);
+        let slope = piece.scale.abs() * f64::from(piece.power) * self.half;
+        let mut errors = [s.constant(self.error); 2];
+        if piece.place_error > 0.0 {
+            let strength = piece.strength;
+            errors = strength.at_front(errors, piece.place_error, along.abs(), s);
+        }
         let weight = distance.where_below(least, zero, below * weight * slope);
-        (along + start, weight, errors)
+        (along + piece.start, weight, errors)
     }
 
     /// Place, weight and errors of each.

@@ -21,10 +21,7 @@ impl Past<'_> {
         const TRIALS: usize = 40;
         let fronts_s = self.fronts_s(place_m, self.excitation.units().disc_radius_m);
         let last_s = fronts_s.into_iter().fold(0.0, f64::max);
-        let families = match self.excitation.yielded() {
-            Some(_) => FAMILIES,
-            None => KINDS,
-        };
+        let families = KINDS * (1 + usize::from(self.excitation.yielded().is_some()));
         /// Parts of a contact at which it is cut, so that rules follow the rate of its force.
         const PARTS: [f64; 8] = [0.02, 0.1, 0.25, 0.4, 0.6, 0.75, 0.9, 0.98];
         let mut cuts = vec![from_s, until_s];

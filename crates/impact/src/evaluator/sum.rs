@@ -43,10 +43,11 @@ const FEW: usize = 5;
 const OF_MANY: f64 = 0.2;
 const UNDER: f64 = 0.1;
 
-/// What is left has a sign: a sample beside one that is left with more, or so many away under the contact, may have met a zero
-/// of it, and counts with a part.
+/// What is left has a sign: a sample beside one that is left with more, within a part of the time of a longitudinal wave over
+/// the radius or so many under the contact, may have met a zero of it, and counts with a part; one step away at least.
 const BESIDE: f64 = 0.5;
 const BESIDE_UNDER: usize = 3;
+const REACH: f64 = 0.7;
 
 /// Samples of a point for which a whole contact is integrated at most, of fields and of rates: those that the discs leave
 /// open in its middle. Of fields to more than four digits so many times more for each.
@@ -211,6 +212,19 @@ impl<'a> Sum<'a> {
         self.place_m[0].max(self.place_m[1]) < self.forcing.excitation.units().disc_radius_m
     }
 
+    /// Samples within reach of one.
+    fn beside(&self) -> usize {
+        let reach_s = REACH * self.forcing.excitation.units().time_s();
+        (reach_s / self.forcing.step_s).round().max(1.0) as usize
+    }
+
+    /// Samples for which a whole contact is integrated at most: as many more as steps are shorter than waves.
+    fn whole(&self) -> usize {
+        let most = most_whole(self.derivative, self.forcing.tolerance);
+        let fields = usize::from(self.derivative == Derivative::Field);
+        most.max(fields * MOST_WHOLE[0] * self.beside())
+    }
+
     /// Part of what may be left that the discs tell.
     fn sure(&self) -> f64 {
         match self.discs.radii.len() {
@@ -237,24 +251,22 @@ impl<'a> Sum<'a> {
     /// The most that is left of a sample over what is allowed, but for as many as may be integrated as a whole.
     pub(crate) fn worst(&self) -> f64 {
         let allowed = self.allowed();
-        let next = self
-            .open
-            .get(most_whole(self.derivative, self.forcing.tolerance));
+        let next = self.open.get(self.whole());
         next.map_or(0.0, |&i| over(&allowed, |f| self.left[f][i]))
     }
 
     /// The samples that are left with more than is allowed, the worst first; what is left of those beside counts with a
     /// part.
-    fn not_resolved(&self, left: &[Vec<f64>; 6], beside: f64) -> Vec<usize> {
+    fn not_resolved(&self, left: &[Vec<f64>; 6], part: f64) -> Vec<usize> {
         let allowed = self.allowed();
         let each = |i: usize| over(&allowed, |f| left[f][i]);
         let each: Vec<f64> = (0..self.times_s.len()).map(each).collect();
-        let reach = if self.is_under() { BESIDE_UNDER } else { 1 };
+        let reach = self.beside() * if self.is_under() { BESIDE_UNDER } else { 1 };
         let off = |i: usize| {
             let steps = |j: usize| (self.times_s[i] - self.times_s[j]).abs() / self.forcing.step_s;
             let near = |&j: &usize| steps(j) < reach as f64 + 0.5;
             let next = (i.saturating_sub(reach)..(i + reach + 1).min(each.len())).filter(near);
-            (i, next.fold(each[i], |most, j| most.max(beside * each[j])))
+            (i, next.fold(each[i], |most, j| most.max(part * each[j])))
         };
         // nothing is left before the first wave
         let waves = (0..each.len()).filter(|&i| each[i] > 0.0);
@@ -282,7 +294,7 @@ impl<'a> Sum<'a> {
         if let Some(past) = anew {
             let allowed = self.allowed();
             let near = usize::from(!past.is_far(self.place_m));
-            let mut whole = near * most_whole(self.derivative, self.forcing.tolerance);
+            let mut whole = near * self.whole();
             for i in std::mem::take(&mut self.open) {
                 self.integrate_past(i, past, cells, (&allowed, &mut whole))?;
             }

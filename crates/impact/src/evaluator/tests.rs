@@ -340,6 +340,45 @@ fn fields_just_below_the_surface_about_a_contact_are_within_their_estimate() {
     }
 }
 
+/// With short steps a zero of what the discs tell lasts for many samples.
+#[test]
+fn fields_at_steps_that_are_shorter_than_the_tolerance_asks_for_are_within_their_estimate() {
+    let named = |name: &str| Material::named(name).unwrap();
+    let block = HalfSpace::new(named("flint-glass-heavy")).unwrap();
+    let ball = Striker::ball(named("aluminium-6061-t6"), 7.327e-4).unwrap();
+    let settings = Settings {
+        model: Model::Growing,
+        ..Settings::default()
+    };
+    let impact = Impact {
+        settings,
+        ..Impact::new(block, ball, 26.394)
+    };
+    let run = impact.solve().unwrap();
+    let excitation = run.excitation();
+    let exact = Past::new(excitation, 1e-8).unwrap();
+    let source = KernelSource::direct(excitation.medium(), 1e-5).unwrap();
+    let wanted = Wanted {
+        tolerance: 1e-4,
+        step_s: Some(1.6e-9),
+        duration_s: None,
+        frames: None,
+        farthest_m: Some(1.5e-4),
+    };
+    let grid = Grid::new(&wanted, excitation, Some(&source)).unwrap();
+    let times: Vec<f64> = grid.times_s().collect();
+    let all: Vec<usize> = (0..times.len()).collect();
+    let place = [1.4671e-4, 5.753e-6];
+    let point = at((excitation, &source), &grid, &all, 1e-4, place);
+    let mut worst = 0.0_f64;
+    for (n, &time) in times.iter().enumerate().take(130).skip(1) {
+        for (f, exact) in exact.at(place, time).unwrap().into_iter().enumerate() {
+            worst = worst.max((point.values[f][n] - exact).abs() / point.errors[f]);
+        }
+    }
+    assert!(worst < 1.0, "{worst}");
+}
+
 #[test]
 fn what_arrives_from_the_turning_point_of_a_contact_that_yields_is_within_its_estimate() {
     let named = |name: &str| Material::named(name).unwrap();
