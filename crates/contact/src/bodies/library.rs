@@ -97,20 +97,9 @@ impl Library {
 fn material(line: &str) -> Option<Material> {
     let mut parts = line.split('\t');
     let [name, group] = [parts.next()?, parts.next()?].map(str::to_owned);
-    let mut numbers = [None; 8];
-    for number in &mut numbers {
-        *number = parts.next()?.parse().ok();
-    }
-    let [
-        modulus,
-        ratio,
-        longitudinal,
-        shear,
-        density,
-        yields,
-        tensile,
-        toughness,
-    ] = numbers;
+    let mut number = |_| parts.next()?.parse().ok();
+    let [modulus, ratio, longitudinal, shear] = std::array::from_fn(&mut number);
+    let [density, yield_strength_pa, tensile, toughness] = std::array::from_fn(&mut number);
     let (youngs_modulus_pa, poisson_ratio) = match (longitudinal, shear) {
         (Some(longitudinal), Some(shear)) => from_wave_speeds(longitudinal, shear, density?),
         _ => (modulus?, ratio?),
@@ -120,7 +109,7 @@ fn material(line: &str) -> Option<Material> {
         youngs_modulus_pa,
         poisson_ratio,
         density_kg_m3: density,
-        yield_strength_pa: yields,
+        yield_strength_pa,
         tensile_strength_pa: tensile,
         fracture_toughness_pa_sqrt_m: toughness,
         group,

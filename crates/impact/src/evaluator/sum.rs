@@ -43,11 +43,14 @@ const FEW: usize = 5;
 const OF_MANY: f64 = 0.2;
 const UNDER: f64 = 0.1;
 
-/// What is left has a sign: a sample beside one that is left with more, within a part of the time of a longitudinal wave over
-/// the radius or so many under the contact, may have met a zero of it, and counts with a part; one step away at least.
+/// What is left has a sign: a sample beside one that is left with more may have met a zero of it, and counts with a part.
+/// Beside are those within a part of the time of a longitudinal wave over the radius and of the contact, one at least, or so
+/// many times as far under the contact.
 const BESIDE: f64 = 0.5;
 const BESIDE_UNDER: usize = 3;
 const REACH: f64 = 0.7;
+const OF_CONTACT: f64 = 0.005;
+const MOST_BESIDE: f64 = 16.0;
 
 /// Samples of a point for which a whole contact is integrated at most, of fields and of rates: those that the discs leave
 /// open in its middle. Of fields to more than four digits so many times more for each.
@@ -214,8 +217,11 @@ impl<'a> Sum<'a> {
 
     /// Samples within reach of one.
     fn beside(&self) -> usize {
-        let reach_s = REACH * self.forcing.excitation.units().time_s();
-        (reach_s / self.forcing.step_s).round().max(1.0) as usize
+        let excitation = self.forcing.excitation;
+        let reach_s = (REACH * excitation.units().time_s()).min(OF_CONTACT * excitation.end_s());
+        (reach_s / self.forcing.step_s)
+            .round()
+            .clamp(1.0, MOST_BESIDE) as usize
     }
 
     /// Samples for which a whole contact is integrated at most: as many more as steps are shorter than waves.
