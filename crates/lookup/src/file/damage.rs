@@ -56,7 +56,7 @@ fn patches(data: &Dataset, rows: usize, columns: usize) -> Vec<(Range<usize>, Ra
     let (&[r, z, FIELDS, _], &[high, wide, ..]) = (data.shape(), chunk.as_slice()) else {
         return Vec::new();
     };
-    if r != rows || z != columns {
+    if r != rows || z != columns || high.min(wide) == 0 {
         return Vec::new();
     }
     let mut patches = Vec::new();

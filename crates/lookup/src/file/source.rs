@@ -142,13 +142,13 @@ impl Source {
         let numbers = product(&[rows.len(), columns.len(), needed[2], needed[3]]);
         self.admit(&item, numbers, size_of::<f32>())?;
         let whole = |range: &Range<usize>, size: usize| {
-            range.end.next_multiple_of(size) - range.start / size * size
+            range.end.saturating_add(size - 1) / size * size - range.start / size * size
         };
-        let chunk = data.chunk().filter(|chunk| !chunk.contains(&0));
+        let chunk = data.chunk().filter(|c| c.len() == 4 && !c.contains(&0));
         let [high, wide] = chunk.map_or([1; 2], |chunk| [chunk[0], chunk[1]]);
         let nodes = product(&[whole(&rows, high), whole(&columns, wide)]);
         let decoded = product(&[nodes, needed[2], needed[3], size_of::<f32>()]) as u64;
-        self.decoded.set(self.decoded.get() + decoded);
+        self.decoded.set(self.decoded.get().saturating_add(decoded));
         data.block(&[rows, columns, 0..needed[2], 0..needed[3]], u64::MAX)
             .map_err(|error| self.unreadable(&item, &error))
     }
