@@ -6,10 +6,10 @@
 use crate::error::ImpactError;
 use crate::evaluator::convolve::{direct_ns, transform_ns};
 use crate::evaluator::discs::Discs;
-use crate::evaluator::sum::most_whole;
+use crate::evaluator::sum::{beside, most_whole};
 use crate::excitation::{Excitation, PressureRadius};
 use crate::fields::quantity::Derivative;
-use crate::grid::Grid;
+use crate::grid::{Grid, Wanted};
 use crate::kernels::KernelSource;
 use crate::scene::{Scene, Section};
 
@@ -52,6 +52,7 @@ pub(crate) struct Cost<'a> {
     /// Samples at a probe and at a point of the section.
     wanted: [f64; 2],
     cells: f64,
+    step_s: f64,
     tolerance: f64,
     rates: f64,
 }
@@ -79,6 +80,7 @@ impl<'a> Cost<'a> {
             beside: probes_beside as f64 + section_beside,
             wanted: [samples, frames.min(samples)],
             cells: samples,
+            step_s: Wanted::of(scene).duration_and_step_s(excitation).1,
             tolerance: scene.settings.tolerance,
             rates: scene.rates() as f64,
         }
@@ -112,9 +114,10 @@ impl<'a> Cost<'a> {
             let rates = if following { FOLLOWING_RATES } else { 1.0 };
             discs * trace_s + each * (1.0 + rates * self.rates)
         });
-        let whole = most_whole(Derivative::Field, self.tolerance) as f64;
-        let beside = if following { self.beside } else { 0.0 };
-        let beside_s = beside * whole * KERNELS_OF_WHOLE * digits.powi(2) * SMALL_DISC * KERNEL_S;
+        let near = beside(self.excitation, self.step_s);
+        let whole = most_whole(Derivative::Field, self.tolerance, near) as f64;
+        let points = if following { self.beside } else { 0.0 };
+        let beside_s = points * whole * KERNELS_OF_WHOLE * digits.powi(2) * SMALL_DISC * KERNEL_S;
         OUTPUT_S + points_s + beside_s
     }
 

@@ -45,7 +45,7 @@ impl Wanted {
     }
 
     /// Duration and largest step in s.
-    fn duration_and_step_s(&self, excitation: &Excitation) -> (f64, f64) {
+    pub(crate) fn duration_and_step_s(&self, excitation: &Excitation) -> (f64, f64) {
         let duration_s = self
             .duration_s
             .unwrap_or_else(|| 1.1 * excitation.end_s() + self.passing_s(excitation));

@@ -53,7 +53,7 @@ impl Rule {
 
     fn of(mut nodes: Vec<f64>, mut weights: Vec<f64>) -> Self {
         let count = nodes.len();
-        nodes.resize(count.next_multiple_of(WIDTH), nodes[0]);
+        nodes.resize(count.next_multiple_of(WIDTH), 0.5);
         weights.resize(nodes.len(), 0.0);
         Self {
             count,

@@ -220,10 +220,8 @@ impl<'a> Forcing<'a> {
         let in_cells: Vec<[f64; 2]> = if discs.radii.len() == 1 && self.reading == Reading::Force {
             nodes.forces().map(|force| [force, 0.0]).collect()
         } else {
-            let places = nodes.places();
-            places
-                .map(|x| both(run.start_s + x * self.step_s))
-                .collect()
+            let at = |x: f64| both(run.start_s + x * self.step_s);
+            nodes.places().map(at).collect()
         };
         let base = match self.reading {
             Reading::Force => discs.share(k, 1.0).map(|share| run.base_n * share),

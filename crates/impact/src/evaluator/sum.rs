@@ -6,7 +6,7 @@ use super::ends::open;
 use super::forcing::{DiscForce, Forcing, Reading};
 use super::past::Past;
 use crate::error::ImpactError;
-use crate::excitation::PressureRadius;
+use crate::excitation::{Excitation, PressureRadius};
 use crate::fields::quantity::Derivative;
 use crate::kernels::Cells;
 use halfspace::{Kernel, Six};
@@ -215,20 +215,14 @@ impl<'a> Sum<'a> {
         self.place_m[0].max(self.place_m[1]) < self.forcing.excitation.units().disc_radius_m
     }
 
-    /// Samples within reach of one.
+    /// Samples that are beside one.
     fn beside(&self) -> usize {
-        let excitation = self.forcing.excitation;
-        let reach_s = (REACH * excitation.units().time_s()).min(OF_CONTACT * excitation.end_s());
-        (reach_s / self.forcing.step_s)
-            .round()
-            .clamp(1.0, MOST_BESIDE) as usize
+        beside(self.forcing.excitation, self.forcing.step_s)
     }
 
-    /// Samples for which a whole contact is integrated at most: as many more as steps are shorter than waves.
+    /// Samples for which a whole contact is integrated at most.
     fn whole(&self) -> usize {
-        let most = most_whole(self.derivative, self.forcing.tolerance);
-        let fields = usize::from(self.derivative == Derivative::Field);
-        most.max(fields * MOST_WHOLE[0] * self.beside())
+        most_whole(self.derivative, self.forcing.tolerance, self.beside())
     }
 
     /// Part of what may be left that the discs tell.
@@ -476,13 +470,20 @@ impl<'a> Sum<'a> {
     }
 }
 
-/// Samples of a point for which a whole contact is integrated at most.
-pub(crate) fn most_whole(derivative: Derivative, tolerance: f64) -> usize {
+/// Samples a step apart that are beside one.
+pub(crate) fn beside(excitation: &Excitation, step_s: f64) -> usize {
+    let reach_s = (REACH * excitation.units().time_s()).min(OF_CONTACT * excitation.end_s());
+    (reach_s / step_s).round().clamp(1.0, MOST_BESIDE) as usize
+}
+
+/// Samples of a point for which a whole contact is integrated at most, where so many are beside one.
+pub(crate) fn most_whole(derivative: Derivative, tolerance: f64, beside: usize) -> usize {
     let [fields, rates] = MOST_WHOLE;
     if derivative != Derivative::Field {
         return rates;
     }
-    (fields as f64 * MORE_WHOLE.powf((-tolerance.log10() - 4.0).max(0.0))) as usize
+    let more = MORE_WHOLE.powf((-tolerance.log10() - 4.0).max(0.0));
+    (fields as f64 * more.max(beside as f64)) as usize
 }
 
 /// The largest of what is left of the fields over what is allowed.
