@@ -9,6 +9,7 @@ use crate::seal::Sealed;
 use hdf5_reader::{
     Attribute, Datatype, H5Type, Hdf5File, OpenOptions, SliceInfo, SliceInfoElem, StringSize,
 };
+use rayon::prelude::*;
 use std::fmt;
 use std::io;
 use std::ops::Range;
@@ -17,6 +18,11 @@ use std::sync::Arc;
 
 /// Bytes of numbers that a byte of a file may become: Deflate ends a little above a thousand.
 const GROWTH: usize = 1100;
+
+/// Numbers of a block that are worth more than one thread.
+const LARGE: usize = 1 << 18;
+/// Parts of such a block.
+const PARTS: usize = 16;
 
 /// An open file; its bytes are compared with its seal, where it has one, when they are read.
 #[derive(Debug, Clone)]
@@ -181,13 +187,17 @@ impl Dataset {
     }
 
     /// All its numbers, in the order of the file, which take `limit` bytes of memory at most.
-    pub fn numbers<T: H5Type>(&self, limit: u64) -> Result<Vec<T>, HdfError> {
+    pub fn numbers<T: H5Type + Send>(&self, limit: u64) -> Result<Vec<T>, HdfError> {
         let all: Vec<Range<usize>> = self.shape.iter().map(|&n| 0..n).collect();
         self.block(&all, limit)
     }
 
     /// The numbers of a block of it, which take `limit` bytes of memory at most.
-    pub fn block<T: H5Type>(&self, block: &[Range<usize>], limit: u64) -> Result<Vec<T>, HdfError> {
+    pub fn block<T: H5Type + Send>(
+        &self,
+        block: &[Range<usize>],
+        limit: u64,
+    ) -> Result<Vec<T>, HdfError> {
         same_type::<T>(self.data.dtype())?;
         let count = block
             .iter()
@@ -196,6 +206,24 @@ impl Dataset {
         if count == 0 {
             return Ok(Vec::new());
         }
+        let high = self.chunk().and_then(|chunk| chunk.first().copied());
+        let (Some(high @ 1..), true) = (high, count > LARGE) else {
+            return self.read(block, count);
+        };
+        let rows = &block[0];
+        let (first, end) = (rows.start / high, rows.end.div_ceil(high));
+        let step = (end - first).div_ceil(PARTS);
+        let parts: Vec<usize> = (first..end).step_by(step).collect();
+        let parts = parts.into_par_iter().map(|k| {
+            let part = rows.start.max(k * high)..rows.end.min((k + step).saturating_mul(high));
+            let count = count / rows.len() * part.len();
+            self.read(&[&[part], &block[1..]].concat(), count)
+        });
+        Ok(parts.collect::<Result<Vec<_>, _>>()?.concat())
+    }
+
+    /// `count` numbers, which a block has, on this thread.
+    fn read<T: H5Type>(&self, block: &[Range<usize>], count: usize) -> Result<Vec<T>, HdfError> {
         let slice = |range: &Range<usize>| SliceInfoElem::Slice {
             start: range.start as u64,
             end: range.end as u64,

@@ -48,7 +48,7 @@ pub(crate) fn complete(
     let bytes = output.write(|part| write_checked(&content, part))?;
     Ok(Summary {
         id: lookup::settings_id(&content.origin.grid),
-        content_sha256: lookup::content_hash(&content),
+        content_sha256: lookup::stated_hash(output.real())?,
         points: content.r.len() * content.z.len() * content.slices.len(),
         bytes,
         wall_s: 0.0,
@@ -61,15 +61,16 @@ pub(crate) fn complete(
 
 /// Writes a table and reads it back.
 fn write_checked(content: &Content, part: &Path) -> Result<(), Fault> {
-    let done = lookup::write(part, content).and_then(|()| {
-        let back = lookup::read(part)?;
-        lookup::check_hash(part, &back)
-    });
-    done.map_err(|error| match error.what {
+    let back = lookup::write(part, content).and_then(|()| lookup::read(part));
+    match back.map_err(|error| error.what) {
+        Ok(back) if back == *content => Ok(()),
+        Ok(_) => Err(Fault::from(
+            "other numbers were read back than were written".to_owned(),
+        )),
         // its file is the temporary one, of which nobody should hear
-        BadTable::Unwritable(detail) => Fault::from(detail),
-        _ => Fault::from(error.to_string()),
-    })
+        Err(BadTable::Unwritable(detail)) => Err(Fault::from(detail)),
+        Err(other) => Err(Fault::from(other.to_string())),
+    }
 }
 
 /// Puts the rows in their places and measures the errors off the grid.

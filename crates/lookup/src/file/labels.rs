@@ -62,8 +62,8 @@ pub fn set_scale(scale: &Dataset, name: &str) -> Result<(), hdf5::Error> {
     let name = CString::new(name).map_err(|_| hdf5::Error::from("a scale's name holds a NUL"))?;
     // SAFETY: both arguments outlive the call, the dataset is open, and the lock of the library is held.
     #[allow(unsafe_code)]
-    let status = hdf5::sync::sync(|| unsafe { H5DSset_scale(scale.id(), name.as_ptr()) });
-    done(status, "H5DSset_scale failed")
+    hdf5::sync::sync(|| hdf5::h5check(unsafe { H5DSset_scale(scale.id(), name.as_ptr()) }))?;
+    Ok(())
 }
 
 /// Attaches `scale` to dimension `index` of `data`.
@@ -73,17 +73,10 @@ pub fn set_scale(scale: &Dataset, name: &str) -> Result<(), hdf5::Error> {
 pub fn attach_scale(data: &Dataset, scale: &Dataset, index: usize) -> Result<(), hdf5::Error> {
     // SAFETY: both datasets are open and the lock of the library is held.
     #[allow(unsafe_code)]
-    let status =
-        hdf5::sync::sync(|| unsafe { H5DSattach_scale(data.id(), scale.id(), index as c_uint) });
-    done(status, "H5DSattach_scale failed")
-}
-
-fn done(status: c_int, message: &str) -> Result<(), hdf5::Error> {
-    if status < 0 {
-        Err(hdf5::Error::from(message))
-    } else {
-        Ok(())
-    }
+    hdf5::sync::sync(|| {
+        hdf5::h5check(unsafe { H5DSattach_scale(data.id(), scale.id(), index as c_uint) })
+    })?;
+    Ok(())
 }
 
 // SAFETY: the signatures of hdf5_hl.h, version 1.8 and later.

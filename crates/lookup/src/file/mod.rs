@@ -1,5 +1,6 @@
 //! The HDF5 file of a table: everything that knows the HDF5 library.
 
+mod chunks;
 mod damage;
 mod error;
 pub mod labels;

@@ -1,5 +1,6 @@
 //! Content to file.
 
+use super::chunks::write_chunks;
 use super::error::{BadTable, TableError};
 use super::labels::{attach_scale, new_file, reason, set_scale, text};
 use crate::accuracy::Quantiles;
@@ -185,17 +186,18 @@ fn make_data(
     scales: &[&Dataset],
 ) -> Result<(), hdf5::Error> {
     let [rows, columns, third, fourth] = *shape;
+    let patch = [rows, columns].map(|count| count.min(PATCH));
     let dataset = group
         .new_dataset::<f32>()
         .shape(shape)
-        .chunk((rows.min(PATCH), columns.min(PATCH), third, fourth))
+        .chunk((patch[0], patch[1], third, fourth))
         .shuffle()
         .deflate(DEFLATE)
         .fletcher32()
         .obj_track_times(false)
         .create(name)?;
     let view = ndarray::ArrayView4::from_shape(*shape, values)?;
-    dataset.write(view)?;
+    write_chunks(&dataset, &view, patch, DEFLATE)?;
     for (index, scale) in scales.iter().enumerate() {
         attach_scale(&dataset, scale, index)?;
     }
