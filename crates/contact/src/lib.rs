@@ -70,7 +70,7 @@ pub use model::{Conflict, Model, Plasticity, Rung, Scheme, Settings, StaticShare
 pub use names::{Choice, nearest};
 pub use numbers::NUMBERS_REVISION;
 pub use outcome::Outcomes;
-pub use plastic::infer::{InferError, Inferred, Measure, Rebound, Unknown};
+pub use plastic::infer::{InferError, Inferred, Measure, Unknown, infer};
 pub use plastic::{Flow, Yielding};
 pub use resample::Resampler;
 pub use responses::{Exact, Ratios, Responses, Tabulated};

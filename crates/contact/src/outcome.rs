@@ -279,8 +279,8 @@ impl Cell {
                     wave_time: first,
                 };
                 let solved = solve_growing(&contact, &asked).ok()?;
-                let summary = *solved.summary();
-                return Some((summary, summary.loss, solved.estimates().contact()));
+                let summary = solved.summary;
+                return Some((summary, summary.loss, solved.estimates.contact()));
             }
             Family::Yielding => {
                 let depth = (1.0 + first * first).powf(-0.4) / FITTED;

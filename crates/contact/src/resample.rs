@@ -20,8 +20,8 @@ pub struct Resampler {
     indentation: Vec<[f64; 3]>,
     displacement: Vec<f64>,
     velocity: Vec<f64>,
-    /// Where contacts begin and end.
-    breaks: Vec<f64>,
+    /// Where each contact begins and ends, in collision units, ascending.
+    pub breaks: Vec<f64>,
 }
 
 /// Samples through which slopes and curvatures are taken.
@@ -40,7 +40,7 @@ impl Resampler {
             pieces: history.pieces.clone(),
         };
         if let Some(solved) = &made.pieces {
-            made.breaks = vec![0.0, solved.summary().contact_time];
+            made.breaks = vec![0.0, solved.summary.contact_time];
             return made;
         }
         let (d, w) = (&history.displacement, &history.deflection);
@@ -63,22 +63,16 @@ impl Resampler {
     #[must_use]
     pub fn end(&self) -> f64 {
         if let Some(solved) = &self.pieces {
-            return solved.summary().contact_time;
+            return solved.summary.contact_time;
         }
         let last = self.indentation.iter().rposition(|u| u[0] > 0.0);
         (last.unwrap_or(0) + 1) as f64 * self.step
     }
 
-    /// Where each contact begins and ends, in collision units, ascending.
-    #[must_use]
-    pub fn breaks(&self) -> &[f64] {
-        &self.breaks
-    }
-
     /// Where the rate of the force jumps within a contact, in collision units, ascending.
     #[must_use]
     pub fn kinks(&self) -> &[f64] {
-        self.pieces.as_ref().map_or(&[], |solved| solved.kinks())
+        self.pieces.as_ref().map_or(&[], |solved| &solved.kinks)
     }
 
     /// Force, rate and second rate at a time in collision units; zero outside the contacts.

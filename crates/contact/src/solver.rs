@@ -9,6 +9,7 @@ use crate::disc::response::DiscResponse;
 use crate::disc::{FixedDisc, stability};
 use crate::energy::{radiated, work};
 use crate::error::{ContactError, MarchError};
+use crate::growing::march::March;
 use crate::growing::solve_growing;
 use crate::growing::solved::SolvedContact;
 use crate::growing::uniform::march_growing;
@@ -311,18 +312,18 @@ impl<'a, S: Responses> Solver<'a, S> {
             }
             if results.is_none() {
                 let lost = |_| ContactError::NotFollowed;
-                self.growing = yielding.damped(lag).map_err(lost)?;
+                self.growing = March::damped(lag).follow(yielding).map_err(lost)?;
             }
         }
         let followed = self.growing.as_ref();
-        let pieces = followed.and_then(|one| Some((*one.summary(), *one.flow()?)));
+        let pieces = followed.and_then(|one| Some((one.summary, one.flow?)));
         let Some((summary, flow)) = results.or(pieces) else {
             return Ok(None);
         };
         let error = match rung {
             Rung::QuasiStatic => plan.groups.first_order_loss() + left_out,
             Rung::Radiation | Rung::AreaDashpot => left_out,
-            Rung::FullMemory => YIELDS * followed.map_or(0.0, |one| one.estimates().contact()),
+            Rung::FullMemory => YIELDS * followed.map_or(0.0, |one| one.estimates.contact()),
         };
         let found = Found {
             summary,
@@ -379,7 +380,7 @@ impl<'a, S: Responses> Solver<'a, S> {
         if step.is_none() {
             match solve_growing(&contact, &asked) {
                 Ok(solved) => {
-                    let (summary, error) = (*solved.summary(), solved.estimates().contact());
+                    let (summary, error) = (solved.summary, solved.estimates.contact());
                     self.growing = Some(solved);
                     let step = None;
                     return Ok(Found {

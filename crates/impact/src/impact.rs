@@ -78,7 +78,7 @@ pub(crate) fn solve<S: Responses>(
             largest_n: results.peak_force_n,
         },
     };
-    let error = history.error();
+    let error = history.error;
     let excitation = Excitation::of_contact(
         half_space,
         radius,

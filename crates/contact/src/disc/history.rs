@@ -49,9 +49,9 @@ pub struct History {
     /// enough.
     pub(crate) end_layer: Option<[f64; 2]>,
     /// The contact itself where it was solved by pieces, of which these are samples.
-    pub(crate) pieces: Option<Arc<SolvedContact>>,
-    /// Estimated error of the force at any instant, over the largest.
-    pub(crate) error: f64,
+    pub pieces: Option<Arc<SolvedContact>>,
+    /// Estimated error of the force at any instant, over the largest; infinite where nobody has estimated it.
+    pub error: f64,
 }
 
 impl History {
@@ -100,7 +100,7 @@ impl History {
     /// After the contact the deflection is not followed: that sample holds the one at the end.
     #[must_use]
     pub fn of_pieces(solved: &SolvedContact, step: f64) -> Self {
-        let contact_time = solved.summary().contact_time;
+        let contact_time = solved.summary.contact_time;
         let mut history = Self::at_touch(step, (contact_time / step) as usize + 2);
         let times = (1..).map(|i| f64::from(i) * step);
         for time in times.take_while(|time| *time < contact_time) {
@@ -110,15 +110,9 @@ impl History {
         let beyond = solved.state(history.force.len() as f64 * step);
         let last = solved.state(contact_time).displacement;
         history.push(0.0, beyond.displacement, last);
-        history.error = solved.estimates().force;
+        history.error = solved.estimates.force;
         history.pieces = Some(Arc::new(solved.clone()));
         history
-    }
-
-    /// The contact itself where it was solved by pieces.
-    #[must_use]
-    pub fn pieces(&self) -> Option<&Arc<SolvedContact>> {
-        self.pieces.as_ref()
     }
 
     #[inline]
@@ -126,12 +120,6 @@ impl History {
         self.force.push(force);
         self.displacement.push(displacement);
         self.deflection.push(deflection);
-    }
-
-    /// Estimated error of the force at any instant, over the largest; infinite where nobody has estimated it.
-    #[must_use]
-    pub fn error(&self) -> f64 {
-        self.error
     }
 
     /// Mean velocity over the last step.

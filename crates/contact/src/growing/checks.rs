@@ -35,11 +35,11 @@ pub(crate) fn passed(
     solved: SolvedContact,
     contact: &GrowingContact<'_>,
 ) -> Result<SolvedContact, MarchError> {
-    if let Some(time) = folds(solved.all_pieces(), contact) {
+    if let Some(time) = folds(&solved.pieces, contact) {
         return Err(MarchError::Overtaken { time });
     }
-    let velocity = -solved.summary().restitution;
-    match strikes_again(solved.all_pieces(), contact, velocity) {
+    let velocity = -solved.summary.restitution;
+    match strikes_again(&solved.pieces, contact, velocity) {
         Some(time) => Err(MarchError::StrikesAgain { time }),
         None => Ok(solved),
     }

@@ -119,7 +119,8 @@ impl Equations<'_> {
         let mut local = [Local::default(); LARGEST];
         for j in 1..=n {
             let here = self.law.branch.at(radius[j]);
-            impulse[j - 1] = here.force * time_slope[j] + self.law.damping(&here) * radius_slope[j];
+            impulse[j - 1] = here.force * time_slope[j]
+                + self.law.damping(&here) * here.depth_slope * radius_slope[j];
             local[j - 1] = here;
         }
         let mut velocity = [self.start.velocity; SIZE];
@@ -211,7 +212,7 @@ impl Equations<'_> {
             // what the indentation is more than the punches
             let more = here.depth_slope - here.punch_slope;
             let more_bend = here.bends[0] - here.bends[1];
-            let damped = INVERSE_MASS * self.law.damping(here);
+            let damped = INVERSE_MASS * (self.law.damping(here) * here.depth_slope);
             for l in 1..=n {
                 let by_velocity: f64 = match self.known {
                     Independent::Time => {

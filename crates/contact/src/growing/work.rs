@@ -44,7 +44,7 @@ pub fn work_on_half_space(
     let choice = usize::from(tolerance < COARSE);
     let (samples, rule) = (SAMPLES[choice], contact.waves.rule(LEVELS[choice]));
     let points = [&GAUSS_4[..], &GAUSS_8[..]][choice];
-    let duration = solved.summary().contact_time;
+    let duration = solved.summary.contact_time;
     let time_of = |i: usize| duration * time_part(i as f64 / samples as f64);
     let radii: Vec<f64> = (0..=samples)
         .map(|i| solved.radius(time_of(i).min(duration)))
