@@ -65,7 +65,7 @@ pub use growing::solved::SolvedContact;
 pub use growing::uniform::{march_growing, superposed};
 pub use growing::waves::{GrowingContact, PunchWaves};
 pub use growing::work::work_on_half_space;
-pub use model::choose::{Chosen, Family, Groups, Plan, choose, fixed_disc_m};
+pub use model::choose::{Family, Groups, Plan, choose, fixed_disc_m};
 pub use model::{Conflict, Model, Plasticity, Rung, Scheme, Settings, StaticShare};
 pub use names::{Choice, nearest};
 pub use numbers::NUMBERS_REVISION;

@@ -11,7 +11,7 @@ use std::sync::Arc;
 ///
 /// Interpolated is the indentation d - w, which is smooth where contact begins and ends while the force has the power
 /// 3/2 there; force, rate and second rate are those of one function.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Resampler {
     /// The contact itself; samples where it was not solved by pieces.
     pieces: Option<Arc<SolvedContact>>,
@@ -33,11 +33,8 @@ impl Resampler {
     pub fn new(history: History) -> Self {
         let mut made = Self {
             step: history.step,
-            indentation: Vec::new(),
-            displacement: Vec::new(),
-            velocity: Vec::new(),
-            breaks: Vec::new(),
             pieces: history.pieces.clone(),
+            ..Self::default()
         };
         if let Some(solved) = &made.pieces {
             made.breaks = vec![0.0, solved.summary.contact_time];

@@ -152,7 +152,6 @@ impl Responses for Tabulated {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::growing::waves::Rule;
 
     #[test]
     fn between_lattice_points_responses_are_good_to_1e_6() {
@@ -184,8 +183,8 @@ mod tests {
             for level in [0, 3, 6] {
                 let (a, b) = (exact.rule(level), found.rule(level));
                 for power in 0..8 {
-                    let sum = |rule: &Rule| -> f64 {
-                        let parts = rule.delays.iter().zip(&rule.rates);
+                    let sum = |rule: &[(f64, f64)]| -> f64 {
+                        let parts = rule.iter();
                         parts.map(|(x, rate)| rate * x * x.powi(power)).sum()
                     };
                     assert!(

@@ -1,6 +1,5 @@
 //! Samples of a march, and the work that it may take.
 
-use crate::disc::edge::Ends;
 use crate::error::MarchError;
 use crate::growing::solved::SolvedContact;
 use crate::law::hertz::CONTACT_TIME;
@@ -20,7 +19,7 @@ pub(crate) struct Separation {
 /// Samples of a march, a step apart, from the first touch until the striker has left for good.
 ///
 /// In collision units.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct History {
     /// Time between samples.
     pub step: f64,
@@ -40,8 +39,6 @@ pub struct History {
     pub(crate) elastic: f64,
     /// End of the first contact where the march finds it itself.
     pub(crate) separation: Option<Separation>,
-    /// Both ends of a contact whose work the march finds itself.
-    pub(crate) ends: Option<Ends>,
     /// Work left in the half-space where the march finds it itself.
     pub(crate) dissipated: Option<f64>,
     /// The last instants of a contact whose radius goes to zero, too short for the step: the displacement of the striker
@@ -82,16 +79,8 @@ impl History {
             force,
             displacement,
             deflection,
-            start: 0.0,
-            velocity: Vec::new(),
-            compliance: 0.0,
-            elastic: 0.0,
-            separation: None,
-            ends: None,
-            dissipated: None,
-            end_layer: None,
-            pieces: None,
             error: f64::INFINITY,
+            ..Self::default()
         }
     }
 

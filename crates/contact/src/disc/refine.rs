@@ -341,17 +341,8 @@ fn distance(coarse: &History, fine: &History) -> f64 {
 }
 
 /// Weights and samples of the latest march: nothing is allocated once they are large enough.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Workspace {
     pub(crate) weights: Weights,
     pub(crate) history: History,
-}
-
-impl Default for Workspace {
-    fn default() -> Self {
-        Self {
-            weights: Weights::default(),
-            history: History::at_touch(1.0, 512),
-        }
-    }
 }

@@ -6,11 +6,12 @@ use crate::growing::equations::{Equations, Independent, State};
 use crate::growing::nodes::Nodes;
 use crate::growing::polynomial::{Polynomial, SIZE};
 use crate::growing::step::Solution;
-use crate::growing::waves::{GrowingContact, LEVELS, NO_WAVES};
+use crate::growing::waves::{GrowingContact, LEVELS, PunchWaves};
 use crate::law::hertz::CONTACT_TIME;
 use crate::numeric::quadrature::rising_root;
 use crate::plastic::branch::{Branch, Law};
 use crate::units::INVERSE_MASS;
+use std::sync::LazyLock;
 
 /// A contact on its way.
 #[derive(Debug)]
@@ -90,8 +91,9 @@ impl<'a> March<'a> {
 
     /// On a half-space that answers at once, with a lag.
     pub(crate) fn damped(lag: f64) -> Self {
+        static NONE: LazyLock<PunchWaves> = LazyLock::new(PunchWaves::default);
         let contact = GrowingContact {
-            waves: &NO_WAVES,
+            waves: &NONE,
             target_share: 0.0,
             wave_time: 1.0,
         };

@@ -67,9 +67,8 @@ pub fn work_on_half_space(
             let reach = (duration - time) / crossing.max(f64::MIN_POSITIVE);
             let more = |x: f64| force_at(time + crossing * x) - force;
             // a wave of delay X passes at any time up to it alike; after the contact there is no force
-            let waves = rule.delays.iter().zip(&rule.rates);
-            waves
-                .map(|(&delay, rate)| {
+            rule.iter()
+                .map(|&(delay, rate)| {
                     let until = delay.min(reach);
                     let pressed = gauss(points, 0.0, until, more);
                     rate * (pressed - force * (delay - until))

@@ -238,8 +238,9 @@ mod tests {
     use super::*;
     use crate::disc::refine::Accuracy;
     use crate::growing::{solve_growing, waves::GrowingContact};
-    use crate::law::pulse::Course;
+    use crate::law::pulse::{Course, advance};
     use crate::law::radiation::radiation;
+    use crate::numeric::quadrature::peak;
     use halfspace::Medium;
 
     #[test]
@@ -267,6 +268,19 @@ mod tests {
         assert!((found.peak_deflection / law.peak_deflection - 1.0).abs() < 1e-4);
     }
 
+    /// Velocity at the end of a contact and the largest displacement.
+    fn motion(force: impl Fn(f64, f64) -> f64, end: f64, step: f64) -> [f64; 2] {
+        let steps = (end / step) as usize;
+        let mut state = [0.0, 1.0];
+        let mut displacements = vec![0.0];
+        for n in 0..steps {
+            state = advance(&force, state, step, n == 0);
+            displacements.push(state[0]);
+        }
+        let [_, velocity] = advance(&force, state, end - steps as f64 * step, false);
+        [velocity, peak(&displacements).1]
+    }
+
     #[test]
     fn the_tables_are_those_of_the_equation() {
         for (lag, inertia) in [(0.003, 0.0), (0.05, 0.0), (0.12, 1e-3), (0.19, 0.0)] {
@@ -279,17 +293,19 @@ mod tests {
             let found = terms.summary();
             // without the third order, which is no part of the equation
             let third = |[c, b, _]: [f64; 3]| lag * (c * lag * lag + b * inertia);
-            let course = Course::new(&|d, v| terms.second_order(d, v), 0.0, 5e-3);
+            let force = |d, v| terms.second_order(d, v);
+            let course = Course::new(&force, 0.0, 5e-3);
+            let [velocity, largest] = motion(force, course.contact_time, 5e-3);
             let square = 30.0 * inertia * inertia;
             let peak = found.peak_force - third(PEAK_FORCE) - course.peak_force;
             assert!(peak.abs() < 1e-6 + square, "{peak:e}");
             let time = found.peak_force_time - third(PEAK_FORCE_TIME);
             assert!((time - course.peak_force_time).abs() < 1e-5 + square);
             let travel = found.peak_displacement - third(PEAK_DISPLACEMENT);
-            assert!((travel - course.peak_displacement).abs() < 1e-6 + square);
+            assert!((travel - largest).abs() < 1e-6 + square);
             let loss = found.loss - third(LOSS);
             assert!(
-                (1.0 - course.velocity.powi(2) - loss).abs() < 2e-5 + square,
+                (1.0 - velocity.powi(2) - loss).abs() < 2e-5 + square,
                 "{lag}"
             );
         }
@@ -303,12 +319,14 @@ mod tests {
             for tau in [0.1, 0.05, 0.02, 0.01] {
                 let terms = AreaDashpot::new(phi, tau, &waves);
                 let found = terms.summary();
-                let course = Course::new(&|d, v| terms.law(d, v), 0.0, 2e-3);
-                let loss = 1.0 - course.velocity.powi(2);
+                let force = |d, v| terms.law(d, v);
+                let course = Course::new(&force, 0.0, 2e-3);
+                let [velocity, largest] = motion(force, course.contact_time, 2e-3);
+                let loss = 1.0 - velocity.powi(2);
                 let allowed = 0.03 * phi * (tau * waves.memory()).powi(4) + 1e-7;
                 for (found, exact) in [
                     (found.peak_force, course.peak_force),
-                    (found.peak_displacement, course.peak_displacement),
+                    (found.peak_displacement, largest),
                     (found.loss, loss),
                 ] {
                     let error = (found - exact).abs() / allowed;

@@ -116,7 +116,7 @@ impl Plane {
     #[must_use]
     pub fn chosen(&self, share: f64, memory: f64, tolerance: f64) -> Rung {
         let (lag, memory) = self.groups(share, memory);
-        choose(lag, memory, tolerance, None).rung
+        choose(lag, memory, tolerance, None).0
     }
 
     /// Errors of the cheaper models against the growing contact with `steps` steps over Hertz's contact time.
@@ -185,9 +185,8 @@ pub fn disc_errors(disc: &FixedDisc<'_>) -> Result<ModelErrors, MarchError> {
 /// What `auto` chooses for a disc at a tolerance.
 #[must_use]
 pub fn disc_chosen(disc: &FixedDisc<'_>, tolerance: f64) -> Rung {
-    disc_groups(disc)
-        .choose(&Accuracy::of_contact(tolerance, None))
-        .rung
+    let asked = Accuracy::of_contact(tolerance, None);
+    disc_groups(disc).choose(&asked).0
 }
 
 fn disc_groups(disc: &FixedDisc<'_>) -> Groups {
@@ -334,7 +333,7 @@ fn growing_figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>, A
     // `auto`'s estimate of what hertz leaves out over the error found, in the middle of the plane
     let (i, k) = (shape[0] / 2, shape[1] / 2);
     let (lag, memory) = plane.groups(x.cells(shape[0])[i], y.cells(shape[1])[k]);
-    let estimate = choose(lag, memory, f64::INFINITY, None).error;
+    let estimate = choose(lag, memory, f64::INFINITY, None).1;
     let ratio = estimate / errors[k * shape[0] + i].quasi_static;
     let mut figures = Vec::new();
     let names = ["models-1e-2", "models-1e-3", "models-1e-4"];
