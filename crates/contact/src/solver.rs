@@ -240,12 +240,7 @@ impl<'a, S: Responses> Solver<'a, S> {
             && let Some((summary, radiated, error)) = outcomes.at(&place, self.responses)
         {
             self.radiated = Some(radiated);
-            let found = Found {
-                summary,
-                error,
-                step: None,
-            };
-            return Ok(plan.solved(None, found, None));
+            return Ok(plan.solved(None, Found::unmarched(summary, error), None));
         }
         let step = settings
             .step_s
@@ -295,41 +290,35 @@ impl<'a, S: Responses> Solver<'a, S> {
                 Err(error) => return Err(error.into()),
             }
         }
-        let (_, [mut left_out, _]) = plan.groups.without_memory();
+        let (_, [left_out, _]) = plan.groups.without_memory();
         let (rung, _) = plan.model.row();
         let memory = rung == Rung::FullMemory;
+        let lag = match rung {
+            Rung::QuasiStatic => 0.0,
+            Rung::Radiation | Rung::AreaDashpot | Rung::FullMemory => plan.groups.lag,
+        };
+        // the history of a single impact has its results too
         let mut results = None;
-        if !memory {
-            let radiates = rung != Rung::QuasiStatic;
-            let lag = if radiates { plan.groups.lag } else { 0.0 };
-            // the history of a single impact has its results too
-            if asked.deflection.is_none() {
-                let fitted = self.fitted(&plan, yielding, settings);
-                left_out += fitted.map_or(0.0, |(_, error)| error);
-                results = fitted
-                    .map(|(found, _)| found)
-                    .or_else(|| quick(yielding, lag));
-            }
-            if results.is_none() {
-                let lost = |_| ContactError::NotFollowed;
-                self.growing = March::damped(lag).follow(yielding).map_err(lost)?;
-            }
+        if !memory && asked.deflection.is_none() {
+            let quickly = || quick(yielding, lag).map(|found| (found, 0.0));
+            let fitted = self.fitted(&plan, yielding, settings);
+            results = fitted.or_else(quickly);
+        }
+        if !memory && results.is_none() {
+            let lost = |_| ContactError::NotFollowed;
+            self.growing = March::damped(lag).follow(yielding).map_err(lost)?;
         }
         let followed = self.growing.as_ref();
-        let pieces = followed.and_then(|one| Some((one.summary, one.flow?)));
-        let Some((summary, flow)) = results.or(pieces) else {
+        let pieces = followed.and_then(|one| Some(((one.summary, one.flow?), 0.0)));
+        let Some(((summary, flow), of_series)) = results.or(pieces) else {
             return Ok(None);
         };
         let error = match rung {
             Rung::QuasiStatic => plan.groups.first_order_loss() + left_out,
-            Rung::Radiation | Rung::AreaDashpot => left_out,
+            Rung::Radiation | Rung::AreaDashpot => left_out + of_series,
             Rung::FullMemory => YIELDS * followed.map_or(0.0, |one| one.estimates.contact()),
         };
-        let found = Found {
-            summary,
-            error: error.min(1.0),
-            step: None,
-        };
+        let found = Found::unmarched(summary, error.min(1.0));
         let scheme = memory.then_some(Scheme::Implicit);
         Ok(Some(plan.solved(scheme, found, Some(flow))))
     }
@@ -380,14 +369,9 @@ impl<'a, S: Responses> Solver<'a, S> {
         if step.is_none() {
             match solve_growing(&contact, &asked) {
                 Ok(solved) => {
-                    let (summary, error) = (solved.summary, solved.estimates.contact());
+                    let found = Found::unmarched(solved.summary, solved.estimates.contact());
                     self.growing = Some(solved);
-                    let step = None;
-                    return Ok(Found {
-                        summary,
-                        error,
-                        step,
-                    });
+                    return Ok(found);
                 }
                 // the march has other limits: a memory far shorter than the contact is one to it
                 Err(

@@ -204,6 +204,17 @@ pub struct Found {
     pub step: Option<f64>,
 }
 
+impl Found {
+    /// Without a march.
+    pub(crate) fn unmarched(summary: Summary, error: f64) -> Self {
+        Self {
+            summary,
+            error,
+            step: None,
+        }
+    }
+}
+
 /// An impact on a disc by the implicit scheme: with a step that is given, or halved until the results are as accurate
 /// as asked.
 ///

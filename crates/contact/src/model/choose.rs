@@ -251,20 +251,14 @@ impl Plan {
         }
         let left_out = self.groups.beyond_radiation()[0].min(1.0);
         let (_, on_disc) = self.model.row();
-        Ok(Found {
-            summary: if on_disc {
-                quasi_static_radiation(coupling, lag)
-            } else {
-                radiation(lag)
-            },
-            // what the next rung adds
-            error: if lag > 0.0 {
-                left_out
-            } else {
-                (0.5 * loss + left_out).min(1.0)
-            },
-            step: None,
-        })
+        let summary = if on_disc {
+            quasi_static_radiation(coupling, lag)
+        } else {
+            radiation(lag)
+        };
+        // what the next rung adds
+        let radiated = if lag > 0.0 { 0.0 } else { 0.5 * loss };
+        Ok(Found::unmarched(summary, (radiated + left_out).min(1.0)))
     }
 
     /// Results of [`Model::AreaDashpot`].
@@ -278,11 +272,7 @@ impl Plan {
         if error >= 1.0 {
             return Err(ContactError::BeyondDashpot { lag, memory });
         }
-        Ok(Found {
-            summary: terms.summary(),
-            error,
-            step: None,
-        })
+        Ok(Found::unmarched(terms.summary(), error))
     }
 
     /// Why this model, in words.
