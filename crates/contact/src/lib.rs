@@ -78,4 +78,4 @@ pub use results::{MOST_ERROR, Plastic, Results};
 pub use solver::{Solved, Solver};
 pub use summary::{Estimates, Instant, Summary};
 pub use units::{CollisionUnits, KernelUnits};
-pub use validity::{Checked, doubts, super_seismic};
+pub use validity::{doubts, super_seismic, warnings};

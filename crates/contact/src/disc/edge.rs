@@ -120,41 +120,28 @@ impl Edge {
         gauss(&GAUSS_4, 0.0, reach, |y| y.powi(4) * self.rate(y)[0])
     }
 
-    /// int p' L ds until the root `reach` of a force that begins.
-    pub(crate) fn taken_at_touch(
+    /// int p' L ds until the root `reach` of a force that begins, or that ends: p' ds = 3 y^2 dy, L the zeroth moment times p'
+    /// and, where the memory is not short, a rest.
+    pub(crate) fn taken(
         &self,
         relaxation: &Relaxation<impl Fn(f64) -> f64>,
         reach: f64,
+        ends: bool,
     ) -> f64 {
-        self.taken(relaxation, reach, |y| -self.past_at_touch(relaxation, y))
-    }
-
-    /// The same of a force that ends.
-    pub(crate) fn taken_at_end(
-        &self,
-        relaxation: &Relaxation<impl Fn(f64) -> f64>,
-        reach: f64,
-    ) -> f64 {
-        self.taken(relaxation, reach, |y| {
+        let before_end = |y: f64| {
             let s = self.time(y);
             let oldest = self.root_beside(s, y, relaxation.memory);
             gauss(&GAUSS_4, y, oldest, |x| {
                 relaxation.remaining(self.time(x) - s) * self.slope(x)[1]
             })
-        })
-    }
-
-    /// int p' L ds, p' ds = 3 y^2 dy, L the zeroth moment times p' and, where the memory is not short, a rest.
-    fn taken(
-        &self,
-        relaxation: &Relaxation<impl Fn(f64) -> f64>,
-        reach: f64,
-        rest: impl Fn(f64) -> f64,
-    ) -> f64 {
-        let short = relaxation.is_short();
+        };
         gauss(&GAUSS_4, 0.0, reach, |y| {
-            let zeroth = relaxation.moments[0] * self.slope(y)[0];
-            3.0 * y * y * if short { zeroth } else { zeroth + rest(y) }
+            let rest = match (relaxation.is_short(), ends) {
+                (true, _) => 0.0,
+                (false, true) => before_end(y),
+                (false, false) => -self.past_at_touch(relaxation, y),
+            };
+            3.0 * y * y * (relaxation.moments[0] * self.slope(y)[0] + rest)
         })
     }
 

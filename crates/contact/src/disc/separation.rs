@@ -46,13 +46,12 @@ const ENOUGH: f64 = 1e-3;
 const UNSEEN: f64 = 1.0 / 3.0;
 const UNCERTAIN: f64 = 0.5;
 
-/// The end of the first contact, where the last samples tell it: `end` is the first free sample.
-pub(crate) fn separation(
+/// The end of the first contact, where the last samples tell it.
+fn separation(
     history: &History,
-    end: usize,
     relaxation: &Relaxation<impl Fn(f64) -> f64>,
 ) -> Option<Separation> {
-    let step = history.step;
+    let (step, end) = (history.step, first_separation(&history.force));
     if end < 5 || end + 1 > history.displacement.len() || relaxation.memory > RESOLVED {
         return None;
     }
@@ -95,8 +94,7 @@ pub(crate) fn separation(
 impl History {
     /// Finds the end of the first contact and, where there is no other, the work that is left in the half-space.
     pub(crate) fn separate(&mut self, relaxation: &Relaxation<impl Fn(f64) -> f64>) {
-        let end = first_separation(&self.force);
-        self.separation = separation(self, end, relaxation);
+        self.separation = separation(self, relaxation);
         self.dissipated = dissipated(self, relaxation);
     }
 
@@ -110,9 +108,10 @@ impl History {
     ) -> Option<f64> {
         let relaxation = Relaxation::of(response, coupling, wave_time / self.step);
         // beyond that it knows no more than its memory
-        (relaxation.memory <= RESOLVED)
-            .then(|| dissipated(self, &relaxation))
-            .flatten()
+        if relaxation.memory > RESOLVED {
+            return None;
+        }
+        dissipated(self, &relaxation)
     }
 }
 
@@ -156,7 +155,7 @@ fn dissipated(history: &History, relaxation: &Relaxation<impl Fn(f64) -> f64>) -
     if last + 1 < FIRST + NEEDED {
         return None;
     }
-    let edges = touch.taken_at_touch(relaxation, first[2]) + leave.taken_at_end(relaxation, r0);
+    let edges = touch.taken(relaxation, first[2], false) + leave.taken(relaxation, r0, true);
     let delayed = delayed_weights(relaxation);
     let rate = |n: usize| {
         let samples = &p[n - 2..n + 3];

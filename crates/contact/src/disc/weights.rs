@@ -14,7 +14,6 @@
 
 use crate::disc::FixedDisc;
 use crate::disc::response::DiscResponse;
-use crate::model::StaticShare;
 
 /// The weights g_j of one step, newest first: as many as the memory has cells.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -28,7 +27,7 @@ impl Weights {
     #[must_use]
     pub fn of_samples(response: &impl DiscResponse, step: f64, unit: f64, samples: usize) -> Self {
         let mut weights = Self::default();
-        weights.fill(response, step, unit, f64::INFINITY, samples);
+        weights.fill(response, step / unit, f64::INFINITY, samples);
         weights
     }
 
@@ -50,19 +49,15 @@ impl Weights {
         response: &impl DiscResponse,
         step: f64,
     ) {
-        let slack = slack(impact.coupling, impact.share);
-        self.fill(response, step, impact.wave_time, slack, usize::MAX);
+        // Hertz's compliance is above 2/3; over the coupling and with a margin it is what 1 - 2 sum_j (-1)^j g_j, for the
+        // full share, and 1 less without it, may fall below zero: how negative the compliance to an alternating force may
+        // be before the march is unstable
+        let slack = (0.5 / impact.coupling - (1.0 - impact.share.factor())).max(0.0);
+        self.fill(response, step / impact.wave_time, slack, usize::MAX);
     }
 
-    fn fill(
-        &mut self,
-        response: &impl DiscResponse,
-        step: f64,
-        unit: f64,
-        slack: f64,
-        samples: usize,
-    ) {
-        let h = step / unit;
+    /// For a step in r0/c1.
+    fn fill(&mut self, response: &impl DiscResponse, h: f64, slack: f64, samples: usize) {
         let mut cell = response.cells(h);
         let cells = ((response.memory() / h).ceil() as usize).min(samples.saturating_add(1));
         let values = &mut self.values;
@@ -122,14 +117,6 @@ impl Weights {
 #[must_use]
 pub fn memory_weights(impact: &FixedDisc<'_, impl DiscResponse>, step: f64) -> Vec<f64> {
     Weights::of(impact, impact.response, step).values
-}
-
-/// How negative the compliance to an alternating force may be before the march is unstable.
-///
-/// Hertz's compliance is above 2/3; over the coupling and with a margin it is what 1 - 2 sum_j (-1)^j g_j, for the full
-/// share, and 1 less without it, may fall below zero.
-fn slack(coupling: f64, share: StaticShare) -> f64 {
-    (0.5 / coupling - (1.0 - share.factor())).max(0.0)
 }
 
 /// Fraction of the newest cell's curvature that leaves the march stable.
