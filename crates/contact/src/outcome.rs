@@ -335,22 +335,14 @@ fn lanes(summary: &Summary, radiated: f64, [time, coupling]: [f64; 2]) -> [f64; 
 
 /// The way back; all other results follow from these.
 fn outcome(lanes: &[f64; 8], [time, coupling]: [f64; 2]) -> (Summary, f64) {
-    let &[
-        peak_force,
-        peak_force_time,
-        contact_time,
-        slower,
-        peak_displacement,
-        ..,
-    ] = lanes;
     let first = time * coupling;
-    let restitution = 1.0 - first * slower;
+    let restitution = 1.0 - first * lanes[3];
     let summary = Summary {
-        peak_force,
-        peak_force_time,
-        contact_time,
-        loss: first * slower * (1.0 + restitution),
-        peak_displacement,
+        peak_force: lanes[0],
+        peak_force_time: lanes[1],
+        contact_time: lanes[2],
+        loss: first * lanes[3] * (1.0 + restitution),
+        peak_displacement: lanes[4],
         peak_deflection: lanes[5],
         ..Summary::rebound(restitution)
     };

@@ -47,21 +47,12 @@ impl Responses for Exact {
     }
 }
 
-/// How many Poisson's ratios are met.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Ratios {
-    /// A few: each has its own response.
-    Few,
-    /// Any number, as random draws have: responses of a lattice, linear between two of them.
-    ///
-    /// The lattice has steps of 1/4096 in sqrt(1/2 - nu); what lies between is off by less than 1e-6, of punches in their first instants by 1e-5.
-    Many,
-}
-
 /// Tabulated responses, made once and shared by all threads: what a sweep takes.
-#[derive(Debug)]
+///
+/// By default each Poisson's ratio has its own.
+#[derive(Debug, Default)]
 pub struct Tabulated {
-    ratios: Ratios,
+    lattice: bool,
     tables: RwLock<HashMap<(u64, Deflection), Arc<ResponseTable>>>,
     waves: RwLock<HashMap<u64, Arc<PunchWaves>>>,
 }
@@ -73,13 +64,15 @@ const LATTICE: f64 = 4096.0;
 const FIRST: f64 = 512.0;
 
 impl Tabulated {
-    /// None yet.
+    /// For any number of Poisson's ratios, as random draws have: responses of a lattice, linear between two of them.
+    ///
+    /// The lattice has steps of 1/4096 in sqrt(1/2 - nu); what lies between is off by less than 1e-6, of punches in their
+    /// first instants by 1e-5.
     #[must_use]
-    pub fn new(ratios: Ratios) -> Self {
+    pub fn on_lattice() -> Self {
         Self {
-            ratios,
-            tables: RwLock::default(),
-            waves: RwLock::default(),
+            lattice: true,
+            ..Self::default()
         }
     }
 
@@ -89,10 +82,7 @@ impl Tabulated {
         let below = place.floor();
         let at = |i: f64| 0.5 - (i / LATTICE).powi(2);
         let inside = below >= FIRST && at(below + 1.0) > -1.0;
-        match self.ratios {
-            Ratios::Many if inside => Some((at(below), at(below + 1.0), place - below)),
-            Ratios::Many | Ratios::Few => None,
-        }
+        (self.lattice && inside).then(|| (at(below), at(below + 1.0), place - below))
     }
 
     /// What belongs to a ratio: made for it once, or between the two of the lattice.
@@ -155,7 +145,7 @@ mod tests {
 
     #[test]
     fn between_lattice_points_responses_are_good_to_1e_6() {
-        let (few, many) = (Tabulated::new(Ratios::Few), Tabulated::new(Ratios::Many));
+        let (few, many) = (Tabulated::default(), Tabulated::on_lattice());
         for nu in [-0.9, -0.4, 0.05, 0.263_082_06, 0.31, 0.47, 0.498] {
             for deflection in [Deflection::Centre, Deflection::Mean] {
                 let exact = few.disc(nu, deflection).unwrap();

@@ -3,8 +3,8 @@
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
 use contact::{
-    Collision, Exact, HalfSpace, Material, Measure, Model, Plasticity, Ratios, Results, Settings,
-    Solved, Solver, Strength, Striker, Tabulated, Unknown, infer,
+    Collision, Exact, HalfSpace, Material, Measure, Model, Plasticity, Results, Settings, Solved,
+    Solver, Strength, Striker, Tabulated, Unknown, infer,
 };
 use halfspace::{Deflection, Medium, SurfaceResponse};
 use std::f64::consts::PI;
@@ -506,7 +506,7 @@ fn every_law_is_followed_at_every_velocity() {
     let (_, settings) = at(1.0);
     let block = HalfSpace::new(Material::named("aluminium-6061-t6").unwrap()).unwrap();
     let ball = Striker::ball(Material::named("bearing-steel").unwrap(), 0.01).unwrap();
-    let responses = Tabulated::new(Ratios::Few);
+    let responses = Tabulated::default();
     let mut solver = Solver::new(&responses);
     for plasticity in [
         Plasticity::Thornton,

@@ -1,7 +1,6 @@
 //! How near a contact is to what its bodies bear: yield and cone cracks.
 
 use crate::bodies::material::Material;
-use crate::bodies::{HalfSpace, Striker};
 use crate::numeric::quadrature::find_root;
 use std::f64::consts::PI;
 
@@ -17,7 +16,7 @@ pub struct Strength {
 }
 
 impl Strength {
-    fn new(material: &Material) -> Self {
+    pub(crate) fn new(material: &Material) -> Self {
         Self {
             poisson_ratio: material.poisson_ratio,
             yield_strength_pa: material.yield_strength_pa,
@@ -83,11 +82,6 @@ pub fn largest_mises(poisson_ratio: f64) -> f64 {
     let s = find_root(slope, 0.0, 1.0);
     let largest = 1.5 / (1.0 + s * s) - (1.0 + nu) * (1.0 - s * turn(s));
     largest.max((1.0 - 2.0 * nu) / 3.0_f64.sqrt())
-}
-
-/// The strengths of both bodies of a collision, the striker's first.
-pub(crate) fn strengths(half_space: &HalfSpace, striker: &Striker) -> [Strength; 2] {
-    [&striker.material, half_space.material()].map(Strength::new)
 }
 
 /// How near a contact comes to what its bodies bear; none where the number that it needs is not known.

@@ -131,17 +131,14 @@ pub fn solve_growing(
             (Err(_), Some(_)) => break,
         }
     }
-    match best {
-        Some((excess, solved)) if excess <= LENIENT => Ok(solved),
-        Some((excess, _)) => Err(MarchError::NotReached {
-            tolerance: accuracy.tolerance,
-            estimate: excess * accuracy.tolerance,
-        }),
-        None => Err(MarchError::NotReached {
-            tolerance: accuracy.tolerance,
-            estimate: f64::INFINITY,
-        }),
-    }
+    let excess = match best {
+        Some((excess, solved)) if excess <= LENIENT => return Ok(solved),
+        other => other.map_or(f64::INFINITY, |(excess, _)| excess),
+    };
+    Err(MarchError::NotReached {
+        tolerance: accuracy.tolerance,
+        estimate: excess * accuracy.tolerance,
+    })
 }
 
 /// The largest estimate over what is asked of it.

@@ -138,14 +138,11 @@ impl Nodes {
     }
 }
 
-/// Row k: what the Legendre polynomials of degree 0 to n hold of x^k.
+/// Row k: what the Legendre polynomials of degree 0 to n > 0 hold of x^k.
 fn powers(n: usize) -> Vec<f64> {
     let size = n + 1;
     let mut rows = vec![0.0; size * size];
-    rows[0] = 1.0;
-    if n > 0 {
-        rows[size + 1] = 1.0;
-    }
+    (rows[0], rows[size + 1]) = (1.0, 1.0);
     for degree in 2..=n {
         let d = degree as f64;
         for k in 0..=degree {

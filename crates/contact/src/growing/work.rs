@@ -25,11 +25,6 @@ const SAMPLES: [usize; 2] = [48, 192];
 const LEVELS: [usize; 2] = [1, 3];
 const COARSE: f64 = 1e-5;
 
-/// Part of the duration at a part of the angle.
-fn time_part(part: f64) -> f64 {
-    (0.5 * PI * part).sin().powi(2)
-}
-
 /// Work of a contact that was solved on the half-space, relative to the kinetic energy before, by superposition of the
 /// punches that carry its load: independent of the striker's momentum.
 ///
@@ -45,7 +40,7 @@ pub fn work_on_half_space(
     let (samples, rule) = (SAMPLES[choice], contact.waves.rule(LEVELS[choice]));
     let points = [&GAUSS_4[..], &GAUSS_8[..]][choice];
     let duration = solved.summary.contact_time;
-    let time_of = |i: usize| duration * time_part(i as f64 / samples as f64);
+    let time_of = |i: usize| duration * (0.5 * PI * (i as f64 / samples as f64)).sin().powi(2);
     let radii: Vec<f64> = (0..=samples)
         .map(|i| solved.radius(time_of(i).min(duration)))
         .collect();

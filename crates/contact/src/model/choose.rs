@@ -155,18 +155,6 @@ impl Groups {
     }
 }
 
-/// The choice for a contact that follows the load, from its lag and its memory in collision units.
-#[must_use]
-pub fn choose(lag: f64, memory: f64, tolerance: f64, loss_tolerance: Option<f64>) -> (Rung, f64) {
-    let groups = Groups {
-        family: Family::Growing,
-        coupling: 0.0,
-        lag,
-        memory,
-    };
-    groups.choose(&Accuracy::of_contact(tolerance, loss_tolerance))
-}
-
 /// First-order loss 1 - e^2 up to which the radiation models are used: half of the energy.
 const LARGEST_FIRST_ORDER: f64 = 0.5;
 

@@ -53,8 +53,8 @@ impl Yielding {
 
 impl March<'_> {
     /// Velocity, duration and the largest product of radius and velocity of a contact with a dashpot that opens along a
-    /// branch from rest at radius one.
-    pub(crate) fn from_rest(branch: Branch, lag: f64) -> Option<[f64; 3]> {
+    /// branch from rest at radius one, and what it gives back without a lag.
+    pub(crate) fn from_rest(branch: Branch, lag: f64) -> Option<[f64; 4]> {
         let mut march = Self::damped(lag);
         march.law.branch = branch;
         march.state = State {
@@ -67,8 +67,8 @@ impl March<'_> {
         let pull = |one: &Piece, s: f64| one.radius.value(s) * -one.velocity.value(s);
         let pieces = march.pieces.iter();
         let samples = pieces.flat_map(|one| (0..=64).map(move |i| pull(one, f64::from(i) / 64.0)));
-        let pulled = samples.fold(0.0, f64::max);
-        Some([-march.state.velocity, march.state.time, pulled])
+        let (pulled, stored) = (samples.fold(0.0, f64::max), branch.given_back(1.0));
+        Some([-march.state.velocity, march.state.time, pulled, stored])
     }
 
     /// The whole contact; nothing where waves keep it from yielding.

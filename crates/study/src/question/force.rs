@@ -12,7 +12,7 @@ use contact::law::hertz::CONTACT_TIME;
 use contact::law::quasi_static::{quasi_static, quasi_static_radiation};
 use contact::law::radiation::radiation;
 use contact::{
-    Accuracy, Collision, FixedDisc, GrowingContact, History, MarchError, Model, PunchWaves, Ratios,
+    Accuracy, Collision, FixedDisc, GrowingContact, History, MarchError, Model, PunchWaves,
     ResponseTable, Settings, Solver, StaticShare, Summary, Tabulated, Workspace, march_explicit,
     march_growing, march_implicit, refine, solve_disc, solve_growing,
 };
@@ -220,7 +220,7 @@ fn from_series(
     settings: Settings,
 ) -> Result<(), AnyError> {
     const CONTACTS: usize = 1_000_000;
-    let responses = Tabulated::new(Ratios::Few);
+    let responses = Tabulated::default();
     for tolerance in tolerances(3..=scene.effort.pick(4, 8)) {
         let settings = Settings {
             tolerance,
