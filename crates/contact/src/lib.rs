@@ -56,7 +56,7 @@ pub use disc::implicit::march_implicit;
 pub use disc::refine::{Accuracy, Found, Workspace, refine, solve_disc};
 pub use disc::response::DiscResponse;
 pub use disc::table::ResponseTable;
-pub use disc::weights::{Weights, memory_weights};
+pub use disc::weights::Weights;
 pub use disc::{CENTRE_COUPLING, FixedDisc};
 pub use energy::work_until_j;
 pub use error::{ContactError, MarchError};

@@ -163,7 +163,7 @@ fn of_the_materials(
     let mut borne = Vec::new();
     let bodies = ["striker", "target"].into_iter().zip(materials);
     for ((body, material), strength) in bodies.zip(&collision.strengths) {
-        let onset = strength.yield_pressure_pa().filter(|&onset| stress > onset);
+        let onset = strength.yield_pressure_pa.filter(|&onset| stress > onset);
         if let (Some(onset), Some(limit)) = (onset, material.yield_strength_pa) {
             borne.push(format!(
                 "{:.2} times the yield strength of the {body}, {limit:.4e} Pa (yielding begins at {:.2} times)",

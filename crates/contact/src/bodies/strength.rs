@@ -11,8 +11,8 @@ pub struct Strength {
     yield_strength_pa: Option<f64>,
     tensile_strength_pa: Option<f64>,
     fracture_toughness_pa_sqrt_m: Option<f64>,
-    /// Mean pressure of the contact at which it begins to yield.
-    yield_pressure_pa: Option<f64>,
+    /// Mean pressure of the contact in Pa at which the body begins to yield; none without a yield strength.
+    pub yield_pressure_pa: Option<f64>,
 }
 
 impl Strength {
@@ -25,12 +25,6 @@ impl Strength {
             yield_pressure_pa: (material.yield_strength_pa)
                 .map(|strength| 2.0 / 3.0 * strength / largest_mises(material.poisson_ratio)),
         }
-    }
-
-    /// Mean pressure of the contact in Pa at which the body begins to yield; none without a yield strength.
-    #[must_use]
-    pub fn yield_pressure_pa(&self) -> Option<f64> {
-        self.yield_pressure_pa
     }
 
     /// Yield strength in Pa and Poisson's ratio, where the strength is known.
@@ -115,7 +109,7 @@ impl Loading {
         };
         Self {
             mean_pressure_pa: pressure,
-            yield_onset: over(pressure, &Strength::yield_pressure_pa),
+            yield_onset: over(pressure, &|body| body.yield_pressure_pa),
             pressure_over_yield: over(pressure, &|body| body.yield_strength_pa),
             pressure_over_tensile: over(pressure, &|body| body.tensile_strength_pa),
             cone_crack_onset: over(force_n, &|body| {

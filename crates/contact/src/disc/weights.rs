@@ -18,7 +18,8 @@ use crate::disc::response::DiscResponse;
 /// The weights g_j of one step, newest first: as many as the memory has cells.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Weights {
-    pub(crate) values: Vec<f64>,
+    /// g_j.
+    pub values: Vec<f64>,
 }
 
 impl Weights {
@@ -31,12 +32,12 @@ impl Weights {
         weights
     }
 
-    /// For the march of an impact; `response` is its own or that of another deflection of the same disc.
-    pub(crate) fn of<R>(
-        impact: &FixedDisc<'_, R>,
-        response: &impl DiscResponse,
-        step: f64,
-    ) -> Self {
+    /// For the implicit march of an impact at a step in collision units; `response` is its own or that of another deflection
+    /// of the same disc.
+    ///
+    /// The deflection is coupling [p_n - sum_j g_j (p_{n-j} - p_{n-j-1})], without the first p_n for the dynamic share.
+    #[must_use]
+    pub fn of<R>(impact: &FixedDisc<'_, R>, response: &impl DiscResponse, step: f64) -> Self {
         let mut weights = Self::default();
         weights.fill_for(impact, response, step);
         weights
@@ -109,14 +110,6 @@ impl Weights {
                 .map(|(g, rise)| g * rise)
                 .sum::<f64>()
     }
-}
-
-/// The weights g_j of the implicit march of an impact at a step in collision units, newest first.
-///
-/// The deflection is coupling [p_n - sum_j g_j (p_{n-j} - p_{n-j-1})], without the first p_n for the dynamic share.
-#[must_use]
-pub fn memory_weights(impact: &FixedDisc<'_, impl DiscResponse>, step: f64) -> Vec<f64> {
-    Weights::of(impact, impact.response, step).values
 }
 
 /// Fraction of the newest cell's curvature that leaves the march stable.

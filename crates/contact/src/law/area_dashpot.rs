@@ -43,7 +43,7 @@ pub struct AreaDashpot {
 /// Largest lag of the tables.
 pub const LARGEST_LAG: f64 = 0.2;
 
-/// What the expansion leaves out, for a lag c and the punch's memory T, both in collision times: bounds that 99.5 of 100
+/// What the expansion leaves out, for a lag c and the punch's memory T, 2 tau/c_R at the largest approach, both in collision times: bounds that 99.5 of 100
 /// random scenes keep (`tests/growing.rs`).
 ///
 /// ```text
@@ -52,7 +52,8 @@ pub const LARGEST_LAG: f64 = 0.2;
 /// ```
 ///
 /// One beyond [`LARGEST_LAG`] and [`LARGEST_MEMORY`].
-pub(crate) fn left_out(lag: f64, memory: f64) -> Estimates {
+#[must_use]
+pub fn left_out(lag: f64, memory: f64) -> Estimates {
     let (c, t) = (lag, memory);
     let square = c * t * t;
     let steeper = square * t.sqrt();
@@ -89,12 +90,6 @@ impl AreaDashpot {
         }
     }
 
-    /// Bounds of the errors for a memory T in collision times, the punch's: 2 tau/c_R at the largest approach.
-    #[must_use]
-    pub fn left_out(&self, memory: f64) -> Estimates {
-        left_out(self.lag, memory)
-    }
-
     /// Contact force at a displacement and a velocity, to the third order; none in tension.
     #[must_use]
     pub fn force(&self, displacement: f64, velocity: f64) -> f64 {
@@ -126,7 +121,7 @@ impl AreaDashpot {
 
     /// Samples of the contact, a step apart; its results are those of [`summary`](Self::summary).
     ///
-    /// The force is as good as [`left_out`](Self::left_out) says.
+    /// The force is as good as [`left_out`] says.
     #[must_use]
     pub fn history(&self, step: f64) -> History {
         let results = self.summary();

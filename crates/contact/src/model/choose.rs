@@ -255,7 +255,7 @@ impl Plan {
     /// [`ContactError::BeyondDashpot`] where the expansion in the memory makes no sense.
     pub(crate) fn dashpot(&self, terms: &AreaDashpot) -> Result<Found, ContactError> {
         let (lag, memory) = (terms.lag, self.groups.memory);
-        let errors = terms.left_out(memory);
+        let errors = left_out(lag, memory);
         let error = errors.contact().max(errors.force);
         if error >= 1.0 {
             return Err(ContactError::BeyondDashpot { lag, memory });

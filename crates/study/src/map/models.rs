@@ -11,7 +11,7 @@ use crate::picture::Picture;
 use crate::question::marching::{Results, errors, results};
 use crate::record::Error;
 use crate::scenes::{ROD_RADIUS_M, TABLE_1_PA, ball, collision, paper};
-use contact::law::area_dashpot::AreaDashpot;
+use contact::law::area_dashpot::{AreaDashpot, left_out};
 use contact::law::hertz::CONTACT_TIME;
 use contact::law::quasi_static::{quasi_static, quasi_static_radiation};
 use contact::law::radiation::{LARGEST_LAG, LOSS, radiation};
@@ -150,7 +150,7 @@ impl Plane {
             ..
         } = self.groups(share, memory);
         let dashpot = AreaDashpot::new(share, self.wave_time(memory), &self.waves);
-        let is_allowed = dashpot.left_out(length).contact() < 1.0;
+        let is_allowed = left_out(dashpot.lag, length).contact() < 1.0;
         Ok(ModelErrors {
             quasi_static: error(true, &radiation(0.0), &exact),
             radiation: error(lag <= LARGEST_LAG, &radiation(lag), &exact),
