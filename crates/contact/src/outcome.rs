@@ -171,13 +171,10 @@ impl Outcomes {
                 *counts.entry(place.cell).or_insert(0.0) += 1.0;
             }
         }
-        let pays =
-            |cell: &Cell, count: f64| count * rows as f64 / sampled >= PAYS * cell.marches() as f64;
-        let paying = counts
-            .into_iter()
-            .filter(|(cell, count)| pays(cell, *count));
+        counts.retain(|cell, count| *count * rows as f64 / sampled >= PAYS * cell.marches() as f64);
+        let paying = counts.into_keys();
         Self {
-            cells: paying.map(|(cell, _)| (cell, OnceLock::new())).collect(),
+            cells: paying.map(|cell| (cell, OnceLock::new())).collect(),
         }
     }
 

@@ -301,7 +301,13 @@ impl<'a, S: Responses> Solver<'a, S> {
         let mut results = None;
         if !memory && asked.deflection.is_none() {
             let quickly = || quick(yielding, lag).map(|found| (found, 0.0));
-            let fitted = self.fitted(&plan, yielding, settings);
+            let series = Place::of_fit(&plan, yielding, settings)
+                .and_then(|place| self.outcomes?.at(&place, self.responses));
+            let fitted = series.map(|(summary, radiated, error)| {
+                let works = [summary.loss - radiated, radiated];
+                let flow = Flow::new(yielding, summary.peak_displacement.sqrt(), works);
+                ((summary, flow), error)
+            });
             results = fitted.or_else(quickly);
         }
         if !memory && results.is_none() {
@@ -321,20 +327,6 @@ impl<'a, S: Responses> Solver<'a, S> {
         let found = Found::unmarched(summary, error.min(1.0));
         let scheme = memory.then_some(Scheme::Implicit);
         Ok(Some(plan.solved(scheme, found, Some(flow))))
-    }
-
-    /// The results of a contact on Jackson and Green's fit from a series, and its error.
-    fn fitted(
-        &self,
-        plan: &Plan,
-        yielding: &Yielding,
-        settings: &Settings,
-    ) -> Option<((Summary, Flow), f64)> {
-        let place = Place::of_fit(plan, yielding, settings)?;
-        let (summary, radiated, error) = self.outcomes?.at(&place, self.responses)?;
-        let work = summary.loss - radiated;
-        let flow = Flow::new(yielding, summary.peak_displacement.sqrt(), [work, radiated]);
-        Some(((summary, flow), error))
     }
 
     fn disc(&mut self, ratio: f64, deflection: Deflection) -> Result<Arc<S::Disc>, DomainError> {

@@ -6,7 +6,7 @@ use crate::growing::nodes::Nodes;
 use crate::growing::polynomial::LARGEST;
 use crate::model::Plasticity;
 use crate::numeric::quadrature::{GAUSS_8, gauss, rising_root};
-use crate::plastic::branch::nested;
+use crate::plastic::branch::{Branch, nested};
 use crate::plastic::{Flow, Yielding};
 use crate::summary::{Estimates, Instant, Summary};
 use crate::units::INVERSE_MASS;
@@ -163,23 +163,16 @@ impl SolvedContact {
         let piece = self.pieces.get(index)?;
         let place = place_of(piece, time);
         let radius = piece.radius.value(place).max(0.0);
-        let turned = self.turned(time);
-        let (back, from) = if turned {
-            (piece.law.branch, radius)
+        let stored = |branch: Branch, from| 2.0 * INVERSE_MASS * branch.given_back(from);
+        let (stored, flowed) = if self.turned(time) {
+            (stored(piece.law.branch, radius), flow.plastic_work)
         } else {
-            yielding.unloading(radius)
+            let (back, from) = yielding.unloading(radius);
+            let stored = stored(back, from);
+            (stored, 2.0 * INVERSE_MASS * yielding.work(radius) - stored)
         };
-        let stored = 2.0 * INVERSE_MASS * back.given_back(from);
-        let flowed = if turned {
-            flow.plastic_work
-        } else {
-            2.0 * INVERSE_MASS * yielding.work(radius) - stored
-        };
-        Some([
-            stored,
-            flowed.max(0.0),
-            self.radiated[index] + work_of(piece, place),
-        ])
+        let radiated = self.radiated[index] + work_of(piece, place);
+        Some([stored, flowed.max(0.0), radiated])
     }
 
     /// Hertz's pressures that stand for the one at a time, where that is known, as under `recovery`: part of the force and
@@ -191,13 +184,10 @@ impl SolvedContact {
         let flow = (self.flow.as_ref()).filter(|one| one.yielding.law == Plasticity::Recovery)?;
         let (piece, place) = self.place(time)?;
         let (radius, slope) = piece.radius.jet(place);
+        let (edge, turned) = (flow.yielding.edge(), self.turned(time));
         let at = |radius: f64| {
-            let top = if self.turned(time) {
-                flow.radius
-            } else {
-                radius
-            };
-            nested(flow.yielding.edge(), top, radius)
+            let top = if turned { flow.radius } else { radius };
+            nested(edge, top, radius)
         };
         let [less, here, more] = [1.0 - APART, 1.0, 1.0 + APART].map(|part| at(part * radius));
         let per = slope / (piece.time.jet(place).1 * 2.0 * APART * radius);
@@ -261,13 +251,6 @@ impl SolvedContact {
     /// The state at any time from the touch on; the deflection is not followed after the contact.
     #[must_use]
     pub fn state(&self, time: f64) -> Instant {
-        let [force, rate, second_rate] = self.force(time);
-        let moved = Instant {
-            force,
-            rate,
-            second_rate,
-            ..Instant::default()
-        };
         let end = self.summary.contact_time;
         let Some((piece, place)) = self.place(time.max(0.0)).filter(|_| time < end) else {
             let velocity = -self.summary.restitution;
@@ -276,14 +259,17 @@ impl SolvedContact {
             return Instant {
                 displacement: left + velocity * (time - end),
                 velocity,
-                ..moved
+                ..Instant::default()
             };
         };
+        let [force, rate, second_rate] = self.force(time);
         Instant {
+            force,
+            rate,
+            second_rate,
             displacement: piece.displacement.value(place),
             velocity: piece.velocity.value(place),
             deflection: deflected(piece, place),
-            ..moved
         }
     }
 }

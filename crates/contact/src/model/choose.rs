@@ -207,14 +207,9 @@ impl Plan {
     /// sigma of the quasi-static spring.
     #[must_use]
     pub fn coupling(&self) -> f64 {
-        let on_springs = matches!(
-            self.model.row(),
-            (Rung::QuasiStatic | Rung::Radiation, true)
-        );
-        if on_springs {
-            self.groups.coupling
-        } else {
-            0.0
+        match self.model.row() {
+            (Rung::QuasiStatic | Rung::Radiation, true) => self.groups.coupling,
+            _ => 0.0,
         }
     }
 
@@ -351,24 +346,21 @@ fn groups(settings: &Settings, collision: &Collision, response: &impl DiscRespon
     };
     let wave_time = collision.contact_wave_time();
     let lag = collision.lag_of(wave_time, response);
-    if !fixed {
-        return Groups {
-            family: Family::Growing,
-            coupling: 0.0,
-            lag,
-            memory: wave_time * response.punch_memory(),
-        };
-    }
-    let disc = disc_radius_m(settings, collision);
-    let (coupling, wave_time) = collision.disc_groups(response.static_compliance(), disc);
-    let (family, coupling) = match settings.static_share {
-        StaticShare::Full => (Family::Full, coupling),
-        StaticShare::Dynamic => (Family::Dynamic, 0.0),
+    let (family, coupling, memory) = if fixed {
+        let disc = disc_radius_m(settings, collision);
+        let (coupling, wave_time) = collision.disc_groups(response.static_compliance(), disc);
+        let memory = wave_time * response.memory();
+        match settings.static_share {
+            StaticShare::Full => (Family::Full, coupling, memory),
+            StaticShare::Dynamic => (Family::Dynamic, 0.0, memory),
+        }
+    } else {
+        (Family::Growing, 0.0, wave_time * response.punch_memory())
     };
     Groups {
         family,
         coupling,
         lag,
-        memory: wave_time * response.memory(),
+        memory,
     }
 }
