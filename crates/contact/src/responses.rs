@@ -5,7 +5,6 @@ use crate::disc::table::ResponseTable;
 use crate::growing::waves::PunchWaves;
 use halfspace::{Deflection, DomainError, Medium, SurfaceResponse};
 use std::collections::HashMap;
-use std::hash::Hash;
 use std::sync::{Arc, PoisonError, RwLock};
 
 /// Where a solver has its responses from.
@@ -53,7 +52,8 @@ impl Responses for Exact {
 #[derive(Debug, Default)]
 pub struct Tabulated {
     lattice: bool,
-    tables: RwLock<HashMap<(u64, Deflection), Arc<ResponseTable>>>,
+    /// By the bits of Poisson's ratio; the tables of both deflections.
+    tables: [RwLock<HashMap<u64, Arc<ResponseTable>>>; 2],
     waves: RwLock<HashMap<u64, Arc<PunchWaves>>>,
 }
 
@@ -86,23 +86,22 @@ impl Tabulated {
     }
 
     /// What belongs to a ratio: made for it once, or between the two of the lattice.
-    fn at<K: Eq + Hash, V>(
+    fn at<V>(
         &self,
-        cache: &RwLock<HashMap<K, Arc<V>>>,
+        cache: &RwLock<HashMap<u64, Arc<V>>>,
         ratio: f64,
-        key: impl Fn(u64) -> K,
         make: impl Fn(&Medium) -> V,
         between: impl FnOnce(Arc<V>, Arc<V>, f64) -> V,
     ) -> Result<Arc<V>, DomainError> {
         let exact = |nu: f64| {
             let read = cache.read().unwrap_or_else(PoisonError::into_inner);
-            if let Some(found) = read.get(&key(nu.to_bits())) {
+            if let Some(found) = read.get(&nu.to_bits()) {
                 return Ok(Arc::clone(found));
             }
             drop(read);
             let made = Arc::new(make(&Medium::new(nu)?));
             let mut cache = cache.write().unwrap_or_else(PoisonError::into_inner);
-            Ok(Arc::clone(cache.entry(key(nu.to_bits())).or_insert(made)))
+            Ok(Arc::clone(cache.entry(nu.to_bits()).or_insert(made)))
         };
         match self.neighbours(ratio) {
             None => exact(ratio),
@@ -119,23 +118,15 @@ impl Responses for Tabulated {
     fn disc(&self, ratio: f64, deflection: Deflection) -> Result<Arc<ResponseTable>, DomainError> {
         let table = |medium: &Medium| ResponseTable::new(&SurfaceResponse::new(medium, deflection));
         self.at(
-            &self.tables,
+            &self.tables[deflection as usize],
             ratio,
-            |bits| (bits, deflection),
             table,
             |near, far, fraction| ResponseTable::between(&near, &far, fraction),
         )
     }
 
     fn waves(&self, ratio: f64) -> Result<Arc<PunchWaves>, DomainError> {
-        let same = |bits| bits;
-        self.at(
-            &self.waves,
-            ratio,
-            same,
-            PunchWaves::new,
-            PunchWaves::between,
-        )
+        self.at(&self.waves, ratio, PunchWaves::new, PunchWaves::between)
     }
 }
 

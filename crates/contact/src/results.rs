@@ -176,12 +176,11 @@ impl Results {
             ("march's step", self.march_step_s),
             ("error estimate", self.relative_error_estimate),
         ];
-        if let Some((quantity, value)) = numbers.into_iter().find(|(_, x)| !x.is_finite()) {
-            return Err(ContactError::NotFinite { quantity, value });
-        }
+        let wrong = numbers.into_iter().find(|(_, x)| !x.is_finite());
         // a force without length or size has left the range of floating-point numbers at its lower end
         let vanished = [numbers[0], numbers[2], numbers[6], numbers[9]];
-        if let Some((quantity, value)) = vanished.into_iter().find(|(_, x)| *x <= 0.0) {
+        let vanished = || vanished.into_iter().find(|(_, x)| *x <= 0.0);
+        if let Some((quantity, value)) = wrong.or_else(vanished) {
             return Err(ContactError::NotFinite { quantity, value });
         }
         let error = self.relative_error_estimate;

@@ -49,14 +49,9 @@ pub fn doubts(half_space: &HalfSpace, striker: &Striker) -> Vec<String> {
         ]
     };
     let lengths = match striker.shape {
-        Some(Shape::Ball { diameter_m }) => [("diameter_m", Some(diameter_m)), ("length_m", None)],
-        Some(Shape::Rod {
-            diameter_m,
-            length_m,
-            ..
-        }) => [
+        Some(Shape::Ball { diameter_m } | Shape::Rod { diameter_m, .. }) => [
             ("diameter_m", Some(diameter_m)),
-            ("length_m", Some(length_m)),
+            ("length_m", striker.length_m),
         ],
         None => [
             ("tip_radius_m", Some(striker.tip_radius_m)),
@@ -235,11 +230,10 @@ fn of_the_bodies(
 }
 
 fn of_the_model(settings: &Settings, plan: &Plan, results: &Results, found: &mut Vec<String>) {
-    let centre = match (plan.model, settings.static_share, settings.deflection) {
-        (Model::Wave, StaticShare::Full, Deflection::Centre) => plan.groups.coupling,
-        _ => 0.0,
-    };
-    if centre > CENTRE_COUPLING {
+    let chosen = (plan.model, settings.static_share, settings.deflection);
+    let of_centre = chosen == (Model::Wave, StaticShare::Full, Deflection::Centre);
+    let centre = plan.groups.coupling;
+    if of_centre && centre > CENTRE_COUPLING {
         found.push(format!(
             "the disc gives way {centre:.1} times as much as the contact, more than {CENTRE_COUPLING}: the deflection of its centre is not conjugate to the pressure and may feed energy back; set deflection = \"mean\""
         ));

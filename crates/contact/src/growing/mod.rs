@@ -107,7 +107,9 @@ pub fn solve_growing(
     let mut piece = (PIECE[usize::from(asked < COARSE)] * asked).max(FINEST);
     let mut best: Option<(f64, SolvedContact)> = None;
     for attempt in 0..ATTEMPTS {
-        let tried = resolve(contact, piece);
+        let mut march = March::new(*contact, piece);
+        let followed = march.load(f64::INFINITY).and_then(|()| march.close());
+        let tried = followed.and_then(|()| checks::passed(SolvedContact::new(march), contact));
         match (tried, &best) {
             (Ok(solved), _) => {
                 let excess = excess(&solved.estimates, accuracy);
@@ -153,14 +155,6 @@ fn excess(estimates: &Estimates, accuracy: &Accuracy) -> f64 {
         estimates.contact() / accuracy.tolerance.max(least),
         f64::max,
     )
-}
-
-/// Solves with pieces that leave an error of `piece` each.
-fn resolve(contact: &GrowingContact<'_>, piece: f64) -> Result<SolvedContact, MarchError> {
-    let mut march = March::new(*contact, piece);
-    march.load(f64::INFINITY)?;
-    march.close()?;
-    checks::passed(SolvedContact::new(march), contact)
 }
 
 fn check(contact: &GrowingContact<'_>) -> Result<(), MarchError> {

@@ -191,7 +191,7 @@ fn rise(edge: f64, lag: f64) -> Option<(f64, f64, f64)> {
                 break;
             }
         }
-        for (weight, (x, v)) in rule.weights.iter().zip(x.iter().zip(v)) {
+        for (weight, (x, v)) in rule.integral_row(NODES).iter().zip(x.iter().zip(v)) {
             time += 2.0 * width * weight * x / v;
             lost += width * weight * x * x * x * v;
         }
