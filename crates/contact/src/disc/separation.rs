@@ -47,7 +47,7 @@ const UNSEEN: f64 = 1.0 / 3.0;
 const UNCERTAIN: f64 = 0.5;
 
 /// The end of the first contact, where the last samples tell it.
-pub(crate) fn separation(
+fn separation(
     history: &History,
     relaxation: &Relaxation<impl Fn(f64) -> f64>,
 ) -> Option<Separation> {
@@ -92,6 +92,12 @@ pub(crate) fn separation(
 }
 
 impl History {
+    /// Finds the end of the first contact and, where there is no other, the work that is left in the half-space.
+    pub(crate) fn separate(&mut self, relaxation: &Relaxation<impl Fn(f64) -> f64>) {
+        self.separation = separation(self, relaxation);
+        self.dissipated = dissipated(self, relaxation);
+    }
+
     /// Work of the force on another deflection of the same disc, where that on its own is known and the steps do not
     /// resolve the memory of either.
     pub(crate) fn work_on(
@@ -130,10 +136,7 @@ const BEFORE_END: f64 = 2.75;
 /// Work of one contact, relative to the kinetic energy before.
 ///
 /// Nothing for several contacts, those of few steps, and where the samples at both ends are not those of an edge.
-pub(crate) fn dissipated(
-    history: &History,
-    relaxation: &Relaxation<impl Fn(f64) -> f64>,
-) -> Option<f64> {
+fn dissipated(history: &History, relaxation: &Relaxation<impl Fn(f64) -> f64>) -> Option<f64> {
     let (p, elastic) = (&history.force, history.elastic);
     let mut after = p.iter().skip(first_separation(p));
     if after.any(|&p| p > 0.0) {
