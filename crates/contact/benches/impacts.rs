@@ -6,8 +6,8 @@
 #![allow(clippy::unwrap_used, reason = "a bench may panic")]
 
 use contact::{
-    Choice, Collision, HalfSpace, Material, Model, Ratios, Results, Settings, Solver, StaticShare,
-    Striker, Summary, Tabulated, march_explicit, march_implicit,
+    Choice, Collision, HalfSpace, Material, Model, Results, Settings, Solver, StaticShare, Striker,
+    Summary, Tabulated, march_explicit, march_implicit,
 };
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use halfspace::{Deflection, Medium, SurfaceResponse};
@@ -79,7 +79,7 @@ fn accuracy(scenes: &[(Collision, Settings)], responses: &Tabulated) -> String {
 }
 
 fn models(c: &mut Criterion) {
-    let responses = Tabulated::new(Ratios::Few);
+    let responses = Tabulated::default();
     let mut group = c.benchmark_group("impacts");
     for model in [
         Model::Hertz,
@@ -139,7 +139,7 @@ fn alike(model: Model) -> Vec<(Collision, Settings)> {
 /// Impacts of one pair of materials whose outcomes come from series, with their results and nothing but statistics of
 /// them; before, how long the series take to be made, and how good they are against marches to 1e-9.
 fn contracted(c: &mut Criterion) {
-    let responses = Tabulated::new(Ratios::Few);
+    let responses = Tabulated::default();
     let mut group = c.benchmark_group("impacts from series");
     for model in [Model::Growing, Model::Wave] {
         let rows = alike(model);
@@ -216,7 +216,7 @@ fn contracted(c: &mut Criterion) {
 /// How many times slower the explicit scheme is where both reach 1e-4 on force, time and restitution.
 fn explicit(c: &mut Criterion) {
     let all = scenes(Model::Wave);
-    let responses = Tabulated::new(Ratios::Few);
+    let responses = Tabulated::default();
     let mut solver = Solver::new(&responses);
     let mut ratios = Vec::new();
     for (collision, settings) in all.iter().step_by(97) {

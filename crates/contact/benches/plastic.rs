@@ -5,8 +5,7 @@
 #![allow(clippy::unwrap_used, reason = "a bench may panic")]
 
 use contact::{
-    Choice, Collision, HalfSpace, Material, Model, Plasticity, Ratios, Settings, Solver, Striker,
-    Tabulated,
+    Choice, Collision, HalfSpace, Material, Model, Plasticity, Settings, Solver, Striker, Tabulated,
 };
 use std::hint::black_box;
 use std::time::Instant;
@@ -27,7 +26,7 @@ fn collisions() -> Vec<Collision> {
 /// All laws, or the law, the model and the count of impacts given.
 fn main() {
     let collisions = collisions();
-    let responses = Tabulated::new(Ratios::Few);
+    let responses = Tabulated::default();
     let speed = |plasticity: Plasticity, model: Model, count: usize| {
         let settings = Settings {
             plasticity,

@@ -2,7 +2,7 @@
 //!
 //! Theory: `docs/theory.md` (T36, T39, T49).
 
-use crate::bodies::strength::{Strength, strengths};
+use crate::bodies::strength::Strength;
 use crate::bodies::{HalfSpace, Striker};
 use crate::disc::FixedDisc;
 use crate::disc::response::DiscResponse;
@@ -64,7 +64,7 @@ impl Collision {
             target_shear_modulus_pa: two.shear_modulus_pa(),
             target_longitudinal_speed_m_s: half_space.longitudinal_speed_m_s(),
             target_poisson_ratio: two.poisson_ratio,
-            strengths: strengths(half_space, striker),
+            strengths: [one, two].map(Strength::new),
         }
     }
 

@@ -9,18 +9,7 @@ use crate::disc::history::History;
 use crate::disc::response::DiscResponse;
 use crate::disc::weights::Weights;
 use crate::resample::Resampler;
-use crate::units::INVERSE_MASS;
 use halfspace::Deflection;
-
-/// What is missing of the energy, 1 - rebound - radiated, by two routes that share nothing but the force.
-///
-/// What the striker keeps follows from its momentum, (1 - (5/4) int p dt)^2, what the half-space takes from the work of
-/// the force on the deflection that lags behind it; a force that does not belong to its deflection, or an integral of
-/// either that is wrong, leaves a residual.
-pub(crate) fn residual(impulse: f64, radiated: f64) -> f64 {
-    let rebound = (1.0 - INVERSE_MASS * impulse).powi(2);
-    1.0 - rebound - radiated
-}
 
 /// Samples over a contact with which the work on a memory of several steps is taken.
 const SAMPLES: f64 = 256.0;

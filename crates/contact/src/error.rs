@@ -33,7 +33,7 @@ pub enum ContactError {
     /// The deflection of the disc's centre feeds energy back.
     #[error(
         "the disc gives way {coupling:.1} times as much as the contact, and the deflection of its centre, which is not conjugate to the pressure, feeds energy back{}; take the mean deflection or a larger disc",
-        fed_in_words(found.as_ref())
+        found.map_or_else(String::new, |(e, n)| format!(": restitution {e:.4}, {n} contacts"))
     )]
     EnergyFed {
         /// Coupling of the disc.
@@ -100,12 +100,6 @@ pub enum ContactError {
         /// The estimate.
         error: f64,
     },
-}
-
-fn fed_in_words(found: Option<&(f64, usize)>) -> String {
-    found.map_or_else(String::new, |(restitution, contacts)| {
-        format!(": restitution {restitution:.4}, {contacts} contacts")
-    })
 }
 
 /// Why a march could not be carried through.

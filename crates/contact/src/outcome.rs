@@ -171,13 +171,10 @@ impl Outcomes {
                 *counts.entry(place.cell).or_insert(0.0) += 1.0;
             }
         }
-        let pays =
-            |cell: &Cell, count: f64| count * rows as f64 / sampled >= PAYS * cell.marches() as f64;
-        let paying = counts
-            .into_iter()
-            .filter(|(cell, count)| pays(cell, *count));
+        counts.retain(|cell, count| *count * rows as f64 / sampled >= PAYS * cell.marches() as f64);
+        let paying = counts.into_keys();
         Self {
-            cells: paying.map(|(cell, _)| (cell, OnceLock::new())).collect(),
+            cells: paying.map(|cell| (cell, OnceLock::new())).collect(),
         }
     }
 
@@ -279,8 +276,8 @@ impl Cell {
                     wave_time: first,
                 };
                 let solved = solve_growing(&contact, &asked).ok()?;
-                let summary = *solved.summary();
-                return Some((summary, summary.loss, solved.estimates().contact()));
+                let summary = solved.summary;
+                return Some((summary, summary.loss, solved.estimates.contact()));
             }
             Family::Yielding => {
                 let depth = (1.0 + first * first).powf(-0.4) / FITTED;
@@ -335,22 +332,14 @@ fn lanes(summary: &Summary, radiated: f64, [time, coupling]: [f64; 2]) -> [f64; 
 
 /// The way back; all other results follow from these.
 fn outcome(lanes: &[f64; 8], [time, coupling]: [f64; 2]) -> (Summary, f64) {
-    let &[
-        peak_force,
-        peak_force_time,
-        contact_time,
-        slower,
-        peak_displacement,
-        ..,
-    ] = lanes;
     let first = time * coupling;
-    let restitution = 1.0 - first * slower;
+    let restitution = 1.0 - first * lanes[3];
     let summary = Summary {
-        peak_force,
-        peak_force_time,
-        contact_time,
-        loss: first * slower * (1.0 + restitution),
-        peak_displacement,
+        peak_force: lanes[0],
+        peak_force_time: lanes[1],
+        contact_time: lanes[2],
+        loss: first * lanes[3] * (1.0 + restitution),
+        peak_displacement: lanes[4],
         peak_deflection: lanes[5],
         ..Summary::rebound(restitution)
     };

@@ -11,7 +11,7 @@ use std::sync::Arc;
 ///
 /// Interpolated is the indentation d - w, which is smooth where contact begins and ends while the force has the power
 /// 3/2 there; force, rate and second rate are those of one function.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Resampler {
     /// The contact itself; samples where it was not solved by pieces.
     pieces: Option<Arc<SolvedContact>>,
@@ -20,8 +20,8 @@ pub struct Resampler {
     indentation: Vec<[f64; 3]>,
     displacement: Vec<f64>,
     velocity: Vec<f64>,
-    /// Where contacts begin and end.
-    breaks: Vec<f64>,
+    /// Where each contact begins and ends, in collision units, ascending.
+    pub breaks: Vec<f64>,
 }
 
 /// Samples through which slopes and curvatures are taken.
@@ -33,14 +33,11 @@ impl Resampler {
     pub fn new(history: History) -> Self {
         let mut made = Self {
             step: history.step,
-            indentation: Vec::new(),
-            displacement: Vec::new(),
-            velocity: Vec::new(),
-            breaks: Vec::new(),
             pieces: history.pieces.clone(),
+            ..Self::default()
         };
         if let Some(solved) = &made.pieces {
-            made.breaks = vec![0.0, solved.summary().contact_time];
+            made.breaks = vec![0.0, solved.summary.contact_time];
             return made;
         }
         let (d, w) = (&history.displacement, &history.deflection);
@@ -63,22 +60,16 @@ impl Resampler {
     #[must_use]
     pub fn end(&self) -> f64 {
         if let Some(solved) = &self.pieces {
-            return solved.summary().contact_time;
+            return solved.summary.contact_time;
         }
         let last = self.indentation.iter().rposition(|u| u[0] > 0.0);
         (last.unwrap_or(0) + 1) as f64 * self.step
     }
 
-    /// Where each contact begins and ends, in collision units, ascending.
-    #[must_use]
-    pub fn breaks(&self) -> &[f64] {
-        &self.breaks
-    }
-
     /// Where the rate of the force jumps within a contact, in collision units, ascending.
     #[must_use]
     pub fn kinks(&self) -> &[f64] {
-        self.pieces.as_ref().map_or(&[], |solved| solved.kinks())
+        self.pieces.as_ref().map_or(&[], |solved| &solved.kinks)
     }
 
     /// Force, rate and second rate at a time in collision units; zero outside the contacts.

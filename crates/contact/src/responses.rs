@@ -5,7 +5,6 @@ use crate::disc::table::ResponseTable;
 use crate::growing::waves::PunchWaves;
 use halfspace::{Deflection, DomainError, Medium, SurfaceResponse};
 use std::collections::HashMap;
-use std::hash::Hash;
 use std::sync::{Arc, PoisonError, RwLock};
 
 /// Where a solver has its responses from.
@@ -47,22 +46,14 @@ impl Responses for Exact {
     }
 }
 
-/// How many Poisson's ratios are met.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Ratios {
-    /// A few: each has its own response.
-    Few,
-    /// Any number, as random draws have: responses of a lattice, linear between two of them.
-    ///
-    /// The lattice has steps of 1/4096 in sqrt(1/2 - nu); what lies between is off by less than 1e-6, of punches in their first instants by 1e-5.
-    Many,
-}
-
 /// Tabulated responses, made once and shared by all threads: what a sweep takes.
-#[derive(Debug)]
+///
+/// By default each Poisson's ratio has its own.
+#[derive(Debug, Default)]
 pub struct Tabulated {
-    ratios: Ratios,
-    tables: RwLock<HashMap<(u64, Deflection), Arc<ResponseTable>>>,
+    lattice: bool,
+    /// By the bits of Poisson's ratio; the tables of both deflections.
+    tables: [RwLock<HashMap<u64, Arc<ResponseTable>>>; 2],
     waves: RwLock<HashMap<u64, Arc<PunchWaves>>>,
 }
 
@@ -73,13 +64,15 @@ const LATTICE: f64 = 4096.0;
 const FIRST: f64 = 512.0;
 
 impl Tabulated {
-    /// None yet.
+    /// For any number of Poisson's ratios, as random draws have: responses of a lattice, linear between two of them.
+    ///
+    /// The lattice has steps of 1/4096 in sqrt(1/2 - nu); what lies between is off by less than 1e-6, of punches in their
+    /// first instants by 1e-5.
     #[must_use]
-    pub fn new(ratios: Ratios) -> Self {
+    pub fn on_lattice() -> Self {
         Self {
-            ratios,
-            tables: RwLock::default(),
-            waves: RwLock::default(),
+            lattice: true,
+            ..Self::default()
         }
     }
 
@@ -89,30 +82,26 @@ impl Tabulated {
         let below = place.floor();
         let at = |i: f64| 0.5 - (i / LATTICE).powi(2);
         let inside = below >= FIRST && at(below + 1.0) > -1.0;
-        match self.ratios {
-            Ratios::Many if inside => Some((at(below), at(below + 1.0), place - below)),
-            Ratios::Many | Ratios::Few => None,
-        }
+        (self.lattice && inside).then(|| (at(below), at(below + 1.0), place - below))
     }
 
     /// What belongs to a ratio: made for it once, or between the two of the lattice.
-    fn at<K: Eq + Hash, V>(
+    fn at<V>(
         &self,
-        cache: &RwLock<HashMap<K, Arc<V>>>,
+        cache: &RwLock<HashMap<u64, Arc<V>>>,
         ratio: f64,
-        key: impl Fn(u64) -> K,
         make: impl Fn(&Medium) -> V,
         between: impl FnOnce(Arc<V>, Arc<V>, f64) -> V,
     ) -> Result<Arc<V>, DomainError> {
         let exact = |nu: f64| {
             let read = cache.read().unwrap_or_else(PoisonError::into_inner);
-            if let Some(found) = read.get(&key(nu.to_bits())) {
+            if let Some(found) = read.get(&nu.to_bits()) {
                 return Ok(Arc::clone(found));
             }
             drop(read);
             let made = Arc::new(make(&Medium::new(nu)?));
             let mut cache = cache.write().unwrap_or_else(PoisonError::into_inner);
-            Ok(Arc::clone(cache.entry(key(nu.to_bits())).or_insert(made)))
+            Ok(Arc::clone(cache.entry(nu.to_bits()).or_insert(made)))
         };
         match self.neighbours(ratio) {
             None => exact(ratio),
@@ -129,34 +118,25 @@ impl Responses for Tabulated {
     fn disc(&self, ratio: f64, deflection: Deflection) -> Result<Arc<ResponseTable>, DomainError> {
         let table = |medium: &Medium| ResponseTable::new(&SurfaceResponse::new(medium, deflection));
         self.at(
-            &self.tables,
+            &self.tables[deflection as usize],
             ratio,
-            |bits| (bits, deflection),
             table,
             |near, far, fraction| ResponseTable::between(&near, &far, fraction),
         )
     }
 
     fn waves(&self, ratio: f64) -> Result<Arc<PunchWaves>, DomainError> {
-        let same = |bits| bits;
-        self.at(
-            &self.waves,
-            ratio,
-            same,
-            PunchWaves::new,
-            PunchWaves::between,
-        )
+        self.at(&self.waves, ratio, PunchWaves::new, PunchWaves::between)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::growing::waves::Rule;
 
     #[test]
     fn between_lattice_points_responses_are_good_to_1e_6() {
-        let (few, many) = (Tabulated::new(Ratios::Few), Tabulated::new(Ratios::Many));
+        let (few, many) = (Tabulated::default(), Tabulated::on_lattice());
         for nu in [-0.9, -0.4, 0.05, 0.263_082_06, 0.31, 0.47, 0.498] {
             for deflection in [Deflection::Centre, Deflection::Mean] {
                 let exact = few.disc(nu, deflection).unwrap();
@@ -184,8 +164,8 @@ mod tests {
             for level in [0, 3, 6] {
                 let (a, b) = (exact.rule(level), found.rule(level));
                 for power in 0..8 {
-                    let sum = |rule: &Rule| -> f64 {
-                        let parts = rule.delays.iter().zip(&rule.rates);
+                    let sum = |rule: &[(f64, f64)]| -> f64 {
+                        let parts = rule.iter();
                         parts.map(|(x, rate)| rate * x * x.powi(power)).sum()
                     };
                     assert!(

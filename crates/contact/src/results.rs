@@ -2,12 +2,12 @@
 
 use crate::bodies::strength::Loading;
 use crate::collision::Collision;
-use crate::energy::residual;
 use crate::error::ContactError;
 use crate::model::Settings;
 use crate::model::choose::fixed_disc_m;
 use crate::plastic::Flow;
 use crate::solver::Solved;
+use crate::units::INVERSE_MASS;
 
 /// Estimated relative error from which on results say nothing.
 pub const MOST_ERROR: f64 = 0.5;
@@ -112,6 +112,9 @@ impl Results {
             let disc_m = fixed_disc_m(solved.plan.model, settings, collision).unwrap_or(radius_m);
             [radius_m, disc_m, disc_m]
         };
+        // by two routes that share nothing but the force: what the striker keeps follows from its momentum, what the
+        // half-space takes from the work on the deflection that lags behind
+        let rebound = (1.0 - INVERSE_MASS * s.impulse).powi(2);
         let steps = solved
             .step
             .map_or(0.0, |step| (s.contact_time / step).ceil());
@@ -127,7 +130,7 @@ impl Results {
             impulse_n_s: s.impulse * units.force_n * units.time_s,
             initial_energy_j: collision.energy_j(),
             radiated_energy_j: radiated * collision.energy_j(),
-            energy_residual: residual(s.impulse, radiated + plastic_work),
+            energy_residual: 1.0 - rebound - (radiated + plastic_work),
             contact_radius_m,
             disc_radius_m,
             loading: Loading::new(
@@ -173,12 +176,11 @@ impl Results {
             ("march's step", self.march_step_s),
             ("error estimate", self.relative_error_estimate),
         ];
-        if let Some((quantity, value)) = numbers.into_iter().find(|(_, x)| !x.is_finite()) {
-            return Err(ContactError::NotFinite { quantity, value });
-        }
+        let wrong = numbers.into_iter().find(|(_, x)| !x.is_finite());
         // a force without length or size has left the range of floating-point numbers at its lower end
         let vanished = [numbers[0], numbers[2], numbers[6], numbers[9]];
-        if let Some((quantity, value)) = vanished.into_iter().find(|(_, x)| *x <= 0.0) {
+        let vanished = || vanished.into_iter().find(|(_, x)| *x <= 0.0);
+        if let Some((quantity, value)) = wrong.or_else(vanished) {
             return Err(ContactError::NotFinite { quantity, value });
         }
         let error = self.relative_error_estimate;

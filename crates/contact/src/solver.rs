@@ -9,6 +9,7 @@ use crate::disc::response::DiscResponse;
 use crate::disc::{FixedDisc, stability};
 use crate::energy::{radiated, work};
 use crate::error::{ContactError, MarchError};
+use crate::growing::march::March;
 use crate::growing::solve_growing;
 use crate::growing::solved::SolvedContact;
 use crate::growing::uniform::march_growing;
@@ -239,12 +240,7 @@ impl<'a, S: Responses> Solver<'a, S> {
             && let Some((summary, radiated, error)) = outcomes.at(&place, self.responses)
         {
             self.radiated = Some(radiated);
-            let found = Found {
-                summary,
-                error,
-                step: None,
-            };
-            return Ok(plan.solved(None, found, None));
+            return Ok(plan.solved(None, Found::unmarched(summary, error), None));
         }
         let step = settings
             .step_s
@@ -294,57 +290,43 @@ impl<'a, S: Responses> Solver<'a, S> {
                 Err(error) => return Err(error.into()),
             }
         }
-        let (_, [mut left_out, _]) = plan.groups.without_memory();
+        let (_, [left_out, _]) = plan.groups.without_memory();
         let (rung, _) = plan.model.row();
         let memory = rung == Rung::FullMemory;
+        let lag = match rung {
+            Rung::QuasiStatic => 0.0,
+            Rung::Radiation | Rung::AreaDashpot | Rung::FullMemory => plan.groups.lag,
+        };
+        // the history of a single impact has its results too
         let mut results = None;
-        if !memory {
-            let radiates = rung != Rung::QuasiStatic;
-            let lag = if radiates { plan.groups.lag } else { 0.0 };
-            // the history of a single impact has its results too
-            if asked.deflection.is_none() {
-                let fitted = self.fitted(&plan, yielding, settings);
-                left_out += fitted.map_or(0.0, |(_, error)| error);
-                results = fitted
-                    .map(|(found, _)| found)
-                    .or_else(|| quick(yielding, lag));
-            }
-            if results.is_none() {
-                let lost = |_| ContactError::NotFollowed;
-                self.growing = yielding.damped(lag).map_err(lost)?;
-            }
+        if !memory && asked.deflection.is_none() {
+            let quickly = || quick(yielding, lag).map(|found| (found, 0.0));
+            let series = Place::of_fit(&plan, yielding, settings)
+                .and_then(|place| self.outcomes?.at(&place, self.responses));
+            let fitted = series.map(|(summary, radiated, error)| {
+                let works = [summary.loss - radiated, radiated];
+                let flow = Flow::new(yielding, summary.peak_displacement.sqrt(), works);
+                ((summary, flow), error)
+            });
+            results = fitted.or_else(quickly);
+        }
+        if !memory && results.is_none() {
+            let lost = |_| ContactError::NotFollowed;
+            self.growing = March::damped(lag).follow(yielding).map_err(lost)?;
         }
         let followed = self.growing.as_ref();
-        let pieces = followed.and_then(|one| Some((*one.summary(), *one.flow()?)));
-        let Some((summary, flow)) = results.or(pieces) else {
+        let pieces = followed.and_then(|one| Some(((one.summary, one.flow?), 0.0)));
+        let Some(((summary, flow), of_series)) = results.or(pieces) else {
             return Ok(None);
         };
         let error = match rung {
             Rung::QuasiStatic => plan.groups.first_order_loss() + left_out,
-            Rung::Radiation | Rung::AreaDashpot => left_out,
-            Rung::FullMemory => YIELDS * followed.map_or(0.0, |one| one.estimates().contact()),
+            Rung::Radiation | Rung::AreaDashpot => left_out + of_series,
+            Rung::FullMemory => YIELDS * followed.map_or(0.0, |one| one.estimates.contact()),
         };
-        let found = Found {
-            summary,
-            error: error.min(1.0),
-            step: None,
-        };
+        let found = Found::unmarched(summary, error.min(1.0));
         let scheme = memory.then_some(Scheme::Implicit);
         Ok(Some(plan.solved(scheme, found, Some(flow))))
-    }
-
-    /// The results of a contact on Jackson and Green's fit from a series, and its error.
-    fn fitted(
-        &self,
-        plan: &Plan,
-        yielding: &Yielding,
-        settings: &Settings,
-    ) -> Option<((Summary, Flow), f64)> {
-        let place = Place::of_fit(plan, yielding, settings)?;
-        let (summary, radiated, error) = self.outcomes?.at(&place, self.responses)?;
-        let work = summary.loss - radiated;
-        let flow = Flow::new(yielding, summary.peak_displacement.sqrt(), [work, radiated]);
-        Some(((summary, flow), error))
     }
 
     fn disc(&mut self, ratio: f64, deflection: Deflection) -> Result<Arc<S::Disc>, DomainError> {
@@ -379,14 +361,9 @@ impl<'a, S: Responses> Solver<'a, S> {
         if step.is_none() {
             match solve_growing(&contact, &asked) {
                 Ok(solved) => {
-                    let (summary, error) = (*solved.summary(), solved.estimates().contact());
+                    let found = Found::unmarched(solved.summary, solved.estimates.contact());
                     self.growing = Some(solved);
-                    let step = None;
-                    return Ok(Found {
-                        summary,
-                        error,
-                        step,
-                    });
+                    return Ok(found);
                 }
                 // the march has other limits: a memory far shorter than the contact is one to it
                 Err(

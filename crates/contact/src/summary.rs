@@ -3,7 +3,7 @@
 use crate::units::INVERSE_MASS;
 
 /// The scalar results of an impact in collision units.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Summary {
     /// Largest force.
     pub peak_force: f64,
@@ -81,15 +81,11 @@ impl Summary {
     /// Of one contact with a restitution: loss and impulse follow from it, the rest is for the caller to fill in.
     pub(crate) fn rebound(restitution: f64) -> Self {
         Self {
-            peak_force: 0.0,
-            peak_force_time: 0.0,
-            contact_time: 0.0,
             restitution,
             loss: (1.0 - restitution) * (1.0 + restitution),
-            peak_displacement: 0.0,
-            peak_deflection: 0.0,
             impulse: (1.0 + restitution) / INVERSE_MASS,
             contacts: 1,
+            ..Self::default()
         }
     }
 

@@ -8,7 +8,7 @@ use crate::bodies::wave_speeds::WaveSpeeds;
 use crate::bodies::{HalfSpace, Striker};
 use crate::collision::Collision;
 use crate::disc::CENTRE_COUPLING;
-use crate::model::choose::fixed_disc_m;
+use crate::model::choose::{Plan, fixed_disc_m};
 use crate::model::{Model, Settings, StaticShare};
 use crate::results::Results;
 use halfspace::Deflection;
@@ -49,14 +49,9 @@ pub fn doubts(half_space: &HalfSpace, striker: &Striker) -> Vec<String> {
         ]
     };
     let lengths = match striker.shape {
-        Some(Shape::Ball { diameter_m }) => [("diameter_m", Some(diameter_m)), ("length_m", None)],
-        Some(Shape::Rod {
-            diameter_m,
-            length_m,
-            ..
-        }) => [
+        Some(Shape::Ball { diameter_m } | Shape::Rod { diameter_m, .. }) => [
             ("diameter_m", Some(diameter_m)),
-            ("length_m", Some(length_m)),
+            ("length_m", striker.length_m),
         ],
         None => [
             ("tip_radius_m", Some(striker.tip_radius_m)),
@@ -101,178 +96,159 @@ fn doubt(striker: &Striker) -> Option<String> {
     })
 }
 
-/// What is checked: the bodies, the settings, the model that was used and what it gave.
-#[derive(Debug, Clone, Copy)]
-pub struct Checked<'a> {
-    /// The half-space.
-    pub half_space: &'a HalfSpace,
-    /// The striker.
-    pub striker: &'a Striker,
-    /// Their collision.
-    pub collision: &'a Collision,
-    /// The settings.
-    pub settings: &'a Settings,
-    /// The model that was used.
-    pub model: Model,
-    /// Coupling of the fixed disc, zero without one.
-    pub coupling: f64,
-    /// What it gave.
-    pub results: &'a Results,
+/// What the user should know of the bodies, the settings, the plan and what it gave: sentences with their numbers, none where
+/// all is well.
+#[must_use]
+pub fn warnings(
+    half_space: &HalfSpace,
+    striker: &Striker,
+    collision: &Collision,
+    settings: &Settings,
+    plan: &Plan,
+    results: &Results,
+) -> Vec<String> {
+    let mut found = Vec::new();
+    let disc_radius_m = fixed_disc_m(plan.model, settings, collision);
+    let hertz_radius = results.contact_radius_m;
+    let radius = disc_radius_m.unwrap_or(hertz_radius);
+    let alpha = super_seismic(half_space, collision, radius);
+    if alpha > 0.1 {
+        found.push(format!(
+            "alpha_A = {alpha:.3} is not small against 1: the contact spreads faster than waves for a good part of the impact"
+        ));
+    }
+    let tip = striker.tip_radius_m;
+    if hertz_radius > tip {
+        found.push(format!(
+            "the contact radius reaches {hertz_radius:.3e} m, more than the limit tip_radius_m = {tip:.3e} m: a sphere is not so wide, and Hertz's law says nothing there"
+        ));
+    } else if hertz_radius > 0.5 * tip {
+        found.push(format!(
+            "the contact radius reaches {hertz_radius:.3e} m, more than half of tip_radius_m = {tip:.3e} m: Hertz's law is for small contacts"
+        ));
+    }
+    if let Some(disc) = disc_radius_m {
+        let ratio = disc / hertz_radius;
+        if !(0.5..=2.0).contains(&ratio) {
+            found.push(format!(
+                "disc_radius_m = {disc:.3e} m is {ratio:.2} times the largest contact radius {hertz_radius:.3e} m: the fixed disc does not resemble the contact"
+            ));
+        }
+    }
+    of_the_materials(
+        [&striker.material, half_space.material()],
+        collision,
+        results,
+        &mut found,
+    );
+    of_the_bodies(half_space, striker, results.contact_time_s, &mut found);
+    found.extend(doubts(half_space, striker));
+    of_the_model(settings, plan, results, &mut found);
+    found
 }
 
-impl Checked<'_> {
-    /// Sentences for the user, each with its numbers; none where all is well.
-    #[must_use]
-    pub fn warnings(&self) -> Vec<String> {
-        let mut found = Vec::new();
-        self.of_the_contact(&mut found);
-        self.of_the_materials(&mut found);
-        self.of_the_bodies(&mut found);
-        found.extend(doubts(self.half_space, self.striker));
-        self.of_the_model(&mut found);
-        found
-    }
-
-    fn disc_radius_m(&self) -> Option<f64> {
-        fixed_disc_m(self.model, self.settings, self.collision)
-    }
-
-    fn of_the_contact(&self, found: &mut Vec<String>) {
-        let (disc_radius_m, hertz_radius) = (self.disc_radius_m(), self.results.contact_radius_m);
-        let radius = disc_radius_m.unwrap_or(hertz_radius);
-        let alpha = super_seismic(self.half_space, self.collision, radius);
-        if alpha > 0.1 {
-            found.push(format!(
-                "alpha_A = {alpha:.3} is not small against 1: the contact spreads faster than waves for a good part of the impact"
+fn of_the_materials(
+    materials: [&Material; 2],
+    collision: &Collision,
+    results: &Results,
+    found: &mut Vec<String>,
+) {
+    let loading = &results.loading;
+    let stress = loading.mean_pressure_pa;
+    let mut borne = Vec::new();
+    let bodies = ["striker", "target"].into_iter().zip(materials);
+    for ((body, material), strength) in bodies.zip(&collision.strengths) {
+        let onset = strength.yield_pressure_pa.filter(|&onset| stress > onset);
+        if let (Some(onset), Some(limit)) = (onset, material.yield_strength_pa) {
+            borne.push(format!(
+                "{:.2} times the yield strength of the {body}, {limit:.4e} Pa (yielding begins at {:.2} times)",
+                stress / limit,
+                onset / limit
             ));
         }
-        let tip = self.striker.tip_radius_m;
-        if hertz_radius > tip {
-            found.push(format!(
-                "the contact radius reaches {hertz_radius:.3e} m, more than the limit tip_radius_m = {tip:.3e} m: a sphere is not so wide, and Hertz's law says nothing there"
-            ));
-        } else if hertz_radius > 0.5 * tip {
-            found.push(format!(
-                "the contact radius reaches {hertz_radius:.3e} m, more than half of tip_radius_m = {tip:.3e} m: Hertz's law is for small contacts"
+        // what is brittle bears more pressure than tension, until it cracks
+        let brittle = material.fracture_toughness_pa_sqrt_m.is_some();
+        let tensile = material.tensile_strength_pa.filter(|_| !brittle);
+        if let Some(limit) = tensile.filter(|&limit| stress > limit) {
+            borne.push(format!(
+                "{:.2} times the tensile strength of the {body}, {limit:.4e} Pa",
+                stress / limit
             ));
         }
-        if let Some(disc) = disc_radius_m {
-            let ratio = disc / hertz_radius;
-            if !(0.5..=2.0).contains(&ratio) {
-                found.push(format!(
-                    "disc_radius_m = {disc:.3e} m is {ratio:.2} times the largest contact radius {hertz_radius:.3e} m: the fixed disc does not resemble the contact"
-                ));
-            }
+        let force_n = results.peak_force_n;
+        let crack =
+            strength.cone_crack_force_n(collision.tip_radius_m, collision.effective_modulus_pa);
+        if let Some(crack_n) = crack.filter(|&crack_n| force_n > crack_n) {
+            found.push(format!(
+                "the peak force {force_n:.4e} N is {:.2} times {crack_n:.4e} N, where a cone crack in the {body} is expected (Auerbach's law, good to the order and the first digit)",
+                force_n / crack_n
+            ));
         }
     }
+    // a law of flow says what happens beyond
+    if !borne.is_empty() && results.plastic.yield_pressure_pa.is_none() {
+        found.push(format!(
+            "the mean contact stress {stress:.4e} Pa is {}: the impact is not elastic unless the strength under so short a load is that high",
+            borne.join("; ")
+        ));
+    }
+}
 
-    fn of_the_materials(&self, found: &mut Vec<String>) {
-        let loading = &self.results.loading;
-        let stress = loading.mean_pressure_pa;
-        let bodies = [
-            ("striker", &self.striker.material),
-            ("target", self.half_space.material()),
+fn of_the_bodies(
+    half_space: &HalfSpace,
+    striker: &Striker,
+    contact_time_s: f64,
+    found: &mut Vec<String>,
+) {
+    let material = &striker.material;
+    if let (Some(length), Some(density)) = (striker.length_m, material.density_kg_m3) {
+        let period = 2.0 * length / (material.youngs_modulus_pa / density).sqrt();
+        let ratio = contact_time_s / period;
+        if ratio < 10.0 {
+            found.push(format!(
+                "the contact lasts {contact_time_s:.3e} s, {ratio:.2} times the longest period of the striker's own vibrations, {period:.3e} s: below 10 times, waves in the striker matter, and they are not modelled"
+            ));
+        }
+    }
+    let echo = WaveSpeeds::of(half_space)
+        .ok()
+        .and_then(|speeds| speeds.first_echo_s(half_space, [0.0; 2], 0.0));
+    if let Some(echo) = echo.filter(|&echo| echo < contact_time_s) {
+        let faces = [
+            ("thickness_m", half_space.thickness_m),
+            ("radius_m", half_space.radius_m),
         ];
-        let mut borne = Vec::new();
-        for ((body, material), strength) in bodies.into_iter().zip(&self.collision.strengths) {
-            let onset = strength.yield_pressure_pa().filter(|&onset| stress > onset);
-            if let (Some(onset), Some(limit)) = (onset, material.yield_strength_pa) {
-                borne.push(format!(
-                    "{:.2} times the yield strength of the {body}, {limit:.4e} Pa (yielding begins at {:.2} times)",
-                    stress / limit,
-                    onset / limit
-                ));
-            }
-            // what is brittle bears more pressure than tension, until it cracks
-            let brittle = material.fracture_toughness_pa_sqrt_m.is_some();
-            let tensile = material.tensile_strength_pa.filter(|_| !brittle);
-            if let Some(limit) = tensile.filter(|&limit| stress > limit) {
-                borne.push(format!(
-                    "{:.2} times the tensile strength of the {body}, {limit:.4e} Pa",
-                    stress / limit
-                ));
-            }
-            let force_n = self.results.peak_force_n;
-            let crack = strength.cone_crack_force_n(
-                self.collision.tip_radius_m,
-                self.collision.effective_modulus_pa,
-            );
-            if let Some(crack_n) = crack.filter(|&crack_n| force_n > crack_n) {
-                found.push(format!(
-                    "the peak force {force_n:.4e} N is {:.2} times {crack_n:.4e} N, where a cone crack in the {body} is expected (Auerbach's law, good to the order and the first digit)",
-                    force_n / crack_n
-                ));
-            }
-        }
-        // a law of flow says what happens beyond
-        if !borne.is_empty() && self.results.plastic.yield_pressure_pa.is_none() {
-            found.push(format!(
-                "the mean contact stress {stress:.4e} Pa is {}: the impact is not elastic unless the strength under so short a load is that high",
-                borne.join("; ")
-            ));
-        }
+        let named = faces
+            .into_iter()
+            .filter_map(|(key, size)| Some((key, size?)));
+        let nearest = named.reduce(|one, other| if other.1 < one.1 { other } else { one });
+        let (key, size) = nearest.unwrap_or(("thickness_m", 0.0));
+        found.push(format!(
+            "the echo from {key} = {size:.3e} m returns after {echo:.3e} s, before the contact ends at {contact_time_s:.3e} s: the block is not a half-space"
+        ));
     }
+}
 
-    fn of_the_bodies(&self, found: &mut Vec<String>) {
-        let contact_time_s = self.results.contact_time_s;
-        let material = &self.striker.material;
-        if let (Some(length), Some(density)) = (self.striker.length_m, material.density_kg_m3) {
-            let period = 2.0 * length / (material.youngs_modulus_pa / density).sqrt();
-            let ratio = contact_time_s / period;
-            if ratio < 10.0 {
-                found.push(format!(
-                    "the contact lasts {contact_time_s:.3e} s, {ratio:.2} times the longest period of the striker's own vibrations, {period:.3e} s: below 10 times, waves in the striker matter, and they are not modelled"
-                ));
-            }
-        }
-        let echo = WaveSpeeds::of(self.half_space)
-            .ok()
-            .and_then(|speeds| speeds.first_echo_s(self.half_space, [0.0; 2], 0.0));
-        if let Some(echo) = echo.filter(|&echo| echo < contact_time_s) {
-            let faces = [
-                ("thickness_m", self.half_space.thickness_m),
-                ("radius_m", self.half_space.radius_m),
-            ];
-            let named = faces
-                .into_iter()
-                .filter_map(|(key, size)| Some((key, size?)));
-            let nearest = named.reduce(|one, other| if other.1 < one.1 { other } else { one });
-            let (key, size) = nearest.unwrap_or(("thickness_m", 0.0));
-            found.push(format!(
-                "the echo from {key} = {size:.3e} m returns after {echo:.3e} s, before the contact ends at {contact_time_s:.3e} s: the block is not a half-space"
-            ));
-        }
+fn of_the_model(settings: &Settings, plan: &Plan, results: &Results, found: &mut Vec<String>) {
+    let chosen = (plan.model, settings.static_share, settings.deflection);
+    let of_centre = chosen == (Model::Wave, StaticShare::Full, Deflection::Centre);
+    let centre = plan.groups.coupling;
+    if of_centre && centre > CENTRE_COUPLING {
+        found.push(format!(
+            "the disc gives way {centre:.1} times as much as the contact, more than {CENTRE_COUPLING}: the deflection of its centre is not conjugate to the pressure and may feed energy back; set deflection = \"mean\""
+        ));
     }
-
-    fn of_the_model(&self, found: &mut Vec<String>) {
-        let centre = match (
-            self.model,
-            self.settings.static_share,
-            self.settings.deflection,
-        ) {
-            (Model::Wave, StaticShare::Full, Deflection::Centre) => self.coupling,
-            _ => 0.0,
-        };
-        if centre > CENTRE_COUPLING {
-            found.push(format!(
-                "the disc gives way {centre:.1} times as much as the contact, more than {CENTRE_COUPLING}: the deflection of its centre is not conjugate to the pressure and may feed energy back; set deflection = \"mean\""
-            ));
-        }
-        let (error, tolerance) = (
-            self.results.relative_error_estimate,
-            self.settings.tolerance,
-        );
-        if error > tolerance && self.results.march_steps > 0 && self.settings.step_s.is_none() {
-            found.push(format!(
-                "the tolerance {tolerance:.1e} is not reached: the error is estimated as {error:.1e}"
-            ));
-        }
-        if self.results.contacts > 1 {
-            found.push(format!(
-                "the surface strikes again: {} contacts; contact_time_s is that of the first",
-                self.results.contacts
-            ));
-        }
+    let (error, tolerance) = (results.relative_error_estimate, settings.tolerance);
+    if error > tolerance && results.march_steps > 0 && settings.step_s.is_none() {
+        found.push(format!(
+            "the tolerance {tolerance:.1e} is not reached: the error is estimated as {error:.1e}"
+        ));
+    }
+    if results.contacts > 1 {
+        found.push(format!(
+            "the surface strikes again: {} contacts; contact_time_s is that of the first",
+            results.contacts
+        ));
     }
 }
 

@@ -7,8 +7,8 @@ mod solids;
 mod support;
 
 use contact::{
-    Collision, ContactError, HalfSpace, Library, MarchError, Model, Ratios, Settings, Solved,
-    Solver, StaticShare, Striker, Tabulated,
+    Collision, ContactError, HalfSpace, Library, MarchError, Model, Settings, Solved, Solver,
+    StaticShare, Striker, Tabulated,
 };
 use rayon::prelude::*;
 use solids::material;
@@ -109,7 +109,7 @@ fn compare(family: Family, index: u64, responses: &Tabulated) -> Option<(Model, 
 }
 
 fn check(family: Family) {
-    let responses = Tabulated::new(Ratios::Many);
+    let responses = Tabulated::on_lattice();
     let mut found: Vec<_> = (0..2 * SCENES)
         .into_par_iter()
         .filter_map(|index| compare(family, index, &responses))
@@ -158,7 +158,7 @@ fn real_scene(index: u64) -> Collision {
 
 #[test]
 fn most_real_impacts_need_no_memory() {
-    let responses = Tabulated::new(Ratios::Few);
+    let responses = Tabulated::default();
     for (tolerance, least) in [(1e-4, 900), (1e-6, 300)] {
         let settings = Settings {
             tolerance,

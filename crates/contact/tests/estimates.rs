@@ -8,9 +8,7 @@
 mod solids;
 mod support;
 
-use contact::{
-    Collision, HalfSpace, Model, Ratios, Settings, Solver, StaticShare, Striker, Tabulated,
-};
+use contact::{Collision, HalfSpace, Model, Settings, Solver, StaticShare, Striker, Tabulated};
 use halfspace::Deflection;
 use rayon::prelude::*;
 use solids::material;
@@ -85,7 +83,7 @@ fn compare(index: u64, model: Model, disc: Disc, responses: &Tabulated) -> Optio
 }
 
 fn check(name: &str, model: Model, disc: Disc) -> usize {
-    let responses = Tabulated::new(Ratios::Many);
+    let responses = Tabulated::on_lattice();
     let mut found: Vec<[f64; 2]> = (0..scenes())
         .into_par_iter()
         .filter_map(|index| compare(index, model, disc, &responses))

@@ -6,7 +6,7 @@
 
 mod support;
 
-use contact::law::area_dashpot::AreaDashpot;
+use contact::law::area_dashpot::{AreaDashpot, left_out};
 use contact::{
     Accuracy, GrowingContact, History, MarchError, PunchWaves, SolvedContact, solve_growing,
     work_on_half_space,
@@ -39,7 +39,7 @@ fn solve(case: &Case, accuracy: &Accuracy) -> Result<SolvedContact, MarchError> 
 
 /// Peak force, its time, contact time, restitution, loss, displacement, deflection, impulse.
 fn results(solved: &SolvedContact) -> [f64; 8] {
-    let s = solved.summary();
+    let s = solved.summary;
     [
         s.peak_force,
         s.peak_force_time,
@@ -182,7 +182,7 @@ fn the_history_is_as_accurate_as_the_results() {
         wave_time: 0.08,
     };
     let exact = solve(&case, &Accuracy::of_contact(1e-10, None)).unwrap();
-    let end = exact.summary().contact_time;
+    let end = exact.summary.contact_time;
     for tolerance in [1e-4, 1e-6, 1e-8] {
         let solved = solve(&case, &Accuracy::of_contact(tolerance, None)).unwrap();
         for i in 0..=1000 {
@@ -243,7 +243,7 @@ fn check_scenes(count: u64, tolerance: f64) {
             let fine = Accuracy::of_contact((0.01 * tolerance).max(1e-9), None);
             let exact =
                 solve(&case, &fine).unwrap_or_else(|error| panic!("scene {index}: {error}"));
-            let (a, b, e) = (results(&solved), results(&exact), solved.estimates());
+            let (a, b, e) = (results(&solved), results(&exact), solved.estimates);
             let estimates = [
                 e.peak_force * b[0],
                 e.peak_force_time * b[2],
@@ -295,9 +295,9 @@ fn the_area_dashpot_keeps_its_bounds() {
             let case = random_scene(5000 + index);
             let waves = PunchWaves::new(&Medium::new(case.poisson_ratio).unwrap());
             let terms = AreaDashpot::new(case.target_share, case.wave_time, &waves);
-            let bounds = terms.left_out(waves.memory() * case.wave_time);
+            let bounds = left_out(terms.lag, waves.memory() * case.wave_time);
             let exact = solve(&case, &Accuracy::of_contact(3e-9, None)).unwrap();
-            let (a, b) = (terms.summary(), exact.summary());
+            let (a, b) = (terms.summary(), exact.summary);
             let relative = |x: f64, y: f64| (x / y - 1.0).abs();
             let step = b.contact_time / 512.0;
             let history = terms.history(step);

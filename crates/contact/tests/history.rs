@@ -42,7 +42,7 @@ fn solved(
     let (solved, history) = Solver::new(&Exact)
         .solve_with_history(&collision, &settings)
         .unwrap();
-    let error = history.error();
+    let error = history.error;
     (Resampler::new(history), error, solved.summary.contact_time)
 }
 
@@ -91,8 +91,8 @@ fn the_force_is_within_its_estimate_at_each_instant() {
 fn rates_are_those_of_the_force() {
     for model in [Model::Wave, Model::Growing, Model::AreaDashpot] {
         let (found, _, duration) = solved(IMPACTS[1], model, 1e-4);
-        let [begin, .., end] = found.breaks() else {
-            panic!("{:?}", found.breaks())
+        let [begin, .., end] = &found.breaks[..] else {
+            panic!("{:?}", found.breaks)
         };
         assert!(*begin == 0.0 && (end / duration - 1.0).abs() < 1e-4);
         for part in [0.01, 0.1, 0.37, 0.8, 0.97] {

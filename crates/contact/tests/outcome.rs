@@ -7,8 +7,8 @@
 )]
 
 use contact::{
-    Collision, HalfSpace, Material, Model, Outcomes, Plasticity, Ratios, Settings, Solver,
-    StaticShare, Striker, Tabulated,
+    Collision, HalfSpace, Material, Model, Outcomes, Plasticity, Settings, Solver, StaticShare,
+    Striker, Tabulated,
 };
 use halfspace::Deflection;
 
@@ -55,7 +55,7 @@ fn series_are_within_their_certificates_and_the_tolerance() {
         (Model::Wave, 1e-6, 0.1),
     ] {
         let rows = rows(model, tolerance, 300);
-        let responses = Tabulated::new(Ratios::Few);
+        let responses = Tabulated::default();
         let outcomes = series(&rows, &responses);
         let mut solver = Solver::sharing(&responses, &outcomes);
         let mut marches = Solver::new(&responses);
@@ -107,7 +107,7 @@ fn series_are_within_their_certificates_and_the_tolerance() {
 fn the_order_of_rows_does_not_matter() {
     for model in [Model::Growing, Model::Wave] {
         let rows = rows(model, 1e-4, 64);
-        let responses = Tabulated::new(Ratios::Few);
+        let responses = Tabulated::default();
         let solve = |order: &mut dyn Iterator<Item = usize>| {
             let outcomes = series(&rows, &responses);
             let mut solver = Solver::sharing(&responses, &outcomes);
@@ -132,7 +132,7 @@ fn the_order_of_rows_does_not_matter() {
 #[test]
 fn few_rows_are_marched() {
     let rows = rows(Model::Growing, 1e-4, 20);
-    let responses = Tabulated::new(Ratios::Few);
+    let responses = Tabulated::default();
     let few = Solver::new(&responses).outcomes(rows.len(), rows.iter().copied());
     let others = rows.iter().enumerate().map(|(i, (collision, settings))| {
         let target_plane_modulus_pa = collision.target_plane_modulus_pa * (1.0 + 1e-3 * i as f64);
@@ -160,7 +160,7 @@ fn few_rows_are_marched() {
 #[test]
 fn what_a_series_does_not_have_is_marched() {
     let rows = rows(Model::Wave, 1e-4, 20);
-    let responses = Tabulated::new(Ratios::Few);
+    let responses = Tabulated::default();
     let outcomes = series(&rows, &responses);
     let mut solver = Solver::sharing(&responses, &outcomes);
     let (collision, settings) = &rows[0];
@@ -201,7 +201,7 @@ fn series_of_the_fit_are_within_their_certificates_and_the_tolerance() {
             (collision, settings)
         };
         let rows: Vec<_> = (0..2000).map(row).collect();
-        let responses = Tabulated::new(Ratios::Few);
+        let responses = Tabulated::default();
         let outcomes = series(&rows, &responses);
         let mut solver = Solver::sharing(&responses, &outcomes);
         let (mut from_series, mut elastic, mut refused) = (0, 0, 0);

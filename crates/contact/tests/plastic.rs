@@ -3,8 +3,8 @@
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
 use contact::{
-    Collision, Exact, HalfSpace, Material, Measure, Model, Plasticity, Ratios, Rebound, Results,
-    Settings, Solved, Solver, Strength, Striker, Tabulated, Unknown,
+    Collision, Exact, HalfSpace, Material, Measure, Model, Plasticity, Results, Settings, Solved,
+    Solver, Strength, Striker, Tabulated, Unknown, infer,
 };
 use halfspace::{Deflection, Medium, SurfaceResponse};
 use std::f64::consts::PI;
@@ -159,7 +159,7 @@ fn histories_of_the_reference() {
             let (_, history) = Solver::new(&Exact)
                 .solve_with_history(&collision, &settings)
                 .unwrap();
-            contact = Some((history.pieces().unwrap().clone(), collision.units()));
+            contact = Some((history.pieces.as_ref().unwrap().clone(), collision.units()));
             before = case;
         }
         let (found, units) = contact.as_ref().unwrap();
@@ -264,8 +264,8 @@ fn the_quick_way_is_the_march() {
             let (_, history) = Solver::new(&Exact)
                 .solve_with_history(&collision, &settings)
                 .unwrap();
-            let contact = history.pieces().unwrap();
-            let (march, slow) = (contact.summary(), contact.flow().unwrap());
+            let contact = history.pieces.as_ref().unwrap();
+            let (march, slow) = (contact.summary, contact.flow.unwrap());
             let off = [
                 quick.restitution / march.restitution,
                 quick.peak_force / march.peak_force,
@@ -367,10 +367,10 @@ fn the_ledger_closes_at_every_instant_and_plastic_work_never_falls() {
             let (_, history) = Solver::new(&Exact)
                 .solve_with_history(&collision, &settings)
                 .unwrap();
-            let contact = history.pieces().unwrap();
+            let contact = history.pieces.as_ref().unwrap();
             let mut before = 0.0;
             for i in 0..=500 {
-                let time = contact.summary().contact_time * 0.999 * f64::from(i) / 500.0;
+                let time = contact.summary.contact_time * 0.999 * f64::from(i) / 500.0;
                 let now = contact.state(time);
                 let [stored, flowed, radiated] = contact.energies(time).unwrap();
                 let sum = now.velocity * now.velocity + stored + flowed + radiated;
@@ -477,19 +477,14 @@ fn a_rebound_gives_back_its_yield_pressure_and_its_velocity() {
                 (Unknown::YieldPressure, pressure),
                 (Unknown::Velocity, velocity),
             ] {
-                let rebound = Rebound {
-                    target: &block,
-                    striker: &ball,
-                    velocity_m_s: if unknown == Unknown::Velocity {
-                        1.0
-                    } else {
-                        velocity
-                    },
-                    settings: &settings,
-                    unknown,
-                    measure,
+                let known = if unknown == Unknown::Velocity {
+                    1.0
+                } else {
+                    velocity
                 };
-                let found = rebound.infer(value, 0.01 * value).unwrap();
+                let collision = Collision::new(&block, &ball, known);
+                let measured = [value, 0.01 * value];
+                let found = infer(&collision, &settings, unknown, measure, measured).unwrap();
                 near(
                     &format!("{unknown:?} from {measure:?}"),
                     found.value / true_value,
@@ -511,7 +506,7 @@ fn every_law_is_followed_at_every_velocity() {
     let (_, settings) = at(1.0);
     let block = HalfSpace::new(Material::named("aluminium-6061-t6").unwrap()).unwrap();
     let ball = Striker::ball(Material::named("bearing-steel").unwrap(), 0.01).unwrap();
-    let responses = Tabulated::new(Ratios::Few);
+    let responses = Tabulated::default();
     let mut solver = Solver::new(&responses);
     for plasticity in [
         Plasticity::Thornton,

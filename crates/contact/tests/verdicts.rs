@@ -9,8 +9,8 @@ mod solids;
 mod support;
 
 use contact::{
-    Collision, ContactError, HalfSpace, MarchError, Model, Ratios, Settings, Solver, StaticShare,
-    Striker, Tabulated,
+    Collision, ContactError, HalfSpace, MarchError, Model, Settings, Solver, StaticShare, Striker,
+    Tabulated,
 };
 use halfspace::Deflection;
 use rayon::prelude::*;
@@ -61,7 +61,7 @@ fn verdict(index: u64, settings: &Settings, responses: &Tabulated) -> (Verdict, 
 }
 
 fn check(model: Model, static_share: StaticShare, deflection: Deflection) -> [usize; 2] {
-    let responses = Tabulated::new(Ratios::Many);
+    let responses = Tabulated::on_lattice();
     let all: Vec<Vec<(Verdict, f64)>> = (0..SCENES)
         .into_par_iter()
         .map(|index| {

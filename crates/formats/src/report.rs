@@ -2,7 +2,7 @@
 
 use crate::quantities::{Kind, QUANTITIES};
 use crate::results::schema::TREATMENT;
-use contact::{Choice, GRAVITY_M_S2, InferError, Inferred, Material, Measure, Rebound, Unknown};
+use contact::{Choice, Collision, GRAVITY_M_S2, InferError, Inferred, Material, Measure, Unknown};
 use impact::{Cause, Outcome, Scene};
 use lookup::schema::FIELD_NAMES;
 use lookup::{Accuracy, Quantiles, Table};
@@ -111,15 +111,14 @@ pub fn infer(
             "{name} = {value} with an error of {error} is outside (0, inf) and [0, inf)"
         ));
     }
-    let rebound = Rebound {
-        target: &scene.target,
-        striker: &strike.striker,
-        velocity_m_s,
-        settings: &scene.settings,
+    let collision = Collision::new(&scene.target, &strike.striker, velocity_m_s);
+    let found = contact::infer(
+        &collision,
+        &scene.settings,
         unknown,
         measure,
-    };
-    let found = rebound.infer(value, error)?;
+        [value, error],
+    )?;
     let ([low, high], results) = (found.band, &found.results);
     let report = json!({
         "unknown": unknown.name(),

@@ -2,7 +2,7 @@
 //!
 //! `cargo run --release --package hertzlamb --example sweep`
 
-use hertzlamb::contact::{BodyError, Collision, Ratios, Tabulated};
+use hertzlamb::contact::{BodyError, Collision, Tabulated};
 use hertzlamb::impact::sweep::{collide_rows, outcomes};
 use hertzlamb::prelude::*;
 use std::time::Instant;
@@ -23,7 +23,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         ))
     };
     let start = Instant::now();
-    let responses = Tabulated::new(Ratios::Few);
+    let responses = Tabulated::default();
     let series = outcomes(ROWS, &responses, row);
     let found = collide_rows(0..ROWS, (&responses, &series), row);
     let wall_s = start.elapsed().as_secs_f64();

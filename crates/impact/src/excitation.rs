@@ -141,9 +141,9 @@ impl Excitation {
         contact_time_s: f64,
         relative_error: f64,
     ) -> Result<Self, DomainError> {
-        let yielded = history.pieces().filter(|one| one.flow().is_some()).cloned();
+        let yielded = history.pieces.clone().filter(|one| one.flow.is_some());
         let samples = Box::new(Resampler::new(history));
-        let spans = samples.breaks().chunks_exact(2);
+        let spans = samples.breaks.chunks_exact(2);
         let force = Force::Contact {
             contacts_s: spans
                 .map(|span| [0, 1].map(|i| span[i] * units.time_s))

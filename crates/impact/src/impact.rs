@@ -2,8 +2,8 @@
 
 use crate::excitation::{Excitation, PressureRadius};
 use contact::{
-    Checked, Choice, Collision, ContactError, Exact, HalfSpace, Plasticity, Responses, Results,
-    Settings, Solved, Solver, StaticShare, Striker, fixed_disc_m,
+    Choice, Collision, ContactError, Exact, HalfSpace, Plasticity, Responses, Results, Settings,
+    Solved, Solver, StaticShare, Striker, fixed_disc_m, warnings,
 };
 use std::ops::Deref;
 
@@ -78,7 +78,7 @@ pub(crate) fn solve<S: Responses>(
             largest_n: results.peak_force_n,
         },
     };
-    let error = history.error();
+    let error = history.error;
     let excitation = Excitation::of_contact(
         half_space,
         radius,
@@ -123,16 +123,8 @@ impl Impact {
         let Run {
             solved, results, ..
         } = &run;
-        let mut warnings = Checked {
-            half_space: &self.half_space,
-            striker: &self.striker,
-            collision: &collision,
-            settings,
-            model: solved.plan.model,
-            coupling: solved.plan.groups.coupling,
-            results,
-        }
-        .warnings();
+        let (block, striker, plan) = (&self.half_space, &self.striker, &solved.plan);
+        let mut warnings = warnings(block, striker, &collision, settings, plan, results);
         warnings.extend(self.would_yield(&mut solver, &collision, results));
         warnings.extend(self.counted_twice(&mut solver, &collision, solved, results));
         run.warnings = warnings;

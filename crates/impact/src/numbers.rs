@@ -11,7 +11,7 @@ pub const FIELDS_REVISION: u32 = 9;
 mod tests {
     use crate::sweep::observe;
     use crate::{KernelChoice, Load, Probe, Quantity, Scene, Strike};
-    use contact::{HalfSpace, Material, Ratios, Settings, Solver, Striker, Tabulated};
+    use contact::{HalfSpace, Material, Settings, Solver, Striker, Tabulated};
 
     /// Peak, its time in s and error of two fields and a velocity, on and off the axis.
     fn found() -> Vec<[f64; 3]> {
@@ -31,7 +31,7 @@ mod tests {
             peaks: false,
             duration_s: None,
         };
-        let responses = Tabulated::new(Ratios::Few);
+        let responses = Tabulated::default();
         let mut solver = Solver::new(&responses);
         let observed = observe(&mut solver, &scene, &KernelChoice::Direct).unwrap();
         let peaks = observed.peaks.unwrap().unwrap().peaks;

@@ -72,23 +72,18 @@ impl Library {
         })
     }
 
-    /// Up to four names that contain a word.
-    fn named_like(&self, word: &str) -> Option<String> {
-        let word = word.to_lowercase();
-        let names = self.materials.keys().map(String::as_str);
-        let like: Vec<&str> = names
-            .filter(|name| !word.is_empty() && name.to_lowercase().contains(&word))
-            .take(4)
-            .collect();
-        (!like.is_empty()).then(|| like.join(" or "))
-    }
-
-    /// A material by its name, or the error that suggests another.
+    /// A material by its name, or the error that suggests another: the nearest name, or up to four that contain this one.
     pub fn find(&self, name: &str) -> Result<&Material, UnknownMaterial> {
+        let names = || self.materials.keys().map(String::as_str);
+        let named_like = || {
+            let word = name.to_lowercase();
+            let holds = |name: &&str| !word.is_empty() && name.to_lowercase().contains(&word);
+            let like: Vec<&str> = names().filter(holds).take(4).collect();
+            (!like.is_empty()).then(|| like.join(" or "))
+        };
         self.get(name).ok_or_else(|| UnknownMaterial {
             name: name.to_owned(),
-            suggestion: nearest(name, self.materials.keys().map(String::as_str))
-                .or_else(|| self.named_like(name)),
+            suggestion: nearest(name, names()).or_else(named_like),
         })
     }
 }

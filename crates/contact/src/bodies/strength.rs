@@ -1,7 +1,6 @@
 //! How near a contact is to what its bodies bear: yield and cone cracks.
 
 use crate::bodies::material::Material;
-use crate::bodies::{HalfSpace, Striker};
 use crate::numeric::quadrature::find_root;
 use std::f64::consts::PI;
 
@@ -12,12 +11,12 @@ pub struct Strength {
     yield_strength_pa: Option<f64>,
     tensile_strength_pa: Option<f64>,
     fracture_toughness_pa_sqrt_m: Option<f64>,
-    /// Mean pressure of the contact at which it begins to yield.
-    yield_pressure_pa: Option<f64>,
+    /// Mean pressure of the contact in Pa at which the body begins to yield; none without a yield strength.
+    pub yield_pressure_pa: Option<f64>,
 }
 
 impl Strength {
-    fn new(material: &Material) -> Self {
+    pub(crate) fn new(material: &Material) -> Self {
         Self {
             poisson_ratio: material.poisson_ratio,
             yield_strength_pa: material.yield_strength_pa,
@@ -26,12 +25,6 @@ impl Strength {
             yield_pressure_pa: (material.yield_strength_pa)
                 .map(|strength| 2.0 / 3.0 * strength / largest_mises(material.poisson_ratio)),
         }
-    }
-
-    /// Mean pressure of the contact in Pa at which the body begins to yield; none without a yield strength.
-    #[must_use]
-    pub fn yield_pressure_pa(&self) -> Option<f64> {
-        self.yield_pressure_pa
     }
 
     /// Yield strength in Pa and Poisson's ratio, where the strength is known.
@@ -85,11 +78,6 @@ pub fn largest_mises(poisson_ratio: f64) -> f64 {
     largest.max((1.0 - 2.0 * nu) / 3.0_f64.sqrt())
 }
 
-/// The strengths of both bodies of a collision, the striker's first.
-pub(crate) fn strengths(half_space: &HalfSpace, striker: &Striker) -> [Strength; 2] {
-    [&striker.material, half_space.material()].map(Strength::new)
-}
-
 /// How near a contact comes to what its bodies bear; none where the number that it needs is not known.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Loading {
@@ -121,7 +109,7 @@ impl Loading {
         };
         Self {
             mean_pressure_pa: pressure,
-            yield_onset: over(pressure, &Strength::yield_pressure_pa),
+            yield_onset: over(pressure, &|body| body.yield_pressure_pa),
             pressure_over_yield: over(pressure, &|body| body.yield_strength_pa),
             pressure_over_tensile: over(pressure, &|body| body.tensile_strength_pa),
             cone_crack_onset: over(force_n, &|body| {

@@ -34,29 +34,22 @@ impl WaveSpeeds {
         }
     }
 
-    /// Whether a Rayleigh wave of its own arrives at a distance from the axis and a depth in m.
+    /// First arrivals in s after the force begins of the P, S and Rayleigh wave at a distance from the axis and a depth in m.
     ///
-    /// It grows out of the shear wave where that meets the surface beyond
+    /// From the nearest point of a disc of a radius in m: straight above inside it, else its edge.
+    /// A Rayleigh wave of its own grows out of the shear wave where that meets the surface beyond
     ///
     /// ```text
     /// r = z cR/sqrt(c2^2 - cR^2)
     /// ```
     ///
-    /// (Nakano 1925; Aki and Richards, Quantitative Seismology, section 6.3); nearer to the axis there is none.
-    #[must_use]
-    pub fn has_rayleigh(&self, r_m: f64, z_m: f64, disc_radius_m: f64) -> bool {
-        let cotangent = self.rayleigh / (self.s * self.s - self.rayleigh * self.rayleigh).sqrt();
-        r_m > disc_radius_m && r_m - disc_radius_m > z_m * cotangent
-    }
-
-    /// First arrivals in s after the force begins of the P, S and Rayleigh wave; infinite for a Rayleigh wave where
-    /// there is none.
-    ///
-    /// From the nearest point of a disc of a radius in m: straight above inside it, else its edge.
+    /// (Nakano 1925; Aki and Richards, Quantitative Seismology, section 6.3); nearer to the axis there is none, and its arrival
+    /// is infinite.
     #[must_use]
     pub fn arrivals_s(&self, r_m: f64, z_m: f64, disc_radius_m: f64) -> [f64; 3] {
         let aside_m = (r_m - disc_radius_m).max(0.0);
-        let rayleigh = if self.has_rayleigh(r_m, z_m, disc_radius_m) {
+        let cotangent = self.rayleigh / (self.s * self.s - self.rayleigh * self.rayleigh).sqrt();
+        let rayleigh = if r_m > disc_radius_m && r_m - disc_radius_m > z_m * cotangent {
             aside_m / self.rayleigh
         } else {
             f64::INFINITY
@@ -103,9 +96,10 @@ mod tests {
 
     #[test]
     fn rayleigh_waves_arrive_along_the_surface_only() {
-        assert!(SPEEDS.has_rayleigh(0.02, 0.0, 1e-4));
-        assert!(!SPEEDS.has_rayleigh(0.0, 0.05, 1e-4) && !SPEEDS.has_rayleigh(0.02, 0.02, 1e-4));
-        assert!(!SPEEDS.has_rayleigh(5e-5, 0.0, 1e-4));
+        let has_rayleigh = |r, z, disc| SPEEDS.arrivals_s(r, z, disc)[2].is_finite();
+        assert!(has_rayleigh(0.02, 0.0, 1e-4));
+        assert!(!has_rayleigh(0.0, 0.05, 1e-4) && !has_rayleigh(0.02, 0.02, 1e-4));
+        assert!(!has_rayleigh(5e-5, 0.0, 1e-4));
         let below = SPEEDS.arrivals_s(0.0, 0.05, 1e-4);
         assert_eq!(below, [0.05 / 5900.0, 0.05 / 3150.0, f64::INFINITY]);
         let beside = SPEEDS.arrivals_s(0.0201, 0.0, 1e-4);

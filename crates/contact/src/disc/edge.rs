@@ -22,41 +22,6 @@ pub(crate) struct Edge {
     g: [f64; 3],
 }
 
-/// Both ends of a contact in equal steps, and the last sample that is not of them.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Ends {
-    pub(crate) last: usize,
-    pub(crate) touch: Edge,
-    pub(crate) leave: Edge,
-    /// Roots of the force at the third sample and at the last.
-    pub(crate) until: [f64; 2],
-}
-
-/// How many steps before the end the samples between end at least: two further are needed, the last ones are known badly.
-const BEFORE_END: f64 = 2.75;
-
-impl Ends {
-    /// Of a force that ends after so many steps, on a surface that gives way by `compliance`.
-    ///
-    /// Nothing for contacts of few steps, and where the samples are not those of an edge.
-    pub(crate) fn of(force: &[f64], compliance: f64, steps: f64) -> Option<Self> {
-        let last = (steps - BEFORE_END) as usize;
-        let rest = steps - last as f64;
-        let roots = |from: usize| {
-            force
-                .get(from..from + 3)
-                .map(|p| [p[0], p[1], p[2]].map(f64::cbrt))
-        };
-        let (first, [r0, r1, r2]) = (roots(1)?, roots(last)?);
-        Some(Self {
-            last,
-            touch: Edge::new(compliance, first, [1.0, 2.0, 3.0])?,
-            leave: Edge::new(compliance, [r2, r1, r0], [rest - 2.0, rest - 1.0, rest])?,
-            until: [first[2], r0],
-        })
-    }
-}
-
 /// Newton's iterations at most; the function is convex and its bounds need not be sharp.
 const ITERATIONS: usize = 8;
 
@@ -155,41 +120,28 @@ impl Edge {
         gauss(&GAUSS_4, 0.0, reach, |y| y.powi(4) * self.rate(y)[0])
     }
 
-    /// int p' L ds until the root `reach` of a force that begins.
-    pub(crate) fn taken_at_touch(
+    /// int p' L ds until the root `reach` of a force that begins, or that ends: p' ds = 3 y^2 dy, L the zeroth moment times p'
+    /// and, where the memory is not short, a rest.
+    pub(crate) fn taken(
         &self,
         relaxation: &Relaxation<impl Fn(f64) -> f64>,
         reach: f64,
+        ends: bool,
     ) -> f64 {
-        self.taken(relaxation, reach, |y| -self.past_at_touch(relaxation, y))
-    }
-
-    /// The same of a force that ends.
-    pub(crate) fn taken_at_end(
-        &self,
-        relaxation: &Relaxation<impl Fn(f64) -> f64>,
-        reach: f64,
-    ) -> f64 {
-        self.taken(relaxation, reach, |y| {
+        let before_end = |y: f64| {
             let s = self.time(y);
             let oldest = self.root_beside(s, y, relaxation.memory);
             gauss(&GAUSS_4, y, oldest, |x| {
                 relaxation.remaining(self.time(x) - s) * self.slope(x)[1]
             })
-        })
-    }
-
-    /// int p' L ds, p' ds = 3 y^2 dy, L the zeroth moment times p' and, where the memory is not short, a rest.
-    fn taken(
-        &self,
-        relaxation: &Relaxation<impl Fn(f64) -> f64>,
-        reach: f64,
-        rest: impl Fn(f64) -> f64,
-    ) -> f64 {
-        let short = relaxation.is_short();
+        };
         gauss(&GAUSS_4, 0.0, reach, |y| {
-            let zeroth = relaxation.moments[0] * self.slope(y)[0];
-            3.0 * y * y * if short { zeroth } else { zeroth + rest(y) }
+            let rest = match (relaxation.is_short(), ends) {
+                (true, _) => 0.0,
+                (false, true) => before_end(y),
+                (false, false) => -self.past_at_touch(relaxation, y),
+            };
+            3.0 * y * y * (relaxation.moments[0] * self.slope(y)[0] + rest)
         })
     }
 

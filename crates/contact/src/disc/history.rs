@@ -1,6 +1,5 @@
 //! Samples of a march, and the work that it may take.
 
-use crate::disc::edge::Ends;
 use crate::error::MarchError;
 use crate::growing::solved::SolvedContact;
 use crate::law::hertz::CONTACT_TIME;
@@ -20,7 +19,7 @@ pub(crate) struct Separation {
 /// Samples of a march, a step apart, from the first touch until the striker has left for good.
 ///
 /// In collision units.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct History {
     /// Time between samples.
     pub step: f64,
@@ -40,8 +39,6 @@ pub struct History {
     pub(crate) elastic: f64,
     /// End of the first contact where the march finds it itself.
     pub(crate) separation: Option<Separation>,
-    /// Both ends of a contact whose work the march finds itself.
-    pub(crate) ends: Option<Ends>,
     /// Work left in the half-space where the march finds it itself.
     pub(crate) dissipated: Option<f64>,
     /// The last instants of a contact whose radius goes to zero, too short for the step: the displacement of the striker
@@ -49,9 +46,9 @@ pub struct History {
     /// enough.
     pub(crate) end_layer: Option<[f64; 2]>,
     /// The contact itself where it was solved by pieces, of which these are samples.
-    pub(crate) pieces: Option<Arc<SolvedContact>>,
-    /// Estimated error of the force at any instant, over the largest.
-    pub(crate) error: f64,
+    pub pieces: Option<Arc<SolvedContact>>,
+    /// Estimated error of the force at any instant, over the largest; infinite where nobody has estimated it.
+    pub error: f64,
 }
 
 impl History {
@@ -82,16 +79,8 @@ impl History {
             force,
             displacement,
             deflection,
-            start: 0.0,
-            velocity: Vec::new(),
-            compliance: 0.0,
-            elastic: 0.0,
-            separation: None,
-            ends: None,
-            dissipated: None,
-            end_layer: None,
-            pieces: None,
             error: f64::INFINITY,
+            ..Self::default()
         }
     }
 
@@ -100,7 +89,7 @@ impl History {
     /// After the contact the deflection is not followed: that sample holds the one at the end.
     #[must_use]
     pub fn of_pieces(solved: &SolvedContact, step: f64) -> Self {
-        let contact_time = solved.summary().contact_time;
+        let contact_time = solved.summary.contact_time;
         let mut history = Self::at_touch(step, (contact_time / step) as usize + 2);
         let times = (1..).map(|i| f64::from(i) * step);
         for time in times.take_while(|time| *time < contact_time) {
@@ -110,15 +99,9 @@ impl History {
         let beyond = solved.state(history.force.len() as f64 * step);
         let last = solved.state(contact_time).displacement;
         history.push(0.0, beyond.displacement, last);
-        history.error = solved.estimates().force;
+        history.error = solved.estimates.force;
         history.pieces = Some(Arc::new(solved.clone()));
         history
-    }
-
-    /// The contact itself where it was solved by pieces.
-    #[must_use]
-    pub fn pieces(&self) -> Option<&Arc<SolvedContact>> {
-        self.pieces.as_ref()
     }
 
     #[inline]
@@ -126,12 +109,6 @@ impl History {
         self.force.push(force);
         self.displacement.push(displacement);
         self.deflection.push(deflection);
-    }
-
-    /// Estimated error of the force at any instant, over the largest; infinite where nobody has estimated it.
-    #[must_use]
-    pub fn error(&self) -> f64 {
-        self.error
     }
 
     /// Mean velocity over the last step.

@@ -15,7 +15,6 @@ use crate::disc::response::DiscResponse;
 use crate::disc::striker::{STARTING, StrikerMotion, starting_roots};
 use crate::disc::weights::Weights;
 use crate::error::MarchError;
-use crate::model::StaticShare;
 use crate::numeric::cubic::force_root;
 
 /// Marches with a fixed step (collision units).
@@ -43,32 +42,13 @@ pub(crate) fn march_into(
     let cells = memory_cells(impact.memory(), step)?;
     weights.fill_for(impact, impact.response, step);
     history.restart(step);
-    let unit = impact.wave_time / step;
-    let relaxation = Relaxation::of(impact.response, impact.coupling, unit);
-    let bounded = |steps| affordable(steps, cells, impact.memory());
-    advance(&relaxation, impact.share, weights, bounded, history)?;
-    history.separate(&relaxation);
-    Ok(())
-}
-
-/// Marches a history that holds the touch until the striker has left for good.
-fn advance(
-    relaxation: &Relaxation<impl Fn(f64) -> f64>,
-    share: StaticShare,
-    weights: &Weights,
-    bounded: impl Fn(usize) -> Result<(), MarchError>,
-    history: &mut History,
-) -> Result<(), MarchError> {
-    let (step, coupling) = (history.step, relaxation.coupling);
+    let (coupling, unit) = (impact.coupling, impact.wave_time / step);
+    let relaxation = Relaxation::of(impact.response, coupling, unit);
     let newest_weight = weights.values[0];
-    let elastic = coupling * (share.factor() - newest_weight);
+    let elastic = coupling * (impact.share.factor() - newest_weight);
     let roots = starting_roots(step, elastic);
-    let missed = missed(
-        relaxation,
-        weights,
-        &Edge::touch(elastic.max(0.0), step),
-        &roots,
-    );
+    let touch = Edge::touch(elastic.max(0.0), step);
+    let missed = missed(&relaxation, weights, &touch, &roots);
     let mut striker = StrikerMotion::new(step, elastic, &roots);
     let inertia = striker.newest_weight();
     history.start = striker.missed[0];
@@ -103,13 +83,15 @@ fn advance(
         } else {
             free_since += 1;
             if free_since >= weights.values.len() && history.last_velocity() <= 0.0 {
-                return Ok(());
+                break;
             }
         }
         if n.is_multiple_of(1024) {
-            bounded(n)?;
+            affordable(n, cells, impact.memory())?;
         }
     }
+    history.separate(&relaxation);
+    Ok(())
 }
 
 /// What the weights miss of the delayed deflection at the first samples.

@@ -62,15 +62,12 @@ impl Summary {
         }
         let (place, peak_force) = peak(force);
         let contacts = count_contacts(force, peak_force);
-        let by_momentum = if contacts == 1 {
-            1.0 - INVERSE_MASS * impulse
+        let (by_momentum, (velocity, loss)) = if contacts == 1 {
+            let v = 1.0 - INVERSE_MASS * impulse;
+            (v, departure(v, history))
         } else {
-            history.last_velocity()
-        };
-        let (velocity, loss) = if contacts == 1 {
-            departure(by_momentum, history)
-        } else {
-            (by_momentum, (1.0 - by_momentum) * (1.0 + by_momentum))
+            let v = history.last_velocity();
+            (v, (v, (1.0 - v) * (1.0 + v)))
         };
         let summary = Self {
             peak_force,

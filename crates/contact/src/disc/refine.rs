@@ -105,14 +105,6 @@ impl Accuracy {
 /// Steps are halved at most so often.
 const HALVINGS: usize = 14;
 
-/// Whether an error of the march may be that of a coarse step.
-///
-/// Coarse weights of the dynamic share overstate the part of the newest force, which can cost it its solution.
-fn may_pass(error: &MarchError, attempt: usize) -> bool {
-    matches!(error, MarchError::StepTooLong { .. })
-        || attempt < 8 && matches!(error, MarchError::NoSolution { .. })
-}
-
 /// Marches with `step`, halves it until the change over the last halving is within `accuracy`.
 ///
 /// # Errors
@@ -168,7 +160,10 @@ fn halve(
                 }
                 (coarse, last) = (Some(summary), step);
             }
-            Err(error) if may_pass(&error, attempt) => {}
+            // what a coarse step may cause: weights of the dynamic share that overstate the part of the newest force can
+            // cost it its solution
+            Err(MarchError::StepTooLong { .. }) => {}
+            Err(MarchError::NoSolution { .. }) if attempt < 8 => {}
             Err(MarchError::TooLong { .. }) if ratio <= LENIENT => {
                 // once more, since what the caller keeps is that of the march that failed
                 return Ok(Found {
@@ -202,6 +197,17 @@ pub struct Found {
     pub error: f64,
     /// Step of the finest march; none without a march.
     pub step: Option<f64>,
+}
+
+impl Found {
+    /// Without a march.
+    pub(crate) fn unmarched(summary: Summary, error: f64) -> Self {
+        Self {
+            summary,
+            error,
+            step: None,
+        }
+    }
 }
 
 /// An impact on a disc by the implicit scheme: with a step that is given, or halved until the results are as accurate
@@ -341,17 +347,8 @@ fn distance(coarse: &History, fine: &History) -> f64 {
 }
 
 /// Weights and samples of the latest march: nothing is allocated once they are large enough.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Workspace {
     pub(crate) weights: Weights,
     pub(crate) history: History,
-}
-
-impl Default for Workspace {
-    fn default() -> Self {
-        Self {
-            weights: Weights::default(),
-            history: History::at_touch(1.0, 512),
-        }
-    }
 }

@@ -27,8 +27,7 @@
 //!
 //! Theory: `docs/theory.md` (T45, T46).
 
-use crate::disc::edge::{Edge, Ends, RESOLVED, Relaxation};
-
+use crate::disc::edge::{Edge, RESOLVED, Relaxation};
 use crate::disc::history::{History, Separation};
 use crate::disc::measured::first_separation;
 use crate::disc::response::DiscResponse;
@@ -47,13 +46,12 @@ const ENOUGH: f64 = 1e-3;
 const UNSEEN: f64 = 1.0 / 3.0;
 const UNCERTAIN: f64 = 0.5;
 
-/// The end of the first contact, where the last samples tell it: `end` is the first free sample.
-pub(crate) fn separation(
+/// The end of the first contact, where the last samples tell it.
+fn separation(
     history: &History,
-    end: usize,
     relaxation: &Relaxation<impl Fn(f64) -> f64>,
 ) -> Option<Separation> {
-    let step = history.step;
+    let (step, end) = (history.step, first_separation(&history.force));
     if end < 5 || end + 1 > history.displacement.len() || relaxation.memory > RESOLVED {
         return None;
     }
@@ -96,11 +94,7 @@ pub(crate) fn separation(
 impl History {
     /// Finds the end of the first contact and, where there is no other, the work that is left in the half-space.
     pub(crate) fn separate(&mut self, relaxation: &Relaxation<impl Fn(f64) -> f64>) {
-        let end = first_separation(&self.force);
-        self.separation = separation(self, end, relaxation);
-        let again = self.force.iter().skip(end).any(|&p| p > 0.0);
-        let found = self.separation.filter(|_| !again);
-        self.ends = found.and_then(|f| Ends::of(&self.force, self.elastic, f.time / self.step));
+        self.separation = separation(self, relaxation);
         self.dissipated = dissipated(self, relaxation);
     }
 
@@ -114,9 +108,10 @@ impl History {
     ) -> Option<f64> {
         let relaxation = Relaxation::of(response, coupling, wave_time / self.step);
         // beyond that it knows no more than its memory
-        (relaxation.memory <= RESOLVED)
-            .then(|| dissipated(self, &relaxation))
-            .flatten()
+        if relaxation.memory > RESOLVED {
+            return None;
+        }
+        dissipated(self, &relaxation)
     }
 }
 
@@ -135,18 +130,32 @@ const DERIVATIVES: [[f64; 5]; 4] = [
     [1.0, -4.0, 6.0, -4.0, 1.0],
 ];
 
-/// Work of one contact, relative to the kinetic energy before, where its [`Ends`] are known.
-pub(crate) fn dissipated(
-    history: &History,
-    relaxation: &Relaxation<impl Fn(f64) -> f64>,
-) -> Option<f64> {
-    let ends = history.ends?;
-    let (p, last) = (&history.force, ends.last);
+/// How many steps before the end the samples between end at least: two further are needed, the last ones are known badly.
+const BEFORE_END: f64 = 2.75;
+
+/// Work of one contact, relative to the kinetic energy before.
+///
+/// Nothing for several contacts, those of few steps, and where the samples at both ends are not those of an edge.
+fn dissipated(history: &History, relaxation: &Relaxation<impl Fn(f64) -> f64>) -> Option<f64> {
+    let (p, elastic) = (&history.force, history.elastic);
+    let mut after = p.iter().skip(first_separation(p));
+    if after.any(|&p| p > 0.0) {
+        return None;
+    }
+    let steps = history.separation?.time / history.step;
+    let last = (steps - BEFORE_END) as usize;
+    let rest = steps - last as f64;
+    let roots = |from: usize| {
+        let samples = p.get(from..from + 3)?;
+        Some([0, 1, 2].map(|i: usize| samples[i].cbrt()))
+    };
+    let (first, [r0, r1, r2]) = (roots(1)?, roots(last)?);
+    let touch = Edge::new(elastic, first, [1.0, 2.0, 3.0])?;
+    let leave = Edge::new(elastic, [r2, r1, r0], [rest - 2.0, rest - 1.0, rest])?;
     if last + 1 < FIRST + NEEDED {
         return None;
     }
-    let edges = ends.touch.taken_at_touch(relaxation, ends.until[0])
-        + ends.leave.taken_at_end(relaxation, ends.until[1]);
+    let edges = touch.taken(relaxation, first[2], false) + leave.taken(relaxation, r0, true);
     let delayed = delayed_weights(relaxation);
     let rate = |n: usize| {
         let samples = &p[n - 2..n + 3];

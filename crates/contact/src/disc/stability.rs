@@ -50,8 +50,10 @@ pub(crate) fn check(
     impact: &FixedDisc<'_, impl DiscResponse>,
     workspace: &mut Workspace,
 ) -> Result<(), ContactError> {
-    let still = impact.static_coupling();
-    let steepness = 1.5 * impact.coupling * largest_force(still).cbrt();
+    let (still, coupling) = (impact.static_coupling(), impact.coupling);
+    let no_solution = |time| ContactError::from(MarchError::NoSolution { time, coupling });
+    let fed = |found| ContactError::EnergyFed { coupling, found };
+    let steepness = 1.5 * coupling * largest_force(still).cbrt();
     let at_once = 1.0 - impact.share.factor();
     let centre = impact.response.deflection() == Deflection::Centre;
     let bound = if centre { LARGEST_NEGATIVE } else { 0.0 };
@@ -69,8 +71,8 @@ pub(crate) fn check(
     let (springs, _) = quasi_static(still);
     if impact.memory() < SHORT * springs.contact_time {
         return Err(match impact.share {
-            StaticShare::Dynamic => no_solution(impact, 0.5 * springs.contact_time),
-            StaticShare::Full => fed(impact, None),
+            StaticShare::Dynamic => no_solution(0.5 * springs.contact_time),
+            StaticShare::Full => fed(None),
         });
     }
     let step = (impact.memory() / CELLS).min(springs.contact_time / STEPS);
@@ -79,33 +81,19 @@ pub(crate) fn check(
     match impact.share {
         StaticShare::Dynamic => {
             let largest = history.force.iter().copied().fold(0.0, f64::max);
-            if 1.5 * impact.coupling * largest.cbrt() > MARGIN {
+            if 1.5 * coupling * largest.cbrt() > MARGIN {
                 let place = history.force.iter().position(|&p| p == largest);
-                return Err(no_solution(impact, place.unwrap_or(0) as f64 * step));
+                return Err(no_solution(place.unwrap_or(0) as f64 * step));
             }
         }
         StaticShare::Full => {
             let found = Summary::new(history)?;
             if found.contacts > 1 || found.restitution > 1.0 {
-                return Err(fed(impact, Some(&found)));
+                return Err(fed(Some((found.restitution, found.contacts))));
             }
         }
     }
     Ok(())
-}
-
-fn no_solution<R>(impact: &FixedDisc<'_, R>, time: f64) -> ContactError {
-    ContactError::March(MarchError::NoSolution {
-        time,
-        coupling: impact.coupling,
-    })
-}
-
-fn fed<R>(impact: &FixedDisc<'_, R>, found: Option<&Summary>) -> ContactError {
-    ContactError::EnergyFed {
-        coupling: impact.coupling,
-        found: found.map(|found| (found.restitution, found.contacts)),
-    }
 }
 
 /// The largest -C(i w) at frequencies at which the compliance C is real, zero where it is nowhere negative; to 1e-3.

@@ -14,12 +14,12 @@
 
 use crate::disc::FixedDisc;
 use crate::disc::response::DiscResponse;
-use crate::model::StaticShare;
 
 /// The weights g_j of one step, newest first: as many as the memory has cells.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Weights {
-    pub(crate) values: Vec<f64>,
+    /// g_j.
+    pub values: Vec<f64>,
 }
 
 impl Weights {
@@ -28,16 +28,16 @@ impl Weights {
     #[must_use]
     pub fn of_samples(response: &impl DiscResponse, step: f64, unit: f64, samples: usize) -> Self {
         let mut weights = Self::default();
-        weights.fill(response, step, unit, f64::INFINITY, samples);
+        weights.fill(response, step / unit, f64::INFINITY, samples);
         weights
     }
 
-    /// For the march of an impact; `response` is its own or that of another deflection of the same disc.
-    pub(crate) fn of<R>(
-        impact: &FixedDisc<'_, R>,
-        response: &impl DiscResponse,
-        step: f64,
-    ) -> Self {
+    /// For the implicit march of an impact at a step in collision units; `response` is its own or that of another deflection
+    /// of the same disc.
+    ///
+    /// The deflection is coupling [p_n - sum_j g_j (p_{n-j} - p_{n-j-1})], without the first p_n for the dynamic share.
+    #[must_use]
+    pub fn of<R>(impact: &FixedDisc<'_, R>, response: &impl DiscResponse, step: f64) -> Self {
         let mut weights = Self::default();
         weights.fill_for(impact, response, step);
         weights
@@ -50,19 +50,15 @@ impl Weights {
         response: &impl DiscResponse,
         step: f64,
     ) {
-        let slack = slack(impact.coupling, impact.share);
-        self.fill(response, step, impact.wave_time, slack, usize::MAX);
+        // Hertz's compliance is above 2/3; over the coupling and with a margin it is what 1 - 2 sum_j (-1)^j g_j, for the
+        // full share, and 1 less without it, may fall below zero: how negative the compliance to an alternating force may
+        // be before the march is unstable
+        let slack = (0.5 / impact.coupling - (1.0 - impact.share.factor())).max(0.0);
+        self.fill(response, step / impact.wave_time, slack, usize::MAX);
     }
 
-    fn fill(
-        &mut self,
-        response: &impl DiscResponse,
-        step: f64,
-        unit: f64,
-        slack: f64,
-        samples: usize,
-    ) {
-        let h = step / unit;
+    /// For a step in r0/c1.
+    fn fill(&mut self, response: &impl DiscResponse, h: f64, slack: f64, samples: usize) {
         let mut cell = response.cells(h);
         let cells = ((response.memory() / h).ceil() as usize).min(samples.saturating_add(1));
         let values = &mut self.values;
@@ -114,22 +110,6 @@ impl Weights {
                 .map(|(g, rise)| g * rise)
                 .sum::<f64>()
     }
-}
-
-/// The weights g_j of the implicit march of an impact at a step in collision units, newest first.
-///
-/// The deflection is coupling [p_n - sum_j g_j (p_{n-j} - p_{n-j-1})], without the first p_n for the dynamic share.
-#[must_use]
-pub fn memory_weights(impact: &FixedDisc<'_, impl DiscResponse>, step: f64) -> Vec<f64> {
-    Weights::of(impact, impact.response, step).values
-}
-
-/// How negative the compliance to an alternating force may be before the march is unstable.
-///
-/// Hertz's compliance is above 2/3; over the coupling and with a margin it is what 1 - 2 sum_j (-1)^j g_j, for the full
-/// share, and 1 less without it, may fall below zero.
-fn slack(coupling: f64, share: StaticShare) -> f64 {
-    (0.5 / coupling - (1.0 - share.factor())).max(0.0)
 }
 
 /// Fraction of the newest cell's curvature that leaves the march stable.

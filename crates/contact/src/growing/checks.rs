@@ -12,7 +12,7 @@
 use crate::error::MarchError;
 use crate::growing::arrivals::Piece;
 use crate::growing::solved::SolvedContact;
-use crate::growing::waves::{GrowingContact, Rule};
+use crate::growing::waves::GrowingContact;
 
 /// Samples of a piece.
 const SAMPLES: usize = 6;
@@ -35,11 +35,11 @@ pub(crate) fn passed(
     solved: SolvedContact,
     contact: &GrowingContact<'_>,
 ) -> Result<SolvedContact, MarchError> {
-    if let Some(time) = folds(solved.all_pieces(), contact) {
+    if let Some(time) = folds(&solved.pieces, contact) {
         return Err(MarchError::Overtaken { time });
     }
-    let velocity = -solved.summary().restitution;
-    match strikes_again(solved.all_pieces(), contact, velocity) {
+    let velocity = -solved.summary.restitution;
+    match strikes_again(&solved.pieces, contact, velocity) {
         Some(time) => Err(MarchError::StrikesAgain { time }),
         None => Ok(solved),
     }
@@ -87,8 +87,7 @@ fn strikes_again(pieces: &[Piece], contact: &GrowingContact<'_>, velocity: f64) 
         .collect();
     let widest = samples.iter().fold(0.0_f64, |m, &[_, a, _]| m.max(a));
     let memory = contact.waves.memory() * contact.wave_time * widest;
-    let rule = contact.waves.rule(LEVEL);
-    let gap_rate = |t: f64| velocity - relaxing(&samples, contact, rule, t);
+    let gap_rate = |t: f64| velocity - relaxing(&samples, contact, t);
     // the gap opens first; it closes where the surface is faster than the striker for long enough
     let (mut gap, mut before) = (0.0_f64, end);
     for i in 0..LOOKS {
@@ -103,9 +102,9 @@ fn strikes_again(pieces: &[Piece], contact: &GrowingContact<'_>, velocity: f64) 
 }
 
 /// Velocity of the surface at a time after the end.
-fn relaxing(samples: &[[f64; 3]], contact: &GrowingContact<'_>, rule: &Rule, t: f64) -> f64 {
+fn relaxing(samples: &[[f64; 3]], contact: &GrowingContact<'_>, t: f64) -> f64 {
     let mut sum = 0.0;
-    for (delay, rate) in rule.delays.iter().zip(&rule.rates) {
+    for (delay, rate) in contact.waves.rule(LEVEL) {
         let late = |[time, radius, _]: [f64; 3]| time + delay * contact.wave_time * radius - t;
         // from the end back: waves that have not come, then those that have, then the oldest, long gone
         let mut left = [0.0; 2];

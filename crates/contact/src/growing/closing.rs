@@ -4,6 +4,7 @@
 //! In the last instants the contact is so small that its waves cross it in no time: the time left goes
 //! from a^2 over the velocity to a smaller multiple of it, for a stiff striker to nearly a power one of a.
 
+use crate::error::MarchError;
 use crate::growing::arrivals::Piece;
 use crate::growing::equations::Independent;
 use crate::growing::march::March;
@@ -23,8 +24,8 @@ const LOST: f64 = 30.0;
 
 impl March<'_> {
     /// # Errors
-    /// The time in collision units where no piece is short enough.
-    pub(crate) fn close(&mut self) -> Result<(), f64> {
+    /// [`MarchError::NotFollowed`].
+    pub(crate) fn close(&mut self) -> Result<(), MarchError> {
         if self.law.lag.is_some() {
             return Ok(());
         }
@@ -74,7 +75,7 @@ impl March<'_> {
                 }
             }
         }
-        Err(self.state.time)
+        Err(self.lost())
     }
 
     /// Level of the rule over the waves below which the last instants have no solution: with few waves the

@@ -15,7 +15,7 @@
 use crate::growing::arrivals::{Departure, Piece, departures};
 use crate::growing::nodes::{Factors, Nodes};
 use crate::growing::polynomial::{LARGEST, Polynomial, SIZE, dot};
-use crate::growing::waves::{GrowingContact, Rule};
+use crate::growing::waves::GrowingContact;
 use crate::plastic::branch::{Law, Local};
 use crate::units::INVERSE_MASS;
 
@@ -63,7 +63,7 @@ pub(crate) struct Equations<'a> {
     /// What is known: the time or the radius.
     pub(crate) given: Polynomial,
     /// The rule over the waves that is solved with, and the next finer one that corrects.
-    pub(crate) rules: [&'a Rule; 2],
+    pub(crate) rules: [&'a [(f64, f64)]; 2],
     /// Error that is allowed.
     pub(crate) accuracy: f64,
 }
@@ -119,7 +119,8 @@ impl Equations<'_> {
         let mut local = [Local::default(); LARGEST];
         for j in 1..=n {
             let here = self.law.branch.at(radius[j]);
-            impulse[j - 1] = here.force * time_slope[j] + self.law.damping(&here) * radius_slope[j];
+            impulse[j - 1] = here.force * time_slope[j]
+                + self.law.damping(&here) * here.depth_slope * radius_slope[j];
             local[j - 1] = here;
         }
         let mut velocity = [self.start.velocity; SIZE];
@@ -139,7 +140,7 @@ impl Equations<'_> {
     /// Residuals; on entry they are those of a nearby motion, or of none.
     pub(crate) fn residual(
         &self,
-        rule: &Rule,
+        rule: &[(f64, f64)],
         sought: &[f64; SIZE],
         motion: &Motion,
         residual: &mut Residual,
@@ -151,11 +152,11 @@ impl Equations<'_> {
             ..
         } = self.contact;
         let (time_of, radius_of) = self.polynomials(sought);
-        let size = rule.delays.len();
+        let size = rule.len();
         let again = residual.departures.len() == n * size;
         if !again {
             residual.departures = vec![Departure::default(); n * size];
-            residual.delays = rule.delays.iter().map(|delay| delay * wave_time).collect();
+            residual.delays = rule.iter().map(|(delay, _)| delay * wave_time).collect();
         }
         for i in 1..=n {
             let found = &mut residual.departures[(i - 1) * size..i * size];
@@ -169,9 +170,9 @@ impl Equations<'_> {
                 found,
             );
             let delayed = self.law.delayed(motion.radius[i]);
-            let parts = rule.rates.iter().zip(found.iter());
+            let parts = rule.iter().zip(found.iter());
             let sum: f64 = parts
-                .map(|(rate, left)| rate * (delayed - self.law_of(left).delayed(left.radius)))
+                .map(|((_, rate), left)| rate * (delayed - self.law_of(left).delayed(left.radius)))
                 .sum();
             let drive = motion.velocity[i] - target_share * sum / wave_time;
             let here = &motion.local[i - 1];
@@ -191,13 +192,13 @@ impl Equations<'_> {
     /// Derivatives of the residuals with respect to what is sought, at the departures of the residual.
     pub(crate) fn jacobian(
         &self,
-        rule: &Rule,
+        rule: &[(f64, f64)],
         motion: &Motion,
         residual: &Residual,
         matrix: &mut Factors,
     ) {
         let n = self.nodes.degree;
-        let size = rule.delays.len();
+        let size = rule.len();
         let velocity = self.velocity_by_impulse(motion);
         for i in 1..=n {
             let found = &residual.departures[(i - 1) * size..i * size];
@@ -211,7 +212,7 @@ impl Equations<'_> {
             // what the indentation is more than the punches
             let more = here.depth_slope - here.punch_slope;
             let more_bend = here.bends[0] - here.bends[1];
-            let damped = INVERSE_MASS * self.law.damping(here);
+            let damped = INVERSE_MASS * (self.law.damping(here) * here.depth_slope);
             for l in 1..=n {
                 let by_velocity: f64 = match self.known {
                     Independent::Time => {
@@ -263,7 +264,7 @@ impl Equations<'_> {
     /// the sign turned) and, beside it, at the node itself, where g has a slope.
     fn tension_row(
         &self,
-        rule: &Rule,
+        rule: &[(f64, f64)],
         found: &[Departure],
         delays: &[f64],
         slope: f64,
@@ -271,7 +272,7 @@ impl Equations<'_> {
         let mut sums = [0.0; SIZE];
         let mut basis = [0.0; SIZE];
         let mut own = 0.0;
-        for ((left, &delay), &rate) in found.iter().zip(delays).zip(&rule.rates) {
+        for ((left, &delay), &(_, rate)) in found.iter().zip(delays).zip(rule) {
             let speed = left.time_slope + delay * left.radius_slope;
             let there = rate * self.law_of(left).slope(left.radius);
             let weight = match self.known {

@@ -6,11 +6,12 @@ use crate::growing::equations::{Equations, Independent, State};
 use crate::growing::nodes::Nodes;
 use crate::growing::polynomial::{Polynomial, SIZE};
 use crate::growing::step::Solution;
-use crate::growing::waves::{GrowingContact, LEVELS, NO_WAVES};
+use crate::growing::waves::{GrowingContact, LEVELS, PunchWaves};
 use crate::law::hertz::CONTACT_TIME;
 use crate::numeric::quadrature::rising_root;
 use crate::plastic::branch::{Branch, Law};
 use crate::units::INVERSE_MASS;
+use std::sync::LazyLock;
 
 /// A contact on its way.
 #[derive(Debug)]
@@ -90,8 +91,9 @@ impl<'a> March<'a> {
 
     /// On a half-space that answers at once, with a lag.
     pub(crate) fn damped(lag: f64) -> Self {
+        static NONE: LazyLock<PunchWaves> = LazyLock::new(PunchWaves::default);
         let contact = GrowingContact {
-            waves: &NO_WAVES,
+            waves: &NONE,
             target_share: 0.0,
             wave_time: 1.0,
         };
@@ -145,10 +147,10 @@ impl<'a> March<'a> {
         }
     }
 
-    /// Why it could not go on at a time.
-    pub(crate) fn lost(&self, time: f64) -> MarchError {
+    /// Why it cannot go on.
+    pub(crate) fn lost(&self) -> MarchError {
         MarchError::NotFollowed {
-            time,
+            time: self.state.time,
             tolerance: self.accuracy,
             target_share: self.contact.target_share,
             wave_time: self.contact.wave_time,
@@ -184,18 +186,6 @@ impl<'a> March<'a> {
         self.widest = self.widest.max(solution.widest);
     }
 
-    /// Length of a piece after one that has failed, by its error over the allowed one if it has been solved.
-    ///
-    /// # Errors
-    /// The time where no piece is short enough.
-    pub(crate) fn shorter(&self, length: f64, error: Option<f64>) -> Result<f64, f64> {
-        let length = length * error.map_or(0.3, |error| self.factor(error).min(0.7));
-        if length < 1e-9 {
-            return Err(self.state.time);
-        }
-        Ok(length)
-    }
-
     /// Change of length that an error over the allowed one asks for.
     pub(crate) fn factor(&self, error: f64) -> f64 {
         let power = 1.0 / self.nodes.degree as f64;
@@ -208,66 +198,97 @@ impl<'a> March<'a> {
     /// expected end: Hertz's contact is analytic in these over most of its duration.
     ///
     /// # Errors
-    /// The time in collision units where no piece is short enough.
-    pub(crate) fn load(&mut self, limit: f64) -> Result<(), f64> {
-        let mut length = self.first_length();
+    /// [`MarchError::NotFollowed`].
+    pub(crate) fn load(&mut self, limit: f64) -> Result<(), MarchError> {
         let mut late = false;
-        let mut ends = false;
-        for _ in 0..MOST {
-            let first = self.pieces.is_empty();
-            let expected = if first {
-                CONTACT_TIME
-            } else {
-                self.expected_end()
-            };
-            if !first && late != (self.state.slope < LATE) {
+        let piece = |march: &Self, length: &mut f64| {
+            let State { time, slope, .. } = march.state;
+            if slope < 0.0 && march.state.radius < SWITCH * march.widest {
+                return None;
+            }
+            let expected = march.expected_end();
+            if late != (slope < LATE) {
                 late = !late;
-                length = 1.0;
+                *length = 1.0;
             }
             let given = if late {
-                length = length.min(LONGEST);
-                let left = (expected - self.state.time).sqrt();
-                Polynomial::power(left, -length * left, 2).below(expected)
+                *length = length.min(LONGEST);
+                let left = (expected - time).sqrt();
+                Polynomial::power(left, -*length * left, 2).below(expected)
             } else {
-                let since = self.state.time.sqrt();
-                length = length.min(LONGEST * (expected.sqrt() - since));
-                Polynomial::power(since, length, 2)
+                let since = time.sqrt();
+                *length = length.min(LONGEST * (expected.sqrt() - since));
+                Polynomial::power(since, *length, 2)
             };
-            let guess = if first {
-                self.first_guess(length)
+            let guess = if march.pieces.is_empty() {
+                march.first_guess(*length)
             } else {
-                self.guess(&given)
+                march.guess(&given)
             };
-            match self.attempt(Independent::Time, given, &guess) {
-                Some((solution, _)) if solution.widest > limit && !ends => {
-                    // once more, until there
-                    let rising = |s| {
-                        let (radius, slope) = solution.piece.radius.jet(s);
-                        (radius - limit, slope)
-                    };
-                    let over = |s: &f64| rising(*s).0 > 0.0;
-                    let above = self.nodes.places.iter().copied().find(over).unwrap_or(1.0);
-                    length *= rising_root(rising, [0.0, above], 0.5 * above, 1e-16)[1];
-                    ends = true;
-                    continue;
-                }
+            Some((given, guess, false))
+        };
+        let reached = |march: &Self, solution: &Solution, _| {
+            let rising = |s| {
+                let (radius, slope) = solution.piece.radius.jet(s);
+                (radius - limit, slope)
+            };
+            let over = |s: &f64| rising(*s).0 > 0.0;
+            let above = march.nodes.places.iter().copied().find(over);
+            let place = |above| rising_root(rising, [0.0, above], 0.5 * above, 1e-16)[1];
+            (solution.widest > limit).then(|| place(above.unwrap_or(1.0)))
+        };
+        if self.until(Independent::Time, self.first_length(), piece, reached)? {
+            self.state.radius = limit;
+        }
+        Ok(())
+    }
+
+    /// Pieces of a length that is told, until there is none or something happens in one: whether it has.
+    ///
+    /// `piece` gives what is known over a length, a guess of the rest, and whether it is the last; `event` the place in a
+    /// solution, with its error over the allowed one, where the piece is to end when it is tried once more.
+    ///
+    /// # Errors
+    /// [`MarchError::NotFollowed`].
+    pub(crate) fn until(
+        &mut self,
+        known: Independent,
+        mut length: f64,
+        mut piece: impl FnMut(&Self, &mut f64) -> Option<(Polynomial, [f64; SIZE], bool)>,
+        event: impl Fn(&Self, &Solution, f64) -> Option<f64>,
+    ) -> Result<bool, MarchError> {
+        let mut ends = false;
+        for _ in 0..MOST {
+            let Some((given, guess, last)) = piece(self, &mut length) else {
+                return Ok(false);
+            };
+            let tried = self.attempt(known, given, &guess);
+            let stop = tried.as_ref().filter(|_| !ends);
+            if let Some(part) = stop.and_then(|(solution, error)| event(self, solution, *error)) {
+                (length, ends) = (part * length, true);
+                continue;
+            }
+            match tried {
                 Some((solution, error)) if error <= 1.0 => {
-                    self.accept(Independent::Time, &solution);
-                    if ends {
-                        self.state.radius = limit;
-                        return Ok(());
+                    self.accept(known, &solution);
+                    if last || ends {
+                        return Ok(ends);
                     }
                     length *= self.factor(error);
-                    if self.state.slope < 0.0 && self.state.radius < SWITCH * self.widest {
-                        return Ok(());
+                }
+                Some((_, error)) if known == Independent::Time && self.pieces.is_empty() => {
+                    length *= self.factor(error).powi(2);
+                }
+                failed => {
+                    length *= failed.map_or(0.3, |(_, error)| self.factor(error).min(0.7));
+                    if length < 1e-9 {
+                        return Err(self.lost());
                     }
                 }
-                Some((_, error)) if first => length *= self.factor(error).powi(2),
-                failed => length = self.shorter(length, failed.map(|(_, error)| error))?,
             }
             ends = false;
         }
-        Err(self.state.time)
+        Err(self.lost())
     }
 
     /// Root of the duration of the first piece.

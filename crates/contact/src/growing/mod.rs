@@ -86,7 +86,7 @@ const LENIENT: f64 = 100.0;
 /// let contact = GrowingContact { waves: &waves, target_share: 0.5, wave_time: 0.03 };
 /// let solved = solve_growing(&contact, &Accuracy::of_contact(1e-8, Some(1e-6)))?;
 /// // by superposition in time (tests/reference/growing.py)
-/// assert!((solved.summary().loss - 0.0562357185).abs() < 1e-9);
+/// assert!((solved.summary.loss - 0.0562357185).abs() < 1e-9);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
@@ -107,10 +107,12 @@ pub fn solve_growing(
     let mut piece = (PIECE[usize::from(asked < COARSE)] * asked).max(FINEST);
     let mut best: Option<(f64, SolvedContact)> = None;
     for attempt in 0..ATTEMPTS {
-        let tried = resolve(contact, piece);
+        let mut march = March::new(*contact, piece);
+        let followed = march.load(f64::INFINITY).and_then(|()| march.close());
+        let tried = followed.and_then(|()| checks::passed(SolvedContact::new(march), contact));
         match (tried, &best) {
             (Ok(solved), _) => {
-                let excess = excess(solved.estimates(), accuracy);
+                let excess = excess(&solved.estimates, accuracy);
                 if excess <= 1.0 {
                     return Ok(solved);
                 }
@@ -131,17 +133,14 @@ pub fn solve_growing(
             (Err(_), Some(_)) => break,
         }
     }
-    match best {
-        Some((excess, solved)) if excess <= LENIENT => Ok(solved),
-        Some((excess, _)) => Err(MarchError::NotReached {
-            tolerance: accuracy.tolerance,
-            estimate: excess * accuracy.tolerance,
-        }),
-        None => Err(MarchError::NotReached {
-            tolerance: accuracy.tolerance,
-            estimate: f64::INFINITY,
-        }),
-    }
+    let excess = match best {
+        Some((excess, solved)) if excess <= LENIENT => return Ok(solved),
+        other => other.map_or(f64::INFINITY, |(excess, _)| excess),
+    };
+    Err(MarchError::NotReached {
+        tolerance: accuracy.tolerance,
+        estimate: excess * accuracy.tolerance,
+    })
 }
 
 /// The largest estimate over what is asked of it.
@@ -156,14 +155,6 @@ fn excess(estimates: &Estimates, accuracy: &Accuracy) -> f64 {
         estimates.contact() / accuracy.tolerance.max(least),
         f64::max,
     )
-}
-
-/// Solves with pieces that leave an error of `piece` each.
-fn resolve(contact: &GrowingContact<'_>, piece: f64) -> Result<SolvedContact, MarchError> {
-    let mut march = March::new(*contact, piece);
-    let followed = march.load(f64::INFINITY).and_then(|()| march.close());
-    followed.map_err(|time| march.lost(time))?;
-    checks::passed(SolvedContact::new(march), contact)
 }
 
 fn check(contact: &GrowingContact<'_>) -> Result<(), MarchError> {

@@ -12,8 +12,6 @@ pub(crate) struct Nodes {
     pub(crate) degree: usize,
     /// 0 and the nodes.
     pub(crate) places: Vec<f64>,
-    /// Weights of the nodes (not of 0): exact to degree 2 n - 2.
-    pub(crate) weights: Vec<f64>,
     /// Slope at node i (row, from the first node on) from the values at 0 and the nodes.
     slope: Vec<f64>,
     /// Integral from 0 to node i of the polynomial of degree n - 1 through the nodes.
@@ -63,7 +61,6 @@ impl Nodes {
                 }
             }
         }
-        let weights = integral[(n - 1) * n..].to_vec();
         let mut modes = vec![0.0; (n + 1) * (n + 1)];
         for (s, weight) in rule.on(0.0, 1.0) {
             for k in 0..=n {
@@ -79,7 +76,6 @@ impl Nodes {
             modes,
             powers: powers(n),
             places,
-            weights,
             slope,
             integral,
             barycentric,
@@ -92,7 +88,7 @@ impl Nodes {
         &self.slope[(i - 1) * n..i * n]
     }
 
-    /// Weights of the integral from 0 to node i in 1..=n.
+    /// Weights of the integral from 0 to node i in 1..=n; to the last one, exact to degree 2 n - 2.
     pub(crate) fn integral_row(&self, i: usize) -> &[f64] {
         let n = self.degree;
         &self.integral[(i - 1) * n..i * n]
@@ -138,14 +134,11 @@ impl Nodes {
     }
 }
 
-/// Row k: what the Legendre polynomials of degree 0 to n hold of x^k.
+/// Row k: what the Legendre polynomials of degree 0 to n > 0 hold of x^k.
 fn powers(n: usize) -> Vec<f64> {
     let size = n + 1;
     let mut rows = vec![0.0; size * size];
-    rows[0] = 1.0;
-    if n > 0 {
-        rows[size + 1] = 1.0;
-    }
+    (rows[0], rows[size + 1]) = (1.0, 1.0);
     for degree in 2..=n {
         let d = degree as f64;
         for k in 0..=degree {

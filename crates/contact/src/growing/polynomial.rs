@@ -44,9 +44,7 @@ impl Polynomial {
 
     /// Value at s.
     pub(crate) fn value(&self, s: f64) -> f64 {
-        let x = 2.0 * s - 1.0;
-        let powers = &self.powers[..=self.degree];
-        powers.iter().rev().fold(0.0, |sum, c| sum * x + c)
+        self.jet(s).0
     }
 
     /// Values and slopes at some places together.
@@ -82,13 +80,8 @@ impl Polynomial {
 
     /// Value and slope.
     pub(crate) fn jet(&self, s: f64) -> (f64, f64) {
-        let x = 2.0 * s - 1.0;
-        let (mut value, mut slope) = (0.0, 0.0);
-        for c in self.powers[..=self.degree].iter().rev() {
-            slope = slope * x + value;
-            value = value * x + c;
-        }
-        (value, 2.0 * slope)
+        let [value, slope, _] = self.curve(s);
+        (value, slope)
     }
 }
 

@@ -6,7 +6,7 @@ use crate::growing::nodes::Nodes;
 use crate::growing::polynomial::LARGEST;
 use crate::model::Plasticity;
 use crate::numeric::quadrature::{GAUSS_8, gauss, rising_root};
-use crate::plastic::branch::nested;
+use crate::plastic::branch::{Branch, nested};
 use crate::plastic::{Flow, Yielding};
 use crate::summary::{Estimates, Instant, Summary};
 use crate::units::INVERSE_MASS;
@@ -14,15 +14,17 @@ use crate::units::INVERSE_MASS;
 /// A contact whose radius follows the load, in collision units.
 #[derive(Debug, Clone)]
 pub struct SolvedContact {
-    pieces: Vec<Piece>,
+    pub(crate) pieces: Vec<Piece>,
     /// When each piece ends.
     ends: Vec<f64>,
-    summary: Summary,
-    estimates: Estimates,
-    /// What has flowed of a contact that has yielded.
-    flow: Option<Flow>,
-    /// When yield begins and when the indentation turns.
-    breaks: Vec<f64>,
+    /// The results.
+    pub summary: Summary,
+    /// Their estimated errors.
+    pub estimates: Estimates,
+    /// What has flowed, where the contact has yielded.
+    pub flow: Option<Flow>,
+    /// When the rate of the force jumps within the contact: the onset of yield and the turning point of one that yields.
+    pub kinks: Vec<f64>,
     /// Work on the waves until each piece, over the kinetic energy.
     radiated: Vec<f64>,
 }
@@ -42,13 +44,7 @@ const FORCE: f64 = 2.0;
 
 impl SolvedContact {
     pub(crate) fn new(march: March<'_>) -> Self {
-        let March {
-            pieces,
-            state,
-            dissipated,
-            errors,
-            ..
-        } = march;
+        let (pieces, state) = (march.pieces, march.state);
         let (widest, peak_force_time) = largest(&pieces, |p, s| p.radius.curve(s));
         let (peak_displacement, _) = largest(&pieces, |p, s| p.displacement.curve(s));
         let late = pieces
@@ -60,7 +56,7 @@ impl SolvedContact {
             let [a, a1, a2] = piece.radius.curve(place);
             [d - a * a, d1 - 2.0 * a * a1, d2 - 2.0 * (a1 * a1 + a * a2)]
         });
-        let work = 2.0 * INVERSE_MASS * dissipated;
+        let work = 2.0 * INVERSE_MASS * march.dissipated;
         let momentum = (1.0 - state.velocity) * (1.0 + state.velocity);
         let (restitution, loss) = if work < SMALL_LOSS {
             ((1.0 - work).sqrt().copysign(-state.velocity), work)
@@ -77,14 +73,29 @@ impl SolvedContact {
             impulse: (1.0 - state.velocity) / INVERSE_MASS,
             ..Summary::rebound(restitution)
         };
-        let estimates = estimates(&summary, &errors, (work - momentum).abs());
+        Self::of(pieces, summary, &march.errors, (work - momentum).abs())
+    }
+
+    /// With the difference of two routes to the loss.
+    fn of(pieces: Vec<Piece>, summary: Summary, errors: &Errors, energy: f64) -> Self {
+        let estimates = Estimates {
+            peak_force: PEAK_FORCE * (errors.force + errors.momentum) / summary.peak_force,
+            peak_force_time: PEAK_FORCE_TIME * (errors.force + errors.momentum),
+            contact_time: CONTACT_TIME * (errors.end + 0.1 * errors.momentum)
+                / summary.contact_time,
+            restitution: RESTITUTION * (errors.momentum + energy),
+            loss: LOSS * (errors.work / summary.loss + energy),
+            peak_displacement: DISPLACEMENT * errors.momentum / summary.peak_displacement,
+            peak_deflection: DEFLECTION * errors.force / summary.peak_deflection,
+            force: FORCE * errors.force / summary.peak_force,
+        };
         Self {
-            summary,
             ends: pieces.iter().map(|piece| piece.to.0).collect(),
             pieces,
+            summary,
             estimates,
             flow: None,
-            breaks: Vec::new(),
+            kinks: Vec::new(),
             radiated: Vec::new(),
         }
     }
@@ -93,15 +104,15 @@ impl SolvedContact {
     pub(crate) fn yielded(
         march: March<'_>,
         yielding: &Yielding,
-        [top, onset, turn]: [f64; 3],
+        top: f64,
+        times: [f64; 2],
     ) -> Self {
         let (mut pieces, contact_time) = (march.pieces, march.state.time);
         let nodes = Nodes::of(LARGEST);
         for piece in pieces.iter_mut().filter(|piece| piece.force.is_none()) {
             let force = |&s: &f64| {
-                piece
-                    .law
-                    .pressed(piece.radius.value(s), piece.velocity.value(s))
+                let here = piece.law.branch.at(piece.radius.value(s).max(0.0));
+                here.force + piece.law.damping(&here) * piece.velocity.value(s)
             };
             let values: Vec<f64> = nodes.places.iter().map(force).collect();
             piece.force = Some(nodes.polynomial(&values));
@@ -132,26 +143,11 @@ impl SolvedContact {
             ..Summary::rebound(-march.state.velocity)
         };
         Self {
-            estimates: estimates(&summary, &march.errors, 0.0),
-            ends: pieces.iter().map(|piece| piece.to.0).collect(),
-            pieces,
-            summary,
             flow: Some(Flow::new(yielding, top, [flowed, lost])),
-            breaks: vec![onset, turn],
+            kinks: times.to_vec(),
             radiated,
+            ..Self::of(pieces, summary, &march.errors, 0.0)
         }
-    }
-
-    /// What has flowed, where the contact has yielded.
-    #[must_use]
-    pub fn flow(&self) -> Option<&Flow> {
-        self.flow.as_ref()
-    }
-
-    /// When the rate of the force jumps within the contact: the onset of yield and the turning point of one that yields.
-    #[must_use]
-    pub fn kinks(&self) -> &[f64] {
-        &self.breaks
     }
 
     /// Stored energy, plastic work and work on the waves until a time, over the kinetic energy before; nothing of a contact
@@ -167,23 +163,16 @@ impl SolvedContact {
         let piece = self.pieces.get(index)?;
         let place = place_of(piece, time);
         let radius = piece.radius.value(place).max(0.0);
-        let turned = self.turned(time);
-        let (back, from) = if turned {
-            (piece.law.branch, radius)
+        let stored = |branch: Branch, from| 2.0 * INVERSE_MASS * branch.given_back(from);
+        let (stored, flowed) = if self.turned(time) {
+            (stored(piece.law.branch, radius), flow.plastic_work)
         } else {
-            yielding.unloading(radius)
+            let (back, from) = yielding.unloading(radius);
+            let stored = stored(back, from);
+            (stored, 2.0 * INVERSE_MASS * yielding.work(radius) - stored)
         };
-        let stored = 2.0 * INVERSE_MASS * back.given_back(from);
-        let flowed = if turned {
-            flow.plastic_work
-        } else {
-            2.0 * INVERSE_MASS * yielding.work(radius) - stored
-        };
-        Some([
-            stored,
-            flowed.max(0.0),
-            self.radiated[index] + work_of(piece, place),
-        ])
+        let radiated = self.radiated[index] + work_of(piece, place);
+        Some([stored, flowed.max(0.0), radiated])
     }
 
     /// Hertz's pressures that stand for the one at a time, where that is known, as under `recovery`: part of the force and
@@ -195,13 +184,10 @@ impl SolvedContact {
         let flow = (self.flow.as_ref()).filter(|one| one.yielding.law == Plasticity::Recovery)?;
         let (piece, place) = self.place(time)?;
         let (radius, slope) = piece.radius.jet(place);
+        let (edge, turned) = (flow.yielding.edge(), self.turned(time));
         let at = |radius: f64| {
-            let top = if self.turned(time) {
-                flow.radius
-            } else {
-                radius
-            };
-            nested(flow.yielding.edge(), top, radius)
+            let top = if turned { flow.radius } else { radius };
+            nested(edge, top, radius)
         };
         let [less, here, more] = [1.0 - APART, 1.0, 1.0 + APART].map(|part| at(part * radius));
         let per = slope / (piece.time.jet(place).1 * 2.0 * APART * radius);
@@ -214,29 +200,13 @@ impl SolvedContact {
 
     /// Whether the indentation of a contact that has yielded has turned.
     fn turned(&self, time: f64) -> bool {
-        self.breaks.last().is_some_and(|&turn| time >= turn)
-    }
-
-    /// The results.
-    #[must_use]
-    pub fn summary(&self) -> &Summary {
-        &self.summary
-    }
-
-    /// Their estimated errors.
-    #[must_use]
-    pub fn estimates(&self) -> &Estimates {
-        &self.estimates
+        self.kinks.last().is_some_and(|&turn| time >= turn)
     }
 
     /// Number of polynomial pieces.
     #[must_use]
     pub fn pieces(&self) -> usize {
         self.pieces.len()
-    }
-
-    pub(crate) fn all_pieces(&self) -> &[Piece] {
-        &self.pieces
     }
 
     /// Contact radius at a time over that at Hertz's largest approach; zero outside the contact.
@@ -281,13 +251,6 @@ impl SolvedContact {
     /// The state at any time from the touch on; the deflection is not followed after the contact.
     #[must_use]
     pub fn state(&self, time: f64) -> Instant {
-        let [force, rate, second_rate] = self.force(time);
-        let moved = Instant {
-            force,
-            rate,
-            second_rate,
-            ..Instant::default()
-        };
         let end = self.summary.contact_time;
         let Some((piece, place)) = self.place(time.max(0.0)).filter(|_| time < end) else {
             let velocity = -self.summary.restitution;
@@ -296,14 +259,17 @@ impl SolvedContact {
             return Instant {
                 displacement: left + velocity * (time - end),
                 velocity,
-                ..moved
+                ..Instant::default()
             };
         };
+        let [force, rate, second_rate] = self.force(time);
         Instant {
+            force,
+            rate,
+            second_rate,
             displacement: piece.displacement.value(place),
             velocity: piece.velocity.value(place),
             deflection: deflected(piece, place),
-            ..moved
         }
     }
 }
@@ -342,19 +308,6 @@ pub(crate) fn place_of(piece: &Piece, time: f64) -> f64 {
         (value - time, slope)
     };
     rising_root(late, [0.0, 1.0], start, 1e-14)[1]
-}
-
-fn estimates(summary: &Summary, errors: &Errors, energy: f64) -> Estimates {
-    Estimates {
-        peak_force: PEAK_FORCE * (errors.force + errors.momentum) / summary.peak_force,
-        peak_force_time: PEAK_FORCE_TIME * (errors.force + errors.momentum),
-        contact_time: CONTACT_TIME * (errors.end + 0.1 * errors.momentum) / summary.contact_time,
-        restitution: RESTITUTION * (errors.momentum + energy),
-        loss: LOSS * (errors.work / summary.loss + energy),
-        peak_displacement: DISPLACEMENT * errors.momentum / summary.peak_displacement,
-        peak_deflection: DEFLECTION * errors.force / summary.peak_deflection,
-        force: FORCE * errors.force / summary.peak_force,
-    }
 }
 
 /// Parts of a piece in which an extremum is looked for.

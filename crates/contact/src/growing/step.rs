@@ -139,13 +139,14 @@ impl Equations<'_> {
     fn solution(&self, sought: &[f64; SIZE], motion: &Motion, waves: f64) -> Solution {
         let nodes = self.nodes;
         let n = nodes.degree;
+        let weights = nodes.integral_row(n);
         let mut travel = [0.0; LARGEST];
         let mut dissipated = 0.0;
         for j in 1..=n {
             travel[j - 1] = motion.velocity[j] * motion.time_slope[j];
             let here = &motion.local[j - 1];
             let lag = travel[j - 1] - here.depth_slope * motion.radius_slope[j];
-            dissipated += nodes.weights[j - 1] * here.force * lag;
+            dissipated += weights[j - 1] * here.force * lag;
         }
         let mut displacement = [self.start.displacement; SIZE];
         for (i, place) in displacement.iter_mut().enumerate().take(n + 1).skip(1) {

@@ -24,37 +24,21 @@ const SIZES: [usize; 12] = [3, 5, 8, 12, 18, 26, 38, 56, 80, 112, 156, 220];
 /// Rules that there are.
 pub(crate) const LEVELS: usize = SIZES.len();
 
-/// The waves under a flat punch.
-#[derive(Debug, Clone)]
+/// The waves under a flat punch; by default none, as of a half-space that answers at once.
+#[derive(Debug, Clone, Default)]
 pub struct PunchWaves {
     /// Largest delay 2/c in a/c1.
     memory: f64,
     /// int (X/memory)^n dmu, n = 0 to 3.
     moments: [f64; 4],
-    rules: [OnceLock<Rule>; LEVELS],
+    /// Of each level the delays X in a/c1, ascending, and the mass over the delay of each.
+    rules: [OnceLock<Vec<(f64, f64)>>; LEVELS],
     /// Slownesses over the largest, ascending, and their masses; none between two ratios.
     points: Vec<(f64, f64)>,
     /// Sums over the points before each of mass times X, mass, and mass over X, X in the memory.
     sums: Vec<[f64; 3]>,
     /// The waves of two neighbouring ratios and the place between them, where everything is interpolated.
     neighbours: Option<(Arc<PunchWaves>, Arc<PunchWaves>, f64)>,
-}
-
-/// None: a half-space that answers at once.
-pub(crate) static NO_WAVES: PunchWaves = PunchWaves {
-    memory: 0.0,
-    moments: [0.0; 4],
-    rules: [const { OnceLock::new() }; LEVELS],
-    points: Vec::new(),
-    sums: Vec::new(),
-    neighbours: None,
-};
-
-/// A rule for the measure: delays X in a/c1, ascending, and the mass over the delay of each.
-#[derive(Debug, Clone, Default)]
-pub(crate) struct Rule {
-    pub(crate) delays: Vec<f64>,
-    pub(crate) rates: Vec<f64>,
 }
 
 impl PunchWaves {
@@ -103,9 +87,8 @@ impl PunchWaves {
             moments: std::array::from_fn(|n| moment(&points, n as i32)),
             points,
             sums,
-            neighbours: None,
             memory: 2.0 / c,
-            rules: Default::default(),
+            ..Self::default()
         }
     }
 
@@ -119,10 +102,8 @@ impl PunchWaves {
             moments: std::array::from_fn(|n| mix(near.moments[n], far.moments[n])),
             // the slowness of Rayleigh's wave grows without bound toward a ratio of one half, its speed is smooth
             memory: 1.0 / mix(1.0 / near.memory, 1.0 / far.memory),
-            rules: Default::default(),
-            points: Vec::new(),
-            sums: Vec::new(),
             neighbours: Some((near, far, fraction)),
+            ..Self::default()
         }
     }
 
@@ -177,20 +158,28 @@ impl PunchWaves {
         }
     }
 
-    /// The rule of a level; made when it is first asked for.
-    pub(crate) fn rule(&self, level: usize) -> &Rule {
+    /// The rule of a level, delays and rates; made when it is first asked for.
+    pub(crate) fn rule(&self, level: usize) -> &[(f64, f64)] {
         let level = level.min(LEVELS - 1);
         self.rules[level].get_or_init(|| match &self.neighbours {
-            None if self.points.is_empty() => Rule::default(),
+            None if self.points.is_empty() => Vec::new(),
             None => {
-                let (nodes, masses) = gauss_rule(&self.points, SIZES[level]);
-                let delays: Vec<f64> = nodes.iter().map(|x| x * self.memory).collect();
-                let rates = masses.iter().zip(&delays).map(|(m, x)| m / x).collect();
-                Rule { delays, rates }
+                let rule = gauss_rule(&self.points, SIZES[level]).into_iter();
+                rule.map(|(x, mass)| (x * self.memory, mass / (x * self.memory)))
+                    .collect()
             }
             Some((near, far, fraction)) => {
-                let one = |waves: &Self| waves.rule(level).scaled(1.0 / waves.memory);
-                one(near).between(&one(far), *fraction).scaled(self.memory)
+                // delays over the memory, and rates by it
+                let scaled = |(x, rate): (f64, f64), unit: f64| (unit * x, rate / unit);
+                let (to_near, to_far) = (1.0 / near.memory, 1.0 / far.memory);
+                let mix = |a: f64, b: f64| a + fraction * (b - a);
+                let pairs = near.rule(level).iter().zip(far.rule(level));
+                pairs
+                    .map(|(&a, &b)| {
+                        let (a, b) = (scaled(a, to_near), scaled(b, to_far));
+                        scaled((mix(a.0, b.0), mix(a.1, b.1)), self.memory)
+                    })
+                    .collect()
             }
         })
     }
@@ -205,27 +194,6 @@ pub struct GrowingContact<'a> {
     pub target_share: f64,
     /// tau = a/c1 in collision times, a = sqrt(R alpha) the contact radius at Hertz's largest approach; positive.
     pub wave_time: f64,
-}
-
-impl Rule {
-    /// The same in a unit of time that is shorter by a factor.
-    fn scaled(&self, factor: f64) -> Self {
-        Self {
-            delays: self.delays.iter().map(|x| factor * x).collect(),
-            rates: self.rates.iter().map(|x| x / factor).collect(),
-        }
-    }
-
-    fn between(&self, other: &Self, fraction: f64) -> Self {
-        let mix = |a: &[f64], b: &[f64]| {
-            let pairs = a.iter().zip(b);
-            pairs.map(|(a, b)| a + fraction * (b - a)).collect()
-        };
-        Self {
-            delays: mix(&self.delays, &other.delays),
-            rates: mix(&self.rates, &other.rates),
-        }
-    }
 }
 
 /// int x^n over points and their masses.
@@ -325,8 +293,7 @@ mod tests {
         for (level, &size) in SIZES.iter().enumerate() {
             let rule = waves.rule(level);
             for power in (0..2 * size as i32).step_by(1 + level) {
-                let parts = rule.delays.iter().zip(&rule.rates);
-                let sum: f64 = parts
+                let sum: f64 = (rule.iter())
                     .map(|(x, rate)| rate * x * (x / waves.memory).powi(power))
                     .sum();
                 let exact = waves.moment(power) / waves.memory.powi(power);

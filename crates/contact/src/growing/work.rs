@@ -25,11 +25,6 @@ const SAMPLES: [usize; 2] = [48, 192];
 const LEVELS: [usize; 2] = [1, 3];
 const COARSE: f64 = 1e-5;
 
-/// Part of the duration at a part of the angle.
-fn time_part(part: f64) -> f64 {
-    (0.5 * PI * part).sin().powi(2)
-}
-
 /// Work of a contact that was solved on the half-space, relative to the kinetic energy before, by superposition of the
 /// punches that carry its load: independent of the striker's momentum.
 ///
@@ -44,8 +39,8 @@ pub fn work_on_half_space(
     let choice = usize::from(tolerance < COARSE);
     let (samples, rule) = (SAMPLES[choice], contact.waves.rule(LEVELS[choice]));
     let points = [&GAUSS_4[..], &GAUSS_8[..]][choice];
-    let duration = solved.summary().contact_time;
-    let time_of = |i: usize| duration * time_part(i as f64 / samples as f64);
+    let duration = solved.summary.contact_time;
+    let time_of = |i: usize| duration * (0.5 * PI * (i as f64 / samples as f64)).sin().powi(2);
     let radii: Vec<f64> = (0..=samples)
         .map(|i| solved.radius(time_of(i).min(duration)))
         .collect();
@@ -67,9 +62,8 @@ pub fn work_on_half_space(
             let reach = (duration - time) / crossing.max(f64::MIN_POSITIVE);
             let more = |x: f64| force_at(time + crossing * x) - force;
             // a wave of delay X passes at any time up to it alike; after the contact there is no force
-            let waves = rule.delays.iter().zip(&rule.rates);
-            waves
-                .map(|(&delay, rate)| {
+            rule.iter()
+                .map(|&(delay, rate)| {
                     let until = delay.min(reach);
                     let pressed = gauss(points, 0.0, until, more);
                     rate * (pressed - force * (delay - until))

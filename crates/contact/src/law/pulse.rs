@@ -30,8 +30,8 @@ pub(crate) fn pulse(
     results: &Summary,
     step: f64,
 ) -> History {
-    let course = Course::new(&force, depth, step.min(results.contact_time / LEAST_STEPS));
-    let fit = Fit::new(&course, results);
+    let mut course = Course::new(&force, depth, step.min(results.contact_time / LEAST_STEPS));
+    course.fit(results);
     let mut last_instants: Option<[f64; 2]> = None;
     let mut history = History::at_touch(step, (results.contact_time / step) as usize + 3);
     let mut state = [0.0, 1.0];
@@ -47,10 +47,10 @@ pub(crate) fn pulse(
             if let Some([size, power]) = last_instants {
                 return size * (results.contact_time - time).max(0.0).powf(power);
             }
-            let to = fit.place(time);
+            let to = course.place(time);
             state = advance(&force, state, to - place, place == 0.0);
             place = to;
-            let p = (fit.scale(to) * force(state[0], state[1])).max(0.0);
+            let p = (course.scale(to) * force(state[0], state[1])).max(0.0);
             if state[1] < 0.0 && state[0] < LAYERS * depth {
                 last_instants = Some(tail([known, (time, p)], results.contact_time));
             }
@@ -102,19 +102,18 @@ const LEAST_STEPS: f64 = 1000.0;
 /// Steps after which a contact without an end is given up.
 const MOST_STEPS: usize = 1_000_000;
 
-/// What a law gives without being fitted.
+/// What a law gives, and how it is stretched and scaled.
 pub(crate) struct Course {
     step: f64,
     /// Force at multiples of the step, up to the last before the end.
     force: Vec<f64>,
     pub(crate) peak_force: f64,
     pub(crate) peak_force_time: f64,
-    contact_time: f64,
-    #[cfg(test)]
-    pub(crate) peak_displacement: f64,
-    /// Velocity at the end.
-    #[cfg(test)]
-    pub(crate) velocity: f64,
+    pub(crate) contact_time: f64,
+    /// A and B of the fit.
+    stretch: [f64; 2],
+    /// s, k and m.
+    scale: [f64; 3],
 }
 
 impl Course {
@@ -122,8 +121,6 @@ impl Course {
     pub(crate) fn new(force: &impl Fn(f64, f64) -> f64, depth: f64, step: f64) -> Self {
         let mut state = [0.0, 1.0];
         let mut forces = vec![0.0];
-        #[cfg(test)]
-        let mut displacements = vec![0.0];
         let inside = |[d, v]: [f64; 2]| d > depth && (depth > 0.0 || force(d, v) > 0.0);
         loop {
             let next = advance(force, state, step, forces.len() == 1);
@@ -134,8 +131,6 @@ impl Course {
             }
             state = next;
             forces.push(force(state[0], state[1]).max(0.0));
-            #[cfg(test)]
-            displacements.push(state[0]);
         }
         let (mut low, mut high) = (0.0, step);
         for _ in 0..50 {
@@ -152,17 +147,20 @@ impl Course {
             contact_time: (forces.len() - 1) as f64 * step + low,
             peak_force,
             peak_force_time: place * step,
-            #[cfg(test)]
-            peak_displacement: peak(&displacements).1,
-            #[cfg(test)]
-            velocity: advance(force, state, low, false)[1],
             force: forces,
+            stretch: [1.0, 0.0],
+            scale: [1.0, 0.0, 0.0],
         }
     }
 }
 
 /// One step of the classical rule; the first, where the force starts like a root, in doublings.
-fn advance(force: &impl Fn(f64, f64) -> f64, state: [f64; 2], step: f64, first: bool) -> [f64; 2] {
+pub(crate) fn advance(
+    force: &impl Fn(f64, f64) -> f64,
+    state: [f64; 2],
+    step: f64,
+    first: bool,
+) -> [f64; 2] {
     let rate = |d: f64, v: f64| {
         let pressed = if d > 0.0 { force(d, v).max(0.0) } else { 0.0 };
         (v, -INVERSE_MASS * pressed)
@@ -187,31 +185,17 @@ fn advance(force: &impl Fn(f64, f64) -> f64, state: [f64; 2], step: f64, first: 
 
 const DOUBLINGS: i32 = 14;
 
-/// How a course is stretched and scaled.
-struct Fit {
-    /// A and B.
-    stretch: [f64; 2],
-    /// s, k and m.
-    scale: [f64; 3],
-    peak: f64,
-    end: f64,
-}
-
-impl Fit {
-    fn new(course: &Course, results: &Summary) -> Self {
-        let (peak, end) = (course.peak_force_time, course.contact_time);
+impl Course {
+    /// Stretched and scaled to what its results are.
+    fn fit(&mut self, results: &Summary) {
+        let (peak, end) = (self.peak_force_time, self.contact_time);
         let rates = [peak / results.peak_force_time, end / results.contact_time];
         let bend = (rates[1] - rates[0]) / (results.contact_time - results.peak_force_time);
-        let mut fit = Self {
-            stretch: [rates[0] - bend * results.peak_force_time, bend],
-            scale: [results.peak_force / course.peak_force, 0.0, 0.0],
-            peak,
-            end,
-        };
+        self.stretch = [rates[0] - bend * results.peak_force_time, bend];
+        self.scale[0] = results.peak_force / self.peak_force;
         for _ in 0..ITERATIONS {
-            fit.improve(course, results);
+            self.improve(results);
         }
-        fit
     }
 
     /// Place in the course at a time.
@@ -219,7 +203,7 @@ impl Fit {
         time * (self.stretch[0] + self.stretch[1] * time)
     }
 
-    /// Time at a place of the course.
+    /// Time at a place of the self.
     fn time(&self, place: f64) -> f64 {
         let [a, b] = self.stretch;
         2.0 * place / (a + (a * a + 4.0 * b * place).max(0.0).sqrt())
@@ -227,40 +211,40 @@ impl Fit {
 
     fn scale(&self, place: f64) -> f64 {
         let [s, k, m] = self.scale;
-        let x = (place - self.peak) / self.end;
+        let x = (place - self.peak_force_time) / self.contact_time;
         s * (1.0 + x * x * (k + m * x))
     }
 
     /// Newton's step for k and m: impulse and largest displacement.
-    fn improve(&mut self, course: &Course, results: &Summary) {
+    fn improve(&mut self, results: &Summary) {
         // the force over the course, with its derivatives by k and m
-        let pressed: Vec<[f64; 4]> = (0..course.force.len())
+        let pressed: Vec<[f64; 4]> = (0..self.force.len())
             .map(|i| {
-                let place = i as f64 * course.step;
-                let x = (place - self.peak) / self.end;
-                let p = self.scale[0] * course.force[i] * self.time_rate(place);
+                let place = i as f64 * self.step;
+                let x = (place - self.peak_force_time) / self.contact_time;
+                let p = self.scale[0] * self.force[i] * self.time_rate(place);
                 let shape = 1.0 + x * x * (self.scale[1] + self.scale[2] * x);
                 [p * shape, p * x * x, p * x * x * x, self.time(place)]
             })
             .collect();
         // trapezoids miss nothing where the force starts and ends with the power 3/2, but for the last cell
-        let rest = self.end - (pressed.len() - 1) as f64 * course.step;
+        let rest = self.contact_time - (pressed.len() - 1) as f64 * self.step;
         let last = pressed[pressed.len() - 1];
         let impulse: [f64; 3] = std::array::from_fn(|j| {
             let sum: f64 = pressed.iter().map(|p| p[j]).sum();
-            course.step * (sum - 0.5 * last[j]) + 0.4 * rest * last[j]
+            self.step * (sum - 0.5 * last[j]) + 0.4 * rest * last[j]
         });
-        let Some(turn) = self.turn(course, &pressed) else {
+        let Some(turn) = self.turn(&pressed) else {
             return;
         };
-        let (turn_time, before) = (self.time(turn), (turn / course.step) as usize);
+        let (turn_time, before) = (self.time(turn), (turn / self.step) as usize);
         let pushed: [f64; 3] = std::array::from_fn(|j| {
             let lever = |i: usize| (turn_time - pressed[i][3]) * pressed[i][j];
             let sum: f64 = (1..before).map(lever).sum();
-            let slope = (lever(before + 1) - lever(before - 1)) / (2.0 * course.step);
-            let width = turn - before as f64 * course.step;
+            let slope = (lever(before + 1) - lever(before - 1)) / (2.0 * self.step);
+            let width = turn - before as f64 * self.step;
             let end = -pressed[before][j] * self.time_rate(turn);
-            course.step * (sum + 0.5 * lever(before) - course.step / 12.0 * slope)
+            self.step * (sum + 0.5 * lever(before) - self.step / 12.0 * slope)
                 + width * (0.5 * lever(before) + width / 12.0 * (slope - end))
         });
         let travel = turn_time - INVERSE_MASS * pushed[0];
@@ -276,12 +260,12 @@ impl Fit {
     }
 
     /// Where the striker turns, in the course; nothing where it does not before the last cells.
-    fn turn(&self, course: &Course, pressed: &[[f64; 4]]) -> Option<f64> {
+    fn turn(&self, pressed: &[[f64; 4]]) -> Option<f64> {
         let mut velocity = 1.0;
         for i in 1..pressed.len().checked_sub(1)? {
-            let change = 0.5 * INVERSE_MASS * course.step * (pressed[i - 1][0] + pressed[i][0]);
+            let change = 0.5 * INVERSE_MASS * self.step * (pressed[i - 1][0] + pressed[i][0]);
             if velocity <= change {
-                return Some((i as f64 - 1.0 + velocity / change) * course.step);
+                return Some((i as f64 - 1.0 + velocity / change) * self.step);
             }
             velocity -= change;
         }
@@ -354,6 +338,16 @@ mod tests {
         }
     }
 
+    /// Velocity at the end of a contact, by its momentum.
+    fn velocity(course: &Course) -> f64 {
+        let (last, sum) = (
+            course.force.last().unwrap(),
+            course.force.iter().sum::<f64>(),
+        );
+        let rest = course.contact_time - (course.force.len() - 1) as f64 * course.step;
+        1.0 - INVERSE_MASS * (course.step * (sum - 0.5 * last) + 0.4 * rest * last)
+    }
+
     #[test]
     fn the_closed_form_is_the_limit_of_the_damped_contact() {
         for lag in [1e-3, 3e-3] {
@@ -361,7 +355,7 @@ mod tests {
             let damped = Course::new(&damped_force(0.0, lag), 0.0, 1e-3);
             assert!((damped.peak_force - law.peak_force).abs() < 7.0 * lag * lag);
             assert!((damped.peak_force_time - law.peak_force_time).abs() < 7.0 * lag * lag);
-            assert!((damped.velocity + law.restitution).abs() < 7.0 * lag * lag);
+            assert!((velocity(&damped) + law.restitution).abs() < 7.0 * lag * lag);
         }
     }
 
@@ -373,7 +367,7 @@ mod tests {
                 let damped = Course::new(&damped_force(coupling, lag), 0.0, 1e-3);
                 assert!((damped.peak_force - law.peak_force).abs() < 7.0 * lag * lag);
                 assert!((damped.peak_force_time - law.peak_force_time).abs() < 7.0 * lag * lag);
-                assert!((damped.velocity + law.restitution).abs() < 7.0 * lag * lag);
+                assert!((velocity(&damped) + law.restitution).abs() < 7.0 * lag * lag);
             }
         }
     }

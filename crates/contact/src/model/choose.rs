@@ -78,20 +78,6 @@ pub struct Groups {
     pub memory: f64,
 }
 
-/// The rung chosen and why.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Chosen {
-    /// The rung.
-    pub rung: Rung,
-    /// Estimated relative error of that rung; zero for full memory, whose error is its step's.
-    pub error: f64,
-    /// What radiation changes, l/2.
-    pub radiation: f64,
-    /// What the best rung without memory leaves out: the largest relative error of peak force, contact time, restitution and
-    /// displacement, and that of the loss 1 - e^2.
-    pub left_out: [f64; 2],
-}
-
 /// What the dashpot of a yielding contact leaves out over c^2, of its loss over c.
 ///
 /// The first bounds what was found on 80 random pairs of metals at 1.05 to 300 times the velocity of yield, 8.7 at most and
@@ -112,7 +98,8 @@ impl Groups {
         }
     }
 
-    /// What the first order of radiation leaves out, as of [`Chosen::left_out`].
+    /// What the first order of radiation leaves out: the largest relative error of peak force, contact time, restitution and
+    /// displacement, and that of the loss 1 - e^2.
     #[must_use]
     pub fn beyond_radiation(&self) -> [f64; 2] {
         let (l, t) = (self.first_order_loss(), self.memory);
@@ -150,40 +137,22 @@ impl Groups {
         }
     }
 
-    /// The cheapest rung that meets the accuracy asked for.
+    /// The cheapest rung that meets the accuracy asked for, and its estimated relative error; zero for full memory, whose
+    /// error is its step's.
     #[must_use]
-    pub fn choose(&self, accuracy: &Accuracy) -> Chosen {
-        let radiation = 0.5 * self.first_order_loss();
+    pub fn choose(&self, accuracy: &Accuracy) -> (Rung, f64) {
         let [first_order, _] = self.beyond_radiation();
-        let (radiating, left_out) = self.without_memory();
-        let choice = |rung, error| Chosen {
-            rung,
-            error,
-            radiation,
-            left_out,
-        };
-        let quasi_static = radiation + first_order;
+        let quasi_static = 0.5 * self.first_order_loss() + first_order;
         if accuracy.loss.is_none() && quasi_static <= accuracy.tolerance {
-            return choice(Rung::QuasiStatic, quasi_static);
+            return (Rung::QuasiStatic, quasi_static);
         }
-        let loss_is_met = accuracy.loss.is_none_or(|asked| left_out[1] <= asked);
-        if left_out[0] <= accuracy.tolerance && loss_is_met {
-            return choice(radiating, left_out[0]);
+        let (radiating, [left_out, of_loss]) = self.without_memory();
+        let loss_is_met = accuracy.loss.is_none_or(|asked| of_loss <= asked);
+        if left_out <= accuracy.tolerance && loss_is_met {
+            return (radiating, left_out);
         }
-        choice(Rung::FullMemory, 0.0)
+        (Rung::FullMemory, 0.0)
     }
-}
-
-/// The choice for a contact that follows the load, from its lag and its memory in collision units.
-#[must_use]
-pub fn choose(lag: f64, memory: f64, tolerance: f64, loss_tolerance: Option<f64>) -> Chosen {
-    let groups = Groups {
-        family: Family::Growing,
-        coupling: 0.0,
-        lag,
-        memory,
-    };
-    groups.choose(&Accuracy::of_contact(tolerance, loss_tolerance))
 }
 
 /// First-order loss 1 - e^2 up to which the radiation models are used: half of the energy.
@@ -196,7 +165,7 @@ pub struct Plan {
     pub model: Model,
     /// Groups of the family that the scene states.
     pub groups: Groups,
-    pub(crate) chosen: Option<Chosen>,
+    pub(crate) chosen: Option<(Rung, f64)>,
 }
 
 /// The model that is asked for or that `auto` chooses.
@@ -214,15 +183,16 @@ pub(crate) fn plan(
     }
     let auto = settings.model == Model::Auto && settings.scheme == Scheme::Implicit;
     let mut chosen = auto.then(|| groups.choose(&accuracy(settings)));
-    if let (Some(chosen), Plasticity::JacksonGreen, true) =
-        (&mut chosen, settings.plasticity, yields)
-        && chosen.rung == Rung::FullMemory
+    if yields
+        && settings.plasticity == Plasticity::JacksonGreen
+        && matches!(chosen, Some((Rung::FullMemory, _)))
     {
         // the fit jumps where it leaves Hertz's law: it has no memory
-        (chosen.rung, chosen.error) = (Rung::AreaDashpot, chosen.left_out[0]);
+        let (rung, [left_out, _]) = groups.without_memory();
+        chosen = Some((rung, left_out));
     }
-    let model = match &chosen {
-        Some(chosen) => groups.family.model(chosen.rung),
+    let model = match chosen {
+        Some((rung, _)) => groups.family.model(rung),
         None if settings.model == Model::Auto => Model::Wave,
         None => settings.model,
     };
@@ -237,14 +207,9 @@ impl Plan {
     /// sigma of the quasi-static spring.
     #[must_use]
     pub fn coupling(&self) -> f64 {
-        let on_springs = matches!(
-            self.model.row(),
-            (Rung::QuasiStatic | Rung::Radiation, true)
-        );
-        if on_springs {
-            self.groups.coupling
-        } else {
-            0.0
+        match self.model.row() {
+            (Rung::QuasiStatic | Rung::Radiation, true) => self.groups.coupling,
+            _ => 0.0,
         }
     }
 
@@ -269,20 +234,14 @@ impl Plan {
         }
         let left_out = self.groups.beyond_radiation()[0].min(1.0);
         let (_, on_disc) = self.model.row();
-        Ok(Found {
-            summary: if on_disc {
-                quasi_static_radiation(coupling, lag)
-            } else {
-                radiation(lag)
-            },
-            // what the next rung adds
-            error: if lag > 0.0 {
-                left_out
-            } else {
-                (0.5 * loss + left_out).min(1.0)
-            },
-            step: None,
-        })
+        let summary = if on_disc {
+            quasi_static_radiation(coupling, lag)
+        } else {
+            radiation(lag)
+        };
+        // what the next rung adds
+        let radiated = if lag > 0.0 { 0.0 } else { 0.5 * loss };
+        Ok(Found::unmarched(summary, (radiated + left_out).min(1.0)))
     }
 
     /// Results of [`Model::AreaDashpot`].
@@ -291,16 +250,12 @@ impl Plan {
     /// [`ContactError::BeyondDashpot`] where the expansion in the memory makes no sense.
     pub(crate) fn dashpot(&self, terms: &AreaDashpot) -> Result<Found, ContactError> {
         let (lag, memory) = (terms.lag, self.groups.memory);
-        let errors = terms.left_out(memory);
+        let errors = left_out(lag, memory);
         let error = errors.contact().max(errors.force);
         if error >= 1.0 {
             return Err(ContactError::BeyondDashpot { lag, memory });
         }
-        Ok(Found {
-            summary: terms.summary(),
-            error,
-            step: None,
-        })
+        Ok(Found::unmarched(terms.summary(), error))
     }
 
     /// Why this model, in words.
@@ -320,11 +275,11 @@ impl Plan {
             Family::Dynamic => "disc_radius_m and the dynamic share",
         };
         let yielding = self.groups.family == Family::Yielding;
-        match &self.chosen {
-            Some(Chosen { error, .. }) if yielding && *error > settings.tolerance => {
+        match self.chosen {
+            Some((_, error)) if yielding && error > settings.tolerance => {
                 format!("{family}; the fit has a dashpot at most, which leaves out {error:.1e}")
             }
-            Some(chosen) => format!("{family}; {}", self.choice(chosen, &accuracy(settings))),
+            Some((rung, _)) => format!("{family}; {}", self.choice(rung, &accuracy(settings))),
             None if settings.model == Model::Auto => {
                 "the explicit scheme marches a fixed disc".to_owned()
             }
@@ -334,15 +289,16 @@ impl Plan {
     }
 
     /// Why `auto` has chosen so, in words.
-    fn choice(&self, chosen: &Chosen, accuracy: &Accuracy) -> String {
-        let (first, tolerance) = (chosen.radiation, accuracy.tolerance);
-        let [second, loss] = chosen.left_out;
+    fn choice(&self, chosen: Rung, accuracy: &Accuracy) -> String {
+        let (first, tolerance) = (0.5 * self.groups.first_order_loss(), accuracy.tolerance);
         let change = format!("radiation changes the results by {first:.1e}");
-        let rung = match self.groups.family {
-            Family::Growing | Family::Yielding => "the area dashpot",
-            Family::Full | Family::Dynamic => "its first order",
+        let (radiating, [second, loss]) = self.groups.without_memory();
+        let rung = if radiating == Rung::AreaDashpot {
+            "the area dashpot"
+        } else {
+            "its first order"
         };
-        match (chosen.rung, accuracy.loss) {
+        match (chosen, accuracy.loss) {
             (Rung::QuasiStatic, _) => {
                 format!("{change}, below the tolerance {tolerance:.1e}: no waves needed")
             }
@@ -390,24 +346,21 @@ fn groups(settings: &Settings, collision: &Collision, response: &impl DiscRespon
     };
     let wave_time = collision.contact_wave_time();
     let lag = collision.lag_of(wave_time, response);
-    if !fixed {
-        return Groups {
-            family: Family::Growing,
-            coupling: 0.0,
-            lag,
-            memory: wave_time * response.punch_memory(),
-        };
-    }
-    let disc = disc_radius_m(settings, collision);
-    let (coupling, wave_time) = collision.disc_groups(response.static_compliance(), disc);
-    let (family, coupling) = match settings.static_share {
-        StaticShare::Full => (Family::Full, coupling),
-        StaticShare::Dynamic => (Family::Dynamic, 0.0),
+    let (family, coupling, memory) = if fixed {
+        let disc = disc_radius_m(settings, collision);
+        let (coupling, wave_time) = collision.disc_groups(response.static_compliance(), disc);
+        let memory = wave_time * response.memory();
+        match settings.static_share {
+            StaticShare::Full => (Family::Full, coupling, memory),
+            StaticShare::Dynamic => (Family::Dynamic, 0.0, memory),
+        }
+    } else {
+        (Family::Growing, 0.0, wave_time * response.punch_memory())
     };
     Groups {
         family,
         coupling,
         lag,
-        memory: wave_time * response.memory(),
+        memory,
     }
 }

@@ -27,7 +27,7 @@ pub(crate) fn radau(n: usize) -> Vec<f64> {
 }
 
 /// Gauss's rule of n nodes for a sum of point masses, ascending: Stieltjes' recurrence and its Jacobi matrix.
-pub(crate) fn gauss_rule(points: &[(f64, f64)], n: usize) -> (Vec<f64>, Vec<f64>) {
+pub(crate) fn gauss_rule(points: &[(f64, f64)], n: usize) -> Vec<(f64, f64)> {
     let total: f64 = points.iter().map(|(_, mass)| mass).sum();
     let (mut diagonal, mut beside) = (vec![], vec![]);
     let mut before = vec![0.0; points.len()];
@@ -60,7 +60,7 @@ pub(crate) fn gauss_rule(points: &[(f64, f64)], n: usize) -> (Vec<f64>, Vec<f64>
         .map(|(&x, z)| (x, total * z * z))
         .collect();
     rule.sort_by(|a, b| a.0.total_cmp(&b.0));
-    rule.into_iter().unzip()
+    rule
 }
 
 /// Eigenvalues (in place of the diagonal) of a symmetric tridiagonal matrix and the first components of
@@ -129,9 +129,8 @@ mod tests {
         let moment =
             |rule: &[(f64, f64)], k: i32| -> f64 { rule.iter().map(|(x, m)| m * x.powi(k)).sum() };
         for n in [1, 2, 3, 8, 20] {
-            let (nodes, masses) = gauss_rule(&points, n);
-            assert!(nodes.is_sorted() && masses.iter().all(|&m| m > 0.0));
-            let rule: Vec<_> = nodes.into_iter().zip(masses).collect();
+            let rule = gauss_rule(&points, n);
+            assert!(rule.is_sorted_by_key(|(x, _)| *x) && rule.iter().all(|(_, m)| *m > 0.0));
             for k in 0..2 * n as i32 {
                 assert!(
                     (moment(&rule, k) / moment(&points, k) - 1.0).abs() < 1e-12,

@@ -78,15 +78,14 @@ pub(crate) struct Local<const N: usize> {
 }
 
 impl<const N: usize> Local<N> {
-    pub(crate) fn new(mut values: [f64; N]) -> Self {
+    pub(crate) fn new(values: [f64; N]) -> Self {
+        let mut differences = values;
         for k in 1..N {
             for i in (k..N).rev() {
-                values[i] = (values[i] - values[i - 1]) / k as f64;
+                differences[i] = (differences[i] - differences[i - 1]) / k as f64;
             }
         }
-        Self {
-            differences: values,
-        }
+        Self { differences }
     }
 
     /// Through `N` samples of `samples` that start at `from`.

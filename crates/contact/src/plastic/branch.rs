@@ -52,24 +52,16 @@ impl Law {
 
     /// Another branch from a radius on.
     pub(crate) fn followed_by(&self, branch: Branch, radius: f64) -> Self {
-        let offset = self.delayed(radius) - branch.delayed(radius);
-        let lag = self.lag;
         Self {
             branch,
-            offset,
-            lag,
+            offset: self.delayed(radius) - branch.delayed(radius),
+            ..*self
         }
     }
 
-    /// What the dashpot adds to the force over the velocity, times the slope of the indentation in the radius.
+    /// What the dashpot adds to the force over the velocity.
     pub(crate) fn damping(&self, here: &Local) -> f64 {
-        self.lag.unwrap_or(0.0) * here.stiffness * here.stiffness * here.depth_slope
-    }
-
-    /// Force at a radius and a velocity.
-    pub(crate) fn pressed(&self, radius: f64, velocity: f64) -> f64 {
-        let here = self.branch.at(radius.max(0.0));
-        here.force + self.lag.unwrap_or(0.0) * here.stiffness * here.stiffness * velocity
+        self.lag.unwrap_or(0.0) * here.stiffness * here.stiffness
     }
 
     /// g = int ds/a from the touch.
@@ -182,31 +174,27 @@ impl Branch {
 
     /// Work that an unloading branch gives back from a radius on, int p du.
     pub(crate) fn given_back(&self, a: f64) -> f64 {
-        match *self {
-            Self::Line { .. } | Self::Fit(_) | Self::Hertzian { .. } => {
-                0.4 * a.powi(5) / self.flatter().powi(2)
-            }
-            Self::Truncated { edge, top } => {
-                let kink = (top * top - edge * edge).max(0.0).sqrt();
-                let part = |turn: f64| {
-                    // smooth in the turn: roots at the kink, and a steep place of the width of y beside it
-                    let q = edge / kink * turn.sinh();
-                    let here = self.at(kink * (1.0 - q * q));
-                    2.0 * edge * q * turn.cosh() * here.force * here.depth_slope
-                };
-                let place = |b: f64| ((1.0 - b / kink).max(0.0).sqrt() * kink / edge).asinh();
-                let curved = if kink > 0.0 {
-                    in_panels(place(a.min(kink)), place(0.0), part)
-                } else {
-                    0.0
-                };
-                if a <= kink {
-                    return curved;
-                }
-                let shift = self.at(kink).force - kink.powi(3);
-                curved + shift * (a * a - kink * kink) + 0.4 * (a.powi(5) - kink.powi(5))
-            }
+        let Self::Truncated { edge, top } = *self else {
+            return 0.4 * a.powi(5) / self.flatter().powi(2);
+        };
+        let kink = (top * top - edge * edge).max(0.0).sqrt();
+        let part = |turn: f64| {
+            // smooth in the turn: roots at the kink, and a steep place of the width of y beside it
+            let q = edge / kink * turn.sinh();
+            let here = self.at(kink * (1.0 - q * q));
+            2.0 * edge * q * turn.cosh() * here.force * here.depth_slope
+        };
+        let place = |b: f64| ((1.0 - b / kink).max(0.0).sqrt() * kink / edge).asinh();
+        let curved = if kink > 0.0 {
+            in_panels(place(a.min(kink)), place(0.0), part)
+        } else {
+            0.0
+        };
+        if a <= kink {
+            return curved;
         }
+        let shift = self.at(kink).force - kink.powi(3);
+        curved + shift * (a * a - kink * kink) + 0.4 * (a.powi(5) - kink.powi(5))
     }
 }
 
@@ -253,20 +241,18 @@ struct Cut {
 impl Cut {
     fn new(edge: f64, top: f64, a: f64) -> Self {
         let kink = (top * top - edge * edge).max(0.0).sqrt();
-        let inside = a < kink;
         let rest = ((kink - a) * (kink + a)).max(0.0).sqrt();
-        let (angle, turns) = if inside {
-            let turns = [(a / kink).asin(), (a * edge).atan2(top * rest)];
-            (edge.atan2(rest), turns)
+        let turns = if a < kink {
+            [(a / kink).asin(), (a * edge).atan2(top * rest)]
         } else {
-            (FRAC_PI_2, [FRAC_PI_2; 2])
+            [FRAC_PI_2; 2]
         };
         Self {
             edge,
             top,
             a,
             kink,
-            angle,
+            angle: edge.atan2(rest),
             turns,
         }
     }

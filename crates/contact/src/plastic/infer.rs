@@ -3,7 +3,6 @@
 //! The unknown is bracketed between the onset of yield and far beyond, and the bracket halved in its logarithm.
 //! The band is what the measure's error makes of it; what the law leaves out is not in it.
 
-use crate::bodies::{HalfSpace, Striker};
 use crate::collision::Collision;
 use crate::error::ContactError;
 use crate::model::{Plasticity, Settings};
@@ -114,111 +113,89 @@ const MOST: f64 = 1000.0;
 /// Halvings of the bracket: to 1e-11 of the unknown.
 const HALVINGS: usize = 40;
 
-/// A contact whose yield pressure or velocity is sought.
-#[derive(Debug, Clone, Copy)]
-pub struct Rebound<'a> {
-    /// The half-space.
-    pub target: &'a HalfSpace,
-    /// The body that strikes.
-    pub striker: &'a Striker,
-    /// Velocity of approach in m/s, where it is known.
-    pub velocity_m_s: f64,
-    /// How the contact is computed.
-    pub settings: &'a Settings,
-    /// What is sought.
-    pub unknown: Unknown,
-    /// What was measured.
-    pub measure: Measure,
-}
-
-impl Rebound<'_> {
-    /// Finds the unknown that gives a measured value, with the band of an absolute error.
-    ///
-    /// # Errors
-    /// [`InferError`].
-    pub fn infer(&self, value: f64, error: f64) -> Result<Inferred, InferError> {
-        let (law, by_velocity) = (self.settings.plasticity, self.unknown == Unknown::Velocity);
-        if law == Plasticity::None || law == Plasticity::JacksonGreen && !by_velocity {
-            let (law, unknown) = (law.name(), self.unknown.name());
-            return Err(InferError::NoLaw { law, unknown });
-        }
-        let start = match self.unknown {
-            Unknown::YieldPressure => self.settings.yield_pressure_pa.unwrap_or(1e9),
-            Unknown::Velocity => self.velocity_m_s,
-        };
-        // s goes with V and with p_y^-2.5
-        let ratio = self.at(start)?.0.plastic.velocity_over_yield.unwrap_or(1.0);
-        let at_ratio = |s: f64| match self.unknown {
-            Unknown::YieldPressure => start * (ratio / s).powf(0.4),
-            Unknown::Velocity => start * s / ratio,
-        };
-        let mut most = MOST;
-        while most > 1.01 && self.at(at_ratio(most)).is_err() {
-            // a velocity that no contact law serves
-            most = most.sqrt();
-        }
-        let bracket = [1.0, most].map(at_ratio);
-        let ends = [self.at(bracket[0])?.1, self.at(bracket[1])?.1];
-        let Some(found) = self.halved(bracket, ends, value)? else {
-            return Err(InferError::Outside {
-                measure: self.measure.name(),
-                value,
-                low: ends[0].min(ends[1]),
-                high: ends[0].max(ends[1]),
-            });
-        };
-        let mut band = [-error, error].map(|off| self.halved(bracket, ends, value + off));
-        // rising with the measure, or falling
-        if (ends[1] > ends[0]) != (bracket[1] > bracket[0]) {
-            band.reverse();
-        }
-        let [low, high] = band;
-        Ok(Inferred {
-            value: found,
-            band: [low?, high?],
-            results: self.at(found)?.0,
-        })
+/// The yield pressure or the velocity of a contact that gives a measured value, with the band of its absolute error.
+///
+/// What is not sought is that of the collision and its settings.
+///
+/// # Errors
+/// [`InferError`].
+pub fn infer(
+    collision: &Collision,
+    settings: &Settings,
+    unknown: Unknown,
+    measure: Measure,
+    [value, error]: [f64; 2],
+) -> Result<Inferred, InferError> {
+    let (law, by_velocity) = (settings.plasticity, unknown == Unknown::Velocity);
+    if law == Plasticity::None || law == Plasticity::JacksonGreen && !by_velocity {
+        let (law, unknown) = (law.name(), unknown.name());
+        return Err(InferError::NoLaw { law, unknown });
     }
-
-    /// The contact with a value of the unknown, and what is measured of it.
-    fn at(&self, x: f64) -> Result<(Results, f64), ContactError> {
-        let (mut settings, mut velocity_m_s) = (*self.settings, self.velocity_m_s);
-        match self.unknown {
+    // the contact with a value of the unknown, and what is measured of it
+    let at = |x: f64| -> Result<(Results, f64), ContactError> {
+        let (mut collision, mut settings) = (*collision, *settings);
+        match unknown {
             Unknown::YieldPressure => settings.yield_pressure_pa = Some(x),
-            Unknown::Velocity => velocity_m_s = x,
+            Unknown::Velocity => collision.velocity_m_s = x,
         }
         let mut solver = Solver::new(&Exact);
-        let collision = Collision::new(self.target, self.striker, velocity_m_s);
         let solved = solver.solve(&collision, &settings)?;
         let radiated = solver.radiated(&collision, &settings, &solved)?;
         let results = Results::new(&collision, &settings, &solved, radiated).checked()?;
-        let measured = match self.measure {
+        let measured = match measure {
             Measure::Restitution => results.restitution,
             Measure::ContactTime => results.contact_time_s,
             Measure::PeakForce => results.peak_force_n,
         };
         Ok((results, measured))
+    };
+    let start = match unknown {
+        Unknown::YieldPressure => settings.yield_pressure_pa.unwrap_or(1e9),
+        Unknown::Velocity => collision.velocity_m_s,
+    };
+    // s goes with V and with p_y^-2.5
+    let ratio = at(start)?.0.plastic.velocity_over_yield.unwrap_or(1.0);
+    let at_ratio = |s: f64| match unknown {
+        Unknown::YieldPressure => start * (ratio / s).powf(0.4),
+        Unknown::Velocity => start * s / ratio,
+    };
+    let mut most = MOST;
+    while most > 1.01 && at(at_ratio(most)).is_err() {
+        // a velocity that no contact law serves
+        most = most.sqrt();
     }
-
-    /// The unknown between two values whose measures are known; nothing outside them.
-    fn halved(
-        &self,
-        bracket: [f64; 2],
-        ends: [f64; 2],
-        value: f64,
-    ) -> Result<Option<f64>, ContactError> {
+    let bracket = [1.0, most].map(at_ratio);
+    let ends = [at(bracket[0])?.1, at(bracket[1])?.1];
+    // nothing outside the bracket
+    let halved = |value: f64| -> Result<Option<f64>, ContactError> {
         if (value - ends[0]) * (value - ends[1]) > 0.0 {
             return Ok(None);
         }
         let [mut near, mut far] = bracket.map(f64::ln);
         for _ in 0..HALVINGS {
             let middle = 0.5 * (near + far);
-            if (self.at(middle.exp())?.1 > value) == (ends[0] > ends[1]) {
+            if (at(middle.exp())?.1 > value) == (ends[0] > ends[1]) {
                 near = middle;
             } else {
                 far = middle;
             }
         }
         Ok(Some((0.5 * (near + far)).exp()))
+    };
+    let found = halved(value)?.ok_or(InferError::Outside {
+        measure: measure.name(),
+        value,
+        low: ends[0].min(ends[1]),
+        high: ends[0].max(ends[1]),
+    })?;
+    let mut band = [halved(value - error)?, halved(value + error)?];
+    // rising with the measure, or falling
+    if (ends[1] > ends[0]) != (bracket[1] > bracket[0]) {
+        band.reverse();
     }
+    Ok(Inferred {
+        value: found,
+        band,
+        results: at(found)?.0,
+    })
 }

@@ -18,9 +18,6 @@ use crate::plastic::Yielding;
 use crate::plastic::branch::Branch;
 use crate::units::INVERSE_MASS;
 
-/// Pieces at most, tried ones included.
-const MOST: usize = 300;
-
 /// First piece of the flow over the time until the striker turns: waves from before the yield arrive with another slope.
 const FIRST: f64 = 0.1;
 
@@ -52,20 +49,12 @@ impl Yielding {
         let [first, second, last] = PIECE;
         (tried(first).or_else(|_| tried(second))).or_else(|_| tried(last))
     }
-
-    /// The contact with a dashpot on its area; nothing where that keeps it from yielding.
-    ///
-    /// # Errors
-    /// [`MarchError::NotFollowed`].
-    pub(crate) fn damped(&self, lag: f64) -> Result<Option<SolvedContact>, MarchError> {
-        March::damped(lag).follow(self)
-    }
 }
 
 impl March<'_> {
     /// Velocity, duration and the largest product of radius and velocity of a contact with a dashpot that opens along a
-    /// branch from rest at radius one.
-    pub(crate) fn from_rest(branch: Branch, lag: f64) -> Option<[f64; 3]> {
+    /// branch from rest at radius one, and what it gives back without a lag.
+    pub(crate) fn from_rest(branch: Branch, lag: f64) -> Option<[f64; 4]> {
         let mut march = Self::damped(lag);
         march.law.branch = branch;
         march.state = State {
@@ -78,21 +67,18 @@ impl March<'_> {
         let pull = |one: &Piece, s: f64| one.radius.value(s) * -one.velocity.value(s);
         let pieces = march.pieces.iter();
         let samples = pieces.flat_map(|one| (0..=64).map(move |i| pull(one, f64::from(i) / 64.0)));
-        let pulled = samples.fold(0.0, f64::max);
-        Some([-march.state.velocity, march.state.time, pulled])
+        let (pulled, stored) = (samples.fold(0.0, f64::max), branch.given_back(1.0));
+        Some([-march.state.velocity, march.state.time, pulled, stored])
     }
 
     /// The whole contact; nothing where waves keep it from yielding.
     ///
     /// # Errors
     /// [`MarchError::NotFollowed`].
-    fn follow(mut self, yielding: &Yielding) -> Result<Option<SolvedContact>, MarchError> {
-        let turned = self.turns(yielding).map_err(|time| self.lost(time))?;
-        Ok(turned.map(|turned| SolvedContact::yielded(self, yielding, turned)))
-    }
-
-    /// Its pieces: its radius and the times of yield and of the turning point.
-    fn turns(&mut self, yielding: &Yielding) -> Result<Option<[f64; 3]>, f64> {
+    pub(crate) fn follow(
+        mut self,
+        yielding: &Yielding,
+    ) -> Result<Option<SolvedContact>, MarchError> {
         let edge = yielding.edge();
         self.load(edge)?;
         if self.state.radius < edge || self.state.slope <= 0.0 {
@@ -106,11 +92,12 @@ impl March<'_> {
         self.law = self.law.followed_by(branch, top);
         self.state.radius = from;
         self.unload()?;
-        Ok(Some([top, onset, turn]))
+        let times = [onset, turn];
+        Ok(Some(SolvedContact::yielded(self, yielding, top, times)))
     }
 
     /// Pieces from where the striker turned until the force is gone.
-    fn unload(&mut self) -> Result<(), f64> {
+    fn unload(&mut self) -> Result<(), MarchError> {
         let mut base = self.state.radius;
         if let Branch::Truncated { edge, top } = self.law.branch {
             // where the pressure was cut the branch has a root
@@ -127,7 +114,7 @@ impl March<'_> {
     /// Pieces in time until the indentation turns.
     ///
     /// Without waves they are polynomials of the root of time, in which the radius is smooth however early it yields.
-    fn flow(&mut self) -> Result<(), f64> {
+    fn flow(&mut self) -> Result<(), MarchError> {
         let (power, first) = match self.law.lag {
             Some(_) => (2, 1.0),
             None => (1, FIRST),
@@ -142,14 +129,14 @@ impl March<'_> {
         let piece = |march: &Self, length: &mut f64| {
             *length = length.min(left(march));
             let given = Polynomial::power(root(march.state.time), *length, power);
-            (given, march.guess(&given), false)
+            Some((given, march.guess(&given), false))
         };
-        self.until(Independent::Time, longest, piece, |_, solution| {
+        self.until(Independent::Time, longest, piece, |_, solution, error| {
             let slowing = |s| {
                 let [_, slope, bend] = solution.piece.radius.curve(s);
                 (-slope, -bend)
             };
-            let turns = solution.end.slope < 0.0;
+            let turns = error <= 1.0 && solution.end.slope < 0.0;
             turns.then(|| rising_root(slowing, [0.0, 1.0], 0.5, 1e-16)[1])
         })?;
         self.state.slope = 0.0;
@@ -161,7 +148,7 @@ impl March<'_> {
 
     /// Pieces in the root of the distance from a radius, down to another one or until it is mostly gone; whether a dashpot's
     /// force was gone before.
-    fn open(&mut self, base: f64, floor: f64) -> Result<bool, f64> {
+    fn open(&mut self, base: f64, floor: f64) -> Result<bool, MarchError> {
         let goal = match self.law.lag {
             Some(_) => floor,
             None => floor.max(LOW * base),
@@ -171,45 +158,17 @@ impl March<'_> {
             let whole = *rise >= to - from;
             *rise = rise.min(to - from);
             let given = Polynomial::power(from, *rise, 2).below(base);
-            (given, march.opening(&given), whole)
+            Some((given, march.opening(&given), whole))
         };
-        let gone = |march: &Self, solution: &Solution| march.released(&solution.piece);
+        let gone = |march: &Self, solution: &Solution, error| {
+            let piece = Some(&solution.piece).filter(|_| error <= 1.0);
+            piece.and_then(|piece| march.released(piece))
+        };
         let ends = self.until(Independent::Radius, f64::INFINITY, piece, gone)?;
         if !ends {
             self.state.radius = goal;
         }
         Ok(ends)
-    }
-
-    /// Pieces of a length, which give what is known, a guess of the rest and whether they are the last, until something
-    /// happens at a place of one: whether it has.
-    fn until(
-        &mut self,
-        known: Independent,
-        mut length: f64,
-        piece: impl Fn(&Self, &mut f64) -> (Polynomial, [f64; SIZE], bool),
-        event: impl Fn(&Self, &Solution) -> Option<f64>,
-    ) -> Result<bool, f64> {
-        let mut ends = false;
-        for _ in 0..MOST {
-            let (given, guess, whole) = piece(self, &mut length);
-            match self.attempt(known, given, &guess) {
-                Some((solution, error)) if error <= 1.0 => {
-                    if let Some(part) = event(self, &solution).filter(|_| !ends) {
-                        (length, ends) = (part * length, true);
-                        continue;
-                    }
-                    self.accept(known, &solution);
-                    if whole || ends {
-                        return Ok(ends);
-                    }
-                    length *= self.factor(error);
-                }
-                failed => length = self.shorter(length, failed.map(|(_, error)| error))?,
-            }
-            ends = false;
-        }
-        Err(self.state.time)
     }
 
     /// Where in a piece the force of a dashpot's contact is gone, if it is.

@@ -55,21 +55,6 @@ impl Yielding {
             .sqrt()
     }
 
-    /// Radius of contact whose square is the indentation, to the one of the law: the fit's is wider.
-    pub(crate) fn true_radius(&self, radius: f64) -> f64 {
-        let over = (radius / self.edge()).max(1.0);
-        radius * self.fit.map_or(1.0, |fit| over.powf(fit.spread))
-    }
-
-    /// Radius of Hertz's pressure with the second moment of the loading's at a radius of contact.
-    pub(crate) fn disc_radius(&self, radius: f64) -> f64 {
-        match self.fit {
-            // of a flat pressure
-            Some(_) => self.true_radius(radius) * 1.25_f64.sqrt(),
-            None => spread(self.edge(), radius),
-        }
-    }
-
     /// Loading beyond that radius.
     pub(crate) fn loading(&self) -> Branch {
         self.fit
@@ -79,17 +64,17 @@ impl Yielding {
     /// Work of the loading up to a radius of contact, int p du.
     pub(crate) fn work(&self, radius: f64) -> f64 {
         let edge = self.edge().min(radius);
-        let loading = self.loading();
-        if let Branch::Line { edge: y } = loading {
-            let [square, low] = [radius * radius, edge * edge];
-            let flat = 0.75 * (square + low) - 0.5 * y * y;
-            return 0.4 * edge.powi(5) + y * flat * (square - low);
-        }
-        let part = |a: f64| {
-            let here = loading.at(a);
-            here.force * here.depth_slope
+        let flow = match self.loading() {
+            Branch::Line { edge: y } => {
+                let [square, low] = [radius * radius, edge * edge];
+                y * (0.75 * (square + low) - 0.5 * y * y) * (square - low)
+            }
+            loading => in_panels(edge, radius, |a| {
+                let here = loading.at(a);
+                here.force * here.depth_slope
+            }),
         };
-        0.4 * edge.powi(5) + in_panels(edge, radius, part)
+        0.4 * edge.powi(5) + flow
     }
 
     /// Unloading from a radius of contact, and the radius with which it begins: the fit's is another one.
@@ -143,15 +128,22 @@ impl Flow {
         radius: f64,
         [plastic_work, radiated]: [f64; 2],
     ) -> Self {
-        let (back, _) = yielding.unloading(radius);
-        let end = back.at(0.0);
+        let end = yielding.unloading(radius).0.at(0.0);
+        let (edge, fit) = (yielding.edge(), yielding.fit);
+        // the root of the indentation is less than the radius of the fit's contact
+        let wider = |fit: Fit| (radius / edge).max(1.0).powf(fit.spread);
+        let contact_radius = radius * fit.map_or(1.0, wider);
         Self {
             plastic_work,
             radiated,
             yielding: *yielding,
             radius,
-            disc_radius: yielding.disc_radius(radius),
-            contact_radius: yielding.true_radius(radius),
+            disc_radius: match fit {
+                // of a flat pressure
+                Some(_) => contact_radius * 1.25_f64.sqrt(),
+                None => spread(edge, radius),
+            },
+            contact_radius,
             peak_indentation: radius * radius,
             residual_indentation: end.depth,
             flatter: 2.0 / end.bends[0],

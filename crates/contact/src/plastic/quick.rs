@@ -191,7 +191,7 @@ fn rise(edge: f64, lag: f64) -> Option<(f64, f64, f64)> {
                 break;
             }
         }
-        for (weight, (x, v)) in rule.weights.iter().zip(x.iter().zip(v)) {
+        for (weight, (x, v)) in rule.integral_row(NODES).iter().zip(x.iter().zip(v)) {
             time += 2.0 * width * weight * x / v;
             lost += width * weight * x * x * x * v;
         }
@@ -224,7 +224,7 @@ fn fall(lag: f64) -> Option<[f64; 4]> {
     static MADE: OnceLock<Option<Series<4>>> = OnceLock::new();
     let made = MADE.get_or_init(|| {
         let lag = |x: f64| 0.5 * LARGEST_LAG * (1.0 + x);
-        let at = |[_, x]: [f64; 2]| from_rest(Branch::HERTZ, lag(x), 1.0);
+        let at = |[_, x]: [f64; 2]| March::from_rest(Branch::HERTZ, lag(x));
         Series::through([1, TERMS], LEAST, at)
     });
     let x = 2.0 * lag / LARGEST_LAG - 1.0;
@@ -239,7 +239,10 @@ fn fall_of_cut(edge: f64, lag: f64) -> Option<[f64; 4]> {
         Series::through(NODES_OF_CUT, LEAST, |[x, y]| {
             let edge = (low + 0.5 * (high - low) * (1.0 + y)).exp().sin();
             let branch = Branch::Truncated { edge, top: 1.0 };
-            from_rest(branch, 0.5 * LARGEST * (1.0 + x), edge)
+            let lag = 0.5 * LARGEST * (1.0 + x);
+            let [speed, duration, pulled, stored] = March::from_rest(branch, lag)?;
+            let root = edge.sqrt();
+            Some([speed / root, duration * root, pulled / root, stored / edge])
         })
     });
     let y = 2.0 * (edge.asin().ln() - low) / (high - low) - 1.0;
@@ -250,11 +253,4 @@ fn fall_of_cut(edge: f64, lag: f64) -> Option<[f64; 4]> {
     let [speed, duration, pulled, stored] = made.as_ref()?.at([x, y]);
     let root = edge.sqrt();
     Some([speed * root, duration / root, pulled * root, stored * edge])
-}
-
-/// What a series is of: results from rest, over the root of a radius at yield.
-fn from_rest(branch: Branch, lag: f64, edge: f64) -> Option<[f64; 4]> {
-    let [speed, duration, pulled] = March::from_rest(branch, lag)?;
-    let (root, stored) = (edge.sqrt(), branch.given_back(1.0));
-    Some([speed / root, duration * root, pulled / root, stored / edge])
 }

@@ -10,7 +10,7 @@ use super::spec::Spec;
 use super::template::{Memory, Templates};
 use crate::error::SceneError;
 use crate::quantities::QUANTITIES;
-use contact::{Choice, Model, Outcomes, Ratios, Tabulated};
+use contact::{Choice, Model, Outcomes, Tabulated};
 use impact::sweep::{Observed, collide_rows, observe_rows, outcomes};
 use ledger::{Journal, Record, gaps};
 use output::{Existing, Fault};
@@ -129,15 +129,14 @@ struct Computer<'a> {
 
 impl<'a> Computer<'a> {
     fn new(spec: &'a Spec) -> Result<Self, SceneError> {
-        let ratios = if spec.has_many_ratios() {
-            Ratios::Many
-        } else {
-            Ratios::Few
-        };
         let mut computer = Self {
             spec,
             templates: Templates::new(spec)?,
-            responses: Tabulated::new(ratios),
+            responses: if spec.has_many_ratios() {
+                Tabulated::on_lattice()
+            } else {
+                Tabulated::default()
+            },
             outcomes: Outcomes::default(),
         };
         if spec.kernels.is_none() {

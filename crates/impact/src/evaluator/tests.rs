@@ -445,11 +445,8 @@ fn under_the_cut(
     time: f64,
     punch: impl Fn(f64, f64, Option<f64>) -> [f64; 2],
 ) -> [f64; 2] {
-    let (top, end) = (
-        own.flow().unwrap().contact_radius,
-        own.summary().contact_time,
-    );
-    let &[onset, turned] = own.kinks() else {
+    let (top, end) = (own.flow.unwrap().contact_radius, own.summary.contact_time);
+    let [onset, turned] = own.kinks[..] else {
         panic!()
     };
     let density =
@@ -518,7 +515,7 @@ fn beyond_two_radii_two_pressures_stand_for_one_that_was_cut() {
     let excitation = run.excitation();
     let own = excitation.yielded().unwrap();
     let (top, length_m) = (
-        own.flow().unwrap().contact_radius,
+        own.flow.unwrap().contact_radius,
         run.results.contact_radius_m,
     );
     let (force_n, time_s) = (collision.units().force_n, collision.units().time_s);
@@ -538,7 +535,7 @@ fn beyond_two_radii_two_pressures_stand_for_one_that_was_cut() {
             };
             [0, 1].map(|f| force * force_n * units.displacement_m_per_n() * found[f])
         };
-        let times = (1..=7).map(|i| 0.17 * f64::from(i) * own.summary().contact_time);
+        let times = (1..=7).map(|i| 0.17 * f64::from(i) * own.summary.contact_time);
         let pairs: Vec<([f64; 2], Six)> = times
             .map(|t| {
                 let two = by_two.at(place.map(|x| x * length_m), t * time_s).unwrap();

@@ -21,8 +21,7 @@ use crate::picture::Picture;
 use crate::scenes::{HERTZ_PA, ROD_RADIUS_M, paper};
 use contact::law::hertz::CONTACT_TIME;
 use contact::{
-    FixedDisc, History, MarchError, StaticShare, Summary, march_explicit, march_implicit,
-    memory_weights,
+    FixedDisc, History, MarchError, StaticShare, Summary, Weights, march_explicit, march_implicit,
 };
 use fault::AnyError;
 use figure::{Interval, Style};
@@ -322,7 +321,7 @@ fn explain(paper: &Converged<'_>) -> String {
 #[must_use]
 pub fn linear_growth(disc: &FixedDisc<'_>, stiffness: f64, step: f64) -> f64 {
     const STEPS: usize = 400;
-    let lag = memory_weights(disc, step);
+    let lag = Weights::of(disc, disc.response, step).values;
     let still = match disc.share {
         StaticShare::Full => 1.0,
         StaticShare::Dynamic => 0.0,
@@ -391,7 +390,8 @@ pub fn dynamic_limit(disc: &FixedDisc<'_>, step: f64) -> f64 {
     // Numerov's weight of the newest force
     let allowed = 2.0 / 3.0 + 1.25 * step * step / 12.0;
     bisected(0.0, 1e6, |coupling| {
-        coupling * memory_weights(&dynamic(disc, coupling), step)[0] < allowed
+        let weights = Weights::of(&dynamic(disc, coupling), disc.response, step);
+        coupling * weights.values[0] < allowed
     })
 }
 

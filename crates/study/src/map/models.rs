@@ -11,12 +11,12 @@ use crate::picture::Picture;
 use crate::question::marching::{Results, errors, results};
 use crate::record::Error;
 use crate::scenes::{ROD_RADIUS_M, TABLE_1_PA, ball, collision, paper};
-use contact::law::area_dashpot::AreaDashpot;
+use contact::law::area_dashpot::{AreaDashpot, left_out};
 use contact::law::hertz::CONTACT_TIME;
 use contact::law::quasi_static::{quasi_static, quasi_static_radiation};
 use contact::law::radiation::{LARGEST_LAG, LOSS, radiation};
 use contact::{Accuracy, FixedDisc, GrowingContact, Library, MarchError, PunchWaves};
-use contact::{Family, Groups, Rung, choose};
+use contact::{Family, Groups, Rung};
 use contact::{StaticShare, Summary, march_growing, march_implicit, refine};
 use fault::AnyError;
 use figure::{Interval, Style};
@@ -107,16 +107,20 @@ impl Plane {
     }
 
     /// The lag of the radiation model and the memory in collision times, as `auto` forms them.
-    fn groups(&self, share: f64, memory: f64) -> (f64, f64) {
-        let lag = share * self.wave_time(memory) * self.centre.relaxation_time();
-        (lag, memory * CONTACT_TIME)
+    fn groups(&self, share: f64, memory: f64) -> Groups {
+        Groups {
+            family: Family::Growing,
+            coupling: 0.0,
+            lag: share * self.wave_time(memory) * self.centre.relaxation_time(),
+            memory: memory * CONTACT_TIME,
+        }
     }
 
     /// What `auto` chooses there.
     #[must_use]
     pub fn chosen(&self, share: f64, memory: f64, tolerance: f64) -> Rung {
-        let (lag, memory) = self.groups(share, memory);
-        choose(lag, memory, tolerance, None).rung
+        let asked = Accuracy::of_contact(tolerance, None);
+        self.groups(share, memory).choose(&asked).0
     }
 
     /// Errors of the cheaper models against the growing contact with `steps` steps over Hertz's contact time.
@@ -140,9 +144,13 @@ impl Plane {
             Ok(coarse) => error(true, &coarse, &exact),
             Err(_) => f64::INFINITY,
         };
-        let (lag, length) = self.groups(share, memory);
+        let Groups {
+            lag,
+            memory: length,
+            ..
+        } = self.groups(share, memory);
         let dashpot = AreaDashpot::new(share, self.wave_time(memory), &self.waves);
-        let is_allowed = dashpot.left_out(length).contact() < 1.0;
+        let is_allowed = left_out(dashpot.lag, length).contact() < 1.0;
         Ok(ModelErrors {
             quasi_static: error(true, &radiation(0.0), &exact),
             radiation: error(lag <= LARGEST_LAG, &radiation(lag), &exact),
@@ -185,9 +193,8 @@ pub fn disc_errors(disc: &FixedDisc<'_>) -> Result<ModelErrors, MarchError> {
 /// What `auto` chooses for a disc at a tolerance.
 #[must_use]
 pub fn disc_chosen(disc: &FixedDisc<'_>, tolerance: f64) -> Rung {
-    disc_groups(disc)
-        .choose(&Accuracy::of_contact(tolerance, None))
-        .rung
+    let asked = Accuracy::of_contact(tolerance, None);
+    disc_groups(disc).choose(&asked).0
 }
 
 fn disc_groups(disc: &FixedDisc<'_>) -> Groups {
@@ -333,8 +340,8 @@ fn growing_figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>, A
     let errors = computed(&map, at, advance)?;
     // `auto`'s estimate of what hertz leaves out over the error found, in the middle of the plane
     let (i, k) = (shape[0] / 2, shape[1] / 2);
-    let (lag, memory) = plane.groups(x.cells(shape[0])[i], y.cells(shape[1])[k]);
-    let estimate = choose(lag, memory, f64::INFINITY, None).error;
+    let groups = plane.groups(x.cells(shape[0])[i], y.cells(shape[1])[k]);
+    let (_, estimate) = groups.choose(&Accuracy::of_contact(f64::INFINITY, None));
     let ratio = estimate / errors[k * shape[0] + i].quasi_static;
     let mut figures = Vec::new();
     let names = ["models-1e-2", "models-1e-3", "models-1e-4"];

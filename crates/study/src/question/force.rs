@@ -12,7 +12,7 @@ use contact::law::hertz::CONTACT_TIME;
 use contact::law::quasi_static::{quasi_static, quasi_static_radiation};
 use contact::law::radiation::radiation;
 use contact::{
-    Accuracy, Collision, FixedDisc, GrowingContact, History, MarchError, Model, PunchWaves, Ratios,
+    Accuracy, Collision, FixedDisc, GrowingContact, History, MarchError, Model, PunchWaves,
     ResponseTable, Settings, Solver, StaticShare, Summary, Tabulated, Workspace, march_explicit,
     march_growing, march_implicit, refine, solve_disc, solve_growing,
 };
@@ -66,7 +66,7 @@ pub(crate) fn measure(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Record>,
     let growing = collision.growing_contact(&waves);
     // itself measured against superposition in time (tests/reference/growing.csv)
     let reference = solve_growing(&growing, &Accuracy::of_contact(1e-10, None))?;
-    measure(BALL, results(reference.summary()), &|mut scene| {
+    measure(BALL, results(&reference.summary), &|mut scene| {
         let response = SurfaceResponse::new(&medium, Deflection::Centre);
         following(&mut scene, &growing, collision.lag(&response))?;
         let settings = Settings {
@@ -220,7 +220,7 @@ fn from_series(
     settings: Settings,
 ) -> Result<(), AnyError> {
     const CONTACTS: usize = 1_000_000;
-    let responses = Tabulated::new(Ratios::Few);
+    let responses = Tabulated::default();
     for tolerance in tolerances(3..=scene.effort.pick(4, 8)) {
         let settings = Settings {
             tolerance,
@@ -274,7 +274,7 @@ fn following(
         let solve = || {
             let accuracy = Accuracy::of_contact(tolerance, None);
             let solved = solve_growing(growing, &accuracy)?;
-            Ok((results(solved.summary()), Some(solved.pieces() as u64)))
+            Ok((results(&solved.summary), Some(solved.pieces() as u64)))
         };
         let method = "growing, polynomial pieces";
         scene.add(method, at(tolerance), solve)?.default_path = true;
