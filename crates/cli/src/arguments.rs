@@ -37,7 +37,7 @@ impl Kernels {
     /// The table among the files that are read.
     pub(crate) fn inputs(&self) -> impl Iterator<Item = Role> {
         let table = self.table.iter();
-        table.map(|table| Role::new("the kernel table", table))
+        table.map(|table| ("the kernel table", table.clone()))
     }
 
     /// Of one impact.
@@ -103,11 +103,7 @@ pub(crate) struct Overwrite {
 
 impl Overwrite {
     pub(crate) fn existing(self) -> Existing {
-        if self.force {
-            Existing::Replace
-        } else {
-            Existing::Keep
-        }
+        Existing::replaced(self.force)
     }
 
     /// Claims the one output of a command that reads `inputs`, before any work.

@@ -207,7 +207,7 @@ fn draws_hang_together_as_asked() {
     let draws = |key: &str| -> Vec<f64> {
         let mut columns = spec.axes.iter().flat_map(|axis| &axis.columns);
         let values = &columns.find(|column| column.name() == key).unwrap().values;
-        (0..values.len())
+        (0..values.count())
             .map(|i| values.number(i).unwrap())
             .collect()
     };

@@ -3,50 +3,30 @@
 use crate::error::OutputError;
 use std::path::Path;
 
-/// A format and how the names of its files end.
+/// A format in words, such as "an HDF5 file", and how the names of its files end: without the dot, the usual one first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Ending {
-    /// The format in words, such as "an HDF5 file".
-    pub format: &'static str,
-    /// Endings without the dot, the usual one first.
-    pub allowed: &'static [&'static str],
-}
+pub struct Ending(pub &'static str, pub &'static [&'static str]);
 
 /// HDF5; sections open in ParaView under the last of its endings.
-pub const HDF5: Ending = Ending {
-    format: "an HDF5 file",
-    allowed: &["h5", "hdf5", "hdf", "vtkhdf"],
-};
+pub const HDF5: Ending = Ending("an HDF5 file", &["h5", "hdf5", "hdf", "vtkhdf"]);
 
 /// A kernel table.
-pub const TABLE: Ending = Ending {
-    format: "a kernel table (HDF5)",
-    allowed: &["h5", "hdf5", "hdf"],
-};
+pub const TABLE: Ending = Ending("a kernel table (HDF5)", &["h5", "hdf5", "hdf"]);
 
 /// A part of a kernel table.
-pub const SHARD: Ending = Ending {
-    format: "a shard",
-    allowed: &["shard", "part", "blocks"],
-};
+pub const SHARD: Ending = Ending("a shard", &["shard", "part", "blocks"]);
 
 /// Rows in columns that are compressed.
-pub const PARQUET: Ending = Ending {
-    format: "a Parquet file",
-    allowed: &["parquet"],
-};
+pub const PARQUET: Ending = Ending("a Parquet file", &["parquet"]);
 
 /// Rows: HDF5, or Parquet.
-pub const ROWS: Ending = Ending {
-    format: "an HDF5 or a Parquet file",
-    allowed: &["h5", "hdf5", "hdf", "vtkhdf", "parquet"],
-};
+pub const ROWS: Ending = Ending(
+    "an HDF5 or a Parquet file",
+    &["h5", "hdf5", "hdf", "vtkhdf", "parquet"],
+);
 
 /// Text in columns.
-pub const CSV: Ending = Ending {
-    format: "text in columns",
-    allowed: &["csv", "txt"],
-};
+pub const CSV: Ending = Ending("text in columns", &["csv", "txt"]);
 
 impl Ending {
     /// Whether a name ends so.
@@ -65,13 +45,13 @@ impl Ending {
         };
         let found = found.to_string_lossy();
         let is = |ending: &&str| found.eq_ignore_ascii_case(ending);
-        if self.allowed.iter().any(is) {
+        if self.1.iter().any(is) {
             return Ok(());
         }
         Err(OutputError::Ending {
             path: path.to_owned(),
-            format: self.format,
-            allowed: self.allowed,
+            format: self.0,
+            allowed: self.1,
             found: found.into_owned(),
         })
     }

@@ -33,7 +33,7 @@ impl Folder {
             .collect();
         names.sort();
         match names.into_iter().next() {
-            Some(path) if existing != Existing::Replace => Err(OutputError::Exists { path }),
+            Some(path) if existing != Existing::Replace => Err(OutputError::Exists(path)),
             Some(_) | None => Ok(Self {
                 path: path.to_owned(),
                 _claim: claim,
@@ -62,14 +62,12 @@ impl Folder {
     }
 }
 
-/// Writes a file under the name given.
-type Fill<'a> = Box<dyn Fn(&Path) -> Result<(), Fault> + 'a>;
-
 /// A file to be written into a folder.
 pub struct NewFile<'a> {
     /// Its name in the folder.
     name: String,
-    fill: Fill<'a>,
+    /// Writes it under the name given.
+    fill: Box<dyn Fn(&Path) -> Result<(), Fault> + 'a>,
 }
 
 impl<'a> NewFile<'a> {
@@ -110,8 +108,7 @@ mod tests {
         let precious = inside.join("chart.csv");
         std::fs::write(&precious, "precious").unwrap();
         let refused = Folder::claim(&inside, Existing::Keep).unwrap_err();
-        let path = precious.clone();
-        assert_eq!(refused, OutputError::Exists { path });
+        assert_eq!(refused, OutputError::Exists(precious.clone()));
         drop(Folder::claim(&inside, Existing::Replace).unwrap());
         // nothing is touched before there is something to put in its place
         assert_eq!(std::fs::read_to_string(&precious).unwrap(), "precious");

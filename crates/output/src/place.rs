@@ -121,25 +121,8 @@ fn hash(bytes: &[u8]) -> u64 {
     })
 }
 
-/// A file that a command reads, with what it is to it, such as "the scene".
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Role {
-    /// What it is, with its article.
-    pub name: &'static str,
-    /// Where it is.
-    pub path: PathBuf,
-}
-
-impl Role {
-    /// An input.
-    #[must_use]
-    pub fn new(name: &'static str, path: &Path) -> Self {
-        Self {
-            name,
-            path: path.to_owned(),
-        }
-    }
-}
+/// What a file that a command reads is to it, such as "the scene", and where it is.
+pub type Role = (&'static str, PathBuf);
 
 /// Refuses, before any work, an output that is an input of the same command, and two outputs that are one file.
 ///
@@ -148,50 +131,35 @@ impl Role {
 /// # Errors
 /// [`OutputError::Input`], [`OutputError::Twice`]; or that an output cannot be written at all.
 pub fn apart(outputs: &[&Path], inputs: &[Role]) -> Result<(), OutputError> {
-    let mut seen: Vec<(&Path, Identity)> = Vec::new();
+    let mut seen: Vec<(&Path, _)> = Vec::new();
     for &output in outputs {
-        let this = Identity::of(&behind(output)?);
+        let this = identity(&behind(output)?);
         if let Some((first, _)) = seen.iter().find(|(_, other)| *other == this) {
-            return Err(OutputError::Twice {
-                first: (*first).to_owned(),
-                second: output.to_owned(),
-            });
+            return Err(OutputError::Twice((*first).to_owned(), output.to_owned()));
         }
-        for input in inputs {
-            if Identity::of(&input.path) == this {
-                return Err(OutputError::Input {
-                    output: output.to_owned(),
-                    role: input.name,
-                    input: input.path.clone(),
-                });
-            }
+        if let Some((role, input)) = inputs.iter().find(|(_, input)| identity(input) == this) {
+            return Err(OutputError::Input {
+                output: output.to_owned(),
+                role,
+                input: input.clone(),
+            });
         }
         seen.push((output, this));
     }
     Ok(())
 }
 
-/// What a file is, whatever it is called.
-#[derive(Debug, PartialEq, Eq)]
-enum Identity {
-    /// One that is there: device and number.
+/// What a file is, whatever it is called: device and number of one that is there; elsewhere, and where nothing is yet, the
+/// folder with its links followed, and the name.
+fn identity(path: &Path) -> (u64, u64, PathBuf) {
     #[cfg(unix)]
-    Number(u64, u64),
-    /// Elsewhere, and where nothing is yet: the folder with its links followed, and the name.
-    Name(PathBuf),
-}
-
-impl Identity {
-    fn of(path: &Path) -> Self {
-        #[cfg(unix)]
-        if let Ok(there) = std::fs::metadata(path) {
-            use std::os::unix::fs::MetadataExt;
-            return Self::Number(there.dev(), there.ino());
-        }
-        let whole = path.canonicalize().or_else(|_| {
-            let folder = folder(path).canonicalize()?;
-            Ok::<_, std::io::Error>(folder.join(path.file_name().unwrap_or_default()))
-        });
-        Self::Name(whole.unwrap_or_else(|_| path.to_owned()))
+    if let Ok(there) = std::fs::metadata(path) {
+        use std::os::unix::fs::MetadataExt;
+        return (there.dev(), there.ino(), PathBuf::new());
     }
+    let whole = path.canonicalize().or_else(|_| {
+        let folder = folder(path).canonicalize()?;
+        Ok::<_, std::io::Error>(folder.join(path.file_name().unwrap_or_default()))
+    });
+    (0, 0, whole.unwrap_or_else(|_| path.to_owned()))
 }

@@ -28,8 +28,7 @@ pub(crate) fn at_probes<'py>(
     found.set_item(schema::ARRIVALS.0, frozen(py, arrivals, &shape)?)?;
     let valid = vector(py, fields.valid_until_s.clone())?;
     found.set_item(schema::VALID_UNTIL.0, valid)?;
-    let histories = fields.values.iter().zip(&fields.errors);
-    for ((name, ..), (values, errors)) in labels_of(&fields.quantities).zip(histories) {
+    for ((name, ..), values, errors) in schema::histories(fields) {
         found.set_item(name, matrix(py, values)?)?;
         found.set_item(error_of(name), vector(py, errors.clone())?)?;
         if peaks {

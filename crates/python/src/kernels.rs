@@ -1,13 +1,13 @@
 //! The exact kernels at many places and times, in reduced units.
 
 use crate::errors::{self, OrRaise};
-use crate::values::{frozen, numbers, vector};
-use crate::work::{Ticker, Way, run, run_short};
+use crate::values::{Array, frozen, numbers, vector};
+use crate::work::{Ticker, run, run_short};
 use halfspace::{
     Arrivals, Deflection, DomainError, Estimate, Kernel, Medium, Profile, Six, SurfaceResponse,
     kausel,
 };
-use numpy::{PyArrayDyn, PyReadonlyArray1};
+use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rayon::prelude::*;
@@ -70,10 +70,7 @@ fn step(kernel: &Kernel, [r, z, t]: [f64; 3]) -> Result<Estimate, DomainError> {
     Ok(found)
 }
 
-/// Values and errors, one row of six fields a place.
-type Fields<'py> = (Bound<'py, PyArrayDyn<f64>>, Bound<'py, PyArrayDyn<f64>>);
-
-/// Values of kernels and their errors at places of equal number.
+/// Values of kernels and their errors at places of equal number, one row of six fields a place.
 #[pyfunction]
 #[pyo3(signature = (order, nu, r, z, t, profile, tolerance, threads=None, progress=None))]
 #[allow(
@@ -91,7 +88,7 @@ pub(crate) fn kernel<'py>(
     tolerance: f64,
     threads: Option<usize>,
     progress: Option<Py<PyAny>>,
-) -> PyResult<Fields<'py>> {
+) -> PyResult<(Array<'py>, Array<'py>)> {
     let (at, _) = errors::one_of(py, "order", order, &ORDERS)?;
     let profile = profile_of(py, profile)?;
     let kernel = Kernel::new(&medium_of(py, nu)?, profile, tolerance).or_raise(py)?;
@@ -113,7 +110,7 @@ pub(crate) fn kernel<'py>(
             (0..rows).map(|i| one(&ticker, i)).collect()
         })?
     } else {
-        run(py, &Way { threads, progress }, move |ticker| {
+        run(py, threads, progress, move |ticker| {
             ticker.of(rows as u64);
             (0..rows).into_par_iter().map(|i| one(ticker, i)).collect()
         })?
@@ -135,7 +132,7 @@ pub(crate) fn static_field<'py>(
     r: PyReadonlyArray1<'py, f64>,
     z: PyReadonlyArray1<'py, f64>,
     profile: &str,
-) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+) -> PyResult<Array<'py>> {
     // no quadrature: the tolerance is of no consequence
     let profile = profile_of(py, profile)?;
     let kernel = Kernel::new(&medium_of(py, nu)?, profile, 1e-6).or_raise(py)?;
@@ -157,7 +154,7 @@ pub(crate) fn surface<'py>(
     nu: f64,
     t: PyReadonlyArray1<'py, f64>,
     deflection: &str,
-) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+) -> PyResult<Array<'py>> {
     let (_, at) = errors::one_of(py, "order", order, &ORDERS)?;
     let response = SurfaceResponse::new(&medium_of(py, nu)?, deflection_of(py, deflection)?);
     errors::check_memory(py, t.len()?, 2 * 8)?;
@@ -172,7 +169,7 @@ pub(crate) fn surface_centre<'py>(
     py: Python<'py>,
     nu: f64,
     t: PyReadonlyArray1<'py, f64>,
-) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+) -> PyResult<Array<'py>> {
     errors::check_memory(py, t.len()?, 2 * 8)?;
     let (medium, t) = (medium_of(py, nu)?, numbers(&t));
     let found = run_short(py, || {

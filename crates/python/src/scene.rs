@@ -45,7 +45,7 @@ impl Given {
             let message = format!("a scene is a dictionary, a path or TOML text, not {kind}");
             return Err(errors::plain(py, "SceneError", &message));
         }
-        let (table, file) = (table(given, "")?, None);
+        let (table, file) = (table(given, "", 0)?, None);
         Ok(Self { table, file })
     }
 
@@ -88,13 +88,8 @@ pub(crate) fn sections_of(key: &str) -> Vec<&'static str> {
     formats::scene::sections_of(key)
 }
 
-/// A mapping of Python as a table; keys whose value is None are left out.
-pub(crate) fn table(mapping: &Bound<'_, PyAny>, name: &str) -> PyResult<Table> {
-    table_in(mapping, name, 0)
-}
-
-/// One that lies so deep in others.
-fn table_in(mapping: &Bound<'_, PyAny>, name: &str, deep: usize) -> PyResult<Table> {
+/// A mapping of Python, which lies so deep in others, as a table; keys whose value is None are left out.
+pub(crate) fn table(mapping: &Bound<'_, PyAny>, name: &str, deep: usize) -> PyResult<Table> {
     let mut found = Table::new();
     for item in mapping.call_method0("items")?.try_iter()? {
         let (key, value): (Bound<'_, PyAny>, Bound<'_, PyAny>) = item?.extract()?;
@@ -125,7 +120,7 @@ fn to_toml(value: &Bound<'_, PyAny>, name: &str, deep: usize) -> PyResult<Option
         return Err(wrong("a value", value, "at most 80 containers deep"));
     }
     if value.cast::<PyDict>().is_ok() {
-        return Ok(Some(Value::Table(table_in(value, name, deep)?)));
+        return Ok(Some(Value::Table(table(value, name, deep)?)));
     }
     // before the numbers: True is an int to Python
     if let Ok(flag) = value.cast::<PyBool>() {
@@ -151,7 +146,7 @@ fn to_toml(value: &Bound<'_, PyAny>, name: &str, deep: usize) -> PyResult<Option
         return to_toml(&value.call_method0("__fspath__")?, name, deep + 1);
     }
     if value.hasattr("items")? {
-        return Ok(Some(Value::Table(table_in(value, name, deep)?)));
+        return Ok(Some(Value::Table(table(value, name, deep)?)));
     }
     let Ok(items) = value.try_iter() else {
         return Err(wrong(name, value, "a number, a word, a list or a section"));

@@ -66,7 +66,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
             if forecast.seconds > LONG_S {
                 say(takes(forecast));
             }
-            progress.start("fields", forecast.points as u64);
+            progress.total("fields", forecast.points as u64);
             true
         },
         watch: &|| progress.advance(1),
@@ -155,7 +155,7 @@ fn outputs(arguments: &Arguments, mut read: Vec<Role>) -> Result<[Option<Output>
                 Ok(output) => *place = Some(output),
                 Err(why) => refused = refused.or(Some(why)),
             }
-            read.push(Role::new("another output", path));
+            read.push(("another output", path.clone()));
         }
     }
     refused.map_or(Ok(claimed), Err)

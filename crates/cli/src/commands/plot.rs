@@ -110,8 +110,9 @@ fn write(path: &Path) -> Result<Write, Failure> {
 
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let write = write(&arguments.output)?;
-    let drawn_from = |path: &PathBuf| Role::new("a file", path);
-    let inputs: Vec<Role> = arguments.files.iter().map(drawn_from).collect();
+    let inputs: Vec<Role> = (arguments.files.iter())
+        .map(|path| ("a file", path.clone()))
+        .collect();
     apart(&[&arguments.output], &inputs)?;
     let output = Output::claim(&arguments.output, arguments.overwrite.existing())?;
     let request = Request {

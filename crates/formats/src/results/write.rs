@@ -82,17 +82,8 @@ fn write_treatment(force: &Dataset, scene: &Scene) -> Result<(), hdf5::Error> {
 fn write_energy(file: &File, energy: &EnergySeries, time_s: &[f64]) -> Result<(), hdf5::Error> {
     let group = file.create_group(schema::ENERGY)?;
     let time = scale(&group, &schema::SERIES[0], time_s)?;
-    let columns = [
-        energy.kinetic_j.as_ref(),
-        energy.work_j.as_ref(),
-        Some(&energy.stored_j),
-        Some(&energy.radiated_j),
-        energy.plastic_j.as_ref(),
-    ];
-    for (described, samples) in schema::ENERGIES.iter().zip(columns) {
-        if let Some(samples) = samples {
-            attach_scale(&vector(&group, described, samples)?, &time, 0)?;
-        }
+    for (described, samples) in schema::energies(energy) {
+        attach_scale(&vector(&group, described, samples)?, &time, 0)?;
     }
     Ok(())
 }
@@ -142,7 +133,7 @@ fn write_probes(
 }
 
 fn write_attributes(file: &File, scene: &Scene, outcome: &Outcome) -> Result<(), hdf5::Error> {
-    let choices = choices(scene, outcome);
+    let [model, scheme, static_share, deflection, reason] = choices(scene, outcome);
     let used = outcome.used.as_ref();
     let table = used.and_then(|used| used.table.as_ref());
     let [id, version] = table.map_or(["", ""], |table| table.each_ref().map(String::as_str));
@@ -151,11 +142,11 @@ fn write_attributes(file: &File, scene: &Scene, outcome: &Outcome) -> Result<(),
         schema::FILE_TYPE,
         schema::FORMAT_VERSION,
         env!("CARGO_PKG_VERSION"),
-        choices.model,
-        choices.scheme,
-        choices.static_share,
-        choices.deflection,
-        choices.reason,
+        model,
+        scheme,
+        static_share,
+        deflection,
+        reason,
         kernel_name(outcome),
         used.map_or("", |used| &used.reason),
         used.map_or("", |used| used.convolution.name()),

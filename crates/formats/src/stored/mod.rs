@@ -3,7 +3,6 @@
 //! [`file_kind`] says what a file is. A reader takes one kind and says so of any other; it reads no more than it is
 //! asked for, and no dataset beyond a size.
 
-mod error;
 #[cfg(feature = "parquet")]
 mod groups;
 mod impact;
@@ -12,9 +11,9 @@ mod rows;
 mod sweep;
 
 pub use crate::sweep::Part;
-pub use error::{FileKind, ReadError};
-pub use impact::{StoredImpact, StoredProbes, StoredSection, StoredValue};
-pub use open::file_kind;
+pub use impact::{StoredImpact, StoredProbes, StoredSection};
+pub use open::{FileKind, file_kind};
 pub use rows::StoredPart;
 pub(crate) use rows::whole_sweep;
 pub use sweep::StoredSweep;
+pub use toml::Value;

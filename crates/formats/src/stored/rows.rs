@@ -1,8 +1,8 @@
 //! Rows of a sweep, some or all, read back from either format.
 
-use super::error::{FileKind, ReadError};
-use super::open::{Stored, is_parquet, parquet_of_kind};
+use super::open::{FileKind, Stored, is_parquet, parquet_of_kind};
 use super::sweep::StoredSweep;
+use crate::error::SceneError;
 use crate::sweep::schema::{FAILED, FAILURE, FAILURES, MODEL, RESULTS, ROWS, SHA256, part};
 use crate::sweep::{
     BLOCK, Block, Blocks, Cells, Fields, Footer, Part, Precision, Selection, Spec, What, columns,
@@ -33,8 +33,8 @@ impl StoredPart {
     /// Opens a part; what is read of it later is compared with its seal then.
     ///
     /// # Errors
-    /// [`ReadError`], which says what the file is instead.
-    pub fn open(path: &Path) -> Result<Self, ReadError> {
+    /// [`SceneError`], which says what the file is instead.
+    pub fn open(path: &Path) -> Result<Self, SceneError> {
         if is_parquet(path) {
             let (footer, part) = parquet_of_kind(path, FileKind::SweepPart)?;
             let rows = Rows::Parquet(Box::new(footer));
@@ -76,8 +76,8 @@ impl StoredPart {
     /// Compares every byte of a part that has a seal.
     ///
     /// # Errors
-    /// [`ReadError`].
-    pub fn check(&self) -> Result<(), ReadError> {
+    /// [`SceneError`].
+    pub fn check(&self) -> Result<(), SceneError> {
         match &self.rows {
             Rows::Hdf5(stored, _) => stored.check(),
             Rows::Parquet(footer) => check_groups(&self.part, footer),
@@ -85,12 +85,12 @@ impl StoredPart {
     }
 
     /// Compares the keys that vary with those of the sweep that the part is of.
-    pub(crate) fn check_keys(&self, spec: &Spec) -> Result<(), ReadError> {
+    pub(crate) fn check_keys(&self, spec: &Spec) -> Result<(), SceneError> {
         let same = self.sweep()? == spec.resolved;
         match &self.rows {
             _ if !same => {
                 let what = "its sweep is not that of the other parts";
-                Err(ReadError::damaged(&self.part.path, what))
+                Err(SceneError::damaged(&self.part.path, what))
             }
             Rows::Hdf5(stored, _) => self
                 .blocks()
@@ -115,8 +115,8 @@ impl StoredPart {
     /// The sweep with its base scene, as TOML.
     ///
     /// # Errors
-    /// [`ReadError`] where it is missing.
-    pub fn sweep(&self) -> Result<String, ReadError> {
+    /// [`SceneError`] where it is missing.
+    pub fn sweep(&self) -> Result<String, SceneError> {
         match &self.rows {
             Rows::Hdf5(stored, _) => stored.text("sweep"),
             Rows::Parquet(footer) => Ok(footer.sweep.clone()),
@@ -136,7 +136,7 @@ impl StoredPart {
         stored: &Stored,
         spec: &Spec,
         some: Range<usize>,
-    ) -> Result<(), ReadError> {
+    ) -> Result<(), SceneError> {
         let length = [self.part.selection.rows.len()];
         let block = Block {
             start: self.part.selection.rows.start,
@@ -172,7 +172,7 @@ impl StoredPart {
         stored: &Stored,
         reasons: &[String],
         rows: Range<usize>,
-    ) -> Result<Block, ReadError> {
+    ) -> Result<Block, SceneError> {
         let length = [self.part.selection.rows.len()];
         let path = |name: &str| format!("{RESULTS}/{name}");
         let start = self.part.selection.rows.start + rows.start;
@@ -230,8 +230,8 @@ impl Blocks for StoredPart {
 /// compared with its seal.
 ///
 /// # Errors
-/// [`ReadError`], which says what the file is instead.
-pub(crate) fn whole_sweep(path: &Path) -> Result<(Option<String>, Fields), ReadError> {
+/// [`SceneError`], which says what the file is instead.
+pub(crate) fn whole_sweep(path: &Path) -> Result<(Option<String>, Fields), SceneError> {
     if is_parquet(path) {
         let (footer, part) = parquet_of_kind(path, FileKind::Sweep)?;
         check_groups(&part, &footer)?;
@@ -242,10 +242,10 @@ pub(crate) fn whole_sweep(path: &Path) -> Result<(Option<String>, Fields), ReadE
 }
 
 /// Compares the rows of a Parquet file with their hashes, where the program can read them.
-fn check_groups(part: &Part, footer: &Footer) -> Result<(), ReadError> {
+fn check_groups(part: &Part, footer: &Footer) -> Result<(), SceneError> {
     #[cfg(feature = "parquet")]
     super::groups::check(part, &footer.row_groups)
-        .map_err(|fault| ReadError::damaged(&part.path, fault.reason))?;
+        .map_err(|fault| SceneError::damaged(&part.path, fault.reason))?;
     let _ = (part, footer);
     Ok(())
 }

@@ -1,7 +1,7 @@
 //! The results of a sweep, read back.
 
-use super::error::{FileKind, ReadError};
-use super::open::Stored;
+use super::open::{FileKind, Stored};
+use crate::error::SceneError;
 use crate::quantities::Described;
 use crate::sweep::schema::part::PARTS;
 use crate::sweep::schema::{AXES, LIST, RESULTS, SAMPLE, SHA256};
@@ -22,12 +22,12 @@ impl StoredSweep {
     /// Opens a sweep.
     ///
     /// # Errors
-    /// [`ReadError`], which says what the file is instead.
-    pub fn open(path: &Path) -> Result<Self, ReadError> {
+    /// [`SceneError`], which says what the file is instead.
+    pub fn open(path: &Path) -> Result<Self, SceneError> {
         let stored = Stored::open(path, FileKind::Sweep)?;
         if stored.text(PARTS).is_ok() {
             let what = "has the places of its parts, not their results: read the parts, or a copy of them in one file";
-            return Err(ReadError::is(path, what));
+            return Err(SceneError::is(path, what));
         }
         let axes = read_axes(&stored)?;
         Ok(Self {
@@ -52,8 +52,8 @@ impl StoredSweep {
     /// Which results it has, and how exactly.
     ///
     /// # Errors
-    /// [`ReadError`] for a file that is not as it was written.
-    pub fn fields(&self) -> Result<Fields, ReadError> {
+    /// [`SceneError`] for a file that is not as it was written.
+    pub fn fields(&self) -> Result<Fields, SceneError> {
         self.stored.fields(RESULTS, &self.shape())
     }
 
@@ -71,8 +71,8 @@ impl StoredSweep {
     /// A result of all rows; NaN where a scene failed.
     ///
     /// # Errors
-    /// [`ReadError`] for a result that is not there.
-    pub fn values(&self, quantity: &str) -> Result<Vec<f64>, ReadError> {
+    /// [`SceneError`] for a result that is not there.
+    pub fn values(&self, quantity: &str) -> Result<Vec<f64>, SceneError> {
         self.stored
             .numbers(&format!("{RESULTS}/{quantity}"), &self.shape())
     }
@@ -83,13 +83,13 @@ impl StoredSweep {
 }
 
 /// The axes in the order of the dimensions: those of the product by their names, then the list's, then the draws'.
-fn read_axes(stored: &Stored) -> Result<Vec<Axis>, ReadError> {
+fn read_axes(stored: &Stored) -> Result<Vec<Axis>, SceneError> {
     let group = stored
         .group(AXES)
         .ok_or_else(|| stored.damaged(format!("the group {AXES} is missing")))?;
     let names = group.members();
     let mut axes: Vec<Axis> = Vec::new();
-    for name in names.map_err(|error| stored.damaged(error.to_string()))? {
+    for name in names.map_err(|error| stored.damaged(error))? {
         let path = format!("{AXES}/{name}");
         let data = stored.dataset(&path);
         let axis = data.as_ref().and_then(|data| data.text("axis").ok());
@@ -99,7 +99,7 @@ fn read_axes(stored: &Stored) -> Result<Vec<Axis>, ReadError> {
         } else {
             Values::Numbers(stored.vector(&path)?)
         };
-        let len = values.len();
+        let len = values.count();
         let (section, key) = name
             .split_once('.')
             .ok_or_else(|| stored.damaged(format!("{path} is no key of a scene")))?;

@@ -35,19 +35,6 @@ pub struct Kept {
 }
 
 impl Kept {
-    /// All of them, where memory holds them.
-    ///
-    /// # Errors
-    /// Why they cannot be read back.
-    pub fn blocks(&self) -> Result<Vec<Block>, Fault> {
-        let mut blocks = Vec::new();
-        self.each(&mut |block| {
-            blocks.push(block.clone());
-            Ok(())
-        })?;
-        Ok(blocks)
-    }
-
     /// Removes the journal, once the results are written.
     pub fn remove(self) {
         self.journal.remove();

@@ -22,7 +22,7 @@ use std::path::{Path, PathBuf};
 use toml::{Table, Value};
 
 /// A sweep: a base scene and the axes along which it varies.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Spec {
     /// The base scene.
     pub(crate) scene: Table,
@@ -120,14 +120,11 @@ impl Spec {
         let axes = axes(&Section::root(&table))?;
         let probed = stored_columns(&table)?;
         Ok(Self {
-            scene: Table::new(),
-            directory: PathBuf::new(),
             axes,
             resolved: resolved.to_owned(),
-            files: Files::default(),
             sha256,
             fields: Fields::all(probed),
-            kernels: None,
+            ..Self::default()
         })
     }
 
@@ -159,7 +156,7 @@ impl Spec {
     pub fn memory_bytes(&self) -> f64 {
         let values: usize = (self.columns().map(|column| &column.values))
             .filter(|values| !matches!(values, Values::Drawn(_)))
-            .map(Values::len)
+            .map(Values::count)
             .sum();
         let probed = 2 * BLOCK * (self.fields.width() - QUANTITIES.len());
         (RUN_BYTES + (values + probed) * 8) as f64
@@ -288,7 +285,7 @@ impl Files {
             let own = parse_materials(&text).map_err(|error| error.in_file(&path))?;
             let library = Library::built_in().clone().extended(&own);
             files.libraries.insert(name.to_owned(), library);
-            files.inputs.push(Role::new("a materials file", &path));
+            files.inputs.push(("a materials file", path));
             files.texts.push(text);
         }
         Ok(files)
@@ -314,7 +311,7 @@ fn axes(root: &Section<'_>) -> Result<Vec<Axis>, SceneError> {
         for column in columns(&product, Some(MOST_ROWS))? {
             axes.push(Axis {
                 name: column.name(),
-                len: column.values.len(),
+                len: column.values.count(),
                 columns: vec![column],
             });
         }
@@ -344,8 +341,7 @@ fn base(
     let path = directory.join(file);
     let scene = parse(&read_text(&path)?).map_err(|error| error.in_file(&path))?;
     let directory = path.parent().unwrap_or(Path::new(".")).to_owned();
-    let role = Role::new("the base scene", &path);
-    Ok((scene, directory, Some(role)))
+    Ok((scene, directory, Some(("the base scene", path))))
 }
 
 /// The scene keys below a section of the sweep, with their values, so many rows at most where each varies by itself.
@@ -354,7 +350,7 @@ fn columns(section: &Section<'_>, most: Option<usize>) -> Result<Vec<Column>, Sc
     for keys in section.subsections(&[])? {
         for key in keys.names() {
             let values = Values::read(&keys, key)?;
-            rows *= values.len() as f64;
+            rows *= values.count() as f64;
             if most.is_some_and(|most| rows > most as f64) {
                 return Err(too_many(rows));
             }
@@ -374,16 +370,16 @@ fn columns(section: &Section<'_>, most: Option<usize>) -> Result<Vec<Column>, Sc
 
 /// The axis of keys that vary together.
 fn together(columns: Vec<Column>) -> Result<Axis, SceneError> {
-    let Some(len) = columns.first().map(|column| column.values.len()) else {
+    let Some(len) = columns.first().map(|column| column.values.count()) else {
         return Err(SceneError::missing(
             "a key that varies",
             "give at least one scene key with its values",
         ));
     };
-    if let Some(other) = columns.iter().find(|c| c.values.len() != len) {
+    if let Some(other) = columns.iter().find(|c| c.values.count() != len) {
         return Err(SceneError::conflict(
             format!("list.{} of {len} values", columns[0].name()),
-            format!("list.{} of {}", other.name(), other.values.len()),
+            format!("list.{} of {}", other.name(), other.values.count()),
             "the keys of a list vary together and need as many values each",
         ));
     }

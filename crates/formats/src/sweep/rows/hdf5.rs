@@ -332,7 +332,7 @@ fn write_key(group: &Group, key: &Key) -> Result<Dataset, hdf5::Error> {
     match &key.values {
         Values::Numbers(values) => numbers(group, &labels, &[values.len()], values),
         Values::Texts(values) => texts(group, &labels, values),
-        Values::Drawn(drawn) => some_at_a_time(group, &labels, drawn.len(), |i| drawn.at(i)),
+        Values::Drawn(drawn) => some_at_a_time(group, &labels, drawn.count(), |i| drawn.at(i)),
     }
 }
 
