@@ -4,7 +4,7 @@
 
 use contact::{Choice, Model};
 use formats::sweep::{
-    BLOCK, Block, Blocks, Kept, Rows, Spec, compute_rows, is_computed, run_rows, schema, stage_csv,
+    BLOCK, Block, Blocks, Kept, Spec, compute_rows, is_computed, run_rows, schema, stage_csv,
     stage_rows,
 };
 use formats::{Existing, Output, QUANTITIES, parse_scene};
@@ -373,12 +373,10 @@ fn draws_take_no_memory_and_are_those_of_a_shorter_sweep() {
     let (many, few) = (spec(&text(1_000_000_000_000)), spec(&text(1000)));
     assert!(many.memory_bytes() < 2e8);
     assert_eq!(many.memory_bytes(), few.memory_bytes());
-    let asked = |start| Rows {
-        start,
-        step: 7,
-        count: 100,
+    let rows = |spec: &Spec, start| {
+        let block = compute_rows(spec, start, 7, 100, |_| true);
+        block.unwrap().unwrap()
     };
-    let rows = |spec: &Spec, start| compute_rows(spec, asked(start), |_| true).unwrap().unwrap();
     assert_eq!(bits(&[rows(&many, 30)]), bits(&[rows(&few, 30)]));
     let last = rows(&many, 1_000_000_000_000 - 694);
     assert!(last.failures.len() < 20 && bits(&[last]) != bits(&[rows(&few, 30)]));

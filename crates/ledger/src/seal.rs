@@ -67,9 +67,10 @@ impl Sealed {
         }
         let mut file = std::fs::File::open(path)?;
         let whole = file.metadata()?.len();
-        let (length, digests) = read_seal(&mut file, whole)?.unzip();
+        let digests = read_seal(&mut file, whole)?;
+        let behind = digests.as_ref().map_or(0, |list| END + DIGEST * list.len());
         Ok(Self {
-            length: length.unwrap_or(whole),
+            length: whole - behind as u64,
             digests,
             file: Mutex::new(file),
             held: Mutex::default(),
@@ -139,11 +140,8 @@ impl Storage for Sealed {
     }
 }
 
-/// Bytes of the HDF5 part of a file and the digests of its pieces; nothing where it has no seal.
-fn read_seal(
-    file: &mut std::fs::File,
-    whole: u64,
-) -> Result<Option<(u64, Vec<[u8; DIGEST]>)>, HdfError> {
+/// The digests of the pieces of a file of so many bytes; nothing where it has no seal.
+fn read_seal(file: &mut std::fs::File, whole: u64) -> Result<Option<Vec<[u8; DIGEST]>>, HdfError> {
     let mut end = [0; END];
     if whole >= END as u64 {
         file.seek(SeekFrom::End(-(END as i64)))?;
@@ -171,7 +169,7 @@ fn read_seal(
     if sum[..] != end[16..] {
         return Err(broken());
     }
-    Ok(Some((length, digests)))
+    Ok(Some(digests))
 }
 
 fn changed(piece: usize) -> io::Error {

@@ -62,12 +62,14 @@ impl Folder {
     }
 }
 
+/// Writes a file under the name given.
+type Fill<'a> = Box<dyn Fn(&Path) -> Result<(), Fault> + 'a>;
+
 /// A file to be written into a folder.
 pub struct NewFile<'a> {
     /// Its name in the folder.
     name: String,
-    /// Writes it under the name given.
-    fill: Box<dyn Fn(&Path) -> Result<(), Fault> + 'a>,
+    fill: Fill<'a>,
 }
 
 impl<'a> NewFile<'a> {

@@ -1,6 +1,6 @@
 //! The exact kernels at many places and times, in reduced units.
 
-use crate::errors::{self, OrRaise};
+use crate::errors::{self, raise};
 use crate::values::{Array, frozen, numbers, vector};
 use crate::work::{Ticker, run, run_short};
 use halfspace::{
@@ -14,7 +14,7 @@ use rayon::prelude::*;
 
 /// A medium, or the exception that names its range.
 fn medium_of(py: Python<'_>, nu: f64) -> PyResult<Medium> {
-    Medium::new(nu).or_raise(py)
+    Medium::new(nu).map_err(raise(py))
 }
 
 fn profile_of(py: Python<'_>, name: &str) -> PyResult<Profile> {
@@ -91,7 +91,7 @@ pub(crate) fn kernel<'py>(
 ) -> PyResult<(Array<'py>, Array<'py>)> {
     let (at, _) = errors::one_of(py, "order", order, &ORDERS)?;
     let profile = profile_of(py, profile)?;
-    let kernel = Kernel::new(&medium_of(py, nu)?, profile, tolerance).or_raise(py)?;
+    let kernel = Kernel::new(&medium_of(py, nu)?, profile, tolerance).map_err(raise(py))?;
     let rows = r.len()?;
     if z.len()? != rows || t.len()? != rows {
         let message = "r, z and t differ in their lengths";
@@ -115,7 +115,7 @@ pub(crate) fn kernel<'py>(
             (0..rows).into_par_iter().map(|i| one(ticker, i)).collect()
         })?
     };
-    let found = found.or_raise(py)?;
+    let found = found.map_err(raise(py))?;
     let values: Vec<f64> = found.iter().flat_map(|e| e.value).collect();
     let limits: Vec<f64> = found.iter().flat_map(|e| e.error).collect();
     Ok((
@@ -135,7 +135,7 @@ pub(crate) fn static_field<'py>(
 ) -> PyResult<Array<'py>> {
     // no quadrature: the tolerance is of no consequence
     let profile = profile_of(py, profile)?;
-    let kernel = Kernel::new(&medium_of(py, nu)?, profile, 1e-6).or_raise(py)?;
+    let kernel = Kernel::new(&medium_of(py, nu)?, profile, 1e-6).map_err(raise(py))?;
     let rows = r.len()?;
     errors::check_memory(py, rows, 2 * 8 + 2 * 6 * 8)?;
     let (r, z) = (numbers(&r), numbers(&z));
@@ -143,7 +143,7 @@ pub(crate) fn static_field<'py>(
         let places = r.iter().zip(&z);
         places.map(|(&r, &z)| kernel.static_field(r, z)).collect()
     })?;
-    frozen(py, found.or_raise(py)?.into_flattened(), &[rows, 6])
+    frozen(py, found.map_err(raise(py))?.into_flattened(), &[rows, 6])
 }
 
 /// The deflection of the loaded surface over its static value, or its integral or impulse response.
@@ -210,7 +210,7 @@ pub(crate) fn arrivals<'py>(
     profile: &str,
 ) -> PyResult<Bound<'py, PyDict>> {
     let found = Arrivals::new(&medium_of(py, nu)?, profile_of(py, profile)?, r, z);
-    let found = found.or_raise(py)?;
+    let found = found.map_err(raise(py))?;
     let waves = PyDict::new(py);
     waves.set_item("above", found.above)?;
     waves.set_item("p", found.p)?;

@@ -1,6 +1,6 @@
 //! Scenes and sweeps as people give them: a dictionary, a path, or TOML text.
 
-use crate::errors::{self, OrRaise, raised};
+use crate::errors::{self, raise, raised};
 use crate::values::from_json;
 use formats::SceneError;
 use formats::scene::{parse_table, read_text, scene_of};
@@ -22,10 +22,10 @@ impl Given {
     pub(crate) fn new(given: &Bound<'_, PyAny>) -> PyResult<Self> {
         let py = given.py();
         let read = |path: PathBuf| -> PyResult<Self> {
-            let text = py.detach(|| read_text(&path)).or_raise(py)?;
+            let text = py.detach(|| read_text(&path)).map_err(raise(py))?;
             let table = parse_table(&text)
                 .map_err(|error| error.in_file(&path))
-                .or_raise(py)?;
+                .map_err(raise(py))?;
             let file = Some(path);
             Ok(Self { table, file })
         };
@@ -34,7 +34,7 @@ impl Given {
             if !text.contains(['\n', '=']) && !text.trim_start().starts_with('[') {
                 return read(PathBuf::from(text));
             }
-            let (table, file) = (parse_table(&text).or_raise(py)?, None);
+            let (table, file) = (parse_table(&text).map_err(raise(py))?, None);
             return Ok(Self { table, file });
         }
         if given.hasattr("__fspath__")? {
@@ -68,7 +68,7 @@ pub(crate) fn scene(given: &Bound<'_, PyAny>) -> PyResult<Scene> {
     let py = given.py();
     let given = Given::new(given)?;
     let found = py.detach(|| given.read(scene_of));
-    found.or_raise(py)
+    found.map_err(raise(py))
 }
 
 /// The scene with every default and material spelled out, as a dictionary.
@@ -181,5 +181,5 @@ fn wrong(name: &str, value: &Bound<'_, PyAny>, expected: &'static str) -> PyErr 
 pub(crate) fn from_toml<'py>(py: Python<'py>, text: &str) -> PyResult<Bound<'py, PyAny>> {
     let table: Result<Table, String> = text.parse().map_err(|e: toml::de::Error| e.to_string());
     let value = table.and_then(|table| serde_json::to_value(table).map_err(|e| e.to_string()));
-    from_json(py, &value.or_raise(py)?)
+    from_json(py, &value.map_err(raise(py))?)
 }

@@ -1,12 +1,12 @@
 //! Many impacts: rows of a sweep, and keys that vary together.
 
-use crate::errors::{self, OrRaise};
+use crate::errors::{self, raise};
 use crate::scene::{Given, from_toml};
 use crate::values::{Array, frozen, numbers, vector};
 use crate::work::{Ticker, run};
 use formats::quantities::QUANTITIES;
 use formats::sweep::{
-    Block, Column, Rows, Spec, Values, check_rows, compute_rows, stage_csv, stage_rows,
+    Block, Column, Spec, Values, check_rows, compute_rows, stage_csv, stage_rows,
 };
 use formats::{Existing, Output, SceneError};
 use numpy::{PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
@@ -60,7 +60,7 @@ pub(crate) fn plan_of_columns(
 const MOST_VALUES: usize = 10_000_000;
 
 fn wrapped(py: Python<'_>, spec: Result<Spec, SceneError>) -> PyResult<Plan> {
-    let spec = spec.or_raise(py)?;
+    let spec = spec.map_err(raise(py))?;
     // the axes are handed over as arrays
     if let Some(axis) = spec.axes.iter().find(|axis| axis.len > MOST_VALUES) {
         let error = SceneError::out_of_range(
@@ -74,6 +74,9 @@ fn wrapped(py: Python<'_>, spec: Result<Spec, SceneError>) -> PyResult<Plan> {
         spec: Arc::new(spec),
     })
 }
+
+/// Results by row and quantity, models, and failed rows with their reasons.
+type Computed<'py> = (Array<'py>, Array<'py, u8>, Vec<(usize, String)>);
 
 #[pymethods]
 impl Plan {
@@ -110,8 +113,7 @@ impl Plan {
         from_toml(py, &self.spec.resolved)
     }
 
-    /// Computes the rows from `start` on, every `step`-th: results by row and quantity, models, and failed rows with their
-    /// reasons.
+    /// Computes the rows from `start` on, every `step`-th.
     #[pyo3(signature = (start, step, count, threads=None, progress=None))]
     fn compute<'py>(
         &self,
@@ -121,22 +123,21 @@ impl Plan {
         count: usize,
         threads: Option<usize>,
         progress: Option<Py<PyAny>>,
-    ) -> PyResult<(Array<'py>, Array<'py, u8>, Vec<(usize, String)>)> {
+    ) -> PyResult<Computed<'py>> {
         // a row, in parts and in the whole
         errors::check_memory(py, count, 2 * 8 * (QUANTITIES.len() + 1))?;
         let spec = Arc::clone(&self.spec);
-        let rows = Rows { start, step, count };
         let found = run(py, threads, progress, move |ticker| {
             ticker.of(count as u64);
-            compute_rows(&spec, rows, |done| {
+            compute_rows(&spec, start, step, count, |done| {
                 ticker.at(done as u64);
                 !ticker.is_stopped()
             })
         })?;
         let block = found
-            .or_raise(py)?
+            .map_err(raise(py))?
             .ok_or("the sweep was stopped")
-            .or_raise(py)?;
+            .map_err(raise(py))?;
         let shape = [block.len(), QUANTITIES.len()];
         Ok((
             frozen(py, block.numbers, &shape)?,
@@ -175,6 +176,6 @@ impl Plan {
                 stage_rows(&output, &spec, None, &[block])?.commit()
             }
         })?
-        .or_raise(py)
+        .map_err(raise(py))
     }
 }

@@ -1,6 +1,6 @@
 //! A kernel table: opened once, asked often; the parts that impacts have needed are kept for the next ones.
 
-use crate::errors::{self, OrRaise};
+use crate::errors::{self, raise};
 use crate::values::{Array, from_json, frozen, numbers};
 use crate::work::{Ticker, run};
 use fault::AnyError;
@@ -27,7 +27,7 @@ impl Table {
     /// The table of a file.
     #[staticmethod]
     fn open(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        let file = run(py, None, None, move |_| TableFile::open(&path))?.or_raise(py)?;
+        let file = run(py, None, None, move |_| TableFile::open(&path))?.map_err(raise(py))?;
         Ok(Self {
             opened: Arc::new(Opened {
                 file,
@@ -48,7 +48,7 @@ impl Table {
         let opened = Arc::clone(&self.opened);
         let info = move |_: &Ticker| Ok(table_report(opened.file.path(), &*opened.whole()?));
         let found: Result<_, TableError> = run(py, None, None, info)?;
-        from_json(py, &found.or_raise(py)?)
+        from_json(py, &found.map_err(raise(py))?)
     }
 
     /// Identity of the settings that it was made with.
@@ -85,7 +85,7 @@ impl Table {
         };
         let rows = points.len();
         let opened = Arc::clone(&self.opened);
-        let table = run(py, threads, None, move |_| opened.whole())?.or_raise(py)?;
+        let table = run(py, threads, None, move |_| opened.whole())?.map_err(raise(py))?;
         let held = table.content().slices.iter().map(|slice| slice.cells).max();
         let cells = cells.unwrap_or((held.unwrap_or(0) >> coarsening.min(31)).max(1));
         // asked for before it is taken: an allocation that fails would end the process
@@ -148,17 +148,25 @@ fn traces(
                 }
             }
         }
-        Ok(())
+        Ok::<_, LookupError>(())
     })?;
     Ok((values, infos))
+}
+
+/// A part that was loaded.
+#[derive(Debug)]
+struct Part {
+    poisson_ratio: f64,
+    span: [[f64; 2]; 2],
+    table: Arc<lookup::Table>,
 }
 
 /// A table on disk with what was loaded of it.
 #[derive(Debug)]
 pub(crate) struct Opened {
     pub(crate) file: TableFile,
-    /// The part of the last impact, with its Poisson's ratio and span: a part answers as the whole does.
-    part: Mutex<Option<(f64, [[f64; 2]; 2], Arc<lookup::Table>)>>,
+    /// The part of the last impact: a part answers as the whole does.
+    part: Mutex<Option<Part>>,
     whole: OnceLock<Arc<lookup::Table>>,
 }
 
@@ -183,14 +191,20 @@ impl Tables for Opened {
         span: [[f64; 2]; 2],
     ) -> Result<Arc<lookup::Table>, AnyError> {
         let mut kept = self.part.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some((ratio, [low, high], table)) = &*kept
-            && ratio.to_bits() == poisson_ratio.to_bits()
-            && (0..2).all(|axis| low[axis] <= span[0][axis] && span[1][axis] <= high[axis])
+        if let Some(part) = &*kept
+            && part.poisson_ratio.to_bits() == poisson_ratio.to_bits()
+            && (0..2).all(|axis| {
+                part.span[0][axis] <= span[0][axis] && span[1][axis] <= part.span[1][axis]
+            })
         {
-            return Ok(Arc::clone(table));
+            return Ok(Arc::clone(&part.table));
         }
         let table = Arc::new(self.file.part(poisson_ratio, span)?);
-        *kept = Some((poisson_ratio, span, Arc::clone(&table)));
+        *kept = Some(Part {
+            poisson_ratio,
+            span,
+            table: Arc::clone(&table),
+        });
         Ok(table)
     }
 

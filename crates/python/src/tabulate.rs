@@ -1,6 +1,6 @@
 //! Builds and extends kernel tables.
 
-use crate::errors::{self, OrRaise};
+use crate::errors::{self, raise};
 use crate::scene::table;
 use crate::work::run;
 use formats::Existing;
@@ -15,18 +15,18 @@ fn grid_of(given: &Bound<'_, PyAny>) -> PyResult<Grid> {
     if let Ok(name) = given.cast::<PyString>() {
         let name: String = name.extract()?;
         let path = Path::new(&name);
-        if let Some(grid) = Grid::preset(&name).or_raise(py)? {
+        if let Some(grid) = Grid::preset(&name).map_err(raise(py))? {
             return Ok(grid);
         } else if path.extension().is_some_and(|end| end == "toml") {
-            return Grid::from_file(path).or_raise(py);
+            return Grid::from_file(path).map_err(raise(py));
         }
         let words = format!("{}, or the name of a .toml file", PRESETS.join(", "));
         return Err(errors::unknown(py, "grid", &name, &[&words]));
     }
     if given.hasattr("__fspath__")? {
-        return Grid::from_file(&given.extract::<PathBuf>()?).or_raise(py);
+        return Grid::from_file(&given.extract::<PathBuf>()?).map_err(raise(py));
     }
-    Grid::parse(&table(given, "", 0)?.to_string()).or_raise(py)
+    Grid::parse(&table(given, "", 0)?.to_string()).map_err(raise(py))
 }
 
 /// Builds a table; its points, bytes and time in s.
@@ -90,6 +90,6 @@ pub(crate) fn extend(
 }
 
 fn summary(py: Python<'_>, built: Result<Summary, BuildError>) -> PyResult<(usize, u64, f64)> {
-    let summary = built.or_raise(py)?;
+    let summary = built.map_err(raise(py))?;
     Ok((summary.points, summary.bytes, summary.wall_s))
 }

@@ -33,9 +33,6 @@ pub(crate) struct Ticker {
     stopped: AtomicBool,
 }
 
-/// What work is stopped with where it cannot return.
-struct Stopped;
-
 impl Ticker {
     /// So many units follow.
     pub(crate) fn of(&self, total: u64) {
@@ -58,7 +55,7 @@ impl Ticker {
     fn or_stop(&self) {
         if self.is_stopped() {
             // unwinds to `run` without a word: what is half-done is dropped
-            resume_unwind(Box::new(Stopped));
+            resume_unwind(Box::new(()));
         }
     }
 

@@ -234,11 +234,9 @@ fn is_file(name: &str) -> bool {
 
 /// A table that was not built.
 pub(crate) fn failure(error: BuildError) -> Failure {
-    let unfinished = matches!(error, BuildError::Journal(JournalError::Other { .. }));
-    let failure = Failure::from(error);
-    if unfinished {
-        failure.hint("; a new table with --force replaces it")
-    } else {
-        failure
-    }
+    let hint = match error {
+        BuildError::Journal(JournalError::Other(..)) => "; a new table with --force replaces it",
+        _ => "",
+    };
+    Failure::from(error).hint(hint)
 }

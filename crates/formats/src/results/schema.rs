@@ -55,6 +55,17 @@ pub const PLACES: [(&str, &str, &str); 2] = labels! {
 pub const ERROR_SUFFIX: &str = "_error";
 /// Appended to the name of a quantity: its largest value over time, and when it is reached.
 pub const PEAK_SUFFIXES: [&str; 2] = ["_peak", "_peak_time"];
+/// Appended to the name of a quantity, the unit where it is not its own, and what has that name: its error, its largest value
+/// over time, and when it is reached.
+pub(crate) const BESIDE: [(&str, Option<&str>, &str); 3] = [
+    (ERROR_SUFFIX, None, "estimated absolute error"),
+    (PEAK_SUFFIXES[0], None, "largest in magnitude over time"),
+    (
+        PEAK_SUFFIXES[1],
+        Some("s"),
+        "when it is largest in magnitude",
+    ),
+];
 /// Arrivals of the first P, S and Rayleigh wave.
 pub const ARRIVALS: (&str, &str, &str) = (
     "arrival",

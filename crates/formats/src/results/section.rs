@@ -54,23 +54,15 @@ pub(super) fn beside<'v>(
     errors: &'v [f64],
     peaks: Option<&'v Peaks>,
 ) -> Vec<(Described, &'v [f64])> {
-    let of = |suffix: &str, unit: &str, what: &str| Described {
+    let peaks = peaks.map(|peaks| [&peaks.values, &peaks.time_s]);
+    let columns = [errors].into_iter();
+    let columns = columns.chain(peaks.into_iter().flatten().map(Vec::as_slice));
+    let described = schema::BESIDE.map(|(suffix, own, what)| Described {
         name: format!("{name}{suffix}"),
-        unit: unit.to_owned(),
+        unit: own.unwrap_or(unit).to_owned(),
         meaning: format!("{what}: {meaning}"),
-    };
-    let error = of(schema::ERROR_SUFFIX, unit, "estimated absolute error");
-    let mut found = vec![(error, errors)];
-    if let Some(peaks) = peaks {
-        let [value, time] = schema::PEAK_SUFFIXES;
-        let largest = of(value, unit, "largest in magnitude over time");
-        found.push((largest, &peaks.values));
-        found.push((
-            of(time, "s", "when it is largest in magnitude"),
-            &peaks.time_s,
-        ));
-    }
-    found
+    });
+    described.into_iter().zip(columns).collect()
 }
 
 /// The scale of arrivals.

@@ -30,7 +30,7 @@ pub(super) fn each(
     let metadata = metadata(part).map_err(damaged)?;
     let places = places(part, &metadata).map_err(damaged)?;
     let mut next = part.selection.rows.start;
-    let read = each_group(part, hashes, &metadata, &mut |group, bytes| {
+    let read = each_group(part, hashes, &metadata, |group, bytes| {
         let block = block(part, &places, group, bytes, next);
         let block = block.map_err(|error| error.to_string())?;
         next += block.len();
@@ -48,7 +48,7 @@ pub(super) fn each(
 
 /// Compares the rows of a file with the hashes of their groups.
 pub(super) fn check(part: &Part, hashes: &[String]) -> Result<(), Fault> {
-    each_group(part, hashes, &metadata(part)?, &mut |_, _| Ok(()))
+    each_group(part, hashes, &metadata(part)?, |_, _| Ok(()))
 }
 
 fn metadata(part: &Part) -> Result<ParquetMetaData, String> {
@@ -61,7 +61,7 @@ fn each_group(
     part: &Part,
     hashes: &[String],
     metadata: &ParquetMetaData,
-    visit: &mut dyn FnMut(&RowGroupMetaData, &Arc<Bytes>) -> Result<(), Fault>,
+    mut visit: impl FnMut(&RowGroupMetaData, &Arc<Bytes>) -> Result<(), Fault>,
 ) -> Result<(), Fault> {
     let mut file = File::open(&part.path)?;
     if metadata.num_row_groups() != hashes.len() {

@@ -125,10 +125,21 @@ impl StoredImpact {
     /// # Errors
     /// [`SceneError`] for a file that is not as it was written.
     pub fn probes(&self) -> Result<Option<StoredProbes>, SceneError> {
-        self.stored
-            .group(PROBES)
-            .map(|_| StoredProbes::new(self.stored.clone(), &self.series.time_s))
-            .transpose()
+        let stored = self.stored.clone();
+        if stored.group(PROBES).is_none() {
+            return Ok(None);
+        }
+        let path = |name: &str| format!("{PROBES}/{name}");
+        let r_m = stored.vector(&path(PLACES[0].0))?;
+        let z_m = stored.numbers(&path(PLACES[1].0), &[r_m.len()])?;
+        let arrivals = stored.numbers(&path(ARRIVALS.0), &[r_m.len(), 3])?;
+        Ok(Some(StoredProbes {
+            samples: self.series.time_s.len(),
+            arrival_s: arrivals.as_chunks().0.to_vec(),
+            r_m,
+            z_m,
+            stored,
+        }))
     }
 
     /// The section; none for a scene without.
@@ -136,10 +147,23 @@ impl StoredImpact {
     /// # Errors
     /// [`SceneError`] for a file that is not as it was written.
     pub fn section(&self) -> Result<Option<StoredSection>, SceneError> {
-        self.stored
-            .group(MAP)
-            .map(|_| StoredSection::new(self.stored.clone()))
-            .transpose()
+        let stored = self.stored.clone();
+        if stored.group(MAP).is_none() {
+            return Ok(None);
+        }
+        let scale = |i: usize| stored.vector(&format!("{MAP}/{}", MAP_SCALES[i].0));
+        let (time_s, z_m, r_m) = (scale(0)?, scale(1)?, scale(2)?);
+        let rising = |x: &[f64]| x.windows(2).all(|pair| pair[0] < pair[1]);
+        let falling = z_m.windows(2).all(|pair| pair[0] > pair[1]);
+        if !rising(&time_s) || !rising(&r_m) || !falling || r_m.len() < 2 || z_m.len() < 2 {
+            return Err(stored.damaged("the axes of its section are not in order"));
+        }
+        Ok(Some(StoredSection {
+            stored,
+            r_m,
+            z_m,
+            time_s,
+        }))
     }
 }
 
@@ -175,23 +199,6 @@ pub struct StoredProbes {
 }
 
 impl StoredProbes {
-    fn new(stored: Stored, time_s: &[f64]) -> Result<Self, SceneError> {
-        let path = |name: &str| format!("{PROBES}/{name}");
-        let r_m = stored.vector(&path(PLACES[0].0))?;
-        let z_m = stored.numbers(&path(PLACES[1].0), &[r_m.len()])?;
-        let arrivals = stored.numbers(&path(ARRIVALS.0), &[r_m.len(), 3])?;
-        Ok(Self {
-            samples: time_s.len(),
-            arrival_s: arrivals
-                .chunks_exact(3)
-                .map(|t| [t[0], t[1], t[2]])
-                .collect(),
-            r_m,
-            z_m,
-            stored,
-        })
-    }
-
     /// What was stored at each probe over time.
     #[must_use]
     pub fn quantities(&self) -> Vec<Described> {
@@ -233,22 +240,6 @@ pub struct StoredSection {
 }
 
 impl StoredSection {
-    fn new(stored: Stored) -> Result<Self, SceneError> {
-        let scale = |i: usize| stored.vector(&format!("{MAP}/{}", MAP_SCALES[i].0));
-        let (time_s, z_m, r_m) = (scale(0)?, scale(1)?, scale(2)?);
-        let rising = |x: &[f64]| x.windows(2).all(|pair| pair[0] < pair[1]);
-        let falling = z_m.windows(2).all(|pair| pair[0] > pair[1]);
-        if !rising(&time_s) || !rising(&r_m) || !falling || r_m.len() < 2 || z_m.len() < 2 {
-            return Err(stored.damaged("the axes of its section are not in order"));
-        }
-        Ok(Self {
-            stored,
-            r_m,
-            z_m,
-            time_s,
-        })
-    }
-
     /// What was stored in each frame.
     #[must_use]
     pub fn quantities(&self) -> Vec<Described> {

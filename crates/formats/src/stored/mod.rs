@@ -8,12 +8,10 @@ mod groups;
 mod impact;
 mod open;
 mod rows;
-mod sweep;
 
 pub use crate::sweep::Part;
 pub use impact::{StoredImpact, StoredProbes, StoredSection};
 pub use open::{FileKind, file_kind};
-pub use rows::StoredPart;
 pub(crate) use rows::whole_sweep;
-pub use sweep::StoredSweep;
+pub use rows::{StoredPart, StoredSweep};
 pub use toml::Value;

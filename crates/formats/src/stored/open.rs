@@ -68,7 +68,7 @@ impl fmt::Display for FileKind {
 #[derive(Debug, Clone)]
 pub(super) struct Stored {
     pub(super) path: PathBuf,
-    file: HdfFile,
+    pub(super) file: HdfFile,
 }
 
 impl Stored {
@@ -86,7 +86,7 @@ impl Stored {
             .nth(1)
             .and_then(|minor| minor.parse().ok());
         let sealed = minor.is_none_or(|minor: u32| minor >= wanted.row().1);
-        if sealed != stored.is_sealed() {
+        if sealed != stored.file.is_sealed() {
             return Err(stored.damaged(
                 "its seal is gone: it was cut short, or something has written to it since it was made",
             ));
@@ -96,10 +96,6 @@ impl Stored {
             stored.check()?;
         }
         Ok(stored)
-    }
-
-    pub(super) fn is_sealed(&self) -> bool {
-        self.file.is_sealed()
     }
 
     /// Compares every byte of a file that has a seal.

@@ -22,7 +22,7 @@ use std::path::{Path, PathBuf};
 use toml::{Table, Value};
 
 /// A sweep: a base scene and the axes along which it varies.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default)]
 pub struct Spec {
     /// The base scene.
     pub(crate) scene: Table,
@@ -255,7 +255,7 @@ fn identity(resolved: &str, files: &[String], axes: &[Axis]) -> String {
 }
 
 /// What was read: rows are computed from it, whatever becomes of the files.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Files {
     /// Where each file is.
     inputs: Vec<Role>,

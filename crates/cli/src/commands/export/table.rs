@@ -2,6 +2,7 @@
 
 use crate::commands::export::case::Case;
 use crate::failure::Failure;
+use contact::Plasticity;
 use formats::QUANTITIES;
 use std::fmt::Write;
 
@@ -39,9 +40,9 @@ pub(super) fn table(case: &Case, velocities: Option<&[f64]>, rows: u32) -> Resul
         );
     }
     text += "velocity_m_s";
-    let kinds: &[(&str, bool)] = match case.may_flow() {
-        true => &[("elastic", true), ("plastic", false)],
-        false => &[("elastic", true)],
+    let kinds: &[(&str, bool)] = match case.impact.settings.plasticity {
+        Plasticity::None => &[("elastic", true)],
+        _ => &[("elastic", true), ("plastic", false)],
     };
     for (kind, _) in kinds {
         text.extend(COLUMNS.map(|column| format!(",{kind}_{column}")));

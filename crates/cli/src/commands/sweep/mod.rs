@@ -286,7 +286,7 @@ fn rows(overwrite: Overwrite, spec: &Spec, outputs: &Outputs) -> Result<Option<K
 /// A sweep that could not be run or joined, with what to do.
 fn failure(error: SweepError) -> Failure {
     let hint = match error {
-        SweepError::Journal(JournalError::Other { .. }) => {
+        SweepError::Journal(JournalError::Other(..)) => {
             "; give --force to drop it, or another output to keep it"
         }
         SweepError::Missing { .. } => "; hertzlamb sweep status lists them",
