@@ -2,7 +2,7 @@
 
 use hdf5::dataset::{AllocTime, FillTime};
 use hdf5::types::VarLenUnicode;
-use hdf5::{Dataset, Group, H5Type};
+use hdf5::{Dataset, Group, H5Type, Location};
 pub(crate) use lookup::labels::{attach_scale, new_file, reason, set_scale, text};
 
 pub(crate) fn vector(
@@ -79,6 +79,15 @@ pub(crate) fn reserve<T: H5Type>(
         return Err(hdf5::Error::from("the library reserves no space"));
     }
     Ok((dataset, place))
+}
+
+/// One value as an attribute.
+pub(crate) fn scalar<T: H5Type + Copy>(
+    place: &Location,
+    name: &str,
+    value: T,
+) -> Result<(), hdf5::Error> {
+    place.new_attr::<T>().create(name)?.write_scalar(&value)
 }
 
 /// A list of texts.

@@ -126,25 +126,23 @@ impl Parts {
 
     /// Writes the whole sweep, byte by byte as one run would have, in the format that the name says, into an output that was claimed before.
     ///
+    /// Where it `refers`, it is an HDF5 file whose results lie in the parts, which are to stay where they are, seen from it.
+    ///
     /// # Errors
-    /// [`SweepError`] where rows are missing, or twice there, or a file is none of the sweep's parts.
-    pub fn merge<'a>(&self, output: &'a Output) -> Result<Staged<'a>, SweepError> {
+    /// [`SweepError`] where rows are missing, or twice there, or a file is none of the sweep's parts, or none to refer to.
+    pub fn merge<'a>(&self, output: &'a Output, refers: bool) -> Result<Staged<'a>, SweepError> {
+        if refers {
+            HDF5.check(output.path())?;
+        }
         let spec = self.whole(output)?;
         let rows = Checked {
             parts: self,
             spec: &spec,
-            all: true,
+            all: !refers,
         };
-        Ok(stage_rows(output, &spec, None, &rows)?)
-    }
-
-    /// Writes an HDF5 file of the whole sweep whose results lie in the parts, which are to stay where they are, seen from it.
-    ///
-    /// # Errors
-    /// Those of [`Self::merge`], and [`SweepError::Scene`] for a part that it cannot refer to.
-    pub fn merge_virtual<'a>(&self, output: &'a Output) -> Result<Staged<'a>, SweepError> {
-        HDF5.check(output.path())?;
-        let spec = self.whole(output)?;
+        if !refers {
+            return Ok(stage_rows(output, &spec, None, &rows)?);
+        }
         let sources = self.full().map(|part| {
             let unreferred = |reason: &str| {
                 SceneError::is(&part.path, format!("cannot be referred to: {reason}"))
@@ -159,11 +157,6 @@ impl Parts {
             Ok((path, rows))
         });
         let sources = sources.collect::<Result<Vec<_>, SceneError>>()?;
-        let rows = Checked {
-            parts: self,
-            spec: &spec,
-            all: false,
-        };
         Ok(stage_hdf5(output, &spec, None, Some(&sources), &rows)?)
     }
 

@@ -54,7 +54,7 @@ fn write(path: &Path, spec: &Spec, range: Option<Range<usize>>, size: usize) -> 
 fn merged(folder: &Path, output: &Path) -> Vec<u8> {
     let output = Output::claim(output, Existing::Replace).unwrap();
     let parts = Parts::in_folder(folder, None).unwrap();
-    parts.merge(&output).unwrap().commit().unwrap();
+    parts.merge(&output, false).unwrap().commit().unwrap();
     std::fs::read(output.path()).unwrap()
 }
 

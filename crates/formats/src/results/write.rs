@@ -4,7 +4,7 @@ use super::identity::scene_sha256;
 use super::schema;
 use super::section::{beside, waves, write_section};
 use crate::hdf::{
-    attach_all, attach_scale, new_file, numbers, reason, scale, set_scale, text, vector,
+    attach_all, attach_scale, new_file, numbers, reason, scalar, scale, set_scale, text, vector,
 };
 use crate::quantities::QUANTITIES;
 use crate::report::{choices, kernel_name, treatment};
@@ -74,7 +74,7 @@ fn write_file(path: &Path, scene: &Scene, outcome: &Outcome) -> Result<(), hdf5:
 fn write_treatment(force: &Dataset, scene: &Scene) -> Result<(), hdf5::Error> {
     for (name, value) in treatment(scene) {
         if let Some(value) = value {
-            force.new_attr::<f64>().create(name)?.write_scalar(&value)?;
+            scalar(force, name, value)?;
         }
     }
     Ok(())
@@ -162,9 +162,7 @@ fn write_attributes(file: &File, scene: &Scene, outcome: &Outcome) -> Result<(),
     }
     for quantity in &QUANTITIES {
         if let Some(value) = quantity.of(outcome) {
-            file.new_attr::<f64>()
-                .create(quantity.name)?
-                .write_scalar(&value)?;
+            scalar(file, quantity.name, value)?;
         }
     }
     Ok(())

@@ -103,7 +103,7 @@ impl Spec {
     ) -> Result<Self, SceneError> {
         let files = Files::read(&scene, &axes, directory)?;
         Ok(Self {
-            sha256: identity(&resolved, &files.texts, unspelled),
+            sha256: identity(&resolved, &files, unspelled),
             fields: own_fields(&scene, &axes, Vec::new()),
             directory: directory.to_owned(),
             scene,
@@ -233,13 +233,13 @@ fn own_fields(scene: &Table, axes: &[Axis], probed: Vec<Described>) -> Fields {
 
 /// Of the program's version, the revision of its numbers, the format, everything spelled out, the files that were read, and
 /// axes whose values are not spelled out.
-fn identity(resolved: &str, files: &[String], axes: &[Axis]) -> String {
+fn identity(resolved: &str, files: &Files, axes: &[Axis]) -> String {
     let mut identity = Identity::default()
         .with("software", env!("CARGO_PKG_VERSION"))
         .with("numbers", NUMBERS_REVISION.to_le_bytes())
         .with("format", FORMAT_VERSION)
         .with("sweep", resolved);
-    for text in files {
+    for (_, text) in files.libraries.values() {
         identity = identity.with("materials", text);
     }
     for column in axes.iter().flat_map(|axis| &axis.columns) {
@@ -259,10 +259,8 @@ fn identity(resolved: &str, files: &[String], axes: &[Axis]) -> String {
 pub(super) struct Files {
     /// Where each file is.
     inputs: Vec<Role>,
-    /// Materials by the name of their file.
-    libraries: BTreeMap<String, Library>,
-    /// Text of each materials file, in the order of their names.
-    texts: Vec<String>,
+    /// Materials by the name of their file, with its text.
+    libraries: BTreeMap<String, (Library, String)>,
 }
 
 impl Files {
@@ -284,18 +282,16 @@ impl Files {
             let text = read_text(&path)?;
             let own = parse_materials(&text).map_err(|error| error.in_file(&path))?;
             let library = Library::built_in().clone().extended(&own);
-            files.libraries.insert(name.to_owned(), library);
+            files.libraries.insert(name.to_owned(), (library, text));
             files.inputs.push(("a materials file", path));
-            files.texts.push(text);
         }
         Ok(files)
     }
 
     /// The materials of a scene.
     pub(super) fn library(&self, scene: &Table) -> &Library {
-        named(scene)
-            .and_then(|name| self.libraries.get(name))
-            .unwrap_or(Library::built_in())
+        let own = named(scene).and_then(|name| self.libraries.get(name));
+        own.map_or(Library::built_in(), |(library, _)| library)
     }
 }
 
