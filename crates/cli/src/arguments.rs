@@ -14,7 +14,7 @@ use std::sync::Arc;
 
 /// Where the kernels of the fields come from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Kernel {
+enum Kernel {
     /// Computed for each probe, no table.
     Direct,
     /// Looked up in the table given with --table.
@@ -37,7 +37,7 @@ impl Kernels {
     /// The table among the files that are read.
     pub(crate) fn inputs(&self) -> impl Iterator<Item = Role> {
         let table = self.table.iter();
-        table.map(|table| Role::new("the kernel table", table))
+        table.map(|table| ("the kernel table", table.clone()))
     }
 
     /// Of one impact.
@@ -54,15 +54,13 @@ impl Kernels {
         }
     }
 
-    /// Which kernels a finished result may have.
-    pub(crate) fn allowed(&self) -> Result<Option<(Kernel, String)>, Failure> {
-        match &self.table {
-            Some(path) if self.kernel != Kernel::Direct => {
-                let table = open_table(path)?;
-                Ok(Some((self.kernel, table.id().to_owned())))
-            }
-            Some(_) | None => Ok(None),
-        }
+    /// Whether a finished result may have computed kernels, and the id of the table whose kernels it may have.
+    pub(crate) fn allowed(&self) -> Result<(bool, Option<String>), Failure> {
+        let table = self.table.as_deref();
+        let table = table.filter(|_| self.kernel != Kernel::Direct);
+        let id = table.map(|path| Ok::<_, Failure>(open_table(path)?.id().to_owned()));
+        let id = id.transpose()?;
+        Ok((id.is_none() || self.kernel != Kernel::Table, id))
     }
 
     /// A sweep with its fields, where its base scene has probes.
@@ -103,11 +101,7 @@ pub(crate) struct Overwrite {
 
 impl Overwrite {
     pub(crate) fn existing(self) -> Existing {
-        if self.force {
-            Existing::Replace
-        } else {
-            Existing::Keep
-        }
+        Existing::replaced(self.force)
     }
 
     /// Claims the one output of a command that reads `inputs`, before any work.
@@ -126,13 +120,13 @@ impl Overwrite {
 /// Whether a name is that of a file of rows that this program can write.
 pub(crate) fn check_rows(path: &Path) -> Result<(), Failure> {
     formats::sweep::check_rows(path).map_err(|error| {
-        let unbuilt = matches!(error, OutputError::Unbuilt { .. });
-        let failure = Failure::from(error);
-        if unbuilt {
-            failure.hint(": build it with `cargo build --release --package hertzlamb-cli --features parquet`")
-        } else {
-            failure
-        }
+        let hint = match error {
+            OutputError::Unbuilt(..) => {
+                ": build it with `cargo build --release --package hertzlamb-cli --features parquet`"
+            }
+            _ => "",
+        };
+        Failure::from(error).hint(hint)
     })
 }
 

@@ -142,21 +142,11 @@ pub(crate) fn wants_json() -> bool {
 }
 
 /// Whether only errors are told.
-static QUIET: AtomicBool = AtomicBool::new(false);
-
-/// From now on tells only errors.
-pub(crate) fn be_quiet() {
-    QUIET.store(true, Ordering::Relaxed);
-}
-
-/// Whether only errors are told.
-pub(crate) fn is_quiet() -> bool {
-    QUIET.load(Ordering::Relaxed)
-}
+pub(crate) static QUIET: AtomicBool = AtomicBool::new(false);
 
 /// Writes a warning, a note or how far the work is on standard error, unless only errors are wanted.
 pub(crate) fn say(text: impl Display) {
-    if !is_quiet() {
+    if !QUIET.load(Ordering::Relaxed) {
         tell(text);
     }
 }

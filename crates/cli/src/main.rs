@@ -12,6 +12,7 @@ use commands::{
     chart, completions, demo, export, impact, infer, materials, paper, plot, sweep, table, tabulate,
 };
 use std::process::ExitCode;
+use std::sync::atomic::Ordering;
 
 /// Impact of a body on an elastic half-space: contact force, rebound and waves.
 #[derive(Debug, Parser)]
@@ -61,9 +62,7 @@ fn main() -> ExitCode {
     process::end_in_one_sentence();
     process::listen();
     let cli = parsed();
-    if cli.quiet {
-        failure::be_quiet();
-    }
+    failure::QUIET.store(cli.quiet, Ordering::Relaxed);
     let done = match cli.command {
         Command::Impact(arguments) => impact::run(&arguments),
         Command::Sweep(arguments) => sweep::run(&arguments),

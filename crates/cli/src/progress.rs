@@ -1,8 +1,9 @@
 //! How far a long computation is: a bar on a terminal, plain lines elsewhere.
 
-use crate::failure::{is_quiet, say};
+use crate::failure::{QUIET, say};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
+use std::sync::atomic::Ordering;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 use tabulator::Progress;
@@ -45,15 +46,10 @@ impl Bar {
         let style = style.unwrap_or_else(|_| ProgressStyle::default_bar());
         Self {
             bar: ProgressBar::hidden().with_style(style.progress_chars("=> ")),
-            on_terminal: std::io::stderr().is_terminal() && !is_quiet(),
+            on_terminal: std::io::stderr().is_terminal() && !QUIET.load(Ordering::Relaxed),
             patience,
             stage: Mutex::new(Stage::of("", 0)),
         }
-    }
-
-    /// Begins a stage of `total` units.
-    pub(crate) fn start(&self, stage: &str, total: u64) {
-        Progress::total(self, stage, total);
     }
 
     /// Says how many units of the stage are done; those of the first call were done before.

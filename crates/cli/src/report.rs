@@ -6,16 +6,15 @@ use impact::{Cause, Load, Outcome, ProbeFields, RecordResults, Scene, Strike, Tr
 
 /// The results for people.
 pub(crate) fn text_report(scene: &Scene, outcome: &Outcome) -> String {
-    let choices = choices(scene, outcome);
+    let [model, scheme, share, deflection, reason] = choices(scene, outcome);
     let mut lines = vec![
         understood(scene),
-        format!("model          {} ({})", choices.model, choices.reason),
+        format!("model          {model} ({reason})"),
     ];
     match &outcome.cause {
         Cause::Contact { results, .. } => {
-            let mut scheme = format!("scheme         {}", choices.scheme);
+            let mut scheme = format!("scheme         {scheme}");
             if scene.settings.disc_radius_m.is_some() {
-                let (share, deflection) = (choices.static_share, choices.deflection);
                 scheme.push_str(&format!(", static share {share}, deflection {deflection}"));
             }
             lines.push(scheme);

@@ -38,7 +38,7 @@ pub trait Fault: Debug + Display {
 }
 
 /// Which kind of thing is at fault.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Class {
     /// A scene, a sweep, a grid or an argument.
     Scene,
@@ -57,6 +57,7 @@ pub enum Class {
     /// An output that cannot be written.
     Output,
     /// Anything else that failed.
+    #[default]
     Work,
 }
 
@@ -79,18 +80,19 @@ impl Class {
 }
 
 /// What can be done.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Remedy {
     /// Change what was given.
     Change,
     /// Nothing that is known: the work itself failed.
+    #[default]
     Unknown,
     /// Try the same again later.
     Wait,
 }
 
 /// What a program can use of an error; none where it has no such thing.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Culprit<'a> {
     pub class: Class,
     pub remedy: Remedy,
@@ -119,13 +121,7 @@ impl<'a> Culprit<'a> {
                 Class::Work => Remedy::Unknown,
                 _ => Remedy::Change,
             },
-            key: None,
-            number: None,
-            word: None,
-            range: None,
-            limits: None,
-            suggestion: None,
-            file: None,
+            ..Self::default()
         }
     }
 
@@ -146,12 +142,6 @@ impl<'a> Culprit<'a> {
     pub fn number(self, number: f64) -> Self {
         let number = Some(number);
         Self { number, ..self }
-    }
-
-    #[must_use]
-    pub fn word(self, word: &'a str) -> Self {
-        let word = Some(word);
-        Self { word, ..self }
     }
 
     #[must_use]
@@ -181,15 +171,8 @@ pub fn number(value: f64) -> String {
 }
 
 /// A sentence alone.
-impl Fault for String {
+impl<T: AsRef<str> + Debug + Display> Fault for T {
     fn culprit(&self) -> Culprit<'_> {
-        Culprit::of(Class::Work)
-    }
-}
-
-/// A sentence alone.
-impl Fault for &str {
-    fn culprit(&self) -> Culprit<'_> {
-        Culprit::of(Class::Work)
+        Culprit::default()
     }
 }

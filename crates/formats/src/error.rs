@@ -1,4 +1,4 @@
-//! What can be wrong with a scene.
+//! What can be wrong with a scene, or with a file that is read back.
 
 use contact::nearest;
 use fault::{Class, Culprit, Fault, number};
@@ -6,7 +6,8 @@ use impact::TreatmentError;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// A scene that cannot be run, told in one sentence with the key, the value and what is allowed.
+/// A scene that cannot be run, told in one sentence with the key, the value and what is allowed; or a file of the program that
+/// cannot be read back.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error("{}", .0.sentence)]
 pub struct SceneError(Box<About>);
@@ -47,6 +48,16 @@ impl SceneError {
     /// A file that cannot be read.
     pub(crate) fn unreadable(path: &Path, reason: impl std::fmt::Display) -> Self {
         Self::in_sentence(path, format!("cannot read {}: {reason}", path.display()))
+    }
+
+    /// The file is not what it should be: a sentence that its name begins.
+    pub(crate) fn is(path: &Path, what: impl std::fmt::Display) -> Self {
+        Self::in_sentence(path, format!("{} {what}", path.display()))
+    }
+
+    /// Something that every such file has is missing or wrong.
+    pub(crate) fn damaged(path: &Path, what: impl std::fmt::Display) -> Self {
+        Self::in_sentence(path, format!("{}: {what}", path.display()))
     }
 
     /// A text that is not TOML, from a line that counts from 1.

@@ -2,7 +2,7 @@
 
 use hdf5::dataset::{AllocTime, FillTime};
 use hdf5::types::VarLenUnicode;
-use hdf5::{Dataset, Group, H5Type};
+use hdf5::{Dataset, Group, H5Type, Location};
 pub(crate) use lookup::labels::{attach_scale, new_file, reason, set_scale, text};
 
 pub(crate) fn vector(
@@ -20,12 +20,23 @@ pub(crate) fn numbers<T: H5Type>(
     shape: &[usize],
     samples: &[T],
 ) -> Result<Dataset, hdf5::Error> {
+    filled::<T>(group, described, shape, |dataset| {
+        dataset.write_raw(samples)
+    })
+}
+
+fn filled<T: H5Type>(
+    group: &Group,
+    described: &(&str, &str, &str),
+    shape: &[usize],
+    fill: impl FnOnce(&Dataset) -> Result<(), hdf5::Error>,
+) -> Result<Dataset, hdf5::Error> {
     let dataset = group
         .new_dataset::<T>()
         .shape(shape)
         .obj_track_times(false)
         .create(described.0)?;
-    dataset.write_raw(samples)?;
+    fill(&dataset)?;
     describe(&dataset, described)?;
     Ok(dataset)
 }
@@ -40,18 +51,13 @@ pub(crate) fn some_at_a_time<T: H5Type>(
     length: usize,
     number: impl Fn(usize) -> T,
 ) -> Result<Dataset, hdf5::Error> {
-    let dataset = group
-        .new_dataset::<T>()
-        .shape([length])
-        .obj_track_times(false)
-        .create(described.0)?;
-    for start in (0..length).step_by(AT_A_TIME) {
-        let end = (start + AT_A_TIME).min(length);
-        let some: Vec<T> = (start..end).map(&number).collect();
-        dataset.write_slice(&some, start..end)?;
-    }
-    describe(&dataset, described)?;
-    Ok(dataset)
+    filled::<T>(group, described, &[length], |dataset| {
+        (0..length).step_by(AT_A_TIME).try_for_each(|start| {
+            let end = (start + AT_A_TIME).min(length);
+            let some: Vec<T> = (start..end).map(&number).collect();
+            dataset.write_slice(&some, start..end)
+        })
+    })
 }
 
 /// A described dataset whose numbers are written later, and where in the file they stand; nowhere without any.
@@ -73,6 +79,15 @@ pub(crate) fn reserve<T: H5Type>(
         return Err(hdf5::Error::from("the library reserves no space"));
     }
     Ok((dataset, place))
+}
+
+/// One value as an attribute.
+pub(crate) fn scalar<T: H5Type + Copy>(
+    place: &Location,
+    name: &str,
+    value: T,
+) -> Result<(), hdf5::Error> {
+    place.new_attr::<T>().create(name)?.write_scalar(&value)
 }
 
 /// A list of texts.

@@ -27,8 +27,7 @@ pub use error::SceneError;
 pub use output::{Existing, Output, OutputError, write_whole};
 pub use quantities::{Kind, QUANTITIES, Quantity};
 pub use report::{
-    Choices, accuracy_report, choices, infer, json_report, kernel_name, material_report,
-    table_report,
+    accuracy_report, choices, infer, json_report, kernel_name, material_report, table_report,
 };
 pub use results::{check_results, stage_results, stage_results_csv, write_results};
 pub use scene::{

@@ -1,6 +1,7 @@
 //! Rows of a sweep in several files: what a folder has of them, what it lacks, and all of them in one.
 
-use crate::stored::{FileKind, Part, ReadError, StoredPart, file_kind, whole_sweep};
+use crate::error::SceneError;
+use crate::stored::{FileKind, Part, StoredPart, file_kind, whole_sweep};
 use crate::sweep::{
     Block, Blocks, Selection, Shard, Spec, SweepError, Unfinished, grain, stage_hdf5, stage_rows,
 };
@@ -108,7 +109,7 @@ impl Parts {
 
     /// The first rows that two parts have, if there are any.
     #[must_use]
-    pub fn overlap(&self) -> Option<ReadError> {
+    pub fn overlap(&self) -> Option<SceneError> {
         let full: Vec<&Part> = self.full().collect();
         full.windows(2).find_map(|pair| {
             let [first, second] = [pair[0], pair[1]];
@@ -118,35 +119,33 @@ impl Parts {
                 let [one, two] = [first, second].map(|part| part.path.display());
                 let sentence =
                     format!("rows {from} to {to} are in {one} and in {two}: remove one of the two");
-                ReadError::told(&first.path, sentence)
+                SceneError::in_sentence(&first.path, sentence)
             })
         })
     }
 
     /// Writes the whole sweep, byte by byte as one run would have, in the format that the name says, into an output that was claimed before.
     ///
+    /// Where it `refers`, it is an HDF5 file whose results lie in the parts, which are to stay where they are, seen from it.
+    ///
     /// # Errors
-    /// [`SweepError`] where rows are missing, or twice there, or a file is none of the sweep's parts.
-    pub fn merge<'a>(&self, output: &'a Output) -> Result<Staged<'a>, SweepError> {
+    /// [`SweepError`] where rows are missing, or twice there, or a file is none of the sweep's parts, or none to refer to.
+    pub fn merge<'a>(&self, output: &'a Output, refers: bool) -> Result<Staged<'a>, SweepError> {
+        if refers {
+            HDF5.check(output.path())?;
+        }
         let spec = self.whole(output)?;
         let rows = Checked {
             parts: self,
             spec: &spec,
-            all: true,
+            all: !refers,
         };
-        Ok(stage_rows(output, &spec, None, &rows)?)
-    }
-
-    /// Writes an HDF5 file of the whole sweep whose results lie in the parts, which are to stay where they are, seen from it.
-    ///
-    /// # Errors
-    /// Those of [`Self::merge`], and [`SweepError::Read`] for a part that it cannot refer to.
-    pub fn merge_virtual<'a>(&self, output: &'a Output) -> Result<Staged<'a>, SweepError> {
-        HDF5.check(output.path())?;
-        let spec = self.whole(output)?;
+        if !refers {
+            return Ok(stage_rows(output, &spec, None, &rows)?);
+        }
         let sources = self.full().map(|part| {
             let unreferred = |reason: &str| {
-                ReadError::is(&part.path, format!("cannot be referred to: {reason}"))
+                SceneError::is(&part.path, format!("cannot be referred to: {reason}"))
             };
             if HDF5.check(&part.path).is_err() || StoredPart::open(&part.path)?.failures().is_none()
             {
@@ -157,12 +156,7 @@ impl Parts {
             let path = path.ok_or_else(|| unreferred("its path is no text"))?;
             Ok((path, rows))
         });
-        let sources = sources.collect::<Result<Vec<_>, ReadError>>()?;
-        let rows = Checked {
-            parts: self,
-            spec: &spec,
-            all: false,
-        };
+        let sources = sources.collect::<Result<Vec<_>, SceneError>>()?;
         Ok(stage_hdf5(output, &spec, None, Some(&sources), &rows)?)
     }
 
@@ -171,7 +165,7 @@ impl Parts {
         // what was merged before may lie beside the parts
         let merged = |path: &Path| file_kind(path) == Ok(FileKind::Sweep);
         if let Some((path, reason)) = self.foreign.iter().find(|(path, _)| !merged(path)) {
-            return Err(ReadError::told(path, reason.clone()).into());
+            return Err(SceneError::in_sentence(path, reason.clone()).into());
         }
         if let Some(overlap) = self.overlap() {
             return Err(overlap.into());
@@ -192,7 +186,7 @@ impl Parts {
         if let Some(other) = self.parts.iter().find(|part| part.fields != spec.fields) {
             let other = other.path.display();
             let sentence = format!("and {other} have other columns, or another precision");
-            return Err(ReadError::is(&first.path, sentence).into());
+            return Err(SceneError::is(&first.path, sentence).into());
         }
         Ok(spec)
     }
@@ -215,7 +209,7 @@ impl Blocks for Checked<'_> {
     /// One part is open at a time: there may be more than files that a process may open.
     fn each(&self, visit: &mut dyn FnMut(&Block) -> Result<(), Fault>) -> Result<(), Fault> {
         self.parts.parts.iter().try_for_each(|part| {
-            let told = |error: ReadError| Fault::from(error.to_string());
+            let told = |error: SceneError| Fault::from(error.to_string());
             let open = StoredPart::open(&part.path).map_err(told)?;
             if open.part != *part {
                 let path = part.path.display();
@@ -266,7 +260,7 @@ pub fn check_complete(
             (Some(part.sha256), part.fields, rows)
         }),
     };
-    let (sha256, fields, rows) = found.map_err(|error: ReadError| error.to_string())?;
+    let (sha256, fields, rows) = found.map_err(|error: SceneError| error.to_string())?;
     let asked = selection.map(|selection| selection.rows.clone());
     let wrong = if sha256.as_ref() != Some(&spec.sha256) {
         format!("is of {OTHER}")
@@ -285,17 +279,17 @@ pub fn check_complete(
 }
 
 /// What is said of a place without parts.
-fn none(path: &Path) -> ReadError {
-    ReadError::is(path, "has no part of a sweep")
+fn none(path: &Path) -> SceneError {
+    SceneError::is(path, "has no part of a sweep")
 }
 
 /// Files of a folder with some names, by name; those that begin with a dot belong to runs.
-fn files(folder: &Path, named: impl Fn(&Path) -> bool) -> Result<Vec<PathBuf>, ReadError> {
+fn files(folder: &Path, named: impl Fn(&Path) -> bool) -> Result<Vec<PathBuf>, SceneError> {
     let paths = || -> std::io::Result<Vec<PathBuf>> {
         let entries = std::fs::read_dir(folder)?;
         entries.map(|entry| Ok(entry?.path())).collect()
     };
-    let mut found = paths().map_err(|reason| ReadError::unreadable(folder, reason))?;
+    let mut found = paths().map_err(|reason| SceneError::unreadable(folder, reason))?;
     let hidden = |name: &OsStr| name.as_encoded_bytes().starts_with(b".");
     found.retain(|path| named(path) && !path.file_name().is_some_and(hidden));
     found.sort();

@@ -9,27 +9,13 @@ use lookup::{Accuracy, Quantiles, Table};
 use serde_json::{Map, Value, json};
 use std::path::Path;
 
-/// Names of the choices made.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Choices<'a> {
-    /// Model, never "auto"; "prescribed" for a force that was given.
-    pub model: &'static str,
-    /// Scheme; "closed form" where nothing was marched.
-    pub scheme: &'static str,
-    /// Static share.
-    pub static_share: &'static str,
-    /// Deflection.
-    pub deflection: &'static str,
-    /// Why this model.
-    pub reason: &'a str,
-}
-
 /// Name of the scheme where nothing is marched.
 const CLOSED_FORM: &str = "closed form";
 
-/// What a scene was computed with.
+/// What a scene was computed with, by name: the model, never "auto", but "prescribed" for a force that was given; the scheme,
+/// "closed form" where nothing was marched; the static share; the deflection; and why this model.
 #[must_use]
-pub fn choices<'a>(scene: &Scene, outcome: &'a Outcome) -> Choices<'a> {
+pub fn choices<'a>(scene: &Scene, outcome: &'a Outcome) -> [&'a str; 5] {
     let settings = &scene.settings;
     let deflection = settings.deflection.name();
     match &outcome.cause {
@@ -38,20 +24,20 @@ pub fn choices<'a>(scene: &Scene, outcome: &'a Outcome) -> Choices<'a> {
             scheme,
             reason,
             ..
-        } => Choices {
-            model: model.name(),
-            scheme: scheme.map_or(CLOSED_FORM, Choice::name),
-            static_share: settings.static_share.name(),
+        } => [
+            model.name(),
+            scheme.map_or(CLOSED_FORM, Choice::name),
+            settings.static_share.name(),
             deflection,
             reason,
-        },
-        Cause::Record(_) => Choices {
-            model: "prescribed",
-            scheme: CLOSED_FORM,
-            static_share: "full",
+        ],
+        Cause::Record(_) => [
+            "prescribed",
+            CLOSED_FORM,
+            "full",
             deflection,
-            reason: "the force is given",
-        },
+            "the force is given",
+        ],
     }
 }
 
@@ -137,54 +123,43 @@ pub fn infer(
 /// All that is reported of a scene, with the time that it took in s.
 #[must_use]
 pub fn json_report(scene: &Scene, outcome: &Outcome, wall_s: f64) -> Value {
-    let choices = choices(scene, outcome);
+    let [model, scheme, static_share, deflection, reason] = choices(scene, outcome);
     let used = outcome.used.as_ref();
     let table = used.and_then(|used| used.table.as_ref());
     let time_s = &outcome.series.time_s;
     let section = outcome.section.as_ref();
-    let head = [
-        ("model", json!(choices.model)),
-        ("scheme", json!(choices.scheme)),
-        ("static_share", json!(choices.static_share)),
-        ("deflection", json!(choices.deflection)),
-        ("reason", json!(choices.reason)),
-        ("kernel", json!(kernel_name(outcome))),
-        ("kernel_reason", json!(used.map_or("", |used| &used.reason))),
-        (
-            "convolution",
-            json!(used.map_or("", |used| used.convolution.name())),
-        ),
-        ("table_id", json!(table.map(|[id, _]| id))),
-        ("steps", json!(time_s.len().saturating_sub(1))),
-        ("step_s", json!(outcome.step_s())),
-    ];
+    let mut report = json!({
+        "model": model,
+        "scheme": scheme,
+        "static_share": static_share,
+        "deflection": deflection,
+        "reason": reason,
+        "kernel": kernel_name(outcome),
+        "kernel_reason": used.map_or("", |used| &used.reason),
+        "convolution": used.map_or("", |used| used.convolution.name()),
+        "table_id": table.map(|[id, _]| id),
+        "steps": time_s.len().saturating_sub(1),
+        "step_s": outcome.step_s(),
+    });
+    for quantity in &QUANTITIES {
+        report[quantity.name] = match (quantity.of(outcome), quantity.kind) {
+            (None, _) => Value::Null,
+            (Some(x), Kind::Real) => x.into(),
+            (Some(x), Kind::Count) => (x as u64).into(),
+        };
+    }
     let treated = treatment(scene).into_iter();
     let treated: Map<_, _> = treated
         .map(|(name, x)| (name.to_owned(), x.into()))
         .collect();
     let probes = outcome.probes.as_ref().map_or(0, |fields| fields.r_m.len());
     let map = section.map(|s| [s.time_s.len(), s.z_m.len(), s.r_m.len()]);
-    let tail = [
-        ("probes", json!(probes)),
-        ("map", json!(map)),
-        ("wall_s", json!(wall_s)),
-        ("warnings", json!(outcome.warnings)),
-        (
-            "force_treatment",
-            json!((!treated.is_empty()).then_some(treated)),
-        ),
-    ];
-    let quantities = QUANTITIES.iter().map(|quantity| {
-        let value = quantity
-            .of(outcome)
-            .map_or(Value::Null, |x| match quantity.kind {
-                Kind::Real => Value::from(x),
-                Kind::Count => Value::from(x as u64),
-            });
-        (quantity.name, value)
-    });
-    let all = head.into_iter().chain(quantities).chain(tail);
-    Value::Object(all.map(|(name, value)| (name.to_owned(), value)).collect())
+    report["probes"] = probes.into();
+    report["map"] = json!(map);
+    report["wall_s"] = wall_s.into();
+    report["warnings"] = json!(outcome.warnings);
+    report["force_treatment"] = json!((!treated.is_empty()).then_some(treated));
+    report
 }
 
 /// A material with its wave speeds.

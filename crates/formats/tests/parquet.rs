@@ -6,8 +6,7 @@
 use formats::parts::Parts;
 use formats::stored::{FileKind, StoredPart, file_kind};
 use formats::sweep::{
-    Block, Blocks, Fields, PARQUET_VERSION, Precision, Rows, Selection, Spec, compute_rows,
-    stage_rows,
+    Block, Blocks, Fields, PARQUET_VERSION, Precision, Selection, Spec, compute_rows, stage_rows,
 };
 use formats::{Existing, Output};
 use std::ops::Range;
@@ -29,12 +28,8 @@ fn spec() -> Spec {
 fn rows(spec: &Spec, rows: Range<usize>, size: usize) -> Vec<Block> {
     let blocks = rows.clone().step_by(size).map(|start| {
         let count = size.min(rows.end - start);
-        let asked = Rows {
-            start,
-            step: 1,
-            count,
-        };
-        let mut block = compute_rows(spec, asked, |_| true).unwrap().unwrap();
+        let block = compute_rows(spec, start, 1, count, |_| true);
+        let mut block = block.unwrap().unwrap();
         block.start += start;
         for (row, _) in &mut block.failures {
             *row += start;
@@ -59,7 +54,7 @@ fn write(path: &Path, spec: &Spec, range: Option<Range<usize>>, size: usize) -> 
 fn merged(folder: &Path, output: &Path) -> Vec<u8> {
     let output = Output::claim(output, Existing::Replace).unwrap();
     let parts = Parts::in_folder(folder, None).unwrap();
-    parts.merge(&output).unwrap().commit().unwrap();
+    parts.merge(&output, false).unwrap().commit().unwrap();
     std::fs::read(output.path()).unwrap()
 }
 

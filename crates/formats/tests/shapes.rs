@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
-use formats::sweep::{Block, Rows, Spec, compute_rows};
+use formats::sweep::{Block, Spec, compute_rows};
 use formats::{QUANTITIES, SceneError, parse_scene, resolved};
 use impact::{Load, Scene, Strike};
 use std::f64::consts::PI;
@@ -115,12 +115,7 @@ fn what_follows_cannot_be_given_beside() {
 }
 
 fn every_row(spec: &Spec) -> Result<Option<Block>, SceneError> {
-    let rows = Rows {
-        start: 0,
-        step: 1,
-        count: spec.rows(),
-    };
-    compute_rows(spec, rows, |_| true)
+    compute_rows(spec, 0, 1, spec.rows(), |_| true)
 }
 
 fn rows(axes: &str) -> (Spec, Vec<Block>) {
@@ -207,7 +202,7 @@ fn draws_hang_together_as_asked() {
     let draws = |key: &str| -> Vec<f64> {
         let mut columns = spec.axes.iter().flat_map(|axis| &axis.columns);
         let values = &columns.find(|column| column.name() == key).unwrap().values;
-        (0..values.len())
+        (0..values.count())
             .map(|i| values.number(i).unwrap())
             .collect()
     };

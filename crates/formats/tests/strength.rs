@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
 use contact::Library;
-use formats::sweep::{Block, Rows, Spec, compute_rows};
+use formats::sweep::{Block, Spec, compute_rows};
 use formats::{QUANTITIES, parse_scene};
 use impact::{KernelChoice, simulate};
 use std::path::Path;
@@ -30,12 +30,7 @@ velocity_m_s = [0.1, 50.0]
 material = [\"steel\", \"soda-lime-glass\", \"soil-soft\"]
 ";
     let spec = Spec::from_toml(text, Path::new(".")).unwrap();
-    let every = Rows {
-        start: 0,
-        step: 1,
-        count: spec.rows(),
-    };
-    let done = compute_rows(&spec, every, |_| true);
+    let done = compute_rows(&spec, 0, 1, spec.rows(), |_| true);
     let blocks: Vec<Block> = vec![done.unwrap().unwrap()];
     let rows: Vec<&[f64]> = blocks.iter().flat_map(Block::rows).collect();
     let value = |row: usize, name: &str| {

@@ -163,16 +163,10 @@ impl Dataset {
         Some(chunk.map(|n| n as usize).collect())
     }
 
-    /// The type of its values, in words.
-    #[must_use]
-    pub fn kind(&self) -> String {
-        kind(self.data.dtype())
-    }
-
     /// Whether its values are texts.
     #[must_use]
     pub fn holds_texts(&self) -> bool {
-        self.kind() == TEXT
+        kind(self.data.dtype()) == TEXT
     }
 
     /// Whether its values are numbers of a type.
@@ -255,7 +249,7 @@ impl Dataset {
             };
         }
         first_of!(f64, f32, i64, i32, i16, i8, u64, u32, u16, u8);
-        Err(wrong_type(&self.kind(), "numbers"))
+        Err(wrong_type(&kind(self.data.dtype()), "numbers"))
     }
 
     /// All its texts, which are UTF-8.

@@ -64,45 +64,27 @@ pub struct Record {
 pub enum JournalError {
     /// It was begun by another run.
     #[error(
-        "{} holds the beginning of another {kind}, or of this one before its settings, its files or the program changed",
-        path.display()
+        "{} holds the beginning of another {}, or of this one before its settings, its files or the program changed",
+        .0.display(), .1
     )]
-    Other {
-        /// What is done.
-        kind: &'static str,
-        /// The file.
-        path: PathBuf,
-    },
+    Other(PathBuf, &'static str),
     /// It is a file of somebody else, or of another version.
-    #[error("{} is no beginning that this program goes on with, and is kept: give the output another name", path.display())]
-    Strange {
-        /// The file.
-        path: PathBuf,
-    },
+    #[error("{} is no beginning that this program goes on with, and is kept: give the output another name", .0.display())]
+    Strange(PathBuf),
     /// It cannot be read.
-    #[error("cannot read {}: {source}", path.display())]
-    Unreadable {
-        /// The file.
-        path: PathBuf,
-        /// The system's reason.
-        source: io::Error,
-    },
+    #[error("cannot read {}: {}", .0.display(), .1)]
+    Unreadable(PathBuf, #[source] io::Error),
     /// It cannot be written.
-    #[error("cannot write {}: {source}", path.display())]
-    Unwritable {
-        /// The file.
-        path: PathBuf,
-        /// The system's reason.
-        source: io::Error,
-    },
+    #[error("cannot write {}: {}", .0.display(), .1)]
+    Unwritable(PathBuf, #[source] io::Error),
 }
 
 impl Fault for JournalError {
     fn culprit(&self) -> Culprit<'_> {
-        let (Self::Other { path, .. }
-        | Self::Strange { path }
-        | Self::Unreadable { path, .. }
-        | Self::Unwritable { path, .. }) = self;
+        let (Self::Other(path, _)
+        | Self::Strange(path)
+        | Self::Unreadable(path, _)
+        | Self::Unwritable(path, _)) = self;
         Culprit::of(Class::Output).file(path)
     }
 }
@@ -124,27 +106,21 @@ impl Journal {
         let path = path.to_owned();
         let there = std::fs::symlink_metadata(&path);
         if there.as_ref().is_ok_and(|there| !there.is_file()) {
-            return Err(JournalError::Strange { path });
+            return Err(JournalError::Strange(path));
         }
         let file = OpenOptions::new()
             .read(true)
             .write(true)
             .create_new(there.is_err())
             .open(&path)
-            .map_err(|source| JournalError::Unwritable {
-                path: path.clone(),
-                source,
-            })?;
+            .map_err(|source| JournalError::Unwritable(path.clone(), source))?;
         let mut journal = Self {
             path,
             file,
             end: 0,
             flushed: Instant::now(),
         };
-        let unreadable = |source| JournalError::Unreadable {
-            path: journal.path.clone(),
-            source,
-        };
+        let unreadable = |source| JournalError::Unreadable(journal.path.clone(), source);
         let kind = title.kind;
         let opened = journal.file.try_clone();
         let found = opened.and_then(|file| Records::read(file, kind));
@@ -168,12 +144,11 @@ impl Journal {
                     kind,
                     ..Title::default()
                 }),
-                None => return Err(JournalError::Strange { path: journal.path }),
+                None => return Err(JournalError::Strange(journal.path)),
             },
         };
         if other.is_some_and(|other| !drops(&other)) {
-            let path = journal.path;
-            return Err(JournalError::Other { kind, path });
+            return Err(JournalError::Other(journal.path, kind));
         }
         let emptied = journal.file.set_len(0);
         emptied
@@ -233,10 +208,7 @@ impl Journal {
     }
 
     fn unwritable(&self, source: io::Error) -> JournalError {
-        JournalError::Unwritable {
-            path: self.path.clone(),
-            source,
-        }
+        JournalError::Unwritable(self.path.clone(), source)
     }
 }
 
@@ -264,10 +236,7 @@ impl Records {
             }
             Self::read(File::open(path)?, kind)
         };
-        open().map_err(|source| JournalError::Unreadable {
-            path: path.to_owned(),
-            source,
-        })
+        open().map_err(|source| JournalError::Unreadable(path.to_owned(), source))
     }
 
     fn read(mut file: File, kind: &'static str) -> io::Result<Option<Self>> {
@@ -287,19 +256,18 @@ impl Records {
         };
         reader.by_ref().take(bytes).read_to_end(&mut about)?;
         let at = line.len() as u64 + bytes;
-        Ok(match String::from_utf8(about) {
-            Ok(about) if about.len() as u64 == bytes => Some(Self {
-                title: Title {
-                    kind,
-                    identity,
-                    about,
-                },
-                reader,
-                at,
-                length,
-            }),
-            Ok(_) | Err(_) => None,
-        })
+        let about = String::from_utf8(about).ok();
+        let about = about.filter(|about| about.len() as u64 == bytes);
+        Ok(about.map(|about| Self {
+            title: Title {
+                kind,
+                identity,
+                about,
+            },
+            reader,
+            at,
+            length,
+        }))
     }
 }
 

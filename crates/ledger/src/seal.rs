@@ -23,7 +23,6 @@ const END: usize = 8 + 8 + DIGEST;
 /// Bytes with a digest of their own.
 const PIECE: usize = 1 << 13;
 const DIGEST: usize = 32;
-type Digest256 = [u8; DIGEST];
 /// Pieces that are read and digested together.
 const TOGETHER: usize = 512;
 /// Pieces that stay in memory: what describes a dataset is read bit by bit.
@@ -53,7 +52,7 @@ pub(crate) struct Sealed {
     /// Bytes of the HDF5 part.
     pub(crate) length: u64,
     /// Digest of each piece.
-    pub(crate) digests: Option<Vec<Digest256>>,
+    pub(crate) digests: Option<Vec<[u8; DIGEST]>>,
     file: Mutex<std::fs::File>,
     /// The pieces that were read last, each with its place.
     held: Mutex<VecDeque<(usize, Vec<u8>)>>,
@@ -68,12 +67,10 @@ impl Sealed {
         }
         let mut file = std::fs::File::open(path)?;
         let whole = file.metadata()?.len();
-        let (length, digests) = match read_seal(&mut file, whole)? {
-            Some((length, digests)) => (length, Some(digests)),
-            None => (whole, None),
-        };
+        let digests = read_seal(&mut file, whole)?;
+        let behind = digests.as_ref().map_or(0, |list| END + DIGEST * list.len());
         Ok(Self {
-            length,
+            length: whole - behind as u64,
             digests,
             file: Mutex::new(file),
             held: Mutex::default(),
@@ -143,11 +140,8 @@ impl Storage for Sealed {
     }
 }
 
-/// Bytes of the HDF5 part of a file and the digests of its pieces; nothing where it has no seal.
-fn read_seal(
-    file: &mut std::fs::File,
-    whole: u64,
-) -> Result<Option<(u64, Vec<Digest256>)>, HdfError> {
+/// The digests of the pieces of a file of so many bytes; nothing where it has no seal.
+fn read_seal(file: &mut std::fs::File, whole: u64) -> Result<Option<Vec<[u8; DIGEST]>>, HdfError> {
     let mut end = [0; END];
     if whole >= END as u64 {
         file.seek(SeekFrom::End(-(END as i64)))?;
@@ -175,7 +169,7 @@ fn read_seal(
     if sum[..] != end[16..] {
         return Err(broken());
     }
-    Ok(Some((length, digests)))
+    Ok(Some(digests))
 }
 
 fn changed(piece: usize) -> io::Error {
@@ -186,7 +180,7 @@ fn changed(piece: usize) -> io::Error {
 }
 
 /// The digests of the first bytes of a file.
-fn digests(file: &std::fs::File, length: u64) -> io::Result<Vec<Digest256>> {
+fn digests(file: &std::fs::File, length: u64) -> io::Result<Vec<[u8; DIGEST]>> {
     let mut file = file;
     file.rewind()?;
     let mut found = Vec::new();
@@ -196,7 +190,7 @@ fn digests(file: &std::fs::File, length: u64) -> io::Result<Vec<Digest256>> {
         let count = bytes.len().min(left as usize);
         file.read_exact(&mut bytes[..count])?;
         let pieces = bytes[..count].par_chunks(PIECE);
-        found.par_extend(pieces.map(|piece| <Digest256>::from(Sha256::digest(piece))));
+        found.par_extend(pieces.map(|piece| <[u8; DIGEST]>::from(Sha256::digest(piece))));
         left -= count as u64;
     }
     Ok(found)

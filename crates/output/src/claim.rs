@@ -18,6 +18,14 @@ pub enum Existing {
     Replace,
 }
 
+impl Existing {
+    /// Keeps it unless it may be replaced.
+    #[must_use]
+    pub fn replaced(may: bool) -> Self {
+        if may { Self::Replace } else { Self::Keep }
+    }
+}
+
 /// A name that this run alone writes to, until it is dropped.
 #[derive(Debug)]
 pub struct Output {
@@ -38,10 +46,7 @@ impl Output {
         let exists = || refuse(path, &real, existing);
         let lock = match Lock::take(&real) {
             Ok(Some(lock)) => lock,
-            Ok(None) => {
-                let path = path.to_owned();
-                return Err(OutputError::Busy { path });
-            }
+            Ok(None) => return Err(OutputError::Busy(path.to_owned())),
             Err(error) => {
                 exists()?;
                 return Err(OutputError::place(path, error));
@@ -91,8 +96,7 @@ impl Output {
         let failed = |fault: Fault| OutputError::writing(&self.path, fault);
         let part = Temporary::beside(&self.real).map_err(|error| failed(error.into()))?;
         fill(&part.path).map_err(|fault| failed(fault.into()))?;
-        let settled = self.settle(&part.path);
-        let bytes = settled.map_err(|error| failed(error.into()))?;
+        let bytes = (self.settle(&part.path)).map_err(|error| failed(error.into()))?;
         Ok(Staged {
             output: self,
             part,
@@ -156,7 +160,7 @@ impl Staged<'_> {
         if *existing == Existing::KeepUnlessSame && real.exists() {
             return match same(&self.part.path, real) {
                 Ok(true) => Ok(()),
-                Ok(false) => Err(OutputError::Exists { path: path.clone() }),
+                Ok(false) => Err(OutputError::Exists(path.clone())),
                 Err(error) => Err(failed(error)),
             };
         }
@@ -169,9 +173,7 @@ impl Staged<'_> {
 /// Refuses a file that is there and is kept.
 fn refuse(path: &Path, real: &Path, existing: Existing) -> Result<(), OutputError> {
     match existing {
-        Existing::Keep if real.exists() => Err(OutputError::Exists {
-            path: path.to_owned(),
-        }),
+        Existing::Keep if real.exists() => Err(OutputError::Exists(path.to_owned())),
         Existing::Keep | Existing::KeepUnlessSame | Existing::Replace => Ok(()),
     }
 }

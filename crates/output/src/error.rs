@@ -8,43 +8,22 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum OutputError {
     /// The file exists and may not be replaced.
-    #[error("{} exists already and is not replaced", path.display())]
-    Exists {
-        /// The file.
-        path: PathBuf,
-    },
-    /// The place cannot be written to.
-    #[error("cannot write {}: {reason}", path.display())]
-    Unwritable {
-        /// The file.
-        path: PathBuf,
-        /// The system's or a library's reason.
-        reason: String,
-    },
-    /// The content could not be made or written; the file that was there is untouched.
-    #[error("cannot write {}: {reason}", path.display())]
-    Failed {
-        /// The file.
-        path: PathBuf,
-        /// The system's or a library's reason.
-        reason: String,
-    },
-    /// There is no space left; the file that was there is untouched.
-    #[error("cannot write {}: {reason}; what was there is as it was", path.display())]
-    Full {
-        /// The file.
-        path: PathBuf,
-        /// Where there is no space left.
-        reason: String,
-    },
+    #[error("{} exists already and is not replaced", .0.display())]
+    Exists(PathBuf),
+    /// The place cannot be written to, for the system's or a library's reason.
+    #[error("cannot write {}: {}", .0.display(), .1)]
+    Unwritable(PathBuf, String),
+    /// The content could not be made or written, for such a reason; the file that was there is untouched.
+    #[error("cannot write {}: {}", .0.display(), .1)]
+    Failed(PathBuf, String),
+    /// There is no space left, in words that say where; the file that was there is untouched.
+    #[error("cannot write {}: {}; what was there is as it was", .0.display(), .1)]
+    Full(PathBuf, String),
     /// Another run writes the same file.
-    #[error("another run is writing {}; nothing was changed", path.display())]
-    Busy {
-        /// The file.
-        path: PathBuf,
-    },
+    #[error("another run is writing {}; nothing was changed", .0.display())]
+    Busy(PathBuf),
     /// The name ends like another format.
-    #[error("{} is to be {format}: its name ends with {}, not with .{found}", path.display(), endings(.allowed))]
+    #[error("{} is to be {}: its name ends with {}, not with .{found}", path.display(), .format, endings(.allowed))]
     Ending {
         /// The file.
         path: PathBuf,
@@ -56,13 +35,8 @@ pub enum OutputError {
         found: String,
     },
     /// The format is one that the program was built without.
-    #[error("{} is to be {format}, which this program was built without", path.display())]
-    Unbuilt {
-        /// The file.
-        path: PathBuf,
-        /// The format.
-        format: &'static str,
-    },
+    #[error("{} is to be {}, which this program was built without", .0.display(), .1)]
+    Unbuilt(PathBuf, &'static str),
     /// The file is one that the same command reads.
     #[error("{} is {role} that this command reads{}: give the output another name", output.display(), behind(.output, .input))]
     Input {
@@ -74,20 +48,15 @@ pub enum OutputError {
         input: PathBuf,
     },
     /// Two outputs of one command are the same file.
-    #[error("{} and {} are the same file: give each output a name of its own", first.display(), second.display())]
-    Twice {
-        /// One of them.
-        first: PathBuf,
-        /// The other.
-        second: PathBuf,
-    },
+    #[error("{} and {} are the same file: give each output a name of its own", .0.display(), .1.display())]
+    Twice(PathBuf, PathBuf),
 }
 
 impl OutputError {
     /// A place that cannot be written to.
     pub(crate) fn place(path: &Path, fault: impl Into<Fault>) -> Self {
         match Self::writing(path, fault) {
-            Self::Failed { path, reason } => Self::Unwritable { path, reason },
+            Self::Failed(path, reason) => Self::Unwritable(path, reason),
             full => full,
         }
     }
@@ -98,9 +67,9 @@ impl OutputError {
         let Fault { reason, full } = fault.into();
         let path = path.to_owned();
         if full {
-            Self::Full { path, reason }
+            Self::Full(path, reason)
         } else {
-            Self::Failed { path, reason }
+            Self::Failed(path, reason)
         }
     }
 }
@@ -108,14 +77,14 @@ impl OutputError {
 impl fault::Fault for OutputError {
     fn culprit(&self) -> Culprit<'_> {
         let (class, remedy, path) = match self {
-            Self::Exists { path } => (Class::Exists, Remedy::Change, path),
-            Self::Failed { path, .. } => (Class::Output, Remedy::Unknown, path),
-            Self::Full { path, .. } | Self::Busy { path } => (Class::Output, Remedy::Wait, path),
-            Self::Unwritable { path, .. }
+            Self::Exists(path) => (Class::Exists, Remedy::Change, path),
+            Self::Failed(path, _) => (Class::Output, Remedy::Unknown, path),
+            Self::Full(path, _) | Self::Busy(path) => (Class::Output, Remedy::Wait, path),
+            Self::Unwritable(path, _)
             | Self::Ending { path, .. }
-            | Self::Unbuilt { path, .. }
+            | Self::Unbuilt(path, _)
             | Self::Input { output: path, .. }
-            | Self::Twice { first: path, .. } => (Class::Output, Remedy::Change, path),
+            | Self::Twice(path, _) => (Class::Output, Remedy::Change, path),
         };
         Culprit {
             remedy,
@@ -169,15 +138,10 @@ const FULL: [(ErrorKind, &str, &str); 3] = [
 
 impl Fault {
     fn of(reason: String, is: impl Fn(ErrorKind, &str) -> bool) -> Self {
-        match FULL.iter().find(|(kind, text, _)| is(*kind, text)) {
-            Some((.., words)) => Self {
-                reason: (*words).to_owned(),
-                full: true,
-            },
-            None => Self {
-                reason,
-                full: false,
-            },
+        let found = FULL.iter().find(|(kind, text, _)| is(*kind, text));
+        Self {
+            full: found.is_some(),
+            reason: found.map_or(reason, |(.., words)| (*words).to_owned()),
         }
     }
 }

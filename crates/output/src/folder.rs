@@ -33,7 +33,7 @@ impl Folder {
             .collect();
         names.sort();
         match names.into_iter().next() {
-            Some(path) if existing != Existing::Replace => Err(OutputError::Exists { path }),
+            Some(path) if existing != Existing::Replace => Err(OutputError::Exists(path)),
             Some(_) | None => Ok(Self {
                 path: path.to_owned(),
                 _claim: claim,
@@ -110,8 +110,7 @@ mod tests {
         let precious = inside.join("chart.csv");
         std::fs::write(&precious, "precious").unwrap();
         let refused = Folder::claim(&inside, Existing::Keep).unwrap_err();
-        let path = precious.clone();
-        assert_eq!(refused, OutputError::Exists { path });
+        assert_eq!(refused, OutputError::Exists(precious.clone()));
         drop(Folder::claim(&inside, Existing::Replace).unwrap());
         // nothing is touched before there is something to put in its place
         assert_eq!(std::fs::read_to_string(&precious).unwrap(), "precious");

@@ -20,7 +20,6 @@
 //! ```
 
 mod claim;
-mod ending;
 mod error;
 mod folder;
 mod place;
@@ -28,9 +27,8 @@ mod room;
 mod temporary;
 
 pub use claim::{Existing, Output, Staged, write_whole};
-pub use ending::{CSV, Ending, HDF5, PARQUET, ROWS, SHARD, TABLE};
 pub use error::{Fault, OutputError};
 pub use folder::{Folder, NewFile};
-pub use place::{Role, apart, behind, is_standard};
+pub use place::{CSV, Ending, HDF5, PARQUET, ROWS, Role, SHARD, TABLE, apart, behind, is_standard};
 pub use room::{free_disk, free_memory, processor_s};
 pub use temporary::abandon;

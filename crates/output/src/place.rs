@@ -121,25 +121,8 @@ fn hash(bytes: &[u8]) -> u64 {
     })
 }
 
-/// A file that a command reads, with what it is to it, such as "the scene".
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Role {
-    /// What it is, with its article.
-    pub name: &'static str,
-    /// Where it is.
-    pub path: PathBuf,
-}
-
-impl Role {
-    /// An input.
-    #[must_use]
-    pub fn new(name: &'static str, path: &Path) -> Self {
-        Self {
-            name,
-            path: path.to_owned(),
-        }
-    }
-}
+/// What a file that a command reads is to it, such as "the scene", and where it is.
+pub type Role = (&'static str, PathBuf);
 
 /// Refuses, before any work, an output that is an input of the same command, and two outputs that are one file.
 ///
@@ -148,50 +131,89 @@ impl Role {
 /// # Errors
 /// [`OutputError::Input`], [`OutputError::Twice`]; or that an output cannot be written at all.
 pub fn apart(outputs: &[&Path], inputs: &[Role]) -> Result<(), OutputError> {
-    let mut seen: Vec<(&Path, Identity)> = Vec::new();
+    let mut seen: Vec<(&Path, _)> = Vec::new();
     for &output in outputs {
-        let this = Identity::of(&behind(output)?);
+        let this = identity(&behind(output)?);
         if let Some((first, _)) = seen.iter().find(|(_, other)| *other == this) {
-            return Err(OutputError::Twice {
-                first: (*first).to_owned(),
-                second: output.to_owned(),
-            });
+            return Err(OutputError::Twice((*first).to_owned(), output.to_owned()));
         }
-        for input in inputs {
-            if Identity::of(&input.path) == this {
-                return Err(OutputError::Input {
-                    output: output.to_owned(),
-                    role: input.name,
-                    input: input.path.clone(),
-                });
-            }
+        if let Some((role, input)) = inputs.iter().find(|(_, input)| identity(input) == this) {
+            return Err(OutputError::Input {
+                output: output.to_owned(),
+                role,
+                input: input.clone(),
+            });
         }
         seen.push((output, this));
     }
     Ok(())
 }
 
-/// What a file is, whatever it is called.
-#[derive(Debug, PartialEq, Eq)]
-enum Identity {
-    /// One that is there: device and number.
+/// What a file is, whatever it is called: device and number of one that is there; elsewhere, and where nothing is yet, the
+/// folder with its links followed, and the name.
+fn identity(path: &Path) -> (u64, u64, PathBuf) {
     #[cfg(unix)]
-    Number(u64, u64),
-    /// Elsewhere, and where nothing is yet: the folder with its links followed, and the name.
-    Name(PathBuf),
+    if let Ok(there) = std::fs::metadata(path) {
+        use std::os::unix::fs::MetadataExt;
+        return (there.dev(), there.ino(), PathBuf::new());
+    }
+    let whole = path.canonicalize().or_else(|_| {
+        let folder = folder(path).canonicalize()?;
+        Ok::<_, std::io::Error>(folder.join(path.file_name().unwrap_or_default()))
+    });
+    (0, 0, whole.unwrap_or_else(|_| path.to_owned()))
 }
 
-impl Identity {
-    fn of(path: &Path) -> Self {
-        #[cfg(unix)]
-        if let Ok(there) = std::fs::metadata(path) {
-            use std::os::unix::fs::MetadataExt;
-            return Self::Number(there.dev(), there.ino());
+/// A format in words, such as "an HDF5 file", and how the names of its files end: without the dot, the usual one first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Ending(pub &'static str, pub &'static [&'static str]);
+
+/// HDF5; sections open in ParaView under the last of its endings.
+pub const HDF5: Ending = Ending("an HDF5 file", &["h5", "hdf5", "hdf", "vtkhdf"]);
+
+/// A kernel table.
+pub const TABLE: Ending = Ending("a kernel table (HDF5)", &["h5", "hdf5", "hdf"]);
+
+/// A part of a kernel table.
+pub const SHARD: Ending = Ending("a shard", &["shard", "part", "blocks"]);
+
+/// Rows in columns that are compressed.
+pub const PARQUET: Ending = Ending("a Parquet file", &["parquet"]);
+
+/// Rows: HDF5, or Parquet.
+pub const ROWS: Ending = Ending(
+    "an HDF5 or a Parquet file",
+    &["h5", "hdf5", "hdf", "vtkhdf", "parquet"],
+);
+
+/// Text in columns.
+pub const CSV: Ending = Ending("text in columns", &["csv", "txt"]);
+
+impl Ending {
+    /// Whether a name ends so.
+    #[must_use]
+    pub fn is_of(self, path: &Path) -> bool {
+        path.extension().is_some() && self.check(path).is_ok()
+    }
+
+    /// Refuses a name with the ending of another format; a name without one is accepted.
+    ///
+    /// # Errors
+    /// [`OutputError::Ending`].
+    pub fn check(self, path: &Path) -> Result<(), OutputError> {
+        let Some(found) = path.extension() else {
+            return Ok(());
+        };
+        let found = found.to_string_lossy();
+        let is = |ending: &&str| found.eq_ignore_ascii_case(ending);
+        if self.1.iter().any(is) {
+            return Ok(());
         }
-        let whole = path.canonicalize().or_else(|_| {
-            let folder = folder(path).canonicalize()?;
-            Ok::<_, std::io::Error>(folder.join(path.file_name().unwrap_or_default()))
-        });
-        Self::Name(whole.unwrap_or_else(|_| path.to_owned()))
+        Err(OutputError::Ending {
+            path: path.to_owned(),
+            format: self.0,
+            allowed: self.1,
+            found: found.into_owned(),
+        })
     }
 }

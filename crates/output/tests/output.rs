@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
 use fault::{Fault as _, Remedy};
-use output::{CSV, Existing, HDF5, Output, OutputError, Role, apart, write_whole};
+use output::{CSV, Existing, HDF5, Output, OutputError, apart, write_whole};
 use std::io;
 use std::path::Path;
 
@@ -158,7 +158,7 @@ fn outputs_are_no_inputs_and_differ_from_each_other() {
     std::fs::write(at("scene.toml"), "").unwrap();
     std::fs::hard_link(at("scene.toml"), at("hard.h5")).unwrap();
     std::fs::create_dir(at("deep")).unwrap();
-    let scene = [Role::new("the scene", &at("scene.toml"))];
+    let scene = [("the scene", at("scene.toml"))];
     for name in ["scene.toml", "hard.h5", "deep/../scene.toml"] {
         let refused = apart(&[&at(name)], &scene).unwrap_err();
         assert!(matches!(refused, OutputError::Input { .. }), "{refused}");

@@ -3,8 +3,9 @@
 use crate::request::Kind;
 use contact::{Choice, nearest};
 use fault::{Class, Culprit, Fault};
+use formats::SceneError;
 use formats::quantities::Described;
-use formats::stored::{FileKind, ReadError};
+use formats::stored::FileKind;
 use halfspace::DomainError;
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
@@ -15,7 +16,7 @@ use thiserror::Error;
 pub enum PlotError {
     /// A file cannot be read.
     #[error(transparent)]
-    Read(#[from] ReadError),
+    Read(#[from] SceneError),
     /// A kernel table cannot be read.
     #[error(transparent)]
     Table(#[from] lookup::TableError),

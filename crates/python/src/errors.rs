@@ -23,15 +23,9 @@ pub(crate) fn raised(py: Python<'_>, error: impl Fault) -> PyErr {
     raised_in(py, error, None)
 }
 
-/// What was found, or an exception.
-pub(crate) trait OrRaise<T> {
-    fn or_raise(self, py: Python<'_>) -> PyResult<T>;
-}
-
-impl<T, E: Fault> OrRaise<T> for Result<T, E> {
-    fn or_raise(self, py: Python<'_>) -> PyResult<T> {
-        self.map_err(|error| raised(py, error))
-    }
+/// Makes the exception of an error.
+pub(crate) fn raise<E: Fault>(py: Python<'_>) -> impl FnOnce(E) -> PyErr {
+    move |error| raised(py, error)
 }
 
 /// The same where work with a file fails, which the error may not name.

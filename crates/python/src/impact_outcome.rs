@@ -1,17 +1,18 @@
-//! One impact: computed, looked at, written.
+//! One impact: computed, looked at by the names of results files, written.
 
-use crate::errors::{self, OrRaise};
-use crate::fields::{at_probes, on_section};
+use crate::errors::{self, raise};
 use crate::scene::{scene, spelled_out};
-use crate::table::Opened;
-use crate::table::Table;
-use crate::values::{from_json, vector};
-use crate::work::{Way, run};
+use crate::table::{Opened, Table};
+use crate::values::{from_json, frozen, matrix, vector};
+use crate::work::run;
 use contact::{Choice, Unknown};
-use formats::quantities::{Kind, Labels, QUANTITIES};
+use formats::quantities::{Kind, Labels, QUANTITIES, labels_of};
 use formats::results::schema;
 use formats::{Existing, Output, json_report, stage_results, stage_results_csv};
-use impact::{Allowance, KernelChoice, Outcome as Computed, Scene, simulate_within};
+use impact::{
+    Allowance, KernelChoice, Outcome as Computed, Peaks, ProbeFields, Scene, SectionFields,
+    simulate_within,
+};
 use output::{CSV, HDF5};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -22,12 +23,7 @@ use std::time::Instant;
 /// The results of an impact.
 #[pyclass(module = "hertzlamb._core", frozen)]
 pub(crate) struct Outcome {
-    found: Arc<Found>,
-}
-
-struct Found {
-    scene: Scene,
-    computed: Computed,
+    found: Arc<(Scene, Computed)>,
     wall_s: f64,
 }
 
@@ -47,8 +43,7 @@ pub(crate) fn run_impact(
     let scene = scene(given)?;
     let opened = table.map(|table| Arc::clone(&table.get().opened));
     let kernels = kernels(py, kernel, opened.clone())?;
-    let way = Way { threads, progress };
-    let (result, scene) = run(py, &way, move |ticker| {
+    let (result, scene) = run(py, threads, progress, move |ticker| {
         let allowance = Allowance {
             memory_bytes: max_memory_bytes.unwrap_or_else(output::free_memory),
             go_on: &|forecast| {
@@ -59,15 +54,11 @@ pub(crate) fn run_impact(
         };
         (simulate_within(&scene, &kernels, &allowance), scene)
     })?;
-    let file = opened.as_ref().map(|opened| opened.path());
+    let file = opened.as_ref().map(|opened| opened.file.path());
     let computed = result.map_err(|error| errors::raised_in(py, error, file))?;
-    let wall_s = start.elapsed().as_secs_f64();
     Ok(Outcome {
-        found: Arc::new(Found {
-            scene,
-            computed,
-            wall_s,
-        }),
+        found: Arc::new((scene, computed)),
+        wall_s: start.elapsed().as_secs_f64(),
     })
 }
 
@@ -84,10 +75,10 @@ pub(crate) fn infer<'py>(
     let known: Vec<_> = Unknown::ALL.iter().map(|&one| (one.name(), one)).collect();
     let unknown = errors::one_of(py, "unknown", unknown, &known)?;
     let scene = scene(given)?;
-    let found = run(py, &Way::default(), move |_| {
+    let found = run(py, None, None, move |_| {
         formats::infer(&scene, (&measured, &values), error, unknown)
     })?;
-    from_json(py, &found.or_raise(py)?.1)
+    from_json(py, &found.map_err(raise(py))?.1)
 }
 
 fn kernels(py: Python<'_>, name: &str, table: Option<Arc<Opened>>) -> PyResult<KernelChoice> {
@@ -109,16 +100,13 @@ fn kernels(py: Python<'_>, name: &str, table: Option<Arc<Opened>>) -> PyResult<K
     }
 }
 
-/// Names with their arrays; none where there is nothing.
-type Arrays<'py> = PyResult<Option<Bound<'py, PyDict>>>;
-
 #[pymethods]
 impl Outcome {
     /// The scalar results by name; None where one does not exist.
     fn numbers<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let found = PyDict::new(py);
         for quantity in &QUANTITIES {
-            let value = quantity.of(&self.found.computed);
+            let value = quantity.of(&self.found.1);
             match (quantity.kind, value) {
                 (Kind::Count, Some(count)) => found.set_item(quantity.name, count as u64)?,
                 (Kind::Real | Kind::Count, real) => found.set_item(quantity.name, real)?,
@@ -129,68 +117,44 @@ impl Outcome {
 
     /// What `hertzlamb impact --json` prints.
     fn report<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let Found {
-            scene,
-            computed,
-            wall_s,
-        } = &*self.found;
-        from_json(py, &json_report(scene, computed, *wall_s))
+        let (scene, computed) = &*self.found;
+        from_json(py, &json_report(scene, computed, self.wall_s))
     }
 
     /// What the user should know.
     fn warnings(&self) -> Vec<String> {
-        self.found.computed.warnings.clone()
+        self.found.1.warnings.clone()
     }
 
     /// The scene with every default and material spelled out.
     fn scene<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        spelled_out(py, &self.found.scene)
+        spelled_out(py, &self.found.0)
     }
 
     /// Time series by name.
     fn series<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let series = &self.found.computed.series;
-        let striker = series.striker.as_ref();
-        let columns = [
-            Some(&series.time_s),
-            Some(&series.force_n),
-            striker.map(|striker| &striker.displacement_m),
-            striker.map(|striker| &striker.velocity_m_s),
-            Some(&series.deflection_m),
-        ];
-        columns_of(py, &schema::SERIES, columns)
+        columns_of(py, schema::samples(&self.found.1.series))
     }
 
     /// Energies over time by name.
-    fn energy<'py>(&self, py: Python<'py>) -> Arrays<'py> {
-        let Some(energy) = &self.found.computed.series.energy else {
-            return Ok(None);
-        };
-        let columns = [
-            energy.kinetic_j.as_ref(),
-            energy.work_j.as_ref(),
-            Some(&energy.stored_j),
-            Some(&energy.radiated_j),
-            energy.plastic_j.as_ref(),
-        ];
-        columns_of(py, &schema::ENERGIES, columns).map(Some)
+    fn energy<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
+        let energy = self.found.1.series.energy.as_ref();
+        let columns = energy.map(|energy| columns_of(py, schema::energies(energy)));
+        columns.transpose()
     }
 
     /// Fields at the probes by name: (probe, time), with errors and places by probe.
-    fn probes<'py>(&self, py: Python<'py>) -> Arrays<'py> {
-        let Found {
-            scene, computed, ..
-        } = &*self.found;
+    fn probes<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
+        let (scene, computed) = &*self.found;
         let time_s = &computed.series.time_s;
         let found = computed.probes.as_ref();
-        found
-            .map(|fields| at_probes(py, fields, time_s, scene.peaks))
-            .transpose()
+        let found = found.map(|fields| at_probes(py, fields, time_s, scene.peaks));
+        found.transpose()
     }
 
     /// Fields on the section by name: (time, z, r), with errors and arrivals by place.
-    fn section<'py>(&self, py: Python<'py>) -> Arrays<'py> {
-        let found = self.found.computed.section.as_ref();
+    fn section<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
+        let found = self.found.1.section.as_ref();
         found.map(|section| on_section(py, section)).transpose()
     }
 
@@ -208,41 +172,105 @@ impl Outcome {
 impl Outcome {
     fn write(&self, py: Python<'_>, path: PathBuf, overwrite: bool, csv: bool) -> PyResult<()> {
         let found = Arc::clone(&self.found);
-        run(py, &Way::default(), move |_| {
-            let (ending, existing) = (if csv { CSV } else { HDF5 }, replace(overwrite));
+        run(py, None, None, move |_| {
+            let ending = if csv { CSV } else { HDF5 };
             ending.check(&path)?;
-            let output = Output::claim(&path, existing)?;
-            let (scene, computed) = (&found.scene, &found.computed);
+            let output = Output::claim(&path, Existing::replaced(overwrite))?;
+            let (scene, computed) = &*found;
             if csv {
                 stage_results_csv(&output, scene, computed)?.commit()
             } else {
                 stage_results(&output, scene, computed)?.commit()
             }
         })?
-        .or_raise(py)
+        .map_err(raise(py))
     }
 }
 
-/// What happens to a file that is there.
-pub(crate) fn replace(overwrite: bool) -> Existing {
-    if overwrite {
-        Existing::Replace
-    } else {
-        Existing::Keep
-    }
-}
-
-/// The columns that exist, by name.
-fn columns_of<'py, const N: usize>(
+/// Columns by name.
+fn columns_of<'py, 'a>(
     py: Python<'py>,
-    described: &[Labels<'_>; N],
-    columns: [Option<&Vec<f64>>; N],
+    columns: impl Iterator<Item = (&'static Labels<'static>, &'a [f64])>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let found = PyDict::new(py);
-    for ((name, _, _), column) in described.iter().zip(columns) {
-        if let Some(column) = column {
-            found.set_item(name, vector(py, column.clone())?)?;
+    for ((name, ..), column) in columns {
+        found.set_item(name, vector(py, column.to_vec())?)?;
+    }
+    Ok(found)
+}
+
+/// A name with the suffix of its error.
+fn error_of(name: &str) -> String {
+    format!("{name}{}", schema::ERROR_SUFFIX)
+}
+
+/// Fields at probes: (probe, time), with errors, places and, where they are asked for, peaks by probe.
+fn at_probes<'py>(
+    py: Python<'py>,
+    fields: &ProbeFields,
+    time_s: &[f64],
+    peaks: bool,
+) -> PyResult<Bound<'py, PyDict>> {
+    let found = PyDict::new(py);
+    for (place, column) in schema::PLACES.iter().zip([&fields.r_m, &fields.z_m]) {
+        found.set_item(place.0, vector(py, column.clone())?)?;
+    }
+    let arrivals: Vec<f64> = fields.arrival_s.iter().flatten().copied().collect();
+    let shape = [fields.arrival_s.len(), 3];
+    found.set_item(schema::ARRIVALS.0, frozen(py, arrivals, &shape)?)?;
+    let valid = vector(py, fields.valid_until_s.clone())?;
+    found.set_item(schema::VALID_UNTIL.0, valid)?;
+    for ((name, ..), values, errors) in schema::histories(fields) {
+        found.set_item(name, matrix(py, values)?)?;
+        found.set_item(error_of(name), vector(py, errors.clone())?)?;
+        if peaks {
+            let mut largest = Peaks::default();
+            for samples in values {
+                largest.push(time_s, samples);
+            }
+            put_peaks(&found, name, largest, &[values.len()])?;
         }
     }
     Ok(found)
+}
+
+/// Fields on a section: (time, z, r), with errors, arrivals and, where they are asked for, peaks by place.
+fn on_section<'py>(py: Python<'py>, section: &SectionFields) -> PyResult<Bound<'py, PyDict>> {
+    let found = PyDict::new(py);
+    let scales = [&section.time_s, &section.z_m, &section.r_m];
+    for (scale, column) in schema::MAP_SCALES.iter().zip(scales) {
+        found.set_item(scale.0, vector(py, column.clone())?)?;
+    }
+    let place = [section.z_m.len(), section.r_m.len()];
+    let frames = [section.time_s.len(), place[0], place[1]];
+    let waves = [3, place[0], place[1]];
+    let arrivals = section.arrival_s.concat();
+    found.set_item(schema::ARRIVALS.0, frozen(py, arrivals, &waves)?)?;
+    let values = section.values.iter().zip(&section.errors);
+    let names: Vec<_> = labels_of(&section.quantities).map(|row| row.0).collect();
+    for (&name, (values, errors)) in names.iter().zip(values) {
+        found.set_item(name, frozen(py, values.clone(), &frames)?)?;
+        found.set_item(error_of(name), frozen(py, errors.clone(), &place)?)?;
+    }
+    for (name, largest) in names.into_iter().zip(section.peaks.iter().flatten()) {
+        put_peaks(&found, name, largest.clone(), &place)?;
+    }
+    Ok(found)
+}
+
+/// The largest values over time and their instants.
+fn put_peaks(
+    found: &Bound<'_, PyDict>,
+    name: &str,
+    largest: Peaks,
+    shape: &[usize],
+) -> PyResult<()> {
+    let columns = [largest.values, largest.time_s];
+    for (suffix, column) in schema::PEAK_SUFFIXES.iter().zip(columns) {
+        found.set_item(
+            format!("{name}{suffix}"),
+            frozen(found.py(), column, shape)?,
+        )?;
+    }
+    Ok(())
 }

@@ -1,20 +1,20 @@
 //! The exact kernels at many places and times, in reduced units.
 
-use crate::errors::{self, OrRaise};
-use crate::values::{frozen, numbers, vector};
-use crate::work::{Ticker, Way, run, run_short};
+use crate::errors::{self, raise};
+use crate::values::{Array, frozen, numbers, vector};
+use crate::work::{Ticker, run, run_short};
 use halfspace::{
     Arrivals, Deflection, DomainError, Estimate, Kernel, Medium, Profile, Six, SurfaceResponse,
     kausel,
 };
-use numpy::{PyArrayDyn, PyReadonlyArray1};
+use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rayon::prelude::*;
 
 /// A medium, or the exception that names its range.
 fn medium_of(py: Python<'_>, nu: f64) -> PyResult<Medium> {
-    Medium::new(nu).or_raise(py)
+    Medium::new(nu).map_err(raise(py))
 }
 
 fn profile_of(py: Python<'_>, name: &str) -> PyResult<Profile> {
@@ -70,10 +70,7 @@ fn step(kernel: &Kernel, [r, z, t]: [f64; 3]) -> Result<Estimate, DomainError> {
     Ok(found)
 }
 
-/// Values and errors, one row of six fields a place.
-type Fields<'py> = (Bound<'py, PyArrayDyn<f64>>, Bound<'py, PyArrayDyn<f64>>);
-
-/// Values of kernels and their errors at places of equal number.
+/// Values of kernels and their errors at places of equal number, one row of six fields a place.
 #[pyfunction]
 #[pyo3(signature = (order, nu, r, z, t, profile, tolerance, threads=None, progress=None))]
 #[allow(
@@ -91,10 +88,10 @@ pub(crate) fn kernel<'py>(
     tolerance: f64,
     threads: Option<usize>,
     progress: Option<Py<PyAny>>,
-) -> PyResult<Fields<'py>> {
+) -> PyResult<(Array<'py>, Array<'py>)> {
     let (at, _) = errors::one_of(py, "order", order, &ORDERS)?;
     let profile = profile_of(py, profile)?;
-    let kernel = Kernel::new(&medium_of(py, nu)?, profile, tolerance).or_raise(py)?;
+    let kernel = Kernel::new(&medium_of(py, nu)?, profile, tolerance).map_err(raise(py))?;
     let rows = r.len()?;
     if z.len()? != rows || t.len()? != rows {
         let message = "r, z and t differ in their lengths";
@@ -113,12 +110,12 @@ pub(crate) fn kernel<'py>(
             (0..rows).map(|i| one(&ticker, i)).collect()
         })?
     } else {
-        run(py, &Way { threads, progress }, move |ticker| {
+        run(py, threads, progress, move |ticker| {
             ticker.of(rows as u64);
             (0..rows).into_par_iter().map(|i| one(ticker, i)).collect()
         })?
     };
-    let found = found.or_raise(py)?;
+    let found = found.map_err(raise(py))?;
     let values: Vec<f64> = found.iter().flat_map(|e| e.value).collect();
     let limits: Vec<f64> = found.iter().flat_map(|e| e.error).collect();
     Ok((
@@ -135,10 +132,10 @@ pub(crate) fn static_field<'py>(
     r: PyReadonlyArray1<'py, f64>,
     z: PyReadonlyArray1<'py, f64>,
     profile: &str,
-) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+) -> PyResult<Array<'py>> {
     // no quadrature: the tolerance is of no consequence
     let profile = profile_of(py, profile)?;
-    let kernel = Kernel::new(&medium_of(py, nu)?, profile, 1e-6).or_raise(py)?;
+    let kernel = Kernel::new(&medium_of(py, nu)?, profile, 1e-6).map_err(raise(py))?;
     let rows = r.len()?;
     errors::check_memory(py, rows, 2 * 8 + 2 * 6 * 8)?;
     let (r, z) = (numbers(&r), numbers(&z));
@@ -146,7 +143,7 @@ pub(crate) fn static_field<'py>(
         let places = r.iter().zip(&z);
         places.map(|(&r, &z)| kernel.static_field(r, z)).collect()
     })?;
-    frozen(py, found.or_raise(py)?.into_flattened(), &[rows, 6])
+    frozen(py, found.map_err(raise(py))?.into_flattened(), &[rows, 6])
 }
 
 /// The deflection of the loaded surface over its static value, or its integral or impulse response.
@@ -157,7 +154,7 @@ pub(crate) fn surface<'py>(
     nu: f64,
     t: PyReadonlyArray1<'py, f64>,
     deflection: &str,
-) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+) -> PyResult<Array<'py>> {
     let (_, at) = errors::one_of(py, "order", order, &ORDERS)?;
     let response = SurfaceResponse::new(&medium_of(py, nu)?, deflection_of(py, deflection)?);
     errors::check_memory(py, t.len()?, 2 * 8)?;
@@ -172,7 +169,7 @@ pub(crate) fn surface_centre<'py>(
     py: Python<'py>,
     nu: f64,
     t: PyReadonlyArray1<'py, f64>,
-) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+) -> PyResult<Array<'py>> {
     errors::check_memory(py, t.len()?, 2 * 8)?;
     let (medium, t) = (medium_of(py, nu)?, numbers(&t));
     let found = run_short(py, || {
@@ -213,7 +210,7 @@ pub(crate) fn arrivals<'py>(
     profile: &str,
 ) -> PyResult<Bound<'py, PyDict>> {
     let found = Arrivals::new(&medium_of(py, nu)?, profile_of(py, profile)?, r, z);
-    let found = found.or_raise(py)?;
+    let found = found.map_err(raise(py))?;
     let waves = PyDict::new(py);
     waves.set_item("above", found.above)?;
     waves.set_item("p", found.p)?;

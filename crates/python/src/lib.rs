@@ -14,7 +14,6 @@
 )]
 
 mod errors;
-mod fields;
 mod impact_outcome;
 mod kernels;
 mod library;

@@ -1,6 +1,6 @@
 //! The materials, and what every name of a result means.
 
-use crate::errors::OrRaise;
+use crate::errors::raise;
 use crate::values::from_json;
 use contact::{Choice, Library, Model};
 use formats::quantities::{Kind, Labels, QUANTITIES, labels_of};
@@ -22,7 +22,7 @@ pub(crate) fn materials<'py>(
     let mut library = Library::built_in().clone();
     if let Some(path) = file {
         let own = py.detach(|| read_materials(&path));
-        library = library.extended(&own.or_raise(py)?);
+        library = library.extended(&own.map_err(raise(py))?);
     }
     let found: Value = library.search(search).map(material_report).collect();
     from_json(py, &found)

@@ -1,6 +1,6 @@
 //! Scenes and sweeps as people give them: a dictionary, a path, or TOML text.
 
-use crate::errors::{self, OrRaise, raised};
+use crate::errors::{self, raise, raised};
 use crate::values::from_json;
 use formats::SceneError;
 use formats::scene::{parse_table, read_text, scene_of};
@@ -22,10 +22,10 @@ impl Given {
     pub(crate) fn new(given: &Bound<'_, PyAny>) -> PyResult<Self> {
         let py = given.py();
         let read = |path: PathBuf| -> PyResult<Self> {
-            let text = py.detach(|| read_text(&path)).or_raise(py)?;
+            let text = py.detach(|| read_text(&path)).map_err(raise(py))?;
             let table = parse_table(&text)
                 .map_err(|error| error.in_file(&path))
-                .or_raise(py)?;
+                .map_err(raise(py))?;
             let file = Some(path);
             Ok(Self { table, file })
         };
@@ -34,7 +34,7 @@ impl Given {
             if !text.contains(['\n', '=']) && !text.trim_start().starts_with('[') {
                 return read(PathBuf::from(text));
             }
-            let (table, file) = (parse_table(&text).or_raise(py)?, None);
+            let (table, file) = (parse_table(&text).map_err(raise(py))?, None);
             return Ok(Self { table, file });
         }
         if given.hasattr("__fspath__")? {
@@ -45,7 +45,7 @@ impl Given {
             let message = format!("a scene is a dictionary, a path or TOML text, not {kind}");
             return Err(errors::plain(py, "SceneError", &message));
         }
-        let (table, file) = (table(given, "")?, None);
+        let (table, file) = (table(given, "", 0)?, None);
         Ok(Self { table, file })
     }
 
@@ -68,7 +68,7 @@ pub(crate) fn scene(given: &Bound<'_, PyAny>) -> PyResult<Scene> {
     let py = given.py();
     let given = Given::new(given)?;
     let found = py.detach(|| given.read(scene_of));
-    found.or_raise(py)
+    found.map_err(raise(py))
 }
 
 /// The scene with every default and material spelled out, as a dictionary.
@@ -88,13 +88,8 @@ pub(crate) fn sections_of(key: &str) -> Vec<&'static str> {
     formats::scene::sections_of(key)
 }
 
-/// A mapping of Python as a table; keys whose value is None are left out.
-pub(crate) fn table(mapping: &Bound<'_, PyAny>, name: &str) -> PyResult<Table> {
-    table_in(mapping, name, 0)
-}
-
-/// One that lies so deep in others.
-fn table_in(mapping: &Bound<'_, PyAny>, name: &str, deep: usize) -> PyResult<Table> {
+/// A mapping of Python, which lies so deep in others, as a table; keys whose value is None are left out.
+pub(crate) fn table(mapping: &Bound<'_, PyAny>, name: &str, deep: usize) -> PyResult<Table> {
     let mut found = Table::new();
     for item in mapping.call_method0("items")?.try_iter()? {
         let (key, value): (Bound<'_, PyAny>, Bound<'_, PyAny>) = item?.extract()?;
@@ -125,7 +120,7 @@ fn to_toml(value: &Bound<'_, PyAny>, name: &str, deep: usize) -> PyResult<Option
         return Err(wrong("a value", value, "at most 80 containers deep"));
     }
     if value.cast::<PyDict>().is_ok() {
-        return Ok(Some(Value::Table(table_in(value, name, deep)?)));
+        return Ok(Some(Value::Table(table(value, name, deep)?)));
     }
     // before the numbers: True is an int to Python
     if let Ok(flag) = value.cast::<PyBool>() {
@@ -151,7 +146,7 @@ fn to_toml(value: &Bound<'_, PyAny>, name: &str, deep: usize) -> PyResult<Option
         return to_toml(&value.call_method0("__fspath__")?, name, deep + 1);
     }
     if value.hasattr("items")? {
-        return Ok(Some(Value::Table(table_in(value, name, deep)?)));
+        return Ok(Some(Value::Table(table(value, name, deep)?)));
     }
     let Ok(items) = value.try_iter() else {
         return Err(wrong(name, value, "a number, a word, a list or a section"));
@@ -186,5 +181,5 @@ fn wrong(name: &str, value: &Bound<'_, PyAny>, expected: &'static str) -> PyErr 
 pub(crate) fn from_toml<'py>(py: Python<'py>, text: &str) -> PyResult<Bound<'py, PyAny>> {
     let table: Result<Table, String> = text.parse().map_err(|e: toml::de::Error| e.to_string());
     let value = table.and_then(|table| serde_json::to_value(table).map_err(|e| e.to_string()));
-    from_json(py, &value.or_raise(py)?)
+    from_json(py, &value.map_err(raise(py))?)
 }

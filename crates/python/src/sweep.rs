@@ -1,16 +1,15 @@
 //! Many impacts: rows of a sweep, and keys that vary together.
 
-use crate::errors::{self, OrRaise};
-use crate::impact_outcome::replace;
+use crate::errors::{self, raise};
 use crate::scene::{Given, from_toml};
-use crate::values::{frozen, vector};
-use crate::work::{Ticker, Way, run};
+use crate::values::{Array, frozen, numbers, vector};
+use crate::work::{Ticker, run};
 use formats::quantities::QUANTITIES;
 use formats::sweep::{
-    Block, Column, Rows, Spec, Values, check_rows, compute_rows, stage_csv, stage_rows,
+    Block, Column, Spec, Values, check_rows, compute_rows, stage_csv, stage_rows,
 };
-use formats::{Output, SceneError};
-use numpy::{PyArrayDyn, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
+use formats::{Existing, Output, SceneError};
+use numpy::{PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use output::CSV;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -29,45 +28,39 @@ pub(crate) fn plan(given: &Bound<'_, PyAny>) -> PyResult<Plan> {
     let py = given.py();
     let given = Given::new(given)?;
     let spec = move |_: &Ticker| given.read(Spec::from_table);
-    wrapped(py, run(py, &Way::default(), spec)?)
+    wrapped(py, run(py, None, None, spec)?)
 }
 
-/// Numbers or words of a key.
-#[derive(FromPyObject)]
-pub(crate) enum Given1<'py> {
-    Numbers(PyReadonlyArray1<'py, f64>),
-    Words(Vec<String>),
-}
-
-/// The sweep of a scene whose keys (section, key) take values together.
+/// The sweep of a scene whose keys (section, key) take values together, an array of numbers or a list of words each.
 #[pyfunction]
 pub(crate) fn plan_of_columns(
     given: &Bound<'_, PyAny>,
-    columns: Vec<(String, String, Given1<'_>)>,
+    columns: Vec<(String, String, Bound<'_, PyAny>)>,
 ) -> PyResult<Plan> {
     let py = given.py();
     let scene = Given::new(given)?;
-    let columns: Vec<Column> = columns
-        .into_iter()
-        .map(|(section, key, values)| Column {
+    let columns = columns.into_iter().map(|(section, key, values)| {
+        let values = match values.extract::<PyReadonlyArray1<'_, f64>>() {
+            Ok(array) => Values::Numbers(numbers(&array)),
+            Err(_) => Values::Texts(values.extract()?),
+        };
+        Ok(Column {
             section,
             key,
-            values: match values {
-                Given1::Numbers(array) => Values::Numbers(crate::values::numbers(&array)),
-                Given1::Words(words) => Values::Texts(words),
-            },
+            values,
         })
-        .collect();
+    });
+    let columns: Vec<Column> = columns.collect::<PyResult<_>>()?;
     let of = |table: &_, folder: &_| Spec::of_columns(table, folder, columns);
     let spec = move |_: &Ticker| scene.read(of);
-    wrapped(py, run(py, &Way::default(), spec)?)
+    wrapped(py, run(py, None, None, spec)?)
 }
 
 /// Values of an axis at most.
 const MOST_VALUES: usize = 10_000_000;
 
 fn wrapped(py: Python<'_>, spec: Result<Spec, SceneError>) -> PyResult<Plan> {
-    let spec = spec.or_raise(py)?;
+    let spec = spec.map_err(raise(py))?;
     // the axes are handed over as arrays
     if let Some(axis) = spec.axes.iter().find(|axis| axis.len > MOST_VALUES) {
         let error = SceneError::out_of_range(
@@ -82,12 +75,8 @@ fn wrapped(py: Python<'_>, spec: Result<Spec, SceneError>) -> PyResult<Plan> {
     })
 }
 
-/// Rows computed: results by row and quantity, models, and failed rows with their reasons.
-type Computed<'py> = (
-    Bound<'py, PyArrayDyn<f64>>,
-    Bound<'py, PyArrayDyn<u8>>,
-    Vec<(usize, String)>,
-);
+/// Results by row and quantity, models, and failed rows with their reasons.
+type Computed<'py> = (Array<'py>, Array<'py, u8>, Vec<(usize, String)>);
 
 #[pymethods]
 impl Plan {
@@ -108,7 +97,7 @@ impl Plan {
                         columns.set_item(column.name(), vector(py, numbers.clone())?)?;
                     }
                     Values::Drawn(drawn) => {
-                        let numbers = (0..drawn.len()).map(|i| drawn.at(i)).collect();
+                        let numbers = (0..drawn.count()).map(|i| drawn.at(i)).collect();
                         columns.set_item(column.name(), vector(py, numbers)?)?;
                     }
                     Values::Texts(words) => columns.set_item(column.name(), words.clone())?,
@@ -138,19 +127,17 @@ impl Plan {
         // a row, in parts and in the whole
         errors::check_memory(py, count, 2 * 8 * (QUANTITIES.len() + 1))?;
         let spec = Arc::clone(&self.spec);
-        let rows = Rows { start, step, count };
-        let way = Way { threads, progress };
-        let found = run(py, &way, move |ticker| {
+        let found = run(py, threads, progress, move |ticker| {
             ticker.of(count as u64);
-            compute_rows(&spec, rows, |done| {
+            compute_rows(&spec, start, step, count, |done| {
                 ticker.at(done as u64);
                 !ticker.is_stopped()
             })
         })?;
         let block = found
-            .or_raise(py)?
+            .map_err(raise(py))?
             .ok_or("the sweep was stopped")
-            .or_raise(py)?;
+            .map_err(raise(py))?;
         let shape = [block.len(), QUANTITIES.len()];
         Ok((
             frozen(py, block.numbers, &shape)?,
@@ -177,18 +164,18 @@ impl Plan {
             failures,
         };
         let spec = Arc::clone(&self.spec);
-        run(py, &Way::default(), move |_| {
+        run(py, None, None, move |_| {
             let csv = CSV.check(&path).is_ok();
             if !csv {
                 check_rows(&path)?;
             }
-            let output = Output::claim(&path, replace(overwrite))?;
+            let output = Output::claim(&path, Existing::replaced(overwrite))?;
             if csv {
                 stage_csv(&output, &spec, &[block])?.commit()
             } else {
                 stage_rows(&output, &spec, None, &[block])?.commit()
             }
         })?
-        .or_raise(py)
+        .map_err(raise(py))
     }
 }

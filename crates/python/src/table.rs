@@ -1,16 +1,16 @@
 //! A kernel table: opened once, asked often; the parts that impacts have needed are kept for the next ones.
 
-use crate::errors::{self, OrRaise};
-use crate::values::{from_json, frozen, numbers};
-use crate::work::{Ticker, Way, run};
+use crate::errors::{self, raise};
+use crate::values::{Array, from_json, frozen, numbers};
+use crate::work::{Ticker, run};
 use fault::AnyError;
 use formats::table_report;
 use impact::Tables;
 use lookup::{BadTable, LookupError, Smoothness, TableError, TableFile, TraceInfo};
-use numpy::{PyArrayDyn, PyReadonlyArray1};
+use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
 use rayon::prelude::*;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 /// Points that a thread looks up at a time.
@@ -22,54 +22,43 @@ pub(crate) struct Table {
     pub(crate) opened: Arc<Opened>,
 }
 
-/// What a trace was asked for.
-struct Asked {
-    nu: f64,
-    points: Vec<[f64; 2]>,
-    coarsening: u32,
-    smoothness: Smoothness,
-}
-
-/// Arrays of a trace: values, static fields, errors, and the width of a cell.
-type Arrays<'py> = (
-    Bound<'py, PyArrayDyn<f64>>,
-    Bound<'py, PyArrayDyn<f64>>,
-    Bound<'py, PyArrayDyn<f64>>,
-    f64,
-);
-
 #[pymethods]
 impl Table {
     /// The table of a file.
     #[staticmethod]
     fn open(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        let file = run(py, &Way::default(), move |_| TableFile::open(&path))?.or_raise(py)?;
+        let file = run(py, None, None, move |_| TableFile::open(&path))?.map_err(raise(py))?;
         Ok(Self {
-            opened: Arc::new(Opened::new(file)),
+            opened: Arc::new(Opened {
+                file,
+                part: Mutex::default(),
+                whole: OnceLock::new(),
+            }),
         })
     }
 
     /// Where it is.
     #[getter]
     fn path(&self) -> PathBuf {
-        self.opened.path().to_owned()
+        self.opened.file.path().to_owned()
     }
 
     /// Its settings and measured errors, as `hertzlamb table info --json` has them.
     fn info<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let opened = Arc::clone(&self.opened);
-        let info = move |_: &Ticker| Ok(table_report(opened.path(), &*opened.whole()?));
-        let found: Result<_, TableError> = run(py, &Way::default(), info)?;
-        from_json(py, &found.or_raise(py)?)
+        let info = move |_: &Ticker| Ok(table_report(opened.file.path(), &*opened.whole()?));
+        let found: Result<_, TableError> = run(py, None, None, info)?;
+        from_json(py, &found.map_err(raise(py))?)
     }
 
     /// Identity of the settings that it was made with.
     #[getter]
     fn id(&self) -> &str {
-        self.opened.id()
+        self.opened.file.id()
     }
 
-    /// Step responses at places of equal number.
+    /// Step responses at places of equal number, averaged over each of so many cells, with their static fields and errors, and
+    /// the width of a cell.
     #[pyo3(signature = (nu, r, z, coarsening, cells, smooth, threads=None, progress=None))]
     #[allow(
         clippy::too_many_arguments,
@@ -86,22 +75,17 @@ impl Table {
         smooth: bool,
         threads: Option<usize>,
         progress: Option<Py<PyAny>>,
-    ) -> PyResult<Arrays<'py>> {
+    ) -> PyResult<(Array<'py>, Array<'py>, Array<'py>, f64)> {
         let places = numbers(&r).into_iter().zip(numbers(&z));
-        let asked = Asked {
-            nu,
-            points: places.map(|(r, z)| [r, z]).collect(),
-            coarsening,
-            smoothness: if smooth {
-                Smoothness::Smooth
-            } else {
-                Smoothness::Linear
-            },
+        let points: Vec<[f64; 2]> = places.map(|(r, z)| [r, z]).collect();
+        let smoothness = if smooth {
+            Smoothness::Smooth
+        } else {
+            Smoothness::Linear
         };
-        let rows = asked.points.len();
+        let rows = points.len();
         let opened = Arc::clone(&self.opened);
-        let way = Way { threads, progress };
-        let table = run(py, &way, move |_| opened.whole())?.or_raise(py)?;
+        let table = run(py, threads, None, move |_| opened.whole())?.map_err(raise(py))?;
         let held = table.content().slices.iter().map(|slice| slice.cells).max();
         let cells = cells.unwrap_or((held.unwrap_or(0) >> coarsening.min(31)).max(1));
         // asked for before it is taken: an allocation that fails would end the process
@@ -114,9 +98,13 @@ impl Table {
             );
             return Err(errors::plain(py, "TooMuchMemory", &message));
         }
-        let traces = move |ticker: &Ticker| asked.traces(&table, (values, cells), ticker);
-        let found = run(py, &way, traces)?;
-        let file = Some(self.opened.path());
+        let one = move |values: &mut [_], infos: &mut [_], points: &[_]| {
+            table.traces(smoothness, nu, points, coarsening, values, infos)
+        };
+        let found = run(py, threads, progress, move |ticker| {
+            traces(&points, (values, cells), ticker, one)
+        })?;
+        let file = Some(self.opened.file.path());
         let (values, infos) = found.map_err(|error| errors::raised_in(py, error, file))?;
         let width = infos.first().map_or(f64::NAN, |info| info.cell_width);
         let still: Vec<f64> = infos.iter().flat_map(|i| i.static_part).collect();
@@ -130,42 +118,39 @@ impl Table {
     }
 }
 
-impl Asked {
-    /// Traces of so many cells, averaged over each, into memory that is reserved: points, cells, fields.
-    fn traces(
-        &self,
-        table: &lookup::Table,
-        (mut values, cells): (Vec<[f64; 6]>, usize),
-        ticker: &Ticker,
-    ) -> Result<(Vec<[f64; 6]>, Vec<TraceInfo>), LookupError> {
-        let rows = self.points.len();
-        values.resize(rows * cells, [0.0; 6]);
-        let none = TraceInfo {
-            static_part: [0.0; 6],
-            cell_width: f64::NAN,
-            error: [0.0; 6],
-        };
-        let mut infos = vec![none; rows];
-        ticker.of(rows as u64);
-        let chunks = values.par_chunks_mut((GRAIN * cells).max(1));
-        let parts = chunks
-            .zip(infos.par_chunks_mut(GRAIN))
-            .zip(self.points.par_chunks(GRAIN));
-        parts.try_for_each(|((values, infos), points)| {
-            ticker.more(points.len() as u64);
-            let (nu, coarsening) = (self.nu, self.coarsening);
-            table.traces(self.smoothness, nu, points, coarsening, values, infos)?;
-            for (row, info) in values.chunks_exact_mut(cells).zip(infos) {
-                for six in row {
-                    for (value, still) in six.iter_mut().zip(info.static_part) {
-                        *value += still;
-                    }
+/// Traces of so many cells, averaged over each, into memory that is reserved: points, cells, fields; some points at a time.
+fn traces(
+    points: &[[f64; 2]],
+    (mut values, cells): (Vec<[f64; 6]>, usize),
+    ticker: &Ticker,
+    some: impl Fn(&mut [[f64; 6]], &mut [TraceInfo], &[[f64; 2]]) -> Result<(), LookupError> + Sync,
+) -> Result<(Vec<[f64; 6]>, Vec<TraceInfo>), LookupError> {
+    let rows = points.len();
+    values.resize(rows * cells, [0.0; 6]);
+    let none = TraceInfo {
+        static_part: [0.0; 6],
+        cell_width: f64::NAN,
+        error: [0.0; 6],
+    };
+    let mut infos = vec![none; rows];
+    ticker.of(rows as u64);
+    let chunks = values.par_chunks_mut((GRAIN * cells).max(1));
+    let parts = chunks
+        .zip(infos.par_chunks_mut(GRAIN))
+        .zip(points.par_chunks(GRAIN));
+    parts.try_for_each(|((values, infos), points)| {
+        ticker.more(points.len() as u64);
+        some(values, infos, points)?;
+        for (row, info) in values.chunks_exact_mut(cells).zip(infos) {
+            for six in row {
+                for (value, still) in six.iter_mut().zip(info.static_part) {
+                    *value += still;
                 }
             }
-            Ok::<_, LookupError>(())
-        })?;
-        Ok((values, infos))
-    }
+        }
+        Ok::<_, LookupError>(())
+    })?;
+    Ok((values, infos))
 }
 
 /// A part that was loaded.
@@ -179,38 +164,21 @@ struct Part {
 /// A table on disk with what was loaded of it.
 #[derive(Debug)]
 pub(crate) struct Opened {
-    file: TableFile,
+    pub(crate) file: TableFile,
     /// The part of the last impact: a part answers as the whole does.
     part: Mutex<Option<Part>>,
     whole: OnceLock<Arc<lookup::Table>>,
 }
 
 impl Opened {
-    pub(crate) fn new(file: TableFile) -> Self {
-        Self {
-            file,
-            part: Mutex::new(None),
-            whole: OnceLock::new(),
-        }
-    }
-
-    pub(crate) fn path(&self) -> &Path {
-        self.file.path()
-    }
-
-    /// Identity of the settings that it was made with.
-    pub(crate) fn id(&self) -> &str {
-        self.file.id()
-    }
-
     /// All of it, loaded once.
     pub(crate) fn whole(&self) -> Result<Arc<lookup::Table>, TableError> {
         if let Some(table) = self.whole.get() {
             return Ok(Arc::clone(table));
         }
-        let table = lookup::Table::open(self.path())?;
-        if table.id() != self.id() {
-            return Err(BadTable::Changed.of(self.path()));
+        let table = lookup::Table::open(self.file.path())?;
+        if table.id() != self.file.id() {
+            return Err(BadTable::Changed.of(self.file.path()));
         }
         Ok(Arc::clone(self.whole.get_or_init(|| Arc::new(table))))
     }

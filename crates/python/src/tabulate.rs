@@ -1,9 +1,9 @@
 //! Builds and extends kernel tables.
 
-use crate::errors::{self, OrRaise};
-use crate::impact_outcome::replace;
+use crate::errors::{self, raise};
 use crate::scene::table;
-use crate::work::{Way, run};
+use crate::work::run;
+use formats::Existing;
 use pyo3::prelude::*;
 use pyo3::types::PyString;
 use std::path::{Path, PathBuf};
@@ -15,18 +15,18 @@ fn grid_of(given: &Bound<'_, PyAny>) -> PyResult<Grid> {
     if let Ok(name) = given.cast::<PyString>() {
         let name: String = name.extract()?;
         let path = Path::new(&name);
-        if let Some(grid) = Grid::preset(&name).or_raise(py)? {
+        if let Some(grid) = Grid::preset(&name).map_err(raise(py))? {
             return Ok(grid);
         } else if path.extension().is_some_and(|end| end == "toml") {
-            return Grid::from_file(path).or_raise(py);
+            return Grid::from_file(path).map_err(raise(py));
         }
         let words = format!("{}, or the name of a .toml file", PRESETS.join(", "));
         return Err(errors::unknown(py, "grid", &name, &[&words]));
     }
     if given.hasattr("__fspath__")? {
-        return Grid::from_file(&given.extract::<PathBuf>()?).or_raise(py);
+        return Grid::from_file(&given.extract::<PathBuf>()?).map_err(raise(py));
     }
-    Grid::parse(&table(given, "")?.to_string()).or_raise(py)
+    Grid::parse(&table(given, "", 0)?.to_string()).map_err(raise(py))
 }
 
 /// Builds a table; its points, bytes and time in s.
@@ -49,23 +49,13 @@ pub(crate) fn tabulate(
     threads: Option<usize>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<(usize, u64, f64)> {
-    let mut grid = grid_of(grid)?;
-    if let Some(mut ratios) = nu {
-        ratios.sort_by(f64::total_cmp);
-        ratios.dedup();
-        grid.poisson_ratios = ratios;
-        grid.exact_ratios.clear();
-    }
-    grid.r.max = r_max.unwrap_or(grid.r.max);
-    grid.z.max = z_max.unwrap_or(grid.z.max);
-    grid.time_factor = time_factor.unwrap_or(grid.time_factor);
-    let way = Way { threads, progress };
-    let built = run(py, &way, move |ticker| {
+    let mut grid = grid_of(grid)?.with(nu, [r_max, z_max, time_factor]);
+    let built = run(py, threads, progress, move |ticker| {
         output::TABLE.check(&path)?;
         if let Some((tolerance, pulse)) = accuracy {
             (grid, _) = refine(&grid, tolerance, pulse, ticker)?;
         }
-        build_over(&grid, &path, replace(overwrite), ticker)
+        build_over(&grid, &path, Existing::replaced(overwrite), ticker)
     })?;
     summary(py, built)
 }
@@ -93,14 +83,13 @@ pub(crate) fn extend(
         z_max,
         time_factor,
     };
-    let way = Way { threads, progress };
-    let built = run(py, &way, move |ticker| {
+    let built = run(py, threads, progress, move |ticker| {
         tabulator::extend(&path, &extension, ticker)
     })?;
     summary(py, built)
 }
 
 fn summary(py: Python<'_>, built: Result<Summary, BuildError>) -> PyResult<(usize, u64, f64)> {
-    let summary = built.or_raise(py)?;
+    let summary = built.map_err(raise(py))?;
     Ok((summary.points, summary.bytes, summary.wall_s))
 }

@@ -5,12 +5,15 @@ use numpy::{Element, IntoPyArray, PyArrayDyn, PyArrayMethods, PyReadonlyArray1};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 
+/// An array of numpy.
+pub(crate) type Array<'py, T = f64> = Bound<'py, PyArrayDyn<T>>;
+
 /// The numbers as an array of some shape, without a copy; read-only, since others may look at the same.
 pub(crate) fn frozen<'py, T: Element>(
     py: Python<'py>,
     numbers: Vec<T>,
     shape: &[usize],
-) -> PyResult<Bound<'py, PyArrayDyn<T>>> {
+) -> PyResult<Array<'py, T>> {
     let array = ArrayD::from_shape_vec(shape, numbers);
     let array = array.map_err(|error| PyTypeError::new_err(error.to_string()))?;
     let array = array.into_pyarray(py);
@@ -19,19 +22,13 @@ pub(crate) fn frozen<'py, T: Element>(
 }
 
 /// One dimension of [`frozen`].
-pub(crate) fn vector<'py, T: Element>(
-    py: Python<'py>,
-    numbers: Vec<T>,
-) -> PyResult<Bound<'py, PyArrayDyn<T>>> {
+pub(crate) fn vector<'py, T: Element>(py: Python<'py>, numbers: Vec<T>) -> PyResult<Array<'py, T>> {
     let length = numbers.len();
     frozen(py, numbers, &[length])
 }
 
 /// Rows of equal length as an array of two dimensions.
-pub(crate) fn matrix<'py>(
-    py: Python<'py>,
-    rows: &[Vec<f64>],
-) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+pub(crate) fn matrix<'py>(py: Python<'py>, rows: &[Vec<f64>]) -> PyResult<Array<'py>> {
     let columns = rows.first().map_or(0, Vec::len);
     frozen(py, rows.concat(), &[rows.len(), columns])
 }

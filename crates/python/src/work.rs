@@ -33,9 +33,6 @@ pub(crate) struct Ticker {
     stopped: AtomicBool,
 }
 
-/// What work is stopped with where it cannot return.
-struct Stopped;
-
 impl Ticker {
     /// So many units follow.
     pub(crate) fn of(&self, total: u64) {
@@ -58,7 +55,7 @@ impl Ticker {
     fn or_stop(&self) {
         if self.is_stopped() {
             // unwinds to `run` without a word: what is half-done is dropped
-            resume_unwind(Box::new(Stopped));
+            resume_unwind(Box::new(()));
         }
     }
 
@@ -82,39 +79,28 @@ impl tabulator::Progress for Ticker {
     }
 }
 
-/// How work is done.
-#[derive(Debug, Default)]
-pub(crate) struct Way {
-    /// Threads, all processors otherwise.
-    pub(crate) threads: Option<usize>,
-    /// Called with what is done and how much there is.
-    pub(crate) progress: Option<Py<PyAny>>,
-}
-
 /// Does work that takes a millisecond at most.
 pub(crate) fn run_short<T: Send>(py: Python<'_>, work: impl FnOnce() -> T + Send) -> PyResult<T> {
     own(py)?;
     Ok(py.detach(work))
 }
 
-/// Does work that may take long.
+/// Does work that may take long, on so many threads, all processors otherwise; `progress` is called with what is done and how
+/// much there is.
 pub(crate) fn run<T: Send + 'static>(
     py: Python<'_>,
-    way: &Way,
+    threads: Option<usize>,
+    progress: Option<Py<PyAny>>,
     work: impl FnOnce(&Ticker) -> T + Send + 'static,
 ) -> PyResult<T> {
     own(py)?;
-    if way
-        .threads
-        .is_some_and(|threads| !(1..=MOST_THREADS).contains(&threads))
-    {
-        let threads = way.threads.unwrap_or_default();
+    if let Some(threads) = threads.filter(|threads| !(1..=MOST_THREADS).contains(threads)) {
         let message = format!("threads = {threads} is outside [1, {MOST_THREADS}]");
         return Err(errors::plain(py, "SceneError", &message));
     }
     let ticker = Arc::new(Ticker::default());
     let (sender, mut receiver) = channel();
-    let (watched, threads) = (Arc::clone(&ticker), way.threads);
+    let watched = Arc::clone(&ticker);
     let body = move || {
         let work = AssertUnwindSafe(|| within(threads, || work(&watched)));
         // nobody may be listening any more
@@ -128,7 +114,7 @@ pub(crate) fn run<T: Send + 'static>(
         (received, receiver) = py.detach(move || (receiver.recv_timeout(LOOK), receiver));
         match received {
             Ok(Ok(Ok(result))) => {
-                tell(py, way, &ticker)?;
+                tell(py, progress.as_ref(), &ticker)?;
                 return Ok(result);
             }
             Ok(Ok(Err(reason))) => return Err(errors::raised(py, reason)),
@@ -141,7 +127,7 @@ pub(crate) fn run<T: Send + 'static>(
         let mut heard = py.check_signals();
         if heard.is_ok() && told.elapsed() >= TELL {
             told = Instant::now();
-            heard = tell(py, way, &ticker);
+            heard = tell(py, progress.as_ref(), &ticker);
         }
         if let Err(error) = heard {
             ticker.stopped.store(true, Ordering::Relaxed);
@@ -153,20 +139,18 @@ pub(crate) fn run<T: Send + 'static>(
 
 /// The work among so many threads.
 fn within<T: Send>(threads: Option<usize>, work: impl FnOnce() -> T + Send) -> Result<T, String> {
-    match threads {
-        None => Ok(work()),
-        Some(count) => {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build();
-            pool.map(|pool| pool.install(work))
-                .map_err(|error| error.to_string())
-        }
-    }
+    let Some(count) = threads else {
+        return Ok(work());
+    };
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build();
+    let pool = pool.map_err(|error| error.to_string())?;
+    Ok(pool.install(work))
 }
 
 /// Calls the function that wants to know.
-fn tell(py: Python<'_>, way: &Way, ticker: &Ticker) -> PyResult<()> {
+fn tell(py: Python<'_>, progress: Option<&Py<PyAny>>, ticker: &Ticker) -> PyResult<()> {
     let total = ticker.total.load(Ordering::Relaxed);
-    match &way.progress {
+    match progress {
         Some(progress) if total > 0 => {
             let done = ticker.done.load(Ordering::Relaxed);
             progress.call1(py, (done, total)).map(drop)
@@ -187,14 +171,13 @@ fn own(py: Python<'_>) -> PyResult<()> {
     }
     let process = std::process::id();
     match OWNER.compare_exchange(0, process, Ordering::Relaxed, Ordering::Relaxed) {
-        Ok(_) => Ok(()),
-        Err(owner) if owner == process => Ok(()),
-        Err(owner) => {
+        Err(owner) if owner != process => {
             let message = format!(
                 "this process was forked from process {owner} after that one had begun to compute, and the threads of hertzlamb do not survive a fork: start processes with multiprocessing.get_context(\"spawn\") or \"forkserver\""
             );
             Err(errors::plain(py, "ForkError", &message))
         }
+        Ok(_) | Err(_) => Ok(()),
     }
 }
 

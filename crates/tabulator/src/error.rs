@@ -137,7 +137,7 @@ pub enum BuildError {
 impl From<JournalError> for BuildError {
     fn from(error: JournalError) -> Self {
         match error {
-            JournalError::Unwritable { path, source } => OutputError::writing(&path, source).into(),
+            JournalError::Unwritable(path, source) => OutputError::writing(&path, source).into(),
             other => Self::Journal(other),
         }
     }

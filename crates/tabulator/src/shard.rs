@@ -52,9 +52,8 @@ pub fn merge(
     progress: &dyn Progress,
 ) -> Result<Summary, BuildError> {
     let started = Instant::now();
-    let inputs: Vec<Role> = parts
-        .iter()
-        .map(|part| Role::new("a shard", part))
+    let inputs: Vec<Role> = (parts.iter())
+        .map(|part| ("a shard", part.clone()))
         .collect();
     apart(&[path], &inputs)?;
     let output = Output::claim(path, existing)?;

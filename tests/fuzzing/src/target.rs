@@ -198,7 +198,12 @@ impl Target {
                 let path = file(folder, "x.part", input);
                 match sweep(&path, folder, usize::MAX) {
                     Ok(Some(done)) => {
-                        same_rows(&done.blocks().unwrap_or_default());
+                        let mut blocks = Vec::new();
+                        let read = done.each(&mut |block| {
+                            blocks.push(block.clone());
+                            Ok(())
+                        });
+                        same_rows(read.map(|()| blocks.as_slice()).unwrap_or_default());
                         done.resumed > 0
                     }
                     Ok(None) => false,

@@ -80,7 +80,7 @@ fn waves(folder: &Path) -> Result<[PathBuf; 2], Failure> {
         scene.points()
     ));
     let bar = Bar::new();
-    bar.start("fields", scene.points() as u64);
+    bar.total("fields", scene.points() as u64);
     let allowance = Allowance {
         watch: &|| bar.advance(1),
         ..Allowance::default()

@@ -1,6 +1,6 @@
 //! `hertzlamb impact`: one scene.
 
-use crate::arguments::{Kernel, Kernels, MemoryLimit, Overwrite, say_complete};
+use crate::arguments::{Kernels, MemoryLimit, Overwrite, say_complete};
 use crate::failure::{Failure, say, show};
 use crate::progress::Bar;
 use crate::report::{text_report, understood};
@@ -66,7 +66,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
             if forecast.seconds > LONG_S {
                 say(takes(forecast));
             }
-            progress.start("fields", forecast.points as u64);
+            progress.total("fields", forecast.points as u64);
             true
         },
         watch: &|| progress.advance(1),
@@ -128,10 +128,8 @@ fn is_complete(arguments: &Arguments, scene: &Scene) -> Result<bool, Failure> {
     for path in [Some(output), arguments.csv.as_ref()].into_iter().flatten() {
         Output::claim(path, Existing::Replace)?;
     }
-    let allowed = arguments.kernels.allowed()?;
-    let direct = !matches!(allowed, Some((Kernel::Table, _)));
-    let id = allowed.as_ref().map(|(_, id)| id.as_str());
-    check_results(output, scene, direct, id).map_err(Failure::work)?;
+    let (direct, id) = arguments.kernels.allowed()?;
+    check_results(output, scene, direct, id.as_deref()).map_err(Failure::work)?;
     match &arguments.csv {
         Some(csv) if !csv.exists() => Err(Failure::work(format!(
             "{} is whole, but {} is not there: leave --skip-complete out and give --force to compute both",
@@ -155,7 +153,7 @@ fn outputs(arguments: &Arguments, mut read: Vec<Role>) -> Result<[Option<Output>
                 Ok(output) => *place = Some(output),
                 Err(why) => refused = refused.or(Some(why)),
             }
-            read.push(Role::new("another output", path));
+            read.push(("another output", path.clone()));
         }
     }
     refused.map_or(Ok(claimed), Err)

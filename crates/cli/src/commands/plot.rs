@@ -5,7 +5,7 @@ use crate::failure::{Failure, print, say};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use contact::Choice;
-use figure::{Figure, FigureError, to_gif, to_pdf, to_png, to_svg};
+use figure::{Figure, to_gif, to_pdf, to_png, to_svg};
 use output::{Output, Role, apart};
 use plot::{Kind, Request, animate, compose};
 use std::path::{Path, PathBuf};
@@ -90,28 +90,21 @@ fn kinds() -> PossibleValuesParser {
     PossibleValuesParser::new(Kind::ALL.iter().map(value))
 }
 
-/// What makes a file of a figure, with the pixels of a PNG for each of its own; none for an animation.
-type Write = Option<fn(&Figure, f32) -> Result<Vec<u8>, FigureError>>;
-
-/// What the picture becomes, by the end of its name.
-fn write(path: &Path) -> Result<Write, Failure> {
+/// The end of a picture's name, which says what it becomes.
+fn ending(path: &Path) -> Result<String, Failure> {
     let ending = path.extension().map(|e| e.to_string_lossy().to_lowercase());
-    match ending.as_deref() {
-        Some("svg") => Ok(Some(|figure, _| to_svg(figure).map(String::into_bytes))),
-        Some("png") => Ok(Some(to_png)),
-        Some("pdf") => Ok(Some(|figure, _| to_pdf(figure))),
-        Some("gif") => Ok(None),
-        Some(_) | None => Err(Failure::input(format!(
-            "{} does not end in .svg, .png, .pdf or .gif",
-            path.display()
-        ))),
-    }
+    let known = ending.filter(|end| ["svg", "png", "pdf", "gif"].contains(&end.as_str()));
+    known.ok_or_else(|| {
+        let path = path.display();
+        Failure::input(format!("{path} does not end in .svg, .png, .pdf or .gif"))
+    })
 }
 
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let write = write(&arguments.output)?;
-    let drawn_from = |path: &PathBuf| Role::new("a file", path);
-    let inputs: Vec<Role> = arguments.files.iter().map(drawn_from).collect();
+    let ending = ending(&arguments.output)?;
+    let inputs: Vec<Role> = (arguments.files.iter())
+        .map(|path| ("a file", path.clone()))
+        .collect();
     apart(&[&arguments.output], &inputs)?;
     let output = Output::claim(&arguments.output, arguments.overwrite.existing())?;
     let request = Request {
@@ -129,14 +122,19 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         Some(width) => sized(figure, f64::from(width)),
         None => figure,
     };
-    let (bytes, notes) = if let Some(write) = write {
-        let drawn = compose(&arguments.files, &request)?;
-        let scale = f32::from(arguments.scale);
-        (write(&size(drawn.figure), scale), drawn.notes)
-    } else {
+    let (bytes, notes) = if ending == "gif" {
         let (figures, notes) = animate(&arguments.files, &request)?;
         let figures: Vec<Figure> = figures.into_iter().map(size).collect();
         (to_gif(&figures, 1.0, FRAME_S), notes)
+    } else {
+        let drawn = compose(&arguments.files, &request)?;
+        let figure = size(drawn.figure);
+        let bytes = match ending.as_str() {
+            "png" => to_png(&figure, f32::from(arguments.scale)),
+            "pdf" => to_pdf(&figure),
+            _ => to_svg(&figure).map(String::into_bytes),
+        };
+        (bytes, drawn.notes)
     };
     let bytes = bytes.map_err(Failure::work)?;
     output.write(|part| std::fs::write(part, &bytes))?;

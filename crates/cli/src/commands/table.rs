@@ -73,12 +73,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
             table,
             sample,
             seed,
-        } => verify(
-            table,
-            *sample,
-            seed.unwrap_or_else(any_seed),
-            arguments.json,
-        ),
+        } => verify(table, *sample, *seed, arguments.json),
         Action::Diff { first, second } => diff(first, second, arguments.json),
         Action::Merge {
             shards,
@@ -121,13 +116,10 @@ fn info(path: &Path, json: bool) -> Result<(), Failure> {
     show(json, &value, text)
 }
 
-/// Another seed at each call: the time in seconds.
-fn any_seed() -> u64 {
-    let since = std::time::UNIX_EPOCH.elapsed();
-    since.map_or(1, |time| time.as_secs())
-}
-
-fn verify(path: &Path, sample: usize, seed: u64, json: bool) -> Result<(), Failure> {
+fn verify(path: &Path, sample: usize, seed: Option<u64>, json: bool) -> Result<(), Failure> {
+    // another one at each call: the time in seconds
+    let time = || std::time::UNIX_EPOCH.elapsed();
+    let seed = seed.unwrap_or_else(|| time().map_or(1, |time| time.as_secs()));
     let report = check_table(path, sample, seed).map_err(tabulate::failure)?;
     let file = path.display().to_string();
     let is_good = report.is_good();

@@ -6,7 +6,7 @@ use crate::progress::Bar;
 use clap::Args;
 use formats::accuracy_report;
 use lookup::{Accuracy, Origin, Quantiles, schema};
-use output::{Existing, Output, Role, SHARD, TABLE, apart};
+use output::{Existing, Output, SHARD, TABLE, apart};
 use serde_json::json;
 use std::path::{Path, PathBuf};
 use tabulator::{BuildError, Extension, Grid, JournalError, NUMBERS_REVISION, Shard, Summary};
@@ -72,8 +72,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     };
     ending.check(&arguments.output)?;
     if let Some(grid) = arguments.grid.as_deref().filter(|name| is_file(name)) {
-        let grid = Role::new("the grid", Path::new(grid));
-        apart(&[&arguments.output], &[grid])?;
+        apart(&[&arguments.output], &[("the grid", grid.into())])?;
     }
     if let Some(extension) = extension(arguments) {
         let summary = extend(&arguments.output, &extension, &Bar::new()).map_err(failure)?;
@@ -153,20 +152,9 @@ fn extension(arguments: &Arguments) -> Option<Extension> {
 
 /// The settings of a new table.
 fn grid(arguments: &Arguments) -> Result<Grid, Failure> {
-    let mut grid = resolve(arguments.grid.as_deref().unwrap_or("demo"))?;
-    if let Some(ratios) = &arguments.nu {
-        grid.poisson_ratios.clone_from(ratios);
-        grid.poisson_ratios.sort_by(f64::total_cmp);
-        grid.poisson_ratios.dedup();
-        grid.exact_ratios.clear();
-    }
-    for (axis, max) in [
-        (&mut grid.r, arguments.r_max),
-        (&mut grid.z, arguments.z_max),
-    ] {
-        axis.max = max.unwrap_or(axis.max);
-    }
-    grid.time_factor = arguments.time_factor.unwrap_or(grid.time_factor);
+    let most = [arguments.r_max, arguments.z_max, arguments.time_factor];
+    let grid = resolve(arguments.grid.as_deref().unwrap_or("demo"))?;
+    let grid = grid.with(arguments.nu.clone(), most);
     let (Some(tolerance), Some(pulse)) = (arguments.tol, arguments.pulse) else {
         return Ok(grid);
     };
@@ -246,11 +234,9 @@ fn is_file(name: &str) -> bool {
 
 /// A table that was not built.
 pub(crate) fn failure(error: BuildError) -> Failure {
-    let unfinished = matches!(error, BuildError::Journal(JournalError::Other { .. }));
-    let failure = Failure::from(error);
-    if unfinished {
-        failure.hint("; a new table with --force replaces it")
-    } else {
-        failure
-    }
+    let hint = match error {
+        BuildError::Journal(JournalError::Other(..)) => "; a new table with --force replaces it",
+        _ => "",
+    };
+    Failure::from(error).hint(hint)
 }

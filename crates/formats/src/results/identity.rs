@@ -1,8 +1,9 @@
 //! What makes the results of two scenes the same, and whether a results file is the whole result of a scene.
 
 use super::schema;
+use crate::error::SceneError;
 use crate::scene::resolved;
-use crate::stored::{ReadError, StoredImpact};
+use crate::stored::StoredImpact;
 use contact::NUMBERS_REVISION;
 use impact::numbers::FIELDS_REVISION;
 use impact::{Load, Scene};
@@ -41,7 +42,7 @@ pub fn check_results(
     direct: bool,
     id: Option<&str>,
 ) -> Result<(), String> {
-    let told = |error: ReadError| error.to_string();
+    let told = |error: SceneError| error.to_string();
     let found = StoredImpact::open(path).map_err(told)?;
     if found.scene_sha256() != Some(scene_sha256(scene)) {
         return Err(format!(

@@ -3,12 +3,10 @@
 //! Every name on disk is a constant of [`schema`] or of the table of quantities. The file is written beside its final
 //! name and renamed when it is complete.
 
-mod csv;
 mod identity;
 pub mod schema;
 mod section;
 mod write;
 
-pub use csv::stage_results_csv;
 pub use identity::{check_results, scene_sha256};
-pub use write::{stage_results, write_results};
+pub use write::{stage_results, stage_results_csv, write_results};

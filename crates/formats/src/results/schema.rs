@@ -2,7 +2,7 @@
 
 pub use crate::quantities::FIELDS;
 use crate::quantities::{Labels, labels, labels_of};
-use impact::{ProbeFields, Series};
+use impact::{EnergySeries, ProbeFields, Series};
 
 /// Value of the attribute `file_type`.
 pub const FILE_TYPE: &str = "hertzlamb results";
@@ -55,6 +55,17 @@ pub const PLACES: [(&str, &str, &str); 2] = labels! {
 pub const ERROR_SUFFIX: &str = "_error";
 /// Appended to the name of a quantity: its largest value over time, and when it is reached.
 pub const PEAK_SUFFIXES: [&str; 2] = ["_peak", "_peak_time"];
+/// Appended to the name of a quantity, the unit where it is not its own, and what has that name: its error, its largest value
+/// over time, and when it is reached.
+pub(crate) const BESIDE: [(&str, Option<&str>, &str); 3] = [
+    (ERROR_SUFFIX, None, "estimated absolute error"),
+    (PEAK_SUFFIXES[0], None, "largest in magnitude over time"),
+    (
+        PEAK_SUFFIXES[1],
+        Some("s"),
+        "when it is largest in magnitude",
+    ),
+];
 /// Arrivals of the first P, S and Rayleigh wave.
 pub const ARRIVALS: (&str, &str, &str) = (
     "arrival",
@@ -104,7 +115,7 @@ pub const VTK_POINTS: &str = "PointData";
 pub const VTK_OFFSETS: &str = "PointDataOffsets";
 
 /// The samples of [`SERIES`], without those of a striker where there is none.
-pub(super) fn samples(series: &Series) -> impl Iterator<Item = (&'static Labels<'static>, &[f64])> {
+pub fn samples(series: &Series) -> impl Iterator<Item = (&'static Labels<'static>, &[f64])> {
     let striker = series.striker.as_ref();
     let samples = [
         Some(&series.time_s),
@@ -117,8 +128,21 @@ pub(super) fn samples(series: &Series) -> impl Iterator<Item = (&'static Labels<
     rows.filter_map(|(row, samples)| Some((row, samples?.as_slice())))
 }
 
+/// The samples of [`ENERGIES`] that there are.
+pub fn energies(energy: &EnergySeries) -> impl Iterator<Item = (&'static Labels<'static>, &[f64])> {
+    let samples = [
+        energy.kinetic_j.as_ref(),
+        energy.work_j.as_ref(),
+        Some(&energy.stored_j),
+        Some(&energy.radiated_j),
+        energy.plastic_j.as_ref(),
+    ];
+    let rows = ENERGIES.iter().zip(samples);
+    rows.filter_map(|(row, samples)| Some((row, samples?.as_slice())))
+}
+
 /// What probes have, over time at each, with its error at each.
-pub(super) fn histories(
+pub fn histories(
     fields: &ProbeFields,
 ) -> impl Iterator<Item = (Labels<'static>, &Vec<Vec<f64>>, &Vec<f64>)> {
     let found = fields.values.iter().zip(&fields.errors);

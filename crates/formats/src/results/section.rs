@@ -3,7 +3,7 @@
 //! Both are the same data: the fields in `/map` are hard links to those in `/VTKHDF`.
 
 use super::schema;
-use crate::hdf::{attach_all, describe, numbers, scale, set_scale, text, texts};
+use crate::hdf::{attach_all, describe, numbers, scalar, scale, set_scale, text, texts};
 use crate::quantities::{Described, labels_of};
 use hdf5::types::FixedAscii;
 use hdf5::{Dataset, File, Group};
@@ -54,23 +54,15 @@ pub(super) fn beside<'v>(
     errors: &'v [f64],
     peaks: Option<&'v Peaks>,
 ) -> Vec<(Described, &'v [f64])> {
-    let of = |suffix: &str, unit: &str, what: &str| Described {
+    let peaks = peaks.map(|peaks| [&peaks.values, &peaks.time_s]);
+    let columns = [errors].into_iter();
+    let columns = columns.chain(peaks.into_iter().flatten().map(Vec::as_slice));
+    let described = schema::BESIDE.map(|(suffix, own, what)| Described {
         name: format!("{name}{suffix}"),
-        unit: unit.to_owned(),
+        unit: own.unwrap_or(unit).to_owned(),
         meaning: format!("{what}: {meaning}"),
-    };
-    let error = of(schema::ERROR_SUFFIX, unit, "estimated absolute error");
-    let mut found = vec![(error, errors)];
-    if let Some(peaks) = peaks {
-        let [value, time] = schema::PEAK_SUFFIXES;
-        let largest = of(value, unit, "largest in magnitude over time");
-        found.push((largest, &peaks.values));
-        found.push((
-            of(time, "s", "when it is largest in magnitude"),
-            &peaks.time_s,
-        ));
-    }
-    found
+    });
+    described.into_iter().zip(columns).collect()
 }
 
 /// The scale of arrivals.
@@ -98,9 +90,7 @@ fn vtk_image(file: &File, map: &SectionFields) -> Result<Group, hdf5::Error> {
     integers("Version", &[2, 1])?;
     let kind = FixedAscii::<9>::from_ascii("ImageData")
         .map_err(|_| hdf5::Error::from("the type is not ASCII"))?;
-    vtk.new_attr::<FixedAscii<9>>()
-        .create("Type")?
-        .write_scalar(&kind)?;
+    scalar(&vtk, "Type", kind)?;
     integers("WholeExtent", &[0, nr as i64 - 1, 0, nz as i64 - 1, 0, 0])?;
     let reals = |name: &str, values: &[f64]| attribute(&vtk, name, values);
     let (dr, dz) = (spacing(&map.r_m), spacing(&map.z_m));
@@ -108,10 +98,7 @@ fn vtk_image(file: &File, map: &SectionFields) -> Result<Group, hdf5::Error> {
     reals("Spacing", &[dr, dz, dr.max(dz)])?;
     reals("Direction", &[1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0])?;
     let steps = vtk.create_group("Steps")?;
-    steps
-        .new_attr::<i64>()
-        .create("NSteps")?
-        .write_scalar(&(map.time_s.len() as i64))?;
+    scalar(&steps, "NSteps", map.time_s.len() as i64)?;
     let values = numbers(
         &steps,
         &("Values", "s", "time of each frame"),

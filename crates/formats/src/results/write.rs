@@ -1,10 +1,10 @@
-//! Writing results files.
+//! Writing results files, and the same as text: one table of everything over time.
 
 use super::identity::scene_sha256;
 use super::schema;
 use super::section::{beside, waves, write_section};
 use crate::hdf::{
-    attach_all, attach_scale, new_file, numbers, reason, scale, set_scale, text, vector,
+    attach_all, attach_scale, new_file, numbers, reason, scalar, scale, set_scale, text, vector,
 };
 use crate::quantities::QUANTITIES;
 use crate::report::{choices, kernel_name, treatment};
@@ -12,6 +12,7 @@ use crate::scene::resolved;
 use hdf5::{Dataset, File};
 use impact::{EnergySeries, Outcome, Peaks, ProbeFields, Scene};
 use output::{Existing, Fault, Output, OutputError, Staged};
+use std::io::{BufWriter, Write};
 use std::path::Path;
 
 /// Writes the results of a scene.
@@ -73,7 +74,7 @@ fn write_file(path: &Path, scene: &Scene, outcome: &Outcome) -> Result<(), hdf5:
 fn write_treatment(force: &Dataset, scene: &Scene) -> Result<(), hdf5::Error> {
     for (name, value) in treatment(scene) {
         if let Some(value) = value {
-            force.new_attr::<f64>().create(name)?.write_scalar(&value)?;
+            scalar(force, name, value)?;
         }
     }
     Ok(())
@@ -82,17 +83,8 @@ fn write_treatment(force: &Dataset, scene: &Scene) -> Result<(), hdf5::Error> {
 fn write_energy(file: &File, energy: &EnergySeries, time_s: &[f64]) -> Result<(), hdf5::Error> {
     let group = file.create_group(schema::ENERGY)?;
     let time = scale(&group, &schema::SERIES[0], time_s)?;
-    let columns = [
-        energy.kinetic_j.as_ref(),
-        energy.work_j.as_ref(),
-        Some(&energy.stored_j),
-        Some(&energy.radiated_j),
-        energy.plastic_j.as_ref(),
-    ];
-    for (described, samples) in schema::ENERGIES.iter().zip(columns) {
-        if let Some(samples) = samples {
-            attach_scale(&vector(&group, described, samples)?, &time, 0)?;
-        }
+    for (described, samples) in schema::energies(energy) {
+        attach_scale(&vector(&group, described, samples)?, &time, 0)?;
     }
     Ok(())
 }
@@ -142,7 +134,7 @@ fn write_probes(
 }
 
 fn write_attributes(file: &File, scene: &Scene, outcome: &Outcome) -> Result<(), hdf5::Error> {
-    let choices = choices(scene, outcome);
+    let [model, scheme, static_share, deflection, reason] = choices(scene, outcome);
     let used = outcome.used.as_ref();
     let table = used.and_then(|used| used.table.as_ref());
     let [id, version] = table.map_or(["", ""], |table| table.each_ref().map(String::as_str));
@@ -151,11 +143,11 @@ fn write_attributes(file: &File, scene: &Scene, outcome: &Outcome) -> Result<(),
         schema::FILE_TYPE,
         schema::FORMAT_VERSION,
         env!("CARGO_PKG_VERSION"),
-        choices.model,
-        choices.scheme,
-        choices.static_share,
-        choices.deflection,
-        choices.reason,
+        model,
+        scheme,
+        static_share,
+        deflection,
+        reason,
         kernel_name(outcome),
         used.map_or("", |used| &used.reason),
         used.map_or("", |used| used.convolution.name()),
@@ -170,10 +162,63 @@ fn write_attributes(file: &File, scene: &Scene, outcome: &Outcome) -> Result<(),
     }
     for quantity in &QUANTITIES {
         if let Some(value) = quantity.of(outcome) {
-            file.new_attr::<f64>()
-                .create(quantity.name)?
-                .write_scalar(&value)?;
+            scalar(file, quantity.name, value)?;
         }
     }
     Ok(())
+}
+
+/// Writes the time series and the traces of the probes, one line a sample, into an output that was claimed.
+///
+/// Lines that begin with `#` say where the probes are. The first line after them names the columns with their units,
+/// such as `time_s`, `force_n` and `probe1_stress_zz_pa`.
+pub fn stage_results_csv<'a>(
+    output: &'a Output,
+    scene: &Scene,
+    outcome: &Outcome,
+) -> Result<Staged<'a>, OutputError> {
+    output.stage(|part| {
+        let mut file = BufWriter::new(std::fs::File::create(part)?);
+        for (i, probe) in (1..).zip(&scene.probes) {
+            let (r_m, z_m) = (probe.r_m, probe.z_m);
+            writeln!(file, "# probe{i}: r = {r_m} m, z = {z_m} m")?;
+        }
+        let columns = columns(outcome);
+        let names: Vec<&str> = columns.iter().map(|(name, _)| name.as_str()).collect();
+        writeln!(file, "{}", names.join(","))?;
+        for i in 0..outcome.series.time_s.len() {
+            for (k, (_, samples)) in columns.iter().enumerate() {
+                let comma = if k == 0 { "" } else { "," };
+                write!(file, "{comma}{:?}", samples[i])?;
+            }
+            writeln!(file)?;
+        }
+        file.flush()
+    })
+}
+
+/// Names, which end with the unit, and samples.
+fn columns(outcome: &Outcome) -> Vec<(String, &[f64])> {
+    let series = schema::samples(&outcome.series);
+    let mut found: Vec<_> = series
+        .map(|((name, unit, _), samples)| (format!("{name}{}", ending(unit)), samples))
+        .collect();
+    for ((name, unit, _), values, _) in outcome.probes.iter().flat_map(schema::histories) {
+        found.extend((1..).zip(values).map(|(probe, samples)| {
+            let name = format!("probe{probe}_{name}{}", ending(unit));
+            (name, samples.as_slice())
+        }));
+    }
+    found
+}
+
+/// A unit as names carry it: `m/s` is `_m_s`.
+fn ending(unit: &str) -> String {
+    if unit == "1" {
+        return String::new();
+    }
+    format!(
+        "_{}",
+        unit.to_lowercase().replace('/', "_").replace('^', "")
+    )
 }

@@ -99,7 +99,10 @@ const KEYS: &[Key] = keys! {
     target.thickness_m: POSITIVE = |s, _| s.target.thickness_m?;
     target.radius_m: POSITIVE = |s, _| s.target.radius_m?;
     striker.material = |_, m| known(m)?.name.as_str();
-    striker.shape = |s, _| Form::of(striker(s)?.shape?).name();
+    striker.shape = |s, _| match striker(s)?.shape? {
+        Shape::Ball { .. } => Form::Ball,
+        Shape::Rod { .. } => Form::Rod,
+    }.name();
     striker.diameter_m: POSITIVE ("the diameter of the striker") = |s, _| match striker(s)?.shape? {
         Shape::Ball { diameter_m } | Shape::Rod { diameter_m, .. } => diameter_m,
     }, Ball(|_, shape, x| {
@@ -169,15 +172,6 @@ pub(crate) enum Form {
 }
 
 choice!(Form: Ball = "ball", Rod = "rod");
-
-impl Form {
-    fn of(shape: Shape) -> Self {
-        match shape {
-            Shape::Ball { .. } => Self::Ball,
-            Shape::Rod { .. } => Self::Rod,
-        }
-    }
-}
 
 /// The value of a word, or all words that there are.
 pub(super) fn named<T: Choice>(word: &str) -> Result<T, String> {

@@ -34,11 +34,11 @@ pub fn read_with_inputs(path: &Path) -> Result<(Scene, Vec<Role>), SceneError> {
     let scene = scene_of(&table, folder).map_err(|error| error.in_file(named))?;
     let mut found = Vec::new();
     if !is_standard(path) {
-        found.push(Role::new("the scene", path));
+        found.push(("the scene", path.to_owned()));
     }
     for (section, role) in FILES {
         if let Some(Value::String(file)) = table.get(section).and_then(|s| s.get("file")) {
-            found.push(Role::new(role, &folder.join(file)));
+            found.push((role, folder.join(file)));
         }
     }
     Ok((scene, found))

@@ -3,7 +3,7 @@
 use super::rows::NOT_HELD;
 use crate::sweep::schema::{FAILURE, MODEL};
 use crate::sweep::{Block, Footer, NO_MODEL, Part, Precision};
-use bytes::{Buf, Bytes};
+use bytes::Bytes;
 use contact::{Choice, Model};
 use output::Fault;
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl, get_column_reader};
@@ -12,7 +12,6 @@ use parquet::errors::ParquetError;
 use parquet::file::metadata::{
     ColumnChunkMetaData, ParquetMetaData, ParquetMetaDataReader, RowGroupMetaData,
 };
-use parquet::file::reader::{ChunkReader, Length};
 use parquet::file::serialized_reader::SerializedPageReader;
 use rayon::prelude::*;
 use sha2::{Digest, Sha256};
@@ -31,8 +30,8 @@ pub(super) fn each(
     let metadata = metadata(part).map_err(damaged)?;
     let places = places(part, &metadata).map_err(damaged)?;
     let mut next = part.selection.rows.start;
-    let read = each_group(part, hashes, &metadata, &mut |group, bytes| {
-        let block = block(part, &places, group, &Arc::new(bytes), next);
+    let read = each_group(part, hashes, &metadata, |group, bytes| {
+        let block = block(part, &places, group, bytes, next);
         let block = block.map_err(|error| error.to_string())?;
         next += block.len();
         if !block.holds() || next > part.selection.rows.end {
@@ -49,7 +48,7 @@ pub(super) fn each(
 
 /// Compares the rows of a file with the hashes of their groups.
 pub(super) fn check(part: &Part, hashes: &[String]) -> Result<(), Fault> {
-    each_group(part, hashes, &metadata(part)?, &mut |_, _| Ok(()))
+    each_group(part, hashes, &metadata(part)?, |_, _| Ok(()))
 }
 
 fn metadata(part: &Part) -> Result<ParquetMetaData, String> {
@@ -62,7 +61,7 @@ fn each_group(
     part: &Part,
     hashes: &[String],
     metadata: &ParquetMetaData,
-    visit: &mut dyn FnMut(&RowGroupMetaData, Group) -> Result<(), Fault>,
+    mut visit: impl FnMut(&RowGroupMetaData, &Arc<Bytes>) -> Result<(), Fault>,
 ) -> Result<(), Fault> {
     let mut file = File::open(&part.path)?;
     if metadata.num_row_groups() != hashes.len() {
@@ -70,14 +69,28 @@ fn each_group(
     }
     let mut next = part.selection.rows.start;
     for (group, hash) in metadata.row_groups().iter().zip(hashes) {
-        let bytes = Group::read(&mut file, group)?;
-        if format!("{:x}", Sha256::digest(&bytes.bytes)) != *hash {
+        let (start, end) = span(group);
+        file.seek(SeekFrom::Start(start))?;
+        let mut bytes = Vec::new();
+        (&file).take(end - start).read_to_end(&mut bytes)?;
+        if format!("{:x}", Sha256::digest(&bytes)) != *hash {
             return Err(Fault::from(format!("the rows from {next} on were changed")));
         }
         next += usize::try_from(group.num_rows()).unwrap_or(0);
-        visit(group, bytes)?;
+        visit(group, &Arc::new(bytes.into()))?;
     }
     Ok(())
+}
+
+/// Where a group begins and ends: its columns follow each other.
+fn span(group: &RowGroupMetaData) -> (u64, u64) {
+    let ranges = group.columns().iter().map(ColumnChunkMetaData::byte_range);
+    let (mut start, mut end) = (None, 0);
+    for (first, length) in ranges {
+        let begin = *start.get_or_insert(first);
+        end = first.saturating_add(length).max(begin);
+    }
+    (start.unwrap_or(0), end)
 }
 
 /// Where the columns of a file are, by name.
@@ -100,7 +113,7 @@ fn block(
     part: &Part,
     places: &HashMap<String, usize>,
     group: &RowGroupMetaData,
-    bytes: &Arc<Group>,
+    bytes: &Arc<Bytes>,
     start: usize,
 ) -> Result<Block, ParquetError> {
     let rows = usize::try_from(group.num_rows()).unwrap_or(0);
@@ -135,15 +148,24 @@ fn block(
     Ok(block)
 }
 
-/// The pages of a column of a group.
+/// The pages of a column of a group, of which the bytes are there.
 fn pages(
     group: &RowGroupMetaData,
     place: usize,
-    bytes: &Arc<Group>,
+    bytes: &Arc<Bytes>,
     rows: usize,
 ) -> Result<ColumnReader, ParquetError> {
-    let chunk = group.column(place);
-    let pages = SerializedPageReader::new(Arc::clone(bytes), chunk, rows, None)?;
+    let (chunk, start) = (group.column(place), span(group).0);
+    let (first, length) = chunk.byte_range();
+    if first < start || first - start + length > bytes.len() as u64 {
+        return Err(wrong("a column lies outside its group"));
+    }
+    let inside = |offset: i64| offset.wrapping_sub(start as i64);
+    let moved = (chunk.clone().into_builder())
+        .set_data_page_offset(inside(chunk.data_page_offset()))
+        .set_dictionary_page_offset(chunk.dictionary_page_offset().map(inside))
+        .build()?;
+    let pages = SerializedPageReader::new(Arc::clone(bytes), &moved, rows, None)?;
     Ok(get_column_reader(chunk.column_descr_ptr(), Box::new(pages)))
 }
 
@@ -191,60 +213,4 @@ fn all<T: DataType>(
 
 fn wrong(what: &str) -> ParquetError {
     ParquetError::General(what.to_owned())
-}
-
-/// The bytes of a group, at the places that they have in the file.
-struct Group {
-    start: u64,
-    bytes: Bytes,
-}
-
-impl Group {
-    /// Reads it: its columns follow each other.
-    fn read(file: &mut File, group: &RowGroupMetaData) -> Result<Self, Fault> {
-        let ranges = group.columns().iter().map(ColumnChunkMetaData::byte_range);
-        let (mut start, mut end) = (None, 0);
-        for (first, length) in ranges {
-            let begin = *start.get_or_insert(first);
-            end = first.saturating_add(length).max(begin);
-        }
-        let start = start.unwrap_or(0);
-        file.seek(SeekFrom::Start(start))?;
-        let mut bytes = Vec::new();
-        file.take(end - start).read_to_end(&mut bytes)?;
-        Ok(Self {
-            start,
-            bytes: bytes.into(),
-        })
-    }
-
-    /// Some of them.
-    fn some(&self, start: u64, length: Option<usize>) -> Result<Bytes, ParquetError> {
-        let all = self.bytes.len();
-        let range = || {
-            let from = usize::try_from(start.checked_sub(self.start)?).ok()?;
-            let to = length.map_or(Some(all), |length| from.checked_add(length))?;
-            (from <= all && to <= all).then_some(from..to)
-        };
-        let range = range().ok_or_else(|| wrong("a column lies outside its group"))?;
-        Ok(self.bytes.slice(range))
-    }
-}
-
-impl Length for Group {
-    fn len(&self) -> u64 {
-        self.start + self.bytes.len() as u64
-    }
-}
-
-impl ChunkReader for Group {
-    type T = bytes::buf::Reader<Bytes>;
-
-    fn get_read(&self, start: u64) -> Result<Self::T, ParquetError> {
-        Ok(self.some(start, None)?.reader())
-    }
-
-    fn get_bytes(&self, start: u64, length: usize) -> Result<Bytes, ParquetError> {
-        self.some(start, Some(length))
-    }
 }

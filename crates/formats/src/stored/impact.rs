@@ -1,7 +1,7 @@
 //! The results of a scene, read back.
 
-use super::error::{FileKind, ReadError};
-use super::open::Stored;
+use super::open::{FileKind, Stored};
+use crate::error::SceneError;
 use crate::quantities::Described;
 use crate::results::schema::{
     ARRIVALS, ENERGIES, ENERGY, ERROR_SUFFIX, MAP, MAP_SCALES, PEAK_SUFFIXES, PLACES, PROBES,
@@ -38,8 +38,8 @@ impl StoredImpact {
     /// Opens a results file.
     ///
     /// # Errors
-    /// [`ReadError`], which says what the file is instead.
-    pub fn open(path: &Path) -> Result<Self, ReadError> {
+    /// [`SceneError`], which says what the file is instead.
+    pub fn open(path: &Path) -> Result<Self, SceneError> {
         let stored = Stored::open(path, FileKind::Impact)?;
         let unread = |error| stored.damaged(format!("its scene cannot be read: {error}"));
         let scene = parse(&stored.text("scene")?).map_err(unread)?;
@@ -90,8 +90,8 @@ impl StoredImpact {
     /// The kernels of its fields, `none` without any, and the id of their table, empty without one.
     ///
     /// # Errors
-    /// [`ReadError`] for a file that is not as it was written.
-    pub fn kernels(&self) -> Result<(String, String), ReadError> {
+    /// [`SceneError`] for a file that is not as it was written.
+    pub fn kernels(&self) -> Result<(String, String), SceneError> {
         Ok((self.stored.text("kernel")?, self.stored.text("table_id")?))
     }
 
@@ -101,21 +101,19 @@ impl StoredImpact {
         self.stored.number(name)
     }
 
-    /// Every key of its scene with a value, such as `striker.velocity_m_s` and `2.5`, in alphabetical order.
+    /// Every key of its scene with a value, such as `striker.velocity_m_s` and `2.5`, in alphabetical order: words, and
+    /// numbers in the units of their keys.
     ///
     /// Lists are left out: the probes, the points of a section.
     #[must_use]
-    pub fn keys(&self) -> Vec<(String, StoredValue)> {
+    pub fn keys(&self) -> Vec<(String, Value)> {
         let mut found = Vec::new();
-        for (section, value) in &self.scene {
-            let Value::Table(keys) = value else {
-                continue;
-            };
-            for (key, value) in keys {
-                let text = value
-                    .as_str()
-                    .map(|text| StoredValue::Text(text.to_owned()));
-                let value = text.or(as_number(value).map(StoredValue::Number));
+        for (section, keys) in &self.scene {
+            for (key, value) in keys.as_table().into_iter().flatten() {
+                let value = match value {
+                    Value::String(_) => Some(value.clone()),
+                    _ => as_number(value).map(Value::Float),
+                };
                 found.extend(value.map(|value| (format!("{section}.{key}"), value)));
             }
         }
@@ -125,28 +123,52 @@ impl StoredImpact {
     /// The probes; none for a scene without.
     ///
     /// # Errors
-    /// [`ReadError`] for a file that is not as it was written.
-    pub fn probes(&self) -> Result<Option<StoredProbes>, ReadError> {
-        self.stored
-            .group(PROBES)
-            .map(|_| StoredProbes::new(self.stored.clone(), &self.series.time_s))
-            .transpose()
+    /// [`SceneError`] for a file that is not as it was written.
+    pub fn probes(&self) -> Result<Option<StoredProbes>, SceneError> {
+        let stored = self.stored.clone();
+        if stored.group(PROBES).is_none() {
+            return Ok(None);
+        }
+        let path = |name: &str| format!("{PROBES}/{name}");
+        let r_m = stored.vector(&path(PLACES[0].0))?;
+        let z_m = stored.numbers(&path(PLACES[1].0), &[r_m.len()])?;
+        let arrivals = stored.numbers(&path(ARRIVALS.0), &[r_m.len(), 3])?;
+        Ok(Some(StoredProbes {
+            samples: self.series.time_s.len(),
+            arrival_s: arrivals.as_chunks().0.to_vec(),
+            r_m,
+            z_m,
+            stored,
+        }))
     }
 
     /// The section; none for a scene without.
     ///
     /// # Errors
-    /// [`ReadError`] for a file that is not as it was written.
-    pub fn section(&self) -> Result<Option<StoredSection>, ReadError> {
-        self.stored
-            .group(MAP)
-            .map(|_| StoredSection::new(self.stored.clone()))
-            .transpose()
+    /// [`SceneError`] for a file that is not as it was written.
+    pub fn section(&self) -> Result<Option<StoredSection>, SceneError> {
+        let stored = self.stored.clone();
+        if stored.group(MAP).is_none() {
+            return Ok(None);
+        }
+        let scale = |i: usize| stored.vector(&format!("{MAP}/{}", MAP_SCALES[i].0));
+        let (time_s, z_m, r_m) = (scale(0)?, scale(1)?, scale(2)?);
+        let rising = |x: &[f64]| x.windows(2).all(|pair| pair[0] < pair[1]);
+        let falling = z_m.windows(2).all(|pair| pair[0] > pair[1]);
+        if !rising(&time_s) || !rising(&r_m) || !falling || r_m.len() < 2 || z_m.len() < 2 {
+            return Err(stored.damaged("the axes of its section are not in order"));
+        }
+        Ok(Some(StoredSection {
+            stored,
+            r_m,
+            z_m,
+            time_s,
+        }))
     }
 }
 
 /// Where the energy is; none in files from before it was written.
-fn energy_of(stored: &Stored, samples: usize) -> Result<Option<EnergySeries>, ReadError> {
+fn energy_of(stored: &Stored, samples: usize) -> Result<Option<EnergySeries>, SceneError> {
     if stored.group(ENERGY).is_none() {
         return Ok(None);
     }
@@ -160,15 +182,6 @@ fn energy_of(stored: &Stored, samples: usize) -> Result<Option<EnergySeries>, Re
         radiated_j: column(3)?,
         plastic_j: existing(4)?,
     }))
-}
-
-/// The value of a key of a scene.
-#[derive(Debug, Clone, PartialEq)]
-pub enum StoredValue {
-    /// A number in the unit of its key.
-    Number(f64),
-    /// A word.
-    Text(String),
 }
 
 /// The probes of a results file: places and arrivals; traces are read when they are asked for.
@@ -186,23 +199,6 @@ pub struct StoredProbes {
 }
 
 impl StoredProbes {
-    fn new(stored: Stored, time_s: &[f64]) -> Result<Self, ReadError> {
-        let path = |name: &str| format!("{PROBES}/{name}");
-        let r_m = stored.vector(&path(PLACES[0].0))?;
-        let z_m = stored.numbers(&path(PLACES[1].0), &[r_m.len()])?;
-        let arrivals = stored.numbers(&path(ARRIVALS.0), &[r_m.len(), 3])?;
-        Ok(Self {
-            samples: time_s.len(),
-            arrival_s: arrivals
-                .chunks_exact(3)
-                .map(|t| [t[0], t[1], t[2]])
-                .collect(),
-            r_m,
-            z_m,
-            stored,
-        })
-    }
-
     /// What was stored at each probe over time.
     #[must_use]
     pub fn quantities(&self) -> Vec<Described> {
@@ -213,8 +209,8 @@ impl StoredProbes {
     /// A quantity over time at a probe, at the times of the results.
     ///
     /// # Errors
-    /// [`ReadError`] for a quantity that is not there.
-    pub fn trace(&self, quantity: &str, probe: usize) -> Result<Vec<f64>, ReadError> {
+    /// [`SceneError`] for a quantity that is not there.
+    pub fn trace(&self, quantity: &str, probe: usize) -> Result<Vec<f64>, SceneError> {
         let path = format!("{PROBES}/{quantity}");
         let (shape, end) = ([self.r_m.len(), self.samples], probe.saturating_add(1));
         self.stored.some(&path, &shape, probe..end)
@@ -244,22 +240,6 @@ pub struct StoredSection {
 }
 
 impl StoredSection {
-    fn new(stored: Stored) -> Result<Self, ReadError> {
-        let scale = |i: usize| stored.vector(&format!("{MAP}/{}", MAP_SCALES[i].0));
-        let (time_s, z_m, r_m) = (scale(0)?, scale(1)?, scale(2)?);
-        let rising = |x: &[f64]| x.windows(2).all(|pair| pair[0] < pair[1]);
-        let falling = z_m.windows(2).all(|pair| pair[0] > pair[1]);
-        if !rising(&time_s) || !rising(&r_m) || !falling || r_m.len() < 2 || z_m.len() < 2 {
-            return Err(stored.damaged("the axes of its section are not in order"));
-        }
-        Ok(Self {
-            stored,
-            r_m,
-            z_m,
-            time_s,
-        })
-    }
-
     /// What was stored in each frame.
     #[must_use]
     pub fn quantities(&self) -> Vec<Described> {
@@ -269,8 +249,8 @@ impl StoredSection {
     /// A quantity in a frame.
     ///
     /// # Errors
-    /// [`ReadError`] for a quantity or a frame that is not there.
-    pub fn frame(&self, quantity: &str, frame: usize) -> Result<Vec<f32>, ReadError> {
+    /// [`SceneError`] for a quantity or a frame that is not there.
+    pub fn frame(&self, quantity: &str, frame: usize) -> Result<Vec<f32>, SceneError> {
         if frame >= self.time_s.len() {
             let what = format!("frame {frame} is outside [0, {}]", self.time_s.len() - 1);
             return Err(self.stored.damaged(what));

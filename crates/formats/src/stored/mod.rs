@@ -3,18 +3,15 @@
 //! [`file_kind`] says what a file is. A reader takes one kind and says so of any other; it reads no more than it is
 //! asked for, and no dataset beyond a size.
 
-mod error;
 #[cfg(feature = "parquet")]
 mod groups;
 mod impact;
 mod open;
 mod rows;
-mod sweep;
 
 pub use crate::sweep::Part;
-pub use error::{FileKind, ReadError};
-pub use impact::{StoredImpact, StoredProbes, StoredSection, StoredValue};
-pub use open::file_kind;
-pub use rows::StoredPart;
+pub use impact::{StoredImpact, StoredProbes, StoredSection};
+pub use open::{FileKind, file_kind};
 pub(crate) use rows::whole_sweep;
-pub use sweep::StoredSweep;
+pub use rows::{StoredPart, StoredSweep};
+pub use toml::Value;

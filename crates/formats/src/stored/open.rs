@@ -1,11 +1,13 @@
-//! Opening a file, whatever it is, and bounded reading from it.
+//! What a file is, opening it, and bounded reading from it.
 
-use super::error::{FileKind, ReadError};
+use crate::error::SceneError;
 use crate::quantities::Described;
+use crate::results;
 use crate::scene::section::parse;
-use crate::sweep::schema::TEXTS;
+use crate::sweep::schema::{self, TEXTS, part};
 use crate::sweep::{Fields, Footer, MAGIC, Part, Precision, stored_columns};
 use ledger::{Dataset, Group, H5Type, HdfError, HdfFile};
+use std::fmt;
 use std::io::Read;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -16,16 +18,62 @@ const MOST_BYTES: u64 = 1 << 29;
 /// Major version of the files that are read.
 const MAJOR: &str = "1";
 
+/// What a file of the program is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FileKind {
+    /// Results of a scene.
+    Impact,
+    /// Results of a sweep.
+    Sweep,
+    /// Some rows of a sweep.
+    SweepPart,
+    /// A kernel table.
+    Table,
+    /// A chart.
+    Chart,
+}
+
+impl FileKind {
+    /// That of a value of the attribute `file_type`.
+    fn of_type(found: &str) -> Option<Self> {
+        Some(match found {
+            results::schema::FILE_TYPE => Self::Impact,
+            schema::FILE_TYPE => Self::Sweep,
+            part::FILE_TYPE => Self::SweepPart,
+            lookup::schema::FILE_TYPE_VALUE => Self::Table,
+            "hertzlamb chart" => Self::Chart,
+            _ => return None,
+        })
+    }
+
+    /// What the file is, and the minor version of the format from which on its files have a seal.
+    fn row(self) -> (&'static str, u32) {
+        match self {
+            Self::Impact => ("the results of an impact", 8),
+            Self::Sweep => ("a sweep", 6),
+            Self::SweepPart => ("a part of a sweep", 2),
+            Self::Table => ("a kernel table", lookup::schema::SEALED_FROM),
+            Self::Chart => ("a chart", u32::MAX),
+        }
+    }
+}
+
+impl fmt::Display for FileKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.row().0)
+    }
+}
+
 /// An open file of a known kind.
 #[derive(Debug, Clone)]
 pub(super) struct Stored {
     pub(super) path: PathBuf,
-    file: HdfFile,
+    pub(super) file: HdfFile,
 }
 
 impl Stored {
     /// Opens a file of a kind and of a version that is known.
-    pub(super) fn open(path: &Path, wanted: FileKind) -> Result<Self, ReadError> {
+    pub(super) fn open(path: &Path, wanted: FileKind) -> Result<Self, SceneError> {
         check_kind(path, file_kind(path)?, wanted)?;
         let stored = Self {
             path: path.to_owned(),
@@ -37,8 +85,8 @@ impl Stored {
             .split('.')
             .nth(1)
             .and_then(|minor| minor.parse().ok());
-        let sealed = minor.is_none_or(|minor: u32| minor >= wanted.row().2);
-        if sealed != stored.is_sealed() {
+        let sealed = minor.is_none_or(|minor: u32| minor >= wanted.row().1);
+        if sealed != stored.file.is_sealed() {
             return Err(stored.damaged(
                 "its seal is gone: it was cut short, or something has written to it since it was made",
             ));
@@ -50,27 +98,22 @@ impl Stored {
         Ok(stored)
     }
 
-    pub(super) fn is_sealed(&self) -> bool {
-        self.file.is_sealed()
-    }
-
     /// Compares every byte of a file that has a seal.
-    pub(super) fn check(&self) -> Result<(), ReadError> {
-        let checked = self.file.check();
-        checked.map_err(|error| self.damaged(error.to_string()))
+    pub(super) fn check(&self) -> Result<(), SceneError> {
+        self.file.check().map_err(|error| self.damaged(error))
     }
 
     /// Something that every such file has is missing or wrong.
-    pub(super) fn damaged(&self, what: impl Into<String>) -> ReadError {
-        ReadError::damaged(&self.path, what.into())
+    pub(super) fn damaged(&self, what: impl fmt::Display) -> SceneError {
+        SceneError::damaged(&self.path, what)
     }
 
-    fn unread(&self, path: &str, error: &HdfError) -> ReadError {
+    fn unread(&self, path: &str, error: &HdfError) -> SceneError {
         self.damaged(format!("{path} cannot be read: {error}"))
     }
 
     /// A text of the root.
-    pub(super) fn text(&self, name: &str) -> Result<String, ReadError> {
+    pub(super) fn text(&self, name: &str) -> Result<String, SceneError> {
         let text = self.file.root.text(name);
         text.map_err(|_| self.damaged(format!("the text attribute {name} is missing")))
     }
@@ -123,13 +166,13 @@ impl Stored {
     }
 
     /// All numbers of a dataset of a shape.
-    pub(super) fn numbers(&self, path: &str, shape: &[usize]) -> Result<Vec<f64>, ReadError> {
+    pub(super) fn numbers(&self, path: &str, shape: &[usize]) -> Result<Vec<f64>, SceneError> {
         let numbers = self.of_shape(path, shape)?.as_f64(MOST_BYTES);
         numbers.map_err(|error| self.unread(path, &error))
     }
 
     /// All numbers of a dataset with one dimension.
-    pub(super) fn vector(&self, path: &str) -> Result<Vec<f64>, ReadError> {
+    pub(super) fn vector(&self, path: &str) -> Result<Vec<f64>, SceneError> {
         match self.shape(path).as_deref() {
             Some(&[length]) => self.numbers(path, &[length]),
             _ => Err(self.damaged(format!("the list {path} is missing"))),
@@ -137,7 +180,7 @@ impl Stored {
     }
 
     /// All texts of a list.
-    pub(super) fn texts(&self, path: &str) -> Result<Vec<String>, ReadError> {
+    pub(super) fn texts(&self, path: &str) -> Result<Vec<String>, SceneError> {
         match self.dataset(path) {
             Some(list) if list.shape().len() == 1 => {
                 let texts = list.texts(MOST_BYTES);
@@ -153,7 +196,7 @@ impl Stored {
         path: &str,
         shape: &[usize],
         first: Range<usize>,
-    ) -> Result<Vec<T>, ReadError> {
+    ) -> Result<Vec<T>, SceneError> {
         let mut block: Vec<_> = shape.iter().map(|&n| 0..n).collect();
         block[0] = first;
         let numbers = self.of_shape(path, shape)?.block(&block, MOST_BYTES);
@@ -161,7 +204,7 @@ impl Stored {
     }
 
     /// Which results a group has as datasets of a shape, and how exactly.
-    pub(super) fn fields(&self, group: &str, shape: &[usize]) -> Result<Fields, ReadError> {
+    pub(super) fn fields(&self, group: &str, shape: &[usize]) -> Result<Fields, SceneError> {
         let mut fields = Fields::all(self.probed()?);
         let (mut single, mut double) = (true, true);
         fields.retain(|name| {
@@ -182,7 +225,7 @@ impl Stored {
     }
 
     /// The columns of the probes of a sweep, or of a part of one.
-    fn probed(&self) -> Result<Vec<Described>, ReadError> {
+    fn probed(&self) -> Result<Vec<Described>, SceneError> {
         let Ok(sweep) = self.text(TEXTS[3]) else {
             return Ok(Vec::new());
         };
@@ -191,7 +234,7 @@ impl Stored {
     }
 
     /// A dataset that has a shape.
-    fn of_shape(&self, path: &str, shape: &[usize]) -> Result<Dataset, ReadError> {
+    fn of_shape(&self, path: &str, shape: &[usize]) -> Result<Dataset, SceneError> {
         match self.dataset(path) {
             Some(found) if found.shape() == shape => Ok(found),
             Some(found) => Err(self.damaged(format!(
@@ -213,64 +256,62 @@ pub(super) fn is_parquet(path: &Path) -> bool {
 }
 
 /// Opens a file of rows in Parquet, all or some, and checks its seal and its length; rows are read a group at a time.
-fn open_parquet(path: &Path) -> Result<(FileKind, Footer, Part), ReadError> {
-    let foreign = || ReadError::is(path, "is a Parquet file, but none of hertzlamb's");
-    let found = Footer::read(path).map_err(|what| ReadError::damaged(path, what))?;
+fn open_parquet(path: &Path) -> Result<(FileKind, Footer, Part), SceneError> {
+    let foreign = || SceneError::is(path, "is a Parquet file, but none of hertzlamb's");
+    let found = Footer::read(path).map_err(|what| SceneError::damaged(path, what))?;
     let (footer, part) = found.ok_or_else(foreign)?;
     check_version(path, &footer.format_version)?;
-    let mut kinds = [FileKind::Sweep, FileKind::SweepPart].into_iter();
-    let kind = kinds.find(|kind| kind.file_type() == footer.file_type);
+    let kind = FileKind::of_type(&footer.file_type);
     Ok((kind.ok_or_else(foreign)?, footer, part))
 }
 
 /// [`open_parquet`] for a file of a kind.
-pub(super) fn parquet_of_kind(path: &Path, wanted: FileKind) -> Result<(Footer, Part), ReadError> {
+pub(super) fn parquet_of_kind(path: &Path, wanted: FileKind) -> Result<(Footer, Part), SceneError> {
     let (kind, footer, part) = open_parquet(path)?;
     check_kind(path, kind, wanted).map(|()| (footer, part))
 }
 
-fn check_kind(path: &Path, found: FileKind, wanted: FileKind) -> Result<(), ReadError> {
+fn check_kind(path: &Path, found: FileKind, wanted: FileKind) -> Result<(), SceneError> {
     if found == wanted {
         return Ok(());
     }
-    Err(ReadError::is(path, format!("is {found}, not {wanted}")))
+    Err(SceneError::is(path, format!("is {found}, not {wanted}")))
 }
 
-fn check_version(path: &Path, found: &str) -> Result<(), ReadError> {
+fn check_version(path: &Path, found: &str) -> Result<(), SceneError> {
     if found.split('.').next() == Some(MAJOR) {
         return Ok(());
     }
     let what = format!("has the format version {found}; versions {MAJOR}.x can be read");
-    Err(ReadError::is(path, what))
+    Err(SceneError::is(path, what))
 }
 
 /// What the file at `path` is.
 ///
 /// # Errors
-/// [`ReadError`] for a file that is not one of the program.
-pub fn file_kind(path: &Path) -> Result<FileKind, ReadError> {
+/// [`SceneError`] for a file that is not one of the program.
+pub fn file_kind(path: &Path) -> Result<FileKind, SceneError> {
     if is_parquet(path) {
         return open_parquet(path).map(|(kind, ..)| kind);
     }
     let found = open_hdf5(path)?.root.text("file_type").ok();
-    found
-        .and_then(|found| FileKind::ALL.into_iter().find(|k| k.file_type() == found))
-        .ok_or_else(|| ReadError::is(path, "is an HDF5 file, but none of hertzlamb's"))
+    let known = found.and_then(|found| FileKind::of_type(&found));
+    known.ok_or_else(|| SceneError::is(path, "is an HDF5 file, but none of hertzlamb's"))
 }
 
 /// Opens an HDF5 file, whatever is in it, with its seal.
-fn open_hdf5(path: &Path) -> Result<HdfFile, ReadError> {
-    let unreadable = |error| ReadError::unreadable(path, error);
+fn open_hdf5(path: &Path) -> Result<HdfFile, SceneError> {
+    let unreadable = |error| SceneError::unreadable(path, error);
     // looked at before it is opened: a pipe would wait for its other end
     let data = std::fs::metadata(path).map_err(unreadable)?;
     if !data.is_file() {
-        return Err(ReadError::unreadable(path, "it is not a file"));
+        return Err(SceneError::unreadable(path, "it is not a file"));
     }
     let mut head = Vec::new();
     std::fs::File::open(path)
         .and_then(|file| file.take(data.len().min(256)).read_to_end(&mut head))
         .map_err(unreadable)?;
-    let not = |found| ReadError::is(path, format!("is {found}, not a file of results in HDF5"));
+    let not = |found| SceneError::is(path, format!("is {found}, not a file of results in HDF5"));
     if !head.starts_with(b"\x89HDF\r\n\x1a\n") {
         let is_text = !head.is_empty() && std::str::from_utf8(&head).is_ok();
         return Err(not(match head.len() {
@@ -281,7 +322,7 @@ fn open_hdf5(path: &Path) -> Result<HdfFile, ReadError> {
         }));
     }
     HdfFile::open(path).map_err(|error| match error {
-        HdfError::Damaged(what) => ReadError::damaged(path, what),
+        HdfError::Damaged(what) => SceneError::damaged(path, what),
         _ => not("a damaged HDF5 file"),
     })
 }

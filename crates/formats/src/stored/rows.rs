@@ -1,11 +1,14 @@
-//! Rows of a sweep, some or all, read back from either format.
+//! The results of a sweep, and rows of it, some or all, read back from either format.
 
-use super::error::{FileKind, ReadError};
-use super::open::{Stored, is_parquet, parquet_of_kind};
-use super::sweep::StoredSweep;
-use crate::sweep::schema::{FAILED, FAILURE, FAILURES, MODEL, RESULTS, ROWS, SHA256, part};
+use super::open::{FileKind, Stored, is_parquet, parquet_of_kind};
+use crate::error::SceneError;
+use crate::quantities::Described;
+use crate::sweep::schema::{
+    AXES, FAILED, FAILURE, FAILURES, LIST, MODEL, RESULTS, ROWS, SAMPLE, SHA256, part,
+};
 use crate::sweep::{
-    BLOCK, Block, Blocks, Cells, Fields, Footer, Part, Precision, Selection, Spec, What, columns,
+    Axis, BLOCK, Block, Blocks, Cells, Column, Fields, Footer, Part, Precision, Selection, Spec,
+    Values, What, columns,
 };
 use output::Fault;
 use std::ops::Range;
@@ -33,8 +36,8 @@ impl StoredPart {
     /// Opens a part; what is read of it later is compared with its seal then.
     ///
     /// # Errors
-    /// [`ReadError`], which says what the file is instead.
-    pub fn open(path: &Path) -> Result<Self, ReadError> {
+    /// [`SceneError`], which says what the file is instead.
+    pub fn open(path: &Path) -> Result<Self, SceneError> {
         if is_parquet(path) {
             let (footer, part) = parquet_of_kind(path, FileKind::SweepPart)?;
             let rows = Rows::Parquet(Box::new(footer));
@@ -66,7 +69,7 @@ impl StoredPart {
             selection: Selection { rows, shard },
             sweep_rows,
             fields,
-            sealed: stored.is_sealed(),
+            sealed: stored.file.is_sealed(),
         };
         let reasons = stored.texts(FAILURES.0)?;
         let rows = Rows::Hdf5(stored, reasons);
@@ -76,8 +79,8 @@ impl StoredPart {
     /// Compares every byte of a part that has a seal.
     ///
     /// # Errors
-    /// [`ReadError`].
-    pub fn check(&self) -> Result<(), ReadError> {
+    /// [`SceneError`].
+    pub fn check(&self) -> Result<(), SceneError> {
         match &self.rows {
             Rows::Hdf5(stored, _) => stored.check(),
             Rows::Parquet(footer) => check_groups(&self.part, footer),
@@ -85,12 +88,12 @@ impl StoredPart {
     }
 
     /// Compares the keys that vary with those of the sweep that the part is of.
-    pub(crate) fn check_keys(&self, spec: &Spec) -> Result<(), ReadError> {
+    pub(crate) fn check_keys(&self, spec: &Spec) -> Result<(), SceneError> {
         let same = self.sweep()? == spec.resolved;
         match &self.rows {
             _ if !same => {
                 let what = "its sweep is not that of the other parts";
-                Err(ReadError::damaged(&self.part.path, what))
+                Err(SceneError::damaged(&self.part.path, what))
             }
             Rows::Hdf5(stored, _) => self
                 .blocks()
@@ -115,8 +118,8 @@ impl StoredPart {
     /// The sweep with its base scene, as TOML.
     ///
     /// # Errors
-    /// [`ReadError`] where it is missing.
-    pub fn sweep(&self) -> Result<String, ReadError> {
+    /// [`SceneError`] where it is missing.
+    pub fn sweep(&self) -> Result<String, SceneError> {
         match &self.rows {
             Rows::Hdf5(stored, _) => stored.text("sweep"),
             Rows::Parquet(footer) => Ok(footer.sweep.clone()),
@@ -136,7 +139,7 @@ impl StoredPart {
         stored: &Stored,
         spec: &Spec,
         some: Range<usize>,
-    ) -> Result<(), ReadError> {
+    ) -> Result<(), SceneError> {
         let length = [self.part.selection.rows.len()];
         let block = Block {
             start: self.part.selection.rows.start,
@@ -172,7 +175,7 @@ impl StoredPart {
         stored: &Stored,
         reasons: &[String],
         rows: Range<usize>,
-    ) -> Result<Block, ReadError> {
+    ) -> Result<Block, SceneError> {
         let length = [self.part.selection.rows.len()];
         let path = |name: &str| format!("{RESULTS}/{name}");
         let start = self.part.selection.rows.start + rows.start;
@@ -230,8 +233,8 @@ impl Blocks for StoredPart {
 /// compared with its seal.
 ///
 /// # Errors
-/// [`ReadError`], which says what the file is instead.
-pub(crate) fn whole_sweep(path: &Path) -> Result<(Option<String>, Fields), ReadError> {
+/// [`SceneError`], which says what the file is instead.
+pub(crate) fn whole_sweep(path: &Path) -> Result<(Option<String>, Fields), SceneError> {
     if is_parquet(path) {
         let (footer, part) = parquet_of_kind(path, FileKind::Sweep)?;
         check_groups(&part, &footer)?;
@@ -242,10 +245,135 @@ pub(crate) fn whole_sweep(path: &Path) -> Result<(Option<String>, Fields), ReadE
 }
 
 /// Compares the rows of a Parquet file with their hashes, where the program can read them.
-fn check_groups(part: &Part, footer: &Footer) -> Result<(), ReadError> {
+fn check_groups(part: &Part, footer: &Footer) -> Result<(), SceneError> {
     #[cfg(feature = "parquet")]
     super::groups::check(part, &footer.row_groups)
-        .map_err(|fault| ReadError::damaged(&part.path, fault.reason))?;
+        .map_err(|fault| SceneError::damaged(&part.path, fault.reason))?;
     let _ = (part, footer);
     Ok(())
+}
+
+/// An open sweep with its axes; results are read when they are asked for.
+#[derive(Debug, Clone)]
+pub struct StoredSweep {
+    stored: Stored,
+    /// The axes; the last runs fastest.
+    pub axes: Vec<Axis>,
+    /// Failed scenes.
+    pub failed: u64,
+}
+
+impl StoredSweep {
+    /// Opens a sweep.
+    ///
+    /// # Errors
+    /// [`SceneError`], which says what the file is instead.
+    pub fn open(path: &Path) -> Result<Self, SceneError> {
+        let stored = Stored::open(path, FileKind::Sweep)?;
+        if stored.text(part::PARTS).is_ok() {
+            let what = "has the places of its parts, not their results: read the parts, or a copy of them in one file";
+            return Err(SceneError::is(path, what));
+        }
+        let axes = read_axes(&stored)?;
+        Ok(Self {
+            failed: stored.number("failed").unwrap_or(0.0) as u64,
+            axes,
+            stored,
+        })
+    }
+
+    /// Where it lies.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        &self.stored.path
+    }
+
+    /// Which sweep it is of; nothing in files of versions before 1.4.
+    #[must_use]
+    pub fn sha256(&self) -> Option<String> {
+        self.stored.text(SHA256).ok()
+    }
+
+    /// Which results it has, and how exactly.
+    ///
+    /// # Errors
+    /// [`SceneError`] for a file that is not as it was written.
+    pub fn fields(&self) -> Result<Fields, SceneError> {
+        self.stored.fields(RESULTS, &self.shape())
+    }
+
+    /// The results of every row.
+    #[must_use]
+    pub fn quantities(&self) -> Vec<Described> {
+        let mut found = self.stored.quantities(RESULTS, &self.shape());
+        // scales of a sweep with one axis have the same shape
+        found.retain(|quantity| {
+            !quantity.name.contains('.') && quantity.name != SAMPLE && quantity.name != LIST
+        });
+        found
+    }
+
+    /// A result of all rows; NaN where a scene failed.
+    ///
+    /// # Errors
+    /// [`SceneError`] for a result that is not there.
+    pub fn values(&self, quantity: &str) -> Result<Vec<f64>, SceneError> {
+        self.stored
+            .numbers(&format!("{RESULTS}/{quantity}"), &self.shape())
+    }
+
+    fn shape(&self) -> Vec<usize> {
+        self.axes.iter().map(|axis| axis.len).collect()
+    }
+}
+
+/// The axes in the order of the dimensions: those of the product by their names, then the list's, then the draws'.
+fn read_axes(stored: &Stored) -> Result<Vec<Axis>, SceneError> {
+    let group = stored
+        .group(AXES)
+        .ok_or_else(|| stored.damaged(format!("the group {AXES} is missing")))?;
+    let names = group.members();
+    let mut axes: Vec<Axis> = Vec::new();
+    for name in names.map_err(|error| stored.damaged(error))? {
+        let path = format!("{AXES}/{name}");
+        let data = stored.dataset(&path);
+        let axis = data.as_ref().and_then(|data| data.text("axis").ok());
+        let axis = axis.ok_or_else(|| stored.damaged(format!("{path} does not name its axis")))?;
+        let values = if data.is_some_and(|data| data.holds_texts()) {
+            Values::Texts(stored.texts(&path)?)
+        } else {
+            Values::Numbers(stored.vector(&path)?)
+        };
+        let len = values.count();
+        let (section, key) = name
+            .split_once('.')
+            .ok_or_else(|| stored.damaged(format!("{path} is no key of a scene")))?;
+        let column = Column {
+            section: section.to_owned(),
+            key: key.to_owned(),
+            values,
+        };
+        match axes.iter_mut().find(|known| known.name == axis) {
+            Some(known) if known.len == len => known.columns.push(column),
+            Some(_) => {
+                return Err(stored.damaged(format!(
+                    "{path} has {len} values, unlike others of its axis"
+                )));
+            }
+            None => axes.push(Axis {
+                name: axis,
+                len,
+                columns: vec![column],
+            }),
+        }
+    }
+    axes.sort_by_key(|axis| match axis.name.as_str() {
+        LIST => 1,
+        SAMPLE => 2,
+        _ => 0,
+    });
+    if axes.is_empty() {
+        return Err(stored.damaged("it has no axes"));
+    }
+    Ok(axes)
 }

@@ -25,18 +25,12 @@ pub enum Values {
 impl Values {
     /// How many.
     #[must_use]
-    pub fn len(&self) -> usize {
+    pub fn count(&self) -> usize {
         match self {
             Self::Numbers(numbers) => numbers.len(),
             Self::Texts(texts) => texts.len(),
-            Self::Drawn(drawn) => drawn.len(),
+            Self::Drawn(drawn) => drawn.count(),
         }
-    }
-
-    /// Whether there are none.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
     }
 
     /// One of the numbers; nothing of words.
@@ -45,7 +39,7 @@ impl Values {
         match self {
             Self::Numbers(numbers) => numbers.get(index).copied(),
             Self::Texts(_) => None,
-            Self::Drawn(drawn) => (index < drawn.len()).then(|| drawn.at(index)),
+            Self::Drawn(drawn) => (index < drawn.count()).then(|| drawn.at(index)),
         }
     }
 

@@ -1,7 +1,6 @@
 //! What can be wrong with a sweep, or with its parts; scenes that fail are rows, not errors.
 
 use crate::error::SceneError;
-use crate::stored::ReadError;
 use fault::{Class, Culprit, Fault};
 use ledger::JournalError;
 use lookup::TableError;
@@ -12,7 +11,7 @@ use thiserror::Error;
 /// A sweep that could not be run, or parts that cannot be joined.
 #[derive(Debug, Error)]
 pub enum SweepError {
-    /// The sweep or its base scene is wrong.
+    /// The sweep or its base scene is wrong, or a part, or a folder of them, cannot be read or is not what is needed.
     #[error(transparent)]
     Scene(#[from] SceneError),
     /// The table of its fields cannot be used.
@@ -24,9 +23,6 @@ pub enum SweepError {
     /// It cannot be written or read back.
     #[error(transparent)]
     Output(#[from] OutputError),
-    /// A part, or a folder of them, cannot be read or is not what is needed.
-    #[error(transparent)]
-    Read(#[from] ReadError),
     /// Rows that no part has.
     #[error("rows {} to {} of the sweep are in no part{}", rows.start, rows.end - 1, others(*.more))]
     Missing {
@@ -40,7 +36,7 @@ pub enum SweepError {
 impl From<JournalError> for SweepError {
     fn from(error: JournalError) -> Self {
         match error {
-            JournalError::Unwritable { path, source } => OutputError::writing(&path, source).into(),
+            JournalError::Unwritable(path, source) => OutputError::writing(&path, source).into(),
             other => Self::Journal(other),
         }
     }
@@ -53,7 +49,6 @@ impl Fault for SweepError {
             Self::Table(error) => Culprit::of(Class::Table).file(&error.path),
             Self::Journal(error) => error.culprit(),
             Self::Output(error) => error.culprit(),
-            Self::Read(error) => error.culprit(),
             Self::Missing { .. } => Culprit::of(Class::Scene),
         }
     }

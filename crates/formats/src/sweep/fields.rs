@@ -3,7 +3,7 @@
 use super::schema::FIELDS as SECTION;
 use crate::error::SceneError;
 use crate::quantities::{Described, Labels, QUANTITIES, labels_of};
-use crate::results::schema::{ERROR_SUFFIX, PEAK_SUFFIXES};
+use crate::results::schema::BESIDE;
 use crate::scene::section::Section;
 use impact::{ProbePeaks, Quantity};
 use std::sync::Arc;
@@ -154,15 +154,10 @@ pub(crate) fn stored_columns(sweep: &Table) -> Result<Vec<Described>, SceneError
 
 /// Peak, instant and error of a field.
 fn of_field(probe: usize, (name, unit, meaning): Labels<'static>) -> [Described; 3] {
-    let [peak, time] = PEAK_SUFFIXES;
-    [
-        (peak, unit, "largest in magnitude over time"),
-        (time, "s", "when it is largest in magnitude"),
-        (ERROR_SUFFIX, unit, "estimated absolute error"),
-    ]
-    .map(|(suffix, unit, what)| Described {
+    let [error, peak, time] = BESIDE;
+    [peak, time, error].map(|(suffix, own, what)| Described {
         name: format!("probe_{probe}_{name}{suffix}"),
-        unit: unit.to_owned(),
+        unit: own.unwrap_or(unit).to_owned(),
         meaning: format!("{what} at probe {probe}: {meaning}"),
     })
 }

@@ -17,12 +17,6 @@ pub(crate) struct Kernels {
     pub(super) identity: toml::Table,
 }
 
-impl PartialEq for Kernels {
-    fn eq(&self, other: &Self) -> bool {
-        self.identity == other.identity
-    }
-}
-
 impl Kernels {
     /// Those of a table or, where there is none, computed ones; `or_computed` where the estimated error of the table is
     /// beyond the tolerance of a row.

@@ -35,19 +35,6 @@ pub struct Kept {
 }
 
 impl Kept {
-    /// All of them, where memory holds them.
-    ///
-    /// # Errors
-    /// Why they cannot be read back.
-    pub fn blocks(&self) -> Result<Vec<Block>, Fault> {
-        let mut blocks = Vec::new();
-        self.each(&mut |block| {
-            blocks.push(block.clone());
-            Ok(())
-        })?;
-        Ok(blocks)
-    }
-
     /// Removes the journal, once the results are written.
     pub fn remove(self) {
         self.journal.remove();
@@ -211,21 +198,10 @@ fn push(block: &mut Block, row: usize, done: Result<Observed, String>) {
 /// Rows that are held in memory together, at most: a hundred bytes each.
 const MOST_AT_ONCE: usize = 10_000_000;
 
-/// Some rows of a sweep: `count` of them from `start` on, every `step`-th.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Rows {
-    /// The first.
-    pub start: usize,
-    /// From one to the next.
-    pub step: usize,
-    /// How many.
-    pub count: usize,
-}
-
 /// Time in s between two calls of the watch of [`compute_rows`], about.
 const WATCH_S: f64 = 0.1;
 
-/// Computes some rows without a journal: to the last bit what the whole sweep has there.
+/// Computes `count` rows from `start` on, every `step`-th, without a journal: to the last bit what the whole sweep has there.
 ///
 /// Rows of the block, and of its failures, count from the first that was asked for.
 /// `watch` is told how many are done; where it says false, nothing is returned.
@@ -234,10 +210,11 @@ const WATCH_S: f64 = 0.1;
 /// [`SceneError`] of the sweep, and where it has no such rows.
 pub fn compute_rows(
     spec: &Spec,
-    rows: Rows,
+    start: usize,
+    step: usize,
+    count: usize,
     mut watch: impl FnMut(usize) -> bool,
 ) -> Result<Option<Block>, SceneError> {
-    let Rows { start, step, count } = rows;
     if count > MOST_AT_ONCE {
         let (key, range) = ("the number of rows in memory", "[0, 10000000]");
         return Err(SceneError::out_of_range(key, count as f64, range));

@@ -22,7 +22,7 @@ use std::path::{Path, PathBuf};
 use toml::{Table, Value};
 
 /// A sweep: a base scene and the axes along which it varies.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default)]
 pub struct Spec {
     /// The base scene.
     pub(crate) scene: Table,
@@ -103,7 +103,7 @@ impl Spec {
     ) -> Result<Self, SceneError> {
         let files = Files::read(&scene, &axes, directory)?;
         Ok(Self {
-            sha256: identity(&resolved, &files.texts, unspelled),
+            sha256: identity(&resolved, &files, unspelled),
             fields: own_fields(&scene, &axes, Vec::new()),
             directory: directory.to_owned(),
             scene,
@@ -120,14 +120,11 @@ impl Spec {
         let axes = axes(&Section::root(&table))?;
         let probed = stored_columns(&table)?;
         Ok(Self {
-            scene: Table::new(),
-            directory: PathBuf::new(),
             axes,
             resolved: resolved.to_owned(),
-            files: Files::default(),
             sha256,
             fields: Fields::all(probed),
-            kernels: None,
+            ..Self::default()
         })
     }
 
@@ -159,7 +156,7 @@ impl Spec {
     pub fn memory_bytes(&self) -> f64 {
         let values: usize = (self.columns().map(|column| &column.values))
             .filter(|values| !matches!(values, Values::Drawn(_)))
-            .map(Values::len)
+            .map(Values::count)
             .sum();
         let probed = 2 * BLOCK * (self.fields.width() - QUANTITIES.len());
         (RUN_BYTES + (values + probed) * 8) as f64
@@ -236,13 +233,13 @@ fn own_fields(scene: &Table, axes: &[Axis], probed: Vec<Described>) -> Fields {
 
 /// Of the program's version, the revision of its numbers, the format, everything spelled out, the files that were read, and
 /// axes whose values are not spelled out.
-fn identity(resolved: &str, files: &[String], axes: &[Axis]) -> String {
+fn identity(resolved: &str, files: &Files, axes: &[Axis]) -> String {
     let mut identity = Identity::default()
         .with("software", env!("CARGO_PKG_VERSION"))
         .with("numbers", NUMBERS_REVISION.to_le_bytes())
         .with("format", FORMAT_VERSION)
         .with("sweep", resolved);
-    for text in files {
+    for (_, text) in files.libraries.values() {
         identity = identity.with("materials", text);
     }
     for column in axes.iter().flat_map(|axis| &axis.columns) {
@@ -258,14 +255,12 @@ fn identity(resolved: &str, files: &[String], axes: &[Axis]) -> String {
 }
 
 /// What was read: rows are computed from it, whatever becomes of the files.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Files {
     /// Where each file is.
     inputs: Vec<Role>,
-    /// Materials by the name of their file.
-    libraries: BTreeMap<String, Library>,
-    /// Text of each materials file, in the order of their names.
-    texts: Vec<String>,
+    /// Materials by the name of their file, with its text.
+    libraries: BTreeMap<String, (Library, String)>,
 }
 
 impl Files {
@@ -287,18 +282,16 @@ impl Files {
             let text = read_text(&path)?;
             let own = parse_materials(&text).map_err(|error| error.in_file(&path))?;
             let library = Library::built_in().clone().extended(&own);
-            files.libraries.insert(name.to_owned(), library);
-            files.inputs.push(Role::new("a materials file", &path));
-            files.texts.push(text);
+            files.libraries.insert(name.to_owned(), (library, text));
+            files.inputs.push(("a materials file", path));
         }
         Ok(files)
     }
 
     /// The materials of a scene.
     pub(super) fn library(&self, scene: &Table) -> &Library {
-        named(scene)
-            .and_then(|name| self.libraries.get(name))
-            .unwrap_or(Library::built_in())
+        let own = named(scene).and_then(|name| self.libraries.get(name));
+        own.map_or(Library::built_in(), |(library, _)| library)
     }
 }
 
@@ -314,7 +307,7 @@ fn axes(root: &Section<'_>) -> Result<Vec<Axis>, SceneError> {
         for column in columns(&product, Some(MOST_ROWS))? {
             axes.push(Axis {
                 name: column.name(),
-                len: column.values.len(),
+                len: column.values.count(),
                 columns: vec![column],
             });
         }
@@ -344,8 +337,7 @@ fn base(
     let path = directory.join(file);
     let scene = parse(&read_text(&path)?).map_err(|error| error.in_file(&path))?;
     let directory = path.parent().unwrap_or(Path::new(".")).to_owned();
-    let role = Role::new("the base scene", &path);
-    Ok((scene, directory, Some(role)))
+    Ok((scene, directory, Some(("the base scene", path))))
 }
 
 /// The scene keys below a section of the sweep, with their values, so many rows at most where each varies by itself.
@@ -354,7 +346,7 @@ fn columns(section: &Section<'_>, most: Option<usize>) -> Result<Vec<Column>, Sc
     for keys in section.subsections(&[])? {
         for key in keys.names() {
             let values = Values::read(&keys, key)?;
-            rows *= values.len() as f64;
+            rows *= values.count() as f64;
             if most.is_some_and(|most| rows > most as f64) {
                 return Err(too_many(rows));
             }
@@ -374,16 +366,16 @@ fn columns(section: &Section<'_>, most: Option<usize>) -> Result<Vec<Column>, Sc
 
 /// The axis of keys that vary together.
 fn together(columns: Vec<Column>) -> Result<Axis, SceneError> {
-    let Some(len) = columns.first().map(|column| column.values.len()) else {
+    let Some(len) = columns.first().map(|column| column.values.count()) else {
         return Err(SceneError::missing(
             "a key that varies",
             "give at least one scene key with its values",
         ));
     };
-    if let Some(other) = columns.iter().find(|c| c.values.len() != len) {
+    if let Some(other) = columns.iter().find(|c| c.values.count() != len) {
         return Err(SceneError::conflict(
             format!("list.{} of {len} values", columns[0].name()),
-            format!("list.{} of {}", other.name(), other.values.len()),
+            format!("list.{} of {}", other.name(), other.values.count()),
             "the keys of a list vary together and need as many values each",
         ));
     }

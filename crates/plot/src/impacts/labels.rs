@@ -1,7 +1,7 @@
 //! What several impacts are called: by what differs between their scenes.
 
 use crate::words::{of_key, stem, with_unit};
-use formats::stored::{StoredImpact, StoredValue};
+use formats::stored::{StoredImpact, Value};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Most keys that a label names.
@@ -10,19 +10,19 @@ const MOST_KEYS: usize = 3;
 /// One label an impact.
 pub(super) fn labels(impacts: &[StoredImpact]) -> Vec<String> {
     let keys = |impact: &StoredImpact| {
-        let mut keys: BTreeMap<String, StoredValue> = impact.keys().into_iter().collect();
+        let mut keys: BTreeMap<String, Value> = impact.keys().into_iter().collect();
         // what was computed, rather than "auto"
-        let model = StoredValue::Text(impact.model.clone());
+        let model = Value::String(impact.model.clone());
         keys.insert("contact.model".to_owned(), model);
         keys
     };
-    let scenes: Vec<BTreeMap<String, StoredValue>> = impacts.iter().map(keys).collect();
+    let scenes: Vec<BTreeMap<String, Value>> = impacts.iter().map(keys).collect();
     let stems = || impacts.iter().map(|impact| stem(impact.path())).collect();
     by_difference(&scenes).unwrap_or_else(stems)
 }
 
 /// Labels from the keys that differ; none where there are none, too many, or two scenes get the same.
-fn by_difference(scenes: &[BTreeMap<String, StoredValue>]) -> Option<Vec<String>> {
+fn by_difference(scenes: &[BTreeMap<String, Value>]) -> Option<Vec<String>> {
     let mut keys: BTreeSet<&String> = scenes.iter().flatten().map(|(key, _)| key).collect();
     keys.retain(|&key| {
         scenes
@@ -35,19 +35,19 @@ fn by_difference(scenes: &[BTreeMap<String, StoredValue>]) -> Option<Vec<String>
     if keys.is_empty() || keys.len() > MOST_KEYS {
         return None;
     }
-    let label = |scene: &BTreeMap<String, StoredValue>| {
+    let label = |scene: &BTreeMap<String, Value>| {
         let parts = keys.iter().map(|&key| {
             let (name, unit) = of_key(key);
             match scene.get(key) {
-                Some(StoredValue::Text(text)) if key == "target.material" => {
+                Some(Value::String(text)) if key == "target.material" => {
                     format!("on {text}")
                 }
-                Some(StoredValue::Text(text)) if key == "striker.material" => {
+                Some(Value::String(text)) if key == "striker.material" => {
                     format!("{text} striker")
                 }
-                Some(StoredValue::Number(x)) => format!("{name} {}", with_unit(*x, unit)),
-                Some(StoredValue::Text(text)) => format!("{name} {}", text.replace('_', " ")),
-                None => format!("no {name}"),
+                Some(Value::Float(x)) => format!("{name} {}", with_unit(*x, unit)),
+                Some(Value::String(text)) => format!("{name} {}", text.replace('_', " ")),
+                Some(_) | None => format!("no {name}"),
             }
         });
         parts.collect::<Vec<_>>().join(", ")
@@ -71,11 +71,11 @@ fn is_of_material(key: &str, section: &str) -> bool {
 mod tests {
     use super::*;
 
-    fn scene(velocity: f64, model: &str) -> BTreeMap<String, StoredValue> {
+    fn scene(velocity: f64, model: &str) -> BTreeMap<String, Value> {
         BTreeMap::from([
-            ("striker.mass_kg".into(), StoredValue::Number(3.3e-5)),
-            ("striker.velocity_m_s".into(), StoredValue::Number(velocity)),
-            ("contact.model".into(), StoredValue::Text(model.into())),
+            ("striker.mass_kg".into(), Value::Float(3.3e-5)),
+            ("striker.velocity_m_s".into(), Value::Float(velocity)),
+            ("contact.model".into(), Value::String(model.into())),
         ])
     }
 
@@ -104,9 +104,9 @@ mod tests {
         assert_eq!(by_difference(&same), None);
         let of = |material: &str, modulus: f64| {
             let mut scene = scene(1.0, "hertz");
-            let text = StoredValue::Text(material.into());
+            let text = Value::String(material.into());
             scene.insert("target.material".into(), text);
-            let modulus = StoredValue::Number(modulus);
+            let modulus = Value::Float(modulus);
             scene.insert("target.youngs_modulus_pa".into(), modulus);
             scene
         };

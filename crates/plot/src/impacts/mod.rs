@@ -13,7 +13,7 @@ use crate::section::{axis_profile, frames, peak, space_time};
 use crate::words::with_unit;
 use contact::Shape;
 use figure::{Figure, Panel, Sharing};
-use formats::stored::{FileKind, StoredImpact, StoredValue};
+use formats::stored::{FileKind, StoredImpact, Value};
 use histories::{FEW, contact_panels, loop_panel, probe_panels};
 use labels::labels;
 use spectrum::spectrum;
@@ -125,7 +125,7 @@ fn title(impacts: &[StoredImpact]) -> String {
     let material = |section: &str| {
         let key = format!("{section}.material");
         keys.iter().find_map(|(name, value)| match value {
-            StoredValue::Text(text) if *name == key => Some(text.as_str()),
+            Value::String(text) if *name == key => Some(text.as_str()),
             _ => None,
         })
     };

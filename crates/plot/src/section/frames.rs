@@ -6,8 +6,9 @@ use crate::series::{end_s, waves_of};
 use crate::words::{axis, of_quantity};
 use contact::{Choice, WaveSpeeds};
 use figure::{Axis, ColourMap, Image, LabelledPoint, Layer, Line, Panel, Scale, Style};
+use formats::SceneError;
 use formats::quantities::Described;
-use formats::stored::{ReadError, StoredImpact, StoredSection};
+use formats::stored::{StoredImpact, StoredSection};
 use std::f64::consts::FRAC_PI_2;
 use std::path::Path;
 
@@ -297,7 +298,7 @@ impl Quantity {
     }
 
     /// Its values in a frame.
-    pub(super) fn at(&self, section: &StoredSection, frame: usize) -> Result<Vec<f64>, ReadError> {
+    pub(super) fn at(&self, section: &StoredSection, frame: usize) -> Result<Vec<f64>, SceneError> {
         let parts = self.parts.iter().map(|name| section.frame(name, frame));
         let parts: Vec<Vec<f32>> = parts.collect::<Result<_, _>>()?;
         let value = |i: usize| match (parts.as_slice(), self.stress) {

@@ -176,11 +176,11 @@ fn index_of(sweep: &StoredSweep, column: &Column, value: &str) -> Result<usize, 
         let said = || format!("{key} = {value}");
         return found.ok_or_else(|| PlotError::unknown(sweep.path(), said(), value, words));
     }
-    let numbers = || (0..column.values.len()).filter_map(|i| column.values.number(i));
+    let numbers = || (0..column.values.count()).filter_map(|i| column.values.number(i));
     let wanted = value.parse::<f64>().unwrap_or(f64::NAN);
     let is_wanted = |number: f64| (number - wanted).abs() <= 1e-9 * number.abs();
     let allowed = || {
-        let count = column.values.len();
+        let count = column.values.count();
         if count <= MOST {
             let numbers: Vec<String> = numbers().map(|number| number.to_string()).collect();
             return numbers.join(", ");

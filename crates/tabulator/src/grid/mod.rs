@@ -100,6 +100,23 @@ impl Grid {
         Self::parse(&content.origin.grid)
     }
 
+    /// The same with other Poisson ratios, and other largest radii, depths and multiples of the last arrival, where they are
+    /// given.
+    #[must_use]
+    pub fn with(mut self, nu: Option<Vec<f64>>, most: [Option<f64>; 3]) -> Self {
+        if let Some(mut ratios) = nu {
+            ratios.sort_by(f64::total_cmp);
+            ratios.dedup();
+            self.poisson_ratios = ratios;
+            self.exact_ratios.clear();
+        }
+        let own = [&mut self.r.max, &mut self.z.max, &mut self.time_factor];
+        for (own, most) in own.into_iter().zip(most) {
+            *own = most.unwrap_or(*own);
+        }
+        self
+    }
+
     /// The resolved settings as TOML.
     ///
     /// # Errors

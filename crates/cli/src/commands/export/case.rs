@@ -88,11 +88,6 @@ impl Case {
         Ok(impact.solve().map_err(ImpactError::from)?)
     }
 
-    /// Whether the contact may flow.
-    pub(super) fn may_flow(&self) -> bool {
-        self.impact.settings.plasticity != Plasticity::None
-    }
-
     /// The loss to first order over v^(3/5), in SI units; zero without waves.
     pub(super) fn loss_factor(&self) -> f64 {
         match self.impact.settings.model {

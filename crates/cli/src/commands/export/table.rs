@@ -2,10 +2,11 @@
 
 use crate::commands::export::case::Case;
 use crate::failure::Failure;
-use contact::Results;
+use contact::Plasticity;
+use formats::QUANTITIES;
 use std::fmt::Write;
 
-/// Results of a velocity, with their units.
+/// Results of a velocity.
 const COLUMNS: [&str; 5] = [
     "restitution",
     "loss",
@@ -13,16 +14,6 @@ const COLUMNS: [&str; 5] = [
     "peak_force_n",
     "relative_error_estimate",
 ];
-
-fn columns(r: &Results) -> [f64; 5] {
-    [
-        r.restitution,
-        r.loss,
-        r.contact_time_s,
-        r.peak_force_n,
-        r.relative_error_estimate,
-    ]
-}
 
 /// The second order of the loss over the square of the first, docs/theory.md (T53).
 const SECOND_ORDER: f64 = 0.65;
@@ -49,9 +40,9 @@ pub(super) fn table(case: &Case, velocities: Option<&[f64]>, rows: u32) -> Resul
         );
     }
     text += "velocity_m_s";
-    let kinds: &[(&str, bool)] = match case.may_flow() {
-        true => &[("elastic", true), ("plastic", false)],
-        false => &[("elastic", true)],
+    let kinds: &[(&str, bool)] = match case.impact.settings.plasticity {
+        Plasticity::None => &[("elastic", true)],
+        _ => &[("elastic", true), ("plastic", false)],
     };
     for (kind, _) in kinds {
         text.extend(COLUMNS.map(|column| format!(",{kind}_{column}")));
@@ -63,7 +54,10 @@ pub(super) fn table(case: &Case, velocities: Option<&[f64]>, rows: u32) -> Resul
         let velocity = from.powf(1.0 - place) * to.powf(place);
         text += &format!("{velocity:?}");
         for &(_, elastic) in kinds {
-            for value in columns(&case.at(velocity, elastic)?.results) {
+            let results = case.at(velocity, elastic)?.results;
+            for column in COLUMNS {
+                let known = QUANTITIES.iter().find(|known| known.name == column);
+                let value = known.map_or(f64::NAN, |known| (known.of_contact)(&results));
                 let _ = write!(text, ",{value:?}");
             }
         }

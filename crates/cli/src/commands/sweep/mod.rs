@@ -16,7 +16,7 @@ use formats::sweep::{
     print_csv, row_bytes, run_rows, stage_csv, stage_rows,
 };
 use formats::{Existing, Output, OutputError, QUANTITIES};
-use output::{CSV, Fault, Role, Staged, apart, behind, free_disk, is_standard};
+use output::{CSV, Fault, Staged, apart, behind, free_disk, is_standard};
 use parts::Action;
 use serde_json::{Value, json};
 use std::io::{BufWriter, Write};
@@ -25,6 +25,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
+use tabulator::Progress;
 
 const EXAMPLES: &str = "Examples:
   hertzlamb sweep scenes/sweep.toml -o sweep.h5 --csv sweep.csv
@@ -273,7 +274,7 @@ fn rows(overwrite: Overwrite, spec: &Spec, outputs: &Outputs) -> Result<Option<K
         )
     });
     let progress = Bar::new();
-    progress.start("scenes", rows as u64);
+    progress.total("scenes", rows as u64);
     let existing = overwrite.existing();
     run_rows(spec, range, &outputs.part, existing, |rows| {
         kept.store(rows, Ordering::Relaxed);
@@ -285,7 +286,7 @@ fn rows(overwrite: Overwrite, spec: &Spec, outputs: &Outputs) -> Result<Option<K
 /// A sweep that could not be run or joined, with what to do.
 fn failure(error: SweepError) -> Failure {
     let hint = match error {
-        SweepError::Journal(JournalError::Other { .. }) => {
+        SweepError::Journal(JournalError::Other(..)) => {
             "; give --force to drop it, or another output to keep it"
         }
         SweepError::Missing { .. } => "; hertzlamb sweep status lists them",
@@ -335,7 +336,7 @@ impl Outputs {
             CSV.check(csv)?;
             outputs.push(csv);
         }
-        let mut inputs = vec![Role::new("the sweep", sweep)];
+        let mut inputs = vec![("the sweep", sweep.to_owned())];
         inputs.extend(spec.inputs().iter().cloned());
         inputs.extend(arguments.kernels.inputs());
         apart(&outputs, &inputs)?;

@@ -219,11 +219,7 @@ fn merge(
     parts
         .foreign
         .retain(|(path, _)| !own(path) || !claimed.real().exists());
-    let staged = if refer {
-        parts.merge_virtual(&claimed)
-    } else {
-        parts.merge(&claimed)
-    };
+    let staged = parts.merge(&claimed, refer);
     staged.map_err(failure)?.commit()?;
     let empty = parts
         .parts

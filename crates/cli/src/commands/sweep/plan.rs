@@ -1,7 +1,7 @@
 //! `hertzlamb sweep --plan`: what a sweep takes, measured on a few of its rows.
 
 use crate::failure::{Failure, lines, show};
-use formats::sweep::{Rows, Spec, column_names, compute_rows, grain, row_bytes};
+use formats::sweep::{Spec, column_names, compute_rows, grain, row_bytes};
 use output::processor_s;
 use serde_json::json;
 use std::path::Path;
@@ -95,12 +95,7 @@ fn measure(spec: &Spec, threads: usize) -> Result<(usize, f64), formats::SceneEr
     loop {
         let step = (spec.rows() / count).max(1);
         let (began, spent_s) = (Instant::now(), processor_s());
-        let rows = Rows {
-            start: 0,
-            step,
-            count,
-        };
-        compute_rows(spec, rows, |_| true)?;
+        compute_rows(spec, 0, step, count, |_| true)?;
         let spent_s = processor_s()
             .zip(spent_s)
             .map(|(after, before)| (after - before) / threads as f64);

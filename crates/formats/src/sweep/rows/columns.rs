@@ -100,7 +100,7 @@ impl What<'_> {
         Ok(match *self {
             Self::Row => Cells::Whole(rows.map(|row| row as i64).collect()),
             Self::Key { stride, values } => {
-                let places = rows.map(|row| row / stride % values.len());
+                let places = rows.map(|row| row / stride % values.count());
                 match values {
                     Values::Numbers(numbers) => Cells::Double(places.map(|i| numbers[i]).collect()),
                     Values::Drawn(drawn) => Cells::Double(places.map(|i| drawn.at(i)).collect()),

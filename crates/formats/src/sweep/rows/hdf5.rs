@@ -6,7 +6,7 @@
 use super::block::{Block, Blocks};
 use super::columns::{Cells, Column, What, columns, each_of, key_unit, rows_of};
 use crate::hdf::{
-    attach_all, attach_scale, describe, new_file, numbers, reason, reserve, set_scale,
+    attach_all, attach_scale, describe, new_file, numbers, reason, reserve, scalar, set_scale,
     some_at_a_time, text, texts,
 };
 use crate::quantities::{Labels, QUANTITIES};
@@ -66,7 +66,7 @@ pub(crate) fn stage_hdf5<'a>(
 
 /// What is known once all rows are written.
 fn finish(file: hdf5::File, failed: usize, reasons: &[String]) -> Result<(), hdf5::Error> {
-    count(&file, schema::FAILED, failed)?;
+    scalar(&file, schema::FAILED, failed as u64)?;
     let reasons = texts(&file, &schema::FAILURES, reasons)?;
     set_scale(&reasons, schema::FAILURES.0)?;
     file.flush()?;
@@ -99,7 +99,7 @@ impl<'a> Table<'a> {
     ) -> Result<(), hdf5::Error> {
         let spec = self.spec;
         write_texts(file, spec, schema::FILE_TYPE, schema::FORMAT_VERSION)?;
-        count(file, schema::ROWS, spec.rows())?;
+        scalar(file, schema::ROWS, spec.rows() as u64)?;
         write_axes(file, &spec.axes)?;
         let shape: Vec<usize> = spec.axes.iter().map(|axis| axis.len).collect();
         let group = file.create_group(schema::RESULTS)?;
@@ -138,9 +138,9 @@ impl<'a> Table<'a> {
         write_texts(file, spec, part::FILE_TYPE, part::FORMAT_VERSION)?;
         let shard = selection.shard.map(|shard| shard.to_string());
         text(file, part::SHARD, &shard.unwrap_or_default())?;
-        count(file, part::SWEEP_ROWS, spec.rows())?;
-        count(file, part::FIRST_ROW, selection.rows.start)?;
-        count(file, schema::ROWS, selection.rows.len())?;
+        scalar(file, part::SWEEP_ROWS, spec.rows() as u64)?;
+        scalar(file, part::FIRST_ROW, selection.rows.start as u64)?;
+        scalar(file, schema::ROWS, selection.rows.len() as u64)?;
         let shape = [selection.rows.len()];
         let group = file.create_group(schema::RESULTS)?;
         let words = file.create_group(part::WORDS)?;
@@ -270,12 +270,6 @@ fn write_texts(
     named.try_for_each(|(name, value)| text(file, name, value))
 }
 
-/// A count of the root.
-fn count(file: &hdf5::File, name: &str, count: usize) -> Result<(), hdf5::Error> {
-    let attribute = file.new_attr::<u64>().create(name)?;
-    attribute.write_scalar(&(count as u64))
-}
-
 /// The models by their indices, divided by blanks, at the column of models.
 fn name_models(dataset: &Dataset, what: What<'_>) -> Result<(), hdf5::Error> {
     let What::Model = what else {
@@ -332,7 +326,7 @@ fn write_key(group: &Group, key: &Key) -> Result<Dataset, hdf5::Error> {
     match &key.values {
         Values::Numbers(values) => numbers(group, &labels, &[values.len()], values),
         Values::Texts(values) => texts(group, &labels, values),
-        Values::Drawn(drawn) => some_at_a_time(group, &labels, drawn.len(), |i| drawn.at(i)),
+        Values::Drawn(drawn) => some_at_a_time(group, &labels, drawn.count(), |i| drawn.at(i)),
     }
 }
 

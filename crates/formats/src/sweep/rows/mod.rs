@@ -34,10 +34,7 @@ use std::path::Path;
 pub fn check_rows(path: &Path) -> Result<(), OutputError> {
     ROWS.check(path)?;
     if PARQUET.is_of(path) && !cfg!(feature = "parquet") {
-        return Err(OutputError::Unbuilt {
-            path: path.to_owned(),
-            format: PARQUET.format,
-        });
+        return Err(OutputError::Unbuilt(path.to_owned(), PARQUET.0));
     }
     Ok(())
 }

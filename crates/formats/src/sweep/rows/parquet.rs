@@ -241,7 +241,7 @@ fn properties(columns: &[Column<'_>]) -> Result<WriterProperties, ParquetError> 
             What::Row => (false, Encoding::DELTA_BINARY_PACKED),
             What::Model | What::Failure => (true, Encoding::PLAIN),
             What::Key { values, .. }
-                if values.len() <= MOST_INDEXED || matches!(values, Values::Texts(_)) =>
+                if values.count() <= MOST_INDEXED || matches!(values, Values::Texts(_)) =>
             {
                 (true, Encoding::PLAIN)
             }
