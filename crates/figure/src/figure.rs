@@ -2,7 +2,7 @@
 
 use crate::axis::{Axis, Interval, Scale};
 use crate::error::FigureError;
-use crate::layers::{Layer, Line, Mark};
+use crate::layers::{Layer, Line};
 use crate::look::Style;
 
 /// Whether panels have one axis in common.
@@ -192,7 +192,7 @@ impl Panel {
 
     /// With one more curve.
     pub fn line(self, name: &str, style: Style, points: Vec<(f64, f64)>) -> Self {
-        self.layer(Layer::Line(Line::new(name, style, points)))
+        self.layer(Layer::line(name, style, points))
     }
 
     /// With one more curve within a band, such as of its error: place, and lower end of the band, value and upper end.
@@ -209,7 +209,7 @@ impl Panel {
 
     /// With one more vertical line.
     pub fn mark(self, x: f64, label: &str) -> Self {
-        self.layer(Layer::Mark(Mark::new(x, label)))
+        self.layer(Layer::mark(x, label))
     }
 }
 
@@ -237,6 +237,5 @@ fn check_panel((i, panel): (usize, &Panel)) -> Result<(), FigureError> {
             return Err(fault(why.to_owned()));
         }
     }
-    let mut layers = panel.layers.iter();
-    layers.try_for_each(|layer| layer.kind().check(i))
+    panel.layers.iter().try_for_each(|layer| layer.check(i))
 }

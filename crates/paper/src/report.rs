@@ -157,8 +157,8 @@ fn points(figure: &Figure) -> Vec<[String; 5]> {
         for layer in &panel.layers {
             let (name, found) = match layer {
                 Layer::Line(line) => (line.name.as_str(), line.points.clone()),
-                Layer::Point(point) => ("printed in the paper", vec![(point.x, point.y)]),
-                Layer::Classes(_) | Layer::Image(_) | Layer::Mark(_) => continue,
+                Layer::Point { x, y, .. } => ("printed in the paper", vec![(*x, *y)]),
+                Layer::Classes(_) | Layer::Image(_) | Layer::Mark { .. } => continue,
             };
             let names = [&panel.x.quantity, &panel.y.quantity, name];
             let [abscissa, ordinate, name] = names.map(str::to_owned);

@@ -2,7 +2,7 @@
 //! error against cost, one curve a method, the Pareto front drawn.
 
 use crate::record::{Question, Record, distinct, pareto_front};
-use figure::{Axis, Figure, Interval, LabelledPoint, Layer, Legend, Line, Mark, Panel, Style};
+use figure::{Axis, Figure, Interval, Layer, Legend, Panel, Style};
 
 /// A picture of the chart.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,21 +34,9 @@ impl Picture {
         }
     }
 
-    /// Adds a curve.
-    pub(crate) fn curve(&mut self, name: &str, style: Style, points: Vec<(f64, f64)>) {
-        let line = Line::new(name, style, points);
-        self.panel.layers.push(Layer::Line(line));
-    }
-
-    /// Adds a vertical line.
-    pub(crate) fn mark(&mut self, x: f64, label: &str) {
-        self.panel.layers.push(Layer::Mark(Mark::new(x, label)));
-    }
-
-    /// Adds a point with a label.
-    pub(crate) fn point(&mut self, (x, y): (f64, f64), label: &str) {
-        let point = LabelledPoint::new(x, y, label);
-        self.panel.layers.push(Layer::Point(point));
+    /// Adds a layer.
+    pub(crate) fn add(&mut self, layer: Layer) {
+        self.panel.layers.push(layer);
     }
 
     /// What is drawn.
@@ -79,7 +67,7 @@ impl Picture {
                     let names = map.class.iter().map(|&class| &*map.names[class]);
                     points.extend(names.zip(cells).map(|(name, (x, y))| (name, x, y)));
                 }
-                Layer::Image(_) | Layer::Mark(_) | Layer::Point(_) => {}
+                Layer::Image(_) | Layer::Mark { .. } | Layer::Point { .. } => {}
             }
         }
         points
@@ -146,9 +134,17 @@ fn diagram(question: Question, scene: &str, name: &'static str, rows: &[&Record]
         } else {
             Style::Marked
         };
-        figure.curve(&format!("{method}{default}{failures}"), style, places(&own));
+        figure.add(Layer::line(
+            &format!("{method}{default}{failures}"),
+            style,
+            places(&own),
+        ));
     }
-    figure.curve("Pareto front", Style::HeavyDashed, staircase(rows));
+    figure.add(Layer::line(
+        "Pareto front",
+        Style::HeavyDashed,
+        staircase(rows),
+    ));
     figure
 }
 

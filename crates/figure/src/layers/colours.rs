@@ -1,7 +1,7 @@
 //! Which values get the colours at the ends of a map.
 
 use crate::axis::{Axis, Interval, Scale};
-use crate::colour::{Colour, ColourMap};
+use crate::colour::ColourMap;
 use crate::layers::Image;
 
 /// What the colours of some images mean.
@@ -33,7 +33,7 @@ impl Colours {
     }
 
     /// The colour of a value; none for one that is not shown.
-    pub(crate) fn of_value(&self, value: f64) -> Option<Colour> {
+    pub(crate) fn of_value(&self, value: f64) -> Option<u32> {
         let is_shown = self.limits.scale.shows(value) || value.is_infinite() && value > 0.0;
         is_shown.then(|| self.map.at(self.limits.fraction(value)))
     }

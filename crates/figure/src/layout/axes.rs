@@ -6,7 +6,7 @@ use crate::colour::{BLACK, GRID};
 use crate::geometry::Frame;
 use crate::scene::{END, MIDDLE, Scene, Shape, Stroke, Text};
 use crate::text::{LINE, Typeface, width as width_of, wrap};
-use crate::ticks::{Room, Ticks, shown};
+use crate::ticks::{Room, Ticks, shown, ticks};
 
 /// Pixels on each side of a plot.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -32,7 +32,7 @@ pub(super) struct FittedAxis {
 impl FittedAxis {
     pub(super) fn new(axis: &Axis, interval: &Interval, room: &Room<'_>, faces: &Typeface) -> Self {
         let (label, factor) = shown(axis, interval);
-        let ticks = Ticks::new(interval, factor, room);
+        let ticks = ticks(interval, factor, room);
         let widths = ticks.major.iter().map(|tick| width_of(&tick.1, faces.tick));
         Self {
             numbers: widths.fold(0.0, f64::max),

@@ -54,9 +54,8 @@ fn draw_panel(
     if !plan.is_filled() {
         fitted.axes.draw_grid(scene, frame);
     }
-    for (layer, &slot) in plan.panel.layers.iter().zip(&plan.slots) {
-        let colours = plan.colours.as_ref();
-        layer.kind().draw(scene, frame, colours, slot);
+    for (layer, &numbers) in plan.panel.layers.iter().zip(&plan.numbers) {
+        layer.draw(scene, frame, plan.colours.as_ref(), numbers);
     }
     labels::draw_marks(scene, plan, frame, &fitted.marks, faces);
     fitted.axes.draw(scene, frame, faces);

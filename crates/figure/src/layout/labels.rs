@@ -5,7 +5,7 @@ use super::plan::PanelPlan;
 use crate::colour::{MARK, WHITE};
 use crate::figure::Panel;
 use crate::geometry::{Frame, Point, Rect};
-use crate::layers::{LabelledPoint, Layer, Mark};
+use crate::layers::Layer;
 use crate::look::star;
 use crate::scene::{END, MIDDLE, START, Scene, Shape, Stroke, Text};
 use crate::text::{LINE, Typeface, width as width_of, wrap};
@@ -23,25 +23,21 @@ pub(crate) struct Label {
     text: String,
 }
 
-/// The vertical lines of a panel.
-fn lines<'a>(plan: &PanelPlan<'a>) -> impl Iterator<Item = &'a Mark> {
+/// The vertical lines of a panel, with their labels.
+fn lines<'a>(plan: &PanelPlan<'a>) -> impl Iterator<Item = (f64, &'a str)> {
     let interval = plan.x.interval;
-    plan.panel
-        .layers
-        .iter()
-        .filter_map(move |layer| match layer {
-            Layer::Mark(mark) if interval.contains(mark.x) => Some(mark),
-            _ => None,
-        })
+    let layers = plan.panel.layers.iter();
+    layers.filter_map(move |layer| match layer {
+        Layer::Mark { x, label } if interval.contains(*x) => Some((*x, label.as_str())),
+        _ => None,
+    })
 }
 
 /// Labels over a plot of a width, in as few rows as hold them, none over another; and the number of rows.
 pub(super) fn of_marks(plan: &PanelPlan<'_>, width: f64, faces: &Typeface) -> (Vec<Label>, usize) {
     let frame = plan.frame(Rect::new(0.0, 0.0, width, 1.0));
-    let named = lines(plan).filter(|mark| !mark.label.trim().is_empty());
-    let mut found: Vec<(f64, &str)> = named
-        .map(|mark| (frame.across(mark.x), mark.label.as_str()))
-        .collect();
+    let named = lines(plan).filter(|(_, label)| !label.trim().is_empty());
+    let mut found: Vec<_> = named.map(|(x, label)| (frame.across(x), label)).collect();
     found.sort_by(|a, b| a.0.total_cmp(&b.0));
     placed(&found, width, faces)
 }
@@ -110,8 +106,8 @@ pub(super) fn draw_marks(
     faces: &Typeface,
 ) {
     let area = frame.area;
-    for mark in lines(plan) {
-        let x = frame.across(mark.x);
+    for (x, _) in lines(plan) {
+        let x = frame.across(x);
         let mut line = |stroke| {
             let ends = [(x, area.bottom), (x, area.top)];
             scene.shape(Shape::polyline(&ends, stroke));
@@ -176,35 +172,40 @@ pub(super) fn draw_points(
     taken: Option<Rect>,
     size: f64,
 ) {
-    let mut points: Vec<(&LabelledPoint, Point)> = Vec::new();
+    let mut points: Vec<(&str, bool, Point)> = Vec::new();
     for layer in &plan.panel.layers {
-        if let Layer::Point(point) = layer
-            && frame.x.contains(point.x)
-            && frame.y.contains(point.y)
-            && let Some(place) = frame.place((point.x, point.y))
+        if let Layer::Point {
+            x,
+            y,
+            label,
+            is_starred,
+        } = layer
+            && frame.x.contains(*x)
+            && frame.y.contains(*y)
+            && let Some(place) = frame.place((*x, *y))
         {
-            points.push((point, place));
+            points.push((label, *is_starred, place));
         }
     }
     if points.is_empty() {
         return;
     }
     let curves = occupied(plan.panel, frame);
-    let stars = points.iter().filter(|(point, _)| point.is_starred);
-    let stars: Vec<Point> = stars.map(|(_, place)| *place).collect();
+    let stars = points.iter().filter(|(_, is_starred, _)| *is_starred);
+    let stars: Vec<Point> = stars.map(|(.., place)| *place).collect();
     for &at in &stars {
         star(scene, at, STAR);
     }
     let mut written: Vec<Rect> = taken.into_iter().collect();
-    for (point, place) in points {
+    for (label, is_starred, place) in points {
         let cost = |lines: &Vec<Text>| {
             let bounds = bounds(lines);
             let hidden = stars.iter().filter(|&&s| bounds.grown(STAR - 1.0).has(s));
             let crossed = curves.iter().filter(|&&c| bounds.has(c));
             100 * hidden.count() + crossed.count()
         };
-        let best = candidates(point, place, frame.area, size)
-            .into_iter()
+        let candidates = candidates(label, is_starred, place, frame.area, size).into_iter();
+        let best = candidates
             .filter(|lines| {
                 let bounds = bounds(lines);
                 frame.area.holds(&bounds) && !written.iter().any(|b| b.grown(1.0).overlaps(&bounds))
@@ -220,11 +221,17 @@ pub(super) fn draw_points(
 }
 
 /// Labels around a point, the nearest first, moved into the plot and broken to its width.
-fn candidates(point: &LabelledPoint, (x, y): Point, area: Rect, size: f64) -> Vec<Vec<Text>> {
-    let lines = wrap(&point.label, size, area.width() - 4.0);
+fn candidates(
+    label: &str,
+    is_starred: bool,
+    (x, y): Point,
+    area: Rect,
+    size: f64,
+) -> Vec<Vec<Text>> {
+    let lines = wrap(label, size, area.width() - 4.0);
     let mut found = Vec::new();
     let rises = [0.0, -1.2, 1.2, -2.4, 2.4, -4.0, 4.0, -6.0, 6.0, -9.0, 9.0];
-    let (side, near) = match point.is_starred {
+    let (side, near) = match is_starred {
         true => (STAR + 0.35 * size, rises.len()),
         // a name of its own that has moved away names something else
         false => (0.5 * size, 3),
@@ -232,7 +239,7 @@ fn candidates(point: &LabelledPoint, (x, y): Point, area: Rect, size: f64) -> Ve
     for rise in rises.into_iter().take(near) {
         let above = (x, MIDDLE);
         let beside = [(x + side, START), (x - side, END)];
-        let places = match point.is_starred {
+        let places = match is_starred {
             true if rise == 0.0 => beside.to_vec(),
             true => vec![beside[0], beside[1], above],
             false => vec![above, beside[0], beside[1]],
@@ -269,11 +276,8 @@ fn bounds(lines: &[Text]) -> Rect {
 /// Points along everything that is drawn in a plot, in pixels, at most four apart.
 pub(super) fn occupied(panel: &Panel, frame: &Frame) -> Vec<Point> {
     let mut found = Vec::new();
-    for curve in panel
-        .layers
-        .iter()
-        .flat_map(|layer| layer.kind().curves(frame))
-    {
+    let layers = panel.layers.iter();
+    for curve in layers.flat_map(|layer| layer.curves(frame)) {
         for side in frame.sides(&curve) {
             trace(&side, frame, &mut found);
         }

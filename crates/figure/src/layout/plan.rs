@@ -5,7 +5,6 @@ use crate::axis::{Axis, Interval, Scale};
 use crate::figure::{Figure, Panel, Sharing};
 use crate::geometry::{Frame, Point, Rect};
 use crate::layers::{Colours, Layer};
-use crate::look::Slot;
 use std::collections::BTreeMap;
 
 /// An axis with its interval.
@@ -29,8 +28,10 @@ pub(crate) struct PanelPlan<'a> {
     pub(crate) colours: Option<Colours>,
     /// Whether it explains them itself.
     pub(crate) has_bar: bool,
-    /// Numbers of each layer, from which its look follows; the first for those without a colour of their own.
-    pub(crate) slots: Vec<Slot>,
+    /// Numbers of each layer, from which its look follows: of its name in the figure, by order of first appearance,
+    /// and the least that no other name has in any panel where it appears, so that the first curve of a panel is a
+    /// whole line. The first ones for those without a colour of their own.
+    pub(crate) numbers: Vec<[usize; 2]>,
 }
 
 impl PanelPlan<'_> {
@@ -59,9 +60,9 @@ fn is_filled(panel: &Panel) -> bool {
 /// Plans every panel of a figure.
 pub(crate) fn plan(figure: &Figure) -> Vec<PanelPlan<'_>> {
     let common = colours(&figure.panels).filter(|_| figure.has_common_bar);
-    let panels = figure.panels.iter().zip(slots(figure)).enumerate();
+    let panels = figure.panels.iter().zip(numbers(figure)).enumerate();
     let mut plans: Vec<PanelPlan<'_>> = panels
-        .map(|(i, (panel, slots))| {
+        .map(|(i, (panel, numbers))| {
             let axis = |axis, interval| AxisPlan {
                 axis,
                 interval,
@@ -77,7 +78,7 @@ pub(crate) fn plan(figure: &Figure) -> Vec<PanelPlan<'_>> {
                 y: axis(&panel.y, y),
                 colours: common.clone().or_else(own),
                 has_bar: !figure.has_common_bar,
-                slots,
+                numbers,
             }
         })
         .collect();
@@ -121,7 +122,7 @@ fn intervals(panel: &Panel) -> [Interval; 2] {
     let has_image = panel.layers.iter().any(|layer| is_image(&layer));
     let layers = panel.layers.iter();
     let shown = layers.filter(|layer| !has_image || is_image(layer));
-    let places: Vec<Point> = shown.flat_map(|layer| layer.kind().places()).collect();
+    let places: Vec<Point> = shown.flat_map(|layer| layer.places()).collect();
     let automatic = |scale: Scale, values: Vec<f64>, air: f64| {
         let found = Interval::around(scale, values.into_iter());
         let found = found.unwrap_or(match scale {
@@ -159,32 +160,26 @@ fn colours(panels: &[Panel]) -> Option<Colours> {
 }
 
 /// The numbers of each layer of each panel.
-fn slots(figure: &Figure) -> Vec<Vec<Slot>> {
+fn numbers(figure: &Figure) -> Vec<Vec<[usize; 2]>> {
     let of_panel = |panel: &Panel| coloured(&panel.layers).map(|(_, name)| name).collect();
     let names: Vec<Vec<String>> = figure.panels.iter().map(of_panel).collect();
-    let mut known: BTreeMap<&String, Slot> = BTreeMap::new();
+    let mut known: BTreeMap<&String, [usize; 2]> = BTreeMap::new();
     for name in names.iter().flatten() {
         if known.contains_key(name) {
             continue;
         }
         let beside = |other: &String| names.iter().any(|p| p.contains(name) && p.contains(other));
-        let taken = |n: &usize| {
-            known
-                .iter()
-                .any(|(other, slot)| slot.panel == *n && beside(other))
-        };
-        let slot = Slot {
-            figure: known.len(),
-            panel: (0..).find(|n| !taken(n)).unwrap_or(0),
-        };
-        known.insert(name, slot);
+        let taken = known.iter().filter(|(other, _)| beside(other));
+        let is_free = |n: &usize| taken.clone().all(|(_, numbers)| numbers[1] != *n);
+        let numbers = [known.len(), (0..).find(is_free).unwrap_or(0)];
+        known.insert(name, numbers);
     }
     let of_panel = |panel: &Panel| {
-        let mut slots = vec![Slot::default(); panel.layers.len()];
+        let mut numbers = vec![[0; 2]; panel.layers.len()];
         for (i, name) in coloured(&panel.layers) {
-            slots[i] = known[&name];
+            numbers[i] = known[&name];
         }
-        slots
+        numbers
     };
     figure.panels.iter().map(of_panel).collect()
 }
@@ -257,12 +252,9 @@ mod tests {
                     .banded("b", Style::Plain, &[])
                     .line("c", Style::Plain, vec![]),
             );
-        let numbers = |panel: usize| -> Vec<[usize; 2]> {
-            let slots = &slots(&figure)[panel];
-            slots.iter().map(|s| [s.figure, s.panel]).collect()
-        };
-        assert_eq!(numbers(0), [[0, 0], [0, 0], [1, 1]]);
+        let numbers = numbers(&figure);
+        assert_eq!(numbers[0], [[0, 0], [0, 0], [1, 1]]);
         // a name keeps its numbers, and no dash comes twice in a panel
-        assert_eq!(numbers(1), [[1, 1], [2, 0]]);
+        assert_eq!(numbers[1], [[1, 1], [2, 0]]);
     }
 }

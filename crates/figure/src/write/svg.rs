@@ -80,14 +80,14 @@ fn path(shape: &Shape, clips: &[Rect]) -> Path {
     let mut path = Path::new().set("d", outline(&shape.segments));
     path = match shape.fill {
         Some((colour, opacity)) if opacity < 1.0 => {
-            path.set("fill", colour.hex()).set("fill-opacity", opacity)
+            path.set("fill", hex(colour)).set("fill-opacity", opacity)
         }
-        Some((colour, _)) => path.set("fill", colour.hex()),
+        Some((colour, _)) => path.set("fill", hex(colour)),
         None => path.set("fill", "none"),
     };
     if let Some(stroke) = shape.stroke {
         path = path
-            .set("stroke", stroke.colour.hex())
+            .set("stroke", hex(stroke.colour))
             .set("stroke-width", stroke.width)
             .set("stroke-linejoin", "round");
         if !stroke.dash.is_empty() {
@@ -100,6 +100,10 @@ fn path(shape: &Shape, clips: &[Rect]) -> Path {
         Some(i) => path.set("clip-path", format!("url(#plot{i})")),
         None => path,
     }
+}
+
+fn hex(colour: u32) -> String {
+    format!("#{colour:06x}")
 }
 
 fn outline(segments: &[Segment]) -> String {

@@ -2,7 +2,7 @@
 
 use crate::error::PlotError;
 use crate::words::with_unit;
-use figure::{Axis, LabelledPoint, Layer, Panel, Style};
+use figure::{Axis, Layer, Panel, Style};
 use formats::stored::StoredImpact;
 use std::f64::consts::PI;
 
@@ -31,8 +31,7 @@ pub(super) fn spectrum(impacts: &[StoredImpact], labels: &[String]) -> Result<Pa
         }
         if let Some((corner, amplitude)) = pulse.corner(&points) {
             let text = format!("corner {}", with_unit(corner, "Hz"));
-            let point = LabelledPoint::new(corner, amplitude, &text);
-            panel = panel.layer(Layer::Point(point));
+            panel = panel.layer(Layer::star((corner, amplitude), &text));
         }
         for (i, zero) in pulse.zeros(&points).into_iter().take(4).enumerate() {
             let text = if i == 0 {

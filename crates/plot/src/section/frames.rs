@@ -5,7 +5,7 @@ use crate::request::Request;
 use crate::series::{end_s, waves_of};
 use crate::words::{axis, of_quantity};
 use contact::{Choice, WaveSpeeds};
-use figure::{Axis, ColourMap, Image, LabelledPoint, Layer, Line, Panel, Scale, Style};
+use figure::{Axis, ColourMap, Image, Layer, Panel, Scale, Style};
 use formats::quantities::Described;
 use formats::stored::{ReadError, StoredImpact, StoredSection};
 use std::f64::consts::FRAC_PI_2;
@@ -184,7 +184,7 @@ impl<'a> Section<'a> {
             return layers;
         }
         let mut line = |points: Vec<(f64, f64)>| {
-            layers.push(Layer::Line(Line::new("", Style::Rimmed, points)));
+            layers.push(Layer::line("", Style::Rimmed, points));
         };
         let [p, s, rayleigh] =
             [self.speeds.p, self.speeds.s, self.speeds.rayleigh].map(|c| c * since);
@@ -207,7 +207,7 @@ impl<'a> Section<'a> {
             (on(s, 0.5), "S"),
             ((edge, 0.6 * depth.min(0.9 * rayleigh)), "R"),
         ];
-        layers.extend(named.map(|((x, y), name)| Layer::Point(LabelledPoint::text(x, y, name))));
+        layers.extend(named.map(|(at, name)| Layer::text(at, name)));
         layers
     }
 }

@@ -5,7 +5,7 @@ use crate::measure::Effort;
 use crate::picture::Picture;
 use crate::question::kernels::{KernelScene, POISSON_RATIO};
 use fault::AnyError;
-use figure::{Axis, Style};
+use figure::{Axis, Layer, Style};
 use halfspace::{Kernel, Medium, Profile, Six};
 
 /// What the pictures say.
@@ -56,18 +56,18 @@ fn over_scene(
     for method in Inversion::pictured(effort) {
         let (values, _) = method.run(medium, scene.place, &scene.times);
         let label = format!("{}, {}", method.name, method.setting);
-        figure.curve(&label, Style::Plain, over_time(scene, &values));
+        figure.add(Layer::line(&label, Style::Plain, over_time(scene, &values)));
         advance();
     }
     let kernel = Kernel::new(medium, Profile::Hertz, 1e-10)?;
     let own = over_time(scene, &scene.by_kernel(&kernel)?);
-    figure.curve("single integral, 1e-10", Style::Heavy, own);
+    figure.add(Layer::line("single integral, 1e-10", Style::Heavy, own));
     for (arrival, label) in [
         (scene.arrivals.first(), "first front"),
         (scene.arrivals.last(), "last front"),
     ] {
         if let Some(&t) = arrival {
-            figure.mark(t, label);
+            figure.add(Layer::mark(t, label));
         }
     }
     CAPTION.clone_into(&mut figure.caption);

@@ -3,7 +3,7 @@
 use crate::measure::Effort;
 use crate::picture::Picture;
 use fault::AnyError;
-use figure::{Axis, Interval, Style};
+use figure::{Axis, Interval, Layer, Style};
 use halfspace::gauss::Rule;
 use halfspace::{Deflection, Kernel, Medium, Profile, SurfaceResponse, kausel};
 use num_complex::Complex64;
@@ -164,7 +164,7 @@ fn add(
 ) -> Result<(), AnyError> {
     let point = |&x: &f64| Ok((x, error(x)?.max(1e-17)));
     let points: Result<_, AnyError> = places.iter().map(point).collect();
-    figure.curve(name, style, points?);
+    figure.add(Layer::line(name, style, points?));
     Ok(())
 }
 
@@ -244,7 +244,7 @@ fn incompressible(effort: Effort) -> Result<Picture, AnyError> {
     let theory = "theory: c2/c1 = sqrt(d/(1/2 + d))";
     let ratio = |d: f64| Ok((d / (0.5 + d)).sqrt());
     add(&mut figure, theory, Style::HeavyDashed, &distances, ratio)?;
-    figure.mark(0.005, "tables end");
+    figure.add(Layer::mark(0.005, "tables end"));
     figure.caption = "c1/c2 goes to infinity as the root of 1/(1/2 - nu): a table's time axis in r0/c1 grows with \
         it, which is why tables end at nu = 0.495. The kernels and the surface response themselves keep their accuracy."
         .to_owned();

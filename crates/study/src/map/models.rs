@@ -19,7 +19,7 @@ use contact::{Accuracy, FixedDisc, GrowingContact, Library, MarchError, PunchWav
 use contact::{Family, Groups, Rung, choose};
 use contact::{StaticShare, Summary, march_growing, march_implicit, refine};
 use fault::AnyError;
-use figure::{Interval, Style};
+use figure::{Interval, Layer, Style};
 use halfspace::{Deflection, Medium, SurfaceResponse};
 use impact::Impact;
 
@@ -294,7 +294,7 @@ fn picture(
     let mut figure = map.picture(name, &title, class);
     let styles = [Style::Heavy, Style::HeavyDashed];
     for ((label, line), style) in leaves.into_iter().zip(styles) {
-        figure.curve(label, style, line);
+        figure.add(Layer::line(label, style, line));
     }
     figure
 }
@@ -349,7 +349,11 @@ fn growing_figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>, A
             let targets = targets();
             let places = targets.iter().map(|target| place_of(target, speed));
             let label = format!("steel ball on each material, {speed} m/s");
-            figure.curve(&label, Style::Points, places.collect::<Result<_, _>>()?);
+            figure.add(Layer::line(
+                &label,
+                Style::Points,
+                places.collect::<Result<_, _>>()?,
+            ));
         }
         figure.caption = format!(
             "Regions are computed: each model against the converged growing contact, largest error of peak force, \
@@ -401,9 +405,9 @@ fn disc_figures(effort: Effort) -> Result<Vec<Picture>, AnyError> {
             wave_time * response.memory() / CONTACT_TIME
         });
         let label = format!("theory: first-order loss of {loss:.0e}");
-        figure.curve(&label, Style::Dotted, theory);
+        figure.add(Layer::line(&label, Style::Dotted, theory));
         let place = (paper.coupling, paper.memory() / CONTACT_TIME);
-        figure.point(place, "paper's case");
+        figure.add(Layer::star(place, "paper's case"));
         figure.caption = format!(
             "With the full share the half-space is a second spring; the waves are seen by their radiated loss, first \
              order in the memory, and then by their shape. Regions are computed against the implicit march; the lines \
