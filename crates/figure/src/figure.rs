@@ -154,6 +154,12 @@ impl Panel {
         }
     }
 
+    /// Whether a layer fills it, so that nothing can be written into an empty corner.
+    pub(crate) fn is_filled(&self) -> bool {
+        let mut layers = self.layers.iter();
+        layers.any(|layer| matches!(layer, Layer::Image(_) | Layer::Classes(_)))
+    }
+
     /// With a title.
     pub fn title(mut self, title: &str) -> Self {
         title.clone_into(&mut self.title);

@@ -3,7 +3,7 @@
 use crate::colour::BLACK;
 use crate::font;
 use crate::geometry::{Point, Rect};
-use crate::text::{Run, runs};
+use crate::text::{Run, runs, width};
 
 /// A part of an outline.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -151,11 +151,10 @@ pub(crate) struct Text {
 impl Text {
     /// A text at a place on the line on which letters stand.
     pub(crate) fn new(markup: &str, (x, y): Point, size: f64, anchor: f64) -> Self {
-        let runs = runs(markup);
-        let width = size * runs.iter().map(Run::width).sum::<f64>();
+        let start = (x - anchor * width(markup, size), y);
         Self {
-            runs,
-            start: (x - anchor * width, y),
+            runs: runs(markup),
+            start,
             size,
             is_upward: false,
             has_rim: false,

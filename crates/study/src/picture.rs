@@ -90,12 +90,12 @@ pub(crate) fn diagrams(records: &[Record]) -> Vec<Picture> {
 
 /// Cost and error of a record as they are drawn: errors below 1e-16 there.
 fn place(record: &Record) -> (f64, f64) {
-    (record.cost_ns, record.error.max.max(1e-16))
+    (record.cost_ns, record.error_max.max(1e-16))
 }
 
 /// The places that the frame holds.
 fn places(rows: &[&Record]) -> Vec<(f64, f64)> {
-    let shown = rows.iter().filter(|r| r.error.max < 2.0);
+    let shown = rows.iter().filter(|r| r.error_max < 2.0);
     shown.map(|r| place(r)).collect()
 }
 

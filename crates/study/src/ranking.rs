@@ -84,7 +84,7 @@ pub(crate) fn rankings(records: &[Record]) -> Vec<Ranking<'_>> {
 /// Of the rows of one scene, at one accuracy; none without rows.
 fn ranking<'a>(rows: &[&'a Record], level: f64) -> Option<Ranking<'a>> {
     let first = rows.first()?;
-    let reaches = |r: &&&Record| !r.failed() && r.error.max <= level && r.cost_ns.is_finite();
+    let reaches = |r: &&&Record| !r.failed() && r.error_max <= level && r.cost_ns.is_finite();
     let mut reached: Vec<&Record> = rows.iter().filter(reaches).copied().collect();
     reached.sort_by(|a, b| a.cost_ns.total_cmp(&b.cost_ns));
     let own = reached.iter().find(|r| r.default_path).copied();

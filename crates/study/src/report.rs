@@ -206,7 +206,7 @@ fn failures(records: &[Record]) -> Vec<String> {
     ];
     lines.extend(records.iter().filter(|r| r.failed()).map(|r| {
         let (question, says) = (r.question.name(), r.refusal.as_deref().unwrap_or(""));
-        let (scene, method, setting, error) = (r.scene, r.method, &r.setting, r.error.max);
+        let (scene, method, setting, error) = (r.scene, r.method, &r.setting, r.error_max);
         format!("| {question} | {scene} | {method} | {setting} | {error:.1e} | {says} |")
     }));
     lines

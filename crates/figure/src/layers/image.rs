@@ -39,10 +39,9 @@ impl Image {
 
     /// The field at a place; NaN outside its grid.
     fn at(&self, x: f64, y: f64) -> f64 {
-        let (Some((i, a)), Some((k, b))) = (
-            locate(&self.x, x, self.has_cells),
-            locate(&self.y, y, self.has_cells),
-        ) else {
+        let across = locate(&self.x, x, self.has_cells);
+        let place = across.zip(locate(&self.y, y, self.has_cells));
+        let Some(((i, a), (k, b))) = place else {
             return f64::NAN;
         };
         let node = |i: usize, k: usize| self.values[k * self.x.len() + i];

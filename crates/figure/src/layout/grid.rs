@@ -4,7 +4,7 @@ use super::axes::{Axes, Needs};
 use super::bar::Bar;
 use super::labels::{self, Label};
 use super::legend::{Legend, Place};
-use super::plan::{AxisPlan, PanelPlan, plan};
+use super::plan::{PanelPlan, plan};
 use crate::colour::WHITE;
 use crate::error::FigureError;
 use crate::figure::Figure;
@@ -24,26 +24,21 @@ pub(crate) fn draw(figure: &Figure) -> Result<Scene, FigureError> {
     };
     let canvas = Rect::new(0.0, 0.0, layout.width, layout.height);
     scene.shape(Shape::rectangle(canvas).filled(WHITE, 1.0));
-    heading(&mut scene, &layout);
-    for panel in &layout.panels {
-        draw_panel(&mut scene, panel, &layout.faces);
-    }
-    if let Some((bar, plots)) = &layout.bar {
-        bar.draw(&mut scene, *plots, &layout.faces);
-    }
-    Ok(scene)
-}
-
-/// Title and the line below it.
-fn heading(scene: &mut Scene, layout: &Layout<'_>) {
     let faces = &layout.faces;
-    let mut top = PAD;
     let titles = layout.title.iter().map(|line| (line, faces.title));
     let subtitles = layout.subtitle.iter().map(|line| (line, faces.subtitle));
+    let mut top = PAD;
     for (line, size) in titles.chain(subtitles) {
         scene.text(Text::new(line, (PAD, top + size), size, START));
         top += Typeface::lines(size, 1);
     }
+    for panel in &layout.panels {
+        draw_panel(&mut scene, panel, faces);
+    }
+    if let Some((bar, plots)) = &layout.bar {
+        bar.draw(&mut scene, *plots, faces);
+    }
+    Ok(scene)
 }
 
 fn draw_panel(
@@ -51,7 +46,7 @@ fn draw_panel(
     (plan, fitted, frame): &(PanelPlan<'_>, Fitted, Frame),
     faces: &Typeface,
 ) {
-    if !plan.is_filled() {
+    if !plan.panel.is_filled() {
         fitted.axes.draw_grid(scene, frame);
     }
     for (layer, &numbers) in plan.panel.layers.iter().zip(&plan.numbers) {
@@ -93,14 +88,8 @@ struct Layout<'a> {
 /// Lays a figure out.
 fn lay_out(figure: &Figure) -> Layout<'_> {
     let mut layout = arrange(figure, 0.0);
-    if !figure.has_common_bar {
-        return layout;
-    }
-    let colours = layout
-        .panels
-        .first()
-        .and_then(|(plan, ..)| plan.colours.clone());
-    let Some(colours) = colours else {
+    let first = layout.panels.first().filter(|_| figure.has_common_bar);
+    let Some(colours) = first.and_then(|(plan, ..)| plan.colours.clone()) else {
         return layout;
     };
     // a bar needs the width of its numbers, which depend on the height, which depends on the width
@@ -140,7 +129,7 @@ fn arrange(figure: &Figure, bar: f64) -> Layout<'_> {
     if top > PAD {
         top += faces.gap();
     }
-    let (panels, bottom) = rows(plans, fitted, &columns, top, 1.2 * faces.tick);
+    let (panels, bottom) = rows(&plans, fitted, &columns, top, 1.2 * faces.tick);
     Layout {
         width,
         height: bottom + PAD,
@@ -154,25 +143,27 @@ fn arrange(figure: &Figure, bar: f64) -> Layout<'_> {
 
 /// Gives every panel its area, row below row from `top` on; and the bottom of the last row.
 fn rows<'a>(
-    plans: Vec<PanelPlan<'a>>,
+    plans: &[PanelPlan<'a>],
     fitted: Vec<Fitted>,
     columns: &Columns,
     mut top: f64,
     gap: f64,
 ) -> (Vec<(PanelPlan<'a>, Fitted, Frame)>, f64) {
-    let members: Vec<(PanelPlan<'a>, Fitted)> = plans.into_iter().zip(fitted).collect();
-    let mut panels = Vec::with_capacity(members.len());
-    for row in members.chunk_by(|a, b| a.0.row == b.0.row) {
-        let most =
-            |of: &dyn Fn(&(PanelPlan<'a>, Fitted)) -> f64| row.iter().map(of).fold(0.0, f64::max);
-        let height = most(&|(plan, _)| size(plan, columns.plot)[1]);
-        top += most(&|(_, fitted)| fitted.needs.top);
-        for (plan, fitted) in row {
+    let mut panels = Vec::with_capacity(plans.len());
+    let mut fitted = fitted.into_iter();
+    for row in plans.chunk_by(|a, b| a.row == b.row) {
+        let fitted: Vec<Fitted> = fitted.by_ref().take(row.len()).collect();
+        let most = |of: fn(&Needs) -> f64| fitted.iter().map(|f| of(&f.needs)).fold(0.0, f64::max);
+        let heights = row.iter().map(|plan| size(plan, columns.plot)[1]);
+        let height = heights.fold(0.0, f64::max);
+        let below = most(|needs| needs.bottom);
+        top += most(|needs| needs.top);
+        for (plan, fitted) in row.iter().zip(fitted) {
             let [width, height] = size(plan, columns.plot);
             let area = Rect::new(columns.start(plan.column), top, width, height);
-            panels.push((plan.clone(), fitted.clone(), plan.frame(area)));
+            panels.push((plan.clone(), fitted, plan.frame(area)));
         }
-        top += height + most(&|(_, fitted)| fitted.needs.bottom) + gap;
+        top += height + below + gap;
     }
     (panels, top - gap)
 }
@@ -267,8 +258,9 @@ fn size(plan: &PanelPlan<'_>, width: f64) -> [f64; 2] {
     if !plan.panel.has_equal_lengths {
         return [width, plan.panel.height];
     }
-    let length = |of: &AxisPlan<'_>| of.interval.high - of.interval.low;
-    let ratio = length(&plan.y) / length(&plan.x);
+    let lengths = plan.axes.each_ref();
+    let [x, y] = lengths.map(|axis| axis.interval.high - axis.interval.low);
+    let ratio = y / x;
     match ratio > TALLEST {
         true => [TALLEST * width / ratio, TALLEST * width],
         false => [width, ratio * width],

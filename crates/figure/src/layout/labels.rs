@@ -25,7 +25,7 @@ pub(crate) struct Label {
 
 /// The vertical lines of a panel, with their labels.
 fn lines<'a>(plan: &PanelPlan<'a>) -> impl Iterator<Item = (f64, &'a str)> {
-    let interval = plan.x.interval;
+    let interval = plan.axes[0].interval;
     let layers = plan.panel.layers.iter();
     layers.filter_map(move |layer| match layer {
         Layer::Mark { x, label } if interval.contains(*x) => Some((*x, label.as_str())),
@@ -112,7 +112,7 @@ pub(super) fn draw_marks(
             let ends = [(x, area.bottom), (x, area.top)];
             scene.shape(Shape::polyline(&ends, stroke));
         };
-        if plan.is_filled() {
+        if plan.panel.is_filled() {
             line(Stroke::solid(WHITE, 2.2));
         }
         line(Stroke::new(MARK, 1.0, &[3.0, 3.0]));

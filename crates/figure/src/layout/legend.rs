@@ -58,7 +58,7 @@ impl Legend {
             return None;
         }
         // the other half of a mirrored section is full as well
-        let may_be_inside = !plan.is_filled() && !plan.panel.is_mirrored;
+        let may_be_inside = !plan.panel.is_filled() && !plan.panel.is_mirrored;
         if plan.panel.legend == Wish::Auto && may_be_inside {
             let mut legend = Self::block(&named, 0.62 * width, 1, faces.legend);
             let air = 0.7 * faces.tick;

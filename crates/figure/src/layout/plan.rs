@@ -22,8 +22,8 @@ pub(crate) struct PanelPlan<'a> {
     pub(crate) panel: &'a Panel,
     pub(crate) row: usize,
     pub(crate) column: usize,
-    pub(crate) x: AxisPlan<'a>,
-    pub(crate) y: AxisPlan<'a>,
+    /// Along x and y.
+    pub(crate) axes: [AxisPlan<'a>; 2],
     /// What the colours of its images mean.
     pub(crate) colours: Option<Colours>,
     /// Whether it explains them itself.
@@ -39,22 +39,12 @@ impl PanelPlan<'_> {
     pub(crate) fn frame(&self, area: Rect) -> Frame {
         Frame {
             area,
-            x: self.x.interval,
-            y: self.y.interval,
+            x: self.axes[0].interval,
+            y: self.axes[1].interval,
             reversed: [self.panel.x.is_reversed, self.panel.y.is_reversed],
             is_mirrored: self.panel.is_mirrored,
         }
     }
-
-    /// Whether a layer fills it, so that nothing can be written into an empty corner.
-    pub(crate) fn is_filled(&self) -> bool {
-        is_filled(self.panel)
-    }
-}
-
-fn is_filled(panel: &Panel) -> bool {
-    let mut layers = panel.layers.iter();
-    layers.any(|layer| matches!(layer, Layer::Image(_) | Layer::Classes(_)))
 }
 
 /// Plans every panel of a figure.
@@ -74,8 +64,7 @@ pub(crate) fn plan(figure: &Figure) -> Vec<PanelPlan<'_>> {
                 panel,
                 row: i / figure.columns,
                 column: i % figure.columns,
-                x: axis(&panel.x, x),
-                y: axis(&panel.y, y),
+                axes: [axis(&panel.x, x), axis(&panel.y, y)],
                 colours: common.clone().or_else(own),
                 has_bar: !figure.has_common_bar,
                 numbers,
@@ -83,32 +72,31 @@ pub(crate) fn plan(figure: &Figure) -> Vec<PanelPlan<'_>> {
         })
         .collect();
     if figure.sharing != Sharing::Separate {
-        share(&mut plans, |plan| (plan.column, &mut plan.x), true);
+        share(&mut plans, 0);
     }
     if figure.sharing == Sharing::Both {
-        share(&mut plans, |plan| (plan.row, &mut plan.y), false);
+        share(&mut plans, 1);
     }
     plans
 }
 
-/// Gives the axes of one row or column of panels the same interval, written at the last or the first of them.
-fn share<'a>(
-    plans: &mut [PanelPlan<'a>],
-    of: impl for<'b> Fn(&'b mut PanelPlan<'a>) -> (usize, &'b mut AxisPlan<'a>),
-    at_last: bool,
-) {
-    let mut lines: BTreeMap<usize, Vec<&mut AxisPlan<'a>>> = BTreeMap::new();
-    for (line, axis) in plans.iter_mut().map(of) {
-        lines.entry(line).or_default().push(axis);
-    }
-    for line in lines.values_mut() {
-        let intervals = line.iter().map(|axis| axis.interval);
+/// Gives the x axes of each column of panels the same interval, written at the last of them, or the y axes of each row,
+/// written at the first.
+fn share(plans: &mut [PanelPlan<'_>], side: usize) {
+    let line = |plan: &PanelPlan<'_>| [plan.column, plan.row][side];
+    for i in 0..plans.len() {
+        let is_beside = |k: &usize| line(&plans[*k]) == line(&plans[i]);
+        let mut beside = (0..plans.len()).filter(is_beside);
+        let intervals = beside.clone().map(|k| plans[k].axes[side].interval);
         let union = intervals.reduce(Interval::union);
-        let written = if at_last { line.len() - 1 } else { 0 };
-        for (i, axis) in line.iter_mut().enumerate() {
-            axis.interval = union.unwrap_or(axis.interval);
-            axis.labelled = i == written;
-        }
+        let written = if side == 0 {
+            beside.last()
+        } else {
+            beside.next()
+        };
+        let axis = &mut plans[i].axes[side];
+        axis.interval = union.unwrap_or(axis.interval);
+        axis.labelled = written == Some(i);
     }
 }
 
@@ -143,7 +131,7 @@ fn intervals(panel: &Panel) -> [Interval; 2] {
     let y = panel.y.interval().unwrap_or_else(|| {
         let is_seen = |(x, _): &&Point| given.is_none_or(|found| found.contains(*x));
         let values = places.iter().filter(is_seen).map(|place| place.1);
-        let air = if is_filled(panel) { 0.0 } else { 0.05 };
+        let air = if panel.is_filled() { 0.0 } else { 0.05 };
         automatic(panel.y.scale, values.collect(), air)
     });
     [x, y]
@@ -156,7 +144,7 @@ fn colours(panels: &[Panel]) -> Option<Colours> {
         Layer::Image(image) => Some(image),
         _ => None,
     });
-    Colours::of(&images.collect::<Vec<_>>())
+    Colours::of(images)
 }
 
 /// The numbers of each layer of each panel.
@@ -220,11 +208,13 @@ mod tests {
             .panel(panel(2.0))
             .panel(panel(4.0));
         let plans = plan(&figure);
-        let highs: Vec<f64> = plans.iter().map(|p| p.x.interval.high).collect();
+        let highs: Vec<f64> = plans.iter().map(|p| p.axes[0].interval.high).collect();
         assert_eq!(highs, [4.0, 2.0, 4.0]);
-        let written: Vec<[bool; 2]> = plans.iter().map(|p| [p.x.labelled, p.y.labelled]).collect();
+        let labelled = |p: &PanelPlan<'_>| p.axes.each_ref().map(|axis| axis.labelled);
+        let written: Vec<[bool; 2]> = plans.iter().map(labelled).collect();
         assert_eq!(written, [[false, true], [true, false], [true, true]]);
-        assert!(plans[0].y.interval.high > 4.0 && plans[0].y.interval == plans[1].y.interval);
+        let along_y = [0, 1].map(|i| plans[i].axes[1].interval);
+        assert!(along_y[0].high > 4.0 && along_y[0] == along_y[1]);
     }
 
     #[test]
@@ -232,9 +222,12 @@ mod tests {
         let mut panel = panel(10.0);
         panel.x = panel.x.range(0.0, 1.0);
         let figure = Figure::new("").panel(panel.clone());
-        assert!(plan(&figure)[0].y.interval.high <= 1.0);
+        assert!(plan(&figure)[0].axes[1].interval.high <= 1.0);
         let figure = Figure::new("").panel(panel.mirrored());
-        assert_eq!(plan(&figure)[0].x.interval, Interval::linear(-1.0, 1.0));
+        assert_eq!(
+            plan(&figure)[0].axes[0].interval,
+            Interval::linear(-1.0, 1.0)
+        );
     }
 
     #[test]

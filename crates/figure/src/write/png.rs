@@ -202,11 +202,7 @@ fn paint(colour: u32, opacity: f64) -> Paint<'static> {
 }
 
 fn rectangle(area: Rect) -> Option<tiny_skia::Rect> {
-    let Rect {
-        left,
-        top,
-        right,
-        bottom,
-    } = area;
-    tiny_skia::Rect::from_ltrb(left as f32, top as f32, right as f32, bottom as f32)
+    let sides = [area.left, area.top, area.right, area.bottom];
+    let [left, top, right, bottom] = sides.map(|side| side as f32);
+    tiny_skia::Rect::from_ltrb(left, top, right, bottom)
 }

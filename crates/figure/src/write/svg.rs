@@ -193,11 +193,8 @@ fn letters((text, size, (x, y)): (&str, f64, Point), is_upward: bool) -> Group {
 fn number(value: f64) -> String {
     let text = format!("{value:.2}");
     let short = text.trim_end_matches('0').trim_end_matches('.');
-    if short == "-0" {
-        "0".to_owned()
-    } else {
-        short.to_owned()
-    }
+    let short = if short == "-0" { "0" } else { short };
+    short.to_owned()
 }
 
 #[cfg(test)]

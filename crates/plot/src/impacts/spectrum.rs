@@ -34,12 +34,8 @@ pub(super) fn spectrum(impacts: &[StoredImpact], labels: &[String]) -> Result<Pa
             panel = panel.layer(Layer::star((corner, amplitude), &text));
         }
         for (i, zero) in pulse.zeros(&points).into_iter().take(4).enumerate() {
-            let text = if i == 0 {
-                format!("zero {}", with_unit(zero, "Hz"))
-            } else {
-                with_unit(zero, "Hz")
-            };
-            panel = panel.mark(zero, &text);
+            let word = if i == 0 { "zero " } else { "" };
+            panel = panel.mark(zero, &format!("{word}{}", with_unit(zero, "Hz")));
         }
     }
     panel.y = panel.y.range(1e-5 * plateau, 2.0 * plateau);

@@ -156,11 +156,9 @@ impl<'a> Section<'a> {
     /// Whether each place of [`Self::values`] is outside the near field.
     pub(super) fn is_far(&self) -> Vec<bool> {
         let near_m = self.near_m(self.side_m());
-        let depths = self.depths_m();
-        let places = depths
-            .iter()
-            .flat_map(|z| self.stored.r_m.iter().map(move |r| r.hypot(*z)));
-        places.map(|distance| distance > near_m).collect()
+        let depths = self.depths_m().into_iter();
+        let row = |z: f64| self.stored.r_m.iter().map(move |r| r.hypot(z) > near_m);
+        depths.flat_map(row).collect()
     }
 
     /// Values over the section, mirrored at the axis.

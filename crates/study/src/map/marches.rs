@@ -431,10 +431,7 @@ fn dynamic_share(paper: &FixedDisc<'_>, effort: Effort) -> Picture {
         match (exact, dynamic_is_solved(disc, step)) {
             (_, false) => 3,
             (None, true) => 2,
-            (Some(exact), true) => match exact.implicit(step) {
-                Outcome::Accurate => 0,
-                Outcome::Lossy | Outcome::GainsEnergy | Outcome::Oscillates | Outcome::BlownUp => 1,
-            },
+            (Some(exact), true) => usize::from(exact.implicit(step) != Outcome::Accurate),
         }
     });
     let [x, y] = map.plane;
@@ -453,16 +450,11 @@ fn dynamic_share(paper: &FixedDisc<'_>, effort: Effort) -> Picture {
     ] {
         let points = steps.iter().map(|&y| (limit(paper, y * CONTACT_TIME), y));
         // as long as it stays in the plane
-        figure.add(Layer::line(
-            name,
-            style,
-            points.filter(|point| point.0 < x.high).collect(),
-        ));
+        let points = points.filter(|point| point.0 < x.high).collect();
+        figure.add(Layer::line(name, style, points));
     }
-    figure.add(Layer::star(
-        (paper.coupling, 1.0 / 137.0),
-        "paper's case, 137 steps",
-    ));
+    let place = (paper.coupling, 1.0 / 137.0);
+    figure.add(Layer::star(place, "paper's case, 137 steps"));
     figure.caption = "Without its static part the newest weight of the deflection is negative: the contact law \
         folds back, and beyond a coupling of 2/3 it has no solution. At steps near the memory and beyond \
         the samples alternate and grow from the dashed line on, until they reach the fold. \

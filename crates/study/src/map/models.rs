@@ -9,7 +9,7 @@ use super::marches::bisected;
 use crate::measure::Effort;
 use crate::picture::Picture;
 use crate::question::marching::{Results, errors, results};
-use crate::record::Error;
+use crate::record::sizes;
 use crate::scenes::{ROD_RADIUS_M, TABLE_1_PA, ball, collision, paper};
 use contact::law::area_dashpot::AreaDashpot;
 use contact::law::hertz::CONTACT_TIME;
@@ -21,7 +21,6 @@ use contact::{StaticShare, Summary, march_growing, march_implicit, refine};
 use fault::AnyError;
 use figure::{Interval, Layer, Style};
 use halfspace::{Deflection, Medium, SurfaceResponse};
-use impact::Impact;
 
 /// Tolerances of the three pictures.
 pub const TOLERANCES: [f64; 3] = [1e-2, 1e-3, 1e-4];
@@ -62,7 +61,7 @@ impl ModelErrors {
 /// The largest error of a model's results, or infinite where it is beyond its bounds.
 fn error(is_allowed: bool, found: &Summary, exact: &Results) -> f64 {
     if is_allowed {
-        Error::of(&errors(&results(found), exact)).max
+        sizes(&errors(&results(found), exact))[0]
     } else {
         f64::INFINITY
     }
@@ -232,14 +231,6 @@ pub fn place_of(target: &str, velocity_m_s: f64) -> Result<(f64, f64), AnyError>
     );
     let memory = 2.0 * centre.memory() * collision.contact_wave_time();
     Ok((collision.target_share(), memory / CONTACT_TIME))
-}
-
-/// The impact of such a point with model `auto` at a tolerance.
-///
-/// # Errors
-/// When the library's material makes no half-space.
-pub fn ball_impact(target: &str, velocity_m_s: f64, tolerance: f64) -> Result<Impact, AnyError> {
-    Ok(ball(target, velocity_m_s)?.to_tolerance(tolerance))
 }
 
 /// Names of the built-in materials that can be a target: those with a density.
