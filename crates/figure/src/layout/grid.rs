@@ -54,7 +54,8 @@ fn draw_panel(
     }
     labels::draw_marks(scene, plan, frame, &fitted.marks, faces);
     fitted.axes.draw(scene, frame, faces);
-    let mut line = frame.area.top - faces.gap() - Typeface::lines(faces.mark, fitted.mark_rows);
+    let mark_rows = labels::rows(&fitted.marks);
+    let mut line = frame.area.top - faces.gap() - Typeface::lines(faces.mark, mark_rows);
     for title in fitted.title.iter().rev() {
         let at = (frame.area.centre().0, line - 0.2 * faces.panel);
         scene.text(Text::new(title, at, faces.panel, MIDDLE));
@@ -108,18 +109,38 @@ fn lay_out(figure: &Figure) -> Layout<'_> {
 }
 
 /// Lays everything out but the common colour bar, which gets a width at the right.
+///
+/// All plots are equally wide; the width of the figure is exceeded rather than that they vanish.
 fn arrange(figure: &Figure, bar: f64) -> Layout<'_> {
     let faces = Typeface::new(figure.text);
     let plans = plan(figure);
     let count = figure.columns.min(plans.len());
     let legend_width = (0.34 * figure.width / count as f64).min(22.0 * faces.tick);
-    // beside the last column alone: elsewhere it would tear the columns apart
-    let fit = |plan: &PanelPlan<'_>, plot| {
-        let most_right = legend_width * f64::from(u8::from(plan.column + 1 == count));
-        Fitted::new(plan, size(plan, plot), &faces, most_right)
+    let gap = 1.4 * faces.tick;
+    let mut plot = (figure.width - bar) / count as f64;
+    // needed at the left and at the right of each column
+    let (mut left, mut right) = (vec![0.0_f64; count], vec![0.0_f64; count]);
+    // what is reserved at the sides only grows, so that it is enough for the plots at the end
+    let (fitted, width) = loop {
+        let fit = |plan: &PanelPlan<'_>| {
+            // beside the last column alone: elsewhere it would tear the columns apart
+            let most_right = legend_width * f64::from(u8::from(plan.column + 1 == count));
+            Fitted::new(plan, size(plan, plot), &faces, most_right)
+        };
+        let fitted: Vec<Fitted> = plans.iter().map(fit).collect();
+        let before = (left.clone(), right.clone());
+        for (plan, Fitted { needs, .. }) in plans.iter().zip(&fitted) {
+            left[plan.column] = left[plan.column].max(needs.left);
+            right[plan.column] = right[plan.column].max(needs.right);
+        }
+        let needed: f64 = left.iter().chain(&right).sum();
+        let sides = needed + gap * (count - 1) as f64 + 2.0 * PAD;
+        let next = ((figure.width - bar - sides) / count as f64).max(NARROWEST);
+        if (&left, &right) == (&before.0, &before.1) && next == plot {
+            break (fitted, sides + plot * count as f64);
+        }
+        plot = next;
     };
-    let (columns, fitted) = Columns::fit(&plans, count, figure.width - bar, 1.4 * faces.tick, &fit);
-    let width = columns.width();
     let line = |text: &str, size: f64| wrap(text, size, width + bar - 2.0 * PAD);
     let title = line(&figure.title, faces.title);
     let subtitle = line(&figure.subtitle, faces.subtitle);
@@ -129,7 +150,12 @@ fn arrange(figure: &Figure, bar: f64) -> Layout<'_> {
     if top > PAD {
         top += faces.gap();
     }
-    let (panels, bottom) = rows(&plans, fitted, &columns, top, 1.2 * faces.tick);
+    let start = |column: usize| {
+        let before = (0..column).map(|k| left[k] + plot + right[k] + gap);
+        PAD + before.sum::<f64>() + left[column]
+    };
+    let starts: Vec<f64> = (0..count).map(start).collect();
+    let (panels, bottom) = rows(&plans, fitted, &starts, plot, top, 1.2 * faces.tick);
     Layout {
         width,
         height: bottom + PAD,
@@ -141,11 +167,13 @@ fn arrange(figure: &Figure, bar: f64) -> Layout<'_> {
     }
 }
 
-/// Gives every panel its area, row below row from `top` on; and the bottom of the last row.
+/// Gives every panel its area in columns that start at some places, row below row from `top` on; and the bottom of the
+/// last row.
 fn rows<'a>(
     plans: &[PanelPlan<'a>],
     fitted: Vec<Fitted>,
-    columns: &Columns,
+    starts: &[f64],
+    plot: f64,
     mut top: f64,
     gap: f64,
 ) -> (Vec<(PanelPlan<'a>, Fitted, Frame)>, f64) {
@@ -154,13 +182,13 @@ fn rows<'a>(
     for row in plans.chunk_by(|a, b| a.row == b.row) {
         let fitted: Vec<Fitted> = fitted.by_ref().take(row.len()).collect();
         let most = |of: fn(&Needs) -> f64| fitted.iter().map(|f| of(&f.needs)).fold(0.0, f64::max);
-        let heights = row.iter().map(|plan| size(plan, columns.plot)[1]);
+        let heights = row.iter().map(|plan| size(plan, plot)[1]);
         let height = heights.fold(0.0, f64::max);
         let below = most(|needs| needs.bottom);
         top += most(|needs| needs.top);
         for (plan, fitted) in row.iter().zip(fitted) {
-            let [width, height] = size(plan, columns.plot);
-            let area = Rect::new(columns.start(plan.column), top, width, height);
+            let [width, height] = size(plan, plot);
+            let area = Rect::new(starts[plan.column], top, width, height);
             panels.push((plan.clone(), fitted, plan.frame(area)));
         }
         top += height + below + gap;
@@ -182,73 +210,6 @@ const PAD: f64 = 14.0;
 
 /// Narrowest plot.
 const NARROWEST: f64 = 60.0;
-
-/// The columns of a figure: all plots are equally wide.
-#[derive(Debug, Clone, PartialEq)]
-struct Columns {
-    /// Width of a plot.
-    plot: f64,
-    /// Needed at the left of each column.
-    left: Vec<f64>,
-    /// Needed at the right of each column.
-    right: Vec<f64>,
-    gap: f64,
-}
-
-impl Columns {
-    /// Fits panels into columns within a width, which is exceeded rather than that plots vanish.
-    fn fit(
-        plans: &[PanelPlan<'_>],
-        count: usize,
-        width: f64,
-        gap: f64,
-        fit: &dyn Fn(&PanelPlan<'_>, f64) -> Fitted,
-    ) -> (Self, Vec<Fitted>) {
-        let mut columns = Self {
-            plot: width / count as f64,
-            left: vec![0.0; count],
-            right: vec![0.0; count],
-            gap,
-        };
-        // what is reserved at the sides only grows, so that it is enough for the plots at the end
-        loop {
-            let fitted = plans.iter().map(|plan| fit(plan, columns.plot));
-            let fitted: Vec<Fitted> = fitted.collect();
-            let mut is_enough = true;
-            for (plan, fitted) in plans.iter().zip(&fitted) {
-                for (side, needed) in [
-                    (&mut columns.left[plan.column], fitted.needs.left),
-                    (&mut columns.right[plan.column], fitted.needs.right),
-                ] {
-                    is_enough &= needed <= *side;
-                    *side = side.max(needed);
-                }
-            }
-            let plot = ((width - columns.sides()) / count as f64).max(NARROWEST);
-            if is_enough && plot == columns.plot {
-                return (columns, fitted);
-            }
-            columns.plot = plot;
-        }
-    }
-
-    /// Width of everything beside the plots.
-    fn sides(&self) -> f64 {
-        let needed: f64 = self.left.iter().chain(&self.right).sum();
-        needed + self.gap * (self.left.len() - 1) as f64 + 2.0 * PAD
-    }
-
-    /// Width of the canvas.
-    fn width(&self) -> f64 {
-        self.sides() + self.plot * self.left.len() as f64
-    }
-
-    /// Left side of the plots of a column.
-    fn start(&self, column: usize) -> f64 {
-        let before = (0..column).map(|k| self.left[k] + self.plot + self.right[k] + self.gap);
-        PAD + before.sum::<f64>() + self.left[column]
-    }
-}
 
 /// Size of the plot of a panel in a column of plots of a width.
 ///
@@ -273,8 +234,6 @@ struct Fitted {
     axes: Axes,
     title: Vec<String>,
     marks: Vec<Label>,
-    /// Rows of the labels of marks.
-    mark_rows: usize,
     legend: Option<Legend>,
     bar: Option<Bar>,
     needs: Needs,
@@ -289,9 +248,9 @@ impl Fitted {
         let axes = Axes::new(plan, size, faces);
         let mut needs = axes.needs(plan, width, faces);
         let title = wrap(&plan.panel.title, faces.panel, width);
-        let (marks, mark_rows) = labels::of_marks(plan, width, faces);
+        let marks = labels::of_marks(plan, width, faces);
         let title_height = Typeface::lines(faces.panel, title.len());
-        let above = Typeface::lines(faces.mark, mark_rows) + title_height;
+        let above = Typeface::lines(faces.mark, labels::rows(&marks)) + title_height;
         if above > 0.0 {
             needs.top = needs.top.max(above + faces.gap());
         }
@@ -315,7 +274,6 @@ impl Fitted {
             axes,
             title,
             marks,
-            mark_rows,
             legend,
             bar,
             needs,

@@ -33,8 +33,13 @@ fn lines<'a>(plan: &PanelPlan<'a>) -> impl Iterator<Item = (f64, &'a str)> {
     })
 }
 
-/// Labels over a plot of a width, in as few rows as hold them, none over another; and the number of rows.
-pub(super) fn of_marks(plan: &PanelPlan<'_>, width: f64, faces: &Typeface) -> (Vec<Label>, usize) {
+/// How many rows labels have.
+pub(super) fn rows(labels: &[Label]) -> usize {
+    labels.iter().map(|label| label.row + 1).max().unwrap_or(0)
+}
+
+/// Labels over a plot of a width, in as few rows as hold them, none over another.
+pub(super) fn of_marks(plan: &PanelPlan<'_>, width: f64, faces: &Typeface) -> Vec<Label> {
     let frame = plan.frame(Rect::new(0.0, 0.0, width, 1.0));
     let named = lines(plan).filter(|(_, label)| !label.trim().is_empty());
     let mut found: Vec<_> = named.map(|(x, label)| (frame.across(x), label)).collect();
@@ -46,42 +51,40 @@ pub(super) fn of_marks(plan: &PanelPlan<'_>, width: f64, faces: &Typeface) -> (V
 ///
 /// A label that has no room above its line is moved aside; one wider than the plot is broken, its lines one above
 /// the other.
-fn placed(marks: &[(f64, &str)], width: f64, faces: &Typeface) -> (Vec<Label>, usize) {
+fn placed(marks: &[(f64, &str)], width: f64, faces: &Typeface) -> Vec<Label> {
     let gap = 0.7 * faces.mark;
     let size = |label: &str| width_of(label, faces.mark) + gap;
     if marks.iter().any(|(_, label)| size(label) > width) {
         return stacked(marks, width - gap, faces);
     }
     let total: f64 = marks.iter().map(|(_, label)| size(label)).sum();
+    // labels by turns
+    let row = |row: usize, rows: usize| marks.iter().skip(row).step_by(rows);
     let mut rows = ((total / width).ceil() as usize).max(usize::from(!marks.is_empty()));
-    let members = |row: usize, rows: usize| marks.iter().skip(row).step_by(rows);
-    let length = |row, rows| {
-        members(row, rows)
-            .map(|(_, label)| size(label))
-            .sum::<f64>()
-    };
-    while !(0..rows).all(|row| length(row, rows) <= width) {
+    while (0..rows).any(|i| row(i, rows).map(|(_, label)| size(label)).sum::<f64>() > width) {
         rows += 1;
     }
     let mut placed = Vec::with_capacity(marks.len());
-    for row in 0..rows {
-        let widths: Vec<f64> = members(row, rows).map(|(_, label)| size(label)).collect();
-        let wishes: Vec<f64> = members(row, rows).map(|(line, _)| *line).collect();
+    for i in 0..rows {
+        let widths: Vec<f64> = row(i, rows).map(|(_, label)| size(label)).collect();
+        let wishes: Vec<f64> = row(i, rows).map(|(line, _)| *line).collect();
         let centres = spread(&wishes, &widths, width);
-        for ((line, label), centre) in members(row, rows).zip(centres) {
-            placed.push(Label {
-                line: *line,
-                centre,
-                row,
-                text: (*label).to_owned(),
-            });
-        }
+        placed.extend(
+            row(i, rows)
+                .zip(centres)
+                .map(|((line, label), centre)| Label {
+                    line: *line,
+                    centre,
+                    row: i,
+                    text: (*label).to_owned(),
+                }),
+        );
     }
-    (placed, rows)
+    placed
 }
 
 /// One below the other, each broken to the width of the plot.
-fn stacked(marks: &[(f64, &str)], width: f64, faces: &Typeface) -> (Vec<Label>, usize) {
+fn stacked(marks: &[(f64, &str)], width: f64, faces: &Typeface) -> Vec<Label> {
     let mut placed = Vec::new();
     for (line, label) in marks.iter().rev() {
         for text in wrap(label, faces.mark, width).into_iter().rev() {
@@ -93,8 +96,7 @@ fn stacked(marks: &[(f64, &str)], width: f64, faces: &Typeface) -> (Vec<Label>, 
             });
         }
     }
-    let rows = placed.len();
-    (placed, rows)
+    placed
 }
 
 /// Draws the lines of a panel and their labels.
@@ -349,14 +351,14 @@ mod tests {
     use crate::axis::{Axis, Interval};
     use crate::look::Style;
 
-    fn boxes(marks: &[(f64, &str)], width: f64) -> (Vec<Label>, usize) {
+    fn boxes(marks: &[(f64, &str)], width: f64) -> Vec<Label> {
         placed(marks, width, &Typeface::new(12.0))
     }
 
     #[test]
     fn labels_with_room_stand_above_their_lines() {
-        let (placed, rows) = boxes(&[(50.0, "P"), (150.0, "S"), (250.0, "R")], 300.0);
-        assert_eq!(rows, 1);
+        let placed = boxes(&[(50.0, "P"), (150.0, "S"), (250.0, "R")], 300.0);
+        assert_eq!(rows(&placed), 1);
         assert!(placed.iter().all(|m| (m.centre - m.line).abs() < 1e-9));
     }
 
@@ -369,8 +371,8 @@ mod tests {
             (299.0, "end"),
         ];
         for width in [300.0, 120.0, 70.0, 30.0] {
-            let (placed, rows) = boxes(&near, width);
-            assert!(rows >= 1);
+            let placed = boxes(&near, width);
+            assert!(rows(&placed) >= 1);
             for (i, a) in placed.iter().enumerate() {
                 let half = |m: &Label| 0.5 * width_of(&m.text, 0.95 * 12.0);
                 assert!(a.centre - half(a) > -1e-9 && a.centre + half(a) < width + 1e-9);
@@ -380,7 +382,7 @@ mod tests {
                 }
             }
         }
-        assert_eq!(boxes(&[], 100.0).1, 0);
+        assert_eq!(rows(&boxes(&[], 100.0)), 0);
     }
 
     fn frame() -> Frame {
