@@ -50,17 +50,12 @@ impl Ranking<'_> {
     }
 
     fn words(&self, record: &Record) -> String {
-        let (place, method) = (
-            format!("{:.0e} in \"{}\"", self.level, self.scene),
-            record.method,
-        );
-        match self.own {
-            Some(own) => {
-                let times = own.cost_ns / record.cost_ns;
-                format!("{place} ({method} is {times:.1} times cheaper)")
-            }
-            None => format!("{place} (only {method} reaches it)"),
-        }
+        let (level, scene, method) = (self.level, self.scene, record.method);
+        let says = match self.own.map(|own| own.cost_ns / record.cost_ns) {
+            Some(times) => format!("{method} is {times:.1} times cheaper"),
+            None => format!("only {method} reaches it"),
+        };
+        format!("{level:.0e} in \"{scene}\" ({says})")
     }
 }
 

@@ -109,19 +109,15 @@ pub fn double_root_own_error(distance: f64) -> Result<f64, AnyError> {
 /// When the ratio is outside (-1, 0.5).
 pub fn incompressible_error(distance: f64) -> Result<f64, AnyError> {
     let medium = Medium::new(0.5 - distance)?;
-    let (coarse, fine) = (
-        Kernel::new(&medium, Profile::Hertz, 1e-8)?,
-        Kernel::new(&medium, Profile::Hertz, 1e-13)?,
-    );
+    let coarse = Kernel::new(&medium, Profile::Hertz, 1e-8)?;
+    let fine = Kernel::new(&medium, Profile::Hertz, 1e-13)?;
     let (r, z) = (0.5, 0.6);
     let rest = fine.static_field(r, z)?;
     let (mut scale, mut errors) = (rest.map(f64::abs), [0.0_f64; 6]);
     for shear_time in [0.3, 0.7, 1.0, 1.6, 2.5, 6.0] {
         let t = shear_time / medium.kappa();
-        let (a, b) = (
-            coarse.remainder(r, z, t)?.value,
-            fine.remainder(r, z, t)?.value,
-        );
+        let a = coarse.remainder(r, z, t)?.value;
+        let b = fine.remainder(r, z, t)?.value;
         for f in 0..6 {
             scale[f] = scale[f].max((b[f] + rest[f]).abs());
             errors[f] = errors[f].max((a[f] - b[f]).abs());

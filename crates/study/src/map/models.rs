@@ -277,14 +277,17 @@ fn picture(
     [name, what]: [&'static str; 2],
     tolerance: f64,
     errors: &[ModelErrors],
-    leaves: [(&str, Vec<(f64, f64)>); 2],
+    leaves: [(&str, Rung); 2],
+    points: usize,
+    memory: impl Fn(f64, Rung) -> f64,
 ) -> Picture {
     let title = format!("{what} that meets {tolerance:.0e}");
     let last = map.classes.len() - 1;
     let class = |cell: usize, _| errors[cell].cheapest(tolerance).min(last);
     let mut figure = map.picture(name, &title, class);
     let styles = [Style::Heavy, Style::HeavyDashed];
-    for ((label, line), style) in leaves.into_iter().zip(styles) {
+    for ((label, rung), style) in leaves.into_iter().zip(styles) {
+        let line = map.line(points, |x| memory(x, rung));
         figure.add(Layer::line(label, style, line));
     }
     figure
@@ -333,18 +336,16 @@ fn growing_figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>, A
         let leaves = [
             ("auto leaves hertz", Rung::QuasiStatic),
             ("auto leaves the area dashpot", Rung::AreaDashpot),
-        ]
-        .map(|(label, rung)| (label, map.line(40, |x| plane.boundary(x, tolerance, rung))));
-        let mut figure = picture(&map, [name, "Cheapest model"], tolerance, &errors, leaves);
+        ];
+        let names = [name, "Cheapest model"];
+        let memory = |x, rung| plane.boundary(x, tolerance, rung);
+        let mut figure = picture(&map, names, tolerance, &errors, leaves, 40, memory);
         for speed in SPEEDS_M_S {
             let targets = targets();
             let places = targets.iter().map(|target| place_of(target, speed));
+            let places = places.collect::<Result<_, _>>()?;
             let label = format!("steel ball on each material, {speed} m/s");
-            figure.add(Layer::line(
-                &label,
-                Style::Points,
-                places.collect::<Result<_, _>>()?,
-            ));
+            figure.add(Layer::line(&label, Style::Points, places));
         }
         figure.caption = format!(
             "Regions are computed: each model against the converged growing contact, largest error of peak force, \
@@ -379,15 +380,12 @@ fn disc_figures(effort: Effort) -> Result<Vec<Picture>, AnyError> {
         let leaves = [
             ("auto leaves two springs", Rung::QuasiStatic),
             ("auto leaves the first-order loss", Rung::Radiation),
-        ]
-        .map(|(label, rung)| {
-            let chosen = |coupling, memory| {
-                disc_chosen(&disc_at(&paper, coupling, memory), tolerance)
-            };
-            let memory = |coupling| memory_of_change(1e-12, rung, |m| chosen(coupling, m));
-            (label, map.line(60, memory))
-        });
-        let mut figure = picture(&map, [name, what], tolerance, &errors, leaves);
+        ];
+        let memory = |coupling, rung| {
+            let chosen = |memory| disc_chosen(&disc_at(&paper, coupling, memory), tolerance);
+            memory_of_change(1e-12, rung, chosen)
+        };
+        let mut figure = picture(&map, [name, what], tolerance, &errors, leaves, 60, memory);
         // half of the first-order loss is the error of the restitution of two springs
         let loss = 2.0 * tolerance;
         let theory = map.line(60, |coupling| {
