@@ -75,7 +75,7 @@ impl Axis {
     }
 
     /// Its interval, where it is given.
-    pub(crate) fn interval(&self) -> Option<Interval> {
+    pub fn interval(&self) -> Option<Interval> {
         let (low, high) = self.range?;
         Some(Interval::new(self.scale, low, high))
     }

@@ -2,7 +2,7 @@
 //! error against cost, one curve a method, the Pareto front drawn.
 
 use crate::record::{Question, Record, distinct, pareto_front};
-use figure::{Axis, Figure, Interval, Layer, Legend, Panel, Style};
+use figure::{Axis, Figure, Layer, Legend, Panel, Style};
 
 /// A picture of the chart.
 #[derive(Debug, Clone, PartialEq)]
@@ -56,13 +56,9 @@ impl Picture {
                     points.extend(line.points.iter().map(|&(x, y)| (&*line.name, x, y)));
                 }
                 Layer::Classes(map) => {
-                    let centres = |axis: &Axis, count| {
-                        let (low, high) = axis.range.unwrap_or((0.0, count as f64));
-                        let scale = axis.scale;
-                        Interval { scale, low, high }.cells(count)
-                    };
-                    let x = centres(&self.panel.x, map.shape[0]);
-                    let y = centres(&self.panel.y, map.shape[1]);
+                    let axes = [&self.panel.x, &self.panel.y].map(Axis::interval);
+                    let [x, y] = [0, 1].map(|k| axes[k].map(|axis| axis.cells(map.shape[k])));
+                    let (x, y) = x.zip(y).unwrap_or_default();
                     let cells = y.iter().flat_map(|&y| x.iter().map(move |&x| (x, y)));
                     let names = map.class.iter().map(|&class| &*map.names[class]);
                     points.extend(names.zip(cells).map(|(name, (x, y))| (name, x, y)));

@@ -59,21 +59,14 @@ pub(crate) fn svg(scene: &Scene) -> Result<String, FigureError> {
     Ok(document.to_string())
 }
 
-/// An element with numbers to a hundredth of a pixel.
-fn with_numbers<N: Node, const M: usize>(mut node: N, numbers: [(&str, f64); M]) -> N {
-    for (name, value) in numbers {
+/// An element that covers an area.
+fn placed<N: Node>(mut node: N, area: Rect) -> N {
+    let corner = [("x", area.left), ("y", area.top)];
+    let size = [("width", area.width()), ("height", area.height())];
+    for (name, value) in corner.into_iter().chain(size) {
         node.assign(name, number(value));
     }
     node
-}
-
-/// An element that covers an area.
-fn placed<N: Node>(node: N, area: Rect) -> N {
-    let size = [("width", area.width()), ("height", area.height())];
-    with_numbers(
-        with_numbers(node, [("x", area.left), ("y", area.top)]),
-        size,
-    )
 }
 
 fn path(shape: &Shape, clips: &[Rect]) -> Path {
@@ -179,10 +172,8 @@ fn letters((text, size, (x, y)): (&str, f64, Point), is_upward: bool) -> Group {
     for letter in text.chars() {
         if !letter.is_whitespace() {
             let link = format!("#{}", letter_id(letter));
-            group = group.add(with_numbers(
-                Use::new().set("xlink:href", link),
-                [("x", along)],
-            ));
+            let letter = Use::new().set("xlink:href", link);
+            group = group.add(letter.set("x", number(along)));
         }
         along += UNITS * font::width(letter.encode_utf8(&mut [0; 4]));
     }
