@@ -143,7 +143,7 @@ fn points(figure: &Figure) -> Vec<[String; 5]> {
         for layer in &panel.layers {
             let (name, found) = match layer {
                 Layer::Line(line) => (line.name.as_str(), line.points.clone()),
-                Layer::Point { x, y, .. } => ("printed in the paper", vec![(*x, *y)]),
+                Layer::Point { at, .. } => ("printed in the paper", vec![*at]),
                 Layer::Classes(_) | Layer::Image(_) | Layer::Mark { .. } => continue,
             };
             let names = [&panel.x.quantity, &panel.y.quantity, name];

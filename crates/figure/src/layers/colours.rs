@@ -16,7 +16,7 @@ pub(crate) struct Colours {
 
 impl Colours {
     /// Those of the first image, for the values of all; none without an image.
-    pub(crate) fn of<'a>(images: impl Iterator<Item = &'a Image> + Clone) -> Option<Self> {
+    pub(crate) fn of<'a>(images: &(impl Iterator<Item = &'a Image> + Clone)) -> Option<Self> {
         let first = images.clone().next()?;
         let values = || {
             images

@@ -38,10 +38,8 @@ pub enum Layer {
     },
     /// A point with a label; not drawn outside the axes.
     Point {
-        /// Place on the x axis.
-        x: f64,
-        /// Place on the y axis.
-        y: f64,
+        /// Its place on both axes.
+        at: (f64, f64),
         /// What is written at it.
         label: String,
         /// Whether a star stands there; otherwise the label itself does, the name of a curve or of a region.
@@ -71,12 +69,10 @@ impl Layer {
         Self::point(at, label, false)
     }
 
-    fn point((x, y): (f64, f64), label: &str, is_starred: bool) -> Self {
-        let label = label.to_owned();
+    fn point(at: (f64, f64), label: &str, is_starred: bool) -> Self {
         Self::Point {
-            x,
-            y,
-            label,
+            at,
+            label: label.to_owned(),
             is_starred,
         }
     }
@@ -98,7 +94,7 @@ impl Layer {
             // they fill whatever the panel shows
             Self::Classes(_) => Vec::new(),
             Self::Mark { x, .. } => vec![(*x, f64::NAN)],
-            Self::Point { x, y, .. } => vec![(*x, *y)],
+            Self::Point { at, .. } => vec![*at],
         }
     }
 

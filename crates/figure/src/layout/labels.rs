@@ -177,14 +177,13 @@ pub(super) fn draw_points(
     let mut points: Vec<(&str, bool, Point)> = Vec::new();
     for layer in &plan.panel.layers {
         if let Layer::Point {
-            x,
-            y,
+            at,
             label,
             is_starred,
         } = layer
-            && frame.x.contains(*x)
-            && frame.y.contains(*y)
-            && let Some(place) = frame.place((*x, *y))
+            && frame.x.contains(at.0)
+            && frame.y.contains(at.1)
+            && let Some(place) = frame.place(*at)
         {
             points.push((label, *is_starred, place));
         }
@@ -206,13 +205,12 @@ pub(super) fn draw_points(
             let crossed = curves.iter().filter(|&&c| bounds.has(c));
             100 * hidden.count() + crossed.count()
         };
+        let is_free = |lines: &Vec<Text>| {
+            let bounds = bounds(lines);
+            frame.area.holds(&bounds) && !written.iter().any(|b| b.grown(1.0).overlaps(&bounds))
+        };
         let candidates = candidates(label, is_starred, place, frame.area, size).into_iter();
-        let best = candidates
-            .filter(|lines| {
-                let bounds = bounds(lines);
-                frame.area.holds(&bounds) && !written.iter().any(|b| b.grown(1.0).overlaps(&bounds))
-            })
-            .min_by_key(cost);
+        let best = candidates.filter(is_free).min_by_key(cost);
         // a plot too small for all labels shows the stars alone
         for mut text in best.into_iter().flatten() {
             written.push(text.bounds());

@@ -90,7 +90,7 @@ fn share(plans: &mut [PanelPlan<'_>], side: usize) {
         let intervals = beside.clone().map(|k| plans[k].axes[side].interval);
         let union = intervals.reduce(Interval::union);
         let written = if side == 0 {
-            beside.last()
+            beside.next_back()
         } else {
             beside.next()
         };
@@ -110,7 +110,7 @@ fn intervals(panel: &Panel) -> [Interval; 2] {
     let has_image = panel.layers.iter().any(|layer| is_image(&layer));
     let layers = panel.layers.iter();
     let shown = layers.filter(|layer| !has_image || is_image(layer));
-    let places: Vec<Point> = shown.flat_map(|layer| layer.places()).collect();
+    let places: Vec<Point> = shown.flat_map(Layer::places).collect();
     let automatic = |scale: Scale, values: Vec<f64>, air: f64| {
         let found = Interval::around(scale, values.into_iter());
         let found = found.unwrap_or(match scale {
@@ -144,7 +144,7 @@ fn colours(panels: &[Panel]) -> Option<Colours> {
         Layer::Image(image) => Some(image),
         _ => None,
     });
-    Colours::of(images)
+    Colours::of(&images)
 }
 
 /// The numbers of each layer of each panel.

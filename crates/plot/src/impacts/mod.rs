@@ -28,7 +28,7 @@ pub(crate) fn of_impacts(impacts: &[StoredImpact], request: &Request) -> Result<
         _ => Kind::Impact,
     };
     let kind = request.kind.unwrap_or(suits);
-    if !request.times_s.is_empty() && !kind.has_times() {
+    if !request.times_s.is_empty() && !matches!(kind, Kind::Waves | Kind::Axis) {
         return Err(PlotError::all_times(kind));
     }
     let one = || only(impacts, kind);

@@ -26,9 +26,11 @@ pub(crate) struct Inversion {
     pub(crate) setting: String,
     /// Digits that the transform needs: those of the result and those that the weights cancel.
     digits: f64,
-    /// Step responses at ascending times.
-    invert: Box<dyn Fn(&Hankel, &[f64]) -> Vec<Six>>,
+    invert: Box<Invert>,
 }
+
+/// Step responses at ascending times.
+type Invert = dyn Fn(&Hankel, &[f64]) -> Vec<Six>;
 
 /// Ratio of times that share the samples of an accelerated series: over more the early ones are not resolved, over
 /// less the samples are not used.
@@ -38,16 +40,15 @@ const SPAN: f64 = 4.0;
 
 /// Methods, with their settings in a quick and a full chart, and in the pictures of errors over time of both: in a full
 /// one its best.
-const METHODS: [(&str, [&[usize]; 2], [usize; 2]); 5] = [
-    ("fixed Talbot", [&[12, 24], &[8, 12, 16, 24, 32]], [16, 24]),
-    ("Gaver-Stehfest", [&[6, 14], &[6, 10, 14, 18]], [14, 14]),
-    ("Euler", [&[6, 14], &[6, 10, 14, 18, 24]], [10, 18]),
+const METHODS: [(&str, [&[usize]; 3]); 5] = [
+    ("fixed Talbot", [&[12, 24], &[8, 12, 16, 24, 32], &[16, 24]]),
+    ("Gaver-Stehfest", [&[6, 14], &[6, 10, 14, 18], &[14, 14]]),
+    ("Euler", [&[6, 14], &[6, 10, 14, 18, 24], &[10, 18]]),
     (
         "Durbin",
-        [&[50, 200], &[50, 100, 200, 400, 800]],
-        [200, 400],
+        [&[50, 200], &[50, 100, 200, 400, 800], &[200, 400]],
     ),
-    ("de Hoog", [&[21, 81], &[21, 41, 81, 161]], [81, 161]),
+    ("de Hoog", [&[21, 81], &[21, 41, 81, 161], &[81, 161]]),
 ];
 
 impl Inversion {
@@ -69,7 +70,7 @@ impl Inversion {
 
     /// All methods at increasing settings.
     pub(crate) fn all(effort: Effort) -> Vec<Self> {
-        let settings = METHODS.into_iter().flat_map(|(name, [quick, full], _)| {
+        let settings = METHODS.into_iter().flat_map(|(name, [quick, full, _])| {
             effort.pick(quick, full).iter().map(move |&n| (name, n))
         });
         settings.map(|(name, n)| Self::new(name, n)).collect()
@@ -77,9 +78,9 @@ impl Inversion {
 
     /// The setting of each method in the pictures of errors over time.
     pub(crate) fn pictured(effort: Effort) -> Vec<Self> {
+        let best = effort.pick(0, 1);
         let methods = METHODS.into_iter();
-        let pictured =
-            methods.map(|(name, _, [quick, best])| Self::new(name, effort.pick(quick, best)));
+        let pictured = methods.map(|(name, [.., settings])| Self::new(name, settings[best]));
         pictured.collect()
     }
 
