@@ -9,34 +9,31 @@ use crate::colour::WHITE;
 use crate::error::FigureError;
 use crate::figure::Figure;
 use crate::geometry::{Frame, Rect};
-use crate::scene::{MIDDLE, START, Scene, Shape, Text};
+use crate::scene::{Item, MIDDLE, START, Scene, Shape, Text};
 use crate::text::{LINE, Typeface, wrap};
 
 /// Everything that a figure shows, with places in pixels.
 pub(crate) fn draw(figure: &Figure) -> Result<Scene, FigureError> {
     figure.check()?;
-    let layout = lay_out(figure);
-    let mut scene = Scene {
-        width: layout.width,
-        height: layout.height,
-        plots: layout.panels.iter().map(|(.., frame)| frame.area).collect(),
-        items: Vec::new(),
+    let faces = Typeface::new(figure.text);
+    let plans = plan(figure);
+    let first = plans.first().filter(|_| figure.has_common_bar);
+    let common = first.and_then(|plan| plan.colours.as_ref());
+    // a bar needs the width of its numbers, which depend on the height, which depends on the width
+    let mut reserved = 0.0;
+    let (mut scene, panels, bar) = loop {
+        let (scene, panels) = arrange(figure, &plans, &faces, reserved);
+        let plots = plots(&panels);
+        match common.map(|colours| Bar::new(colours, plots.height(), &faces)) {
+            Some(bar) if bar.width > reserved => reserved = bar.width,
+            bar => break (scene, panels, bar.map(|bar| (bar, plots))),
+        }
     };
-    let canvas = Rect::new(0.0, 0.0, layout.width, layout.height);
-    scene.shape(Shape::rectangle(canvas).filled(WHITE, 1.0));
-    let faces = &layout.faces;
-    let titles = layout.title.iter().map(|line| (line, faces.title));
-    let subtitles = layout.subtitle.iter().map(|line| (line, faces.subtitle));
-    let mut top = PAD;
-    for (line, size) in titles.chain(subtitles) {
-        scene.text(Text::new(line, (PAD, top + size), size, START));
-        top += Typeface::lines(size, 1);
+    for panel in &panels {
+        draw_panel(&mut scene, panel, &faces);
     }
-    for panel in &layout.panels {
-        draw_panel(&mut scene, panel, faces);
-    }
-    if let Some((bar, plots)) = &layout.bar {
-        bar.draw(&mut scene, *plots, faces);
+    if let Some((bar, plots)) = bar {
+        bar.draw(&mut scene, plots, &faces);
     }
     Ok(scene)
 }
@@ -72,48 +69,16 @@ fn draw_panel(
     }
 }
 
-/// Everything with its place.
-struct Layout<'a> {
-    width: f64,
-    height: f64,
-    faces: Typeface,
-    /// Lines of the title and of the line below it.
-    title: Vec<String>,
-    subtitle: Vec<String>,
-    /// Each panel, what is around its plot, and the plot.
-    panels: Vec<(PanelPlan<'a>, Fitted, Frame)>,
-    /// The common colour bar and the area of all plots at its left.
-    bar: Option<(Bar, Rect)>,
-}
-
-/// Lays a figure out.
-fn lay_out(figure: &Figure) -> Layout<'_> {
-    let mut layout = arrange(figure, 0.0);
-    let first = layout.panels.first().filter(|_| figure.has_common_bar);
-    let Some(colours) = first.and_then(|(plan, ..)| plan.colours.clone()) else {
-        return layout;
-    };
-    // a bar needs the width of its numbers, which depend on the height, which depends on the width
-    let mut reserved = 0.0;
-    loop {
-        let plots = plots(&layout.panels);
-        let bar = Bar::new(&colours, plots.height(), &layout.faces);
-        if bar.width <= reserved {
-            layout.width += reserved;
-            layout.bar = Some((bar, plots));
-            return layout;
-        }
-        reserved = bar.width;
-        layout = arrange(figure, reserved);
-    }
-}
-
-/// Lays everything out but the common colour bar, which gets a width at the right.
+/// The canvas with the title and the line below it, and each panel, what is around its plot, and the plot; the common
+/// colour bar gets a width at the right.
 ///
 /// All plots are equally wide; the width of the figure is exceeded rather than that they vanish.
-fn arrange(figure: &Figure, bar: f64) -> Layout<'_> {
-    let faces = Typeface::new(figure.text);
-    let plans = plan(figure);
+fn arrange<'a>(
+    figure: &Figure,
+    plans: &[PanelPlan<'a>],
+    faces: &Typeface,
+    bar: f64,
+) -> (Scene, Vec<(PanelPlan<'a>, Fitted, Frame)>) {
     let count = figure.columns.min(plans.len());
     let legend_width = (0.34 * figure.width / count as f64).min(22.0 * faces.tick);
     let gap = 1.4 * faces.tick;
@@ -125,7 +90,7 @@ fn arrange(figure: &Figure, bar: f64) -> Layout<'_> {
         let fit = |plan: &PanelPlan<'_>| {
             // beside the last column alone: elsewhere it would tear the columns apart
             let most_right = legend_width * f64::from(u8::from(plan.column + 1 == count));
-            Fitted::new(plan, size(plan, plot), &faces, most_right)
+            Fitted::new(plan, size(plan, plot), faces, most_right)
         };
         let fitted: Vec<Fitted> = plans.iter().map(fit).collect();
         let before = (left.clone(), right.clone());
@@ -142,11 +107,15 @@ fn arrange(figure: &Figure, bar: f64) -> Layout<'_> {
         plot = next;
     };
     let line = |text: &str, size: f64| wrap(text, size, width + bar - 2.0 * PAD);
-    let title = line(&figure.title, faces.title);
-    let subtitle = line(&figure.subtitle, faces.subtitle);
-    let mut top = PAD
-        + Typeface::lines(faces.title, title.len())
-        + Typeface::lines(faces.subtitle, subtitle.len());
+    let title = line(&figure.title, faces.title).into_iter();
+    let subtitle = line(&figure.subtitle, faces.subtitle).into_iter();
+    let titles = title.map(|line| (line, faces.title));
+    let mut heading = Vec::new();
+    let mut top = PAD;
+    for (line, size) in titles.chain(subtitle.map(|line| (line, faces.subtitle))) {
+        heading.push(Text::new(&line, (PAD, top + size), size, START));
+        top += Typeface::lines(size, 1);
+    }
     if top > PAD {
         top += faces.gap();
     }
@@ -155,16 +124,17 @@ fn arrange(figure: &Figure, bar: f64) -> Layout<'_> {
         PAD + before.sum::<f64>() + left[column]
     };
     let starts: Vec<f64> = (0..count).map(start).collect();
-    let (panels, bottom) = rows(&plans, fitted, &starts, plot, top, 1.2 * faces.tick);
-    Layout {
-        width,
+    let (panels, bottom) = rows(plans, fitted, &starts, plot, top, 1.2 * faces.tick);
+    let mut scene = Scene {
+        width: width + bar,
         height: bottom + PAD,
-        faces,
-        title,
-        subtitle,
-        panels,
-        bar: None,
-    }
+        plots: panels.iter().map(|(.., frame)| frame.area).collect(),
+        items: Vec::new(),
+    };
+    let canvas = Rect::new(0.0, 0.0, scene.width, scene.height);
+    scene.shape(Shape::rectangle(canvas).filled(WHITE, 1.0));
+    scene.items.extend(heading.into_iter().map(Item::Text));
+    (scene, panels)
 }
 
 /// Gives every panel its area in columns that start at some places, row below row from `top` on; and the bottom of the
