@@ -1,36 +1,17 @@
 //! Axes: what one shows, in which unit, over which values, and the places of these along it.
 
-/// In which unit an axis or a colour bar shows its values.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Unit {
-    /// A number without unit.
-    One,
-    /// A unit that takes SI prefixes, such as `s`, `N`, `m/s`; values are in the unit itself.
-    ///
-    /// A linear axis shows the prefix that suits its values: seconds of 1e-5 are shown as 10 µs.
-    Si(String),
-    /// Any other unit, shown as it stands, such as `r_{0}/c_{1}` or `kg`.
-    Fixed(String),
-}
-
-impl Unit {
-    /// Its name; empty for a number without unit.
-    pub(crate) fn name(&self) -> &str {
-        match self {
-            Self::One => "",
-            Self::Si(unit) | Self::Fixed(unit) => unit,
-        }
-    }
-}
-
 /// One axis, of a panel or of colours.
 #[must_use]
 #[derive(Debug, Clone, PartialEq)]
 pub struct Axis {
     /// What it shows: "contact force".
     pub quantity: String,
-    /// Its unit.
-    pub unit: Unit,
+    /// Its unit, such as `s`, `m/s`, `r_{0}/c_{1}`; empty for a number without one.
+    pub unit: String,
+    /// Whether the unit takes SI prefixes; values are in the unit itself.
+    ///
+    /// A linear axis shows the prefix that suits its values: seconds of 1e-5 are shown as 10 µs.
+    pub has_prefixes: bool,
     /// How values are spread along it.
     pub scale: Scale,
     /// Values from and to; none: those of the panel's layers, with a little air.
@@ -44,7 +25,8 @@ impl Axis {
     pub fn linear(quantity: &str) -> Self {
         Self {
             quantity: quantity.to_owned(),
-            unit: Unit::One,
+            unit: String::new(),
+            has_prefixes: false,
             scale: Scale::Linear,
             range: None,
             is_reversed: false,
@@ -70,13 +52,13 @@ impl Axis {
 
     /// With a unit that takes SI prefixes.
     pub fn si(mut self, unit: &str) -> Self {
-        self.unit = Unit::Si(unit.to_owned());
-        self
+        self.has_prefixes = true;
+        self.unit(unit)
     }
 
     /// With a unit that is shown as it stands.
     pub fn unit(mut self, unit: &str) -> Self {
-        self.unit = Unit::Fixed(unit.to_owned());
+        unit.clone_into(&mut self.unit);
         self
     }
 
@@ -93,7 +75,7 @@ impl Axis {
     }
 
     /// Its interval, where it is given.
-    pub(crate) fn interval(&self) -> Option<Interval> {
+    pub fn interval(&self) -> Option<Interval> {
         let (low, high) = self.range?;
         Some(Interval::new(self.scale, low, high))
     }

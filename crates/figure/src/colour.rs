@@ -1,45 +1,15 @@
-//! Colours and the maps that turn a number into one.
+//! Colours, which are numbers 0xRRGGBB in sRGB, and the maps that turn a value into one.
 
-/// An opaque colour in sRGB.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub(crate) struct Colour {
-    /// Red, 0 to 255.
-    pub(crate) red: u8,
-    /// Green, 0 to 255.
-    pub(crate) green: u8,
-    /// Blue, 0 to 255.
-    pub(crate) blue: u8,
+/// Red, green and blue of a colour, 0 to 255.
+pub(crate) fn rgb(colour: u32) -> [u8; 3] {
+    let [_, rgb @ ..] = colour.to_be_bytes();
+    rgb
 }
 
-impl Colour {
-    /// From its hexadecimal number, such as `0x0b5394`.
-    pub(crate) const fn new(hex: u32) -> Self {
-        let [_, red, green, blue] = hex.to_be_bytes();
-        Self { red, green, blue }
-    }
-
-    /// As SVG writes it: `#0b5394`.
-    pub(crate) fn hex(self) -> String {
-        format!("#{:02x}{:02x}{:02x}", self.red, self.green, self.blue)
-    }
-
-    fn between(self, other: Self, fraction: f64) -> Self {
-        let mix = |a: u8, b: u8| {
-            let (a, b) = (f64::from(a), f64::from(b));
-            (a + fraction * (b - a)).round() as u8
-        };
-        Self {
-            red: mix(self.red, other.red),
-            green: mix(self.green, other.green),
-            blue: mix(self.blue, other.blue),
-        }
-    }
-}
-
-pub(crate) const BLACK: Colour = Colour::new(0x11_11_11);
-pub(crate) const WHITE: Colour = Colour::new(0xff_ff_ff);
-pub(crate) const GRID: Colour = Colour::new(0xe3_e3_e3);
-pub(crate) const MARK: Colour = Colour::new(0x55_55_55);
+pub(crate) const BLACK: u32 = 0x11_11_11;
+pub(crate) const WHITE: u32 = 0xff_ff_ff;
+pub(crate) const GRID: u32 = 0xe3_e3_e3;
+pub(crate) const MARK: u32 = 0x55_55_55;
 
 /// A colour for each number between two limits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -64,15 +34,17 @@ const DIVERGING: [u32; 11] = [
 
 impl ColourMap {
     /// The colour at a fraction of the way from the lower limit to the upper one; beyond them that of the end.
-    pub(crate) fn at(self, fraction: f64) -> Colour {
+    pub(crate) fn at(self, fraction: f64) -> u32 {
         let stations = match self {
             Self::Sequential => &SEQUENTIAL,
             Self::Diverging => &DIVERGING,
         };
         let place = fraction.clamp(0.0, 1.0) * (stations.len() - 1) as f64;
         let lower = (place as usize).min(stations.len() - 2);
-        let [from, to] = [stations[lower], stations[lower + 1]].map(Colour::new);
-        from.between(to, place - lower as f64)
+        let part = place - lower as f64;
+        let [from, to] = [lower, lower + 1].map(|i| stations[i].to_be_bytes().map(f64::from));
+        let mixed = |i: usize| (from[i] + part * (to[i] - from[i])).round() as u8;
+        u32::from_be_bytes(std::array::from_fn(mixed))
     }
 }
 
@@ -80,11 +52,11 @@ impl ColourMap {
 mod tests {
     use super::*;
 
-    impl Colour {
+    impl ColourMap {
         /// Relative luminance after Rec. 709: 0 is black, 1 is white.
         ///
         /// It is what a print in grey shows.
-        pub(crate) fn luminance(self) -> f64 {
+        pub(crate) fn luminance(colour: u32) -> f64 {
             let linear = |channel: u8| {
                 let x = f64::from(channel) / 255.0;
                 if x <= 0.04045 {
@@ -93,15 +65,16 @@ mod tests {
                     ((x + 0.055) / 1.055).powf(2.4)
                 }
             };
-            0.2126 * linear(self.red) + 0.7152 * linear(self.green) + 0.0722 * linear(self.blue)
+            let [red, green, blue] = rgb(colour).map(linear);
+            0.2126 * red + 0.7152 * green + 0.0722 * blue
         }
     }
 
     #[test]
     fn zero_is_white_and_signs_are_told_apart() {
         assert_eq!(ColourMap::Diverging.at(0.5), WHITE);
-        let (low, high) = (ColourMap::Diverging.at(0.1), ColourMap::Diverging.at(0.9));
-        assert!(low.blue > low.red && high.red > high.blue);
+        let [low, high] = [0.1, 0.9].map(|at| rgb(ColourMap::Diverging.at(at)));
+        assert!(low[2] > low[0] && high[0] > high[2]);
         // beyond the limits the ends go on
         assert_eq!(ColourMap::Diverging.at(7.0), ColourMap::Diverging.at(1.0));
     }
@@ -109,14 +82,15 @@ mod tests {
     #[test]
     fn the_sequential_map_grows_lighter_all_the_way() {
         let lightness: Vec<f64> = (0..=100)
-            .map(|i| ColourMap::Sequential.at(f64::from(i) / 100.0).luminance())
+            .map(|i| ColourMap::luminance(ColourMap::Sequential.at(f64::from(i) / 100.0)))
             .collect();
         assert!(lightness.windows(2).all(|pair| pair[1] > pair[0]));
     }
 
     #[test]
-    fn colours_are_written_in_hexadecimal() {
-        assert_eq!(Colour::new(0x0b_53_94).hex(), "#0b5394");
-        assert!(BLACK.luminance() < 0.01 && (WHITE.luminance() - 1.0).abs() < 1e-12);
+    fn a_colour_has_three_parts() {
+        assert_eq!(rgb(0x0b_53_94), [0x0b, 0x53, 0x94]);
+        let [black, white] = [BLACK, WHITE].map(ColourMap::luminance);
+        assert!(black < 0.01 && (white - 1.0).abs() < 1e-12);
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::axis::{Axis, Interval, Scale};
 use crate::error::FigureError;
-use crate::layers::{Layer, Line, Mark};
+use crate::layers::{Layer, Line};
 use crate::look::Style;
 
 /// Whether panels have one axis in common.
@@ -154,6 +154,12 @@ impl Panel {
         }
     }
 
+    /// Whether a layer fills it, so that nothing can be written into an empty corner.
+    pub(crate) fn is_filled(&self) -> bool {
+        let mut layers = self.layers.iter();
+        layers.any(|layer| matches!(layer, Layer::Image(_) | Layer::Classes(_)))
+    }
+
     /// With a title.
     pub fn title(mut self, title: &str) -> Self {
         title.clone_into(&mut self.title);
@@ -192,7 +198,7 @@ impl Panel {
 
     /// With one more curve.
     pub fn line(self, name: &str, style: Style, points: Vec<(f64, f64)>) -> Self {
-        self.layer(Layer::Line(Line::new(name, style, points)))
+        self.layer(Layer::line(name, style, points))
     }
 
     /// With one more curve within a band, such as of its error: place, and lower end of the band, value and upper end.
@@ -209,7 +215,7 @@ impl Panel {
 
     /// With one more vertical line.
     pub fn mark(self, x: f64, label: &str) -> Self {
-        self.layer(Layer::Mark(Mark::new(x, label)))
+        self.layer(Layer::mark(x, label))
     }
 }
 
@@ -237,6 +243,5 @@ fn check_panel((i, panel): (usize, &Panel)) -> Result<(), FigureError> {
             return Err(fault(why.to_owned()));
         }
     }
-    let mut layers = panel.layers.iter();
-    layers.try_for_each(|layer| layer.kind().check(i))
+    panel.layers.iter().try_for_each(|layer| layer.check(i))
 }

@@ -46,12 +46,12 @@ mod text;
 mod ticks;
 mod write;
 
-pub use axis::{Axis, Interval, Scale, Unit};
+pub use axis::{Axis, Interval, Scale};
 pub use colour::ColourMap;
 pub use error::FigureError;
 pub use figure::{Figure, Legend, Panel, Sharing};
 pub use geometry::Rect;
-pub use layers::{Classes, Image, LabelledPoint, Layer, Line, Mark};
+pub use layers::{Classes, Image, Layer, Line};
 pub use look::Style;
 
 /// The figure as SVG.

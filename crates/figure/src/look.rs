@@ -1,6 +1,6 @@
 //! How curves and classes look: colours, dashes and markers that differ in more than hue.
 
-use crate::colour::{BLACK, Colour, WHITE};
+use crate::colour::{BLACK, WHITE};
 use crate::geometry::Point;
 use crate::scene::{Scene, Shape, Stroke};
 
@@ -61,49 +61,24 @@ const FILLS: [&[u32]; 5] = [
 ];
 
 /// Fills of so many classes.
-pub(crate) fn fills(classes: usize) -> impl Iterator<Item = Colour> {
-    let fills = FILLS[classes.clamp(1, FILLS.len()) - 1];
-    fills.iter().map(|&hex| Colour::new(hex))
-}
-
-/// Numbers of a name that has a colour.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(crate) struct Slot {
-    /// In the figure, by order of first appearance: colour and marker.
-    pub(crate) figure: usize,
-    /// The least number that no other name has in any panel where it appears: its dash, so that the first curve
-    /// of a panel is a whole line.
-    pub(crate) panel: usize,
+pub(crate) fn fills(classes: usize) -> &'static [u32] {
+    FILLS[classes.clamp(1, FILLS.len()) - 1]
 }
 
 /// What a curve is drawn with.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Look {
+    pub(crate) style: Style,
     pub(crate) stroke: Stroke,
-    pub(crate) line: bool,
-    pub(crate) marker: Marker,
-    /// Whether it has a white rim.
-    pub(crate) rim: bool,
-    /// Whether the area inside is lightly filled.
-    pub(crate) is_filled: bool,
-}
-
-/// What is drawn at the points of a curve.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Marker {
-    None,
-    /// A small dot.
-    Dot,
-    /// The n-th symbol.
-    Symbol(usize),
+    symbol: usize,
 }
 
 impl Look {
-    /// The look of a name in a style.
-    pub(crate) fn new(slot: Slot, style: Style) -> Self {
-        let own = Colour::new(COLOURS[slot.figure % COLOURS.len()]);
-        let dashed = DASHES[slot.panel % DASHES.len()];
-        let (colour, width, dash): (Colour, f64, &[f64]) = match style {
+    /// The look of a name in a style, from its number in the figure and the one that no other name has beside it.
+    pub(crate) fn new([number, beside]: [usize; 2], style: Style) -> Self {
+        let own = COLOURS[number % COLOURS.len()];
+        let dashed = DASHES[beside % DASHES.len()];
+        let (colour, width, dash): (u32, f64, &[f64]) = match style {
             Style::Marked | Style::Points => (own, 1.6, &[]),
             Style::Plain | Style::Bars => (own, 1.6, dashed),
             Style::Heavy => (BLACK, 2.6, &[]),
@@ -112,30 +87,29 @@ impl Look {
             Style::Rimmed => (BLACK, 1.4, &[6.0, 4.0]),
         };
         Self {
+            style,
             stroke: Stroke::new(colour, width, dash),
-            line: !matches!(style, Style::Points | Style::Dots),
-            marker: match style {
-                Style::Marked | Style::Points => Marker::Symbol(slot.figure),
-                Style::Dots => Marker::Dot,
-                _ => Marker::None,
-            },
-            rim: style == Style::Rimmed,
-            is_filled: style == Style::Bars,
+            symbol: number,
         }
+    }
+
+    /// Whether there is a line between its points.
+    pub(crate) fn has_line(&self) -> bool {
+        !matches!(self.style, Style::Points | Style::Dots)
     }
 
     /// Draws its marker at a point.
     pub(crate) fn mark(&self, scene: &mut Scene, at: Point) {
         let colour = self.stroke.colour;
-        match self.marker {
-            Marker::None => {}
-            Marker::Dot => scene.shape(Shape::circle(at, 1.6).filled(colour, 1.0)),
-            Marker::Symbol(index) => {
+        match self.style {
+            Style::Dots => scene.shape(Shape::circle(at, 1.6).filled(colour, 1.0)),
+            Style::Marked | Style::Points => {
                 // every other round of symbols is filled
-                let is_open = (index / SYMBOLS).is_multiple_of(2);
+                let is_open = (self.symbol / SYMBOLS).is_multiple_of(2);
                 let fill = if is_open { WHITE } else { colour };
-                symbol(scene, index % SYMBOLS, at, 4.2, [colour, fill]);
+                symbol(scene, self.symbol % SYMBOLS, at, 4.2, [colour, fill]);
             }
+            _ => {}
         }
     }
 }
@@ -149,7 +123,7 @@ pub(crate) fn star(scene: &mut Scene, at: Point, size: f64) {
 }
 
 /// Draws a symbol of half a width, with the colours of its outline and of its inside.
-fn symbol(scene: &mut Scene, index: usize, (x, y): Point, size: f64, [edge, fill]: [Colour; 2]) {
+fn symbol(scene: &mut Scene, index: usize, (x, y): Point, size: f64, [edge, fill]: [u32; 2]) {
     let at = |(dx, dy): Point| (x + dx * size, y + dy * size);
     let polygon = |corners: &[Point]| {
         let corners = corners.iter().copied().map(at);
@@ -179,27 +153,23 @@ fn symbol(scene: &mut Scene, index: usize, (x, y): Point, size: f64, [edge, fill
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::colour::ColourMap;
 
     #[test]
     fn curves_differ_in_grey() {
-        let nth = |n: usize, style: Style| {
-            let slot = Slot {
-                figure: n,
-                panel: n,
-            };
-            Look::new(slot, style)
-        };
+        let nth = |n: usize, style: Style| Look::new([n, n], style);
         for i in 0..COLOURS.len() {
             for k in 0..i {
                 let (a, b) = (nth(i, Style::Plain).stroke, nth(k, Style::Plain).stroke);
-                let apart = (a.colour.luminance() - b.colour.luminance()).abs();
+                let apart = (ColourMap::luminance(a.colour) - ColourMap::luminance(b.colour)).abs();
                 assert!(a.dash != b.dash || apart > 0.02, "{i} and {k}: {apart}");
-                assert_ne!(nth(i, Style::Marked).marker, nth(k, Style::Marked).marker);
+                assert_ne!(nth(i, Style::Marked).symbol, nth(k, Style::Marked).symbol);
             }
         }
         // classes grow darker
         for classes in 1..=FILLS.len() {
-            let light: Vec<f64> = fills(classes).map(Colour::luminance).collect();
+            let fills = fills(classes).iter().copied();
+            let light: Vec<f64> = fills.map(ColourMap::luminance).collect();
             assert!(light.windows(2).all(|pair| pair[1] < 0.8 * pair[0]));
         }
     }

@@ -1,9 +1,9 @@
 //! What is drawn, as a list: shapes, pictures and texts with their places. Every format is written from it.
 
-use crate::colour::{BLACK, Colour};
+use crate::colour::BLACK;
 use crate::font;
 use crate::geometry::{Point, Rect};
-use crate::text::{Run, runs};
+use crate::text::{Run, runs, width};
 
 /// A part of an outline.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,14 +18,14 @@ pub(crate) enum Segment {
 /// How an outline is drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Stroke {
-    pub(crate) colour: Colour,
+    pub(crate) colour: u32,
     pub(crate) width: f64,
     /// Lengths of dashes and gaps; empty for a whole line.
     pub(crate) dash: &'static [f64],
 }
 
 impl Stroke {
-    pub(crate) fn new(colour: Colour, width: f64, dash: &'static [f64]) -> Self {
+    pub(crate) fn new(colour: u32, width: f64, dash: &'static [f64]) -> Self {
         Self {
             colour,
             width,
@@ -33,7 +33,7 @@ impl Stroke {
         }
     }
 
-    pub(crate) fn solid(colour: Colour, width: f64) -> Self {
+    pub(crate) fn solid(colour: u32, width: f64) -> Self {
         Self::new(colour, width, &[])
     }
 }
@@ -43,7 +43,7 @@ impl Stroke {
 pub(crate) struct Shape {
     pub(crate) segments: Vec<Segment>,
     /// With an opacity: 1 hides what is below.
-    pub(crate) fill: Option<(Colour, f64)>,
+    pub(crate) fill: Option<(u32, f64)>,
     pub(crate) stroke: Option<Stroke>,
     /// Nothing is drawn outside.
     pub(crate) clip: Option<Rect>,
@@ -104,7 +104,7 @@ impl Shape {
         ])
     }
 
-    pub(crate) fn filled(mut self, colour: Colour, opacity: f64) -> Self {
+    pub(crate) fn filled(mut self, colour: u32, opacity: f64) -> Self {
         self.fill = Some((colour, opacity));
         self
     }
@@ -127,7 +127,7 @@ pub(crate) struct Picture {
     pub(crate) columns: u32,
     pub(crate) rows: u32,
     /// None where nothing is to be seen.
-    pub(crate) pixels: Vec<Option<Colour>>,
+    pub(crate) pixels: Vec<Option<u32>>,
 }
 
 /// Which point of a text is at its place, as a fraction of its width.
@@ -151,11 +151,10 @@ pub(crate) struct Text {
 impl Text {
     /// A text at a place on the line on which letters stand.
     pub(crate) fn new(markup: &str, (x, y): Point, size: f64, anchor: f64) -> Self {
-        let runs = runs(markup);
-        let width = size * runs.iter().map(Run::width).sum::<f64>();
+        let start = (x - anchor * width(markup, size), y);
         Self {
-            runs,
-            start: (x - anchor * width, y),
+            runs: runs(markup),
+            start,
             size,
             is_upward: false,
             has_rim: false,

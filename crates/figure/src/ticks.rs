@@ -1,6 +1,6 @@
 //! Ticks: round values whose labels fit beside one another, in a suitable multiple of the unit.
 
-use crate::axis::{Axis, Interval, Scale, Unit};
+use crate::axis::{Axis, Interval, Scale};
 use crate::text::{decimal, power_of_ten};
 
 /// Ticks of an axis.
@@ -12,13 +12,11 @@ pub(crate) struct Ticks {
     pub(crate) minor: Vec<f64>,
 }
 
-impl Ticks {
-    /// Ticks over an interval whose labels are values over `factor`.
-    pub(crate) fn new(interval: &Interval, factor: f64, room: &Room<'_>) -> Self {
-        match interval.scale {
-            Scale::Linear => linear(interval, factor, room),
-            Scale::Logarithmic => logarithmic(interval, factor, room),
-        }
+/// Ticks over an interval whose labels are values over `factor`.
+pub(crate) fn ticks(interval: &Interval, factor: f64, room: &Room<'_>) -> Ticks {
+    match interval.scale {
+        Scale::Linear => linear(interval, factor, room),
+        Scale::Logarithmic => logarithmic(interval, factor, room),
     }
 }
 
@@ -178,19 +176,18 @@ pub(crate) fn shown(axis: &Axis, interval: &Interval) -> (String, f64) {
         Scale::Linear | Scale::Logarithmic => 0,
     };
     let thousands = 3 * exponent.div_euclid(3);
-    let (exponent, unit) = match &axis.unit {
+    let unit = axis.unit.as_str();
+    let (exponent, unit) = match axis.has_prefixes {
         // tenths are read as they are, but for lengths: 120 mm
-        Unit::Si(unit) if exponent == -1 && unit != "m" => (0, unit.clone()),
-        Unit::Si(unit) => {
+        true if exponent == -1 && unit != "m" => (0, unit.to_owned()),
+        true => {
             let exponent = thousands.clamp(-24, 24);
             let prefix = PREFIXES[((exponent + 24) / 3) as usize];
             (exponent, format!("{prefix}{unit}"))
         }
-        Unit::One | Unit::Fixed(_) if (-3..5).contains(&exponent) => {
-            (0, axis.unit.name().to_owned())
-        }
-        Unit::One | Unit::Fixed(_) => {
-            let unit = format!("{} {}", power_of_ten(1, thousands), axis.unit.name());
+        false if (-3..5).contains(&exponent) => (0, unit.to_owned()),
+        false => {
+            let unit = format!("{} {unit}", power_of_ten(1, thousands));
             (thousands, unit.trim().to_owned())
         }
     };
@@ -214,7 +211,7 @@ mod tests {
             distance: 70.0,
             needs: &needs,
         };
-        Ticks::new(interval, factor, &room)
+        ticks(interval, factor, &room)
     }
 
     fn labels(low: f64, high: f64, factor: f64, length: f64) -> Vec<String> {

@@ -3,8 +3,8 @@
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
 use figure::{
-    Axis, Classes, ColourMap, Figure, Image, Interval, LabelledPoint, Layer, Line, Panel, Scale,
-    Style, to_pdf, to_png, to_svg,
+    Axis, Classes, ColourMap, Figure, Image, Interval, Layer, Line, Panel, Scale, Style, to_pdf,
+    to_png, to_svg,
 };
 use std::path::Path;
 use tiny_skia::{Pixmap, PremultipliedColorU8};
@@ -43,7 +43,7 @@ fn classes() -> Figure {
             .height(120.0)
             .layer(Layer::Classes(map))
             .line("front", Style::HeavyDashed, broken)
-            .layer(Layer::Point(LabelledPoint::new(1e5, 1e-2, "here"))),
+            .layer(Layer::star((1e5, 1e-2), "here")),
     )
 }
 

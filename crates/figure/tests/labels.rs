@@ -89,8 +89,8 @@ fn every_axis_and_mark_is_labelled() {
                 assert!(written.contains(first), "{name}: {first}");
             }
             for layer in &panel.layers {
-                if let Layer::Mark(mark) = layer {
-                    assert!(written.contains(&mark.label), "{name}: {}", mark.label);
+                if let Layer::Mark { label, .. } = layer {
+                    assert!(written.contains(label), "{name}: {label}");
                 }
             }
         }

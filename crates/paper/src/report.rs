@@ -61,12 +61,8 @@ impl Redone {
             let png = to_png(&redrawn.figure, SCALE).map_err(failed)?;
             files.push(NewFile::of(format!("{name}.svg"), svg));
             files.push(NewFile::of(format!("{name}.png"), png));
-            let (columns, points) = ("abscissa ordinate curve x y", points(&redrawn.figure));
-            files.push(csv_file(
-                &format!("{name}.csv"),
-                columns,
-                points.into_iter(),
-            )?);
+            let (csv, points) = (format!("{name}.csv"), points(&redrawn.figure));
+            files.push(csv_file(&csv, "abscissa ordinate curve x y", points)?);
         }
         Ok(folder.write(files)?)
     }
@@ -100,27 +96,17 @@ impl Redone {
             lines.push(String::new());
         }
         lines.push("### What no row can hold\n".to_owned());
-        lines.extend(
-            self.numbers
-                .remarks
-                .iter()
-                .map(|remark| format!("- {remark}")),
-        );
+        let remarks = self.numbers.remarks.iter();
+        lines.extend(remarks.map(|remark| format!("- {remark}")));
         lines.push("\n## Figures\n".to_owned());
-        for Redrawn {
-            name,
-            title,
-            caption,
-            claims,
-            ..
-        } in &self.figures
-        {
+        for figure in &self.figures {
+            let (name, title) = (figure.name, figure.title);
             lines.push(format!("### {title}\n\n![{title}]({name}.svg)\n"));
-            if !caption.is_empty() {
-                lines.push(format!("{caption}\n"));
+            if !figure.caption.is_empty() {
+                lines.push(format!("{}\n", figure.caption));
             }
             lines.push("| the paper says | holds | found here |\n|---|---|---|".to_owned());
-            lines.extend(claims.iter().map(|Claim { says, found, holds }| {
+            lines.extend(figure.claims.iter().map(|Claim { says, found, holds }| {
                 let holds = if *holds { "yes" } else { "no" };
                 format!("| {says} | {holds} | {found} |")
             }));
@@ -134,7 +120,7 @@ impl Redone {
 fn csv_file<const N: usize>(
     name: &str,
     columns: &str,
-    rows: impl Iterator<Item = [String; N]>,
+    rows: impl IntoIterator<Item = [String; N]>,
 ) -> Result<NewFile<'static>, OutputError> {
     let write = || {
         let mut writer = csv::Writer::from_writer(Vec::new());
@@ -157,8 +143,8 @@ fn points(figure: &Figure) -> Vec<[String; 5]> {
         for layer in &panel.layers {
             let (name, found) = match layer {
                 Layer::Line(line) => (line.name.as_str(), line.points.clone()),
-                Layer::Point(point) => ("printed in the paper", vec![(point.x, point.y)]),
-                Layer::Classes(_) | Layer::Image(_) | Layer::Mark(_) => continue,
+                Layer::Point { at, .. } => ("printed in the paper", vec![*at]),
+                Layer::Classes(_) | Layer::Image(_) | Layer::Mark { .. } => continue,
             };
             let names = [&panel.x.quantity, &panel.y.quantity, name];
             let [abscissa, ordinate, name] = names.map(str::to_owned);

@@ -59,11 +59,6 @@ impl Kind {
         let kinds = Self::ALL.iter().filter(|kind| kind.file() == file);
         kinds.map(|kind| kind.name()).collect()
     }
-
-    /// Whether instants can be chosen.
-    pub(crate) fn has_times(self) -> bool {
-        matches!(self, Self::Waves | Self::Axis)
-    }
 }
 
 impl fmt::Display for Kind {

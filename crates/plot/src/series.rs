@@ -43,11 +43,9 @@ pub(crate) fn end_s(time_s: &[f64], force_n: &[f64]) -> f64 {
 
 /// Speeds of the waves in the half-space of an impact, and when its force begins in s.
 pub(crate) fn waves_of(impact: &StoredImpact) -> Result<(WaveSpeeds, f64), PlotError> {
-    let speeds = WaveSpeeds::of(&impact.target)?;
-    Ok((
-        speeds,
-        onset_s(&impact.series.time_s, &impact.series.force_n),
-    ))
+    let series = &impact.series;
+    let start_s = onset_s(&series.time_s, &series.force_n);
+    Ok((WaveSpeeds::of(&impact.target)?, start_s))
 }
 
 #[cfg(test)]

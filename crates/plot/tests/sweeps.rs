@@ -123,7 +123,7 @@ fn draws_give_histograms_and_bands() {
     let marks = figure.panels[0]
         .layers
         .iter()
-        .filter(|l| matches!(l, Layer::Mark(_)));
+        .filter(|l| matches!(l, Layer::Mark { .. }));
     assert_eq!(marks.count(), 3);
     let path = sweep(folder.path(), "rv.h5", &format!("{VELOCITIES}{DRAWS}"));
     let figure = drawn(&path, &Request::default());

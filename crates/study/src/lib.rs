@@ -25,5 +25,5 @@ mod scenes;
 pub use chart::Chart;
 pub use measure::Effort;
 pub use picture::Picture;
-pub use record::{Error, Question, Record};
+pub use record::{Question, Record};
 pub use report::PICTURE_COLUMNS;

@@ -1,6 +1,6 @@
 //! How a method is measured: its error against what is exact, and the median time of repeated runs.
 
-use crate::record::{Error, Question, Record};
+use crate::record::{Question, Record, sizes};
 use fault::AnyError;
 use std::hint::black_box;
 use std::time::Instant;
@@ -98,6 +98,7 @@ impl<T> Scene<'_, T> {
         let work = work.map(|work| work as f64 / self.values);
         // tests look at errors and work, which are the same on every machine
         let [cost_ns, cost_spread_ns] = timed.unwrap_or([work.unwrap_or(f64::INFINITY), 0.0]);
+        let [error_max, error_rms] = sizes(&errors);
         let place = self.records.len();
         self.records.push(Record {
             question: self.question,
@@ -107,7 +108,8 @@ impl<T> Scene<'_, T> {
             default_path: false,
             cost_ns,
             cost_spread_ns,
-            error: Error::of(&errors),
+            error_max,
+            error_rms,
             work,
             refusal,
         });

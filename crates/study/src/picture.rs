@@ -2,7 +2,7 @@
 //! error against cost, one curve a method, the Pareto front drawn.
 
 use crate::record::{Question, Record, distinct, pareto_front};
-use figure::{Axis, Figure, Interval, LabelledPoint, Layer, Legend, Line, Mark, Panel, Style};
+use figure::{Axis, Figure, Layer, Legend, Panel, Style};
 
 /// A picture of the chart.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,21 +34,9 @@ impl Picture {
         }
     }
 
-    /// Adds a curve.
-    pub(crate) fn curve(&mut self, name: &str, style: Style, points: Vec<(f64, f64)>) {
-        let line = Line::new(name, style, points);
-        self.panel.layers.push(Layer::Line(line));
-    }
-
-    /// Adds a vertical line.
-    pub(crate) fn mark(&mut self, x: f64, label: &str) {
-        self.panel.layers.push(Layer::Mark(Mark::new(x, label)));
-    }
-
-    /// Adds a point with a label.
-    pub(crate) fn point(&mut self, (x, y): (f64, f64), label: &str) {
-        let point = LabelledPoint::new(x, y, label);
-        self.panel.layers.push(Layer::Point(point));
+    /// Adds a layer.
+    pub(crate) fn add(&mut self, layer: Layer) {
+        self.panel.layers.push(layer);
     }
 
     /// What is drawn.
@@ -68,18 +56,14 @@ impl Picture {
                     points.extend(line.points.iter().map(|&(x, y)| (&*line.name, x, y)));
                 }
                 Layer::Classes(map) => {
-                    let centres = |axis: &Axis, count| {
-                        let (low, high) = axis.range.unwrap_or((0.0, count as f64));
-                        let scale = axis.scale;
-                        Interval { scale, low, high }.cells(count)
-                    };
-                    let x = centres(&self.panel.x, map.shape[0]);
-                    let y = centres(&self.panel.y, map.shape[1]);
+                    let axes = [&self.panel.x, &self.panel.y].map(Axis::interval);
+                    let [x, y] = [0, 1].map(|k| axes[k].map(|axis| axis.cells(map.shape[k])));
+                    let (x, y) = x.zip(y).unwrap_or_default();
                     let cells = y.iter().flat_map(|&y| x.iter().map(move |&x| (x, y)));
                     let names = map.class.iter().map(|&class| &*map.names[class]);
                     points.extend(names.zip(cells).map(|(name, (x, y))| (name, x, y)));
                 }
-                Layer::Image(_) | Layer::Mark(_) | Layer::Point(_) => {}
+                Layer::Image(_) | Layer::Mark { .. } | Layer::Point { .. } => {}
             }
         }
         points
@@ -102,12 +86,12 @@ pub(crate) fn diagrams(records: &[Record]) -> Vec<Picture> {
 
 /// Cost and error of a record as they are drawn: errors below 1e-16 there.
 fn place(record: &Record) -> (f64, f64) {
-    (record.cost_ns, record.error.max.max(1e-16))
+    (record.cost_ns, record.error_max.max(1e-16))
 }
 
 /// The places that the frame holds.
 fn places(rows: &[&Record]) -> Vec<(f64, f64)> {
-    let shown = rows.iter().filter(|r| r.error.max < 2.0);
+    let shown = rows.iter().filter(|r| r.error_max < 2.0);
     shown.map(|r| place(r)).collect()
 }
 
@@ -146,9 +130,17 @@ fn diagram(question: Question, scene: &str, name: &'static str, rows: &[&Record]
         } else {
             Style::Marked
         };
-        figure.curve(&format!("{method}{default}{failures}"), style, places(&own));
+        figure.add(Layer::line(
+            &format!("{method}{default}{failures}"),
+            style,
+            places(&own),
+        ));
     }
-    figure.curve("Pareto front", Style::HeavyDashed, staircase(rows));
+    figure.add(Layer::line(
+        "Pareto front",
+        Style::HeavyDashed,
+        staircase(rows),
+    ));
     figure
 }
 

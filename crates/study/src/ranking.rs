@@ -50,17 +50,12 @@ impl Ranking<'_> {
     }
 
     fn words(&self, record: &Record) -> String {
-        let (place, method) = (
-            format!("{:.0e} in \"{}\"", self.level, self.scene),
-            record.method,
-        );
-        match self.own {
-            Some(own) => {
-                let times = own.cost_ns / record.cost_ns;
-                format!("{place} ({method} is {times:.1} times cheaper)")
-            }
-            None => format!("{place} (only {method} reaches it)"),
-        }
+        let (level, scene, method) = (self.level, self.scene, record.method);
+        let says = match self.own.map(|own| own.cost_ns / record.cost_ns) {
+            Some(times) => format!("{method} is {times:.1} times cheaper"),
+            None => format!("only {method} reaches it"),
+        };
+        format!("{level:.0e} in \"{scene}\" ({says})")
     }
 }
 
@@ -84,7 +79,7 @@ pub(crate) fn rankings(records: &[Record]) -> Vec<Ranking<'_>> {
 /// Of the rows of one scene, at one accuracy; none without rows.
 fn ranking<'a>(rows: &[&'a Record], level: f64) -> Option<Ranking<'a>> {
     let first = rows.first()?;
-    let reaches = |r: &&&Record| !r.failed() && r.error.max <= level && r.cost_ns.is_finite();
+    let reaches = |r: &&&Record| !r.failed() && r.error_max <= level && r.cost_ns.is_finite();
     let mut reached: Vec<&Record> = rows.iter().filter(reaches).copied().collect();
     reached.sort_by(|a, b| a.cost_ns.total_cmp(&b.cost_ns));
     let own = reached.iter().find(|r| r.default_path).copied();

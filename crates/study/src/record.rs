@@ -72,27 +72,13 @@ impl Question {
     }
 }
 
-/// Error of a method against the converged reference, relative to the largest value of each quantity.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Error {
-    /// Largest.
-    pub max: f64,
-    /// Root of the mean square.
-    pub rms: f64,
-}
-
-impl Error {
-    /// Of a list of relative errors; anything that is not a number is infinite.
-    #[must_use]
-    pub fn of(errors: &[f64]) -> Self {
-        let finite = |e: f64| if e.is_nan() { f64::INFINITY } else { e.abs() };
-        let max = errors.iter().fold(0.0_f64, |most, &e| most.max(finite(e)));
-        let squares: f64 = errors.iter().map(|&e| finite(e) * finite(e)).sum();
-        Self {
-            max,
-            rms: (squares / errors.len().max(1) as f64).sqrt(),
-        }
-    }
+/// The largest of relative errors, and the root of their mean square; anything that is not a number is infinite.
+#[must_use]
+pub(crate) fn sizes(errors: &[f64]) -> [f64; 2] {
+    let finite = |e: f64| if e.is_nan() { f64::INFINITY } else { e.abs() };
+    let max = errors.iter().fold(0.0_f64, |most, &e| most.max(finite(e)));
+    let squares: f64 = errors.iter().map(|&e| finite(e) * finite(e)).sum();
+    [max, (squares / errors.len().max(1) as f64).sqrt()]
 }
 
 /// A method has failed when its largest error is above this or is not a number.
@@ -115,8 +101,10 @@ pub struct Record {
     pub cost_ns: f64,
     /// Half the distance between the quartiles of the runs.
     pub cost_spread_ns: f64,
-    /// Error against the converged reference.
-    pub error: Error,
+    /// Largest error against the converged reference, relative to the largest value of each quantity.
+    pub error_max: f64,
+    /// Root of the mean square of these errors.
+    pub error_rms: f64,
     /// Work per value, where it is counted.
     pub work: Option<f64>,
     /// Why it failed, where it says so itself.
@@ -139,8 +127,8 @@ impl Record {
             self.default_path.to_string(),
             number(self.cost_ns),
             number(self.cost_spread_ns),
-            number(self.error.max),
-            number(self.error.rms),
+            number(self.error_max),
+            number(self.error_rms),
             self.work.map(number).unwrap_or_default(),
             self.failed().to_string(),
             self.refusal.clone().unwrap_or_default(),
@@ -150,7 +138,7 @@ impl Record {
     /// Whether the method gave no usable answer.
     #[must_use]
     pub fn failed(&self) -> bool {
-        self.refusal.is_some() || self.error.max > FAILED || self.error.max.is_nan()
+        self.refusal.is_some() || self.error_max > FAILED || self.error_max.is_nan()
     }
 }
 
@@ -160,13 +148,13 @@ impl Record {
 pub(crate) fn pareto_front<'a>(records: &[&'a Record]) -> Vec<&'a Record> {
     let mut front: Vec<&Record> = records.iter().filter(|r| !r.failed()).copied().collect();
     front.sort_by(|a, b| {
-        let errors = || a.error.max.total_cmp(&b.error.max);
+        let errors = || a.error_max.total_cmp(&b.error_max);
         a.cost_ns.total_cmp(&b.cost_ns).then_with(errors)
     });
     let mut best = f64::INFINITY;
     front.retain(|record| {
-        let better = record.error.max < best;
-        best = best.min(record.error.max);
+        let better = record.error_max < best;
+        best = best.min(record.error_max);
         better
     });
     front
@@ -198,7 +186,8 @@ mod tests {
                 default_path,
                 cost_ns: cost,
                 cost_spread_ns: 0.0,
-                error: Error::of(&[error]),
+                error_max: error,
+                error_rms: error,
                 work: None,
                 refusal: None,
             }

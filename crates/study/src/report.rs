@@ -45,12 +45,8 @@ impl Chart {
         pictures
             .flat_map(|picture| {
                 let row = |(name, x, y): (&str, f64, f64)| {
-                    [
-                        picture.name.into(),
-                        name.into(),
-                        x.to_string(),
-                        y.to_string(),
-                    ]
+                    let [x, y] = [x, y].map(|value| value.to_string());
+                    [picture.name.to_owned(), name.to_owned(), x, y]
                 };
                 picture.points().into_iter().map(row)
             })
@@ -152,10 +148,8 @@ fn answer(chart: &Chart, question: Question, rankings: &[&Ranking<'_>]) -> [Stri
     let (coarse, fine) = (cheapest(1e-3), cheapest(1e-6));
     let first = format!("The cheapest for an error of 1e-3 is {coarse}; for 1e-6 it is {fine}.");
     let reached: Vec<_> = rankings.iter().filter(|s| s.best.is_some()).collect();
-    let (on, of) = (
-        reached.iter().filter(|s| s.on_front()).count(),
-        reached.len(),
-    );
+    let (on, of) = (reached.iter().filter(|s| s.on_front()), reached.len());
+    let on = on.count();
     let off: Vec<String> = reached.iter().filter_map(|s| s.first_ahead()).collect();
     let second = if off.is_empty() {
         format!(
@@ -206,7 +200,7 @@ fn failures(records: &[Record]) -> Vec<String> {
     ];
     lines.extend(records.iter().filter(|r| r.failed()).map(|r| {
         let (question, says) = (r.question.name(), r.refusal.as_deref().unwrap_or(""));
-        let (scene, method, setting, error) = (r.scene, r.method, &r.setting, r.error.max);
+        let (scene, method, setting, error) = (r.scene, r.method, &r.setting, r.error_max);
         format!("| {question} | {scene} | {method} | {setting} | {error:.1e} | {says} |")
     }));
     lines

@@ -8,6 +8,7 @@ use contact::{
     FixedDisc, Model, StaticShare, Summary, march_explicit, march_growing, march_implicit,
 };
 use halfspace::Medium;
+use impact::{HalfSpace, Impact, Material, Striker};
 use std::f64::consts::PI;
 use study::map::kernels::{
     closed_form_error, deep_static_error, double_root_error, double_root_own_error,
@@ -18,8 +19,7 @@ use study::map::marches::{
     linear_growth, paper_disc, paper_response,
 };
 use study::map::models::{
-    Plane, SPEEDS_M_S, TOLERANCES, ball_impact, disc_at, disc_chosen, disc_errors, place_of,
-    targets,
+    Plane, SPEEDS_M_S, TOLERANCES, disc_at, disc_chosen, disc_errors, place_of, targets,
 };
 
 #[test]
@@ -355,6 +355,9 @@ fn auto_agrees_with_the_map_of_the_papers_disc() {
 fn built_in_materials_lie_where_auto_finds_them() {
     // a scene run through `auto` takes the model that the map shows at its place
     let plane = Plane::new(0.29).unwrap();
+    let steel = || Material::named("steel").unwrap();
+    let block = HalfSpace::new(steel()).unwrap();
+    let ball = Striker::ball(steel(), 0.005).unwrap();
     let names = targets();
     assert!(names.len() >= 40 && names.iter().any(|n| n == "steel"));
     for speed in SPEEDS_M_S {
@@ -364,7 +367,7 @@ fn built_in_materials_lie_where_auto_finds_them() {
             "steel on steel shares evenly: {share}"
         );
         for tolerance in TOLERANCES {
-            let impact = ball_impact("steel", speed, tolerance).unwrap();
+            let impact = Impact::new(block.clone(), ball.clone(), speed).to_tolerance(tolerance);
             let model = impact.solve().unwrap().solved.plan.model;
             let expected = match plane.chosen(share, memory, tolerance) {
                 Rung::QuasiStatic => Model::Hertz,

@@ -1,10 +1,7 @@
 //! Curves: histories, convergence, classes, histograms.
 
 use crate::waves::{even, pulse};
-use figure::{
-    Axis, Classes, Figure, Interval, LabelledPoint, Layer, Legend, Line, Panel, Scale, Sharing,
-    Style,
-};
+use figure::{Axis, Classes, Figure, Interval, Layer, Legend, Line, Panel, Scale, Sharing, Style};
 
 /// Panels over one time axis, with an error band and arrivals.
 pub(crate) fn histories() -> Figure {
@@ -126,13 +123,9 @@ pub(crate) fn classes() -> Figure {
             .layer(Layer::Classes(map))
             .line("auto leaves hertz", Style::Heavy, line(1e-4))
             .line("auto leaves radiation", Style::HeavyDashed, line(1e-3))
-            .layer(Layer::Point(LabelledPoint::new(0.12, 0.08, "paper's case")))
-            .layer(Layer::Point(LabelledPoint::new(
-                0.14,
-                0.09,
-                "the same at 129 GPa",
-            )))
-            .layer(Layer::Point(LabelledPoint::new(0.98, 2.4, "corner"))),
+            .layer(Layer::star((0.12, 0.08), "paper's case"))
+            .layer(Layer::star((0.14, 0.09), "the same at 129 GPa"))
+            .layer(Layer::star((0.98, 2.4), "corner")),
         )
 }
 

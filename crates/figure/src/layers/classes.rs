@@ -1,10 +1,10 @@
 //! A map of a few classes.
 
-use super::{Colours, Kind, Swatch, count};
+use super::{Swatch, count};
 use crate::axis::Interval;
 use crate::error::FigureError;
-use crate::geometry::{Frame, Point, Rect};
-use crate::look::{Slot, fills};
+use crate::geometry::Rect;
+use crate::look::fills;
 use crate::scene::{Scene, Shape};
 
 /// A few classes on a regular grid of cells that fills the panel, at most five.
@@ -37,34 +37,28 @@ impl Classes {
             names: names.iter().map(|&name| name.to_owned()).collect(),
         }
     }
-}
 
-impl Kind for Classes {
-    fn check(&self, panel: usize) -> Result<(), FigureError> {
+    pub(super) fn check(&self, panel: usize) -> Result<(), FigureError> {
         let [columns, rows] = self.shape;
         count(panel, "cells of classes", columns * rows, self.class.len())
     }
 
-    /// None: they fill whatever the panel shows.
-    fn places(&self) -> Vec<Point> {
-        Vec::new()
-    }
-
-    fn swatches(&self, _: Slot) -> Vec<(&str, Swatch)> {
-        let fills = fills(self.names.len()).map(Swatch::Fill);
+    pub(super) fn swatches(&self) -> Vec<(&str, Swatch)> {
+        let fills = fills(self.names.len())
+            .iter()
+            .map(|&fill| Swatch::Fill(fill));
         self.names.iter().map(String::as_str).zip(fills).collect()
     }
 
     /// One shape a class, each over the lighter ones: it covers the cells of its own class and of all darker ones, so
     /// that no background shines through where two classes meet.
-    fn draw(&self, scene: &mut Scene, frame: &Frame, _: Option<&Colours>, _: Slot) {
+    pub(super) fn draw(&self, scene: &mut Scene, area: Rect) {
         let [columns, rows] = self.shape;
         if columns == 0 || rows == 0 {
             return;
         }
-        let area = frame.area;
         let (width, height) = (area.width() / columns as f64, area.height() / rows as f64);
-        for (least, colour) in fills(self.names.len()).enumerate() {
+        for (least, &colour) in fills(self.names.len()).iter().enumerate() {
             let mut shape = Shape::default();
             for (row, cells) in self.class.chunks(columns).enumerate() {
                 let bottom = area.bottom - height * row as f64;

@@ -1,7 +1,7 @@
 //! Which values get the colours at the ends of a map.
 
 use crate::axis::{Axis, Interval, Scale};
-use crate::colour::{Colour, ColourMap};
+use crate::colour::ColourMap;
 use crate::layers::Image;
 
 /// What the colours of some images mean.
@@ -16,9 +16,13 @@ pub(crate) struct Colours {
 
 impl Colours {
     /// Those of the first image, for the values of all; none without an image.
-    pub(crate) fn of(images: &[&Image]) -> Option<Self> {
-        let first = images.first()?;
-        let values = || images.iter().flat_map(|image| image.values.iter().copied());
+    pub(crate) fn of<'a>(images: &(impl Iterator<Item = &'a Image> + Clone)) -> Option<Self> {
+        let first = images.clone().next()?;
+        let values = || {
+            images
+                .clone()
+                .flat_map(|image| image.values.iter().copied())
+        };
         let limits = limits(&first.colours, first.map, values());
         let shown = || values().filter(|value| limits.scale.shows(*value));
         Some(Self {
@@ -33,7 +37,7 @@ impl Colours {
     }
 
     /// The colour of a value; none for one that is not shown.
-    pub(crate) fn of_value(&self, value: f64) -> Option<Colour> {
+    pub(crate) fn of_value(&self, value: f64) -> Option<u32> {
         let is_shown = self.limits.scale.shows(value) || value.is_infinite() && value > 0.0;
         is_shown.then(|| self.map.at(self.limits.fraction(value)))
     }
@@ -49,15 +53,13 @@ fn limits(axis: &Axis, map: ColourMap, values: impl Iterator<Item = f64>) -> Int
     };
     let all = || Interval::around(scale, values).map(|found| (found.low, found.high));
     let (a, b) = axis.range.or_else(all).unwrap_or_default();
-    let size = a.abs().max(b.abs());
-    let (low, high) = match map {
-        ColourMap::Diverging => (-size, size),
-        ColourMap::Sequential => (a.min(b), a.max(b)),
+    let found = match map {
+        ColourMap::Diverging => Interval::linear(-a.abs().max(b.abs()), a.abs().max(b.abs())),
+        ColourMap::Sequential => Interval::new(scale, a.min(b), a.max(b)),
     };
-    let found = Interval::new(scale, low, high);
     match scale {
-        Scale::Logarithmic if low <= 0.0 => Interval::logarithmic(1.0, 1.0).with_air(0.0),
-        _ if low < high => found,
+        Scale::Logarithmic if found.low <= 0.0 => Interval::logarithmic(1.0, 1.0).with_air(0.0),
+        _ if found.low < found.high => found,
         // one value only, or none
         Scale::Linear | Scale::Logarithmic => found.with_air(0.0),
     }

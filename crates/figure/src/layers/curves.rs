@@ -1,11 +1,10 @@
 //! Curves: lines, points, the bars of a histogram, and the bands around them.
 
-use super::{Kind, Swatch};
+use super::Swatch;
 use crate::axis::{Interval, Scale};
 use crate::colour::WHITE;
 use crate::geometry::{Frame, Point, Rect};
-use crate::layers::Colours;
-use crate::look::{Look, Slot, Style};
+use crate::look::{Look, Style};
 use crate::scene::{Scene, Shape, Stroke};
 
 /// How much a band hides.
@@ -91,29 +90,14 @@ impl Line {
             }
         }
     }
-}
 
-/// Draws a line through points in pixels, over its rim or the light filling of its bars, which lie over one another.
-pub(crate) fn draw_run(scene: &mut Scene, run: &[Point], look: &Look, clip: Rect) {
-    if look.is_filled {
-        let fill = Shape::polygon(run).filled(look.stroke.colour, 0.18);
-        scene.shape(fill.clipped(clip));
-    }
-    if look.rim {
-        let rim = Stroke::solid(WHITE, look.stroke.width + 2.4);
-        scene.shape(Shape::polyline(run, rim).clipped(clip));
-    }
-    scene.shape(Shape::polyline(run, look.stroke).clipped(clip));
-}
-
-impl Kind for Line {
-    fn places(&self) -> Vec<Point> {
+    pub(super) fn places(&self) -> Vec<Point> {
         let [lower, upper] = self.edges();
         [lower, upper, self.points.clone()].concat()
     }
 
     /// Whole bars, not only their tops.
-    fn curves(&self, frame: &Frame) -> Vec<Vec<Point>> {
+    pub(super) fn curves(&self, frame: &Frame) -> Vec<Vec<Point>> {
         let points = self.standing(frame);
         let mut curves = self.edges().to_vec();
         if self.style == Style::Bars {
@@ -124,18 +108,18 @@ impl Kind for Line {
         curves
     }
 
-    fn swatches(&self, slot: Slot) -> Vec<(&str, Swatch)> {
+    pub(super) fn swatch(&self, numbers: [usize; 2]) -> Swatch {
         let has_band = !self.band.is_empty();
-        let look = Look::new(slot, self.style);
-        vec![(&self.name, Swatch::Curve { look, has_band })]
+        let look = Look::new(numbers, self.style);
+        Swatch::Curve { look, has_band }
     }
 
-    fn draw(&self, scene: &mut Scene, frame: &Frame, _: Option<&Colours>, slot: Slot) {
-        let look = Look::new(slot, self.style);
+    pub(super) fn draw(&self, scene: &mut Scene, frame: &Frame, numbers: [usize; 2]) {
+        let look = Look::new(numbers, self.style);
         self.draw_band(scene, frame, &look);
         for points in frame.sides(&self.standing(frame)) {
             let runs = frame.runs(&points);
-            for run in runs.iter().filter(|run| look.line && run.len() > 1) {
+            for run in runs.iter().filter(|run| look.has_line() && run.len() > 1) {
                 draw_run(scene, run, &look, frame.area);
             }
             for &at in runs.iter().flatten() {
@@ -146,6 +130,19 @@ impl Kind for Line {
             }
         }
     }
+}
+
+/// Draws a line through points in pixels, over its rim or the light filling of its bars, which lie over one another.
+pub(crate) fn draw_run(scene: &mut Scene, run: &[Point], look: &Look, clip: Rect) {
+    if look.style == Style::Bars {
+        let fill = Shape::polygon(run).filled(look.stroke.colour, 0.18);
+        scene.shape(fill.clipped(clip));
+    }
+    if look.style == Style::Rimmed {
+        let rim = Stroke::solid(WHITE, look.stroke.width + 2.4);
+        scene.shape(Shape::polyline(run, rim).clipped(clip));
+    }
+    scene.shape(Shape::polyline(run, look.stroke).clipped(clip));
 }
 
 #[cfg(test)]

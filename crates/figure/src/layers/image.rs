@@ -1,12 +1,11 @@
 //! A field as colours.
 
-use super::{Colours, Kind, count};
+use super::{Colours, count};
 use crate::axis::Axis;
 use crate::colour::ColourMap;
 use crate::error::FigureError;
 use crate::geometry::{Frame, Point};
-use crate::look::Slot;
-use crate::scene::{Item, Picture, Scene};
+use crate::scene::Picture;
 
 /// A field on a grid, which need not be even.
 #[derive(Debug, Clone, PartialEq)]
@@ -40,10 +39,9 @@ impl Image {
 
     /// The field at a place; NaN outside its grid.
     fn at(&self, x: f64, y: f64) -> f64 {
-        let (Some((i, a)), Some((k, b))) = (
-            locate(&self.x, x, self.has_cells),
-            locate(&self.y, y, self.has_cells),
-        ) else {
+        let across = locate(&self.x, x, self.has_cells);
+        let place = across.zip(locate(&self.y, y, self.has_cells));
+        let Some(((i, a), (k, b))) = place else {
             return f64::NAN;
         };
         let node = |i: usize, k: usize| self.values[k * self.x.len() + i];
@@ -52,7 +50,7 @@ impl Image {
     }
 
     /// A pixel for every place of the plot, so that uneven grids, logarithmic axes and mirrors need nothing else.
-    fn pixels(&self, frame: &Frame, colours: &Colours) -> Picture {
+    pub(super) fn pixels(&self, frame: &Frame, colours: &Colours) -> Picture {
         /// Pixels of the image for each pixel of the canvas.
         const FINE: f64 = 2.0;
         /// Most pixels along a side.
@@ -74,10 +72,8 @@ impl Image {
             pixels: places.map(|(column, row)| at(column, row)).collect(),
         }
     }
-}
 
-impl Kind for Image {
-    fn check(&self, panel: usize) -> Result<(), FigureError> {
+    pub(super) fn check(&self, panel: usize) -> Result<(), FigureError> {
         for (side, nodes) in [("x", &self.x), ("y", &self.y)] {
             let rising = nodes.windows(2).all(|pair| pair[0] < pair[1]);
             if nodes.is_empty() || !rising || nodes.iter().any(|n| !n.is_finite()) {
@@ -90,18 +86,9 @@ impl Kind for Image {
     }
 
     /// Two opposite corners of what it covers.
-    fn places(&self) -> Vec<Point> {
+    pub(super) fn corners(&self) -> Vec<Point> {
         let [x, y] = [&self.x, &self.y].map(|nodes| extent(nodes, self.has_cells));
         vec![(x.0, y.0), (x.1, y.1)]
-    }
-
-    fn curves(&self, _: &Frame) -> Vec<Vec<Point>> {
-        Vec::new()
-    }
-
-    fn draw(&self, scene: &mut Scene, frame: &Frame, colours: Option<&Colours>, _: Slot) {
-        let picture = colours.map(|colours| self.pixels(frame, colours));
-        scene.items.extend(picture.map(Item::Picture));
     }
 }
 
@@ -169,13 +156,13 @@ mod tests {
             assert!((image.at(x, y) - (x + 10.0 * y)).abs() < 1e-12, "{x} {y}");
         }
         assert!(image.at(3.1, 0.0).is_nan() && image.at(0.0, -0.1).is_nan());
-        assert_eq!(image.places(), [(0.0, 0.0), (3.0, 2.0)]);
+        assert_eq!(image.corners(), [(0.0, 0.0), (3.0, 2.0)]);
     }
 
     #[test]
     fn cells_reach_half_way_to_their_neighbours() {
         let image = plane(true);
-        assert_eq!(image.places(), [(-0.5, -1.0), (4.0, 3.0)]);
+        assert_eq!(image.corners(), [(-0.5, -1.0), (4.0, 3.0)]);
         for (x, node) in [
             (-0.4, 0.0),
             (0.4, 0.0),

@@ -1,27 +1,24 @@
 //! What a panel shows, one kind of layer a file: what it is, and how it is drawn.
 //!
-//! Begin with [`Kind`], which is what all of them can be asked; `curves` has lines with their bands and histograms,
-//! `labels` what is only written, `colours` what the colours of an image mean.
+//! Begin with [`Layer`]; `curves` has lines with their bands and histograms, `colours` what the colours of an image
+//! mean.
 
 mod classes;
 mod colours;
 mod curves;
 mod image;
-mod labels;
 
 pub use classes::Classes;
 pub use curves::Line;
 pub use image::Image;
-pub use labels::{LabelledPoint, Mark};
 
 pub(crate) use colours::Colours;
 pub(crate) use curves::{BAND, draw_run};
 
-use crate::colour::Colour;
 use crate::error::FigureError;
 use crate::geometry::{Frame, Point};
-use crate::look::{Look, Slot};
-use crate::scene::Scene;
+use crate::look::{Look, Style};
+use crate::scene::{Item, Scene};
 
 /// One layer of a panel; later ones lie over earlier ones.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,53 +29,119 @@ pub enum Layer {
     Image(Image),
     /// A few classes on a regular grid of cells.
     Classes(Classes),
-    /// A vertical line with a label above the panel.
-    Mark(Mark),
-    /// A point with a label beside it.
-    Point(LabelledPoint),
+    /// A vertical line with a label above the panel: an arrival, the end of validity.
+    Mark {
+        /// Its place; not drawn outside the axis.
+        x: f64,
+        /// What is written above it.
+        label: String,
+    },
+    /// A point with a label; not drawn outside the axes.
+    Point {
+        /// Its place on both axes.
+        at: (f64, f64),
+        /// What is written at it.
+        label: String,
+        /// Whether a star stands there; otherwise the label itself does, the name of a curve or of a region.
+        is_starred: bool,
+    },
 }
 
 impl Layer {
-    pub(crate) fn kind(&self) -> &dyn Kind {
-        match self {
-            Self::Line(line) => line,
-            Self::Image(image) => image,
-            Self::Classes(classes) => classes,
-            Self::Mark(mark) => mark,
-            Self::Point(point) => point,
+    /// A curve without a band.
+    pub fn line(name: &str, style: Style, points: Vec<(f64, f64)>) -> Self {
+        Self::Line(Line::new(name, style, points))
+    }
+
+    /// A vertical line.
+    pub fn mark(x: f64, label: &str) -> Self {
+        let label = label.to_owned();
+        Self::Mark { x, label }
+    }
+
+    /// A star with a label beside it.
+    pub fn star(at: (f64, f64), label: &str) -> Self {
+        Self::point(at, label, true)
+    }
+
+    /// A label alone, on the point or near it.
+    pub fn text(at: (f64, f64), label: &str) -> Self {
+        Self::point(at, label, false)
+    }
+
+    fn point(at: (f64, f64), label: &str, is_starred: bool) -> Self {
+        Self::Point {
+            at,
+            label: label.to_owned(),
+            is_starred,
         }
     }
-}
 
-/// What every kind of layer can be asked; each answers what concerns it.
-pub(crate) trait Kind {
     /// Whether it can be drawn in the panel of a number.
-    fn check(&self, _panel: usize) -> Result<(), FigureError> {
-        Ok(())
+    pub(crate) fn check(&self, panel: usize) -> Result<(), FigureError> {
+        match self {
+            Self::Image(image) => image.check(panel),
+            Self::Classes(classes) => classes.check(panel),
+            Self::Line(_) | Self::Mark { .. } | Self::Point { .. } => Ok(()),
+        }
     }
 
     /// Every place that an automatic axis has to hold; what has no x or y of its own gives NaN for it.
-    fn places(&self) -> Vec<Point>;
+    pub(crate) fn places(&self) -> Vec<Point> {
+        match self {
+            Self::Line(line) => line.places(),
+            Self::Image(image) => image.corners(),
+            // they fill whatever the panel shows
+            Self::Classes(_) => Vec::new(),
+            Self::Mark { x, .. } => vec![(*x, f64::NAN)],
+            Self::Point { at, .. } => vec![*at],
+        }
+    }
 
     /// What of it must stay readable in a frame, as curves.
-    fn curves(&self, _frame: &Frame) -> Vec<Vec<Point>> {
-        vec![self.places()]
+    pub(crate) fn curves(&self, frame: &Frame) -> Vec<Vec<Point>> {
+        match self {
+            Self::Line(line) => line.curves(frame),
+            Self::Image(_) | Self::Classes(_) => Vec::new(),
+            Self::Mark { x, .. } => vec![vec![(*x, frame.y.low), (*x, frame.y.high)]],
+            Self::Point { .. } => vec![self.places()],
+        }
     }
 
     /// Its names in the legend with their samples.
-    fn swatches(&self, _slot: Slot) -> Vec<(&str, Swatch)> {
-        Vec::new()
+    pub(crate) fn swatches(&self, numbers: [usize; 2]) -> Vec<(&str, Swatch)> {
+        match self {
+            Self::Line(line) => vec![(&line.name, line.swatch(numbers))],
+            Self::Classes(classes) => classes.swatches(),
+            Self::Image(_) | Self::Mark { .. } | Self::Point { .. } => Vec::new(),
+        }
     }
 
     /// Draws it, an image in the colours of its panel; labels come later, over everything else.
-    fn draw(&self, _: &mut Scene, _: &Frame, _: Option<&Colours>, _: Slot) {}
+    pub(crate) fn draw(
+        &self,
+        scene: &mut Scene,
+        frame: &Frame,
+        colours: Option<&Colours>,
+        numbers: [usize; 2],
+    ) {
+        match self {
+            Self::Line(line) => line.draw(scene, frame, numbers),
+            Self::Image(image) => {
+                let picture = colours.map(|colours| image.pixels(frame, colours));
+                scene.items.extend(picture.map(Item::Picture));
+            }
+            Self::Classes(classes) => classes.draw(scene, frame.area),
+            Self::Mark { .. } | Self::Point { .. } => {}
+        }
+    }
 }
 
 /// The sample beside a name.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Swatch {
     /// A class.
-    Fill(Colour),
+    Fill(u32),
     /// A curve, or the bars of a histogram.
     Curve { look: Look, has_band: bool },
 }

@@ -1,12 +1,11 @@
 //! The two axes of a panel: ticks, numbers and labels, fitted and drawn.
 
 use super::plan::{AxisPlan, PanelPlan};
-use crate::axis::{Axis, Interval};
 use crate::colour::{BLACK, GRID};
 use crate::geometry::Frame;
 use crate::scene::{END, MIDDLE, Scene, Shape, Stroke, Text};
 use crate::text::{LINE, Typeface, width as width_of, wrap};
-use crate::ticks::{Room, Ticks, shown};
+use crate::ticks::{Room, Ticks, shown, ticks};
 
 /// Pixels on each side of a plot.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -30,26 +29,20 @@ pub(super) struct FittedAxis {
 }
 
 impl FittedAxis {
-    pub(super) fn new(axis: &Axis, interval: &Interval, room: &Room<'_>, faces: &Typeface) -> Self {
-        let (label, factor) = shown(axis, interval);
-        let ticks = Ticks::new(interval, factor, room);
+    /// Of a panel, which may leave writing to another one, or of colours.
+    pub(super) fn new(plan: &AxisPlan<'_>, room: &Room<'_>, faces: &Typeface) -> Self {
+        let (label, factor) = shown(plan.axis, &plan.interval);
+        let ticks = ticks(&plan.interval, factor, room);
         let widths = ticks.major.iter().map(|tick| width_of(&tick.1, faces.tick));
         Self {
             numbers: widths.fold(0.0, f64::max),
             ticks,
-            label: wrap(&label, faces.label, room.length),
-            labelled: true,
+            label: match plan.labelled {
+                true => wrap(&label, faces.label, room.length),
+                false => Vec::new(),
+            },
+            labelled: plan.labelled,
         }
-    }
-
-    /// Of a panel, which may leave writing to another one.
-    fn of(plan: &AxisPlan<'_>, room: &Room<'_>, faces: &Typeface) -> Self {
-        let mut fitted = Self::new(plan.axis, &plan.interval, room, faces);
-        fitted.labelled = plan.labelled;
-        if !plan.labelled {
-            fitted.label.clear();
-        }
-        fitted
     }
 
     /// Places of all ticks, with their lengths.
@@ -86,9 +79,10 @@ impl Axes {
             distance: 3.6 * faces.tick,
             needs: &|_| LINE * faces.tick,
         };
+        let [x, y] = &plan.axes;
         Self {
-            x: FittedAxis::of(&plan.x, &beside, faces),
-            y: FittedAxis::of(&plan.y, &above, faces),
+            x: FittedAxis::new(x, &beside, faces),
+            y: FittedAxis::new(y, &above, faces),
         }
     }
 
@@ -106,7 +100,7 @@ impl Axes {
             // how far the numbers at the ends reach beyond the nearer end of the axis
             let ends = [self.x.ticks.major.first(), self.x.ticks.major.last()].map(|tick| {
                 tick.map_or(0.0, |(value, label)| {
-                    let fraction = plan.x.interval.fraction(*value);
+                    let fraction = plan.axes[0].interval.fraction(*value);
                     let inside = width * fraction.min(1.0 - fraction);
                     (0.5 * width_of(label, faces.tick) - inside).max(0.0)
                 })

@@ -4,46 +4,38 @@ use super::axes::{Axes, Needs};
 use super::bar::Bar;
 use super::labels::{self, Label};
 use super::legend::{Legend, Place};
-use super::plan::{AxisPlan, PanelPlan, plan};
+use super::plan::{PanelPlan, plan};
 use crate::colour::WHITE;
 use crate::error::FigureError;
 use crate::figure::Figure;
 use crate::geometry::{Frame, Rect};
-use crate::scene::{MIDDLE, START, Scene, Shape, Text};
+use crate::scene::{Item, MIDDLE, START, Scene, Shape, Text};
 use crate::text::{LINE, Typeface, wrap};
 
 /// Everything that a figure shows, with places in pixels.
 pub(crate) fn draw(figure: &Figure) -> Result<Scene, FigureError> {
     figure.check()?;
-    let layout = lay_out(figure);
-    let mut scene = Scene {
-        width: layout.width,
-        height: layout.height,
-        plots: layout.panels.iter().map(|(.., frame)| frame.area).collect(),
-        items: Vec::new(),
+    let faces = Typeface::new(figure.text);
+    let plans = plan(figure);
+    let first = plans.first().filter(|_| figure.has_common_bar);
+    let common = first.and_then(|plan| plan.colours.as_ref());
+    // a bar needs the width of its numbers, which depend on the height, which depends on the width
+    let mut reserved = 0.0;
+    let (mut scene, panels, bar) = loop {
+        let (scene, panels) = arrange(figure, &plans, &faces, reserved);
+        let plots = plots(&panels);
+        match common.map(|colours| Bar::new(colours, plots.height(), &faces)) {
+            Some(bar) if bar.width > reserved => reserved = bar.width,
+            bar => break (scene, panels, bar.map(|bar| (bar, plots))),
+        }
     };
-    let canvas = Rect::new(0.0, 0.0, layout.width, layout.height);
-    scene.shape(Shape::rectangle(canvas).filled(WHITE, 1.0));
-    heading(&mut scene, &layout);
-    for panel in &layout.panels {
-        draw_panel(&mut scene, panel, &layout.faces);
+    for panel in &panels {
+        draw_panel(&mut scene, panel, &faces);
     }
-    if let Some((bar, plots)) = &layout.bar {
-        bar.draw(&mut scene, *plots, &layout.faces);
+    if let Some((bar, plots)) = bar {
+        bar.draw(&mut scene, plots, &faces);
     }
     Ok(scene)
-}
-
-/// Title and the line below it.
-fn heading(scene: &mut Scene, layout: &Layout<'_>) {
-    let faces = &layout.faces;
-    let mut top = PAD;
-    let titles = layout.title.iter().map(|line| (line, faces.title));
-    let subtitles = layout.subtitle.iter().map(|line| (line, faces.subtitle));
-    for (line, size) in titles.chain(subtitles) {
-        scene.text(Text::new(line, (PAD, top + size), size, START));
-        top += Typeface::lines(size, 1);
-    }
 }
 
 fn draw_panel(
@@ -51,16 +43,16 @@ fn draw_panel(
     (plan, fitted, frame): &(PanelPlan<'_>, Fitted, Frame),
     faces: &Typeface,
 ) {
-    if !plan.is_filled() {
+    if !plan.panel.is_filled() {
         fitted.axes.draw_grid(scene, frame);
     }
-    for (layer, &slot) in plan.panel.layers.iter().zip(&plan.slots) {
-        let colours = plan.colours.as_ref();
-        layer.kind().draw(scene, frame, colours, slot);
+    for (layer, &numbers) in plan.panel.layers.iter().zip(&plan.numbers) {
+        layer.draw(scene, frame, plan.colours.as_ref(), numbers);
     }
     labels::draw_marks(scene, plan, frame, &fitted.marks, faces);
     fitted.axes.draw(scene, frame, faces);
-    let mut line = frame.area.top - faces.gap() - Typeface::lines(faces.mark, fitted.mark_rows);
+    let mark_rows = labels::rows(&fitted.marks);
+    let mut line = frame.area.top - faces.gap() - Typeface::lines(faces.mark, mark_rows);
     for title in fitted.title.iter().rev() {
         let at = (frame.area.centre().0, line - 0.2 * faces.panel);
         scene.text(Text::new(title, at, faces.panel, MIDDLE));
@@ -77,103 +69,99 @@ fn draw_panel(
     }
 }
 
-/// Everything with its place.
-struct Layout<'a> {
-    width: f64,
-    height: f64,
-    faces: Typeface,
-    /// Lines of the title and of the line below it.
-    title: Vec<String>,
-    subtitle: Vec<String>,
-    /// Each panel, what is around its plot, and the plot.
-    panels: Vec<(PanelPlan<'a>, Fitted, Frame)>,
-    /// The common colour bar and the area of all plots at its left.
-    bar: Option<(Bar, Rect)>,
-}
-
-/// Lays a figure out.
-fn lay_out(figure: &Figure) -> Layout<'_> {
-    let mut layout = arrange(figure, 0.0);
-    if !figure.has_common_bar {
-        return layout;
-    }
-    let colours = layout
-        .panels
-        .first()
-        .and_then(|(plan, ..)| plan.colours.clone());
-    let Some(colours) = colours else {
-        return layout;
-    };
-    // a bar needs the width of its numbers, which depend on the height, which depends on the width
-    let mut reserved = 0.0;
-    loop {
-        let plots = plots(&layout.panels);
-        let bar = Bar::new(&colours, plots.height(), &layout.faces);
-        if bar.width <= reserved {
-            layout.width += reserved;
-            layout.bar = Some((bar, plots));
-            return layout;
-        }
-        reserved = bar.width;
-        layout = arrange(figure, reserved);
-    }
-}
-
-/// Lays everything out but the common colour bar, which gets a width at the right.
-fn arrange(figure: &Figure, bar: f64) -> Layout<'_> {
-    let faces = Typeface::new(figure.text);
-    let plans = plan(figure);
+/// The canvas with the title and the line below it, and each panel, what is around its plot, and the plot; the common
+/// colour bar gets a width at the right.
+///
+/// All plots are equally wide; the width of the figure is exceeded rather than that they vanish.
+fn arrange<'a>(
+    figure: &Figure,
+    plans: &[PanelPlan<'a>],
+    faces: &Typeface,
+    bar: f64,
+) -> (Scene, Vec<(PanelPlan<'a>, Fitted, Frame)>) {
     let count = figure.columns.min(plans.len());
     let legend_width = (0.34 * figure.width / count as f64).min(22.0 * faces.tick);
-    // beside the last column alone: elsewhere it would tear the columns apart
-    let fit = |plan: &PanelPlan<'_>, plot| {
-        let most_right = legend_width * f64::from(u8::from(plan.column + 1 == count));
-        Fitted::new(plan, size(plan, plot), &faces, most_right)
+    let gap = 1.4 * faces.tick;
+    let mut plot = (figure.width - bar) / count as f64;
+    // needed at the left and at the right of each column
+    let (mut left, mut right) = (vec![0.0_f64; count], vec![0.0_f64; count]);
+    // what is reserved at the sides only grows, so that it is enough for the plots at the end
+    let (fitted, width) = loop {
+        let fit = |plan: &PanelPlan<'_>| {
+            // beside the last column alone: elsewhere it would tear the columns apart
+            let most_right = legend_width * f64::from(u8::from(plan.column + 1 == count));
+            Fitted::new(plan, size(plan, plot), faces, most_right)
+        };
+        let fitted: Vec<Fitted> = plans.iter().map(fit).collect();
+        let before = (left.clone(), right.clone());
+        for (plan, Fitted { needs, .. }) in plans.iter().zip(&fitted) {
+            left[plan.column] = left[plan.column].max(needs.left);
+            right[plan.column] = right[plan.column].max(needs.right);
+        }
+        let needed: f64 = left.iter().chain(&right).sum();
+        let sides = needed + gap * (count - 1) as f64 + 2.0 * PAD;
+        let next = ((figure.width - bar - sides) / count as f64).max(NARROWEST);
+        if (&left, &right) == (&before.0, &before.1) && next == plot {
+            break (fitted, sides + plot * count as f64);
+        }
+        plot = next;
     };
-    let (columns, fitted) = Columns::fit(&plans, count, figure.width - bar, 1.4 * faces.tick, &fit);
-    let width = columns.width();
     let line = |text: &str, size: f64| wrap(text, size, width + bar - 2.0 * PAD);
-    let title = line(&figure.title, faces.title);
-    let subtitle = line(&figure.subtitle, faces.subtitle);
-    let mut top = PAD
-        + Typeface::lines(faces.title, title.len())
-        + Typeface::lines(faces.subtitle, subtitle.len());
+    let title = line(&figure.title, faces.title).into_iter();
+    let subtitle = line(&figure.subtitle, faces.subtitle).into_iter();
+    let titles = title.map(|line| (line, faces.title));
+    let mut heading = Vec::new();
+    let mut top = PAD;
+    for (line, size) in titles.chain(subtitle.map(|line| (line, faces.subtitle))) {
+        heading.push(Text::new(&line, (PAD, top + size), size, START));
+        top += Typeface::lines(size, 1);
+    }
     if top > PAD {
         top += faces.gap();
     }
-    let (panels, bottom) = rows(plans, fitted, &columns, top, 1.2 * faces.tick);
-    Layout {
-        width,
+    let start = |column: usize| {
+        let before = (0..column).map(|k| left[k] + plot + right[k] + gap);
+        PAD + before.sum::<f64>() + left[column]
+    };
+    let starts: Vec<f64> = (0..count).map(start).collect();
+    let (panels, bottom) = rows(plans, fitted, &starts, plot, top, 1.2 * faces.tick);
+    let mut scene = Scene {
+        width: width + bar,
         height: bottom + PAD,
-        faces,
-        title,
-        subtitle,
-        panels,
-        bar: None,
-    }
+        plots: panels.iter().map(|(.., frame)| frame.area).collect(),
+        items: Vec::new(),
+    };
+    let canvas = Rect::new(0.0, 0.0, scene.width, scene.height);
+    scene.shape(Shape::rectangle(canvas).filled(WHITE, 1.0));
+    scene.items.extend(heading.into_iter().map(Item::Text));
+    (scene, panels)
 }
 
-/// Gives every panel its area, row below row from `top` on; and the bottom of the last row.
+/// Gives every panel its area in columns that start at some places, row below row from `top` on; and the bottom of the
+/// last row.
 fn rows<'a>(
-    plans: Vec<PanelPlan<'a>>,
+    plans: &[PanelPlan<'a>],
     fitted: Vec<Fitted>,
-    columns: &Columns,
+    starts: &[f64],
+    plot: f64,
     mut top: f64,
     gap: f64,
 ) -> (Vec<(PanelPlan<'a>, Fitted, Frame)>, f64) {
-    let members: Vec<(PanelPlan<'a>, Fitted)> = plans.into_iter().zip(fitted).collect();
-    let mut panels = Vec::with_capacity(members.len());
-    for row in members.chunk_by(|a, b| a.0.row == b.0.row) {
-        let most =
-            |of: &dyn Fn(&(PanelPlan<'a>, Fitted)) -> f64| row.iter().map(of).fold(0.0, f64::max);
-        let height = most(&|(plan, _)| size(plan, columns.plot)[1]);
-        top += most(&|(_, fitted)| fitted.needs.top);
-        for (plan, fitted) in row {
-            let [width, height] = size(plan, columns.plot);
-            let area = Rect::new(columns.start(plan.column), top, width, height);
-            panels.push((plan.clone(), fitted.clone(), plan.frame(area)));
+    let mut panels = Vec::with_capacity(plans.len());
+    let mut fitted = fitted.into_iter();
+    for row in plans.chunk_by(|a, b| a.row == b.row) {
+        let fitted: Vec<Fitted> = fitted.by_ref().take(row.len()).collect();
+        let most = |of: fn(&Needs) -> f64| fitted.iter().map(|f| of(&f.needs)).fold(0.0, f64::max);
+        let heights = row.iter().map(|plan| size(plan, plot)[1]);
+        let height = heights.fold(0.0, f64::max);
+        let below = most(|needs| needs.bottom);
+        top += most(|needs| needs.top);
+        for (plan, fitted) in row.iter().zip(fitted) {
+            let [width, height] = size(plan, plot);
+            let area = Rect::new(starts[plan.column], top, width, height);
+            panels.push((plan.clone(), fitted, plan.frame(area)));
         }
-        top += height + most(&|(_, fitted)| fitted.needs.bottom) + gap;
+        top += height + below + gap;
     }
     (panels, top - gap)
 }
@@ -193,73 +181,6 @@ const PAD: f64 = 14.0;
 /// Narrowest plot.
 const NARROWEST: f64 = 60.0;
 
-/// The columns of a figure: all plots are equally wide.
-#[derive(Debug, Clone, PartialEq)]
-struct Columns {
-    /// Width of a plot.
-    plot: f64,
-    /// Needed at the left of each column.
-    left: Vec<f64>,
-    /// Needed at the right of each column.
-    right: Vec<f64>,
-    gap: f64,
-}
-
-impl Columns {
-    /// Fits panels into columns within a width, which is exceeded rather than that plots vanish.
-    fn fit(
-        plans: &[PanelPlan<'_>],
-        count: usize,
-        width: f64,
-        gap: f64,
-        fit: &dyn Fn(&PanelPlan<'_>, f64) -> Fitted,
-    ) -> (Self, Vec<Fitted>) {
-        let mut columns = Self {
-            plot: width / count as f64,
-            left: vec![0.0; count],
-            right: vec![0.0; count],
-            gap,
-        };
-        // what is reserved at the sides only grows, so that it is enough for the plots at the end
-        loop {
-            let fitted = plans.iter().map(|plan| fit(plan, columns.plot));
-            let fitted: Vec<Fitted> = fitted.collect();
-            let mut is_enough = true;
-            for (plan, fitted) in plans.iter().zip(&fitted) {
-                for (side, needed) in [
-                    (&mut columns.left[plan.column], fitted.needs.left),
-                    (&mut columns.right[plan.column], fitted.needs.right),
-                ] {
-                    is_enough &= needed <= *side;
-                    *side = side.max(needed);
-                }
-            }
-            let plot = ((width - columns.sides()) / count as f64).max(NARROWEST);
-            if is_enough && plot == columns.plot {
-                return (columns, fitted);
-            }
-            columns.plot = plot;
-        }
-    }
-
-    /// Width of everything beside the plots.
-    fn sides(&self) -> f64 {
-        let needed: f64 = self.left.iter().chain(&self.right).sum();
-        needed + self.gap * (self.left.len() - 1) as f64 + 2.0 * PAD
-    }
-
-    /// Width of the canvas.
-    fn width(&self) -> f64 {
-        self.sides() + self.plot * self.left.len() as f64
-    }
-
-    /// Left side of the plots of a column.
-    fn start(&self, column: usize) -> f64 {
-        let before = (0..column).map(|k| self.left[k] + self.plot + self.right[k] + self.gap);
-        PAD + before.sum::<f64>() + self.left[column]
-    }
-}
-
 /// Size of the plot of a panel in a column of plots of a width.
 ///
 /// Equal lengths give the height; a section that is much deeper than wide is narrower than its column.
@@ -268,8 +189,9 @@ fn size(plan: &PanelPlan<'_>, width: f64) -> [f64; 2] {
     if !plan.panel.has_equal_lengths {
         return [width, plan.panel.height];
     }
-    let length = |of: &AxisPlan<'_>| of.interval.high - of.interval.low;
-    let ratio = length(&plan.y) / length(&plan.x);
+    let lengths = plan.axes.each_ref();
+    let [x, y] = lengths.map(|axis| axis.interval.high - axis.interval.low);
+    let ratio = y / x;
     match ratio > TALLEST {
         true => [TALLEST * width / ratio, TALLEST * width],
         false => [width, ratio * width],
@@ -282,8 +204,6 @@ struct Fitted {
     axes: Axes,
     title: Vec<String>,
     marks: Vec<Label>,
-    /// Rows of the labels of marks.
-    mark_rows: usize,
     legend: Option<Legend>,
     bar: Option<Bar>,
     needs: Needs,
@@ -298,9 +218,9 @@ impl Fitted {
         let axes = Axes::new(plan, size, faces);
         let mut needs = axes.needs(plan, width, faces);
         let title = wrap(&plan.panel.title, faces.panel, width);
-        let (marks, mark_rows) = labels::of_marks(plan, width, faces);
+        let marks = labels::of_marks(plan, width, faces);
         let title_height = Typeface::lines(faces.panel, title.len());
-        let above = Typeface::lines(faces.mark, mark_rows) + title_height;
+        let above = Typeface::lines(faces.mark, labels::rows(&marks)) + title_height;
         if above > 0.0 {
             needs.top = needs.top.max(above + faces.gap());
         }
@@ -324,7 +244,6 @@ impl Fitted {
             axes,
             title,
             marks,
-            mark_rows,
             legend,
             bar,
             needs,

@@ -5,7 +5,7 @@ use super::plan::PanelPlan;
 use crate::colour::{MARK, WHITE};
 use crate::figure::Panel;
 use crate::geometry::{Frame, Point, Rect};
-use crate::layers::{LabelledPoint, Layer, Mark};
+use crate::layers::Layer;
 use crate::look::star;
 use crate::scene::{END, MIDDLE, START, Scene, Shape, Stroke, Text};
 use crate::text::{LINE, Typeface, width as width_of, wrap};
@@ -23,25 +23,26 @@ pub(crate) struct Label {
     text: String,
 }
 
-/// The vertical lines of a panel.
-fn lines<'a>(plan: &PanelPlan<'a>) -> impl Iterator<Item = &'a Mark> {
-    let interval = plan.x.interval;
-    plan.panel
-        .layers
-        .iter()
-        .filter_map(move |layer| match layer {
-            Layer::Mark(mark) if interval.contains(mark.x) => Some(mark),
-            _ => None,
-        })
+/// The vertical lines of a panel, with their labels.
+fn lines<'a>(plan: &PanelPlan<'a>) -> impl Iterator<Item = (f64, &'a str)> {
+    let interval = plan.axes[0].interval;
+    let layers = plan.panel.layers.iter();
+    layers.filter_map(move |layer| match layer {
+        Layer::Mark { x, label } if interval.contains(*x) => Some((*x, label.as_str())),
+        _ => None,
+    })
 }
 
-/// Labels over a plot of a width, in as few rows as hold them, none over another; and the number of rows.
-pub(super) fn of_marks(plan: &PanelPlan<'_>, width: f64, faces: &Typeface) -> (Vec<Label>, usize) {
+/// How many rows labels have.
+pub(super) fn rows(labels: &[Label]) -> usize {
+    labels.iter().map(|label| label.row + 1).max().unwrap_or(0)
+}
+
+/// Labels over a plot of a width, in as few rows as hold them, none over another.
+pub(super) fn of_marks(plan: &PanelPlan<'_>, width: f64, faces: &Typeface) -> Vec<Label> {
     let frame = plan.frame(Rect::new(0.0, 0.0, width, 1.0));
-    let named = lines(plan).filter(|mark| !mark.label.trim().is_empty());
-    let mut found: Vec<(f64, &str)> = named
-        .map(|mark| (frame.across(mark.x), mark.label.as_str()))
-        .collect();
+    let named = lines(plan).filter(|(_, label)| !label.trim().is_empty());
+    let mut found: Vec<_> = named.map(|(x, label)| (frame.across(x), label)).collect();
     found.sort_by(|a, b| a.0.total_cmp(&b.0));
     placed(&found, width, faces)
 }
@@ -50,42 +51,40 @@ pub(super) fn of_marks(plan: &PanelPlan<'_>, width: f64, faces: &Typeface) -> (V
 ///
 /// A label that has no room above its line is moved aside; one wider than the plot is broken, its lines one above
 /// the other.
-fn placed(marks: &[(f64, &str)], width: f64, faces: &Typeface) -> (Vec<Label>, usize) {
+fn placed(marks: &[(f64, &str)], width: f64, faces: &Typeface) -> Vec<Label> {
     let gap = 0.7 * faces.mark;
     let size = |label: &str| width_of(label, faces.mark) + gap;
     if marks.iter().any(|(_, label)| size(label) > width) {
         return stacked(marks, width - gap, faces);
     }
     let total: f64 = marks.iter().map(|(_, label)| size(label)).sum();
+    // labels by turns
+    let row = |row: usize, rows: usize| marks.iter().skip(row).step_by(rows);
     let mut rows = ((total / width).ceil() as usize).max(usize::from(!marks.is_empty()));
-    let members = |row: usize, rows: usize| marks.iter().skip(row).step_by(rows);
-    let length = |row, rows| {
-        members(row, rows)
-            .map(|(_, label)| size(label))
-            .sum::<f64>()
-    };
-    while !(0..rows).all(|row| length(row, rows) <= width) {
+    while (0..rows).any(|i| row(i, rows).map(|(_, label)| size(label)).sum::<f64>() > width) {
         rows += 1;
     }
     let mut placed = Vec::with_capacity(marks.len());
-    for row in 0..rows {
-        let widths: Vec<f64> = members(row, rows).map(|(_, label)| size(label)).collect();
-        let wishes: Vec<f64> = members(row, rows).map(|(line, _)| *line).collect();
+    for i in 0..rows {
+        let widths: Vec<f64> = row(i, rows).map(|(_, label)| size(label)).collect();
+        let wishes: Vec<f64> = row(i, rows).map(|(line, _)| *line).collect();
         let centres = spread(&wishes, &widths, width);
-        for ((line, label), centre) in members(row, rows).zip(centres) {
-            placed.push(Label {
-                line: *line,
-                centre,
-                row,
-                text: (*label).to_owned(),
-            });
-        }
+        placed.extend(
+            row(i, rows)
+                .zip(centres)
+                .map(|((line, label), centre)| Label {
+                    line: *line,
+                    centre,
+                    row: i,
+                    text: (*label).to_owned(),
+                }),
+        );
     }
-    (placed, rows)
+    placed
 }
 
 /// One below the other, each broken to the width of the plot.
-fn stacked(marks: &[(f64, &str)], width: f64, faces: &Typeface) -> (Vec<Label>, usize) {
+fn stacked(marks: &[(f64, &str)], width: f64, faces: &Typeface) -> Vec<Label> {
     let mut placed = Vec::new();
     for (line, label) in marks.iter().rev() {
         for text in wrap(label, faces.mark, width).into_iter().rev() {
@@ -97,8 +96,7 @@ fn stacked(marks: &[(f64, &str)], width: f64, faces: &Typeface) -> (Vec<Label>, 
             });
         }
     }
-    let rows = placed.len();
-    (placed, rows)
+    placed
 }
 
 /// Draws the lines of a panel and their labels.
@@ -110,13 +108,13 @@ pub(super) fn draw_marks(
     faces: &Typeface,
 ) {
     let area = frame.area;
-    for mark in lines(plan) {
-        let x = frame.across(mark.x);
+    for (x, _) in lines(plan) {
+        let x = frame.across(x);
         let mut line = |stroke| {
             let ends = [(x, area.bottom), (x, area.top)];
             scene.shape(Shape::polyline(&ends, stroke));
         };
-        if plan.is_filled() {
+        if plan.panel.is_filled() {
             line(Stroke::solid(WHITE, 2.2));
         }
         line(Stroke::new(MARK, 1.0, &[3.0, 3.0]));
@@ -176,40 +174,43 @@ pub(super) fn draw_points(
     taken: Option<Rect>,
     size: f64,
 ) {
-    let mut points: Vec<(&LabelledPoint, Point)> = Vec::new();
+    let mut points: Vec<(&str, bool, Point)> = Vec::new();
     for layer in &plan.panel.layers {
-        if let Layer::Point(point) = layer
-            && frame.x.contains(point.x)
-            && frame.y.contains(point.y)
-            && let Some(place) = frame.place((point.x, point.y))
+        if let Layer::Point {
+            at,
+            label,
+            is_starred,
+        } = layer
+            && frame.x.contains(at.0)
+            && frame.y.contains(at.1)
+            && let Some(place) = frame.place(*at)
         {
-            points.push((point, place));
+            points.push((label, *is_starred, place));
         }
     }
     if points.is_empty() {
         return;
     }
     let curves = occupied(plan.panel, frame);
-    let stars = points.iter().filter(|(point, _)| point.is_starred);
-    let stars: Vec<Point> = stars.map(|(_, place)| *place).collect();
+    let stars = points.iter().filter(|(_, is_starred, _)| *is_starred);
+    let stars: Vec<Point> = stars.map(|(.., place)| *place).collect();
     for &at in &stars {
         star(scene, at, STAR);
     }
     let mut written: Vec<Rect> = taken.into_iter().collect();
-    for (point, place) in points {
+    for (label, is_starred, place) in points {
         let cost = |lines: &Vec<Text>| {
             let bounds = bounds(lines);
             let hidden = stars.iter().filter(|&&s| bounds.grown(STAR - 1.0).has(s));
             let crossed = curves.iter().filter(|&&c| bounds.has(c));
             100 * hidden.count() + crossed.count()
         };
-        let best = candidates(point, place, frame.area, size)
-            .into_iter()
-            .filter(|lines| {
-                let bounds = bounds(lines);
-                frame.area.holds(&bounds) && !written.iter().any(|b| b.grown(1.0).overlaps(&bounds))
-            })
-            .min_by_key(cost);
+        let is_free = |lines: &Vec<Text>| {
+            let bounds = bounds(lines);
+            frame.area.holds(&bounds) && !written.iter().any(|b| b.grown(1.0).overlaps(&bounds))
+        };
+        let candidates = candidates(label, is_starred, place, frame.area, size).into_iter();
+        let best = candidates.filter(is_free).min_by_key(cost);
         // a plot too small for all labels shows the stars alone
         for mut text in best.into_iter().flatten() {
             written.push(text.bounds());
@@ -220,11 +221,17 @@ pub(super) fn draw_points(
 }
 
 /// Labels around a point, the nearest first, moved into the plot and broken to its width.
-fn candidates(point: &LabelledPoint, (x, y): Point, area: Rect, size: f64) -> Vec<Vec<Text>> {
-    let lines = wrap(&point.label, size, area.width() - 4.0);
+fn candidates(
+    label: &str,
+    is_starred: bool,
+    (x, y): Point,
+    area: Rect,
+    size: f64,
+) -> Vec<Vec<Text>> {
+    let lines = wrap(label, size, area.width() - 4.0);
     let mut found = Vec::new();
     let rises = [0.0, -1.2, 1.2, -2.4, 2.4, -4.0, 4.0, -6.0, 6.0, -9.0, 9.0];
-    let (side, near) = match point.is_starred {
+    let (side, near) = match is_starred {
         true => (STAR + 0.35 * size, rises.len()),
         // a name of its own that has moved away names something else
         false => (0.5 * size, 3),
@@ -232,7 +239,7 @@ fn candidates(point: &LabelledPoint, (x, y): Point, area: Rect, size: f64) -> Ve
     for rise in rises.into_iter().take(near) {
         let above = (x, MIDDLE);
         let beside = [(x + side, START), (x - side, END)];
-        let places = match point.is_starred {
+        let places = match is_starred {
             true if rise == 0.0 => beside.to_vec(),
             true => vec![beside[0], beside[1], above],
             false => vec![above, beside[0], beside[1]],
@@ -269,11 +276,8 @@ fn bounds(lines: &[Text]) -> Rect {
 /// Points along everything that is drawn in a plot, in pixels, at most four apart.
 pub(super) fn occupied(panel: &Panel, frame: &Frame) -> Vec<Point> {
     let mut found = Vec::new();
-    for curve in panel
-        .layers
-        .iter()
-        .flat_map(|layer| layer.kind().curves(frame))
-    {
+    let layers = panel.layers.iter();
+    for curve in layers.flat_map(|layer| layer.curves(frame)) {
         for side in frame.sides(&curve) {
             trace(&side, frame, &mut found);
         }
@@ -345,14 +349,14 @@ mod tests {
     use crate::axis::{Axis, Interval};
     use crate::look::Style;
 
-    fn boxes(marks: &[(f64, &str)], width: f64) -> (Vec<Label>, usize) {
+    fn boxes(marks: &[(f64, &str)], width: f64) -> Vec<Label> {
         placed(marks, width, &Typeface::new(12.0))
     }
 
     #[test]
     fn labels_with_room_stand_above_their_lines() {
-        let (placed, rows) = boxes(&[(50.0, "P"), (150.0, "S"), (250.0, "R")], 300.0);
-        assert_eq!(rows, 1);
+        let placed = boxes(&[(50.0, "P"), (150.0, "S"), (250.0, "R")], 300.0);
+        assert_eq!(rows(&placed), 1);
         assert!(placed.iter().all(|m| (m.centre - m.line).abs() < 1e-9));
     }
 
@@ -365,8 +369,8 @@ mod tests {
             (299.0, "end"),
         ];
         for width in [300.0, 120.0, 70.0, 30.0] {
-            let (placed, rows) = boxes(&near, width);
-            assert!(rows >= 1);
+            let placed = boxes(&near, width);
+            assert!(rows(&placed) >= 1);
             for (i, a) in placed.iter().enumerate() {
                 let half = |m: &Label| 0.5 * width_of(&m.text, 0.95 * 12.0);
                 assert!(a.centre - half(a) > -1e-9 && a.centre + half(a) < width + 1e-9);
@@ -376,7 +380,7 @@ mod tests {
                 }
             }
         }
-        assert_eq!(boxes(&[], 100.0).1, 0);
+        assert_eq!(rows(&boxes(&[], 100.0)), 0);
     }
 
     fn frame() -> Frame {

@@ -3,10 +3,11 @@
 use super::axes::Needs;
 use super::labels::{free, occupied};
 use super::plan::PanelPlan;
-use crate::colour::{Colour, MARK, WHITE};
+use crate::colour::{MARK, WHITE};
 use crate::figure::Legend as Wish;
 use crate::geometry::{Point, Rect};
 use crate::layers::{BAND, Swatch, draw_run};
+use crate::look::Style;
 use crate::scene::{START, Scene, Shape, Stroke, Text};
 use crate::text::{LINE, Typeface, width as width_of, wrap};
 
@@ -57,7 +58,7 @@ impl Legend {
             return None;
         }
         // the other half of a mirrored section is full as well
-        let may_be_inside = !plan.is_filled() && !plan.panel.is_mirrored;
+        let may_be_inside = !plan.panel.is_filled() && !plan.panel.is_mirrored;
         if plan.panel.legend == Wish::Auto && may_be_inside {
             let mut legend = Self::block(&named, 0.62 * width, 1, faces.legend);
             let air = 0.7 * faces.tick;
@@ -128,7 +129,7 @@ impl Legend {
     /// Draws it around a plot.
     pub(crate) fn draw(&self, scene: &mut Scene, plot: Rect, size: f64) {
         if let Some(back) = self.covered(plot) {
-            let edge = Stroke::solid(Colour::new(0xcc_cc_cc), 0.8);
+            let edge = Stroke::solid(0xcc_cc_cc, 0.8);
             scene.shape(Shape::rectangle(back).filled(WHITE, 0.85).stroked(edge));
         }
         let (left, top) = match self.place {
@@ -154,8 +155,8 @@ impl Legend {
 /// Names of a panel with their samples, each curve once.
 fn named<'a>(plan: &PanelPlan<'a>) -> Vec<(&'a str, Swatch)> {
     let mut found: Vec<(&str, Swatch)> = Vec::new();
-    let layers = plan.panel.layers.iter().zip(&plan.slots);
-    let all = layers.flat_map(|(layer, &slot)| layer.kind().swatches(slot));
+    let layers = plan.panel.layers.iter().zip(&plan.numbers);
+    let all = layers.flat_map(|(layer, &numbers)| layer.swatches(numbers));
     for (name, swatch) in all.filter(|(name, _)| !name.is_empty()) {
         let is_class = matches!(swatch, Swatch::Fill(_));
         if is_class || !found.iter().any(|(known, _)| *known == name) {
@@ -173,7 +174,7 @@ fn sample(scene: &mut Scene, swatch: &Swatch, (x, y): Point, size: f64) {
             let edge = Stroke::solid(MARK, 0.8);
             scene.shape(Shape::rectangle(patch).filled(*colour, 1.0).stroked(edge));
         }
-        Swatch::Curve { look, .. } if look.is_filled => {
+        Swatch::Curve { look, .. } if look.style == Style::Bars => {
             let bar = [
                 (patch.left, patch.bottom),
                 (patch.left, patch.top),
@@ -186,7 +187,7 @@ fn sample(scene: &mut Scene, swatch: &Swatch, (x, y): Point, size: f64) {
             if *has_band {
                 scene.shape(Shape::rectangle(patch).filled(look.stroke.colour, BAND));
             }
-            if look.line {
+            if look.has_line() {
                 scene.shape(Shape::polyline(&[(x, y), (x + SWATCH, y)], look.stroke));
             }
             look.mark(scene, (x + 0.5 * SWATCH, y));

@@ -5,7 +5,6 @@ use crate::axis::{Axis, Interval, Scale};
 use crate::figure::{Figure, Panel, Sharing};
 use crate::geometry::{Frame, Point, Rect};
 use crate::layers::{Colours, Layer};
-use crate::look::Slot;
 use std::collections::BTreeMap;
 
 /// An axis with its interval.
@@ -23,14 +22,16 @@ pub(crate) struct PanelPlan<'a> {
     pub(crate) panel: &'a Panel,
     pub(crate) row: usize,
     pub(crate) column: usize,
-    pub(crate) x: AxisPlan<'a>,
-    pub(crate) y: AxisPlan<'a>,
+    /// Along x and y.
+    pub(crate) axes: [AxisPlan<'a>; 2],
     /// What the colours of its images mean.
     pub(crate) colours: Option<Colours>,
     /// Whether it explains them itself.
     pub(crate) has_bar: bool,
-    /// Numbers of each layer, from which its look follows; the first for those without a colour of their own.
-    pub(crate) slots: Vec<Slot>,
+    /// Numbers of each layer, from which its look follows: of its name in the figure, by order of first appearance,
+    /// and the least that no other name has in any panel where it appears, so that the first curve of a panel is a
+    /// whole line. The first ones for those without a colour of their own.
+    pub(crate) numbers: Vec<[usize; 2]>,
 }
 
 impl PanelPlan<'_> {
@@ -38,30 +39,20 @@ impl PanelPlan<'_> {
     pub(crate) fn frame(&self, area: Rect) -> Frame {
         Frame {
             area,
-            x: self.x.interval,
-            y: self.y.interval,
+            x: self.axes[0].interval,
+            y: self.axes[1].interval,
             reversed: [self.panel.x.is_reversed, self.panel.y.is_reversed],
             is_mirrored: self.panel.is_mirrored,
         }
     }
-
-    /// Whether a layer fills it, so that nothing can be written into an empty corner.
-    pub(crate) fn is_filled(&self) -> bool {
-        is_filled(self.panel)
-    }
-}
-
-fn is_filled(panel: &Panel) -> bool {
-    let mut layers = panel.layers.iter();
-    layers.any(|layer| matches!(layer, Layer::Image(_) | Layer::Classes(_)))
 }
 
 /// Plans every panel of a figure.
 pub(crate) fn plan(figure: &Figure) -> Vec<PanelPlan<'_>> {
     let common = colours(&figure.panels).filter(|_| figure.has_common_bar);
-    let panels = figure.panels.iter().zip(slots(figure)).enumerate();
+    let panels = figure.panels.iter().zip(numbers(figure)).enumerate();
     let mut plans: Vec<PanelPlan<'_>> = panels
-        .map(|(i, (panel, slots))| {
+        .map(|(i, (panel, numbers))| {
             let axis = |axis, interval| AxisPlan {
                 axis,
                 interval,
@@ -73,41 +64,39 @@ pub(crate) fn plan(figure: &Figure) -> Vec<PanelPlan<'_>> {
                 panel,
                 row: i / figure.columns,
                 column: i % figure.columns,
-                x: axis(&panel.x, x),
-                y: axis(&panel.y, y),
+                axes: [axis(&panel.x, x), axis(&panel.y, y)],
                 colours: common.clone().or_else(own),
                 has_bar: !figure.has_common_bar,
-                slots,
+                numbers,
             }
         })
         .collect();
     if figure.sharing != Sharing::Separate {
-        share(&mut plans, |plan| (plan.column, &mut plan.x), true);
+        share(&mut plans, 0);
     }
     if figure.sharing == Sharing::Both {
-        share(&mut plans, |plan| (plan.row, &mut plan.y), false);
+        share(&mut plans, 1);
     }
     plans
 }
 
-/// Gives the axes of one row or column of panels the same interval, written at the last or the first of them.
-fn share<'a>(
-    plans: &mut [PanelPlan<'a>],
-    of: impl for<'b> Fn(&'b mut PanelPlan<'a>) -> (usize, &'b mut AxisPlan<'a>),
-    at_last: bool,
-) {
-    let mut lines: BTreeMap<usize, Vec<&mut AxisPlan<'a>>> = BTreeMap::new();
-    for (line, axis) in plans.iter_mut().map(of) {
-        lines.entry(line).or_default().push(axis);
-    }
-    for line in lines.values_mut() {
-        let intervals = line.iter().map(|axis| axis.interval);
+/// Gives the x axes of each column of panels the same interval, written at the last of them, or the y axes of each row,
+/// written at the first.
+fn share(plans: &mut [PanelPlan<'_>], side: usize) {
+    let line = |plan: &PanelPlan<'_>| [plan.column, plan.row][side];
+    for i in 0..plans.len() {
+        let is_beside = |k: &usize| line(&plans[*k]) == line(&plans[i]);
+        let mut beside = (0..plans.len()).filter(is_beside);
+        let intervals = beside.clone().map(|k| plans[k].axes[side].interval);
         let union = intervals.reduce(Interval::union);
-        let written = if at_last { line.len() - 1 } else { 0 };
-        for (i, axis) in line.iter_mut().enumerate() {
-            axis.interval = union.unwrap_or(axis.interval);
-            axis.labelled = i == written;
-        }
+        let written = if side == 0 {
+            beside.next_back()
+        } else {
+            beside.next()
+        };
+        let axis = &mut plans[i].axes[side];
+        axis.interval = union.unwrap_or(axis.interval);
+        axis.labelled = written == Some(i);
     }
 }
 
@@ -121,7 +110,7 @@ fn intervals(panel: &Panel) -> [Interval; 2] {
     let has_image = panel.layers.iter().any(|layer| is_image(&layer));
     let layers = panel.layers.iter();
     let shown = layers.filter(|layer| !has_image || is_image(layer));
-    let places: Vec<Point> = shown.flat_map(|layer| layer.kind().places()).collect();
+    let places: Vec<Point> = shown.flat_map(Layer::places).collect();
     let automatic = |scale: Scale, values: Vec<f64>, air: f64| {
         let found = Interval::around(scale, values.into_iter());
         let found = found.unwrap_or(match scale {
@@ -142,7 +131,7 @@ fn intervals(panel: &Panel) -> [Interval; 2] {
     let y = panel.y.interval().unwrap_or_else(|| {
         let is_seen = |(x, _): &&Point| given.is_none_or(|found| found.contains(*x));
         let values = places.iter().filter(is_seen).map(|place| place.1);
-        let air = if is_filled(panel) { 0.0 } else { 0.05 };
+        let air = if panel.is_filled() { 0.0 } else { 0.05 };
         automatic(panel.y.scale, values.collect(), air)
     });
     [x, y]
@@ -155,36 +144,30 @@ fn colours(panels: &[Panel]) -> Option<Colours> {
         Layer::Image(image) => Some(image),
         _ => None,
     });
-    Colours::of(&images.collect::<Vec<_>>())
+    Colours::of(&images)
 }
 
 /// The numbers of each layer of each panel.
-fn slots(figure: &Figure) -> Vec<Vec<Slot>> {
+fn numbers(figure: &Figure) -> Vec<Vec<[usize; 2]>> {
     let of_panel = |panel: &Panel| coloured(&panel.layers).map(|(_, name)| name).collect();
     let names: Vec<Vec<String>> = figure.panels.iter().map(of_panel).collect();
-    let mut known: BTreeMap<&String, Slot> = BTreeMap::new();
+    let mut known: BTreeMap<&String, [usize; 2]> = BTreeMap::new();
     for name in names.iter().flatten() {
         if known.contains_key(name) {
             continue;
         }
         let beside = |other: &String| names.iter().any(|p| p.contains(name) && p.contains(other));
-        let taken = |n: &usize| {
-            known
-                .iter()
-                .any(|(other, slot)| slot.panel == *n && beside(other))
-        };
-        let slot = Slot {
-            figure: known.len(),
-            panel: (0..).find(|n| !taken(n)).unwrap_or(0),
-        };
-        known.insert(name, slot);
+        let taken = known.iter().filter(|(other, _)| beside(other));
+        let is_free = |n: &usize| taken.clone().all(|(_, numbers)| numbers[1] != *n);
+        let numbers = [known.len(), (0..).find(is_free).unwrap_or(0)];
+        known.insert(name, numbers);
     }
     let of_panel = |panel: &Panel| {
-        let mut slots = vec![Slot::default(); panel.layers.len()];
+        let mut numbers = vec![[0; 2]; panel.layers.len()];
         for (i, name) in coloured(&panel.layers) {
-            slots[i] = known[&name];
+            numbers[i] = known[&name];
         }
-        slots
+        numbers
     };
     figure.panels.iter().map(of_panel).collect()
 }
@@ -225,11 +208,13 @@ mod tests {
             .panel(panel(2.0))
             .panel(panel(4.0));
         let plans = plan(&figure);
-        let highs: Vec<f64> = plans.iter().map(|p| p.x.interval.high).collect();
+        let highs: Vec<f64> = plans.iter().map(|p| p.axes[0].interval.high).collect();
         assert_eq!(highs, [4.0, 2.0, 4.0]);
-        let written: Vec<[bool; 2]> = plans.iter().map(|p| [p.x.labelled, p.y.labelled]).collect();
+        let labelled = |p: &PanelPlan<'_>| p.axes.each_ref().map(|axis| axis.labelled);
+        let written: Vec<[bool; 2]> = plans.iter().map(labelled).collect();
         assert_eq!(written, [[false, true], [true, false], [true, true]]);
-        assert!(plans[0].y.interval.high > 4.0 && plans[0].y.interval == plans[1].y.interval);
+        let along_y = [0, 1].map(|i| plans[i].axes[1].interval);
+        assert!(along_y[0].high > 4.0 && along_y[0] == along_y[1]);
     }
 
     #[test]
@@ -237,9 +222,12 @@ mod tests {
         let mut panel = panel(10.0);
         panel.x = panel.x.range(0.0, 1.0);
         let figure = Figure::new("").panel(panel.clone());
-        assert!(plan(&figure)[0].y.interval.high <= 1.0);
+        assert!(plan(&figure)[0].axes[1].interval.high <= 1.0);
         let figure = Figure::new("").panel(panel.mirrored());
-        assert_eq!(plan(&figure)[0].x.interval, Interval::linear(-1.0, 1.0));
+        assert_eq!(
+            plan(&figure)[0].axes[0].interval,
+            Interval::linear(-1.0, 1.0)
+        );
     }
 
     #[test]
@@ -257,12 +245,9 @@ mod tests {
                     .banded("b", Style::Plain, &[])
                     .line("c", Style::Plain, vec![]),
             );
-        let numbers = |panel: usize| -> Vec<[usize; 2]> {
-            let slots = &slots(&figure)[panel];
-            slots.iter().map(|s| [s.figure, s.panel]).collect()
-        };
-        assert_eq!(numbers(0), [[0, 0], [0, 0], [1, 1]]);
+        let numbers = numbers(&figure);
+        assert_eq!(numbers[0], [[0, 0], [0, 0], [1, 1]]);
         // a name keeps its numbers, and no dash comes twice in a panel
-        assert_eq!(numbers(1), [[1, 1], [2, 0]]);
+        assert_eq!(numbers[1], [[1, 1], [2, 0]]);
     }
 }

@@ -1,6 +1,6 @@
 //! PDF: one page, shapes as shapes and text as text in an embedded font.
 
-use crate::colour::{BLACK, Colour, WHITE};
+use crate::colour::{self, BLACK, WHITE};
 use crate::error::FigureError;
 use crate::font;
 use crate::scene::{Item, Picture, Scene, Segment, Shape, Text};
@@ -91,7 +91,7 @@ fn compressed(bytes: &[u8]) -> Vec<u8> {
 /// The pixels of a picture; white where there is nothing.
 fn write_picture(pdf: &mut Pdf, id: Ref, picture: &Picture) {
     let colours = picture.pixels.iter().map(|pixel| pixel.unwrap_or(WHITE));
-    let bytes: Vec<u8> = colours.flat_map(|c| [c.red, c.green, c.blue]).collect();
+    let bytes: Vec<u8> = colours.flat_map(colour::rgb).collect();
     let stream = compressed(&bytes);
     let mut image = pdf.image_xobject(id, &stream);
     image.filter(Filter::FlateDecode);
@@ -196,8 +196,8 @@ fn paint(content: &mut Content, scene: &Scene, font: &Subset) {
     }
 }
 
-fn rgb(colour: Colour) -> [f32; 3] {
-    [colour.red, colour.green, colour.blue].map(|c| f32::from(c) / 255.0)
+fn rgb(colour: u32) -> [f32; 3] {
+    colour::rgb(colour).map(|c| f32::from(c) / 255.0)
 }
 
 fn draw_shape(content: &mut Content, shape: &Shape) {

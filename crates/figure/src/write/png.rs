@@ -1,6 +1,6 @@
 //! Pixels: PNG, and GIF of several scenes.
 
-use crate::colour::{BLACK, Colour, WHITE};
+use crate::colour::{BLACK, WHITE, rgb};
 use crate::error::FigureError;
 use crate::font;
 use crate::geometry::Rect;
@@ -77,7 +77,7 @@ fn pixmap(width: u32, height: u32) -> Result<Pixmap, FigureError> {
 pub(super) fn pixels(picture: &Picture) -> Result<Pixmap, FigureError> {
     let mut map = pixmap(picture.columns, picture.rows)?;
     for (to, from) in map.pixels_mut().iter_mut().zip(&picture.pixels) {
-        if let Some(Colour { red, green, blue }) = *from {
+        if let Some([red, green, blue]) = from.map(rgb) {
             *to = ColorU8::from_rgba(red, green, blue, 255).premultiply();
         }
     }
@@ -193,8 +193,8 @@ impl Canvas {
     }
 }
 
-fn paint(colour: Colour, opacity: f64) -> Paint<'static> {
-    let Colour { red, green, blue } = colour;
+fn paint(colour: u32, opacity: f64) -> Paint<'static> {
+    let [red, green, blue] = rgb(colour);
     let mut paint = Paint::default();
     paint.set_color_rgba8(red, green, blue, (255.0 * opacity).round() as u8);
     paint.anti_alias = true;
@@ -202,11 +202,7 @@ fn paint(colour: Colour, opacity: f64) -> Paint<'static> {
 }
 
 fn rectangle(area: Rect) -> Option<tiny_skia::Rect> {
-    let Rect {
-        left,
-        top,
-        right,
-        bottom,
-    } = area;
-    tiny_skia::Rect::from_ltrb(left as f32, top as f32, right as f32, bottom as f32)
+    let sides = [area.left, area.top, area.right, area.bottom];
+    let [left, top, right, bottom] = sides.map(|side| side as f32);
+    tiny_skia::Rect::from_ltrb(left, top, right, bottom)
 }

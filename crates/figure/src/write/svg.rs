@@ -59,35 +59,28 @@ pub(crate) fn svg(scene: &Scene) -> Result<String, FigureError> {
     Ok(document.to_string())
 }
 
-/// An element with numbers to a hundredth of a pixel.
-fn with_numbers<N: Node, const M: usize>(mut node: N, numbers: [(&str, f64); M]) -> N {
-    for (name, value) in numbers {
+/// An element that covers an area.
+fn placed<N: Node>(mut node: N, area: Rect) -> N {
+    let corner = [("x", area.left), ("y", area.top)];
+    let size = [("width", area.width()), ("height", area.height())];
+    for (name, value) in corner.into_iter().chain(size) {
         node.assign(name, number(value));
     }
     node
-}
-
-/// An element that covers an area.
-fn placed<N: Node>(node: N, area: Rect) -> N {
-    let size = [("width", area.width()), ("height", area.height())];
-    with_numbers(
-        with_numbers(node, [("x", area.left), ("y", area.top)]),
-        size,
-    )
 }
 
 fn path(shape: &Shape, clips: &[Rect]) -> Path {
     let mut path = Path::new().set("d", outline(&shape.segments));
     path = match shape.fill {
         Some((colour, opacity)) if opacity < 1.0 => {
-            path.set("fill", colour.hex()).set("fill-opacity", opacity)
+            path.set("fill", hex(colour)).set("fill-opacity", opacity)
         }
-        Some((colour, _)) => path.set("fill", colour.hex()),
+        Some((colour, _)) => path.set("fill", hex(colour)),
         None => path.set("fill", "none"),
     };
     if let Some(stroke) = shape.stroke {
         path = path
-            .set("stroke", stroke.colour.hex())
+            .set("stroke", hex(stroke.colour))
             .set("stroke-width", stroke.width)
             .set("stroke-linejoin", "round");
         if !stroke.dash.is_empty() {
@@ -100,6 +93,10 @@ fn path(shape: &Shape, clips: &[Rect]) -> Path {
         Some(i) => path.set("clip-path", format!("url(#plot{i})")),
         None => path,
     }
+}
+
+fn hex(colour: u32) -> String {
+    format!("#{colour:06x}")
 }
 
 fn outline(segments: &[Segment]) -> String {
@@ -175,10 +172,8 @@ fn letters((text, size, (x, y)): (&str, f64, Point), is_upward: bool) -> Group {
     for letter in text.chars() {
         if !letter.is_whitespace() {
             let link = format!("#{}", letter_id(letter));
-            group = group.add(with_numbers(
-                Use::new().set("xlink:href", link),
-                [("x", along)],
-            ));
+            let letter = Use::new().set("xlink:href", link);
+            group = group.add(letter.set("x", number(along)));
         }
         along += UNITS * font::width(letter.encode_utf8(&mut [0; 4]));
     }
@@ -189,11 +184,8 @@ fn letters((text, size, (x, y)): (&str, f64, Point), is_upward: bool) -> Group {
 fn number(value: f64) -> String {
     let text = format!("{value:.2}");
     let short = text.trim_end_matches('0').trim_end_matches('.');
-    if short == "-0" {
-        "0".to_owned()
-    } else {
-        short.to_owned()
-    }
+    let short = if short == "-0" { "0" } else { short };
+    short.to_owned()
 }
 
 #[cfg(test)]

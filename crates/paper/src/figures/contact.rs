@@ -1,8 +1,8 @@
 //! Figures 4 and 6: the contact over time.
 
-use super::{CONVERGED, Claim, GROWING, HERTZ, Redrawn, SCHEME, WIDTH, printed, single};
+use super::{CONVERGED, Claim, GROWING, HERTZ, Redrawn, SCHEME, WIDTH, single};
 use crate::case::{RADIUS_M, Runs, VELOCITY_M_S, kmax};
-use figure::{Axis, Figure, Legend, Panel, Sharing, Style};
+use figure::{Axis, Figure, Layer, Legend, Panel, Sharing, Style};
 use impact::{Motion, Run};
 
 /// Until when is drawn, in s: the contact is printed to last 27 us.
@@ -47,8 +47,8 @@ pub(super) fn history(runs: &Runs) -> Redrawn {
     forces = forces
         .line(HERTZ, Style::Plain, force(&runs.hertz_printed, 1.0))
         .line(GROWING, Style::Plain, force(&runs.growing, 1.0))
-        .layer(printed(13.5e-6, 160e3, "160 kN"))
-        .layer(printed(27.0e-6, 0.0, "27.0 µs"));
+        .layer(Layer::star((13.5e-6, 160e3), "160 kN"))
+        .layer(Layer::star((27.0e-6, 0.0), "27.0 µs"));
     for (name, what) in [("h", 0), ("w", 1)] {
         for (whose, run) in pairs {
             let of = |m: Motion| [m.displacement_m, m.deflection_m][what];
@@ -56,7 +56,7 @@ pub(super) fn history(runs: &Runs) -> Redrawn {
             lengths = lengths.line(&name, Style::Plain, motion(run, of));
         }
     }
-    speeds = speeds.layer(printed(27.0e-6, -99.1, "-99.1 m/s"));
+    speeds = speeds.layer(Layer::star((27.0e-6, -99.1), "-99.1 m/s"));
     let figure = Figure::new("Fig. 4: force, displacements and velocity")
         .subtitle(STARS)
         .sharing(Sharing::X)
@@ -133,8 +133,8 @@ pub(super) fn stress(runs: &Runs) -> Redrawn {
         panel = panel.line(name, Style::Plain, force(run, one_n));
     }
     panel = panel
-        .layer(printed(13.5e-6, 14.11, "14.11"))
-        .layer(printed(12.3e-6, 15.97, "15.97"));
+        .layer(Layer::star((13.5e-6, 14.11), "14.11"))
+        .layer(Layer::star((12.3e-6, 15.97), "15.97"));
     let mean_ry = runs.table_1.peak_force_n * kmax(1.0, RADIUS_M) * 227.0 / 57.0;
     Redrawn {
         name: "fig-06",

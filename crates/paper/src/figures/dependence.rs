@@ -1,11 +1,11 @@
 //! Figure 5, the contact stress against the radius; and the paper's scheme against its step.
 
-use super::{Claim, HERTZ, Redrawn, WIDTH, printed, single};
+use super::{Claim, HERTZ, Redrawn, WIDTH, single};
 use crate::case::{PRINTED_PA, RADIUS_M, STEP_S, TABLE_1_PA, VELOCITY_M_S};
 use crate::case::{coupled, explicit, hertz, kmax};
 use contact::{Collision, Exact, Solver};
 use fault::AnyError;
-use figure::{Axis, Figure, Legend, Panel, Sharing, Style};
+use figure::{Axis, Figure, Layer, Legend, Panel, Sharing, Style};
 use impact::Impact;
 use rayon::prelude::*;
 use std::ops::RangeInclusive;
@@ -53,8 +53,8 @@ pub(super) fn on_radius() -> Result<Redrawn, AnyError> {
             Style::Plain,
             on_block,
         )
-        .layer(printed(1e3 * RADIUS_M, 15.97, "15.97"))
-        .layer(printed(1e3 * RADIUS_M, 14.11, "14.11"));
+        .layer(Layer::star((1e3 * RADIUS_M, 15.97), "15.97"))
+        .layer(Layer::star((1e3 * RADIUS_M, 14.11), "14.11"));
     Ok(Redrawn {
         name: "fig-05",
         title: "Fig. 5: K_max against the radius r0",

@@ -9,22 +9,11 @@ use impact::{Field, FieldHistory, Run};
 use rayon::prelude::*;
 use std::f64::consts::FRAC_1_SQRT_2;
 
-/// Distances of the surface's and the axis' curves of displacement, in r0.
-const SURFACE: [f64; 4] = [0.1, 1.0, 3.0, 5.0];
-const DEPTHS: [f64; 4] = [0.0, 1.0, 3.0, 5.0];
-
-/// Distances of the curves at 45 degrees, in r0.
-const OBLIQUE: [f64; 3] = [2.0, 3.0, 5.0];
-
 /// Name of the curves under the paper's force.
 const PAPER_FORCE: &str = "under the paper's force";
 
-/// Where points lie: how their distance from the centre is called, and r and z over it.
-type Along = (&'static str, [f64; 2]);
-
-const ON_SURFACE: Along = ("r", [1.0, 0.0]);
-const ON_AXIS: Along = ("z", [0.0, 1.0]);
-const AT_45_DEGREES: Along = ("√(r^{2} + z^{2})", [FRAC_1_SQRT_2; 2]);
+const ON_SURFACE: (&str, [f64; 2]) = ("r", [1.0, 0.0]);
+const ON_AXIS: (&str, [f64; 2]) = ("z", [0.0, 1.0]);
 
 /// A field over time: time in s and value.
 type Curve = Vec<(f64, f64)>;
@@ -34,7 +23,8 @@ struct Shown {
     name: &'static str,
     title: &'static str,
     field: Field,
-    along: Along,
+    /// Where the points lie: how their distance from the centre is called, and r and z over it.
+    along: (&'static str, [f64; 2]),
     /// Distances of the points in r0.
     distances: &'static [f64],
     caption: &'static str,
@@ -48,7 +38,7 @@ const SHOWN: [Shown; 5] = [
         title: "Fig. 7: deflection w(r, 0, t) of the surface",
         field: Field::DisplacementZ,
         along: ON_SURFACE,
-        distances: &SURFACE,
+        distances: &[0.1, 1.0, 3.0, 5.0],
         caption: "",
         claims: of_surface,
     },
@@ -57,7 +47,7 @@ const SHOWN: [Shown; 5] = [
         title: "Fig. 8: displacement w(0, z, t) on the axis",
         field: Field::DisplacementZ,
         along: ON_AXIS,
-        distances: &DEPTHS,
+        distances: &[0.0, 1.0, 3.0, 5.0],
         caption: "Caption and text of the paper's figure disagree: z = 0 in one, \"r = 0.1 r0\" in the other; here it is z = 0.",
         claims: of_depths,
     },
@@ -74,8 +64,8 @@ const SHOWN: [Shown; 5] = [
         name: "fig-10",
         title: "Fig. 10: stress at 45 degrees over the tensile strength of copper",
         field: Field::StressZz,
-        along: AT_45_DEGREES,
-        distances: &OBLIQUE,
+        along: ("√(r^{2} + z^{2})", [FRAC_1_SQRT_2; 2]),
+        distances: &[2.0, 3.0, 5.0],
         caption: "Caption and text of the paper disagree on the first point, 2 r0/√2 from both axes; here it is that.",
         claims: of_reversal,
     },

@@ -6,7 +6,7 @@ mod fields;
 
 use crate::case::Runs;
 use fault::AnyError;
-use figure::{Figure, LabelledPoint, Layer, Panel};
+use figure::{Figure, Panel};
 
 /// A figure of the paper, redrawn, or one that explains it.
 #[derive(Debug, Clone, PartialEq)]
@@ -66,11 +66,6 @@ const HERTZ: &str = "Hertz, 129 GPa";
 
 /// Name of the curves of a contact that counts the static deflection once.
 const GROWING: &str = "radius follows the load, 123 GPa";
-
-/// A number that the paper prints.
-fn printed(x: f64, y: f64, label: &str) -> Layer {
-    Layer::Point(LabelledPoint::new(x, y, label))
-}
 
 /// A figure of one panel.
 fn single(title: &str, subtitle: &str, panel: Panel) -> Figure {

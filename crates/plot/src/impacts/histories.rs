@@ -4,7 +4,7 @@ use crate::error::{PlotError, chosen};
 use crate::series::{curve, end_s, waves_of};
 use crate::words::{axis, component, of_quantity, with_unit};
 use contact::{Model, Settings};
-use figure::{Axis, Legend, Panel, Scale, Style};
+use figure::{Axis, Layer, Legend, Panel, Scale, Style};
 use formats::quantities::Described;
 use formats::stored::{StoredImpact, StoredProbes};
 use impact::Impact;
@@ -24,10 +24,8 @@ pub(super) fn contact_panels(
     impacts: &[StoredImpact],
     labels: &[String],
 ) -> Result<Vec<Panel>, PlotError> {
-    let ends = impacts.iter().map(|impact| {
-        let series = &impact.series;
-        end_s(&series.time_s, &series.force_n)
-    });
+    let series = impacts.iter().map(|impact| &impact.series);
+    let ends = series.map(|series| end_s(&series.time_s, &series.force_n));
     let end_s = 1.1 * ends.fold(0.0, f64::max);
     let single = match impacts {
         [only] => Some(only),
@@ -78,28 +76,24 @@ pub(super) fn contact_panels(
         panels.push(panel);
     }
     panels.retain(|panel| !panel.layers.is_empty());
-    let mut force = panels.remove(0).legend(Legend::Auto);
+    let force = &mut panels[0];
+    force.legend = Legend::Auto;
     if let Some(only) = single {
-        if let Some(hertz) = hertz(only, end_s) {
-            force = force.line("Hertz, without waves", Style::Plain, hertz);
-        }
+        let hertz = hertz(only, end_s);
+        let hertz = hertz.map(|points| Layer::line("Hertz, without waves", Style::Plain, points));
         let (speeds, start_s) = waves_of(only)?;
         // of the faces of the block, where they are known
-        if let Some(echo_s) = speeds.first_echo_s(&only.target, [0.0; 2], 0.0) {
-            force = force.mark(start_s + echo_s, "first echo");
-        }
+        let echo_s = speeds.first_echo_s(&only.target, [0.0; 2], 0.0);
+        let echo = echo_s.map(|echo_s| Layer::mark(start_s + echo_s, "first echo"));
+        force.layers.extend(hertz.into_iter().chain(echo));
     }
-    panels.insert(0, force);
     Ok(panels)
 }
 
 /// Force against the displacement of the striker, one curve an impact.
 pub(super) fn loop_panel(impacts: &[StoredImpact], labels: &[String]) -> Result<Panel, PlotError> {
-    let (approach, force) = (
-        Axis::linear("approach").si("m"),
-        Axis::linear("force").si("N"),
-    );
-    let mut panel = Panel::new(approach, force).height(380.0);
+    let approach = Axis::linear("approach").si("m");
+    let mut panel = Panel::new(approach, Axis::linear("force").si("N")).height(380.0);
     for (impact, label) in impacts.iter().zip(labels) {
         let series = &impact.series;
         let Some(striker) = &series.striker else {

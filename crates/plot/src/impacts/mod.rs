@@ -13,7 +13,7 @@ use crate::section::{axis_profile, frames, peak, space_time};
 use crate::words::with_unit;
 use contact::Shape;
 use figure::{Figure, Panel, Sharing};
-use formats::stored::{FileKind, StoredImpact, Value};
+use formats::stored::{StoredImpact, Value};
 use histories::{FEW, contact_panels, loop_panel, probe_panels};
 use labels::labels;
 use spectrum::spectrum;
@@ -28,7 +28,7 @@ pub(crate) fn of_impacts(impacts: &[StoredImpact], request: &Request) -> Result<
         _ => Kind::Impact,
     };
     let kind = request.kind.unwrap_or(suits);
-    if !request.times_s.is_empty() && !kind.has_times() {
+    if !request.times_s.is_empty() && !matches!(kind, Kind::Waves | Kind::Axis) {
         return Err(PlotError::all_times(kind));
     }
     let one = || only(impacts, kind);
@@ -38,16 +38,12 @@ pub(crate) fn of_impacts(impacts: &[StoredImpact], request: &Request) -> Result<
         notes: Vec::new(),
     };
     match kind {
-        Kind::Impact | Kind::Probes => histories(impacts, kind, request),
         Kind::Loop => Ok(single(loop_panel(impacts, &labels(impacts))?)),
         Kind::Spectrum => Ok(single(spectrum(impacts, &labels(impacts))?)),
         Kind::Peak => Ok(single(peak(one()?, request)?)),
         Kind::Axis => Ok(single(axis_profile(one()?, request)?)),
         Kind::Surface => Ok(single(space_time(one()?, request, true)?)),
         Kind::Depth => Ok(single(space_time(one()?, request, false)?)),
-        Kind::Sweep | Kind::Loss | Kind::Restitution | Kind::Histogram | Kind::Errors => Err(
-            PlotError::unsuitable(impacts[0].path(), FileKind::Impact, kind),
-        ),
         Kind::Waves => {
             let (panels, notes) = frames(one()?, request, request.frames.unwrap_or(4))?;
             let columns = if panels.len() > 4 { 3 } else { 2 };
@@ -59,6 +55,8 @@ pub(crate) fn of_impacts(impacts: &[StoredImpact], request: &Request) -> Result<
             figure.panels = panels;
             Ok(Drawn { figure, notes })
         }
+        // kinds of other files do not come here
+        _ => histories(impacts, kind, request),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::error::PlotError;
 use crate::words::with_unit;
-use figure::{Axis, LabelledPoint, Layer, Panel, Style};
+use figure::{Axis, Layer, Panel, Style};
 use formats::stored::StoredImpact;
 use std::f64::consts::PI;
 
@@ -31,16 +31,11 @@ pub(super) fn spectrum(impacts: &[StoredImpact], labels: &[String]) -> Result<Pa
         }
         if let Some((corner, amplitude)) = pulse.corner(&points) {
             let text = format!("corner {}", with_unit(corner, "Hz"));
-            let point = LabelledPoint::new(corner, amplitude, &text);
-            panel = panel.layer(Layer::Point(point));
+            panel = panel.layer(Layer::star((corner, amplitude), &text));
         }
         for (i, zero) in pulse.zeros(&points).into_iter().take(4).enumerate() {
-            let text = if i == 0 {
-                format!("zero {}", with_unit(zero, "Hz"))
-            } else {
-                with_unit(zero, "Hz")
-            };
-            panel = panel.mark(zero, &text);
+            let word = if i == 0 { "zero " } else { "" };
+            panel = panel.mark(zero, &format!("{word}{}", with_unit(zero, "Hz")));
         }
     }
     panel.y = panel.y.range(1e-5 * plateau, 2.0 * plateau);

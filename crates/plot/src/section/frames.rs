@@ -5,7 +5,7 @@ use crate::request::Request;
 use crate::series::{end_s, waves_of};
 use crate::words::{axis, of_quantity};
 use contact::{Choice, WaveSpeeds};
-use figure::{Axis, ColourMap, Image, LabelledPoint, Layer, Line, Panel, Scale, Style};
+use figure::{Axis, ColourMap, Image, Layer, Panel, Scale, Style};
 use formats::SceneError;
 use formats::quantities::Described;
 use formats::stored::{StoredImpact, StoredSection};
@@ -157,11 +157,9 @@ impl<'a> Section<'a> {
     /// Whether each place of [`Self::values`] is outside the near field.
     pub(super) fn is_far(&self) -> Vec<bool> {
         let near_m = self.near_m(self.side_m());
-        let depths = self.depths_m();
-        let places = depths
-            .iter()
-            .flat_map(|z| self.stored.r_m.iter().map(move |r| r.hypot(*z)));
-        places.map(|distance| distance > near_m).collect()
+        let depths = self.depths_m().into_iter();
+        let row = |z: f64| self.stored.r_m.iter().map(move |r| r.hypot(z) > near_m);
+        depths.flat_map(row).collect()
     }
 
     /// Values over the section, mirrored at the axis.
@@ -185,7 +183,7 @@ impl<'a> Section<'a> {
             return layers;
         }
         let mut line = |points: Vec<(f64, f64)>| {
-            layers.push(Layer::Line(Line::new("", Style::Rimmed, points)));
+            layers.push(Layer::line("", Style::Rimmed, points));
         };
         let [p, s, rayleigh] =
             [self.speeds.p, self.speeds.s, self.speeds.rayleigh].map(|c| c * since);
@@ -208,7 +206,7 @@ impl<'a> Section<'a> {
             (on(s, 0.5), "S"),
             ((edge, 0.6 * depth.min(0.9 * rayleigh)), "R"),
         ];
-        layers.extend(named.map(|((x, y), name)| Layer::Point(LabelledPoint::text(x, y, name))));
+        layers.extend(named.map(|(at, name)| Layer::text(at, name)));
         layers
     }
 }

@@ -7,7 +7,7 @@ use crate::request::Request;
 use crate::series::curve;
 use crate::words::{axis, with_unit};
 use contact::KernelUnits;
-use figure::{Axis, Image, LabelledPoint, Layer, Legend, Panel, Scale, Style};
+use figure::{Axis, Image, Layer, Legend, Panel, Scale, Style};
 use formats::results::schema::FIELDS;
 use formats::stored::StoredImpact;
 use halfspace::{Kernel, Medium, Profile};
@@ -67,10 +67,10 @@ pub(crate) fn space_time(
         let at = |time_s: f64| (time_s, start_m + speed * (time_s - section.start_s));
         let end_s = last_s.min(section.start_s + (most - start_m) / speed);
         let points = vec![at(section.start_s), at(end_s)];
-        let (x, y) = at(section.start_s + share * (end_s - section.start_s));
+        let place = at(section.start_s + share * (end_s - section.start_s));
         panel = panel
             .line("", Style::Rimmed, points)
-            .layer(Layer::Point(LabelledPoint::text(x, y, name)));
+            .layer(Layer::text(place, name));
     }
     Ok(panel)
 }

@@ -36,10 +36,8 @@ pub(crate) fn frames(
     } else if request.quantities.is_empty() && quantity.name == "displacement_z" {
         notes.push("waves are seen better as velocities: give the scene [output] quantities = [\"velocity_z\"]".to_owned());
     }
-    let mut images = Vec::new();
-    for &frame in &chosen {
-        images.push(section.values(&quantity, frame)?);
-    }
+    let images = chosen.iter().map(|&frame| section.values(&quantity, frame));
+    let images = images.collect::<Result<Vec<_>, _>>()?;
     let (colours, map) = section.colours(&quantity, &images, &section.is_far());
     let panel = |(&frame, values): (&usize, Vec<f64>)| {
         let time_s = section.stored.time_s[frame];
@@ -56,12 +54,9 @@ pub(crate) fn frames(
 
 /// Frames evenly: until the longitudinal wave leaves the section, or within a pulse that is longer.
 fn instants(section: &Section<'_>, count: usize) -> Vec<usize> {
+    let half = 0.5 / count as f64;
     let (length_s, first, last) = match section.is_near() {
-        true => (
-            section.pulse_s,
-            0.5 / count as f64,
-            1.0 - 0.5 / count as f64,
-        ),
+        true => (section.pulse_s, half, 1.0 - half),
         // a few frames begin where waves have parted, many where the force does
         false if count > FEW => (section.crossing_s(), 0.0, 1.0),
         false => (section.crossing_s(), 0.4, 1.0),

@@ -9,7 +9,7 @@ use figure::{Axis, ColourMap, Figure, Image, Layer, Legend, Line, Panel, Scale, 
 use formats::quantities::Described;
 use formats::stored::StoredSweep;
 use formats::sweep::Column;
-use view::{SHARES, Slice, View, quantiles};
+use view::{Slice, View, quantiles};
 
 /// Results that are shown when none is asked for.
 const USUAL: [&str; 4] = [
@@ -220,12 +220,9 @@ fn lines(
         // by its name a band knows its curve
         only.label = "draws".to_owned();
     }
-    let Nodes {
-        axis: x,
-        places,
-        order,
-    } = Nodes::along(view, along, asked)?;
-    let mut panel = Panel::new(x, axis(&shown.words, shown.unit, scale));
+    let nodes = Nodes::along(view, along, asked)?;
+    let mut panel = Panel::new(nodes.axis, axis(&shown.words, shown.unit, scale));
+    let places = nodes.places;
     let style = match places.len() {
         ..=12 => Style::Marked,
         _ => Style::Plain,
@@ -241,7 +238,7 @@ fn lines(
             let found = view.quantiles(slice, &[(along, i)], &shown.values)?;
             Some((places[i], found))
         };
-        let found: Vec<(f64, [f64; 3])> = order.iter().filter_map(at).collect();
+        let found: Vec<(f64, [f64; 3])> = nodes.order.iter().filter_map(at).collect();
         panel = match view.drawn {
             Some(_) => panel.banded(&slice.label, style, &found),
             None => {
@@ -268,8 +265,8 @@ fn over_draws(
     }
     pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
     let of = |bin: &[(f64, f64)]| {
-        let x = quantiles(bin.iter().map(|pair| pair.0), SHARES)?;
-        Some((x[1], quantiles(bin.iter().map(|pair| pair.1), SHARES)?))
+        let [_, x, _] = quantiles(bin.iter().map(|pair| pair.0))?;
+        Some((x, quantiles(bin.iter().map(|pair| pair.1))?))
     };
     let bins = pairs.chunks(pairs.len().div_ceil(BINS)).filter_map(of);
     panel.banded(&slice.label, Style::Marked, &bins.collect::<Vec<_>>())
@@ -281,10 +278,8 @@ fn heat_map(
     slice: &Slice,
     shown: &Shown<'_>,
 ) -> Result<Panel, PlotError> {
-    let (mut x, mut y) = (
-        Nodes::along(view, along, None)?,
-        Nodes::along(view, second, None)?,
-    );
+    let mut x = Nodes::along(view, along, None)?;
+    let mut y = Nodes::along(view, second, None)?;
     let (columns, rows) = (x.distinct(), y.distinct());
     let mut values = Vec::new();
     for &j in &y.order {
@@ -341,11 +336,11 @@ fn loss(view: &View<'_>, shown: &Shown<'_>) -> Result<Panel, PlotError> {
 fn restitution(view: &View<'_>, shown: &Shown<'_>) -> Result<Panel, PlotError> {
     let mut panel = over_velocity(view, shown)?;
     let is_known = |quantity: &Described| quantity.name == AT_YIELD;
-    let at_yield = match view.sweep.quantities().iter().any(is_known) {
-        true => view.sweep.values(AT_YIELD)?,
-        false => Vec::new(),
-    };
-    let Some(yields) = at_yield.into_iter().find(|v| v.is_finite()) else {
+    if !view.sweep.quantities().iter().any(is_known) {
+        return Ok(panel);
+    }
+    let mut at_yield = view.sweep.values(AT_YIELD)?.into_iter();
+    let Some(yields) = at_yield.find(|v| v.is_finite()) else {
         return Ok(panel);
     };
     let name = "velocity of approach over that of yield";
@@ -386,7 +381,7 @@ fn histogram(view: &View<'_>, shown: &Shown<'_>) -> Result<Panel, PlotError> {
         panel = panel.layer(Layer::Line(Line::histogram(label, found, bins, scale)));
     }
     if let [(_, found)] = groups.as_slice()
-        && let Some(quantiles) = quantiles(found.iter().copied(), SHARES)
+        && let Some(quantiles) = quantiles(found.iter().copied())
     {
         for (place, name) in quantiles.into_iter().zip(["5 %", "median", "95 %"]) {
             panel = panel.mark(place, name);

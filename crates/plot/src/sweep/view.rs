@@ -7,7 +7,7 @@ use formats::stored::StoredSweep;
 use formats::sweep::{Column, Values};
 
 /// Shares of draws below the band, at its middle and below its upper end.
-pub(super) const SHARES: [f64; 3] = [0.05, 0.5, 0.95];
+const SHARES: [f64; 3] = [0.05, 0.5, 0.95];
 
 /// A choice along every axis but those that are shown.
 #[derive(Debug, Clone)]
@@ -137,7 +137,7 @@ impl<'a> View<'a> {
         values: &[f64],
     ) -> Option<[f64; 3]> {
         let rows = self.rows(slice, at).into_iter();
-        quantiles(rows.map(|row| values[row]), SHARES)
+        quantiles(rows.map(|row| values[row]))
     }
 
     /// The rows of a slice at a place along the axes that are shown, over all draws.
@@ -200,14 +200,14 @@ fn index_of(sweep: &StoredSweep, column: &Column, value: &str) -> Result<usize, 
 }
 
 /// Lower, middle and upper quantile of values, those that are no numbers apart.
-pub(super) fn quantiles(values: impl Iterator<Item = f64>, shares: [f64; 3]) -> Option<[f64; 3]> {
+pub(super) fn quantiles(values: impl Iterator<Item = f64>) -> Option<[f64; 3]> {
     let mut known: Vec<f64> = values.filter(|v| v.is_finite()).collect();
     if known.is_empty() {
         return None;
     }
     known.sort_by(f64::total_cmp);
     let last = (known.len() - 1) as f64;
-    Some(shares.map(|share| {
+    Some(SHARES.map(|share| {
         let place = share * last;
         let (low, part) = (place.floor() as usize, place.fract());
         let high = (low + 1).min(known.len() - 1);
@@ -221,11 +221,8 @@ mod tests {
 
     #[test]
     fn quantiles_are_between_values() {
-        let found = quantiles(
-            [4.0, f64::NAN, 0.0, 1.0, 2.0, 3.0].into_iter(),
-            [0.05, 0.5, 1.0],
-        );
-        assert_eq!(found, Some([0.2, 2.0, 4.0]));
-        assert_eq!(quantiles([f64::NAN].into_iter(), [0.0, 0.5, 1.0]), None);
+        let found = quantiles([4.0, f64::NAN, 0.0, 1.0, 2.0, 3.0].into_iter());
+        assert_eq!(found, Some([0.2, 2.0, 3.8]));
+        assert_eq!(quantiles([f64::NAN].into_iter()), None);
     }
 }

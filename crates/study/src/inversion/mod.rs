@@ -14,7 +14,7 @@ mod hankel;
 mod series;
 
 use crate::measure::Effort;
-use framework::{Framework, euler, stehfest, talbot};
+use framework::{euler, invert, stehfest, talbot};
 use halfspace::{Medium, Six};
 use hankel::Hankel;
 use num_complex::Complex64;
@@ -38,75 +38,63 @@ type Invert = dyn Fn(&Hankel, &[f64]) -> Vec<Six>;
 /// Durbin's plain sum gains nothing by it.
 const SPAN: f64 = 4.0;
 
-/// A method, with its settings in a quick and a full chart, and in the pictures of errors over time of both: in a full
+/// Methods, with their settings in a quick and a full chart, and in the pictures of errors over time of both: in a full
 /// one its best.
-type Method = (fn(usize) -> Inversion, [&'static [usize]; 2], [usize; 2]);
-
-const METHODS: [Method; 5] = [
+const METHODS: [(&str, [&[usize]; 3]); 5] = [
+    ("fixed Talbot", [&[12, 24], &[8, 12, 16, 24, 32], &[16, 24]]),
+    ("Gaver-Stehfest", [&[6, 14], &[6, 10, 14, 18], &[14, 14]]),
+    ("Euler", [&[6, 14], &[6, 10, 14, 18, 24], &[10, 18]]),
     (
-        |n| {
-            Inversion::anew(
-                "fixed Talbot",
-                format!("{n} terms"),
-                0.7 * n as f64,
-                talbot(n),
-            )
-        },
-        [&[12, 24], &[8, 12, 16, 24, 32]],
-        [16, 24],
+        "Durbin",
+        [&[50, 200], &[50, 100, 200, 400, 800], &[200, 400]],
     ),
-    (
-        |n| Inversion::anew("Gaver-Stehfest", format!("{n} terms"), 15.0, stehfest(n)),
-        [&[6, 14], &[6, 10, 14, 18]],
-        [14, 14],
-    ),
-    (
-        |n| Inversion::anew("Euler", format!("order {n}"), n as f64, euler(n)),
-        [&[6, 14], &[6, 10, 14, 18, 24]],
-        [10, 18],
-    ),
-    (
-        |n| Inversion::in_windows("Durbin", durbin, n, 1e-6, f64::INFINITY),
-        [&[50, 200], &[50, 100, 200, 400, 800]],
-        [200, 400],
-    ),
-    (
-        // the aliasing error that the accelerated series reaches
-        |n| {
-            let aliasing = 10.0_f64.powf(-3.0 - n as f64 / 20.0).max(1e-11);
-            Inversion::in_windows("de Hoog", de_hoog, n, aliasing, SPAN)
-        },
-        [&[21, 81], &[21, 41, 81, 161]],
-        [81, 161],
-    ),
+    ("de Hoog", [&[21, 81], &[21, 41, 81, 161], &[81, 161]]),
 ];
 
 impl Inversion {
+    /// A method at a setting.
+    fn new(name: &'static str, n: usize) -> Self {
+        let terms = format!("{n} terms");
+        match name {
+            "fixed Talbot" => Self::anew(name, terms, 0.7 * n as f64, talbot(n)),
+            "Gaver-Stehfest" => Self::anew(name, terms, 15.0, stehfest(n)),
+            "Euler" => Self::anew(name, format!("order {n}"), n as f64, euler(n)),
+            "Durbin" => Self::in_windows(name, durbin, n, 1e-6, f64::INFINITY),
+            _ => {
+                // the aliasing error that the accelerated series reaches
+                let aliasing = 10.0_f64.powf(-3.0 - n as f64 / 20.0).max(1e-11);
+                Self::in_windows(name, de_hoog, n, aliasing, SPAN)
+            }
+        }
+    }
+
     /// All methods at increasing settings.
     pub(crate) fn all(effort: Effort) -> Vec<Self> {
-        let of = |(make, [quick, full], _): Method| {
-            effort.pick(quick, full).iter().map(move |&n| make(n))
-        };
-        METHODS.into_iter().flat_map(of).collect()
+        let settings = METHODS.into_iter().flat_map(|(name, [quick, full, _])| {
+            effort.pick(quick, full).iter().map(move |&n| (name, n))
+        });
+        settings.map(|(name, n)| Self::new(name, n)).collect()
     }
 
     /// The setting of each method in the pictures of errors over time.
     pub(crate) fn pictured(effort: Effort) -> Vec<Self> {
-        let of = |(make, _, [quick, best]): Method| make(effort.pick(quick, best));
-        METHODS.into_iter().map(of).collect()
+        let best = effort.pick(0, 1);
+        let methods = METHODS.into_iter();
+        let pictured = methods.map(|(name, [.., settings])| Self::new(name, settings[best]));
+        pictured.collect()
     }
 
     /// A method that takes the transform anew for every time.
-    fn anew(name: &'static str, setting: String, digits: f64, rule: Framework) -> Self {
-        let invert = move |hankel: &Hankel, times: &[f64]| {
-            let at = |&t: &f64| rule.invert(t, |s| hankel.values(s));
+    fn anew(name: &'static str, setting: String, digits: f64, rule: Vec<[Complex64; 2]>) -> Self {
+        let run = move |hankel: &Hankel, times: &[f64]| {
+            let at = |&t: &f64| invert(&rule, t, |s| hankel.values(s));
             times.iter().map(at).collect()
         };
         Self {
             name,
             setting,
             digits: digits.clamp(4.0, 15.0),
-            invert: Box::new(invert),
+            invert: Box::new(run),
         }
     }
 
@@ -118,7 +106,7 @@ impl Inversion {
         aliasing: f64,
         span: f64,
     ) -> Self {
-        let invert = move |hankel: &Hankel, times: &[f64]| {
+        let run = move |hankel: &Hankel, times: &[f64]| {
             let mut values = Vec::with_capacity(times.len());
             let mut rest = times;
             while let Some(first) = rest.first() {
@@ -134,7 +122,7 @@ impl Inversion {
             name,
             setting: format!("{samples} samples"),
             digits: (2.0 - aliasing.log10()).clamp(4.0, 15.0),
-            invert: Box::new(invert),
+            invert: Box::new(run),
         }
     }
 

@@ -5,7 +5,7 @@ use crate::measure::Effort;
 use crate::picture::Picture;
 use crate::question::kernels::{KernelScene, POISSON_RATIO};
 use fault::AnyError;
-use figure::{Axis, Style};
+use figure::{Axis, Layer, Style};
 use halfspace::{Kernel, Medium, Profile, Six};
 
 /// What the pictures say.
@@ -17,61 +17,50 @@ const CAPTION: &str = "Fixed Talbot, which is the best of all after the last fro
 /// One picture for the surface centre, one for the interior and one for the axis.
 pub(crate) fn figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>, AnyError> {
     let medium = Medium::new(POISSON_RATIO)?;
+    let kernel = Kernel::new(&medium, Profile::Hertz, 1e-10)?;
     let count = effort.pick(40, 160);
-    let draw = |name, what: &str, scene: KernelScene| {
-        let title = format!("Inversions over time: {what}");
-        over_scene(&medium, &scene, name, &title, effort, advance)
-    };
     let surface = KernelScene::surface(&medium, count, &[])?;
     let interior = KernelScene::interior(&medium, count, &[])?;
     let axis = KernelScene::axis(&medium, count, &[])?;
     let centre = "deflection of the surface's centre";
     let inside = "six fields at (0.55, 0.65) r0";
     let depth = "w on the axis at a depth of 0.65 r0";
-    Ok(vec![
-        draw("inversions-surface", centre, surface)?,
-        draw("inversions-interior", inside, interior)?,
-        draw("inversions-axis", depth, axis)?,
-    ])
-}
-
-/// Every inversion at one place.
-fn over_scene(
-    medium: &Medium,
-    scene: &KernelScene,
-    name: &'static str,
-    title: &str,
-    effort: Effort,
-    advance: &dyn Fn(),
-) -> Result<Picture, AnyError> {
-    let last = scene.times.last().copied().unwrap_or(1.0);
-    let mut figure = Picture::new(
-        name,
-        title,
-        Axis::logarithmic("time")
-            .unit("r0/c1")
-            .range(scene.times[0], last),
-        Axis::logarithmic("largest error over the largest value").range(1e-16, 10.0),
-    );
-    for method in Inversion::pictured(effort) {
-        let (values, _) = method.run(medium, scene.place, &scene.times);
-        let label = format!("{}, {}", method.name, method.setting);
-        figure.curve(&label, Style::Plain, over_time(scene, &values));
-        advance();
-    }
-    let kernel = Kernel::new(medium, Profile::Hertz, 1e-10)?;
-    let own = over_time(scene, &scene.by_kernel(&kernel)?);
-    figure.curve("single integral, 1e-10", Style::Heavy, own);
-    for (arrival, label) in [
-        (scene.arrivals.first(), "first front"),
-        (scene.arrivals.last(), "last front"),
+    let mut figures = Vec::new();
+    for (name, what, scene) in [
+        ("inversions-surface", centre, surface),
+        ("inversions-interior", inside, interior),
+        ("inversions-axis", depth, axis),
     ] {
-        if let Some(&t) = arrival {
-            figure.mark(t, label);
+        let (first, last) = (scene.times[0], scene.times[scene.times.len() - 1]);
+        let mut figure = Picture::new(
+            name,
+            &format!("Inversions over time: {what}"),
+            Axis::logarithmic("time").unit("r0/c1").range(first, last),
+            Axis::logarithmic("largest error over the largest value").range(1e-16, 10.0),
+        );
+        for method in Inversion::pictured(effort) {
+            let (values, _) = method.run(&medium, scene.place, &scene.times);
+            let label = format!("{}, {}", method.name, method.setting);
+            figure.add(Layer::line(
+                &label,
+                Style::Plain,
+                over_time(&scene, &values),
+            ));
+            advance();
         }
+        let own = over_time(&scene, &scene.by_kernel(&kernel)?);
+        figure.add(Layer::line("single integral, 1e-10", Style::Heavy, own));
+        let ends = [scene.arrivals.first(), scene.arrivals.last()];
+        for (arrival, label) in ends.into_iter().zip(["first front", "last front"]) {
+            figure
+                .panel
+                .layers
+                .extend(arrival.map(|&t| Layer::mark(t, label)));
+        }
+        CAPTION.clone_into(&mut figure.caption);
+        figures.push(figure);
     }
-    CAPTION.clone_into(&mut figure.caption);
-    Ok(figure)
+    Ok(figures)
 }
 
 fn over_time(scene: &KernelScene, values: &[Six]) -> Vec<(f64, f64)> {

@@ -3,7 +3,7 @@
 use crate::measure::Effort;
 use crate::picture::Picture;
 use fault::AnyError;
-use figure::{Axis, Interval, Style};
+use figure::{Axis, Interval, Layer, Style};
 use halfspace::gauss::Rule;
 use halfspace::{Deflection, Kernel, Medium, Profile, SurfaceResponse, kausel};
 use num_complex::Complex64;
@@ -109,19 +109,15 @@ pub fn double_root_own_error(distance: f64) -> Result<f64, AnyError> {
 /// When the ratio is outside (-1, 0.5).
 pub fn incompressible_error(distance: f64) -> Result<f64, AnyError> {
     let medium = Medium::new(0.5 - distance)?;
-    let (coarse, fine) = (
-        Kernel::new(&medium, Profile::Hertz, 1e-8)?,
-        Kernel::new(&medium, Profile::Hertz, 1e-13)?,
-    );
+    let coarse = Kernel::new(&medium, Profile::Hertz, 1e-8)?;
+    let fine = Kernel::new(&medium, Profile::Hertz, 1e-13)?;
     let (r, z) = (0.5, 0.6);
     let rest = fine.static_field(r, z)?;
     let (mut scale, mut errors) = (rest.map(f64::abs), [0.0_f64; 6]);
     for shear_time in [0.3, 0.7, 1.0, 1.6, 2.5, 6.0] {
         let t = shear_time / medium.kappa();
-        let (a, b) = (
-            coarse.remainder(r, z, t)?.value,
-            fine.remainder(r, z, t)?.value,
-        );
+        let a = coarse.remainder(r, z, t)?.value;
+        let b = fine.remainder(r, z, t)?.value;
         for f in 0..6 {
             scale[f] = scale[f].max((b[f] + rest[f]).abs());
             errors[f] = errors[f].max((a[f] - b[f]).abs());
@@ -164,7 +160,7 @@ fn add(
 ) -> Result<(), AnyError> {
     let point = |&x: &f64| Ok((x, error(x)?.max(1e-17)));
     let points: Result<_, AnyError> = places.iter().map(point).collect();
-    figure.curve(name, style, points?);
+    figure.add(Layer::line(name, style, points?));
     Ok(())
 }
 
@@ -244,7 +240,7 @@ fn incompressible(effort: Effort) -> Result<Picture, AnyError> {
     let theory = "theory: c2/c1 = sqrt(d/(1/2 + d))";
     let ratio = |d: f64| Ok((d / (0.5 + d)).sqrt());
     add(&mut figure, theory, Style::HeavyDashed, &distances, ratio)?;
-    figure.mark(0.005, "tables end");
+    figure.add(Layer::mark(0.005, "tables end"));
     figure.caption = "c1/c2 goes to infinity as the root of 1/(1/2 - nu): a table's time axis in r0/c1 grows with \
         it, which is why tables end at nu = 0.495. The kernels and the surface response themselves keep their accuracy."
         .to_owned();

@@ -24,7 +24,7 @@ use contact::{
     FixedDisc, History, MarchError, StaticShare, Summary, Weights, march_explicit, march_implicit,
 };
 use fault::AnyError;
-use figure::{Interval, Style};
+use figure::{Interval, Layer, Style};
 use halfspace::{Deflection, Medium, SurfaceResponse};
 
 /// What a march made of an impact.
@@ -211,7 +211,10 @@ fn mark(figure: &mut Picture, paper: &Converged<'_>, says: impl Fn(f64) -> Strin
     for n in PAPER_STEPS {
         let step = paper.summary.contact_time / n;
         let place = (1.5 * admittance(&paper.disc), step / CONTACT_TIME);
-        figure.point(place, &format!("paper's case, ts/{n}{}", says(step)));
+        figure.add(Layer::star(
+            place,
+            &format!("paper's case, ts/{n}{}", says(step)),
+        ));
     }
 }
 
@@ -246,12 +249,16 @@ fn explicit(map: &Map<'_>, columns: &[(f64, Converged<'_>)], paper: &Converged<'
         columns[cell % columns.len()].1.explicit(y * CONTACT_TIME) as usize
     });
     let stable = line(columns, Converged::stable_step);
-    figure.curve("theory: h k/Z = 2", Style::Heavy, stable);
+    figure.add(Layer::line("theory: h k/Z = 2", Style::Heavy, stable));
     let complex = "theory: roots turn complex, h k/Z = 0.34";
     let smooth = line(columns, Converged::smooth_step);
-    figure.curve(complex, Style::Dotted, smooth);
+    figure.add(Layer::line(complex, Style::Dotted, smooth));
     let gain = line(columns, Converged::energy_step);
-    figure.curve("theory: gain = radiated loss", Style::HeavyDashed, gain);
+    figure.add(Layer::line(
+        "theory: gain = radiated loss",
+        Style::HeavyDashed,
+        gain,
+    ));
     mark(&mut figure, paper, |step| {
         match march_explicit(&paper.disc, step) {
             Ok((_, summary)) => format!(": e = {:.4}", summary.restitution),
@@ -275,10 +282,10 @@ fn implicit(map: &Map<'_>, columns: &[(f64, Converged<'_>)], paper: &Converged<'
         growing.extend(grows.map(|&y| (*x, y)));
     }
     let root = "theory: a root of the weights beyond 1";
-    figure.curve(root, Style::Dots, growing);
+    figure.add(Layer::line(root, Style::Dots, growing));
     let fewest = "eight samples in contact, the fewest that are interpolated";
     let step = |exact: &Converged<'_>| exact.summary.contact_time / 8.0;
-    figure.curve(fewest, Style::Dotted, line(columns, step));
+    figure.add(Layer::line(fewest, Style::Dotted, line(columns, step)));
     let cells = figure.points();
     let gains = cells
         .iter()
@@ -424,10 +431,7 @@ fn dynamic_share(paper: &FixedDisc<'_>, effort: Effort) -> Picture {
         match (exact, dynamic_is_solved(disc, step)) {
             (_, false) => 3,
             (None, true) => 2,
-            (Some(exact), true) => match exact.implicit(step) {
-                Outcome::Accurate => 0,
-                Outcome::Lossy | Outcome::GainsEnergy | Outcome::Oscillates | Outcome::BlownUp => 1,
-            },
+            (Some(exact), true) => usize::from(exact.implicit(step) != Outcome::Accurate),
         }
     });
     let [x, y] = map.plane;
@@ -446,13 +450,11 @@ fn dynamic_share(paper: &FixedDisc<'_>, effort: Effort) -> Picture {
     ] {
         let points = steps.iter().map(|&y| (limit(paper, y * CONTACT_TIME), y));
         // as long as it stays in the plane
-        figure.curve(
-            name,
-            style,
-            points.filter(|point| point.0 < x.high).collect(),
-        );
+        let points = points.filter(|point| point.0 < x.high).collect();
+        figure.add(Layer::line(name, style, points));
     }
-    figure.point((paper.coupling, 1.0 / 137.0), "paper's case, 137 steps");
+    let place = (paper.coupling, 1.0 / 137.0);
+    figure.add(Layer::star(place, "paper's case, 137 steps"));
     figure.caption = "Without its static part the newest weight of the deflection is negative: the contact law \
         folds back, and beyond a coupling of 2/3 it has no solution. At steps near the memory and beyond \
         the samples alternate and grow from the dashed line on, until they reach the fold. \

@@ -9,7 +9,7 @@ use super::marches::bisected;
 use crate::measure::Effort;
 use crate::picture::Picture;
 use crate::question::marching::{Results, errors, results};
-use crate::record::Error;
+use crate::record::sizes;
 use crate::scenes::{ROD_RADIUS_M, TABLE_1_PA, ball, collision, paper};
 use contact::law::area_dashpot::{AreaDashpot, left_out};
 use contact::law::hertz::CONTACT_TIME;
@@ -19,9 +19,8 @@ use contact::{Accuracy, FixedDisc, GrowingContact, Library, MarchError, PunchWav
 use contact::{Family, Groups, Rung};
 use contact::{StaticShare, Summary, march_growing, march_implicit, refine};
 use fault::AnyError;
-use figure::{Interval, Style};
+use figure::{Interval, Layer, Style};
 use halfspace::{Deflection, Medium, SurfaceResponse};
-use impact::Impact;
 
 /// Tolerances of the three pictures.
 pub const TOLERANCES: [f64; 3] = [1e-2, 1e-3, 1e-4];
@@ -62,7 +61,7 @@ impl ModelErrors {
 /// The largest error of a model's results, or infinite where it is beyond its bounds.
 fn error(is_allowed: bool, found: &Summary, exact: &Results) -> f64 {
     if is_allowed {
-        Error::of(&errors(&results(found), exact)).max
+        sizes(&errors(&results(found), exact))[0]
     } else {
         f64::INFINITY
     }
@@ -241,14 +240,6 @@ pub fn place_of(target: &str, velocity_m_s: f64) -> Result<(f64, f64), AnyError>
     Ok((collision.target_share(), memory / CONTACT_TIME))
 }
 
-/// The impact of such a point with model `auto` at a tolerance.
-///
-/// # Errors
-/// When the library's material makes no half-space.
-pub fn ball_impact(target: &str, velocity_m_s: f64, tolerance: f64) -> Result<Impact, AnyError> {
-    Ok(ball(target, velocity_m_s)?.to_tolerance(tolerance))
-}
-
 /// Names of the built-in materials that can be a target: those with a density.
 #[must_use]
 pub fn targets() -> Vec<String> {
@@ -293,15 +284,18 @@ fn picture(
     [name, what]: [&'static str; 2],
     tolerance: f64,
     errors: &[ModelErrors],
-    leaves: [(&str, Vec<(f64, f64)>); 2],
+    leaves: [(&str, Rung); 2],
+    points: usize,
+    memory: impl Fn(f64, Rung) -> f64,
 ) -> Picture {
     let title = format!("{what} that meets {tolerance:.0e}");
     let last = map.classes.len() - 1;
     let class = |cell: usize, _| errors[cell].cheapest(tolerance).min(last);
     let mut figure = map.picture(name, &title, class);
     let styles = [Style::Heavy, Style::HeavyDashed];
-    for ((label, line), style) in leaves.into_iter().zip(styles) {
-        figure.curve(label, style, line);
+    for ((label, rung), style) in leaves.into_iter().zip(styles) {
+        let line = map.line(points, |x| memory(x, rung));
+        figure.add(Layer::line(label, style, line));
     }
     figure
 }
@@ -349,14 +343,16 @@ fn growing_figures(effort: Effort, advance: &dyn Fn()) -> Result<Vec<Picture>, A
         let leaves = [
             ("auto leaves hertz", Rung::QuasiStatic),
             ("auto leaves the area dashpot", Rung::AreaDashpot),
-        ]
-        .map(|(label, rung)| (label, map.line(40, |x| plane.boundary(x, tolerance, rung))));
-        let mut figure = picture(&map, [name, "Cheapest model"], tolerance, &errors, leaves);
+        ];
+        let names = [name, "Cheapest model"];
+        let memory = |x, rung| plane.boundary(x, tolerance, rung);
+        let mut figure = picture(&map, names, tolerance, &errors, leaves, 40, memory);
         for speed in SPEEDS_M_S {
             let targets = targets();
             let places = targets.iter().map(|target| place_of(target, speed));
+            let places = places.collect::<Result<_, _>>()?;
             let label = format!("steel ball on each material, {speed} m/s");
-            figure.curve(&label, Style::Points, places.collect::<Result<_, _>>()?);
+            figure.add(Layer::line(&label, Style::Points, places));
         }
         figure.caption = format!(
             "Regions are computed: each model against the converged growing contact, largest error of peak force, \
@@ -391,15 +387,12 @@ fn disc_figures(effort: Effort) -> Result<Vec<Picture>, AnyError> {
         let leaves = [
             ("auto leaves two springs", Rung::QuasiStatic),
             ("auto leaves the first-order loss", Rung::Radiation),
-        ]
-        .map(|(label, rung)| {
-            let chosen = |coupling, memory| {
-                disc_chosen(&disc_at(&paper, coupling, memory), tolerance)
-            };
-            let memory = |coupling| memory_of_change(1e-12, rung, |m| chosen(coupling, m));
-            (label, map.line(60, memory))
-        });
-        let mut figure = picture(&map, [name, what], tolerance, &errors, leaves);
+        ];
+        let memory = |coupling, rung| {
+            let chosen = |memory| disc_chosen(&disc_at(&paper, coupling, memory), tolerance);
+            memory_of_change(1e-12, rung, chosen)
+        };
+        let mut figure = picture(&map, [name, what], tolerance, &errors, leaves, 60, memory);
         // half of the first-order loss is the error of the restitution of two springs
         let loss = 2.0 * tolerance;
         let theory = map.line(60, |coupling| {
@@ -408,9 +401,9 @@ fn disc_figures(effort: Effort) -> Result<Vec<Picture>, AnyError> {
             wave_time * response.memory() / CONTACT_TIME
         });
         let label = format!("theory: first-order loss of {loss:.0e}");
-        figure.curve(&label, Style::Dotted, theory);
+        figure.add(Layer::line(&label, Style::Dotted, theory));
         let place = (paper.coupling, paper.memory() / CONTACT_TIME);
-        figure.point(place, "paper's case");
+        figure.add(Layer::star(place, "paper's case"));
         figure.caption = format!(
             "With the full share the half-space is a second spring; the waves are seen by their radiated loss, first \
              order in the memory, and then by their shape. Regions are computed against the implicit march; the lines \

@@ -57,14 +57,10 @@ pub(crate) fn measure(
     advance: &dyn Fn(),
 ) -> Result<Vec<Record>, AnyError> {
     let medium = Medium::new(POISSON_RATIO)?;
-    let mut scenes = Vec::new();
-    for (name, interpolation, place, length) in &SCENES[..effort.pick(1, 3)] {
-        let count = effort.pick(8, 16);
-        let pulse = PulseReference::new(&medium, *place, *length, EVERY, count)?;
-        scenes.push((*name, *interpolation, pulse));
-    }
+    let count = effort.pick(8, 16);
     let mut records = Vec::new();
-    for (name, interpolation, pulse) in &scenes {
+    for (name, interpolation, place, length) in &SCENES[..effort.pick(1, 3)] {
+        let pulse = &PulseReference::new(&medium, *place, *length, EVERY, count)?;
         let mut rows = Scene {
             effort,
             question: Question::Fields,

@@ -31,9 +31,6 @@ struct Probed {
 const CONVERGED: f64 = 1e-9;
 const FIELDS_CONVERGED: f64 = 1e-8;
 
-/// Times in s with the fields in m and Pa.
-type Histories = Vec<(f64, Six)>;
-
 /// Measures every way in every scene.
 pub(crate) fn measure(
     effort: Effort,
@@ -48,7 +45,7 @@ pub(crate) fn measure(
             question: Question::Impacts,
             name: probed.name,
             values: 1.0,
-            errors: &|found: &Histories| probed.errors(effort, found),
+            errors: &|found: &Vec<(f64, Six)>| probed.errors(effort, found),
             records: &mut records,
         };
         let at = |tolerance: f64| format!("tolerance {tolerance:.0e}");
@@ -134,8 +131,8 @@ impl Probed {
         r <= table.r_max() && z <= table.z_max()
     }
 
-    /// The program's own way by kernels computed for the point.
-    fn computed(&self, tolerance: f64) -> Result<Histories, AnyError> {
+    /// The program's own way by kernels computed for the point: times in s with the fields in m and Pa.
+    fn computed(&self, tolerance: f64) -> Result<Vec<(f64, Six)>, AnyError> {
         let medium = Medium::new(POISSON_RATIO)?;
         // as the program itself takes them
         let source = KernelSource::direct(&medium, 0.1 * tolerance)?;
@@ -143,7 +140,7 @@ impl Probed {
     }
 
     /// The program's own way.
-    fn fields(&self, tolerance: f64, source: KernelSource) -> Result<Histories, AnyError> {
+    fn fields(&self, tolerance: f64, source: KernelSource) -> Result<Vec<(f64, Six)>, AnyError> {
         let run = self.impact.clone().to_tolerance(tolerance).solve()?;
         let fields = run.excitation().fields_from(source).to_tolerance(tolerance);
         let history = fields.at(self.place_m[0], self.place_m[1])?;
@@ -154,7 +151,7 @@ impl Probed {
 
     /// Cells of a kernel computed for the point under samples of the force: no integration where the contact begins and
     /// ends.
-    fn cells_alone(&self, width: f64) -> Result<Histories, AnyError> {
+    fn cells_alone(&self, width: f64) -> Result<Vec<(f64, Six)>, AnyError> {
         let run = self.impact.clone().to_tolerance(1e-6).solve()?;
         let excitation = run.excitation();
         let units = *excitation.units();

@@ -5,7 +5,7 @@
 
 use crate::inversion::Inversion;
 use crate::measure::{Effort, Scene};
-use crate::record::{Error, Question, Record};
+use crate::record::{Question, Record, sizes};
 use crate::scenes::Density;
 use fault::AnyError;
 use halfspace::{Arrivals, Deflection, Kernel, Medium, Profile, Six, SurfaceResponse, kausel};
@@ -143,7 +143,7 @@ impl KernelScene {
     pub(crate) fn errors_over_time(&self, values: &[Six]) -> Vec<f64> {
         let errors = values.iter().zip(&self.exact).map(|(v, exact)| {
             let errors: Six = std::array::from_fn(|f| (v[f] - exact[f]) / self.scale[f]);
-            Error::of(&errors).max
+            sizes(&errors)[0]
         });
         errors.collect()
     }

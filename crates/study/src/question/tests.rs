@@ -19,12 +19,12 @@ fn the_single_integral_meets_its_tolerance_and_no_inversion_comes_near_it_across
     let records = kernels();
     for record in records.iter().filter(|r| r.method == "single integral") {
         let tolerance: f64 = record.setting.replace("tolerance ", "").parse().unwrap();
-        assert!(record.error.max <= 3.0 * tolerance, "{record:?}");
+        assert!(record.error_max <= 3.0 * tolerance, "{record:?}");
         assert!(!record.failed());
     }
     let inversions = records.iter().filter(|r| r.work.is_some_and(|n| n > 0.0));
     let across = inversions.filter(|r| !r.scene.contains("after the last front"));
-    let least = across.map(|r| r.error.max).fold(f64::INFINITY, f64::min);
+    let least = across.map(|r| r.error_max).fold(f64::INFINITY, f64::min);
     assert!((1e-4..1e-2).contains(&least), "{least:e}");
 }
 
@@ -35,7 +35,7 @@ fn talbot_leaves_the_numbers_before_the_last_front_and_not_after() {
         records
             .iter()
             .filter(|r| r.method == "fixed Talbot" && r.scene == scene)
-            .map(|r| (r.error.max, r.failed()))
+            .map(|r| (r.error_max, r.failed()))
             .fold((f64::INFINITY, false), |a, b| if b.0 < a.0 { b } else { a })
     };
     let (across, failed) = worst("interior point, across the fronts");
@@ -47,7 +47,7 @@ fn talbot_leaves_the_numbers_before_the_last_front_and_not_after() {
 /// Least work of a method in a scene at an accuracy.
 fn least_work(records: &[Record], scene: &str, method: &str, level: f64) -> f64 {
     let rows = records.iter().filter(|r| r.scene == scene);
-    let rows = rows.filter(|r| r.method == method && !r.failed() && r.error.max <= level);
+    let rows = rows.filter(|r| r.method == method && !r.failed() && r.error_max <= level);
     rows.filter_map(|r| r.work).fold(f64::INFINITY, f64::min)
 }
 
@@ -81,13 +81,13 @@ fn the_implicit_march_is_on_the_front_by_work() {
         .iter()
         .filter(|r| r.method.starts_with("wave explicit"))
         .collect();
-    assert!(explicit.len() >= 3 && explicit.iter().all(|r| r.error.max > 1e-4));
+    assert!(explicit.len() >= 3 && explicit.iter().all(|r| r.error_max > 1e-4));
     // hertz has no error of its own to show: it is right only where nothing is radiated
     let hertz = |scene: &str| {
         records
             .iter()
             .find(|r| r.scene == scene && r.method == "hertz")
-            .map(|r| r.error.max)
+            .map(|r| r.error_max)
             .unwrap()
     };
     assert!(hertz(question::force::DISC) > 0.1);
@@ -115,7 +115,7 @@ fn smooth_cells_beat_linear_ones_and_the_remainder_the_whole_response() {
         records
             .iter()
             .filter(|r| r.method == method && r.setting.contains(part))
-            .map(|r| r.error.max)
+            .map(|r| r.error_max)
             .fold(f64::INFINITY, f64::min)
     };
     let linear = errors("table, linear cells", "step 0.1,");
@@ -200,13 +200,13 @@ fn a_table_knows_its_errors_near_the_edge_and_for_short_pulses() {
 fn whole_impacts_hold_their_tolerance_and_cells_alone_do_not() {
     let records = question::impacts::measure(Effort::Quick, &[], &|| ()).unwrap();
     for r in &records {
-        println!("{} {} {} {:.1e}", r.scene, r.method, r.setting, r.error.max);
+        println!("{} {} {} {:.1e}", r.scene, r.method, r.setting, r.error_max);
     }
     for record in records.iter().filter(|r| r.method == "computed") {
         let tolerance: f64 = record.setting.replace("tolerance ", "").parse().unwrap();
-        assert!(record.error.max <= 3.0 * tolerance, "{record:?}");
+        assert!(record.error_max <= 3.0 * tolerance, "{record:?}");
     }
     let alone = records.iter().filter(|r| r.method == "cells alone");
-    let least = alone.map(|r| r.error.max).fold(f64::INFINITY, f64::min);
+    let least = alone.map(|r| r.error_max).fold(f64::INFINITY, f64::min);
     assert!(least > 1e-5, "{least:e}");
 }
