@@ -2,13 +2,12 @@
 //!
 //! The filters are those of the dataset, in its order: bytes shuffled, Deflate, Fletcher's checksum.
 
-use flate2::{Compression, write::ZlibEncoder};
 use hdf5::Dataset;
 use hdf5_sys::h5d::H5Dwrite_chunk;
 use hdf5_sys::h5p::H5P_DEFAULT;
+use miniz_oxide::deflate::compress_to_vec_zlib;
 use ndarray::{Array4, ArrayView4, s};
 use rayon::prelude::*;
-use std::io::Write;
 
 /// Chunks in memory at a time.
 const TOGETHER: usize = 64;
@@ -24,13 +23,13 @@ pub(super) fn write_chunks(
     level: u8,
 ) -> Result<(), hdf5::Error> {
     let (rows, columns, third, fourth) = values.dim();
-    let patch = |row: usize, column: usize| -> Result<Vec<u8>, hdf5::Error> {
+    let patch = |row: usize, column: usize| {
         let [last, right] = [rows.min(row + high), columns.min(column + wide)];
         let mut numbers = Array4::zeros((high, wide, third, fourth));
         numbers
             .slice_mut(s![..last - row, ..right - column, .., ..])
             .assign(&values.slice(s![row..last, column..right, .., ..]));
-        packed(&numbers, level).map_err(|error| error.to_string().into())
+        packed(&numbers, level)
     };
     let across = (0..rows).step_by(high);
     let places: Vec<[usize; 2]> = across
@@ -38,7 +37,7 @@ pub(super) fn write_chunks(
         .collect();
     for places in places.chunks(TOGETHER) {
         let patches = places.par_iter().map(|&[row, column]| patch(row, column));
-        for (place, bytes) in places.iter().zip(patches.collect::<Result<Vec<_>, _>>()?) {
+        for (place, bytes) in places.iter().zip(patches.collect::<Vec<_>>()) {
             let offset = [place[0] as u64, place[1] as u64, 0, 0];
             // SAFETY: the dataset is open and has four dimensions, the bytes outlive the call, the lock is held.
             #[allow(unsafe_code)]
@@ -54,16 +53,14 @@ pub(super) fn write_chunks(
     Ok(())
 }
 
-fn packed(numbers: &Array4<f32>, level: u8) -> std::io::Result<Vec<u8>> {
+fn packed(numbers: &Array4<f32>, level: u8) -> Vec<u8> {
     let mut shuffled = Vec::with_capacity(size_of::<f32>() * numbers.len());
     for k in 0..size_of::<f32>() {
         shuffled.extend(numbers.iter().map(|x| x.to_le_bytes()[k]));
     }
-    let mut encoder = ZlibEncoder::new(Vec::new(), Compression::new(level.into()));
-    encoder.write_all(&shuffled)?;
-    let mut packed = encoder.finish()?;
+    let mut packed = compress_to_vec_zlib(&shuffled, level);
     packed.extend(fletcher32(&packed).to_le_bytes());
-    Ok(packed)
+    packed
 }
 
 /// Fletcher's checksum as HDF5 has it: of words of two bytes, the first the higher; 65,535 stands for its multiples.
