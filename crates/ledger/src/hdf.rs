@@ -207,12 +207,13 @@ impl Dataset {
         let rows = &block[0];
         let (first, end) = (rows.start / high, rows.end.div_ceil(high));
         let step = (end - first).div_ceil(PARTS);
-        let parts: Vec<usize> = (first..end).step_by(step).collect();
-        let parts = parts.into_par_iter().map(|k| {
+        let parts = (first..end).into_par_iter().step_by(step).map(|k| {
             let part = rows.start.max(k * high)..rows.end.min((k + step).saturating_mul(high));
             let count = count / rows.len() * part.len();
             self.read(&[&[part], &block[1..]].concat(), count)
         });
+        // of several that fail it is the first that is told, whatever the threads
+        let parts = parts.collect::<Vec<_>>().into_iter();
         Ok(parts.collect::<Result<Vec<_>, _>>()?.concat())
     }
 

@@ -62,15 +62,14 @@ pub(crate) fn complete(
 /// Writes a table and reads it back.
 fn write_checked(content: &Content, part: &Path) -> Result<(), Fault> {
     let back = lookup::write(part, content).and_then(|()| lookup::read(part));
-    match back.map_err(|error| error.what) {
-        Ok(back) if back == *content => Ok(()),
-        Ok(_) => Err(Fault::from(
-            "other numbers were read back than were written".to_owned(),
-        )),
+    let wrong = match back.map_err(|error| error.what) {
+        Ok(back) if back == *content => return Ok(()),
+        Ok(_) => "it is not read back as it was written".to_owned(),
         // its file is the temporary one, of which nobody should hear
-        Err(BadTable::Unwritable(detail)) => Err(Fault::from(detail)),
-        Err(other) => Err(Fault::from(other.to_string())),
-    }
+        Err(BadTable::Unwritable(detail)) => detail,
+        Err(other) => other.to_string(),
+    };
+    Err(wrong.into())
 }
 
 /// Puts the rows in their places and measures the errors off the grid.

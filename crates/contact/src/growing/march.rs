@@ -54,7 +54,7 @@ const LEFT: f64 = 0.3;
 /// Error at the end of a smooth piece over that inside.
 const SMOOTH: f64 = 0.1;
 
-/// Pieces at most, tried ones included.
+/// Pieces of a load at most, tried ones included.
 const MOST: usize = 1500;
 
 /// Radius over the largest from which on the radius is the variable.
@@ -237,13 +237,14 @@ impl<'a> March<'a> {
             let place = |above| rising_root(rising, [0.0, above], 0.5 * above, 1e-16)[1];
             (solution.widest > limit).then(|| place(above.unwrap_or(1.0)))
         };
-        if self.until(Independent::Time, self.first_length(), piece, reached)? {
+        if self.until(MOST, Independent::Time, self.first_length(), piece, reached)? {
             self.state.radius = limit;
         }
         Ok(())
     }
 
-    /// Pieces of a length that is told, until there is none or something happens in one: whether it has.
+    /// `most` pieces, tried ones included, of a length that is told, until there is none or something happens in one: whether
+    /// it has.
     ///
     /// `piece` gives what is known over a length, a guess of the rest, and whether it is the last; `event` the place in a
     /// solution, with its error over the allowed one, where the piece is to end when it is tried once more.
@@ -252,13 +253,14 @@ impl<'a> March<'a> {
     /// [`MarchError::NotFollowed`].
     pub(crate) fn until(
         &mut self,
+        most: usize,
         known: Independent,
         mut length: f64,
         mut piece: impl FnMut(&Self, &mut f64) -> Option<(Polynomial, [f64; SIZE], bool)>,
         event: impl Fn(&Self, &Solution, f64) -> Option<f64>,
     ) -> Result<bool, MarchError> {
         let mut ends = false;
-        for _ in 0..MOST {
+        for _ in 0..most {
             let Some((given, guess, last)) = piece(self, &mut length) else {
                 return Ok(false);
             };

@@ -18,6 +18,9 @@ use crate::plastic::Yielding;
 use crate::plastic::branch::Branch;
 use crate::units::INVERSE_MASS;
 
+/// Pieces of the flow, and of what opens, at most, tried ones included.
+const MOST: usize = 300;
+
 /// First piece of the flow over the time until the striker turns: waves from before the yield arrive with another slope.
 const FIRST: f64 = 0.1;
 
@@ -131,14 +134,15 @@ impl March<'_> {
             let given = Polynomial::power(root(march.state.time), *length, power);
             Some((given, march.guess(&given), false))
         };
-        self.until(Independent::Time, longest, piece, |_, solution, error| {
+        let turned = |_: &Self, solution: &Solution, error| {
             let slowing = |s| {
                 let [_, slope, bend] = solution.piece.radius.curve(s);
                 (-slope, -bend)
             };
             let turns = error <= 1.0 && solution.end.slope < 0.0;
             turns.then(|| rising_root(slowing, [0.0, 1.0], 0.5, 1e-16)[1])
-        })?;
+        };
+        self.until(MOST, Independent::Time, longest, piece, turned)?;
         self.state.slope = 0.0;
         if self.law.lag.is_some() {
             self.state.velocity = 0.0;
@@ -164,7 +168,7 @@ impl March<'_> {
             let piece = Some(&solution.piece).filter(|_| error <= 1.0);
             piece.and_then(|piece| march.released(piece))
         };
-        let ends = self.until(Independent::Radius, f64::INFINITY, piece, gone)?;
+        let ends = self.until(MOST, Independent::Radius, f64::INFINITY, piece, gone)?;
         if !ends {
             self.state.radius = goal;
         }

@@ -42,10 +42,9 @@ pub(super) fn write_chunks(
             // SAFETY: the dataset is open and has four dimensions, the bytes outlive the call, the lock is held.
             #[allow(unsafe_code)]
             hdf5::sync::sync(|| {
-                let (bytes, length) = (bytes.as_ptr().cast(), bytes.len());
-                let place = offset.as_ptr();
+                let (bytes, length, place) = (bytes.as_ptr(), bytes.len(), offset.as_ptr());
                 hdf5::h5check(unsafe {
-                    H5Dwrite_chunk(dataset.id(), H5P_DEFAULT, 0, place, length, bytes)
+                    H5Dwrite_chunk(dataset.id(), H5P_DEFAULT, 0, place, length, bytes.cast())
                 })
             })?;
         }
