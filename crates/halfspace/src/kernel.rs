@@ -14,7 +14,7 @@ use crate::field::{Estimate, Six};
 use crate::integral::Integral;
 use crate::medium::Medium;
 use crate::point::Point;
-use crate::potentials::order::{Impulse, Step, StepIntegral};
+use crate::potentials::order::{IMPULSE, STEP, STEP_INTEGRAL};
 use crate::profile::Profile;
 use crate::statics;
 
@@ -137,7 +137,7 @@ impl Kernel {
                 error: rest.map(|s| f64::EPSILON * s.abs()),
             });
         }
-        Ok(self.integral.evaluate::<Step>(Point { r, z, t }))
+        Ok(self.integral.evaluate::<STEP>(Point { r, z, t }))
     }
 
     /// The impulse response dH/dt, the fields after a unit impulse, of the Hertz profile.
@@ -159,7 +159,7 @@ impl Kernel {
                 error: [0.0; 6],
             });
         }
-        Ok(self.integral.evaluate::<Impulse>(Point { r, z, t }))
+        Ok(self.integral.evaluate::<IMPULSE>(Point { r, z, t }))
     }
 
     /// int R dt up to t, with a constant of integration that is the same for all t at one (r, z).
@@ -170,7 +170,7 @@ impl Kernel {
         check_place_under(self.profile(), r, z)?;
         check_time(t)?;
         let arrival = self.first_arrival(r, z);
-        let mut estimate = self.integral.evaluate::<StepIntegral>(Point {
+        let mut estimate = self.integral.evaluate::<STEP_INTEGRAL>(Point {
             r,
             z,
             t: t.max(arrival),

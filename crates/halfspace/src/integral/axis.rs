@@ -8,7 +8,7 @@ use crate::arrivals::Arrivals;
 use crate::field::{Estimate, FIELDS, Six};
 use crate::medium::Medium;
 use crate::point::Point;
-use crate::potentials::order::{Order, TimeOrder};
+use crate::potentials::order::Order;
 use crate::profile::Profile;
 
 /// Radii below this fraction of the distance from the edge of the disc are continued.
@@ -21,8 +21,8 @@ const ACROSS: f64 = 30.0;
 const NODES: usize = 6;
 
 /// Whether the fields at a point are continued from larger radii.
-pub(crate) fn is_near<O: TimeOrder>(profile: Profile, at: Point) -> bool {
-    match (profile, O::ORDER) {
+pub(crate) fn is_near<const N: i32>(profile: Profile, at: Point) -> bool {
+    match (profile, Order::of(N)) {
         (Profile::Hertz, Order::Step | Order::StepIntegral) => false,
         (Profile::Hertz, Order::Impulse)
         | (Profile::Punch | Profile::Point, Order::Impulse | Order::Step | Order::StepIntegral) => {

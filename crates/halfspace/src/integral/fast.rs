@@ -14,13 +14,13 @@ use crate::numeric::scalar::Real;
 use crate::point::{Point, Sense};
 use crate::potentials::Potentials;
 use crate::potentials::compact::{compact, passed};
-use crate::potentials::order::{Order, StepIntegral, TimeOrder};
+use crate::potentials::order::{Order, STEP_INTEGRAL};
 use crate::potentials::shallow;
 use num_complex::Complex64;
 
 impl Setting {
     /// Adds one wave in one sense over 0 < x < 1; `passed` is its time integral once it has passed.
-    pub(crate) fn fast<O: TimeOrder>(
+    pub(crate) fn fast<const N: i32>(
         &self,
         at: Point,
         wave: Wave,
@@ -30,10 +30,10 @@ impl Setting {
         sum: &mut Sum,
     ) {
         let limit = at.r + self.profile.radius();
-        let shallow = shallow::applies::<O>(self.profile, at);
+        let shallow = shallow::applies::<N>(self.profile, at);
         match sense {
             Sense::Outgoing if at.t >= self.last_fast(at, wave, limit) => {
-                match O::ORDER {
+                match Order::of(N) {
                     Order::Impulse | Order::Step => {}
                     Order::StepIntegral => {
                         sum.add(1.0, [ROUNDING; 2], [0.0, passed, 0.0, 0.0, 0.0, 0.0]);
@@ -45,7 +45,7 @@ impl Setting {
             Sense::Image if !shallow && at.t + at.z * self.vertical_at_one(wave) >= limit => return,
             Sense::Outgoing | Sense::Image => {}
         }
-        fronts::singular::<O>(self, at, wave, Some(sense), singularities);
+        fronts::singular::<N>(self, at, wave, Some(sense), singularities);
         for i in singularities.intervals() {
             let interval = singularities.interval(i);
             let (x, p, _) = half_angle(0.5 * (interval.0 + interval.1));
@@ -53,18 +53,18 @@ impl Setting {
             let at_surface = sense.sign() * at.t / x;
             if eta.abs() < limit || shallow && at_surface.abs() < limit {
                 singularities.visit(interval, self.digits(at, shallow), &mut |nodes| {
-                    if side_by_side::applies::<O>(self.profile, at, shallow) {
+                    if side_by_side::applies::<N>(self.profile, at, shallow) {
                         side_by_side::add(self, at, wave, Some(sense), nodes, sum);
                         return;
                     }
                     for (place, weight, error) in nodes.iter() {
                         let (x, p, jacobian) = half_angle(place);
-                        let term = self.fast_term::<O>(at, wave, sense, (x, p), shallow);
+                        let term = self.fast_term::<N>(at, wave, sense, (x, p), shallow);
                         sum.add(weight * jacobian, error, term);
                     }
                 });
             } else if eta < 0.0 {
-                match O::ORDER {
+                match Order::of(N) {
                     Order::Impulse | Order::Step => {}
                     Order::StepIntegral => {
                         self.add_passed(at, wave, interval, sum);
@@ -76,7 +76,7 @@ impl Setting {
 
     /// The integrand at slowness x, p = sqrt(1 - x^2).
     #[inline]
-    fn fast_term<O: TimeOrder>(
+    fn fast_term<const N: i32>(
         &self,
         at: Point,
         wave: Wave,
@@ -85,7 +85,7 @@ impl Setting {
         shallow: bool,
     ) -> Six {
         let eta = self.eta(at, wave, sense, x, p);
-        let psi = in_time::<O>(compact::<O>(self.profile, eta, at.r), sense, x);
+        let psi = in_time::<N>(compact::<N>(self.profile, eta, at.r), sense, x);
         let amplitudes = spectrum::fast(wave, self.k, x, p);
         let mut term = amplitudes.fields(&psi, at.r);
         if shallow {
@@ -120,7 +120,7 @@ impl Setting {
         singularities.visit(interval, self.digits(at, false), &mut |nodes| {
             for (place, weight, error) in nodes.iter() {
                 let (x, p, jacobian) = half_angle(place);
-                let psi = passed::<StepIntegral>().map(|v| -x * v);
+                let psi = passed::<STEP_INTEGRAL>().map(|v| -x * v);
                 let term = spectrum::fast(wave, self.k, x, p).fields(&psi, at.r);
                 sum.add(weight * jacobian, error, term);
             }
@@ -160,8 +160,8 @@ impl Setting {
 
 /// Derivatives and integrals in t of functions of eta = (z gamma^ -+ t)/x, from those in eta.
 #[inline]
-fn in_time<O: TimeOrder>(psi: Potentials<f64>, sense: Sense, x: f64) -> Potentials<f64> {
-    match O::ORDER {
+fn in_time<const N: i32>(psi: Potentials<f64>, sense: Sense, x: f64) -> Potentials<f64> {
+    match Order::of(N) {
         Order::Impulse => psi.map(|v| sense.sign() / x * v),
         Order::Step => psi,
         Order::StepIntegral => {

@@ -26,13 +26,13 @@ use crate::integral::strength::Strength;
 use crate::numeric::complex::root;
 use crate::numeric::lanes::Points;
 use crate::point::{Point, Sense};
-use crate::potentials::order::TimeOrder;
+
 use crate::potentials::shallow;
 use num_complex::Complex64;
 
 /// The singularities of one wave: in one sense on the fast interval, in both on the slow one.
 #[inline(always)]
-pub(crate) fn singular<O: TimeOrder>(
+pub(crate) fn singular<const N: i32>(
     setting: &Setting,
     at: Point,
     wave: Wave,
@@ -45,8 +45,8 @@ pub(crate) fn singular<O: TimeOrder>(
     } else {
         &fixed.slow
     };
-    singularities.take(own, Strength::of::<O>(profile), setting.front_rounding(at));
-    let shallow = shallow::applies::<O>(profile, at);
+    singularities.take(own, Strength::of::<N>(profile), setting.front_rounding(at));
+    let shallow = shallow::applies::<N>(profile, at);
     for at in [at].into_iter().chain(shallow.then(|| shallow::above(at))) {
         match sense {
             Some(sense) => add_fast(singularities, setting, at, wave, sense),

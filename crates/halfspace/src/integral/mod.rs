@@ -35,7 +35,7 @@ use crate::medium::Medium;
 use crate::point::{Point, Sense};
 use crate::potentials::closed_form::SMALL_RADIUS;
 use crate::potentials::far_front;
-use crate::potentials::order::{Order, TimeOrder};
+use crate::potentials::order::STEP;
 use crate::potentials::shallow;
 use crate::profile::Profile;
 use num_complex::Complex64;
@@ -66,7 +66,7 @@ impl Integral {
 
     /// The remainder or one of its time integrals, continued to the axis where the fronts of a point force or a punch
     /// meet there.
-    pub(crate) fn evaluate<O: TimeOrder>(&self, at: Point) -> Estimate {
+    pub(crate) fn evaluate<const N: i32>(&self, at: Point) -> Estimate {
         let Setting {
             medium, profile, ..
         } = &self.setting;
@@ -74,10 +74,10 @@ impl Integral {
             t: at.t.max(NEAREST),
             ..at
         };
-        let mut estimate = if axis::is_near::<O>(*profile, at) {
-            axis::continued(medium, *profile, at, |at| self.integrate::<O>(at))
+        let mut estimate = if axis::is_near::<N>(*profile, at) {
+            axis::continued(medium, *profile, at, |at| self.integrate::<N>(at))
         } else {
-            self.integrate::<O>(at)
+            self.integrate::<N>(at)
         };
         if at.z == 0.0 {
             impose_surface(&mut estimate);
@@ -85,23 +85,23 @@ impl Integral {
         estimate
     }
 
-    fn integrate<O: TimeOrder>(&self, at: Point) -> Estimate {
+    fn integrate<const N: i32>(&self, at: Point) -> Estimate {
         /// Outside the disc the pressure is zero, and at a distance from the edge so are its rounding errors.
         const CLEAR_OF_EDGE: f64 = 1.01;
         let mut sum = Sum::default();
-        self.setting.rayleigh_wave::<O>(&self.poles, at, &mut sum);
+        self.setting.rayleigh_wave::<N>(&self.poles, at, &mut sum);
         let mut singularities = Singularities::new([], Complex64::ZERO, &[]);
         for wave in [Wave::P, Wave::S] {
             for sense in [Sense::Outgoing, Sense::Image] {
                 let passed = self.passed[wave as usize];
                 self.setting
-                    .fast::<O>(at, wave, sense, passed, &mut singularities, &mut sum);
+                    .fast::<N>(at, wave, sense, passed, &mut singularities, &mut sum);
             }
             self.setting
-                .slow::<O>(at, wave, &mut singularities, &mut sum);
+                .slow::<N>(at, wave, &mut singularities, &mut sum);
         }
-        let mut floor = rounding_floor::<O>(self.setting.profile, at.r);
-        if at.r > CLEAR_OF_EDGE && shallow::applies::<O>(self.setting.profile, at) {
+        let mut floor = rounding_floor::<N>(self.setting.profile, at.r);
+        if at.r > CLEAR_OF_EDGE && shallow::applies::<N>(self.setting.profile, at) {
             for field in [Field::StressZz, Field::StressRz] {
                 floor[field.index()] *= 8.0 * at.z.sqrt();
             }
@@ -126,15 +126,14 @@ fn impose_surface(estimate: &mut Estimate) {
 ///
 /// The terms of the closed forms grow with the radius; those of the step response at a distant front do not, and fall as
 /// its inverse root.
-fn rounding_floor<O: TimeOrder>(profile: Profile, r: f64) -> Six {
+fn rounding_floor<const N: i32>(profile: Profile, r: f64) -> Six {
     const UNIT: f64 = 2.0 * f64::EPSILON;
-    let [displacement, stress] =
-        if O::ORDER == Order::Step && profile == Profile::Hertz && r > far_front::FAR {
-            [UNIT / r.sqrt(); 2]
-        } else {
-            // the primitives are divided by r^2
-            let near = if r > SMALL_RADIUS { 8.0 / (r * r) } else { 0.0 };
-            [UNIT * (64.0 + r * r), UNIT * (64.0 + r + near)]
-        };
+    let [displacement, stress] = if N == STEP && profile == Profile::Hertz && r > far_front::FAR {
+        [UNIT / r.sqrt(); 2]
+    } else {
+        // the primitives are divided by r^2
+        let near = if r > SMALL_RADIUS { 8.0 / (r * r) } else { 0.0 };
+        [UNIT * (64.0 + r * r), UNIT * (64.0 + r + near)]
+    };
     [displacement, displacement, stress, stress, stress, stress]
 }

@@ -9,7 +9,7 @@ use crate::point::Point;
 use crate::potentials::Potentials;
 use crate::potentials::chord_integral::{chord_primitives, from_primitives};
 use crate::potentials::far_front;
-use crate::potentials::order::{Order, Step, TimeOrder};
+use crate::potentials::order::STEP;
 use crate::potentials::shallow::{difference, gap, is_short};
 use crate::profile::Profile;
 use num_complex::Complex64;
@@ -28,16 +28,12 @@ pub(crate) struct Front {
 
 impl Front {
     /// None away from the arrivals, where rounding does no harm.
-    pub(crate) fn near<O: TimeOrder>(medium: &Medium, profile: Profile, at: Point) -> Option<Self> {
+    pub(crate) fn near<const N: i32>(medium: &Medium, profile: Profile, at: Point) -> Option<Self> {
         /// Depth, and distance from the arrival, within which rounding is seen.
         const NEAR: f64 = 1e-2;
         let Point { r, z, t } = at;
         let xi = Complex64::new(0.0, medium.rayleigh_speed() * t);
-        if O::ORDER != Order::Step
-            || profile != Profile::Hertz
-            || z >= NEAR
-            || r <= NEAREST
-            || gap(xi, r) > NEAR
+        if N != STEP || profile != Profile::Hertz || z >= NEAR || r <= NEAREST || gap(xi, r) > NEAR
         {
             return None;
         }
@@ -86,8 +82,8 @@ fn at_front(xi: Complex64, r: f64, factors: [[f64; 2]; 2]) -> Potentials<Complex
     let (zeta, rho) = ends_at_front(xi, factors);
     let phi = [0, 1].map(|i| times_minus_i(logarithm(zeta[i] + rho[i])));
     let eta = times_minus_i(xi);
-    let psi = chord_primitives::<Step, Complex64>(eta, r, phi, rho);
-    from_primitives::<Step>(psi, eta, r)
+    let psi = chord_primitives::<STEP, Complex64>(eta, r, phi, rho);
+    from_primitives::<STEP>(psi, eta, r)
 }
 
 /// A_2 and B_2/r there, the difference between xi + step and xi = -i c t for real step > 0, to its own last digits.

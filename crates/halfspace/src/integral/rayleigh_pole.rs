@@ -13,30 +13,30 @@ use crate::integral::strength::Strength;
 use crate::integral::sum::Sum;
 use crate::point::Point;
 use crate::potentials::closed_form::potentials;
-use crate::potentials::order::{Order, TimeOrder};
+use crate::potentials::order::Order;
 use crate::potentials::shallow;
 use num_complex::Complex64;
 use std::f64::consts::PI;
 
 impl Setting {
     /// Adds pi times the Rayleigh wave at a point: the residues of P and S.
-    pub(crate) fn rayleigh_wave<O: TimeOrder>(&self, poles: &[Pole; 2], at: Point, sum: &mut Sum) {
+    pub(crate) fn rayleigh_wave<const N: i32>(&self, poles: &[Pole; 2], at: Point, sum: &mut Sum) {
         let c = self.medium.rayleigh_speed();
-        let shallow = shallow::applies::<O>(self.profile, at);
-        let front = Front::near::<O>(&self.medium, self.profile, at);
+        let shallow = shallow::applies::<N>(self.profile, at);
+        let front = Front::near::<N>(&self.medium, self.profile, at);
         let arguments = poles
             .each_ref()
             .map(|pole| Complex64::new(pole.decay * at.z, -c * at.t));
         let both = match &front {
             Some(front) => arguments.map(|xi| front.potentials(xi)),
-            None if side_by_side::applies::<O>(self.profile, at, false) => {
+            None if side_by_side::applies::<N>(self.profile, at, false) => {
                 side_by_side::potentials(self.profile, arguments, at.r)
             }
-            None => arguments.map(|xi| potentials::<O>(self.profile, xi, at.r)),
+            None => arguments.map(|xi| potentials::<N>(self.profile, xi, at.r)),
         };
         for ((pole, xi), mut psi) in poles.iter().zip(arguments).zip(both) {
             // d/dt of order n + 1 is i c times order n
-            match O::ORDER {
+            match Order::of(N) {
                 Order::Impulse => psi = psi.map(|v| v * Complex64::new(0.0, c)),
                 Order::Step => {}
                 Order::StepIntegral => psi = psi.map(|v| v * Complex64::new(0.0, -1.0 / c)),
@@ -50,13 +50,13 @@ impl Setting {
                 };
                 pole.amplitudes.set_traction(&mut term, a.re, g.re, at.r);
             }
-            sum.add(PI, self.error_at_front::<O>(at, xi, shallow), term);
+            sum.add(PI, self.error_at_front::<N>(at, xi, shallow), term);
         }
     }
 
     /// Relative errors of displacements and stresses of the Rayleigh wave from rounding of its distance to the edges of the disc.
-    fn error_at_front<O: TimeOrder>(&self, at: Point, xi: Complex64, shallow: bool) -> [f64; 2] {
-        let strength = Strength::of::<O>(self.profile);
+    fn error_at_front<const N: i32>(&self, at: Point, xi: Complex64, shallow: bool) -> [f64; 2] {
+        let strength = Strength::of::<N>(self.profile);
         let radius = self.profile.radius();
         let height = xi.im.abs();
         let gap = [at.r + radius, (at.r - radius).abs()]

@@ -12,7 +12,7 @@ use crate::integral::sum::Sum;
 use crate::point::Point;
 use crate::potentials::Potentials;
 use crate::potentials::closed_form::potentials;
-use crate::potentials::order::{Order, TimeOrder};
+use crate::potentials::order::Order;
 use crate::potentials::shallow;
 use num_complex::Complex64;
 
@@ -28,21 +28,21 @@ struct Slowness {
 
 impl Setting {
     /// Adds both senses of one wave over 1 < x < 1/kappa.
-    pub(crate) fn slow<O: TimeOrder>(
+    pub(crate) fn slow<const N: i32>(
         &self,
         at: Point,
         wave: Wave,
         singularities: &mut Singularities,
         sum: &mut Sum,
     ) {
-        let shallow = shallow::applies::<O>(self.profile, at);
-        fronts::singular::<O>(self, at, wave, None, singularities);
+        let shallow = shallow::applies::<N>(self.profile, at);
+        fronts::singular::<N>(self, at, wave, None, singularities);
         for i in singularities.intervals() {
             singularities.visit(
                 singularities.interval(i),
                 self.digits(at, shallow),
                 &mut |nodes| {
-                    if side_by_side::applies::<O>(self.profile, at, shallow) {
+                    if side_by_side::applies::<N>(self.profile, at, shallow) {
                         side_by_side::add(self, at, wave, None, nodes, sum);
                         return;
                     }
@@ -52,7 +52,7 @@ impl Setting {
                         let p_abs = self.span * 2.0 * q * inverse;
                         let y = self.span * (1.0 - q) * (1.0 + q) * inverse;
                         let x = (1.0 + p_abs * p_abs).sqrt();
-                        let term = self.slow_term::<O>(at, wave, (x, p_abs, y), shallow);
+                        let term = self.slow_term::<N>(at, wave, (x, p_abs, y), shallow);
                         // dx = p^ dp^/x, dp^ = 2 y/(1 + q^2) dq
                         let jacobian = p_abs * 2.0 * y * inverse / x * dq;
                         sum.add(weight * jacobian, error, term);
@@ -64,7 +64,7 @@ impl Setting {
 
     /// The integrand at slowness x, p = -i `p_abs`, y = sqrt(K - x^2).
     #[inline]
-    fn slow_term<O: TimeOrder>(
+    fn slow_term<const N: i32>(
         &self,
         at: Point,
         wave: Wave,
@@ -80,8 +80,8 @@ impl Setting {
             im,
         };
         let psi = match wave {
-            Wave::P => self.longitudinal::<O>(at, slowness),
-            Wave::S => self.shear::<O>(at, slowness),
+            Wave::P => self.longitudinal::<N>(at, slowness),
+            Wave::S => self.shear::<N>(at, slowness),
         };
         let amplitudes = spectrum::slow(wave, self.k, x, p_abs, y);
         let mut term = amplitudes.fields(&psi, at.r);
@@ -99,11 +99,11 @@ impl Setting {
     ///
     /// xi+ is the conjugate of xi-, so the potentials combine to real numbers.
     #[inline]
-    fn longitudinal<O: TimeOrder>(&self, at: Point, n: Slowness) -> Potentials<f64> {
+    fn longitudinal<const N: i32>(&self, at: Point, n: Slowness) -> Potentials<f64> {
         let inverse = 1.0 / n.x;
         let xi = Complex64::new(at.z * n.p_abs * inverse, -at.t * inverse);
         let factor = 2.0 * n.im;
-        potentials::<O>(self.profile, xi, at.r).map(|v| match O::ORDER {
+        potentials::<N>(self.profile, xi, at.r).map(|v| match Order::of(N) {
             Order::Impulse => -factor * inverse * v.im,
             Order::Step => factor * v.re,
             Order::StepIntegral => factor * n.x * v.im,
@@ -112,13 +112,13 @@ impl Setting {
 
     /// The same for the shear wave, whose arguments are imaginary; u and the normal stresses take 1/R.
     #[inline]
-    fn shear<O: TimeOrder>(&self, at: Point, n: Slowness) -> Potentials<f64> {
+    fn shear<const N: i32>(&self, at: Point, n: Slowness) -> Potentials<f64> {
         let inverse = 1.0 / n.x;
         let argument = |t: f64| Complex64::new(0.0, (at.z * n.y + t) * inverse);
-        let minus = potentials::<O>(self.profile, argument(-at.t), at.r);
-        let plus = potentials::<O>(self.profile, argument(at.t), at.r);
+        let minus = potentials::<N>(self.profile, argument(-at.t), at.r);
+        let plus = potentials::<N>(self.profile, argument(at.t), at.r);
         // the factors +-i/x of d/dt and -+i x of int dt for the two senses
-        let both = |m: Complex64, p: Complex64| match O::ORDER {
+        let both = |m: Complex64, p: Complex64| match Order::of(N) {
             Order::Impulse => Complex64::new(inverse * (p.im - m.im), inverse * (m.re - p.re)),
             Order::Step => m + p,
             Order::StepIntegral => Complex64::new(n.x * (m.im - p.im), n.x * (p.re - m.re)),

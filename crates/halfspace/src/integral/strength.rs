@@ -1,7 +1,7 @@
 //! How singular an integrand is at the fronts, and the relative error that follows from it.
 
 use crate::numeric::scalar::Real;
-use crate::potentials::order::{Order, TimeOrder};
+use crate::potentials::order::Order;
 use crate::profile::Profile;
 
 /// How strong the singularities at the cuts of an integration interval are.
@@ -20,8 +20,8 @@ impl Strength {
     ///
     /// The step response of stress to a point force has fronts of power -3/2, to a punch of power -1/2, and each
     /// derivative takes one off.
-    pub(crate) fn of<O: TimeOrder>(profile: Profile) -> Self {
-        match (profile, O::ORDER) {
+    pub(crate) fn of<const N: i32>(profile: Profile) -> Self {
+        match (profile, Order::of(N)) {
             (Profile::Point, Order::Impulse | Order::Step) => Self::FinitePart,
             (Profile::Hertz, Order::Step | Order::StepIntegral)
             | (Profile::Punch, Order::StepIntegral) => Self::Bounded,

@@ -6,7 +6,7 @@
 
 use crate::numeric::scalar::Scalar;
 use crate::potentials::Potentials;
-use crate::potentials::order::{Order, TimeOrder};
+use crate::potentials::order::Order;
 use num_complex::Complex64;
 use std::f64::consts::PI;
 
@@ -16,7 +16,7 @@ use std::f64::consts::PI;
 /// linear in them. With real eta and the held values it is the compact part, with complex eta,
 /// phi = -i log(zeta + rho) and q = rho it is the whole potential up to a polynomial.
 #[inline(always)]
-pub(crate) fn chord_primitives<O: TimeOrder, T: Scalar>(
+pub(crate) fn chord_primitives<const N: i32, T: Scalar>(
     eta: T,
     r: f64,
     phi: [T; 2],
@@ -39,7 +39,7 @@ pub(crate) fn chord_primitives<O: TimeOrder, T: Scalar>(
     let twice = eta + eta;
     let a3 = (inside * m0 + twice * m1 - m2) * scale;
     let b3 = (m3 - inside * m1 - twice * m2) * ring;
-    match O::ORDER {
+    match Order::of(N) {
         Order::Impulse => unreachable!("the derivatives are those of `compact::impulse`"),
         Order::Step => {
             return Potentials {
@@ -74,14 +74,14 @@ pub(crate) fn chord_primitives<O: TimeOrder, T: Scalar>(
 /// Potentials from chord primitives: powers of i from the change of variable, and the part of
 /// F_0 = (1 - zeta/rho)/r and F_1 = (rho - zeta)/r that is free of roots.
 #[inline]
-pub(crate) fn from_primitives<O: TimeOrder>(
+pub(crate) fn from_primitives<const N: i32>(
     psi: Potentials<Complex64>,
     eta: Complex64,
     r: f64,
 ) -> Potentials<Complex64> {
     let force = 0.5 / (PI * r * r);
     let times_i = |v: Complex64| Complex64::new(-v.im, v.re);
-    match O::ORDER {
+    match Order::of(N) {
         Order::Impulse => {
             unreachable!("potentials of the impulse response are integrated by parts")
         }

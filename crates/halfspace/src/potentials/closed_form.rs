@@ -18,7 +18,7 @@ use crate::potentials::chord_integral::{chord_primitives, from_primitives};
 use crate::potentials::end::{End, end_orders};
 use crate::potentials::far_front;
 use crate::potentials::multipole;
-use crate::potentials::order::{Order, TimeOrder};
+use crate::potentials::order::{IMPULSE, STEP};
 use crate::profile::Profile;
 use num_complex::Complex64;
 use std::f64::consts::PI;
@@ -28,27 +28,25 @@ pub(crate) const SMALL_RADIUS: f64 = 0.15;
 
 /// The potentials at xi (Re xi >= 0) and radius r.
 #[inline]
-pub(crate) fn potentials<O: TimeOrder>(
+pub(crate) fn potentials<const N: i32>(
     profile: Profile,
     xi: Complex64,
     r: f64,
 ) -> Potentials<Complex64> {
     if profile == Profile::Point {
-        return end_orders::<O>(xi, r).map(|v| v / (2.0 * PI));
+        return end_orders::<N>(xi, r).map(|v| v / (2.0 * PI));
     }
-    match multipole::terms(xi, r, multipole::nearest::<O>(r)) {
-        Some(terms) => multipole::multipole::<O>(profile, terms, xi, r),
-        None if O::ORDER == Order::Step && profile == Profile::Hertz && r > far_front::FAR => {
-            at_far_front(xi, r)
-        }
-        None if O::ORDER != Order::Impulse && profile == Profile::Hertz && r > SMALL_RADIUS => {
+    match multipole::terms(xi, r, multipole::nearest::<N>(r)) {
+        Some(terms) => multipole::multipole::<N>(profile, terms, xi, r),
+        None if N == STEP && profile == Profile::Hertz && r > far_front::FAR => at_far_front(xi, r),
+        None if N != IMPULSE && profile == Profile::Hertz && r > SMALL_RADIUS => {
             if xi.re == 0.0 {
-                on_imaginary_axis::<O>(xi.im, r)
+                on_imaginary_axis::<N>(xi.im, r)
             } else {
-                by_primitives::<O>(xi, r)
+                by_primitives::<N>(xi, r)
             }
         }
-        None => by_parts::<O>(profile, xi, r),
+        None => by_parts::<N>(profile, xi, r),
     }
 }
 
@@ -67,14 +65,14 @@ fn at_far_front(xi: Complex64, r: f64) -> Potentials<Complex64> {
 }
 
 /// The Hertz disc from the chord primitives, phi = -i L and q = rho in the variable eta = -i xi.
-fn by_primitives<O: TimeOrder>(xi: Complex64, r: f64) -> Potentials<Complex64> {
+fn by_primitives<const N: i32>(xi: Complex64, r: f64) -> Potentials<Complex64> {
     let zeta = [1.0, -1.0].map(|sigma| Complex64::new(xi.re, xi.im - sigma));
     let inside = inside(xi.im, r);
     let rho = [0, 1].map(|i| root_inside(zeta[i], inside[i]));
     let sum = [zeta[0] + rho[0], zeta[1] + rho[1]];
     let eta = times_minus_i(xi);
     // The step response needs only the difference of phi.
-    let phi = if O::ORDER == Order::Step {
+    let phi = if N == STEP {
         [
             Complex64::default(),
             times_minus_i(logarithm(sum[1] * reciprocal(sum[0]))),
@@ -82,39 +80,39 @@ fn by_primitives<O: TimeOrder>(xi: Complex64, r: f64) -> Potentials<Complex64> {
     } else {
         sum.map(|sum| times_minus_i(logarithm(sum)))
     };
-    let psi = chord_primitives::<O, Complex64>(eta, r, phi, rho);
-    from_primitives::<O>(psi, eta, r)
+    let psi = chord_primitives::<N, Complex64>(eta, r, phi, rho);
+    from_primitives::<N>(psi, eta, r)
 }
 
 /// The same on the imaginary axis, where real and imaginary part separate into real functions.
-fn on_imaginary_axis<O: TimeOrder>(eta: f64, r: f64) -> Potentials<Complex64> {
+fn on_imaginary_axis<const N: i32>(eta: f64, r: f64) -> Potentials<Complex64> {
     let s = [eta - 1.0, eta + 1.0];
     let inside = inside(eta, r);
     // Re: phi and q held at their value on the circle outside it
-    let re = if O::ORDER == Order::Step && eta.abs() >= 1.0 + r {
+    let re = if N == STEP && eta.abs() >= 1.0 + r {
         Potentials::default()
     } else {
         let phi = s.map(|s| (s / r).clamp(-1.0, 1.0).asin());
         let q = inside.map(|square| square.max(0.0).sqrt());
-        chord_primitives::<O, f64>(eta, r, phi, q)
+        chord_primitives::<N, f64>(eta, r, phi, q)
     };
     // Im: -log|zeta + rho| and Im rho, held inside the circle
     let w = [0, 1].map(|i| (-inside[i]).max(0.0).sqrt().copysign(s[i]));
     let modulus = [0, 1].map(|i| s[i].abs().max(r) + w[i].abs());
-    let log = if O::ORDER == Order::Step {
+    let log = if N == STEP {
         [0.0, (modulus[0] / modulus[1]).ln()]
     } else {
         modulus.map(|modulus| -modulus.ln())
     };
-    let im = chord_primitives::<O, f64>(eta, r, log, w);
+    let im = chord_primitives::<N, f64>(eta, r, log, w);
     let psi = re.zip(im, Complex64::new);
-    from_primitives::<O>(psi, eta.into(), r)
+    from_primitives::<N>(psi, eta.into(), r)
 }
 
-fn by_parts<O: TimeOrder>(profile: Profile, xi: Complex64, r: f64) -> Potentials<Complex64> {
+fn by_parts<const N: i32>(profile: Profile, xi: Complex64, r: f64) -> Potentials<Complex64> {
     let upper = End::new(Complex64::new(xi.re, xi.im - 1.0), r);
     let lower = End::new(Complex64::new(xi.re, xi.im + 1.0), r);
-    let m = O::ORDER.integrations();
+    let m = N;
     // (X - Y)/(2 i)
     let half_difference = |x: Complex64, y: Complex64| Complex64::new(0.0, -0.5) * (x - y);
     match profile {
@@ -151,7 +149,7 @@ fn by_parts<O: TimeOrder>(profile: Profile, xi: Complex64, r: f64) -> Potentials
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::potentials::order::{Impulse, Step, StepIntegral};
+    use crate::potentials::order::{IMPULSE, STEP, STEP_INTEGRAL};
 
     /// d/dxi of order n + 1 is minus order n: A_{n+1}(xi + h) - A_{n+1}(xi - h) = -2 h A_n.
     #[test]
@@ -167,9 +165,9 @@ mod tests {
                     (0.3, -70.0),
                 ] {
                     let xi = Complex64::new(x, y);
-                    let here = potentials::<Step>(profile, xi, r);
-                    let ahead = potentials::<StepIntegral>(profile, xi + h, r);
-                    let behind = potentials::<StepIntegral>(profile, xi - h, r);
+                    let here = potentials::<STEP>(profile, xi, r);
+                    let ahead = potentials::<STEP_INTEGRAL>(profile, xi + h, r);
+                    let behind = potentials::<STEP_INTEGRAL>(profile, xi - h, r);
                     let check = |a: Complex64, b: Complex64, value: Complex64| {
                         let slope = -(a - b) / (2.0 * h);
                         let tolerance = 1e-4 * value.norm() + 1e-10;
@@ -202,12 +200,12 @@ mod tests {
                 let xi = Complex64::new(x, y);
                 let pairs = [
                     (
-                        potentials::<Step>(Profile::Hertz, xi, r),
-                        by_parts::<Step>(Profile::Hertz, xi, r),
+                        potentials::<STEP>(Profile::Hertz, xi, r),
+                        by_parts::<STEP>(Profile::Hertz, xi, r),
                     ),
                     (
-                        potentials::<StepIntegral>(Profile::Hertz, xi, r),
-                        by_parts::<StepIntegral>(Profile::Hertz, xi, r),
+                        potentials::<STEP_INTEGRAL>(Profile::Hertz, xi, r),
+                        by_parts::<STEP_INTEGRAL>(Profile::Hertz, xi, r),
                     ),
                 ];
                 for (a, b) in pairs {
@@ -231,16 +229,16 @@ mod tests {
                     let xi = Complex64::new(x, y);
                     let pairs = [
                         (
-                            by_parts::<Step>(profile, xi, r),
-                            multipole::multipole::<Step>(profile, 9, xi, r),
+                            by_parts::<STEP>(profile, xi, r),
+                            multipole::multipole::<STEP>(profile, 9, xi, r),
                         ),
                         (
-                            by_parts::<StepIntegral>(profile, xi, r),
-                            multipole::multipole::<StepIntegral>(profile, 9, xi, r),
+                            by_parts::<STEP_INTEGRAL>(profile, xi, r),
+                            multipole::multipole::<STEP_INTEGRAL>(profile, 9, xi, r),
                         ),
                         (
-                            by_parts::<Impulse>(profile, xi, r),
-                            multipole::multipole::<Impulse>(profile, 9, xi, r),
+                            by_parts::<IMPULSE>(profile, xi, r),
+                            multipole::multipole::<IMPULSE>(profile, 9, xi, r),
                         ),
                     ];
                     for (order, (closed, series)) in pairs.into_iter().enumerate() {
@@ -265,7 +263,7 @@ mod tests {
                     let eta = r + 0.217 * f64::from(i);
                     for xi in [Complex64::new(d, eta), Complex64::new(d, -eta)] {
                         let found = at_far_front(xi, r).into_array();
-                        let expected = by_parts::<Step>(Profile::Hertz, xi, r).into_array();
+                        let expected = by_parts::<STEP>(Profile::Hertz, xi, r).into_array();
                         for (a, b) in found.into_iter().zip(expected) {
                             let gap = (a - b).norm();
                             assert!(gap < 1e-15 * r * r, "{r} {xi}: {a} {b}");

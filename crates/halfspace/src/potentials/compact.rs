@@ -23,7 +23,7 @@ use crate::potentials::Potentials;
 use crate::potentials::chord_integral::chord_primitives;
 use crate::potentials::far_front;
 use crate::potentials::multipole;
-use crate::potentials::order::{Order, Step, TimeOrder};
+use crate::potentials::order::{Order, STEP};
 use crate::profile::Profile;
 use num_complex::Complex64;
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -38,16 +38,16 @@ const HERTZ_ONLY: &str = "impulse responses are refused for other profiles than 
 ///
 /// Of the Hertz profile also the derivatives of those of the step response, for the impulse response.
 #[inline]
-pub(crate) fn compact<O: TimeOrder>(profile: Profile, eta: f64, r: f64) -> Potentials<f64> {
+pub(crate) fn compact<const N: i32>(profile: Profile, eta: f64, r: f64) -> Potentials<f64> {
     match profile {
-        Profile::Hertz => match O::ORDER {
+        Profile::Hertz => match Order::of(N) {
             Order::Impulse => hertz_impulse(eta, r),
-            Order::Step | Order::StepIntegral if r < AXIS => hertz_on_axis::<O>(eta),
+            Order::Step | Order::StepIntegral if r < AXIS => hertz_on_axis::<N>(eta),
             Order::Step if r > far_front::FAR => hertz_far(eta, r),
-            Order::Step | Order::StepIntegral => hertz::<O>(eta, r),
+            Order::Step | Order::StepIntegral => hertz::<N>(eta, r),
         },
-        Profile::Punch => punch::<O>(eta, r),
-        Profile::Point => point::<O>(eta, r),
+        Profile::Punch => punch::<N>(eta, r),
+        Profile::Point => point::<N>(eta, r),
     }
 }
 
@@ -68,11 +68,11 @@ fn circle(eta: f64, shift: f64, r: f64) -> (f64, f64) {
 }
 
 #[inline]
-fn hertz<O: TimeOrder>(eta: f64, r: f64) -> Potentials<f64> {
+fn hertz<const N: i32>(eta: f64, r: f64) -> Potentials<f64> {
     let ((phi1, q1), (phi2, q2)) = (circle(eta, -1.0, r), circle(eta, 1.0, r));
-    let mut psi = chord_primitives::<O, f64>(eta, r, [phi1, phi2], [q1, q2]);
+    let mut psi = chord_primitives::<N, f64>(eta, r, [phi1, phi2], [q1, q2]);
     // measured from their values before the arrival
-    match O::ORDER {
+    match Order::of(N) {
         Order::Impulse | Order::Step => {}
         Order::StepIntegral => psi.a_upper -= 0.25,
     }
@@ -88,7 +88,7 @@ fn hertz_far(eta: f64, r: f64) -> Potentials<f64> {
     let psi = match multipole::terms(Complex64::new(0.0, distance), r, 10.0) {
         Some(terms) => {
             let xi = Complex64::new(0.0, distance);
-            let psi = multipole::multipole::<Step>(Profile::Hertz, terms, xi, r);
+            let psi = multipole::multipole::<STEP>(Profile::Hertz, terms, xi, r);
             Potentials {
                 a_upper: psi.a_upper.re,
                 a_lower: psi.a_lower.im,
@@ -109,8 +109,8 @@ fn hertz_far(eta: f64, r: f64) -> Potentials<f64> {
 
 /// The compact parts after the wave has passed, below minus the reach of the disc.
 #[inline]
-pub(crate) fn passed<O: TimeOrder>() -> Potentials<f64> {
-    match O::ORDER {
+pub(crate) fn passed<const N: i32>() -> Potentials<f64> {
+    match Order::of(N) {
         Order::Impulse | Order::Step => Potentials::default(),
         Order::StepIntegral => Potentials {
             a_upper: -0.5,
@@ -139,12 +139,12 @@ fn hertz_impulse(eta: f64, r: f64) -> Potentials<f64> {
 
 /// The limit r = 0, where the circle shrinks to a point of the chord.
 #[inline]
-fn hertz_on_axis<O: TimeOrder>(eta: f64) -> Potentials<f64> {
+fn hertz_on_axis<const N: i32>(eta: f64) -> Potentials<f64> {
     if eta >= 1.0 {
         return Potentials::default();
     }
     if eta <= -1.0 {
-        return passed::<O>();
+        return passed::<N>();
     }
     let square = eta * eta;
     let inside = 1.0 - square;
@@ -152,7 +152,7 @@ fn hertz_on_axis<O: TimeOrder>(eta: f64) -> Potentials<f64> {
     let b3 = -0.375 * eta;
     let a4 = 0.375 * eta * (1.0 - square / 3.0) - 0.25;
     let b4 = 0.1875 * inside;
-    match O::ORDER {
+    match Order::of(N) {
         Order::Impulse => unreachable!("the impulse response is continued to the axis"),
         Order::Step => Potentials {
             a_upper: a3,
@@ -170,14 +170,14 @@ fn hertz_on_axis<O: TimeOrder>(eta: f64) -> Potentials<f64> {
 }
 
 #[inline]
-fn punch<O: TimeOrder>(eta: f64, r: f64) -> Potentials<f64> {
+fn punch<const N: i32>(eta: f64, r: f64) -> Potentials<f64> {
     let (s1, s2) = (eta - 1.0, eta + 1.0);
     let ((phi1, q1), (phi2, q2)) = (circle(eta, -1.0, r), circle(eta, 1.0, r));
     let scale = 0.25 / PI;
     let ring = scale / (r * r);
     let a3 = scale * (phi2 - phi1);
     let b3 = ring * (q2 - q1);
-    match O::ORDER {
+    match Order::of(N) {
         Order::Step => {
             let inverse = |q: f64| if q > 0.0 { 1.0 / q } else { 0.0 };
             let (v1, v2) = (inverse(q1), inverse(q2));
@@ -202,14 +202,14 @@ fn punch<O: TimeOrder>(eta: f64, r: f64) -> Potentials<f64> {
 }
 
 #[inline]
-fn point<O: TimeOrder>(eta: f64, r: f64) -> Potentials<f64> {
+fn point<const N: i32>(eta: f64, r: f64) -> Potentials<f64> {
     let (phi, q) = circle(eta, 0.0, r);
     let scale = 0.5 / PI;
     let ring = scale / (r * r);
     let inverse = if q > 0.0 { 1.0 / q } else { 0.0 };
     let a3 = scale * inverse;
     let b3 = -ring * eta * inverse;
-    match O::ORDER {
+    match Order::of(N) {
         Order::Step => {
             let cube = inverse * inverse * inverse;
             Potentials {
@@ -233,7 +233,7 @@ fn point<O: TimeOrder>(eta: f64, r: f64) -> Potentials<f64> {
 mod tests {
     use super::*;
     use crate::potentials::closed_form::potentials;
-    use crate::potentials::order::StepIntegral;
+    use crate::potentials::order::STEP_INTEGRAL;
 
     /// The parts named in the module text, taken from the complex potentials.
     #[test]
@@ -245,12 +245,12 @@ mod tests {
                     let eta = 0.097 * f64::from(i) + if r > 5.0 { r } else { 0.0 };
                     let xi = Complex64::new(0.0, eta);
                     let (full0, full1) = (
-                        potentials::<Step>(profile, xi, r),
-                        potentials::<StepIntegral>(profile, xi, r),
+                        potentials::<STEP>(profile, xi, r),
+                        potentials::<STEP_INTEGRAL>(profile, xi, r),
                     );
                     let (c0, c1) = (
-                        compact::<Step>(profile, eta, r),
-                        compact::<StepIntegral>(profile, eta, r),
+                        compact::<STEP>(profile, eta, r),
+                        compact::<STEP_INTEGRAL>(profile, eta, r),
                     );
                     let pairs = [
                         (c0.a_upper, full0.a_upper.re),

@@ -4,13 +4,13 @@
 
 use crate::numeric::complex::{logarithm, reciprocal, root_with_circle};
 use crate::potentials::Potentials;
-use crate::potentials::order::{Order, TimeOrder};
+use crate::potentials::order::Order;
 use num_complex::Complex64;
 
 /// E and F/r of the orders m and m - 1, m the number of integrations in time: the potentials of a point force.
 #[inline]
-pub(crate) fn end_orders<O: TimeOrder>(zeta: Complex64, r: f64) -> Potentials<Complex64> {
-    let m = O::ORDER.integrations();
+pub(crate) fn end_orders<const N: i32>(zeta: Complex64, r: f64) -> Potentials<Complex64> {
+    let m = N;
     let by_end = |end: End| Potentials {
         a_upper: end.e(m),
         a_lower: end.e(m - 1),
@@ -21,7 +21,7 @@ pub(crate) fn end_orders<O: TimeOrder>(zeta: Complex64, r: f64) -> Potentials<Co
         let rho = End::without_log(zeta, r).rho;
         (rho, reciprocal(rho), reciprocal(rho + zeta))
     };
-    match O::ORDER {
+    match Order::of(N) {
         Order::Impulse => by_end(End::without_log(zeta, r)),
         Order::Step => {
             let (_, inverse, sum) = roots();

@@ -15,7 +15,7 @@
 use crate::numeric::complex::{logarithm, reciprocal, root_with_circle};
 use crate::numeric::scalar::Scalar;
 use crate::potentials::Potentials;
-use crate::potentials::order::{Order, TimeOrder};
+use crate::potentials::order::{IMPULSE, Order};
 use crate::profile::Profile;
 use num_complex::Complex64;
 use std::f64::consts::PI;
@@ -25,8 +25,8 @@ const MOST_TERMS: usize = 8;
 
 /// Distance from which on the series is taken: farther out the closed forms lose digits, those of the time integral sooner.
 #[inline(always)]
-pub(crate) fn nearest<O: TimeOrder>(r: f64) -> f64 {
-    match O::ORDER {
+pub(crate) fn nearest<const N: i32>(r: f64) -> f64 {
+    match Order::of(N) {
         Order::Step if r > 0.3 => 10.0,
         Order::Impulse | Order::Step | Order::StepIntegral => 7.0,
     }
@@ -113,7 +113,7 @@ static POINT: [Term; MOST_TERMS] = terms_of(Profile::Point);
 ///
 /// `alternate` is the factor from one j to the next, `over` is zeta/rho^2, `inverse2` 1/rho^2, `q0` 1/rho.
 #[inline(always)]
-pub(crate) fn sums<O: TimeOrder, T: Scalar>(
+pub(crate) fn sums<const N: i32, T: Scalar>(
     profile: Profile,
     terms: usize,
     alternate: f64,
@@ -142,7 +142,7 @@ pub(crate) fn sums<O: TimeOrder, T: Scalar>(
         let m = sign * term.moment;
         let q_next = (over * q_even * (2.0 * k + 1.0) - inverse2 * q_odd * k) * term.inverse[0];
         let v_next = (v_odd + q_even * (2.0 * k + 1.0)) * inverse2;
-        match O::ORDER {
+        match Order::of(N) {
             Order::Impulse => {
                 sum.a_upper = sum.a_upper + q_next * (m * (k + 1.0));
                 sum.g_upper = sum.g_upper + v_next * m;
@@ -169,7 +169,7 @@ pub(crate) fn sums<O: TimeOrder, T: Scalar>(
         q_odd = q_next;
         v_even = (v_even + q_next * (2.0 * k + 3.0)) * inverse2;
         v_odd = v_next;
-        if O::ORDER == Order::Impulse {
+        if N == IMPULSE {
             sum.a_lower = sum.a_lower + q_even * (m * (k + 1.0) * (k + 2.0));
             sum.g_lower = sum.g_lower + v_even * (m * (k + 1.0));
         }
@@ -179,7 +179,7 @@ pub(crate) fn sums<O: TimeOrder, T: Scalar>(
 }
 
 /// The potentials by `terms` terms of the series.
-pub(crate) fn multipole<O: TimeOrder>(
+pub(crate) fn multipole<const N: i32>(
     profile: Profile,
     terms: usize,
     xi: Complex64,
@@ -190,8 +190,8 @@ pub(crate) fn multipole<O: TimeOrder>(
     let square = inverse * inverse;
     let sum = reciprocal(rho + xi);
     let mass = moment(profile, 0);
-    let mut psi = sums::<O, Complex64>(profile, terms, -1.0, xi * square, square, inverse);
-    match O::ORDER {
+    let mut psi = sums::<N, Complex64>(profile, terms, -1.0, xi * square, square, inverse);
+    match Order::of(N) {
         Order::Impulse => {}
         Order::Step => psi.g_upper += mass * inverse * sum,
         Order::StepIntegral => {

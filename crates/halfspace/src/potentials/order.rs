@@ -1,8 +1,8 @@
-//! Which derivative or integral in time of the step response is meant, as a type.
+//! Which derivative or integral in time of the step response is meant: by its number of integrations.
 //!
 //! The integral over slowness is the same for all of them: one more integration in time raises the order of every
-//! potential by one. The order is a type so that each instance is compiled for itself, and an enum so that a `match`
-//! names all three.
+//! potential by one. The number is a parameter of types so that each instance is compiled for itself, and an [`Order`] so
+//! that a `match` names all three.
 
 /// Derivative or integral in time of the step response.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -15,39 +15,23 @@ pub(crate) enum Order {
     StepIntegral,
 }
 
+/// Integrations in time of [`Order::Impulse`].
+pub(crate) const IMPULSE: i32 = -1;
+
+/// Integrations in time of [`Order::Step`].
+pub(crate) const STEP: i32 = 0;
+
+/// Integrations in time of [`Order::StepIntegral`].
+pub(crate) const STEP_INTEGRAL: i32 = 1;
+
 impl Order {
-    /// Number of integrations in time: -1 for the impulse response.
-    pub(crate) const fn integrations(self) -> i32 {
-        match self {
-            Self::Impulse => -1,
-            Self::Step => 0,
-            Self::StepIntegral => 1,
+    /// The one of a number of integrations in time.
+    pub(crate) const fn of(integrations: i32) -> Self {
+        match integrations {
+            IMPULSE => Self::Impulse,
+            STEP => Self::Step,
+            STEP_INTEGRAL => Self::StepIntegral,
+            _ => panic!("no such order"),
         }
     }
-}
-
-/// An [`Order`] as a type.
-pub(crate) trait TimeOrder {
-    const ORDER: Order;
-}
-
-/// [`Order::Impulse`].
-pub(crate) struct Impulse;
-
-/// [`Order::Step`].
-pub(crate) struct Step;
-
-/// [`Order::StepIntegral`].
-pub(crate) struct StepIntegral;
-
-impl TimeOrder for Impulse {
-    const ORDER: Order = Order::Impulse;
-}
-
-impl TimeOrder for Step {
-    const ORDER: Order = Order::Step;
-}
-
-impl TimeOrder for StepIntegral {
-    const ORDER: Order = Order::StepIntegral;
 }

@@ -13,7 +13,7 @@
 use crate::point::Point;
 use crate::potentials::closed_form::potentials;
 use crate::potentials::compact::compact;
-use crate::potentials::order::{Impulse, Order, Step, TimeOrder};
+use crate::potentials::order::{IMPULSE, STEP};
 use crate::profile::Profile;
 use num_complex::Complex64;
 
@@ -30,12 +30,8 @@ const SHORT: f64 = 1e-3;
 const PLACES: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
 
 /// Whether sigma_zz and sigma_rz are taken from differences.
-pub(crate) fn applies<O: TimeOrder>(profile: Profile, at: Point) -> bool {
-    O::ORDER == Order::Step
-        && profile == Profile::Hertz
-        && at.z > 0.0
-        && at.z < DEEPEST
-        && at.r > NEAREST
+pub(crate) fn applies<const N: i32>(profile: Profile, at: Point) -> bool {
+    N == STEP && profile == Profile::Hertz && at.z > 0.0 && at.z < DEEPEST && at.r > NEAREST
 }
 
 /// The same point on the surface.
@@ -60,14 +56,14 @@ pub(crate) fn is_short(xi: Complex64, step: f64, r: f64) -> bool {
 pub(crate) fn difference(xi: Complex64, step: Complex64, r: f64) -> (Complex64, Complex64) {
     if is_short(xi, step.norm(), r) {
         let [first, second] =
-            PLACES.map(|place| potentials::<Impulse>(Profile::Hertz, xi + place * step, r));
+            PLACES.map(|place| potentials::<IMPULSE>(Profile::Hertz, xi + place * step, r));
         (
             -0.5 * step * (first.a_lower + second.a_lower),
             -0.5 * step * (first.g_lower + second.g_lower),
         )
     } else {
-        let from = potentials::<Step>(Profile::Hertz, xi, r);
-        let to = potentials::<Step>(Profile::Hertz, xi + step, r);
+        let from = potentials::<STEP>(Profile::Hertz, xi, r);
+        let to = potentials::<STEP>(Profile::Hertz, xi + step, r);
         (to.a_lower - from.a_lower, to.g_lower - from.g_lower)
     }
 }
@@ -78,14 +74,14 @@ pub(crate) fn difference(xi: Complex64, step: Complex64, r: f64) -> (Complex64, 
 pub(crate) fn compact_difference(surface: f64, step: f64, eta: f64, r: f64) -> (f64, f64) {
     if is_short(Complex64::new(0.0, surface), step.abs(), r) {
         let [first, second] =
-            PLACES.map(|place| compact::<Impulse>(Profile::Hertz, surface + place * step, r));
+            PLACES.map(|place| compact::<IMPULSE>(Profile::Hertz, surface + place * step, r));
         (
             0.5 * step * (first.a_lower + second.a_lower),
             0.5 * step * (first.g_lower + second.g_lower),
         )
     } else {
-        let from = compact::<Step>(Profile::Hertz, surface, r);
-        let to = compact::<Step>(Profile::Hertz, eta, r);
+        let from = compact::<STEP>(Profile::Hertz, surface, r);
+        let to = compact::<STEP>(Profile::Hertz, eta, r);
         (to.a_lower - from.a_lower, to.g_lower - from.g_lower)
     }
 }

@@ -82,9 +82,6 @@ pub(crate) struct AtPoint {
     pub(crate) errors: Vec<f64>,
 }
 
-/// Values and errors of the six fields, or of the rates of the first two.
-pub(crate) type Resolved = ([Vec<f64>; 6], [f64; 6]);
-
 /// Tolerances that a part of the past may have, which brings a part of the field.
 const PART_OF_PAST: f64 = 10.0;
 
@@ -173,16 +170,13 @@ impl<'a> Evaluator<'a> {
     /// [`ImpactError`] for a point outside the half-space or the table.
     pub(crate) fn at(&self, r_m: f64, z_m: f64) -> Result<AtPoint, ImpactError> {
         let sums = self.sums([r_m, z_m])?;
-        let mut found = AtPoint {
-            values: sums[0].0.to_vec(),
-            errors: sums[0].1.to_vec(),
-        };
+        let mut found = sums[0].clone();
         for &quantity in self.asked.quantities {
             let (values, error) = match quantity.rate() {
                 Some((derivative, component)) => {
                     let place = self.forcings.iter().position(|(own, _)| *own == derivative);
-                    let (values, errors) = &sums[place.unwrap_or(0)];
-                    (values[component].clone(), errors[component])
+                    let sum = &sums[place.unwrap_or(0)];
+                    (sum.values[component].clone(), sum.errors[component])
                 }
                 None => self.of_stresses(quantity, &sums[0]),
             };
@@ -193,17 +187,16 @@ impl<'a> Evaluator<'a> {
         Ok(found)
     }
 
-    fn of_stresses(&self, quantity: Quantity, (values, errors): &Resolved) -> (Vec<f64>, f64) {
-        let [_, _, rr, tt, zz, rz] = values;
-        let of = |i: usize| quantity.of([rr[i], tt[i], zz[i], rz[i]], self.asked.elastic);
-        let [_, _, rr_error, tt_error, zz_error, rz_error] = *errors;
-        let error = quantity.error([rr_error, tt_error, zz_error, rz_error], self.asked.elastic);
-        ((0..rr.len()).map(of).collect(), error)
+    fn of_stresses(&self, quantity: Quantity, fields: &AtPoint) -> (Vec<f64>, f64) {
+        let (stresses, elastic) = ([2, 3, 4, 5], self.asked.elastic);
+        let of = |i: usize| quantity.of(stresses.map(|f| fields.values[f][i]), elastic);
+        let error = quantity.error(stresses.map(|f| fields.errors[f]), elastic);
+        ((0..fields.values[2].len()).map(of).collect(), error)
     }
 
     /// Values and errors of each forcing, under the first choice of discs that leaves little open, or under the one before
     /// where a choice leaves more: the kernels of small discs lose digits far away.
-    fn sums(&self, place_m: [f64; 2]) -> Result<Vec<Resolved>, ImpactError> {
+    fn sums(&self, place_m: [f64; 2]) -> Result<Vec<AtPoint>, ImpactError> {
         let serving = self.serving(place_m);
         let mut best = self.under(place_m, serving[0], None)?;
         let open = |sums: &[Sum<'_>]| sums.iter().map(|sum| sum.open.len()).sum::<usize>();

@@ -1,5 +1,6 @@
 //! The sum of one forcing over the discs of a choice, at one point.
 
+use super::AtPoint;
 use super::at_rest::{static_si, units_si};
 use super::discs::Discs;
 use super::ends::open;
@@ -281,7 +282,7 @@ impl<'a> Sum<'a> {
         mut self,
         past: Option<&Past<'_>>,
         cells: &[Cells],
-    ) -> Result<([Vec<f64>; 6], [f64; 6]), ImpactError> {
+    ) -> Result<AtPoint, ImpactError> {
         let radius = self.forcing.excitation.radius();
         let zones = matches!(radius, PressureRadius::Following { .. });
         let zones = zones || self.integrated.contains(&true);
@@ -322,7 +323,10 @@ impl<'a> Sum<'a> {
         for (error, samples) in self.errors.iter_mut().zip(&values) {
             *error += relative * peak(samples);
         }
-        Ok((values, self.errors))
+        Ok(AtPoint {
+            values: values.into(),
+            errors: self.errors.into(),
+        })
     }
 
     /// The run of a sample and its number there.

@@ -11,6 +11,7 @@
 
 use num_complex::Complex64;
 use std::f64::consts::PI;
+use std::ops::Range;
 
 /// Cutoff periods after which h has fallen by 1e-13: 13 ln 10/(2 pi sin(pi/8)).
 const REACH: f64 = 12.45;
@@ -24,23 +25,16 @@ const MOST_ROWS: f64 = 4e6;
 /// A difference below this fraction of the largest force is rounding: the force is left as it is.
 const ROUNDING: f64 = 1e-12;
 
-/// A filtered force.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Filtered {
-    /// Times of the rows in s.
+/// A force by rows, zero outside.
+pub(crate) struct Rows {
+    /// Times in s.
     pub(crate) time_s: Vec<f64>,
     /// Forces in N.
     pub(crate) force_n: Vec<f64>,
-    /// Impulse in N s that lies before the time zero and is lost.
+    /// Impulse in N s that the filter has put before the time zero, where it is lost.
     pub(crate) before_zero_n_s: f64,
-}
-
-/// Rows with zero force outside: `first` and `last` are those of the record, what lies beyond is added.
-struct Rows {
-    time_s: Vec<f64>,
-    force_n: Vec<f64>,
-    first: usize,
-    last: usize,
+    /// The rows of the record; those before and after are added.
+    of_record: Range<usize>,
 }
 
 /// Frequencies in Hz that can be cut for rows at these times.
@@ -75,8 +69,8 @@ fn added(width_s: f64, cutoff_hz: f64) -> f64 {
 }
 
 /// The force through the filter; `cutoff_hz` is one of [`allowed_hz`].
-pub(crate) fn low_pass(time_s: &[f64], force_n: &[f64], cutoff_hz: f64) -> Filtered {
-    let rows = Rows::new(time_s, force_n, cutoff_hz);
+pub(crate) fn low_pass(time_s: &[f64], force_n: &[f64], cutoff_hz: f64) -> Rows {
+    let mut rows = Rows::new(time_s, force_n, cutoff_hz);
     let poles = [0.625, 0.875].map(|angle| Complex64::from_polar(2.0 * PI * cutoff_hz, angle * PI));
     let count = rows.time_s.len();
     let mut sum = vec![0.0; count];
@@ -95,22 +89,17 @@ pub(crate) fn low_pass(time_s: &[f64], force_n: &[f64], cutoff_hz: f64) -> Filte
         *sum += weighted(&poles, &state);
     }
     // before the first row the force dies as exp(s |t|), whose integral is -1/s
-    let before_zero_n_s = if rows.time_s[0] == 0.0 {
-        0.25 * (state[0] + state[1]).re
-    } else {
-        0.0
-    };
+    if rows.time_s[0] == 0.0 {
+        rows.before_zero_n_s = 0.25 * (state[0] + state[1]).re;
+    }
     let largest = force_n.iter().fold(0.0_f64, |most, p| most.max(p.abs()));
     for (filtered, &given) in sum.iter_mut().zip(&rows.force_n) {
         if (*filtered - given).abs() <= ROUNDING * largest {
             *filtered = given;
         }
     }
-    Filtered {
-        time_s: rows.time_s,
-        force_n: sum,
-        before_zero_n_s,
-    }
+    rows.force_n = sum;
+    rows
 }
 
 /// The filtered force from the states of both poles in one direction.
@@ -132,11 +121,11 @@ impl Rows {
         let mut rows = Self {
             time_s: Vec::with_capacity(time_s.len()),
             force_n: Vec::with_capacity(time_s.len()),
-            first: 0,
-            last: 0,
+            before_zero_n_s: 0.0,
+            of_record: 0..0,
         };
         rows.between([(start_s - reach_s).max(0.0), start_s], [0.0; 2], step_s);
-        rows.first = rows.time_s.len();
+        rows.of_record.start = rows.time_s.len();
         for (t, p) in time_s.windows(2).zip(force_n.windows(2)) {
             let line = |time_s: f64| p[0] + (p[1] - p[0]) * (time_s - t[0]) / (t[1] - t[0]);
             if t[1] - t[0] > 2.0 * reach_s {
@@ -148,7 +137,7 @@ impl Rows {
                 rows.between([t[0], t[1]], [p[0], p[1]], step_s);
             }
         }
-        rows.last = rows.time_s.len();
+        rows.of_record.end = rows.time_s.len();
         rows.push(end_s, force_n[force_n.len() - 1]);
         rows.between([end_s, end_s + reach_s], [0.0; 2], step_s);
         // the row at the record's end is there already
@@ -182,7 +171,7 @@ impl Rows {
     /// ```
     fn step(&self, poles: &[Complex64; 2], i: usize, mut f: impl FnMut(usize, Part)) {
         let width = self.time_s[i + 1] - self.time_s[i];
-        let [a, b] = if (self.first..self.last).contains(&i) {
+        let [a, b] = if self.of_record.contains(&i) {
             [self.force_n[i], self.force_n[i + 1]]
         } else {
             [0.0; 2]
@@ -222,7 +211,7 @@ fn functions(q: Complex64) -> (Complex64, Complex64, Complex64) {
 mod tests {
     use super::*;
 
-    fn at(found: &Filtered, time_s: f64) -> f64 {
+    fn at(found: &Rows, time_s: f64) -> f64 {
         let i = found.time_s.partition_point(|&t| t < time_s);
         assert!((found.time_s[i] - time_s).abs() < 1e-9 * time_s);
         found.force_n[i]

@@ -12,7 +12,7 @@ use crate::potentials::closed_form::SMALL_RADIUS;
 use crate::potentials::compact::AXIS;
 use crate::potentials::far_front::{self, FAR};
 use crate::potentials::multipole;
-use crate::potentials::order::Step;
+use crate::potentials::order::STEP;
 use crate::profile::Profile;
 use pulp::Simd;
 
@@ -26,7 +26,7 @@ struct Reach<S: Simd> {
 impl<S: Simd> Reach<S> {
     #[inline(always)]
     fn new(xi: Pair<S>, r: f64) -> Self {
-        let nearest = multipole::nearest::<Step>(r);
+        let nearest = multipole::nearest::<STEP>(r);
         let gap = (xi.im.abs() - r).abs();
         if (gap + xi.re).largest() + 1.0 < nearest {
             return Self {
@@ -54,7 +54,7 @@ impl<S: Simd> Reach<S> {
     ) -> Potentials<Pair<S>> {
         let (distance, limit) = (
             self.distance,
-            self.distance.constant(multipole::nearest::<Step>(r)),
+            self.distance.constant(multipole::nearest::<STEP>(r)),
         );
         Potentials {
             a_upper: Pair::where_below(distance, limit, near.a_upper, far.a_upper),

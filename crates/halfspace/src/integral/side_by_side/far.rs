@@ -6,7 +6,7 @@ use crate::numeric::scalar::{Real, Scalar};
 use crate::potentials::Potentials;
 use crate::potentials::far_front::{self, C, Chord};
 use crate::potentials::multipole;
-use crate::potentials::order::Step;
+use crate::potentials::order::STEP;
 use crate::profile::Profile;
 use pulp::Simd;
 
@@ -26,7 +26,7 @@ pub(super) fn by_series<S: Simd>(
     let square = inverse * inverse;
     let sum = (rho + xi).reciprocal();
     let over = xi * square;
-    let mut psi = multipole::sums::<Step, Pair<S>>(
+    let mut psi = multipole::sums::<STEP, Pair<S>>(
         profile,
         multipole::terms_to(digits),
         -1.0,
@@ -51,7 +51,7 @@ pub(super) fn series_on_imaginary_axis<S: Simd>(
     let square = (-s + r) * (s + r);
     let rho = root_inside(xi, square);
     let (inverse, inverse2) = (rho.reciprocal(), s.constant(1.0) / square);
-    let sum = multipole::sums::<Step, Lanes<S>>(
+    let sum = multipole::sums::<STEP, Lanes<S>>(
         profile,
         multipole::terms_to(digits),
         1.0,

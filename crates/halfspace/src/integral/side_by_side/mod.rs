@@ -16,15 +16,15 @@ use crate::numeric::scalar::{Real, Scalar};
 use crate::point::{Point, Sense};
 use crate::potentials::Potentials;
 use crate::potentials::far_front::ALL;
-use crate::potentials::order::{Order, TimeOrder};
+use crate::potentials::order::STEP;
 use crate::profile::Profile;
 use choice::compact;
 use num_complex::Complex64;
 use pulp::{Simd, WithSimd};
 
 /// Whether the integrands at a point may be taken here.
-pub(crate) fn applies<O: TimeOrder>(profile: Profile, at: Point, shallow: bool) -> bool {
-    O::ORDER == Order::Step
+pub(crate) fn applies<const N: i32>(profile: Profile, at: Point, shallow: bool) -> bool {
+    N == STEP
         && match profile {
             Profile::Hertz => !shallow,
             Profile::Punch => at.r > 0.0,

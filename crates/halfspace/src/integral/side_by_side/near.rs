@@ -4,7 +4,7 @@ use crate::numeric::lanes::{Lanes, Pair};
 use crate::numeric::scalar::{Real, Scalar};
 use crate::potentials::Potentials;
 use crate::potentials::chord_integral::chord_primitives;
-use crate::potentials::order::Step;
+use crate::potentials::order::STEP;
 use pulp::Simd;
 use std::f64::consts::PI;
 
@@ -28,7 +28,7 @@ pub(super) fn held_primitives<S: Simd>(
     let zero = eta.constant(0.0);
     let s = [eta - 1.0, eta + 1.0];
     let q = [inside[0].max(zero).sqrt(), inside[1].max(zero).sqrt()];
-    chord_primitives::<Step, Lanes<S>>(eta, r, [zero, angle_between(s, q)], q)
+    chord_primitives::<STEP, Lanes<S>>(eta, r, [zero, angle_between(s, q)], q)
 }
 
 /// The difference of the angles of the vectors (q, s).
@@ -209,7 +209,7 @@ pub(super) fn root_inside<S: Simd>(zeta: Pair<S>, inside: Lanes<S>) -> Pair<S> {
 pub(super) fn by_primitives<S: Simd>(xi: Pair<S>, r: f64) -> Potentials<Pair<S>> {
     let Ends { rho, log, .. } = Ends::new(xi, r);
     let phi = [log.constant(0.0), log.times_minus_i()];
-    let psi = chord_primitives::<Step, Pair<S>>(xi.times_minus_i(), r, phi, rho);
+    let psi = chord_primitives::<STEP, Pair<S>>(xi.times_minus_i(), r, phi, rho);
     from_primitives(psi, r)
 }
 
@@ -234,7 +234,7 @@ pub(super) fn primitives_on_imaginary_axis<S: Simd>(eta: Lanes<S>, r: f64) -> Po
         let modulus = [s[0].abs().at_least(r) + w[0], s[1].abs().at_least(r) + w[1]];
         let log = [zero, (modulus[0] / modulus[1]).ln()];
         let w = [w[0].copysign(s[0]), w[1].copysign(s[1])];
-        chord_primitives::<Step, Lanes<S>>(eta, r, log, w)
+        chord_primitives::<STEP, Lanes<S>>(eta, r, log, w)
     };
     from_primitives(re.zip(im, |re, im| Pair { re, im }), r)
 }
