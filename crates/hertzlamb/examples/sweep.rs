@@ -2,14 +2,16 @@
 //!
 //! `cargo run --release --package hertzlamb --example sweep`
 
-use hertzlamb::contact::{BodyError, Collision, Tabulated};
-use hertzlamb::impact::sweep::{collide_rows, outcomes};
+use hertzlamb::contact::{BodyError, Collision, Solver, Tabulated};
+use hertzlamb::impact::sweep::{collide, outcomes};
 use hertzlamb::prelude::*;
+use rayon::prelude::*;
+use std::error::Error;
 use std::time::Instant;
 
 const ROWS: usize = 10_000;
 
-fn main() -> Result<(), Box<dyn std::error::Error>> {
+fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
     let granite = HalfSpace::new(Material::named("granite")?)?;
     let steel = Material::named("bearing-steel")?;
     let settings = Settings::default();
@@ -25,9 +27,15 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let start = Instant::now();
     let responses = Tabulated::default();
     let series = outcomes(ROWS, &responses, row);
-    let found = collide_rows(0..ROWS, (&responses, &series), row);
+    let loss =
+        |solver: &mut Solver<'_, Tabulated>, i| -> Result<f64, Box<dyn Error + Send + Sync>> {
+            let (collision, settings) = row(i, &mut ())?;
+            Ok(collide(solver, &collision, &settings)?.results.loss)
+        };
+    let solver = || Solver::sharing(&responses, &series);
+    let found = (0..ROWS).into_par_iter().map_init(solver, loss);
+    let losses = found.collect::<Result<Vec<_>, _>>()?;
     let wall_s = start.elapsed().as_secs_f64();
-    let losses: Vec<f64> = found.iter().flatten().map(|c| c.results.loss).collect();
     let range = losses
         .iter()
         .fold([f64::INFINITY, 0.0], |[a, b], &x| [a.min(x), x.max(b)]);

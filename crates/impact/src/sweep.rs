@@ -6,8 +6,6 @@ use crate::impact::solve;
 use crate::kernels::source::KernelChoice;
 use crate::scene::{Load, Scene};
 use contact::{Collision, ContactError, Model, Outcomes, Results, Settings, Solver, Tabulated};
-use rayon::prelude::*;
-use std::ops::Range;
 
 /// A contact of many: its results, the model that gave them, and what the probes see.
 #[derive(Debug, Clone, PartialEq)]
@@ -75,11 +73,6 @@ fn finite(found: ProbePeaks) -> Result<ProbePeaks, ImpactError> {
     }
 }
 
-/// Rows that one thread takes at a time, at most.
-const GRAIN: usize = 256;
-/// Such portions for each thread at least, where there are rows enough: none waits long for the last one.
-const PORTIONS: usize = 4;
-
 /// Rows from which it is told where all of them lie, at most.
 const SAMPLE: usize = 1024;
 
@@ -101,52 +94,4 @@ pub fn outcomes<M: Default, E>(
         .into_iter()
         .filter_map(|index| row(index, &mut memory).ok());
     Solver::new(responses).outcomes(rows, some)
-}
-
-/// Results of consecutive rows, in parallel; a row that fails has its reason.
-///
-/// `row` gives the bodies of a row with the help of what the thread remembers of the row before.
-pub fn collide_rows<M: Default, E: ToString>(
-    rows: Range<usize>,
-    (responses, outcomes): (&Tabulated, &Outcomes),
-    row: impl Fn(usize, &mut M) -> Result<(Collision, Settings), E> + Sync,
-) -> Vec<Result<Observed, String>> {
-    let solver = || Solver::sharing(responses, outcomes);
-    in_parallel(rows, solver, |index, memory, solver| {
-        let (collision, settings) = row(index, memory).map_err(|error| error.to_string())?;
-        collide(solver, &collision, &settings).map_err(|error| error.to_string())
-    })
-}
-
-/// [`collide_rows`] of scenes, with the peaks at their probes.
-pub fn observe_rows<M: Default, E: ToString>(
-    rows: Range<usize>,
-    (responses, kernels): (&Tabulated, &KernelChoice),
-    row: impl Fn(usize, &mut M) -> Result<Scene, E> + Sync,
-) -> Vec<Result<Observed, String>> {
-    let solver = || Solver::new(responses);
-    in_parallel(rows, solver, |index, memory, solver| {
-        let scene = row(index, memory).map_err(|error| error.to_string())?;
-        observe(solver, &scene, kernels)
-    })
-}
-
-fn in_parallel<'a, M: Default, T: Send>(
-    rows: Range<usize>,
-    solver: impl Fn() -> Solver<'a, Tabulated> + Sync,
-    row: impl Fn(usize, &mut M, &mut Solver<'a, Tabulated>) -> T + Sync,
-) -> Vec<T> {
-    let end = rows.end;
-    let grain = (rows.len() / (PORTIONS * rayon::current_num_threads())).clamp(1, GRAIN);
-    let grains: Vec<Vec<T>> = rows
-        .into_par_iter()
-        .step_by(grain)
-        .map(|from| {
-            let (mut solver, mut memory) = (solver(), M::default());
-            (from..(from + grain).min(end))
-                .map(|index| row(index, &mut memory, &mut solver))
-                .collect()
-        })
-        .collect();
-    grains.into_iter().flatten().collect()
 }

@@ -1,7 +1,7 @@
 //! How near a contact is to what its bodies bear: yield and cone cracks.
 
 use crate::bodies::material::Material;
-use crate::numeric::quadrature::find_root;
+use crate::numeric::quadrature::rising_root;
 use std::f64::consts::PI;
 
 /// What one body bears; by default nothing of it is known.
@@ -65,15 +65,16 @@ impl Strength {
 pub fn largest_mises(poisson_ratio: f64) -> f64 {
     let nu = poisson_ratio;
     let turn = |s: f64| PI / 2.0 - s.atan();
-    // the slope along the axis and its own; one maximum in this stretch
-    let slope = |s: f64| {
+    // minus the slope along the axis and its own, from near the one maximum
+    let falling = |s: f64| {
         let r = 1.0 / (1.0 + s * s);
         (
-            (1.0 + nu) * (turn(s) - s * r) - 3.0 * s * r * r,
-            -r * r * (2.0 * (1.0 + nu) + 3.0 * r * (1.0 - 3.0 * s * s)),
+            3.0 * s * r * r - (1.0 + nu) * (turn(s) - s * r),
+            r * r * (2.0 * (1.0 + nu) + 3.0 * r * (1.0 - 3.0 * s * s)),
         )
     };
-    let s = find_root(slope, 0.0, 1.0);
+    let near = 0.382 + 0.331 * nu;
+    let [_, s] = rising_root(falling, [0.0, 1.0], near, f64::EPSILON);
     let largest = 1.5 / (1.0 + s * s) - (1.0 + nu) * (1.0 - s * turn(s));
     largest.max((1.0 - 2.0 * nu) / 3.0_f64.sqrt())
 }

@@ -10,10 +10,11 @@ use super::spec::Spec;
 use super::template::{Memory, Templates};
 use crate::error::SceneError;
 use crate::quantities::QUANTITIES;
-use contact::{Choice, Model, Outcomes, Tabulated};
-use impact::sweep::{Observed, collide_rows, observe_rows, outcomes};
+use contact::{Choice, Model, Outcomes, Solver, Tabulated};
+use impact::sweep::{Observed, collide, observe, outcomes};
 use ledger::{Journal, Record, gaps};
 use output::{Existing, Fault};
+use rayon::prelude::*;
 use std::ops::Range;
 use std::path::Path;
 use std::time::Instant;
@@ -23,6 +24,11 @@ pub const FIRST_BLOCK: usize = 64;
 
 /// Time in s that the computation of a block is to take: what a kill costs.
 pub const BLOCK_S: f64 = 2.0;
+
+/// Rows that one thread takes at a time, at most.
+const GRAIN: usize = 256;
+/// Such portions for each thread at least, where there are rows enough: none waits long for the last one.
+const PORTIONS: usize = 4;
 
 /// Computed rows of a sweep, kept in their journal.
 #[derive(Debug)]
@@ -81,14 +87,13 @@ pub fn run_rows(
         return Ok(None);
     }
     let results = journal::results(&spec.fields);
-    let mut size = computer.first_block();
+    let (mut block, mut size) = (Block::default(), computer.first_block());
     let held: Vec<_> = spans.iter().map(|(rows, _)| rows.clone()).collect();
     for gap in gaps(&held, &rows) {
         let mut start = gap.start;
         while start < gap.end {
             let end = (start + size).min(gap.end);
-            let block;
-            (block, size) = computer.block(start..end, BLOCK_S, |row| row)?;
+            size = computer.fill(&mut block, start..end, BLOCK_S, |row| row)?;
             let record = journal.append(&journal::kept(&block, results))?;
             spans.push((start..end, record));
             done += block.len();
@@ -141,58 +146,84 @@ impl<'a> Computer<'a> {
         }
     }
 
-    /// The rows of a range, of those that `row_of` gives a number in the sweep, and how many are to follow for the next
-    /// block to take a time.
-    fn block(
+    /// Fills a block with the rows of a range, of those that `row_of` gives a number in the sweep; gives how many are to
+    /// follow for the next one to take a time.
+    fn fill(
         &self,
+        block: &mut Block,
         rows: Range<usize>,
         wanted_s: f64,
         row_of: impl Fn(usize) -> usize + Sync,
-    ) -> Result<(Block, usize), SceneError> {
+    ) -> Result<usize, SceneError> {
         let began = Instant::now();
-        let (spec, templates, count) = (self.spec, &self.templates, rows.len());
-        let mut block = Block::blank(rows.start, 0, spec.fields.width());
-        let done = if let Some(kernels) = &spec.kernels {
-            let of = (&self.responses, &kernels.choice);
-            observe_rows(rows.clone(), of, |row, memory: &mut Memory| {
-                templates.scene(row_of(row), memory).cloned()
-            })
-        } else {
-            let of = (&self.responses, &self.outcomes);
-            collide_rows(rows.clone(), of, |row, memory: &mut Memory| {
-                templates.contact(row_of(row), memory)
-            })
-        };
-        rows.zip(done)
-            .for_each(|(row, done)| push(&mut block, row, done));
-        spec.kernels.as_ref().map_or(Ok(()), Kernels::check)?;
+        block.clear(rows.start, rows.len(), self.spec.fields.width());
+        let grain = (rows.len() / (PORTIONS * rayon::current_num_threads())).clamp(1, GRAIN);
+        let numbers = block.numbers.par_chunks_mut(grain * block.width);
+        let portions = numbers.zip(block.models.par_chunks_mut(grain)).enumerate();
+        let failures: Vec<_> = portions
+            .map(|(i, of)| self.portion(rows.start + i * grain, of, &row_of))
+            .collect();
+        block.failures = failures.concat();
+        self.spec.kernels.as_ref().map_or(Ok(()), Kernels::check)?;
         let took_s = began.elapsed().as_secs_f64();
-        Ok((block, next_size(count, took_s, wanted_s)))
+        Ok(next_size(rows.len(), took_s, wanted_s))
     }
-}
 
-/// Adds a row; where the fields at its probes alone failed the contact stays.
-fn push(block: &mut Block, row: usize, done: Result<Observed, String>) {
-    let end = block.numbers.len() + block.width;
-    let (mut model, mut peaks) = (None, None);
-    match done {
-        Ok(found) => {
-            let numbers = QUANTITIES.iter();
-            let numbers = numbers.map(|quantity| (quantity.of_contact)(&found.results));
-            block.numbers.extend(numbers);
-            model = Model::ALL.iter().position(|m| *m == found.model);
-            peaks = found.peaks;
+    /// Fills the numbers and models of consecutive rows; gives those that failed. Where the fields at the probes alone did,
+    /// the contact stays.
+    fn portion(
+        &self,
+        start: usize,
+        (numbers, models): (&mut [f64], &mut [u8]),
+        row_of: impl Fn(usize) -> usize,
+    ) -> Vec<(usize, String)> {
+        let mut solver = Solver::sharing(&self.responses, &self.outcomes);
+        let (mut memory, mut failures) = (Memory::default(), Vec::new());
+        let each = numbers.chunks_exact_mut(self.spec.fields.width());
+        for (row, (numbers, model)) in (start..).zip(each.zip(models)) {
+            let found = match self.observed(row_of(row), &mut solver, &mut memory) {
+                Ok(found) => found,
+                Err(reason) => {
+                    failures.push((row, reason));
+                    continue;
+                }
+            };
+            let (of_contact, of_probes) = numbers.split_at_mut(QUANTITIES.len());
+            for (number, quantity) in of_contact.iter_mut().zip(QUANTITIES) {
+                *number = (quantity.of_contact)(&found.results);
+            }
+            let index = Model::ALL.iter().position(|m| *m == found.model);
+            *model = index.map_or(NO_MODEL, |index| index as u8);
+            match found.peaks {
+                Some(Ok(peaks)) => of_probes
+                    .iter_mut()
+                    .zip(probed_numbers(&peaks))
+                    .for_each(|(number, found)| *number = found),
+                Some(Err(reason)) => failures.push((row, reason)),
+                None => {}
+            }
         }
-        Err(reason) => block.failures.push((row, reason)),
+        failures
     }
-    match peaks {
-        Some(Ok(peaks)) => block.numbers.extend(probed_numbers(&peaks)),
-        Some(Err(reason)) => block.failures.push((row, reason)),
-        None => {}
+
+    fn observed(
+        &self,
+        row: usize,
+        solver: &mut Solver<'_, Tabulated>,
+        memory: &mut Memory,
+    ) -> Result<Observed, String> {
+        if let Some(kernels) = &self.spec.kernels {
+            let scene = self.templates.scene(row, memory);
+            return observe(
+                solver,
+                scene.map_err(|error| error.to_string())?,
+                &kernels.choice,
+            );
+        }
+        let contact = self.templates.contact(row, memory);
+        let (collision, settings) = contact.map_err(|error| error.to_string())?;
+        collide(solver, &collision, &settings).map_err(|error| error.to_string())
     }
-    block.numbers.resize(end, f64::NAN);
-    let model = model.map_or(NO_MODEL, |index| index as u8);
-    block.models.push(model);
 }
 
 /// Rows that are held in memory together, at most: a hundred bytes each.
@@ -230,12 +261,12 @@ pub fn compute_rows(
     }
     let computer = Computer::new(spec)?;
     let row_of = |index: usize| start + index * step;
-    let (mut all, mut size) = (Block::default(), computer.first_block());
+    let (mut all, mut block) = (Block::default(), Block::default());
+    let mut size = computer.first_block();
     while all.len() < count {
         let done = all.len();
         let end = (done + size).min(count);
-        let block;
-        (block, size) = computer.block(done..end, WATCH_S, row_of)?;
+        size = computer.fill(&mut block, done..end, WATCH_S, row_of)?;
         all.extend(&block, 0..block.len());
         if !watch(end) && end < count {
             return Ok(None);

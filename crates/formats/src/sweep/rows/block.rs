@@ -41,13 +41,19 @@ pub const NO_MODEL: u8 = u8::MAX;
 impl Block {
     /// Rows without results, to be filled.
     pub(crate) fn blank(start: usize, rows: usize, width: usize) -> Self {
-        Self {
-            start,
-            width,
-            numbers: vec![f64::NAN; width * rows],
-            models: vec![NO_MODEL; rows],
-            failures: Vec::new(),
-        }
+        let mut block = Self::default();
+        block.clear(start, rows, width);
+        block
+    }
+
+    /// The same in the memory that is there.
+    pub(crate) fn clear(&mut self, start: usize, rows: usize, width: usize) {
+        (self.start, self.width) = (start, width);
+        self.numbers.clear();
+        self.numbers.resize(width * rows, f64::NAN);
+        self.models.clear();
+        self.models.resize(rows, NO_MODEL);
+        self.failures.clear();
     }
 
     /// How many rows.
