@@ -124,8 +124,7 @@ impl Plan {
         threads: Option<usize>,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Computed<'py>> {
-        // a row, in parts and in the whole
-        errors::check_memory(py, count, 2 * 8 * (QUANTITIES.len() + 1))?;
+        errors::check_memory(py, count, 8 * (QUANTITIES.len() + 1))?;
         let spec = Arc::clone(&self.spec);
         let found = run(py, threads, progress, move |ticker| {
             ticker.of(count as u64);

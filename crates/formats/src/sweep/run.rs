@@ -93,6 +93,7 @@ pub fn run_rows(
         let mut start = gap.start;
         while start < gap.end {
             let end = (start + size).min(gap.end);
+            block.clear(start, end - start, spec.fields.width());
             size = computer.fill(&mut block, start..end, BLOCK_S, |row| row)?;
             let record = journal.append(&journal::kept(&block, results))?;
             spans.push((start..end, record));
@@ -146,8 +147,8 @@ impl<'a> Computer<'a> {
         }
     }
 
-    /// Fills a block with the rows of a range, of those that `row_of` gives a number in the sweep; gives how many are to
-    /// follow for the next one to take a time.
+    /// Fills the rows of a range in a block with those that `row_of` gives a number in the sweep; says how many are to
+    /// follow to take a time.
     fn fill(
         &self,
         block: &mut Block,
@@ -156,14 +157,15 @@ impl<'a> Computer<'a> {
         row_of: impl Fn(usize) -> usize + Sync,
     ) -> Result<usize, SceneError> {
         let began = Instant::now();
-        block.clear(rows.start, rows.len(), self.spec.fields.width());
         let grain = (rows.len() / (PORTIONS * rayon::current_num_threads())).clamp(1, GRAIN);
-        let numbers = block.numbers.par_chunks_mut(grain * block.width);
-        let portions = numbers.zip(block.models.par_chunks_mut(grain)).enumerate();
-        let failures: Vec<_> = portions
+        let (from, to) = (rows.start - block.start, rows.end - block.start);
+        let numbers = &mut block.numbers[from * block.width..to * block.width];
+        let models = block.models[from..to].par_chunks_mut(grain);
+        let portions = numbers.par_chunks_mut(grain * block.width).zip(models);
+        let failures: Vec<_> = (portions.enumerate())
             .map(|(i, of)| self.portion(rows.start + i * grain, of, &row_of))
             .collect();
-        block.failures = failures.concat();
+        block.failures.extend(failures.into_iter().flatten());
         self.spec.kernels.as_ref().map_or(Ok(()), Kernels::check)?;
         let took_s = began.elapsed().as_secs_f64();
         Ok(next_size(rows.len(), took_s, wanted_s))
@@ -181,6 +183,8 @@ impl<'a> Computer<'a> {
         let (mut memory, mut failures) = (Memory::default(), Vec::new());
         let each = numbers.chunks_exact_mut(self.spec.fields.width());
         for (row, (numbers, model)) in (start..).zip(each.zip(models)) {
+            numbers.fill(f64::NAN);
+            *model = NO_MODEL;
             let found = match self.observed(row_of(row), &mut solver, &mut memory) {
                 Ok(found) => found,
                 Err(reason) => {
@@ -261,18 +265,22 @@ pub fn compute_rows(
     }
     let computer = Computer::new(spec)?;
     let row_of = |index: usize| start + index * step;
-    let (mut all, mut block) = (Block::default(), Block::default());
-    let mut size = computer.first_block();
-    while all.len() < count {
-        let done = all.len();
+    let mut block = Block {
+        width: spec.fields.width(),
+        numbers: vec![0.0; count * spec.fields.width()],
+        models: vec![NO_MODEL; count],
+        ..Block::default()
+    };
+    let (mut done, mut size) = (0, computer.first_block());
+    while done < count {
         let end = (done + size).min(count);
         size = computer.fill(&mut block, done..end, WATCH_S, row_of)?;
-        all.extend(&block, 0..block.len());
-        if !watch(end) && end < count {
+        done = end;
+        if !watch(done) && done < count {
             return Ok(None);
         }
     }
-    Ok(Some(all))
+    Ok(Some(block))
 }
 
 /// Rows of the next block, after one of `count` that took this long: no more than eight times as many.

@@ -46,12 +46,10 @@ impl Block {
         block
     }
 
-    /// The same in the memory that is there.
+    /// Room for rows, with whatever stood there before.
     pub(crate) fn clear(&mut self, start: usize, rows: usize, width: usize) {
         (self.start, self.width) = (start, width);
-        self.numbers.clear();
         self.numbers.resize(width * rows, f64::NAN);
-        self.models.clear();
         self.models.resize(rows, NO_MODEL);
         self.failures.clear();
     }
@@ -93,17 +91,6 @@ impl Block {
                 .partition_point(|(row, _)| *row < self.start + end)
         };
         &self.failures[before(some.start)..before(some.end)]
-    }
-
-    /// Adds some rows of another block, which count from its first and follow those that are there.
-    pub(crate) fn extend(&mut self, other: &Self, some: Range<usize>) {
-        if self.is_empty() {
-            (self.start, self.width) = (other.start + some.start, other.width);
-        }
-        let numbers = some.start * other.width..some.end * other.width;
-        self.numbers.extend_from_slice(&other.numbers[numbers]);
-        self.models.extend_from_slice(&other.models[some.clone()]);
-        self.failures.extend_from_slice(other.failures_of(&some));
     }
 
     /// Rows whose fields were looked up in a table.
