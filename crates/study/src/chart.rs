@@ -34,7 +34,7 @@ impl Chart {
     /// # Errors
     /// [`AnyError`] where a part that must work does not; failures of the methods compared are results.
     pub fn run(effort: Effort, progress: &dyn Progress) -> Result<Self, AnyError> {
-        let started = Instant::now();
+        let (started, machine) = (Instant::now(), machine());
         let uniform = [None, Some(0.25), Some(0.125), Some(0.0625)];
         let spacings = &uniform[..effort.pick(1, 4)];
         progress.total("tables", spacings.len() as u64);
@@ -61,7 +61,7 @@ impl Chart {
         maps.extend(map::models::figures(effort, &advance)?);
         Ok(Self {
             effort,
-            machine: machine(),
+            machine,
             diagrams: diagrams(&records),
             records,
             maps,
@@ -77,8 +77,11 @@ impl Chart {
     }
 }
 
-/// This machine: processor, threads, operating system and architecture, and whether the program is optimised.
+/// This machine: processor, threads, operating system and architecture, whether the program is optimised, and what else
+/// the machine does.
 fn machine() -> String {
+    /// Threads that run, from which on times mean little.
+    const BUSY: f64 = 0.5;
     let text = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
     let mut lines = text.lines();
     let processor = lines
@@ -92,5 +95,12 @@ fn machine() -> String {
     } else {
         "release"
     };
-    format!("{processor}, {threads} threads, {system} {architecture}, {build} build")
+    let load = std::fs::read_to_string("/proc/loadavg").unwrap_or_default();
+    let load: Option<f64> = load.split(' ').next().and_then(|load| load.parse().ok());
+    let busy = load
+        .filter(|load| *load > BUSY)
+        .map_or_else(String::new, |load| {
+            format!("; busy with {load} other threads in the minute before: the times are too long")
+        });
+    format!("{processor}, {threads} threads, {system} {architecture}, {build} build{busy}")
 }

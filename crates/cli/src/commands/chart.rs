@@ -49,11 +49,12 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let chart = Chart::run(effort, &Bar::new()).map_err(Failure::in_part)?;
     chart.write(&folder).map_err(Failure::in_part)?;
     print(format!(
-        "{}: {} rows, {} pictures, {:.0} s",
+        "{}: {} rows, {} pictures, {:.0} s\n{}",
         arguments.output.join("report.md").display(),
         chart.records.len(),
         chart.diagrams.len() + chart.maps.len(),
-        chart.wall_s
+        chart.wall_s,
+        chart.machine
     ))?;
     match chart.unexplained() {
         ahead if arguments.check && !ahead.is_empty() => Err(Failure::work(format!(
