@@ -9,6 +9,7 @@ use crate::numbers::NUMBERS_REVISION;
 use crate::progress::Progress;
 use lookup::{Accuracy, BadTable, Between, Content, Origin, Slice, Table, Verification, schema};
 use output::{Fault, Output};
+use rayon::prelude::*;
 use std::path::Path;
 use std::time::{SystemTime, UNIX_EPOCH};
 
@@ -134,39 +135,38 @@ fn sorted(grid: &Grid, work: &[Block], rows: Vec<Row>) -> Result<(Vec<Slice>, Ex
         .product();
     let zeros = vec![0.0; places * grid.pulse_lengths.len() * 6];
     let cells = grid.cells()?;
-    let slice = |(poisson_ratio, role)| Slice {
-        poisson_ratio,
-        role,
-        cells,
-        remainder: Vec::new(),
-        moment: Vec::new(),
-        curvature: Vec::new(),
-        tail: Vec::new(),
-        verification: Verification {
-            direct: zeros.clone(),
-            looked_up: zeros.clone(),
-            error: zeros.clone(),
-        },
-    };
-    let mut slices: Vec<Slice> = grid.slices().into_iter().map(slice).collect();
+    let mut nodes = vec![Vec::new(); grid.slices().len()];
     let mut exact = Exact {
-        probes: vec![Vec::new(); slices.len()],
+        probes: vec![Vec::new(); nodes.len()],
         between: vec![Vec::new(); grid.intervals()],
     };
     for (block, row) in work.iter().zip(rows) {
-        match block.kind {
-            Kind::Nodes => {
-                let slice = &mut slices[block.slice];
-                slice.remainder.extend(row.remainder);
-                slice.moment.extend(row.moment);
-                slice.curvature.extend(row.curvature);
-                slice.tail.extend(row.tail);
-            }
-            Kind::Probes => exact.probes[block.slice].push(row),
-            Kind::Between => exact.between[block.slice].push(row),
-        }
+        let of_kind = match block.kind {
+            Kind::Nodes => &mut nodes,
+            Kind::Probes => &mut exact.probes,
+            Kind::Between => &mut exact.between,
+        };
+        of_kind[block.slice].push(row);
     }
-    Ok((slices, exact))
+    let slices = nodes.into_par_iter().zip(grid.slices());
+    let slice = |(rows, (poisson_ratio, role)): (Vec<Row>, _)| {
+        let joined = |i: usize| rows.iter().map(|row| row.arrays()[i]).collect::<Vec<_>>();
+        Slice {
+            poisson_ratio,
+            role,
+            cells,
+            remainder: joined(0).concat(),
+            moment: joined(1).concat(),
+            curvature: joined(2).concat(),
+            tail: joined(3).concat(),
+            verification: Verification {
+                direct: zeros.clone(),
+                looked_up: zeros.clone(),
+                error: zeros.clone(),
+            },
+        }
+    };
+    Ok((slices.map(slice).collect(), exact))
 }
 
 /// The content before anything is measured.

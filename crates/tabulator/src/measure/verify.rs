@@ -36,8 +36,16 @@ pub(crate) fn verify(
                 let exact = exact(table.content(), width, row, k);
                 let found = table.series(poisson_ratio, r, z)?;
                 let rest = medium.static_field(Profile::Hertz, r, z)?;
-                for &length in &table.content().pulse_lengths {
-                    probe(&exact, &found, &rest, length, arrived, &mut part);
+                let coarsening = |length: f64| (length / width / SAMPLES).log2().max(0.0) as u32;
+                let lengths = &table.content().pulse_lengths;
+                for lengths in lengths.chunk_by(|&a, &b| coarsening(a) == coarsening(b)) {
+                    let coarsening = coarsening(lengths[0]);
+                    probe(
+                        [&exact, &found],
+                        &rest,
+                        (coarsening, lengths, arrived),
+                        &mut part,
+                    );
                 }
             }
             Ok(part)
@@ -73,19 +81,17 @@ fn exact(content: &Content, width: f64, row: &Row, k: usize) -> Series {
     Series::new(width, cells, numbers)
 }
 
+/// The errors of pulses whose cells are 2^`coarsening` of the table's.
 fn probe(
-    exact: &Series,
-    found: &Series,
+    [exact, found]: [&Series; 2],
     rest: &Six,
-    length: f64,
-    arrived: f64,
+    (coarsening, lengths, arrived): (u32, &[f64], f64),
     out: &mut Verification,
 ) {
-    let fine = exact.width();
-    let coarsening = (length / fine / SAMPLES).log2().max(0.0) as u32;
-    let width = fine * f64::from(1_u32 << coarsening);
-    let count = ((arrived + length) / width).ceil() as usize;
-    let (mut looked_up, mut direct) = (vec![[0.0; 6]; count], vec![[0.0; 6]; count]);
+    let width = exact.width() * f64::from(1_u32 << coarsening);
+    let count = |length: f64| ((arrived + length) / width).ceil() as usize;
+    let most = lengths.iter().copied().map(count).max().unwrap_or(0);
+    let (mut looked_up, mut direct) = (vec![[0.0; 6]; most], vec![[0.0; 6]; most]);
     found.fill(Smoothness::Smooth, coarsening, &mut looked_up);
     exact.fill(Smoothness::Smooth, coarsening, &mut direct);
     for (a, b) in looked_up.iter_mut().zip(&direct) {
@@ -93,19 +99,21 @@ fn probe(
             a[f] -= b[f];
         }
     }
-    let pulse = PulseSum::new(length, width);
-    let response = pulse.response(rest, &direct);
-    let difference = pulse.response(&[0.0; 6], &looked_up);
-    for f in 0..6 {
-        let peak = (0..count)
-            .max_by(|&a, &b| response[a][f].abs().total_cmp(&response[b][f].abs()))
-            .unwrap_or(0);
-        let error = difference
-            .iter()
-            .fold(0.0_f64, |most, six| most.max(six[f].abs()));
-        out.direct.push(response[peak][f] as f32);
-        out.looked_up
-            .push((response[peak][f] + difference[peak][f]) as f32);
-        out.error.push(error as f32);
+    for &length in lengths {
+        let (pulse, count) = (PulseSum::new(length, width), count(length));
+        let response = pulse.response(rest, &direct[..count]);
+        let difference = pulse.response(&[0.0; 6], &looked_up[..count]);
+        for f in 0..6 {
+            let peak = (0..count)
+                .max_by(|&a, &b| response[a][f].abs().total_cmp(&response[b][f].abs()))
+                .unwrap_or(0);
+            let error = difference
+                .iter()
+                .fold(0.0_f64, |most, six| most.max(six[f].abs()));
+            out.direct.push(response[peak][f] as f32);
+            out.looked_up
+                .push((response[peak][f] + difference[peak][f]) as f32);
+            out.error.push(error as f32);
+        }
     }
 }
