@@ -67,12 +67,11 @@ fn of_strike(
     let excitation = run.excitation();
     let computed = Computed::new(scene, kernels, allowance, excitation)?;
     let marched = (run.solved.plan.model, run.solved.scheme);
-    let mut deflection_m = None;
-    if marched == (Model::Wave, Some(Scheme::Implicit)) {
-        // Anew on the output's step: the march's own step may be coarser than the disc's memory.
+    // Anew on the output's step: the march's own step may be coarser than the disc's memory.
+    let deflection_m = (marched == (Model::Wave, Some(Scheme::Implicit))).then(|| {
         let settings = &scene.settings;
-        deflection_m = Some(computed.disc_deflection_m(settings.deflection, settings.static_share));
-    }
+        computed.disc_deflection_m(settings.deflection, settings.static_share)
+    });
     let mut striker = StrikerSeries::default();
     let mut law_m = Vec::new();
     for &time_s in &computed.time_s {
@@ -176,13 +175,8 @@ impl<'a> Computed<'a> {
         let chosen = choose_source(scene, kernels, excitation)?;
         let source = chosen.as_ref().map(|(source, _)| source);
         let grid = Grid::new(&Wanted::of(scene), excitation, source)?;
-        let forecast = Forecast::new(
-            scene,
-            excitation,
-            &grid,
-            source,
-            rayon::current_num_threads(),
-        )?;
+        let threads = rayon::current_num_threads();
+        let forecast = Forecast::new(scene, excitation, &grid, source, threads)?;
         forecast.check(scene, allowance.memory_bytes)?;
         if !(allowance.go_on)(&forecast) {
             let seconds = forecast.seconds;

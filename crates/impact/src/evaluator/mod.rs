@@ -150,13 +150,8 @@ impl<'a> Evaluator<'a> {
 
     /// How forces are summed, for reports.
     pub(crate) fn method(&self) -> Method {
-        let forces = self
-            .forces
-            .iter()
-            .filter_map(OnceLock::get)
-            .flatten()
-            .flatten();
-        let mut runs = forces.flat_map(|force| &force.runs);
+        let forces = self.forces.iter().filter_map(OnceLock::get);
+        let mut runs = forces.flatten().flatten().flat_map(|force| &force.runs);
         if runs.any(|run| run.force.convolver.method() == Method::Transform) {
             Method::Transform
         } else {
@@ -280,20 +275,10 @@ impl<'a> Evaluator<'a> {
             let of = |(_, forcing): &(_, Forcing<'_>)| forcing.on_discs(discs);
             self.forcings.iter().map(of).collect()
         });
-        let sums = self
-            .forcings
-            .iter()
-            .zip(forces)
-            .map(|((derivative, forcing), forces)| {
-                Sum::new(
-                    (*derivative, forcing),
-                    discs,
-                    forces,
-                    &self.kernel,
-                    place_m,
-                    &cells,
-                )
-            });
+        let sums = self.forcings.iter().zip(forces).map(|(of, forces)| {
+            let of = (of.0, &of.1);
+            Sum::new(of, discs, forces, &self.kernel, place_m, &cells)
+        });
         Ok((sums.collect::<Result<_, _>>()?, cells))
     }
 
@@ -313,14 +298,10 @@ impl<'a> Evaluator<'a> {
             disc_radius_m,
         };
         let rates = self.forcings.len() > 1;
-        let more = self
-            .forcings
-            .iter()
-            .map(|(_, forcing)| forcing.differences)
-            .max();
+        let differences = self.forcings.iter().map(|(_, of)| of.differences);
         let plan = CellPlan {
             step: grid.step_s / (over * units.time_s()),
-            count: grid.longest() + more.unwrap_or(0) + BEYOND,
+            count: grid.longest() + differences.max().unwrap_or(0) + BEYOND,
             pulse: excitation.pulse(over),
             rates,
             tolerance: self.asked.tolerance / share.min(1.0),

@@ -116,19 +116,16 @@ impl KernelSource {
             step, count, pulse, ..
         } = wanted;
         let Place { r, z, .. } = place;
-        match self {
+        let (static_part, moments, error, trace) = match self {
             Self::Direct(kernel) => {
                 let domain = |source| place.domain(source);
-                let static_part = kernel.static_field(r, z).map_err(domain)?;
                 let rise = |length: f64| pulse.rise(length, wanted.rates);
                 let part = if wanted.rates { 0.004 } else { 1.0 };
-                let accuracy = (
-                    part * TRACE * wanted.tolerance,
-                    &rise as &dyn Fn(f64) -> f64,
-                );
+                let tolerance = part * TRACE * wanted.tolerance;
                 // the last cell ends a rounding error before the trace
                 let end = step * count as f64;
-                let trace = kernel.trace_under(r, z, end, accuracy).map_err(domain)?;
+                let trace = kernel.trace_under(r, z, end, (tolerance, &rise));
+                let trace = trace.map_err(domain)?;
                 let mut moments = Moments::zero(count);
                 let keep = |j, [average, first, second]: [Six; 3]| {
                     moments.averages[j] = average;
@@ -136,30 +133,26 @@ impl KernelSource {
                     moments.second[j] = second;
                 };
                 trace.for_each_cell(step, count, keep).map_err(domain)?;
-                Ok(Cells {
-                    static_part,
-                    smooth: moments.absorbed(),
-                    moments,
-                    // the force rises and falls once
-                    error: trace.error().map(|e| 2.0 * e),
-                    trace: Some(trace),
-                })
+                let static_part = kernel.static_field(r, z).map_err(domain)?;
+                // the force rises and falls once
+                let error = trace.error().map(|e| 2.0 * e);
+                (static_part, moments, error, Some(trace))
             }
             Self::Table(table) => {
                 let outside = |source| place.outside(source);
-                let (static_part, moments) = table
-                    .moments(poisson_ratio, r, z, step, count)
-                    .map_err(outside)?;
+                let found = table.moments(poisson_ratio, r, z, step, count);
+                let (static_part, moments) = found.map_err(outside)?;
                 let error = table_error(table, poisson_ratio, [r, z], pulse).map_err(outside)?;
-                Ok(Cells {
-                    static_part,
-                    smooth: moments.absorbed(),
-                    moments,
-                    error,
-                    trace: None,
-                })
+                (static_part, moments, error, None)
             }
-        }
+        };
+        Ok(Cells {
+            static_part,
+            smooth: moments.absorbed(),
+            moments,
+            error,
+            trace,
+        })
     }
 }
 

@@ -244,11 +244,8 @@ impl ForceRecord {
             most.max((p[1] - p[0]).abs() / (t[1] - t[0]))
         });
         let [from_s, to_s] = self.span_s();
-        if steepest > 0.0 {
-            (STEEPNESS * self.largest_n() / steepest).min(to_s - from_s)
-        } else {
-            to_s - from_s
-        }
+        // without a slope no number, or infinite: then the minimum is the record's length
+        (STEEPNESS * self.largest_n() / steepest).min(to_s - from_s)
     }
 
     /// What hints at a slip in its units or its cut: sentences for the user, each with its numbers.
