@@ -208,14 +208,9 @@ fn unmeasured(
 
 /// `SOURCE_DATE_EPOCH` if it is set, so that a build can be repeated byte by byte, else now.
 fn creation_time() -> u64 {
-    std::env::var("SOURCE_DATE_EPOCH")
-        .ok()
+    let stated = std::env::var("SOURCE_DATE_EPOCH").ok();
+    let now = || SystemTime::now().duration_since(UNIX_EPOCH);
+    stated
         .and_then(|text| text.parse().ok())
-        .or_else(|| {
-            SystemTime::now()
-                .duration_since(UNIX_EPOCH)
-                .ok()
-                .map(|time| time.as_secs())
-        })
-        .unwrap_or(0)
+        .unwrap_or_else(|| now().map_or(0, |time| time.as_secs()))
 }

@@ -14,6 +14,11 @@ pub(crate) enum Kind {
     Between,
 }
 
+impl Kind {
+    /// All, in the order of their numbers in journals.
+    pub(crate) const ALL: [Self; 3] = [Self::Nodes, Self::Probes, Self::Between];
+}
+
 /// One row: all depths at one radius.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(crate) struct Block {

@@ -97,14 +97,12 @@ impl Found {
 /// What is kept of a block.
 pub(crate) fn kept(block: Block, row: &Row) -> Vec<u8> {
     let arrays = row.arrays();
-    let kind = match block.kind {
-        Kind::Nodes => 0,
-        Kind::Probes => 1,
-        Kind::Between => 2,
-    };
     let lengths = arrays.map(<[f32]>::len);
     let mut bytes = Vec::with_capacity(HEADER + 4 * lengths.iter().sum::<usize>());
-    for number in [block.slice, kind, block.row].into_iter().chain(lengths) {
+    for number in [block.slice, block.kind as usize, block.row]
+        .into_iter()
+        .chain(lengths)
+    {
         bytes.extend_from_slice(&(number as u64).to_le_bytes());
     }
     for value in arrays.into_iter().flatten() {
@@ -121,12 +119,7 @@ fn parsed(kept: &[u8]) -> Option<(Block, Row)> {
         .map(|word| usize::try_from(u64::from_le_bytes(*word)).ok());
     let mut next = || words.next().flatten();
     let slice = next()?;
-    let kind = match next()? {
-        0 => Kind::Nodes,
-        1 => Kind::Probes,
-        2 => Kind::Between,
-        3.. => return None,
-    };
+    let kind = *Kind::ALL.get(next()?)?;
     let row = next()?;
     let (values, rest) = numbers.as_chunks();
     let mut values = values.iter().map(|value| f32::from_le_bytes(*value));

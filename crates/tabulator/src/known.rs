@@ -76,10 +76,8 @@ impl Known {
             (&mut point.moments, &slice.moment),
             (&mut point.curvatures, &slice.curvature),
         ] {
-            for (f, list) in stored[node * 6 * cells..][..6 * cells]
-                .chunks(cells)
-                .enumerate()
-            {
+            let stored = &stored[node * 6 * cells..][..6 * cells];
+            for (f, list) in stored.chunks(cells).enumerate() {
                 for (six, &x) in values.iter_mut().zip(list) {
                     six[f] = f64::from(x);
                 }

@@ -33,7 +33,7 @@ pub(crate) fn rows(
         probes.collect::<Result<_, _>>()?,
         between.collect::<Result<_, _>>()?,
     ];
-    let places = [Kind::Nodes, Kind::Probes, Kind::Between].map(|kind| positions(kind, grid));
+    let places = Kind::ALL.map(|kind| positions(kind, grid));
     let missing: Vec<Block> = work
         .iter()
         .filter(|block| !finished.contains_key(block))
@@ -114,7 +114,7 @@ pub(crate) fn usable(
     mut found: HashMap<Block, Row>,
     known: Option<&Known>,
 ) -> Result<HashMap<Block, Row>, BuildError> {
-    let places = [Kind::Nodes, Kind::Probes, Kind::Between].map(|kind| positions(kind, grid));
+    let places = Kind::ALL.map(|kind| positions(kind, grid));
     let each = [grid.cells()?, grid.cells()?, grid.cells()?, grid.tail_terms].map(|n| 6 * n);
     let mut usable = HashMap::new();
     for &block in work {

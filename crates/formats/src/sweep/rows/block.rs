@@ -93,6 +93,18 @@ impl Block {
         &self.failures[before(some.start)..before(some.end)]
     }
 
+    /// Adds some rows of another block, which count from its first and follow those that are there.
+    #[cfg(feature = "parquet")]
+    pub(super) fn extend(&mut self, other: &Self, some: Range<usize>) {
+        if self.is_empty() {
+            (self.start, self.width) = (other.start + some.start, other.width);
+        }
+        let numbers = some.start * other.width..some.end * other.width;
+        self.numbers.extend_from_slice(&other.numbers[numbers]);
+        self.models.extend_from_slice(&other.models[some.clone()]);
+        self.failures.extend_from_slice(other.failures_of(&some));
+    }
+
     /// Rows whose fields were looked up in a table.
     #[must_use]
     pub fn looked_up(&self) -> usize {
