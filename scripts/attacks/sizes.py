@@ -57,7 +57,7 @@ if __name__ == "__main__":
         ended = run(arguments, limit=30)
         if ended.rss_mb > MOST_MB or ended.busy_s > MOST_S:
             tally.fail("exploding", f"{name}: {ended.rss_mb:.0f} MB, {ended.busy_s:.1f} s, {last_line(ended)[:120]}")
-        elif ended.code in (1, 2, FULL if "no space left" in ended.err else 2) and ended.err.strip().count("\n") == 0:
+        elif ended.code in (1, 2, FULL if "no space left" in ended.err else 2) and len(ended.err.splitlines()) == 1:
             tally.good("refused at once")
         else:
             tally.fail("not refused", f"{name}: {ended.code} {last_line(ended)[:150]}")

@@ -93,7 +93,7 @@ pub fn run_rows(
         let mut start = gap.start;
         while start < gap.end {
             let end = (start + size).min(gap.end);
-            block.clear(start, end - start, spec.fields.width());
+            block.make_room(start, end - start, spec.fields.width());
             size = computer.fill(&mut block, start..end, BLOCK_S, |row| row)?;
             let record = journal.append(&journal::kept(&block, results))?;
             spans.push((start..end, record));

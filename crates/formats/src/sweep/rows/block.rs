@@ -42,12 +42,12 @@ impl Block {
     /// Rows without results, to be filled.
     pub(crate) fn blank(start: usize, rows: usize, width: usize) -> Self {
         let mut block = Self::default();
-        block.clear(start, rows, width);
+        block.make_room(start, rows, width);
         block
     }
 
     /// Room for rows, with whatever stood there before.
-    pub(crate) fn clear(&mut self, start: usize, rows: usize, width: usize) {
+    pub(crate) fn make_room(&mut self, start: usize, rows: usize, width: usize) {
         (self.start, self.width) = (start, width);
         self.numbers.resize(width * rows, f64::NAN);
         self.models.resize(rows, NO_MODEL);
