@@ -124,7 +124,8 @@ impl Plan {
         threads: Option<usize>,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Computed<'py>> {
-        errors::check_memory(py, count, 8 * (QUANTITIES.len() + 1))?;
+        // a row, and room for the reason of one that fails
+        errors::check_memory(py, count, 2 * 8 * (QUANTITIES.len() + 1))?;
         let spec = Arc::clone(&self.spec);
         let found = run(py, threads, progress, move |ticker| {
             ticker.of(count as u64);

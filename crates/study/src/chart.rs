@@ -100,7 +100,7 @@ fn machine() -> String {
     let busy = load
         .filter(|load| *load > BUSY)
         .map_or_else(String::new, |load| {
-            format!("; busy with {load} other threads in the minute before: the times are too long")
+            format!("; busy with {load} other threads before: the times may be too long")
         });
     format!("{processor}, {threads} threads, {system} {architecture}, {build} build{busy}")
 }

@@ -230,7 +230,7 @@ impl<'a> Computer<'a> {
     }
 }
 
-/// Rows that are held in memory together, at most: a hundred bytes each.
+/// Rows that are held in memory together, at most: eight bytes for each of their numbers.
 const MOST_AT_ONCE: usize = 10_000_000;
 
 /// Time in s between two calls of the watch of [`compute_rows`], about.
