@@ -86,13 +86,6 @@ impl<'a> Cost<'a> {
         }
     }
 
-    /// Threads that have something to do.
-    pub(crate) fn busy(&self, threads: usize) -> f64 {
-        (threads as f64)
-            .min(self.points[0] + self.points[1])
-            .max(1.0)
-    }
-
     /// Seconds of one thread with kernels that are computed.
     pub(crate) fn computed_s(&self) -> f64 {
         let radius = self.excitation.radius();
@@ -136,6 +129,14 @@ impl<'a> Cost<'a> {
     fn sum(&self, of_point: impl Fn(f64) -> f64) -> f64 {
         let each = self.points.iter().zip(self.wanted);
         each.map(|(points, wanted)| points * of_point(wanted)).sum()
+    }
+}
+
+/// Threads that have something to do among points; one point does not start the others.
+pub(crate) fn busy(points: usize) -> f64 {
+    match points {
+        0 | 1 => 1.0,
+        several => several.min(rayon::current_num_threads()) as f64,
     }
 }
 
@@ -205,7 +206,7 @@ impl Forecast {
     /// The least that a scene takes, before its force is known.
     #[must_use]
     pub fn least(scene: &Scene) -> Self {
-        Self::of(scene, FEWEST, rayon::current_num_threads())
+        Self::of(scene, FEWEST, busy(scene.points()))
     }
 
     /// Of a scene whose force and times are known, among so many threads.
@@ -217,7 +218,7 @@ impl Forecast {
         excitation: &Excitation,
         grid: &Grid,
         source: Option<&KernelSource>,
-        threads: usize,
+        threads: f64,
     ) -> Result<Self, ImpactError> {
         let samples = grid.count() as f64;
         // as long as a Rayleigh wave takes from the edge to the centre
@@ -242,12 +243,12 @@ impl Forecast {
             }
         };
         Ok(Self {
-            seconds: loaded_s + fields_s / cost.busy(threads) + products * PRODUCT_S,
+            seconds: loaded_s + fields_s / threads + products * PRODUCT_S,
             ..Self::of(scene, samples, threads)
         })
     }
 
-    fn of(scene: &Scene, samples: f64, threads: usize) -> Self {
+    fn of(scene: &Scene, samples: f64, threads: f64) -> Self {
         let more = scene.quantities.len() as f64;
         let of_probe = samples * (PROBE_SAMPLE + more * QUANTITY_SAMPLE) + POINT;
         let probes = scene.probes.len() as f64 * of_probe;
@@ -262,7 +263,7 @@ impl Forecast {
             section = kept + r * wanted * 2.0 * at_frame;
         }
         let cells = if scene.points() > 0 {
-            threads as f64 * CELL
+            threads * CELL
         } else {
             0.0
         };

@@ -1,6 +1,6 @@
 //! From a scene to all that it gives: an excitation, then series and fields.
 
-use crate::cost::{Allowance, Forecast};
+use crate::cost::{Allowance, Forecast, busy};
 use crate::energy::EnergySeries;
 use crate::error::ImpactError;
 use crate::evaluator::convolve::{Method, rises};
@@ -175,8 +175,7 @@ impl<'a> Computed<'a> {
         let chosen = choose_source(scene, kernels, excitation)?;
         let source = chosen.as_ref().map(|(source, _)| source);
         let grid = Grid::new(&Wanted::of(scene), excitation, source)?;
-        let threads = rayon::current_num_threads();
-        let forecast = Forecast::new(scene, excitation, &grid, source, threads)?;
+        let forecast = Forecast::new(scene, excitation, &grid, source, busy(scene.points()))?;
         forecast.check(scene, allowance.memory_bytes)?;
         if !(allowance.go_on)(&forecast) {
             let seconds = forecast.seconds;

@@ -11,7 +11,7 @@ pub(super) struct Curve<const N: usize> {
     series: Vec<OnceLock<[Vec<f64>; N]>>,
 }
 
-const TERMS: usize = 24;
+pub(super) const TERMS: usize = 24;
 
 impl<const N: usize> Curve<N> {
     /// On a zone of so many panels.
@@ -22,17 +22,17 @@ impl<const N: usize> Curve<N> {
         }
     }
 
-    /// Clenshaw's sum of one of the functions f(panel, angle).
+    /// Clenshaw's sum of one of the functions f(panel, angles), the angles descending.
     pub(super) fn value(
         &self,
         which: usize,
         angle: f64,
-        f: impl Fn(usize, f64) -> [f64; N],
+        f: impl Fn(usize, &[f64; TERMS]) -> [[f64; N]; TERMS],
     ) -> f64 {
         let (panel, from, to) = panel_of(self.zone, angle / FRAC_PI_2);
         let u = (2.0 * angle / FRAC_PI_2 - from - to) / (to - from);
         let ends = [from, to].map(|fraction| fraction * FRAC_PI_2);
-        let series = self.series[panel].get_or_init(|| fit(ends, |angle| f(panel, angle)));
+        let series = self.series[panel].get_or_init(|| fit(ends, |angles| f(panel, angles)));
         let coefficients = &series[which];
         let (mut b1, mut b2) = (0.0, 0.0);
         for &c in coefficients[1..].iter().rev() {
@@ -43,14 +43,17 @@ impl<const N: usize> Curve<N> {
 }
 
 /// The series of functions between two angles.
-fn fit<const N: usize>([from, to]: [f64; 2], f: impl Fn(f64) -> [f64; N]) -> [Vec<f64>; N] {
+fn fit<const N: usize>(
+    [from, to]: [f64; 2],
+    f: impl Fn(&[f64; TERMS]) -> [[f64; N]; TERMS],
+) -> [Vec<f64>; N] {
     static COSINES: OnceLock<[[f64; TERMS]; TERMS]> = OnceLock::new();
     let n = TERMS as f64;
     let cosine = |k: usize, i: usize| (PI * k as f64 * (i as f64 + 0.5) / n).cos();
     let cosines =
         COSINES.get_or_init(|| std::array::from_fn(|k| std::array::from_fn(|i| cosine(k, i))));
     let (mid, half) = (0.5 * (from + to), 0.5 * (to - from));
-    let values: [[f64; N]; TERMS] = cosines[1].map(|x| f(mid + half * x));
+    let values = f(&cosines[1].map(|x| mid + half * x));
     std::array::from_fn(|which| {
         let mut coefficients: Vec<f64> = cosines
             .iter()

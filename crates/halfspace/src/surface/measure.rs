@@ -8,6 +8,10 @@ use crate::medium::Medium;
 use crate::numeric::gauss;
 use std::f64::consts::{FRAC_PI_2, PI};
 
+/// Nodes of Gauss on a panel, and between two of the angles at which a panel is fitted.
+const WHOLE: usize = 16;
+const PART: usize = 8;
+
 /// The measure mu with its moments summed panel by panel from the slow end.
 #[derive(Debug, Clone)]
 pub(super) struct Measure {
@@ -40,7 +44,7 @@ impl Measure {
             for pair in ends.windows(2).rev() {
                 beyond.push(sum);
                 // The first panel reaches slowness zero, where only the moments up to the mass exist.
-                measure.add(zone, pair[0], pair[1], &mut sum);
+                measure.add(zone, pair[0], pair[1], &mut sum, WHOLE);
             }
             beyond.reverse();
             measure.beyond[zone as usize] = beyond;
@@ -51,25 +55,33 @@ impl Measure {
     /// Moments above slowness zero; only the first two exist there.
     pub(super) fn total(&self) -> Moments {
         let mut sum = self.beyond[0][0];
-        self.add(Zone::Fast, 0.0, self.ends[0][1], &mut sum);
+        self.add(Zone::Fast, 0.0, self.ends[0][1], &mut sum, WHOLE);
         sum
     }
 
-    /// Moments above an angle within a panel.
-    pub(super) fn above(&self, zone: Zone, panel: usize, angle: f64) -> Moments {
+    /// Moments above each of some angles within a panel, which descend.
+    pub(super) fn above<const N: usize>(
+        &self,
+        zone: Zone,
+        panel: usize,
+        angles: &[f64; N],
+    ) -> [Moments; N] {
         let mut sum = self.beyond[zone as usize][panel];
-        let (mut from, end) = (angle, self.ends[zone as usize][panel + 1]);
-        while 2.0 * from < end {
-            self.add(zone, from, 2.0 * from, &mut sum);
-            from *= 2.0;
-        }
-        self.add(zone, from, end, &mut sum);
-        sum
+        let mut end = self.ends[zone as usize][panel + 1];
+        angles.map(|angle| {
+            while 2.0 * angle < end {
+                self.add(zone, 0.5 * end, end, &mut sum, WHOLE);
+                end *= 0.5;
+            }
+            self.add(zone, angle, end, &mut sum, PART);
+            end = angle;
+            sum
+        })
     }
 
-    /// Adds the moments between two angles of a zone.
-    pub(super) fn add(&self, zone: Zone, from: f64, to: f64, sum: &mut Moments) {
-        for (angle, weight) in gauss::rule(16).on(from, to) {
+    /// Adds the moments between two angles of a zone, by so many nodes.
+    fn add(&self, zone: Zone, from: f64, to: f64, sum: &mut Moments, nodes: usize) {
+        for (angle, weight) in gauss::rule(nodes).on(from, to) {
             let sine = angle.sin();
             let mass = weight * self.density(zone, angle, sine);
             let inverse = 1.0 / zone.slowness(self.k, sine);

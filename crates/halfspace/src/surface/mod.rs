@@ -23,7 +23,7 @@ mod zone;
 
 use crate::medium::Medium;
 use chord::{Chord, Moments};
-use curve::Curve;
+use curve::{Curve, TERMS};
 use measure::Measure;
 use zone::Zone;
 
@@ -179,12 +179,12 @@ impl SurfaceResponse {
             };
         };
         let angle = zone.angle(self.shear_slowness, x);
-        self.impulse[zone as usize].value(0, angle, |panel, angle| {
-            let t = chord.support * zone.slowness(self.measure.k, angle.sin());
-            let above = self.measure.above(zone, panel, angle);
-            let terms = chord.terms(t).zip(&above[1..]);
-            let sum = terms.map(|((k, term), moment)| f64::from(k) * term * moment);
-            [-sum.sum::<f64>() / t]
+        self.impulse[zone as usize].value(0, angle, |panel, angles| {
+            self.fill(zone, panel, angles, |t, above| {
+                let terms = chord.terms(t).zip(&above[1..]);
+                let sum = terms.map(|((k, term), moment)| f64::from(k) * term * moment);
+                [-sum.sum::<f64>() / t]
+            })
         })
     }
 
@@ -195,12 +195,27 @@ impl SurfaceResponse {
         let zone = Zone::of(x, self.shear_slowness)?;
         let angle = zone.angle(self.shear_slowness, x);
         let curve = &self.curves[zone as usize];
-        Some(curve.value(which, angle, |panel, angle| {
-            let t = chord.support * zone.slowness(self.measure.k, angle.sin());
-            let above = self.measure.above(zone, panel, angle);
-            let integral = t - chord.overlap_integral(t, &self.total, &above);
-            [1.0 - chord.overlap(t, &above), integral]
+        Some(curve.value(which, angle, |panel, angles| {
+            self.fill(zone, panel, angles, |t, above| {
+                let integral = t - chord.overlap_integral(t, &self.total, above);
+                [1.0 - chord.overlap(t, above), integral]
+            })
         }))
+    }
+
+    /// Functions of the time and of the moments above it, at the angles of a panel.
+    fn fill<const N: usize>(
+        &self,
+        zone: Zone,
+        panel: usize,
+        angles: &[f64; TERMS],
+        f: impl Fn(f64, &Moments) -> [f64; N],
+    ) -> [[f64; N]; TERMS] {
+        let above = self.measure.above(zone, panel, angles);
+        std::array::from_fn(|i| {
+            let slowness = zone.slowness(self.measure.k, angles[i].sin());
+            f(self.chord().support * slowness, &above[i])
+        })
     }
 
     fn chord(&self) -> Chord {

@@ -1,6 +1,6 @@
 //! Where the kernels of the fields come from: computed, or looked up.
 
-use crate::cost::Cost;
+use crate::cost::{Cost, busy};
 use crate::error::ImpactError;
 use crate::evaluator::discs::Discs;
 use crate::excitation::Excitation;
@@ -203,7 +203,7 @@ pub(crate) fn choose_source(
             let cells = Wanted::of(scene).cells(excitation);
             let count = scene.points();
             let cost = Cost::new(scene, excitation, cells);
-            let cost_s = cost.computed_s() / cost.busy(rayon::current_num_threads());
+            let cost_s = cost.computed_s() / busy(count);
             let cost =
                 format!("{count} points of {cells:.0} cells take about {cost_s:.1e} s to compute");
             if cost_s <= CHEAP_S {
