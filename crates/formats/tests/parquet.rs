@@ -28,7 +28,7 @@ fn spec() -> Spec {
 fn rows(spec: &Spec, rows: Range<usize>, size: usize) -> Vec<Block> {
     let blocks = rows.clone().step_by(size).map(|start| {
         let count = size.min(rows.end - start);
-        let block = compute_rows(spec, start, 1, count, |_| true);
+        let block = compute_rows(spec, start, 1, count, |_, _| true);
         let mut block = block.unwrap().unwrap();
         block.start += start;
         for (row, _) in &mut block.failures {

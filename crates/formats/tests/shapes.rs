@@ -115,7 +115,7 @@ fn what_follows_cannot_be_given_beside() {
 }
 
 fn every_row(spec: &Spec) -> Result<Option<Block>, SceneError> {
-    compute_rows(spec, 0, 1, spec.rows(), |_| true)
+    compute_rows(spec, 0, 1, spec.rows(), |_, _| true)
 }
 
 fn rows(axes: &str) -> (Spec, Vec<Block>) {

@@ -30,7 +30,7 @@ velocity_m_s = [0.1, 50.0]
 material = [\"steel\", \"soda-lime-glass\", \"soil-soft\"]
 ";
     let spec = Spec::from_toml(text, Path::new(".")).unwrap();
-    let done = compute_rows(&spec, 0, 1, spec.rows(), |_| true);
+    let done = compute_rows(&spec, 0, 1, spec.rows(), |_, _| true);
     let blocks: Vec<Block> = vec![done.unwrap().unwrap()];
     let rows: Vec<&[f64]> = blocks.iter().flat_map(Block::rows).collect();
     let value = |row: usize, name: &str| {

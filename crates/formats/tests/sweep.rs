@@ -374,7 +374,7 @@ fn draws_take_no_memory_and_are_those_of_a_shorter_sweep() {
     assert!(many.memory_bytes() < 2e8);
     assert_eq!(many.memory_bytes(), few.memory_bytes());
     let rows = |spec: &Spec, start| {
-        let block = compute_rows(spec, start, 7, 100, |_| true);
+        let block = compute_rows(spec, start, 7, 100, |_, _| true);
         block.unwrap().unwrap()
     };
     assert_eq!(bits(&[rows(&many, 30)]), bits(&[rows(&few, 30)]));

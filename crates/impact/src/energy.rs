@@ -34,7 +34,7 @@ pub struct EnergySeries {
 }
 
 /// Samples over the contacts for the work.
-const SAMPLES: f64 = 1024.0;
+const SAMPLES: f64 = 512.0;
 
 impl EnergySeries {
     /// Of a striker whose contact was planned so, at times in s; none for a record.

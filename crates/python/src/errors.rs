@@ -94,14 +94,18 @@ pub(crate) fn unknown(py: Python<'_>, what: &str, found: &str, allowed: &[&str])
 
 /// Refuses arrays that the memory does not hold: so many places of so many bytes each.
 pub(crate) fn check_memory(py: Python<'_>, places: usize, bytes: usize) -> PyResult<()> {
-    let (needed, free) = (places as f64 * bytes as f64, output::free_memory());
-    if needed <= free {
-        return Ok(());
-    }
-    let message = format!(
-        "{places} places need about {:.3} GB of memory, more than the {:.3} GB there are: ask for fewer at a time",
-        1e-9 * needed,
-        1e-9 * free
-    );
-    Err(plain(py, "TooMuchMemory", &message))
+    shortage(places, "places", bytes)
+        .map_or(Ok(()), |short| Err(plain(py, "TooMuchMemory", &short)))
+}
+
+/// What to say where the memory does not hold so many things of so many bytes each.
+pub(crate) fn shortage(count: usize, things: &str, bytes: usize) -> Option<String> {
+    let (needed, free) = (count as f64 * bytes as f64, output::free_memory());
+    (needed > free).then(|| {
+        format!(
+            "{count} {things} need about {:.3} GB of memory, more than the {:.3} GB there are: ask for fewer at a time",
+            1e-9 * needed,
+            1e-9 * free
+        )
+    })
 }

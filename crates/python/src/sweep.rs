@@ -6,7 +6,7 @@ use crate::values::{Array, frozen, numbers, vector};
 use crate::work::{Ticker, run};
 use formats::quantities::QUANTITIES;
 use formats::sweep::{
-    Block, Column, Spec, Values, check_rows, compute_rows, stage_csv, stage_rows,
+    BLOCK, Block, Column, Spec, Values, check_rows, compute_rows, stage_csv, stage_rows,
 };
 use formats::{Existing, Output, SceneError};
 use numpy::{PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
@@ -75,6 +75,9 @@ fn wrapped(py: Python<'_>, spec: Result<Spec, SceneError>) -> PyResult<Plan> {
     })
 }
 
+/// Bytes that the reason of a failed row takes, in Python and beside it.
+const REASON: usize = 1000;
+
 /// Results by row and quantity, models, and failed rows with their reasons.
 type Computed<'py> = (Array<'py>, Array<'py, u8>, Vec<(usize, String)>);
 
@@ -129,11 +132,18 @@ impl Plan {
         let spec = Arc::clone(&self.spec);
         let found = run(py, threads, progress, move |ticker| {
             ticker.of(count as u64);
-            compute_rows(&spec, start, step, count, |done| {
+            let mut short = None;
+            let found = compute_rows(&spec, start, step, count, |done, failed| {
                 ticker.at(done as u64);
-                !ticker.is_stopped()
-            })
+                short = errors::shortage(failed + BLOCK, "reasons of rows that fail", REASON);
+                !ticker.is_stopped() && short.is_none()
+            });
+            (found, short)
         })?;
+        let (found, short) = found;
+        if let Some(short) = short {
+            return Err(errors::plain(py, "TooMuchMemory", &short));
+        }
         let block = found
             .map_err(raise(py))?
             .ok_or("the sweep was stopped")

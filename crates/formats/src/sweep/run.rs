@@ -239,7 +239,7 @@ const WATCH_S: f64 = 0.1;
 /// Computes `count` rows from `start` on, every `step`-th, without a journal: to the last bit what the whole sweep has there.
 ///
 /// Rows of the block, and of its failures, count from the first that was asked for.
-/// `watch` is told how many are done; where it says false, nothing is returned.
+/// `watch` is told how many are done and how many of them failed; where it says false, nothing is returned.
 ///
 /// # Errors
 /// [`SceneError`] of the sweep, and where it has no such rows.
@@ -248,7 +248,7 @@ pub fn compute_rows(
     start: usize,
     step: usize,
     count: usize,
-    mut watch: impl FnMut(usize) -> bool,
+    mut watch: impl FnMut(usize, usize) -> bool,
 ) -> Result<Option<Block>, SceneError> {
     if count > MOST_AT_ONCE {
         let (key, range) = ("the number of rows in memory", "[0, 10000000]");
@@ -276,7 +276,7 @@ pub fn compute_rows(
         let end = (done + size).min(count);
         size = computer.fill(&mut block, done..end, WATCH_S, row_of)?;
         done = end;
-        if !watch(done) && done < count {
+        if !watch(done, block.failures.len()) && done < count {
             return Ok(None);
         }
     }

@@ -95,7 +95,7 @@ fn measure(spec: &Spec, threads: usize) -> Result<(usize, f64), formats::SceneEr
     loop {
         let step = (spec.rows() / count).max(1);
         let (began, spent_s) = (Instant::now(), processor_s());
-        compute_rows(spec, 0, step, count, |_| true)?;
+        compute_rows(spec, 0, step, count, |_, _| true)?;
         let spent_s = processor_s()
             .zip(spent_s)
             .map(|(after, before)| (after - before) / threads as f64);
