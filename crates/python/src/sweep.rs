@@ -76,7 +76,7 @@ fn wrapped(py: Python<'_>, spec: Result<Spec, SceneError>) -> PyResult<Plan> {
 }
 
 /// Bytes that the reason of a failed row takes, in Python and beside it.
-const REASON: usize = 1000;
+const REASON: usize = 500;
 
 /// Results by row and quantity, models, and failed rows with their reasons.
 type Computed<'py> = (Array<'py>, Array<'py, u8>, Vec<(usize, String)>);
