@@ -7,7 +7,7 @@ use crate::model::Settings;
 use crate::model::choose::fixed_disc_m;
 use crate::plastic::Flow;
 use crate::solver::Solved;
-use crate::units::INVERSE_MASS;
+use crate::units::{CollisionUnits, INVERSE_MASS};
 
 /// Estimated relative error from which on results say nothing.
 pub const MOST_ERROR: f64 = 0.5;
@@ -77,12 +77,18 @@ pub struct Plastic {
 }
 
 impl Plastic {
-    fn new(collision: &Collision, settings: &Settings, solved: &Solved) -> Self {
-        let Ok(Some(yielding)) = collision.yielding(settings) else {
+    fn new(
+        collision: &Collision,
+        settings: &Settings,
+        solved: &Solved,
+        units: &CollisionUnits,
+    ) -> Self {
+        let flow = solved.flow;
+        let law = || collision.yielding(settings).ok().flatten();
+        let Some(yielding) = flow.map(|flow| flow.yielding).or_else(law) else {
             return Self::default();
         };
-        let (units, ratio) = (collision.units(), yielding.velocity_ratio());
-        let flow = solved.flow;
+        let ratio = yielding.velocity_ratio();
         let elastic = solved.summary.peak_force.cbrt().powi(2);
         let part = |value: fn(&Flow) -> f64, unit: f64| flow.as_ref().map_or(0.0, value) * unit;
         Self {
@@ -139,7 +145,7 @@ impl Results {
                 loaded_m,
                 [collision.tip_radius_m, collision.effective_modulus_pa],
             ),
-            plastic: Plastic::new(collision, settings, solved),
+            plastic: Plastic::new(collision, settings, solved, &units),
             contacts: s.contacts,
             march_steps: steps as usize,
             march_step_s: solved.step.map_or(0.0, |step| step * units.time_s),
@@ -151,6 +157,7 @@ impl Results {
     ///
     /// # Errors
     /// [`ContactError::NotFinite`], [`ContactError::Unreliable`].
+    #[inline]
     pub fn checked(self) -> Result<Self, ContactError> {
         let numbers = [
             ("peak force", self.peak_force_n),

@@ -65,9 +65,10 @@ pub struct Solver<'a, S: Responses> {
     responses: &'a S,
     outcomes: Option<&'a Outcomes>,
     workspace: Workspace,
-    /// What was made last, with the bits of its Poisson's ratio.
-    disc: Option<(u64, Arc<S::Disc>)>,
-    waves: Option<(u64, Arc<PunchWaves>)>,
+    /// What was made last, with the bits of its Poisson's ratio; counted by this solver alone, since threads that count
+    /// together wait for each other.
+    disc: Option<(u64, Arc<Arc<S::Disc>>)>,
+    waves: Option<(u64, Arc<Arc<PunchWaves>>)>,
     /// The contact solved last, where it was one that follows the load and was not marched.
     growing: Option<SolvedContact>,
     /// What the contact solved last radiates, where it was taken from a series.
@@ -121,11 +122,11 @@ impl<'a, S: Responses> Solver<'a, S> {
         let disc = self.disc(collision.target_poisson_ratio, settings.deflection);
         let disc = disc.ok()?;
         let yielding = collision.yielding(settings).ok()?.filter(Yielding::begins);
-        let plan = plan(settings, collision, &*disc, yielding.is_some());
+        let plan = plan(settings, collision, &**disc, yielding.is_some());
         if let Some(yielding) = yielding {
             return Place::of_fit(&plan, &yielding, settings);
         }
-        Place::of(&plan, collision, settings, &*disc)
+        Place::of(&plan, collision, settings, &**disc)
     }
 
     /// The results of a contact.
@@ -156,7 +157,7 @@ impl<'a, S: Responses> Solver<'a, S> {
                 if solved.plan.model == Model::Wave && settings.step_s.is_none() =>
             {
                 let disc = self.disc(collision.target_poisson_ratio, settings.deflection)?;
-                let impact = disc_of(collision, settings, &*disc);
+                let impact = disc_of(collision, settings, &**disc);
                 march_finely(&impact, duration, settings.tolerance)
                     .ok()
                     .filter(|fine| fine.error <= solved.error.max(settings.tolerance))
@@ -210,7 +211,7 @@ impl<'a, S: Responses> Solver<'a, S> {
                 let ratio = collision.target_poisson_ratio;
                 let mean = self.responses.disc(ratio, Deflection::Mean)?;
                 let own = self.disc(ratio, settings.deflection)?;
-                let impact = disc_of(collision, settings, &*own);
+                let impact = disc_of(collision, settings, &**own);
                 let history = &self.workspace.history;
                 radiated(&impact, &*mean, history, solved.summary.contact_time)
             }
@@ -229,14 +230,14 @@ impl<'a, S: Responses> Solver<'a, S> {
         self.growing = None;
         self.radiated = None;
         if let Some(yielding) = collision.yielding(settings)?.filter(Yielding::begins) {
-            let plan = plan(settings, collision, &*disc, true);
+            let plan = plan(settings, collision, &**disc, true);
             if let Some(solved) = self.yielded(collision, settings, &yielding, plan, &asked)? {
                 return Ok(solved);
             }
         }
-        let plan = plan(settings, collision, &*disc, false);
+        let plan = plan(settings, collision, &**disc, false);
         if let (Some(outcomes), None) = (self.outcomes, asked.deflection)
-            && let Some(place) = Place::of(&plan, collision, settings, &*disc)
+            && let Some(place) = Place::of(&plan, collision, settings, &**disc)
             && let Some((summary, radiated, error)) = outcomes.at(&place, self.responses)
         {
             self.radiated = Some(radiated);
@@ -248,7 +249,7 @@ impl<'a, S: Responses> Solver<'a, S> {
         let is_disc = matches!(plan.groups.family, Family::Full | Family::Dynamic);
         let is_wave = matches!(settings.model, Model::Wave | Model::Auto);
         if is_disc && is_wave && settings.scheme == Scheme::Implicit {
-            let impact = disc_of(collision, settings, &*disc);
+            let impact = disc_of(collision, settings, &**disc);
             stability::check(&impact, &mut self.workspace)?;
         }
         let (scheme, found) = match (plan.model.row(), settings.scheme) {
@@ -258,7 +259,7 @@ impl<'a, S: Responses> Solver<'a, S> {
                 (Some(Scheme::Implicit), self.grow(collision, step, asked)?)
             }
             ((Rung::FullMemory, true), Scheme::Implicit) => {
-                let impact = disc_of(collision, settings, &*disc);
+                let impact = disc_of(collision, settings, &**disc);
                 let found = solve_disc(&mut self.workspace, &impact, step, asked)?;
                 (Some(Scheme::Implicit), found)
             }
@@ -329,7 +330,11 @@ impl<'a, S: Responses> Solver<'a, S> {
         Ok(Some(plan.solved(scheme, found, Some(flow))))
     }
 
-    fn disc(&mut self, ratio: f64, deflection: Deflection) -> Result<Arc<S::Disc>, DomainError> {
+    fn disc(
+        &mut self,
+        ratio: f64,
+        deflection: Deflection,
+    ) -> Result<Arc<Arc<S::Disc>>, DomainError> {
         self.disc
             .take_if(|(_, disc)| disc.deflection() != deflection);
         remembered(&mut self.disc, ratio, || {
@@ -337,7 +342,7 @@ impl<'a, S: Responses> Solver<'a, S> {
         })
     }
 
-    fn waves(&mut self, ratio: f64) -> Result<Arc<PunchWaves>, DomainError> {
+    fn waves(&mut self, ratio: f64) -> Result<Arc<Arc<PunchWaves>>, DomainError> {
         remembered(&mut self.waves, ratio, || self.responses.waves(ratio))
     }
 
@@ -387,12 +392,12 @@ impl<'a, S: Responses> Solver<'a, S> {
 fn remembered<T>(
     latest: &mut Option<(u64, Arc<T>)>,
     ratio: f64,
-    make: impl FnOnce() -> Result<Arc<T>, DomainError>,
+    make: impl FnOnce() -> Result<T, DomainError>,
 ) -> Result<Arc<T>, DomainError> {
     match latest {
         Some((bits, made)) if *bits == ratio.to_bits() => Ok(Arc::clone(made)),
         Some(_) | None => {
-            let (_, made) = latest.insert((ratio.to_bits(), make()?));
+            let (_, made) = latest.insert((ratio.to_bits(), Arc::new(make()?)));
             Ok(Arc::clone(made))
         }
     }

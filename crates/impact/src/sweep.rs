@@ -19,6 +19,7 @@ pub struct Observed {
 }
 
 /// The contact of two bodies with a thread's solver.
+#[inline]
 pub fn collide(
     solver: &mut Solver<'_, Tabulated>,
     collision: &Collision,

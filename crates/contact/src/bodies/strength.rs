@@ -1,7 +1,6 @@
 //! How near a contact is to what its bodies bear: yield and cone cracks.
 
 use crate::bodies::material::Material;
-use crate::numeric::quadrature::rising_root;
 use std::f64::consts::PI;
 
 /// What one body bears; by default nothing of it is known.
@@ -64,18 +63,14 @@ impl Strength {
 #[must_use]
 pub fn largest_mises(poisson_ratio: f64) -> f64 {
     let nu = poisson_ratio;
-    let turn = |s: f64| PI / 2.0 - s.atan();
-    // minus the slope along the axis and its own, from near the one maximum
-    let falling = |s: f64| {
-        let r = 1.0 / (1.0 + s * s);
-        (
-            3.0 * s * r * r - (1.0 + nu) * (turn(s) - s * r),
-            r * r * (2.0 * (1.0 + nu) + 3.0 * r * (1.0 - 3.0 * s * s)),
-        )
-    };
-    let near = 0.382 + 0.331 * nu;
-    let [_, s] = rising_root(falling, [0.0, 1.0], near, f64::EPSILON);
-    let largest = 1.5 / (1.0 + s * s) - (1.0 + nu) * (1.0 - s * turn(s));
+    // near the one maximum, from where what is missing is of second order in the slope
+    let near = [0.382, 0.3303, -0.0096, 0.0217, -0.0007, 0.0196];
+    let s = near.iter().rev().fold(0.0, |sum, c| sum * nu + c);
+    let r = 1.0 / (1.0 + s * s);
+    let turn = PI / 2.0 - s.atan();
+    let slope = (1.0 + nu) * (turn - s * r) - 3.0 * s * r * r;
+    let bend = r * r * (2.0 * (1.0 + nu) + 3.0 * r * (1.0 - 3.0 * s * s));
+    let largest = 1.5 * r - (1.0 + nu) * (1.0 - s * turn) + 0.5 * slope * slope / bend;
     largest.max((1.0 - 2.0 * nu) / 3.0_f64.sqrt())
 }
 

@@ -11,7 +11,6 @@
 
 use crate::growing::march::March;
 use crate::growing::nodes::Nodes;
-use crate::growing::polynomial::dot;
 use crate::numeric::series::Series;
 use crate::plastic::branch::{Branch, FITTED, Fit};
 use crate::plastic::{Flow, Yielding};
@@ -170,7 +169,11 @@ fn extrapolated<const N: usize>(
 
 /// Velocity, time and radiated energy where the radius of contact reaches that of yield.
 fn rise(edge: f64, lag: f64) -> Option<(f64, f64, f64)> {
+    static COLUMNS: OnceLock<[[f64; NODES]; NODES]> = OnceLock::new();
     let rule = Nodes::of(NODES);
+    let weight = |j, i| rule.integral_row(i + 1)[j];
+    let columns =
+        COLUMNS.get_or_init(|| std::array::from_fn(|j| std::array::from_fn(|i| weight(j, i))));
     let (mut from, mut time, mut lost) = (0.0, 0.0, 0.0);
     let factor = 11.25 * lag;
     while from < edge {
@@ -179,17 +182,26 @@ fn rise(edge: f64, lag: f64) -> Option<(f64, f64, f64)> {
         let x: [f64; NODES] = std::array::from_fn(|i| from + width * rule.places[i + 1]);
         let rest = x.map(|x| 1.0 - x * x * x * x * x - factor * lost);
         let mut v = rest.map(f64::sqrt);
+        let mut before = 1.0;
         for _ in 0..ITERATIONS {
-            let moved: [f64; NODES] = std::array::from_fn(|j| width * x[j] * x[j] * x[j] * v[j]);
-            let mut change = 0.0_f64;
-            for i in 0..NODES {
-                let next = (rest[i] - factor * dot(rule.integral_row(i + 1), &moved)).sqrt();
-                change = change.max((next - v[i]).abs());
-                v[i] = next;
+            let lost: [f64; NODES] = std::array::from_fn(|j| factor * width * x[j].powi(3) * v[j]);
+            let mut square = rest;
+            for (weights, lost) in columns.iter().zip(lost) {
+                for (square, weight) in square.iter_mut().zip(weights) {
+                    *square -= lost * weight;
+                }
             }
-            if change < 1e-12 {
+            let next = square.map(f64::sqrt);
+            let change = next
+                .iter()
+                .zip(v)
+                .fold(0.0_f64, |most, (x, y)| most.max((x - y).abs()));
+            v = next;
+            // what the next iteration would change
+            if change * change < 1e-12 * before {
                 break;
             }
+            before = change;
         }
         for (weight, (x, v)) in rule.integral_row(NODES).iter().zip(x.iter().zip(v)) {
             time += 2.0 * width * weight * x / v;
