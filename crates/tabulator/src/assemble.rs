@@ -62,10 +62,10 @@ pub(crate) fn complete(
 
 /// Writes a table and reads it back.
 fn write_checked(content: &Content, part: &Path) -> Result<(), Fault> {
-    let back = lookup::write(part, content).and_then(|()| lookup::read(part));
-    let wrong = match back.map_err(|error| error.what) {
-        Ok(back) if back == *content => return Ok(()),
-        Ok(_) => "it is not read back as it was written".to_owned(),
+    let held = lookup::write(part, content).and_then(|()| lookup::holds(part, content));
+    let wrong = match held.map_err(|error| error.what) {
+        Ok(true) => return Ok(()),
+        Ok(false) => "it is not read back as it was written".to_owned(),
         // its file is the temporary one, of which nobody should hear
         Err(BadTable::Unwritable(detail)) => detail,
         Err(other) => other.to_string(),

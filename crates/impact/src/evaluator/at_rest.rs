@@ -2,23 +2,22 @@
 
 use crate::error::ImpactError;
 use crate::excitation::{Excitation, Pressed};
-use halfspace::{Kernel, Six};
+use halfspace::{Profile, Six};
 
 /// Static field in SI units under the pressures of an instant.
 pub(crate) fn static_si(
     excitation: &Excitation,
-    kernel: &Kernel,
     [r_m, z_m]: [f64; 2],
     pressures: impl IntoIterator<Item = Pressed>,
 ) -> Result<Six, ImpactError> {
-    let mut sum = Six::default();
+    let (mut sum, medium) = (Six::default(), excitation.medium());
     for one in pressures {
         let over = one.square.sqrt();
         if over == 0.0 {
             continue;
         }
         let radius_m = over * excitation.units().disc_radius_m;
-        let fixed = kernel.static_field(r_m / radius_m, z_m / radius_m)?;
+        let fixed = medium.static_field(Profile::Hertz, r_m / radius_m, z_m / radius_m)?;
         let unit = units_si(excitation, over);
         for (f, sum) in sum.iter_mut().enumerate() {
             *sum += one.force_n * unit[f] * fixed[f];

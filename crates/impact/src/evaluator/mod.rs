@@ -37,7 +37,6 @@ use crate::kernels::{CellPlan, Cells, KernelSource, Place};
 use convolve::Method;
 use discs::Discs;
 use forcing::{DiscForce, Forcing};
-use halfspace::{Kernel, Profile};
 use lookup::BEYOND;
 use std::sync::OnceLock;
 use sum::Sum;
@@ -62,8 +61,6 @@ pub(crate) struct Asked<'a> {
 /// What is the same for all points: forces on discs, sampled.
 pub(crate) struct Evaluator<'a> {
     pub(crate) asked: Asked<'a>,
-    /// For static fields alone.
-    kernel: Kernel,
     /// Of the fields, and of the velocities and accelerations where they are asked for.
     forcings: Vec<(Derivative, Forcing<'a>)>,
     /// The discs that may stand for the load, and the forces on them that a point has needed, of each forcing.
@@ -133,7 +130,6 @@ impl<'a> Evaluator<'a> {
             (_, _) => None,
         };
         Ok(Self {
-            kernel: Kernel::new(excitation.medium(), Profile::Hertz, 1e-6)?,
             forcings: derivatives.into_iter().map(forcing).collect(),
             forces: choices.iter().map(|_| OnceLock::new()).collect(),
             choices,
@@ -277,7 +273,7 @@ impl<'a> Evaluator<'a> {
         });
         let sums = self.forcings.iter().zip(forces).map(|(of, forces)| {
             let of = (of.0, &of.1);
-            Sum::new(of, discs, forces, &self.kernel, place_m, &cells)
+            Sum::new(of, discs, forces, place_m, &cells)
         });
         Ok((sums.collect::<Result<_, _>>()?, cells))
     }

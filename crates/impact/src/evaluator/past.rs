@@ -58,7 +58,7 @@ impl<'a> Past<'a> {
     /// The six fields in SI units at a point in m, at a time in s.
     pub(crate) fn at(&self, place_m: [f64; 2], time_s: f64) -> Result<Six, ImpactError> {
         let pressures = self.excitation.pressures(time_s);
-        let mut sum = static_si(self.excitation, &self.hertz[1], place_m, pressures)?;
+        let mut sum = static_si(self.excitation, place_m, pressures)?;
         // rates that are not smooth inside a contact, as under a disc whose memory has ended, need short spans
         const PARTS: usize = 16;
         let graded = |i: usize| {

@@ -10,7 +10,7 @@ use crate::error::ImpactError;
 use crate::excitation::{Excitation, PressureRadius};
 use crate::fields::quantity::Derivative;
 use crate::kernels::Cells;
-use halfspace::{Kernel, Six};
+use halfspace::Six;
 use std::ops::Range;
 
 /// Samples of six fields, or of the rates of the first two, with what the samples leave open.
@@ -72,7 +72,6 @@ impl<'a> Sum<'a> {
         (derivative, forcing): (Derivative, &'a Forcing<'a>),
         discs: &'a Discs,
         forces: &'a [DiscForce],
-        kernel: &Kernel,
         place_m: [f64; 2],
         cells: &[Cells],
     ) -> Result<Self, ImpactError> {
@@ -108,7 +107,7 @@ impl<'a> Sum<'a> {
                     *error += near * peak(samples);
                 }
             }
-            sum.add_following_static(kernel)?;
+            sum.add_following_static()?;
         }
         sum.still_before_arrival();
         if cells.iter().all(|cells| cells.trace.is_some()) {
@@ -179,15 +178,15 @@ impl<'a> Sum<'a> {
     }
 
     /// Adds the static field of the pressures of each instant, or its rate.
-    fn add_following_static(&mut self, kernel: &Kernel) -> Result<(), ImpactError> {
+    fn add_following_static(&mut self) -> Result<(), ImpactError> {
         /// Part of the force over which the static field is differenced: a smooth function of it.
         const PART: f64 = 1e-4;
         let excitation = self.forcing.excitation;
         for (i, &time_s) in self.times_s.iter().enumerate() {
-            let of = |one| static_si(excitation, kernel, self.place_m, [one]);
+            let of = |one| static_si(excitation, self.place_m, [one]);
             let pressures = excitation.pressures(time_s);
             let fixed = match self.forcing.reading {
-                Reading::Force => static_si(excitation, kernel, self.place_m, pressures)?,
+                Reading::Force => static_si(excitation, self.place_m, pressures)?,
                 Reading::Rate => {
                     let [one, other] = pressures.map(|one| one.rate_of(PART, of));
                     let (one, other) = (one?, other?);

@@ -3,6 +3,7 @@
 use super::error::{BadTable, TableError};
 use super::open::open;
 use super::source::{Place, Source};
+use super::write::PATCH;
 use crate::content::{Between, Content, FIELDS, Origin, Role, Slice, Verification};
 use crate::hash::content_hash;
 use crate::table::Table;
@@ -34,6 +35,46 @@ impl Table {
 /// [`TableError`] when the file is absent, of another kind or version, incomplete or damaged.
 pub fn read(path: &Path) -> Result<Content, TableError> {
     open(path)?.everything()
+}
+
+/// Radii that [`holds`] reads together: what every thread has chunks of.
+const TOGETHER: usize = 4 * PATCH;
+
+/// Whether the table at `path` holds just this content; no second one is in memory.
+///
+/// # Errors
+/// As [`read`].
+pub fn holds(path: &Path, content: &Content) -> Result<bool, TableError> {
+    let source = open(path)?;
+    source.check_seal()?;
+    let (head, listed) = source.head()?;
+    let numbers = |c: &Content| [c.r_max, c.z_max, c.cell_width, c.stencil_points as f64];
+    let mut same = head.origin == content.origin
+        && numbers(&head) == numbers(content)
+        && [&head.r, &head.z, &head.pulse_lengths]
+            == [&content.r, &content.z, &content.pulse_lengths]
+        && [&head.between_r, &head.between_z] == [&content.between_r, &content.between_z]
+        && head.between == content.between
+        && listed.len() == content.slices.len();
+    let (whole, rows) = (Window::all(&head), head.r.len());
+    for (listed, slice) in listed.iter().zip(&content.slices) {
+        same &= (listed.ratio, listed.role) == (slice.poisson_ratio, slice.role)
+            && source.errors(&head, listed, &whole)? == slice.verification;
+        for from in (0..rows).step_by(TOGETHER) {
+            let mut wanted = whole.clone();
+            wanted.nodes[0] = from..rows.min(from + TOGETHER);
+            let part = source.sum(&head, &[(listed, 1.0)], &wanted)?;
+            same &= part
+                .lists()
+                .into_iter()
+                .zip(slice.lists())
+                .all(|((_, part), (_, all))| {
+                    let start = all.len() / rows * from;
+                    all.get(start..start + part.len()) == Some(part)
+                });
+        }
+    }
+    Ok(same)
 }
 
 /// Compares the SHA-256 that the file at `path` states with that of its `content`.
