@@ -49,6 +49,8 @@ CASES = {
         "k.surface_step(0.3, np.broadcast_to(0.5, 150_000_000))",
         "k.step(0.3, np.broadcast_to(0.5, 20_000_000), 0.5, 1.0)",
         "hl.collide(V, velocity_m_s=np.broadcast_to(1.0, 9_000_000))",
+        # each row fails
+        "hl.collide({**V, 'contact': {'plasticity': 'jackson_green', 'yield_pressure_pa': 2e9}}, velocity_m_s=np.linspace(0.1, 1.0, 4_000_000))",
         "hl.impact(P, max_memory_gb=1e-9)",
     ],
     "threads": [f"{call}, threads={count})" for count in ("0", "-1", "10**30", "100000", "1.5", "'2'") for call in ("k.step(0.3, a, a, a", "hl.collide(V, velocity_m_s=a", "hl.impact(P")]
