@@ -6,16 +6,16 @@
 //! radiated  int P dw_d, w_d the part of the deflection that lags behind the force
 //! ```
 //!
-//! The three are independent of each other, so that their sum, the energy before, can fail.
-//! S and, where the half-space's memory is followed, w_d belong to the pressure-weighted mean of the disc's deflection,
-//! which does the work of the pressure, whatever deflection is in the contact law.
+//! They come by different routes, so that their sum, the energy before, can fail.
+//! w_d is the contact's own; on a disc whose memory is followed S and w_d belong to the pressure-weighted mean of the
+//! disc's deflection, which does the work of the pressure, whatever deflection is in the contact law.
 //! Before the end of a contact the last term holds energy of the field near the contact that comes back.
 //!
 //! Theory: `docs/theory.md` (T56).
 
 use crate::excitation::Excitation;
 use crate::grid::Grid;
-use contact::{Collision, Family, Plan, PunchWaves, Rung, StaticShare, superposed, work_until_j};
+use contact::{Family, Plan, Rung, StaticShare, work_until_j};
 use halfspace::{Deflection, SurfaceResponse};
 
 /// Energies in J at the times of the output.
@@ -34,18 +34,13 @@ pub struct EnergySeries {
 }
 
 /// Samples over the contacts for the work.
-const SAMPLES: f64 = 512.0;
+const SAMPLES: f64 = 1024.0;
 
 impl EnergySeries {
     /// Of a striker whose contact was planned so, at times in s; none for a record.
     ///
     /// The work is within 1e-4 of itself beside the error of the force.
-    pub(crate) fn of_striker(
-        excitation: &Excitation,
-        collision: &Collision,
-        plan: &Plan,
-        time_s: &[f64],
-    ) -> Option<Self> {
+    pub(crate) fn of_striker(excitation: &Excitation, plan: &Plan, time_s: &[f64]) -> Option<Self> {
         let (end_s, units) = excitation.contacts()?;
         let initial_j = 0.4 * units.force_n * units.length_m;
         let kinetic = |&t: &f64| {
@@ -71,34 +66,16 @@ impl EnergySeries {
         let step_s = end_s / SAMPLES;
         let times = (0..=SAMPLES as usize + 1).map(|i| i as f64 * step_s);
         let force_n: Vec<f64> = times.clone().map(|t| excitation.force_n(t)).collect();
-        let lag_m: Vec<f64> = match plan.model.row() {
-            (Rung::FullMemory, true) => {
-                let share = StaticShare::Dynamic;
-                excitation.deflection_m(Deflection::Mean, share, step_s, 0.0, &force_n)
-            }
-            // each increment of the load on a punch of its own radius
-            (Rung::AreaDashpot | Rung::FullMemory, _) => {
-                let waves = PunchWaves::new(excitation.medium());
-                let indentation = |p: &f64| (p / units.force_n).cbrt().powi(2);
-                let indentations: Vec<f64> = force_n.iter().map(indentation).collect();
-                superposed(
-                    &collision.growing_contact(&waves),
-                    step_s / units.time_s,
-                    &indentations,
-                )
-                .iter()
-                .map(|w| w * units.length_m)
-                .collect()
-            }
-            // what the contact law's own deflection is more than its static part
-            (Rung::QuasiStatic | Rung::Radiation, _) => {
-                let static_m_per_n = plan.coupling() * units.length_m / units.force_n;
-                let law_m = |t| excitation.motion(t).map_or(0.0, |m| m.deflection_m);
-                let samples = times.zip(&force_n);
-                samples
-                    .map(|(t, p)| law_m(t) - static_m_per_n * p)
-                    .collect()
-            }
+        let lag_m: Vec<f64> = if plan.model.row() == (Rung::FullMemory, true) {
+            let share = StaticShare::Dynamic;
+            excitation.deflection_m(Deflection::Mean, share, step_s, 0.0, &force_n)
+        } else {
+            // the contact law's own deflection but for its static part
+            let static_m_per_n = plan.coupling() * units.length_m / units.force_n;
+            let law_m = |t| excitation.motion(t).map_or(0.0, |m| m.deflection_m);
+            let samples = times.zip(&force_n);
+            let lag_m = samples.map(|(t, p)| law_m(t) - static_m_per_n * p);
+            lag_m.collect()
         };
         let work_j = work_until_j(&force_n, &lag_m);
         let static_m_per_n = match plan.groups.family {

@@ -15,7 +15,7 @@ use crate::kernels::source::{KernelChoice, choose_source};
 use crate::outcome::{Cause, FieldsUsed, Outcome, RecordResults, Series, StrikerSeries, checked};
 use crate::record::ForceRecord;
 use crate::scene::{Load, Scene, Strike};
-use contact::{Collision, Model, Scheme, StaticShare};
+use contact::{Model, Scheme, StaticShare};
 use halfspace::Deflection;
 
 /// Contact radii within which the fields are not those of a yielding block.
@@ -92,9 +92,8 @@ fn of_strike(
         reason: run.solved.plan.reason(&scene.settings),
         results: run.results,
     };
-    let collision = Collision::new(&scene.target, &strike.striker, strike.velocity_m_s);
     let plan = &run.solved.plan;
-    let energy = EnergySeries::of_striker(excitation, &collision, plan, &computed.time_s);
+    let energy = EnergySeries::of_striker(excitation, plan, &computed.time_s);
     Ok(computed.outcome(
         cause,
         deflection_m.unwrap_or(law_m),

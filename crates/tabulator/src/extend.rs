@@ -7,7 +7,7 @@ use crate::grid::Grid;
 use crate::journal::title;
 use crate::known::Known;
 use crate::progress::Progress;
-use lookup::{BadTable, Table};
+use lookup::Table;
 use output::{Existing, Output};
 use std::path::Path;
 use std::time::Instant;
@@ -41,14 +41,9 @@ pub fn extend(
 ) -> Result<Summary, BuildError> {
     let started = Instant::now();
     let output = Output::claim(path, Existing::Replace)?;
-    let content = lookup::read(path)?;
-    lookup::check_hash(path, &content)?;
+    let content = Table::open(path)?.into_content();
     let base = lookup::content_hash(&content);
     let present = content.origin.grid.clone();
-    let content = match Table::new(content) {
-        Ok(table) => table.into_content(),
-        Err(source) => return Err(BadTable::Content(source).of(path).into()),
-    };
     let mut grid = Grid::of(&content).map_err(|error| error.in_file(path))?;
     let known = Known::new(content);
     apply(&mut grid, &known, extension)?;

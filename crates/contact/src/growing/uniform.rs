@@ -98,20 +98,6 @@ pub fn march_growing(contact: &GrowingContact<'_>, step: f64) -> Result<History,
     }
 }
 
-/// Deflection, beside what the indentation holds, under an indentation that is known at samples a step apart.
-///
-/// Collision units; of second order in the step.
-#[must_use]
-pub fn superposed(contact: &GrowingContact<'_>, step: f64, indentation: &[f64]) -> Vec<f64> {
-    let mut widest = 0.0_f64;
-    let mut at = |n: usize| {
-        widest = widest.max(indentation[n].max(0.0).sqrt());
-        let (sum, _) = relaxing(contact, step, &indentation[..=n], widest, 0..n);
-        -contact.target_share * sum
-    };
-    (0..indentation.len()).map(&mut at).collect()
-}
-
 /// Memory in collision times up to which the end of contact is a layer of its own.
 const THIN: f64 = 0.4;
 

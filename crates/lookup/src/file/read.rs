@@ -29,7 +29,7 @@ impl Table {
 }
 
 /// Reads the content of the table at `path`, with axes that ascend and lists as long as they demand;
-/// [`Table::new`] then judges the numbers, and [`check_hash`] compares them.
+/// [`Table::new`] then judges the numbers.
 ///
 /// # Errors
 /// [`TableError`] when the file is absent, of another kind or version, incomplete or damaged.
@@ -75,14 +75,6 @@ pub fn holds(path: &Path, content: &Content) -> Result<bool, TableError> {
         }
     }
     Ok(same)
-}
-
-/// Compares the SHA-256 that the file at `path` states with that of its `content`.
-///
-/// # Errors
-/// [`BadTable::Checksum`] when they differ, or the reading errors of [`read`].
-pub fn check_hash(path: &Path, content: &Content) -> Result<(), TableError> {
-    open(path)?.same_hash(content)
 }
 
 /// Compares every byte of the table at `path` with its seal or, where it has none, its content with the hash that it states;

@@ -2,7 +2,7 @@
 
 use crate::slices::sliced;
 use crate::stand_in::content;
-use lookup::{Table, check_hash, content_hash, read, schema, write};
+use lookup::{Table, content_hash, read, schema, write};
 use std::path::PathBuf;
 
 pub(crate) fn written(folder: &tempfile::TempDir) -> PathBuf {
@@ -17,7 +17,10 @@ fn what_is_written_is_read() {
     let path = written(&folder);
     let back = read(&path).unwrap();
     assert_eq!(back, content());
-    check_hash(&path, &back).unwrap();
+    assert!(lookup::holds(&path, &back).unwrap());
+    let mut other = back;
+    other.slices[0].tail[3] += 1.0;
+    assert!(!lookup::holds(&path, &other).unwrap());
     let table = Table::open(&path).unwrap();
     assert_eq!(table.id().len(), 16);
     assert_eq!(table.format_version(), "2.4");
