@@ -14,8 +14,8 @@
 //! so that Gauss's rule of the whole measure, Rayleigh's wave included, converges exponentially.
 
 use crate::numeric::gauss::gauss_rule;
-use halfspace::{Medium, gauss};
-use std::f64::consts::{FRAC_PI_2, PI};
+use halfspace::{Medium, surface_measure};
+use std::f64::consts::FRAC_PI_2;
 use std::sync::{Arc, OnceLock};
 
 /// Nodes of the rules, coarse to fine.
@@ -46,37 +46,10 @@ impl PunchWaves {
     #[must_use]
     pub fn new(medium: &Medium) -> Self {
         let c = medium.rayleigh_speed();
-        let k = medium.kappa().powi(-2);
-        let share = k / (1.0 - medium.poisson_ratio());
-        let rayleigh = 2.0 * ((1.0 - c) * (1.0 + c)).sqrt() * c * share / medium.rayleigh_slope();
-        let mut points = vec![];
-        // p = -i p^ where slow, so Re[p/R] = 4 x^2 p^2 y/((2 x^2 - K)^4 + 16 x^4 p^2 y^2)
-        let fast = |s: f64, c: f64| {
-            let g = 2.0 * s * s - k;
-            let y = (k - s * s).sqrt();
-            (s, c * c / (g * g + 4.0 * s * s * c * y))
-        };
-        let slow = |s: f64, c: f64| {
-            let p2 = (k - 1.0) * s * s;
-            let x2 = 1.0 + p2;
-            let g = 2.0 * x2 - k;
-            let y2 = (k - 1.0) * c * c;
-            let density = 4.0 * x2 * p2 * y2.sqrt() / (g.powi(4) + 16.0 * x2 * x2 * p2 * y2);
-            (x2.sqrt(), density * (k - 1.0) * s * c / x2.sqrt())
-        };
-        let mut add = |ends: &[f64], density: &dyn Fn(f64, f64) -> (f64, f64)| {
-            for pair in ends.windows(2) {
-                let [from, to] = [pair[0], pair[1]].map(|part| FRAC_PI_2 * part);
-                for (angle, weight) in gauss::rule(NODES).on(from, to) {
-                    let (slowness, density) = density(angle.sin(), (FRAC_PI_2 - angle).sin());
-                    let mass = weight * density * share * 2.0 / PI;
-                    points.push((slowness * c, mass));
-                }
-            }
-        };
-        add(&panels(FAST), &fast);
-        add(&panels(SLOW), &slow);
-        points.push((1.0, rayleigh));
+        let [fast, slow] = [FAST, SLOW].map(panels);
+        let mut points = surface_measure(medium, [&fast, &slow], NODES);
+        let slowest = 1.0 / c;
+        points.iter_mut().for_each(|(x, _)| *x /= slowest);
         let mut sum = [0.0; 3];
         let mut sums = vec![sum];
         for (x, mass) in &points {
@@ -209,15 +182,13 @@ const NODES: usize = 18;
 const FAST: [i32; 2] = [3, 16];
 const SLOW: [i32; 2] = [16, 4];
 
-/// Ends of panels as fractions of the right angle; they shrink toward slowness one, where a zero of the Rayleigh function on
+/// Ends of panels in angles from 0 to pi/2; they shrink toward slowness one, where a zero of the Rayleigh function on
 /// a neighbouring sheet may be near, and a little toward the shear slowness.
 fn panels(halvings: [i32; 2]) -> Vec<f64> {
     let [lower, upper] = halvings.map(|halvings| (1..=halvings).map(|j| 0.5_f64.powi(j)));
     let below = [0.0].into_iter().chain(lower.rev());
-    below
-        .chain(upper.skip(1).map(|x| 1.0 - x))
-        .chain([1.0])
-        .collect()
+    let parts = below.chain(upper.skip(1).map(|x| 1.0 - x)).chain([1.0]);
+    parts.map(|part| FRAC_PI_2 * part).collect()
 }
 
 #[cfg(test)]

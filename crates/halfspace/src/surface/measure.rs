@@ -15,8 +15,7 @@ const PART: usize = 8;
 /// The measure mu with its moments summed panel by panel from the slow end.
 #[derive(Debug, Clone)]
 pub(super) struct Measure {
-    pub(super) k: f64,
-    pub(super) scale: f64,
+    pub(super) medium: Medium,
     pub(super) rayleigh_slowness: f64,
     pub(super) rayleigh_mass: f64,
     pub(super) ends: [Vec<f64>; 2],
@@ -24,19 +23,73 @@ pub(super) struct Measure {
     pub(super) beyond: [Vec<Moments>; 2],
 }
 
+/// Slownesses in 1/c1 and masses of the measure mu, of total mass one, Rayleigh's wave last.
+///
+/// By Gauss's rule of so many nodes on panels of its two intervals, 0 < x < 1, x = sin(angle), and 1 < x < 1/kappa,
+/// x^2 = 1 + (K - 1) sin^2(angle); `panels` are the ends of the panels in angles from 0 to pi/2.
+#[must_use]
+pub fn surface_measure(medium: &Medium, panels: [&[f64]; 2], nodes: usize) -> Vec<(f64, f64)> {
+    let mut found = vec![];
+    for (zone, ends) in [Zone::Fast, Zone::Slow].into_iter().zip(panels) {
+        for pair in ends.windows(2) {
+            found.extend(points(medium, zone, [pair[0], pair[1]], nodes));
+        }
+    }
+    found.push(rayleigh(medium));
+    found
+}
+
+/// Slowness and mass of Rayleigh's wave.
+fn rayleigh(medium: &Medium) -> (f64, f64) {
+    let c = medium.rayleigh_speed();
+    let share = medium.shear_slowness_squared() / (1.0 - medium.poisson_ratio());
+    let mass = 2.0 * ((1.0 - c) * (1.0 + c)).sqrt() * c * share / medium.rayleigh_slope();
+    (1.0 / c, mass)
+}
+
+/// Slownesses and masses between two angles of a zone.
+fn points(
+    medium: &Medium,
+    zone: Zone,
+    [from, to]: [f64; 2],
+    nodes: usize,
+) -> impl Iterator<Item = (f64, f64)> {
+    let k = medium.shear_slowness_squared();
+    let scale = 2.0 / PI * k / (1.0 - medium.poisson_ratio());
+    gauss::rule(nodes).on(from, to).map(move |(angle, weight)| {
+        // the cosine from the distance to pi/2, which the panels near slowness one resolve
+        let (s, c) = (angle.sin(), (FRAC_PI_2 - angle).sin());
+        let density = match zone {
+            Zone::Fast => {
+                let g = 2.0 * s * s - k;
+                let y = (k - s * s).sqrt();
+                c * c / (g * g + 4.0 * s * s * c * y)
+            }
+            Zone::Slow => {
+                // p = -i p^, so Re[p/R] = 4 x^2 p^2 y/((2 x^2 - K)^4 + 16 x^4 p^2 y^2)
+                let p2 = (k - 1.0) * s * s;
+                let x2 = 1.0 + p2;
+                let g = 2.0 * x2 - k;
+                let y2 = (k - 1.0) * c * c;
+                let density = 4.0 * x2 * p2 * y2.sqrt() / (g.powi(4) + 16.0 * x2 * x2 * p2 * y2);
+                density * (k - 1.0) * s * c / x2.sqrt()
+            }
+        };
+        (zone.slowness(k, s), weight * scale * density)
+    })
+}
+
 impl Measure {
     pub(super) fn new(medium: &Medium) -> Self {
-        let k = medium.shear_slowness_squared();
-        let c = medium.rayleigh_speed();
-        let density = k / (1.0 - medium.poisson_ratio());
+        let (rayleigh_slowness, rayleigh_mass) = rayleigh(medium);
         let mut measure = Self {
-            k,
-            scale: 2.0 / PI * density,
-            rayleigh_slowness: 1.0 / c,
-            rayleigh_mass: 2.0 * (1.0 - c * c).sqrt() * c * density / medium.rayleigh_slope(),
+            medium: medium.clone(),
+            rayleigh_slowness,
+            rayleigh_mass,
             ends: [panel_ends(Zone::Fast), panel_ends(Zone::Slow)],
             beyond: [vec![], vec![]],
         };
+        let c = medium.rayleigh_speed();
         let mut sum = POWERS.map(|power| measure.rayleigh_mass * c.powi(power));
         for zone in [Zone::Slow, Zone::Fast] {
             let ends = measure.ends[zone as usize].clone();
@@ -81,39 +134,12 @@ impl Measure {
 
     /// Adds the moments between two angles of a zone, by so many nodes.
     fn add(&self, zone: Zone, from: f64, to: f64, sum: &mut Moments, nodes: usize) {
-        for (angle, weight) in gauss::rule(nodes).on(from, to) {
-            let sine = angle.sin();
-            let mass = weight * self.density(zone, angle, sine);
-            let inverse = 1.0 / zone.slowness(self.k, sine);
+        for (slowness, mass) in points(&self.medium, zone, [from, to], nodes) {
+            let inverse = 1.0 / slowness;
             for (moment, power) in sum.iter_mut().zip(POWERS) {
                 *moment += mass * inverse.powi(power);
             }
         }
-    }
-
-    /// Density in the angle of a zone, given the sine s of the angle.
-    fn density(&self, zone: Zone, angle: f64, s: f64) -> f64 {
-        let k = self.k;
-        // cos from the distance to pi/2, which the panels near slowness one resolve
-        let c = (FRAC_PI_2 - angle).sin();
-        self.scale
-            * match zone {
-                Zone::Fast => {
-                    let g = 2.0 * s * s - k;
-                    let y = (k - s * s).sqrt();
-                    c * c / (g * g + 4.0 * s * s * c * y)
-                }
-                Zone::Slow => {
-                    // p = -i p^, so Re[p/R] = 4 x^2 p^2 y/((2 x^2 - K)^4 + 16 x^4 p^2 y^2)
-                    let p2 = (k - 1.0) * s * s;
-                    let x2 = 1.0 + p2;
-                    let g = 2.0 * x2 - k;
-                    let y2 = (k - 1.0) * c * c;
-                    let density =
-                        4.0 * x2 * p2 * y2.sqrt() / (g.powi(4) + 16.0 * x2 * x2 * p2 * y2);
-                    density * (k - 1.0) * s * c / x2.sqrt()
-                }
-            }
     }
 }
 

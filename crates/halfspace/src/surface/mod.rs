@@ -25,6 +25,7 @@ use crate::medium::Medium;
 use chord::{Chord, Moments};
 use curve::{Curve, TERMS};
 use measure::Measure;
+pub use measure::surface_measure;
 use zone::Zone;
 
 /// Which deflection of the loaded disc is meant.
@@ -80,7 +81,7 @@ impl SurfaceResponse {
         Self {
             deflection,
             static_compliance: chord.static_factor * (1.0 - medium.poisson_ratio()),
-            shear_slowness: measure.k.sqrt(),
+            shear_slowness: medium.shear_slowness_squared().sqrt(),
             relaxation_time: chord.integral(chord.support) * total[0],
             curves: ZONES.map(|zone| Curve::new(zone, panels(zone))),
             impulse: ZONES.map(|zone| Curve::new(zone, panels(zone))),
@@ -213,7 +214,7 @@ impl SurfaceResponse {
     ) -> [[f64; N]; TERMS] {
         let above = self.measure.above(zone, panel, angles);
         std::array::from_fn(|i| {
-            let slowness = zone.slowness(self.measure.k, angles[i].sin());
+            let slowness = zone.slowness(self.shear_slowness.powi(2), angles[i].sin());
             f(self.chord().support * slowness, &above[i])
         })
     }
