@@ -59,8 +59,12 @@ pub(crate) fn read(path: &Path) -> Result<(String, HashMap<Block, Row>), BuildEr
     let records = Records::open(path, KIND)?;
     let mut records = records
         .filter(|records| records.title == title(&records.title.about, None))
-        .ok_or_else(|| BuildError::NotBlocks {
-            path: path.to_owned(),
+        .ok_or_else(|| {
+            let file = path.display();
+            let sentence = format!(
+                "{file} is not a shard of a kernel table made by this version of the program"
+            );
+            BuildError::refused(Some(path), sentence)
         })?;
     let mut found = Found::of(&records.title.about);
     records.by_ref().all(|(_, kept)| found.take(&kept));

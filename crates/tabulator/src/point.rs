@@ -156,13 +156,11 @@ impl PointPlan {
         ] {
             for value in values {
                 if let Some(f) = value.iter().position(|x| !x.is_finite()) {
-                    return Err(BuildError::NotFinite {
-                        poisson_ratio: self.kernel.medium().poisson_ratio(),
-                        r,
-                        z,
-                        quantity,
-                        field: lookup::schema::FIELD_NAMES[f],
-                    });
+                    let nu = self.kernel.medium().poisson_ratio();
+                    let field = lookup::schema::FIELD_NAMES[f];
+                    return Err(BuildError::NotFinite(format!(
+                        "poisson_ratio = {nu}, r/r0 = {r}, z/r0 = {z}: {quantity} of field {field}"
+                    )));
                 }
             }
         }

@@ -65,12 +65,12 @@ pub fn merge(
         .filter(|block| !found.contains_key(block))
         .collect();
     if let Some(first) = missing.first() {
-        return Err(BuildError::Incomplete {
-            missing: missing.len(),
-            total: work.len(),
-            poisson_ratio: grid.ratio_of(**first)?,
-            row: first.row,
-        });
+        let (missing, total, row) = (missing.len(), work.len(), first.row);
+        let poisson_ratio = grid.ratio_of(**first)?;
+        let sentence = format!(
+            "{missing} of {total} blocks are missing, the first for poisson_ratio = {poisson_ratio}, row {row}: all shards are needed, each finished"
+        );
+        return Err(BuildError::refused(None, sentence));
     }
     let rows = work
         .iter()
@@ -91,10 +91,12 @@ fn read_all(parts: &[PathBuf]) -> Result<(Grid, HashMap<Block, Row>), BuildError
         let (text, rows) = journal::read(part)?;
         match &settings {
             Some((first, _)) if *first != text => {
-                return Err(BuildError::Mixed {
-                    first: parts[0].clone(),
-                    second: part.clone(),
-                });
+                let sentence = format!(
+                    "{} was made with other settings than {}: shards of one table have the same grid",
+                    part.display(),
+                    parts[0].display()
+                );
+                return Err(BuildError::refused(Some(part), sentence));
             }
             Some(_) => {}
             None => {
@@ -104,6 +106,7 @@ fn read_all(parts: &[PathBuf]) -> Result<(Grid, HashMap<Block, Row>), BuildError
         }
         found.extend(rows);
     }
-    let (_, grid) = settings.ok_or(BuildError::NoShards)?;
+    let none = || "a table is joined from one shard or more".to_owned();
+    let (_, grid) = settings.ok_or_else(|| BuildError::refused(None, none()))?;
     Ok((grid, found))
 }

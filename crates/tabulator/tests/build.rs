@@ -340,10 +340,10 @@ fn shards_make_the_same_table_and_gaps_are_named() {
     let mixed = [shards[0].clone(), stranger];
     assert!(matches!(
         merge(&mixed, &joined, Existing::Replace, &Silent),
-        Err(BuildError::Mixed { .. })
+        Err(BuildError::Refused { file: Some(file), .. }) if file == mixed[1]
     ));
     assert!(matches!(
         merge(&[whole], &joined, Existing::Replace, &Silent),
-        Err(BuildError::NotBlocks { .. })
+        Err(BuildError::Refused { file: Some(_), .. })
     ));
 }

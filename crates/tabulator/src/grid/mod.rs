@@ -74,7 +74,7 @@ impl Grid {
     /// Reads a grid from TOML.
     ///
     /// # Errors
-    /// [`BuildError::Settings`] for text that is no grid, with its line, [`BuildError::Setting`] for a value outside its
+    /// [`BuildError::Refused`] for text that is no grid, with its line, [`BuildError::Setting`] for a value outside its
     /// range.
     pub fn parse(text: &str) -> Result<Self, BuildError> {
         let grid: Self = toml::from_str(text).map_err(|error| {
@@ -84,9 +84,8 @@ impl Grid {
                 .filter(|&&b| b == b'\n')
                 .count();
             let message = error.message().replace('\n', " ");
-            BuildError::Settings {
-                detail: format!("line {line}: {message}"),
-            }
+            let sentence = format!("the settings are not a grid: line {line}: {message}");
+            BuildError::refused(None, sentence)
         })?;
         grid.validate()?;
         Ok(grid)

@@ -20,7 +20,7 @@ const MOST_TRIALS: usize = 8;
 ///
 /// # Errors
 /// [`BuildError::Setting`] for a tolerance outside [1e-7, 0.1] or a length outside [0.5, 1000],
-/// [`BuildError::TooFine`] when no spacing allowed is fine enough, or what the exact kernels say.
+/// [`BuildError::Refused`] when no spacing allowed is fine enough, or what the exact kernels say.
 pub fn refine(
     grid: &Grid,
     tolerance: f64,
@@ -58,11 +58,10 @@ pub fn refine(
         let order = grid.stencil_points as f64;
         factor *= (0.95 * (tolerance / error).powf(1.0 / order)).clamp(0.5, 0.95);
     }
-    Err(BuildError::TooFine {
-        tolerance,
-        pulse_length,
-        best,
-    })
+    let sentence = format!(
+        "an error of {tolerance} for pulses of {pulse_length} r0/c1 is not reached: {best:.1e} at the finest spacing tried; a smaller cell_width or a longer pulse is needed"
+    );
+    Err(BuildError::refused(None, sentence))
 }
 
 /// The error of the slice of `grid` with the largest Poisson ratio.
