@@ -150,7 +150,7 @@ fn sorted(grid: &Grid, work: &[Block], rows: Vec<Row>) -> Result<(Vec<Slice>, Ex
     }
     let slices = nodes.into_par_iter().zip(grid.slices());
     let slice = |(rows, (poisson_ratio, role)): (Vec<Row>, _)| {
-        let joined = |i: usize| rows.iter().map(|row| row.arrays()[i]).collect::<Vec<_>>();
+        let joined = |i: usize| rows.iter().map(|row| &row[i][..]).collect::<Vec<_>>();
         Slice {
             poisson_ratio,
             role,

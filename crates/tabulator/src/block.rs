@@ -30,23 +30,11 @@ pub(crate) struct Block {
     pub(crate) row: usize,
 }
 
-/// The numbers of a block, as stored: three of shape (z, field, time), one of shape (z, field, term).
+/// The numbers of a block, as stored: averages, first and second moments of shape (z, field, time), tails of shape
+/// (z, field, term).
 ///
 /// Points that were not computed because their errors are known are NaN.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct Row {
-    pub(crate) remainder: Vec<f32>,
-    pub(crate) moment: Vec<f32>,
-    pub(crate) curvature: Vec<f32>,
-    pub(crate) tail: Vec<f32>,
-}
-
-impl Row {
-    /// All arrays, in the order in which they are recorded.
-    pub(crate) fn arrays(&self) -> [&[f32]; 4] {
-        [&self.remainder, &self.moment, &self.curvature, &self.tail]
-    }
-}
+pub(crate) type Row = [Vec<f32>; 4];
 
 /// All blocks of a grid, in the order in which they are stored.
 pub(crate) fn all(grid: &Grid) -> Vec<Block> {

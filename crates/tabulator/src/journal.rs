@@ -100,8 +100,7 @@ impl Found {
 
 /// What is kept of a block.
 pub(crate) fn kept(block: Block, row: &Row) -> Vec<u8> {
-    let arrays = row.arrays();
-    let lengths = arrays.map(<[f32]>::len);
+    let lengths = row.each_ref().map(Vec::len);
     let mut bytes = Vec::with_capacity(HEADER + 4 * lengths.iter().sum::<usize>());
     for number in [block.slice, block.kind as usize, block.row]
         .into_iter()
@@ -109,7 +108,7 @@ pub(crate) fn kept(block: Block, row: &Row) -> Vec<u8> {
     {
         bytes.extend_from_slice(&(number as u64).to_le_bytes());
     }
-    for value in arrays.into_iter().flatten() {
+    for value in row.iter().flatten() {
         bytes.extend_from_slice(&value.to_le_bytes());
     }
     bytes
@@ -132,12 +131,7 @@ fn parsed(kept: &[u8]) -> Option<(Block, Row)> {
         let array: Vec<f32> = values.by_ref().take(length).collect();
         (array.len() == length).then_some(array)
     };
-    let found = Row {
-        remainder: array()?,
-        moment: array()?,
-        curvature: array()?,
-        tail: array()?,
-    };
+    let found = [array()?, array()?, array()?, array()?];
     let whole = rest.is_empty() && values.next().is_none();
     whole.then_some((Block { slice, kind, row }, found))
 }
@@ -162,12 +156,7 @@ mod tests {
             kind: Kind::Between,
             row: 7,
         };
-        let row = Row {
-            remainder: vec![1.0; 7],
-            moment: vec![f32::NAN; 7],
-            curvature: Vec::new(),
-            tail: vec![-0.0, 3.0],
-        };
+        let row = [vec![1.0; 7], vec![f32::NAN; 7], Vec::new(), vec![-0.0, 3.0]];
         let bytes = kept(block, &row);
         let (same, read) = parsed(&bytes).unwrap();
         assert_eq!((same, kept(same, &read)), (block, bytes.clone()));

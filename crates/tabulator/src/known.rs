@@ -54,12 +54,7 @@ impl Known {
             let size = values.len() / content.r.len();
             values[index * size..(index + 1) * size].to_vec()
         };
-        Some(Row {
-            remainder: part(&slice.remainder),
-            moment: part(&slice.moment),
-            curvature: part(&slice.curvature),
-            tail: part(&slice.tail),
-        })
+        Some(slice.lists().map(|(_, values)| part(values)))
     }
 
     /// Puts the cells of a node that are there in place of those computed.

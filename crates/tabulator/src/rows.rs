@@ -88,12 +88,13 @@ fn row(
             known.keep(nu, [r, z], &mut point);
         }
         for field in 0..6 {
-            for (list, values) in [
-                (&mut row.remainder, &point.averages),
-                (&mut row.moment, &point.moments),
-                (&mut row.curvature, &point.curvatures),
-                (&mut row.tail, &point.tail),
-            ] {
+            let lists = [
+                &point.averages,
+                &point.moments,
+                &point.curvatures,
+                &point.tail,
+            ];
+            for (list, values) in row.iter_mut().zip(lists) {
                 list.extend(values.iter().map(|six| six[field] as f32));
             }
         }
@@ -122,14 +123,11 @@ pub(crate) fn usable(
             continue;
         };
         let [r, z] = &places[block.kind as usize];
-        let whole = row
-            .arrays()
-            .into_iter()
-            .zip(each)
-            .all(|(array, each)| array.len() == each * z.len());
+        let mut sized = row.iter().zip(each);
+        let whole = sized.all(|(array, each)| array.len() == each * z.len());
         let ratio = grid.ratio_of(block)?;
         let there = |(k, &z): (usize, &f64)| {
-            let arrays = row.arrays().into_iter().zip(each);
+            let arrays = row.iter().zip(each);
             let mut parts = arrays.map(|(array, each)| &array[k * each..(k + 1) * each]);
             parts.all(|part| part.iter().all(|x| x.is_finite()))
                 || known.is_some_and(|known| known.measured(block.kind, ratio, [r[block.row], z]))

@@ -72,11 +72,12 @@ fn exact(content: &Content, width: f64, row: &Row, k: usize) -> Series {
             .map(|&x| f64::from(x))
             .collect()
     };
+    let [averages, moments, curvatures, tail] = row;
     let numbers = Numbers {
-        averages: part(&row.remainder, cells),
-        moments: part(&row.moment, cells),
-        curvatures: part(&row.curvature, cells),
-        tail: part(&row.tail, terms),
+        averages: part(averages, cells),
+        moments: part(moments, cells),
+        curvatures: part(curvatures, cells),
+        tail: part(tail, terms),
     };
     Series::new(width, cells, numbers)
 }
