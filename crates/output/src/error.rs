@@ -7,6 +7,9 @@ use std::path::{Path, PathBuf};
 /// A file that could not be written, or is not to be.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum OutputError {
+    /// The name is that of another format, of an input or of another output.
+    #[error("{} {}", .0.display(), .1)]
+    Refused(PathBuf, String),
     /// The file exists and may not be replaced.
     #[error("{} exists already and is not replaced", .0.display())]
     Exists(PathBuf),
@@ -22,34 +25,9 @@ pub enum OutputError {
     /// Another run writes the same file.
     #[error("another run is writing {}; nothing was changed", .0.display())]
     Busy(PathBuf),
-    /// The name ends like another format.
-    #[error("{} is to be {}: its name ends with {}, not with .{found}", path.display(), .format, endings(.allowed))]
-    Ending {
-        /// The file.
-        path: PathBuf,
-        /// The format written.
-        format: &'static str,
-        /// Endings of that format.
-        allowed: &'static [&'static str],
-        /// The ending found.
-        found: String,
-    },
     /// The format is one that the program was built without.
     #[error("{} is to be {}, which this program was built without", .0.display(), .1)]
     Unbuilt(PathBuf, &'static str),
-    /// The file is one that the same command reads.
-    #[error("{} is {role} that this command reads{}: give the output another name", output.display(), behind(.output, .input))]
-    Input {
-        /// The output.
-        output: PathBuf,
-        /// What the input is, such as "the scene".
-        role: &'static str,
-        /// The input.
-        input: PathBuf,
-    },
-    /// Two outputs of one command are the same file.
-    #[error("{} and {} are the same file: give each output a name of its own", .0.display(), .1.display())]
-    Twice(PathBuf, PathBuf),
 }
 
 impl OutputError {
@@ -80,30 +58,14 @@ impl fault::Fault for OutputError {
             Self::Exists(path) => (Class::Exists, Remedy::Change, path),
             Self::Failed(path, _) => (Class::Output, Remedy::Unknown, path),
             Self::Full(path, _) | Self::Busy(path) => (Class::Output, Remedy::Wait, path),
-            Self::Unwritable(path, _)
-            | Self::Ending { path, .. }
-            | Self::Unbuilt(path, _)
-            | Self::Input { output: path, .. }
-            | Self::Twice(path, _) => (Class::Output, Remedy::Change, path),
+            Self::Unwritable(path, _) | Self::Refused(path, _) | Self::Unbuilt(path, _) => {
+                (Class::Output, Remedy::Change, path)
+            }
         };
         Culprit {
             remedy,
             ..Culprit::of(class).file(path)
         }
-    }
-}
-
-fn endings(allowed: &[&str]) -> String {
-    let dotted: Vec<String> = allowed.iter().map(|ending| format!(".{ending}")).collect();
-    dotted.join(" or ")
-}
-
-/// The name under which an input was given, where the output has another one.
-fn behind(output: &Path, input: &Path) -> String {
-    if output == input {
-        String::new()
-    } else {
-        format!(" as {}", input.display())
     }
 }
 

@@ -129,20 +129,24 @@ pub type Role = (&'static str, PathBuf);
 /// Files are compared by what they are, not by name: also through links of both kinds.
 ///
 /// # Errors
-/// [`OutputError::Input`], [`OutputError::Twice`]; or that an output cannot be written at all.
+/// [`OutputError::Refused`]; or that an output cannot be written at all.
 pub fn apart(outputs: &[&Path], inputs: &[Role]) -> Result<(), OutputError> {
     let mut seen: Vec<(&Path, _)> = Vec::new();
     for &output in outputs {
         let this = identity(&behind(output)?);
         if let Some((first, _)) = seen.iter().find(|(_, other)| *other == this) {
-            return Err(OutputError::Twice((*first).to_owned(), output.to_owned()));
+            let reason = format!(
+                "and {} are the same file: give each output a name of its own",
+                output.display()
+            );
+            return Err(OutputError::Refused((*first).to_owned(), reason));
         }
         if let Some((role, input)) = inputs.iter().find(|(_, input)| identity(input) == this) {
-            return Err(OutputError::Input {
-                output: output.to_owned(),
-                role,
-                input: input.clone(),
-            });
+            let other = Some(input).filter(|input| *input != output);
+            let other = other.map_or(String::new(), |input| format!(" as {}", input.display()));
+            let reason =
+                format!("is {role} that this command reads{other}: give the output another name");
+            return Err(OutputError::Refused(output.to_owned(), reason));
         }
         seen.push((output, this));
     }
@@ -199,7 +203,7 @@ impl Ending {
     /// Refuses a name with the ending of another format; a name without one is accepted.
     ///
     /// # Errors
-    /// [`OutputError::Ending`].
+    /// [`OutputError::Refused`].
     pub fn check(self, path: &Path) -> Result<(), OutputError> {
         let Some(found) = path.extension() else {
             return Ok(());
@@ -209,11 +213,8 @@ impl Ending {
         if self.1.iter().any(is) {
             return Ok(());
         }
-        Err(OutputError::Ending {
-            path: path.to_owned(),
-            format: self.0,
-            allowed: self.1,
-            found: found.into_owned(),
-        })
+        let (format, allowed) = (self.0, self.1.join(" or ."));
+        let reason = format!("is to be {format}: its name ends with .{allowed}, not with .{found}");
+        Err(OutputError::Refused(path.to_owned(), reason))
     }
 }

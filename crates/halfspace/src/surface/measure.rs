@@ -29,14 +29,12 @@ pub(super) struct Measure {
 /// x^2 = 1 + (K - 1) sin^2(angle); `panels` are the ends of the panels in angles from 0 to pi/2.
 #[must_use]
 pub fn surface_measure(medium: &Medium, panels: [&[f64]; 2], nodes: usize) -> Vec<(f64, f64)> {
-    let mut found = vec![];
-    for (zone, ends) in [Zone::Fast, Zone::Slow].into_iter().zip(panels) {
-        for pair in ends.windows(2) {
-            found.extend(points(medium, zone, [pair[0], pair[1]], nodes));
-        }
-    }
-    found.push(rayleigh(medium));
-    found
+    let zones = [Zone::Fast, Zone::Slow].into_iter().zip(panels);
+    let found = zones.flat_map(|(zone, ends)| {
+        let panels = ends.windows(2);
+        panels.flat_map(move |pair| points(medium, zone, [pair[0], pair[1]], nodes))
+    });
+    found.chain([rayleigh(medium)]).collect()
 }
 
 /// Slowness and mass of Rayleigh's wave.

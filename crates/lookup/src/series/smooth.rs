@@ -17,41 +17,32 @@ pub const BEYOND: usize = 2;
 
 /// Weights of five cell means for the slope and the curvature in cell 0, 1 and 2 of the five: exact for
 /// polynomials of fourth degree, of which they take the Legendre components of first and second degree.
-const SLOPE: [[f64; REACH]; 3] = [
+const SLOPE: [[f64; REACH]; 3] = parts_of(
     [
-        -49.0 / 24.0,
-        77.0 / 20.0,
-        -14.0 / 5.0,
-        73.0 / 60.0,
-        -9.0 / 40.0,
+        [-245, 462, -336, 146, -27],
+        [-27, -110, 192, -66, 11],
+        [11, -82, 0, 82, -11],
     ],
-    [
-        -9.0 / 40.0,
-        -11.0 / 12.0,
-        8.0 / 5.0,
-        -11.0 / 20.0,
-        11.0 / 120.0,
-    ],
-    [11.0 / 120.0, -41.0 / 60.0, 0.0, 41.0 / 60.0, -11.0 / 120.0],
-];
+    120.0,
+);
 /// See [`SLOPE`].
-const CURVATURE: [[f64; REACH]; 3] = [
+const CURVATURE: [[f64; REACH]; 3] = parts_of(
     [
-        81.0 / 28.0,
-        -60.0 / 7.0,
-        131.0 / 14.0,
-        -32.0 / 7.0,
-        25.0 / 28.0,
+        [81, -240, 262, -128, 25],
+        [25, -44, 10, 12, -3],
+        [-3, 40, -74, 40, -3],
     ],
-    [25.0 / 28.0, -11.0 / 7.0, 5.0 / 14.0, 3.0 / 7.0, -3.0 / 28.0],
-    [
-        -3.0 / 28.0,
-        10.0 / 7.0,
-        -37.0 / 14.0,
-        10.0 / 7.0,
-        -3.0 / 28.0,
-    ],
-];
+    28.0,
+);
+
+const fn parts_of(rows: [[i32; REACH]; 3], whole: f64) -> [[f64; REACH]; 3] {
+    let (mut parts, mut i) = ([[0.0; REACH]; 3], 0);
+    while i < 3 * REACH {
+        parts[i / REACH][i % REACH] = rows[i / REACH][i % REACH] as f64 / whole;
+        i += 1;
+    }
+    parts
+}
 
 /// Adds to `cells` what the moments of [`BEYOND`] cells more than those are worth under a smooth force.
 pub fn absorb(cells: &mut [Six], moments: &[Six], curvatures: &[Six]) {

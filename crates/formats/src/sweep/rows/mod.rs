@@ -30,7 +30,7 @@ use std::path::Path;
 /// Checks that a file of rows can have a name: HDF5 or, where it is built in, Parquet.
 ///
 /// # Errors
-/// [`OutputError::Ending`], [`OutputError::Unbuilt`].
+/// [`OutputError::Refused`], [`OutputError::Unbuilt`].
 pub fn check_rows(path: &Path) -> Result<(), OutputError> {
     ROWS.check(path)?;
     if PARQUET.is_of(path) && !cfg!(feature = "parquet") {
