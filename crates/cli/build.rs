@@ -18,7 +18,7 @@ fn main() {
     if let Ok(Some(folder)) = archives() {
         println!("cargo::rustc-link-search=native={}", folder.display());
         for library in NEEDED {
-            println!("cargo::rustc-link-arg-bins={library}");
+            println!("cargo::rustc-link-arg={library}");
         }
     }
 }
