@@ -1,5 +1,8 @@
 //! One contact: its model chosen, its scheme run. Single impacts, sweeps and charts all come through here.
 
+// the outer count is a solver's own: threads that count together wait for each other
+#![allow(clippy::redundant_allocation)]
+
 use crate::collision::Collision;
 use crate::disc::history::History;
 use crate::disc::refine::{
@@ -65,8 +68,7 @@ pub struct Solver<'a, S: Responses> {
     responses: &'a S,
     outcomes: Option<&'a Outcomes>,
     workspace: Workspace,
-    /// What was made last, with the bits of its Poisson's ratio; counted by this solver alone, since threads that count
-    /// together wait for each other.
+    /// What was made last, with the bits of its Poisson's ratio.
     disc: Option<(u64, Arc<Arc<S::Disc>>)>,
     waves: Option<(u64, Arc<Arc<PunchWaves>>)>,
     /// The contact solved last, where it was one that follows the load and was not marched.
