@@ -39,6 +39,8 @@ fn archives() -> Result<Option<PathBuf>, Box<dyn Error>> {
     };
     let folder = PathBuf::from(env::var("OUT_DIR")?);
     for name in ["libhdf5.a", "libhdf5_hl.a"] {
+        // never through a link that lies there
+        let _ = fs::remove_file(folder.join(name));
         fs::copy(format!("{found}/{name}"), folder.join(name))?;
     }
     let opens = folder.join("opens.c");
