@@ -39,9 +39,6 @@ pub(crate) fn quick(yielding: &Yielding, lag: f64) -> Option<(Summary, Flow)> {
     let top = depth.sqrt();
     let (back, from) = yielding.unloading(top);
     let own_lag = lag * from * from.sqrt();
-    if own_lag.is_nan() || own_lag > LARGEST_LAG {
-        return None;
-    }
     let fifth = from.powi(5);
     let ([speed, duration, pulled, stored], by) = match back {
         Branch::Truncated { edge, top } => (fall_of_cut(edge / top, own_lag)?, 1.0),
@@ -73,10 +70,8 @@ pub(crate) fn quick(yielding: &Yielding, lag: f64) -> Option<(Summary, Flow)> {
 /// once.
 fn turned_on_line(edge: f64, lag: f64, v0: f64) -> Option<([f64; 3], [f64; 2])> {
     let stiffness = 1.5 * edge;
-    let (square, damping) = (
-        INVERSE_MASS * stiffness,
-        0.5 * INVERSE_MASS * lag * stiffness * stiffness,
-    );
+    let square = INVERSE_MASS * stiffness;
+    let damping = 0.5 * lag * stiffness * square;
     let frequency = (square - damping * damping).sqrt();
     // place and size of the extremum of a damped oscillation with a value and a slope
     let extremum = |value: f64, slope: f64| {
@@ -171,9 +166,8 @@ fn extrapolated<const N: usize>(
 fn rise(edge: f64, lag: f64) -> Option<(f64, f64, f64)> {
     static COLUMNS: OnceLock<[[f64; NODES]; NODES]> = OnceLock::new();
     let rule = Nodes::of(NODES);
-    let weight = |j, i| rule.integral_row(i + 1)[j];
-    let columns =
-        COLUMNS.get_or_init(|| std::array::from_fn(|j| std::array::from_fn(|i| weight(j, i))));
+    let column = |j| std::array::from_fn(|i| rule.integral_row(i + 1)[j]);
+    let columns = COLUMNS.get_or_init(|| std::array::from_fn(column));
     let (mut from, mut time, mut lost) = (0.0, 0.0, 0.0);
     let factor = 11.25 * lag;
     while from < edge {
@@ -181,21 +175,17 @@ fn rise(edge: f64, lag: f64) -> Option<(f64, f64, f64)> {
         let width = to - from;
         let x: [f64; NODES] = std::array::from_fn(|i| from + width * rule.places[i + 1]);
         let rest = x.map(|x| 1.0 - x * x * x * x * x - factor * lost);
-        let mut v = rest.map(f64::sqrt);
-        let mut before = 1.0;
+        let (mut v, mut before) = (rest.map(f64::sqrt), 1.0);
         for _ in 0..ITERATIONS {
             let lost: [f64; NODES] = std::array::from_fn(|j| factor * width * x[j].powi(3) * v[j]);
             let mut square = rest;
             for (weights, lost) in columns.iter().zip(lost) {
-                for (square, weight) in square.iter_mut().zip(weights) {
-                    *square -= lost * weight;
-                }
+                let each = square.iter_mut().zip(weights);
+                each.for_each(|(square, weight)| *square -= lost * weight);
             }
             let next = square.map(f64::sqrt);
-            let change = next
-                .iter()
-                .zip(v)
-                .fold(0.0_f64, |most, (x, y)| most.max((x - y).abs()));
+            let changes = next.iter().zip(v).map(|(x, y)| (x - y).abs());
+            let change = changes.fold(0.0, f64::max);
             v = next;
             // what the next iteration would change
             if change * change < 1e-12 * before {
@@ -240,7 +230,7 @@ fn fall(lag: f64) -> Option<[f64; 4]> {
         Series::through([1, TERMS], LEAST, at)
     });
     let x = 2.0 * lag / LARGEST_LAG - 1.0;
-    Some(made.as_ref()?.at([0.0, x]))
+    Some(made.as_ref().filter(|_| lag <= LARGEST_LAG)?.at([0.0, x]))
 }
 
 /// The same of the unloading of a cut pressure, by the radius at yield; nothing beyond the series.
