@@ -12,8 +12,13 @@ use std::process::{Command, Stdio};
 /// The libraries of HDF5's filters, and those of the system.
 const NEEDED: [&str; 4] = ["-lsz", "-lz", "-ldl", "-lm"];
 
+/// What the crate `hdf5-sys` and `pkg-config` go by.
+const ASKED: &str = "HDF5_DIR HDF5_NO_PKG_CONFIG PKG_CONFIG PKG_CONFIG_PATH PKG_CONFIG_LIBDIR";
+
 fn main() {
-    println!("cargo::rerun-if-env-changed=HDF5_DIR");
+    for name in ASKED.split(' ') {
+        println!("cargo::rerun-if-env-changed={name}");
+    }
     // a folder with the archives alone: the linker takes them where it finds no shared library first
     if let Ok(Some(folder)) = archives() {
         println!("cargo::rustc-link-search=native={}", folder.display());
@@ -30,6 +35,9 @@ fn archives() -> Result<Option<PathBuf>, Box<dyn Error>> {
     if is_bundled || !target.ends_with("-linux-gnu") || env::var("HOST")? != target {
         return Ok(None);
     }
+    if env::var_os("HDF5_NO_PKG_CONFIG").is_some() || env::var_os("PKG_CONFIG").is_some() {
+        return Ok(None);
+    }
     let found = if let Ok(prefix) = env::var("HDF5_DIR") {
         format!("{prefix}/lib")
     } else {
@@ -42,22 +50,13 @@ fn archives() -> Result<Option<PathBuf>, Box<dyn Error>> {
         // never through a link that lies there
         let _ = fs::remove_file(folder.join(name));
         fs::copy(format!("{found}/{name}"), folder.join(name))?;
+        println!("cargo::rerun-if-changed={found}/{name}");
     }
-    let opens = folder.join("opens.c");
-    fs::write(
-        &opens,
-        "int H5open(void); int main(void) { return H5open(); }\n",
-    )?;
+    let opens = "int H5open(void); int main(void) { return H5open(); }\n";
+    fs::write(folder.join("opens.c"), opens)?;
     let mut linker = Command::new("cc");
-    linker
-        .arg("-L")
-        .arg(&folder)
-        .arg(&opens)
-        .arg("-o")
-        .arg(folder.join("opens"));
-    linker
-        .args(["-lhdf5_hl", "-lhdf5"])
-        .args(NEEDED)
-        .stderr(Stdio::null());
-    Ok(linker.status()?.success().then_some(folder))
+    linker.current_dir(&folder).stderr(Stdio::null());
+    linker.args(["opens.c", "-o", "opens", "-L.", "-lhdf5_hl", "-lhdf5"]);
+    let status = linker.args(NEEDED).status()?;
+    Ok(status.success().then_some(folder))
 }

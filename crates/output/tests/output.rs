@@ -166,6 +166,7 @@ fn outputs_are_no_inputs_and_differ_from_each_other() {
     }
     let twice = apart(&[&at("new.h5"), &at("deep/../new.h5")], &[]).unwrap_err();
     assert!(matches!(twice, OutputError::Refused(..)), "{twice}");
+    assert!(twice.to_string().contains("are the same file"), "{twice}");
     apart(&[&at("new.h5"), &at("deep/new.h5")], &scene).unwrap();
 }
 

@@ -7,7 +7,7 @@ use crate::grid::Grid;
 use crate::journal::title;
 use crate::known::Known;
 use crate::progress::Progress;
-use lookup::Table;
+use lookup::{BadTable, Table};
 use output::{Existing, Output};
 use std::path::Path;
 use std::time::Instant;
@@ -43,6 +43,14 @@ pub fn extend(
     let output = Output::claim(path, Existing::Replace)?;
     let content = Table::open(path)?.into_content();
     let base = lookup::content_hash(&content);
+    let stated = lookup::stated_hash(path)?;
+    if stated != base {
+        let differs = BadTable::Checksum {
+            stated,
+            found: base,
+        };
+        return Err(differs.of(path).into());
+    }
     let present = content.origin.grid.clone();
     let mut grid = Grid::of(&content).map_err(|error| error.in_file(path))?;
     let known = Known::new(content);

@@ -340,10 +340,11 @@ fn shards_make_the_same_table_and_gaps_are_named() {
     let mixed = [shards[0].clone(), stranger];
     assert!(matches!(
         merge(&mixed, &joined, Existing::Replace, &Silent),
-        Err(BuildError::Refused { file: Some(file), .. }) if file == mixed[1]
+        Err(BuildError::Refused { file: Some(file), sentence })
+            if file == mixed[1] && sentence.contains("other settings")
     ));
     assert!(matches!(
         merge(&[whole], &joined, Existing::Replace, &Silent),
-        Err(BuildError::Refused { file: Some(_), .. })
+        Err(BuildError::Refused { sentence, .. }) if sentence.contains("is not a shard")
     ));
 }

@@ -17,6 +17,8 @@ fn what_is_written_is_read() {
     let path = written(&folder);
     let back = read(&path).unwrap();
     assert_eq!(back, content());
+    let stated = lookup::stated_hash(&path).unwrap();
+    assert_eq!(stated, content_hash(&back));
     assert!(lookup::holds(&path, &back).unwrap());
     let mut other = back;
     other.slices[0].tail[3] += 1.0;
