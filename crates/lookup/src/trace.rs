@@ -3,12 +3,13 @@
 use crate::content::{FIELDS, Slice};
 use crate::error::LookupError;
 use crate::ratio;
-use crate::series::gather::{gather, nodes};
+use crate::series::gather::{Rows, nodes};
 use crate::series::smooth;
 use crate::series::stencil::Stencil;
 use crate::series::{Moments, Numbers, Series, Smoothness};
 use crate::table::Table;
 use halfspace::{Medium, Profile, Six};
+use pulp::Arch;
 
 /// Largest coarsening: a cell of 2^20 table cells.
 const MAX_COARSENING: u32 = 20;
@@ -197,8 +198,12 @@ impl Plan<'_> {
             let mut sums = vec![0.0; FIELDS * used];
             for &(index, weight) in &self.slices {
                 let nodes: Vec<_> = nodes(across, down, content.z.len(), weight).collect();
-                let values = values(&content.slices[index]);
-                gather(values, length, &nodes, used, &mut sums);
+                Arch::new().dispatch(Rows {
+                    values: values(&content.slices[index]),
+                    length,
+                    nodes: &nodes,
+                    sums: &mut sums,
+                });
             }
             sums
         };

@@ -3,7 +3,7 @@
 use crate::content::FIELDS;
 use crate::series::stencil::Stencil;
 use halfspace::Field;
-use pulp::{Arch, Simd, WithSimd};
+use pulp::{Simd, WithSimd};
 
 /// Rows of numbers that are added at a time, so that the sums are loaded and stored an eighth as often.
 const ROWS: usize = 8;
@@ -27,40 +27,14 @@ pub(crate) fn nodes(
     })
 }
 
-/// Adds the first `used` of `length` numbers of each field of the nodes to `sums`, of shape (field, used).
-pub(crate) fn gather(
-    values: &[f32],
-    length: usize,
-    nodes: &[(usize, [f64; 2])],
-    used: usize,
-    sums: &mut [f64],
-) {
-    if used == 0 {
-        return;
-    }
-    for group in nodes.chunks(ROWS) {
-        for (field, sums) in sums.chunks_exact_mut(used).enumerate() {
-            // a group that is not full is filled with its first node at no weight
-            let node = |slot: usize| group.get(slot).unwrap_or(&group[0]);
-            let start = |slot| (node(slot).0 * FIELDS + field) * length;
-            let weight = |slot: usize| match group.get(slot) {
-                Some((_, weights)) => weights[usize::from(ODD[field])],
-                None => 0.0,
-            };
-            Arch::new().dispatch(Rows {
-                weights: std::array::from_fn(weight),
-                rows: std::array::from_fn(|slot| &values[start(slot)..][..used]),
-                sums,
-            });
-        }
-    }
-}
-
-/// Weighted rows to be added to sums in vector registers; the same bits on every machine.
-struct Rows<'a> {
-    weights: [f64; ROWS],
-    rows: [&'a [f32]; ROWS],
-    sums: &'a mut [f64],
+/// What is added of the nodes: the first numbers of each field, in vector registers; the same bits on every machine.
+pub(crate) struct Rows<'a> {
+    /// Of all nodes, `length` for each field.
+    pub(crate) values: &'a [f32],
+    pub(crate) length: usize,
+    pub(crate) nodes: &'a [(usize, [f64; 2])],
+    /// Of shape (field, time).
+    pub(crate) sums: &'a mut [f64],
 }
 
 impl WithSimd for Rows<'_> {
@@ -68,16 +42,25 @@ impl WithSimd for Rows<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let Self {
-            weights,
-            rows,
-            sums,
-        } = self;
-        let rows = rows.map(|row| &row[..sums.len()]);
-        for (t, sum) in sums.iter_mut().enumerate() {
-            let [a, b, c, d, e, f, g, h]: [f64; ROWS] =
-                std::array::from_fn(|i| weights[i] * f64::from(rows[i][t]));
-            *sum += ((a + b) + (c + d)) + ((e + f) + (g + h));
+        let used = (self.sums.len() / FIELDS).max(1);
+        for group in self.nodes.chunks(ROWS) {
+            for (field, sums) in self.sums.chunks_exact_mut(used).enumerate() {
+                // a group that is not full is filled with its first node at no weight
+                let node = |slot: usize| group.get(slot).unwrap_or(&group[0]);
+                let start = |slot| (node(slot).0 * FIELDS + field) * self.length;
+                let weight = |slot: usize| match group.get(slot) {
+                    Some((_, weights)) => weights[usize::from(ODD[field])],
+                    None => 0.0,
+                };
+                let weights: [f64; ROWS] = std::array::from_fn(weight);
+                let rows: [_; ROWS] =
+                    std::array::from_fn(|slot| &self.values[start(slot)..][..sums.len()]);
+                for (t, sum) in sums.iter_mut().enumerate() {
+                    let [a, b, c, d, e, f, g, h]: [f64; ROWS] =
+                        std::array::from_fn(|i| weights[i] * f64::from(rows[i][t]));
+                    *sum += ((a + b) + (c + d)) + ((e + f) + (g + h));
+                }
+            }
         }
     }
 }

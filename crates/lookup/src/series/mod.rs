@@ -11,6 +11,7 @@ use crate::content::FIELDS;
 use crate::series::tail::Tail;
 use halfspace::Six;
 use pulp::{Arch, Simd, WithSimd};
+use std::iter;
 
 /// What is assumed of the force between samples one cell apart.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -106,14 +107,14 @@ impl Series {
 
     /// Fills `cells` with averages over 2^`coarsening` table cells, corrected as `smoothness` says.
     pub fn fill(&self, smoothness: Smoothness, coarsening: u32, cells: &mut [Six]) {
-        let part = f64::from(coarsening).exp2();
+        let (part, count) = (f64::from(coarsening).exp2(), cells.len());
         match smoothness {
             Smoothness::Linear => {
-                self.for_each_cell::<1>(part, cells.len(), |j, [average]| cells[j] = average);
+                let keep = |j: usize, [average]: [Six; 1]| cells[j] = average;
+                self.dispatch(part, count, keep);
             }
             Smoothness::Smooth => {
-                let count = cells.len() + smooth::BEYOND;
-                let moments = self.moments(part * self.width, count);
+                let moments = self.moments(part * self.width, count + smooth::BEYOND);
                 cells.copy_from_slice(&moments.absorbed());
             }
         }
@@ -136,24 +137,27 @@ impl Series {
         } else {
             part
         };
-        /// In vector registers; the same bits on every machine.
-        struct Work<'a>(&'a Series, f64, usize);
-        impl WithSimd for Work<'_> {
-            type Output = Moments;
+        let mut found = Moments::zero(count);
+        self.dispatch(part, count, |j, [average, first, second]| {
+            found.averages[j] = average;
+            found.first[j] = first;
+            found.second[j] = second;
+        });
+        found
+    }
+
+    /// [`Self::for_each_cell`] in vector registers; the same bits on every machine.
+    fn dispatch<const N: usize>(&self, part: f64, count: usize, keep: impl FnMut(usize, [Six; N])) {
+        struct Work<'a, F, const N: usize>(&'a Series, f64, usize, F);
+        impl<F: FnMut(usize, [Six; N]), const N: usize> WithSimd for Work<'_, F, N> {
+            type Output = ();
 
             #[inline(always)]
-            fn with_simd<S: Simd>(self, _: S) -> Moments {
-                let Self(series, part, count) = self;
-                let mut found = Moments::zero(count);
-                series.for_each_cell(part, count, |j, [average, first, second]| {
-                    found.averages[j] = average;
-                    found.first[j] = first;
-                    found.second[j] = second;
-                });
-                found
+            fn with_simd<S: Simd>(self, _: S) {
+                self.0.for_each_cell(self.1, self.2, self.3);
             }
         }
-        Arch::new().dispatch(Work(self, part, count))
+        Arch::new().dispatch(Work(self, part, count, keep));
     }
 
     /// Tells `keep` the first `N` numbers of each of `count` cells that are `part` table cells wide.
@@ -165,17 +169,31 @@ impl Series {
         mut keep: impl FnMut(usize, [Six; N]),
     ) {
         let stored = self.cells[0].len() as f64;
-        // the tail's integral where the cell before ended
-        let mut near = None;
+        let ends = |j: usize| [j as f64 * part, (j + 1) as f64 * part];
+        // after the last arrival R is smooth: differences of thirds
+        let thirds: &[f64] = if N > 1 { &[1.0, 2.0, 3.0] } else { &[3.0] };
+        let edge = |j: usize, i: f64| {
+            let [from, to] = ends(j);
+            let start = from.max(stored);
+            (start + (to - start) * i / 3.0) * self.width
+        };
+        let first = (0..count).position(|j| ends(j)[1] > stored);
+        let first = first.unwrap_or(count);
+        let others = (first..count).flat_map(|j| thirds.iter().map(move |&i| edge(j, i)));
+        let edges: Vec<f64> = iter::once(edge(first, 0.0)).chain(others).collect();
+        let integrals = self.tail.integrals(&edges);
         for j in 0..count {
-            let (from, to) = (j as f64 * part, (j + 1) as f64 * part);
+            let [from, to] = ends(j);
+            if part == 1.0 && to <= stored {
+                keep(j, std::array::from_fn(|i| self.cells[i][j]));
+                continue;
+            }
             let mut sums = [[0.0; FIELDS]; N];
             let (width, centre) = (to - from, 0.5 * (from + to));
             let mut start = from;
             while start < to.min(stored) {
                 let k = start as usize;
-                let edge = (k + 1) as f64;
-                let end = to.min(edge);
+                let end = to.min((k + 1) as f64);
                 let place = [
                     (0.5 * (start + end) - centre) / width,
                     (end - start) / width,
@@ -190,28 +208,23 @@ impl Series {
                 start = end;
             }
             if to > stored {
-                // after the last arrival R is smooth: differences of thirds
                 let start = from.max(stored);
-                let edge = |i: f64| (start + (to - start) * i / 3.0) * self.width;
-                let at = |i: f64| self.tail.integral(edge(i));
-                let begun = near.unwrap_or_else(|| at(0.0));
-                let ended = at(3.0);
+                let at = &integrals[(j - first) * thirds.len()..];
                 let over = |[from, to]: [&Six; 2], [start, end]: [f64; 2]| -> Six {
-                    let duration = edge(end) - edge(start);
+                    let duration = edge(j, end) - edge(j, start);
                     std::array::from_fn(|f| self.tail.average(from[f] - to[f], duration))
                 };
                 let mut own = [[0.0; FIELDS]; N];
-                let (duration, nominal) = (edge(3.0) - edge(0.0), (to - start) * self.width);
-                own[0] = over([&begun, &ended], [0.0, 3.0]).map(|a| a * duration / nominal);
+                let duration = edge(j, 3.0) - edge(j, 0.0);
+                let nominal = (to - start) * self.width;
+                let whole = over([&at[0], &at[thirds.len()]], [0.0, 3.0]);
+                own[0] = whole.map(|a| a * duration / nominal);
                 if N > 1 {
-                    let (second, third) = (at(1.0), at(2.0));
-                    let a = over([&begun, &second], [0.0, 1.0]);
-                    let b = over([&second, &third], [1.0, 2.0]);
-                    let c = over([&third, &ended], [2.0, 3.0]);
+                    let [a, b, c] =
+                        [0, 1, 2].map(|i| over([&at[i], &at[i + 1]], [i as f64, (i + 1) as f64]));
                     own[1] = std::array::from_fn(|f| (c[f] - a[f]) / 8.0);
                     own[2] = std::array::from_fn(|f| (a[f] - 2.0 * b[f] + c[f]) / 40.0);
                 }
-                near = Some(ended);
                 let place = [(0.5 * (start + to) - centre) / width, (to - start) / width];
                 add(place, &own, &mut sums);
             }

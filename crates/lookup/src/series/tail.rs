@@ -5,6 +5,9 @@
 use crate::content::FIELDS;
 use halfspace::Six;
 
+/// Times at which a series is summed side by side.
+const LANES: usize = 8;
+
 /// Series of the remainder after the end of the cells, R(t) = u^2 g(u) with u = `t_end`/t in (0, 1], of all fields.
 ///
 /// ```text
@@ -41,16 +44,29 @@ impl Tail {
         }
     }
 
-    /// G at time `t`.
+    /// G at some times, eight of them side by side.
     #[inline(always)]
-    pub(super) fn integral(&self, t: f64) -> Six {
-        let x = 2.0 * (self.time_end / t) - 1.0;
-        let (mut b1, mut b2): (Six, Six) = ([0.0; 6], [0.0; 6]);
-        for c in self.terms[1..].iter().rev() {
-            let next = std::array::from_fn(|f| 2.0 * x * b1[f] - b2[f] + c[f]);
-            (b1, b2) = (next, b1);
+    pub(super) fn integrals(&self, times: &[f64]) -> Vec<Six> {
+        let mut found = vec![Six::default(); times.len()];
+        for (found, times) in found.chunks_mut(LANES).zip(times.chunks(LANES)) {
+            let time = |i| times.get(i).unwrap_or(&self.time_end);
+            let x: [f64; LANES] = std::array::from_fn(|i| 2.0 * (self.time_end / time(i)) - 1.0);
+            for f in 0..FIELDS {
+                let ([mut b1, mut b2], mut sum) = ([[0.0; LANES]; 2], [0.0; LANES]);
+                for c in self.terms[1..].iter().rev() {
+                    for i in 0..LANES {
+                        (b1[i], b2[i]) = (2.0 * x[i] * b1[i] - b2[i] + c[f], b1[i]);
+                    }
+                }
+                for i in 0..LANES {
+                    sum[i] = x[i] * b1[i] - b2[i] + self.terms[0][f];
+                }
+                for (found, sum) in found.iter_mut().zip(sum) {
+                    found[f] = sum;
+                }
+            }
         }
-        std::array::from_fn(|f| x * b1[f] - b2[f] + self.terms[0][f])
+        found
     }
 
     /// The average of R over a time that long, between whose ends G differs by `difference`.
@@ -76,7 +92,8 @@ mod tests {
     use super::*;
 
     fn average(tail: &Tail, from: f64, to: f64) -> Six {
-        let (near, far) = (tail.integral(from), tail.integral(to));
+        let ends = tail.integrals(&[from, to]);
+        let (near, far) = (ends[0], ends[1]);
         std::array::from_fn(|f| tail.average(near[f] - far[f], to - from))
     }
 
