@@ -235,7 +235,7 @@ impl Excitation {
     pub fn force_n(&self, time_s: f64) -> f64 {
         match &self.force {
             Force::Contact { samples, units, .. } => {
-                samples.force(time_s / units.time_s)[0] * units.force_n
+                samples.force_alone(time_s / units.time_s) * units.force_n
             }
             Force::Record(record) => record.at(time_s),
         }

@@ -102,9 +102,9 @@ impl Part {
         /// Parts are halved no more once there are so many.
         const MOST: usize = 16;
         let (middle, half) = (0.5 * (roots[0] + roots[1]), 0.5 * (roots[1] - roots[0]));
-        let angle = |i: usize| PI * (i as f64 + 0.5) / DEGREE as f64;
+        let cosines = &*COSINES;
         let values: [[f64; 2]; DEGREE] = std::array::from_fn(|i| {
-            let x = middle + half * angle(i).cos();
+            let x = middle + half * cosines[1][i];
             force(if forward {
                 origin_s + x * x
             } else {
@@ -112,10 +112,8 @@ impl Part {
             })
         });
         let term = |k: usize, j: usize| {
-            let terms = values.iter().enumerate();
-            let sum: f64 = terms
-                .map(|(i, value)| value[k] * (j as f64 * angle(i)).cos())
-                .sum();
+            let terms = values.iter().zip(cosines[j]);
+            let sum: f64 = terms.map(|(value, cosine)| value[k] * cosine).sum();
             2.0 * sum / DEGREE as f64
         };
         let left = |k| term(k, DEGREE - 1).abs() + term(k, DEGREE - 2).abs();
@@ -206,6 +204,12 @@ impl Part {
         }
     }
 }
+
+/// Chebyshev's polynomials, each at the nodes of the series.
+static COSINES: LazyLock<[[f64; DEGREE]; DEGREE]> = LazyLock::new(|| {
+    let angle = |i: usize| PI * (i as f64 + 0.5) / DEGREE as f64;
+    std::array::from_fn(|j| std::array::from_fn(|i| (j as f64 * angle(i)).cos()))
+});
 
 /// Gauss's rule on [-1, 1] in the angle: exact beside roots at both ends.
 static RULE: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| {

@@ -3,7 +3,13 @@
 use halfspace::Six;
 use num_complex::Complex;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
+use std::cell::RefCell;
 use std::sync::Arc;
+
+thread_local! {
+    /// Plans of the sizes that a thread has met: making one takes as long as using it.
+    static PLANNER: RefCell<RealFftPlanner<f64>> = RefCell::new(RealFftPlanner::new());
+}
 
 /// The force's increments in the frequency domain with the plans that brought them there.
 pub(crate) struct Transform {
@@ -15,13 +21,12 @@ pub(crate) struct Transform {
 
 impl Transform {
     pub(crate) fn new(rise: &[f64], size: usize) -> Self {
-        let mut planner = RealFftPlanner::<f64>::new();
-        let mut transform = Self {
+        let mut transform = PLANNER.with_borrow_mut(|planner| Self {
             size,
             forward: planner.plan_fft_forward(size),
             backward: planner.plan_fft_inverse(size),
             load: Vec::new(),
-        };
+        });
         transform.load = transform.spectrum(rise.iter().copied());
         transform
     }
