@@ -8,8 +8,9 @@ mod progress;
 mod report;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+use clap_complete::{Shell, generate};
 use commands::{
-    chart, completions, demo, export, impact, infer, materials, paper, plot, sweep, table, tabulate,
+    chart, demo, export, impact, infer, materials, paper, plot, sweep, table, tabulate,
 };
 use std::process::ExitCode;
 use std::sync::atomic::Ordering;
@@ -55,7 +56,13 @@ enum Command {
     /// Lists and searches the materials library.
     Materials(materials::Arguments),
     /// Writes a completion script for a shell to standard output.
-    Completions(completions::Arguments),
+    #[command(
+        after_help = "Example:\n  hertzlamb completions bash > ~/.local/share/bash-completion/completions/hertzlamb"
+    )]
+    Completions {
+        /// The shell.
+        shell: Shell,
+    },
 }
 
 fn main() -> ExitCode {
@@ -75,12 +82,19 @@ fn main() -> ExitCode {
         Command::Table(arguments) => table::run(&arguments),
         Command::Chart(arguments) => chart::run(&arguments),
         Command::Materials(arguments) => materials::run(&arguments),
-        Command::Completions(arguments) => completions::run(&arguments),
+        Command::Completions { shell } => completions(shell),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => failure.report(),
     }
+}
+
+/// Writes a completion script.
+fn completions(shell: Shell) -> Result<(), failure::Failure> {
+    let mut script = Vec::new();
+    generate(shell, &mut Cli::command(), "hertzlamb", &mut script);
+    failure::print(String::from_utf8_lossy(&script).trim_end())
 }
 
 /// The command line; every command has the version, and the name, of the program.

@@ -5,8 +5,8 @@ use crate::failure::{Failure, print, say};
 use crate::progress::Bar;
 use clap::Args;
 use figure::to_svg;
-use formats::{Existing, parse_scene, write_results, write_whole};
-use impact::{Allowance, KernelChoice, simulate, simulate_within};
+use formats::{Existing, OutputError, parse_scene, write_results, write_whole};
+use impact::{Allowance, KernelChoice, Outcome, Scene, simulate, simulate_within};
 use paper::Numbers;
 use plot::{Request, compose};
 use std::path::{Path, PathBuf};
@@ -32,12 +32,9 @@ pub(crate) struct Arguments {
 
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let folder = &arguments.output;
-    std::fs::create_dir_all(folder).map_err(|error| {
-        Failure::input(format!(
-            "cannot make the folder {}: {error}",
-            folder.display()
-        ))
-    })?;
+    let shown = folder.display();
+    std::fs::create_dir_all(folder)
+        .map_err(|error| Failure::input(format!("cannot make the folder {shown}: {error}")))?;
     let table_path = folder.join("kernels.h5");
     make_table(&table_path)?;
     let table = open_table(&table_path)?;
@@ -47,14 +44,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let wall_s = start.elapsed().as_secs_f64();
     let found = Numbers::compute().map_err(Failure::in_part)?;
     let numbers = folder.join("numbers.txt");
-    write_whole(&numbers, Existing::Replace, |part| {
-        std::fs::write(part, found.text())
-    })?;
+    replace(&numbers, found.text())?;
     print(found.short())?;
 
     let results = folder.join("copper-on-steel.h5");
-    write_results(&results, &table_1, &coupled, Existing::Replace)?;
-    let picture = drawn(&results, folder.join("copper-on-steel.svg"))?;
+    let [results, picture] = kept(&table_1, &coupled, results)?;
     let probes = coupled.probes.as_ref();
     say(format!(
         "the coupled impact with its {} probes took {:.1} ms",
@@ -87,34 +81,31 @@ fn waves(folder: &Path) -> Result<[PathBuf; 2], Failure> {
     };
     let outcome = simulate_within(&scene, &KernelChoice::Direct, &allowance)?;
     drop(bar);
-    let results = folder.join("waves.vtkhdf");
-    write_results(&results, &scene, &outcome, Existing::Replace)?;
-    let picture = drawn(&results, folder.join("waves.svg"))?;
+    kept(&scene, &outcome, folder.join("waves.vtkhdf"))
+}
+
+/// Writes a results file, and beside it a picture as `hertzlamb plot` draws it; gives both.
+fn kept(scene: &Scene, outcome: &Outcome, results: PathBuf) -> Result<[PathBuf; 2], Failure> {
+    write_results(&results, scene, outcome, Existing::Replace)?;
+    let drawn = compose(std::slice::from_ref(&results), &Request::default())?;
+    let picture = results.with_extension("svg");
+    replace(&picture, to_svg(&drawn.figure).map_err(Failure::work)?)?;
     Ok([results, picture])
 }
 
-/// Draws a results file as `hertzlamb plot` does.
-fn drawn(results: &PathBuf, picture: PathBuf) -> Result<PathBuf, Failure> {
-    let drawn = compose(std::slice::from_ref(results), &Request::default())?;
-    let svg = to_svg(&drawn.figure).map_err(Failure::work)?;
-    write_whole(&picture, Existing::Replace, |part| {
-        std::fs::write(part, svg)
-    })?;
-    Ok(picture)
+fn replace(path: &Path, text: String) -> Result<(), OutputError> {
+    write_whole(path, Existing::Replace, |part| std::fs::write(part, text))
 }
 
 fn make_table(path: &Path) -> Result<(), Failure> {
     if path.exists() {
         return Ok(());
     }
-    say(format!(
-        "making the demo kernel table {} (once)",
-        path.display()
-    ));
+    let shown = path.display();
+    say(format!("making the demo kernel table {shown} (once)"));
     let summary = build(&Grid::demo(), path, &Bar::new())?;
-    say(format!(
-        "{} points in {:.1} s, {} bytes",
-        summary.points, summary.wall_s, summary.bytes
-    ));
+    let (points, bytes) = (summary.points, summary.bytes);
+    let took_s = summary.wall_s;
+    say(format!("{points} points in {took_s:.1} s, {bytes} bytes"));
     Ok(())
 }

@@ -1,7 +1,7 @@
 //! `hertzlamb impact`: one scene.
 
 use crate::arguments::{Kernels, MemoryLimit, Overwrite, say_complete};
-use crate::failure::{Failure, say, show};
+use crate::failure::{Failure, lines, say, show};
 use crate::progress::Bar;
 use crate::report::{text_report, understood};
 use clap::Args;
@@ -10,6 +10,7 @@ use impact::{Allowance, Forecast, ImpactError, KernelChoice, Scene, simulate_wit
 use output::{CSV, Existing, HDF5, Output, Role, Staged};
 use serde_json::json;
 use std::cell::Cell;
+use std::iter;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 use tabulator::Progress;
@@ -50,8 +51,7 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let start = Instant::now();
     let (scene, inputs) = read_with_inputs(&arguments.scene)?;
-    if arguments.skip_complete && is_complete(arguments, &scene)? {
-        let output = arguments.output.as_deref().unwrap_or(Path::new(""));
+    if let Some(output) = complete(arguments, &scene)? {
         return say_complete(output, arguments.json);
     }
     let [output, csv] = outputs(arguments, inputs)?;
@@ -74,14 +74,12 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let outcome = simulate_within(&scene, &kernels, &allowance)?;
     drop(progress);
     // all of them, or none where one fails
-    let mut staged = Vec::new();
-    if let Some(output) = &output {
-        staged.push(stage_results(output, &scene, &outcome)?);
-    }
-    if let Some(csv) = &csv {
-        staged.push(stage_results_csv(csv, &scene, &outcome)?);
-    }
-    staged.into_iter().try_for_each(Staged::commit)?;
+    let stage = |output| stage_results(output, &scene, &outcome);
+    let results = output.as_ref().map(stage).transpose()?;
+    let stage = |csv| stage_results_csv(csv, &scene, &outcome);
+    let text = csv.as_ref().map(stage).transpose()?;
+    let mut staged = results.into_iter().chain(text);
+    staged.try_for_each(Staged::commit)?;
     for warning in &outcome.warnings {
         say(format!("warning: {warning}"));
     }
@@ -113,19 +111,20 @@ fn dry_run(arguments: &Arguments, scene: &Scene, kernels: &KernelChoice) -> Resu
         "disk_bytes": forecast.disk_bytes,
         "threads": std::thread::available_parallelism().map_or(1, usize::from),
     });
-    let text = format!("{}\n{}", understood(scene), takes(&forecast));
+    let understood = lines([("impact", understood(scene))]);
+    let text = format!("{understood}\n{}", takes(&forecast));
     show(arguments.json, &plan, text)
 }
 
-/// Whether the output is there already, as this command would write it.
-fn is_complete(arguments: &Arguments, scene: &Scene) -> Result<bool, Failure> {
-    let there = |path: &&PathBuf| path.exists();
-    let Some(output) = arguments.output.as_ref().filter(there) else {
-        return Ok(false);
+/// The output that may stay and is there already, as this command would write it.
+fn complete<'a>(arguments: &'a Arguments, scene: &Scene) -> Result<Option<&'a Path>, Failure> {
+    let may_stay = |path: &&Path| arguments.skip_complete && path.exists();
+    let Some(output) = arguments.output.as_deref().filter(may_stay) else {
+        return Ok(None);
     };
     HDF5.check(output)?;
     // also removes what a killed run has left beside them
-    for path in [Some(output), arguments.csv.as_ref()].into_iter().flatten() {
+    for path in iter::once(output).chain(arguments.csv.as_deref()) {
         Output::claim(path, Existing::Replace)?;
     }
     let (direct, id) = arguments.kernels.allowed()?;
@@ -136,27 +135,24 @@ fn is_complete(arguments: &Arguments, scene: &Scene) -> Result<bool, Failure> {
             output.display(),
             csv.display()
         ))),
-        Some(_) | None => Ok(true),
+        Some(_) | None => Ok(Some(output)),
     }
 }
 
 /// The results file and the table as text, where they are asked for.
 fn outputs(arguments: &Arguments, mut read: Vec<Role>) -> Result<[Option<Output>; 2], Failure> {
-    let wanted = [(&arguments.output, HDF5), (&arguments.csv, CSV)];
-    read.extend(arguments.kernels.inputs());
-    let mut claimed = [None, None];
-    let mut refused = None;
-    // both, also where one is refused: claiming removes what a killed run has left beside it
-    for (place, (path, ending)) in claimed.iter_mut().zip(wanted) {
-        if let Some(path) = path {
-            match arguments.overwrite.claim(path, ending, &read) {
-                Ok(output) => *place = Some(output),
-                Err(why) => refused = refused.or(Some(why)),
-            }
+    read.extend(arguments.kernels.input());
+    let mut claim = |path: &Option<PathBuf>, ending| {
+        let claimed = path.as_ref().map(|path| {
+            let claimed = arguments.overwrite.claim(path, ending, &read);
             read.push(("another output", path.clone()));
-        }
-    }
-    refused.map_or(Ok(claimed), Err)
+            claimed
+        });
+        claimed.transpose()
+    };
+    // both, also where one is refused: claiming removes what a killed run has left beside it
+    let (output, csv) = (claim(&arguments.output, HDF5), claim(&arguments.csv, CSV));
+    Ok([output?, csv?])
 }
 
 /// Seconds from which on a scene says what it will take.

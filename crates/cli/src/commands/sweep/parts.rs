@@ -60,16 +60,11 @@ pub(crate) fn run(action: &Action) -> Result<(), Failure> {
             missing,
             json,
         } => {
-            let spec = sweep.as_deref().map(|path| {
-                let spec = Spec::from_file(path)?;
-                kernels.with_fields(spec)
-            });
-            let spec = spec.transpose()?;
+            let of_file = |path: &PathBuf| kernels.with_fields(Spec::from_file(path)?);
+            let spec = sweep.as_ref().map(of_file).transpose()?;
             let parts = Parts::in_folder(folder, spec.as_ref()).map_err(failure)?;
-            let shards = shards
-                .map(|count| count as usize)
-                .or_else(|| parts.shards());
-            status(&parts, shards, *missing, *json)
+            let shards = shards.map(|count| count as usize);
+            status(&parts, shards.or(parts.shards()), *missing, *json)
         }
         Action::Merge {
             folder,
@@ -84,19 +79,16 @@ pub(crate) fn run(action: &Action) -> Result<(), Failure> {
 fn status(parts: &Parts, shards: Option<usize>, list: bool, json: bool) -> Result<(), Failure> {
     let missing_shards = shards.map(|count| parts.missing_shards(count));
     if list {
-        let Some(missing) = &missing_shards else {
-            return Err(Failure::input(
-                "the parts do not say into how many shards the sweep is divided: give --shards N",
-            ));
-        };
-        return print(ranges(missing));
+        let unknown =
+            "the parts do not say into how many shards the sweep is divided: give --shards N";
+        let missing = missing_shards.ok_or_else(|| Failure::input(unknown))?;
+        return print(ranges(&missing));
     }
     let gaps = parts.missing();
     let rows = parts.sweep_rows - gaps.iter().map(ExactSizeIterator::len).sum::<usize>();
     let failed: usize = parts.parts.iter().map(|part| part.failed).sum();
     let overlap = parts.overlap().map(|error| error.to_string());
     let complete = gaps.is_empty() && overlap.is_none();
-    let foreign = parts.foreign.iter();
     let value = json!({
         "sweep_sha256": parts.sha256,
         "sweep_rows": parts.sweep_rows,
@@ -108,16 +100,11 @@ fn status(parts: &Parts, shards: Option<usize>, list: bool, json: bool) -> Resul
         "missing_rows": gaps.iter().map(|gap| json!([gap.start, gap.end])).collect::<Value>(),
         "missing_shards": missing_shards,
         "overlap": overlap,
-        "foreign": foreign
-            .map(|(path, reason)| json!({ "file": path.display().to_string(), "reason": reason }))
-            .collect::<Value>(),
+        "foreign": parts.foreign.iter().map(foreign).collect::<Value>(),
         "unfinished": parts.unfinished.iter().map(at_work).collect::<Value>(),
     });
-    let count = parts.parts.len();
-    let of_rows = format!(
-        "{count} with {rows} of {} rows, {failed} failed",
-        parts.sweep_rows
-    );
+    let (count, all) = (parts.parts.len(), parts.sweep_rows);
+    let of_rows = format!("{count} with {rows} of {all} rows, {failed} failed");
     let mut text = vec![("sweep", parts.sha256.clone()), ("parts", of_rows)];
     if let (Some(missing), Some(count)) = (missing_shards, shards)
         && !missing.is_empty()
@@ -132,14 +119,14 @@ fn status(parts: &Parts, shards: Option<usize>, list: bool, json: bool) -> Resul
         text.push(("missing", format!("{more} more ranges of rows")));
     }
     text.extend(overlap.map(|overlap| ("twice", overlap)));
-    let foreign = parts.foreign.iter();
-    text.extend(foreign.map(|(_, reason)| ("foreign", reason.clone())));
-    let unfinished = parts.unfinished.iter();
-    text.extend(unfinished.map(|run| {
+    for (_, reason) in &parts.foreign {
+        text.push(("foreign", reason.clone()));
+    }
+    for run in &parts.unfinished {
         let (file, rows) = (run.path.display(), run.rows.len());
         let keeps = format!("{file} keeps {} of {rows} rows", run.kept);
-        ("unfinished", keeps)
-    }));
+        text.push(("unfinished", keeps));
+    }
     let unsealed = parts.parts.iter().filter(|part| !part.sealed).count();
     if unsealed > 0 {
         let of_older = format!("{unsealed} parts of an older version: damage to them is not seen");
@@ -162,6 +149,11 @@ fn stored(part: &Part) -> Value {
     })
 }
 
+/// A file that is none of the parts.
+fn foreign((path, reason): &(PathBuf, String)) -> Value {
+    json!({ "file": path.display().to_string(), "reason": reason })
+}
+
 /// A run that is at work or was interrupted.
 fn at_work(run: &Unfinished) -> Value {
     json!({
@@ -177,21 +169,14 @@ const MOST_LINES: usize = 5;
 
 /// Ascending numbers as a Slurm array takes them.
 fn ranges(numbers: &[usize]) -> String {
-    let mut runs: Vec<(usize, usize)> = Vec::new();
-    for &number in numbers {
-        match runs.last_mut() {
-            Some((_, last)) if *last + 1 == number => *last = number,
-            _ => runs.push((number, number)),
-        }
-    }
-    let told = runs.iter().map(|&(first, last)| {
-        if first == last {
-            first.to_string()
-        } else {
-            format!("{first}-{last}")
-        }
-    });
-    told.collect::<Vec<_>>().join(",")
+    let runs = numbers.chunk_by(|before, next| before + 1 == *next);
+    let told: Vec<String> = runs
+        .map(|run| match run {
+            [first, .., last] => format!("{first}-{last}"),
+            one => format!("{}", one[0]),
+        })
+        .collect();
+    told.join(",")
 }
 
 fn merge(
@@ -205,27 +190,19 @@ fn merge(
     let claimed = overwrite.claim(output, ROWS, &[])?;
     let mut parts = Parts::in_folder(folder, None).map_err(failure)?;
     // with --force the output itself may be a merged sweep of before
-    let own = |path: &Path| path.canonicalize().ok() == claimed.real().canonicalize().ok();
-    if let Some(part) = parts
-        .parts
-        .iter()
-        .find(|part| claimed.real().exists() && own(&part.path))
-    {
+    let there = claimed.real().canonicalize().ok();
+    let is_there = |path: &Path| there.is_some() && path.canonicalize().ok() == there;
+    if let Some(part) = parts.parts.iter().find(|part| is_there(&part.path)) {
+        let part = part.path.display();
         return Err(Failure::input(format!(
-            "{} is a part that this command reads: give the output another name",
-            part.path.display()
+            "{part} is a part that this command reads: give the output another name"
         )));
     }
-    parts
-        .foreign
-        .retain(|(path, _)| !own(path) || !claimed.real().exists());
+    parts.foreign.retain(|(path, _)| !is_there(path));
     let staged = parts.merge(&claimed, refer);
     staged.map_err(failure)?.commit()?;
-    let empty = parts
-        .parts
-        .iter()
-        .filter(|part| part.selection.rows.is_empty());
-    let empty = empty.count();
+    let selections = parts.parts.iter().map(|part| &part.selection);
+    let empty = selections.filter(|some| some.rows.is_empty()).count();
     if empty > 0 {
         say(format!("note: {empty} parts have no rows"));
     }
