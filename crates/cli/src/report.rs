@@ -113,11 +113,8 @@ fn of_contact(r: &contact::Results) -> Vec<(&'static str, String)> {
 /// What was done to a record.
 fn treatment(done: &Treated) -> String {
     let baseline = done.baseline_s.map(|length_s| {
-        format!(
-            "baseline {}, the mean of the first {}, taken away",
-            si(done.baseline_n, "N"),
-            si(length_s, "s")
-        )
+        let (mean, length) = (si(done.baseline_n, "N"), si(length_s, "s"));
+        format!("baseline {mean}, the mean of the first {length}, taken away")
     });
     let low_pass = done.low_pass_hz.map(|cutoff_hz| {
         format!(

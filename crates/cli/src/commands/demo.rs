@@ -35,9 +35,16 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let shown = folder.display();
     std::fs::create_dir_all(folder)
         .map_err(|error| Failure::input(format!("cannot make the folder {shown}: {error}")))?;
-    let table_path = folder.join("kernels.h5");
-    make_table(&table_path)?;
-    let table = open_table(&table_path)?;
+    let table = folder.join("kernels.h5");
+    if !table.exists() {
+        let shown = table.display();
+        say(format!("making the demo kernel table {shown} (once)"));
+        let summary = build(&Grid::demo(), &table, &Bar::new())?;
+        let (points, bytes) = (summary.points, summary.bytes);
+        let took_s = summary.wall_s;
+        say(format!("{points} points in {took_s:.1} s, {bytes} bytes"));
+    }
+    let table = open_table(&table)?;
     let table_1 = parse_scene(SCENE, Path::new(".")).map_err(Failure::work)?;
     let start = Instant::now();
     let coupled = simulate(&table_1, &KernelChoice::Table(Arc::new(table)))?;
@@ -55,14 +62,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         probes.map_or(0, |fields| fields.r_m.len()),
         1e3 * wall_s
     ));
-    let waves = waves(folder)?;
+    let [waves, drawn] = waves(folder)?;
+    let files = [&numbers, &results, &picture, &waves, &drawn];
+    let [numbers, results, picture, waves, drawn] = files.map(|path| path.display());
     print(format!(
-        "\nall numbers, with reasons  {}\nthe paper's impact         {}, {}\nwaves under a ball         {}, {}",
-        numbers.display(),
-        results.display(),
-        picture.display(),
-        waves[0].display(),
-        waves[1].display()
+        "\nall numbers, with reasons  {numbers}\nthe paper's impact         {results}, {picture}\nwaves under a ball         {waves}, {drawn}"
     ))
 }
 
@@ -95,17 +99,4 @@ fn kept(scene: &Scene, outcome: &Outcome, results: PathBuf) -> Result<[PathBuf; 
 
 fn replace(path: &Path, text: String) -> Result<(), OutputError> {
     write_whole(path, Existing::Replace, |part| std::fs::write(part, text))
-}
-
-fn make_table(path: &Path) -> Result<(), Failure> {
-    if path.exists() {
-        return Ok(());
-    }
-    let shown = path.display();
-    say(format!("making the demo kernel table {shown} (once)"));
-    let summary = build(&Grid::demo(), path, &Bar::new())?;
-    let (points, bytes) = (summary.points, summary.bytes);
-    let took_s = summary.wall_s;
-    say(format!("{points} points in {took_s:.1} s, {bytes} bytes"));
-    Ok(())
 }

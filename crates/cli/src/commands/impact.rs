@@ -6,7 +6,7 @@ use crate::progress::Bar;
 use crate::report::{text_report, understood};
 use clap::Args;
 use formats::{check_results, json_report, read_with_inputs, stage_results, stage_results_csv};
-use impact::{Allowance, Forecast, ImpactError, KernelChoice, Scene, simulate_within};
+use impact::{Allowance, Forecast, ImpactError, Scene, simulate_within};
 use output::{CSV, Existing, HDF5, Output, Role, Staged};
 use serde_json::json;
 use std::cell::Cell;
@@ -56,22 +56,23 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     let [output, csv] = outputs(arguments, inputs)?;
     let kernels = arguments.kernels.choice()?;
-    if arguments.dry_run {
-        return dry_run(arguments, &scene, &kernels);
-    }
-    let progress = Bar::after(PATIENCE);
+    let (forecast, progress) = (Cell::new(Forecast::least(&scene)), Bar::after(PATIENCE));
     let allowance = Allowance {
         memory_bytes: arguments.memory.bytes(),
-        go_on: &|forecast| {
-            if forecast.seconds > LONG_S {
-                say(takes(forecast));
+        go_on: &|found| {
+            forecast.set(*found);
+            if found.seconds > LONG_S && !arguments.dry_run {
+                say(takes(found));
             }
-            progress.total("fields", forecast.points as u64);
-            true
+            progress.total("fields", found.points as u64);
+            !arguments.dry_run
         },
         watch: &|| progress.advance(1),
     };
-    let outcome = simulate_within(&scene, &kernels, &allowance)?;
+    let outcome = match simulate_within(&scene, &kernels, &allowance) {
+        Err(ImpactError::GivenUp { .. }) => return plan(arguments, &scene, &forecast.get()),
+        found => found?,
+    };
     drop(progress);
     // all of them, or none where one fails
     let stage = |output| stage_results(output, &scene, &outcome);
@@ -88,21 +89,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 /// Says what a scene takes.
-fn dry_run(arguments: &Arguments, scene: &Scene, kernels: &KernelChoice) -> Result<(), Failure> {
-    let found = Cell::new(None);
-    let allowance = Allowance {
-        memory_bytes: arguments.memory.bytes(),
-        go_on: &|forecast| {
-            found.set(Some(*forecast));
-            false
-        },
-        ..Allowance::default()
-    };
-    match simulate_within(scene, kernels, &allowance) {
-        Ok(_) | Err(ImpactError::GivenUp { .. }) => {}
-        Err(error) => return Err(error.into()),
-    }
-    let forecast = found.get().unwrap_or(Forecast::least(scene));
+fn plan(arguments: &Arguments, scene: &Scene, forecast: &Forecast) -> Result<(), Failure> {
     let plan = json!({
         "points": forecast.points,
         "samples": forecast.samples,
@@ -112,7 +99,7 @@ fn dry_run(arguments: &Arguments, scene: &Scene, kernels: &KernelChoice) -> Resu
         "threads": std::thread::available_parallelism().map_or(1, usize::from),
     });
     let understood = lines([("impact", understood(scene))]);
-    let text = format!("{understood}\n{}", takes(&forecast));
+    let text = format!("{understood}\n{}", takes(forecast));
     show(arguments.json, &plan, text)
 }
 

@@ -108,7 +108,8 @@ fn range(text: &str) -> Result<Range<usize>, String> {
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let run = &arguments.run;
     match (&arguments.action, &run.sweep, &run.output) {
-        (Some(action), _, _) => parts::run(action),
+        (Some(Action::Status(arguments)), _, _) => parts::status(arguments),
+        (Some(Action::Merge(arguments)), _, _) => parts::merge(arguments),
         (None, Some(sweep), _) if run.plan => {
             plan::run(sweep, &spec(run, sweep)?, run.shards, run.json)
         }
@@ -227,15 +228,6 @@ fn spec(arguments: &Run, sweep: &Path) -> Result<Spec, Failure> {
     Ok(spec)
 }
 
-/// The rows that are asked for; nothing where they are the whole sweep in its own shape.
-fn selection(arguments: &Run, spec: &Spec) -> Result<Option<Selection>, Failure> {
-    if let Some(shard) = arguments.shard {
-        return Ok(Some(Selection::of_shard(shard, spec.rows(), &spec.fields)));
-    }
-    let of_rows = |rows: &Range<usize>| Selection::of_rows(rows.clone(), spec.rows());
-    Ok(arguments.rows.as_ref().map(of_rows).transpose()?)
-}
-
 /// Computes the rows; what is done is kept from moment to moment.
 fn rows(overwrite: Overwrite, spec: &Spec, outputs: &Outputs) -> Result<Option<Kept>, SweepError> {
     static KEPT: AtomicUsize = AtomicUsize::new(0);
@@ -286,7 +278,10 @@ impl Outputs {
         output: &Path,
         spec: &Spec,
     ) -> Result<Option<Self>, Failure> {
-        let selection = selection(arguments, spec)?;
+        let of_rows = |rows: &Range<usize>| Selection::of_rows(rows.clone(), spec.rows());
+        let of_rows = arguments.rows.as_ref().map(of_rows).transpose()?;
+        let of_shard = |shard| Selection::of_shard(shard, spec.rows(), &spec.fields);
+        let selection = arguments.shard.map(of_shard).or(of_rows);
         let print = arguments.csv.as_deref().is_some_and(is_standard);
         if print && arguments.json {
             return Err(Failure::input(

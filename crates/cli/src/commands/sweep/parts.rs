@@ -3,7 +3,7 @@
 use super::failure;
 use crate::arguments::{Kernels, Overwrite, check_rows};
 use crate::failure::{Failure, lines, print, say, show};
-use clap::Subcommand;
+use clap::{Args, Subcommand};
 use formats::parts::Parts;
 use formats::stored::Part;
 use formats::sweep::{Shard, Spec, Unfinished};
@@ -14,71 +14,56 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, Subcommand)]
 pub(crate) enum Action {
     /// Says which parts of a sweep a folder has, which are missing and what else lies there.
-    Status {
-        /// The folder of the parts.
-        folder: PathBuf,
-        /// The sweep file; that of most parts otherwise.
-        #[arg(long, value_name = "SWEEP.toml")]
-        sweep: Option<PathBuf>,
-        #[command(flatten)]
-        kernels: Kernels,
-        /// Into how many shards it is divided; as the parts say otherwise.
-        #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=Shard::MOST as i64))]
-        shards: Option<u32>,
-        /// Print the missing shards alone, as a Slurm array takes them: 3,17,40-42; an empty line for none.
-        #[arg(long, conflicts_with = "json")]
-        missing: bool,
-        /// Print one JSON object instead of text.
-        #[arg(long)]
-        json: bool,
-    },
+    Status(Status),
     /// Joins the parts of a sweep: byte by byte the file that one run would have written.
-    Merge {
-        /// The folder of the parts.
-        folder: PathBuf,
-        /// Results file: HDF5, or Parquet where the name ends with .parquet, whatever the parts are.
-        #[arg(short, long, value_name = "OUT")]
-        output: PathBuf,
-        /// Copy no results: the output (HDF5) refers to the parts (HDF5), which have to stay where they are, seen from it.
-        #[arg(long = "virtual")]
-        refer: bool,
-        #[command(flatten)]
-        overwrite: Overwrite,
-        /// Print one JSON object instead of text.
-        #[arg(long)]
-        json: bool,
-    },
+    Merge(Merge),
 }
 
-pub(crate) fn run(action: &Action) -> Result<(), Failure> {
-    match action {
-        Action::Status {
-            folder,
-            sweep,
-            kernels,
-            shards,
-            missing,
-            json,
-        } => {
-            let of_file = |path: &PathBuf| kernels.with_fields(Spec::from_file(path)?);
-            let spec = sweep.as_ref().map(of_file).transpose()?;
-            let parts = Parts::in_folder(folder, spec.as_ref()).map_err(failure)?;
-            let shards = shards.map(|count| count as usize);
-            status(&parts, shards.or(parts.shards()), *missing, *json)
-        }
-        Action::Merge {
-            folder,
-            output,
-            refer,
-            overwrite,
-            json,
-        } => merge(folder, output, *refer, *overwrite, *json),
-    }
+#[derive(Debug, Args)]
+pub(crate) struct Status {
+    /// The folder of the parts.
+    folder: PathBuf,
+    /// The sweep file; that of most parts otherwise.
+    #[arg(long, value_name = "SWEEP.toml")]
+    sweep: Option<PathBuf>,
+    #[command(flatten)]
+    kernels: Kernels,
+    /// Into how many shards it is divided; as the parts say otherwise.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=Shard::MOST as i64))]
+    shards: Option<u32>,
+    /// Print the missing shards alone, as a Slurm array takes them: 3,17,40-42; an empty line for none.
+    #[arg(long, conflicts_with = "json")]
+    missing: bool,
+    /// Print one JSON object instead of text.
+    #[arg(long)]
+    json: bool,
 }
 
-fn status(parts: &Parts, shards: Option<usize>, list: bool, json: bool) -> Result<(), Failure> {
+#[derive(Debug, Args)]
+pub(crate) struct Merge {
+    /// The folder of the parts.
+    folder: PathBuf,
+    /// Results file: HDF5, or Parquet where the name ends with .parquet, whatever the parts are.
+    #[arg(short, long, value_name = "OUT")]
+    output: PathBuf,
+    /// Copy no results: the output (HDF5) refers to the parts (HDF5), which have to stay where they are, seen from it.
+    #[arg(long = "virtual")]
+    refer: bool,
+    #[command(flatten)]
+    overwrite: Overwrite,
+    /// Print one JSON object instead of text.
+    #[arg(long)]
+    json: bool,
+}
+
+pub(crate) fn status(arguments: &Status) -> Result<(), Failure> {
+    let of_file = |path: &PathBuf| arguments.kernels.with_fields(Spec::from_file(path)?);
+    let spec = arguments.sweep.as_ref().map(of_file).transpose()?;
+    let parts = Parts::in_folder(&arguments.folder, spec.as_ref()).map_err(failure)?;
+    let shards = arguments.shards.map(|count| count as usize);
+    let shards = shards.or(parts.shards());
     let missing_shards = shards.map(|count| parts.missing_shards(count));
-    if list {
+    if arguments.missing {
         let unknown =
             "the parts do not say into how many shards the sweep is divided: give --shards N";
         let missing = missing_shards.ok_or_else(|| Failure::input(unknown))?;
@@ -135,7 +120,7 @@ fn status(parts: &Parts, shards: Option<usize>, list: bool, json: bool) -> Resul
     if complete {
         text.push(("complete", "yes".to_owned()));
     }
-    show(json, &value, lines(text))
+    show(arguments.json, &value, lines(text))
 }
 
 fn stored(part: &Part) -> Value {
@@ -179,16 +164,11 @@ fn ranges(numbers: &[usize]) -> String {
     told.join(",")
 }
 
-fn merge(
-    folder: &Path,
-    output: &Path,
-    refer: bool,
-    overwrite: Overwrite,
-    json: bool,
-) -> Result<(), Failure> {
+pub(crate) fn merge(arguments: &Merge) -> Result<(), Failure> {
+    let output = &arguments.output;
     check_rows(output)?;
-    let claimed = overwrite.claim(output, ROWS, &[])?;
-    let mut parts = Parts::in_folder(folder, None).map_err(failure)?;
+    let claimed = arguments.overwrite.claim(output, ROWS, &[])?;
+    let mut parts = Parts::in_folder(&arguments.folder, None).map_err(failure)?;
     // with --force the output itself may be a merged sweep of before
     let there = claimed.real().canonicalize().ok();
     let is_there = |path: &Path| there.is_some() && path.canonicalize().ok() == there;
@@ -199,7 +179,7 @@ fn merge(
         )));
     }
     parts.foreign.retain(|(path, _)| !is_there(path));
-    let staged = parts.merge(&claimed, refer);
+    let staged = parts.merge(&claimed, arguments.refer);
     staged.map_err(failure)?.commit()?;
     let selections = parts.parts.iter().map(|part| &part.selection);
     let empty = selections.filter(|some| some.rows.is_empty()).count();
@@ -215,7 +195,7 @@ fn merge(
         "sweep_sha256": parts.sha256,
     });
     let text = lines([("written", format!("{output}, {rows} rows of {count} parts"))]);
-    show(json, &value, text)
+    show(arguments.json, &value, text)
 }
 
 #[cfg(test)]
