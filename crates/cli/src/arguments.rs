@@ -50,7 +50,7 @@ impl Kernels {
         let table = self.table.as_deref().map(open_table);
         let table = table.transpose()?.map(Arc::new);
         match (self.kernel, table) {
-            (Kernel::Table, None) => Err(no_table()),
+            (Kernel::Table, None) => Err(Failure::input(NO_TABLE)),
             (Kernel::Direct, _) | (Kernel::Auto, None) => Ok(KernelChoice::Direct),
             (Kernel::Table, Some(table)) => Ok(KernelChoice::Table(table)),
             (Kernel::Auto, Some(table)) => Ok(KernelChoice::Auto(table)),
@@ -75,15 +75,14 @@ impl Kernels {
             };
         }
         if self.kernel == Kernel::Table && self.table.is_none() {
-            return Err(no_table());
+            return Err(Failure::input(NO_TABLE));
         }
         Ok(spec.with_fields(self.looked_up(), self.kernel == Kernel::Auto)?)
     }
 }
 
-fn no_table() -> Failure {
-    Failure::input("--kernel table needs a table: give --table FILE, made with hertzlamb tabulate")
-}
+const NO_TABLE: &str =
+    "--kernel table needs a table: give --table FILE, made with hertzlamb tabulate";
 
 /// The table at `path`.
 pub(crate) fn open_table(path: &Path) -> Result<TableFile, Failure> {

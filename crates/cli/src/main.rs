@@ -12,6 +12,7 @@ use clap_complete::{Shell, generate};
 use commands::{
     chart, demo, export, impact, infer, materials, paper, plot, sweep, table, tabulate,
 };
+use failure::Failure;
 use std::process::ExitCode;
 use std::sync::atomic::Ordering;
 
@@ -84,14 +85,11 @@ fn main() -> ExitCode {
         Command::Materials(arguments) => materials::run(&arguments),
         Command::Completions { shell } => completions(shell),
     };
-    match done {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(failure) => failure.report(),
-    }
+    done.map_or_else(Failure::report, |()| ExitCode::SUCCESS)
 }
 
 /// Writes a completion script.
-fn completions(shell: Shell) -> Result<(), failure::Failure> {
+fn completions(shell: Shell) -> Result<(), Failure> {
     let mut script = Vec::new();
     generate(shell, &mut Cli::command(), "hertzlamb", &mut script);
     failure::print(String::from_utf8_lossy(&script).trim_end())
@@ -109,7 +107,7 @@ fn parsed() -> Cli {
                 let sentence = text.split("\n\nUsage").next().unwrap_or(&text);
                 let sentence = sentence.trim().trim_start_matches("error: ");
                 let sentence = sentence.replace("\n\n  tip: ", "; ");
-                failure::Failure::input(sentence).report();
+                Failure::input(sentence).report();
                 std::process::exit(2);
             }
             error.exit()

@@ -117,10 +117,9 @@ fn treatment(done: &Treated) -> String {
         format!("baseline {mean}, the mean of the first {length}, taken away")
     });
     let low_pass = done.low_pass_hz.map(|cutoff_hz| {
+        let (cutoff, rms) = (si(cutoff_hz, "Hz"), si(done.removed_rms_n, "N"));
         format!(
-            "low pass at {} (Butterworth, fourth order, forwards and backwards), took away {} rms",
-            si(cutoff_hz, "Hz"),
-            si(done.removed_rms_n, "N")
+            "low pass at {cutoff} (Butterworth, fourth order, forwards and backwards), took away {rms} rms"
         )
     });
     let parts: Vec<String> = baseline.into_iter().chain(low_pass).collect();

@@ -45,8 +45,7 @@ fn text(m: &Material) -> String {
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let mut library = Library::built_in().clone();
     if let Some(path) = &arguments.file {
-        let own = read_materials(path)?;
-        library = library.extended(&own);
+        library = library.extended(&read_materials(path)?);
     }
     let word = arguments.search.as_deref().unwrap_or("");
     let found: Vec<&Material> = library.search(word).collect();

@@ -85,7 +85,6 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
 fn info(path: &Path, json: bool) -> Result<(), Failure> {
     let table = lookup::Table::open(path).map_err(Failure::input)?;
     let content = table.content();
-    let origin = &content.origin;
     let value = table_report(path, &table);
     let cells: Vec<usize> = content.slices.iter().map(|slice| slice.cells).collect();
     let text = format!(
@@ -101,7 +100,7 @@ fn info(path: &Path, json: bool) -> Result<(), Failure> {
         value["bytes"].as_f64().unwrap_or(0.0) / 1e6,
         table.id(),
         table.format_version(),
-        origin.software_version,
+        content.origin.software_version,
         value["content_sha256"].as_str().unwrap_or(""),
         table.poisson_ratios(),
         table.r_max(),

@@ -137,7 +137,17 @@ fn extension(arguments: &Arguments) -> Option<Extension> {
 /// The settings of a new table.
 fn grid(arguments: &Arguments) -> Result<Grid, Failure> {
     let most = [arguments.r_max, arguments.z_max, arguments.time_factor];
-    let grid = resolve(arguments.grid.as_deref().unwrap_or("demo"))?;
+    let name = arguments.grid.as_deref().unwrap_or("demo");
+    let grid = match Grid::preset(name).map_err(failure)? {
+        Some(grid) => grid,
+        None if is_file(name) => Grid::from_file(name.as_ref()).map_err(failure)?,
+        None => {
+            let presets = tabulator::PRESETS.join(", ");
+            return Err(Failure::input(format!(
+                "--grid {name}: neither a preset ({presets}) nor a .toml file"
+            )));
+        }
+    };
     let grid = grid.with(arguments.nu.clone(), most);
     let (Some(tolerance), Some(pulse)) = (arguments.tol, arguments.pulse) else {
         return Ok(grid);
@@ -189,20 +199,6 @@ pub(crate) fn errors_in_words(accuracy: &[Accuracy]) -> String {
         }
     }
     text
-}
-
-/// The grid of a preset or a file.
-fn resolve(name: &str) -> Result<Grid, Failure> {
-    if let Some(grid) = Grid::preset(name).map_err(failure)? {
-        return Ok(grid);
-    }
-    if is_file(name) {
-        return Grid::from_file(name.as_ref()).map_err(failure);
-    }
-    let presets = tabulator::PRESETS.join(", ");
-    Err(Failure::input(format!(
-        "--grid {name}: neither a preset ({presets}) nor a .toml file"
-    )))
 }
 
 /// Whether the name of a grid is that of a file.

@@ -144,15 +144,11 @@ impl Case {
     }
 
     fn outcome(&self) -> String {
-        let run = &self.run;
+        let (run, velocity) = (&self.run, short(self.impact.velocity_m_s, "m/s"));
+        let [time, force] = [si(run.contact_time_s, "s"), si(run.peak_force_n, "N")];
         format!(
-            "at {}: restitution {:.8}, loss {:.6e}, contact time {}, peak force {}; estimated relative error {:.1e}",
-            short(self.impact.velocity_m_s, "m/s"),
-            run.restitution,
-            run.loss,
-            si(run.contact_time_s, "s"),
-            si(run.peak_force_n, "N"),
-            run.relative_error_estimate
+            "at {velocity}: restitution {:.8}, loss {:.6e}, contact time {time}, peak force {force}; estimated relative error {:.1e}",
+            run.restitution, run.loss, run.relative_error_estimate
         )
     }
 }
@@ -177,12 +173,10 @@ fn onto_ball(
     impact.striker = Striker::new(material, mass_kg, radius_m)
         .map_err(|error| Failure::input(format!("--target-diameter: {error}")))?;
     (impact.half_space.thickness_m, impact.half_space.radius_m) = (None, None);
+    let [diameter, radius] = [diameter_m, radius_m].map(|length_m| short(length_m, "m"));
+    let [own, mass] = [other.mass_kg, mass_kg].map(|mass_kg| short(1e3 * mass_kg, "g"));
     let geometry = format!(
-        "the target is a ball of {} and {}: Hertz's law with R = R1 R2/(R1 + R2) = {} and m = m1 m2/(m1 + m2) = {}",
-        short(diameter_m, "m"),
-        short(1e3 * other.mass_kg, "g"),
-        short(radius_m, "m"),
-        short(1e3 * mass_kg, "g")
+        "the target is a ball of {diameter} and {own}: Hertz's law with R = R1 R2/(R1 + R2) = {radius} and m = m1 m2/(m1 + m2) = {mass}"
     );
     let half_space = impact.solve().map_err(ImpactError::from)?;
     let echo_s = 2.0 * diameter_m / impact.half_space.longitudinal_speed_m_s();

@@ -40,7 +40,6 @@ pub(crate) fn run(
     let bytes_per_shard = sealed(rows_per_shard * bytes);
     let disk_bytes_per_shard = bytes_per_shard + rows_per_shard * kept;
     let seconds_per_shard = rows_per_shard as f64 / rows_per_second;
-    let sha256 = spec.sha256.clone();
     let value = json!({
         "rows": rows,
         "shards": count,
@@ -53,7 +52,7 @@ pub(crate) fn run(
         "rows_per_second": rows_per_second,
         "threads": threads,
         "measured_rows": measured_rows,
-        "sweep_sha256": sha256,
+        "sweep_sha256": spec.sha256,
         "columns": column_names(spec),
     });
     let [each, all, disk] = [bytes_per_shard, all_bytes, disk_bytes_per_shard]
@@ -64,7 +63,7 @@ pub(crate) fn run(
         "{rows_per_second:.0} rows a second on {threads} threads, from {measured_rows} rows"
     );
     let text = lines([
-        ("sweep", sha256),
+        ("sweep", spec.sha256.clone()),
         ("rows", rows.to_string()),
         ("shards", shards),
         ("in all", format!("{all}, {seconds:.3} s on this machine")),
