@@ -1,7 +1,7 @@
 //! The exact kernels at many places and times, in reduced units.
 
 use crate::errors::{self, raise};
-use crate::values::{Array, fields, numbers, vector};
+use crate::values::{Array, fields, frozen, numbers, vector};
 use crate::work::{Ticker, run, run_short};
 use halfspace::{
     Arrivals, Deflection, DomainError, Estimate, Kernel, Medium, Profile, Six, SurfaceResponse,
@@ -127,12 +127,13 @@ pub(crate) fn static_field<'py>(
     // no quadrature: the tolerance is of no consequence
     let profile = profile_of(profile)?;
     let kernel = Kernel::new(&medium_of(nu)?, profile, 1e-6).map_err(raise)?;
-    errors::check_memory(r.len()?, 2 * 8 + 2 * 6 * 8)?;
+    let rows = r.len()?;
+    errors::check_memory(rows, 2 * 8 + 2 * 6 * 8)?;
     let (r, z) = (numbers(&r), numbers(&z));
     let at = |(&r, &z): (&f64, &f64)| kernel.static_field(r, z);
     let found: Result<Vec<Six>, DomainError> =
         run_short(py, || r.iter().zip(&z).map(at).collect())?;
-    fields(py, found.map_err(raise)?)
+    frozen(py, found.map_err(raise)?.into_flattened(), &[rows, 6])
 }
 
 /// The deflection of the loaded surface over its static value, or its integral or impulse response.
