@@ -153,10 +153,9 @@ impl MemoryLimit {
         if needed <= limit {
             return Ok(());
         }
+        let [needed, limit] = [needed, limit].map(|bytes| 1e-9 * bytes);
         Err(Failure::input(format!(
-            "{what} needs about {:.3} GB of memory, more than the {:.3} GB allowed: {change}, or give --max-memory GB",
-            1e-9 * needed,
-            1e-9 * limit
+            "{what} needs about {needed:.3} GB of memory, more than the {limit:.3} GB allowed: {change}, or give --max-memory GB"
         )))
     }
 }

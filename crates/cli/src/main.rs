@@ -1,4 +1,4 @@
-//! The `hertzlamb` command: `commands` has one file per subcommand, the other files are what they share.
+//! The `hertzlamb` command: `commands` has one file per subcommand but the completions, the other files are what they share.
 
 mod arguments;
 mod commands;

@@ -146,14 +146,11 @@ fn outputs(arguments: &Arguments, mut read: Vec<Role>) -> Result<[Option<Output>
 const LONG_S: f64 = 5.0;
 
 fn takes(forecast: &Forecast) -> String {
-    let decimals = if forecast.seconds > LONG_S { 0 } else { 2 };
+    let (points, samples, seconds) = (forecast.points, forecast.samples, forecast.seconds);
+    let ending = if points == 1 { "" } else { "s" };
+    let decimals = if seconds > LONG_S { 0 } else { 2 };
+    let [memory, disk] = [forecast.memory_bytes, forecast.disk_bytes].map(|bytes| 1e-9 * bytes);
     format!(
-        "{} point{} of {:.0} samples: about {:.decimals$} s, {:.3} GB of memory, {:.3} GB in a results file",
-        forecast.points,
-        if forecast.points == 1 { "" } else { "s" },
-        forecast.samples,
-        forecast.seconds,
-        1e-9 * forecast.memory_bytes,
-        1e-9 * forecast.disk_bytes
+        "{points} point{ending} of {samples:.0} samples: about {seconds:.decimals$} s, {memory:.3} GB of memory, {disk:.3} GB in a results file"
     )
 }
