@@ -196,8 +196,7 @@ pub(crate) fn check_stdout() -> Result<(), Failure> {
     let described = std::fs::read_to_string(of("fdinfo")).unwrap_or_default();
     // open for reading too, as nobody opens it for output
     let reads = |line: &str| line.starts_with("flags:") && line.trim_end().ends_with('2');
-    let both = described.lines().any(reads);
-    if to_nothing && both {
+    if to_nothing && described.lines().any(reads) {
         let closed = "cannot write to standard output: it is closed";
         return Err(Failure::work(closed));
     }

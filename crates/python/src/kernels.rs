@@ -1,6 +1,6 @@
 //! The exact kernels at many places and times, in reduced units.
 
-use crate::errors::{self, raise};
+use crate::errors::{check_memory, one_of, plain, raise};
 use crate::values::{Array, fields, frozen, numbers, vector};
 use crate::work::{Ticker, run, run_short};
 use halfspace::{
@@ -24,7 +24,7 @@ fn profile_of(name: &str) -> PyResult<Profile> {
         ("punch", Profile::Punch),
         ("point", Profile::Point),
     ];
-    errors::one_of("profile", name, &all)
+    one_of("profile", name, &all)
 }
 
 const DEFLECTIONS: [(&str, Deflection); 2] =
@@ -84,16 +84,15 @@ pub(crate) fn kernel<'py>(
     threads: Option<usize>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<(Array<'py>, Array<'py>)> {
-    let (at, _) = errors::one_of("order", order, &ORDERS)?;
+    let (at, _) = one_of("order", order, &ORDERS)?;
     let profile = profile_of(profile)?;
     let kernel = Kernel::new(&medium_of(nu)?, profile, tolerance).map_err(raise)?;
     let rows = r.len()?;
     if z.len()? != rows || t.len()? != rows {
-        let message = "r, z and t differ in their lengths";
-        return Err(errors::plain("SceneError", message));
+        return Err(plain("SceneError", "r, z and t differ in their lengths"));
     }
     // the places, the estimates, and the two arrays that are made of them
-    errors::check_memory(rows, 3 * 8 + size_of::<Estimate>() + 2 * 6 * 8)?;
+    check_memory(rows, 3 * 8 + size_of::<Estimate>() + 2 * 6 * 8)?;
     let (r, z, t) = (numbers(&r), numbers(&z), numbers(&t));
     let one = move |ticker: &Ticker, i: usize| {
         ticker.advance(1);
@@ -128,7 +127,7 @@ pub(crate) fn static_field<'py>(
     let profile = profile_of(profile)?;
     let kernel = Kernel::new(&medium_of(nu)?, profile, 1e-6).map_err(raise)?;
     let rows = r.len()?;
-    errors::check_memory(rows, 2 * 8 + 2 * 6 * 8)?;
+    check_memory(rows, 2 * 8 + 2 * 6 * 8)?;
     let (r, z) = (numbers(&r), numbers(&z));
     let at = |(&r, &z): (&f64, &f64)| kernel.static_field(r, z);
     let found: Result<Vec<Six>, DomainError> =
@@ -145,10 +144,10 @@ pub(crate) fn surface<'py>(
     t: PyReadonlyArray1<'py, f64>,
     deflection: &str,
 ) -> PyResult<Array<'py>> {
-    let (_, at) = errors::one_of("order", order, &ORDERS)?;
-    let deflection = errors::one_of("deflection", deflection, &DEFLECTIONS)?;
+    let (_, at) = one_of("order", order, &ORDERS)?;
+    let deflection = one_of("deflection", deflection, &DEFLECTIONS)?;
     let response = SurfaceResponse::new(&medium_of(nu)?, deflection);
-    errors::check_memory(t.len()?, 2 * 8)?;
+    check_memory(t.len()?, 2 * 8)?;
     let t = numbers(&t);
     let found = run_short(py, || t.iter().map(|&t| at(&response, t)).collect())?;
     vector(py, found)
@@ -161,7 +160,7 @@ pub(crate) fn surface_centre<'py>(
     nu: f64,
     t: PyReadonlyArray1<'py, f64>,
 ) -> PyResult<Array<'py>> {
-    errors::check_memory(t.len()?, 2 * 8)?;
+    check_memory(t.len()?, 2 * 8)?;
     let (medium, t) = (medium_of(nu)?, numbers(&t));
     let at = |&t: &f64| kausel::centre_step(&medium, t);
     let found = run_short(py, || t.iter().map(at).collect())?;

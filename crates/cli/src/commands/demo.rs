@@ -40,8 +40,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         let shown = table.display();
         say(format!("making the demo kernel table {shown} (once)"));
         let summary = build(&Grid::demo(), &table, &Bar::new())?;
-        let (points, bytes) = (summary.points, summary.bytes);
-        let took_s = summary.wall_s;
+        let (points, took_s, bytes) = (summary.points, summary.wall_s, summary.bytes);
         say(format!("{points} points in {took_s:.1} s, {bytes} bytes"));
     }
     let table = open_table(&table)?;

@@ -1,13 +1,14 @@
 //! `hertzlamb sweep`: many scenes.
 
-mod parts;
+mod merge;
 mod plan;
+mod status;
 
 use crate::arguments::{Kernels, MemoryLimit, Overwrite, check_rows, say_complete};
 use crate::failure::{Failure, check_stdout, lines, say, show};
 use crate::process;
 use crate::progress::Bar;
-use clap::Args;
+use clap::{Args, Subcommand};
 use fault::Fault as _;
 use formats::parts::check_complete;
 use formats::sweep::schema::COUNTED;
@@ -17,7 +18,6 @@ use formats::sweep::{
 };
 use formats::{Existing, Output, OutputError, QUANTITIES};
 use output::{CSV, Fault, Staged, apart, behind, free_disk, is_standard};
-use parts::Action;
 use serde_json::{Value, json};
 use std::io::{BufWriter, ErrorKind, Write};
 use std::ops::Range;
@@ -49,6 +49,14 @@ pub(crate) struct Arguments {
     action: Option<Action>,
     #[command(flatten)]
     run: Run,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Action {
+    /// Says which parts of a sweep a folder has, which are missing and what else lies there.
+    Status(status::Arguments),
+    /// Joins the parts of a sweep: byte by byte the file that one run would have written.
+    Merge(merge::Arguments),
 }
 
 #[derive(Debug, Args)]
@@ -108,8 +116,8 @@ fn range(text: &str) -> Result<Range<usize>, String> {
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let run = &arguments.run;
     match (&arguments.action, &run.sweep, &run.output) {
-        (Some(Action::Status(arguments)), _, _) => parts::status(arguments),
-        (Some(Action::Merge(arguments)), _, _) => parts::merge(arguments),
+        (Some(Action::Status(arguments)), _, _) => status::run(arguments),
+        (Some(Action::Merge(arguments)), _, _) => merge::run(arguments),
         (None, Some(sweep), _) if run.plan => {
             plan::run(sweep, &spec(run, sweep)?, run.shards, run.json)
         }

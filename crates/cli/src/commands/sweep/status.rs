@@ -1,26 +1,17 @@
-//! `hertzlamb sweep status` and `merge`: what a folder of parts has and lacks, and all of it in one file.
+//! `hertzlamb sweep status`: what a folder of parts has and lacks.
 
 use super::failure;
-use crate::arguments::{Kernels, Overwrite, check_rows};
-use crate::failure::{Failure, lines, print, say, show};
-use clap::{Args, Subcommand};
+use crate::arguments::Kernels;
+use crate::failure::{Failure, lines, print, show};
+use clap::Args;
 use formats::parts::Parts;
 use formats::stored::Part;
 use formats::sweep::{Shard, Spec, Unfinished};
-use output::ROWS;
 use serde_json::{Value, json};
-use std::path::{Path, PathBuf};
-
-#[derive(Debug, Subcommand)]
-pub(crate) enum Action {
-    /// Says which parts of a sweep a folder has, which are missing and what else lies there.
-    Status(Status),
-    /// Joins the parts of a sweep: byte by byte the file that one run would have written.
-    Merge(Merge),
-}
+use std::path::PathBuf;
 
 #[derive(Debug, Args)]
-pub(crate) struct Status {
+pub(crate) struct Arguments {
     /// The folder of the parts.
     folder: PathBuf,
     /// The sweep file; that of most parts otherwise.
@@ -39,24 +30,7 @@ pub(crate) struct Status {
     json: bool,
 }
 
-#[derive(Debug, Args)]
-pub(crate) struct Merge {
-    /// The folder of the parts.
-    folder: PathBuf,
-    /// Results file: HDF5, or Parquet where the name ends with .parquet, whatever the parts are.
-    #[arg(short, long, value_name = "OUT")]
-    output: PathBuf,
-    /// Copy no results: the output (HDF5) refers to the parts (HDF5), which have to stay where they are, seen from it.
-    #[arg(long = "virtual")]
-    refer: bool,
-    #[command(flatten)]
-    overwrite: Overwrite,
-    /// Print one JSON object instead of text.
-    #[arg(long)]
-    json: bool,
-}
-
-pub(crate) fn status(arguments: &Status) -> Result<(), Failure> {
+pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let of_file = |path: &PathBuf| arguments.kernels.with_fields(Spec::from_file(path)?);
     let spec = arguments.sweep.as_ref().map(of_file).transpose()?;
     let parts = Parts::in_folder(&arguments.folder, spec.as_ref()).map_err(failure)?;
@@ -162,40 +136,6 @@ fn ranges(numbers: &[usize]) -> String {
         })
         .collect();
     told.join(",")
-}
-
-pub(crate) fn merge(arguments: &Merge) -> Result<(), Failure> {
-    let output = &arguments.output;
-    check_rows(output)?;
-    let claimed = arguments.overwrite.claim(output, ROWS, &[])?;
-    let mut parts = Parts::in_folder(&arguments.folder, None).map_err(failure)?;
-    // with --force the output itself may be a merged sweep of before
-    let there = claimed.real().canonicalize().ok();
-    let is_there = |path: &Path| there.is_some() && path.canonicalize().ok() == there;
-    if let Some(part) = parts.parts.iter().find(|part| is_there(&part.path)) {
-        let part = part.path.display();
-        return Err(Failure::input(format!(
-            "{part} is a part that this command reads: give the output another name"
-        )));
-    }
-    parts.foreign.retain(|(path, _)| !is_there(path));
-    let staged = parts.merge(&claimed, arguments.refer);
-    staged.map_err(failure)?.commit()?;
-    let selections = parts.parts.iter().map(|part| &part.selection);
-    let empty = selections.filter(|some| some.rows.is_empty()).count();
-    if empty > 0 {
-        say(format!("note: {empty} parts have no rows"));
-    }
-    let output = output.display().to_string();
-    let (rows, count) = (parts.sweep_rows, parts.parts.len());
-    let value = json!({
-        "output": output,
-        "rows": rows,
-        "parts": count,
-        "sweep_sha256": parts.sha256,
-    });
-    let text = lines([("written", format!("{output}, {rows} rows of {count} parts"))]);
-    show(arguments.json, &value, text)
 }
 
 #[cfg(test)]
