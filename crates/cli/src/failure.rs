@@ -71,8 +71,7 @@ impl Failure {
     /// Prints it on standard error, as an object where the command was to print one, and gives the exit code.
     pub(crate) fn report(mut self) -> ExitCode {
         if wants_json() {
-            let message = ("message".to_owned(), self.sentence.into());
-            self.about.extend([message]);
+            (self.about).insert("message".to_owned(), self.sentence.into());
             tell(json!({ "error": self.about }));
         } else {
             tell(format!("error: {}", self.sentence));
