@@ -74,6 +74,9 @@ fn wrapped(spec: Result<Spec, SceneError>) -> PyResult<Plan> {
     Ok(Plan { spec })
 }
 
+/// Results by row and quantity, models, and failed rows with their reasons.
+type Computed<'py> = (Array<'py>, Array<'py, u8>, Vec<(usize, String)>);
+
 /// Bytes that the reason of a failed row takes, in Python and beside it.
 const REASON: usize = 500;
 
@@ -108,8 +111,7 @@ impl Plan {
         from_toml(py, &self.spec.resolved)
     }
 
-    /// Computes the rows from `start` on, every `step`-th: results by row and quantity, models, and failed rows with their
-    /// reasons.
+    /// Computes the rows from `start` on, every `step`-th.
     #[pyo3(signature = (start, step, count, threads=None, progress=None))]
     fn compute<'py>(
         &self,
@@ -119,7 +121,7 @@ impl Plan {
         count: usize,
         threads: Option<usize>,
         progress: Option<Py<PyAny>>,
-    ) -> PyResult<(Array<'py>, Array<'py, u8>, Vec<(usize, String)>)> {
+    ) -> PyResult<Computed<'py>> {
         // a row, and room for the reason of one that fails
         errors::check_memory(count, 2 * 8 * (QUANTITIES.len() + 1))?;
         let spec = Arc::clone(&self.spec);

@@ -124,12 +124,16 @@ impl Table {
     }
 }
 
+/// A part that was loaded, for a Poisson's ratio and a span.
+#[derive(Debug)]
+struct Part(f64, [[f64; 2]; 2], Arc<lookup::Table>);
+
 /// A table on disk with what was loaded of it.
 #[derive(Debug)]
 pub(crate) struct Opened {
     pub(crate) file: TableFile,
-    /// The part of the last impact, with its Poisson's ratio and span: a part answers as the whole does.
-    part: Mutex<Option<(f64, [[f64; 2]; 2], Arc<lookup::Table>)>>,
+    /// The part of the last impact: a part answers as the whole does.
+    part: Mutex<Option<Part>>,
     whole: OnceLock<Arc<lookup::Table>>,
 }
 
@@ -154,14 +158,14 @@ impl Tables for Opened {
         span: [[f64; 2]; 2],
     ) -> Result<Arc<lookup::Table>, AnyError> {
         let mut kept = self.part.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some((ratio, [first, last], table)) = &*kept
+        if let Some(Part(ratio, [first, last], table)) = &*kept
             && ratio.to_bits() == poisson_ratio.to_bits()
             && (0..2).all(|axis| first[axis] <= span[0][axis] && span[1][axis] <= last[axis])
         {
             return Ok(Arc::clone(table));
         }
         let table = Arc::new(self.file.part(poisson_ratio, span)?);
-        *kept = Some((poisson_ratio, span, Arc::clone(&table)));
+        *kept = Some(Part(poisson_ratio, span, Arc::clone(&table)));
         Ok(table)
     }
 

@@ -44,14 +44,13 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let scene = read_scene(&arguments.scene)?;
     let unknown = Unknown::named(&arguments.unknown).unwrap_or(Unknown::YieldPressure);
-    let one = [
+    let mut one = [
         (Measure::Restitution, arguments.restitution),
         (Measure::ContactTime, arguments.contact_time),
         (Measure::PeakForce, arguments.peak_force),
-    ];
-    let given = one
-        .into_iter()
-        .find_map(|(measure, value)| Some((measure.name(), vec![value?])));
+    ]
+    .into_iter();
+    let given = one.find_map(|(measure, value)| Some((measure.name(), vec![value?])));
     let (name, values) =
         given.unwrap_or_else(|| ("bounces", arguments.bounces.clone().unwrap_or_default()));
     let (found, value) = formats::infer(&scene, (name, &values), arguments.error, unknown)?;

@@ -259,10 +259,9 @@ fn failure(error: SweepError) -> Failure {
     let other = matches!(error, SweepError::Journal(JournalError::Other(..)));
     let missing = matches!(error, SweepError::Missing { .. });
     let drop = "; give --force to drop it, or another output to keep it";
-    let list = "; hertzlamb sweep status lists them";
     Failure::from(error)
         .hint_if(other, drop)
-        .hint_if(missing, list)
+        .hint_if(missing, "; hertzlamb sweep status lists them")
 }
 
 /// Where a sweep goes, claimed before any work.
