@@ -2,7 +2,9 @@
 
 use crate::colour::{self, BLACK, WHITE};
 use crate::error::FigureError;
+use crate::figure::Figure;
 use crate::font;
+use crate::layout::draw;
 use crate::scene::{Item, Picture, Scene, Segment, Shape, Text};
 use miniz_oxide::deflate::compress_to_vec_zlib;
 use pdf_writer::types::{
@@ -27,9 +29,13 @@ const SYSTEM: SystemInfo<'_> = SystemInfo {
     supplement: 0,
 };
 
-/// Writes a scene.
-pub(crate) fn pdf(scene: &Scene) -> Result<Vec<u8>, FigureError> {
-    let subset = Subset::of(scene)?;
+/// The figure as PDF: a page of its size, with its font.
+///
+/// # Errors
+/// [`FigureError`] for a figure that cannot be drawn.
+pub fn to_pdf(figure: &Figure) -> Result<Vec<u8>, FigureError> {
+    let scene = draw(figure)?;
+    let subset = Subset::of(&scene)?;
     let mut next = Ref::new(1);
     let [catalog, tree, page, content, font] = std::array::from_fn(|_| next.bump());
     let font_parts = std::array::from_fn(|_| next.bump());
@@ -69,7 +75,7 @@ pub(crate) fn pdf(scene: &Scene) -> Result<Vec<u8>, FigureError> {
     let mut painted = Content::new();
     // pixels from the upper left corner
     painted.transform([POINT, 0.0, 0.0, -POINT, 0.0, POINT * height]);
-    paint(&mut painted, scene, &subset);
+    paint(&mut painted, &scene, &subset);
     let stream = compressed(&painted.finish());
     pdf.stream(content, &stream).filter(Filter::FlateDecode);
     subset.write(&mut pdf, font, font_parts);
