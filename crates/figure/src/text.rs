@@ -156,11 +156,6 @@ impl Typeface {
         0.42 * self.tick
     }
 
-    /// Length of a tick without one.
-    pub(crate) fn minor_length(&self) -> f64 {
-        0.23 * self.tick
-    }
-
     /// A small distance.
     pub(crate) fn gap(&self) -> f64 {
         0.5 * self.tick

@@ -16,13 +16,9 @@ pub(crate) struct Colours {
 
 impl Colours {
     /// Those of the first image, for the values of all; none without an image.
-    pub(crate) fn of<'a>(images: &(impl Iterator<Item = &'a Image> + Clone)) -> Option<Self> {
-        let first = images.clone().next()?;
-        let values = || {
-            images
-                .clone()
-                .flat_map(|image| image.values.iter().copied())
-        };
+    pub(crate) fn of(images: &[&Image]) -> Option<Self> {
+        let first = images.first()?;
+        let values = || images.iter().flat_map(|image| image.values.iter().copied());
         let limits = limits(&first.colours, first.map, values());
         let shown = || values().filter(|value| limits.scale.shows(*value));
         Some(Self {

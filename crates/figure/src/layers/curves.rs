@@ -140,9 +140,9 @@ pub(crate) fn draw_run(scene: &mut Scene, run: &[Point], look: &Look, clip: Rect
     }
     if look.style == Style::Rimmed {
         let rim = Stroke::solid(WHITE, look.stroke.width + 2.4);
-        scene.shape(Shape::polyline(run, rim).clipped(clip));
+        scene.shape(Shape::polyline(run).stroked(rim).clipped(clip));
     }
-    scene.shape(Shape::polyline(run, look.stroke).clipped(clip));
+    scene.shape(Shape::polyline(run).stroked(look.stroke).clipped(clip));
 }
 
 #[cfg(test)]

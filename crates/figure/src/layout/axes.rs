@@ -1,6 +1,7 @@
 //! The two axes of a panel: ticks, numbers and labels, fitted and drawn.
 
-use super::plan::{AxisPlan, PanelPlan};
+use super::plan::PanelPlan;
+use crate::axis::{Axis, Interval};
 use crate::colour::{BLACK, GRID};
 use crate::geometry::Frame;
 use crate::scene::{END, MIDDLE, Scene, Shape, Stroke, Text};
@@ -30,24 +31,30 @@ pub(super) struct FittedAxis {
 
 impl FittedAxis {
     /// Of a panel, which may leave writing to another one, or of colours.
-    pub(super) fn new(plan: &AxisPlan<'_>, room: &Room<'_>, faces: &Typeface) -> Self {
-        let (label, factor) = shown(plan.axis, &plan.interval);
-        let ticks = ticks(&plan.interval, factor, room);
+    pub(super) fn new(
+        axis: &Axis,
+        interval: &Interval,
+        labelled: bool,
+        room: &Room<'_>,
+        faces: &Typeface,
+    ) -> Self {
+        let (label, factor) = shown(axis, interval);
+        let ticks = ticks(interval, factor, room);
         let widths = ticks.major.iter().map(|tick| width_of(&tick.1, faces.tick));
         Self {
             numbers: widths.fold(0.0, f64::max),
             ticks,
-            label: match plan.labelled {
+            label: match labelled {
                 true => wrap(&label, faces.label, room.length),
                 false => Vec::new(),
             },
-            labelled: plan.labelled,
+            labelled,
         }
     }
 
     /// Places of all ticks, with their lengths.
     pub(super) fn lengths(&self, faces: &Typeface) -> impl Iterator<Item = (f64, f64)> {
-        let (long, short) = (faces.tick_length(), faces.minor_length());
+        let (long, short) = (faces.tick_length(), 0.23 * faces.tick);
         let major = self.ticks.major.iter().map(move |tick| (tick.0, long));
         let minor = self.ticks.minor.iter().map(move |&value| (value, short));
         major.chain(minor)
@@ -79,10 +86,10 @@ impl Axes {
             distance: 3.6 * faces.tick,
             needs: &|_| LINE * faces.tick,
         };
-        let [x, y] = &plan.axes;
+        let ([x, y], [over_x, over_y]) = (plan.labelled, &plan.intervals);
         Self {
-            x: FittedAxis::new(x, &beside, faces),
-            y: FittedAxis::new(y, &above, faces),
+            x: FittedAxis::new(&plan.panel.x, over_x, x, &beside, faces),
+            y: FittedAxis::new(&plan.panel.y, over_y, y, &above, faces),
         }
     }
 
@@ -100,7 +107,7 @@ impl Axes {
             // how far the numbers at the ends reach beyond the nearer end of the axis
             let ends = [self.x.ticks.major.first(), self.x.ticks.major.last()].map(|tick| {
                 tick.map_or(0.0, |(value, label)| {
-                    let fraction = plan.axes[0].interval.fraction(*value);
+                    let fraction = plan.intervals[0].fraction(*value);
                     let inside = width * fraction.min(1.0 - fraction);
                     (0.5 * width_of(label, faces.tick) - inside).max(0.0)
                 })

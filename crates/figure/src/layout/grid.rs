@@ -21,18 +21,18 @@ pub(crate) fn draw(figure: &Figure) -> Result<Scene, FigureError> {
     let common = first.and_then(|plan| plan.colours.as_ref());
     // a bar needs the width of its numbers, which depend on the height, which depends on the width
     let mut reserved = 0.0;
-    let (mut scene, panels, bar) = loop {
+    let (mut scene, panels, plots, bar) = loop {
         let (scene, panels) = arrange(figure, &plans, &faces, reserved);
         let plots = plots(&panels);
         match common.map(|colours| Bar::new(colours, plots.height(), &faces)) {
             Some(bar) if bar.width > reserved => reserved = bar.width,
-            bar => break (scene, panels, bar.map(|bar| (bar, plots))),
+            bar => break (scene, panels, plots, bar),
         }
     };
-    for panel in &panels {
-        draw_panel(&mut scene, panel, &faces);
+    for (plan, panel) in plans.iter().zip(&panels) {
+        draw_panel(&mut scene, plan, panel, &faces);
     }
-    if let Some((bar, plots)) = bar {
+    if let Some(bar) = bar {
         bar.draw(&mut scene, plots, &faces);
     }
     Ok(scene)
@@ -40,7 +40,8 @@ pub(crate) fn draw(figure: &Figure) -> Result<Scene, FigureError> {
 
 fn draw_panel(
     scene: &mut Scene,
-    (plan, fitted, frame): &(PanelPlan<'_>, Fitted, Frame),
+    plan: &PanelPlan<'_>,
+    (fitted, frame): &(Fitted, Frame),
     faces: &Typeface,
 ) {
     if !plan.panel.is_filled() {
@@ -73,12 +74,12 @@ fn draw_panel(
 /// colour bar gets a width at the right.
 ///
 /// All plots are equally wide; the width of the figure is exceeded rather than that they vanish.
-fn arrange<'a>(
+fn arrange(
     figure: &Figure,
-    plans: &[PanelPlan<'a>],
+    plans: &[PanelPlan<'_>],
     faces: &Typeface,
     bar: f64,
-) -> (Scene, Vec<(PanelPlan<'a>, Fitted, Frame)>) {
+) -> (Scene, Vec<(Fitted, Frame)>) {
     let count = figure.columns.min(plans.len());
     let legend_width = (0.34 * figure.width / count as f64).min(22.0 * faces.tick);
     let gap = 1.4 * faces.tick;
@@ -106,15 +107,14 @@ fn arrange<'a>(
         }
         plot = next;
     };
-    let line = |text: &str, size: f64| wrap(text, size, width + bar - 2.0 * PAD);
-    let title = line(&figure.title, faces.title).into_iter();
-    let subtitle = line(&figure.subtitle, faces.subtitle).into_iter();
-    let titles = title.map(|line| (line, faces.title));
     let mut heading = Vec::new();
     let mut top = PAD;
-    for (line, size) in titles.chain(subtitle.map(|line| (line, faces.subtitle))) {
-        heading.push(Text::new(&line, (PAD, top + size), size, START));
-        top += Typeface::lines(size, 1);
+    let (title, subtitle) = (&figure.title, &figure.subtitle);
+    for (text, size) in [(title, faces.title), (subtitle, faces.subtitle)] {
+        for line in wrap(text, size, width + bar - 2.0 * PAD) {
+            heading.push(Text::new(&line, (PAD, top + size), size, START));
+            top += Typeface::lines(size, 1);
+        }
     }
     if top > PAD {
         top += faces.gap();
@@ -124,51 +124,46 @@ fn arrange<'a>(
         PAD + before.sum::<f64>() + left[column]
     };
     let starts: Vec<f64> = (0..count).map(start).collect();
-    let (panels, bottom) = rows(plans, fitted, &starts, plot, top, 1.2 * faces.tick);
+    let (frames, bottom) = rows(plans, &fitted, &starts, plot, top, 1.2 * faces.tick);
     let mut scene = Scene {
         width: width + bar,
         height: bottom + PAD,
-        plots: panels.iter().map(|(.., frame)| frame.area).collect(),
+        plots: frames.iter().map(|frame| frame.area).collect(),
         items: Vec::new(),
     };
     let canvas = Rect::new(0.0, 0.0, scene.width, scene.height);
     scene.shape(Shape::rectangle(canvas).filled(WHITE, 1.0));
     scene.items.extend(heading.into_iter().map(Item::Text));
-    (scene, panels)
+    (scene, fitted.into_iter().zip(frames).collect())
 }
 
-/// Gives every panel its area in columns that start at some places, row below row from `top` on; and the bottom of the
-/// last row.
-fn rows<'a>(
-    plans: &[PanelPlan<'a>],
-    fitted: Vec<Fitted>,
+/// Every panel's area in columns that start at some places, row below row from `top` on; and the bottom of the last row.
+fn rows(
+    plans: &[PanelPlan<'_>],
+    fitted: &[Fitted],
     starts: &[f64],
     plot: f64,
     mut top: f64,
     gap: f64,
-) -> (Vec<(PanelPlan<'a>, Fitted, Frame)>, f64) {
-    let mut panels = Vec::with_capacity(plans.len());
-    let mut fitted = fitted.into_iter();
-    for row in plans.chunk_by(|a, b| a.row == b.row) {
-        let fitted: Vec<Fitted> = fitted.by_ref().take(row.len()).collect();
+) -> (Vec<Frame>, f64) {
+    let mut frames = Vec::with_capacity(plans.len());
+    let columns = starts.len();
+    for (plans, fitted) in plans.chunks(columns).zip(fitted.chunks(columns)) {
         let most = |of: fn(&Needs) -> f64| fitted.iter().map(|f| of(&f.needs)).fold(0.0, f64::max);
-        let heights = row.iter().map(|plan| size(plan, plot)[1]);
-        let height = heights.fold(0.0, f64::max);
-        let below = most(|needs| needs.bottom);
+        let heights = plans.iter().map(|plan| size(plan, plot)[1]);
         top += most(|needs| needs.top);
-        for (plan, fitted) in row.iter().zip(fitted) {
+        for (plan, &left) in plans.iter().zip(starts) {
             let [width, height] = size(plan, plot);
-            let area = Rect::new(starts[plan.column], top, width, height);
-            panels.push((plan.clone(), fitted, plan.frame(area)));
+            frames.push(plan.frame(Rect::new(left, top, width, height)));
         }
-        top += height + below + gap;
+        top += heights.fold(0.0, f64::max) + most(|needs| needs.bottom) + gap;
     }
-    (panels, top - gap)
+    (frames, top - gap)
 }
 
 /// From the first plot to the last, with what the last column needs at its right.
-fn plots(panels: &[(PanelPlan<'_>, Fitted, Frame)]) -> Rect {
-    let areas = panels.iter().map(|(_, fitted, frame)| Rect {
+fn plots(panels: &[(Fitted, Frame)]) -> Rect {
+    let areas = panels.iter().map(|(fitted, frame)| Rect {
         right: frame.area.right + fitted.needs.right,
         ..frame.area
     });
@@ -189,8 +184,7 @@ fn size(plan: &PanelPlan<'_>, width: f64) -> [f64; 2] {
     if !plan.panel.has_equal_lengths {
         return [width, plan.panel.height];
     }
-    let lengths = plan.axes.each_ref();
-    let [x, y] = lengths.map(|axis| axis.interval.high - axis.interval.low);
+    let [x, y] = plan.intervals.map(|interval| interval.high - interval.low);
     let ratio = y / x;
     match ratio > TALLEST {
         true => [TALLEST * width / ratio, TALLEST * width],

@@ -188,7 +188,8 @@ fn sample(scene: &mut Scene, swatch: &Swatch, (x, y): Point, size: f64) {
                 scene.shape(Shape::rectangle(patch).filled(look.stroke.colour, BAND));
             }
             if look.has_line() {
-                scene.shape(Shape::polyline(&[(x, y), (x + SWATCH, y)], look.stroke));
+                let line = Shape::polyline(&[(x, y), (x + SWATCH, y)]);
+                scene.shape(line.stroked(look.stroke));
             }
             look.mark(scene, (x + 0.5 * SWATCH, y));
         }
