@@ -65,6 +65,12 @@ impl Figure {
         self
     }
 
+    /// With more panels.
+    pub fn panels(mut self, panels: impl IntoIterator<Item = Panel>) -> Self {
+        self.panels.extend(panels);
+        self
+    }
+
     /// With so many panels in a row.
     pub fn columns(mut self, columns: usize) -> Self {
         self.columns = columns;

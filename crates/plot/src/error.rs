@@ -133,18 +133,20 @@ pub(crate) fn only<T>(given: &[T], kind: Kind) -> Result<&T, PlotError> {
     }
 }
 
-/// The quantities of some names among those of a file.
+/// Which of the quantities of a file are asked for by their names; without names the usual ones.
 pub(crate) fn chosen(
     path: &Path,
     known: &[Described],
-    names: &[impl AsRef<str>],
-) -> Result<Vec<Described>, PlotError> {
+    asked: &[String],
+    usual: &[&str],
+) -> Result<Vec<usize>, PlotError> {
     let find = |name: &str| {
-        let found = known.iter().find(|quantity| quantity.name == name);
+        let found = known.iter().position(|quantity| quantity.name == name);
         let all = || known.iter().map(|quantity| quantity.name.as_str());
-        found
-            .cloned()
-            .ok_or_else(|| PlotError::unknown(path, name, name, all()))
+        found.ok_or_else(|| PlotError::unknown(path, name, name, all()))
     };
-    names.iter().map(|name| find(name.as_ref())).collect()
+    match asked {
+        [] => usual.iter().map(|name| find(name)).collect(),
+        names => names.iter().map(|name| find(name)).collect(),
+    }
 }

@@ -90,6 +90,15 @@ pub struct Request {
     pub title: Option<String>,
 }
 
+impl Request {
+    /// A figure without panels, with the title that is asked for or else the usual one.
+    pub(crate) fn figure(&self, usual: &str, subtitle: &str, columns: usize) -> Figure {
+        let width = if columns == 1 { 760.0 } else { 1040.0 };
+        let figure = Figure::new(self.title.as_deref().unwrap_or(usual)).subtitle(subtitle);
+        figure.columns(columns).width(width)
+    }
+}
+
 /// A figure, and what its user should know.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Drawn {

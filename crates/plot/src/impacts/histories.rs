@@ -159,14 +159,14 @@ pub(super) fn probe_panels(
         return Ok((Vec::new(), 0));
     };
     let known = probes.quantities();
-    let shown = match (quantities, files.len()) {
-        ([], 1) => chosen(first.path(), &known, &["displacement_z", "displacement_r"])?,
-        ([], _) => chosen(first.path(), &known, &["displacement_z"])?,
-        (given, _) => chosen(first.path(), &known, given)?,
+    let usual: &[&str] = match files.len() {
+        1 => &["displacement_z", "displacement_r"],
+        _ => &["displacement_z"],
     };
     // one axis has one unit
     let mut by_unit: Vec<Vec<&Described>> = Vec::new();
-    for quantity in &shown {
+    for number in chosen(first.path(), &known, quantities, usual)? {
+        let quantity = &known[number];
         match by_unit.iter_mut().find(|of| of[0].unit == quantity.unit) {
             Some(of_unit) => of_unit.push(quantity),
             None => by_unit.push(vec![quantity]),

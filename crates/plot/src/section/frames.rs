@@ -7,7 +7,7 @@ use crate::words::{axis, of_quantity};
 use contact::{Choice, WaveSpeeds};
 use figure::{Axis, ColourMap, Image, Layer, Panel, Scale, Style};
 use formats::SceneError;
-use formats::quantities::Described;
+use formats::quantities::{Described, FIELD_QUANTITIES};
 use formats::stored::{StoredImpact, StoredSection};
 use std::f64::consts::FRAC_PI_2;
 use std::path::Path;
@@ -225,12 +225,8 @@ fn capsule(disc_radius_m: f64, distance_m: f64) -> Vec<(f64, f64)> {
 /// The value below which a fraction of the sizes lies; 0 without values.
 pub(super) fn quantile_of_sizes(values: impl Iterator<Item = f64>, fraction: f64) -> f64 {
     let mut sizes: Vec<f64> = values.map(f64::abs).filter(|v| v.is_finite()).collect();
-    if sizes.is_empty() {
-        return 0.0;
-    }
-    let index = (fraction * (sizes.len() - 1) as f64).round() as usize;
-    let (_, found, _) = sizes.select_nth_unstable_by(index, f64::total_cmp);
-    *found
+    sizes.sort_unstable_by(f64::total_cmp);
+    lookup::quantile(&sizes, fraction)
 }
 
 /// A quantity with the way to it.
@@ -251,21 +247,17 @@ pub(super) struct Quantity {
 /// Stresses that others follow from.
 const STRESSES: [&str; 4] = ["stress_rr", "stress_tt", "stress_zz", "stress_rz"];
 
-/// What follows from stresses without the elastic constants.
-const OF_STRESSES: [impact::Quantity; 6] = [
-    impact::Quantity::VonMises,
-    impact::Quantity::Tresca,
-    impact::Quantity::MaxShear,
-    impact::Quantity::Principal1,
-    impact::Quantity::Principal2,
-    impact::Quantity::Principal3,
-];
+/// What follows from stresses without the elastic constants: other stresses.
+fn of_stresses() -> impl Iterator<Item = impact::Quantity> {
+    let stresses = FIELD_QUANTITIES.into_iter().filter(|row| row.1 == "Pa");
+    stresses.map(|row| row.0)
+}
 
 impl Quantity {
     /// The quantity of a name, stored or not.
     pub(super) fn named(name: &str, stored: &[Described], path: &Path) -> Result<Self, PlotError> {
         let find = |name: &str| stored.iter().find(|quantity| quantity.name == name);
-        let stress = OF_STRESSES.into_iter().find(|of| of.name() == name);
+        let stress = of_stresses().find(|of| of.name() == name);
         let stress = stress.filter(|_| find(name).is_none());
         let (unit, parts): (&str, &[&str]) = match (find(name), stress, name) {
             (Some(found), _, _) => (&found.unit, &[name]),
@@ -276,7 +268,7 @@ impl Quantity {
             }
             (None, None, _) => {
                 let known = stored.iter().map(|quantity| quantity.name.as_str());
-                let derived = OF_STRESSES.iter().map(|of| of.name());
+                let derived = of_stresses().map(|of| of.name());
                 let all = known.chain(derived).chain(["displacement"]);
                 return Err(PlotError::unknown(path, name, name, all));
             }

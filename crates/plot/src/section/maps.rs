@@ -48,8 +48,7 @@ pub(crate) fn frames(
         panel.layers.extend(section.fronts(time_s));
         panel
     };
-    let panels = chosen.iter().zip(images).map(panel).collect();
-    Ok((panels, notes))
+    Ok((chosen.iter().zip(images).map(panel).collect(), notes))
 }
 
 /// Frames evenly: until the longitudinal wave leaves the section, or within a pulse that is longer.

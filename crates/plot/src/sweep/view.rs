@@ -120,9 +120,11 @@ impl<'a> View<'a> {
         let parts = self.sweep.axes[axis].columns.iter().map(|column| {
             let (name, unit) = of_key(&column.name());
             match &column.values {
-                Values::Numbers(values) => format!("{name} {}", with_unit(values[index], unit)),
-                Values::Drawn(drawn) => format!("{name} {}", with_unit(drawn.at(index), unit)),
                 Values::Texts(values) => values[index].clone(),
+                values => {
+                    let number = values.number(index).unwrap_or(f64::NAN);
+                    format!("{name} {}", with_unit(number, unit))
+                }
             }
         });
         parts.collect::<Vec<_>>().join(", ")
