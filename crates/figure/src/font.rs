@@ -11,15 +11,13 @@ pub(crate) const ASCENT: f64 = 0.78;
 pub(crate) const DESCENT: f64 = 0.20;
 
 /// The font file.
-pub(crate) fn data() -> &'static [u8] {
-    epaint_default_fonts::UBUNTU_LIGHT
-}
+pub(crate) const DATA: &[u8] = epaint_default_fonts::UBUNTU_LIGHT;
 
 fn face() -> &'static Face<'static> {
     static FACE: OnceLock<Face<'static>> = OnceLock::new();
     FACE.get_or_init(|| {
         #[expect(clippy::unwrap_used, reason = "the file is part of the program")]
-        Face::parse(data(), 0).unwrap()
+        Face::parse(DATA, 0).unwrap()
     })
 }
 

@@ -44,8 +44,7 @@ impl Rect {
 
     /// Whether the other one lies in it.
     pub fn holds(&self, other: &Self) -> bool {
-        let across = self.left <= other.left && self.right >= other.right;
-        across && self.top <= other.top && self.bottom >= other.bottom
+        self.has((other.left, other.top)) && self.has((other.right, other.bottom))
     }
 
     /// Whether a point lies in it.

@@ -42,11 +42,9 @@ pub(crate) fn of_table(path: &Path, request: &Request) -> Result<Figure, PlotErr
     let pulses = 0..content.pulse_lengths.len();
     let columns = pulses.len().clamp(1, 3);
     let panels = pulses.map(|pulse| panel(&content, slice, pulse, &fields, &colours));
-    let figure = request.figure(&title, &subtitle, columns).panels(panels);
-    Ok(figure
-        .width(1040.0)
-        .sharing(Sharing::Both)
-        .common_colour_bar())
+    let mut figure = request.figure(&title, &subtitle, columns).panels(panels);
+    figure.has_common_bar = true;
+    Ok(figure.width(1040.0).sharing(Sharing::Both))
 }
 
 fn panel(

@@ -155,6 +155,6 @@ fn sized(mut figure: Figure, width: f64) -> Figure {
     if width < COLUMN {
         figure.columns = 1;
     }
-    let text = (figure.text * (width / figure.width).sqrt()).clamp(8.0, 16.0);
-    figure.width(width).text(text)
+    figure.text = (figure.text * (width / figure.width).sqrt()).clamp(8.0, 16.0);
+    figure.width(width)
 }

@@ -55,9 +55,9 @@ fn draw_panel(
     let mark_rows = labels::rows(&fitted.marks);
     let mut line = frame.area.top - faces.gap() - Typeface::lines(faces.mark, mark_rows);
     for title in fitted.title.iter().rev() {
-        let at = (frame.area.centre().0, line - 0.2 * faces.panel);
-        scene.text(Text::new(title, at, faces.panel, MIDDLE));
-        line -= LINE * faces.panel;
+        let at = (frame.area.centre().0, line - 0.2 * faces.label);
+        scene.text(Text::new(title, at, faces.label, MIDDLE));
+        line -= LINE * faces.label;
     }
     let legend = fitted.legend.as_ref();
     let taken = legend.and_then(|legend| legend.covered(frame.area));
@@ -211,9 +211,9 @@ impl Fitted {
         let [width, height] = size;
         let axes = Axes::new(plan, size, faces);
         let mut needs = axes.needs(plan, width, faces);
-        let title = wrap(&plan.panel.title, faces.panel, width);
+        let title = wrap(&plan.panel.title, faces.label, width);
         let marks = labels::of_marks(plan, width, faces);
-        let title_height = Typeface::lines(faces.panel, title.len());
+        let title_height = Typeface::lines(faces.label, title.len());
         let above = Typeface::lines(faces.mark, labels::rows(&marks)) + title_height;
         if above > 0.0 {
             needs.top = needs.top.max(above + faces.gap());

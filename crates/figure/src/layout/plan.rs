@@ -125,40 +125,35 @@ fn colours(panels: &[Panel]) -> Option<Colours> {
 
 /// The numbers of each layer of each panel.
 fn numbers(figure: &Figure) -> Vec<Vec<[usize; 2]>> {
-    let of_panel = |panel: &Panel| coloured(&panel.layers).map(|(_, name)| name).collect();
-    let names: Vec<Vec<String>> = figure.panels.iter().map(of_panel).collect();
+    let panels: Vec<Vec<Option<String>>> = figure.panels.iter().map(names).collect();
     let mut known: BTreeMap<&String, [usize; 2]> = BTreeMap::new();
-    for name in names.iter().flatten() {
-        if known.contains_key(name) {
-            continue;
-        }
-        let beside = |other: &String| names.iter().any(|p| p.contains(name) && p.contains(other));
+    for name in panels.iter().flatten().flatten() {
+        let has = |panel: &[_], name: &String| panel.iter().flatten().any(|own| own == name);
+        let beside = |other: &String| panels.iter().any(|p| has(p, name) && has(p, other));
         let taken = known.iter().filter(|(other, _)| beside(other));
         let is_free = |n: &usize| taken.clone().all(|(_, numbers)| numbers[1] != *n);
         let numbers = [known.len(), (0..).find(is_free).unwrap_or(0)];
-        known.insert(name, numbers);
+        known.entry(name).or_insert(numbers);
     }
-    let of_panel = |panel: &Panel| {
-        let mut numbers = vec![[0; 2]; panel.layers.len()];
-        for (i, name) in coloured(&panel.layers) {
-            numbers[i] = known[&name];
-        }
-        numbers
-    };
-    figure.panels.iter().map(of_panel).collect()
+    let number = |name: &Option<String>| name.as_ref().map_or([0; 2], |name| known[name]);
+    let of_panel = |names: &Vec<_>| names.iter().map(number).collect();
+    panels.iter().map(of_panel).collect()
 }
 
-/// Curves that have a colour of their own, each with its name; one without a name is named by its number in the panel.
-fn coloured(layers: &[Layer]) -> impl Iterator<Item = (usize, String)> + '_ {
-    let layers = layers.iter().enumerate();
-    let own = layers.filter_map(|(i, layer)| match layer {
-        Layer::Line(line) if line.style.is_coloured() => Some((i, &line.name)),
+/// The name of each layer of a panel that has a colour of its own; one without a name is named by its number among them.
+fn names(panel: &Panel) -> Vec<Option<String>> {
+    let mut coloured = 0;
+    let names = panel.layers.iter().map(|layer| match layer {
+        Layer::Line(line) if line.style.is_coloured() => {
+            coloured += 1;
+            Some(match line.name.as_str() {
+                "" => format!("\0{coloured}"),
+                name => name.to_owned(),
+            })
+        }
         _ => None,
     });
-    own.enumerate().map(|(n, (i, name))| match name.as_str() {
-        "" => (i, format!("\0{n}")),
-        name => (i, name.to_owned()),
-    })
+    names.collect()
 }
 
 #[cfg(test)]
@@ -198,7 +193,8 @@ mod tests {
         panel.x = panel.x.range(0.0, 1.0);
         let figure = Figure::new("").panel(panel.clone());
         assert!(plan(&figure)[0].intervals[1].high <= 1.0);
-        let figure = Figure::new("").panel(panel.mirrored());
+        panel.is_mirrored = true;
+        let figure = Figure::new("").panel(panel);
         assert_eq!(plan(&figure)[0].intervals[0], Interval::linear(-1.0, 1.0));
     }
 

@@ -127,7 +127,7 @@ impl Subset {
                 }
             }
         }
-        let file = subsetter::subset(font::data(), 0, &remapper)
+        let file = subsetter::subset(font::DATA, 0, &remapper)
             .map_err(|error| FigureError(format!("the font cannot be embedded: {error}")))?;
         Ok(Self { file, letters })
     }

@@ -46,9 +46,9 @@ pub(crate) fn of_impacts(
         Kind::Waves => {
             let (panels, notes) = frames(one()?, request, request.frames.unwrap_or(4))?;
             let columns = if panels.len() > 4 { 3 } else { 2 };
-            let figure = headed(impacts, request, columns.min(panels.len())).width(960.0);
-            let figure = figure.sharing(Sharing::Both).common_colour_bar();
-            return Ok((figure.panels(panels), notes));
+            let mut figure = headed(impacts, request, columns.min(panels.len())).width(960.0);
+            figure.has_common_bar = true;
+            return Ok((figure.sharing(Sharing::Both).panels(panels), notes));
         }
         // kinds of other files do not come here
         _ => return histories(impacts, kind, request),

@@ -169,10 +169,12 @@ impl<'a> Section<'a> {
         let image = Image::new(r_m, z_m, values, colours, map);
         let distance = Axis::linear("distance from the axis").si("m");
         let depth = Axis::linear("depth").si("m").reversed();
-        Panel::new(distance.range(0.0, r_max_m), depth.range(0.0, z_max_m))
-            .equal_lengths()
-            .mirrored()
-            .layer(Layer::Image(image))
+        let panel = Panel::new(distance.range(0.0, r_max_m), depth.range(0.0, z_max_m));
+        Panel {
+            has_equal_lengths: true,
+            is_mirrored: true,
+            ..panel.layer(Layer::Image(image))
+        }
     }
 
     /// The fronts at a time as thin lines with their names, in a mirrored panel.
