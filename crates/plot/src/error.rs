@@ -1,6 +1,6 @@
 //! Why there is no picture; and what is looked for by its name, with the error that it is not there.
 
-use crate::request::Kind;
+use crate::request::{Kind, Request};
 use contact::{Choice, nearest};
 use fault::{Class, Culprit, Fault};
 use formats::SceneError;
@@ -64,14 +64,6 @@ impl PlotError {
         )
     }
 
-    /// Times for a picture of all of them.
-    pub(crate) fn all_times(kind: Kind) -> Self {
-        let sentence = format!(
-            "the picture {kind} shows all times: only waves and axis show those that are given"
-        );
-        Self::refused(None, sentence)
-    }
-
     /// A key of words along an axis of numbers.
     pub(crate) fn no_numbers(key: &str) -> Self {
         Self::refused(None, format!("{key} has no numbers to draw along"))
@@ -119,6 +111,19 @@ impl Fault for PlotError {
             },
         }
     }
+}
+
+/// The kind of picture that is asked for, or else the one that suits the file; times are not asked of one that shows all.
+pub(crate) fn kind_of(request: &Request, suits: Kind) -> Result<Kind, PlotError> {
+    let kind = request.kind.unwrap_or(suits);
+    if request.times_s.is_empty() || matches!(kind, Kind::Waves | Kind::Axis) {
+        return Ok(kind);
+    }
+    let shown = "shows all times: only waves and axis show those that are given";
+    Err(PlotError::refused(
+        None,
+        format!("the picture {kind} {shown}"),
+    ))
 }
 
 /// The only one of some files or paths.

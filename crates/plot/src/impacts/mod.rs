@@ -7,7 +7,7 @@ mod histories;
 mod labels;
 mod spectrum;
 
-use crate::error::{PlotError, only};
+use crate::error::{PlotError, kind_of, only};
 use crate::request::{Kind, Request};
 use crate::section::{axis_profile, frames, peak, space_time};
 use crate::words::with_unit;
@@ -31,10 +31,7 @@ pub(crate) fn of_impacts(
         [only] if only.section()?.is_some() => Kind::Waves,
         _ => Kind::Impact,
     };
-    let kind = request.kind.unwrap_or(suits);
-    if !request.times_s.is_empty() && !matches!(kind, Kind::Waves | Kind::Axis) {
-        return Err(PlotError::all_times(kind));
-    }
+    let kind = kind_of(request, suits)?;
     let one = || only(impacts, kind);
     let panel = match kind {
         Kind::Loop => loop_panel(impacts, &labels(impacts))?,

@@ -44,7 +44,7 @@ impl<'a> Section<'a> {
         })
     }
 
-    /// The quantity that is asked for, or the one that shows waves best.
+    /// The quantity that is asked for, or the usual one.
     pub(super) fn quantity(&self, request: &Request, usual: &str) -> Result<Quantity, PlotError> {
         let name = request.quantities.first().map_or(usual, String::as_str);
         Quantity::named(name, &self.stored.quantities(), self.impact.path())
@@ -180,21 +180,19 @@ impl<'a> Section<'a> {
     /// The fronts at a time as thin lines with their names, in a mirrored panel.
     pub(super) fn fronts(&self, time_s: f64) -> Vec<Layer> {
         let since = time_s - self.start_s;
-        let mut layers = Vec::new();
         if since <= 0.0 {
-            return layers;
+            return Vec::new();
         }
-        let mut line = |points: Vec<(f64, f64)>| {
-            layers.push(Layer::line("", Style::Rimmed, points));
-        };
         let [p, s, rayleigh] =
             [self.speeds.p, self.speeds.s, self.speeds.rayleigh].map(|c| c * since);
-        line(capsule(self.disc_radius_m, p));
-        line(capsule(self.disc_radius_m, s));
         // a Rayleigh wave is as deep as it is long
-        let depth = self.speeds.rayleigh * self.pulse_s;
+        let depth = (self.speeds.rayleigh * self.pulse_s).min(0.9 * rayleigh);
         let edge = self.disc_radius_m + rayleigh;
-        line(vec![(edge, 0.0), (edge, depth.min(0.9 * rayleigh))]);
+        let [of_p, of_s] = [p, s].map(|radius| capsule(self.disc_radius_m, radius));
+        let lines = [of_p, of_s, vec![(edge, 0.0), (edge, depth)]];
+        let mut layers = lines
+            .map(|line| Layer::line("", Style::Rimmed, line))
+            .to_vec();
         let on = |radius: f64, angle: f64| {
             let across = self.disc_radius_m + radius * angle.sin();
             (across, radius * angle.cos())
@@ -206,7 +204,7 @@ impl<'a> Section<'a> {
         let named = [
             (on(p, 0.75), "P"),
             (on(s, 0.5), "S"),
-            ((edge, 0.6 * depth.min(0.9 * rayleigh)), "R"),
+            ((edge, 0.6 * depth), "R"),
         ];
         layers.extend(named.map(|(at, name)| Layer::text(at, name)));
         layers

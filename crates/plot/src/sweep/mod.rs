@@ -2,7 +2,7 @@
 
 mod view;
 
-use crate::error::{PlotError, chosen};
+use crate::error::{PlotError, chosen, kind_of};
 use crate::request::{Kind, Request};
 use crate::words::{axis, of_key, stem};
 use figure::{Axis, ColourMap, Figure, Image, Layer, Legend, Line, Panel, Scale, Style};
@@ -56,15 +56,12 @@ pub(crate) fn of_sweep(path: &Path, request: &Request) -> Result<Figure, PlotErr
         (None, Some(_)) => Kind::Histogram,
         (Some(_), _) | (None, None) => Kind::Sweep,
     };
-    let kind = request.kind.unwrap_or(suits);
+    let kind = kind_of(request, suits)?;
     // where only draws vary, over the first of their keys
     let along = match kind {
         Kind::Sweep => along.or(view.drawn),
         _ => along,
     };
-    if !request.times_s.is_empty() {
-        return Err(PlotError::all_times(kind));
-    }
     let known = sweep.quantities();
     let usual: &[&str] = match kind {
         Kind::Loss => &["loss"],
@@ -143,40 +140,27 @@ fn scale_of(values: &[f64]) -> Scale {
     }
 }
 
-/// The numbers of a key along an axis.
-struct Nodes {
-    axis: Axis,
-    /// In the unit of the axis.
-    places: Vec<f64>,
-    /// Indices of the places, rising: values of a list or of a product need not rise.
-    order: Vec<usize>,
+/// The numbers of a key along an axis of a sweep, the one that is asked for, and their axis in a picture.
+fn nodes(
+    view: &View<'_>,
+    number: usize,
+    asked: Option<&str>,
+) -> Result<(Axis, Vec<f64>), PlotError> {
+    let Some((column, values)) = view.numbers(number, asked) else {
+        return Err(PlotError::no_numbers(&view.sweep.axes[number].name));
+    };
+    let (name, unit) = of_key(&column.name());
+    // grams for kilograms, which have a prefix already
+    let factor = if unit == "kg" { 1e3 } else { 1.0 };
+    let nodes: Vec<f64> = values.iter().map(|x| factor * x).collect();
+    Ok((axis(&name, unit, scale_of(&nodes)), nodes))
 }
 
-impl Nodes {
-    /// Along an axis of a sweep, those of the key that is asked for.
-    fn along(view: &View<'_>, number: usize, asked: Option<&str>) -> Result<Self, PlotError> {
-        let Some((column, values)) = view.numbers(number, asked) else {
-            return Err(PlotError::no_numbers(&view.sweep.axes[number].name));
-        };
-        let (name, unit) = of_key(&column.name());
-        // grams for kilograms, which have a prefix already
-        let factor = if unit == "kg" { 1e3 } else { 1.0 };
-        let places: Vec<f64> = values.iter().map(|x| factor * x).collect();
-        let mut order: Vec<usize> = (0..places.len()).collect();
-        order.sort_by(|&a, &b| places[a].total_cmp(&places[b]));
-        Ok(Self {
-            axis: axis(&name, unit, scale_of(&places)),
-            places,
-            order,
-        })
-    }
-
-    /// The places, each once.
-    fn distinct(&mut self) -> Vec<f64> {
-        let places = &self.places;
-        self.order.dedup_by(|a, b| places[*a] == places[*b]);
-        self.order.iter().map(|&i| places[i]).collect()
-    }
+/// Nodes with their indices, rising: values of a list or of a product need not rise.
+fn rising(nodes: &[f64]) -> Vec<(usize, f64)> {
+    let mut rising: Vec<(usize, f64)> = nodes.iter().copied().enumerate().collect();
+    rising.sort_by(|a, b| a.1.total_cmp(&b.1));
+    rising
 }
 
 /// Lines over a key, or a heat map where a second key has many values.
@@ -209,25 +193,21 @@ fn lines(
         // by its name a band knows its curve
         only.label = "draws".to_owned();
     }
-    let nodes = Nodes::along(view, along, asked)?;
-    let mut panel = Panel::new(nodes.axis, shown.axis.clone());
-    let places = nodes.places;
-    let style = match places.len() {
+    let (axis, nodes) = nodes(view, along, asked)?;
+    let mut panel = Panel::new(axis, shown.axis.clone());
+    let style = match nodes.len() {
         ..=12 => Style::Marked,
         _ => Style::Plain,
     };
     if view.drawn == Some(along) {
         for slice in &slices {
-            panel = over_draws(panel, slice, &places, &view.rows(slice, &[]), &shown.values);
+            panel = over_draws(panel, slice, &nodes, &view.rows(slice, &[]), &shown.values);
         }
         return Ok(panel);
     }
     for slice in &slices {
-        let at = |&i: &usize| {
-            let found = view.quantiles(slice, &[(along, i)], &shown.values)?;
-            Some((places[i], found))
-        };
-        let found: Vec<(f64, [f64; 3])> = nodes.order.iter().filter_map(at).collect();
+        let at = |(i, x)| Some((x, view.quantiles(slice, &[(along, i)], &shown.values)?));
+        let found: Vec<(f64, [f64; 3])> = rising(&nodes).into_iter().filter_map(at).collect();
         panel = match view.drawn {
             Some(_) => panel.banded(&slice.label, style, &found),
             None => {
@@ -240,14 +220,8 @@ fn lines(
 }
 
 /// Draws over one of their own keys: a point each, or of many the median and 90 % in bins of as many draws.
-fn over_draws(
-    panel: Panel,
-    slice: &Slice,
-    places: &[f64],
-    rows: &[usize],
-    values: &[f64],
-) -> Panel {
-    let pairs = places.iter().zip(rows).map(|(x, row)| (*x, values[*row]));
+fn over_draws(panel: Panel, slice: &Slice, nodes: &[f64], rows: &[usize], values: &[f64]) -> Panel {
+    let pairs = nodes.iter().zip(rows).map(|(x, row)| (*x, values[*row]));
     let mut pairs: Vec<(f64, f64)> = pairs.filter(|pair| pair.1.is_finite()).collect();
     if pairs.len() <= MOST_POINTS {
         return panel.line(&slice.label, Style::Points, pairs);
@@ -267,20 +241,24 @@ fn heat_map(
     slice: &Slice,
     shown: &Shown,
 ) -> Result<Panel, PlotError> {
-    let mut x = Nodes::along(view, along, None)?;
-    let mut y = Nodes::along(view, second, None)?;
-    let (columns, rows) = (x.distinct(), y.distinct());
+    let ((x_axis, x), (y_axis, y)) = (nodes(view, along, None)?, nodes(view, second, None)?);
+    let [x, y] = [x, y].map(|nodes| {
+        let mut distinct = rising(&nodes);
+        distinct.dedup_by(|a, b| a.1 == b.1);
+        distinct
+    });
     let mut values = Vec::new();
-    for &j in &y.order {
-        for &i in &x.order {
+    for &(j, _) in &y {
+        for &(i, _) in &x {
             let found = view.quantiles(slice, &[(along, i), (second, j)], &shown.values);
             values.push(found.map_or(f64::NAN, |q| q[1]));
         }
     }
     let mut colours = shown.axis.clone();
     colours.scale = scale_of(&values);
+    let [columns, rows] = [x, y].map(|nodes| nodes.into_iter().map(|node| node.1).collect());
     let image = Image::new(columns, rows, values, colours, ColourMap::Sequential);
-    let panel = Panel::new(x.axis, y.axis).height(280.0);
+    let panel = Panel::new(x_axis, y_axis).height(280.0);
     Ok(panel.layer(Layer::Image(image)))
 }
 
