@@ -37,7 +37,7 @@ impl Bar {
             distance: 3.4 * faces.tick,
             needs: &|_| LINE * faces.tick,
         };
-        let axis = FittedAxis::new(&colours.axis, &colours.limits, true, &room, faces);
+        let axis = FittedAxis::new(&colours.axis, &colours.limits, &room, faces);
         let left = 1.2 * faces.tick;
         let numbers = left + STRIP + faces.tick_length() + 0.3 * faces.tick;
         let text = numbers + axis.numbers + faces.gap() + 0.5 * LINE * faces.label;

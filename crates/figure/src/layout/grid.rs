@@ -29,8 +29,8 @@ pub(crate) fn draw(figure: &Figure) -> Result<Scene, FigureError> {
             bar => break (scene, panels, plots, bar),
         }
     };
-    for (plan, panel) in plans.iter().zip(&panels) {
-        draw_panel(&mut scene, plan, panel, &faces);
+    for panel in &panels {
+        panel.draw(&mut scene, &faces);
     }
     if let Some(bar) = bar {
         bar.draw(&mut scene, plots, &faces);
@@ -38,48 +38,16 @@ pub(crate) fn draw(figure: &Figure) -> Result<Scene, FigureError> {
     Ok(scene)
 }
 
-fn draw_panel(
-    scene: &mut Scene,
-    plan: &PanelPlan<'_>,
-    (fitted, frame): &(Fitted, Frame),
-    faces: &Typeface,
-) {
-    if !plan.panel.is_filled() {
-        fitted.axes.draw_grid(scene, frame);
-    }
-    for (layer, &numbers) in plan.panel.layers.iter().zip(&plan.numbers) {
-        layer.draw(scene, frame, plan.colours.as_ref(), numbers);
-    }
-    labels::draw_marks(scene, plan, frame, &fitted.marks, faces);
-    fitted.axes.draw(scene, frame, faces);
-    let mark_rows = labels::rows(&fitted.marks);
-    let mut line = frame.area.top - faces.gap() - Typeface::lines(faces.mark, mark_rows);
-    for title in fitted.title.iter().rev() {
-        let at = (frame.area.centre().0, line - 0.2 * faces.label);
-        scene.text(Text::new(title, at, faces.label, MIDDLE));
-        line -= LINE * faces.label;
-    }
-    let legend = fitted.legend.as_ref();
-    let taken = legend.and_then(|legend| legend.covered(frame.area));
-    labels::draw_points(scene, plan, frame, taken, faces.tick);
-    if let Some(legend) = legend {
-        legend.draw(scene, frame.area, faces.legend);
-    }
-    if let Some(bar) = &fitted.bar {
-        bar.draw(scene, frame.area, faces);
-    }
-}
-
-/// The canvas with the title and the line below it, and each panel, what is around its plot, and the plot; the common
-/// colour bar gets a width at the right.
+/// The canvas with the title and the line below it, and each panel with its place; the common colour bar gets a width at
+/// the right.
 ///
 /// All plots are equally wide; the width of the figure is exceeded rather than that they vanish.
-fn arrange(
+fn arrange<'a>(
     figure: &Figure,
-    plans: &[PanelPlan<'_>],
+    plans: &'a [PanelPlan<'a>],
     faces: &Typeface,
     bar: f64,
-) -> (Scene, Vec<(Fitted, Frame)>) {
+) -> (Scene, Vec<Fitted<'a>>) {
     let count = figure.columns.min(plans.len());
     let legend_width = (0.34 * figure.width / count as f64).min(22.0 * faces.tick);
     let gap = 1.4 * faces.tick;
@@ -87,17 +55,17 @@ fn arrange(
     // needed at the left and at the right of each column
     let (mut left, mut right) = (vec![0.0_f64; count], vec![0.0_f64; count]);
     // what is reserved at the sides only grows, so that it is enough for the plots at the end
-    let (fitted, width) = loop {
-        let fit = |plan: &PanelPlan<'_>| {
+    let (mut fitted, width) = loop {
+        let fit = |(i, plan): (usize, &'a PanelPlan<'a>)| {
             // beside the last column alone: elsewhere it would tear the columns apart
-            let most_right = legend_width * f64::from(u8::from(plan.column + 1 == count));
-            Fitted::new(plan, size(plan, plot), faces, most_right)
+            let most_right = legend_width * f64::from(u8::from((i + 1) % count == 0));
+            Fitted::new(plan, plot, faces, most_right)
         };
-        let fitted: Vec<Fitted> = plans.iter().map(fit).collect();
+        let fitted: Vec<Fitted<'_>> = plans.iter().enumerate().map(fit).collect();
         let before = (left.clone(), right.clone());
-        for (plan, Fitted { needs, .. }) in plans.iter().zip(&fitted) {
-            left[plan.column] = left[plan.column].max(needs.left);
-            right[plan.column] = right[plan.column].max(needs.right);
+        for (i, Fitted { needs, .. }) in fitted.iter().enumerate() {
+            left[i % count] = left[i % count].max(needs.left);
+            right[i % count] = right[i % count].max(needs.right);
         }
         let needed: f64 = left.iter().chain(&right).sum();
         let sides = needed + gap * (count - 1) as f64 + 2.0 * PAD;
@@ -124,47 +92,38 @@ fn arrange(
         PAD + before.sum::<f64>() + left[column]
     };
     let starts: Vec<f64> = (0..count).map(start).collect();
-    let (frames, bottom) = rows(plans, &fitted, &starts, plot, top, 1.2 * faces.tick);
+    let bottom = place(&mut fitted, &starts, top, 1.2 * faces.tick);
     let mut scene = Scene {
         width: width + bar,
         height: bottom + PAD,
-        plots: frames.iter().map(|frame| frame.area).collect(),
+        plots: fitted.iter().map(|fitted| fitted.frame.area).collect(),
         items: Vec::new(),
     };
     let canvas = Rect::new(0.0, 0.0, scene.width, scene.height);
     scene.shape(Shape::rectangle(canvas).filled(WHITE, 1.0));
     scene.items.extend(heading.into_iter().map(Item::Text));
-    (scene, fitted.into_iter().zip(frames).collect())
+    (scene, fitted)
 }
 
-/// Every panel's area in columns that start at some places, row below row from `top` on; and the bottom of the last row.
-fn rows(
-    plans: &[PanelPlan<'_>],
-    fitted: &[Fitted],
-    starts: &[f64],
-    plot: f64,
-    mut top: f64,
-    gap: f64,
-) -> (Vec<Frame>, f64) {
-    let mut frames = Vec::with_capacity(plans.len());
-    let columns = starts.len();
-    for (plans, fitted) in plans.chunks(columns).zip(fitted.chunks(columns)) {
-        let most = |of: fn(&Needs) -> f64| fitted.iter().map(|f| of(&f.needs)).fold(0.0, f64::max);
-        let heights = plans.iter().map(|plan| size(plan, plot)[1]);
-        top += most(|needs| needs.top);
-        for (plan, &left) in plans.iter().zip(starts) {
-            let [width, height] = size(plan, plot);
-            frames.push(plan.frame(Rect::new(left, top, width, height)));
+/// Gives every panel its place in columns that start at some places, row below row from `top` on; and the bottom of the
+/// last row.
+fn place(fitted: &mut [Fitted<'_>], starts: &[f64], mut top: f64, gap: f64) -> f64 {
+    for row in fitted.chunks_mut(starts.len()) {
+        let most = |of: fn(&Fitted<'_>) -> f64| row.iter().map(of).fold(0.0, f64::max);
+        let (height, below) = (most(|f| f.frame.area.height()), most(|f| f.needs.bottom));
+        top += most(|f| f.needs.top);
+        for (Fitted { frame, .. }, &left) in row.iter_mut().zip(starts) {
+            frame.area = Rect::new(left, top, frame.area.width(), frame.area.height());
         }
-        top += heights.fold(0.0, f64::max) + most(|needs| needs.bottom) + gap;
+        top += height + below + gap;
     }
-    (frames, top - gap)
+    top - gap
 }
 
 /// From the first plot to the last, with what the last column needs at its right.
-fn plots(panels: &[(Fitted, Frame)]) -> Rect {
-    let areas = panels.iter().map(|(fitted, frame)| Rect {
-        right: frame.area.right + fitted.needs.right,
+fn plots(panels: &[Fitted<'_>]) -> Rect {
+    let areas = panels.iter().map(|Fitted { frame, needs, .. }| Rect {
+        right: frame.area.right + needs.right,
         ..frame.area
     });
     areas.reduce(Rect::union).unwrap_or_default()
@@ -192,9 +151,11 @@ fn size(plan: &PanelPlan<'_>, width: f64) -> [f64; 2] {
     }
 }
 
-/// A panel fitted around a plot whose upper left corner is at 0, 0.
+/// A panel fitted around its plot.
 #[derive(Debug, Clone, PartialEq)]
-struct Fitted {
+struct Fitted<'a> {
+    plan: &'a PanelPlan<'a>,
+    frame: Frame,
     axes: Axes,
     title: Vec<String>,
     marks: Vec<Label>,
@@ -203,16 +164,17 @@ struct Fitted {
     needs: Needs,
 }
 
-impl Fitted {
-    /// Fits a panel around a plot of a size.
+impl<'a> Fitted<'a> {
+    /// Fits a panel around a plot in a column of plots of a width, with its upper left corner at 0, 0.
     ///
     /// A legend at the right has `legend_width` pixels at most.
-    fn new(plan: &PanelPlan<'_>, size: [f64; 2], faces: &Typeface, legend_width: f64) -> Self {
-        let [width, height] = size;
-        let axes = Axes::new(plan, size, faces);
+    fn new(plan: &'a PanelPlan<'a>, plot: f64, faces: &Typeface, legend_width: f64) -> Self {
+        let [width, height] = size(plan, plot);
+        let frame = plan.frame(Rect::new(0.0, 0.0, width, height));
+        let axes = Axes::new(plan, [width, height], faces);
         let mut needs = axes.needs(plan, width, faces);
         let title = wrap(&plan.panel.title, faces.label, width);
-        let marks = labels::of_marks(plan, width, faces);
+        let marks = labels::of_marks(plan, &frame, faces);
         let title_height = Typeface::lines(faces.label, title.len());
         let above = Typeface::lines(faces.mark, labels::rows(&marks)) + title_height;
         if above > 0.0 {
@@ -223,7 +185,7 @@ impl Fitted {
         if let Some(bar) = &bar {
             needs.right = needs.right.max(bar.width);
         }
-        let legend = Legend::new(plan, size, faces, &needs, legend_width);
+        let legend = Legend::new(plan, &frame, faces, &needs, legend_width);
         if let Some(legend) = &legend {
             match legend.place {
                 Place::Right(from) => {
@@ -235,12 +197,42 @@ impl Fitted {
             }
         }
         Self {
+            plan,
+            frame,
             axes,
             title,
             marks,
             legend,
             bar,
             needs,
+        }
+    }
+
+    fn draw(&self, scene: &mut Scene, faces: &Typeface) {
+        let Self { plan, frame, .. } = self;
+        if !plan.panel.is_filled() {
+            self.axes.draw_grid(scene, frame);
+        }
+        for (layer, &numbers) in plan.panel.layers.iter().zip(&plan.numbers) {
+            layer.draw(scene, frame, plan.colours.as_ref(), numbers);
+        }
+        labels::draw_marks(scene, plan, frame, &self.marks, faces);
+        self.axes.draw(scene, frame, faces);
+        let mark_rows = labels::rows(&self.marks);
+        let mut line = frame.area.top - faces.gap() - Typeface::lines(faces.mark, mark_rows);
+        for title in self.title.iter().rev() {
+            let at = (frame.area.centre().0, line - 0.2 * faces.label);
+            scene.text(Text::new(title, at, faces.label, MIDDLE));
+            line -= LINE * faces.label;
+        }
+        let legend = self.legend.as_ref();
+        let taken = legend.and_then(|legend| legend.covered(frame.area));
+        labels::draw_points(scene, plan, frame, taken, faces.tick);
+        if let Some(legend) = legend {
+            legend.draw(scene, frame.area, faces.legend);
+        }
+        if let Some(bar) = &self.bar {
+            bar.draw(scene, frame.area, faces);
         }
     }
 }

@@ -38,13 +38,12 @@ pub(super) fn rows(labels: &[Label]) -> usize {
     labels.iter().map(|label| label.row + 1).max().unwrap_or(0)
 }
 
-/// Labels over a plot of a width, in as few rows as hold them, none over another.
-pub(super) fn of_marks(plan: &PanelPlan<'_>, width: f64, faces: &Typeface) -> Vec<Label> {
-    let frame = plan.frame(Rect::new(0.0, 0.0, width, 1.0));
+/// Labels over a plot at 0, 0, in as few rows as hold them, none over another.
+pub(super) fn of_marks(plan: &PanelPlan<'_>, frame: &Frame, faces: &Typeface) -> Vec<Label> {
     let named = lines(plan).filter(|(_, label)| !label.trim().is_empty());
     let mut found: Vec<_> = named.map(|(x, label)| (frame.across(x), label)).collect();
     found.sort_by(|a, b| a.0.total_cmp(&b.0));
-    placed(&found, width, faces)
+    placed(&found, frame.area.width(), faces)
 }
 
 /// Labels of lines from the left side, rising.

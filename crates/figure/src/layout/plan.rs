@@ -12,7 +12,6 @@ use std::slice;
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct PanelPlan<'a> {
     pub(crate) panel: &'a Panel,
-    pub(crate) column: usize,
     /// Values along x and y.
     pub(crate) intervals: [Interval; 2],
     /// Whether numbers and labels are written along x and y.
@@ -43,10 +42,9 @@ impl PanelPlan<'_> {
 /// Plans every panel of a figure.
 pub(crate) fn plan(figure: &Figure) -> Vec<PanelPlan<'_>> {
     let common = colours(&figure.panels).filter(|_| figure.has_common_bar);
-    let panels = figure.panels.iter().zip(numbers(figure)).enumerate();
-    let plan = |(i, (panel, numbers))| PanelPlan {
+    let panels = figure.panels.iter().zip(numbers(figure));
+    let plan = |(panel, numbers)| PanelPlan {
         panel,
-        column: i % figure.columns,
         intervals: intervals(panel),
         labelled: [true; 2],
         colours: common.clone().or_else(|| colours(slice::from_ref(panel))),
