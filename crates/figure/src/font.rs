@@ -72,13 +72,12 @@ impl OutlineBuilder for Pen {
     }
 
     fn quad_to(&mut self, a: f32, b: f32, x: f32, y: f32) {
-        let along = self.along;
-        self.path.quad_to(along + a, b, along + x, y);
+        self.path.quad_to(self.along + a, b, self.along + x, y);
     }
 
     fn curve_to(&mut self, a: f32, b: f32, c: f32, d: f32, x: f32, y: f32) {
-        let along = self.along;
-        self.path.cubic_to(along + a, b, along + c, d, along + x, y);
+        self.path
+            .cubic_to(self.along + a, b, self.along + c, d, self.along + x, y);
     }
 
     fn close(&mut self) {

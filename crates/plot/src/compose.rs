@@ -2,15 +2,15 @@
 
 use crate::error::{PlotError, only};
 use crate::impacts::{frames_of, of_impacts};
-use crate::request::{Drawn, Kind, Request};
+use crate::request::{Kind, Request};
 use crate::sweep::of_sweep;
 use crate::table::of_table;
 use figure::{Axis, ColourMap, Figure, Image, Layer, Scale};
 use formats::stored::{FileKind, StoredImpact, file_kind};
 use std::path::PathBuf;
 
-/// Composes a figure of one or several files of one kind.
-pub fn compose(paths: &[PathBuf], request: &Request) -> Result<Drawn, PlotError> {
+/// Composes a figure of one or several files of one kind; and sentences for its user: what is not shown, and how to see it.
+pub fn compose(paths: &[PathBuf], request: &Request) -> Result<(Figure, Vec<String>), PlotError> {
     let file = common_kind(paths)?;
     let unsuitable = |kind| Err(PlotError::unsuitable(&paths[0], file, kind));
     if let Some(kind) = request.kind.filter(|kind| kind.file() != file) {
@@ -24,7 +24,7 @@ pub fn compose(paths: &[PathBuf], request: &Request) -> Result<Drawn, PlotError>
         FileKind::Chart => return unsuitable(Kind::Impact),
     };
     scale(&mut figure, request)?;
-    Ok(Drawn { figure, notes })
+    Ok((figure, notes))
 }
 
 /// Shows what is asked for: limits, and sizes by their ratios; of colours where there are some, else of the y axis.
@@ -92,7 +92,7 @@ fn show_sizes(image: &mut Image) {
     image.map = ColourMap::Sequential;
 }
 
-/// Composes the frames of an animation of a section, one figure each.
+/// Composes the frames of an animation of a section, one figure each; and sentences for its user.
 pub fn animate(
     paths: &[PathBuf],
     request: &Request,

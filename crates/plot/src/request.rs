@@ -1,4 +1,4 @@
-//! What can be shown, what is asked for, and what is given.
+//! What can be shown, and what is asked for.
 
 use contact::Choice;
 use figure::Figure;
@@ -97,13 +97,4 @@ impl Request {
         let figure = Figure::new(self.title.as_deref().unwrap_or(usual)).subtitle(subtitle);
         figure.columns(columns).width(width)
     }
-}
-
-/// A figure, and what its user should know.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Drawn {
-    /// The figure.
-    pub figure: Figure,
-    /// Sentences: what is not shown, and how to see it.
-    pub notes: Vec<String>,
 }

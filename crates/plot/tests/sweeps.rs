@@ -31,7 +31,7 @@ const DRAWS: &str = "[random]\nsamples = 60\n[random.striker]\n\
     tip_radius_m = { distribution = \"normal\", mean = 0.005, deviation = 1e-4 }\n";
 
 fn drawn(path: &Path, request: &Request) -> Figure {
-    compose(&[path.to_owned()], request).unwrap().figure
+    compose(&[path.to_owned()], request).unwrap().0
 }
 
 fn lines(figure: &Figure, panel: usize) -> Vec<(&str, &[(f64, f64)])> {

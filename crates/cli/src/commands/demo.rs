@@ -95,8 +95,8 @@ fn waves(folder: &Path) -> Result<[PathBuf; 2], Failure> {
 
 /// Draws a results file as `hertzlamb plot` does.
 fn drawn(results: &PathBuf, picture: PathBuf) -> Result<PathBuf, Failure> {
-    let drawn = compose(std::slice::from_ref(results), &Request::default())?;
-    let svg = to_svg(&drawn.figure).map_err(Failure::work)?;
+    let (figure, _) = compose(std::slice::from_ref(results), &Request::default())?;
+    let svg = to_svg(&figure).map_err(Failure::work)?;
     write_whole(&picture, Existing::Replace, |part| {
         std::fs::write(part, svg)
     })?;

@@ -63,11 +63,10 @@ pub fn to_svg(figure: &Figure) -> Result<String, FigureError> {
 
 /// An element that covers an area.
 fn placed<N: Node>(mut node: N, area: Rect) -> N {
-    let corner = [("x", area.left), ("y", area.top)];
-    let size = [("width", area.width()), ("height", area.height())];
-    for (name, value) in corner.into_iter().chain(size) {
-        node.assign(name, number(value));
-    }
+    node.assign("x", number(area.left));
+    node.assign("y", number(area.top));
+    node.assign("width", number(area.width()));
+    node.assign("height", number(area.height()));
     node
 }
 

@@ -17,6 +17,7 @@ use formats::stored::{StoredImpact, Value};
 use histories::{FEW, contact_panels, loop_panel, probe_panels};
 use labels::labels;
 use spectrum::spectrum;
+use std::collections::BTreeMap;
 use std::slice;
 
 /// Frames of an animation, at most.
@@ -107,16 +108,10 @@ fn title(impacts: &[StoredImpact]) -> String {
     let Some(strike) = &impacts[0].strike else {
         return "A given force on the half-space".to_owned();
     };
-    let keys = impacts[0].keys();
-    let material = |section: &str| {
-        let key = format!("{section}.material");
-        keys.iter().find_map(|(name, value)| match value {
-            Value::String(text) if *name == key => Some(text.as_str()),
-            _ => None,
-        })
-    };
-    let target = material("target").map_or_else(String::new, |name| format!(" {name}"));
-    let of = material("striker").map_or_else(String::new, |name| format!("{name} "));
+    let keys: BTreeMap<String, Value> = impacts[0].keys().into_iter().collect();
+    let material = |key: &str| keys.get(key).and_then(Value::as_str);
+    let target = material("target.material").map_or_else(String::new, |name| format!(" {name}"));
+    let of = material("striker.material").map_or_else(String::new, |name| format!("{name} "));
     let speed = with_unit(strike.velocity_m_s, "m/s");
     let length = |metres| with_unit(metres, "m");
     let body = match strike.striker.shape {
