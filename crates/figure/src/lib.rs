@@ -77,7 +77,7 @@ pub fn measure(figure: &Figure) -> Result<Measured, FigureError> {
         scene::Item::Shape(_) | scene::Item::Picture(_) => None,
     });
     Ok(Measured {
-        canvas: Rect::new(0.0, 0.0, scene.width, scene.height),
+        canvas: scene.canvas,
         texts: texts.collect(),
         plots: scene.plots,
     })

@@ -147,10 +147,9 @@ pub(crate) struct Text {
 impl Text {
     /// A text at a place on the line on which letters stand.
     pub(crate) fn new(markup: &str, (x, y): Point, size: f64, anchor: f64) -> Self {
-        let start = (x - anchor * width(markup, size), y);
         Self {
             runs: runs(markup),
-            start,
+            start: (x - anchor * width(markup, size), y),
             size,
             is_upward: false,
             has_rim: false,
@@ -222,8 +221,7 @@ pub(crate) enum Item {
 /// Everything that is drawn, later over earlier.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Scene {
-    pub(crate) width: f64,
-    pub(crate) height: f64,
+    pub(crate) canvas: Rect,
     /// Areas of the plots.
     pub(crate) plots: Vec<Rect>,
     pub(crate) items: Vec<Item>,

@@ -94,13 +94,11 @@ fn arrange<'a>(
     let starts: Vec<f64> = (0..count).map(start).collect();
     let bottom = place(&mut fitted, &starts, top, 1.2 * faces.tick);
     let mut scene = Scene {
-        width: width + bar,
-        height: bottom + PAD,
+        canvas: Rect::new(0.0, 0.0, width + bar, bottom + PAD),
         plots: fitted.iter().map(|fitted| fitted.frame.area).collect(),
         items: Vec::new(),
     };
-    let canvas = Rect::new(0.0, 0.0, scene.width, scene.height);
-    scene.shape(Shape::rectangle(canvas).filled(WHITE, 1.0));
+    scene.shape(Shape::rectangle(scene.canvas).filled(WHITE, 1.0));
     scene.items.extend(heading.into_iter().map(Item::Text));
     (scene, fitted)
 }

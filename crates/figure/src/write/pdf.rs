@@ -51,7 +51,7 @@ pub fn to_pdf(figure: &Figure) -> Result<Vec<u8>, FigureError> {
     let mut pdf = Pdf::new();
     pdf.catalog(catalog).pages(tree);
     pdf.pages(tree).kids([page]).count(1);
-    let (width, height) = (scene.width as f32, scene.height as f32);
+    let (width, height) = (scene.canvas.width() as f32, scene.canvas.height() as f32);
     let mut sheet = pdf.page(page);
     sheet.media_box(Rect::new(0.0, 0.0, POINT * width, POINT * height));
     sheet.parent(tree).contents(content);

@@ -26,7 +26,7 @@ pub fn to_png(figure: &Figure, scale: f32) -> Result<Vec<u8>, FigureError> {
 fn size(scene: &Scene, scale: f32) -> [u32; 2] {
     // a hundredth of a pixel more is none
     let pixels = |side: f64| (f64::from(scale) * (side - 0.005)).ceil() as u32;
-    [scene.width, scene.height].map(pixels)
+    [scene.canvas.width(), scene.canvas.height()].map(pixels)
 }
 
 /// The pixels of a scene.

@@ -43,7 +43,7 @@ pub fn to_svg(figure: &Figure) -> Result<String, FigureError> {
             definitions = definitions.add(path);
         }
     }
-    let (width, height) = (number(scene.width), number(scene.height));
+    let (width, height) = (number(scene.canvas.width()), number(scene.canvas.height()));
     let mut document = Document::new()
         .set("viewBox", format!("0 0 {width} {height}"))
         .set("width", width)
