@@ -126,8 +126,7 @@ fn logarithmic(interval: &Interval, factor: f64, decades: f64, room: &Room<'_>) 
     let at = |(digits, stride): (&[u32], i32)| {
         let major: Vec<_> = (first..=last)
             .filter(|exponent| exponent.rem_euclid(stride) == 0)
-            .flat_map(|exponent| digits.iter().map(move |&d| (d, exponent)))
-            .map(|(digit, exponent)| tick(digit, exponent))
+            .flat_map(|exponent| digits.iter().map(move |&digit| tick(digit, exponent)))
             .filter(|t| inside(t.0 / factor))
             .collect();
         (major, stride)

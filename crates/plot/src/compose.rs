@@ -42,11 +42,9 @@ fn scale(figure: &mut Figure, request: &Request) -> Result<(), PlotError> {
         if request.logarithmic && low <= 0.0 {
             return refused("sizes by their ratios are above zero");
         }
-        let mut names = figure
-            .panels
-            .windows(2)
-            .map(|pair| pair[0].y.quantity == pair[1].y.quantity);
-        if !names.all(|same| same) {
+        let mut quantities = figure.panels.iter().map(|panel| &panel.y.quantity);
+        let first = quantities.next();
+        if quantities.any(|quantity| Some(quantity) != first) {
             return refused("it shows several quantities, choose one");
         }
     }
@@ -116,8 +114,8 @@ pub fn animate(
 }
 
 fn open(paths: &[PathBuf]) -> Result<Vec<StoredImpact>, PlotError> {
-    let impacts = paths.iter().map(|path| StoredImpact::open(path));
-    Ok(impacts.collect::<Result<_, _>>()?)
+    let open = |path: &PathBuf| StoredImpact::open(path).map_err(PlotError::from);
+    paths.iter().map(open).collect()
 }
 
 /// What all files are.

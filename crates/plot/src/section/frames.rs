@@ -79,17 +79,17 @@ impl<'a> Section<'a> {
     pub(super) fn asked(&self, times_s: &[f64]) -> Result<Vec<usize>, PlotError> {
         let known = &self.stored.time_s;
         let (first_s, last_s) = (known[0], known[known.len() - 1]);
-        let outside = times_s
-            .iter()
-            .find(|time_s| !(first_s..=last_s).contains(*time_s));
-        if let Some(&time_s) = outside {
+        let frame = |&time_s: &f64| {
+            if (first_s..=last_s).contains(&time_s) {
+                return Ok(self.nearest(time_s));
+            }
             let [time, first, last] = [time_s, first_s, last_s].map(fault::number);
             let sentence = format!(
                 "there is no frame at {time} s: those of the section are from {first} to {last} s"
             );
-            return Err(PlotError::refused(None, sentence));
-        }
-        Ok(times_s.iter().map(|&time_s| self.nearest(time_s)).collect())
+            Err(PlotError::refused(None, sentence))
+        };
+        times_s.iter().map(frame).collect()
     }
 
     /// The frame nearest to a time.
