@@ -6,7 +6,6 @@ use crate::figure::{Figure, Panel, Sharing};
 use crate::geometry::{Frame, Point, Rect};
 use crate::layers::{Colours, Layer};
 use std::collections::BTreeMap;
-use std::slice;
 
 /// A panel with everything that is known before its size.
 #[derive(Debug, Clone, PartialEq)]
@@ -41,13 +40,14 @@ impl PanelPlan<'_> {
 
 /// Plans every panel of a figure.
 pub(crate) fn plan(figure: &Figure) -> Vec<PanelPlan<'_>> {
-    let common = colours(&figure.panels).filter(|_| figure.has_common_bar);
+    let layers = figure.panels.iter().flat_map(|panel| &panel.layers);
+    let common = Colours::of(layers).filter(|_| figure.has_common_bar);
     let panels = figure.panels.iter().zip(numbers(figure));
     let plan = |(panel, numbers)| PanelPlan {
         panel,
         intervals: intervals(panel),
         labelled: [true; 2],
-        colours: common.clone().or_else(|| colours(slice::from_ref(panel))),
+        colours: common.clone().or_else(|| Colours::of(&panel.layers)),
         has_bar: !figure.has_common_bar,
         numbers,
     };
@@ -109,16 +109,6 @@ fn intervals(panel: &Panel) -> [Interval; 2] {
         automatic(panel.y.scale, values.collect(), air)
     });
     [x, y]
-}
-
-/// What the colours of all images of some panels mean.
-fn colours(panels: &[Panel]) -> Option<Colours> {
-    let layers = panels.iter().flat_map(|panel| &panel.layers);
-    let images = layers.filter_map(|layer| match layer {
-        Layer::Image(image) => Some(image),
-        _ => None,
-    });
-    Colours::of(&images.collect::<Vec<_>>())
 }
 
 /// The numbers of each layer of each panel.
