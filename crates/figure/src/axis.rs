@@ -167,12 +167,9 @@ impl Interval {
 
     /// The smallest interval of a scale that holds all values that it can show; none for no such value.
     pub(crate) fn around(scale: Scale, values: impl Iterator<Item = f64>) -> Option<Self> {
-        let mut found: Option<(f64, f64)> = None;
-        for value in values.filter(|&v| scale.shows(v)) {
-            let (low, high) = found.unwrap_or((value, value));
-            found = Some((low.min(value), high.max(value)));
-        }
-        found.map(|(low, high)| Self::new(scale, low, high))
+        let shown = values.filter(|&value| scale.shows(value));
+        let each = shown.map(|value| Self::new(scale, value, value));
+        each.reduce(Self::union)
     }
 
     /// The smallest interval that holds both.

@@ -65,6 +65,12 @@ impl Figure {
         self
     }
 
+    /// With more panels.
+    pub fn panels(mut self, panels: impl IntoIterator<Item = Panel>) -> Self {
+        self.panels.extend(panels);
+        self
+    }
+
     /// With so many panels in a row.
     pub fn columns(mut self, columns: usize) -> Self {
         self.columns = columns;
@@ -77,21 +83,9 @@ impl Figure {
         self
     }
 
-    /// With one colour bar for all panels.
-    pub fn common_colour_bar(mut self) -> Self {
-        self.has_common_bar = true;
-        self
-    }
-
     /// With another width in pixels.
     pub fn width(mut self, pixels: f64) -> Self {
         self.width = pixels;
-        self
-    }
-
-    /// With text of another height in pixels.
-    pub fn text(mut self, pixels: f64) -> Self {
-        self.text = pixels;
         self
     }
 
@@ -178,18 +172,6 @@ impl Panel {
         self
     }
 
-    /// With lengths that are equal along both axes.
-    pub fn equal_lengths(mut self) -> Self {
-        self.has_equal_lengths = true;
-        self
-    }
-
-    /// Mirrored at x = 0.
-    pub fn mirrored(mut self) -> Self {
-        self.is_mirrored = true;
-        self
-    }
-
     /// With one more layer, over the others.
     pub fn layer(mut self, layer: Layer) -> Self {
         self.layers.push(layer);
@@ -203,12 +185,10 @@ impl Panel {
 
     /// With one more curve within a band, such as of its error: place, and lower end of the band, value and upper end.
     pub fn banded(self, name: &str, style: Style, points: &[(f64, [f64; 3])]) -> Self {
-        let middle = points.iter().map(|&(x, [_, y, _])| (x, y)).collect();
+        let [lower, middle, upper] =
+            [0, 1, 2].map(|i| points.iter().map(|(x, ys)| (*x, ys[i])).collect());
         self.layer(Layer::Line(Line {
-            band: points
-                .iter()
-                .map(|&(x, [low, _, high])| (x, low, high))
-                .collect(),
+            band: [lower, upper],
             ..Line::new(name, style, middle)
         }))
     }

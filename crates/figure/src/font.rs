@@ -11,15 +11,13 @@ pub(crate) const ASCENT: f64 = 0.78;
 pub(crate) const DESCENT: f64 = 0.20;
 
 /// The font file.
-pub(crate) fn data() -> &'static [u8] {
-    epaint_default_fonts::UBUNTU_LIGHT
-}
+pub(crate) const DATA: &[u8] = epaint_default_fonts::UBUNTU_LIGHT;
 
 fn face() -> &'static Face<'static> {
     static FACE: OnceLock<Face<'static>> = OnceLock::new();
     FACE.get_or_init(|| {
         #[expect(clippy::unwrap_used, reason = "the file is part of the program")]
-        Face::parse(data(), 0).unwrap()
+        Face::parse(DATA, 0).unwrap()
     })
 }
 
@@ -74,13 +72,12 @@ impl OutlineBuilder for Pen {
     }
 
     fn quad_to(&mut self, a: f32, b: f32, x: f32, y: f32) {
-        let along = self.along;
-        self.path.quad_to(along + a, b, along + x, y);
+        self.path.quad_to(self.along + a, b, self.along + x, y);
     }
 
     fn curve_to(&mut self, a: f32, b: f32, c: f32, d: f32, x: f32, y: f32) {
-        let along = self.along;
-        self.path.cubic_to(along + a, b, along + c, d, along + x, y);
+        self.path
+            .cubic_to(self.along + a, b, self.along + c, d, self.along + x, y);
     }
 
     fn close(&mut self) {

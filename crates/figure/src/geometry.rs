@@ -44,8 +44,7 @@ impl Rect {
 
     /// Whether the other one lies in it.
     pub fn holds(&self, other: &Self) -> bool {
-        let across = self.left <= other.left && self.right >= other.right;
-        across && self.top <= other.top && self.bottom >= other.bottom
+        self.has((other.left, other.top)) && self.has((other.right, other.bottom))
     }
 
     /// Whether a point lies in it.
@@ -126,23 +125,17 @@ impl Frame {
 
     /// Runs of points that can be shown, in pixels: a curve breaks at the others.
     pub(crate) fn runs(&self, points: &[Point]) -> Vec<Vec<Point>> {
-        points
-            .iter()
-            .map(|&point| self.place(point))
-            .collect::<Vec<_>>()
-            .split(Option::is_none)
-            .filter(|run| !run.is_empty())
-            .map(|run| run.iter().copied().flatten().collect())
-            .collect()
+        let places: Vec<_> = points.iter().map(|&point| self.place(point)).collect();
+        let runs = places.split(Option::is_none);
+        let runs = runs.map(|run| run.iter().copied().flatten().collect());
+        runs.filter(|run: &Vec<Point>| !run.is_empty()).collect()
     }
 
     /// A curve, and where the panel is mirrored also its other half.
     pub(crate) fn sides(&self, points: &[Point]) -> Vec<Vec<Point>> {
-        let mut sides = vec![points.to_vec()];
-        if self.is_mirrored {
-            sides.push(points.iter().map(|&(x, y)| (-x, y)).collect());
-        }
-        sides
+        let other = || points.iter().map(|&(x, y)| (-x, y)).collect();
+        let other = self.is_mirrored.then(other);
+        [points.to_vec()].into_iter().chain(other).collect()
     }
 }
 

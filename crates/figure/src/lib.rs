@@ -53,39 +53,7 @@ pub use figure::{Figure, Legend, Panel, Sharing};
 pub use geometry::Rect;
 pub use layers::{Classes, Image, Layer, Line};
 pub use look::Style;
-
-/// The figure as SVG.
-///
-/// # Errors
-/// [`FigureError`] for a figure that cannot be drawn.
-pub fn to_svg(figure: &Figure) -> Result<String, FigureError> {
-    write::svg(&layout::draw(figure)?)
-}
-
-/// The figure as PNG, at `scale` pixels for each of its own.
-///
-/// # Errors
-/// [`FigureError`] for a figure that cannot be drawn, or a picture that is too large.
-pub fn to_png(figure: &Figure, scale: f32) -> Result<Vec<u8>, FigureError> {
-    write::png(&layout::draw(figure)?, scale)
-}
-
-/// The figure as PDF: a page of its size, with its font.
-///
-/// # Errors
-/// [`FigureError`] for a figure that cannot be drawn.
-pub fn to_pdf(figure: &Figure) -> Result<Vec<u8>, FigureError> {
-    write::pdf(&layout::draw(figure)?)
-}
-
-/// Figures as an animated GIF that repeats: a frame each, all of the size of the first, `frame_s` long.
-///
-/// # Errors
-/// [`FigureError`] for a figure that cannot be drawn, or frames that are not of one size.
-pub fn to_gif(figures: &[Figure], scale: f32, frame_s: f64) -> Result<Vec<u8>, FigureError> {
-    let scenes: Vec<scene::Scene> = figures.iter().map(layout::draw).collect::<Result<_, _>>()?;
-    write::gif(&scenes, scale, frame_s)
-}
+pub use write::{to_gif, to_pdf, to_png, to_svg};
 
 /// What is known of a drawn figure.
 #[derive(Debug, Clone, PartialEq)]
@@ -109,7 +77,7 @@ pub fn measure(figure: &Figure) -> Result<Measured, FigureError> {
         scene::Item::Shape(_) | scene::Item::Picture(_) => None,
     });
     Ok(Measured {
-        canvas: Rect::new(0.0, 0.0, scene.width, scene.height),
+        canvas: scene.canvas,
         texts: texts.collect(),
         plots: scene.plots,
     })

@@ -1,6 +1,5 @@
 //! What is drawn, as a list: shapes, pictures and texts with their places. Every format is written from it.
 
-use crate::colour::BLACK;
 use crate::font;
 use crate::geometry::{Point, Rect};
 use crate::text::{Run, runs, width};
@@ -58,27 +57,24 @@ impl Shape {
     }
 
     /// Straight lines through points.
-    pub(crate) fn polyline(points: &[Point], stroke: Stroke) -> Self {
+    pub(crate) fn polyline(points: &[Point]) -> Self {
         let segments = points.iter().enumerate().map(|(i, &(x, y))| match i {
             0 => Segment::Move(x, y),
             _ => Segment::Line(x, y),
         });
-        Self::new(segments.collect()).stroked(stroke)
+        Self::new(segments.collect())
     }
 
     /// Straight lines, each from one point to another.
     pub(crate) fn lines(ends: impl IntoIterator<Item = [Point; 2]>) -> Self {
-        let segments = ends
-            .into_iter()
-            .flat_map(|[from, to]| [Segment::Move(from.0, from.1), Segment::Line(to.0, to.1)]);
-        Self::new(segments.collect())
+        let lines = ends.into_iter().map(|ends| Self::polyline(&ends).segments);
+        Self::new(lines.flatten().collect())
     }
 
     /// A closed outline through points.
     pub(crate) fn polygon(points: &[Point]) -> Self {
-        let mut shape = Self::polyline(points, Stroke::solid(BLACK, 0.0));
+        let mut shape = Self::polyline(points);
         shape.segments.push(Segment::Close);
-        shape.stroke = None;
         shape
     }
 
@@ -151,10 +147,9 @@ pub(crate) struct Text {
 impl Text {
     /// A text at a place on the line on which letters stand.
     pub(crate) fn new(markup: &str, (x, y): Point, size: f64, anchor: f64) -> Self {
-        let start = (x - anchor * width(markup, size), y);
         Self {
             runs: runs(markup),
-            start,
+            start: (x - anchor * width(markup, size), y),
             size,
             is_upward: false,
             has_rim: false,
@@ -226,8 +221,7 @@ pub(crate) enum Item {
 /// Everything that is drawn, later over earlier.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Scene {
-    pub(crate) width: f64,
-    pub(crate) height: f64,
+    pub(crate) canvas: Rect,
     /// Areas of the plots.
     pub(crate) plots: Vec<Rect>,
     pub(crate) items: Vec<Item>,

@@ -128,7 +128,6 @@ pub(crate) struct Typeface {
     pub(crate) label: f64,
     pub(crate) legend: f64,
     pub(crate) mark: f64,
-    pub(crate) panel: f64,
     pub(crate) subtitle: f64,
     pub(crate) title: f64,
 }
@@ -140,7 +139,6 @@ impl Typeface {
             label: 1.15 * tick,
             legend: 1.04 * tick,
             mark: 0.95 * tick,
-            panel: 1.15 * tick,
             subtitle: 1.1 * tick,
             title: 1.4 * tick,
         }
@@ -154,11 +152,6 @@ impl Typeface {
     /// Length of a tick with a label.
     pub(crate) fn tick_length(&self) -> f64 {
         0.42 * self.tick
-    }
-
-    /// Length of a tick without one.
-    pub(crate) fn minor_length(&self) -> f64 {
-        0.23 * self.tick
     }
 
     /// A small distance.

@@ -14,9 +14,12 @@ pub(crate) struct Ticks {
 
 /// Ticks over an interval whose labels are values over `factor`.
 pub(crate) fn ticks(interval: &Interval, factor: f64, room: &Room<'_>) -> Ticks {
+    let (low, high) = (interval.low / factor, interval.high / factor);
+    let decades = (high / low).log10();
     match interval.scale {
-        Scale::Linear => linear(interval, factor, room),
-        Scale::Logarithmic => logarithmic(interval, factor, room),
+        Scale::Logarithmic if decades >= 0.5 => logarithmic(interval, factor, decades, room),
+        // a logarithmic axis that is hardly bent has equal differences
+        Scale::Linear | Scale::Logarithmic => linear(interval, factor, room),
     }
 }
 
@@ -105,13 +108,8 @@ fn minor(low: f64, high: f64, step: f64, parts: u32) -> impl Iterator<Item = f64
 }
 
 /// Ticks at powers of ten, and at multiples of them where there are few.
-fn logarithmic(interval: &Interval, factor: f64, room: &Room<'_>) -> Ticks {
+fn logarithmic(interval: &Interval, factor: f64, decades: f64, room: &Room<'_>) -> Ticks {
     let (low, high) = (interval.low / factor, interval.high / factor);
-    let decades = (high / low).log10();
-    if decades < 0.5 {
-        // hardly bent: equal differences
-        return linear(interval, factor, room);
-    }
     let first = (low.log10() - 1e-9).floor() as i32;
     let last = (high.log10() + 1e-9).ceil() as i32;
     let inside = |value: f64| interval.contains(value * factor);
@@ -128,8 +126,7 @@ fn logarithmic(interval: &Interval, factor: f64, room: &Room<'_>) -> Ticks {
     let at = |(digits, stride): (&[u32], i32)| {
         let major: Vec<_> = (first..=last)
             .filter(|exponent| exponent.rem_euclid(stride) == 0)
-            .flat_map(|exponent| digits.iter().map(move |&d| (d, exponent)))
-            .map(|(digit, exponent)| tick(digit, exponent))
+            .flat_map(|exponent| digits.iter().map(move |&digit| tick(digit, exponent)))
             .filter(|t| inside(t.0 / factor))
             .collect();
         (major, stride)

@@ -157,7 +157,7 @@ fn what_cannot_be_drawn_is_refused_with_its_place() {
         "width of 1000000000 px: 1 to 16384 px can be drawn"
     );
     let mut figure = classes();
-    figure.panels[0] = figure.panels[0].clone().equal_lengths();
+    figure.panels[0].has_equal_lengths = true;
     let message = refused(&figure).to_string();
     assert!(message.ends_with("has equal lengths, and must be linear"));
 }

@@ -2,32 +2,29 @@
 
 use crate::error::{PlotError, only};
 use crate::impacts::{frames_of, of_impacts};
-use crate::request::{Drawn, Kind, Request};
+use crate::request::{Kind, Request};
 use crate::sweep::of_sweep;
 use crate::table::of_table;
-use figure::{ColourMap, Figure, Layer, Scale};
-use formats::stored::{FileKind, StoredImpact, StoredSweep, file_kind};
+use figure::{Axis, ColourMap, Figure, Image, Layer, Scale};
+use formats::stored::{FileKind, StoredImpact, file_kind};
 use std::path::PathBuf;
 
-/// Composes a figure of one or several files of one kind.
-pub fn compose(paths: &[PathBuf], request: &Request) -> Result<Drawn, PlotError> {
+/// Composes a figure of one or several files of one kind; and sentences for its user: what is not shown, and how to see it.
+pub fn compose(paths: &[PathBuf], request: &Request) -> Result<(Figure, Vec<String>), PlotError> {
     let file = common_kind(paths)?;
-    if let Some(kind) = request.kind
-        && kind.file() != file
-    {
-        return Err(PlotError::unsuitable(&paths[0], file, kind));
+    let unsuitable = |kind| Err(PlotError::unsuitable(&paths[0], file, kind));
+    if let Some(kind) = request.kind.filter(|kind| kind.file() != file) {
+        return unsuitable(kind);
     }
-    let mut drawn = match file {
+    let (mut figure, notes) = match file {
         FileKind::Impact => of_impacts(&open(paths)?, request)?,
-        FileKind::Sweep => of_sweep(&StoredSweep::open(only(paths, Kind::Sweep)?)?, request)?,
-        FileKind::Table => of_table(only(paths, Kind::Errors)?, request)?,
-        FileKind::SweepPart => {
-            return Err(PlotError::unsuitable(&paths[0], file, Kind::Sweep));
-        }
-        FileKind::Chart => return Err(PlotError::unsuitable(&paths[0], file, Kind::Impact)),
+        FileKind::Sweep => (of_sweep(only(paths, Kind::Sweep)?, request)?, Vec::new()),
+        FileKind::Table => (of_table(only(paths, Kind::Errors)?, request)?, Vec::new()),
+        FileKind::SweepPart => return unsuitable(Kind::Sweep),
+        FileKind::Chart => return unsuitable(Kind::Impact),
     };
-    scale(&mut drawn.figure, request)?;
-    Ok(drawn)
+    scale(&mut figure, request)?;
+    Ok((figure, notes))
 }
 
 /// Shows what is asked for: limits, and sizes by their ratios; of colours where there are some, else of the y axis.
@@ -45,56 +42,55 @@ fn scale(figure: &mut Figure, request: &Request) -> Result<(), PlotError> {
         if request.logarithmic && low <= 0.0 {
             return refused("sizes by their ratios are above zero");
         }
-        let mut names = figure
-            .panels
-            .windows(2)
-            .map(|pair| pair[0].y.quantity == pair[1].y.quantity);
-        if !names.all(|same| same) {
+        let mut quantities = figure.panels.iter().map(|panel| &panel.y.quantity);
+        let first = quantities.next();
+        if quantities.any(|quantity| Some(quantity) != first) {
             return refused("it shows several quantities, choose one");
         }
     }
-    let is_linear = request.limits.is_some_and(|(low, _)| low <= 0.0);
+    let asked = |axis: &mut Axis| {
+        if request.logarithmic {
+            axis.scale = Scale::Logarithmic;
+        }
+        if request.limits.is_some_and(|(low, _)| low <= 0.0) {
+            axis.scale = Scale::Linear;
+        }
+        axis.range = request.limits.or(axis.range);
+    };
     for panel in &mut figure.panels {
         let mut has_colours = false;
         for layer in &mut panel.layers {
-            let Layer::Image(image) = layer else {
-                continue;
-            };
-            has_colours = true;
-            if request.logarithmic {
-                if image.map == ColourMap::Diverging {
-                    image.colours.quantity = format!("size of the {}", image.colours.quantity);
-                    image
-                        .values
-                        .iter_mut()
-                        .for_each(|value| *value = value.abs());
+            if let Layer::Image(image) = layer {
+                has_colours = true;
+                if request.logarithmic {
+                    show_sizes(image);
                 }
-                if image.colours.scale == Scale::Linear {
-                    let largest = image.values.iter().copied().fold(0.0, f64::max);
-                    image.colours.range = Some((1e-4 * largest, largest));
-                }
-                image.map = ColourMap::Sequential;
-                image.colours.scale = Scale::Logarithmic;
+                asked(&mut image.colours);
             }
-            if is_linear {
-                image.colours.scale = Scale::Linear;
-            }
-            image.colours.range = request.limits.or(image.colours.range);
         }
         if !has_colours {
-            if request.logarithmic {
-                panel.y.scale = Scale::Logarithmic;
-            }
-            if is_linear {
-                panel.y.scale = Scale::Linear;
-            }
-            panel.y.range = request.limits.or(panel.y.range);
+            asked(&mut panel.y);
         }
     }
     Ok(())
 }
 
-/// Composes the frames of an animation of a section, one figure each.
+/// Sizes in place of values with a sign, over four decades.
+fn show_sizes(image: &mut Image) {
+    if image.map == ColourMap::Diverging {
+        image.colours.quantity = format!("size of the {}", image.colours.quantity);
+        for value in &mut image.values {
+            *value = value.abs();
+        }
+    }
+    if image.colours.scale == Scale::Linear {
+        let largest = image.values.iter().copied().fold(0.0, f64::max);
+        image.colours.range = Some((1e-4 * largest, largest));
+    }
+    image.map = ColourMap::Sequential;
+}
+
+/// Composes the frames of an animation of a section, one figure each; and sentences for its user.
 pub fn animate(
     paths: &[PathBuf],
     request: &Request,

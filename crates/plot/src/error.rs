@@ -1,6 +1,6 @@
 //! Why there is no picture; and what is looked for by its name, with the error that it is not there.
 
-use crate::request::Kind;
+use crate::request::{Kind, Request};
 use contact::{Choice, nearest};
 use fault::{Class, Culprit, Fault};
 use formats::SceneError;
@@ -64,14 +64,6 @@ impl PlotError {
         )
     }
 
-    /// Times for a picture of all of them.
-    pub(crate) fn all_times(kind: Kind) -> Self {
-        let sentence = format!(
-            "the picture {kind} shows all times: only waves and axis show those that are given"
-        );
-        Self::refused(None, sentence)
-    }
-
     /// A key of words along an axis of numbers.
     pub(crate) fn no_numbers(key: &str) -> Self {
         Self::refused(None, format!("{key} has no numbers to draw along"))
@@ -121,6 +113,19 @@ impl Fault for PlotError {
     }
 }
 
+/// The kind of picture that is asked for, or else the one that suits the file; times are not asked of one that shows all.
+pub(crate) fn kind_of(request: &Request, suits: Kind) -> Result<Kind, PlotError> {
+    let kind = request.kind.unwrap_or(suits);
+    if request.times_s.is_empty() || matches!(kind, Kind::Waves | Kind::Axis) {
+        return Ok(kind);
+    }
+    let shown = "shows all times: only waves and axis show those that are given";
+    Err(PlotError::refused(
+        None,
+        format!("the picture {kind} {shown}"),
+    ))
+}
+
 /// The only one of some files or paths.
 pub(crate) fn only<T>(given: &[T], kind: Kind) -> Result<&T, PlotError> {
     match given {
@@ -133,18 +138,20 @@ pub(crate) fn only<T>(given: &[T], kind: Kind) -> Result<&T, PlotError> {
     }
 }
 
-/// The quantities of some names among those of a file.
+/// Which of the quantities of a file are asked for by their names; without names the usual ones.
 pub(crate) fn chosen(
     path: &Path,
     known: &[Described],
-    names: &[impl AsRef<str>],
-) -> Result<Vec<Described>, PlotError> {
+    asked: &[String],
+    usual: &[&str],
+) -> Result<Vec<usize>, PlotError> {
     let find = |name: &str| {
-        let found = known.iter().find(|quantity| quantity.name == name);
+        let found = known.iter().position(|quantity| quantity.name == name);
         let all = || known.iter().map(|quantity| quantity.name.as_str());
-        found
-            .cloned()
-            .ok_or_else(|| PlotError::unknown(path, name, name, all()))
+        found.ok_or_else(|| PlotError::unknown(path, name, name, all()))
     };
-    names.iter().map(|name| find(name.as_ref())).collect()
+    match asked {
+        [] => usual.iter().map(|name| find(name)).collect(),
+        names => names.iter().map(|name| find(name)).collect(),
+    }
 }

@@ -7,8 +7,8 @@
 //! use plot::{Kind, Request, compose};
 //!
 //! let request = Request { kind: Some(Kind::Spectrum), ..Request::default() };
-//! let drawn = compose(&["drop.h5".into()], &request)?;
-//! std::fs::write("spectrum.svg", figure::to_svg(&drawn.figure)?)?;
+//! let (figure, notes) = compose(&["drop.h5".into()], &request)?;
+//! std::fs::write("spectrum.svg", figure::to_svg(&figure)?)?;
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 #![cfg_attr(doctest, doc = include_str!("../README.md"))]
@@ -25,4 +25,4 @@ mod words;
 
 pub use compose::{animate, compose};
 pub use error::PlotError;
-pub use request::{Drawn, Kind, Request};
+pub use request::{Kind, Request};

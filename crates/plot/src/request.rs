@@ -1,4 +1,4 @@
-//! What can be shown, what is asked for, and what is given.
+//! What can be shown, and what is asked for.
 
 use contact::Choice;
 use figure::Figure;
@@ -90,11 +90,11 @@ pub struct Request {
     pub title: Option<String>,
 }
 
-/// A figure, and what its user should know.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Drawn {
-    /// The figure.
-    pub figure: Figure,
-    /// Sentences: what is not shown, and how to see it.
-    pub notes: Vec<String>,
+impl Request {
+    /// A figure without panels, with the title that is asked for or else the usual one.
+    pub(crate) fn figure(&self, usual: &str, subtitle: &str, columns: usize) -> Figure {
+        let width = if columns == 1 { 760.0 } else { 1040.0 };
+        let figure = Figure::new(self.title.as_deref().unwrap_or(usual)).subtitle(subtitle);
+        figure.columns(columns).width(width)
+    }
 }

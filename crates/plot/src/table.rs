@@ -1,9 +1,10 @@
 //! The error map of a kernel table.
 
-use crate::error::PlotError;
-use crate::request::{Drawn, Request};
+use crate::error::{PlotError, chosen};
+use crate::request::Request;
 use crate::words::{digits, of_quantity, stem};
 use figure::{Axis, ColourMap, Figure, Image, Layer, Panel, Sharing};
+use formats::quantities::Described;
 use formats::results::schema::FIELDS;
 use lookup::{Content, Slice};
 use std::path::Path;
@@ -15,9 +16,10 @@ const RATIO: f64 = 0.3;
 ///
 /// An error is the largest difference in time over the largest exact response in time, at each place for the worst of
 /// the fields that are asked for.
-pub(crate) fn of_table(path: &Path, request: &Request) -> Result<Drawn, PlotError> {
+pub(crate) fn of_table(path: &Path, request: &Request) -> Result<Figure, PlotError> {
     let content = lookup::read(path)?;
-    let fields = fields(path, request)?;
+    let (known, all) = (FIELDS.map(Described::from), FIELDS.map(|field| field.0));
+    let fields = chosen(path, &known, &request.quantities, &all)?;
     let distance = |slice: &&Slice| (slice.poisson_ratio - RATIO).abs();
     let slice = content
         .slices
@@ -32,37 +34,17 @@ pub(crate) fn of_table(path: &Path, request: &Request) -> Result<Drawn, PlotErro
         _ => "worst field".to_owned(),
     };
     let colours = Axis::logarithmic(&format!("relative error, {what}"));
-    let usual = || format!("Errors of the kernel table {}", stem(path));
-    let title = request.title.clone().unwrap_or_else(usual);
-    let mut figure = Figure::new(&title)
-        .subtitle(&format!(
-            "Poisson's ratio {}, at the centres of the meshes, by the length of the pulse",
-            digits(slice.poisson_ratio)
-        ))
-        .columns(content.pulse_lengths.len().clamp(1, 3))
-        .width(1040.0)
-        .sharing(Sharing::Both)
-        .common_colour_bar();
-    for pulse in 0..content.pulse_lengths.len() {
-        figure = figure.panel(panel(&content, slice, pulse, &fields, &colours));
-    }
-    Ok(Drawn {
-        figure,
-        notes: Vec::new(),
-    })
-}
-
-/// Indices of the fields that are asked for; of all without.
-fn fields(path: &Path, request: &Request) -> Result<Vec<usize>, PlotError> {
-    let find = |name: &String| {
-        let mut all = FIELDS.iter().map(|field| field.0);
-        let found = all.clone().position(|field| field == name);
-        found.ok_or_else(|| PlotError::unknown(path, name, name, &mut all))
-    };
-    if request.quantities.is_empty() {
-        return Ok((0..FIELDS.len()).collect());
-    }
-    request.quantities.iter().map(find).collect()
+    let title = format!("Errors of the kernel table {}", stem(path));
+    let subtitle = format!(
+        "Poisson's ratio {}, at the centres of the meshes, by the length of the pulse",
+        digits(slice.poisson_ratio)
+    );
+    let pulses = 0..content.pulse_lengths.len();
+    let columns = pulses.len().clamp(1, 3);
+    let panels = pulses.map(|pulse| panel(&content, slice, pulse, &fields, &colours));
+    let mut figure = request.figure(&title, &subtitle, columns).panels(panels);
+    figure.has_common_bar = true;
+    Ok(figure.width(1040.0).sharing(Sharing::Both))
 }
 
 fn panel(

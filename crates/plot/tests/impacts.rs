@@ -5,7 +5,7 @@
 use figure::{Figure, measure};
 use formats::{Existing, parse_scene, write_results};
 use impact::{KernelChoice, simulate};
-use plot::{Drawn, Kind, PlotError, Request, compose};
+use plot::{Kind, PlotError, Request, compose};
 use std::path::{Path, PathBuf};
 
 /// A results file of a steel ball on granite, 40 mm thick, at a velocity.
@@ -23,7 +23,7 @@ fn impact(folder: &Path, name: &str, velocity_m_s: f64, rest: &str) -> PathBuf {
 
 const PROBES: &str = "[[probe]]\nr_m = 0.02\nz_m = 0\n[[probe]]\nr_m = 0\nz_m = 0.02\n";
 
-fn picture(paths: &[PathBuf], kind: Option<Kind>) -> Result<Drawn, PlotError> {
+fn picture(paths: &[PathBuf], kind: Option<Kind>) -> Result<(Figure, Vec<String>), PlotError> {
     let request = Request {
         kind,
         ..Request::default()
@@ -51,9 +51,9 @@ fn texts(figure: &Figure) -> Vec<String> {
 fn an_impact_has_hertz_beside_it_and_arrivals_at_its_probes() {
     let folder = tempfile::tempdir().unwrap();
     let path = impact(folder.path(), "drop.h5", 2.0, PROBES);
-    let drawn = picture(&[path], None).unwrap();
-    assert_eq!(drawn.figure.panels.len(), 5);
-    let texts = texts(&drawn.figure);
+    let (figure, notes) = picture(&[path], None).unwrap();
+    assert_eq!(figure.panels.len(), 5);
+    let texts = texts(&figure);
     for wanted in [
         "force [N]",
         "contact force",
@@ -69,15 +69,15 @@ fn an_impact_has_hertz_beside_it_and_arrivals_at_its_probes() {
     // a Rayleigh wave passes on the surface, and none straight below
     assert_eq!([count("P"), count("S"), count("R")], [2, 2, 1]);
     assert_eq!(count("valid until the echo"), 2);
-    assert!(drawn.notes.is_empty());
+    assert!(notes.is_empty());
 }
 
 #[test]
 fn several_impacts_are_labelled_by_what_differs() {
     let folder = tempfile::tempdir().unwrap();
     let paths = [1.0, 2.0, 4.0].map(|v| impact(folder.path(), &format!("{v}.h5"), v, PROBES));
-    let drawn = picture(&paths, None).unwrap();
-    let texts = texts(&drawn.figure);
+    let (figure, _) = picture(&paths, None).unwrap();
+    let texts = texts(&figure);
     for wanted in ["velocity 1 m/s", "velocity 2 m/s", "velocity 4 m/s"] {
         assert!(
             texts.iter().any(|text| text == wanted),
@@ -89,9 +89,9 @@ fn several_impacts_are_labelled_by_what_differs() {
         quantities: vec!["stress_zz".to_owned()],
         ..Request::default()
     };
-    let drawn = compose(&paths, &request).unwrap();
-    assert_eq!(drawn.figure.panels.len(), 2);
-    assert_eq!(drawn.figure.panels[0].y.quantity, "axial stress");
+    let (figure, _) = compose(&paths, &request).unwrap();
+    assert_eq!(figure.panels.len(), 2);
+    assert_eq!(figure.panels[0].y.quantity, "axial stress");
 }
 
 #[test]

@@ -60,17 +60,17 @@ fn images(figure: &Figure) -> Vec<&figure::Image> {
 fn a_section_shows_its_waves_without_being_told() {
     let folder = tempfile::tempdir().unwrap();
     let path = section(folder.path(), 120, "quantities = [\"velocity_z\"]");
-    let drawn = compose(std::slice::from_ref(&path), &Request::default()).unwrap();
-    assert_eq!(drawn.figure.panels.len(), 4);
-    assert!(drawn.notes.is_empty(), "{:?}", drawn.notes);
-    let texts = texts(&drawn.figure);
+    let (figure, notes) = compose(std::slice::from_ref(&path), &Request::default()).unwrap();
+    assert_eq!(figure.panels.len(), 4);
+    assert!(notes.is_empty(), "{:?}", notes);
+    let texts = texts(&figure);
     for wanted in ["P", "S", "R"] {
         let count = texts.iter().filter(|text| *text == wanted).count();
         assert_eq!(count, 4, "{wanted}: {texts:?}");
     }
     assert!(texts.iter().any(|text| text == "depth [mm]"));
     // before the first wave there is nothing, at any of the times
-    for (panel, image) in drawn.figure.panels.iter().zip(images(&drawn.figure)) {
+    for (panel, image) in figure.panels.iter().zip(images(&figure)) {
         let front = panel.layers.iter().find_map(|layer| match layer {
             Layer::Line(line) => Some(line.points[0].0),
             _ => None,
@@ -108,12 +108,9 @@ fn velocities_are_those_of_the_file_or_none() {
         said.ends_with("has no velocity_z: give the scene [output] quantities = [\"velocity_z\"]"),
         "{said}"
     );
-    let drawn = compose(&[without], &Request::default()).unwrap();
-    assert!(drawn.notes[0].contains("quantities"), "{:?}", drawn.notes);
-    assert_eq!(
-        images(&drawn.figure)[0].colours.quantity,
-        "axial displacement"
-    );
+    let (figure, notes) = compose(&[without], &Request::default()).unwrap();
+    assert!(notes[0].contains("quantities"), "{:?}", notes);
+    assert_eq!(images(&figure)[0].colours.quantity, "axial displacement");
 }
 
 #[test]
@@ -125,7 +122,7 @@ fn limits_and_ratios_are_those_that_are_asked_for() {
         logarithmic: true,
         ..request(Kind::Waves, "stress_zz")
     };
-    let figure = compose(std::slice::from_ref(&path), &asked).unwrap().figure;
+    let (figure, _) = compose(std::slice::from_ref(&path), &asked).unwrap();
     let image = images(&figure)[0];
     assert_eq!(image.colours.range, Some((1e3, 1e6)));
     assert_eq!(image.colours.quantity, "size of the axial stress");
@@ -160,7 +157,7 @@ fn limits_from_zero_make_a_scale_linear() {
         };
         let linear = compose(std::slice::from_ref(&path), &asked);
         let scales = [decades, linear].map(|drawn| {
-            let figure = drawn.unwrap().figure;
+            let (figure, _) = drawn.unwrap();
             texts(&figure);
             let image = images(&figure).first().map(|image| image.colours.scale);
             image.unwrap_or(figure.panels[0].y.scale)
@@ -182,8 +179,8 @@ fn every_kind_of_picture_of_a_section_is_drawn() {
         (Kind::Axis, "displacement_z"),
         (Kind::Waves, "max_shear"),
     ] {
-        let drawn = compose(std::slice::from_ref(&path), &request(kind, quantity)).unwrap();
-        assert!(texts(&drawn.figure).len() > 10, "{kind} {quantity}");
+        let (figure, _) = compose(std::slice::from_ref(&path), &request(kind, quantity)).unwrap();
+        assert!(texts(&figure).len() > 10, "{kind} {quantity}");
     }
     let unknown = compose(
         std::slice::from_ref(&path),

@@ -31,7 +31,7 @@ const DRAWS: &str = "[random]\nsamples = 60\n[random.striker]\n\
     tip_radius_m = { distribution = \"normal\", mean = 0.005, deviation = 1e-4 }\n";
 
 fn drawn(path: &Path, request: &Request) -> Figure {
-    compose(&[path.to_owned()], request).unwrap().figure
+    compose(&[path.to_owned()], request).unwrap().0
 }
 
 fn lines(figure: &Figure, panel: usize) -> Vec<(&str, &[(f64, f64)])> {
@@ -131,8 +131,9 @@ fn draws_give_histograms_and_bands() {
     let Layer::Line(line) = &figure.panels[0].layers[0] else {
         unreachable!("draws over a key give a curve");
     };
-    let mut pairs = line.band.iter().zip(&line.points);
-    assert!(line.band.len() == 9 && pairs.all(|(b, m)| b.1 < m.1 && m.1 < b.2));
+    let [lower, upper] = &line.band;
+    let mut triples = lower.iter().zip(&line.points).zip(upper);
+    assert!(lower.len() == 9 && triples.all(|((l, m), u)| l.1 < m.1 && m.1 < u.1));
 }
 
 #[test]
@@ -148,10 +149,10 @@ fn draws_over_their_own_key_are_points_or_bins() {
     let figure = drawn(&few, &request);
     check(&figure);
     assert_eq!(lines(&figure, 0)[0].1.len(), 60);
-    assert!(matches!(&figure.panels[0].layers[0], Layer::Line(line) if line.band.is_empty()));
+    assert!(matches!(&figure.panels[0].layers[0], Layer::Line(line) if line.band[0].is_empty()));
     let figure = drawn(&many, &request);
     check(&figure);
-    assert!(matches!(&figure.panels[0].layers[0], Layer::Line(line) if line.band.len() == 20));
+    assert!(matches!(&figure.panels[0].layers[0], Layer::Line(line) if line.band[0].len() == 20));
     // Hertz: P grows as R^(1/5)
     let middle = lines(&figure, 0)[0].1;
     let (first, last) = (middle[0], middle[19]);

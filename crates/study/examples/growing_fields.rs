@@ -88,16 +88,12 @@ fn picture(r: &[f64], z: &[f64], values: [Vec<f64>; 2]) -> Figure {
                 ColourMap::Sequential,
             )
         };
-        let panel = Panel::new(
+        let mut panel = Panel::new(
             Axis::linear("distance from the axis").unit("a"),
             Axis::linear("depth").unit("a").reversed(),
         );
-        figure = figure.panel(
-            panel
-                .title(title)
-                .equal_lengths()
-                .layer(Layer::Image(image)),
-        );
+        panel.has_equal_lengths = true;
+        figure = figure.panel(panel.title(title).layer(Layer::Image(image)));
     }
     figure.columns(2)
 }

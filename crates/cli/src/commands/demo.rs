@@ -90,9 +90,9 @@ fn waves(folder: &Path) -> Result<[PathBuf; 2], Failure> {
 /// Writes a results file, and beside it a picture as `hertzlamb plot` draws it; gives both.
 fn kept(scene: &Scene, outcome: &Outcome, results: PathBuf) -> Result<[PathBuf; 2], Failure> {
     write_results(&results, scene, outcome, Existing::Replace)?;
-    let drawn = compose(std::slice::from_ref(&results), &Request::default())?;
+    let (figure, _) = compose(std::slice::from_ref(&results), &Request::default())?;
     let picture = results.with_extension("svg");
-    replace(&picture, to_svg(&drawn.figure).map_err(Failure::work)?)?;
+    replace(&picture, to_svg(&figure).map_err(Failure::work)?)?;
     Ok([results, picture])
 }
 

@@ -124,14 +124,14 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         let figures: Vec<Figure> = figures.into_iter().map(size).collect();
         (to_gif(&figures, 1.0, FRAME_S), notes)
     } else {
-        let drawn = compose(&arguments.files, &request)?;
-        let figure = size(drawn.figure);
+        let (figure, notes) = compose(&arguments.files, &request)?;
+        let figure = size(figure);
         let bytes = match ending.as_str() {
             "png" => to_png(&figure, f32::from(arguments.scale)),
             "pdf" => to_pdf(&figure),
             _ => to_svg(&figure).map(String::into_bytes),
         };
-        (bytes, drawn.notes)
+        (bytes, notes)
     };
     let bytes = bytes.map_err(Failure::work)?;
     output.write(|part| std::fs::write(part, &bytes))?;
@@ -152,6 +152,6 @@ fn sized(mut figure: Figure, width: f64) -> Figure {
     if width < COLUMN {
         figure.columns = 1;
     }
-    let text = (figure.text * (width / figure.width).sqrt()).clamp(8.0, 16.0);
-    figure.width(width).text(text)
+    figure.text = (figure.text * (width / figure.width).sqrt()).clamp(8.0, 16.0);
+    figure.width(width)
 }

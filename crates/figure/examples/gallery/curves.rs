@@ -185,7 +185,9 @@ pub(crate) fn column() -> Figure {
             |t: f64| -2.1e8 * pulse(t - delay, 25e-6) + 4e7 * pulse(t - delay - 20e-6, 15e-6);
         times.iter().map(|&t| (t, value(t))).collect()
     };
-    Figure::new("").width(321.0).text(9.5).panel(
+    let mut figure = Figure::new("").width(321.0);
+    figure.text = 9.5;
+    figure.panel(
         Panel::new(
             Axis::linear("time").si("s"),
             Axis::linear("axial stress σ_{zz}").si("Pa"),

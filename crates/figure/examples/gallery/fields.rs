@@ -43,10 +43,12 @@ fn front(radius: f64) -> Vec<(f64, f64)> {
 }
 
 fn snapshot(time: f64, nodes: usize) -> Panel {
-    Panel::new(Axis::linear("distance x from the axis").si("m"), depth())
+    let distance = Axis::linear("distance x from the axis").si("m");
+    let mut panel = Panel::new(distance, depth());
+    panel.has_equal_lengths = true;
+    panel.is_mirrored = true;
+    panel
         .title(&format!("t = {:.0} µs", 1e6 * time))
-        .equal_lengths()
-        .mirrored()
         .layer(field(time, nodes))
         .line("P front", Style::Rimmed, front(SPEEDS[0] * (time - 0.8e-6)))
         .line("S front", Style::Rimmed, front(SPEEDS[1] * (time - 0.8e-6)))
@@ -64,8 +66,8 @@ pub(crate) fn frames() -> Figure {
     let mut figure = Figure::new("Waves in the block")
         .columns(3)
         .width(1000.0)
-        .sharing(Sharing::Both)
-        .common_colour_bar();
+        .sharing(Sharing::Both);
+    figure.has_common_bar = true;
     for i in 1..=6 {
         let panel = snapshot(2e-6 * f64::from(i), 90).legend(Legend::Off);
         figure = figure.panel(panel);

@@ -2,7 +2,7 @@
 
 use crate::axis::{Axis, Interval, Scale};
 use crate::colour::ColourMap;
-use crate::layers::Image;
+use crate::layers::{Image, Layer};
 
 /// What the colours of some images mean.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,14 +15,15 @@ pub(crate) struct Colours {
 }
 
 impl Colours {
-    /// Those of the first image, for the values of all; none without an image.
-    pub(crate) fn of<'a>(images: &(impl Iterator<Item = &'a Image> + Clone)) -> Option<Self> {
-        let first = images.clone().next()?;
-        let values = || {
-            images
-                .clone()
-                .flat_map(|image| image.values.iter().copied())
-        };
+    /// Those of the first image among some layers, for the values of all; none without an image.
+    pub(crate) fn of<'a>(layers: impl IntoIterator<Item = &'a Layer>) -> Option<Self> {
+        let images = layers.into_iter().filter_map(|layer| match layer {
+            Layer::Image(image) => Some(image),
+            _ => None,
+        });
+        let images: Vec<&Image> = images.collect();
+        let first = images.first()?;
+        let values = || images.iter().flat_map(|image| image.values.iter().copied());
         let limits = limits(&first.colours, first.map, values());
         let shown = || values().filter(|value| limits.scale.shows(*value));
         Some(Self {

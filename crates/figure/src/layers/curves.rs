@@ -19,8 +19,8 @@ pub struct Line {
     pub points: Vec<(f64, f64)>,
     /// How it is drawn.
     pub style: Style,
-    /// What it may be wrong by, in its colour: place, lower and upper value; empty for none.
-    pub band: Vec<(f64, f64, f64)>,
+    /// What it may be wrong by, in its colour: the lower and the upper side, over the same places; empty for none.
+    pub band: [Vec<(f64, f64)>; 2],
 }
 
 impl Line {
@@ -30,7 +30,7 @@ impl Line {
             name: name.to_owned(),
             points,
             style,
-            band: Vec::new(),
+            band: Default::default(),
         }
     }
 
@@ -68,16 +68,9 @@ impl Line {
         points
     }
 
-    /// The lower and the upper side of its band.
-    fn edges(&self) -> [Vec<Point>; 2] {
-        let lower = self.band.iter().map(|&(x, low, _)| (x, low));
-        let upper = self.band.iter().map(|&(x, _, high)| (x, high));
-        [lower.collect(), upper.collect()]
-    }
-
     fn draw_band(&self, scene: &mut Scene, frame: &Frame, look: &Look) {
         let place = |point: &Point| frame.place(*point);
-        let [lower, upper] = self.edges().map(|edge| frame.sides(&edge));
+        let [lower, upper] = self.band.each_ref().map(|side| frame.sides(side));
         for (lower, upper) in lower.iter().zip(&upper) {
             let pairs = lower.iter().zip(upper);
             let pairs: Vec<_> = pairs.map(|(a, b)| place(a).zip(place(b))).collect();
@@ -92,14 +85,13 @@ impl Line {
     }
 
     pub(super) fn places(&self) -> Vec<Point> {
-        let [lower, upper] = self.edges();
-        [lower, upper, self.points.clone()].concat()
+        [self.band.concat(), self.points.clone()].concat()
     }
 
     /// Whole bars, not only their tops.
     pub(super) fn curves(&self, frame: &Frame) -> Vec<Vec<Point>> {
         let points = self.standing(frame);
-        let mut curves = self.edges().to_vec();
+        let mut curves = self.band.to_vec();
         if self.style == Style::Bars {
             let base = frame.y.low.max(0.0);
             curves.extend(points.iter().map(|&(x, y)| vec![(x, base), (x, y)]));
@@ -109,7 +101,7 @@ impl Line {
     }
 
     pub(super) fn swatch(&self, numbers: [usize; 2]) -> Swatch {
-        let has_band = !self.band.is_empty();
+        let has_band = !self.band[0].is_empty();
         let look = Look::new(numbers, self.style);
         Swatch::Curve { look, has_band }
     }
@@ -140,9 +132,9 @@ pub(crate) fn draw_run(scene: &mut Scene, run: &[Point], look: &Look, clip: Rect
     }
     if look.style == Style::Rimmed {
         let rim = Stroke::solid(WHITE, look.stroke.width + 2.4);
-        scene.shape(Shape::polyline(run, rim).clipped(clip));
+        scene.shape(Shape::polyline(run).stroked(rim).clipped(clip));
     }
-    scene.shape(Shape::polyline(run, look.stroke).clipped(clip));
+    scene.shape(Shape::polyline(run).stroked(look.stroke).clipped(clip));
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! The two axes of a panel: ticks, numbers and labels, fitted and drawn.
 
-use super::plan::{AxisPlan, PanelPlan};
+use super::plan::PanelPlan;
+use crate::axis::{Axis, Interval};
 use crate::colour::{BLACK, GRID};
 use crate::geometry::Frame;
 use crate::scene::{END, MIDDLE, Scene, Shape, Stroke, Text};
@@ -24,30 +25,24 @@ pub(super) struct FittedAxis {
     pub(super) numbers: f64,
     /// Lines of the label.
     pub(super) label: Vec<String>,
-    /// Whether numbers and label are written.
-    labelled: bool,
 }
 
 impl FittedAxis {
-    /// Of a panel, which may leave writing to another one, or of colours.
-    pub(super) fn new(plan: &AxisPlan<'_>, room: &Room<'_>, faces: &Typeface) -> Self {
-        let (label, factor) = shown(plan.axis, &plan.interval);
-        let ticks = ticks(&plan.interval, factor, room);
+    /// Of a panel or of colours.
+    pub(super) fn new(axis: &Axis, interval: &Interval, room: &Room<'_>, faces: &Typeface) -> Self {
+        let (label, factor) = shown(axis, interval);
+        let ticks = ticks(interval, factor, room);
         let widths = ticks.major.iter().map(|tick| width_of(&tick.1, faces.tick));
         Self {
             numbers: widths.fold(0.0, f64::max),
             ticks,
-            label: match plan.labelled {
-                true => wrap(&label, faces.label, room.length),
-                false => Vec::new(),
-            },
-            labelled: plan.labelled,
+            label: wrap(&label, faces.label, room.length),
         }
     }
 
     /// Places of all ticks, with their lengths.
     pub(super) fn lengths(&self, faces: &Typeface) -> impl Iterator<Item = (f64, f64)> {
-        let (long, short) = (faces.tick_length(), faces.minor_length());
+        let (long, short) = (faces.tick_length(), 0.23 * faces.tick);
         let major = self.ticks.major.iter().map(move |tick| (tick.0, long));
         let minor = self.ticks.minor.iter().map(move |&value| (value, short));
         major.chain(minor)
@@ -64,6 +59,8 @@ pub(crate) fn thin() -> Stroke {
 pub(crate) struct Axes {
     x: FittedAxis,
     y: FittedAxis,
+    /// Whether numbers and labels are written, which a panel may leave to another one.
+    labelled: [bool; 2],
 }
 
 impl Axes {
@@ -79,28 +76,29 @@ impl Axes {
             distance: 3.6 * faces.tick,
             needs: &|_| LINE * faces.tick,
         };
-        let [x, y] = &plan.axes;
+        let [x, y] = &plan.intervals;
         Self {
-            x: FittedAxis::new(x, &beside, faces),
-            y: FittedAxis::new(y, &above, faces),
+            x: FittedAxis::new(&plan.panel.x, x, &beside, faces),
+            y: FittedAxis::new(&plan.panel.y, y, &above, faces),
+            labelled: plan.labelled,
         }
     }
 
     /// What numbers and labels need around a plot of a width.
     pub(super) fn needs(&self, plan: &PanelPlan<'_>, width: f64, faces: &Typeface) -> Needs {
         let mut needs = Needs::default();
-        if self.y.labelled {
+        if self.labelled[1] {
             needs.left = faces.tick_length() + 0.35 * faces.tick + self.y.numbers;
             if !self.y.label.is_empty() {
                 needs.left += faces.gap() + Typeface::lines(faces.label, self.y.label.len());
             }
             needs.top = 0.5 * LINE * faces.tick;
         }
-        if self.x.labelled {
+        if self.labelled[0] {
             // how far the numbers at the ends reach beyond the nearer end of the axis
             let ends = [self.x.ticks.major.first(), self.x.ticks.major.last()].map(|tick| {
                 tick.map_or(0.0, |(value, label)| {
-                    let fraction = plan.axes[0].interval.fraction(*value);
+                    let fraction = plan.intervals[0].fraction(*value);
                     let inside = width * fraction.min(1.0 - fraction);
                     (0.5 * width_of(label, faces.tick) - inside).max(0.0)
                 })
@@ -143,7 +141,7 @@ impl Axes {
         scene.shape(Shape::lines(below.chain(beside)).stroked(thin()));
         scene.shape(Shape::rectangle(area).stroked(thin()));
         let middle = area.centre();
-        if self.x.labelled {
+        if self.labelled[0] {
             let mut line = area.bottom + faces.tick_length() + 0.2 * faces.tick + faces.tick;
             for (value, label) in &self.x.ticks.major {
                 let at = (frame.across(*value), line);
@@ -155,7 +153,7 @@ impl Axes {
                 line += LINE * faces.label;
             }
         }
-        if self.y.labelled {
+        if self.labelled[1] {
             let right = area.left - faces.tick_length() - 0.35 * faces.tick;
             for (value, label) in &self.y.ticks.major {
                 let at = (right, frame.down(*value) + 0.35 * faces.tick);

@@ -1,7 +1,6 @@
 //! The colour bar beside a panel or beside all of them, fitted and drawn.
 
 use super::axes::{FittedAxis, thin};
-use super::plan::AxisPlan;
 use crate::geometry::Rect;
 use crate::layers::Colours;
 use crate::scene::{Item, Picture, START, Scene, Shape, Text};
@@ -38,12 +37,7 @@ impl Bar {
             distance: 3.4 * faces.tick,
             needs: &|_| LINE * faces.tick,
         };
-        let plan = AxisPlan {
-            axis: &colours.axis,
-            interval: colours.limits,
-            labelled: true,
-        };
-        let axis = FittedAxis::new(&plan, &room, faces);
+        let axis = FittedAxis::new(&colours.axis, &colours.limits, &room, faces);
         let left = 1.2 * faces.tick;
         let numbers = left + STRIP + faces.tick_length() + 0.3 * faces.tick;
         let text = numbers + axis.numbers + faces.gap() + 0.5 * LINE * faces.label;

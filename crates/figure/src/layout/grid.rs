@@ -21,64 +21,33 @@ pub(crate) fn draw(figure: &Figure) -> Result<Scene, FigureError> {
     let common = first.and_then(|plan| plan.colours.as_ref());
     // a bar needs the width of its numbers, which depend on the height, which depends on the width
     let mut reserved = 0.0;
-    let (mut scene, panels, bar) = loop {
+    let (mut scene, panels, plots, bar) = loop {
         let (scene, panels) = arrange(figure, &plans, &faces, reserved);
         let plots = plots(&panels);
         match common.map(|colours| Bar::new(colours, plots.height(), &faces)) {
             Some(bar) if bar.width > reserved => reserved = bar.width,
-            bar => break (scene, panels, bar.map(|bar| (bar, plots))),
+            bar => break (scene, panels, plots, bar),
         }
     };
     for panel in &panels {
-        draw_panel(&mut scene, panel, &faces);
+        panel.draw(&mut scene, &faces);
     }
-    if let Some((bar, plots)) = bar {
+    if let Some(bar) = bar {
         bar.draw(&mut scene, plots, &faces);
     }
     Ok(scene)
 }
 
-fn draw_panel(
-    scene: &mut Scene,
-    (plan, fitted, frame): &(PanelPlan<'_>, Fitted, Frame),
-    faces: &Typeface,
-) {
-    if !plan.panel.is_filled() {
-        fitted.axes.draw_grid(scene, frame);
-    }
-    for (layer, &numbers) in plan.panel.layers.iter().zip(&plan.numbers) {
-        layer.draw(scene, frame, plan.colours.as_ref(), numbers);
-    }
-    labels::draw_marks(scene, plan, frame, &fitted.marks, faces);
-    fitted.axes.draw(scene, frame, faces);
-    let mark_rows = labels::rows(&fitted.marks);
-    let mut line = frame.area.top - faces.gap() - Typeface::lines(faces.mark, mark_rows);
-    for title in fitted.title.iter().rev() {
-        let at = (frame.area.centre().0, line - 0.2 * faces.panel);
-        scene.text(Text::new(title, at, faces.panel, MIDDLE));
-        line -= LINE * faces.panel;
-    }
-    let legend = fitted.legend.as_ref();
-    let taken = legend.and_then(|legend| legend.covered(frame.area));
-    labels::draw_points(scene, plan, frame, taken, faces.tick);
-    if let Some(legend) = legend {
-        legend.draw(scene, frame.area, faces.legend);
-    }
-    if let Some(bar) = &fitted.bar {
-        bar.draw(scene, frame.area, faces);
-    }
-}
-
-/// The canvas with the title and the line below it, and each panel, what is around its plot, and the plot; the common
-/// colour bar gets a width at the right.
+/// The canvas with the title and the line below it, and each panel with its place; the common colour bar gets a width at
+/// the right.
 ///
 /// All plots are equally wide; the width of the figure is exceeded rather than that they vanish.
 fn arrange<'a>(
     figure: &Figure,
-    plans: &[PanelPlan<'a>],
+    plans: &'a [PanelPlan<'a>],
     faces: &Typeface,
     bar: f64,
-) -> (Scene, Vec<(PanelPlan<'a>, Fitted, Frame)>) {
+) -> (Scene, Vec<Fitted<'a>>) {
     let count = figure.columns.min(plans.len());
     let legend_width = (0.34 * figure.width / count as f64).min(22.0 * faces.tick);
     let gap = 1.4 * faces.tick;
@@ -86,17 +55,17 @@ fn arrange<'a>(
     // needed at the left and at the right of each column
     let (mut left, mut right) = (vec![0.0_f64; count], vec![0.0_f64; count]);
     // what is reserved at the sides only grows, so that it is enough for the plots at the end
-    let (fitted, width) = loop {
-        let fit = |plan: &PanelPlan<'_>| {
+    let (mut fitted, width) = loop {
+        let fit = |(i, plan): (usize, &'a PanelPlan<'a>)| {
             // beside the last column alone: elsewhere it would tear the columns apart
-            let most_right = legend_width * f64::from(u8::from(plan.column + 1 == count));
-            Fitted::new(plan, size(plan, plot), faces, most_right)
+            let most_right = legend_width * f64::from(u8::from((i + 1) % count == 0));
+            Fitted::new(plan, plot, faces, most_right)
         };
-        let fitted: Vec<Fitted> = plans.iter().map(fit).collect();
+        let fitted: Vec<Fitted<'_>> = plans.iter().enumerate().map(fit).collect();
         let before = (left.clone(), right.clone());
-        for (plan, Fitted { needs, .. }) in plans.iter().zip(&fitted) {
-            left[plan.column] = left[plan.column].max(needs.left);
-            right[plan.column] = right[plan.column].max(needs.right);
+        for (i, Fitted { needs, .. }) in fitted.iter().enumerate() {
+            left[i % count] = left[i % count].max(needs.left);
+            right[i % count] = right[i % count].max(needs.right);
         }
         let needed: f64 = left.iter().chain(&right).sum();
         let sides = needed + gap * (count - 1) as f64 + 2.0 * PAD;
@@ -106,15 +75,14 @@ fn arrange<'a>(
         }
         plot = next;
     };
-    let line = |text: &str, size: f64| wrap(text, size, width + bar - 2.0 * PAD);
-    let title = line(&figure.title, faces.title).into_iter();
-    let subtitle = line(&figure.subtitle, faces.subtitle).into_iter();
-    let titles = title.map(|line| (line, faces.title));
     let mut heading = Vec::new();
     let mut top = PAD;
-    for (line, size) in titles.chain(subtitle.map(|line| (line, faces.subtitle))) {
-        heading.push(Text::new(&line, (PAD, top + size), size, START));
-        top += Typeface::lines(size, 1);
+    let (title, subtitle) = (&figure.title, &figure.subtitle);
+    for (text, size) in [(title, faces.title), (subtitle, faces.subtitle)] {
+        for line in wrap(text, size, width + bar - 2.0 * PAD) {
+            heading.push(Text::new(&line, (PAD, top + size), size, START));
+            top += Typeface::lines(size, 1);
+        }
     }
     if top > PAD {
         top += faces.gap();
@@ -124,52 +92,36 @@ fn arrange<'a>(
         PAD + before.sum::<f64>() + left[column]
     };
     let starts: Vec<f64> = (0..count).map(start).collect();
-    let (panels, bottom) = rows(plans, fitted, &starts, plot, top, 1.2 * faces.tick);
+    let bottom = place(&mut fitted, &starts, top, 1.2 * faces.tick);
     let mut scene = Scene {
-        width: width + bar,
-        height: bottom + PAD,
-        plots: panels.iter().map(|(.., frame)| frame.area).collect(),
+        canvas: Rect::new(0.0, 0.0, width + bar, bottom + PAD),
+        plots: fitted.iter().map(|fitted| fitted.frame.area).collect(),
         items: Vec::new(),
     };
-    let canvas = Rect::new(0.0, 0.0, scene.width, scene.height);
-    scene.shape(Shape::rectangle(canvas).filled(WHITE, 1.0));
+    scene.shape(Shape::rectangle(scene.canvas).filled(WHITE, 1.0));
     scene.items.extend(heading.into_iter().map(Item::Text));
-    (scene, panels)
+    (scene, fitted)
 }
 
-/// Gives every panel its area in columns that start at some places, row below row from `top` on; and the bottom of the
+/// Gives every panel its place in columns that start at some places, row below row from `top` on; and the bottom of the
 /// last row.
-fn rows<'a>(
-    plans: &[PanelPlan<'a>],
-    fitted: Vec<Fitted>,
-    starts: &[f64],
-    plot: f64,
-    mut top: f64,
-    gap: f64,
-) -> (Vec<(PanelPlan<'a>, Fitted, Frame)>, f64) {
-    let mut panels = Vec::with_capacity(plans.len());
-    let mut fitted = fitted.into_iter();
-    for row in plans.chunk_by(|a, b| a.row == b.row) {
-        let fitted: Vec<Fitted> = fitted.by_ref().take(row.len()).collect();
-        let most = |of: fn(&Needs) -> f64| fitted.iter().map(|f| of(&f.needs)).fold(0.0, f64::max);
-        let heights = row.iter().map(|plan| size(plan, plot)[1]);
-        let height = heights.fold(0.0, f64::max);
-        let below = most(|needs| needs.bottom);
-        top += most(|needs| needs.top);
-        for (plan, fitted) in row.iter().zip(fitted) {
-            let [width, height] = size(plan, plot);
-            let area = Rect::new(starts[plan.column], top, width, height);
-            panels.push((plan.clone(), fitted, plan.frame(area)));
+fn place(fitted: &mut [Fitted<'_>], starts: &[f64], mut top: f64, gap: f64) -> f64 {
+    for row in fitted.chunks_mut(starts.len()) {
+        let most = |of: fn(&Fitted<'_>) -> f64| row.iter().map(of).fold(0.0, f64::max);
+        let (height, below) = (most(|f| f.frame.area.height()), most(|f| f.needs.bottom));
+        top += most(|f| f.needs.top);
+        for (Fitted { frame, .. }, &left) in row.iter_mut().zip(starts) {
+            frame.area = Rect::new(left, top, frame.area.width(), frame.area.height());
         }
         top += height + below + gap;
     }
-    (panels, top - gap)
+    top - gap
 }
 
 /// From the first plot to the last, with what the last column needs at its right.
-fn plots(panels: &[(PanelPlan<'_>, Fitted, Frame)]) -> Rect {
-    let areas = panels.iter().map(|(_, fitted, frame)| Rect {
-        right: frame.area.right + fitted.needs.right,
+fn plots(panels: &[Fitted<'_>]) -> Rect {
+    let areas = panels.iter().map(|Fitted { frame, needs, .. }| Rect {
+        right: frame.area.right + needs.right,
         ..frame.area
     });
     areas.reduce(Rect::union).unwrap_or_default()
@@ -189,8 +141,7 @@ fn size(plan: &PanelPlan<'_>, width: f64) -> [f64; 2] {
     if !plan.panel.has_equal_lengths {
         return [width, plan.panel.height];
     }
-    let lengths = plan.axes.each_ref();
-    let [x, y] = lengths.map(|axis| axis.interval.high - axis.interval.low);
+    let [x, y] = plan.intervals.map(|interval| interval.high - interval.low);
     let ratio = y / x;
     match ratio > TALLEST {
         true => [TALLEST * width / ratio, TALLEST * width],
@@ -198,9 +149,11 @@ fn size(plan: &PanelPlan<'_>, width: f64) -> [f64; 2] {
     }
 }
 
-/// A panel fitted around a plot whose upper left corner is at 0, 0.
+/// A panel fitted around its plot.
 #[derive(Debug, Clone, PartialEq)]
-struct Fitted {
+struct Fitted<'a> {
+    plan: &'a PanelPlan<'a>,
+    frame: Frame,
     axes: Axes,
     title: Vec<String>,
     marks: Vec<Label>,
@@ -209,17 +162,18 @@ struct Fitted {
     needs: Needs,
 }
 
-impl Fitted {
-    /// Fits a panel around a plot of a size.
+impl<'a> Fitted<'a> {
+    /// Fits a panel around a plot in a column of plots of a width, with its upper left corner at 0, 0.
     ///
     /// A legend at the right has `legend_width` pixels at most.
-    fn new(plan: &PanelPlan<'_>, size: [f64; 2], faces: &Typeface, legend_width: f64) -> Self {
-        let [width, height] = size;
-        let axes = Axes::new(plan, size, faces);
+    fn new(plan: &'a PanelPlan<'a>, plot: f64, faces: &Typeface, legend_width: f64) -> Self {
+        let [width, height] = size(plan, plot);
+        let frame = plan.frame(Rect::new(0.0, 0.0, width, height));
+        let axes = Axes::new(plan, [width, height], faces);
         let mut needs = axes.needs(plan, width, faces);
-        let title = wrap(&plan.panel.title, faces.panel, width);
-        let marks = labels::of_marks(plan, width, faces);
-        let title_height = Typeface::lines(faces.panel, title.len());
+        let title = wrap(&plan.panel.title, faces.label, width);
+        let marks = labels::of_marks(plan, &frame, faces);
+        let title_height = Typeface::lines(faces.label, title.len());
         let above = Typeface::lines(faces.mark, labels::rows(&marks)) + title_height;
         if above > 0.0 {
             needs.top = needs.top.max(above + faces.gap());
@@ -229,7 +183,7 @@ impl Fitted {
         if let Some(bar) = &bar {
             needs.right = needs.right.max(bar.width);
         }
-        let legend = Legend::new(plan, size, faces, &needs, legend_width);
+        let legend = Legend::new(plan, &frame, faces, &needs, legend_width);
         if let Some(legend) = &legend {
             match legend.place {
                 Place::Right(from) => {
@@ -241,12 +195,42 @@ impl Fitted {
             }
         }
         Self {
+            plan,
+            frame,
             axes,
             title,
             marks,
             legend,
             bar,
             needs,
+        }
+    }
+
+    fn draw(&self, scene: &mut Scene, faces: &Typeface) {
+        let Self { plan, frame, .. } = self;
+        if !plan.panel.is_filled() {
+            self.axes.draw_grid(scene, frame);
+        }
+        for (layer, &numbers) in plan.panel.layers.iter().zip(&plan.numbers) {
+            layer.draw(scene, frame, plan.colours.as_ref(), numbers);
+        }
+        labels::draw_marks(scene, plan, frame, &self.marks, faces);
+        self.axes.draw(scene, frame, faces);
+        let mark_rows = labels::rows(&self.marks);
+        let mut line = frame.area.top - faces.gap() - Typeface::lines(faces.mark, mark_rows);
+        for title in self.title.iter().rev() {
+            let at = (frame.area.centre().0, line - 0.2 * faces.label);
+            scene.text(Text::new(title, at, faces.label, MIDDLE));
+            line -= LINE * faces.label;
+        }
+        let legend = self.legend.as_ref();
+        let taken = legend.and_then(|legend| legend.covered(frame.area));
+        labels::draw_points(scene, plan, frame, taken, faces.tick);
+        if let Some(legend) = legend {
+            legend.draw(scene, frame.area, faces.legend);
+        }
+        if let Some(bar) = &self.bar {
+            bar.draw(scene, frame.area, faces);
         }
     }
 }

@@ -25,7 +25,7 @@ pub(crate) struct Label {
 
 /// The vertical lines of a panel, with their labels.
 fn lines<'a>(plan: &PanelPlan<'a>) -> impl Iterator<Item = (f64, &'a str)> {
-    let interval = plan.axes[0].interval;
+    let interval = plan.intervals[0];
     let layers = plan.panel.layers.iter();
     layers.filter_map(move |layer| match layer {
         Layer::Mark { x, label } if interval.contains(*x) => Some((*x, label.as_str())),
@@ -38,13 +38,12 @@ pub(super) fn rows(labels: &[Label]) -> usize {
     labels.iter().map(|label| label.row + 1).max().unwrap_or(0)
 }
 
-/// Labels over a plot of a width, in as few rows as hold them, none over another.
-pub(super) fn of_marks(plan: &PanelPlan<'_>, width: f64, faces: &Typeface) -> Vec<Label> {
-    let frame = plan.frame(Rect::new(0.0, 0.0, width, 1.0));
+/// Labels over a plot at 0, 0, in as few rows as hold them, none over another.
+pub(super) fn of_marks(plan: &PanelPlan<'_>, frame: &Frame, faces: &Typeface) -> Vec<Label> {
     let named = lines(plan).filter(|(_, label)| !label.trim().is_empty());
     let mut found: Vec<_> = named.map(|(x, label)| (frame.across(x), label)).collect();
     found.sort_by(|a, b| a.0.total_cmp(&b.0));
-    placed(&found, width, faces)
+    placed(&found, frame.area.width(), faces)
 }
 
 /// Labels of lines from the left side, rising.
@@ -57,28 +56,25 @@ fn placed(marks: &[(f64, &str)], width: f64, faces: &Typeface) -> Vec<Label> {
     if marks.iter().any(|(_, label)| size(label) > width) {
         return stacked(marks, width - gap, faces);
     }
-    let total: f64 = marks.iter().map(|(_, label)| size(label)).sum();
     // labels by turns
     let row = |row: usize, rows: usize| marks.iter().skip(row).step_by(rows);
-    let mut rows = ((total / width).ceil() as usize).max(usize::from(!marks.is_empty()));
-    while (0..rows).any(|i| row(i, rows).map(|(_, label)| size(label)).sum::<f64>() > width) {
+    let boxes = |i: usize, rows: usize| -> Vec<Point> {
+        let row = row(i, rows);
+        row.map(|&(line, label)| (line, size(label))).collect()
+    };
+    let mut rows = 1;
+    while (0..rows).any(|i| boxes(i, rows).iter().map(|b| b.1).sum::<f64>() > width) {
         rows += 1;
     }
     let mut placed = Vec::with_capacity(marks.len());
     for i in 0..rows {
-        let widths: Vec<f64> = row(i, rows).map(|(_, label)| size(label)).collect();
-        let wishes: Vec<f64> = row(i, rows).map(|(line, _)| *line).collect();
-        let centres = spread(&wishes, &widths, width);
-        placed.extend(
-            row(i, rows)
-                .zip(centres)
-                .map(|((line, label), centre)| Label {
-                    line: *line,
-                    centre,
-                    row: i,
-                    text: (*label).to_owned(),
-                }),
-        );
+        let labels = row(i, rows).zip(spread(&boxes(i, rows), width));
+        placed.extend(labels.map(|(&(line, label), centre)| Label {
+            line,
+            centre,
+            row: i,
+            text: label.to_owned(),
+        }));
     }
     placed
 }
@@ -110,14 +106,11 @@ pub(super) fn draw_marks(
     let area = frame.area;
     for (x, _) in lines(plan) {
         let x = frame.across(x);
-        let mut line = |stroke| {
-            let ends = [(x, area.bottom), (x, area.top)];
-            scene.shape(Shape::polyline(&ends, stroke));
-        };
+        let line = Shape::polyline(&[(x, area.bottom), (x, area.top)]);
         if plan.panel.is_filled() {
-            line(Stroke::solid(WHITE, 2.2));
+            scene.shape(line.clone().stroked(Stroke::solid(WHITE, 2.2)));
         }
-        line(Stroke::new(MARK, 1.0, &[3.0, 3.0]));
+        scene.shape(line.stroked(Stroke::new(MARK, 1.0, &[3.0, 3.0])));
     }
     for label in labels {
         let rise = faces.gap() + (label.row as f64 + 0.2) * LINE * faces.mark;
@@ -127,19 +120,20 @@ pub(super) fn draw_marks(
             // from the line to its label, which may have moved aside
             let from = (area.left + label.line, area.top);
             let foot = (at.0, area.top - 0.8 * faces.gap());
-            scene.shape(Shape::polyline(&[from, foot], Stroke::solid(MARK, 1.0)));
+            scene.shape(Shape::polyline(&[from, foot]).stroked(Stroke::solid(MARK, 1.0)));
         }
     }
 }
 
-/// Centres of boxes side by side, as near their wishes as they get, within 0 to `width`.
-fn spread(wishes: &[f64], widths: &[f64], width: f64) -> Vec<f64> {
+/// Centres of boxes side by side, each with the centre that it wishes and its width, as near their wishes as they get,
+/// within 0 to `width`.
+fn spread(boxes: &[Point], width: f64) -> Vec<f64> {
     // groups of boxes that touch: members, sum of the wishes for the group's left side, width
     let mut groups: Vec<(usize, f64, f64)> = Vec::new();
     let left = |&(count, sum, size): &(usize, f64, f64)| {
         (sum / count as f64).clamp(0.0, (width - size).max(0.0))
     };
-    for (&wish, &size) in wishes.iter().zip(widths) {
+    for &(wish, size) in boxes {
         let mut group = (1, wish - 0.5 * size, size);
         while let Some(before) = groups.last() {
             if left(before) + before.2 <= left(&group) {
@@ -152,10 +146,10 @@ fn spread(wishes: &[f64], widths: &[f64], width: f64) -> Vec<f64> {
         }
         groups.push(group);
     }
-    let mut centres = Vec::with_capacity(wishes.len());
+    let mut centres = Vec::with_capacity(boxes.len());
     for group in &groups {
         let mut at = left(group);
-        for size in &widths[centres.len()..][..group.0] {
+        for (_, size) in &boxes[centres.len()..][..group.0] {
             centres.push(at + 0.5 * size);
             at += size;
         }

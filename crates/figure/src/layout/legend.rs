@@ -5,7 +5,7 @@ use super::labels::{free, occupied};
 use super::plan::PanelPlan;
 use crate::colour::{MARK, WHITE};
 use crate::figure::Legend as Wish;
-use crate::geometry::{Point, Rect};
+use crate::geometry::{Frame, Point, Rect};
 use crate::layers::{BAND, Swatch, draw_run};
 use crate::look::Style;
 use crate::scene::{START, Scene, Shape, Stroke, Text};
@@ -45,10 +45,10 @@ pub(crate) struct Legend {
 }
 
 impl Legend {
-    /// The legend around a plot that has the given needs without it, at its right no wider than `most_right`.
+    /// The legend around a plot at 0, 0 that has the given needs without it, at its right no wider than `most_right`.
     pub(super) fn new(
         plan: &PanelPlan<'_>,
-        [width, height]: [f64; 2],
+        frame: &Frame,
         faces: &Typeface,
         needs: &Needs,
         most_right: f64,
@@ -57,15 +57,15 @@ impl Legend {
         if named.is_empty() || plan.panel.legend == Wish::Off {
             return None;
         }
+        let (width, height) = (frame.area.width(), frame.area.height());
         // the other half of a mirrored section is full as well
         let may_be_inside = !plan.panel.is_filled() && !plan.panel.is_mirrored;
         if plan.panel.legend == Wish::Auto && may_be_inside {
             let mut legend = Self::block(&named, 0.62 * width, 1, faces.legend);
             let air = 0.7 * faces.tick;
-            let area = Rect::new(0.0, 0.0, width, height);
-            let taken = occupied(plan.panel, &plan.frame(area));
+            let taken = occupied(plan.panel, frame);
             let size = (legend.width + air, legend.height + 0.6 * air);
-            if let Some(found) = free(area, size, air, &taken) {
+            if let Some(found) = free(frame.area, size, air, &taken) {
                 legend.place = Place::Inside(found);
                 return Some(legend);
             }
@@ -188,7 +188,8 @@ fn sample(scene: &mut Scene, swatch: &Swatch, (x, y): Point, size: f64) {
                 scene.shape(Shape::rectangle(patch).filled(look.stroke.colour, BAND));
             }
             if look.has_line() {
-                scene.shape(Shape::polyline(&[(x, y), (x + SWATCH, y)], look.stroke));
+                let line = Shape::polyline(&[(x, y), (x + SWATCH, y)]);
+                scene.shape(line.stroked(look.stroke));
             }
             look.mark(scene, (x + 0.5 * SWATCH, y));
         }

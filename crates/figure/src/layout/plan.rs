@@ -1,29 +1,20 @@
-//! What is known of each panel before its size: its place in the grid, the intervals of its axes, the limits of its
-//! colours, the looks of its curves.
+//! What is known of each panel before its size: the intervals of its axes, the limits of its colours, the looks of its
+//! curves.
 
-use crate::axis::{Axis, Interval, Scale};
+use crate::axis::{Interval, Scale};
 use crate::figure::{Figure, Panel, Sharing};
 use crate::geometry::{Frame, Point, Rect};
 use crate::layers::{Colours, Layer};
 use std::collections::BTreeMap;
 
-/// An axis with its interval.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct AxisPlan<'a> {
-    pub(crate) axis: &'a Axis,
-    pub(crate) interval: Interval,
-    /// Whether numbers and label are written.
-    pub(crate) labelled: bool,
-}
-
 /// A panel with everything that is known before its size.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct PanelPlan<'a> {
     pub(crate) panel: &'a Panel,
-    pub(crate) row: usize,
-    pub(crate) column: usize,
-    /// Along x and y.
-    pub(crate) axes: [AxisPlan<'a>; 2],
+    /// Values along x and y.
+    pub(crate) intervals: [Interval; 2],
+    /// Whether numbers and labels are written along x and y.
+    pub(crate) labelled: [bool; 2],
     /// What the colours of its images mean.
     pub(crate) colours: Option<Colours>,
     /// Whether it explains them itself.
@@ -39,8 +30,8 @@ impl PanelPlan<'_> {
     pub(crate) fn frame(&self, area: Rect) -> Frame {
         Frame {
             area,
-            x: self.axes[0].interval,
-            y: self.axes[1].interval,
+            x: self.intervals[0],
+            y: self.intervals[1],
             reversed: [self.panel.x.is_reversed, self.panel.y.is_reversed],
             is_mirrored: self.panel.is_mirrored,
         }
@@ -49,54 +40,37 @@ impl PanelPlan<'_> {
 
 /// Plans every panel of a figure.
 pub(crate) fn plan(figure: &Figure) -> Vec<PanelPlan<'_>> {
-    let common = colours(&figure.panels).filter(|_| figure.has_common_bar);
-    let panels = figure.panels.iter().zip(numbers(figure)).enumerate();
-    let mut plans: Vec<PanelPlan<'_>> = panels
-        .map(|(i, (panel, numbers))| {
-            let axis = |axis, interval| AxisPlan {
-                axis,
-                interval,
-                labelled: true,
-            };
-            let [x, y] = intervals(panel);
-            let own = || colours(std::slice::from_ref(panel));
-            PanelPlan {
-                panel,
-                row: i / figure.columns,
-                column: i % figure.columns,
-                axes: [axis(&panel.x, x), axis(&panel.y, y)],
-                colours: common.clone().or_else(own),
-                has_bar: !figure.has_common_bar,
-                numbers,
-            }
-        })
-        .collect();
+    let layers = figure.panels.iter().flat_map(|panel| &panel.layers);
+    let common = Colours::of(layers).filter(|_| figure.has_common_bar);
+    let panels = figure.panels.iter().zip(numbers(figure));
+    let plan = |(panel, numbers)| PanelPlan {
+        panel,
+        intervals: intervals(panel),
+        labelled: [true; 2],
+        colours: common.clone().or_else(|| Colours::of(&panel.layers)),
+        has_bar: !figure.has_common_bar,
+        numbers,
+    };
+    let mut plans: Vec<PanelPlan<'_>> = panels.map(plan).collect();
+    let columns = figure.columns;
     if figure.sharing != Sharing::Separate {
-        share(&mut plans, 0);
+        share(&mut plans, 0, |i| i % columns);
     }
     if figure.sharing == Sharing::Both {
-        share(&mut plans, 1);
+        share(&mut plans, 1, |i| i / columns);
     }
     plans
 }
 
-/// Gives the x axes of each column of panels the same interval, written at the last of them, or the y axes of each row,
-/// written at the first.
-fn share(plans: &mut [PanelPlan<'_>], side: usize) {
-    let line = |plan: &PanelPlan<'_>| [plan.column, plan.row][side];
+/// Gives the axes of all panels of a line the same interval: the x axes of a column, written at its last panel, or the y
+/// axes of a row, written at its first.
+fn share(plans: &mut [PanelPlan<'_>], side: usize, line: impl Fn(usize) -> usize) {
     for i in 0..plans.len() {
-        let is_beside = |k: &usize| line(&plans[*k]) == line(&plans[i]);
-        let mut beside = (0..plans.len()).filter(is_beside);
-        let intervals = beside.clone().map(|k| plans[k].axes[side].interval);
+        let beside: Vec<usize> = (0..plans.len()).filter(|&k| line(k) == line(i)).collect();
+        let intervals = beside.iter().map(|&k| plans[k].intervals[side]);
         let union = intervals.reduce(Interval::union);
-        let written = if side == 0 {
-            beside.next_back()
-        } else {
-            beside.next()
-        };
-        let axis = &mut plans[i].axes[side];
-        axis.interval = union.unwrap_or(axis.interval);
-        axis.labelled = written == Some(i);
+        plans[i].intervals[side] = union.unwrap_or(plans[i].intervals[side]);
+        plans[i].labelled[side] = [beside.last(), beside.first()][side] == Some(&i);
     }
 }
 
@@ -137,52 +111,37 @@ fn intervals(panel: &Panel) -> [Interval; 2] {
     [x, y]
 }
 
-/// What the colours of all images of some panels mean.
-fn colours(panels: &[Panel]) -> Option<Colours> {
-    let layers = panels.iter().flat_map(|panel| &panel.layers);
-    let images = layers.filter_map(|layer| match layer {
-        Layer::Image(image) => Some(image),
-        _ => None,
-    });
-    Colours::of(&images)
-}
-
 /// The numbers of each layer of each panel.
 fn numbers(figure: &Figure) -> Vec<Vec<[usize; 2]>> {
-    let of_panel = |panel: &Panel| coloured(&panel.layers).map(|(_, name)| name).collect();
-    let names: Vec<Vec<String>> = figure.panels.iter().map(of_panel).collect();
+    let panels: Vec<Vec<Option<String>>> = figure.panels.iter().map(names).collect();
     let mut known: BTreeMap<&String, [usize; 2]> = BTreeMap::new();
-    for name in names.iter().flatten() {
-        if known.contains_key(name) {
-            continue;
-        }
-        let beside = |other: &String| names.iter().any(|p| p.contains(name) && p.contains(other));
+    for name in panels.iter().flatten().flatten() {
+        let has = |panel: &[_], name: &String| panel.iter().flatten().any(|own| own == name);
+        let beside = |other: &String| panels.iter().any(|p| has(p, name) && has(p, other));
         let taken = known.iter().filter(|(other, _)| beside(other));
         let is_free = |n: &usize| taken.clone().all(|(_, numbers)| numbers[1] != *n);
         let numbers = [known.len(), (0..).find(is_free).unwrap_or(0)];
-        known.insert(name, numbers);
+        known.entry(name).or_insert(numbers);
     }
-    let of_panel = |panel: &Panel| {
-        let mut numbers = vec![[0; 2]; panel.layers.len()];
-        for (i, name) in coloured(&panel.layers) {
-            numbers[i] = known[&name];
-        }
-        numbers
-    };
-    figure.panels.iter().map(of_panel).collect()
+    let number = |name: &Option<String>| name.as_ref().map_or([0; 2], |name| known[name]);
+    let of_panel = |names: &Vec<_>| names.iter().map(number).collect();
+    panels.iter().map(of_panel).collect()
 }
 
-/// Curves that have a colour of their own, each with its name; one without a name is named by its number in the panel.
-fn coloured(layers: &[Layer]) -> impl Iterator<Item = (usize, String)> + '_ {
-    let layers = layers.iter().enumerate();
-    let own = layers.filter_map(|(i, layer)| match layer {
-        Layer::Line(line) if line.style.is_coloured() => Some((i, &line.name)),
+/// The name of each layer of a panel that has a colour of its own; one without a name is named by its number among them.
+fn names(panel: &Panel) -> Vec<Option<String>> {
+    let mut coloured = 0;
+    let names = panel.layers.iter().map(|layer| match layer {
+        Layer::Line(line) if line.style.is_coloured() => {
+            coloured += 1;
+            Some(match line.name.as_str() {
+                "" => format!("\0{coloured}"),
+                name => name.to_owned(),
+            })
+        }
         _ => None,
     });
-    own.enumerate().map(|(n, (i, name))| match name.as_str() {
-        "" => (i, format!("\0{n}")),
-        name => (i, name.to_owned()),
-    })
+    names.collect()
 }
 
 #[cfg(test)]
@@ -208,12 +167,11 @@ mod tests {
             .panel(panel(2.0))
             .panel(panel(4.0));
         let plans = plan(&figure);
-        let highs: Vec<f64> = plans.iter().map(|p| p.axes[0].interval.high).collect();
+        let highs: Vec<f64> = plans.iter().map(|p| p.intervals[0].high).collect();
         assert_eq!(highs, [4.0, 2.0, 4.0]);
-        let labelled = |p: &PanelPlan<'_>| p.axes.each_ref().map(|axis| axis.labelled);
-        let written: Vec<[bool; 2]> = plans.iter().map(labelled).collect();
+        let written: Vec<[bool; 2]> = plans.iter().map(|p| p.labelled).collect();
         assert_eq!(written, [[false, true], [true, false], [true, true]]);
-        let along_y = [0, 1].map(|i| plans[i].axes[1].interval);
+        let along_y = [0, 1].map(|i| plans[i].intervals[1]);
         assert!(along_y[0].high > 4.0 && along_y[0] == along_y[1]);
     }
 
@@ -222,12 +180,10 @@ mod tests {
         let mut panel = panel(10.0);
         panel.x = panel.x.range(0.0, 1.0);
         let figure = Figure::new("").panel(panel.clone());
-        assert!(plan(&figure)[0].axes[1].interval.high <= 1.0);
-        let figure = Figure::new("").panel(panel.mirrored());
-        assert_eq!(
-            plan(&figure)[0].axes[0].interval,
-            Interval::linear(-1.0, 1.0)
-        );
+        assert!(plan(&figure)[0].intervals[1].high <= 1.0);
+        panel.is_mirrored = true;
+        let figure = Figure::new("").panel(panel);
+        assert_eq!(plan(&figure)[0].intervals[0], Interval::linear(-1.0, 1.0));
     }
 
     #[test]

@@ -1,9 +1,9 @@
-//! From a scene to a file, one format a file; `png` writes the frames of a GIF too.
+//! From a figure to the bytes of a file, one format a file; `png` writes the frames of a GIF too.
 
 mod pdf;
 mod png;
 mod svg;
 
-pub(crate) use pdf::pdf;
-pub(crate) use png::{gif, png};
-pub(crate) use svg::svg;
+pub use pdf::to_pdf;
+pub use png::{to_gif, to_png};
+pub use svg::to_svg;

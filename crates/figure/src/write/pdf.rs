@@ -2,7 +2,9 @@
 
 use crate::colour::{self, BLACK, WHITE};
 use crate::error::FigureError;
+use crate::figure::Figure;
 use crate::font;
+use crate::layout::draw;
 use crate::scene::{Item, Picture, Scene, Segment, Shape, Text};
 use miniz_oxide::deflate::compress_to_vec_zlib;
 use pdf_writer::types::{
@@ -27,9 +29,13 @@ const SYSTEM: SystemInfo<'_> = SystemInfo {
     supplement: 0,
 };
 
-/// Writes a scene.
-pub(crate) fn pdf(scene: &Scene) -> Result<Vec<u8>, FigureError> {
-    let subset = Subset::of(scene)?;
+/// The figure as PDF: a page of its size, with its font.
+///
+/// # Errors
+/// [`FigureError`] for a figure that cannot be drawn.
+pub fn to_pdf(figure: &Figure) -> Result<Vec<u8>, FigureError> {
+    let scene = draw(figure)?;
+    let subset = Subset::of(&scene)?;
     let mut next = Ref::new(1);
     let [catalog, tree, page, content, font] = std::array::from_fn(|_| next.bump());
     let font_parts = std::array::from_fn(|_| next.bump());
@@ -45,7 +51,7 @@ pub(crate) fn pdf(scene: &Scene) -> Result<Vec<u8>, FigureError> {
     let mut pdf = Pdf::new();
     pdf.catalog(catalog).pages(tree);
     pdf.pages(tree).kids([page]).count(1);
-    let (width, height) = (scene.width as f32, scene.height as f32);
+    let (width, height) = (scene.canvas.width() as f32, scene.canvas.height() as f32);
     let mut sheet = pdf.page(page);
     sheet.media_box(Rect::new(0.0, 0.0, POINT * width, POINT * height));
     sheet.parent(tree).contents(content);
@@ -69,7 +75,7 @@ pub(crate) fn pdf(scene: &Scene) -> Result<Vec<u8>, FigureError> {
     let mut painted = Content::new();
     // pixels from the upper left corner
     painted.transform([POINT, 0.0, 0.0, -POINT, 0.0, POINT * height]);
-    paint(&mut painted, scene, &subset);
+    paint(&mut painted, &scene, &subset);
     let stream = compressed(&painted.finish());
     pdf.stream(content, &stream).filter(Filter::FlateDecode);
     subset.write(&mut pdf, font, font_parts);
@@ -121,7 +127,7 @@ impl Subset {
                 }
             }
         }
-        let file = subsetter::subset(font::data(), 0, &remapper)
+        let file = subsetter::subset(font::DATA, 0, &remapper)
             .map_err(|error| FigureError(format!("the font cannot be embedded: {error}")))?;
         Ok(Self { file, letters })
     }

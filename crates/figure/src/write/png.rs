@@ -2,8 +2,10 @@
 
 use crate::colour::{BLACK, WHITE, rgb};
 use crate::error::FigureError;
+use crate::figure::Figure;
 use crate::font;
 use crate::geometry::Rect;
+use crate::layout::draw;
 use crate::scene::{Item, Picture, Scene, Segment, Shape, Text};
 use gif::{Encoder, Frame, Repeat};
 use std::fmt::Display;
@@ -12,16 +14,19 @@ use tiny_skia::{
     SpreadMode, Stroke, StrokeDash, Transform,
 };
 
-/// A scene at so many pixels for each of its own.
-pub(crate) fn png(scene: &Scene, scale: f32) -> Result<Vec<u8>, FigureError> {
-    encode(&rendered(scene, scale)?)
+/// The figure as PNG, at `scale` pixels for each of its own.
+///
+/// # Errors
+/// [`FigureError`] for a figure that cannot be drawn, or a picture that is too large.
+pub fn to_png(figure: &Figure, scale: f32) -> Result<Vec<u8>, FigureError> {
+    encode(&rendered(&draw(figure)?, scale)?)
 }
 
 /// Width and height in pixels.
 fn size(scene: &Scene, scale: f32) -> [u32; 2] {
     // a hundredth of a pixel more is none
     let pixels = |side: f64| (f64::from(scale) * (side - 0.005)).ceil() as u32;
-    [scene.width, scene.height].map(pixels)
+    [scene.canvas.width(), scene.canvas.height()].map(pixels)
 }
 
 /// The pixels of a scene.
@@ -45,26 +50,31 @@ fn rendered(scene: &Scene, scale: f32) -> Result<Pixmap, FigureError> {
 /// How long it takes to find the colours of a frame: 1 is the best, 30 the fastest.
 const SPEED: i32 = 10;
 
-/// The frames as a GIF that repeats, each `frame_s` long, to the hundredth.
-pub(crate) fn gif(scenes: &[Scene], scale: f32, frame_s: f64) -> Result<Vec<u8>, FigureError> {
-    let fault = |why: &dyn Display| FigureError(format!("the GIF cannot be encoded: {why}"));
+/// Figures as an animated GIF that repeats: a frame each, all of the size of the first, `frame_s` long, to the hundredth.
+///
+/// # Errors
+/// [`FigureError`] for a figure that cannot be drawn, or frames that are not of one size.
+pub fn to_gif(figures: &[Figure], scale: f32, frame_s: f64) -> Result<Vec<u8>, FigureError> {
+    let scenes = figures.iter().map(draw).collect::<Result<Vec<_>, _>>()?;
     let first = scenes.first().map_or([0, 0], |scene| size(scene, scale));
     let [width, height] = first.map(|pixels| u16::try_from(pixels).unwrap_or(0));
-    let encoder = Encoder::new(Vec::new(), width, height, &[]);
-    let mut encoder = encoder.map_err(|error| fault(&error))?;
-    let repeated = encoder.set_repeat(Repeat::Infinite);
-    repeated.map_err(|error| fault(&error))?;
-    for scene in scenes {
+    let mut encoder = Encoder::new(Vec::new(), width, height, &[]).map_err(no_gif)?;
+    encoder.set_repeat(Repeat::Infinite).map_err(no_gif)?;
+    for scene in &scenes {
         if size(scene, scale) != [width, height].map(u32::from) {
-            return Err(fault(&"its frames are not of one size, below 65536 pixels"));
+            return Err(no_gif("its frames are not of one size, below 65536 pixels"));
         }
         // the page is white throughout: no pixel is transparent
         let mut rgba = rendered(scene, scale)?.take();
         let mut frame = Frame::from_rgba_speed(width, height, &mut rgba, SPEED);
         frame.delay = (100.0 * frame_s).round().clamp(2.0, 6000.0) as u16;
-        encoder.write_frame(&frame).map_err(|error| fault(&error))?;
+        encoder.write_frame(&frame).map_err(no_gif)?;
     }
-    encoder.into_inner().map_err(|error| fault(&error))
+    encoder.into_inner().map_err(no_gif)
+}
+
+fn no_gif(why: impl Display) -> FigureError {
+    FigureError(format!("the GIF cannot be encoded: {why}"))
 }
 
 /// Room for pixels.

@@ -2,9 +2,11 @@
 
 use super::png::{encode, pixels};
 use crate::error::FigureError;
+use crate::figure::Figure;
 use crate::font;
 use crate::geometry::{Point, Rect};
-use crate::scene::{Item, Picture, Scene, Segment, Shape, Text};
+use crate::layout::draw;
+use crate::scene::{Item, Picture, Segment, Shape, Text};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use std::collections::BTreeSet;
@@ -12,28 +14,28 @@ use svg::node::element::{ClipPath, Definitions, Group, Image, Path, Rectangle, U
 use svg::{Document, Node};
 use tiny_skia::PathSegment;
 
-/// Writes a scene.
+/// The figure as SVG.
 ///
 /// Letters are outlines, each defined once, so that no viewer needs the font; what a text says stands in `aria-label`.
-pub(crate) fn svg(scene: &Scene) -> Result<String, FigureError> {
+///
+/// # Errors
+/// [`FigureError`] for a figure that cannot be drawn.
+pub fn to_svg(figure: &Figure) -> Result<String, FigureError> {
+    let scene = draw(figure)?;
     // the different areas outside of which something is not drawn
     let mut clips: Vec<Rect> = Vec::new();
     let mut letters: BTreeSet<char> = BTreeSet::new();
-    let mut definitions = Definitions::new();
     for item in &scene.items {
         match item {
-            Item::Shape(shape) => {
-                if let Some(area) = shape.clip
-                    && !clips.contains(&area)
-                {
-                    let clip = ClipPath::new().set("id", format!("plot{}", clips.len()));
-                    definitions = definitions.add(clip.add(placed(Rectangle::new(), area)));
-                    clips.push(area);
-                }
-            }
-            Item::Text(text) => letters.extend(text.parts().iter().flat_map(|p| p.0.chars())),
+            Item::Shape(shape) => clips.extend(shape.clip.filter(|area| !clips.contains(area))),
+            Item::Text(text) => letters.extend(text.plain().chars()),
             Item::Picture(_) => {}
         }
+    }
+    let mut definitions = Definitions::new();
+    for (i, area) in clips.iter().enumerate() {
+        let clip = ClipPath::new().set("id", format!("plot{i}"));
+        definitions = definitions.add(clip.add(placed(Rectangle::new(), *area)));
     }
     for letter in letters {
         if let Some(outline) = letter_outline(letter) {
@@ -41,7 +43,7 @@ pub(crate) fn svg(scene: &Scene) -> Result<String, FigureError> {
             definitions = definitions.add(path);
         }
     }
-    let (width, height) = (number(scene.width), number(scene.height));
+    let (width, height) = (number(scene.canvas.width()), number(scene.canvas.height()));
     let mut document = Document::new()
         .set("viewBox", format!("0 0 {width} {height}"))
         .set("width", width)
@@ -61,23 +63,21 @@ pub(crate) fn svg(scene: &Scene) -> Result<String, FigureError> {
 
 /// An element that covers an area.
 fn placed<N: Node>(mut node: N, area: Rect) -> N {
-    let corner = [("x", area.left), ("y", area.top)];
-    let size = [("width", area.width()), ("height", area.height())];
-    for (name, value) in corner.into_iter().chain(size) {
-        node.assign(name, number(value));
-    }
+    node.assign("x", number(area.left));
+    node.assign("y", number(area.top));
+    node.assign("width", number(area.width()));
+    node.assign("height", number(area.height()));
     node
 }
 
 fn path(shape: &Shape, clips: &[Rect]) -> Path {
-    let mut path = Path::new().set("d", outline(&shape.segments));
-    path = match shape.fill {
-        Some((colour, opacity)) if opacity < 1.0 => {
-            path.set("fill", hex(colour)).set("fill-opacity", opacity)
-        }
-        Some((colour, _)) => path.set("fill", hex(colour)),
-        None => path.set("fill", "none"),
-    };
+    let fill = shape.fill.map_or("none".to_owned(), |fill| hex(fill.0));
+    let mut path = Path::new()
+        .set("d", outline(&shape.segments))
+        .set("fill", fill);
+    if let Some((_, opacity)) = shape.fill.filter(|fill| fill.1 < 1.0) {
+        path = path.set("fill-opacity", opacity);
+    }
     if let Some(stroke) = shape.stroke {
         path = path
             .set("stroke", hex(stroke.colour))
@@ -88,11 +88,10 @@ fn path(shape: &Shape, clips: &[Rect]) -> Path {
             path = path.set("stroke-dasharray", dashes.join(" "));
         }
     }
-    let clip = clips.iter().position(|area| shape.clip == Some(*area));
-    match clip {
-        Some(i) => path.set("clip-path", format!("url(#plot{i})")),
-        None => path,
+    if let Some(i) = clips.iter().position(|area| shape.clip == Some(*area)) {
+        path = path.set("clip-path", format!("url(#plot{i})"));
     }
+    path
 }
 
 fn hex(colour: u32) -> String {
@@ -100,18 +99,13 @@ fn hex(colour: u32) -> String {
 }
 
 fn outline(segments: &[Segment]) -> String {
-    let mut text = String::new();
-    for segment in segments {
-        match segment {
-            Segment::Move(x, y) => text += &format!("M{} {}", number(*x), number(*y)),
-            Segment::Line(x, y) => text += &format!("L{} {}", number(*x), number(*y)),
-            Segment::Curve(points) => {
-                text += &format!("C{}", points.map(number).join(" "));
-            }
-            Segment::Close => text.push('Z'),
-        }
-    }
-    text
+    let written = segments.iter().map(|segment| match *segment {
+        Segment::Move(x, y) => format!("M{} {}", number(x), number(y)),
+        Segment::Line(x, y) => format!("L{} {}", number(x), number(y)),
+        Segment::Curve(points) => format!("C{}", points.map(number).join(" ")),
+        Segment::Close => "Z".to_owned(),
+    });
+    written.collect()
 }
 
 fn image(picture: &Picture) -> Result<Image, FigureError> {

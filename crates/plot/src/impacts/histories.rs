@@ -36,41 +36,33 @@ pub(super) fn contact_panels(
     let displacement: Samples = |impact| Some(&impact.series.striker.as_ref()?.displacement_m);
     let velocity: Samples = |impact| Some(&impact.series.striker.as_ref()?.velocity_m_s);
     let deflection: Samples = |impact| Some(&impact.series.deflection_m);
-    // quantity and unit of each panel, and its curves: of several impacts one each, which have one legend and the same
-    // colours in all panels
-    let (shown, legend) = match single {
-        Some(only) => {
-            let moved = vec![
-                ("striker", displacement),
-                (deflection_name(only), deflection),
-            ];
-            let panels = vec![
-                ("force", "N", vec![("contact force", force)]),
-                ("displacement", "m", moved),
-                ("velocity of the striker", "m/s", vec![("", velocity)]),
-            ];
-            (panels, Legend::Auto)
-        }
-        None => {
-            let panels = vec![
-                ("force", "N", vec![("", force)]),
-                ("displacement of the striker", "m", vec![("", displacement)]),
-                ("deflection of the half-space", "m", vec![("", deflection)]),
-                ("velocity of the striker", "m/s", vec![("", velocity)]),
-            ];
-            (panels, Legend::Off)
-        }
+    // the curves, each with quantity and unit of its panel: of several impacts one a panel and impact, which have one
+    // legend and the same colours in all panels
+    let shown = match single {
+        Some(only) => [
+            ("force", "N", "contact force", force),
+            ("displacement", "m", "striker", displacement),
+            ("displacement", "m", deflection_name(only), deflection),
+            ("velocity of the striker", "m/s", "", velocity),
+        ],
+        None => [
+            ("force", "N", "", force),
+            ("displacement of the striker", "m", "", displacement),
+            ("deflection of the half-space", "m", "", deflection),
+            ("velocity of the striker", "m/s", "", velocity),
+        ],
     };
+    let legend = single.map_or(Legend::Off, |_| Legend::Auto);
     let mut panels: Vec<Panel> = Vec::new();
-    for (quantity, unit, curves) in shown {
-        let mut panel = over_time(quantity, unit, end_s, legend);
-        for (name, samples) in curves {
-            for (impact, label) in impacts.iter().zip(labels) {
-                if let Some(samples) = samples(impact) {
-                    let name = single.map_or(label.as_str(), |_| name);
-                    let points = curve(&impact.series.time_s, samples, end_s);
-                    panel = panel.line(name, Style::Plain, points);
-                }
+    for (quantity, unit, name, samples) in shown {
+        let mut panel = panels
+            .pop_if(|panel| panel.y.quantity == quantity)
+            .unwrap_or_else(|| over_time(quantity, unit, end_s, legend));
+        for (impact, label) in impacts.iter().zip(labels) {
+            if let Some(samples) = samples(impact) {
+                let name = single.map_or(label.as_str(), |_| name);
+                let points = curve(&impact.series.time_s, samples, end_s);
+                panel = panel.line(name, Style::Plain, points);
             }
         }
         panels.push(panel);
@@ -159,14 +151,14 @@ pub(super) fn probe_panels(
         return Ok((Vec::new(), 0));
     };
     let known = probes.quantities();
-    let shown = match (quantities, files.len()) {
-        ([], 1) => chosen(first.path(), &known, &["displacement_z", "displacement_r"])?,
-        ([], _) => chosen(first.path(), &known, &["displacement_z"])?,
-        (given, _) => chosen(first.path(), &known, given)?,
+    let usual: &[&str] = match files.len() {
+        1 => &["displacement_z", "displacement_r"],
+        _ => &["displacement_z"],
     };
     // one axis has one unit
     let mut by_unit: Vec<Vec<&Described>> = Vec::new();
-    for quantity in &shown {
+    for number in chosen(first.path(), &known, quantities, usual)? {
+        let quantity = &known[number];
         match by_unit.iter_mut().find(|of| of[0].unit == quantity.unit) {
             Some(of_unit) => of_unit.push(quantity),
             None => by_unit.push(vec![quantity]),

@@ -61,10 +61,9 @@ fn by_difference(scenes: &[BTreeMap<String, Value>]) -> Option<Vec<String>> {
 /// Whether a key is a number of the material of a section, which its name says.
 fn is_of_material(key: &str, section: &str) -> bool {
     const NUMBERS: [&str; 5] = ["modulus", "poisson", "density", "strength", "toughness"];
-    let key = key
-        .strip_prefix(section)
-        .and_then(|key| key.strip_prefix('.'));
-    key.is_some_and(|key| NUMBERS.iter().any(|number| key.contains(number)))
+    let is_number = |key: &str| NUMBERS.iter().any(|number| key.contains(number));
+    key.split_once('.')
+        .is_some_and(|(of, key)| of == section && is_number(key))
 }
 
 #[cfg(test)]

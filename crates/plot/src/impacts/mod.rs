@@ -7,57 +7,51 @@ mod histories;
 mod labels;
 mod spectrum;
 
-use crate::error::{PlotError, only};
-use crate::request::{Drawn, Kind, Request};
+use crate::error::{PlotError, kind_of, only};
+use crate::request::{Kind, Request};
 use crate::section::{axis_profile, frames, peak, space_time};
 use crate::words::with_unit;
 use contact::Shape;
-use figure::{Figure, Panel, Sharing};
+use figure::{Figure, Sharing};
 use formats::stored::{StoredImpact, Value};
 use histories::{FEW, contact_panels, loop_panel, probe_panels};
 use labels::labels;
 use spectrum::spectrum;
+use std::collections::BTreeMap;
+use std::slice;
 
 /// Frames of an animation, at most.
 const MOST_FRAMES: usize = 120;
 
-/// The figure of some impacts.
-pub(crate) fn of_impacts(impacts: &[StoredImpact], request: &Request) -> Result<Drawn, PlotError> {
+/// The figure of some impacts, and what its user should know.
+pub(crate) fn of_impacts(
+    impacts: &[StoredImpact],
+    request: &Request,
+) -> Result<(Figure, Vec<String>), PlotError> {
     let suits = match impacts {
         [only] if only.section()?.is_some() => Kind::Waves,
         _ => Kind::Impact,
     };
-    let kind = request.kind.unwrap_or(suits);
-    if !request.times_s.is_empty() && !matches!(kind, Kind::Waves | Kind::Axis) {
-        return Err(PlotError::all_times(kind));
-    }
+    let kind = kind_of(request, suits)?;
     let one = || only(impacts, kind);
-    let figure = headed(impacts, request);
-    let single = |panel: Panel| Drawn {
-        figure: figure.clone().width(760.0).panel(panel),
-        notes: Vec::new(),
-    };
-    match kind {
-        Kind::Loop => Ok(single(loop_panel(impacts, &labels(impacts))?)),
-        Kind::Spectrum => Ok(single(spectrum(impacts, &labels(impacts))?)),
-        Kind::Peak => Ok(single(peak(one()?, request)?)),
-        Kind::Axis => Ok(single(axis_profile(one()?, request)?)),
-        Kind::Surface => Ok(single(space_time(one()?, request, true)?)),
-        Kind::Depth => Ok(single(space_time(one()?, request, false)?)),
+    let panel = match kind {
+        Kind::Loop => loop_panel(impacts, &labels(impacts))?,
+        Kind::Spectrum => spectrum(impacts, &labels(impacts))?,
+        Kind::Peak => peak(one()?, request)?,
+        Kind::Axis => axis_profile(one()?, request)?,
+        Kind::Surface => space_time(one()?, request, true)?,
+        Kind::Depth => space_time(one()?, request, false)?,
         Kind::Waves => {
             let (panels, notes) = frames(one()?, request, request.frames.unwrap_or(4))?;
             let columns = if panels.len() > 4 { 3 } else { 2 };
-            let mut figure = figure
-                .width(960.0)
-                .columns(columns.min(panels.len()))
-                .sharing(Sharing::Both)
-                .common_colour_bar();
-            figure.panels = panels;
-            Ok(Drawn { figure, notes })
+            let mut figure = headed(impacts, request, columns.min(panels.len())).width(960.0);
+            figure.has_common_bar = true;
+            return Ok((figure.sharing(Sharing::Both).panels(panels), notes));
         }
         // kinds of other files do not come here
-        _ => histories(impacts, kind, request),
-    }
+        _ => return histories(impacts, kind, request),
+    };
+    Ok((headed(impacts, request, 1).panel(panel), Vec::new()))
 }
 
 /// The frames of an animation, a figure each, and what its user should know.
@@ -66,19 +60,22 @@ pub(crate) fn frames_of(
     request: &Request,
 ) -> Result<(Vec<Figure>, Vec<String>), PlotError> {
     let (panels, notes) = frames(impact, request, request.frames.unwrap_or(MOST_FRAMES))?;
-    let base = headed(std::slice::from_ref(impact), request).width(720.0);
+    let base = headed(slice::from_ref(impact), request, 1).width(720.0);
     let figures = panels.into_iter().map(|panel| base.clone().panel(panel));
     Ok((figures.collect(), notes))
 }
 
 /// A figure without panels, with title and subtitle.
-fn headed(impacts: &[StoredImpact], request: &Request) -> Figure {
-    let title = request.title.clone().unwrap_or_else(|| title(impacts));
-    Figure::new(&title).subtitle(&subtitle(impacts))
+fn headed(impacts: &[StoredImpact], request: &Request, columns: usize) -> Figure {
+    request.figure(&title(impacts), &subtitle(impacts), columns)
 }
 
 /// Contacts and probes over time.
-fn histories(impacts: &[StoredImpact], kind: Kind, request: &Request) -> Result<Drawn, PlotError> {
+fn histories(
+    impacts: &[StoredImpact],
+    kind: Kind,
+    request: &Request,
+) -> Result<(Figure, Vec<String>), PlotError> {
     let labels = labels(impacts);
     let is_all = kind == Kind::Probes;
     let most = if is_all { usize::MAX } else { FEW };
@@ -87,28 +84,20 @@ fn histories(impacts: &[StoredImpact], kind: Kind, request: &Request) -> Result<
         let hint = "give the scene a [[probe]] with r_m and z_m";
         return Err(PlotError::absent(impacts[0].path(), "probes", hint));
     }
-    let notes = match left_out {
-        0 => Vec::new(),
-        count => vec![format!(
-            "{count} probes are not shown: --kind probes shows all"
-        )],
-    };
+    let note = || format!("{left_out} probes are not shown: --kind probes shows all");
+    let notes = (left_out > 0).then(note).into_iter().collect();
     let mut panels = match is_all {
         true => Vec::new(),
         false => contact_panels(impacts, &labels)?,
     };
-    let mut figure = headed(impacts, request);
-    if probes.is_empty() {
-        figure = figure.sharing(Sharing::X);
-    }
-    let is_narrow = probes.is_empty() || panels.len() + probes.len() < 3;
-    panels.extend(probes);
-    figure = match is_narrow {
-        true => figure.width(760.0),
-        false => figure.columns(2).width(1040.0),
+    let (columns, sharing) = match probes.len() {
+        0 => (1, Sharing::X),
+        count if panels.len() + count < 3 => (1, Sharing::Separate),
+        _ => (2, Sharing::Separate),
     };
-    figure.panels = panels;
-    Ok(Drawn { figure, notes })
+    panels.extend(probes);
+    let figure = headed(impacts, request, columns).sharing(sharing);
+    Ok((figure.panels(panels), notes))
 }
 
 /// What strikes what: `bearing-steel ball of 3 mm strikes granite at 1.98 m/s`, or its mass and tip.
@@ -119,16 +108,10 @@ fn title(impacts: &[StoredImpact]) -> String {
     let Some(strike) = &impacts[0].strike else {
         return "A given force on the half-space".to_owned();
     };
-    let keys = impacts[0].keys();
-    let material = |section: &str| {
-        let key = format!("{section}.material");
-        keys.iter().find_map(|(name, value)| match value {
-            Value::String(text) if *name == key => Some(text.as_str()),
-            _ => None,
-        })
-    };
-    let target = material("target").map_or_else(String::new, |name| format!(" {name}"));
-    let of = material("striker").map_or_else(String::new, |name| format!("{name} "));
+    let keys: BTreeMap<String, Value> = impacts[0].keys().into_iter().collect();
+    let material = |key: &str| keys.get(key).and_then(Value::as_str);
+    let target = material("target.material").map_or_else(String::new, |name| format!(" {name}"));
+    let of = material("striker.material").map_or_else(String::new, |name| format!("{name} "));
     let speed = with_unit(strike.velocity_m_s, "m/s");
     let length = |metres| with_unit(metres, "m");
     let body = match strike.striker.shape {

@@ -7,7 +7,7 @@ use crate::words::{axis, of_quantity};
 use contact::{Choice, WaveSpeeds};
 use figure::{Axis, ColourMap, Image, Layer, Panel, Scale, Style};
 use formats::SceneError;
-use formats::quantities::Described;
+use formats::quantities::{Described, FIELD_QUANTITIES};
 use formats::stored::{StoredImpact, StoredSection};
 use std::f64::consts::FRAC_PI_2;
 use std::path::Path;
@@ -44,7 +44,7 @@ impl<'a> Section<'a> {
         })
     }
 
-    /// The quantity that is asked for, or the one that shows waves best.
+    /// The quantity that is asked for, or the usual one.
     pub(super) fn quantity(&self, request: &Request, usual: &str) -> Result<Quantity, PlotError> {
         let name = request.quantities.first().map_or(usual, String::as_str);
         Quantity::named(name, &self.stored.quantities(), self.impact.path())
@@ -79,17 +79,17 @@ impl<'a> Section<'a> {
     pub(super) fn asked(&self, times_s: &[f64]) -> Result<Vec<usize>, PlotError> {
         let known = &self.stored.time_s;
         let (first_s, last_s) = (known[0], known[known.len() - 1]);
-        let outside = times_s
-            .iter()
-            .find(|time_s| !(first_s..=last_s).contains(*time_s));
-        if let Some(&time_s) = outside {
+        let frame = |&time_s: &f64| {
+            if (first_s..=last_s).contains(&time_s) {
+                return Ok(self.nearest(time_s));
+            }
             let [time, first, last] = [time_s, first_s, last_s].map(fault::number);
             let sentence = format!(
                 "there is no frame at {time} s: those of the section are from {first} to {last} s"
             );
-            return Err(PlotError::refused(None, sentence));
-        }
-        Ok(times_s.iter().map(|&time_s| self.nearest(time_s)).collect())
+            Err(PlotError::refused(None, sentence))
+        };
+        times_s.iter().map(frame).collect()
     }
 
     /// The frame nearest to a time.
@@ -169,30 +169,30 @@ impl<'a> Section<'a> {
         let image = Image::new(r_m, z_m, values, colours, map);
         let distance = Axis::linear("distance from the axis").si("m");
         let depth = Axis::linear("depth").si("m").reversed();
-        Panel::new(distance.range(0.0, r_max_m), depth.range(0.0, z_max_m))
-            .equal_lengths()
-            .mirrored()
-            .layer(Layer::Image(image))
+        let panel = Panel::new(distance.range(0.0, r_max_m), depth.range(0.0, z_max_m));
+        Panel {
+            has_equal_lengths: true,
+            is_mirrored: true,
+            ..panel.layer(Layer::Image(image))
+        }
     }
 
     /// The fronts at a time as thin lines with their names, in a mirrored panel.
     pub(super) fn fronts(&self, time_s: f64) -> Vec<Layer> {
         let since = time_s - self.start_s;
-        let mut layers = Vec::new();
         if since <= 0.0 {
-            return layers;
+            return Vec::new();
         }
-        let mut line = |points: Vec<(f64, f64)>| {
-            layers.push(Layer::line("", Style::Rimmed, points));
-        };
         let [p, s, rayleigh] =
             [self.speeds.p, self.speeds.s, self.speeds.rayleigh].map(|c| c * since);
-        line(capsule(self.disc_radius_m, p));
-        line(capsule(self.disc_radius_m, s));
         // a Rayleigh wave is as deep as it is long
-        let depth = self.speeds.rayleigh * self.pulse_s;
+        let depth = (self.speeds.rayleigh * self.pulse_s).min(0.9 * rayleigh);
         let edge = self.disc_radius_m + rayleigh;
-        line(vec![(edge, 0.0), (edge, depth.min(0.9 * rayleigh))]);
+        let [of_p, of_s] = [p, s].map(|radius| capsule(self.disc_radius_m, radius));
+        let lines = [of_p, of_s, vec![(edge, 0.0), (edge, depth)]];
+        let mut layers = lines
+            .map(|line| Layer::line("", Style::Rimmed, line))
+            .to_vec();
         let on = |radius: f64, angle: f64| {
             let across = self.disc_radius_m + radius * angle.sin();
             (across, radius * angle.cos())
@@ -204,7 +204,7 @@ impl<'a> Section<'a> {
         let named = [
             (on(p, 0.75), "P"),
             (on(s, 0.5), "S"),
-            ((edge, 0.6 * depth.min(0.9 * rayleigh)), "R"),
+            ((edge, 0.6 * depth), "R"),
         ];
         layers.extend(named.map(|(at, name)| Layer::text(at, name)));
         layers
@@ -225,12 +225,8 @@ fn capsule(disc_radius_m: f64, distance_m: f64) -> Vec<(f64, f64)> {
 /// The value below which a fraction of the sizes lies; 0 without values.
 pub(super) fn quantile_of_sizes(values: impl Iterator<Item = f64>, fraction: f64) -> f64 {
     let mut sizes: Vec<f64> = values.map(f64::abs).filter(|v| v.is_finite()).collect();
-    if sizes.is_empty() {
-        return 0.0;
-    }
-    let index = (fraction * (sizes.len() - 1) as f64).round() as usize;
-    let (_, found, _) = sizes.select_nth_unstable_by(index, f64::total_cmp);
-    *found
+    sizes.sort_unstable_by(f64::total_cmp);
+    lookup::quantile(&sizes, fraction)
 }
 
 /// A quantity with the way to it.
@@ -251,21 +247,17 @@ pub(super) struct Quantity {
 /// Stresses that others follow from.
 const STRESSES: [&str; 4] = ["stress_rr", "stress_tt", "stress_zz", "stress_rz"];
 
-/// What follows from stresses without the elastic constants.
-const OF_STRESSES: [impact::Quantity; 6] = [
-    impact::Quantity::VonMises,
-    impact::Quantity::Tresca,
-    impact::Quantity::MaxShear,
-    impact::Quantity::Principal1,
-    impact::Quantity::Principal2,
-    impact::Quantity::Principal3,
-];
+/// What follows from stresses without the elastic constants: other stresses.
+fn of_stresses() -> impl Iterator<Item = impact::Quantity> {
+    let stresses = FIELD_QUANTITIES.into_iter().filter(|row| row.1 == "Pa");
+    stresses.map(|row| row.0)
+}
 
 impl Quantity {
     /// The quantity of a name, stored or not.
     pub(super) fn named(name: &str, stored: &[Described], path: &Path) -> Result<Self, PlotError> {
         let find = |name: &str| stored.iter().find(|quantity| quantity.name == name);
-        let stress = OF_STRESSES.into_iter().find(|of| of.name() == name);
+        let stress = of_stresses().find(|of| of.name() == name);
         let stress = stress.filter(|_| find(name).is_none());
         let (unit, parts): (&str, &[&str]) = match (find(name), stress, name) {
             (Some(found), _, _) => (&found.unit, &[name]),
@@ -276,7 +268,7 @@ impl Quantity {
             }
             (None, None, _) => {
                 let known = stored.iter().map(|quantity| quantity.name.as_str());
-                let derived = OF_STRESSES.iter().map(|of| of.name());
+                let derived = of_stresses().map(|of| of.name());
                 let all = known.chain(derived).chain(["displacement"]);
                 return Err(PlotError::unknown(path, name, name, all));
             }

@@ -48,8 +48,7 @@ pub(crate) fn frames(
         panel.layers.extend(section.fronts(time_s));
         panel
     };
-    let panels = chosen.iter().zip(images).map(panel).collect();
-    Ok((panels, notes))
+    Ok((chosen.iter().zip(images).map(panel).collect(), notes))
 }
 
 /// Frames evenly: until the longitudinal wave leaves the section, or within a pulse that is longer.
@@ -81,12 +80,12 @@ pub(crate) fn peak(impact: &StoredImpact, request: &Request) -> Result<Panel, Pl
     let positive = || values.iter().copied().filter(|v| *v > 0.0);
     let [low, high] = [0.05, 0.999].map(|share| quantile_of_sizes(positive(), share));
     // where no wave has come there is rounding, or nothing: the colour of the lower end
-    let ends = [low.max(DECADES * high), high];
+    let low = low.max(DECADES * high);
     for value in &mut values {
-        *value = value.max(ends[0]);
+        *value = value.max(low);
     }
     let words = format!("{}, largest over time", quantity.words);
-    let colours = axis(&words, &quantity.unit, Scale::Logarithmic).range(ends[0], ends[1]);
+    let colours = axis(&words, &quantity.unit, Scale::Logarithmic).range(low, high);
     Ok(section.map(values, colours, ColourMap::Sequential))
 }
 

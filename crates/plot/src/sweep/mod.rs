@@ -2,13 +2,14 @@
 
 mod view;
 
-use crate::error::{PlotError, chosen};
-use crate::request::{Drawn, Kind, Request};
+use crate::error::{PlotError, chosen, kind_of};
+use crate::request::{Kind, Request};
 use crate::words::{axis, of_key, stem};
 use figure::{Axis, ColourMap, Figure, Image, Layer, Legend, Line, Panel, Scale, Style};
 use formats::quantities::Described;
 use formats::stored::StoredSweep;
 use formats::sweep::Column;
+use std::path::Path;
 use view::{Slice, View, quantiles};
 
 /// Results that are shown when none is asked for.
@@ -40,44 +41,39 @@ const VELOCITY: &str = "striker.velocity_m_s";
 /// The result that restitution is drawn over, where a sweep has it.
 const AT_YIELD: &str = "yield_velocity_m_s";
 
-/// A result of all rows.
-struct Shown<'a> {
-    words: String,
-    unit: &'a str,
+/// A result of all rows, with its axis.
+struct Shown {
+    axis: Axis,
     values: Vec<f64>,
 }
 
 /// The figure of a sweep.
-pub(crate) fn of_sweep(sweep: &StoredSweep, request: &Request) -> Result<Drawn, PlotError> {
+pub(crate) fn of_sweep(path: &Path, request: &Request) -> Result<Figure, PlotError> {
+    let sweep = &StoredSweep::open(path)?;
     let view = View::new(sweep, request)?;
     let along = view.along(request.along.as_deref())?;
     let suits = match (along, view.drawn) {
         (None, Some(_)) => Kind::Histogram,
         (Some(_), _) | (None, None) => Kind::Sweep,
     };
-    let kind = request.kind.unwrap_or(suits);
+    let kind = kind_of(request, suits)?;
     // where only draws vary, over the first of their keys
     let along = match kind {
         Kind::Sweep => along.or(view.drawn),
         _ => along,
     };
-    if !request.times_s.is_empty() {
-        return Err(PlotError::all_times(kind));
-    }
     let known = sweep.quantities();
-    let quantities = match (request.quantities.as_slice(), kind) {
-        ([], Kind::Loss) => chosen(sweep.path(), &known, &["loss"])?,
-        ([], Kind::Restitution) => chosen(sweep.path(), &known, &["restitution"])?,
-        ([], _) => chosen(sweep.path(), &known, &USUAL)?,
-        (given, _) => chosen(sweep.path(), &known, given)?,
+    let usual: &[&str] = match kind {
+        Kind::Loss => &["loss"],
+        Kind::Restitution => &["restitution"],
+        _ => &USUAL,
     };
     let mut panels = Vec::new();
-    for quantity in &quantities {
-        let shown = Shown {
-            words: result_words(quantity),
-            unit: &quantity.unit,
-            values: sweep.values(&quantity.name)?,
-        };
+    for number in chosen(path, &known, &request.quantities, usual)? {
+        let quantity = &known[number];
+        let values = sweep.values(&quantity.name)?;
+        let axis = axis(&result_words(quantity), &quantity.unit, scale_of(&values));
+        let shown = Shown { axis, values };
         let mut panel = match kind {
             Kind::Histogram => histogram(&view, &shown)?,
             Kind::Loss => loss(&view, &shown)?,
@@ -85,7 +81,7 @@ pub(crate) fn of_sweep(sweep: &StoredSweep, request: &Request) -> Result<Drawn, 
             _ => {
                 let hint = "a sweep over words alone has no axis to draw along; sweep --csv writes its rows";
                 let what = "key of numbers that varies";
-                let along = along.ok_or_else(|| PlotError::absent(sweep.path(), what, hint))?;
+                let along = along.ok_or_else(|| PlotError::absent(path, what, hint))?;
                 over_keys(&view, along, request, &shown)?
             }
         };
@@ -95,18 +91,10 @@ pub(crate) fn of_sweep(sweep: &StoredSweep, request: &Request) -> Result<Drawn, 
         }
         panels.push(panel);
     }
-    let usual = || format!("Sweep {}", stem(sweep.path()));
-    let title = request.title.clone().unwrap_or_else(usual);
-    let mut figure = Figure::new(&title).subtitle(&subtitle(&view, kind, along));
-    figure = match panels.len() {
-        1 => figure.width(760.0),
-        _ => figure.columns(2).width(1040.0),
-    };
-    figure.panels = panels;
-    Ok(Drawn {
-        figure,
-        notes: Vec::new(),
-    })
+    let (title, subtitle) = (stem(path), subtitle(&view, kind, along));
+    let columns = if panels.len() == 1 { 1 } else { 2 };
+    let figure = request.figure(&format!("Sweep {title}"), &subtitle, columns);
+    Ok(figure.panels(panels))
 }
 
 /// How many scenes, and what bands are.
@@ -152,40 +140,27 @@ fn scale_of(values: &[f64]) -> Scale {
     }
 }
 
-/// The numbers of a key along an axis.
-struct Nodes {
-    axis: Axis,
-    /// In the unit of the axis.
-    places: Vec<f64>,
-    /// Indices of the places, rising: values of a list or of a product need not rise.
-    order: Vec<usize>,
+/// The numbers of a key along an axis of a sweep, the one that is asked for, and their axis in a picture.
+fn nodes(
+    view: &View<'_>,
+    number: usize,
+    asked: Option<&str>,
+) -> Result<(Axis, Vec<f64>), PlotError> {
+    let Some((column, values)) = view.numbers(number, asked) else {
+        return Err(PlotError::no_numbers(&view.sweep.axes[number].name));
+    };
+    let (name, unit) = of_key(&column.name());
+    // grams for kilograms, which have a prefix already
+    let factor = if unit == "kg" { 1e3 } else { 1.0 };
+    let nodes: Vec<f64> = values.iter().map(|x| factor * x).collect();
+    Ok((axis(&name, unit, scale_of(&nodes)), nodes))
 }
 
-impl Nodes {
-    /// Along an axis of a sweep, those of the key that is asked for.
-    fn along(view: &View<'_>, number: usize, asked: Option<&str>) -> Result<Self, PlotError> {
-        let Some((column, values)) = view.numbers(number, asked) else {
-            return Err(PlotError::no_numbers(&view.sweep.axes[number].name));
-        };
-        let (name, unit) = of_key(&column.name());
-        // grams for kilograms, which have a prefix already
-        let factor = if unit == "kg" { 1e3 } else { 1.0 };
-        let places: Vec<f64> = values.iter().map(|x| factor * x).collect();
-        let mut order: Vec<usize> = (0..places.len()).collect();
-        order.sort_by(|&a, &b| places[a].total_cmp(&places[b]));
-        Ok(Self {
-            axis: axis(&name, unit, scale_of(&places)),
-            places,
-            order,
-        })
-    }
-
-    /// The places, each once.
-    fn distinct(&mut self) -> Vec<f64> {
-        let places = &self.places;
-        self.order.dedup_by(|a, b| places[*a] == places[*b]);
-        self.order.iter().map(|&i| places[i]).collect()
-    }
+/// Nodes with their indices, rising: values of a list or of a product need not rise.
+fn rising(nodes: &[f64]) -> Vec<(usize, f64)> {
+    let mut rising: Vec<(usize, f64)> = nodes.iter().copied().enumerate().collect();
+    rising.sort_by(|a, b| a.1.total_cmp(&b.1));
+    rising
 }
 
 /// Lines over a key, or a heat map where a second key has many values.
@@ -193,7 +168,7 @@ fn over_keys(
     view: &View<'_>,
     along: usize,
     request: &Request,
-    shown: &Shown<'_>,
+    shown: &Shown,
 ) -> Result<Panel, PlotError> {
     let others = view.free().into_iter().filter(|&i| i != along);
     let second = others
@@ -204,41 +179,35 @@ fn over_keys(
     {
         return heat_map(view, [along, second], slice, shown);
     }
-    let scale = scale_of(&shown.values);
-    lines(view, along, request.along.as_deref(), shown, scale)
+    lines(view, along, request.along.as_deref(), shown)
 }
 
 fn lines(
     view: &View<'_>,
     along: usize,
     asked: Option<&str>,
-    shown: &Shown<'_>,
-    scale: Scale,
+    shown: &Shown,
 ) -> Result<Panel, PlotError> {
     let mut slices = few(view, view.slices(&[along]), MOST_CURVES)?;
     if let ([only], Some(_)) = (slices.as_mut_slice(), view.drawn) {
         // by its name a band knows its curve
         only.label = "draws".to_owned();
     }
-    let nodes = Nodes::along(view, along, asked)?;
-    let mut panel = Panel::new(nodes.axis, axis(&shown.words, shown.unit, scale));
-    let places = nodes.places;
-    let style = match places.len() {
+    let (axis, nodes) = nodes(view, along, asked)?;
+    let mut panel = Panel::new(axis, shown.axis.clone());
+    let style = match nodes.len() {
         ..=12 => Style::Marked,
         _ => Style::Plain,
     };
     if view.drawn == Some(along) {
         for slice in &slices {
-            panel = over_draws(panel, slice, &places, &view.rows(slice, &[]), &shown.values);
+            panel = over_draws(panel, slice, &nodes, &view.rows(slice, &[]), &shown.values);
         }
         return Ok(panel);
     }
     for slice in &slices {
-        let at = |&i: &usize| {
-            let found = view.quantiles(slice, &[(along, i)], &shown.values)?;
-            Some((places[i], found))
-        };
-        let found: Vec<(f64, [f64; 3])> = nodes.order.iter().filter_map(at).collect();
+        let at = |(i, x)| Some((x, view.quantiles(slice, &[(along, i)], &shown.values)?));
+        let found: Vec<(f64, [f64; 3])> = rising(&nodes).into_iter().filter_map(at).collect();
         panel = match view.drawn {
             Some(_) => panel.banded(&slice.label, style, &found),
             None => {
@@ -251,14 +220,8 @@ fn lines(
 }
 
 /// Draws over one of their own keys: a point each, or of many the median and 90 % in bins of as many draws.
-fn over_draws(
-    panel: Panel,
-    slice: &Slice,
-    places: &[f64],
-    rows: &[usize],
-    values: &[f64],
-) -> Panel {
-    let pairs = places.iter().zip(rows).map(|(x, row)| (*x, values[*row]));
+fn over_draws(panel: Panel, slice: &Slice, nodes: &[f64], rows: &[usize], values: &[f64]) -> Panel {
+    let pairs = nodes.iter().zip(rows).map(|(x, row)| (*x, values[*row]));
     let mut pairs: Vec<(f64, f64)> = pairs.filter(|pair| pair.1.is_finite()).collect();
     if pairs.len() <= MOST_POINTS {
         return panel.line(&slice.label, Style::Points, pairs);
@@ -276,28 +239,34 @@ fn heat_map(
     view: &View<'_>,
     [along, second]: [usize; 2],
     slice: &Slice,
-    shown: &Shown<'_>,
+    shown: &Shown,
 ) -> Result<Panel, PlotError> {
-    let mut x = Nodes::along(view, along, None)?;
-    let mut y = Nodes::along(view, second, None)?;
-    let (columns, rows) = (x.distinct(), y.distinct());
+    let ((x_axis, x), (y_axis, y)) = (nodes(view, along, None)?, nodes(view, second, None)?);
+    let [x, y] = [x, y].map(|nodes| {
+        let mut distinct = rising(&nodes);
+        distinct.dedup_by(|a, b| a.1 == b.1);
+        distinct
+    });
     let mut values = Vec::new();
-    for &j in &y.order {
-        for &i in &x.order {
+    for &(j, _) in &y {
+        for &(i, _) in &x {
             let found = view.quantiles(slice, &[(along, i), (second, j)], &shown.values);
             values.push(found.map_or(f64::NAN, |q| q[1]));
         }
     }
-    let colours = axis(&shown.words, shown.unit, scale_of(&values));
+    let mut colours = shown.axis.clone();
+    colours.scale = scale_of(&values);
+    let [columns, rows] = [x, y].map(|nodes| nodes.into_iter().map(|node| node.1).collect());
     let image = Image::new(columns, rows, values, colours, ColourMap::Sequential);
-    let panel = Panel::new(x.axis, y.axis).height(280.0);
+    let panel = Panel::new(x_axis, y_axis).height(280.0);
     Ok(panel.layer(Layer::Image(image)))
 }
 
 /// Results over the velocity of approach, on logarithmic axes.
-fn over_velocity(view: &View<'_>, shown: &Shown<'_>) -> Result<Panel, PlotError> {
+fn over_velocity(view: &View<'_>, shown: &Shown) -> Result<Panel, PlotError> {
     let along = view.along(Some(VELOCITY))?.unwrap_or(0);
-    let mut panel = lines(view, along, Some(VELOCITY), shown, Scale::Logarithmic)?;
+    let mut panel = lines(view, along, Some(VELOCITY), shown)?;
+    panel.y.scale = Scale::Logarithmic;
     panel.x = axis("velocity of approach", "m/s", Scale::Logarithmic);
     Ok(panel.height(380.0))
 }
@@ -312,7 +281,7 @@ fn points_of(panel: &mut Panel) -> impl Iterator<Item = &mut (f64, f64)> {
 }
 
 /// Losses over the velocity of approach, with the slope of Hunter's law beside them.
-fn loss(view: &View<'_>, shown: &Shown<'_>) -> Result<Panel, PlotError> {
+fn loss(view: &View<'_>, shown: &Shown) -> Result<Panel, PlotError> {
     let mut panel = over_velocity(view, shown)?;
     let (mut first, mut last) = (f64::INFINITY, 0.0_f64);
     let (mut lowest, mut highest) = (f64::INFINITY, 0.0_f64);
@@ -333,14 +302,14 @@ fn loss(view: &View<'_>, shown: &Shown<'_>) -> Result<Panel, PlotError> {
 
 /// Restitution over the velocity of approach; where a law of flow yields, over the velocity at which the first row does,
 /// with Johnson's slope.
-fn restitution(view: &View<'_>, shown: &Shown<'_>) -> Result<Panel, PlotError> {
+fn restitution(view: &View<'_>, shown: &Shown) -> Result<Panel, PlotError> {
     let mut panel = over_velocity(view, shown)?;
-    let is_known = |quantity: &Described| quantity.name == AT_YIELD;
-    if !view.sweep.quantities().iter().any(is_known) {
-        return Ok(panel);
-    }
-    let mut at_yield = view.sweep.values(AT_YIELD)?.into_iter();
-    let Some(yields) = at_yield.find(|v| v.is_finite()) else {
+    let known = view.sweep.quantities();
+    let at_yield = match known.iter().any(|quantity| quantity.name == AT_YIELD) {
+        true => view.sweep.values(AT_YIELD)?,
+        false => Vec::new(),
+    };
+    let Some(yields) = at_yield.into_iter().find(|v| v.is_finite()) else {
         return Ok(panel);
     };
     let name = "velocity of approach over that of yield";
@@ -359,14 +328,13 @@ fn restitution(view: &View<'_>, shown: &Shown<'_>) -> Result<Panel, PlotError> {
 }
 
 /// How often values occur, with their quantiles.
-fn histogram(view: &View<'_>, shown: &Shown<'_>) -> Result<Panel, PlotError> {
+fn histogram(view: &View<'_>, shown: &Shown) -> Result<Panel, PlotError> {
     let slices = match view.drawn {
         Some(_) => few(view, view.slices(&[]), MOST_HISTOGRAMS)?,
         None => Vec::new(),
     };
-    let scale = scale_of(&shown.values);
-    let values = axis(&shown.words, shown.unit, scale);
-    let mut panel = Panel::new(values, Axis::linear("scenes")).height(240.0);
+    let scale = shown.axis.scale;
+    let mut panel = Panel::new(shown.axis.clone(), Axis::linear("scenes")).height(240.0);
     let of = |slice: Slice| {
         let rows = view.rows(&slice, &[]).into_iter();
         (slice.label, rows.map(|row| shown.values[row]).collect())

@@ -86,23 +86,19 @@ impl<'a> View<'a> {
             label: String::new(),
             fixed: self.fixed.clone(),
         }];
-        for axis in self.free() {
-            if shown.contains(&axis) {
-                continue;
-            }
-            let all = found.into_iter().flat_map(|slice| {
-                (0..self.sweep.axes[axis].len).map(move |index| {
-                    let mut slice = slice.clone();
-                    slice.fixed[axis] = Some(index);
-                    let name = self.name(axis, index);
-                    slice.label = match slice.label.as_str() {
-                        "" => name,
-                        known => format!("{known}, {name}"),
-                    };
-                    slice
-                })
-            });
-            found = all.collect();
+        for axis in self.free().into_iter().filter(|axis| !shown.contains(axis)) {
+            let count = self.sweep.axes[axis].len;
+            let at = |(slice, index): (&Slice, usize)| {
+                let mut slice = slice.clone();
+                slice.fixed[axis] = Some(index);
+                let comma = if slice.label.is_empty() { "" } else { ", " };
+                slice.label += &format!("{comma}{}", self.name(axis, index));
+                slice
+            };
+            let all = found
+                .iter()
+                .flat_map(|slice| (0..count).map(move |i| (slice, i)));
+            found = all.map(at).collect();
         }
         found
     }
@@ -120,9 +116,11 @@ impl<'a> View<'a> {
         let parts = self.sweep.axes[axis].columns.iter().map(|column| {
             let (name, unit) = of_key(&column.name());
             match &column.values {
-                Values::Numbers(values) => format!("{name} {}", with_unit(values[index], unit)),
-                Values::Drawn(drawn) => format!("{name} {}", with_unit(drawn.at(index), unit)),
                 Values::Texts(values) => values[index].clone(),
+                values => {
+                    let number = values.number(index).unwrap_or(f64::NAN);
+                    format!("{name} {}", with_unit(number, unit))
+                }
             }
         });
         parts.collect::<Vec<_>>().join(", ")
@@ -176,27 +174,23 @@ fn index_of(sweep: &StoredSweep, column: &Column, value: &str) -> Result<usize, 
         let said = || format!("{key} = {value}");
         return found.ok_or_else(|| PlotError::unknown(sweep.path(), said(), value, words));
     }
-    let numbers = || (0..column.values.count()).filter_map(|i| column.values.number(i));
+    let numbers = (0..column.values.count()).filter_map(|i| column.values.number(i));
     let wanted = value.parse::<f64>().unwrap_or(f64::NAN);
     let is_wanted = |number: f64| (number - wanted).abs() <= 1e-9 * number.abs();
-    let allowed = || {
-        let count = column.values.count();
-        if count <= MOST {
-            let numbers: Vec<String> = numbers().map(|number| number.to_string()).collect();
-            return numbers.join(", ");
-        }
-        let low = numbers().fold(f64::INFINITY, f64::min);
-        let high = numbers().fold(f64::NEG_INFINITY, f64::max);
-        format!("{count} values from {low} to {high}")
+    if let Some(found) = numbers.clone().position(is_wanted) {
+        return Ok(found);
+    }
+    let allowed = if column.values.count() <= MOST {
+        let numbers: Vec<String> = numbers.map(|number| number.to_string()).collect();
+        numbers.join(", ")
+    } else {
+        let low = numbers.clone().fold(f64::INFINITY, f64::min);
+        let high = numbers.fold(f64::NEG_INFINITY, f64::max);
+        format!("{} values from {low} to {high}", column.values.count())
     };
-    numbers().position(is_wanted).ok_or_else(|| {
-        let (path, allowed) = (sweep.path(), allowed());
-        let sentence = format!(
-            "{key} = {value} is not in {}; it has {allowed}",
-            path.display()
-        );
-        PlotError::refused(Some(path), sentence)
-    })
+    let (path, file) = (sweep.path(), sweep.path().display());
+    let sentence = format!("{key} = {value} is not in {file}; it has {allowed}");
+    Err(PlotError::refused(Some(path), sentence))
 }
 
 /// Lower, middle and upper quantile of values, those that are no numbers apart.
