@@ -12,7 +12,7 @@ use crate::disc::response::DiscResponse;
 use crate::disc::{FixedDisc, stability};
 use crate::energy::{radiated, work};
 use crate::error::{ContactError, MarchError};
-use crate::growing::march::March;
+use crate::growing::equations::March;
 use crate::growing::solve_growing;
 use crate::growing::solved::SolvedContact;
 use crate::growing::uniform::march_growing;

@@ -26,7 +26,7 @@ pub fn march_implicit(
     impact: &FixedDisc<'_, impl DiscResponse>,
     step: f64,
 ) -> Result<History, MarchError> {
-    let mut history = History::at_touch(step, 256);
+    let mut history = History::at_touch(step);
     march_into(impact, step, &mut Weights::default(), &mut history)?;
     Ok(history)
 }
@@ -110,6 +110,6 @@ fn missed(
     std::array::from_fn(|i| {
         let y = roots[i];
         force[i + 1] = y * y * y;
-        edge.delayed_at_touch(relaxation, y) - weights.delayed(&force[..i + 2])
+        relaxation.delayed_at_touch(edge, y) - weights.delayed(&force[..i + 2])
     })
 }

@@ -112,17 +112,9 @@ pub(crate) fn first_separation(force: &[f64]) -> usize {
 
 /// Contacts whose force exceeds 1e-6 of the largest.
 fn count_contacts(force: &[f64], peak_force: f64) -> usize {
-    let mut contacts = 0;
-    let mut counted = false;
-    for &p in force {
-        if p <= 0.0 {
-            counted = false;
-        } else if !counted && p > 1e-6 * peak_force {
-            counted = true;
-            contacts += 1;
-        }
-    }
-    contacts
+    let contacts = force.split(|p| *p <= 0.0);
+    let counts = |contact: &&[f64]| contact.iter().any(|p| *p > 1e-6 * peak_force);
+    contacts.filter(counts).count()
 }
 
 /// Uncertainty of the time spent in the end layer.

@@ -28,9 +28,8 @@ impl From<f64> for Accuracy {
     /// A tolerance on the contact's results and on the largest deflection.
     fn from(tolerance: f64) -> Self {
         Self {
-            tolerance,
-            loss: None,
             deflection: Some(tolerance),
+            ..Self::of_contact(tolerance, None)
         }
     }
 }
@@ -67,14 +66,17 @@ impl Accuracy {
         let change = |of: fn(&Summary) -> f64| relative(of(fine), of(coarse));
         let error = (REST * fine.motion_distance(coarse))
             .max(fraction * change(|summary| summary.contact_time) + stays);
-        let parts = [
-            Some(error / self.tolerance),
-            self.loss
-                .map(|t| LOSS_REST * change(|summary| summary.loss) / t),
-            self.deflection
-                .map(|t| REST * change(|summary| summary.peak_deflection) / t),
-        ];
-        (parts.into_iter().flatten().fold(0.0, f64::max), error)
+        let loss = LOSS_REST * change(|summary| summary.loss);
+        let deflection = REST * change(|summary| summary.peak_deflection);
+        (self.excess(error / self.tolerance, loss, deflection), error)
+    }
+
+    /// The largest error over what is asked: that of the contact's results, which is so already, of the loss and of the
+    /// largest deflection.
+    pub(crate) fn excess(&self, contact: f64, loss: f64, deflection: f64) -> f64 {
+        let loss = self.loss.map_or(0.0, |asked| loss / asked);
+        let deflection = self.deflection.map_or(0.0, |asked| deflection / asked);
+        contact.max(loss).max(deflection)
     }
 
     /// The finer summary with its loss extrapolated from both, where restitution stays far from zero.
@@ -114,12 +116,8 @@ pub fn refine(
     step: f64,
     accuracy: impl Into<Accuracy>,
 ) -> Result<Found, MarchError> {
-    halve(
-        |step| Summary::measured(&march(step)?),
-        step,
-        &accuracy.into(),
-        1.0,
-    )
+    let measured = |step| Summary::measured(&march(step)?);
+    halve(measured, step, &accuracy.into(), 1.0)
 }
 
 /// Error over what is allowed up to which the last march counts where a finer one needs too much work.

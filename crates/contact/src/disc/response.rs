@@ -36,11 +36,12 @@ pub trait DiscResponse {
     fn cells(&self, width: f64) -> impl FnMut(f64, f64) -> (f64, f64) + '_;
 }
 
-/// int s^k (1 - W) ds for k = 0 .. 3, from int W ds; all in one unit of time.
-pub(crate) fn moments(memory: f64, relaxation: f64, integral: impl Fn(f64) -> f64) -> [f64; 4] {
+/// int s^k (1 - W) ds for k = 0 .. 3, from int W ds.
+pub(crate) fn moments(response: &SurfaceResponse, integral: impl Fn(f64) -> f64) -> [f64; 4] {
+    let relaxation = response.relaxation_time();
     // by parts: k int s^(k-1) K ds
     let moment = |k: i32| {
-        gauss(&GAUSS_8, 0.0, memory, |s| {
+        gauss(&GAUSS_8, 0.0, response.memory(), |s| {
             f64::from(k) * s.powi(k - 1) * (relaxation + integral(s) - s)
         })
     };
@@ -86,7 +87,7 @@ impl DiscResponse for SurfaceResponse {
             let i = place as usize;
             hermite(nodes[i], nodes[i + 1], place - i as f64)
         };
-        (moments(memory, self.relaxation_time(), integral), integral)
+        (moments(self, integral), integral)
     }
 
     fn cells(&self, _width: f64) -> impl FnMut(f64, f64) -> (f64, f64) + '_ {
@@ -107,11 +108,7 @@ fn first_moment(response: &SurfaceResponse, from: f64, to: f64, before: f64, aft
     let width = to - from;
     // Beyond the memory int W = t - relaxation, whose integral is elementary.
     let live = memory.clamp(from, to);
-    let mut area = GAUSS_4
-        .iter()
-        .map(|&(x, weight)| weight * response.step_integral(from + x * (live - from)))
-        .sum::<f64>()
-        * (live - from);
-    area += (to - live) * (0.5 * (to + live) - response.relaxation_time());
+    let area = gauss(&GAUSS_4, from, live, |t| response.step_integral(t))
+        + (to - live) * (0.5 * (to + live) - response.relaxation_time());
     0.5 * width * (before + after) - area
 }

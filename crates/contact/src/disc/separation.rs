@@ -74,7 +74,7 @@ fn separation(
         if slope >= 0.0 {
             return None;
         }
-        let kept = relaxation.coupling * edge.kept(relaxation);
+        let kept = relaxation.coupling * relaxation.kept(&edge);
         correction = UNSEEN * unseen * kept / slope;
         let next = (place - (value - kept) / slope - correction).clamp(EARLIEST, LATEST);
         let change = (next - place).abs();
@@ -155,7 +155,7 @@ fn dissipated(history: &History, relaxation: &Relaxation<impl Fn(f64) -> f64>) -
     if last + 1 < FIRST + NEEDED {
         return None;
     }
-    let edges = touch.taken(relaxation, first[2], false) + leave.taken(relaxation, r0, true);
+    let edges = relaxation.taken(&touch, first[2], false) + relaxation.taken(&leave, r0, true);
     let delayed = delayed_weights(relaxation);
     let rate = |n: usize| {
         let samples = &p[n - 2..n + 3];

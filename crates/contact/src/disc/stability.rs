@@ -56,16 +56,9 @@ pub(crate) fn check(
     let steepness = 1.5 * coupling * largest_force(still).cbrt();
     let at_once = 1.0 - impact.share.factor();
     let centre = impact.response.deflection() == Deflection::Centre;
-    let bound = if centre { LARGEST_NEGATIVE } else { 0.0 };
-    if steepness * (at_once + bound) <= MARGIN {
-        return Ok(());
-    }
-    let negative = if centre {
-        negative_compliance(impact.response)
-    } else {
-        0.0
-    };
-    if steepness * (at_once + negative) <= MARGIN {
+    let sound = |negative: f64| steepness * (at_once + negative) <= MARGIN;
+    let exactly = || sound(negative_compliance(impact.response));
+    if !centre && sound(0.0) || centre && (sound(LARGEST_NEGATIVE) || exactly()) {
         return Ok(());
     }
     let (springs, _) = quasi_static(still);

@@ -20,24 +20,24 @@ pub struct ResponseTable {
     nodes: Vec<[f64; 3]>,
 }
 
-/// Cells of the table.
+/// Cells of the table, and the width of one in the memory.
 const CELLS: usize = 512;
+const WIDTH: f64 = 1.0 / CELLS as f64;
 
 impl ResponseTable {
     /// Tabulates a response.
     #[must_use]
     pub fn new(response: &SurfaceResponse) -> Self {
         let memory = response.memory();
-        let width = 1.0 / CELLS as f64;
         let mut nodes = vec![[0.0; 3]];
         let mut twice = 0.0;
         let (mut step, mut once) = (0.0, 0.0);
         for i in 1..=CELLS {
-            let t = i as f64 * width * memory;
+            let t = i as f64 * WIDTH * memory;
             // at the end of the memory the limit from below is exact too: the response is continuous
             let (next_step, next_once) = (response.step(t), response.step_integral(t) / memory);
             // trapezoid with the end correction of Euler and Maclaurin: fourth order
-            twice += 0.5 * width * (once + next_once) - width * width / 12.0 * (next_step - step);
+            twice += 0.5 * WIDTH * (once + next_once) - WIDTH * WIDTH / 12.0 * (next_step - step);
             (step, once) = (next_step, next_once);
             nodes.push([step, once, twice]);
         }
@@ -46,9 +46,7 @@ impl ResponseTable {
             static_compliance: response.static_compliance(),
             relaxation_time: response.relaxation_time(),
             memory,
-            moments: moments(memory, response.relaxation_time(), |t| {
-                response.step_integral(t)
-            }),
+            moments: moments(response, |t| response.step_integral(t)),
             nodes,
         }
     }
@@ -80,15 +78,18 @@ impl ResponseTable {
     #[must_use]
     #[inline]
     pub fn integral(&self, t: f64) -> f64 {
-        let place = t / self.memory * CELLS as f64;
-        if place >= CELLS as f64 {
+        let Some(([[w0, v0, _], [w1, v1, _]], x)) = self.cell(t) else {
             return self.nodes[CELLS][1] * self.memory + t - self.memory;
-        }
-        let i = place.max(0.0) as usize;
-        let x = place.max(0.0) - i as f64;
-        let width = 1.0 / CELLS as f64;
-        let ([w0, v0, _], [w1, v1, _]) = (self.nodes[i], self.nodes[i + 1]);
-        hermite([v0, w0 * width], [v1, w1 * width], x) * self.memory
+        };
+        hermite([*v0, w0 * WIDTH], [*v1, w1 * WIDTH], x) * self.memory
+    }
+
+    /// The cell that holds a time, its nodes and the place in it; none beyond the memory.
+    #[inline]
+    fn cell(&self, t: f64) -> Option<(&[[f64; 3]; 2], f64)> {
+        let place = (t / self.memory * CELLS as f64).max(0.0);
+        let i = place as usize;
+        Some((self.nodes.get(i..)?.first_chunk()?, place - i as f64))
     }
 
     /// int W dt and int int W dt^2 from 0 to t, in r0/c1 and its square.
@@ -96,24 +97,19 @@ impl ResponseTable {
     #[inline]
     pub fn integrals(&self, t: f64) -> [f64; 2] {
         let m = self.memory;
-        let place = t / m * CELLS as f64;
-        if place >= CELLS as f64 {
+        let Some(([[w0, v0, u0], [w1, v1, u1]], x)) = self.cell(t) else {
             let [_, once, twice] = self.nodes[CELLS];
             let beyond = t - m;
             return [
                 once * m + beyond,
                 twice * m * m + beyond * (once * m + 0.5 * beyond),
             ];
-        }
-        let i = place.max(0.0) as usize;
-        let x = place.max(0.0) - i as f64;
-        let width = 1.0 / CELLS as f64;
-        let ([w0, v0, u0], [w1, v1, u1]) = (self.nodes[i], self.nodes[i + 1]);
+        };
         // quintic through value, slope and curvature at both ends of the cell
-        let (a, b) = (v0 * width, 0.5 * w0 * width * width);
+        let (a, b) = (v0 * WIDTH, 0.5 * w0 * WIDTH * WIDTH);
         let rise = u1 - u0 - a - b;
-        let tilt = v1 * width - a - 2.0 * b;
-        let bend = 0.5 * (w1 - w0) * width * width;
+        let tilt = v1 * WIDTH - a - 2.0 * b;
+        let bend = 0.5 * (w1 - w0) * WIDTH * WIDTH;
         let [c, d, e] = quintic(rise, tilt, bend);
         let twice = u0 + x * (a + x * (b + x * (c + x * (d + x * e))));
         let once = a + x * (2.0 * b + x * (3.0 * c + x * (4.0 * d + x * 5.0 * e)));

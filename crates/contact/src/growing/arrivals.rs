@@ -15,10 +15,30 @@ pub(crate) struct Piece {
     pub(crate) displacement: Polynomial,
     /// Force where it is not the cube of the radius.
     pub(crate) force: Option<Polynomial>,
-    /// Time and radius where it starts.
-    pub(crate) from: (f64, f64),
-    /// Time and radius where it ends.
-    pub(crate) to: (f64, f64),
+    pub(crate) start: State,
+    pub(crate) end: State,
+}
+
+/// What is known where a piece starts or ends.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct State {
+    pub(crate) time: f64,
+    pub(crate) radius: f64,
+    pub(crate) velocity: f64,
+    pub(crate) displacement: f64,
+    /// Slope of the indentation a^2.
+    pub(crate) slope: f64,
+}
+
+impl State {
+    /// When the striker touches.
+    pub(crate) const TOUCH: Self = Self {
+        time: 0.0,
+        radius: 0.0,
+        velocity: 1.0,
+        displacement: 0.0,
+        slope: 1.0,
+    };
 }
 
 impl Piece {
@@ -47,12 +67,12 @@ impl Piece {
 /// The departures of waves of some delays that arrive at a place and a time of a piece after all others, in ascending
 /// order: later and later back in time.
 ///
-/// `own` has the time and the radius of that piece, `from` both where it starts; `found` holds departures of a nearby
+/// `own` has the time and the radius of that piece, which starts at `start`; `found` holds departures of a nearby
 /// contact as first guesses, where `again`.
 pub(crate) fn departures(
     pieces: &[Piece],
     own: [&Polynomial; 2],
-    from: (f64, f64),
+    start: &State,
     [place, arrival]: [f64; 2],
     delays: &[f64],
     again: bool,
@@ -61,16 +81,17 @@ pub(crate) fn departures(
     let mut index = pieces.len();
     let mut k = 0;
     while k < delays.len() {
-        let from = |index: usize| pieces.get(index).map_or(from, |piece| piece.from);
+        let arrives = |index: usize, delay: f64| {
+            let start = pieces.get(index).map_or(start, |piece| &piece.start);
+            start.time + delay * start.radius
+        };
         // the piece of the first of those that are left, and those that it holds too
-        while index > 0 && from(index).0 + delays[k] * from(index).1 > arrival {
+        while index > 0 && arrives(index, delays[k]) > arrival {
             index -= 1;
         }
-        let start = from(index);
-        let held = delays[k..]
-            .iter()
-            .take(LANES)
-            .take_while(|&delay| index == 0 || start.0 + delay * start.1 <= arrival)
+        let next = delays[k..].iter().take(LANES);
+        let held = next
+            .take_while(|&&delay| index == 0 || arrives(index, delay) <= arrival)
             .count();
         let ([time, radius], latest) = match pieces.get(index) {
             Some(piece) => ([&piece.time, &piece.radius], 1.0),
@@ -120,22 +141,17 @@ const TOGETHER: usize = 4;
 impl Roots<'_> {
     /// The roots for up to `LANES` delays; `found` holds first guesses, where `again`.
     fn find(&self, delays: &[f64], index: usize, again: bool, found: &mut [Departure]) {
-        let mut places = [0.5 * self.latest; LANES];
-        let mut lanes = [delays[0]; LANES];
-        lanes[..delays.len()].copy_from_slice(delays);
-        if again && found.iter().all(|one| one.piece == index) {
-            for (place, one) in places.iter_mut().zip(found.iter()) {
-                *place = one.place;
-            }
+        let lanes = std::array::from_fn(|l| *delays.get(l).unwrap_or(&delays[0]));
+        let mut places = if again && found.iter().all(|one| one.piece == index) {
+            std::array::from_fn(|l| found.get(l).map_or(0.5 * self.latest, |one| one.place))
         } else {
-            self.guess(&lanes, &mut places);
-        }
-        let mut steps = [0.0; LANES];
-        let (mut radii, mut radius_slopes) = ([0.0; LANES], [0.0; LANES]);
-        let (mut times, mut time_slopes) = ([0.0; LANES], [0.0; LANES]);
+            self.guess(&lanes)
+        };
+        let [mut steps, mut time_slopes, mut radii, mut radius_slopes] = [[0.0; LANES]; 4];
         for _ in 0..TOGETHER {
-            self.time.jets(&places, &mut times, &mut time_slopes);
-            self.radius.jets(&places, &mut radii, &mut radius_slopes);
+            let times;
+            [times, time_slopes] = self.time.jets(&places);
+            [radii, radius_slopes] = self.radius.jets(&places);
             let mut largest = 0.0_f64;
             for l in 0..LANES {
                 let miss = times[l] + lanes[l] * radii[l] - self.arrival;
@@ -166,11 +182,11 @@ impl Roots<'_> {
     }
 
     /// Secants over the piece.
-    fn guess(&self, delays: &[f64; LANES], places: &mut [f64; LANES]) {
+    fn guess(&self, delays: &[f64; LANES]) -> [f64; LANES] {
         let (t0, a0) = (self.time.value(0.0), self.radius.value(0.0));
         let (t1, ts) = self.time.jet(self.latest);
         let (a1, a_s) = self.radius.jet(self.latest);
-        for (place, delay) in places.iter_mut().zip(delays) {
+        delays.map(|delay| {
             // the tangent at the end where it falls into the piece, else the secant
             let miss = t1 + delay * a1 - self.arrival;
             let tangent = self.latest - miss / (ts + delay * a_s);
@@ -181,12 +197,12 @@ impl Roots<'_> {
             } else {
                 secant
             };
-            *place = if first > 0.0 && first < self.latest {
+            if first > 0.0 && first < self.latest {
                 first
             } else {
                 0.5 * self.latest
-            };
-        }
+            }
+        })
     }
 
     /// Newton's iterations inside a bracket; the earliest root in (0, latest).

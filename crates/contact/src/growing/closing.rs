@@ -5,9 +5,8 @@
 //! from a^2 over the velocity to a smaller multiple of it, for a stiff striker to nearly a power one of a.
 
 use crate::error::MarchError;
-use crate::growing::arrivals::Piece;
-use crate::growing::equations::Independent;
-use crate::growing::march::March;
+use crate::growing::arrivals::{Piece, State};
+use crate::growing::equations::{Independent, March};
 use crate::growing::polynomial::{Polynomial, SIZE};
 
 /// Pieces at most, tried ones included.
@@ -50,7 +49,7 @@ impl March<'_> {
             let to = if last { 0.0 } else { ratio * from };
             let given = Polynomial::power(from.sqrt(), to.sqrt() - from.sqrt(), 2);
             let guess = self.power_law(&given, left, power);
-            match self.attempt(Independent::Radius, given, &guess) {
+            match self.attempt(Independent::Radius, given, guess) {
                 Some((solution, error)) if error <= 1.0 => {
                     self.accept(Independent::Radius, &solution);
                     if last {
@@ -101,26 +100,26 @@ impl March<'_> {
 
     /// The last piece by the power law: shorter than the error.
     fn end_by_power_law(&mut self, left: f64, power: f64) {
-        let from = self.state;
-        let radius = Polynomial::power(from.radius.sqrt(), -from.radius.sqrt(), 2);
+        let start = self.state;
+        let radius = Polynomial::power(start.radius.sqrt(), -start.radius.sqrt(), 2);
         let times = self.power_law(&radius, left, power);
-        let mut places = times;
-        for place in &mut places {
-            *place = from.displacement + from.velocity * (*place - from.time);
-        }
+        let places = times.map(|time| start.displacement + start.velocity * (time - start.time));
         self.errors.end += POWER_LAW * left;
-        self.state.time += left;
-        self.state.radius = 0.0;
-        self.state.displacement += from.velocity * left;
+        self.state = State {
+            time: start.time + left,
+            radius: 0.0,
+            displacement: start.displacement + start.velocity * left,
+            ..start
+        };
         self.pieces.push(Piece {
             law: self.law,
             time: self.nodes.polynomial(&times),
             radius,
-            velocity: Polynomial::constant(from.velocity),
+            velocity: Polynomial::constant(start.velocity),
             displacement: self.nodes.polynomial(&places),
             force: None,
-            from: (from.time, from.radius),
-            to: (self.state.time, 0.0),
+            start,
+            end: self.state,
         });
     }
 }

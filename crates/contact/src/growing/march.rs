@@ -1,8 +1,8 @@
 //! Pieces after pieces from the touch until the contact has mostly opened.
 
 use crate::error::MarchError;
-use crate::growing::arrivals::Piece;
-use crate::growing::equations::{Equations, Independent, State};
+use crate::growing::arrivals::State;
+use crate::growing::equations::{Equations, Errors, Independent, March};
 use crate::growing::nodes::Nodes;
 use crate::growing::polynomial::{Polynomial, SIZE};
 use crate::growing::step::Solution;
@@ -12,38 +12,6 @@ use crate::numeric::quadrature::rising_root;
 use crate::plastic::branch::{Branch, Law};
 use crate::units::INVERSE_MASS;
 use std::sync::LazyLock;
-
-/// A contact on its way.
-#[derive(Debug)]
-pub(crate) struct March<'a> {
-    pub(crate) contact: GrowingContact<'a>,
-    /// Error that a piece may leave: of the force, in the end of the time.
-    pub(crate) accuracy: f64,
-    pub(crate) nodes: &'static Nodes,
-    pub(crate) pieces: Vec<Piece>,
-    pub(crate) state: State,
-    pub(crate) law: Law,
-    /// Of the rule over the waves.
-    pub(crate) level: usize,
-    /// Largest radius.
-    pub(crate) widest: f64,
-    /// int p (v - u') dt.
-    pub(crate) dissipated: f64,
-    pub(crate) errors: Errors,
-}
-
-/// Sums of the errors that the pieces estimate of themselves.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Errors {
-    /// Largest of the force at a time.
-    pub(crate) force: f64,
-    /// Of the momentum.
-    pub(crate) momentum: f64,
-    /// Of the end of contact.
-    pub(crate) end: f64,
-    /// Of the work done on the half-space.
-    pub(crate) work: f64,
-}
 
 /// Error of a piece without a memory.
 const DAMPED: f64 = 1e-11;
@@ -65,9 +33,6 @@ const LATE: f64 = 0.5;
 
 /// Largest part of the root of the time left that a piece takes.
 const LONGEST: f64 = 0.45;
-
-/// Change by the finer rule that is allowed, over the error of a piece: what is left of it is smaller.
-const CORRECTED: f64 = 1.0;
 
 /// Change by the finer rule, over the error of a piece, below which the next piece takes a coarser rule.
 const COARSER: f64 = 1e-2;
@@ -108,42 +73,30 @@ impl<'a> March<'a> {
         &mut self,
         known: Independent,
         given: Polynomial,
-        guess: &[f64; SIZE],
+        mut guess: [f64; SIZE],
     ) -> Option<(Solution, f64)> {
-        let mut guess = *guess;
         loop {
-            let rules = [self.level, self.level + 1].map(|level| self.contact.waves.rule(level));
             let equations = Equations {
-                contact: self.contact,
-                nodes: self.nodes,
-                pieces: &self.pieces,
-                start: self.state,
-                law: self.law,
+                march: self,
                 known,
                 given,
-                rules,
-                accuracy: self.accuracy,
             };
-            let solution = equations.solve(&guess)?;
+            let solution = equations.solve(guess)?;
             // of the force where the radius is sought
             let weight = match known {
                 Independent::Time => 3.0 * solution.widest * solution.widest,
                 Independent::Radius => 1.0,
             };
-            let error = solution.truncated * weight / self.accuracy;
-            if error > 1.0 {
+            // what is left of the change by the finer rule is smaller
+            let [error, miss] =
+                [solution.truncated, solution.waves].map(|size| size * weight / self.accuracy);
+            if error > 1.0 || miss <= 1.0 || self.level + 2 >= LEVELS {
+                let coarser = error <= 1.0 && miss < COARSER && known == Independent::Time;
+                self.level -= usize::from(coarser && self.level > 0);
                 return Some((solution, error));
             }
-            let miss = solution.waves * weight / (CORRECTED * self.accuracy);
-            if miss > 1.0 && self.level + 2 < LEVELS {
-                self.level += 1;
-                guess = solution.sought;
-                continue;
-            }
-            if miss < COARSER && self.level > 0 && known == Independent::Time {
-                self.level -= 1;
-            }
-            return Some((solution, error));
+            self.level += 1;
+            guess = solution.sought;
         }
     }
 
@@ -159,7 +112,8 @@ impl<'a> March<'a> {
 
     /// Takes a piece.
     pub(crate) fn accept(&mut self, known: Independent, solution: &Solution) {
-        let duration = solution.end.time - self.state.time;
+        let end = solution.piece.end;
+        let duration = end.time - self.state.time;
         let error = solution.truncated + LEFT * solution.waves;
         let force = 3.0 * solution.widest * solution.widest;
         match known {
@@ -168,11 +122,11 @@ impl<'a> March<'a> {
                 self.errors.momentum += force * error * duration;
             }
             Independent::Radius => {
-                let steepest = force * (self.state.radius - solution.end.radius) / duration;
+                let steepest = force * (self.state.radius - end.radius) / duration;
                 self.errors.force = self.errors.force.max(steepest * error);
                 self.errors.momentum += solution.widest.powi(3) * error;
                 // the end of a piece converges at twice the order, but in the layer of the last instants
-                let layer = solution.end.radius < 3.0 * self.contact.wave_time;
+                let layer = end.radius < 3.0 * self.contact.wave_time;
                 self.errors.end += if layer { error } else { SMOOTH * error };
             }
         }
@@ -181,7 +135,7 @@ impl<'a> March<'a> {
         self.errors.work +=
             solution.dissipated.abs() * error * slopes / solution.widest.max(duration);
         self.pieces.push(solution.piece);
-        self.state = solution.end;
+        self.state = end;
         self.dissipated += solution.dissipated;
         self.widest = self.widest.max(solution.widest);
     }
@@ -264,7 +218,7 @@ impl<'a> March<'a> {
             let Some((given, guess, last)) = piece(self, &mut length) else {
                 return Ok(false);
             };
-            let tried = self.attempt(known, given, &guess);
+            let tried = self.attempt(known, given, guess);
             let stop = tried.as_ref().filter(|_| !ends);
             if let Some(part) = stop.and_then(|(solution, error)| event(self, solution, *error)) {
                 (length, ends) = (part * length, true);

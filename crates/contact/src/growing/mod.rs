@@ -39,10 +39,9 @@ pub(crate) mod work;
 
 use crate::disc::refine::Accuracy;
 use crate::error::MarchError;
-use crate::growing::march::March;
+use crate::growing::equations::March;
 use crate::growing::solved::SolvedContact;
 use crate::growing::waves::GrowingContact;
-use crate::summary::Estimates;
 
 /// Least and largest tolerance.
 const TOLERANCES: [f64; 2] = [1e-11, 1e-2];
@@ -98,30 +97,28 @@ pub fn solve_growing(
 ) -> Result<SolvedContact, MarchError> {
     check(contact)?;
     let [least, largest] = TOLERANCES;
-    let asked = [Some(accuracy.tolerance), accuracy.loss, accuracy.deflection];
-    let asked = asked
-        .into_iter()
-        .flatten()
-        .fold(largest, f64::min)
-        .max(least);
-    let mut piece = (PIECE[usize::from(asked < COARSE)] * asked).max(FINEST);
-    let mut best: Option<(f64, SolvedContact)> = None;
+    let parts = [Some(accuracy.tolerance), accuracy.loss, accuracy.deflection];
+    let asked = parts.into_iter().flatten().fold(largest, f64::min);
+    let mut piece = (PIECE[usize::from(asked < COARSE)] * asked.max(least)).max(FINEST);
+    let (mut best, mut before) = (None, f64::INFINITY);
     for attempt in 0..ATTEMPTS {
         let mut march = March::new(*contact, piece);
         let followed = march.load(f64::INFINITY).and_then(|()| march.close());
         let tried = followed.and_then(|()| checks::passed(SolvedContact::new(march), contact));
         match (tried, &best) {
             (Ok(solved), _) => {
-                let excess = excess(&solved.estimates, accuracy);
+                let (errors, of_contact) = (&solved.estimates, accuracy.tolerance.max(least));
+                let contact = errors.contact() / of_contact;
+                let excess = accuracy.excess(contact, errors.loss, errors.peak_deflection);
                 if excess <= 1.0 {
                     return Ok(solved);
                 }
-                let before = best.as_ref().map_or(f64::INFINITY, |(before, _)| *before);
-                if excess < before {
-                    best = Some((excess, solved));
-                }
                 // finer pieces that hardly help cost seconds
-                if piece <= FINEST || excess > STUCK * before {
+                let stuck = piece <= FINEST || excess > STUCK * before;
+                if excess < before {
+                    (best, before) = (Some(solved), excess);
+                }
+                if stuck {
                     break;
                 }
                 piece = (piece * (0.3 / excess).max(0.1)).max(FINEST);
@@ -133,28 +130,11 @@ pub fn solve_growing(
             (Err(_), Some(_)) => break,
         }
     }
-    let excess = match best {
-        Some((excess, solved)) if excess <= LENIENT => return Ok(solved),
-        other => other.map_or(f64::INFINITY, |(excess, _)| excess),
-    };
-    Err(MarchError::NotReached {
-        tolerance: accuracy.tolerance,
-        estimate: excess * accuracy.tolerance,
-    })
-}
-
-/// The largest estimate over what is asked of it.
-fn excess(estimates: &Estimates, accuracy: &Accuracy) -> f64 {
-    let [least, _] = TOLERANCES;
-    let loss = accuracy.loss.map(|asked| estimates.loss / asked);
-    let deflection = accuracy
-        .deflection
-        .map(|asked| estimates.peak_deflection / asked);
-    let parts = [loss, deflection].into_iter().flatten();
-    parts.fold(
-        estimates.contact() / accuracy.tolerance.max(least),
-        f64::max,
-    )
+    best.filter(|_| before <= LENIENT)
+        .ok_or(MarchError::NotReached {
+            tolerance: accuracy.tolerance,
+            estimate: before * accuracy.tolerance,
+        })
 }
 
 fn check(contact: &GrowingContact<'_>) -> Result<(), MarchError> {

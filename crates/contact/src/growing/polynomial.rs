@@ -48,22 +48,16 @@ impl Polynomial {
     }
 
     /// Values and slopes at some places together.
-    pub(crate) fn jets<const N: usize>(
-        &self,
-        places: &[f64; N],
-        values: &mut [f64; N],
-        slopes: &mut [f64; N],
-    ) {
+    pub(crate) fn jets<const N: usize>(&self, places: &[f64; N]) -> [[f64; N]; 2] {
         let x = places.map(|s| 2.0 * s - 1.0);
-        let (mut value, mut slope) = ([0.0; N], [0.0; N]);
+        let [mut value, mut slope] = [[0.0; N]; 2];
         for c in self.powers[..=self.degree].iter().rev() {
             for l in 0..N {
                 slope[l] = slope[l] * x[l] + value[l];
                 value[l] = value[l] * x[l] + c;
             }
         }
-        *values = value;
-        *slopes = slope.map(|s| 2.0 * s);
+        [value, slope.map(|s| 2.0 * s)]
     }
 
     /// Value, slope and curvature.
@@ -107,8 +101,7 @@ mod tests {
             let (value, slope) = found.jet(s);
             assert!((value - 1.0 + (0.3 - 0.2 * s) * (0.3 - 0.2 * s)).abs() < 1e-15);
             assert!((slope - 0.4 * (0.3 - 0.2 * s)).abs() < 1e-15);
-            let (mut values, mut slopes) = ([0.0; 2], [0.0; 2]);
-            found.jets(&[s, 0.5], &mut values, &mut slopes);
+            let [values, slopes] = found.jets(&[s, 0.5]);
             assert_eq!((values[0], slopes[0]), (value, slope));
             assert_eq!(found.value(s), value);
             let curve = found.curve(s);

@@ -1,7 +1,7 @@
 //! One piece of the contact by collocation and Newton's method.
 
-use crate::growing::arrivals::Piece;
-use crate::growing::equations::{Equations, Independent, Motion, Residual, State};
+use crate::growing::arrivals::{Piece, State};
+use crate::growing::equations::{Equations, Independent, Motion, Residual};
 use crate::growing::nodes::Factors;
 use crate::growing::polynomial::{LARGEST, SIZE, dot};
 
@@ -9,7 +9,6 @@ use crate::growing::polynomial::{LARGEST, SIZE, dot};
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Solution {
     pub(crate) piece: Piece,
-    pub(crate) end: State,
     /// Largest radius at the nodes.
     pub(crate) widest: f64,
     /// int p (v - u') dt over the piece.
@@ -37,30 +36,24 @@ const CLOSED: f64 = 1e-14;
 impl Equations<'_> {
     /// Solves the equations from a guess of the values sought; nothing where Newton's method does not settle
     /// or time does not go on.
-    pub(crate) fn solve(&self, guess: &[f64; SIZE]) -> Option<Solution> {
-        let n = self.nodes.degree;
-        let mut sought = *guess;
-        let mut residual = Residual::default();
+    pub(crate) fn solve(&self, mut sought: [f64; SIZE]) -> Option<Solution> {
+        let n = self.march.nodes.degree;
+        let mut residual = self.to_find(self.march.level);
         let mut matrix = Factors::room(n);
         let mut before = f64::INFINITY;
         // Newton's next change would be about the square
-        let enough = (1e-2 * self.accuracy).sqrt().min(1e-5);
+        let enough = (1e-2 * self.march.accuracy).sqrt().min(1e-5);
         for iteration in 1..=ITERATIONS {
             let motion = self.moves(&sought)?;
-            let rule = self.rules[0];
-            self.residual(rule, &sought, &motion, &mut residual);
-            self.jacobian(rule, &motion, &residual, &mut matrix);
+            self.residual(&sought, &motion, &mut residual);
+            self.jacobian(&motion, &residual, &mut matrix);
             if !matrix.eliminate() {
                 return None;
             }
             let mut change = residual.value;
             matrix.solve(&mut change[..n]);
             let factor = self.damping(&sought, &change[..n]);
-            let mut size = 0.0_f64;
-            for i in 1..=n {
-                sought[i] -= factor * change[i - 1];
-                size = size.max(change[i - 1].abs());
-            }
+            let size = changed(&mut sought, factor, &change[..n]);
             let relative = size / self.scale(&sought);
             if factor == 1.0 && relative < enough {
                 return self.corrected(sought, &matrix);
@@ -73,6 +66,14 @@ impl Equations<'_> {
         None
     }
 
+    /// Residuals to be found with a rule over the waves.
+    fn to_find(&self, level: usize) -> Residual<'_> {
+        Residual {
+            rule: self.march.contact.waves.rule(level),
+            ..Residual::default()
+        }
+    }
+
     /// The motion, unless a matrix that is nearly singular or a law at the end of the numbers threw it out of them.
     fn moves(&self, sought: &[f64; SIZE]) -> Option<Motion> {
         let motion = self.motion(sought);
@@ -83,17 +84,12 @@ impl Equations<'_> {
 
     /// One more change, by the finer rule.
     fn corrected(&self, mut sought: [f64; SIZE], matrix: &Factors) -> Option<Solution> {
-        let n = self.nodes.degree;
         let motion = self.moves(&sought)?;
-        let mut residual = Residual::default();
-        self.residual(self.rules[1], &sought, &motion, &mut residual);
-        let mut change = residual.value;
-        matrix.solve(&mut change[..n]);
-        let mut waves = 0.0_f64;
-        for i in 1..=n {
-            sought[i] -= change[i - 1];
-            waves = waves.max(change[i - 1].abs());
-        }
+        let mut residual = self.to_find(self.march.level + 1);
+        self.residual(&sought, &motion, &mut residual);
+        let change = &mut residual.value[..self.march.nodes.degree];
+        matrix.solve(change);
+        let waves = changed(&mut sought, 1.0, change);
         let motion = self.moves(&sought)?;
         self.goes_on(&motion)
             .then(|| self.solution(&sought, &motion, waves))
@@ -101,7 +97,7 @@ impl Equations<'_> {
 
     /// Size of what is sought.
     fn scale(&self, sought: &[f64; SIZE]) -> f64 {
-        let n = self.nodes.degree;
+        let n = self.march.nodes.degree;
         match self.known {
             Independent::Time => sought[..=n].iter().fold(0.0_f64, |m, x| m.max(x.abs())),
             Independent::Radius => (sought[n] - sought[0]).abs(),
@@ -128,16 +124,20 @@ impl Equations<'_> {
 
     /// Whether time rises and the radius stays positive; the last instants may be shorter than their error.
     fn goes_on(&self, motion: &Motion) -> bool {
-        let n = self.nodes.degree;
+        let n = self.march.nodes.degree;
         let closed = motion.radius[n] <= CLOSED;
-        let slack = if closed { SLACK * self.accuracy } else { 0.0 };
+        let slack = if closed {
+            SLACK * self.march.accuracy
+        } else {
+            0.0
+        };
         let rises = motion.time[..=n].windows(2).all(|t| t[1] >= t[0] - slack);
         let positive = motion.radius[1..n].iter().all(|&a| a > 0.0);
         rises && positive && (closed || motion.time_slope[n] > 0.0)
     }
 
     fn solution(&self, sought: &[f64; SIZE], motion: &Motion, waves: f64) -> Solution {
-        let nodes = self.nodes;
+        let (nodes, start) = (self.march.nodes, self.march.state);
         let n = nodes.degree;
         let weights = nodes.integral_row(n);
         let mut travel = [0.0; LARGEST];
@@ -148,31 +148,29 @@ impl Equations<'_> {
             let lag = travel[j - 1] - here.depth_slope * motion.radius_slope[j];
             dissipated += weights[j - 1] * here.force * lag;
         }
-        let mut displacement = [self.start.displacement; SIZE];
+        let mut displacement = [start.displacement; SIZE];
         for (i, place) in displacement.iter_mut().enumerate().take(n + 1).skip(1) {
             *place += dot(nodes.integral_row(i), &travel[..n]);
         }
         let (time, radius) = self.polynomials(sought);
-        let mut modes = [0.0; SIZE];
-        nodes.modes(sought, &mut modes);
+        let modes = nodes.modes(sought);
         Solution {
             piece: Piece {
-                law: self.law,
+                law: self.march.law,
                 time,
                 radius,
                 velocity: nodes.polynomial(&motion.velocity),
                 displacement: nodes.polynomial(&displacement),
                 force: None,
-                from: (self.start.time, self.start.radius),
-                to: (motion.time[n], motion.radius[n]),
-            },
-            end: State {
-                time: motion.time[n],
-                radius: motion.radius[n],
-                velocity: motion.velocity[n],
-                displacement: displacement[n],
-                slope: motion.local[n - 1].depth_slope * motion.radius_slope[n]
-                    / motion.time_slope[n],
+                start,
+                end: State {
+                    time: motion.time[n],
+                    radius: motion.radius[n],
+                    velocity: motion.velocity[n],
+                    displacement: displacement[n],
+                    slope: motion.local[n - 1].depth_slope * motion.radius_slope[n]
+                        / motion.time_slope[n],
+                },
             },
             widest: motion.radius[..=n].iter().fold(0.0_f64, |m, &a| m.max(a)),
             dissipated,
@@ -181,6 +179,14 @@ impl Equations<'_> {
             sought: *sought,
         }
     }
+}
+
+/// Takes a part of a change from what is sought beyond the start; the size of the change.
+fn changed(sought: &mut [f64; SIZE], factor: f64, change: &[f64]) -> f64 {
+    for (value, change) in sought[1..].iter_mut().zip(change) {
+        *value -= factor * change;
+    }
+    change.iter().fold(0.0, |size, x| size.max(x.abs()))
 }
 
 /// Size of the last term of a Legendre series, or of the one before continued at the rate of its fall.

@@ -39,7 +39,7 @@ pub fn march_growing(contact: &GrowingContact<'_>, step: f64) -> Result<History,
     affordable(least_steps(step), cells, memory)?;
     let mut striker = StrikerMotion::new(step, 0.0, &starting_roots(step, 0.0));
     let inertia = striker.newest_weight();
-    let mut history = History::at_touch(step, 256);
+    let mut history = History::at_touch(step);
     history.start = striker.missed[0];
     history.end_layer = Some(end_layer(contact));
     let mut indentation = vec![0.0_f64];
@@ -187,10 +187,7 @@ fn curvature(samples: &[f64], end: usize) -> f64 {
         (i >= 1 && i + 1 < samples.len() && samples[i] > 0.0)
             .then(|| samples[i + 1] - 2.0 * samples[i] + samples[i - 1])
     };
-    match (end.checked_sub(1).and_then(second), second(end)) {
-        (Some(a), Some(b)) => 0.5 * (a + b),
-        (Some(a), None) => a,
-        (None, Some(b)) => b,
-        (None, None) => 0.0,
-    }
+    let (before, after) = (end.checked_sub(1).and_then(second), second(end));
+    let sides = [before.or(after), after.or(before)];
+    0.5 * sides.into_iter().flatten().sum::<f64>()
 }

@@ -96,8 +96,8 @@ impl PunchWaves {
     #[must_use]
     pub fn moment(&self, n: i32) -> f64 {
         let known = usize::try_from(n).ok().and_then(|n| self.moments.get(n));
-        let reduced = |waves: &Self| moment(&waves.points, n);
-        known.copied().unwrap_or_else(|| self.mixed(&reduced)) * self.memory.powi(n)
+        let reduced = |waves: &Self| [moment(&waves.points, n)];
+        known.map_or_else(|| self.mixed(&reduced)[0], |&known| known) * self.memory.powi(n)
     }
 
     /// V_p(t), t in a/c1, and its integral from 0 to t; constant from the memory on.
@@ -106,27 +106,25 @@ impl PunchWaves {
     #[must_use]
     pub fn relaxation(&self, t: f64) -> [f64; 2] {
         let x = t / self.memory;
-        let part = |waves: &Self, part: fn([f64; 3], f64) -> f64| {
+        let [value, integral] = self.mixed(&|waves| {
             let before = waves.sums[waves.points.partition_point(|(slowness, _)| *slowness <= x)];
             let all = waves.sums[waves.points.len()];
-            part([before[0], all[1] - before[1], all[2] - before[2]], x)
-        };
-        let value = |[_, mass, rate]: [f64; 3], x: f64| mass - x * rate;
-        let integral =
-            |[past, mass, rate]: [f64; 3], x: f64| 0.5 * past + x * (mass - 0.5 * x * rate);
-        [
-            self.mixed(&|waves| part(waves, value)),
-            self.memory * self.mixed(&|waves| part(waves, integral)),
-        ]
+            let (mass, rate) = (all[1] - before[1], all[2] - before[2]);
+            [
+                mass - x * rate,
+                0.5 * before[0] + x * (mass - 0.5 * x * rate),
+            ]
+        });
+        [value, self.memory * integral]
     }
 
     /// What points give, linear between the neighbours where these waves have none of their own.
-    fn mixed(&self, of: &impl Fn(&Self) -> f64) -> f64 {
+    fn mixed<const N: usize>(&self, of: &impl Fn(&Self) -> [f64; N]) -> [f64; N] {
         match &self.neighbours {
             None => of(self),
             Some((near, far, fraction)) => {
-                let near = near.mixed(of);
-                near + fraction * (far.mixed(of) - near)
+                let (near, far) = (near.mixed(of), far.mixed(of));
+                std::array::from_fn(|k| near[k] + fraction * (far[k] - near[k]))
             }
         }
     }

@@ -27,13 +27,7 @@ fn weight(k: usize, i: usize, n: usize) -> f64 {
     if n == 1 {
         return 1.0;
     }
-    let halved = |place: usize| {
-        if place == 0 || place == n - 1 {
-            0.5
-        } else {
-            1.0
-        }
-    };
+    let halved = |place: usize| [1.0, 0.5][usize::from(place == 0 || place == n - 1)];
     let angle = PI * (k * i % (2 * (n - 1))) as f64 / (n - 1) as f64;
     2.0 * halved(k) * halved(i) * angle.cos() / (n - 1) as f64
 }

@@ -5,10 +5,9 @@
 
 use crate::disc::refine::Accuracy;
 use crate::error::MarchError;
-use crate::growing::arrivals::Piece;
+use crate::growing::arrivals::{Piece, State};
 use crate::growing::checks;
-use crate::growing::equations::{Independent, State};
-use crate::growing::march::March;
+use crate::growing::equations::{Independent, March};
 use crate::growing::polynomial::{Polynomial, SIZE};
 use crate::growing::solved::SolvedContact;
 use crate::growing::step::Solution;
@@ -139,7 +138,7 @@ impl March<'_> {
                 let [_, slope, bend] = solution.piece.radius.curve(s);
                 (-slope, -bend)
             };
-            let turns = error <= 1.0 && solution.end.slope < 0.0;
+            let turns = error <= 1.0 && solution.piece.end.slope < 0.0;
             turns.then(|| rising_root(slowing, [0.0, 1.0], 0.5, 1e-16)[1])
         };
         self.until(MOST, Independent::Time, longest, piece, turned)?;

@@ -9,7 +9,7 @@
 //!
 //! Theory: `docs/theory.md` (T65).
 
-use crate::growing::march::March;
+use crate::growing::equations::March;
 use crate::growing::nodes::Nodes;
 use crate::numeric::series::Series;
 use crate::plastic::branch::{Branch, FITTED, Fit};
