@@ -102,22 +102,15 @@ impl Place {
             return None;
         }
         let (nu, memory) = (collision.target_poisson_ratio, plan.groups.memory);
-        if !on_disc {
+        let (fixed, groups) = if on_disc {
+            let radius_m = disc_radius_m(settings, collision);
+            let (coupling, _) = collision.disc_groups(response.static_compliance(), radius_m);
+            ([nu, 0.0], [memory / response.memory(), coupling])
+        } else {
             let fixed = [nu, collision.target_share()];
-            let groups = [memory / response.punch_memory(), 1.0];
-            return Some(Self::new(settings, Family::Growing, fixed, groups));
-        }
-        let (family, coupling) = match settings.static_share {
-            StaticShare::Full => (Family::Full, plan.groups.coupling),
-            StaticShare::Dynamic => {
-                let radius_m = disc_radius_m(settings, collision);
-                let compliance = response.static_compliance();
-                let (coupling, _) = collision.disc_groups(compliance, radius_m);
-                (Family::Dynamic, coupling)
-            }
+            (fixed, [memory / response.punch_memory(), 1.0])
         };
-        let groups = [memory / response.memory(), coupling];
-        Some(Self::new(settings, family, [nu, 0.0], groups))
+        Some(Self::new(settings, plan.groups.family, fixed, groups))
     }
 
     /// Of a contact on Jackson and Green's fit with a dashpot.
@@ -163,8 +156,7 @@ impl Outcomes {
     /// Those that pay for so many rows, of which these are a sample; rows that are not marched with full memory have no
     /// place.
     pub(crate) fn of(rows: usize, sample: impl Iterator<Item = Option<Place>>) -> Self {
-        let mut counts = BTreeMap::new();
-        let mut sampled = 0.0;
+        let (mut counts, mut sampled) = (BTreeMap::new(), 0.0);
         for place in sample {
             sampled += 1.0;
             if let Some(place) = place {
@@ -295,11 +287,8 @@ impl Cell {
             Family::Dynamic => StaticShare::Dynamic,
         };
         let of_mean = responses.disc(fixed[0], Deflection::Mean).ok()?;
-        let response = if self.mean {
-            of_mean.clone()
-        } else {
-            responses.disc(fixed[0], Deflection::Centre).ok()?
-        };
+        let deflection = [Deflection::Centre, Deflection::Mean][usize::from(self.mean)];
+        let response = responses.disc(fixed[0], deflection).ok()?;
         let impact = FixedDisc {
             response: &*response,
             coupling: second,

@@ -147,7 +147,7 @@ impl Resampler {
             if cell > 0 && (before > 0.0) != (after > 0.0) {
                 let value = |x: f64| {
                     let [u, slope, _] = self.indentation(cell, x);
-                    (u, slope * self.step)
+                    [u, slope * self.step]
                 };
                 found.push((cell as f64 + find_root(value, 0.0, 1.0)) * self.step);
             }

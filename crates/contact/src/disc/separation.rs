@@ -70,7 +70,7 @@ fn separation(
     let mut correction = 0.0;
     for _ in 0..ITERATIONS {
         let edge = at(place)?;
-        let (value, slope) = displacement.value_and_slope(place);
+        let [value, slope, _] = displacement.jet(place);
         if slope >= 0.0 {
             return None;
         }

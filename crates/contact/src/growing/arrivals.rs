@@ -45,9 +45,9 @@ impl Piece {
     /// Force and its first two slopes in the place.
     pub(crate) fn force(&self, place: f64) -> [f64; 3] {
         match &self.force {
-            Some(force) => force.curve(place),
+            Some(force) => force.jet(place),
             None => {
-                let [a, slope, bend] = self.radius.curve(place);
+                let [a, slope, bend] = self.radius.jet(place);
                 let square = 3.0 * a * a;
                 let second = 6.0 * a * slope * slope + square * bend;
                 [a.powi(3), square * slope, second]
@@ -57,9 +57,9 @@ impl Piece {
 
     /// Power that leaves the law, per place: (p v T' - F u_a a').
     pub(crate) fn losing(&self, place: f64) -> f64 {
-        let (radius, radius_slope) = self.radius.jet(place);
+        let [radius, radius_slope, _] = self.radius.jet(place);
         let here = self.law.branch.at(radius.max(0.0));
-        let travel = self.velocity.value(place) * self.time.jet(place).1;
+        let travel = self.velocity.value(place) * self.time.jet(place)[1];
         self.force(place)[0] * travel - here.force * here.depth_slope * radius_slope
     }
 }
@@ -184,8 +184,8 @@ impl Roots<'_> {
     /// Secants over the piece.
     fn guess(&self, delays: &[f64; LANES]) -> [f64; LANES] {
         let (t0, a0) = (self.time.value(0.0), self.radius.value(0.0));
-        let (t1, ts) = self.time.jet(self.latest);
-        let (a1, a_s) = self.radius.jet(self.latest);
+        let [t1, ts, _] = self.time.jet(self.latest);
+        let [a1, a_s, _] = self.radius.jet(self.latest);
         delays.map(|delay| {
             // the tangent at the end where it falls into the piece, else the secant
             let miss = t1 + delay * a1 - self.arrival;
@@ -208,18 +208,18 @@ impl Roots<'_> {
     /// Newton's iterations inside a bracket; the earliest root in (0, latest).
     fn bracketed(&self, delay: f64, index: usize) -> Departure {
         let late = |place: f64| {
-            let (time, time_slope) = self.time.jet(place);
-            let (radius, radius_slope) = self.radius.jet(place);
+            let [time, time_slope, _] = self.time.jet(place);
+            let [radius, radius_slope, _] = self.radius.jet(place);
             let miss = time + delay * radius - self.arrival;
-            (miss, time_slope + delay * radius_slope)
+            [miss, time_slope + delay * radius_slope]
         };
         let [before, place] = rising_root(late, [0.0, self.latest], 0.5 * self.latest, 5e-16);
-        let (radius, radius_slope) = self.radius.jet(before);
+        let [radius, radius_slope, _] = self.radius.jet(before);
         Departure {
             piece: index,
             place,
             radius: radius + radius_slope * (place - before),
-            time_slope: self.time.jet(before).1,
+            time_slope: self.time.jet(before)[1],
             radius_slope,
         }
     }

@@ -57,8 +57,8 @@ fn folds(pieces: &[Piece], contact: &GrowingContact<'_>) -> Option<f64> {
     for piece in &pieces[top..] {
         for i in 1..=SAMPLES {
             let place = i as f64 / SAMPLES as f64;
-            let (time, time_slope) = piece.time.jet(place);
-            let (radius, radius_slope) = piece.radius.jet(place);
+            let [time, time_slope, _] = piece.time.jet(place);
+            let [radius, radius_slope, _] = piece.radius.jet(place);
             if radius < SMALL * widest || radius_slope >= 0.0 {
                 continue;
             }

@@ -80,12 +80,9 @@ impl March<'_> {
     /// Level of the rule over the waves below which the last instants have no solution: with few waves the
     /// stiff striker's contact does not open steadily.
     fn least_level(&self) -> usize {
-        let coupling = match self.contact.target_share {
-            phi if phi > 0.9 => 3,
-            phi if phi > 0.5 => 2,
-            _ => 1,
-        };
-        coupling + usize::from(self.accuracy < 1e-6)
+        let phi = self.contact.target_share;
+        let stiff = [phi > 0.5, phi > 0.9, self.accuracy < 1e-6];
+        1 + stiff.map(usize::from).iter().sum::<usize>()
     }
 
     /// Times at the nodes by t = t_0 + left (1 - (a/a_0)^power).

@@ -112,7 +112,7 @@ impl Equations<'_> {
         let n = nodes.degree;
         let [mut given, mut given_slope, mut sought_slope] = [[0.0; SIZE]; 3];
         for (i, &s) in nodes.places.iter().enumerate() {
-            (given[i], given_slope[i]) = self.given.jet(s);
+            [given[i], given_slope[i], _] = self.given.jet(s);
         }
         for (i, slope) in sought_slope.iter_mut().enumerate().take(n + 1).skip(1) {
             *slope = dot(nodes.slope_row(i), &sought[..=n]);

@@ -183,10 +183,10 @@ impl<'a> March<'a> {
         };
         let reached = |march: &Self, solution: &Solution, _| {
             let rising = |s| {
-                let (radius, slope) = solution.piece.radius.jet(s);
-                (radius - limit, slope)
+                let [radius, slope, _] = solution.piece.radius.jet(s);
+                [radius - limit, slope]
             };
-            let over = |s: &f64| rising(*s).0 > 0.0;
+            let over = |s: &f64| rising(*s)[0] > 0.0;
             let above = march.nodes.places.iter().copied().find(over);
             let place = |above| rising_root(rising, [0.0, above], 0.5 * above, 1e-16)[1];
             (solution.widest > limit).then(|| place(above.unwrap_or(1.0)))

@@ -43,12 +43,12 @@ const FORCE: f64 = 2.0;
 impl SolvedContact {
     pub(crate) fn new(march: March<'_>) -> Self {
         let (pieces, state) = (march.pieces, march.state);
-        let (widest, peak_force_time) = largest(&pieces, |p, s| p.radius.curve(s));
-        let (peak_displacement, _) = largest(&pieces, |p, s| p.displacement.curve(s));
+        let (widest, peak_force_time) = largest(&pieces, |p, s| p.radius.jet(s));
+        let (peak_displacement, _) = largest(&pieces, |p, s| p.displacement.jet(s));
         let late = pieces.partition_point(|piece| piece.end.time <= peak_force_time);
         let (peak_deflection, _) = largest(&pieces[late..], |piece, place| {
-            let [d, d1, d2] = piece.displacement.curve(place);
-            let [a, a1, a2] = piece.radius.curve(place);
+            let [d, d1, d2] = piece.displacement.jet(place);
+            let [a, a1, a2] = piece.radius.jet(place);
             [d - a * a, d1 - 2.0 * a * a1, d2 - 2.0 * (a1 * a1 + a * a2)]
         });
         let work = 2.0 * INVERSE_MASS * march.dissipated;
@@ -104,7 +104,7 @@ impl SolvedContact {
     ) -> Self {
         let (mut pieces, contact_time) = (march.pieces, march.state.time);
         let nodes = Nodes::of(LARGEST);
-        for piece in pieces.iter_mut().filter(|piece| piece.force.is_none()) {
+        for piece in &mut pieces {
             let force = |&s: &f64| {
                 let here = piece.law.branch.at(piece.radius.value(s).max(0.0));
                 here.force + piece.law.damping(&here) * piece.velocity.value(s)
@@ -113,7 +113,7 @@ impl SolvedContact {
             piece.force = Some(nodes.polynomial(&values));
         }
         let (peak_force, peak_force_time) = largest(&pieces, Piece::force);
-        let (peak_displacement, _) = largest(&pieces, |p, s| p.displacement.curve(s));
+        let (peak_displacement, _) = largest(&pieces, |p, s| p.displacement.jet(s));
         let (mut radiated, mut lost) = (Vec::new(), 0.0);
         for piece in &pieces {
             radiated.push(lost);
@@ -177,14 +177,18 @@ impl SolvedContact {
         const APART: f64 = 1e-5;
         let flow = (self.flow.as_ref()).filter(|one| one.yielding.law == Plasticity::Recovery)?;
         let (piece, place) = self.place(time)?;
-        let (radius, slope) = piece.radius.jet(place);
+        let [radius, slope, _] = piece.radius.jet(place);
         let (edge, turned) = (flow.yielding.edge(), self.turned(time));
         let at = |radius: f64| {
-            let top = if turned { flow.radius } else { radius };
+            let top = if turned {
+                flow.peak_indentation.sqrt()
+            } else {
+                radius
+            };
             nested(edge, top, radius)
         };
         let [less, here, more] = [1.0 - APART, 1.0, 1.0 + APART].map(|part| at(part * radius));
-        let per = slope / (piece.time.jet(place).1 * 2.0 * APART * radius);
+        let per = slope / (piece.time.jet(place)[1] * 2.0 * APART * radius);
         let unit = flow.disc_radius * flow.disc_radius;
         Some([0, 1].map(|i| {
             let [part_rate, square_rate] = [0, 1].map(|j| per * (more[i][j] - less[i][j]));
@@ -231,7 +235,7 @@ impl SolvedContact {
         }
         self.place(time).map_or([0.0; 3], |(piece, place)| {
             let [force, p1, p2] = piece.force(place);
-            let [_, t1, t2] = piece.time.curve(place);
+            let [_, t1, t2] = piece.time.jet(place);
             if force <= 0.0 || t1 <= 0.0 {
                 return [0.0; 3];
             }
@@ -298,8 +302,8 @@ pub(crate) fn place_of(piece: &Piece, time: f64) -> f64 {
     let (from, until) = (piece.start.time, piece.end.time);
     let start = ((time - from) / (until - from)).clamp(0.0, 1.0);
     let late = |place: f64| {
-        let (value, slope) = piece.time.jet(place);
-        (value - time, slope)
+        let [value, slope, _] = piece.time.jet(place);
+        [value - time, slope]
     };
     rising_root(late, [0.0, 1.0], start, 1e-14)[1]
 }
@@ -324,7 +328,7 @@ fn largest(pieces: &[Piece], curve: impl Fn(&Piece, f64) -> [f64; 3]) -> (f64, f
                 let [from, to] = [part - 1, part].map(|part| part as f64 / PARTS as f64);
                 let slope = |place: f64| {
                     let [_, slope, bend] = curve(piece, place);
-                    (slope, bend)
+                    [slope, bend]
                 };
                 candidate(piece, find_root(slope, from, to));
             }

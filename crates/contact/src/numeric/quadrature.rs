@@ -94,12 +94,7 @@ impl<const N: usize> Local<N> {
     }
 
     pub(crate) fn value(&self, x: f64) -> f64 {
-        self.value_and_slope(x).0
-    }
-
-    pub(crate) fn value_and_slope(&self, x: f64) -> (f64, f64) {
-        let [value, slope, _] = self.jet(x);
-        (value, slope)
+        self.jet(x)[0]
     }
 
     /// Value, slope and half the curvature.
@@ -116,16 +111,16 @@ impl<const N: usize> Local<N> {
 
     /// The zero of the polynomial in [from, to], by bisection-guarded Newton; the ends must differ in sign.
     pub(crate) fn root(&self, from: f64, to: f64) -> f64 {
-        find_root(|x| self.value_and_slope(x), from, to)
+        find_root(|x| self.jet(x), from, to)
     }
 
     /// Place and value of the extremum in [from, to] where the slope changes sign, else the larger end.
     pub(crate) fn maximum(&self, from: f64, to: f64) -> (f64, f64) {
         let slope = |x: f64| {
             let [_, slope, half_curvature] = self.jet(x);
-            (slope, 2.0 * half_curvature)
+            [slope, 2.0 * half_curvature]
         };
-        if slope(from).0 > 0.0 && slope(to).0 < 0.0 {
+        if slope(from)[0] > 0.0 && slope(to)[0] < 0.0 {
             let x = find_root(slope, from, to);
             return (x, self.value(x));
         }
@@ -138,22 +133,19 @@ impl<const N: usize> Local<N> {
     }
 }
 
-/// A zero of f (value and slope) between two places of different sign.
-pub(crate) fn find_root(f: impl Fn(f64) -> (f64, f64), from: f64, to: f64) -> f64 {
-    let sign = if f(from).0 < 0.0 { 1.0 } else { -1.0 };
-    let rising = |x: f64| {
-        let (value, slope) = f(x);
-        (sign * value, sign * slope)
-    };
+/// A zero of f (value, slope and whatever follows) between two places of different sign.
+pub(crate) fn find_root<const N: usize>(f: impl Fn(f64) -> [f64; N], from: f64, to: f64) -> f64 {
+    let sign = if f(from)[0] < 0.0 { 1.0 } else { -1.0 };
+    let rising = |x: f64| f(x).map(|part| sign * part);
     rising_root(rising, [from, to], 0.5 * (from + to), 1e-15)[1]
 }
 
-/// A zero of a rising function (value and slope) in [low, high] by Newton's method from `start`, with bisection where
+/// A zero of a rising function (value, slope and whatever follows) in [low, high] by Newton's method from `start`, with bisection where
 /// that leaves the bracket: the place before the last step, and the one after it.
 ///
 /// It ends with a step below [`CLOSE`], or with a bisection below `least`.
-pub(crate) fn rising_root(
-    f: impl Fn(f64) -> (f64, f64),
+pub(crate) fn rising_root<const N: usize>(
+    f: impl Fn(f64) -> [f64; N],
     [mut low, mut high]: [f64; 2],
     start: f64,
     least: f64,
@@ -161,13 +153,13 @@ pub(crate) fn rising_root(
     let mut places = [start; 2];
     for _ in 0..60 {
         let place = places[1];
-        let (value, slope) = f(place);
-        if value < 0.0 {
+        let now = f(place);
+        if now[0] < 0.0 {
             low = place;
         } else {
             high = place;
         }
-        let newton = place - value / slope;
+        let newton = place - now[0] / now[1];
         let inside = newton >= low && newton <= high;
         let next = if inside { newton } else { 0.5 * (low + high) };
         places = [place, next];
@@ -241,7 +233,7 @@ mod tests {
     fn a_local_polynomial_is_exact() {
         let f = |x: f64| 1.0 - 2.0 * x + 0.5 * x * x - 0.25 * x.powi(3) + 0.125 * x.powi(4);
         let local = Local::<5>::new(std::array::from_fn(|i| f(i as f64)));
-        let (value, slope) = local.value_and_slope(1.7);
+        let [value, slope, _] = local.jet(1.7);
         assert!((value - f(1.7)).abs() < 1e-13);
         let expected = -2.0 + 1.7 - 0.75 * 1.7 * 1.7 + 0.5 * 1.7_f64.powi(3);
         assert!((slope - expected).abs() < 1e-12);

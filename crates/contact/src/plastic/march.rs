@@ -135,8 +135,8 @@ impl March<'_> {
         };
         let turned = |_: &Self, solution: &Solution, error| {
             let slowing = |s| {
-                let [_, slope, bend] = solution.piece.radius.curve(s);
-                (-slope, -bend)
+                let [_, slope, bend] = solution.piece.radius.jet(s);
+                [-slope, -bend]
             };
             let turns = error <= 1.0 && solution.piece.end.slope < 0.0;
             turns.then(|| rising_root(slowing, [0.0, 1.0], 0.5, 1e-16)[1])

@@ -107,8 +107,6 @@ pub struct Flow {
     /// Work on the half-space's waves.
     pub radiated: f64,
     pub(crate) yielding: Yielding,
-    /// Root of the largest indentation.
-    pub(crate) radius: f64,
     /// Largest radius of contact.
     pub contact_radius: f64,
     /// Radius of Hertz's pressure of the same second moment at the turning point.
@@ -137,7 +135,6 @@ impl Flow {
             plastic_work,
             radiated,
             yielding: *yielding,
-            radius,
             disc_radius: match fit {
                 // of a flat pressure
                 Some(_) => contact_radius * 1.25_f64.sqrt(),
