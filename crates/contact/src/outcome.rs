@@ -163,7 +163,10 @@ impl Outcomes {
                 *counts.entry(place.cell).or_insert(0.0) += 1.0;
             }
         }
-        counts.retain(|cell, count| *count * rows as f64 / sampled >= PAYS * cell.marches() as f64);
+        counts.retain(|cell: &Cell, count| {
+            let ([across, along], probes) = cell.nodes();
+            *count * rows as f64 / sampled >= PAYS * (across * along + probes) as f64
+        });
         let paying = counts.into_keys();
         Self {
             cells: paying.map(|cell| (cell, OnceLock::new())).collect(),
@@ -193,12 +196,6 @@ impl Cell {
             Family::Full | Family::Dynamic => ([NODES[fine]; 2], PROBES[1]),
             Family::Yielding => ([NODES[2]; 2], PROBES[2]),
         }
-    }
-
-    /// Marches of a contraction.
-    fn marches(&self) -> usize {
-        let ([across, along], probes) = self.nodes();
-        across * along + probes
     }
 
     /// The groups at a place in it.
@@ -242,9 +239,8 @@ impl Cell {
                 .max(relative(exact.peak_deflection, found.peak_deflection))
                 .max(relative(work, radiated));
             let loss = of_loss.map_or(0.0, |asked| exact.loss_distance(&found) / asked * tolerance);
-            missed = [exact.distance(&found), late, beside / BESIDE, loss]
-                .into_iter()
-                .fold(missed, f64::max);
+            let all = [exact.distance(&found), late, beside / BESIDE, loss];
+            missed = all.into_iter().fold(missed, f64::max);
         }
         let error = CAUTION * missed + left;
         (error <= tolerance).then_some((series, error))

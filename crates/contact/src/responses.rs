@@ -1,7 +1,6 @@
 //! Surface responses by Poisson's ratio: exact ones, and tabulated ones that all threads share.
 
-use crate::disc::response::DiscResponse;
-use crate::disc::table::ResponseTable;
+use crate::disc::response::{DiscResponse, ResponseTable};
 use crate::growing::waves::PunchWaves;
 use halfspace::{Deflection, DomainError, Medium, SurfaceResponse};
 use std::collections::HashMap;

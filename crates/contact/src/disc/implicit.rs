@@ -72,11 +72,8 @@ pub(crate) fn march_into(
         })?;
         roots = [solved, roots[0], roots[1], roots[2], roots[3]];
         let force = solved * solved * solved;
-        history.push(
-            force,
-            free - inertia * force,
-            known_deflection + elastic * force,
-        );
+        let displacement = free - inertia * force;
+        history.push(force, displacement, known_deflection + elastic * force);
         striker.push(force);
         if force > 0.0 {
             free_since = 0;

@@ -61,7 +61,9 @@ impl Summary {
             }
         }
         let (place, peak_force) = peak(force);
-        let contacts = count_contacts(force, peak_force);
+        // those whose force exceeds 1e-6 of the largest
+        let counts = |contact: &&[f64]| contact.iter().any(|p| *p > 1e-6 * peak_force);
+        let contacts = force.split(|p| *p <= 0.0).filter(counts).count();
         let (by_momentum, (velocity, loss)) = if contacts == 1 {
             let v = 1.0 - INVERSE_MASS * impulse;
             (v, departure(v, history))
@@ -108,13 +110,6 @@ fn departure(velocity: f64, history: &History) -> (f64, f64) {
 pub(crate) fn first_separation(force: &[f64]) -> usize {
     let free = force.iter().skip(1).position(|&p| p <= 0.0);
     free.map_or(force.len(), |i| i + 1)
-}
-
-/// Contacts whose force exceeds 1e-6 of the largest.
-fn count_contacts(force: &[f64], peak_force: f64) -> usize {
-    let contacts = force.split(|p| *p <= 0.0);
-    let counts = |contact: &&[f64]| contact.iter().any(|p| *p > 1e-6 * peak_force);
-    contacts.filter(counts).count()
 }
 
 /// Uncertainty of the time spent in the end layer.
@@ -164,14 +159,12 @@ fn end_of_contact(history: &History, end: usize) -> (f64, f64) {
     // Samples 0..=k by Euler-Maclaurin, the rest from b with x^2 the time before the end.
     let rest = place - (k - from) as f64;
     let root = rest.sqrt();
-    let tail: f64 = GAUSS_8
-        .iter()
-        .map(|&(x, weight)| {
-            let before = (root * x) * (root * x);
-            let y = force_root(a, local.value(place - before), 0.0).unwrap_or(0.0);
-            weight * root * 2.0 * root * x * y * y * y
-        })
-        .sum();
+    let part = |&(x, weight): &(f64, f64)| {
+        let before = (root * x) * (root * x);
+        let y = force_root(a, local.value(place - before), 0.0).unwrap_or(0.0);
+        weight * root * 2.0 * root * x * y * y * y
+    };
+    let tail: f64 = GAUSS_8.iter().map(part).sum();
     (contact_time, history.impulse_until(k) + tail * step)
 }
 

@@ -97,10 +97,8 @@ impl Accuracy {
     #[must_use]
     pub fn first_steps(&self) -> f64 {
         let contact = 12.0 * (1e-4 / self.tolerance).max(1.0).powf(0.4);
-        let loss = self
-            .loss
-            .map_or(0.0, |t| 13.0 * (1e-3 / t).max(1.0).powf(0.5));
-        contact.max(loss)
+        let of_loss = |asked: f64| 13.0 * (1e-3 / asked).max(1.0).powf(0.5);
+        contact.max(self.loss.map_or(0.0, of_loss))
     }
 }
 
@@ -149,11 +147,9 @@ fn halve(
                     (ratio, error) = accuracy.judge(coarse, (&summary, end));
                     (ratio, error) = (caution * ratio, caution * error);
                     if ratio <= 1.0 {
-                        return Ok(Found {
-                            summary: Accuracy::extrapolated(coarse, &summary),
-                            error: (REPORTED * error).min(accuracy.tolerance).max(error),
-                            step: Some(step),
-                        });
+                        let summary = Accuracy::extrapolated(coarse, &summary);
+                        let reported = (REPORTED * error).min(accuracy.tolerance).max(error);
+                        return Ok(Found::marched(summary, reported, step));
                     }
                 }
                 (coarse, last) = (Some(summary), step);
@@ -164,11 +160,7 @@ fn halve(
             Err(MarchError::NoSolution { .. }) if attempt < 8 => {}
             Err(MarchError::TooLong { .. }) if ratio <= LENIENT => {
                 // once more, since what the caller keeps is that of the march that failed
-                return Ok(Found {
-                    summary: march(last)?.0,
-                    error: REPORTED * error,
-                    step: Some(last),
-                });
+                return Ok(Found::marched(march(last)?.0, REPORTED * error, last));
             }
             Err(other) => return Err(other),
         }
@@ -204,6 +196,13 @@ impl Found {
             summary,
             error,
             step: None,
+        }
+    }
+
+    fn marched(summary: Summary, error: f64, step: f64) -> Self {
+        Self {
+            step: Some(step),
+            ..Self::unmarched(summary, error)
         }
     }
 }
@@ -250,11 +249,8 @@ pub(crate) fn stepped(
     if let Some(step) = step {
         let (finer, _) = run(0.5 * step)?;
         let (summary, _) = run(step)?;
-        return Ok(Found {
-            summary,
-            error: summary.distance(&finer) * 4.0 / 3.0,
-            step: Some(step),
-        });
+        let error = summary.distance(&finer) * 4.0 / 3.0;
+        return Ok(Found::marched(summary, error, step));
     }
     halve(run, duration / asked.first_steps(), &asked, caution)
 }
@@ -270,12 +266,9 @@ pub(crate) fn explicit(
     let (history, summary) = march_explicit(impact, step)?;
     let (_, finer) = march_explicit(impact, 0.5 * step)?;
     workspace.history = history;
-    Ok(Found {
-        summary,
-        // first order: the rest is as large as the change over one halving
-        error: 2.0 * summary.distance(&finer),
-        step: Some(step),
-    })
+    // first order: the rest is as large as the change over one halving
+    let error = 2.0 * summary.distance(&finer);
+    Ok(Found::marched(summary, error, step))
 }
 
 /// Steps over the contact of the first march, and of the last at most, where the force at each instant is asked for.

@@ -1,7 +1,7 @@
 //! A contact as pieces of polynomials, and where the waves that arrive at one of them left: by Newton's method, several
 //! at a time.
 
-use crate::growing::polynomial::Polynomial;
+use crate::growing::nodes::Polynomial;
 use crate::numeric::quadrature::{CLOSE, rising_root};
 use crate::plastic::branch::Law;
 
@@ -68,14 +68,13 @@ impl Piece {
 /// order: later and later back in time.
 ///
 /// `own` has the time and the radius of that piece, which starts at `start`; `found` holds departures of a nearby
-/// contact as first guesses, where `again`.
+/// contact as first guesses, or of no piece at all.
 pub(crate) fn departures(
     pieces: &[Piece],
     own: [&Polynomial; 2],
     start: &State,
     [place, arrival]: [f64; 2],
     delays: &[f64],
-    again: bool,
     found: &mut [Departure],
 ) {
     let mut index = pieces.len();
@@ -104,7 +103,7 @@ pub(crate) fn departures(
             latest,
         };
         let (delays, found) = (&delays[k..k + held], &mut found[k..k + held]);
-        roots.find(delays, index, again, found);
+        roots.find(delays, index, found);
         k += held;
     }
 }
@@ -112,8 +111,8 @@ pub(crate) fn departures(
 /// Where the wave of delay X that arrives now left: T + X a(T) = t.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Departure {
-    /// Index of the piece.
-    pub(crate) piece: usize,
+    /// Index of the piece; none of a wave that is yet to be found.
+    pub(crate) piece: Option<usize>,
     /// Place in it.
     pub(crate) place: f64,
     pub(crate) radius: f64,
@@ -139,10 +138,10 @@ struct Roots<'a> {
 const TOGETHER: usize = 4;
 
 impl Roots<'_> {
-    /// The roots for up to `LANES` delays; `found` holds first guesses, where `again`.
-    fn find(&self, delays: &[f64], index: usize, again: bool, found: &mut [Departure]) {
+    /// The roots for up to `LANES` delays; `found` holds first guesses where they are of the piece `index`.
+    fn find(&self, delays: &[f64], index: usize, found: &mut [Departure]) {
         let lanes = std::array::from_fn(|l| *delays.get(l).unwrap_or(&delays[0]));
-        let mut places = if again && found.iter().all(|one| one.piece == index) {
+        let mut places = if found.iter().all(|one| one.piece == Some(index)) {
             std::array::from_fn(|l| found.get(l).map_or(0.5 * self.latest, |one| one.place))
         } else {
             self.guess(&lanes)
@@ -169,7 +168,7 @@ impl Roots<'_> {
             let inside = places[l] > 0.0 && places[l] < self.latest;
             *one = if steps[l].abs() < CLOSE && rises && inside {
                 Departure {
-                    piece: index,
+                    piece: Some(index),
                     place: places[l],
                     radius: radii[l] + radius_slopes[l] * steps[l],
                     time_slope: time_slopes[l],
@@ -216,7 +215,7 @@ impl Roots<'_> {
         let [before, place] = rising_root(late, [0.0, self.latest], 0.5 * self.latest, 5e-16);
         let [radius, radius_slope, _] = self.radius.jet(before);
         Departure {
-            piece: index,
+            piece: Some(index),
             place,
             radius: radius + radius_slope * (place - before),
             time_slope: self.time.jet(before)[1],

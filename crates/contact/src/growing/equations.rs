@@ -1,4 +1,4 @@
-//! The equations of a piece at its nodes and their derivatives.
+//! The equations of a piece at its nodes and their derivatives, solved by collocation and Newton's method.
 //!
 //! Along a piece time T and radius a are functions of a place s in [0, 1]; one of them is known.
 //!
@@ -13,8 +13,7 @@
 //! g = 2 a and p = a^3.
 
 use crate::growing::arrivals::{Departure, Piece, State, departures};
-use crate::growing::nodes::{Factors, Nodes};
-use crate::growing::polynomial::{LARGEST, Polynomial, SIZE, dot};
+use crate::growing::nodes::{Factors, LARGEST, Nodes, Polynomial, SIZE, dot};
 use crate::growing::waves::GrowingContact;
 use crate::plastic::branch::{Law, Local};
 use crate::units::INVERSE_MASS;
@@ -94,6 +93,34 @@ pub(crate) struct Residual<'a> {
     pub(crate) delays: Vec<f64>,
 }
 
+/// A piece that solves its equations at its nodes.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Solution {
+    pub(crate) piece: Piece,
+    /// Largest radius at the nodes.
+    pub(crate) widest: f64,
+    /// int p (v - u') dt over the piece.
+    pub(crate) dissipated: f64,
+    /// Size of the last of the polynomial's terms in what was sought.
+    pub(crate) truncated: f64,
+    /// Change of what was sought by the finer rule over the waves.
+    pub(crate) waves: f64,
+    /// What was sought, at 0 and the nodes.
+    pub(crate) sought: [f64; SIZE],
+}
+
+/// Newton's iterations at most.
+const ITERATIONS: usize = 14;
+
+/// Iterations after which each has to halve the change.
+const SETTLED: usize = 6;
+
+/// Error of the time that the last instants may have, over the accuracy.
+const SLACK: f64 = 0.3;
+
+/// Radius that is zero but for rounding.
+const CLOSED: f64 = 1e-14;
+
 impl Equations<'_> {
     /// Polynomials of time and radius through values of what is sought.
     pub(crate) fn polynomials(&self, sought: &[f64; SIZE]) -> (Polynomial, Polynomial) {
@@ -106,16 +133,14 @@ impl Equations<'_> {
 
     /// What follows from values of what is sought.
     pub(crate) fn motion(&self, sought: &[f64; SIZE]) -> Motion {
-        let March {
-            nodes, law, state, ..
-        } = self.march;
+        let (nodes, law) = (self.march.nodes, &self.march.law);
         let n = nodes.degree;
         let [mut given, mut given_slope, mut sought_slope] = [[0.0; SIZE]; 3];
         for (i, &s) in nodes.places.iter().enumerate() {
             [given[i], given_slope[i], _] = self.given.jet(s);
         }
         for (i, slope) in sought_slope.iter_mut().enumerate().take(n + 1).skip(1) {
-            *slope = dot(nodes.slope_row(i), &sought[..=n]);
+            *slope = dot(&nodes.slope[i], &sought[..=n]);
         }
         let (time, radius, time_slope, radius_slope) = match self.known {
             Independent::Time => (given, *sought, given_slope, sought_slope),
@@ -129,9 +154,9 @@ impl Equations<'_> {
                 + law.damping(&here) * here.depth_slope * radius_slope[j];
             local[j - 1] = here;
         }
-        let mut velocity = [state.velocity; SIZE];
+        let mut velocity = [self.march.state.velocity; SIZE];
         for (i, v) in velocity.iter_mut().enumerate().take(n + 1).skip(1) {
-            *v -= INVERSE_MASS * dot(nodes.integral_row(i), &impulse[..n]);
+            *v -= INVERSE_MASS * dot(&nodes.integral[i], &impulse[..n]);
         }
         Motion {
             time,
@@ -155,8 +180,7 @@ impl Equations<'_> {
         let (phi, wave_time) = (march.contact.target_share, march.contact.wave_time);
         let (time_of, radius_of) = self.polynomials(sought);
         let (rule, size) = (residual.rule, residual.rule.len());
-        let again = residual.departures.len() == n * size;
-        if !again {
+        if residual.departures.is_empty() {
             residual.departures = vec![Departure::default(); n * size];
             residual.delays = rule.iter().map(|(delay, _)| delay * wave_time).collect();
         }
@@ -168,7 +192,6 @@ impl Equations<'_> {
                 &march.state,
                 [march.nodes.places[i], motion.time[i]],
                 &residual.delays,
-                again,
                 found,
             );
             let delayed = march.law.delayed(motion.radius[i]);
@@ -187,26 +210,21 @@ impl Equations<'_> {
 
     /// The law at a departure.
     fn law_of(&self, left: &Departure) -> &Law {
-        let piece = self.march.pieces.get(left.piece);
+        let piece = left.piece.and_then(|piece| self.march.pieces.get(piece));
         piece.map_or(&self.march.law, |piece| &piece.law)
     }
 
     /// Derivatives of the residuals with respect to what is sought, at the departures of the residual.
     pub(crate) fn jacobian(&self, motion: &Motion, residual: &Residual<'_>, matrix: &mut Factors) {
-        let March {
-            contact,
-            nodes,
-            law,
-            ..
-        } = self.march;
-        let n = nodes.degree;
+        let (nodes, law) = (self.march.nodes, &self.march.law);
+        let (n, contact) = (nodes.degree, &self.march.contact);
         let velocity = self.velocity_by_impulse(motion);
         let tension = contact.target_share / contact.wave_time;
         let rest = 1.0 - contact.target_share;
         for i in 1..=n {
             let here = &motion.local[i - 1];
             let (sums, own) = self.tension_row(residual, i, law.slope(motion.radius[i]));
-            let (slopes, integral) = (nodes.slope_row(i), nodes.integral_row(i));
+            let (slopes, integral) = (&nodes.slope[i], &nodes.integral[i]);
             let line = matrix.row(i - 1);
             // what the indentation is more than the punches
             let more = here.depth_slope - here.punch_slope;
@@ -245,7 +263,7 @@ impl Equations<'_> {
             match self.known {
                 Independent::Time => row[j - 1] = -here.braking * motion.time_slope[j],
                 Independent::Radius => {
-                    for (entry, slope) in row.iter_mut().zip(&nodes.slope_row(j)[1..]) {
+                    for (entry, slope) in row.iter_mut().zip(&nodes.slope[j][1..]) {
                         *entry = -INVERSE_MASS * here.force * slope;
                     }
                 }
@@ -275,7 +293,7 @@ impl Equations<'_> {
                     -there * left.radius_slope / speed
                 }
             };
-            if left.piece == self.march.pieces.len() {
+            if left.piece == Some(self.march.pieces.len()) {
                 nodes.lagrange(left.place, &mut basis);
                 for (sum, value) in sums.iter_mut().zip(&basis[..=nodes.degree]) {
                     *sum += weight * value;
@@ -284,4 +302,161 @@ impl Equations<'_> {
         }
         (sums, own)
     }
+
+    /// Solves the equations from a guess of the values sought; nothing where Newton's method does not settle
+    /// or time does not go on.
+    pub(crate) fn solve(&self, mut sought: [f64; SIZE]) -> Option<Solution> {
+        let n = self.march.nodes.degree;
+        let mut residual = self.to_find(self.march.level);
+        let mut matrix = Factors::room(n);
+        let mut before = f64::INFINITY;
+        // Newton's next change would be about the square
+        let enough = (1e-2 * self.march.accuracy).sqrt().min(1e-5);
+        for iteration in 1..=ITERATIONS {
+            let motion = self.moves(&sought)?;
+            self.residual(&sought, &motion, &mut residual);
+            self.jacobian(&motion, &residual, &mut matrix);
+            if !matrix.eliminate() {
+                return None;
+            }
+            let mut change = residual.value;
+            matrix.solve(&mut change[..n]);
+            let factor = self.damping(&sought, &change[..n]);
+            let size = changed(&mut sought, factor, &change[..n]);
+            let relative = size / self.scale(&sought);
+            if factor == 1.0 && relative < enough {
+                return self.corrected(sought, &matrix);
+            }
+            if iteration > SETTLED && relative > 0.5 * before {
+                return None;
+            }
+            before = relative;
+        }
+        None
+    }
+
+    /// Residuals to be found with a rule over the waves.
+    fn to_find(&self, level: usize) -> Residual<'_> {
+        Residual {
+            rule: self.march.contact.waves.rule(level),
+            ..Residual::default()
+        }
+    }
+
+    /// The motion, unless a matrix that is nearly singular or a law at the end of the numbers threw it out of them.
+    fn moves(&self, sought: &[f64; SIZE]) -> Option<Motion> {
+        let motion = self.motion(sought);
+        let of = [&motion.time, &motion.radius, &motion.velocity];
+        let mut all = of.into_iter().flatten();
+        all.all(|x| x.is_finite()).then_some(motion)
+    }
+
+    /// One more change, by the finer rule.
+    fn corrected(&self, mut sought: [f64; SIZE], matrix: &Factors) -> Option<Solution> {
+        let motion = self.moves(&sought)?;
+        let mut residual = self.to_find(self.march.level + 1);
+        self.residual(&sought, &motion, &mut residual);
+        let change = &mut residual.value[..self.march.nodes.degree];
+        matrix.solve(change);
+        let waves = changed(&mut sought, 1.0, change);
+        let motion = self.moves(&sought)?;
+        self.goes_on(&motion)
+            .then(|| self.solution(&sought, &motion, waves))
+    }
+
+    /// Size of what is sought.
+    fn scale(&self, sought: &[f64; SIZE]) -> f64 {
+        let n = self.march.nodes.degree;
+        match self.known {
+            Independent::Time => sought[..=n].iter().fold(0.0_f64, |m, x| m.max(x.abs())),
+            Independent::Radius => (sought[n] - sought[0]).abs(),
+        }
+    }
+
+    /// The largest part of Newton's change that keeps the radius positive or the time rising.
+    fn damping(&self, sought: &[f64; SIZE], change: &[f64]) -> f64 {
+        let mut factor = 1.0_f64;
+        for i in 1..=change.len() {
+            let (old, fall, least) = match self.known {
+                Independent::Time => (sought[i], change[i - 1], 0.2),
+                Independent::Radius => {
+                    let before = if i == 1 { 0.0 } else { change[i - 2] };
+                    (sought[i] - sought[i - 1], change[i - 1] - before, 0.1)
+                }
+            };
+            if old > 0.0 && old - fall < least * old {
+                factor = factor.min((1.0 - least) * old / fall);
+            }
+        }
+        factor.max(0.05)
+    }
+
+    /// Whether time rises and the radius stays positive; the last instants may be shorter than their error.
+    fn goes_on(&self, motion: &Motion) -> bool {
+        let n = self.march.nodes.degree;
+        let closed = motion.radius[n] <= CLOSED;
+        let slack = if closed {
+            SLACK * self.march.accuracy
+        } else {
+            0.0
+        };
+        let rises = motion.time[..=n].windows(2).all(|t| t[1] >= t[0] - slack);
+        let positive = motion.radius[1..n].iter().all(|&a| a > 0.0);
+        rises && positive && (closed || motion.time_slope[n] > 0.0)
+    }
+
+    fn solution(&self, sought: &[f64; SIZE], motion: &Motion, waves: f64) -> Solution {
+        let (nodes, start) = (self.march.nodes, self.march.state);
+        let n = nodes.degree;
+        let weights = &nodes.integral[n];
+        let mut travel = [0.0; LARGEST];
+        let mut dissipated = 0.0;
+        for j in 1..=n {
+            travel[j - 1] = motion.velocity[j] * motion.time_slope[j];
+            let here = &motion.local[j - 1];
+            let lag = travel[j - 1] - here.depth_slope * motion.radius_slope[j];
+            dissipated += weights[j - 1] * here.force * lag;
+        }
+        let mut displacement = [start.displacement; SIZE];
+        for (i, place) in displacement.iter_mut().enumerate().take(n + 1).skip(1) {
+            *place += dot(&nodes.integral[i], &travel[..n]);
+        }
+        let (time, radius) = self.polynomials(sought);
+        // the last term, or the one before continued at the rate of its fall
+        let modes = nodes.modes(sought);
+        let [a, b, c] = [n - 2, n - 1, n].map(|k| modes[k].abs());
+        let continued = if b < a { b * b / a } else { b };
+        Solution {
+            piece: Piece {
+                law: self.march.law,
+                time,
+                radius,
+                velocity: nodes.polynomial(&motion.velocity),
+                displacement: nodes.polynomial(&displacement),
+                force: None,
+                start,
+                end: State {
+                    time: motion.time[n],
+                    radius: motion.radius[n],
+                    velocity: motion.velocity[n],
+                    displacement: displacement[n],
+                    slope: motion.local[n - 1].depth_slope * motion.radius_slope[n]
+                        / motion.time_slope[n],
+                },
+            },
+            widest: motion.radius[..=n].iter().fold(0.0_f64, |m, &a| m.max(a)),
+            dissipated,
+            truncated: c.max(continued),
+            waves,
+            sought: *sought,
+        }
+    }
+}
+
+/// Takes a part of a change from what is sought beyond the start; the size of the change.
+fn changed(sought: &mut [f64; SIZE], factor: f64, change: &[f64]) -> f64 {
+    for (value, change) in sought[1..].iter_mut().zip(change) {
+        *value -= factor * change;
+    }
+    change.iter().fold(0.0, |size, x| size.max(x.abs()))
 }

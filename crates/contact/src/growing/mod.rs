@@ -14,25 +14,22 @@
 //! For small X the bracket is a a' - X(..): a short memory is no special case, and nothing is summed over a past.
 //! For phi = 1 the equation is algebraic in a, not ill-posed.
 //!
-//! a is analytic in time inside the contact, so it is a few polynomials (`step`) of the root of the
+//! a is analytic in time inside the contact, so it is a few polynomials (`equations`) of the root of the
 //! time since the touch, then of the root of the time to the expected end; in the last part the time
 //! is a polynomial of the root of the radius, which makes the end of contact a place that is known.
 //! Both ends are layers that scale with themselves (a ~ phi tau); pieces get shorter toward them.
 //! The integral over the waves is Gauss's rule of their measure, of 3 to 220 nodes as each piece needs.
 //!
-//! In reading order: `waves`, `equations` of a piece and the `arrivals` of its waves, `step` that solves them at the `nodes`
-//! of a `polynomial`, `march` and `closing` from piece to piece, `checks` for what was taken for granted, `solved`, `work`.
+//! In reading order: `waves`, `equations` of a piece, solved at the `nodes` of its polynomials, and the `arrivals` of its
+//! waves, `march` from piece to piece, `checks` for what was taken for granted, `solved`, `work`.
 //! Measured against superposition in time of punches by another kernel formula (`tests/reference/growing.csv`).
 
 pub(crate) mod arrivals;
 pub(crate) mod checks;
-pub(crate) mod closing;
 pub(crate) mod equations;
 pub(crate) mod march;
 pub(crate) mod nodes;
-pub(crate) mod polynomial;
 pub(crate) mod solved;
-pub(crate) mod step;
 pub(crate) mod uniform;
 pub(crate) mod waves;
 pub(crate) mod work;

@@ -1,9 +1,93 @@
-//! Collocation at Radau's nodes: what a piece of degree n needs, made once for each n, and its small linear systems.
+//! Polynomials on a piece and collocation at Radau's nodes: what a piece of degree n needs, made once for each n, and its
+//! small linear systems.
 
-use crate::growing::polynomial::{LARGEST, Polynomial, SIZE, dot};
 use crate::numeric::gauss::{legendre, radau};
 use halfspace::gauss;
 use std::sync::OnceLock;
+
+/// A polynomial in s on [0, 1], in powers of 2 s - 1.
+///
+/// The coefficients of a function that a piece resolves fall faster than these powers lose digits.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Polynomial {
+    /// Degree.
+    pub(crate) degree: usize,
+    /// Coefficients of the powers.
+    pub(crate) powers: [f64; SIZE],
+}
+
+impl Polynomial {
+    /// The constant.
+    pub(crate) fn constant(value: f64) -> Self {
+        let mut powers = [0.0; SIZE];
+        powers[0] = value;
+        Self { degree: 0, powers }
+    }
+
+    /// (from + rise s)^power
+    pub(crate) fn power(from: f64, rise: f64, power: usize) -> Self {
+        let (middle, half) = (from + 0.5 * rise, 0.5 * rise);
+        let mut found = Self::constant(1.0);
+        for degree in 1..=power {
+            for k in (0..=degree).rev() {
+                let below = if k > 0 { found.powers[k - 1] } else { 0.0 };
+                found.powers[k] = middle * found.powers[k] + half * below;
+            }
+            found.degree = degree;
+        }
+        found
+    }
+
+    /// constant - self
+    pub(crate) fn below(mut self, constant: f64) -> Self {
+        for power in &mut self.powers {
+            *power = -*power;
+        }
+        self.powers[0] += constant;
+        self
+    }
+
+    /// Value at s.
+    pub(crate) fn value(&self, s: f64) -> f64 {
+        self.jet(s)[0]
+    }
+
+    /// Values and slopes at some places together.
+    pub(crate) fn jets<const N: usize>(&self, places: &[f64; N]) -> [[f64; N]; 2] {
+        let x = places.map(|s| 2.0 * s - 1.0);
+        let [mut value, mut slope] = [[0.0; N]; 2];
+        for c in self.powers[..=self.degree].iter().rev() {
+            for l in 0..N {
+                slope[l] = slope[l] * x[l] + value[l];
+                value[l] = value[l] * x[l] + c;
+            }
+        }
+        [value, slope.map(|s| 2.0 * s)]
+    }
+
+    /// Value, slope and curvature.
+    pub(crate) fn jet(&self, s: f64) -> [f64; 3] {
+        let x = 2.0 * s - 1.0;
+        let (mut value, mut slope, mut half) = (0.0, 0.0, 0.0);
+        for c in self.powers[..=self.degree].iter().rev() {
+            half = half * x + slope;
+            slope = slope * x + value;
+            value = value * x + c;
+        }
+        [value, 2.0 * slope, 8.0 * half]
+    }
+}
+
+/// Largest degree of a piece.
+pub(crate) const LARGEST: usize = 16;
+
+/// Values at 0 and the nodes of such a piece.
+pub(crate) const SIZE: usize = LARGEST + 1;
+
+/// Scalar product.
+pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(x, y)| x * y).sum()
+}
 
 /// Matrices of the polynomials of degree n through 0 and the n nodes of Radau's rule on (0, 1].
 #[derive(Debug)]
@@ -12,10 +96,10 @@ pub(crate) struct Nodes {
     pub(crate) degree: usize,
     /// 0 and the nodes.
     pub(crate) places: Vec<f64>,
-    /// Slope at node i (row, from the first node on) from the values at 0 and the nodes.
-    slope: Vec<Vec<f64>>,
-    /// Integral from 0 to node i of the polynomial of degree n - 1 through the nodes.
-    integral: Vec<Vec<f64>>,
+    /// Row i: slope with respect to s at the place i from the values at 0 and the nodes.
+    pub(crate) slope: Vec<Vec<f64>>,
+    /// Row i: weights of the nodes in the integral from 0 to the place i; to the last one, exact to degree 2 n - 2.
+    pub(crate) integral: Vec<Vec<f64>>,
     /// Legendre coefficients from the values at 0 and the nodes.
     modes: Vec<Vec<f64>>,
     /// Coefficients of the powers of 2 s - 1 from those of Legendre's polynomials.
@@ -51,7 +135,7 @@ impl Nodes {
         // the rule is exact for the polynomials through the nodes times those of the same degree
         let rule = gauss::rule(n + 1);
         let integral = |i: usize, j: usize| {
-            let parts = rule.on(0.0, places[i + 1]);
+            let parts = rule.on(0.0, places[i]);
             parts
                 .map(|(x, weight)| weight * lagrange(&places[1..], j, x))
                 .sum()
@@ -65,23 +149,13 @@ impl Nodes {
         };
         Self {
             degree: n,
-            slope: (1..=n).map(slope).collect(),
-            integral: matrix(n, integral),
-            modes: matrix(n + 1, mode),
+            slope: (0..=n).map(slope).collect(),
+            integral: matrix([n + 1, n], integral),
+            modes: matrix([n + 1; 2], mode),
             powers: powers(n),
             barycentric,
             places,
         }
-    }
-
-    /// Slope with respect to s at node i in 1..=n.
-    pub(crate) fn slope_row(&self, i: usize) -> &[f64] {
-        &self.slope[i - 1]
-    }
-
-    /// Weights of the integral from 0 to node i in 1..=n; to the last one, exact to degree 2 n - 2.
-    pub(crate) fn integral_row(&self, i: usize) -> &[f64] {
-        &self.integral[i - 1]
     }
 
     /// Legendre coefficients of values at 0 and the nodes.
@@ -121,10 +195,10 @@ impl Nodes {
     }
 }
 
-/// A square matrix by rows.
-fn matrix(size: usize, entry: impl Fn(usize, usize) -> f64) -> Vec<Vec<f64>> {
-    let row = |i| (0..size).map(|j| entry(i, j)).collect();
-    (0..size).map(row).collect()
+/// A matrix by rows.
+fn matrix([rows, columns]: [usize; 2], entry: impl Fn(usize, usize) -> f64) -> Vec<Vec<f64>> {
+    let row = |i| (0..columns).map(|j| entry(i, j)).collect();
+    (0..rows).map(row).collect()
 }
 
 /// Row k: what the Legendre polynomials of degree 0 to n > 0 hold of x^k.
@@ -235,7 +309,7 @@ mod tests {
                 let sum: f64 = basis.iter().zip(&values).map(|(a, b)| a * b).sum();
                 assert!((sum - value).abs() < 1e-13);
             }
-            let rows = (1..=n).map(|i| (i, nodes.slope_row(i), nodes.integral_row(i)));
+            let rows = (1..=n).map(|i| (i, &nodes.slope[i], &nodes.integral[i]));
             for (i, slope, integral) in rows {
                 let s = nodes.places[i];
                 let sum: f64 = slope.iter().zip(&values).map(|(a, b)| a * b).sum();
@@ -261,5 +335,19 @@ mod tests {
         }
         let mut singular = Factors::room(2);
         assert!(!singular.eliminate());
+    }
+
+    #[test]
+    fn powers_of_a_line() {
+        let found = Polynomial::power(0.3, -0.2, 2).below(1.0);
+        for s in [0.0, 0.2, 0.9, 1.0] {
+            let [value, slope, bend] = found.jet(s);
+            assert!((value - 1.0 + (0.3 - 0.2 * s) * (0.3 - 0.2 * s)).abs() < 1e-15);
+            assert!((slope - 0.4 * (0.3 - 0.2 * s)).abs() < 1e-15);
+            let [values, slopes] = found.jets(&[s, 0.5]);
+            assert_eq!((values[0], slopes[0]), (value, slope));
+            assert_eq!(found.value(s), value);
+            assert!((bend + 0.08).abs() < 1e-15);
+        }
     }
 }

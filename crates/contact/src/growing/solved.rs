@@ -2,8 +2,7 @@
 
 use crate::growing::arrivals::Piece;
 use crate::growing::equations::{Errors, March};
-use crate::growing::nodes::Nodes;
-use crate::growing::polynomial::LARGEST;
+use crate::growing::nodes::{LARGEST, Nodes};
 use crate::model::Plasticity;
 use crate::numeric::quadrature::{GAUSS_8, find_root, gauss, rising_root};
 use crate::plastic::branch::{Branch, nested};
@@ -179,14 +178,8 @@ impl SolvedContact {
         let (piece, place) = self.place(time)?;
         let [radius, slope, _] = piece.radius.jet(place);
         let (edge, turned) = (flow.yielding.edge(), self.turned(time));
-        let at = |radius: f64| {
-            let top = if turned {
-                flow.peak_indentation.sqrt()
-            } else {
-                radius
-            };
-            nested(edge, top, radius)
-        };
+        let top = flow.peak_indentation.sqrt();
+        let at = |radius| nested(edge, if turned { top } else { radius }, radius);
         let [less, here, more] = [1.0 - APART, 1.0, 1.0 + APART].map(|part| at(part * radius));
         let per = slope / (piece.time.jet(place)[1] * 2.0 * APART * radius);
         let unit = flow.disc_radius * flow.disc_radius;

@@ -113,24 +113,6 @@ impl<const N: usize> Local<N> {
     pub(crate) fn root(&self, from: f64, to: f64) -> f64 {
         find_root(|x| self.jet(x), from, to)
     }
-
-    /// Place and value of the extremum in [from, to] where the slope changes sign, else the larger end.
-    pub(crate) fn maximum(&self, from: f64, to: f64) -> (f64, f64) {
-        let slope = |x: f64| {
-            let [_, slope, half_curvature] = self.jet(x);
-            [slope, 2.0 * half_curvature]
-        };
-        if slope(from)[0] > 0.0 && slope(to)[0] < 0.0 {
-            let x = find_root(slope, from, to);
-            return (x, self.value(x));
-        }
-        let (left, right) = (self.value(from), self.value(to));
-        if left > right {
-            (from, left)
-        } else {
-            (to, right)
-        }
-    }
 }
 
 /// A zero of f (value, slope and whatever follows) between two places of different sign.
@@ -199,10 +181,21 @@ pub(crate) fn peak(samples: &[f64]) -> (f64, f64) {
         return (best as f64, largest);
     }
     let from = best.saturating_sub(2).min(samples.len() - 5);
-    let centre = (best - from) as f64;
-    let (place, value) =
-        Local::<5>::at(samples, from).maximum((centre - 1.0).max(0.0), (centre + 1.0).min(4.0));
-    (from as f64 + place, value)
+    let (local, centre) = (Local::<5>::at(samples, from), (best - from) as f64);
+    let [low, high] = [(centre - 1.0).max(0.0), (centre + 1.0).min(4.0)];
+    let slope = |x: f64| {
+        let [_, slope, half_curvature] = local.jet(x);
+        [slope, 2.0 * half_curvature]
+    };
+    // where the slope changes sign, else the larger end
+    let place = if slope(low)[0] > 0.0 && slope(high)[0] < 0.0 {
+        find_root(slope, low, high)
+    } else if local.value(low) > local.value(high) {
+        low
+    } else {
+        high
+    };
+    (from as f64 + place, local.value(place))
 }
 
 #[cfg(test)]

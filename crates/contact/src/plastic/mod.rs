@@ -50,9 +50,8 @@ impl Yielding {
 
     /// Radius of contact where the loading leaves Hertz's law.
     pub(crate) fn edge(&self) -> f64 {
-        self.fit
-            .map_or(self.depth, |fit| FITTED * fit.critical)
-            .sqrt()
+        let depth = self.fit.map_or(self.depth, |fit| FITTED * fit.critical);
+        depth.sqrt()
     }
 
     /// Loading beyond that radius.
