@@ -19,7 +19,8 @@
 //! So the numbers of a row depend neither on the order of rows nor on shards, threads and interruptions.
 
 use crate::collision::Collision;
-use crate::disc::refine::{Accuracy, Workspace, solve_disc};
+use crate::disc::implicit::Workspace;
+use crate::disc::refine::{Accuracy, solve_disc};
 use crate::disc::response::DiscResponse;
 use crate::disc::{FixedDisc, stability};
 use crate::energy;

@@ -5,9 +5,8 @@
 
 use crate::collision::Collision;
 use crate::disc::history::History;
-use crate::disc::refine::{
-    Accuracy, Found, Workspace, explicit, march_finely, solve_disc, stepped,
-};
+use crate::disc::implicit::Workspace;
+use crate::disc::refine::{Accuracy, Found, explicit, march_finely, solve_disc, stepped};
 use crate::disc::response::DiscResponse;
 use crate::disc::{FixedDisc, stability};
 use crate::energy::{radiated, work};

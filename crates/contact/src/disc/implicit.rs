@@ -26,17 +26,23 @@ pub fn march_implicit(
     impact: &FixedDisc<'_, impl DiscResponse>,
     step: f64,
 ) -> Result<History, MarchError> {
-    let mut history = History::at_touch(step);
-    march_into(impact, step, &mut Weights::default(), &mut history)?;
-    Ok(history)
+    let mut workspace = Workspace::default();
+    march_into(&mut workspace, impact, step)?;
+    Ok(workspace.history)
 }
 
-/// The same into weights and a history that take no new room once they are large enough.
+/// Weights and samples of the latest march: nothing is allocated once they are large enough.
+#[derive(Debug, Clone, Default)]
+pub struct Workspace {
+    pub(crate) weights: Weights,
+    pub(crate) history: History,
+}
+
+/// The same in the room of a workspace.
 pub(crate) fn march_into(
+    Workspace { weights, history }: &mut Workspace,
     impact: &FixedDisc<'_, impl DiscResponse>,
     step: f64,
-    weights: &mut Weights,
-    history: &mut History,
 ) -> Result<(), MarchError> {
     // before the weights, which need one evaluation a cell
     let cells = memory_cells(impact.memory(), step)?;

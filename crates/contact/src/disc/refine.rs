@@ -3,9 +3,8 @@
 use crate::disc::FixedDisc;
 use crate::disc::explicit::march_explicit;
 use crate::disc::history::History;
-use crate::disc::implicit::{march_implicit, march_into};
+use crate::disc::implicit::{Workspace, march_implicit, march_into};
 use crate::disc::response::DiscResponse;
-use crate::disc::weights::Weights;
 use crate::error::MarchError;
 use crate::law::quasi_static::expected_contact_time;
 use crate::model::StaticShare;
@@ -224,10 +223,8 @@ pub fn solve_disc(
         // the newest force is only just held by the contact law, and errors grow with it
         StaticShare::Dynamic => DYNAMIC_CAUTION,
     };
-    let begin = (duration, caution);
-    stepped(workspace, step, begin, asked, |step, workspace| {
-        march_into(impact, step, &mut workspace.weights, &mut workspace.history)
-    })
+    let march = |step, room: &mut Workspace| march_into(room, impact, step);
+    stepped(workspace, step, (duration, caution), asked, march)
 }
 
 /// A march with a step that is given, judged by one with half of it, or halved until the results are as accurate as asked.
@@ -335,11 +332,4 @@ fn distance(coarse: &History, fine: &History) -> f64 {
     });
     let largest = fine.force.iter().copied().fold(0.0, f64::max);
     differences.fold(0.0, f64::max) / largest
-}
-
-/// Weights and samples of the latest march: nothing is allocated once they are large enough.
-#[derive(Debug, Clone, Default)]
-pub struct Workspace {
-    pub(crate) weights: Weights,
-    pub(crate) history: History,
 }

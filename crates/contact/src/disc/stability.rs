@@ -19,8 +19,7 @@
 //! Theory: `docs/theory.md` (T42, T57).
 
 use crate::disc::FixedDisc;
-use crate::disc::implicit::march_into;
-use crate::disc::refine::Workspace;
+use crate::disc::implicit::{Workspace, march_into};
 use crate::disc::response::DiscResponse;
 use crate::error::{ContactError, MarchError};
 use crate::law::quasi_static::{largest_force, quasi_static};
@@ -69,7 +68,7 @@ pub(crate) fn check(
         });
     }
     let step = (impact.memory() / CELLS).min(springs.contact_time / STEPS);
-    march_into(impact, step, &mut workspace.weights, &mut workspace.history)?;
+    march_into(workspace, impact, step)?;
     let history = &workspace.history;
     match impact.share {
         StaticShare::Dynamic => {

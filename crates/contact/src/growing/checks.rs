@@ -53,7 +53,7 @@ fn folds(pieces: &[Piece], contact: &GrowingContact<'_>) -> Option<f64> {
     let radius = |piece: usize| pieces[piece].end.radius;
     let top = (0..pieces.len()).max_by(|&a, &b| radius(a).total_cmp(&radius(b)))?;
     let widest = radius(top);
-    let memory = contact.waves.memory() * contact.wave_time;
+    let memory = contact.waves.memory * contact.wave_time;
     for piece in &pieces[top..] {
         for i in 1..=SAMPLES {
             let place = i as f64 / SAMPLES as f64;
@@ -87,7 +87,7 @@ fn strikes_again(pieces: &[Piece], contact: &GrowingContact<'_>, velocity: f64) 
         .flat_map(|piece| (1..=SAMPLES).map(move |i| sample(piece, i)))
         .collect();
     let widest = samples.iter().fold(0.0_f64, |m, &[_, a, _]| m.max(a));
-    let memory = contact.waves.memory() * contact.wave_time * widest;
+    let memory = contact.waves.memory * contact.wave_time * widest;
     let gap_rate = |t: f64| velocity - relaxing(&samples, contact, t);
     // the gap opens first; it closes where the surface is faster than the striker for long enough
     let (mut gap, mut before) = (0.0_f64, end);

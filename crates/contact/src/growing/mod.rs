@@ -92,7 +92,14 @@ pub fn solve_growing(
     contact: &GrowingContact<'_>,
     accuracy: &Accuracy,
 ) -> Result<SolvedContact, MarchError> {
-    check(contact)?;
+    let outside = |name, value, range| Err(MarchError::OutOfRange { name, value, range });
+    let (phi, tau) = (contact.target_share, contact.wave_time);
+    if !(phi > 0.0 && phi <= 1.0) {
+        return outside("target_share", phi, "(0, 1]");
+    }
+    if !(tau > 0.0 && tau < 1e3) {
+        return outside("wave_time", tau, "(0, 1000)");
+    }
     let [least, largest] = TOLERANCES;
     let parts = [Some(accuracy.tolerance), accuracy.loss, accuracy.deflection];
     let asked = parts.into_iter().flatten().fold(largest, f64::min);
@@ -132,16 +139,4 @@ pub fn solve_growing(
             tolerance: accuracy.tolerance,
             estimate: before * accuracy.tolerance,
         })
-}
-
-fn check(contact: &GrowingContact<'_>) -> Result<(), MarchError> {
-    let outside = |name, value, range| Err(MarchError::OutOfRange { name, value, range });
-    let (phi, tau) = (contact.target_share, contact.wave_time);
-    if !(phi > 0.0 && phi <= 1.0) {
-        return outside("target_share", phi, "(0, 1]");
-    }
-    if !(tau > 0.0 && tau < 1e3) {
-        return outside("wave_time", tau, "(0, 1000)");
-    }
-    Ok(())
 }

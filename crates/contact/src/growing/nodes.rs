@@ -142,7 +142,7 @@ impl Nodes {
         };
         let mode = |k: usize, j: usize| {
             let part = |(s, weight): (f64, f64)| {
-                let [_, value] = legendre(k, 2.0 * s - 1.0);
+                let value = legendre(k, 2.0 * s - 1.0);
                 (2 * k + 1) as f64 * weight * value * lagrange(&places, j, s)
             };
             rule.on(0.0, 1.0).map(part).sum()

@@ -34,7 +34,7 @@ const ITERATIONS: usize = 30;
 /// # Errors
 /// [`MarchError::TooLong`] when the work is out of bounds.
 pub fn march_growing(contact: &GrowingContact<'_>, step: f64) -> Result<History, MarchError> {
-    let memory = contact.waves.memory() * contact.wave_time;
+    let memory = contact.waves.memory * contact.wave_time;
     let cells = (memory / step).min(1e9) as usize * 8;
     affordable(least_steps(step), cells, memory)?;
     let mut striker = StrikerMotion::new(step, 0.0, &starting_roots(step, 0.0));
@@ -113,7 +113,7 @@ const THIN: f64 = 0.4;
 /// f is fitted to marches that resolve the layer for phi up to 0.95 and thin layers, 1 for small phi, where u = v t undisturbed gives int V_p(sqrt(x)) dx = 2 m.
 fn end_layer(contact: &GrowingContact<'_>) -> [f64; 2] {
     let (phi, tau) = (contact.target_share, contact.wave_time);
-    let memory = contact.waves.memory() * tau;
+    let memory = contact.waves.memory * tau;
     if memory > THIN {
         return [0.0; 2];
     }
@@ -138,7 +138,7 @@ fn relaxing(
     cells: Range<usize>,
 ) -> (f64, f64) {
     let n = indentation.len() - 1;
-    let memory = contact.waves.memory() * contact.wave_time;
+    let memory = contact.waves.memory * contact.wave_time;
     let mut sum = 0.0;
     let mut prompt = 0.0;
     for j in cells {

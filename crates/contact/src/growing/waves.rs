@@ -27,8 +27,8 @@ pub(crate) const LEVELS: usize = SIZES.len();
 /// The waves under a flat punch; by default none, as of a half-space that answers at once.
 #[derive(Debug, Clone, Default)]
 pub struct PunchWaves {
-    /// Largest delay 2/c in a/c1.
-    memory: f64,
+    /// Time after which the response of a punch is static, in a/c1: Rayleigh's wave across the diameter, 2/c.
+    pub memory: f64,
     /// int (X/memory)^n dmu, n = 0 to 3.
     moments: [f64; 4],
     /// Of each level the delays X in a/c1, ascending, and the mass over the delay of each.
@@ -78,12 +78,6 @@ impl PunchWaves {
             neighbours: Some((near, far, fraction)),
             ..Self::default()
         }
-    }
-
-    /// Time after which the response of a punch is static, in a/c1: Rayleigh's wave across the diameter.
-    #[must_use]
-    pub fn memory(&self) -> f64 {
-        self.memory
     }
 
     /// int V_p dt in a/c1: 3/2 of the relaxation time of a Hertz disc's centre.
@@ -217,7 +211,7 @@ mod tests {
             );
             let relaxation = waves.relaxation_time() / centre.relaxation_time();
             assert!((relaxation - 1.5).abs() < 1e-12, "nu = {nu}: {relaxation}");
-            assert!((waves.memory() / centre.memory() - 2.0).abs() < 1e-14);
+            assert!((waves.memory / centre.memory() - 2.0).abs() < 1e-14);
         }
     }
 
@@ -231,7 +225,7 @@ mod tests {
             let medium = Medium::new(nu).unwrap();
             let waves = PunchWaves::new(&medium);
             let centre = SurfaceResponse::new(&medium, Deflection::Centre);
-            let end = waves.memory();
+            let end = waves.memory;
             assert!((waves.relaxation(0.0)[0] - 1.0).abs() < 1e-12);
             let all = waves.relaxation(1.1 * end);
             assert!(all[0].abs() < 1e-12 && (all[1] / waves.relaxation_time() - 1.0).abs() < 1e-12);

@@ -318,7 +318,7 @@ mod tests {
                 let course = Course::new(&force, 0.0, 2e-3);
                 let [velocity, largest] = motion(force, course.contact_time, 2e-3);
                 let loss = 1.0 - velocity.powi(2);
-                let allowed = 0.03 * phi * (tau * waves.memory()).powi(4) + 1e-7;
+                let allowed = 0.03 * phi * (tau * waves.memory).powi(4) + 1e-7;
                 for (found, exact) in [
                     (found.peak_force, course.peak_force),
                     (found.peak_displacement, largest),

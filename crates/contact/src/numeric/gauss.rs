@@ -1,7 +1,7 @@
 //! Rules beside Gauss and Legendre's: Radau's, and Gauss's of a measure given by many point masses.
 
-/// P_(n-1) and P_n at x.
-pub(crate) fn legendre(n: usize, x: f64) -> [f64; 2] {
+/// P_n at x.
+pub(crate) fn legendre(n: usize, x: f64) -> f64 {
     let (mut before, mut value) = (0.0, 1.0);
     for k in 1..=n {
         let k = k as f64;
@@ -10,7 +10,7 @@ pub(crate) fn legendre(n: usize, x: f64) -> [f64; 2] {
             ((2.0 * k - 1.0) * x * value - (k - 1.0) * before) / k,
         );
     }
-    [before, value]
+    value
 }
 
 /// The n nodes of Radau's rule on (0, 1] that holds the right end, ascending: eigenvalues of Legendre's Jacobi matrix whose
