@@ -194,7 +194,8 @@ impl ResponseTable {
     #[inline]
     pub fn integrals(&self, t: f64) -> [f64; 2] {
         let m = self.memory;
-        let Some(([[w0, v0, u0], [w1, v1, u1]], x)) = self.cell(t) else {
+        let jet = |[w, v, u]: &[f64; 3]| [*u, v * WIDTH, w * WIDTH * WIDTH];
+        let Some(([before, after], x)) = self.cell(t) else {
             let [_, once, twice] = self.nodes[CELLS];
             let beyond = t - m;
             return [
@@ -202,14 +203,7 @@ impl ResponseTable {
                 twice * m * m + beyond * (once * m + 0.5 * beyond),
             ];
         };
-        // quintic through value, slope and curvature at both ends of the cell
-        let (a, b) = (v0 * WIDTH, 0.5 * w0 * WIDTH * WIDTH);
-        let rise = u1 - u0 - a - b;
-        let tilt = v1 * WIDTH - a - 2.0 * b;
-        let bend = 0.5 * (w1 - w0) * WIDTH * WIDTH;
-        let [c, d, e] = quintic(rise, tilt, bend);
-        let twice = u0 + x * (a + x * (b + x * (c + x * (d + x * e))));
-        let once = a + x * (2.0 * b + x * (3.0 * c + x * (4.0 * d + x * 5.0 * e)));
+        let [twice, once, _] = quintic(jet(before), jet(after), x);
         [once * CELLS as f64 * m, twice * m * m]
     }
 }

@@ -191,16 +191,10 @@ impl Roots<'_> {
             let tangent = self.latest - miss / (ts + delay * a_s);
             let low = self.arrival - t0 - delay * a0;
             let secant = self.latest * low / (low + miss);
-            let first = if tangent > 0.3 * self.latest && tangent < self.latest {
-                tangent
-            } else {
-                secant
-            };
-            if first > 0.0 && first < self.latest {
-                first
-            } else {
-                0.5 * self.latest
-            }
+            let near = tangent > 0.3 * self.latest && tangent < self.latest;
+            let first = if near { tangent } else { secant };
+            let inside = first > 0.0 && first < self.latest;
+            if inside { first } else { 0.5 * self.latest }
         })
     }
 

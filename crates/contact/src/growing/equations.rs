@@ -395,11 +395,7 @@ impl Equations<'_> {
     fn goes_on(&self, motion: &Motion) -> bool {
         let n = self.march.nodes.degree;
         let closed = motion.radius[n] <= CLOSED;
-        let slack = if closed {
-            SLACK * self.march.accuracy
-        } else {
-            0.0
-        };
+        let slack = f64::from(closed) * SLACK * self.march.accuracy;
         let rises = motion.time[..=n].windows(2).all(|t| t[1] >= t[0] - slack);
         let positive = motion.radius[1..n].iter().all(|&a| a > 0.0);
         rises && positive && (closed || motion.time_slope[n] > 0.0)

@@ -28,14 +28,18 @@ pub(crate) fn hermite([v0, s0]: [f64; 2], [v1, s1]: [f64; 2], x: f64) -> f64 {
     v0 + x * (s0 + x * (rise - s0 - cubic + x * cubic))
 }
 
-/// The third to fifth coefficient of the quintic on [0, 1] whose first three are known, from what its value, its slope and
-/// half its curvature at one are more than theirs.
+/// The quintic on [0, 1] with these values, slopes and curvatures at its ends: its own at x.
 #[inline]
-pub(crate) fn quintic(rise: f64, tilt: f64, turn: f64) -> [f64; 3] {
+pub(crate) fn quintic([v0, a, bend0]: [f64; 3], [v1, s1, bend1]: [f64; 3], x: f64) -> [f64; 3] {
+    let b = 0.5 * bend0;
+    let (rise, tilt, turn) = (v1 - v0 - a - b, s1 - a - bend0, 0.5 * (bend1 - bend0));
+    let c = 10.0 * rise - 4.0 * tilt + turn;
+    let d = -15.0 * rise + 7.0 * tilt - 2.0 * turn;
+    let e = 6.0 * rise - 3.0 * tilt + turn;
     [
-        10.0 * rise - 4.0 * tilt + turn,
-        -15.0 * rise + 7.0 * tilt - 2.0 * turn,
-        6.0 * rise - 3.0 * tilt + turn,
+        v0 + x * (a + x * (b + x * (c + x * (d + x * e)))),
+        a + x * (2.0 * b + x * (3.0 * c + x * (4.0 * d + x * 5.0 * e))),
+        2.0 * b + x * (6.0 * c + x * (12.0 * d + x * 20.0 * e)),
     ]
 }
 
