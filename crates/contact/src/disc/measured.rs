@@ -11,7 +11,7 @@ use crate::energy::work;
 use crate::error::MarchError;
 use crate::numeric::cubic::force_root;
 use crate::numeric::quadrature::{GAUSS_8, Local, peak};
-use crate::summary::Summary;
+use crate::summary::{SMALL_LOSS, Summary};
 use crate::units::INVERSE_MASS;
 
 /// Samples in contact that the interpolation needs.
@@ -85,9 +85,6 @@ impl Summary {
         Ok((summary, how))
     }
 }
-
-/// Loss below which it is taken from the work on the half-space, not from the momentum.
-const SMALL_LOSS: f64 = 0.03;
 
 /// Velocity of departure and loss.
 ///

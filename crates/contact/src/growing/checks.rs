@@ -59,11 +59,9 @@ fn folds(pieces: &[Piece], contact: &GrowingContact<'_>) -> Option<f64> {
             let place = i as f64 / SAMPLES as f64;
             let [time, time_slope, _] = piece.time.jet(place);
             let [radius, radius_slope, _] = piece.radius.jet(place);
-            if radius < SMALL * widest || radius_slope >= 0.0 {
-                continue;
-            }
+            let shrinks = radius >= SMALL * widest && radius_slope < 0.0;
             let age = memory.min((end - time) / radius);
-            if time_slope + age * radius_slope < 0.0 {
+            if shrinks && time_slope + age * radius_slope < 0.0 {
                 return Some(time);
             }
         }
@@ -88,12 +86,11 @@ fn strikes_again(pieces: &[Piece], contact: &GrowingContact<'_>, velocity: f64) 
         .collect();
     let widest = samples.iter().fold(0.0_f64, |m, &[_, a, _]| m.max(a));
     let memory = contact.waves.memory * contact.wave_time * widest;
-    let gap_rate = |t: f64| velocity - relaxing(&samples, contact, t);
     // the gap opens first; it closes where the surface is faster than the striker for long enough
     let (mut gap, mut before) = (0.0_f64, end);
     for i in 0..LOOKS {
         let t = end + memory * ((i as f64 + 0.5) / LOOKS as f64).powi(2);
-        gap += gap_rate(t) * (t - before);
+        gap += (velocity - relaxing(&samples, contact, t)) * (t - before);
         before = t;
         if gap > NOISE {
             return Some(t);

@@ -307,7 +307,7 @@ impl Equations<'_> {
     /// or time does not go on.
     pub(crate) fn solve(&self, mut sought: [f64; SIZE]) -> Option<Solution> {
         let n = self.march.nodes.degree;
-        let mut residual = self.to_find(self.march.level);
+        let mut residual = self.fresh_residual(self.march.level);
         let mut matrix = Factors::room(n);
         let mut before = f64::INFINITY;
         // Newton's next change would be about the square
@@ -335,8 +335,8 @@ impl Equations<'_> {
         None
     }
 
-    /// Residuals to be found with a rule over the waves.
-    fn to_find(&self, level: usize) -> Residual<'_> {
+    /// Residuals of no motion yet, by a rule over the waves.
+    fn fresh_residual(&self, level: usize) -> Residual<'_> {
         Residual {
             rule: self.march.contact.waves.rule(level),
             ..Residual::default()
@@ -354,7 +354,7 @@ impl Equations<'_> {
     /// One more change, by the finer rule.
     fn corrected(&self, mut sought: [f64; SIZE], matrix: &Factors) -> Option<Solution> {
         let motion = self.moves(&sought)?;
-        let mut residual = self.to_find(self.march.level + 1);
+        let mut residual = self.fresh_residual(self.march.level + 1);
         self.residual(&sought, &motion, &mut residual);
         let change = &mut residual.value[..self.march.nodes.degree];
         matrix.solve(change);

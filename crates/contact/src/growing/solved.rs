@@ -7,7 +7,7 @@ use crate::model::Plasticity;
 use crate::numeric::quadrature::{GAUSS_8, find_root, gauss, rising_root};
 use crate::plastic::branch::{Branch, nested};
 use crate::plastic::{Flow, Yielding};
-use crate::summary::{Estimates, Instant, Summary};
+use crate::summary::{Estimates, Instant, SMALL_LOSS, Summary};
 use crate::units::INVERSE_MASS;
 
 /// A contact whose radius follows the load, in collision units.
@@ -27,9 +27,6 @@ pub struct SolvedContact {
     /// Work on the waves until each piece, over the kinetic energy.
     radiated: Vec<f64>,
 }
-
-/// Loss below which it is taken from the work on the half-space, not from the momentum.
-const SMALL_LOSS: f64 = 0.03;
 
 /// Factors from the sums of the pieces' errors to those of the results, where they are not one.
 const PEAK_FORCE: f64 = 0.4;

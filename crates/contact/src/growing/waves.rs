@@ -90,8 +90,8 @@ impl PunchWaves {
     #[must_use]
     pub fn moment(&self, n: i32) -> f64 {
         let known = usize::try_from(n).ok().and_then(|n| self.moments.get(n));
-        let reduced = |waves: &Self| [moment(&waves.points, n)];
-        known.map_or_else(|| self.mixed(&reduced)[0], |&known| known) * self.memory.powi(n)
+        let reduced = || self.mixed(&|waves: &Self| [moment(&waves.points, n)])[0];
+        known.copied().unwrap_or_else(reduced) * self.memory.powi(n)
     }
 
     /// V_p(t), t in a/c1, and its integral from 0 to t; constant from the memory on.

@@ -25,7 +25,7 @@ use crate::disc::history::History;
 use crate::growing::waves::PunchWaves;
 use crate::law::pulse::pulse;
 use crate::numeric::quadrature::chebyshev;
-use crate::summary::{Estimates, Summary};
+use crate::summary::{Estimates, SMALL_LOSS, Summary};
 
 /// The terms of the expansion in the memory, in collision units.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -178,9 +178,6 @@ fn depth_factor(target_share: f64, shape: f64) -> f64 {
     let rest = 0.028 + 2.2 * away * away;
     1.0 - fall * target_share + rest * target_share.powi(8)
 }
-
-/// Loss below which the restitution is taken from it.
-const SMALL_LOSS: f64 = 0.03;
 
 /// What c^3, c b and e add to the results beyond the equation, fitted to [`solve_growing`](crate::growing::solve_growing).
 ///
