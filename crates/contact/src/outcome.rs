@@ -19,7 +19,8 @@
 //! So the numbers of a row depend neither on the order of rows nor on shards, threads and interruptions.
 
 use crate::collision::Collision;
-use crate::disc::refine::{Accuracy, Workspace, solve_disc};
+use crate::disc::implicit::Workspace;
+use crate::disc::refine::{Accuracy, solve_disc};
 use crate::disc::response::DiscResponse;
 use crate::disc::{FixedDisc, stability};
 use crate::energy;
@@ -102,22 +103,15 @@ impl Place {
             return None;
         }
         let (nu, memory) = (collision.target_poisson_ratio, plan.groups.memory);
-        if !on_disc {
+        let (fixed, groups) = if on_disc {
+            let radius_m = disc_radius_m(settings, collision);
+            let (coupling, _) = collision.disc_groups(response.static_compliance(), radius_m);
+            ([nu, 0.0], [memory / response.memory(), coupling])
+        } else {
             let fixed = [nu, collision.target_share()];
-            let groups = [memory / response.punch_memory(), 1.0];
-            return Some(Self::new(settings, Family::Growing, fixed, groups));
-        }
-        let (family, coupling) = match settings.static_share {
-            StaticShare::Full => (Family::Full, plan.groups.coupling),
-            StaticShare::Dynamic => {
-                let radius_m = disc_radius_m(settings, collision);
-                let compliance = response.static_compliance();
-                let (coupling, _) = collision.disc_groups(compliance, radius_m);
-                (Family::Dynamic, coupling)
-            }
+            (fixed, [memory / response.punch_memory(), 1.0])
         };
-        let groups = [memory / response.memory(), coupling];
-        Some(Self::new(settings, family, [nu, 0.0], groups))
+        Some(Self::new(settings, plan.groups.family, fixed, groups))
     }
 
     /// Of a contact on Jackson and Green's fit with a dashpot.
@@ -163,15 +157,17 @@ impl Outcomes {
     /// Those that pay for so many rows, of which these are a sample; rows that are not marched with full memory have no
     /// place.
     pub(crate) fn of(rows: usize, sample: impl Iterator<Item = Option<Place>>) -> Self {
-        let mut counts = BTreeMap::new();
-        let mut sampled = 0.0;
+        let (mut counts, mut sampled) = (BTreeMap::new(), 0.0);
         for place in sample {
             sampled += 1.0;
             if let Some(place) = place {
                 *counts.entry(place.cell).or_insert(0.0) += 1.0;
             }
         }
-        counts.retain(|cell, count| *count * rows as f64 / sampled >= PAYS * cell.marches() as f64);
+        counts.retain(|cell: &Cell, count| {
+            let ([across, along], probes) = cell.nodes();
+            *count * rows as f64 / sampled >= PAYS * (across * along + probes) as f64
+        });
         let paying = counts.into_keys();
         Self {
             cells: paying.map(|cell| (cell, OnceLock::new())).collect(),
@@ -201,12 +197,6 @@ impl Cell {
             Family::Full | Family::Dynamic => ([NODES[fine]; 2], PROBES[1]),
             Family::Yielding => ([NODES[2]; 2], PROBES[2]),
         }
-    }
-
-    /// Marches of a contraction.
-    fn marches(&self) -> usize {
-        let ([across, along], probes) = self.nodes();
-        across * along + probes
     }
 
     /// The groups at a place in it.
@@ -250,9 +240,8 @@ impl Cell {
                 .max(relative(exact.peak_deflection, found.peak_deflection))
                 .max(relative(work, radiated));
             let loss = of_loss.map_or(0.0, |asked| exact.loss_distance(&found) / asked * tolerance);
-            missed = [exact.distance(&found), late, beside / BESIDE, loss]
-                .into_iter()
-                .fold(missed, f64::max);
+            let all = [exact.distance(&found), late, beside / BESIDE, loss];
+            missed = all.into_iter().fold(missed, f64::max);
         }
         let error = CAUTION * missed + left;
         (error <= tolerance).then_some((series, error))
@@ -295,11 +284,8 @@ impl Cell {
             Family::Dynamic => StaticShare::Dynamic,
         };
         let of_mean = responses.disc(fixed[0], Deflection::Mean).ok()?;
-        let response = if self.mean {
-            of_mean.clone()
-        } else {
-            responses.disc(fixed[0], Deflection::Centre).ok()?
-        };
+        let deflection = [Deflection::Centre, Deflection::Mean][usize::from(self.mean)];
+        let response = responses.disc(fixed[0], deflection).ok()?;
         let impact = FixedDisc {
             response: &*response,
             coupling: second,

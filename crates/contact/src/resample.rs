@@ -135,19 +135,9 @@ impl Resampler {
     /// The indentation, its slope and curvature in time: the polynomial that has all three of both ends.
     #[inline(always)]
     fn indentation(&self, cell: usize, x: f64) -> [f64; 3] {
-        let [u0, a, bend0] = self.indentation[cell];
-        let [u1, slope1, bend1] = self.indentation[cell + 1];
-        let b = 0.5 * bend0;
-        let rise = u1 - u0 - a - b;
-        let tilt = slope1 - a - bend0;
-        let turn = 0.5 * (bend1 - bend0);
-        let [c, d, e] = quintic(rise, tilt, turn);
+        let [u, slope, bend] = quintic(self.indentation[cell], self.indentation[cell + 1], x);
         let per = 1.0 / self.step;
-        [
-            u0 + x * (a + x * (b + x * (c + x * (d + x * e)))),
-            per * (a + x * (2.0 * b + x * (3.0 * c + x * (4.0 * d + x * 5.0 * e)))),
-            per * per * (2.0 * b + x * (6.0 * c + x * (12.0 * d + x * 20.0 * e))),
-        ]
+        [u, per * slope, per * per * bend]
     }
 
     /// Where the indentation changes its sign.
@@ -158,7 +148,7 @@ impl Resampler {
             if cell > 0 && (before > 0.0) != (after > 0.0) {
                 let value = |x: f64| {
                     let [u, slope, _] = self.indentation(cell, x);
-                    (u, slope * self.step)
+                    [u, slope * self.step]
                 };
                 found.push((cell as f64 + find_root(value, 0.0, 1.0)) * self.step);
             }

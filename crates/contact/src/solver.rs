@@ -5,14 +5,13 @@
 
 use crate::collision::Collision;
 use crate::disc::history::History;
-use crate::disc::refine::{
-    Accuracy, Found, Workspace, explicit, march_finely, solve_disc, stepped,
-};
+use crate::disc::implicit::Workspace;
+use crate::disc::refine::{Accuracy, Found, explicit, march_finely, solve_disc, stepped};
 use crate::disc::response::DiscResponse;
 use crate::disc::{FixedDisc, stability};
 use crate::energy::{radiated, work};
 use crate::error::{ContactError, MarchError};
-use crate::growing::march::March;
+use crate::growing::equations::March;
 use crate::growing::solve_growing;
 use crate::growing::solved::SolvedContact;
 use crate::growing::uniform::march_growing;

@@ -2,6 +2,9 @@
 
 use crate::units::INVERSE_MASS;
 
+/// Loss below which it is taken from the work on the half-space, not from the momentum.
+pub(crate) const SMALL_LOSS: f64 = 0.03;
+
 /// The scalar results of an impact in collision units.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Summary {

@@ -295,7 +295,7 @@ fn the_area_dashpot_keeps_its_bounds() {
             let case = random_scene(5000 + index);
             let waves = PunchWaves::new(&Medium::new(case.poisson_ratio).unwrap());
             let terms = AreaDashpot::new(case.target_share, case.wave_time, &waves);
-            let bounds = left_out(terms.lag, waves.memory() * case.wave_time);
+            let bounds = left_out(terms.lag, waves.memory * case.wave_time);
             let exact = solve(&case, &Accuracy::of_contact(3e-9, None)).unwrap();
             let (a, b) = (terms.summary(), exact.summary);
             let relative = |x: f64, y: f64| (x / y - 1.0).abs();

@@ -104,73 +104,9 @@ impl Edge {
         self.root(s + away, y * (1.0 + away / s).sqrt())
     }
 
-    /// int_0^m K(s) p''(s) ds, K what is left of the memory m.
-    pub(crate) fn kept(&self, relaxation: &Relaxation<impl Fn(f64) -> f64>) -> f64 {
-        let reach = self.root(
-            relaxation.memory,
-            (relaxation.memory / self.factor(0.0)[0]).sqrt(),
-        );
-        gauss(&GAUSS_4, 0.0, reach, |y| {
-            relaxation.remaining(self.time(y)) * self.slope(y)[1]
-        })
-    }
-
     /// int p ds until the root `reach`: p ds = y^4 R dy.
     pub(crate) fn impulse(&self, reach: f64) -> f64 {
         gauss(&GAUSS_4, 0.0, reach, |y| y.powi(4) * self.rate(y)[0])
-    }
-
-    /// int p' L ds until the root `reach` of a force that begins, or that ends: p' ds = 3 y^2 dy, L the zeroth moment times p'
-    /// and, where the memory is not short, a rest.
-    pub(crate) fn taken(
-        &self,
-        relaxation: &Relaxation<impl Fn(f64) -> f64>,
-        reach: f64,
-        ends: bool,
-    ) -> f64 {
-        let before_end = |y: f64| {
-            let s = self.time(y);
-            let oldest = self.root_beside(s, y, relaxation.memory);
-            gauss(&GAUSS_4, y, oldest, |x| {
-                relaxation.remaining(self.time(x) - s) * self.slope(x)[1]
-            })
-        };
-        gauss(&GAUSS_4, 0.0, reach, |y| {
-            let rest = match (relaxation.is_short(), ends) {
-                (true, _) => 0.0,
-                (false, true) => before_end(y),
-                (false, false) => -self.past_at_touch(relaxation, y),
-            };
-            3.0 * y * y * (relaxation.moments[0] * self.slope(y)[0] + rest)
-        })
-    }
-
-    /// L = int_0^min(s,m) (1 - W(x)) p'(s - x) dx at the root y of a force that begins.
-    pub(crate) fn delayed_at_touch(
-        &self,
-        relaxation: &Relaxation<impl Fn(f64) -> f64>,
-        y: f64,
-    ) -> f64 {
-        let [slope, bend] = self.slope(y);
-        let past = if relaxation.is_short() {
-            relaxation.moments[1] * bend / (y * self.rate(y)[0])
-        } else {
-            self.past_at_touch(relaxation, y)
-        };
-        relaxation.moments[0] * slope - past
-    }
-
-    /// What L is less than the zeroth moment times p'.
-    fn past_at_touch(&self, relaxation: &Relaxation<impl Fn(f64) -> f64>, y: f64) -> f64 {
-        let s = self.time(y);
-        let oldest = if relaxation.memory < s {
-            self.root_beside(s, y, -relaxation.memory)
-        } else {
-            0.0
-        };
-        gauss(&GAUSS_4, oldest, y, |x| {
-            relaxation.remaining(s - self.time(x)) * self.slope(x)[1]
-        })
     }
 }
 
@@ -223,8 +159,61 @@ impl Relaxation<()> {
 
 impl<F: Fn(f64) -> f64> Relaxation<F> {
     /// K(s) = int_s^m (1 - W): zero beyond the memory m.
-    pub(crate) fn remaining(&self, s: f64) -> f64 {
+    fn remaining(&self, s: f64) -> f64 {
         self.moments[0] + self.unit * (self.integral)(s / self.unit) - s
+    }
+
+    /// int K p'' ds between two roots of an edge, K at an age.
+    fn weighted(&self, edge: &Edge, [from, to]: [f64; 2], age: impl Fn(f64) -> f64) -> f64 {
+        gauss(&GAUSS_4, from, to, |y| {
+            self.remaining(age(edge.time(y))) * edge.slope(y)[1]
+        })
+    }
+
+    /// int_0^m K(s) p''(s) ds of a force that ends.
+    pub(crate) fn kept(&self, edge: &Edge) -> f64 {
+        let first = (self.memory / edge.factor(0.0)[0]).sqrt();
+        self.weighted(edge, [0.0, edge.root(self.memory, first)], |s| s)
+    }
+
+    /// int p' L ds until the root `reach` of a force that begins, or that ends: p' ds = 3 y^2 dy, L the zeroth moment times p'
+    /// and, where the memory is not short, a rest.
+    pub(crate) fn taken(&self, edge: &Edge, reach: f64, ends: bool) -> f64 {
+        let before_end = |y: f64| {
+            let s = edge.time(y);
+            let oldest = edge.root_beside(s, y, self.memory);
+            self.weighted(edge, [y, oldest], |x| x - s)
+        };
+        gauss(&GAUSS_4, 0.0, reach, |y| {
+            let rest = match (self.is_short(), ends) {
+                (true, _) => 0.0,
+                (false, true) => before_end(y),
+                (false, false) => -self.past_at_touch(edge, y),
+            };
+            3.0 * y * y * (self.moments[0] * edge.slope(y)[0] + rest)
+        })
+    }
+
+    /// L = int_0^min(s,m) (1 - W(x)) p'(s - x) dx at the root y of a force that begins.
+    pub(crate) fn delayed_at_touch(&self, edge: &Edge, y: f64) -> f64 {
+        let [slope, bend] = edge.slope(y);
+        let past = if self.is_short() {
+            self.moments[1] * bend / (y * edge.rate(y)[0])
+        } else {
+            self.past_at_touch(edge, y)
+        };
+        self.moments[0] * slope - past
+    }
+
+    /// What L is less than the zeroth moment times p'.
+    fn past_at_touch(&self, edge: &Edge, y: f64) -> f64 {
+        let s = edge.time(y);
+        let oldest = if self.memory < s {
+            edge.root_beside(s, y, -self.memory)
+        } else {
+            0.0
+        };
+        self.weighted(edge, [oldest, y], |x| s - x)
     }
 
     /// Whether L = int_0^m (1 - W(s)) p'(t - s) ds may be taken as the zeroth moment times p' in the work int p' L dt.
@@ -290,7 +279,7 @@ mod tests {
             for s in [1.0, 2.0] {
                 let convolved = |s: f64| integral(memory, |x| kernel(x) * force(s - x));
                 let exact = (convolved(s + 1e-3) - convolved(s - 1e-3)) / 2e-3;
-                let found = edge.delayed_at_touch(&relaxation, root(s));
+                let found = relaxation.delayed_at_touch(&edge, root(s));
                 assert!(
                     (found / exact - 1.0).abs() < digits,
                     "{a} {memory}: {found} {exact}"
@@ -298,7 +287,7 @@ mod tests {
             }
             let slope = |s: f64| edge.slope(root(s))[0];
             let exact = integral(memory, |x| kernel(x) * slope(x));
-            let found = edge.kept(&relaxation);
+            let found = relaxation.kept(&edge);
             assert!(
                 (found / exact - 1.0).abs() < digits,
                 "{a} {memory}: {found} {exact}"

@@ -35,7 +35,7 @@ pub fn march_explicit(
             impact.coupling * impact.response.impulse(t) * step / impact.wave_time
         })
         .collect();
-    let mut history = History::at_touch(step, 256);
+    let mut history = History::at_touch(step);
     history.velocity.push(1.0);
     loop {
         let n = history.force.len();

@@ -52,36 +52,28 @@ pub struct History {
 }
 
 impl History {
-    /// At the touch, with room for as many samples.
-    pub(crate) fn at_touch(step: f64, capacity: usize) -> Self {
-        Self::begun(step, std::array::from_fn(|_| Vec::with_capacity(capacity)))
+    /// At the touch.
+    pub(crate) fn at_touch(step: f64) -> Self {
+        let mut history = Self::default();
+        history.restart(step);
+        history
     }
 
     /// Forgets everything but the room that it takes.
     pub(crate) fn restart(&mut self, step: f64) {
-        let room = [
-            &mut self.force,
-            &mut self.displacement,
-            &mut self.deflection,
-        ];
-        *self = Self::begun(step, room.map(std::mem::take));
-    }
-
-    /// At the touch, in the room of force, displacement and deflection.
-    fn begun(step: f64, mut room: [Vec<f64>; 3]) -> Self {
-        for samples in &mut room {
+        let begun = |samples: &mut Vec<f64>| {
             samples.clear();
             samples.push(0.0);
-        }
-        let [force, displacement, deflection] = room;
-        Self {
+            std::mem::take(samples)
+        };
+        *self = Self {
             step,
-            force,
-            displacement,
-            deflection,
+            force: begun(&mut self.force),
+            displacement: begun(&mut self.displacement),
+            deflection: begun(&mut self.deflection),
             error: f64::INFINITY,
             ..Self::default()
-        }
+        };
     }
 
     /// Samples of a contact that was solved by pieces, a step apart up to the first after it, with the pieces themselves.
@@ -90,7 +82,7 @@ impl History {
     #[must_use]
     pub fn of_pieces(solved: &SolvedContact, step: f64) -> Self {
         let contact_time = solved.summary.contact_time;
-        let mut history = Self::at_touch(step, (contact_time / step) as usize + 2);
+        let mut history = Self::at_touch(step);
         let times = (1..).map(|i| f64::from(i) * step);
         for time in times.take_while(|time| *time < contact_time) {
             let now = solved.state(time);

@@ -26,17 +26,23 @@ pub fn march_implicit(
     impact: &FixedDisc<'_, impl DiscResponse>,
     step: f64,
 ) -> Result<History, MarchError> {
-    let mut history = History::at_touch(step, 256);
-    march_into(impact, step, &mut Weights::default(), &mut history)?;
-    Ok(history)
+    let mut workspace = Workspace::default();
+    march_into(&mut workspace, impact, step)?;
+    Ok(workspace.history)
 }
 
-/// The same into weights and a history that take no new room once they are large enough.
+/// Weights and samples of the latest march: nothing is allocated once they are large enough.
+#[derive(Debug, Clone, Default)]
+pub struct Workspace {
+    pub(crate) weights: Weights,
+    pub(crate) history: History,
+}
+
+/// The same in the room of a workspace.
 pub(crate) fn march_into(
+    Workspace { weights, history }: &mut Workspace,
     impact: &FixedDisc<'_, impl DiscResponse>,
     step: f64,
-    weights: &mut Weights,
-    history: &mut History,
 ) -> Result<(), MarchError> {
     // before the weights, which need one evaluation a cell
     let cells = memory_cells(impact.memory(), step)?;
@@ -72,11 +78,8 @@ pub(crate) fn march_into(
         })?;
         roots = [solved, roots[0], roots[1], roots[2], roots[3]];
         let force = solved * solved * solved;
-        history.push(
-            force,
-            free - inertia * force,
-            known_deflection + elastic * force,
-        );
+        let displacement = free - inertia * force;
+        history.push(force, displacement, known_deflection + elastic * force);
         striker.push(force);
         if force > 0.0 {
             free_since = 0;
@@ -110,6 +113,6 @@ fn missed(
     std::array::from_fn(|i| {
         let y = roots[i];
         force[i + 1] = y * y * y;
-        edge.delayed_at_touch(relaxation, y) - weights.delayed(&force[..i + 2])
+        relaxation.delayed_at_touch(edge, y) - weights.delayed(&force[..i + 2])
     })
 }

@@ -11,7 +11,7 @@ use crate::energy::work;
 use crate::error::MarchError;
 use crate::numeric::cubic::force_root;
 use crate::numeric::quadrature::{GAUSS_8, Local, peak};
-use crate::summary::Summary;
+use crate::summary::{SMALL_LOSS, Summary};
 use crate::units::INVERSE_MASS;
 
 /// Samples in contact that the interpolation needs.
@@ -61,7 +61,9 @@ impl Summary {
             }
         }
         let (place, peak_force) = peak(force);
-        let contacts = count_contacts(force, peak_force);
+        // those whose force exceeds 1e-6 of the largest
+        let counts = |contact: &&[f64]| contact.iter().any(|p| *p > 1e-6 * peak_force);
+        let contacts = force.split(|p| *p <= 0.0).filter(counts).count();
         let (by_momentum, (velocity, loss)) = if contacts == 1 {
             let v = 1.0 - INVERSE_MASS * impulse;
             (v, departure(v, history))
@@ -84,9 +86,6 @@ impl Summary {
     }
 }
 
-/// Loss below which it is taken from the work on the half-space, not from the momentum.
-const SMALL_LOSS: f64 = 0.03;
-
 /// Velocity of departure and loss.
 ///
 /// Hertz's spring gives back what it takes, so the loss is the work int p dw: an error of this sum
@@ -108,21 +107,6 @@ fn departure(velocity: f64, history: &History) -> (f64, f64) {
 pub(crate) fn first_separation(force: &[f64]) -> usize {
     let free = force.iter().skip(1).position(|&p| p <= 0.0);
     free.map_or(force.len(), |i| i + 1)
-}
-
-/// Contacts whose force exceeds 1e-6 of the largest.
-fn count_contacts(force: &[f64], peak_force: f64) -> usize {
-    let mut contacts = 0;
-    let mut counted = false;
-    for &p in force {
-        if p <= 0.0 {
-            counted = false;
-        } else if !counted && p > 1e-6 * peak_force {
-            counted = true;
-            contacts += 1;
-        }
-    }
-    contacts
 }
 
 /// Uncertainty of the time spent in the end layer.
@@ -172,14 +156,12 @@ fn end_of_contact(history: &History, end: usize) -> (f64, f64) {
     // Samples 0..=k by Euler-Maclaurin, the rest from b with x^2 the time before the end.
     let rest = place - (k - from) as f64;
     let root = rest.sqrt();
-    let tail: f64 = GAUSS_8
-        .iter()
-        .map(|&(x, weight)| {
-            let before = (root * x) * (root * x);
-            let y = force_root(a, local.value(place - before), 0.0).unwrap_or(0.0);
-            weight * root * 2.0 * root * x * y * y * y
-        })
-        .sum();
+    let part = |&(x, weight): &(f64, f64)| {
+        let before = (root * x) * (root * x);
+        let y = force_root(a, local.value(place - before), 0.0).unwrap_or(0.0);
+        weight * root * 2.0 * root * x * y * y * y
+    };
+    let tail: f64 = GAUSS_8.iter().map(part).sum();
     (contact_time, history.impulse_until(k) + tail * step)
 }
 

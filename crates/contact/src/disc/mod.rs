@@ -1,6 +1,6 @@
 //! An impact on a disc of fixed radius, in dimensionless groups, and its marches.
 //!
-//! In reading order: `response` and `table` are how the loaded surface answers, `stability` says whether there is a contact
+//! In reading order: `response` is how the loaded surface answers, `stability` says whether there is a contact
 //! at all; `implicit` is the march, with the half-space's memory in `weights`, the striker's motion in `striker`, the force
 //! next to the ends of contact in `edge`, the end itself and the work in `separation`; `measured` has the results of the samples, `refine` chooses the step;
 //! `explicit` is the paper's scheme, `history` the samples of all marches.
@@ -15,7 +15,6 @@ pub(crate) mod response;
 pub(crate) mod separation;
 pub(crate) mod stability;
 pub(crate) mod striker;
-pub(crate) mod table;
 pub(crate) mod weights;
 
 use crate::disc::response::DiscResponse;

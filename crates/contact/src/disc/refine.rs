@@ -3,9 +3,8 @@
 use crate::disc::FixedDisc;
 use crate::disc::explicit::march_explicit;
 use crate::disc::history::History;
-use crate::disc::implicit::{march_implicit, march_into};
+use crate::disc::implicit::{Workspace, march_implicit, march_into};
 use crate::disc::response::DiscResponse;
-use crate::disc::weights::Weights;
 use crate::error::MarchError;
 use crate::law::quasi_static::expected_contact_time;
 use crate::model::StaticShare;
@@ -28,9 +27,8 @@ impl From<f64> for Accuracy {
     /// A tolerance on the contact's results and on the largest deflection.
     fn from(tolerance: f64) -> Self {
         Self {
-            tolerance,
-            loss: None,
             deflection: Some(tolerance),
+            ..Self::of_contact(tolerance, None)
         }
     }
 }
@@ -67,14 +65,17 @@ impl Accuracy {
         let change = |of: fn(&Summary) -> f64| relative(of(fine), of(coarse));
         let error = (REST * fine.motion_distance(coarse))
             .max(fraction * change(|summary| summary.contact_time) + stays);
-        let parts = [
-            Some(error / self.tolerance),
-            self.loss
-                .map(|t| LOSS_REST * change(|summary| summary.loss) / t),
-            self.deflection
-                .map(|t| REST * change(|summary| summary.peak_deflection) / t),
-        ];
-        (parts.into_iter().flatten().fold(0.0, f64::max), error)
+        let loss = LOSS_REST * change(|summary| summary.loss);
+        let deflection = REST * change(|summary| summary.peak_deflection);
+        (self.excess(error / self.tolerance, loss, deflection), error)
+    }
+
+    /// The largest error over what is asked: that of the contact's results, which is so already, of the loss and of the
+    /// largest deflection.
+    pub(crate) fn excess(&self, contact: f64, loss: f64, deflection: f64) -> f64 {
+        let loss = self.loss.map_or(0.0, |asked| loss / asked);
+        let deflection = self.deflection.map_or(0.0, |asked| deflection / asked);
+        contact.max(loss).max(deflection)
     }
 
     /// The finer summary with its loss extrapolated from both, where restitution stays far from zero.
@@ -95,10 +96,8 @@ impl Accuracy {
     #[must_use]
     pub fn first_steps(&self) -> f64 {
         let contact = 12.0 * (1e-4 / self.tolerance).max(1.0).powf(0.4);
-        let loss = self
-            .loss
-            .map_or(0.0, |t| 13.0 * (1e-3 / t).max(1.0).powf(0.5));
-        contact.max(loss)
+        let of_loss = |asked: f64| 13.0 * (1e-3 / asked).max(1.0).powf(0.5);
+        contact.max(self.loss.map_or(0.0, of_loss))
     }
 }
 
@@ -114,12 +113,8 @@ pub fn refine(
     step: f64,
     accuracy: impl Into<Accuracy>,
 ) -> Result<Found, MarchError> {
-    halve(
-        |step| Summary::measured(&march(step)?),
-        step,
-        &accuracy.into(),
-        1.0,
-    )
+    let measured = |step| Summary::measured(&march(step)?);
+    halve(measured, step, &accuracy.into(), 1.0)
 }
 
 /// Error over what is allowed up to which the last march counts where a finer one needs too much work.
@@ -151,11 +146,9 @@ fn halve(
                     (ratio, error) = accuracy.judge(coarse, (&summary, end));
                     (ratio, error) = (caution * ratio, caution * error);
                     if ratio <= 1.0 {
-                        return Ok(Found {
-                            summary: Accuracy::extrapolated(coarse, &summary),
-                            error: (REPORTED * error).min(accuracy.tolerance).max(error),
-                            step: Some(step),
-                        });
+                        let summary = Accuracy::extrapolated(coarse, &summary);
+                        let reported = (REPORTED * error).min(accuracy.tolerance).max(error);
+                        return Ok(Found::marched(summary, reported, step));
                     }
                 }
                 (coarse, last) = (Some(summary), step);
@@ -166,11 +159,7 @@ fn halve(
             Err(MarchError::NoSolution { .. }) if attempt < 8 => {}
             Err(MarchError::TooLong { .. }) if ratio <= LENIENT => {
                 // once more, since what the caller keeps is that of the march that failed
-                return Ok(Found {
-                    summary: march(last)?.0,
-                    error: REPORTED * error,
-                    step: Some(last),
-                });
+                return Ok(Found::marched(march(last)?.0, REPORTED * error, last));
             }
             Err(other) => return Err(other),
         }
@@ -208,6 +197,13 @@ impl Found {
             step: None,
         }
     }
+
+    fn marched(summary: Summary, error: f64, step: f64) -> Self {
+        Self {
+            step: Some(step),
+            ..Self::unmarched(summary, error)
+        }
+    }
 }
 
 /// An impact on a disc by the implicit scheme: with a step that is given, or halved until the results are as accurate
@@ -227,10 +223,8 @@ pub fn solve_disc(
         // the newest force is only just held by the contact law, and errors grow with it
         StaticShare::Dynamic => DYNAMIC_CAUTION,
     };
-    let begin = (duration, caution);
-    stepped(workspace, step, begin, asked, |step, workspace| {
-        march_into(impact, step, &mut workspace.weights, &mut workspace.history)
-    })
+    let march = |step, room: &mut Workspace| march_into(room, impact, step);
+    stepped(workspace, step, (duration, caution), asked, march)
 }
 
 /// A march with a step that is given, judged by one with half of it, or halved until the results are as accurate as asked.
@@ -252,11 +246,8 @@ pub(crate) fn stepped(
     if let Some(step) = step {
         let (finer, _) = run(0.5 * step)?;
         let (summary, _) = run(step)?;
-        return Ok(Found {
-            summary,
-            error: summary.distance(&finer) * 4.0 / 3.0,
-            step: Some(step),
-        });
+        let error = summary.distance(&finer) * 4.0 / 3.0;
+        return Ok(Found::marched(summary, error, step));
     }
     halve(run, duration / asked.first_steps(), &asked, caution)
 }
@@ -272,12 +263,9 @@ pub(crate) fn explicit(
     let (history, summary) = march_explicit(impact, step)?;
     let (_, finer) = march_explicit(impact, 0.5 * step)?;
     workspace.history = history;
-    Ok(Found {
-        summary,
-        // first order: the rest is as large as the change over one halving
-        error: 2.0 * summary.distance(&finer),
-        step: Some(step),
-    })
+    // first order: the rest is as large as the change over one halving
+    let error = 2.0 * summary.distance(&finer);
+    Ok(Found::marched(summary, error, step))
 }
 
 /// Steps over the contact of the first march, and of the last at most, where the force at each instant is asked for.
@@ -344,11 +332,4 @@ fn distance(coarse: &History, fine: &History) -> f64 {
     });
     let largest = fine.force.iter().copied().fold(0.0, f64::max);
     differences.fold(0.0, f64::max) / largest
-}
-
-/// Weights and samples of the latest march: nothing is allocated once they are large enough.
-#[derive(Debug, Clone, Default)]
-pub struct Workspace {
-    pub(crate) weights: Weights,
-    pub(crate) history: History,
 }

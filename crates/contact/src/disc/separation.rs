@@ -31,6 +31,7 @@ use crate::disc::edge::{Edge, RESOLVED, Relaxation};
 use crate::disc::history::{History, Separation};
 use crate::disc::measured::first_separation;
 use crate::disc::response::DiscResponse;
+use crate::growing::nodes::dot;
 use crate::numeric::quadrature::Local;
 
 /// Search interval for the separation; the last sample in contact is unreliable, and the one before it may be.
@@ -70,11 +71,11 @@ fn separation(
     let mut correction = 0.0;
     for _ in 0..ITERATIONS {
         let edge = at(place)?;
-        let (value, slope) = displacement.value_and_slope(place);
+        let [value, slope, _] = displacement.jet(place);
         if slope >= 0.0 {
             return None;
         }
-        let kept = relaxation.coupling * edge.kept(relaxation);
+        let kept = relaxation.coupling * relaxation.kept(&edge);
         correction = UNSEEN * unseen * kept / slope;
         let next = (place - (value - kept) / slope - correction).clamp(EARLIEST, LATEST);
         let change = (next - place).abs();
@@ -155,20 +156,15 @@ fn dissipated(history: &History, relaxation: &Relaxation<impl Fn(f64) -> f64>) -
     if last + 1 < FIRST + NEEDED {
         return None;
     }
-    let edges = touch.taken(relaxation, first[2], false) + leave.taken(relaxation, r0, true);
+    let edges = relaxation.taken(&touch, first[2], false) + relaxation.taken(&leave, r0, true);
     let delayed = delayed_weights(relaxation);
     let rate = |n: usize| {
         let samples = &p[n - 2..n + 3];
-        let sum =
-            |weights: &[f64; 5]| -> f64 { samples.iter().zip(weights).map(|(p, w)| p * w).sum() };
-        sum(&DERIVATIVES[0]) * sum(&delayed)
+        dot(samples, &DERIVATIVES[0]) * dot(samples, &delayed)
     };
-    let middle: f64 = (FIRST..=last).map(rate).sum::<f64>()
-        - GREGORY
-            .iter()
-            .enumerate()
-            .map(|(i, weight)| (1.0 - weight) * (rate(FIRST + i) + rate(last - i)))
-            .sum::<f64>();
+    let end = |(i, weight): (usize, &f64)| (1.0 - weight) * (rate(FIRST + i) + rate(last - i));
+    let ends: f64 = GREGORY.iter().enumerate().map(end).sum();
+    let middle = (FIRST..=last).map(rate).sum::<f64>() - ends;
     Some(2.5 * relaxation.coupling * (edges + middle))
 }
 
@@ -179,13 +175,7 @@ fn delayed_weights(relaxation: &Relaxation<impl Fn(f64) -> f64>) -> [f64; 5] {
         return DERIVATIVES[0].map(|weight| m0 * weight);
     }
     let factors = [m0, -m1, m2 / 2.0, -m3 / 6.0];
-    std::array::from_fn(|i| {
-        factors
-            .iter()
-            .zip(&DERIVATIVES)
-            .map(|(factor, derivative)| factor * derivative[i])
-            .sum()
-    })
+    std::array::from_fn(|i| dot(&factors, &DERIVATIVES.map(|derivative| derivative[i])))
 }
 
 #[cfg(test)]

@@ -19,8 +19,7 @@
 //! Theory: `docs/theory.md` (T42, T57).
 
 use crate::disc::FixedDisc;
-use crate::disc::implicit::march_into;
-use crate::disc::refine::Workspace;
+use crate::disc::implicit::{Workspace, march_into};
 use crate::disc::response::DiscResponse;
 use crate::error::{ContactError, MarchError};
 use crate::law::quasi_static::{largest_force, quasi_static};
@@ -56,16 +55,9 @@ pub(crate) fn check(
     let steepness = 1.5 * coupling * largest_force(still).cbrt();
     let at_once = 1.0 - impact.share.factor();
     let centre = impact.response.deflection() == Deflection::Centre;
-    let bound = if centre { LARGEST_NEGATIVE } else { 0.0 };
-    if steepness * (at_once + bound) <= MARGIN {
-        return Ok(());
-    }
-    let negative = if centre {
-        negative_compliance(impact.response)
-    } else {
-        0.0
-    };
-    if steepness * (at_once + negative) <= MARGIN {
+    let sound = |negative: f64| steepness * (at_once + negative) <= MARGIN;
+    let exactly = || sound(negative_compliance(impact.response));
+    if !centre && sound(0.0) || centre && (sound(LARGEST_NEGATIVE) || exactly()) {
         return Ok(());
     }
     let (springs, _) = quasi_static(still);
@@ -76,7 +68,7 @@ pub(crate) fn check(
         });
     }
     let step = (impact.memory() / CELLS).min(springs.contact_time / STEPS);
-    march_into(impact, step, &mut workspace.weights, &mut workspace.history)?;
+    march_into(workspace, impact, step)?;
     let history = &workspace.history;
     match impact.share {
         StaticShare::Dynamic => {

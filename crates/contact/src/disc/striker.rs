@@ -144,7 +144,7 @@ mod tests {
     /// Errors of d and of the impulse at t = 1 for a force p of known integrals int p and int (1 - t) p.
     fn errors(step: f64, compliance: f64, p: impl Fn(f64) -> f64, exact: [f64; 2]) -> [f64; 2] {
         let n = (1.0 / step).round() as usize;
-        let mut history = History::at_touch(step, n);
+        let mut history = History::at_touch(step);
         let mut striker = StrikerMotion::new(step, compliance, &starting_roots(step, compliance));
         history.start = striker.missed[0];
         for i in 1..=n + 2 {

@@ -98,17 +98,11 @@ impl Weights {
     /// sum over j >= 1 of g_j (p_{n-j} - p_{n-j-1}), the part of the past; `past` holds p_0 .. p_{n-1}.
     #[inline]
     pub(crate) fn past(&self, past: &[f64]) -> f64 {
-        let start = match (self.values.get(past.len()), past.first()) {
-            (Some(weight), Some(first)) => weight * first,
-            (Some(_) | None, _) => 0.0,
-        };
+        let first = self.values.get(past.len()).zip(past.first());
+        let start = first.map_or(0.0, |(weight, force)| weight * force);
         let rises = past.windows(2).rev().map(|p| p[1] - p[0]);
-        start
-            + self.values[1..]
-                .iter()
-                .zip(rises)
-                .map(|(g, rise)| g * rise)
-                .sum::<f64>()
+        let parts = self.values[1..].iter().zip(rises);
+        start + parts.map(|(g, rise)| g * rise).sum::<f64>()
     }
 }
 

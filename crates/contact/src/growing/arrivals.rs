@@ -1,7 +1,7 @@
 //! A contact as pieces of polynomials, and where the waves that arrive at one of them left: by Newton's method, several
 //! at a time.
 
-use crate::growing::polynomial::Polynomial;
+use crate::growing::nodes::Polynomial;
 use crate::numeric::quadrature::{CLOSE, rising_root};
 use crate::plastic::branch::Law;
 
@@ -15,19 +15,39 @@ pub(crate) struct Piece {
     pub(crate) displacement: Polynomial,
     /// Force where it is not the cube of the radius.
     pub(crate) force: Option<Polynomial>,
-    /// Time and radius where it starts.
-    pub(crate) from: (f64, f64),
-    /// Time and radius where it ends.
-    pub(crate) to: (f64, f64),
+    pub(crate) start: State,
+    pub(crate) end: State,
+}
+
+/// What is known where a piece starts or ends.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct State {
+    pub(crate) time: f64,
+    pub(crate) radius: f64,
+    pub(crate) velocity: f64,
+    pub(crate) displacement: f64,
+    /// Slope of the indentation a^2.
+    pub(crate) slope: f64,
+}
+
+impl State {
+    /// When the striker touches.
+    pub(crate) const TOUCH: Self = Self {
+        time: 0.0,
+        radius: 0.0,
+        velocity: 1.0,
+        displacement: 0.0,
+        slope: 1.0,
+    };
 }
 
 impl Piece {
     /// Force and its first two slopes in the place.
     pub(crate) fn force(&self, place: f64) -> [f64; 3] {
         match &self.force {
-            Some(force) => force.curve(place),
+            Some(force) => force.jet(place),
             None => {
-                let [a, slope, bend] = self.radius.curve(place);
+                let [a, slope, bend] = self.radius.jet(place);
                 let square = 3.0 * a * a;
                 let second = 6.0 * a * slope * slope + square * bend;
                 [a.powi(3), square * slope, second]
@@ -37,9 +57,9 @@ impl Piece {
 
     /// Power that leaves the law, per place: (p v T' - F u_a a').
     pub(crate) fn losing(&self, place: f64) -> f64 {
-        let (radius, radius_slope) = self.radius.jet(place);
+        let [radius, radius_slope, _] = self.radius.jet(place);
         let here = self.law.branch.at(radius.max(0.0));
-        let travel = self.velocity.value(place) * self.time.jet(place).1;
+        let travel = self.velocity.value(place) * self.time.jet(place)[1];
         self.force(place)[0] * travel - here.force * here.depth_slope * radius_slope
     }
 }
@@ -47,30 +67,30 @@ impl Piece {
 /// The departures of waves of some delays that arrive at a place and a time of a piece after all others, in ascending
 /// order: later and later back in time.
 ///
-/// `own` has the time and the radius of that piece, `from` both where it starts; `found` holds departures of a nearby
-/// contact as first guesses, where `again`.
+/// `own` has the time and the radius of that piece, which starts at `start`; `found` holds departures of a nearby
+/// contact as first guesses, or of no piece at all.
 pub(crate) fn departures(
     pieces: &[Piece],
     own: [&Polynomial; 2],
-    from: (f64, f64),
+    start: &State,
     [place, arrival]: [f64; 2],
     delays: &[f64],
-    again: bool,
     found: &mut [Departure],
 ) {
     let mut index = pieces.len();
     let mut k = 0;
     while k < delays.len() {
-        let from = |index: usize| pieces.get(index).map_or(from, |piece| piece.from);
+        let arrives = |index: usize, delay: f64| {
+            let start = pieces.get(index).map_or(start, |piece| &piece.start);
+            start.time + delay * start.radius
+        };
         // the piece of the first of those that are left, and those that it holds too
-        while index > 0 && from(index).0 + delays[k] * from(index).1 > arrival {
+        while index > 0 && arrives(index, delays[k]) > arrival {
             index -= 1;
         }
-        let start = from(index);
-        let held = delays[k..]
-            .iter()
-            .take(LANES)
-            .take_while(|&delay| index == 0 || start.0 + delay * start.1 <= arrival)
+        let next = delays[k..].iter().take(LANES);
+        let held = next
+            .take_while(|&&delay| index == 0 || arrives(index, delay) <= arrival)
             .count();
         let ([time, radius], latest) = match pieces.get(index) {
             Some(piece) => ([&piece.time, &piece.radius], 1.0),
@@ -83,7 +103,7 @@ pub(crate) fn departures(
             latest,
         };
         let (delays, found) = (&delays[k..k + held], &mut found[k..k + held]);
-        roots.find(delays, index, again, found);
+        roots.find(delays, index, found);
         k += held;
     }
 }
@@ -91,8 +111,8 @@ pub(crate) fn departures(
 /// Where the wave of delay X that arrives now left: T + X a(T) = t.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Departure {
-    /// Index of the piece.
-    pub(crate) piece: usize,
+    /// Index of the piece; none of a wave that is yet to be found.
+    pub(crate) piece: Option<usize>,
     /// Place in it.
     pub(crate) place: f64,
     pub(crate) radius: f64,
@@ -118,24 +138,19 @@ struct Roots<'a> {
 const TOGETHER: usize = 4;
 
 impl Roots<'_> {
-    /// The roots for up to `LANES` delays; `found` holds first guesses, where `again`.
-    fn find(&self, delays: &[f64], index: usize, again: bool, found: &mut [Departure]) {
-        let mut places = [0.5 * self.latest; LANES];
-        let mut lanes = [delays[0]; LANES];
-        lanes[..delays.len()].copy_from_slice(delays);
-        if again && found.iter().all(|one| one.piece == index) {
-            for (place, one) in places.iter_mut().zip(found.iter()) {
-                *place = one.place;
-            }
+    /// The roots for up to `LANES` delays; `found` holds first guesses where they are of the piece `index`.
+    fn find(&self, delays: &[f64], index: usize, found: &mut [Departure]) {
+        let lanes = std::array::from_fn(|l| *delays.get(l).unwrap_or(&delays[0]));
+        let mut places = if found.iter().all(|one| one.piece == Some(index)) {
+            std::array::from_fn(|l| found.get(l).map_or(0.5 * self.latest, |one| one.place))
         } else {
-            self.guess(&lanes, &mut places);
-        }
-        let mut steps = [0.0; LANES];
-        let (mut radii, mut radius_slopes) = ([0.0; LANES], [0.0; LANES]);
-        let (mut times, mut time_slopes) = ([0.0; LANES], [0.0; LANES]);
+            self.guess(&lanes)
+        };
+        let [mut steps, mut time_slopes, mut radii, mut radius_slopes] = [[0.0; LANES]; 4];
         for _ in 0..TOGETHER {
-            self.time.jets(&places, &mut times, &mut time_slopes);
-            self.radius.jets(&places, &mut radii, &mut radius_slopes);
+            let times;
+            [times, time_slopes] = self.time.jets(&places);
+            [radii, radius_slopes] = self.radius.jets(&places);
             let mut largest = 0.0_f64;
             for l in 0..LANES {
                 let miss = times[l] + lanes[l] * radii[l] - self.arrival;
@@ -153,7 +168,7 @@ impl Roots<'_> {
             let inside = places[l] > 0.0 && places[l] < self.latest;
             *one = if steps[l].abs() < CLOSE && rises && inside {
                 Departure {
-                    piece: index,
+                    piece: Some(index),
                     place: places[l],
                     radius: radii[l] + radius_slopes[l] * steps[l],
                     time_slope: time_slopes[l],
@@ -166,44 +181,38 @@ impl Roots<'_> {
     }
 
     /// Secants over the piece.
-    fn guess(&self, delays: &[f64; LANES], places: &mut [f64; LANES]) {
+    fn guess(&self, delays: &[f64; LANES]) -> [f64; LANES] {
         let (t0, a0) = (self.time.value(0.0), self.radius.value(0.0));
-        let (t1, ts) = self.time.jet(self.latest);
-        let (a1, a_s) = self.radius.jet(self.latest);
-        for (place, delay) in places.iter_mut().zip(delays) {
+        let [t1, ts, _] = self.time.jet(self.latest);
+        let [a1, a_s, _] = self.radius.jet(self.latest);
+        delays.map(|delay| {
             // the tangent at the end where it falls into the piece, else the secant
             let miss = t1 + delay * a1 - self.arrival;
             let tangent = self.latest - miss / (ts + delay * a_s);
             let low = self.arrival - t0 - delay * a0;
             let secant = self.latest * low / (low + miss);
-            let first = if tangent > 0.3 * self.latest && tangent < self.latest {
-                tangent
-            } else {
-                secant
-            };
-            *place = if first > 0.0 && first < self.latest {
-                first
-            } else {
-                0.5 * self.latest
-            };
-        }
+            let near = tangent > 0.3 * self.latest && tangent < self.latest;
+            let first = if near { tangent } else { secant };
+            let inside = first > 0.0 && first < self.latest;
+            if inside { first } else { 0.5 * self.latest }
+        })
     }
 
     /// Newton's iterations inside a bracket; the earliest root in (0, latest).
     fn bracketed(&self, delay: f64, index: usize) -> Departure {
         let late = |place: f64| {
-            let (time, time_slope) = self.time.jet(place);
-            let (radius, radius_slope) = self.radius.jet(place);
+            let [time, time_slope, _] = self.time.jet(place);
+            let [radius, radius_slope, _] = self.radius.jet(place);
             let miss = time + delay * radius - self.arrival;
-            (miss, time_slope + delay * radius_slope)
+            [miss, time_slope + delay * radius_slope]
         };
         let [before, place] = rising_root(late, [0.0, self.latest], 0.5 * self.latest, 5e-16);
-        let (radius, radius_slope) = self.radius.jet(before);
+        let [radius, radius_slope, _] = self.radius.jet(before);
         Departure {
-            piece: index,
+            piece: Some(index),
             place,
             radius: radius + radius_slope * (place - before),
-            time_slope: self.time.jet(before).1,
+            time_slope: self.time.jet(before)[1],
             radius_slope,
         }
     }

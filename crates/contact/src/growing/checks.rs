@@ -49,20 +49,19 @@ pub(crate) fn passed(
 ///
 /// At the arrival t the age of a wave over the radius that it left, (t - T)/a, has to grow with the age.
 fn folds(pieces: &[Piece], contact: &GrowingContact<'_>) -> Option<f64> {
-    let end = pieces.last()?.to.0;
-    let top = (0..pieces.len()).max_by(|&a, &b| pieces[a].to.1.total_cmp(&pieces[b].to.1))?;
-    let widest = pieces[top].to.1;
-    let memory = contact.waves.memory() * contact.wave_time;
+    let end = pieces.last()?.end.time;
+    let radius = |piece: usize| pieces[piece].end.radius;
+    let top = (0..pieces.len()).max_by(|&a, &b| radius(a).total_cmp(&radius(b)))?;
+    let widest = radius(top);
+    let memory = contact.waves.memory * contact.wave_time;
     for piece in &pieces[top..] {
         for i in 1..=SAMPLES {
             let place = i as f64 / SAMPLES as f64;
-            let (time, time_slope) = piece.time.jet(place);
-            let (radius, radius_slope) = piece.radius.jet(place);
-            if radius < SMALL * widest || radius_slope >= 0.0 {
-                continue;
-            }
+            let [time, time_slope, _] = piece.time.jet(place);
+            let [radius, radius_slope, _] = piece.radius.jet(place);
+            let shrinks = radius >= SMALL * widest && radius_slope < 0.0;
             let age = memory.min((end - time) / radius);
-            if time_slope + age * radius_slope < 0.0 {
+            if shrinks && time_slope + age * radius_slope < 0.0 {
                 return Some(time);
             }
         }
@@ -72,7 +71,7 @@ fn folds(pieces: &[Piece], contact: &GrowingContact<'_>) -> Option<f64> {
 
 /// When the surface overtakes the striker after the end, if it does.
 fn strikes_again(pieces: &[Piece], contact: &GrowingContact<'_>, velocity: f64) -> Option<f64> {
-    let end = pieces.last()?.to.0;
+    let end = pieces.last()?.end.time;
     if velocity >= 0.0 {
         return Some(end);
     }
@@ -86,13 +85,12 @@ fn strikes_again(pieces: &[Piece], contact: &GrowingContact<'_>, velocity: f64) 
         .flat_map(|piece| (1..=SAMPLES).map(move |i| sample(piece, i)))
         .collect();
     let widest = samples.iter().fold(0.0_f64, |m, &[_, a, _]| m.max(a));
-    let memory = contact.waves.memory() * contact.wave_time * widest;
-    let gap_rate = |t: f64| velocity - relaxing(&samples, contact, t);
+    let memory = contact.waves.memory * contact.wave_time * widest;
     // the gap opens first; it closes where the surface is faster than the striker for long enough
     let (mut gap, mut before) = (0.0_f64, end);
     for i in 0..LOOKS {
         let t = end + memory * ((i as f64 + 0.5) / LOOKS as f64).powi(2);
-        gap += gap_rate(t) * (t - before);
+        gap += (velocity - relaxing(&samples, contact, t)) * (t - before);
         before = t;
         if gap > NOISE {
             return Some(t);
@@ -107,22 +105,14 @@ fn relaxing(samples: &[[f64; 3]], contact: &GrowingContact<'_>, t: f64) -> f64 {
     for (delay, rate) in contact.waves.rule(LEVEL) {
         let late = |[time, radius, _]: [f64; 3]| time + delay * contact.wave_time * radius - t;
         // from the end back: waves that have not come, then those that have, then the oldest, long gone
-        let mut left = [0.0; 2];
-        let mut under = true;
-        let mut crossings = 0;
-        for pair in samples.windows(2).rev() {
+        let mut left = samples.windows(2).rev().filter_map(|pair| {
             let (young, old) = (late(pair[1]), late(pair[0]));
-            if (old < 0.0) != under {
-                let part = young / (young - old);
-                if crossings < 2 {
-                    left[crossings] = pair[1][2] + part * (pair[0][2] - pair[1][2]);
-                }
-                crossings += 1;
-                under = !under;
-            }
-        }
-        if crossings >= 2 {
-            sum += rate * (left[1] - left[0]);
+            let part = young / (young - old);
+            let there = pair[1][2] + part * (pair[0][2] - pair[1][2]);
+            ((young < 0.0) != (old < 0.0)).then_some(there)
+        });
+        if let (Some(last), Some(first)) = (left.next(), left.next()) {
+            sum += rate * (first - last);
         }
     }
     -contact.target_share * sum / contact.wave_time

@@ -1,4 +1,4 @@
-//! The equations of a piece at its nodes and their derivatives.
+//! The equations of a piece at its nodes and their derivatives, solved by collocation and Newton's method.
 //!
 //! Along a piece time T and radius a are functions of a place s in [0, 1]; one of them is known.
 //!
@@ -12,33 +12,43 @@
 //! Indentation u, punches s, g = int ds/a and force p over the radius are those of a [`Law`]; Hertz's has u = s = a^2,
 //! g = 2 a and p = a^3.
 
-use crate::growing::arrivals::{Departure, Piece, departures};
-use crate::growing::nodes::{Factors, Nodes};
-use crate::growing::polynomial::{LARGEST, Polynomial, SIZE, dot};
+use crate::growing::arrivals::{Departure, Piece, State, departures};
+use crate::growing::nodes::{Factors, LARGEST, Nodes, Polynomial, SIZE, dot};
 use crate::growing::waves::GrowingContact;
 use crate::plastic::branch::{Law, Local};
 use crate::units::INVERSE_MASS;
 
-/// What is known where a piece starts or ends.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct State {
-    pub(crate) time: f64,
-    pub(crate) radius: f64,
-    pub(crate) velocity: f64,
-    pub(crate) displacement: f64,
-    /// Slope of the indentation a^2.
-    pub(crate) slope: f64,
+/// A contact on its way.
+#[derive(Debug)]
+pub(crate) struct March<'a> {
+    pub(crate) contact: GrowingContact<'a>,
+    /// Error that a piece may leave: of the force, in the end of the time.
+    pub(crate) accuracy: f64,
+    pub(crate) nodes: &'static Nodes,
+    pub(crate) pieces: Vec<Piece>,
+    /// Where they end.
+    pub(crate) state: State,
+    pub(crate) law: Law,
+    /// Of the rule over the waves.
+    pub(crate) level: usize,
+    /// Largest radius.
+    pub(crate) widest: f64,
+    /// int p (v - u') dt.
+    pub(crate) dissipated: f64,
+    pub(crate) errors: Errors,
 }
 
-impl State {
-    /// When the striker touches.
-    pub(crate) const TOUCH: Self = Self {
-        time: 0.0,
-        radius: 0.0,
-        velocity: 1.0,
-        displacement: 0.0,
-        slope: 1.0,
-    };
+/// Sums of the errors that the pieces estimate of themselves.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Errors {
+    /// Largest of the force at a time.
+    pub(crate) force: f64,
+    /// Of the momentum.
+    pub(crate) momentum: f64,
+    /// Of the end of contact.
+    pub(crate) end: f64,
+    /// Of the work done on the half-space.
+    pub(crate) work: f64,
 }
 
 /// What a piece is a function of.
@@ -50,22 +60,13 @@ pub(crate) enum Independent {
     Radius,
 }
 
-/// What the equations of a piece are made of.
+/// The next piece of a contact on its way.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Equations<'a> {
-    pub(crate) contact: GrowingContact<'a>,
-    pub(crate) nodes: &'a Nodes,
-    /// The pieces before.
-    pub(crate) pieces: &'a [Piece],
-    pub(crate) start: State,
-    pub(crate) law: Law,
+    pub(crate) march: &'a March<'a>,
     pub(crate) known: Independent,
     /// What is known: the time or the radius.
     pub(crate) given: Polynomial,
-    /// The rule over the waves that is solved with, and the next finer one that corrects.
-    pub(crate) rules: [&'a [(f64, f64)]; 2],
-    /// Error that is allowed.
-    pub(crate) accuracy: f64,
 }
 
 /// Time, radius and what follows from them at 0 and the nodes.
@@ -83,17 +84,47 @@ pub(crate) struct Motion {
 
 /// Residuals and what drives the radius at the nodes, with the departures of all waves to them.
 #[derive(Debug, Default)]
-pub(crate) struct Residual {
+pub(crate) struct Residual<'a> {
+    /// The rule over the waves.
+    pub(crate) rule: &'a [(f64, f64)],
     pub(crate) value: [f64; LARGEST],
-    drive: [f64; LARGEST],
-    departures: Vec<Departure>,
-    delays: Vec<f64>,
+    pub(crate) drive: [f64; LARGEST],
+    pub(crate) departures: Vec<Departure>,
+    pub(crate) delays: Vec<f64>,
 }
+
+/// A piece that solves its equations at its nodes.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Solution {
+    pub(crate) piece: Piece,
+    /// Largest radius at the nodes.
+    pub(crate) widest: f64,
+    /// int p (v - u') dt over the piece.
+    pub(crate) dissipated: f64,
+    /// Size of the last of the polynomial's terms in what was sought.
+    pub(crate) truncated: f64,
+    /// Change of what was sought by the finer rule over the waves.
+    pub(crate) waves: f64,
+    /// What was sought, at 0 and the nodes.
+    pub(crate) sought: [f64; SIZE],
+}
+
+/// Newton's iterations at most.
+const ITERATIONS: usize = 14;
+
+/// Iterations after which each has to halve the change.
+const SETTLED: usize = 6;
+
+/// Error of the time that the last instants may have, over the accuracy.
+const SLACK: f64 = 0.3;
+
+/// Radius that is zero but for rounding.
+const CLOSED: f64 = 1e-14;
 
 impl Equations<'_> {
     /// Polynomials of time and radius through values of what is sought.
     pub(crate) fn polynomials(&self, sought: &[f64; SIZE]) -> (Polynomial, Polynomial) {
-        let sought = self.nodes.polynomial(sought);
+        let sought = self.march.nodes.polynomial(sought);
         match self.known {
             Independent::Time => (self.given, sought),
             Independent::Radius => (sought, self.given),
@@ -102,14 +133,14 @@ impl Equations<'_> {
 
     /// What follows from values of what is sought.
     pub(crate) fn motion(&self, sought: &[f64; SIZE]) -> Motion {
-        let n = self.nodes.degree;
-        let mut given = [0.0; SIZE];
-        let (mut given_slope, mut sought_slope) = ([0.0; SIZE], [0.0; SIZE]);
-        for (i, &s) in self.nodes.places.iter().enumerate() {
-            (given[i], given_slope[i]) = self.given.jet(s);
+        let (nodes, law) = (self.march.nodes, &self.march.law);
+        let n = nodes.degree;
+        let [mut given, mut given_slope, mut sought_slope] = [[0.0; SIZE]; 3];
+        for (i, &s) in nodes.places.iter().enumerate() {
+            [given[i], given_slope[i], _] = self.given.jet(s);
         }
         for (i, slope) in sought_slope.iter_mut().enumerate().take(n + 1).skip(1) {
-            *slope = dot(self.nodes.slope_row(i), &sought[..=n]);
+            *slope = dot(&nodes.slope[i], &sought[..=n]);
         }
         let (time, radius, time_slope, radius_slope) = match self.known {
             Independent::Time => (given, *sought, given_slope, sought_slope),
@@ -118,14 +149,14 @@ impl Equations<'_> {
         let mut impulse = [0.0; LARGEST];
         let mut local = [Local::default(); LARGEST];
         for j in 1..=n {
-            let here = self.law.branch.at(radius[j]);
+            let here = law.branch.at(radius[j]);
             impulse[j - 1] = here.force * time_slope[j]
-                + self.law.damping(&here) * here.depth_slope * radius_slope[j];
+                + law.damping(&here) * here.depth_slope * radius_slope[j];
             local[j - 1] = here;
         }
-        let mut velocity = [self.start.velocity; SIZE];
+        let mut velocity = [self.march.state.velocity; SIZE];
         for (i, v) in velocity.iter_mut().enumerate().take(n + 1).skip(1) {
-            *v -= INVERSE_MASS * dot(self.nodes.integral_row(i), &impulse[..n]);
+            *v -= INVERSE_MASS * dot(&nodes.integral[i], &impulse[..n]);
         }
         Motion {
             time,
@@ -140,43 +171,37 @@ impl Equations<'_> {
     /// Residuals; on entry they are those of a nearby motion, or of none.
     pub(crate) fn residual(
         &self,
-        rule: &[(f64, f64)],
         sought: &[f64; SIZE],
         motion: &Motion,
-        residual: &mut Residual,
+        residual: &mut Residual<'_>,
     ) {
-        let n = self.nodes.degree;
-        let GrowingContact {
-            target_share,
-            wave_time,
-            ..
-        } = self.contact;
+        let march = self.march;
+        let n = march.nodes.degree;
+        let (phi, wave_time) = (march.contact.target_share, march.contact.wave_time);
         let (time_of, radius_of) = self.polynomials(sought);
-        let size = rule.len();
-        let again = residual.departures.len() == n * size;
-        if !again {
+        let (rule, size) = (residual.rule, residual.rule.len());
+        if residual.departures.is_empty() {
             residual.departures = vec![Departure::default(); n * size];
             residual.delays = rule.iter().map(|(delay, _)| delay * wave_time).collect();
         }
         for i in 1..=n {
             let found = &mut residual.departures[(i - 1) * size..i * size];
             departures(
-                self.pieces,
+                &march.pieces,
                 [&time_of, &radius_of],
-                (self.start.time, self.start.radius),
-                [self.nodes.places[i], motion.time[i]],
+                &march.state,
+                [march.nodes.places[i], motion.time[i]],
                 &residual.delays,
-                again,
                 found,
             );
-            let delayed = self.law.delayed(motion.radius[i]);
+            let delayed = march.law.delayed(motion.radius[i]);
             let parts = rule.iter().zip(found.iter());
             let sum: f64 = parts
                 .map(|((_, rate), left)| rate * (delayed - self.law_of(left).delayed(left.radius)))
                 .sum();
-            let drive = motion.velocity[i] - target_share * sum / wave_time;
+            let drive = motion.velocity[i] - phi * sum / wave_time;
             let here = &motion.local[i - 1];
-            let at_once = (1.0 - target_share) * here.punch_slope;
+            let at_once = (1.0 - phi) * here.punch_slope;
             let slope = at_once + (here.depth_slope - here.punch_slope);
             residual.value[i - 1] = drive * motion.time_slope[i] - slope * motion.radius_slope[i];
             residual.drive[i - 1] = drive;
@@ -185,73 +210,60 @@ impl Equations<'_> {
 
     /// The law at a departure.
     fn law_of(&self, left: &Departure) -> &Law {
-        let piece = self.pieces.get(left.piece);
-        piece.map_or(&self.law, |piece| &piece.law)
+        let piece = left.piece.and_then(|piece| self.march.pieces.get(piece));
+        piece.map_or(&self.march.law, |piece| &piece.law)
     }
 
     /// Derivatives of the residuals with respect to what is sought, at the departures of the residual.
-    pub(crate) fn jacobian(
-        &self,
-        rule: &[(f64, f64)],
-        motion: &Motion,
-        residual: &Residual,
-        matrix: &mut Factors,
-    ) {
-        let n = self.nodes.degree;
-        let size = rule.len();
+    pub(crate) fn jacobian(&self, motion: &Motion, residual: &Residual<'_>, matrix: &mut Factors) {
+        let (nodes, law) = (self.march.nodes, &self.march.law);
+        let (n, contact) = (nodes.degree, &self.march.contact);
         let velocity = self.velocity_by_impulse(motion);
+        let tension = contact.target_share / contact.wave_time;
+        let rest = 1.0 - contact.target_share;
         for i in 1..=n {
-            let found = &residual.departures[(i - 1) * size..i * size];
             let here = &motion.local[i - 1];
-            let slope = self.law.slope(motion.radius[i]);
-            let (sums, own) = self.tension_row(rule, found, &residual.delays, slope);
-            let slopes = self.nodes.slope_row(i);
+            let (sums, own) = self.tension_row(residual, i, law.slope(motion.radius[i]));
+            let (slopes, integral) = (&nodes.slope[i], &nodes.integral[i]);
             let line = matrix.row(i - 1);
-            let tension = self.contact.target_share / self.contact.wave_time;
-            let rest = 1.0 - self.contact.target_share;
             // what the indentation is more than the punches
             let more = here.depth_slope - here.punch_slope;
             let more_bend = here.bends[0] - here.bends[1];
-            let damped = INVERSE_MASS * (self.law.damping(here) * here.depth_slope);
+            // the integral of what is a function of the radius
+            let damped = INVERSE_MASS * (law.damping(here) * here.depth_slope);
             for l in 1..=n {
-                let by_velocity: f64 = match self.known {
+                let at_node = |part: f64| if l == i { part } else { 0.0 };
+                let (by_velocity, by_slope) = match self.known {
                     Independent::Time => {
-                        // the integral of what is a function of the radius
-                        let spent = if l == i { damped } else { 0.0 };
-                        self.nodes.integral_row(i)[l - 1] * velocity[(l - 1) * n + l - 1] - spent
+                        let turn = at_node(motion.radius_slope[i]);
+                        let punches = here.punch_slope * slopes[l] + here.bends[1] * turn;
+                        (
+                            integral[l - 1] * velocity[l - 1][l - 1] - at_node(damped),
+                            -rest * punches - (more * slopes[l] + more_bend * turn),
+                        )
                     }
                     Independent::Radius => {
-                        let integral = self.nodes.integral_row(i);
-                        (0..n).map(|j| integral[j] * velocity[j * n + l - 1]).sum()
+                        let parts = integral.iter().zip(&velocity);
+                        let by_velocity = parts.map(|(weight, row)| weight * row[l - 1]).sum();
+                        (by_velocity, residual.drive[i - 1] * slopes[l])
                     }
                 };
-                let own = if l == i { own } else { 0.0 };
-                let by_drive = by_velocity - tension * (own - sums[l]);
-                line[l - 1] = by_drive * motion.time_slope[i]
-                    + match self.known {
-                        Independent::Time => {
-                            let turn = if l == i { motion.radius_slope[i] } else { 0.0 };
-                            let punches = here.punch_slope * slopes[l] + here.bends[1] * turn;
-                            -rest * punches - (more * slopes[l] + more_bend * turn)
-                        }
-                        Independent::Radius => residual.drive[i - 1] * slopes[l],
-                    };
+                let by_drive: f64 = by_velocity - tension * (at_node(own) - sums[l]);
+                line[l - 1] = by_drive * motion.time_slope[i] + by_slope;
             }
         }
     }
 
     /// Row j: what is sought in the impulse -(5/4) p T' of node j.
-    fn velocity_by_impulse(&self, motion: &Motion) -> [f64; LARGEST * LARGEST] {
-        let n = self.nodes.degree;
-        let mut rows = [0.0; LARGEST * LARGEST];
-        for j in 1..=n {
-            let row = &mut rows[(j - 1) * n..j * n];
+    fn velocity_by_impulse(&self, motion: &Motion) -> [[f64; LARGEST]; LARGEST] {
+        let nodes = self.march.nodes;
+        let mut rows = [[0.0; LARGEST]; LARGEST];
+        for (j, row) in (1..=nodes.degree).zip(&mut rows) {
             let here = &motion.local[j - 1];
             match self.known {
                 Independent::Time => row[j - 1] = -here.braking * motion.time_slope[j],
                 Independent::Radius => {
-                    let slopes = &self.nodes.slope_row(j)[1..];
-                    for (entry, slope) in row.iter_mut().zip(slopes) {
+                    for (entry, slope) in row.iter_mut().zip(&nodes.slope[j][1..]) {
                         *entry = -INVERSE_MASS * here.force * slope;
                     }
                 }
@@ -260,19 +272,14 @@ impl Equations<'_> {
         rows
     }
 
-    /// Derivatives of S times the wave time at a node: with respect to what is sought at each node (with
+    /// Derivatives of S times the wave time at the node i: with respect to what is sought at each node (with
     /// the sign turned) and, beside it, at the node itself, where g has a slope.
-    fn tension_row(
-        &self,
-        rule: &[(f64, f64)],
-        found: &[Departure],
-        delays: &[f64],
-        slope: f64,
-    ) -> ([f64; SIZE], f64) {
-        let mut sums = [0.0; SIZE];
-        let mut basis = [0.0; SIZE];
+    fn tension_row(&self, residual: &Residual<'_>, i: usize, slope: f64) -> ([f64; SIZE], f64) {
+        let nodes = self.march.nodes;
+        let [mut sums, mut basis] = [[0.0; SIZE]; 2];
         let mut own = 0.0;
-        for ((left, &delay), &(_, rate)) in found.iter().zip(delays).zip(rule) {
+        let found = residual.departures[(i - 1) * residual.rule.len()..].iter();
+        for ((left, &delay), &(_, rate)) in found.zip(&residual.delays).zip(residual.rule) {
             let speed = left.time_slope + delay * left.radius_slope;
             let there = rate * self.law_of(left).slope(left.radius);
             let weight = match self.known {
@@ -286,13 +293,166 @@ impl Equations<'_> {
                     -there * left.radius_slope / speed
                 }
             };
-            if left.piece == self.pieces.len() {
-                self.nodes.lagrange(left.place, &mut basis);
-                for (sum, value) in sums.iter_mut().zip(&basis[..=self.nodes.degree]) {
+            if left.piece == Some(self.march.pieces.len()) {
+                nodes.lagrange(left.place, &mut basis);
+                for (sum, value) in sums.iter_mut().zip(&basis[..=nodes.degree]) {
                     *sum += weight * value;
                 }
             }
         }
         (sums, own)
     }
+
+    /// Solves the equations from a guess of the values sought; nothing where Newton's method does not settle
+    /// or time does not go on.
+    pub(crate) fn solve(&self, mut sought: [f64; SIZE]) -> Option<Solution> {
+        let n = self.march.nodes.degree;
+        let mut residual = self.fresh_residual(self.march.level);
+        let mut matrix = Factors::room(n);
+        let mut before = f64::INFINITY;
+        // Newton's next change would be about the square
+        let enough = (1e-2 * self.march.accuracy).sqrt().min(1e-5);
+        for iteration in 1..=ITERATIONS {
+            let motion = self.moves(&sought)?;
+            self.residual(&sought, &motion, &mut residual);
+            self.jacobian(&motion, &residual, &mut matrix);
+            if !matrix.eliminate() {
+                return None;
+            }
+            let mut change = residual.value;
+            matrix.solve(&mut change[..n]);
+            let factor = self.damping(&sought, &change[..n]);
+            let size = changed(&mut sought, factor, &change[..n]);
+            let relative = size / self.scale(&sought);
+            if factor == 1.0 && relative < enough {
+                return self.corrected(sought, &matrix);
+            }
+            if iteration > SETTLED && relative > 0.5 * before {
+                return None;
+            }
+            before = relative;
+        }
+        None
+    }
+
+    /// Residuals of no motion yet, by a rule over the waves.
+    fn fresh_residual(&self, level: usize) -> Residual<'_> {
+        Residual {
+            rule: self.march.contact.waves.rule(level),
+            ..Residual::default()
+        }
+    }
+
+    /// The motion, unless a matrix that is nearly singular or a law at the end of the numbers threw it out of them.
+    fn moves(&self, sought: &[f64; SIZE]) -> Option<Motion> {
+        let motion = self.motion(sought);
+        let of = [&motion.time, &motion.radius, &motion.velocity];
+        let mut all = of.into_iter().flatten();
+        all.all(|x| x.is_finite()).then_some(motion)
+    }
+
+    /// One more change, by the finer rule.
+    fn corrected(&self, mut sought: [f64; SIZE], matrix: &Factors) -> Option<Solution> {
+        let motion = self.moves(&sought)?;
+        let mut residual = self.fresh_residual(self.march.level + 1);
+        self.residual(&sought, &motion, &mut residual);
+        let change = &mut residual.value[..self.march.nodes.degree];
+        matrix.solve(change);
+        let waves = changed(&mut sought, 1.0, change);
+        let motion = self.moves(&sought)?;
+        self.goes_on(&motion)
+            .then(|| self.solution(&sought, &motion, waves))
+    }
+
+    /// Size of what is sought.
+    fn scale(&self, sought: &[f64; SIZE]) -> f64 {
+        let n = self.march.nodes.degree;
+        match self.known {
+            Independent::Time => sought[..=n].iter().fold(0.0_f64, |m, x| m.max(x.abs())),
+            Independent::Radius => (sought[n] - sought[0]).abs(),
+        }
+    }
+
+    /// The largest part of Newton's change that keeps the radius positive or the time rising.
+    fn damping(&self, sought: &[f64; SIZE], change: &[f64]) -> f64 {
+        let mut factor = 1.0_f64;
+        for i in 1..=change.len() {
+            let (old, fall, least) = match self.known {
+                Independent::Time => (sought[i], change[i - 1], 0.2),
+                Independent::Radius => {
+                    let before = if i == 1 { 0.0 } else { change[i - 2] };
+                    (sought[i] - sought[i - 1], change[i - 1] - before, 0.1)
+                }
+            };
+            if old > 0.0 && old - fall < least * old {
+                factor = factor.min((1.0 - least) * old / fall);
+            }
+        }
+        factor.max(0.05)
+    }
+
+    /// Whether time rises and the radius stays positive; the last instants may be shorter than their error.
+    fn goes_on(&self, motion: &Motion) -> bool {
+        let n = self.march.nodes.degree;
+        let closed = motion.radius[n] <= CLOSED;
+        let slack = f64::from(closed) * SLACK * self.march.accuracy;
+        let rises = motion.time[..=n].windows(2).all(|t| t[1] >= t[0] - slack);
+        let positive = motion.radius[1..n].iter().all(|&a| a > 0.0);
+        rises && positive && (closed || motion.time_slope[n] > 0.0)
+    }
+
+    fn solution(&self, sought: &[f64; SIZE], motion: &Motion, waves: f64) -> Solution {
+        let (nodes, start) = (self.march.nodes, self.march.state);
+        let n = nodes.degree;
+        let weights = &nodes.integral[n];
+        let mut travel = [0.0; LARGEST];
+        let mut dissipated = 0.0;
+        for j in 1..=n {
+            travel[j - 1] = motion.velocity[j] * motion.time_slope[j];
+            let here = &motion.local[j - 1];
+            let lag = travel[j - 1] - here.depth_slope * motion.radius_slope[j];
+            dissipated += weights[j - 1] * here.force * lag;
+        }
+        let mut displacement = [start.displacement; SIZE];
+        for (i, place) in displacement.iter_mut().enumerate().take(n + 1).skip(1) {
+            *place += dot(&nodes.integral[i], &travel[..n]);
+        }
+        let (time, radius) = self.polynomials(sought);
+        // the last term, or the one before continued at the rate of its fall
+        let modes = nodes.modes(sought);
+        let [a, b, c] = [n - 2, n - 1, n].map(|k| modes[k].abs());
+        let continued = if b < a { b * b / a } else { b };
+        Solution {
+            piece: Piece {
+                law: self.march.law,
+                time,
+                radius,
+                velocity: nodes.polynomial(&motion.velocity),
+                displacement: nodes.polynomial(&displacement),
+                force: None,
+                start,
+                end: State {
+                    time: motion.time[n],
+                    radius: motion.radius[n],
+                    velocity: motion.velocity[n],
+                    displacement: displacement[n],
+                    slope: motion.local[n - 1].depth_slope * motion.radius_slope[n]
+                        / motion.time_slope[n],
+                },
+            },
+            widest: motion.radius[..=n].iter().fold(0.0_f64, |m, &a| m.max(a)),
+            dissipated,
+            truncated: c.max(continued),
+            waves,
+            sought: *sought,
+        }
+    }
+}
+
+/// Takes a part of a change from what is sought beyond the start; the size of the change.
+fn changed(sought: &mut [f64; SIZE], factor: f64, change: &[f64]) -> f64 {
+    for (value, change) in sought[1..].iter_mut().zip(change) {
+        *value -= factor * change;
+    }
+    change.iter().fold(0.0, |size, x| size.max(x.abs()))
 }

@@ -1,49 +1,15 @@
-//! Pieces after pieces from the touch until the contact has mostly opened.
+//! Pieces after pieces from the touch until the contact has mostly opened, then in the radius until it is zero.
 
 use crate::error::MarchError;
-use crate::growing::arrivals::Piece;
-use crate::growing::equations::{Equations, Independent, State};
-use crate::growing::nodes::Nodes;
-use crate::growing::polynomial::{Polynomial, SIZE};
-use crate::growing::step::Solution;
+use crate::growing::arrivals::{Piece, State};
+use crate::growing::equations::{Equations, Errors, Independent, March, Solution};
+use crate::growing::nodes::{Nodes, Polynomial, SIZE};
 use crate::growing::waves::{GrowingContact, LEVELS, PunchWaves};
 use crate::law::hertz::CONTACT_TIME;
 use crate::numeric::quadrature::rising_root;
 use crate::plastic::branch::{Branch, Law};
 use crate::units::INVERSE_MASS;
 use std::sync::LazyLock;
-
-/// A contact on its way.
-#[derive(Debug)]
-pub(crate) struct March<'a> {
-    pub(crate) contact: GrowingContact<'a>,
-    /// Error that a piece may leave: of the force, in the end of the time.
-    pub(crate) accuracy: f64,
-    pub(crate) nodes: &'static Nodes,
-    pub(crate) pieces: Vec<Piece>,
-    pub(crate) state: State,
-    pub(crate) law: Law,
-    /// Of the rule over the waves.
-    pub(crate) level: usize,
-    /// Largest radius.
-    pub(crate) widest: f64,
-    /// int p (v - u') dt.
-    pub(crate) dissipated: f64,
-    pub(crate) errors: Errors,
-}
-
-/// Sums of the errors that the pieces estimate of themselves.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Errors {
-    /// Largest of the force at a time.
-    pub(crate) force: f64,
-    /// Of the momentum.
-    pub(crate) momentum: f64,
-    /// Of the end of contact.
-    pub(crate) end: f64,
-    /// Of the work done on the half-space.
-    pub(crate) work: f64,
-}
 
 /// Error of a piece without a memory.
 const DAMPED: f64 = 1e-11;
@@ -66,11 +32,20 @@ const LATE: f64 = 0.5;
 /// Largest part of the root of the time left that a piece takes.
 const LONGEST: f64 = 0.45;
 
-/// Change by the finer rule that is allowed, over the error of a piece: what is left of it is smaller.
-const CORRECTED: f64 = 1.0;
-
 /// Change by the finer rule, over the error of a piece, below which the next piece takes a coarser rule.
 const COARSER: f64 = 1e-2;
+
+/// Pieces in the radius at most, tried ones included.
+const MOST_AT_END: usize = 200;
+
+/// Error of the time left when it is taken from the power law of the last piece.
+const POWER_LAW: f64 = 0.2;
+
+/// Time left, over the accuracy, that is not resolved.
+const NEGLIGIBLE: f64 = 2.0;
+
+/// The same where no shorter piece is found either.
+const LOST: f64 = 30.0;
 
 impl<'a> March<'a> {
     pub(crate) fn new(contact: GrowingContact<'a>, accuracy: f64) -> Self {
@@ -108,42 +83,30 @@ impl<'a> March<'a> {
         &mut self,
         known: Independent,
         given: Polynomial,
-        guess: &[f64; SIZE],
+        mut guess: [f64; SIZE],
     ) -> Option<(Solution, f64)> {
-        let mut guess = *guess;
         loop {
-            let rules = [self.level, self.level + 1].map(|level| self.contact.waves.rule(level));
             let equations = Equations {
-                contact: self.contact,
-                nodes: self.nodes,
-                pieces: &self.pieces,
-                start: self.state,
-                law: self.law,
+                march: self,
                 known,
                 given,
-                rules,
-                accuracy: self.accuracy,
             };
-            let solution = equations.solve(&guess)?;
+            let solution = equations.solve(guess)?;
             // of the force where the radius is sought
             let weight = match known {
                 Independent::Time => 3.0 * solution.widest * solution.widest,
                 Independent::Radius => 1.0,
             };
-            let error = solution.truncated * weight / self.accuracy;
-            if error > 1.0 {
+            // what is left of the change by the finer rule is smaller
+            let [error, miss] =
+                [solution.truncated, solution.waves].map(|size| size * weight / self.accuracy);
+            if error > 1.0 || miss <= 1.0 || self.level + 2 >= LEVELS {
+                let coarser = error <= 1.0 && miss < COARSER && known == Independent::Time;
+                self.level -= usize::from(coarser && self.level > 0);
                 return Some((solution, error));
             }
-            let miss = solution.waves * weight / (CORRECTED * self.accuracy);
-            if miss > 1.0 && self.level + 2 < LEVELS {
-                self.level += 1;
-                guess = solution.sought;
-                continue;
-            }
-            if miss < COARSER && self.level > 0 && known == Independent::Time {
-                self.level -= 1;
-            }
-            return Some((solution, error));
+            self.level += 1;
+            guess = solution.sought;
         }
     }
 
@@ -159,7 +122,8 @@ impl<'a> March<'a> {
 
     /// Takes a piece.
     pub(crate) fn accept(&mut self, known: Independent, solution: &Solution) {
-        let duration = solution.end.time - self.state.time;
+        let end = solution.piece.end;
+        let duration = end.time - self.state.time;
         let error = solution.truncated + LEFT * solution.waves;
         let force = 3.0 * solution.widest * solution.widest;
         match known {
@@ -168,11 +132,11 @@ impl<'a> March<'a> {
                 self.errors.momentum += force * error * duration;
             }
             Independent::Radius => {
-                let steepest = force * (self.state.radius - solution.end.radius) / duration;
+                let steepest = force * (self.state.radius - end.radius) / duration;
                 self.errors.force = self.errors.force.max(steepest * error);
                 self.errors.momentum += solution.widest.powi(3) * error;
                 // the end of a piece converges at twice the order, but in the layer of the last instants
-                let layer = solution.end.radius < 3.0 * self.contact.wave_time;
+                let layer = end.radius < 3.0 * self.contact.wave_time;
                 self.errors.end += if layer { error } else { SMOOTH * error };
             }
         }
@@ -181,7 +145,7 @@ impl<'a> March<'a> {
         self.errors.work +=
             solution.dissipated.abs() * error * slopes / solution.widest.max(duration);
         self.pieces.push(solution.piece);
-        self.state = solution.end;
+        self.state = end;
         self.dissipated += solution.dissipated;
         self.widest = self.widest.max(solution.widest);
     }
@@ -229,10 +193,10 @@ impl<'a> March<'a> {
         };
         let reached = |march: &Self, solution: &Solution, _| {
             let rising = |s| {
-                let (radius, slope) = solution.piece.radius.jet(s);
-                (radius - limit, slope)
+                let [radius, slope, _] = solution.piece.radius.jet(s);
+                [radius - limit, slope]
             };
-            let over = |s: &f64| rising(*s).0 > 0.0;
+            let over = |s: &f64| rising(*s)[0] > 0.0;
             let above = march.nodes.places.iter().copied().find(over);
             let place = |above| rising_root(rising, [0.0, above], 0.5 * above, 1e-16)[1];
             (solution.widest > limit).then(|| place(above.unwrap_or(1.0)))
@@ -264,7 +228,7 @@ impl<'a> March<'a> {
             let Some((given, guess, last)) = piece(self, &mut length) else {
                 return Ok(false);
             };
-            let tried = self.attempt(known, given, &guess);
+            let tried = self.attempt(known, given, guess);
             let stop = tried.as_ref().filter(|_| !ends);
             if let Some(part) = stop.and_then(|(solution, error)| event(self, solution, *error)) {
                 (length, ends) = (part * length, true);
@@ -353,5 +317,108 @@ impl<'a> March<'a> {
             *a = u.sqrt();
         }
         guess
+    }
+
+    /// Pieces in the radius until it is zero: the end of contact is then the time at a known place.
+    ///
+    /// In the last instants the contact is so small that its waves cross it in no time: the time left goes
+    /// from a^2 over the velocity to a smaller multiple of it, for a stiff striker to nearly a power one of a.
+    ///
+    /// # Errors
+    /// [`MarchError::NotFollowed`].
+    pub(crate) fn close(&mut self) -> Result<(), MarchError> {
+        if self.law.lag.is_some() {
+            return Ok(());
+        }
+        let mut ratio = 0.3;
+        // dt/da ~ a^(power - 1)
+        let mut power = 2.0_f64;
+        let mut again = 0;
+        let (phi, wave_time) = (self.contact.target_share, self.contact.wave_time);
+        let bare = (self.accuracy / (0.01 * phi * wave_time)).max(0.3 * wave_time);
+        for _ in 0..MOST_AT_END {
+            let from = self.state.radius;
+            let rate = self.law.branch.at(from).depth_slope / -self.state.slope;
+            let left = rate * from / power;
+            if left < NEGLIGIBLE * self.accuracy || again > 5 && left < LOST * self.accuracy {
+                self.end_by_power_law(left, power);
+                return Ok(());
+            }
+            if from < 3.0 * wave_time {
+                self.level = self.level.max(self.least_level());
+            }
+            let last = from < bare && again == 0;
+            let to = if last { 0.0 } else { ratio * from };
+            let given = Polynomial::power(from.sqrt(), to.sqrt() - from.sqrt(), 2);
+            let guess = self.power_law(&given, left, power);
+            match self.attempt(Independent::Radius, given, guess) {
+                Some((solution, error)) if error <= 1.0 => {
+                    self.accept(Independent::Radius, &solution);
+                    if last {
+                        return Ok(());
+                    }
+                    again = 0;
+                    let rise = self.law.branch.at(to).depth_slope / -self.state.slope / rate;
+                    power = (1.0 + rise.ln() / (to / from).ln()).clamp(0.7, 2.0);
+                    ratio = (1.0 - (1.0 - ratio) * self.factor(error)).clamp(0.1, 0.8);
+                }
+                Some(_) | None => {
+                    if !last {
+                        ratio = 1.0 - 0.6 * (1.0 - ratio);
+                    }
+                    again += 1;
+                    if again > 1 && self.level < 7 {
+                        self.level += 1;
+                    }
+                    if ratio > 0.999 {
+                        break;
+                    }
+                }
+            }
+        }
+        Err(self.lost())
+    }
+
+    /// Level of the rule over the waves below which the last instants have no solution: with few waves the
+    /// stiff striker's contact does not open steadily.
+    fn least_level(&self) -> usize {
+        let phi = self.contact.target_share;
+        let stiff = [phi > 0.5, phi > 0.9, self.accuracy < 1e-6];
+        1 + stiff.map(usize::from).iter().sum::<usize>()
+    }
+
+    /// Times at the nodes by t = t_0 + left (1 - (a/a_0)^power).
+    fn power_law(&self, radius: &Polynomial, left: f64, power: f64) -> [f64; SIZE] {
+        let mut times = [0.0; SIZE];
+        for (time, &s) in times.iter_mut().zip(&self.nodes.places) {
+            let a = radius.value(s).max(0.0) / self.state.radius;
+            *time = self.state.time + left * (1.0 - a.powf(power));
+        }
+        times
+    }
+
+    /// The last piece by the power law: shorter than the error.
+    fn end_by_power_law(&mut self, left: f64, power: f64) {
+        let start = self.state;
+        let radius = Polynomial::power(start.radius.sqrt(), -start.radius.sqrt(), 2);
+        let times = self.power_law(&radius, left, power);
+        let places = times.map(|time| start.displacement + start.velocity * (time - start.time));
+        self.errors.end += POWER_LAW * left;
+        self.state = State {
+            time: start.time + left,
+            radius: 0.0,
+            displacement: start.displacement + start.velocity * left,
+            ..start
+        };
+        self.pieces.push(Piece {
+            law: self.law,
+            time: self.nodes.polynomial(&times),
+            radius,
+            velocity: Polynomial::constant(start.velocity),
+            displacement: self.nodes.polynomial(&places),
+            force: None,
+            start,
+            end: self.state,
+        });
     }
 }

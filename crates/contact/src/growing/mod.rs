@@ -14,35 +14,31 @@
 //! For small X the bracket is a a' - X(..): a short memory is no special case, and nothing is summed over a past.
 //! For phi = 1 the equation is algebraic in a, not ill-posed.
 //!
-//! a is analytic in time inside the contact, so it is a few polynomials (`step`) of the root of the
+//! a is analytic in time inside the contact, so it is a few polynomials (`equations`) of the root of the
 //! time since the touch, then of the root of the time to the expected end; in the last part the time
 //! is a polynomial of the root of the radius, which makes the end of contact a place that is known.
 //! Both ends are layers that scale with themselves (a ~ phi tau); pieces get shorter toward them.
 //! The integral over the waves is Gauss's rule of their measure, of 3 to 220 nodes as each piece needs.
 //!
-//! In reading order: `waves`, `equations` of a piece and the `arrivals` of its waves, `step` that solves them at the `nodes`
-//! of a `polynomial`, `march` and `closing` from piece to piece, `checks` for what was taken for granted, `solved`, `work`.
+//! In reading order: `waves`, `equations` of a piece, solved at the `nodes` of its polynomials, and the `arrivals` of its
+//! waves, `march` from piece to piece, `checks` for what was taken for granted, `solved`, `work`.
 //! Measured against superposition in time of punches by another kernel formula (`tests/reference/growing.csv`).
 
 pub(crate) mod arrivals;
 pub(crate) mod checks;
-pub(crate) mod closing;
 pub(crate) mod equations;
 pub(crate) mod march;
 pub(crate) mod nodes;
-pub(crate) mod polynomial;
 pub(crate) mod solved;
-pub(crate) mod step;
 pub(crate) mod uniform;
 pub(crate) mod waves;
 pub(crate) mod work;
 
 use crate::disc::refine::Accuracy;
 use crate::error::MarchError;
-use crate::growing::march::March;
+use crate::growing::equations::March;
 use crate::growing::solved::SolvedContact;
 use crate::growing::waves::GrowingContact;
-use crate::summary::Estimates;
 
 /// Least and largest tolerance.
 const TOLERANCES: [f64; 2] = [1e-11, 1e-2];
@@ -96,32 +92,37 @@ pub fn solve_growing(
     contact: &GrowingContact<'_>,
     accuracy: &Accuracy,
 ) -> Result<SolvedContact, MarchError> {
-    check(contact)?;
+    let outside = |name, value, range| Err(MarchError::OutOfRange { name, value, range });
+    let (phi, tau) = (contact.target_share, contact.wave_time);
+    if !(phi > 0.0 && phi <= 1.0) {
+        return outside("target_share", phi, "(0, 1]");
+    }
+    if !(tau > 0.0 && tau < 1e3) {
+        return outside("wave_time", tau, "(0, 1000)");
+    }
     let [least, largest] = TOLERANCES;
-    let asked = [Some(accuracy.tolerance), accuracy.loss, accuracy.deflection];
-    let asked = asked
-        .into_iter()
-        .flatten()
-        .fold(largest, f64::min)
-        .max(least);
-    let mut piece = (PIECE[usize::from(asked < COARSE)] * asked).max(FINEST);
-    let mut best: Option<(f64, SolvedContact)> = None;
+    let parts = [Some(accuracy.tolerance), accuracy.loss, accuracy.deflection];
+    let asked = parts.into_iter().flatten().fold(largest, f64::min);
+    let mut piece = (PIECE[usize::from(asked < COARSE)] * asked.max(least)).max(FINEST);
+    let (mut best, mut before) = (None, f64::INFINITY);
     for attempt in 0..ATTEMPTS {
         let mut march = March::new(*contact, piece);
         let followed = march.load(f64::INFINITY).and_then(|()| march.close());
         let tried = followed.and_then(|()| checks::passed(SolvedContact::new(march), contact));
         match (tried, &best) {
             (Ok(solved), _) => {
-                let excess = excess(&solved.estimates, accuracy);
+                let (errors, of_contact) = (&solved.estimates, accuracy.tolerance.max(least));
+                let contact = errors.contact() / of_contact;
+                let excess = accuracy.excess(contact, errors.loss, errors.peak_deflection);
                 if excess <= 1.0 {
                     return Ok(solved);
                 }
-                let before = best.as_ref().map_or(f64::INFINITY, |(before, _)| *before);
-                if excess < before {
-                    best = Some((excess, solved));
-                }
                 // finer pieces that hardly help cost seconds
-                if piece <= FINEST || excess > STUCK * before {
+                let stuck = piece <= FINEST || excess > STUCK * before;
+                if excess < before {
+                    (best, before) = (Some(solved), excess);
+                }
+                if stuck {
                     break;
                 }
                 piece = (piece * (0.3 / excess).max(0.1)).max(FINEST);
@@ -133,38 +134,9 @@ pub fn solve_growing(
             (Err(_), Some(_)) => break,
         }
     }
-    let excess = match best {
-        Some((excess, solved)) if excess <= LENIENT => return Ok(solved),
-        other => other.map_or(f64::INFINITY, |(excess, _)| excess),
-    };
-    Err(MarchError::NotReached {
-        tolerance: accuracy.tolerance,
-        estimate: excess * accuracy.tolerance,
-    })
-}
-
-/// The largest estimate over what is asked of it.
-fn excess(estimates: &Estimates, accuracy: &Accuracy) -> f64 {
-    let [least, _] = TOLERANCES;
-    let loss = accuracy.loss.map(|asked| estimates.loss / asked);
-    let deflection = accuracy
-        .deflection
-        .map(|asked| estimates.peak_deflection / asked);
-    let parts = [loss, deflection].into_iter().flatten();
-    parts.fold(
-        estimates.contact() / accuracy.tolerance.max(least),
-        f64::max,
-    )
-}
-
-fn check(contact: &GrowingContact<'_>) -> Result<(), MarchError> {
-    let outside = |name, value, range| Err(MarchError::OutOfRange { name, value, range });
-    let (phi, tau) = (contact.target_share, contact.wave_time);
-    if !(phi > 0.0 && phi <= 1.0) {
-        return outside("target_share", phi, "(0, 1]");
-    }
-    if !(tau > 0.0 && tau < 1e3) {
-        return outside("wave_time", tau, "(0, 1000)");
-    }
-    Ok(())
+    best.filter(|_| before <= LENIENT)
+        .ok_or(MarchError::NotReached {
+            tolerance: accuracy.tolerance,
+            estimate: before * accuracy.tolerance,
+        })
 }

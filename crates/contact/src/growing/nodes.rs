@@ -1,9 +1,93 @@
-//! Collocation at Radau's nodes: what a piece of degree n needs, made once for each n, and its small linear systems.
+//! Polynomials on a piece and collocation at Radau's nodes: what a piece of degree n needs, made once for each n, and its
+//! small linear systems.
 
-use crate::growing::polynomial::{LARGEST, Polynomial, SIZE, dot};
 use crate::numeric::gauss::{legendre, radau};
 use halfspace::gauss;
 use std::sync::OnceLock;
+
+/// A polynomial in s on [0, 1], in powers of 2 s - 1.
+///
+/// The coefficients of a function that a piece resolves fall faster than these powers lose digits.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Polynomial {
+    /// Degree.
+    pub(crate) degree: usize,
+    /// Coefficients of the powers.
+    pub(crate) powers: [f64; SIZE],
+}
+
+impl Polynomial {
+    /// The constant.
+    pub(crate) fn constant(value: f64) -> Self {
+        let mut powers = [0.0; SIZE];
+        powers[0] = value;
+        Self { degree: 0, powers }
+    }
+
+    /// (from + rise s)^power
+    pub(crate) fn power(from: f64, rise: f64, power: usize) -> Self {
+        let (middle, half) = (from + 0.5 * rise, 0.5 * rise);
+        let mut found = Self::constant(1.0);
+        for degree in 1..=power {
+            for k in (0..=degree).rev() {
+                let below = if k > 0 { found.powers[k - 1] } else { 0.0 };
+                found.powers[k] = middle * found.powers[k] + half * below;
+            }
+            found.degree = degree;
+        }
+        found
+    }
+
+    /// constant - self
+    pub(crate) fn below(mut self, constant: f64) -> Self {
+        for power in &mut self.powers {
+            *power = -*power;
+        }
+        self.powers[0] += constant;
+        self
+    }
+
+    /// Value at s.
+    pub(crate) fn value(&self, s: f64) -> f64 {
+        self.jet(s)[0]
+    }
+
+    /// Values and slopes at some places together.
+    pub(crate) fn jets<const N: usize>(&self, places: &[f64; N]) -> [[f64; N]; 2] {
+        let x = places.map(|s| 2.0 * s - 1.0);
+        let [mut value, mut slope] = [[0.0; N]; 2];
+        for c in self.powers[..=self.degree].iter().rev() {
+            for l in 0..N {
+                slope[l] = slope[l] * x[l] + value[l];
+                value[l] = value[l] * x[l] + c;
+            }
+        }
+        [value, slope.map(|s| 2.0 * s)]
+    }
+
+    /// Value, slope and curvature.
+    pub(crate) fn jet(&self, s: f64) -> [f64; 3] {
+        let x = 2.0 * s - 1.0;
+        let (mut value, mut slope, mut half) = (0.0, 0.0, 0.0);
+        for c in self.powers[..=self.degree].iter().rev() {
+            half = half * x + slope;
+            slope = slope * x + value;
+            value = value * x + c;
+        }
+        [value, 2.0 * slope, 8.0 * half]
+    }
+}
+
+/// Largest degree of a piece.
+pub(crate) const LARGEST: usize = 16;
+
+/// Values at 0 and the nodes of such a piece.
+pub(crate) const SIZE: usize = LARGEST + 1;
+
+/// Scalar product.
+pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(x, y)| x * y).sum()
+}
 
 /// Matrices of the polynomials of degree n through 0 and the n nodes of Radau's rule on (0, 1].
 #[derive(Debug)]
@@ -12,14 +96,14 @@ pub(crate) struct Nodes {
     pub(crate) degree: usize,
     /// 0 and the nodes.
     pub(crate) places: Vec<f64>,
-    /// Slope at node i (row, from the first node on) from the values at 0 and the nodes.
-    slope: Vec<f64>,
-    /// Integral from 0 to node i of the polynomial of degree n - 1 through the nodes.
-    integral: Vec<f64>,
+    /// Row i: slope with respect to s at the place i from the values at 0 and the nodes.
+    pub(crate) slope: Vec<Vec<f64>>,
+    /// Row i: weights of the nodes in the integral from 0 to the place i; to the last one, exact to degree 2 n - 2.
+    pub(crate) integral: Vec<Vec<f64>>,
     /// Legendre coefficients from the values at 0 and the nodes.
-    modes: Vec<f64>,
+    modes: Vec<Vec<f64>>,
     /// Coefficients of the powers of 2 s - 1 from those of Legendre's polynomials.
-    powers: Vec<f64>,
+    powers: Vec<Vec<f64>>,
     /// Barycentric weights of 0 and the nodes.
     barycentric: Vec<f64>,
 }
@@ -33,83 +117,62 @@ impl Nodes {
     }
 
     fn new(n: usize) -> Self {
-        let inner = radau(n);
-        let places: Vec<f64> = [0.0].into_iter().chain(inner.iter().copied()).collect();
-        let barycentric: Vec<f64> = (0..=n)
-            .map(|i| {
-                let others = (0..=n).filter(|&j| j != i);
-                1.0 / others
-                    .map(|j| 2.0 * (places[i] - places[j]))
-                    .product::<f64>()
-            })
-            .collect();
-        let mut slope = vec![0.0; n * (n + 1)];
-        for i in 1..=n {
-            let row = &mut slope[(i - 1) * (n + 1)..i * (n + 1)];
-            for j in (0..=n).filter(|&j| j != i) {
+        let places: Vec<f64> = [0.0].into_iter().chain(radau(n)).collect();
+        let others = |i: usize| (0..=n).filter(move |&j| j != i);
+        let weight = |i: usize| {
+            let distances = others(i).map(|j| 2.0 * (places[i] - places[j]));
+            1.0 / distances.product::<f64>()
+        };
+        let barycentric: Vec<f64> = (0..=n).map(weight).collect();
+        let slope = |i: usize| {
+            let mut row = vec![0.0; n + 1];
+            for j in others(i) {
                 row[j] = barycentric[j] / barycentric[i] / (places[i] - places[j]);
             }
             row[i] = -row.iter().sum::<f64>();
-        }
+            row
+        };
         // the rule is exact for the polynomials through the nodes times those of the same degree
         let rule = gauss::rule(n + 1);
-        let mut integral = vec![0.0; n * n];
-        for i in 0..n {
-            for (x, weight) in rule.on(0.0, inner[i]) {
-                for j in 0..n {
-                    integral[i * n + j] += weight * lagrange(&inner, j, x);
-                }
-            }
-        }
-        let mut modes = vec![0.0; (n + 1) * (n + 1)];
-        for (s, weight) in rule.on(0.0, 1.0) {
-            for k in 0..=n {
-                let [_, value] = legendre(k, 2.0 * s - 1.0);
-                for j in 0..=n {
-                    let part = (2 * k + 1) as f64 * weight * value;
-                    modes[k * (n + 1) + j] += part * lagrange(&places, j, s);
-                }
-            }
-        }
+        let integral = |i: usize, j: usize| {
+            let parts = rule.on(0.0, places[i]);
+            parts
+                .map(|(x, weight)| weight * lagrange(&places[1..], j, x))
+                .sum()
+        };
+        let mode = |k: usize, j: usize| {
+            let part = |(s, weight): (f64, f64)| {
+                let value = legendre(k, 2.0 * s - 1.0);
+                (2 * k + 1) as f64 * weight * value * lagrange(&places, j, s)
+            };
+            rule.on(0.0, 1.0).map(part).sum()
+        };
         Self {
             degree: n,
-            modes,
+            slope: (0..=n).map(slope).collect(),
+            integral: matrix([n + 1, n], integral),
+            modes: matrix([n + 1; 2], mode),
             powers: powers(n),
-            places,
-            slope,
-            integral,
             barycentric,
+            places,
         }
-    }
-
-    /// Slope with respect to s at node i in 1..=n.
-    pub(crate) fn slope_row(&self, i: usize) -> &[f64] {
-        let n = self.degree + 1;
-        &self.slope[(i - 1) * n..i * n]
-    }
-
-    /// Weights of the integral from 0 to node i in 1..=n; to the last one, exact to degree 2 n - 2.
-    pub(crate) fn integral_row(&self, i: usize) -> &[f64] {
-        let n = self.degree;
-        &self.integral[(i - 1) * n..i * n]
     }
 
     /// Legendre coefficients of values at 0 and the nodes.
-    pub(crate) fn modes(&self, values: &[f64], modes: &mut [f64]) {
-        let n = self.degree + 1;
-        for (mode, row) in modes.iter_mut().zip(self.modes.chunks_exact(n)) {
+    pub(crate) fn modes(&self, values: &[f64]) -> [f64; SIZE] {
+        let mut modes = [0.0; SIZE];
+        for (mode, row) in modes.iter_mut().zip(&self.modes) {
             *mode = dot(row, values);
         }
+        modes
     }
 
     /// The polynomial of values at 0 and the nodes.
     pub(crate) fn polynomial(&self, values: &[f64]) -> Polynomial {
-        let n = self.degree + 1;
-        let mut modes = [0.0; SIZE];
-        self.modes(values, &mut modes);
+        let modes = self.modes(values);
         let mut found = Polynomial::constant(0.0);
         found.degree = self.degree;
-        for (k, row) in self.powers.chunks_exact(n).enumerate() {
+        for (k, row) in self.powers.iter().enumerate() {
             found.powers[k] = dot(&row[k..], &modes[k..]);
         }
         found
@@ -117,38 +180,36 @@ impl Nodes {
 
     /// Values of Lagrange's polynomials at s; not at a node.
     pub(crate) fn lagrange(&self, s: f64, values: &mut [f64]) {
-        let mut sum = 0.0;
-        for ((value, &weight), &place) in values.iter_mut().zip(&self.barycentric).zip(&self.places)
-        {
+        let values = &mut values[..=self.degree];
+        let parts = self.barycentric.iter().zip(&self.places);
+        for (value, (weight, place)) in values.iter_mut().zip(parts) {
             let distance = s - place;
             *value = if distance == 0.0 {
                 1e300
             } else {
                 weight / distance
             };
-            sum += *value;
         }
-        for value in &mut values[..=self.degree] {
-            *value /= sum;
-        }
+        let sum: f64 = values.iter().sum();
+        values.iter_mut().for_each(|value| *value /= sum);
     }
 }
 
+/// A matrix by rows.
+fn matrix([rows, columns]: [usize; 2], entry: impl Fn(usize, usize) -> f64) -> Vec<Vec<f64>> {
+    let row = |i| (0..columns).map(|j| entry(i, j)).collect();
+    (0..rows).map(row).collect()
+}
+
 /// Row k: what the Legendre polynomials of degree 0 to n > 0 hold of x^k.
-fn powers(n: usize) -> Vec<f64> {
-    let size = n + 1;
-    let mut rows = vec![0.0; size * size];
-    (rows[0], rows[size + 1]) = (1.0, 1.0);
+fn powers(n: usize) -> Vec<Vec<f64>> {
+    let mut rows = vec![vec![0.0; n + 1]; n + 1];
+    (rows[0][0], rows[1][1]) = (1.0, 1.0);
     for degree in 2..=n {
         let d = degree as f64;
         for k in 0..=degree {
-            let up = if k > 0 {
-                rows[(k - 1) * size + degree - 1]
-            } else {
-                0.0
-            };
-            rows[k * size + degree] =
-                ((2.0 * d - 1.0) * up - (d - 1.0) * rows[k * size + degree - 2]) / d;
+            let up = if k > 0 { rows[k - 1][degree - 1] } else { 0.0 };
+            rows[k][degree] = ((2.0 * d - 1.0) * up - (d - 1.0) * rows[k][degree - 2]) / d;
         }
     }
     rows
@@ -158,7 +219,7 @@ fn powers(n: usize) -> Vec<f64> {
 #[derive(Debug, Clone)]
 pub(crate) struct Factors {
     size: usize,
-    matrix: [f64; LARGEST * LARGEST],
+    matrix: [[f64; LARGEST]; LARGEST],
     rows: [usize; LARGEST],
 }
 
@@ -167,39 +228,34 @@ impl Factors {
     pub(crate) fn room(size: usize) -> Self {
         Self {
             size,
-            matrix: [0.0; LARGEST * LARGEST],
+            matrix: [[0.0; LARGEST]; LARGEST],
             rows: [0; LARGEST],
         }
     }
 
     /// A row of the matrix, to be filled before [`Self::eliminate`].
     pub(crate) fn row(&mut self, i: usize) -> &mut [f64] {
-        &mut self.matrix[i * self.size..(i + 1) * self.size]
+        &mut self.matrix[i][..self.size]
     }
 
     /// Eliminates with row pivoting; false where the matrix is singular.
     pub(crate) fn eliminate(&mut self) -> bool {
         let n = self.size;
-        let matrix = &mut self.matrix[..n * n];
+        let matrix = &mut self.matrix[..n];
         for k in 0..n {
-            let size = |i: usize| matrix[i * n + k].abs();
+            let size = |i: usize| matrix[i][k].abs();
             let pivot = (k + 1..n).fold(k, |best, i| if size(i) > size(best) { i } else { best });
             self.rows[k] = pivot;
-            if pivot != k {
-                for j in 0..n {
-                    matrix.swap(k * n + j, pivot * n + j);
-                }
-            }
-            let diagonal = matrix[k * n + k];
+            matrix.swap(k, pivot);
+            let (upper, lower) = matrix.split_at_mut(k + 1);
+            let (diagonal, top) = (upper[k][k], &upper[k][k + 1..n]);
             if diagonal == 0.0 || !diagonal.is_finite() {
                 return false;
             }
-            let (upper, lower) = matrix.split_at_mut((k + 1) * n);
-            let top = &upper[k * n + k + 1..];
-            for row in lower.chunks_exact_mut(n) {
+            for row in lower {
                 let factor = row[k] / diagonal;
                 row[k] = factor;
-                for (a, b) in row[k + 1..].iter_mut().zip(top) {
+                for (a, b) in row[k + 1..n].iter_mut().zip(top) {
                     *a -= factor * b;
                 }
             }
@@ -214,12 +270,11 @@ impl Factors {
             right.swap(k, self.rows[k]);
         }
         for k in 0..n {
-            let row = &self.matrix[k * n..k * n + k];
-            right[k] -= dot(row, &right[..k]);
+            right[k] -= dot(&self.matrix[k][..k], &right[..k]);
         }
         for k in (0..n).rev() {
-            let row = &self.matrix[k * n + k..(k + 1) * n];
-            right[k] = (right[k] - dot(&row[1..], &right[k + 1..n])) / row[0];
+            let row = &self.matrix[k];
+            right[k] = (right[k] - dot(&row[k + 1..n], &right[k + 1..n])) / row[k];
         }
     }
 }
@@ -245,7 +300,7 @@ mod tests {
             let found = nodes.polynomial(&values);
             let error = 4.0 * 9.9_f64.powi(-(n as i32)) + 1e-13;
             for s in [0.0, 0.013, 0.2, 0.77, 1.0] {
-                let (value, slope) = found.jet(s);
+                let [value, slope, _] = found.jet(s);
                 assert!((value - f(s)).abs() < error, "{n}");
                 assert_eq!(value, found.value(s));
                 assert!((slope + f(s).powi(2)).abs() < 100.0 * error, "{n}");
@@ -254,11 +309,11 @@ mod tests {
                 let sum: f64 = basis.iter().zip(&values).map(|(a, b)| a * b).sum();
                 assert!((sum - value).abs() < 1e-13);
             }
-            let rows = (1..=n).map(|i| (i, nodes.slope_row(i), nodes.integral_row(i)));
+            let rows = (1..=n).map(|i| (i, &nodes.slope[i], &nodes.integral[i]));
             for (i, slope, integral) in rows {
                 let s = nodes.places[i];
                 let sum: f64 = slope.iter().zip(&values).map(|(a, b)| a * b).sum();
-                assert!((sum - found.jet(s).1).abs() < 1e-11, "{n} {i}");
+                assert!((sum - found.jet(s)[1]).abs() < 1e-11, "{n} {i}");
                 let sum: f64 = integral.iter().zip(&values[1..]).map(|(a, b)| a * b).sum();
                 assert!((sum - ((2.0 + s) / 2.0).ln()).abs() < error, "{n} {i}");
             }
@@ -280,5 +335,19 @@ mod tests {
         }
         let mut singular = Factors::room(2);
         assert!(!singular.eliminate());
+    }
+
+    #[test]
+    fn powers_of_a_line() {
+        let found = Polynomial::power(0.3, -0.2, 2).below(1.0);
+        for s in [0.0, 0.2, 0.9, 1.0] {
+            let [value, slope, bend] = found.jet(s);
+            assert!((value - 1.0 + (0.3 - 0.2 * s) * (0.3 - 0.2 * s)).abs() < 1e-15);
+            assert!((slope - 0.4 * (0.3 - 0.2 * s)).abs() < 1e-15);
+            let [values, slopes] = found.jets(&[s, 0.5]);
+            assert_eq!((values[0], slopes[0]), (value, slope));
+            assert_eq!(found.value(s), value);
+            assert!((bend + 0.08).abs() < 1e-15);
+        }
     }
 }

@@ -1,14 +1,13 @@
 //! A contact that has been solved: its results, their errors, and its history at any time.
 
 use crate::growing::arrivals::Piece;
-use crate::growing::march::{Errors, March};
-use crate::growing::nodes::Nodes;
-use crate::growing::polynomial::LARGEST;
+use crate::growing::equations::{Errors, March};
+use crate::growing::nodes::{LARGEST, Nodes};
 use crate::model::Plasticity;
-use crate::numeric::quadrature::{GAUSS_8, gauss, rising_root};
+use crate::numeric::quadrature::{GAUSS_8, find_root, gauss, rising_root};
 use crate::plastic::branch::{Branch, nested};
 use crate::plastic::{Flow, Yielding};
-use crate::summary::{Estimates, Instant, Summary};
+use crate::summary::{Estimates, Instant, SMALL_LOSS, Summary};
 use crate::units::INVERSE_MASS;
 
 /// A contact whose radius follows the load, in collision units.
@@ -29,31 +28,23 @@ pub struct SolvedContact {
     radiated: Vec<f64>,
 }
 
-/// Loss below which it is taken from the work on the half-space, not from the momentum.
-const SMALL_LOSS: f64 = 0.03;
-
-/// Factors from the sums of the pieces' errors to those of the results.
+/// Factors from the sums of the pieces' errors to those of the results, where they are not one.
 const PEAK_FORCE: f64 = 0.4;
-const PEAK_FORCE_TIME: f64 = 1.0;
 const CONTACT_TIME: f64 = 24.0;
 const RESTITUTION: f64 = 0.2;
 const LOSS: f64 = 8.0;
 const DISPLACEMENT: f64 = 3.0;
-const DEFLECTION: f64 = 1.0;
 const FORCE: f64 = 2.0;
 
 impl SolvedContact {
     pub(crate) fn new(march: March<'_>) -> Self {
         let (pieces, state) = (march.pieces, march.state);
-        let (widest, peak_force_time) = largest(&pieces, |p, s| p.radius.curve(s));
-        let (peak_displacement, _) = largest(&pieces, |p, s| p.displacement.curve(s));
-        let late = pieces
-            .iter()
-            .take_while(|piece| piece.to.0 <= peak_force_time)
-            .count();
+        let (widest, peak_force_time) = largest(&pieces, |p, s| p.radius.jet(s));
+        let (peak_displacement, _) = largest(&pieces, |p, s| p.displacement.jet(s));
+        let late = pieces.partition_point(|piece| piece.end.time <= peak_force_time);
         let (peak_deflection, _) = largest(&pieces[late..], |piece, place| {
-            let [d, d1, d2] = piece.displacement.curve(place);
-            let [a, a1, a2] = piece.radius.curve(place);
+            let [d, d1, d2] = piece.displacement.jet(place);
+            let [a, a1, a2] = piece.radius.jet(place);
             [d - a * a, d1 - 2.0 * a * a1, d2 - 2.0 * (a1 * a1 + a * a2)]
         });
         let work = 2.0 * INVERSE_MASS * march.dissipated;
@@ -80,17 +71,17 @@ impl SolvedContact {
     fn of(pieces: Vec<Piece>, summary: Summary, errors: &Errors, energy: f64) -> Self {
         let estimates = Estimates {
             peak_force: PEAK_FORCE * (errors.force + errors.momentum) / summary.peak_force,
-            peak_force_time: PEAK_FORCE_TIME * (errors.force + errors.momentum),
+            peak_force_time: errors.force + errors.momentum,
             contact_time: CONTACT_TIME * (errors.end + 0.1 * errors.momentum)
                 / summary.contact_time,
             restitution: RESTITUTION * (errors.momentum + energy),
             loss: LOSS * (errors.work / summary.loss + energy),
             peak_displacement: DISPLACEMENT * errors.momentum / summary.peak_displacement,
-            peak_deflection: DEFLECTION * errors.force / summary.peak_deflection,
+            peak_deflection: errors.force / summary.peak_deflection,
             force: FORCE * errors.force / summary.peak_force,
         };
         Self {
-            ends: pieces.iter().map(|piece| piece.to.0).collect(),
+            ends: pieces.iter().map(|piece| piece.end.time).collect(),
             pieces,
             summary,
             estimates,
@@ -109,7 +100,7 @@ impl SolvedContact {
     ) -> Self {
         let (mut pieces, contact_time) = (march.pieces, march.state.time);
         let nodes = Nodes::of(LARGEST);
-        for piece in pieces.iter_mut().filter(|piece| piece.force.is_none()) {
+        for piece in &mut pieces {
             let force = |&s: &f64| {
                 let here = piece.law.branch.at(piece.radius.value(s).max(0.0));
                 here.force + piece.law.damping(&here) * piece.velocity.value(s)
@@ -118,18 +109,17 @@ impl SolvedContact {
             piece.force = Some(nodes.polynomial(&values));
         }
         let (peak_force, peak_force_time) = largest(&pieces, Piece::force);
-        let (peak_displacement, _) = largest(&pieces, |p, s| p.displacement.curve(s));
-        let mut radiated = vec![0.0];
+        let (peak_displacement, _) = largest(&pieces, |p, s| p.displacement.jet(s));
+        let (mut radiated, mut lost) = (Vec::new(), 0.0);
         for piece in &pieces {
-            let before = radiated.last().copied().unwrap_or(0.0);
-            radiated.push(before + work_of(piece, 1.0));
+            radiated.push(lost);
+            lost += work_of(piece, 1.0);
         }
-        let last = pieces.last();
         // what a contact without force has not given back goes the way of the dashpot
-        let kept = last.map_or(0.0, |one| one.law.branch.given_back(one.to.1.max(0.0)));
+        let kept = march.law.branch.given_back(march.state.radius.max(0.0));
+        lost += 2.0 * INVERSE_MASS * kept;
         let (back, from) = yielding.unloading(top);
         let flowed = 2.0 * INVERSE_MASS * (yielding.work(top) - back.given_back(from));
-        let lost = radiated.last().copied().unwrap_or(0.0) + 2.0 * INVERSE_MASS * kept;
         let deflected = pieces.iter().flat_map(|piece| {
             let places = (0..=SAMPLES).map(|i| f64::from(i) / f64::from(SAMPLES));
             places.map(|place| deflected(piece, place))
@@ -183,14 +173,12 @@ impl SolvedContact {
         const APART: f64 = 1e-5;
         let flow = (self.flow.as_ref()).filter(|one| one.yielding.law == Plasticity::Recovery)?;
         let (piece, place) = self.place(time)?;
-        let (radius, slope) = piece.radius.jet(place);
+        let [radius, slope, _] = piece.radius.jet(place);
         let (edge, turned) = (flow.yielding.edge(), self.turned(time));
-        let at = |radius: f64| {
-            let top = if turned { flow.radius } else { radius };
-            nested(edge, top, radius)
-        };
+        let top = flow.peak_indentation.sqrt();
+        let at = |radius| nested(edge, if turned { top } else { radius }, radius);
         let [less, here, more] = [1.0 - APART, 1.0, 1.0 + APART].map(|part| at(part * radius));
-        let per = slope / (piece.time.jet(place).1 * 2.0 * APART * radius);
+        let per = slope / (piece.time.jet(place)[1] * 2.0 * APART * radius);
         let unit = flow.disc_radius * flow.disc_radius;
         Some([0, 1].map(|i| {
             let [part_rate, square_rate] = [0, 1].map(|j| per * (more[i][j] - less[i][j]));
@@ -237,7 +225,7 @@ impl SolvedContact {
         }
         self.place(time).map_or([0.0; 3], |(piece, place)| {
             let [force, p1, p2] = piece.force(place);
-            let [_, t1, t2] = piece.time.curve(place);
+            let [_, t1, t2] = piece.time.jet(place);
             if force <= 0.0 || t1 <= 0.0 {
                 return [0.0; 3];
             }
@@ -301,11 +289,11 @@ pub(crate) fn place_of(piece: &Piece, time: f64) -> f64 {
         let root = (slope * slope + 4.0 * half * away).max(0.0).sqrt();
         return (0.5 + away / (slope + root)).clamp(0.0, 1.0);
     }
-    let span = piece.to.0 - piece.from.0;
-    let start = ((time - piece.from.0) / span).clamp(0.0, 1.0);
+    let (from, until) = (piece.start.time, piece.end.time);
+    let start = ((time - from) / (until - from)).clamp(0.0, 1.0);
     let late = |place: f64| {
-        let (value, slope) = piece.time.jet(place);
-        (value - time, slope)
+        let [value, slope, _] = piece.time.jet(place);
+        [value - time, slope]
     };
     rising_root(late, [0.0, 1.0], start, 1e-14)[1]
 }
@@ -327,13 +315,12 @@ fn largest(pieces: &[Piece], curve: impl Fn(&Piece, f64) -> [f64; 3]) -> (f64, f
         let rises = |part: usize| curve(piece, part as f64 / PARTS as f64)[1] > 0.0;
         for part in 1..=PARTS {
             if rises(part - 1) && !rises(part) {
-                let ends = [part - 1, part].map(|part| part as f64 / PARTS as f64);
-                let fall = |place: f64| {
+                let [from, to] = [part - 1, part].map(|part| part as f64 / PARTS as f64);
+                let slope = |place: f64| {
                     let [_, slope, bend] = curve(piece, place);
-                    (-slope, -bend)
+                    [slope, bend]
                 };
-                let [_, top] = rising_root(fall, ends, 0.5 * (ends[0] + ends[1]), 1e-15);
-                candidate(piece, top);
+                candidate(piece, find_root(slope, from, to));
             }
         }
     }

@@ -34,12 +34,12 @@ const ITERATIONS: usize = 30;
 /// # Errors
 /// [`MarchError::TooLong`] when the work is out of bounds.
 pub fn march_growing(contact: &GrowingContact<'_>, step: f64) -> Result<History, MarchError> {
-    let memory = contact.waves.memory() * contact.wave_time;
+    let memory = contact.waves.memory * contact.wave_time;
     let cells = (memory / step).min(1e9) as usize * 8;
     affordable(least_steps(step), cells, memory)?;
     let mut striker = StrikerMotion::new(step, 0.0, &starting_roots(step, 0.0));
     let inertia = striker.newest_weight();
-    let mut history = History::at_touch(step, 256);
+    let mut history = History::at_touch(step);
     history.start = striker.missed[0];
     history.end_layer = Some(end_layer(contact));
     let mut indentation = vec![0.0_f64];
@@ -113,7 +113,7 @@ const THIN: f64 = 0.4;
 /// f is fitted to marches that resolve the layer for phi up to 0.95 and thin layers, 1 for small phi, where u = v t undisturbed gives int V_p(sqrt(x)) dx = 2 m.
 fn end_layer(contact: &GrowingContact<'_>) -> [f64; 2] {
     let (phi, tau) = (contact.target_share, contact.wave_time);
-    let memory = contact.waves.memory() * tau;
+    let memory = contact.waves.memory * tau;
     if memory > THIN {
         return [0.0; 2];
     }
@@ -138,7 +138,7 @@ fn relaxing(
     cells: Range<usize>,
 ) -> (f64, f64) {
     let n = indentation.len() - 1;
-    let memory = contact.waves.memory() * contact.wave_time;
+    let memory = contact.waves.memory * contact.wave_time;
     let mut sum = 0.0;
     let mut prompt = 0.0;
     for j in cells {
@@ -187,10 +187,7 @@ fn curvature(samples: &[f64], end: usize) -> f64 {
         (i >= 1 && i + 1 < samples.len() && samples[i] > 0.0)
             .then(|| samples[i + 1] - 2.0 * samples[i] + samples[i - 1])
     };
-    match (end.checked_sub(1).and_then(second), second(end)) {
-        (Some(a), Some(b)) => 0.5 * (a + b),
-        (Some(a), None) => a,
-        (None, Some(b)) => b,
-        (None, None) => 0.0,
-    }
+    let (before, after) = (end.checked_sub(1).and_then(second), second(end));
+    let sides = [before.or(after), after.or(before)];
+    0.5 * sides.into_iter().flatten().sum::<f64>()
 }

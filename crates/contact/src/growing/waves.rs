@@ -27,8 +27,8 @@ pub(crate) const LEVELS: usize = SIZES.len();
 /// The waves under a flat punch; by default none, as of a half-space that answers at once.
 #[derive(Debug, Clone, Default)]
 pub struct PunchWaves {
-    /// Largest delay 2/c in a/c1.
-    memory: f64,
+    /// Time after which the response of a punch is static, in a/c1: Rayleigh's wave across the diameter, 2/c.
+    pub memory: f64,
     /// int (X/memory)^n dmu, n = 0 to 3.
     moments: [f64; 4],
     /// Of each level the delays X in a/c1, ascending, and the mass over the delay of each.
@@ -80,12 +80,6 @@ impl PunchWaves {
         }
     }
 
-    /// Time after which the response of a punch is static, in a/c1: Rayleigh's wave across the diameter.
-    #[must_use]
-    pub fn memory(&self) -> f64 {
-        self.memory
-    }
-
     /// int V_p dt in a/c1: 3/2 of the relaxation time of a Hertz disc's centre.
     #[must_use]
     pub fn relaxation_time(&self) -> f64 {
@@ -96,8 +90,8 @@ impl PunchWaves {
     #[must_use]
     pub fn moment(&self, n: i32) -> f64 {
         let known = usize::try_from(n).ok().and_then(|n| self.moments.get(n));
-        let reduced = |waves: &Self| moment(&waves.points, n);
-        known.copied().unwrap_or_else(|| self.mixed(&reduced)) * self.memory.powi(n)
+        let reduced = || self.mixed(&|waves: &Self| [moment(&waves.points, n)])[0];
+        known.copied().unwrap_or_else(reduced) * self.memory.powi(n)
     }
 
     /// V_p(t), t in a/c1, and its integral from 0 to t; constant from the memory on.
@@ -106,27 +100,25 @@ impl PunchWaves {
     #[must_use]
     pub fn relaxation(&self, t: f64) -> [f64; 2] {
         let x = t / self.memory;
-        let part = |waves: &Self, part: fn([f64; 3], f64) -> f64| {
+        let [value, integral] = self.mixed(&|waves| {
             let before = waves.sums[waves.points.partition_point(|(slowness, _)| *slowness <= x)];
             let all = waves.sums[waves.points.len()];
-            part([before[0], all[1] - before[1], all[2] - before[2]], x)
-        };
-        let value = |[_, mass, rate]: [f64; 3], x: f64| mass - x * rate;
-        let integral =
-            |[past, mass, rate]: [f64; 3], x: f64| 0.5 * past + x * (mass - 0.5 * x * rate);
-        [
-            self.mixed(&|waves| part(waves, value)),
-            self.memory * self.mixed(&|waves| part(waves, integral)),
-        ]
+            let (mass, rate) = (all[1] - before[1], all[2] - before[2]);
+            [
+                mass - x * rate,
+                0.5 * before[0] + x * (mass - 0.5 * x * rate),
+            ]
+        });
+        [value, self.memory * integral]
     }
 
     /// What points give, linear between the neighbours where these waves have none of their own.
-    fn mixed(&self, of: &impl Fn(&Self) -> f64) -> f64 {
+    fn mixed<const N: usize>(&self, of: &impl Fn(&Self) -> [f64; N]) -> [f64; N] {
         match &self.neighbours {
             None => of(self),
             Some((near, far, fraction)) => {
-                let near = near.mixed(of);
-                near + fraction * (far.mixed(of) - near)
+                let (near, far) = (near.mixed(of), far.mixed(of));
+                std::array::from_fn(|k| near[k] + fraction * (far[k] - near[k]))
             }
         }
     }
@@ -219,7 +211,7 @@ mod tests {
             );
             let relaxation = waves.relaxation_time() / centre.relaxation_time();
             assert!((relaxation - 1.5).abs() < 1e-12, "nu = {nu}: {relaxation}");
-            assert!((waves.memory() / centre.memory() - 2.0).abs() < 1e-14);
+            assert!((waves.memory / centre.memory() - 2.0).abs() < 1e-14);
         }
     }
 
@@ -233,7 +225,7 @@ mod tests {
             let medium = Medium::new(nu).unwrap();
             let waves = PunchWaves::new(&medium);
             let centre = SurfaceResponse::new(&medium, Deflection::Centre);
-            let end = waves.memory();
+            let end = waves.memory;
             assert!((waves.relaxation(0.0)[0] - 1.0).abs() < 1e-12);
             let all = waves.relaxation(1.1 * end);
             assert!(all[0].abs() < 1e-12 && (all[1] / waves.relaxation_time() - 1.0).abs() < 1e-12);

@@ -25,7 +25,7 @@ use crate::disc::history::History;
 use crate::growing::waves::PunchWaves;
 use crate::law::pulse::pulse;
 use crate::numeric::quadrature::chebyshev;
-use crate::summary::{Estimates, Summary};
+use crate::summary::{Estimates, SMALL_LOSS, Summary};
 
 /// The terms of the expansion in the memory, in collision units.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -179,9 +179,6 @@ fn depth_factor(target_share: f64, shape: f64) -> f64 {
     1.0 - fall * target_share + rest * target_share.powi(8)
 }
 
-/// Loss below which the restitution is taken from it.
-const SMALL_LOSS: f64 = 0.03;
-
 /// What c^3, c b and e add to the results beyond the equation, fitted to [`solve_growing`](crate::growing::solve_growing).
 ///
 /// The part of e in the loss is -(1/24) int p'' (p^(5/3))'' dt of Hertz's pulse.
@@ -318,7 +315,7 @@ mod tests {
                 let course = Course::new(&force, 0.0, 2e-3);
                 let [velocity, largest] = motion(force, course.contact_time, 2e-3);
                 let loss = 1.0 - velocity.powi(2);
-                let allowed = 0.03 * phi * (tau * waves.memory()).powi(4) + 1e-7;
+                let allowed = 0.03 * phi * (tau * waves.memory).powi(4) + 1e-7;
                 for (found, exact) in [
                     (found.peak_force, course.peak_force),
                     (found.peak_displacement, largest),

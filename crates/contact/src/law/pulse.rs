@@ -33,7 +33,7 @@ pub(crate) fn pulse(
     let mut course = Course::new(&force, depth, step.min(results.contact_time / LEAST_STEPS));
     course.fit(results);
     let mut last_instants: Option<[f64; 2]> = None;
-    let mut history = History::at_touch(step, (results.contact_time / step) as usize + 3);
+    let mut history = History::at_touch(step);
     let mut state = [0.0, 1.0];
     let (mut place, mut before, mut known) = (0.0, 0.0, (0.0, 0.0));
     let (mut d, mut v) = (0.0, 1.0);

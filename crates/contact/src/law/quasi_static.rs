@@ -113,10 +113,10 @@ impl Springs {
     /// y at the turning point.
     fn top(&self) -> f64 {
         let energy = |y: f64| {
-            (
+            [
                 self.stored(y) - 0.4 * self.energy,
                 y.powi(4) * (2.0 + 3.0 * self.coupling * y),
-            )
+            ]
         };
         find_root(energy, 0.0, 1.0)
     }

@@ -40,11 +40,8 @@ pub(crate) fn force_root(a: f64, b: f64, guess: f64) -> Option<f64> {
         }
         (b.sqrt().min(fold), fold)
     };
-    let mut y = if guess > low && guess < high {
-        guess
-    } else {
-        high
-    };
+    let inside = guess > low && guess < high;
+    let mut y = if inside { guess } else { high };
     for _ in 0..100 {
         let value = (a * y + 1.0) * y * y - b;
         if value > 0.0 {
@@ -53,11 +50,8 @@ pub(crate) fn force_root(a: f64, b: f64, guess: f64) -> Option<f64> {
             low = y;
         }
         let newton = y - value / ((3.0 * a * y + 2.0) * y);
-        let next = if newton >= low && newton <= high {
-            newton
-        } else {
-            0.5 * (low + high)
-        };
+        let inside = newton >= low && newton <= high;
+        let next = if inside { newton } else { 0.5 * (low + high) };
         // Newton's error is squared each time: the next one would be below the last digit
         if (next - y).abs() <= 1e-8 * y {
             return Some(next);

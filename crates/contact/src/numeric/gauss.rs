@@ -1,7 +1,7 @@
 //! Rules beside Gauss and Legendre's: Radau's, and Gauss's of a measure given by many point masses.
 
-/// P_(n-1) and P_n at x.
-pub(crate) fn legendre(n: usize, x: f64) -> [f64; 2] {
+/// P_n at x.
+pub(crate) fn legendre(n: usize, x: f64) -> f64 {
     let (mut before, mut value) = (0.0, 1.0);
     for k in 1..=n {
         let k = k as f64;
@@ -10,7 +10,7 @@ pub(crate) fn legendre(n: usize, x: f64) -> [f64; 2] {
             ((2.0 * k - 1.0) * x * value - (k - 1.0) * before) / k,
         );
     }
-    [before, value]
+    value
 }
 
 /// The n nodes of Radau's rule on (0, 1] that holds the right end, ascending: eigenvalues of Legendre's Jacobi matrix whose
@@ -34,11 +34,8 @@ pub(crate) fn gauss_rule(points: &[(f64, f64)], n: usize) -> Vec<(f64, f64)> {
     let mut now = vec![1.0 / total.sqrt(); points.len()];
     let mut norm = 0.0;
     for _ in 0..n {
-        let mean: f64 = points
-            .iter()
-            .zip(&now)
-            .map(|((x, m), p)| m * x * p * p)
-            .sum();
+        let parts = points.iter().zip(&now);
+        let mean: f64 = parts.map(|((x, m), p)| m * x * p * p).sum();
         diagonal.push(mean);
         let mut square = 0.0;
         for (((x, mass), p), q) in points.iter().zip(&mut now).zip(&mut before) {
@@ -49,16 +46,11 @@ pub(crate) fn gauss_rule(points: &[(f64, f64)], n: usize) -> Vec<(f64, f64)> {
         }
         norm = square.sqrt();
         beside.push(norm);
-        for p in &mut now {
-            *p /= norm;
-        }
+        now.iter_mut().for_each(|p| *p /= norm);
     }
     let first = eigen(&mut diagonal, &mut beside);
-    let mut rule: Vec<(f64, f64)> = diagonal
-        .iter()
-        .zip(first)
-        .map(|(&x, z)| (x, total * z * z))
-        .collect();
+    let weights = first.iter().map(|z| total * z * z);
+    let mut rule: Vec<(f64, f64)> = diagonal.into_iter().zip(weights).collect();
     rule.sort_by(|a, b| a.0.total_cmp(&b.0));
     rule
 }

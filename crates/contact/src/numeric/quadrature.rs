@@ -28,14 +28,18 @@ pub(crate) fn hermite([v0, s0]: [f64; 2], [v1, s1]: [f64; 2], x: f64) -> f64 {
     v0 + x * (s0 + x * (rise - s0 - cubic + x * cubic))
 }
 
-/// The third to fifth coefficient of the quintic on [0, 1] whose first three are known, from what its value, its slope and
-/// half its curvature at one are more than theirs.
+/// The quintic on [0, 1] with these values, slopes and curvatures at its ends: its own at x.
 #[inline]
-pub(crate) fn quintic(rise: f64, tilt: f64, turn: f64) -> [f64; 3] {
+pub(crate) fn quintic([v0, a, bend0]: [f64; 3], [v1, s1, bend1]: [f64; 3], x: f64) -> [f64; 3] {
+    let b = 0.5 * bend0;
+    let (rise, tilt, turn) = (v1 - v0 - a - b, s1 - a - bend0, 0.5 * (bend1 - bend0));
+    let c = 10.0 * rise - 4.0 * tilt + turn;
+    let d = -15.0 * rise + 7.0 * tilt - 2.0 * turn;
+    let e = 6.0 * rise - 3.0 * tilt + turn;
     [
-        10.0 * rise - 4.0 * tilt + turn,
-        -15.0 * rise + 7.0 * tilt - 2.0 * turn,
-        6.0 * rise - 3.0 * tilt + turn,
+        v0 + x * (a + x * (b + x * (c + x * (d + x * e)))),
+        a + x * (2.0 * b + x * (3.0 * c + x * (4.0 * d + x * 5.0 * e))),
+        2.0 * b + x * (6.0 * c + x * (12.0 * d + x * 20.0 * e)),
     ]
 }
 
@@ -94,12 +98,7 @@ impl<const N: usize> Local<N> {
     }
 
     pub(crate) fn value(&self, x: f64) -> f64 {
-        self.value_and_slope(x).0
-    }
-
-    pub(crate) fn value_and_slope(&self, x: f64) -> (f64, f64) {
-        let [value, slope, _] = self.jet(x);
-        (value, slope)
+        self.jet(x)[0]
     }
 
     /// Value, slope and half the curvature.
@@ -116,44 +115,23 @@ impl<const N: usize> Local<N> {
 
     /// The zero of the polynomial in [from, to], by bisection-guarded Newton; the ends must differ in sign.
     pub(crate) fn root(&self, from: f64, to: f64) -> f64 {
-        find_root(|x| self.value_and_slope(x), from, to)
-    }
-
-    /// Place and value of the extremum in [from, to] where the slope changes sign, else the larger end.
-    pub(crate) fn maximum(&self, from: f64, to: f64) -> (f64, f64) {
-        let slope = |x: f64| {
-            let [_, slope, half_curvature] = self.jet(x);
-            (slope, 2.0 * half_curvature)
-        };
-        if slope(from).0 > 0.0 && slope(to).0 < 0.0 {
-            let x = find_root(slope, from, to);
-            return (x, self.value(x));
-        }
-        let (left, right) = (self.value(from), self.value(to));
-        if left > right {
-            (from, left)
-        } else {
-            (to, right)
-        }
+        find_root(|x| self.jet(x), from, to)
     }
 }
 
-/// A zero of f (value and slope) between two places of different sign.
-pub(crate) fn find_root(f: impl Fn(f64) -> (f64, f64), from: f64, to: f64) -> f64 {
-    let sign = if f(from).0 < 0.0 { 1.0 } else { -1.0 };
-    let rising = |x: f64| {
-        let (value, slope) = f(x);
-        (sign * value, sign * slope)
-    };
+/// A zero of f (value, slope and whatever follows) between two places of different sign.
+pub(crate) fn find_root<const N: usize>(f: impl Fn(f64) -> [f64; N], from: f64, to: f64) -> f64 {
+    let sign = if f(from)[0] < 0.0 { 1.0 } else { -1.0 };
+    let rising = |x: f64| f(x).map(|part| sign * part);
     rising_root(rising, [from, to], 0.5 * (from + to), 1e-15)[1]
 }
 
-/// A zero of a rising function (value and slope) in [low, high] by Newton's method from `start`, with bisection where
+/// A zero of a rising function (value, slope and whatever follows) in [low, high] by Newton's method from `start`, with bisection where
 /// that leaves the bracket: the place before the last step, and the one after it.
 ///
 /// It ends with a step below [`CLOSE`], or with a bisection below `least`.
-pub(crate) fn rising_root(
-    f: impl Fn(f64) -> (f64, f64),
+pub(crate) fn rising_root<const N: usize>(
+    f: impl Fn(f64) -> [f64; N],
     [mut low, mut high]: [f64; 2],
     start: f64,
     least: f64,
@@ -161,13 +139,13 @@ pub(crate) fn rising_root(
     let mut places = [start; 2];
     for _ in 0..60 {
         let place = places[1];
-        let (value, slope) = f(place);
-        if value < 0.0 {
+        let now = f(place);
+        if now[0] < 0.0 {
             low = place;
         } else {
             high = place;
         }
-        let newton = place - value / slope;
+        let newton = place - now[0] / now[1];
         let inside = newton >= low && newton <= high;
         let next = if inside { newton } else { 0.5 * (low + high) };
         places = [place, next];
@@ -207,10 +185,21 @@ pub(crate) fn peak(samples: &[f64]) -> (f64, f64) {
         return (best as f64, largest);
     }
     let from = best.saturating_sub(2).min(samples.len() - 5);
-    let centre = (best - from) as f64;
-    let (place, value) =
-        Local::<5>::at(samples, from).maximum((centre - 1.0).max(0.0), (centre + 1.0).min(4.0));
-    (from as f64 + place, value)
+    let (local, centre) = (Local::<5>::at(samples, from), (best - from) as f64);
+    let [low, high] = [(centre - 1.0).max(0.0), (centre + 1.0).min(4.0)];
+    let slope = |x: f64| {
+        let [_, slope, half_curvature] = local.jet(x);
+        [slope, 2.0 * half_curvature]
+    };
+    // where the slope changes sign, else the larger end
+    let place = if slope(low)[0] > 0.0 && slope(high)[0] < 0.0 {
+        find_root(slope, low, high)
+    } else if local.value(low) > local.value(high) {
+        low
+    } else {
+        high
+    };
+    (from as f64 + place, local.value(place))
 }
 
 #[cfg(test)]
@@ -241,7 +230,7 @@ mod tests {
     fn a_local_polynomial_is_exact() {
         let f = |x: f64| 1.0 - 2.0 * x + 0.5 * x * x - 0.25 * x.powi(3) + 0.125 * x.powi(4);
         let local = Local::<5>::new(std::array::from_fn(|i| f(i as f64)));
-        let (value, slope) = local.value_and_slope(1.7);
+        let [value, slope, _] = local.jet(1.7);
         assert!((value - f(1.7)).abs() < 1e-13);
         let expected = -2.0 + 1.7 - 0.75 * 1.7 * 1.7 + 0.5 * 1.7_f64.powi(3);
         assert!((slope - expected).abs() < 1e-12);

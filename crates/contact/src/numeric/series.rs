@@ -27,13 +27,7 @@ fn weight(k: usize, i: usize, n: usize) -> f64 {
     if n == 1 {
         return 1.0;
     }
-    let halved = |place: usize| {
-        if place == 0 || place == n - 1 {
-            0.5
-        } else {
-            1.0
-        }
-    };
+    let halved = |place: usize| [1.0, 0.5][usize::from(place == 0 || place == n - 1)];
     let angle = PI * (k * i % (2 * (n - 1))) as f64 / (n - 1) as f64;
     2.0 * halved(k) * halved(i) * angle.cos() / (n - 1) as f64
 }
@@ -44,14 +38,11 @@ impl<const N: usize> Series<N> {
     pub(crate) fn through(
         [across, along]: [usize; 2],
         least: f64,
-        mut values: impl FnMut([f64; 2]) -> Option<[f64; N]>,
+        values: impl FnMut([f64; 2]) -> Option<[f64; N]>,
     ) -> Option<Self> {
-        let mut at_nodes = Vec::with_capacity(across * along);
-        for i in 0..across {
-            for j in 0..along {
-                at_nodes.push(values([node(i, across), node(j, along)])?);
-            }
-        }
+        let place = |k: usize| [node(k / along, across), node(k % along, along)];
+        let all = (0..across * along).map(place).map(values);
+        let at_nodes = all.collect::<Option<Vec<_>>>()?;
         let coefficient = |k: usize, l: usize| {
             let mut sum = [0.0; N];
             for (place, value) in at_nodes.iter().enumerate() {

@@ -118,18 +118,16 @@ impl Branch {
             braking: INVERSE_MASS * 1.5 * a * depth_slope,
         };
         match *self {
-            Self::Line { edge } => Local {
-                punch_slope: 2.0 * edge,
-                bends: [2.0, 0.0],
-                stiffness: 1.5 * edge,
-                braking: INVERSE_MASS * 3.0 * edge * a,
-                ..of(
-                    a * a,
-                    2.0 * a,
-                    2.0,
-                    edge * (1.5 * a * a - 0.5 * edge * edge),
-                )
-            },
+            Self::Line { edge } => {
+                let force = edge * (1.5 * a * a - 0.5 * edge * edge);
+                Local {
+                    punch_slope: 2.0 * edge,
+                    bends: [2.0, 0.0],
+                    stiffness: 1.5 * edge,
+                    braking: INVERSE_MASS * 3.0 * edge * a,
+                    ..of(a * a, 2.0 * a, 2.0, force)
+                }
+            }
             Self::Fit(fit) => {
                 let [force, stiffness] = fit.force(a * a);
                 Local {
@@ -138,12 +136,10 @@ impl Branch {
                     ..of(a * a, 2.0 * a, 2.0, force)
                 }
             }
-            Self::Hertzian { left, flatter } => of(
-                left + a * a / flatter,
-                2.0 * a / flatter,
-                2.0 / flatter,
-                a * a * a / flatter,
-            ),
+            Self::Hertzian { left, flatter } => {
+                let (depth, force) = (left + a * a / flatter, a * a * a / flatter);
+                of(depth, 2.0 * a / flatter, 2.0 / flatter, force)
+            }
             Self::Truncated { edge, top } => {
                 let cut = Cut::new(edge, top, a);
                 let slope = 4.0 / PI * cut.angle;

@@ -70,17 +70,15 @@ pub enum InferError {
     },
     /// A measure that no contact has that yields.
     #[error(
-        "{measure} = {value} is outside [{low:.4e}, {high:.4e}], what a contact has that yields"
+        "{measure} = {value} is outside [{:.4e}, {:.4e}], what a contact has that yields", limits[0], limits[1]
     )]
     Outside {
         /// What was measured.
         measure: &'static str,
         /// Its value.
         value: f64,
-        /// The smallest.
-        low: f64,
-        /// The largest.
-        high: f64,
+        /// The smallest and the largest.
+        limits: [f64; 2],
     },
 }
 
@@ -97,10 +95,9 @@ impl Fault for InferError {
             Self::Outside {
                 measure,
                 value,
-                low,
-                high,
+                limits,
             } => Culprit {
-                limits: Some([*low, *high]),
+                limits: Some(*limits),
                 ..culprit.key(measure).number(*value)
             },
         }
@@ -185,8 +182,7 @@ pub fn infer(
     let found = halved(value)?.ok_or(InferError::Outside {
         measure: measure.name(),
         value,
-        low: ends[0].min(ends[1]),
-        high: ends[0].max(ends[1]),
+        limits: [ends[0].min(ends[1]), ends[0].max(ends[1])],
     })?;
     let mut band = [halved(value - error)?, halved(value + error)?];
     // rising with the measure, or falling

@@ -5,13 +5,11 @@
 
 use crate::disc::refine::Accuracy;
 use crate::error::MarchError;
-use crate::growing::arrivals::Piece;
+use crate::growing::arrivals::{Piece, State};
 use crate::growing::checks;
-use crate::growing::equations::{Independent, State};
-use crate::growing::march::March;
-use crate::growing::polynomial::{Polynomial, SIZE};
+use crate::growing::equations::{Independent, March, Solution};
+use crate::growing::nodes::{Polynomial, SIZE};
 use crate::growing::solved::SolvedContact;
-use crate::growing::step::Solution;
 use crate::growing::waves::GrowingContact;
 use crate::numeric::quadrature::rising_root;
 use crate::plastic::Yielding;
@@ -136,10 +134,10 @@ impl March<'_> {
         };
         let turned = |_: &Self, solution: &Solution, error| {
             let slowing = |s| {
-                let [_, slope, bend] = solution.piece.radius.curve(s);
-                (-slope, -bend)
+                let [_, slope, bend] = solution.piece.radius.jet(s);
+                [-slope, -bend]
             };
-            let turns = error <= 1.0 && solution.end.slope < 0.0;
+            let turns = error <= 1.0 && solution.piece.end.slope < 0.0;
             turns.then(|| rising_root(slowing, [0.0, 1.0], 0.5, 1e-16)[1])
         };
         self.until(MOST, Independent::Time, longest, piece, turned)?;

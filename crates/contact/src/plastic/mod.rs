@@ -50,9 +50,8 @@ impl Yielding {
 
     /// Radius of contact where the loading leaves Hertz's law.
     pub(crate) fn edge(&self) -> f64 {
-        self.fit
-            .map_or(self.depth, |fit| FITTED * fit.critical)
-            .sqrt()
+        let depth = self.fit.map_or(self.depth, |fit| FITTED * fit.critical);
+        depth.sqrt()
     }
 
     /// Loading beyond that radius.
@@ -107,8 +106,6 @@ pub struct Flow {
     /// Work on the half-space's waves.
     pub radiated: f64,
     pub(crate) yielding: Yielding,
-    /// Root of the largest indentation.
-    pub(crate) radius: f64,
     /// Largest radius of contact.
     pub contact_radius: f64,
     /// Radius of Hertz's pressure of the same second moment at the turning point.
@@ -137,7 +134,6 @@ impl Flow {
             plastic_work,
             radiated,
             yielding: *yielding,
-            radius,
             disc_radius: match fit {
                 // of a flat pressure
                 Some(_) => contact_radius * 1.25_f64.sqrt(),

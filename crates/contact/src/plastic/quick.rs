@@ -9,7 +9,7 @@
 //!
 //! Theory: `docs/theory.md` (T65).
 
-use crate::growing::march::March;
+use crate::growing::equations::March;
 use crate::growing::nodes::Nodes;
 use crate::numeric::series::Series;
 use crate::plastic::branch::{Branch, FITTED, Fit};
@@ -166,7 +166,7 @@ fn extrapolated<const N: usize>(
 fn rise(edge: f64, lag: f64) -> Option<(f64, f64, f64)> {
     static COLUMNS: OnceLock<[[f64; NODES]; NODES]> = OnceLock::new();
     let rule = Nodes::of(NODES);
-    let column = |j| std::array::from_fn(|i| rule.integral_row(i + 1)[j]);
+    let column = |j| std::array::from_fn(|i| rule.integral[i + 1][j]);
     let columns = COLUMNS.get_or_init(|| std::array::from_fn(column));
     let (mut from, mut time, mut lost) = (0.0, 0.0, 0.0);
     let factor = 11.25 * lag;
@@ -193,7 +193,7 @@ fn rise(edge: f64, lag: f64) -> Option<(f64, f64, f64)> {
             }
             before = change;
         }
-        for (weight, (x, v)) in rule.integral_row(NODES).iter().zip(x.iter().zip(v)) {
+        for (weight, (x, v)) in rule.integral[NODES].iter().zip(x.iter().zip(v)) {
             time += 2.0 * width * weight * x / v;
             lost += width * weight * x * x * x * v;
         }

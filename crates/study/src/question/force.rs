@@ -254,7 +254,7 @@ fn following(
     let third = "third order in the memory";
     let dashpot = || black_box(terms).summary();
     closed(scene, "area dashpot", third, dashpot)?.default_path = true;
-    let memory = growing.waves.memory() * growing.wave_time;
+    let memory = growing.waves.memory * growing.wave_time;
     let (quick, full): (&[usize], &[usize]) = (&[16, 64], &[12, 16, 24, 32, 64, 128, 256, 512]);
     for &n in scene.effort.pick(quick, full) {
         scene.add("growing", format!("{n} steps"), || {
