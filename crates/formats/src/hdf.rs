@@ -1,9 +1,10 @@
 //! What the HDF5 library is asked to do: described datasets, texts, dimension scales.
 
 use hdf5::dataset::{AllocTime, FillTime};
-use hdf5::types::VarLenUnicode;
+use hdf5::types::{TypeDescriptor, VarLenUnicode};
 use hdf5::{Dataset, Group, H5Type, Location};
 pub(crate) use lookup::labels::{attach_scale, new_file, reason, set_scale, text};
+use std::borrow::Borrow;
 
 pub(crate) fn vector(
     group: &Group,
@@ -61,13 +62,15 @@ pub(crate) fn some_at_a_time<T: H5Type>(
 }
 
 /// A described dataset whose numbers are written later, and where in the file they stand; nowhere without any.
-pub(crate) fn reserve<T: H5Type>(
+pub(crate) fn reserve(
     group: &Group,
     described: &(&str, &str, &str),
     shape: &[usize],
+    of: &TypeDescriptor,
 ) -> Result<(Dataset, Option<u64>), hdf5::Error> {
     let dataset = group
-        .new_dataset::<T>()
+        .new_dataset_builder()
+        .empty_as(of)
         .shape(shape)
         .alloc_time(Some(AllocTime::Early))
         .fill_time(FillTime::Never)
@@ -118,11 +121,11 @@ pub(crate) fn scale<T: H5Type>(
 /// Attaches scales to the dimensions from `first` on.
 pub(crate) fn attach_all(
     data: &Dataset,
-    scales: &[&Dataset],
+    scales: &[impl Borrow<Dataset>],
     first: usize,
 ) -> Result<(), hdf5::Error> {
     for (index, scale) in (first..).zip(scales) {
-        attach_scale(data, scale, index)?;
+        attach_scale(data, scale.borrow(), index)?;
     }
     Ok(())
 }

@@ -201,7 +201,7 @@ fn a_sweep_goes_on_only_with_the_materials_that_it_began_with() {
         [product.striker]\nvelocity_m_s = { from = 1.0, to = 2.0, count = 1000 }\n";
     let read = || Spec::from_toml(text, folder.path()).unwrap();
     let spec = read();
-    assert_eq!(spec.inputs()[0].1, materials);
+    assert_eq!(spec.inputs[0].1, materials);
     run_rows(&spec, 0..spec.rows(), &part, Existing::Keep, |done| {
         done == 0
     })

@@ -15,7 +15,8 @@ pub fn is_standard(path: &Path) -> bool {
 }
 
 /// The folder of a path.
-pub(crate) fn folder(path: &Path) -> &Path {
+#[must_use]
+pub fn folder(path: &Path) -> &Path {
     match path.parent() {
         Some(parent) if !parent.as_os_str().is_empty() => parent,
         Some(_) | None => Path::new("."),

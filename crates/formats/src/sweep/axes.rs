@@ -178,14 +178,3 @@ pub(super) fn rows(axes: &[Axis]) -> Option<usize> {
     axes.iter()
         .try_fold(1_usize, |rows, axis| rows.checked_mul(axis.len))
 }
-
-/// Index along each axis of a row; the last axis runs fastest.
-pub(super) fn place(axes: &[Axis], row: usize, place: &mut Vec<usize>) {
-    place.clear();
-    place.resize(axes.len(), 0);
-    let mut rest = row;
-    for (slot, axis) in place.iter_mut().zip(axes).rev() {
-        *slot = rest % axis.len;
-        rest /= axis.len;
-    }
-}

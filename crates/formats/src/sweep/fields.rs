@@ -20,24 +20,14 @@ pub struct Fields {
     pub precision: Precision,
 }
 
-/// How exactly results are written.
+/// How exactly results are written: in how many bits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Precision {
     /// 64 bits, as they are computed.
     #[default]
-    Double,
+    Double = 64,
     /// 32 bits: rounded by up to 6e-8 of themselves.
-    Single,
-}
-
-impl Precision {
-    /// Bytes of a number.
-    pub(super) fn bytes(self) -> usize {
-        match self {
-            Self::Double => 8,
-            Self::Single => 4,
-        }
-    }
+    Single = 32,
 }
 
 impl Default for Fields {
@@ -79,20 +69,18 @@ impl Fields {
     /// # Errors
     /// [`SceneError`] for a name that is none of them.
     pub fn only<S: AsRef<str>>(self, names: &[S]) -> Result<Self, SceneError> {
-        let place = |name: &S| {
-            let name = name.as_ref();
-            let place = self.known.iter().position(|known| known.name == name);
-            place.ok_or_else(|| {
-                let known: Vec<&str> = self.known.iter().map(|k| k.name.as_str()).collect();
-                SceneError::missing(
-                    format!("the column {name}"),
-                    &format!("the results are {}", known.join(", ")),
-                )
-            })
-        };
-        let mut places: Vec<usize> = names.iter().map(place).collect::<Result<_, _>>()?;
-        places.sort_unstable();
-        places.dedup();
+        let known = || self.known.iter().map(|known| known.name.as_str());
+        let names = names.iter().map(AsRef::as_ref);
+        if let Some(name) = names
+            .clone()
+            .find(|name| !known().any(|known| known == *name))
+        {
+            let known: Vec<&str> = known().collect();
+            let hint = format!("the results are {}", known.join(", "));
+            return Err(SceneError::missing(format!("the column {name}"), &hint));
+        }
+        let wanted = |place: &usize| names.clone().any(|name| name == self.known[*place].name);
+        let places = (0..self.width()).filter(wanted).collect();
         Ok(Self { places, ..self })
     }
 

@@ -289,7 +289,7 @@ fn failure(error: SweepError) -> Failure {
         SweepError::Journal(JournalError::Other(..)) => {
             "; give --force to drop it, or another output to keep it"
         }
-        SweepError::Missing { .. } => "; hertzlamb sweep status lists them",
+        SweepError::Missing(..) => "; hertzlamb sweep status lists them",
         _ => "",
     };
     Failure::from(error).hint(hint)
@@ -337,15 +337,14 @@ impl Outputs {
             outputs.push(csv);
         }
         let mut inputs = vec![("the sweep", sweep.to_owned())];
-        inputs.extend(spec.inputs().iter().cloned());
+        inputs.extend(spec.inputs.iter().cloned());
         inputs.extend(arguments.kernels.inputs());
         apart(&outputs, &inputs)?;
         let claim = |path: &Path| Output::claim(path, Existing::KeepUnlessSame);
         let (results, csv) = (claim(output)?, csv.map(claim).transpose()?);
         // a run that was killed while it gave its outputs their names has left some of them
         let wanted = arguments.overwrite.existing();
-        let some = selection.as_ref().map(|some| some.rows.clone());
-        let rows = some.unwrap_or(0..spec.rows());
+        let rows = spec.rows_of(selection.as_ref());
         let finish = wanted == Existing::Keep && is_computed(spec, rows.clone(), &part);
         if arguments.skip_complete && !finish && results.real().exists() {
             check_complete(output, spec, selection.as_ref()).map_err(Failure::work)?;

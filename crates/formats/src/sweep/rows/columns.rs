@@ -2,12 +2,10 @@
 
 use super::block::{Block, Blocks};
 use crate::quantities::Described;
-use crate::sweep::axes::Values;
+use crate::sweep::axes::{Column as Key, Values};
 use crate::sweep::fields::Precision;
 use crate::sweep::schema::{FAILURE, MODEL, part};
-use crate::sweep::shard::Selection;
 use crate::sweep::spec::Spec;
-use contact::{Choice, Model};
 use output::Fault;
 use std::ops::Range;
 
@@ -53,17 +51,10 @@ pub(crate) enum Cells<'b> {
 pub(crate) fn columns(spec: &Spec) -> Vec<Column<'_>> {
     let fixed = |described, what| Column { described, what };
     let mut found = vec![fixed(part::ROW.into(), What::Row)];
-    let mut stride = spec.rows();
-    for axis in &spec.axes {
-        stride /= axis.len.max(1);
+    for (stride, axis) in spec.strides() {
         for key in &axis.columns {
-            let described = Described {
-                meaning: format!("scene key {}", key.name()),
-                unit: key_unit(&key.key).0.to_owned(),
-                name: key.name(),
-            };
             let values = &key.values;
-            found.push(fixed(described, What::Key { stride, values }));
+            found.push(fixed(described(key), What::Key { stride, values }));
         }
     }
     let numbers = spec.fields.quantities();
@@ -71,6 +62,15 @@ pub(crate) fn columns(spec: &Spec) -> Vec<Column<'_>> {
     found.push(fixed(MODEL.into(), What::Model));
     found.push(fixed(FAILURE.into(), What::Failure));
     found
+}
+
+/// What a key that varies is.
+pub(super) fn described(key: &Key) -> Described {
+    Described {
+        meaning: format!("scene key {}", key.name()),
+        unit: key_unit(&key.key).0.to_owned(),
+        name: key.name(),
+    }
 }
 
 /// Names of the columns of a part.
@@ -108,7 +108,7 @@ impl What<'_> {
                 }
             }
             Self::Number(k) => {
-                let numbers = block.column(k, some);
+                let numbers = some.map(|row| block.numbers[row * block.width + k]);
                 match spec.fields.precision {
                     Precision::Double => Cells::Double(numbers.collect()),
                     Precision::Single => {
@@ -141,11 +141,6 @@ fn single(number: f64, row: usize, name: &str) -> Result<f32, Fault> {
     Ok(rounded)
 }
 
-/// The rows of a selection, or all of a sweep.
-pub(super) fn rows_of(spec: &Spec, selection: Option<&Selection>) -> Range<usize> {
-    selection.map_or(0..spec.rows(), |selection| selection.rows.clone())
-}
-
 /// Shows blocks that have to be all rows of a range, in order; gives the number of failed ones.
 pub(super) fn each_of(
     rows: &Range<usize>,
@@ -169,11 +164,6 @@ pub(super) fn each_of(
     } else {
         Err(missing(next))
     }
-}
-
-/// The name of a model by its index; none for a failed scene.
-pub(super) fn model_name(index: u8) -> Option<&'static str> {
-    Some(Model::ALL.get(usize::from(index))?.name())
 }
 
 /// The unit that a scene key carries in its name, and the ending that says so; `1` and nothing without one.
