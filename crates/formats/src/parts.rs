@@ -3,7 +3,7 @@
 use crate::error::SceneError;
 use crate::stored::{FileKind, Part, StoredPart, file_kind, whole_sweep};
 use crate::sweep::{
-    Block, Blocks, Selection, Shard, Spec, SweepError, Unfinished, grain, stage_hdf5, stage_rows,
+    Block, Blocks, Shard, Spec, SweepError, Unfinished, grain, stage_hdf5, stage_rows,
 };
 use ledger::gaps;
 use output::{Fault, HDF5, Output, ROWS, Staged, folder};
@@ -136,7 +136,7 @@ impl Parts {
             all: !refers,
         };
         if !refers {
-            return Ok(stage_rows(output, &spec, None, &rows)?);
+            return Ok(stage_rows(output, &spec, &rows)?);
         }
         let sources = self.full().map(|part| {
             let unreferred = |reason: &str| {
@@ -151,7 +151,7 @@ impl Parts {
             Ok((path, part.selection.rows.clone()))
         });
         let sources = sources.collect::<Result<Vec<_>, SceneError>>()?;
-        Ok(stage_hdf5(output, &spec, None, Some(&sources), &rows)?)
+        Ok(stage_hdf5(output, &spec, Some(&sources), &rows)?)
     }
 
     /// The sweep, where all its rows are there, once.
@@ -236,23 +236,19 @@ fn undamaged(path: &Path) -> Result<Part, SceneError> {
     open.check().map(|()| open.part)
 }
 
-/// Why the file at `path` is not the whole result of a sweep or, where one is given, of a selection of its rows.
+/// Why the file at `path` is not the whole result of a sweep or, where some are selected, of these rows.
 ///
 /// # Errors
 /// One sentence.
-pub fn check_complete(
-    path: &Path,
-    spec: &Spec,
-    selection: Option<&Selection>,
-) -> Result<(), String> {
-    let found = match selection {
+pub fn check_complete(path: &Path, spec: &Spec) -> Result<(), String> {
+    let found = match spec.selection {
         None => whole_sweep(path).map(|(sha256, fields)| (sha256, fields, 0..spec.rows())),
         Some(_) => {
             undamaged(path).map(|part| (Some(part.sha256), part.fields, part.selection.rows))
         }
     };
     let (sha256, fields, rows) = found.map_err(|error| error.to_string())?;
-    let asked = spec.rows_of(selection);
+    let asked = spec.selected();
     let wrong = if sha256.as_ref() != Some(&spec.sha256) {
         format!("is of {OTHER}")
     } else if rows != asked {

@@ -21,9 +21,9 @@ const KIND: &str = "sweep";
 /// Bytes before the numbers of a block: five integers.
 const HEADER: usize = 5 * 8;
 
-/// The journal of some rows of a sweep.
-fn title(spec: &Spec, rows: &Range<usize>) -> Title {
-    let (sha256, of) = (&spec.sha256, spec.rows());
+/// The journal of the rows of a sweep that are asked for.
+fn title(spec: &Spec) -> Title {
+    let (sha256, of, rows) = (&spec.sha256, spec.rows(), spec.selected());
     let about = format!("{sha256} {of} {} {}", rows.start, rows.end);
     Title {
         kind: KIND,
@@ -46,15 +46,10 @@ pub struct Kept {
 
 impl Kept {
     /// Opens or begins a journal; that of other rows is replaced where it `drops`.
-    pub(super) fn open(
-        path: &Path,
-        spec: &Spec,
-        rows: &Range<usize>,
-        drops: bool,
-    ) -> Result<Self, JournalError> {
-        let (results, mut spans) = (results(&spec.fields), Vec::new());
-        let take = |record, kept: &[u8]| take(&mut spans, rows, results, record, kept);
-        let journal = Journal::open(path, &title(spec, rows), |_| drops, take)?;
+    pub(super) fn open(path: &Path, spec: &Spec, drops: bool) -> Result<Self, JournalError> {
+        let (rows, results, mut spans) = (spec.selected(), results(&spec.fields), Vec::new());
+        let take = |record, kept: &[u8]| take(&mut spans, &rows, results, record, kept);
+        let journal = Journal::open(path, &title(spec), |_| drops, take)?;
         Ok(Self {
             resumed: apart(&mut spans),
             spans,
@@ -125,9 +120,10 @@ impl Unfinished {
     }
 }
 
-/// Whether the journal at `part` keeps all these rows of the sweep, so that a run may have begun to write its outputs.
+/// Whether the journal at `part` keeps all rows that are asked for, so that a run may have begun to write its outputs.
 #[must_use]
-pub fn is_computed(spec: &Spec, rows: Range<usize>, part: &Path) -> bool {
+pub fn is_computed(spec: &Spec, part: &Path) -> bool {
+    let rows = spec.selected();
     Unfinished::read(part).is_some_and(|found| {
         found.sha256 == spec.sha256 && found.rows == rows && found.kept == rows.len()
     })

@@ -31,7 +31,7 @@ const GRAIN: usize = 256;
 /// Such portions for each thread at least, where there are rows enough: none waits long for the last one.
 const PORTIONS: usize = 4;
 
-/// Computes the rows of a range that the journal at `part` does not hold yet; no more than a block is in memory.
+/// Computes those rows asked for that the journal at `part` does not hold yet; no more than a block is in memory.
 ///
 /// The rows of another sweep are replaced where `existing` says so.
 /// `watch` is told after each block how many rows are done; while it says true the sweep goes on,
@@ -42,14 +42,12 @@ const PORTIONS: usize = 4;
 /// [`SweepError`].
 pub fn run_rows(
     spec: &Spec,
-    rows: Range<usize>,
     part: &Path,
     existing: Existing,
     mut watch: impl FnMut(usize) -> bool,
 ) -> Result<Option<Kept>, SweepError> {
-    let computer = Computer::new(spec)?;
-    let drops = existing == Existing::Replace;
-    let mut kept = Kept::open(part, spec, &rows, drops)?;
+    let (computer, rows) = (Computer::new(spec)?, spec.selected());
+    let mut kept = Kept::open(part, spec, existing == Existing::Replace)?;
     let mut done = kept.resumed;
     if !watch(done) {
         return Ok(None);

@@ -6,7 +6,7 @@ use super::error::SweepError;
 use super::fields::{Fields, columns_of_probes, stored_columns};
 use super::kernels::Kernels;
 use super::schema::{FIELDS, FORMAT_VERSION, LIST, SAMPLE};
-use super::shard::{BLOCK, Selection};
+use super::shard::{BLOCK, Selection, grain};
 use crate::error::SceneError;
 use crate::quantities::{Described, QUANTITIES};
 use crate::scene::body::parse_materials;
@@ -15,7 +15,7 @@ use crate::scene::section::read_text;
 use crate::scene::section::{Section, parse};
 use contact::{Choice, Library, NUMBERS_REVISION, Plasticity};
 use impact::numbers::FIELDS_REVISION;
-use ledger::Identity;
+use ledger::{Identity, Shard};
 use output::Role;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -44,6 +44,8 @@ pub struct Spec {
     pub fields: Fields,
     /// Where the fields at probes have their kernels from, where they are asked for.
     pub(crate) kernels: Option<Kernels>,
+    /// The rows that are asked for as a part, where they are not the whole sweep in its own shape.
+    pub selection: Option<Selection>,
 }
 
 type Libraries = BTreeMap<String, (Library, String)>;
@@ -125,6 +127,7 @@ impl Spec {
             inputs,
             libraries,
             kernels: None,
+            selection: None,
         })
     }
 
@@ -182,9 +185,33 @@ impl Spec {
         rows(&self.axes).unwrap_or(0)
     }
 
-    /// The rows of a selection, or all of them.
+    /// Asks for the rows of a shard alone.
+    pub fn select_shard(&mut self, shard: Shard) {
+        let rows = shard.range(self.rows(), grain(&self.fields));
+        let shard = Some(shard);
+        self.selection = Some(Selection { rows, shard });
+    }
+
+    /// Asks for rows from one on up to another alone, which is not among them.
+    ///
+    /// # Errors
+    /// [`SceneError`] beyond the end.
+    pub fn select_rows(&mut self, rows: Range<usize>) -> Result<(), SceneError> {
+        if rows.end > self.rows() {
+            return Err(SceneError::out_of_range(
+                format!("the end of the rows, of a sweep of {},", self.rows()),
+                rows.end as f64,
+                "the rows of the sweep, which count from 0",
+            ));
+        }
+        self.selection = Some(Selection { rows, shard: None });
+        Ok(())
+    }
+
+    /// The rows that are asked for.
     #[must_use]
-    pub fn rows_of(&self, selection: Option<&Selection>) -> Range<usize> {
+    pub fn selected(&self) -> Range<usize> {
+        let selection = self.selection.as_ref();
         selection.map_or(0..self.rows(), |selection| selection.rows.clone())
     }
 

@@ -12,8 +12,8 @@ use fault::Fault as _;
 use formats::parts::check_complete;
 use formats::sweep::schema::COUNTED;
 use formats::sweep::{
-    Blocks, JournalError, Kept, Precision, Selection, Shard, Spec, SweepError, is_computed,
-    print_csv, row_bytes, run_rows, stage_csv, stage_rows,
+    Blocks, JournalError, Kept, Precision, Shard, Spec, SweepError, is_computed, print_csv,
+    row_bytes, run_rows, stage_csv, stage_rows,
 };
 use formats::{Existing, Output, OutputError, QUANTITIES};
 use output::{CSV, Fault, Staged, apart, behind, free_disk, is_standard};
@@ -120,13 +120,17 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
 
 fn compute(arguments: &Run, sweep: &Path, output: &Path) -> Result<(), Failure> {
     let start = Instant::now();
-    let spec = spec(arguments, sweep)?;
+    let mut spec = spec(arguments, sweep)?;
     let change = "ask for fewer values";
     arguments
         .memory
         .check(spec.memory_bytes(), "the sweep", change)?;
-    let selection = selection(arguments, &spec)?;
-    let Some(outputs) = Outputs::claim(arguments, sweep, output, &spec, selection)? else {
+    match (arguments.shard, &arguments.rows) {
+        (Some(shard), _) => spec.select_shard(shard),
+        (None, Some(rows)) => spec.select_rows(rows.clone())?,
+        (None, None) => {}
+    }
+    let Some(outputs) = Outputs::claim(arguments, sweep, output, &spec)? else {
         return say_complete(output, arguments.json);
     };
     let kept = rows(arguments.overwrite, &spec, &outputs).map_err(|error| match error {
@@ -177,7 +181,7 @@ fn report(
     let [yielding, cracking] = tally.beyond;
     let (rows, failed) = (tally.rows, tally.failed);
     let output = outputs.results.path().display().to_string();
-    let part = outputs.selection.as_ref();
+    let part = spec.selection.as_ref();
     let shard = part.and_then(|part| Some(part.shard?.to_string()));
     let lengths = spec.axes.iter().map(|axis| axis.len).collect();
     let mut value = json!({
@@ -251,21 +255,11 @@ fn spec(arguments: &Run, sweep: &Path) -> Result<Spec, Failure> {
     Ok(spec)
 }
 
-/// The rows that are asked for; nothing where they are the whole sweep in its own shape.
-fn selection(arguments: &Run, spec: &Spec) -> Result<Option<Selection>, Failure> {
-    if let Some(shard) = arguments.shard {
-        return Ok(Some(Selection::of_shard(shard, spec.rows(), &spec.fields)));
-    }
-    let rows = arguments.rows.clone();
-    let rows = rows.map(|rows| Selection::of_rows(rows, spec.rows()));
-    Ok(rows.transpose()?)
-}
-
 /// Computes the rows; what is done is kept from moment to moment.
 fn rows(overwrite: Overwrite, spec: &Spec, outputs: &Outputs) -> Result<Option<Kept>, SweepError> {
     let kept = Arc::new(AtomicUsize::new(0));
-    let range = outputs.rows.clone();
-    let (count, rows, place) = (Arc::clone(&kept), range.len(), outputs.part.clone());
+    let rows = spec.selected().len();
+    let (count, place) = (Arc::clone(&kept), outputs.part.clone());
     process::say_then(move || {
         format!(
             "{} of {rows} scenes are kept in {}; the same command goes on with them",
@@ -276,7 +270,7 @@ fn rows(overwrite: Overwrite, spec: &Spec, outputs: &Outputs) -> Result<Option<K
     let progress = Bar::new();
     progress.total("scenes", rows as u64);
     let existing = overwrite.existing();
-    run_rows(spec, range, &outputs.part, existing, |rows| {
+    run_rows(spec, &outputs.part, existing, |rows| {
         kept.store(rows, Ordering::Relaxed);
         progress.set(rows as u64);
         true
@@ -299,9 +293,6 @@ fn failure(error: SweepError) -> Failure {
 struct Outputs {
     results: Output,
     csv: Option<Output>,
-    /// The rows, where they are not the whole sweep in its own shape.
-    selection: Option<Selection>,
-    rows: Range<usize>,
     /// Whether the rows go to standard output.
     print: bool,
     /// Where finished blocks are kept until all are there: beside the results, under their name and `.part`.
@@ -315,7 +306,6 @@ impl Outputs {
         sweep: &Path,
         output: &Path,
         spec: &Spec,
-        selection: Option<Selection>,
     ) -> Result<Option<Self>, Failure> {
         let print = arguments.csv.as_deref().is_some_and(is_standard);
         if print && arguments.json {
@@ -344,10 +334,9 @@ impl Outputs {
         let (results, csv) = (claim(output)?, csv.map(claim).transpose()?);
         // a run that was killed while it gave its outputs their names has left some of them
         let wanted = arguments.overwrite.existing();
-        let rows = spec.rows_of(selection.as_ref());
-        let finish = wanted == Existing::Keep && is_computed(spec, rows.clone(), &part);
+        let finish = wanted == Existing::Keep && is_computed(spec, &part);
         if arguments.skip_complete && !finish && results.real().exists() {
-            check_complete(output, spec, selection.as_ref()).map_err(Failure::work)?;
+            check_complete(output, spec).map_err(Failure::work)?;
             return match csv.filter(|csv| !csv.real().exists()) {
                 None if !print => Ok(None),
                 None => Err(Failure::work("--skip-complete has no rows for --csv -")),
@@ -361,14 +350,12 @@ impl Outputs {
         let existing = if finish {
             Existing::KeepUnlessSame
         } else {
-            check_disk(spec, rows.len(), &part)?;
+            check_disk(spec, &part)?;
             wanted
         };
         Ok(Some(Self {
             results: results.over(existing)?,
             csv: csv.map(|csv| csv.over(existing)).transpose()?,
-            selection,
-            rows,
             print,
             part,
         }))
@@ -376,7 +363,7 @@ impl Outputs {
 
     /// Writes all outputs, then gives them their names.
     fn write(&self, spec: &Spec, blocks: &impl Blocks) -> Result<(), Failure> {
-        let results = stage_rows(&self.results, spec, self.selection.as_ref(), blocks)?;
+        let results = stage_rows(&self.results, spec, blocks)?;
         let csv = self.csv.as_ref();
         let csv = csv.map(|csv| stage_csv(csv, spec, blocks)).transpose()?;
         results.commit()?;
@@ -386,8 +373,8 @@ impl Outputs {
 }
 
 /// Refuses rows that the disk does not hold, in the file and, while it is written, in the journal.
-fn check_disk(spec: &Spec, rows: usize, part: &Path) -> Result<(), Failure> {
-    let (bytes, kept) = row_bytes(spec);
+fn check_disk(spec: &Spec, part: &Path) -> Result<(), Failure> {
+    let (rows, (bytes, kept)) = (spec.selected().len(), row_bytes(spec));
     let there = std::fs::metadata(part).map_or(0.0, |journal| journal.len() as f64);
     let needed = rows as f64 * (bytes + kept) as f64 - there;
     match free_disk(part) {

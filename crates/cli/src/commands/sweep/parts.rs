@@ -205,19 +205,27 @@ fn merge(
     let claimed = overwrite.claim(output, ROWS, &[])?;
     let mut parts = Parts::in_folder(folder, None).map_err(failure)?;
     // with --force the output itself may be a merged sweep of before
-    let there = claimed.real().canonicalize().ok();
-    let own = |path: &Path| there.is_some() && path.canonicalize().ok() == there;
-    if let Some(part) = parts.parts.iter().find(|part| own(&part.path)) {
+    let own = |path: &Path| path.canonicalize().ok() == claimed.real().canonicalize().ok();
+    if let Some(part) = parts
+        .parts
+        .iter()
+        .find(|part| claimed.real().exists() && own(&part.path))
+    {
         return Err(Failure::input(format!(
             "{} is a part that this command reads: give the output another name",
             part.path.display()
         )));
     }
-    parts.foreign.retain(|(path, _)| !own(path));
+    parts
+        .foreign
+        .retain(|(path, _)| !own(path) || !claimed.real().exists());
     let staged = parts.merge(&claimed, refer);
     staged.map_err(failure)?.commit()?;
-    let all = parts.parts.iter();
-    let empty = all.filter(|part| part.selection.rows.is_empty()).count();
+    let empty = parts
+        .parts
+        .iter()
+        .filter(|part| part.selection.rows.is_empty());
+    let empty = empty.count();
     if empty > 0 {
         say(format!("note: {empty} parts have no rows"));
     }

@@ -141,12 +141,13 @@ fn single(number: f64, row: usize, name: &str) -> Result<f32, Fault> {
     Ok(rounded)
 }
 
-/// Shows blocks that have to be all rows of a range, in order; gives the number of failed ones.
+/// Shows blocks that have to be all rows that are asked for, in order; gives the number of failed ones.
 pub(super) fn each_of(
-    rows: &Range<usize>,
+    spec: &Spec,
     blocks: &(impl Blocks + ?Sized),
     visit: &mut dyn FnMut(&Block) -> Result<(), Fault>,
 ) -> Result<usize, Fault> {
+    let rows = spec.selected();
     let (mut next, mut failed) = (rows.start, 0);
     let missing = |row: usize| Fault::from(format!("row {row} is not there"));
     blocks.each(&mut |block| {

@@ -15,7 +15,6 @@ use crate::sweep::axes::{Axis, Column as Key, Values};
 use crate::sweep::fields::Precision;
 use crate::sweep::journal::results as kept_results;
 use crate::sweep::schema::{self, part};
-use crate::sweep::shard::Selection;
 use crate::sweep::spec::Spec;
 use contact::{Choice, Model};
 use hdf5::types::OwnedDynValue;
@@ -32,8 +31,8 @@ const MOST_REASONS: usize = 100_000;
 /// What stands for all later ones.
 const OTHER_REASON: &str = "a reason unlike the first 100000: compute the row by itself";
 
-/// Writes rows, whose blocks are all there in order, into an output that was claimed before the work: a selection as a part, or
-/// all of them.
+/// Writes rows, whose blocks are all there in order, into an output that was claimed before the work: those that are
+/// selected as a part, or all of them.
 ///
 /// With `sources` the results of the whole lie in files that have some of the rows each, with their paths seen from the folder
 /// of the output: only which failure a scene has is copied, because each of them counts its own, and nothing but the failures
@@ -43,16 +42,14 @@ const OTHER_REASON: &str = "a reason unlike the first 100000: compute the row by
 pub(crate) fn stage_hdf5<'a>(
     output: &'a Output,
     spec: &Spec,
-    selection: Option<&Selection>,
     sources: Option<&[(String, Range<usize>)]>,
     blocks: &(impl Blocks + ?Sized),
 ) -> Result<Staged<'a>, OutputError> {
     output.stage(|path| {
         let told = |error: hdf5::Error| Fault::from(reason(&error));
         let file = new_file().create(path).map_err(told)?;
-        let reserved = begin(&file, spec, selection, sources).map_err(told)?;
-        let rows = spec.rows_of(selection);
-        let (failed, reasons) = fill(path, spec, &rows, &reserved, blocks)?;
+        let reserved = begin(&file, spec, sources).map_err(told)?;
+        let (failed, reasons) = fill(path, spec, &reserved, blocks)?;
         finish(file, failed, &reasons).map_err(told)?;
         ledger::seal(path).map_err(Fault::from)
     })
@@ -98,13 +95,12 @@ type Reserved<'a> = (What<'a>, Option<u64>);
 fn begin<'a>(
     file: &hdf5::File,
     spec: &'a Spec,
-    selection: Option<&Selection>,
     sources: Option<&[(String, Range<usize>)]>,
 ) -> Result<Vec<Reserved<'a>>, hdf5::Error> {
-    write_root(file, spec, selection)?;
+    write_root(file, spec)?;
     let group = file.create_group(schema::RESULTS)?;
     let (shape, words, mut scales, mut beside);
-    if let Some(selection) = selection {
+    if let Some(selection) = &spec.selection {
         shape = vec![selection.rows.len()];
         words = Some(file.create_group(part::WORDS)?);
         (scales, beside) = (Vec::new(), Vec::new());
@@ -120,7 +116,7 @@ fn begin<'a>(
     } in columns(spec)
     {
         let is_key = matches!(what, What::Key { .. });
-        if selection.is_none() && (is_key || matches!(what, What::Row)) {
+        if spec.selection.is_none() && (is_key || matches!(what, What::Row)) {
             continue;
         }
         let name = described.name.clone();
@@ -169,13 +165,12 @@ fn begin<'a>(
 fn fill(
     path: &Path,
     spec: &Spec,
-    rows: &Range<usize>,
     reserved: &[Reserved<'_>],
     blocks: &(impl Blocks + ?Sized),
 ) -> Result<(usize, Vec<String>), Fault> {
     let mut file = File::options().write(true).open(path)?;
     let (mut reasons, mut known) = (Vec::new(), HashMap::new());
-    let failed = each_of(rows, blocks, &mut |block| {
+    let failed = each_of(spec, blocks, &mut |block| {
         for (_, reason) in &block.failures {
             if known.contains_key(reason) || reasons.len() > MOST_REASONS {
                 continue;
@@ -190,7 +185,7 @@ fn fill(
         for (what, place) in reserved {
             let Some(place) = place else { continue };
             let (bytes, width) = bytes(what.cells(spec, block, 0..block.len())?, &known);
-            let before = (block.start - rows.start) * width;
+            let before = (block.start - spec.selected().start) * width;
             file.seek(SeekFrom::Start(place + before as u64))?;
             file.write_all(&bytes)?;
         }
@@ -223,12 +218,8 @@ fn bytes(cells: Cells<'_>, reasons: &HashMap<String, i32>) -> (Vec<u8>, usize) {
 }
 
 /// What the root of a sweep or of a part says of it and, of a whole sweep, its axes.
-fn write_root(
-    file: &hdf5::File,
-    spec: &Spec,
-    selection: Option<&Selection>,
-) -> Result<(), hdf5::Error> {
-    let [file_type, version] = match selection {
+fn write_root(file: &hdf5::File, spec: &Spec) -> Result<(), hdf5::Error> {
+    let [file_type, version] = match spec.selection {
         Some(_) => [part::FILE_TYPE, part::FORMAT_VERSION],
         None => [schema::FILE_TYPE, schema::FORMAT_VERSION],
     };
@@ -237,8 +228,8 @@ fn write_root(
     for (name, value) in schema::TEXTS.into_iter().zip(values) {
         text(file, name, value)?;
     }
-    let rows = spec.rows_of(selection);
-    let Some(selection) = selection else {
+    let rows = spec.selected();
+    let Some(selection) = &spec.selection else {
         scalar(file, schema::ROWS, rows.len() as u64)?;
         return write_axes(file, &spec.axes);
     };

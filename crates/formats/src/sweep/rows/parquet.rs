@@ -6,7 +6,6 @@ use super::footer::{DIGITS, FORMAT_VERSION, Footer, TAIL, footer_of, seal_in, su
 use crate::sweep::axes::Values;
 use crate::sweep::fields::Precision;
 use crate::sweep::schema::{FILE_TYPE, part};
-use crate::sweep::shard::Selection;
 use crate::sweep::spec::Spec;
 use bytes::Bytes;
 use contact::{Choice, Model};
@@ -44,7 +43,6 @@ const MOST_INDEXED: usize = 1 << 16;
 pub(super) fn stage_parquet<'a>(
     output: &'a Output,
     spec: &Spec,
-    selection: Option<&Selection>,
     blocks: &(impl Blocks + ?Sized),
 ) -> Result<Staged<'a>, OutputError> {
     output.stage(|path| {
@@ -60,7 +58,7 @@ pub(super) fn stage_parquet<'a>(
             *group = Block::default();
             Ok::<_, Fault>(())
         };
-        let failed = each_of(&spec.rows_of(selection), blocks, &mut |block| {
+        let failed = each_of(spec, blocks, &mut |block| {
             let mut done = 0;
             while done < block.len() {
                 let more = (block.len() - done).min(GROUP - group.len());
@@ -78,7 +76,7 @@ pub(super) fn stage_parquet<'a>(
         let footer = Footer {
             row_groups,
             data_bytes: writer.bytes_written() as u64,
-            ..footer(spec, selection, &columns, failed)
+            ..footer(spec, &columns, failed)
         };
         let text = serde_json::to_string(&footer).map_err(|error| error.to_string())?;
         writer.append_key_value_metadata(KeyValue::new("hertzlamb".to_owned(), text));
@@ -124,17 +122,12 @@ fn write_group(
 }
 
 /// What the file says of itself, but for its groups.
-fn footer(
-    spec: &Spec,
-    selection: Option<&Selection>,
-    columns: &[Column<'_>],
-    failed: usize,
-) -> Footer {
+fn footer(spec: &Spec, columns: &[Column<'_>], failed: usize) -> Footer {
     let described = columns.iter().map(|Column { described, .. }| {
         let labels = json!({ "units": described.unit, "long_name": described.meaning });
         (described.name.clone(), labels)
     });
-    let rows = spec.rows_of(selection);
+    let (rows, selection) = (spec.selected(), spec.selection.as_ref());
     let shard = selection.and_then(|selection| selection.shard);
     Footer {
         file_type: selection.map_or(FILE_TYPE, |_| part::FILE_TYPE).to_owned(),
